@@ -1,0 +1,3 @@
+# SPDX-FileCopyrightText: The uel-harness authors
+# SPDX-License-Identifier: BSD-3-Clause
+"""Run Abaqus decks with Abaqus user elements, without Abaqus."""

@@ -1,0 +1,61 @@
+# SPDX-FileCopyrightText: The uel-harness authors
+# SPDX-License-Identifier: BSD-3-Clause
+"""Errors that are the user's to mend: each message is complete in itself and is printed without a traceback."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from pathlib import Path
+
+
+@dataclass(frozen=True, slots=True)
+class Source:
+    """Place in a deck, for messages: file as the user named it, and line number from 1."""
+
+    file: str
+    line: int
+
+    def __str__(self) -> str:
+        return f"{self.file}:{self.line}"
+
+
+class UelError(Exception):
+    """Base of every error with a message for the user."""
+
+
+class DeckError(UelError):
+    """The input deck is wrong or asks for something unsupported; begins with file:line."""
+
+    def __init__(self, source: Source, message: str) -> None:
+        super().__init__(f"{source}: {message}")
+        self.source = source
+
+
+class CompileError(UelError):
+    """The user's file does not compile or link; carries the compiler's line."""
+
+    def __init__(self, file: Path, message: str) -> None:
+        super().__init__(f"{file}: {message}")
+        self.file = file
+
+
+class KernelError(UelError):
+    """A user or built-in element failed: it stopped the analysis, wrote outside its arrays, or returned NaN."""
+
+    def __init__(self, element: int, element_type: str, message: str) -> None:
+        super().__init__(f"element {element} (type {element_type}): {message}")
+        self.element = element
+        self.element_type = element_type
+
+
+class SingularMatrixError(UelError):
+    """The system matrix is singular at a node and dof, mostly because a body is not held."""
+
+    def __init__(self, node: str, dof: int, message: str) -> None:
+        super().__init__(f"singular system matrix at node {node}, dof {dof}: {message}")
+        self.node = node
+        self.dof = dof
+
+
+class ConvergenceError(UelError):
+    """The step procedure gave up: the smallest increment, the number of increments or of attempts is exhausted."""

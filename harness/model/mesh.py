@@ -1,0 +1,52 @@
+# SPDX-FileCopyrightText: The uel-harness authors
+# SPDX-License-Identifier: BSD-3-Clause
+"""Nodes and elements of the flattened model: parts are instanced, labels are kept for messages and output."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from harness.errors import Source
+from harness.model.arrays import FloatArray, IntArray
+from harness.model.properties import SolidSection, UserElement, UserProperty
+
+
+@dataclass(frozen=True, slots=True)
+class Mesh:
+    """Nodes, ordered by instance, then by label.
+
+    labels      (n,) numbers as in the deck; unique within an instance
+    coordinates (n, 3) original coordinates
+    instances   (n,) name of the instance of each node, '' where the deck has none
+    """
+
+    labels: IntArray
+    coordinates: FloatArray
+    instances: tuple[str, ...]
+
+    def name(self, node: int) -> str:
+        """Name of a node as Abaqus prints it: its label, or INSTANCE.label."""
+        label, instance = int(self.labels[node]), self.instances[node]
+        return f"{instance}.{label}" if instance else str(label)
+
+
+@dataclass(frozen=True, slots=True)
+class ElementGroup:
+    """A run of like elements: one type, one section, consecutive in the calling order of Abaqus.
+
+    Walking the groups in order, and each group in order, visits all elements by instance and ascending number
+    (the order in which Abaqus calls user elements on one thread).
+
+    type       'U3', 'CPS4'
+    labels     (m,) element numbers, ascending
+    nodes      (m, nodes per element) node indices into Mesh, from 0
+    definition the *USER ELEMENT, None for a built-in element
+    """
+
+    type: str
+    labels: IntArray
+    nodes: IntArray
+    instance: str
+    section: SolidSection | UserProperty
+    definition: UserElement | None
+    source: Source

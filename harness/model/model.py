@@ -1,0 +1,45 @@
+# SPDX-FileCopyrightText: The uel-harness authors
+# SPDX-License-Identifier: BSD-3-Clause
+"""The model a deck describes, flattened and resolved: no names are left to look up."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from pathlib import Path
+
+from harness.errors import Source
+from harness.model.arrays import IntArray
+from harness.model.mesh import ElementGroup, Mesh
+from harness.model.steps import Boundary, Step
+
+
+@dataclass(frozen=True, slots=True)
+class Equation:
+    """*EQUATION: sum of coefficient x u(node, dof) = 0; the first term is eliminated."""
+
+    terms: tuple[tuple[int, int, float], ...]
+    source: Source
+
+
+@dataclass(frozen=True, slots=True)
+class Model:
+    """A whole deck.
+
+    nsets      node indices of each set; a set of an instance is also there as INSTANCE.NAME
+    elsets     element positions of each set (position in the groups walked in order)
+    boundaries *BOUNDARY before the first step
+    ignored    keywords that cannot change the solution, with their places: listed once in .dat
+    warnings   places where the deck is odd but understood
+    """
+
+    deck: Path
+    heading: str
+    mesh: Mesh
+    groups: tuple[ElementGroup, ...]
+    steps: tuple[Step, ...]
+    nsets: dict[str, IntArray] = field(default_factory=dict)
+    elsets: dict[str, IntArray] = field(default_factory=dict)
+    boundaries: tuple[Boundary, ...] = ()
+    equations: tuple[Equation, ...] = ()
+    ignored: tuple[tuple[str, Source], ...] = ()
+    warnings: tuple[str, ...] = ()

@@ -1,0 +1,112 @@
+# SPDX-FileCopyrightText: The uel-harness authors
+# SPDX-License-Identifier: BSD-3-Clause
+"""Materials, orientations, sections and user element definitions, as the deck gives them."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from enum import StrEnum
+
+import numpy as np
+
+from harness.errors import Source
+from harness.model.arrays import FloatArray, IntArray
+
+
+class ElasticType(StrEnum):
+    """TYPE= of *ELASTIC."""
+
+    ISOTROPIC = "ISOTROPIC"
+    ENGINEERING_CONSTANTS = "ENGINEERING CONSTANTS"
+    LAMINA = "LAMINA"
+    ORTHOTROPIC = "ORTHOTROPIC"
+    ANISOTROPIC = "ANISOTROPIC"
+
+
+@dataclass(frozen=True, slots=True)
+class Elastic:
+    """*ELASTIC: constants in the order of the Abaqus data line of its type (E, nu; E1, E2, E3, nu12, ...)."""
+
+    type: ElasticType
+    constants: tuple[float, ...]
+    source: Source
+
+
+@dataclass(frozen=True, slots=True)
+class Plastic:
+    """*PLASTIC, isotropic Mises hardening: table (k, 2) of yield stress and plastic strain."""
+
+    table: FloatArray
+    source: Source
+
+
+@dataclass(frozen=True, slots=True)
+class Material:
+    """*MATERIAL."""
+
+    name: str
+    source: Source
+    elastic: Elastic | None = None
+    plastic: Plastic | None = None
+    density: float = 0.0
+
+
+@dataclass(frozen=True, slots=True)
+class Orientation:
+    """*ORIENTATION: rows of `axes` (3, 3) are the local 1, 2 and 3 directions in global components."""
+
+    name: str
+    axes: FloatArray
+    source: Source
+
+
+@dataclass(frozen=True, slots=True)
+class SolidSection:
+    """*SOLID SECTION of built-in continuum elements; thickness 1 unless given."""
+
+    elset: str
+    material: Material
+    orientation: Orientation | None
+    thickness: float
+    source: Source
+
+
+@dataclass(frozen=True, slots=True)
+class UserElement:
+    """*USER ELEMENT, TYPE=Un.
+
+    number             n of Un, the JTYPE of the call
+    nodes              nodes per element (NODES=)
+    coordinates        largest coordinate used (COORDINATES=, 1)
+    properties         number of real properties (PROPERTIES=, 0)
+    integer_properties number of integer properties (I PROPERTIES=, 0)
+    variables          number of SVARS (VARIABLES=, 1)
+    unsymmetric        UNSYMM given
+    integration        INTEGRATION=, number of material points for UELMAT; 0 if not given
+    tensor             TENSOR=, '' if not given
+    dofs               (local node from 0, dof) of each element unknown, in the order of U and RHS
+    """
+
+    number: int
+    nodes: int
+    dofs: tuple[tuple[int, int], ...]
+    source: Source
+    coordinates: int = 1
+    properties: int = 0
+    integer_properties: int = 0
+    variables: int = 1
+    unsymmetric: bool = False
+    integration: int = 0
+    tensor: str = ""
+
+
+@dataclass(frozen=True, slots=True)
+class UserProperty:
+    """*UEL PROPERTY: PROPS and JPROPS of an element set; with a material, UELMAT is called instead of UEL."""
+
+    elset: str
+    source: Source
+    values: FloatArray = field(default_factory=lambda: np.zeros(0))
+    integers: IntArray = field(default_factory=lambda: np.zeros(0, dtype=np.int64))
+    material: Material | None = None
+    orientation: Orientation | None = None

@@ -1,0 +1,181 @@
+# SPDX-FileCopyrightText: The uel-harness authors
+# SPDX-License-Identifier: BSD-3-Clause
+"""What a step procedure reports while it runs; output writes it, nothing else passes between the two."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from enum import StrEnum
+
+from harness.model.arrays import FloatArray, IntArray
+
+
+class Verdict(StrEnum):
+    """Outcome of the convergence check of one field in one iteration."""
+
+    LINEAR = "linear"
+    ZERO_FLUX = "zero_flux"
+    NOT_ACHIEVED = "not_achieved"
+    CONVERGED = "converged"
+    ACCEPTED_ESTIMATE = "accepted_estimate"
+    CORRECTION_TOO_LARGE = "correction_too_large"
+
+    @property
+    def accepted(self) -> bool:
+        """True where the field is in equilibrium."""
+        return self not in (Verdict.NOT_ACHIEVED, Verdict.CORRECTION_TOO_LARGE)
+
+
+@dataclass(frozen=True, slots=True)
+class Largest:
+    """Largest entry (signed) of a nodal array of a field, with its node (index; -1 for none) and dof."""
+
+    value: float
+    node: int
+    dof: int
+
+
+@dataclass(frozen=True, slots=True)
+class FieldCheck:
+    """Convergence check of one field, as a block of the message file prints it."""
+
+    field: str
+    average_flux: float
+    time_average_flux: float
+    residual: Largest
+    increment: Largest
+    correction: Largest
+    verdict: Verdict
+    estimated_correction: float | None = None
+
+
+@dataclass(frozen=True, slots=True)
+class AttemptStarted:
+    """An attempt at an increment begins. Times are those of the start of the increment."""
+
+    step: int
+    increment: int
+    attempt: int
+    step_time: float
+    total_time: float
+    time_increment: float
+
+
+@dataclass(frozen=True, slots=True)
+class IterationDone:
+    """One equilibrium iteration with its checks; line_search holds the scale factors tried, if any."""
+
+    iteration: int
+    checks: tuple[FieldCheck, ...]
+    line_search: tuple[float, ...] = ()
+
+
+@dataclass(frozen=True, slots=True)
+class AttemptAbandoned:
+    """The attempt is given up; `next_increment` is tried next (0: none is left)."""
+
+    step: int
+    increment: int
+    attempt: int
+    iterations: int
+    step_time: float
+    total_time: float
+    time_increment: float
+    next_increment: float
+    reason: str
+
+
+@dataclass(frozen=True, slots=True)
+class IncrementDone:
+    """A converged increment, after commit. Times are those of its end."""
+
+    step: int
+    increment: int
+    attempt: int
+    iterations: int
+    step_time: float
+    total_time: float
+    time_increment: float
+    solution: Solution
+
+
+@dataclass(frozen=True, slots=True)
+class StepStarted:
+    """A step begins."""
+
+    step: int
+
+
+@dataclass(frozen=True, slots=True)
+class StepDone:
+    """A step is complete."""
+
+    step: int
+    increments: int
+    cutbacks: int
+    iterations: int
+
+
+@dataclass(frozen=True, slots=True)
+class Warned:
+    """Something the user should know; printed to .msg as a warning."""
+
+    message: str
+
+
+Record = StepStarted | AttemptStarted | IterationDone | AttemptAbandoned | IncrementDone | StepDone | Warned
+
+
+@dataclass(frozen=True, slots=True)
+class PointVariables:
+    """What the SVARS of an element type mean at its integration points.
+
+    kind    'continuum' or 'interface'
+    names   name of each variable of a point, in order ('S11', ..., 'DAMAGE')
+    points  number of points; the variables of point k are SVARS[k*len(names) : (k+1)*len(names)]
+    bottom, top  interface only: local nodes (from 0) of the two coincident edges, both along the tangent
+    outline continuum only: local nodes (from 0) of the cell
+    """
+
+    kind: str
+    names: tuple[str, ...]
+    points: int
+    bottom: tuple[int, int] = (0, 1)
+    top: tuple[int, int] = (3, 2)
+    outline: tuple[int, ...] = ()
+
+
+@dataclass(frozen=True, slots=True)
+class ElementState:
+    """Committed element state of one group, for output. Arrays are copies.
+
+    group     index into Model.groups
+    svars     (m, number of SVARS)
+    energy    (m, 8) as in ENERGY
+    variables meaning of the SVARS, None where unknown (a user's own element)
+    """
+
+    group: int
+    svars: FloatArray
+    energy: FloatArray
+    variables: PointVariables | None
+
+
+@dataclass(frozen=True, slots=True)
+class Solution:
+    """Converged nodal state and element states.
+
+    node, dof         (n,) node index and dof of each unknown of the model
+    displacement      (n,) U
+    reaction          (n,) RF, zero where nothing is prescribed
+    load              (n,) CF, concentrated load
+    energies          whole-model energies by Abaqus name: ALLSE, ALLPD, ALLVD, ALLAE, ALLCD, ALLKE, ALLWK, ALLIE, ETOTAL
+    """
+
+    node: IntArray
+    dof: IntArray
+    displacement: FloatArray
+    reaction: FloatArray
+    load: FloatArray
+    energies: dict[str, float] = field(default_factory=dict)
+    elements: tuple[ElementState, ...] = ()

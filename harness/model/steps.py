@@ -1,0 +1,169 @@
+# SPDX-FileCopyrightText: The uel-harness authors
+# SPDX-License-Identifier: BSD-3-Clause
+"""Steps: procedure, solution controls, prescribed values, loads and output requests."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+
+from harness.errors import Source
+from harness.model.amplitude import Amplitude
+from harness.model.arrays import IntArray
+
+
+@dataclass(frozen=True, slots=True)
+class FieldControls:
+    """*CONTROLS, PARAMETERS=FIELD; names and defaults of the Abaqus manual.
+
+    r_n residual, c_n correction, q_0 initial and q_u user-defined average flux (0: not given), r_p residual after
+    i_p iterations, eps zero flux, c_eps correction at zero flux, r_l residual of a linear increment.
+    """
+
+    r_n: float = 5e-3
+    c_n: float = 1e-2
+    q_0: float = 0.0
+    q_u: float = 0.0
+    r_p: float = 2e-2
+    eps: float = 1e-5
+    c_eps: float = 1e-3
+    r_l: float = 1e-8
+
+
+@dataclass(frozen=True, slots=True)
+class TimeControls:
+    """*CONTROLS, PARAMETERS=TIME INCREMENTATION; names and defaults of the Abaqus manual."""
+
+    i_0: int = 4
+    i_r: int = 8
+    i_p: int = 9
+    i_c: int = 16
+    i_l: int = 10
+    i_g: int = 4
+    i_s: int = 12
+    i_a: int = 5
+    i_j: int = 6
+    i_t: int = 3
+    d_f: float = 0.25
+    d_c: float = 0.5
+    d_b: float = 0.75
+    d_a: float = 0.85
+    d_s: float = 0.25
+    d_h: float = 0.25
+    d_d: float = 1.5
+    w_g: float = 0.75
+    d_g: float = 0.8
+    d_m: float = 1.5
+    d_m_dyn: float = 1.25
+    d_m_diff: float = 2.0
+    d_l: float = 0.95
+    d_e: float = 0.1
+
+
+@dataclass(frozen=True, slots=True)
+class LineSearchControls:
+    """*CONTROLS, PARAMETERS=LINE SEARCH; n_ls = 0 turns it off, which is the default of Newton's method."""
+
+    n_ls: int = 0
+    s_max: float = 1.0
+    s_min: float = 1e-4
+    f_s: float = 0.25
+    eta_s: float = 0.10
+
+
+@dataclass(frozen=True, slots=True)
+class Controls:
+    """Solution controls of a step. `default` holds for all fields, `fields` overrides it by name ('DISPLACEMENT', 'ROTATION', ...)."""
+
+    default: FieldControls = field(default_factory=FieldControls)
+    fields: dict[str, FieldControls] = field(default_factory=dict)
+    time: TimeControls = field(default_factory=TimeControls)
+    line_search: LineSearchControls = field(default_factory=LineSearchControls)
+
+
+@dataclass(frozen=True, slots=True)
+class Static:
+    """*STATIC: initial increment, period, smallest and largest increment; direct = fixed increments."""
+
+    initial: float = 1.0
+    period: float = 1.0
+    minimum: float = 1e-5
+    maximum: float = 1.0
+    direct: bool = False
+
+
+@dataclass(frozen=True, slots=True)
+class Boundary:
+    """One *BOUNDARY entry: nodes (indices), one dof, magnitude, amplitude (None: the step's default)."""
+
+    nodes: IntArray
+    dof: int
+    magnitude: float
+    amplitude: Amplitude | None
+    source: Source
+
+
+@dataclass(frozen=True, slots=True)
+class Load:
+    """One *CLOAD entry: nodes (indices), one dof, reference magnitude, amplitude (None: the step's default)."""
+
+    nodes: IntArray
+    dof: int
+    magnitude: float
+    amplitude: Amplitude | None
+    source: Source
+
+
+@dataclass(frozen=True, slots=True)
+class NodeRequest:
+    """*NODE OUTPUT (history) or *NODE PRINT: variables as Abaqus names them (U, U2, RF2, CF1, ...)."""
+
+    nset: str
+    nodes: IntArray
+    variables: tuple[str, ...]
+    frequency: int = 1
+    totals: bool = False
+
+
+@dataclass(frozen=True, slots=True)
+class ElementRequest:
+    """*EL PRINT: variables as Abaqus names them (S, S11, E, SDV, SDV3, ...); elements are positions in the model."""
+
+    elset: str
+    elements: IntArray
+    variables: tuple[str, ...]
+    frequency: int = 1
+
+
+@dataclass(frozen=True, slots=True)
+class OutputRequests:
+    """What the step writes. field_frequency: every k-th increment a .vtu, 0 never; the last one always unless 0."""
+
+    history_nodes: tuple[NodeRequest, ...] = ()
+    history_energies: tuple[str, ...] = ()
+    history_frequency: int = 1
+    field_frequency: int = 1
+    node_print: tuple[NodeRequest, ...] = ()
+    element_print: tuple[ElementRequest, ...] = ()
+    monitor: tuple[int, int] | None = None
+
+
+@dataclass(frozen=True, slots=True)
+class Step:
+    """*STEP. `amplitude` RAMP or STEP; `new_boundary`/`new_loads`: OP=NEW removes what earlier steps prescribed."""
+
+    number: int
+    name: str
+    procedure: Static
+    source: Source
+    nlgeom: bool = False
+    increments: int = 100
+    extrapolation: str = "LINEAR"
+    unsymmetric: bool = False
+    amplitude: str = "RAMP"
+    title: str = ""
+    controls: Controls = field(default_factory=Controls)
+    boundaries: tuple[Boundary, ...] = ()
+    new_boundary: bool = False
+    loads: tuple[Load, ...] = ()
+    new_loads: bool = False
+    output: OutputRequests = field(default_factory=OutputRequests)
