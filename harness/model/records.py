@@ -169,7 +169,7 @@ class Solution:
     displacement      (n,) U
     reaction          (n,) RF, zero where nothing is prescribed
     load              (n,) CF, concentrated load
-    energies          whole-model energies by Abaqus name: ALLSE, ALLPD, ALLVD, ALLAE, ALLCD, ALLKE, ALLWK, ALLIE, ETOTAL
+    energies          whole model, by Abaqus name: ALLSE, ALLPD, ALLVD, ALLAE, ALLCD, ALLKE, ALLWK, ALLIE, ETOTAL
     """
 
     node: IntArray

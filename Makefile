@@ -1,0 +1,66 @@
+# SPDX-FileCopyrightText: The uel-harness authors
+# SPDX-License-Identifier: BSD-3-Clause
+#
+# make demo   install what is missing, build, run a double cantilever beam, draw it, compare it with beam theory
+# make test   the same set-up, then the quick test suite
+# make help   the rest
+
+PYTHON ?= python3
+VENV ?= .venv
+MESON_ARGS ?= -Dbuildtype=release
+PYTEST_ARGS ?=
+
+BIN := $(VENV)/bin
+INSTALLED := $(VENV)/.installed
+# the build backend and the tools it calls are found through PATH
+RUN := PATH="$(CURDIR)/$(BIN):$$PATH"
+
+.DEFAULT_GOAL := help
+.PHONY: help demo test test-all test-debug bench lint decks clean
+
+help:
+	@sed -n 's/^# make/make/p' $(firstword $(MAKEFILE_LIST))
+	@echo 'make test-all    the quick tests and the long ones'
+	@echo 'make test-debug  the quick tests on kernels with run-time checks'
+	@echo 'make bench       speed ratios, measured in one run'
+	@echo 'make lint        what CI checks before the tests'
+	@echo 'make decks       write the decks of abaqus_inputs again'
+	@echo 'make clean       remove the environment, the build and the demo'
+
+$(INSTALLED): pyproject.toml meson.build .ci/toolchain
+	@PYTHON=$(PYTHON) bash .ci/toolchain
+	$(PYTHON) -m venv $(VENV)
+	$(BIN)/pip install --quiet --upgrade pip
+	$(BIN)/pip install --quiet --group dev
+	$(RUN) $(BIN)/pip install --quiet --no-build-isolation --editable . \
+		-Cbuild-dir=build/$(notdir $(VENV)) $(addprefix -Csetup-args=,$(MESON_ARGS))
+	@touch $@
+
+demo: $(INSTALLED)
+	$(RUN) $(BIN)/python -m harness.delamination.demo --output-dir demo
+
+test: $(INSTALLED)
+	$(RUN) $(BIN)/pytest -m 'not long' $(PYTEST_ARGS)
+
+test-all: $(INSTALLED)
+	$(RUN) $(BIN)/pytest $(PYTEST_ARGS)
+
+test-debug:
+	$(MAKE) test VENV=.venv-debug MESON_ARGS='-Dbuildtype=debug'
+
+bench: $(INSTALLED)
+	$(RUN) $(BIN)/python tests/benchmarks/bench.py
+
+lint: $(INSTALLED)
+	$(RUN) $(BIN)/ruff check .
+	$(RUN) $(BIN)/ruff format --check .
+	$(RUN) $(BIN)/mypy
+	$(RUN) $(BIN)/lint-imports
+	$(RUN) $(BIN)/fortitude check
+	$(RUN) $(BIN)/codespell
+
+decks: $(INSTALLED)
+	$(RUN) $(BIN)/python -m harness.delamination.decks
+
+clean:
+	rm -rf .venv .venv-debug build demo

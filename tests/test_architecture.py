@@ -1,0 +1,79 @@
+# SPDX-FileCopyrightText: The uel-harness authors
+# SPDX-License-Identifier: BSD-3-Clause
+"""Rules of the layout that import-linter cannot see."""
+
+import re
+import subprocess
+from pathlib import Path
+
+import pytest
+
+ROOT = Path(__file__).parents[1]
+TRACKED = [
+    Path(line)
+    for line in subprocess.run(["git", "ls-files"], cwd=ROOT, capture_output=True, text=True, check=True).stdout.split()
+    if (ROOT / line).exists()
+]
+PURE_FOLDERS = ("core", "materials", "cohesive", "elements")
+FORTRAN_RANK = {"core": 0, "materials": 1, "cohesive": 1, "elements": 2, "abaqus": 3, "host": 0}
+
+
+def fortran_files() -> list[Path]:
+    return [path for path in TRACKED if path.suffix == ".f90" and path.parts[0] == "fortran"]
+
+
+def code_lines(path: Path) -> list[str]:
+    """Lines of a free-form Fortran file without comments and character constants, in lower case."""
+    text = re.sub(r"'[^'\n]*'|\"[^\"\n]*\"", "''", (ROOT / path).read_text())
+    return [line.split("!")[0].lower() for line in text.splitlines()]
+
+
+def test_only_the_binding_imports_the_extension() -> None:
+    importing = re.compile(r"^\s*(from|import)\b.*\b_host\b", re.MULTILINE)
+    users = [path for path in TRACKED if path.suffix == ".py" and importing.search((ROOT / path).read_text())]
+    assert users == [Path("harness/usersub/_binding.py")]
+
+
+@pytest.mark.parametrize("path", [path for path in fortran_files() if path.parts[1] in PURE_FOLDERS], ids=str)
+def test_below_abaqus_everything_is_pure(path: Path) -> None:
+    forbidden = re.compile(r"^\s*(save\b|print\b|write\s*\(|stop\b|error\s+stop\b|call\s+xit\b)|,\s*save\b")
+    bad = [line for line in code_lines(path) if forbidden.search(line)]
+    assert not bad
+    procedures = [line for line in code_lines(path) if re.match(r"^\s*(?!end\b)[\w\s()=*,]*\b(subroutine|function)\b", line)]
+    assert [line for line in procedures if not re.search(r"\b(pure|elemental)\b", line)] == []
+
+
+def test_fortran_order() -> None:
+    module_of = {}
+    for path in fortran_files():
+        for line in code_lines(path):
+            if match := re.match(r"^\s*module\s+(?!procedure\b)(\w+)\s*$", line):
+                module_of[match[1]] = path
+    for path in fortran_files():
+        for line in code_lines(path):
+            if match := re.match(r"^\s*use\s*(?:,\s*\w+\s*)?(?:::)?\s*(\w+)", line):
+                used = module_of.get(match[1])
+                if used is None or used.parts[1] == path.parts[1]:
+                    continue
+                assert FORTRAN_RANK[used.parts[1]] < FORTRAN_RANK[path.parts[1]], f"{path} uses {used}"
+                assert "host" not in (used.parts[1], path.parts[1]), f"{path} uses {used}: the host knows symbols only"
+
+
+def test_every_source_carries_the_licence() -> None:
+    sources = [path for path in TRACKED if path.suffix in {".py", ".f90", ".c", ".build"} or path.name == "Makefile"]
+    assert [path for path in sources if "SPDX-License-Identifier: BSD-3-Clause" not in (ROOT / path).read_text()] == []
+
+
+def test_files_stay_small() -> None:
+    limits = {".py": 400, ".f90": 500}
+    lengths = {path: len((ROOT / path).read_text().splitlines()) for path in TRACKED if path.suffix in limits}
+    assert {path: n for path, n in lengths.items() if n > limits[path.suffix]} == {}
+
+
+def test_top_level_holds_only_what_the_design_names() -> None:
+    allowed = {
+        *("fortran", "harness", "tests", "abaqus_inputs", "meson.build", "README.md", "Makefile", "pyproject.toml"),
+        *("fortitude.toml", "CHANGELOG.md", "CONTRIBUTING.md", "CITATION.cff", "LICENSE", ".ci", ".gitignore"),
+        *(".gitattributes", "meson.options"),
+    }
+    assert {path.parts[0] for path in TRACKED} <= allowed
