@@ -72,7 +72,7 @@ class LineSearchControls:
 
 @dataclass(frozen=True, slots=True)
 class Controls:
-    """Solution controls of a step: `default` for all fields, `fields` by name ('DISPLACEMENT', ...) where they differ."""
+    """Solution controls: `default` for all fields, `fields` by name ('DISPLACEMENT', ...) where they differ."""
 
     default: FieldControls = field(default_factory=FieldControls)
     fields: dict[str, FieldControls] = field(default_factory=dict)

@@ -1,0 +1,134 @@
+# SPDX-FileCopyrightText: The uel-harness authors
+# SPDX-License-Identifier: BSD-3-Clause
+"""The command `uel`."""
+
+from __future__ import annotations
+
+import argparse
+import shutil
+import sys
+from collections.abc import Sequence
+from pathlib import Path
+
+from rich.console import Console
+from rich.table import Table
+
+from harness.errors import UelError
+
+# options of the `abaqus` command and what they are here; None: accepted and without effect on one machine
+ABAQUS_OPTIONS = {
+    "job": "--job",
+    "input": "deck",
+    "user": "--user",
+    "cpus": None,
+    "interactive": None,
+    "ask_delete": None,
+    "double": None,
+    "memory": None,
+    "scratch": None,
+}
+
+
+def main(arguments: Sequence[str] | None = None) -> int:
+    """Run the command; returns the exit code: 0 on success, 1 on a failed job, 2 on wrong usage."""
+    parser = build_parser()
+    words = list(sys.argv[1:] if arguments is None else arguments)
+    if words[:1] == ["run"]:
+        words[1:] = from_abaqus(parser, words[1:])
+    options = parser.parse_args(words)
+    try:
+        return int(options.function(options))
+    except UelError as error:
+        print(f"uel: {error}", file=sys.stderr)
+    except OSError as error:
+        print(f"uel: {error.filename or ''}: {error.strerror or error}", file=sys.stderr)
+    except KeyboardInterrupt:
+        print("uel: interrupted; the output written so far is readable", file=sys.stderr)
+    return 1
+
+
+def build_parser() -> argparse.ArgumentParser:
+    """Subcommands and their options."""
+    parser = argparse.ArgumentParser(prog="uel", description="Run Abaqus decks with user elements, without Abaqus.")
+    commands = parser.add_subparsers(required=True, metavar="COMMAND")
+
+    run = commands.add_parser("run", help="run a deck", epilog="Abaqus' spelling works too: uel run job=NAME user=FILE")
+    run.add_argument("deck", type=Path, metavar="DECK.inp")
+    run.add_argument("--user", type=Path, metavar="FILE", help="user elements (.f .for .f90 .F .so); ours by default")
+    run.add_argument("--job", metavar="NAME", help="name of the output files (the deck's name)")
+    run.add_argument("--output-dir", type=Path, metavar="DIR", help="where they go (the current folder)")
+    run.add_argument("--solver", default="auto", metavar="NAME", help="linear solver, see `uel solvers` (auto)")
+    run.add_argument("--quiet", action="store_true", help="no progress display")
+    run.set_defaults(function=run_job)
+
+    amalgamate = commands.add_parser("amalgamate", help="write our elements as one file for Abaqus")
+    amalgamate.add_argument("-o", "--output", type=Path, required=True, metavar="FILE.for")
+    amalgamate.set_defaults(function=write_amalgam)
+
+    solvers = commands.add_parser("solvers", help="list the linear solvers and say which is taken when")
+    solvers.set_defaults(function=list_solvers)
+    return parser
+
+
+def from_abaqus(parser: argparse.ArgumentParser, words: list[str]) -> list[str]:
+    """Translate `job=NAME input=DECK user=FILE cpus=2` into this command's options."""
+    given, rest = {}, []
+    for word in words:
+        key, equals, value = word.partition("=")
+        if word.startswith("-") or not (equals or key.lower() in ABAQUS_OPTIONS):
+            rest.append(word)
+        elif key.lower() in ABAQUS_OPTIONS:
+            given[key.lower()] = value
+        else:
+            parser.error(f"unknown option '{key}='; known are {', '.join(f'{name}=' for name in ABAQUS_OPTIONS)}")
+    if not given:
+        return words
+    deck = given.pop("input", given.get("job", ""))
+    if deck:
+        rest.append(deck if Path(deck).suffix else f"{deck}.inp")
+    for key, value in given.items():
+        if option := ABAQUS_OPTIONS[key]:
+            rest += [option, value]
+    return rest
+
+
+def run_job(options: argparse.Namespace) -> int:
+    """`uel run`."""
+    from harness.job import run  # noqa: PLC0415 (keeps the other commands quick)
+
+    result = run(
+        options.deck,
+        options.user,
+        job=options.job,
+        output_dir=options.output_dir,
+        solver=options.solver,
+        quiet=options.quiet,
+    )
+    if not options.quiet:
+        last = result.status[-1]
+        print(f"{result.job}: completed, {len(result.status)} lines in .sta, total time {last.total_time:g}")
+    return 0
+
+
+def write_amalgam(options: argparse.Namespace) -> int:
+    """`uel amalgamate`."""
+    from harness.usersub.amalgam import path_of_amalgam  # noqa: PLC0415
+
+    shutil.copyfile(path_of_amalgam(), options.output)
+    print(f"{options.output}: UEL, UELMAT and UEXTERNALDB for abaqus job=... user={options.output.name}")
+    return 0
+
+
+def list_solvers(_: argparse.Namespace) -> int:
+    """`uel solvers`."""
+    from harness.solver.linear import available  # noqa: PLC0415
+
+    table = Table("solver", "installed", "version", "when it is taken")
+    for row in available():
+        table.add_row(row.name, "yes" if row.installed else "no", row.version, row.note)
+    Console().print(table)
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,76 @@
+# SPDX-FileCopyrightText: The uel-harness authors
+# SPDX-License-Identifier: BSD-3-Clause
+"""One job: a deck and a user file in, the files of Abaqus and a result out."""
+
+from __future__ import annotations
+
+import time
+from pathlib import Path
+
+from harness import usersub
+from harness.assembly import System
+from harness.deck import read_deck
+from harness.elements import build_blocks
+from harness.errors import UelError
+from harness.output import JobOutput, Result
+from harness.procedures import run_steps
+
+
+def run(
+    deck: str | Path,
+    user: str | Path | None = None,
+    *,
+    job: str | None = None,
+    output_dir: str | Path | None = None,
+    solver: str = "auto",
+    quiet: bool = True,
+) -> Result:
+    """Run an Abaqus deck.
+
+    Parameters
+    ----------
+    deck
+        Abaqus input file.
+    user
+        Fortran file with UEL, UELMAT, UEXTERNALDB, or a compiled library; None takes the project's own elements.
+    job
+        Name of the output files; the deck's name without its ending by default.
+    output_dir
+        Folder of the output files, made if missing; the current folder by default.
+    solver
+        Linear solver, see `uel solvers`.
+    quiet
+        No progress display.
+
+    Returns
+    -------
+    Result
+        What the job wrote: `.history`, `.field(name)`, `.interface()`, `.status`.
+
+    Raises
+    ------
+    UelError
+        DeckError, CompileError, KernelError, SingularMatrixError or ConvergenceError; what was written until then
+        stays readable.
+    """
+    deck = Path(deck)
+    job = job or deck.stem
+    directory = Path(output_dir or ".")
+    directory.mkdir(parents=True, exist_ok=True)
+    started = time.perf_counter()
+    model = read_deck(deck)
+    library = usersub.load(None if user is None else Path(user), job=job, output_dir=directory, deck=deck)
+    output = JobOutput(model, job, directory, quiet=quiet)
+    try:
+        blocks = build_blocks(model, library)
+        system = System(model.mesh, blocks)
+        for record in run_steps(system, model, library, solver):
+            output.write(record)
+    except UelError as error:
+        output.close(error)
+        raise
+    except BaseException:
+        output.close(UelError("the run was interrupted"))
+        raise
+    output.close(None)
+    return Result(directory / job, seconds=time.perf_counter() - started)
