@@ -1,0 +1,115 @@
+# SPDX-FileCopyrightText: The uel-harness authors
+# SPDX-License-Identifier: BSD-3-Clause
+"""When an iteration is accepted: the convergence criteria of Abaqus/Standard for one field, as pure functions.
+
+Abaqus Analysis User's Guide, "Convergence criteria for nonlinear problems". What the guide leaves open (which mean,
+which residual the estimate of the correction uses) is settled by printed checks of Abaqus; the tests hold them.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from harness.model.records import Verdict
+from harness.model.steps import FieldControls
+
+INITIAL_FLUX = 1e-2
+"""Time average flux of Abaqus before any flux was seen in the first step (*CONTROLS, q_0)."""
+
+
+@dataclass(frozen=True, slots=True)
+class Check:
+    """What decides on one field in one iteration; all values are magnitudes.
+
+    q, q_time   average flux and its time average
+    r           largest residual; r_previous the one before: that of the previous iteration, in iteration 1 that of
+                the extrapolated start, None where there is neither
+    du, c       largest increment and largest correction
+    iteration   from 1
+    """
+
+    q: float
+    q_time: float
+    r: float
+    r_previous: float | None
+    du: float
+    c: float
+    iteration: int
+
+
+def residual_tolerance(check: Check, controls: FieldControls, i_p: int) -> float:
+    """Largest residual that counts as equilibrium: R_n q~, and R_P q~ after I_P iterations."""
+    return (controls.r_n if check.iteration <= i_p else controls.r_p) * check.q_time
+
+
+def estimated_correction(check: Check) -> float | None:
+    """Correction expected of one more iteration, c r_i / r_(i-1); None without an earlier residual."""
+    if not check.r_previous:
+        return None
+    return check.c * check.r / check.r_previous
+
+
+def judge(check: Check, controls: FieldControls, i_p: int) -> Verdict:
+    """Verdict on one field.
+
+    Parameters
+    ----------
+    check
+        Fluxes, residuals, increment and correction.
+    controls
+        R_n, C_n, R_P, eps, C_eps, R_l of the field.
+    i_p
+        Iterations after which R_P replaces R_n.
+    """
+    zero = controls.eps * check.q_time
+    if check.q <= zero and (check.r <= zero or check.c <= controls.c_eps * check.du):
+        return Verdict.ZERO_FLUX
+    if check.r <= controls.r_l * check.q_time:
+        # later iterations are printed as converged, even where the correction is as large as the increment
+        return Verdict.LINEAR if check.iteration == 1 else Verdict.CONVERGED
+    if check.r > residual_tolerance(check, controls, i_p):
+        return Verdict.NOT_ACHIEVED
+    allowed = controls.c_n * check.du
+    if check.c <= allowed:
+        return Verdict.CONVERGED
+    estimate = estimated_correction(check)
+    if estimate is not None and estimate <= allowed:
+        return Verdict.ACCEPTED_ESTIMATE
+    return Verdict.CORRECTION_TOO_LARGE
+
+
+@dataclass(frozen=True, slots=True)
+class FluxHistory:
+    """Converged average fluxes of one field in a step.
+
+    The time average is the plain mean over the increments of the step, the current one included, that carry flux;
+    increments of zero flux are skipped. Before any flux it is `initial`.
+    """
+
+    initial: float = INITIAL_FLUX
+    total: float = 0.0
+    count: int = 0
+
+    def average(self, q: float, controls: FieldControls) -> float:
+        """Time average flux if the current increment ended with the average flux q."""
+        if controls.q_u > 0.0:
+            return controls.q_u
+        if self._carries(q, controls):
+            return (self.total + q) / (self.count + 1)
+        return self._mean()
+
+    def converged(self, q: float, controls: FieldControls) -> FluxHistory:
+        """History after an increment that converged with the average flux q."""
+        if not self._carries(q, controls):
+            return self
+        return FluxHistory(self.initial, self.total + q, self.count + 1)
+
+    def next_step(self, controls: FieldControls) -> FluxHistory:
+        """History at the start of the next step: q_0 where given, else the time average of this step."""
+        return FluxHistory(controls.q_0 if controls.q_0 > 0.0 else self._mean())
+
+    def _mean(self) -> float:
+        return self.total / self.count if self.count else self.initial
+
+    def _carries(self, q: float, controls: FieldControls) -> bool:
+        return q > controls.eps * self._mean()
