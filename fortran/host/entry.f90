@@ -1,0 +1,126 @@
+! SPDX-FileCopyrightText: The uel-harness authors
+! SPDX-License-Identifier: BSD-3-Clause
+!> The procedures Python calls (through f2py, see _host.pyf). They only pack and unpack.
+
+!> One pass over a block; see block_t for the arrays.
+subroutine host_evaluate(address, options, lflags, clock, labels, jprops, equations, map, props, coords, u, du, svars, &
+                         svars_trial, energy, energy_trial, history, history_trial, residual, matrix, flux, sums, status, &
+                         ndofel, nsvars, nprops, njprop, mcrd, nnode, m, n, nnz, values, points)
+  use, intrinsic :: iso_c_binding, only: c_funptr, c_intptr_t
+  use host_driver, only: block_t, run_block
+  use host_kinds, only: dp, i4, i8
+  use host_messages, only: pending_messages
+  implicit none (type, external)
+  integer(i8), intent(in) :: address          !< of UEL or UELMAT
+  integer(i4), intent(in) :: options(7)       !< material, tensor, jtype, symmetric, want_matrix, kstep, kinc
+  integer(i4), intent(in) :: lflags(5)
+  real(dp), intent(in) :: clock(4)            !< step time, total time, time increment, period
+  integer(i4), intent(in) :: ndofel, nsvars, nprops, njprop, mcrd, nnode, m, n, nnz, values, points
+  integer(i4), intent(in), target :: labels(m), jprops(njprop), equations(ndofel, m), map(ndofel, ndofel, m)
+  real(dp), intent(in), target :: props(nprops), coords(mcrd, nnode, m), u(n), du(n), svars(nsvars, m), energy(8, m), &
+                                  history(values, points, m)
+  real(dp), intent(inout), target :: svars_trial(nsvars, m), energy_trial(8, m), history_trial(values, points, m), &
+                                     residual(n), matrix(nnz)
+  real(dp), intent(out), target :: flux(ndofel)
+  real(dp), intent(out) :: sums(9)            !< PNEWDT, ENERGY
+  integer(i4), intent(out) :: status(5)       !< fault, position, array, index, messages pending
+  type(block_t), target :: block
+  block%address = transfer(int(address, c_intptr_t), block%address)
+  block%with_material = options(1) > 0
+  block%material = options(1)
+  block%tensor = options(2)
+  block%jtype = options(3)
+  block%symmetric = options(4) /= 0
+  block%want_matrix = options(5) /= 0
+  block%want_residual = any(lflags(3) == [1, 5, 6, 100])
+  block%kstep = options(6)
+  block%kinc = options(7)
+  block%lflags = lflags
+  block%time = clock(1:2)
+  block%dtime = clock(3)
+  block%period = clock(4)
+  block%labels => labels
+  block%jprops => jprops
+  block%equations => equations
+  block%map => map
+  block%props => props
+  block%coords => coords
+  block%u => u
+  block%du => du
+  block%svars => svars
+  block%svars_trial => svars_trial
+  block%energy => energy
+  block%energy_trial => energy_trial
+  if (values > 1) then   ! f2py passes no empty arrays, so one value stands for none
+    block%history => history
+    block%history_trial => history_trial
+  end if
+  flux = 0
+  block%residual => residual
+  block%matrix => matrix
+  block%flux => flux
+  call run_block(block)
+  sums(1) = block%pnewdt
+  sums(2:9) = block%energy_sum
+  status = [block%fault, block%position, block%array, block%index, int(pending_messages(), i4)]
+end subroutine host_evaluate
+
+!> Oldest message of a user routine; level 0 if none is left.
+subroutine host_take_message(level, place, text)
+  use host_kinds, only: i4
+  use host_messages, only: message_t, take_message
+  implicit none (type, external)
+  integer(i4), intent(out) :: level
+  integer(i4), intent(out) :: place(3)        !< element, step, increment
+  character(len=2048), intent(out) :: text
+  type(message_t) :: message
+  call take_message(message)
+  level = message%level
+  place = [message%element, message%step, message%increment]
+  text = message%text
+end subroutine host_take_message
+
+!> Name and folder of the job, for GETJOBNAME and GETOUTDIR; units 6 and 7 go to the two files named.
+subroutine host_open_job(name, directory, file6, file7, status)
+  use host_context, only: job_name, output_directory
+  use host_kinds, only: i4
+  implicit none (type, external)
+  character(len=256), intent(in) :: name, directory
+  character(len=2048), intent(in) :: file6, file7
+  integer(i4), intent(out) :: status          !< 0, or IOSTAT of the OPEN that failed
+  job_name = name
+  output_directory = directory
+  open (unit=6, file=trim(file6), status='replace', action='readwrite', iostat=status)
+  if (status /= 0) return
+  open (unit=7, file=trim(file7), status='replace', action='readwrite', iostat=status)
+end subroutine host_open_job
+
+!> Write out what user routines have printed to units 6 and 7; with `finish` the units are closed too.
+subroutine host_flush(finish)
+  use host_kinds, only: i4
+  implicit none (type, external)
+  integer(i4), intent(in) :: finish
+  integer :: unit
+  logical :: is_open
+  do unit = 6, 7
+    inquire (unit=unit, opened=is_open)
+    if (.not. is_open) cycle
+    if (finish /= 0) then
+      close (unit)
+    else
+      flush (unit)
+    end if
+  end do
+end subroutine host_flush
+
+!> Call UEXTERNALDB; left = 1 if it ended the analysis.
+subroutine host_external_database(address, lop, lrestart, time, dtime, kstep, kinc, left)
+  use host_external, only: call_external_database
+  use host_kinds, only: dp, i4, i8
+  implicit none (type, external)
+  integer(i8), intent(in) :: address
+  integer(i4), intent(in) :: lop, lrestart, kstep, kinc
+  real(dp), intent(in) :: time(2), dtime
+  integer(i4), intent(out) :: left
+  call call_external_database(address, lop, lrestart, time, dtime, kstep, kinc, left)
+end subroutine host_external_database

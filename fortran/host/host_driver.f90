@@ -1,0 +1,307 @@
+! SPDX-FileCopyrightText: The uel-harness authors
+! SPDX-License-Identifier: BSD-3-Clause
+!> The element loop: one pass over a block of like elements, with gather, guards, checks and scatter.
+module host_driver
+  use, intrinsic :: iso_c_binding, only: c_f_pointer, c_f_procpointer, c_funloc, c_funptr, c_loc, c_ptr
+  use host_context, only: current
+  use host_interfaces, only: uel_procedure, uelmat_procedure
+  use host_kinds, only: dp, i4, unset_bits
+  use host_protect, only: protect
+  use host_workspace, only: all_finite, arm_guards, fill, find_damage, i_a, i_amatrx, i_coords, i_du, i_energy, i_predef, &
+                            i_props, i_rhs, i_svars, i_u, i_v, lay_out, n_arrays, same_bits, workspace_t
+  implicit none (type, external)
+  private
+  public :: block_t, run_block
+  public :: fault_none, fault_left, fault_outside, fault_unset, fault_not_finite
+
+  integer(i4), parameter :: fault_none = 0        !< all went well
+  integer(i4), parameter :: fault_left = 1        !< the user routine ended the analysis
+  integer(i4), parameter :: fault_outside = 2     !< a write outside an array
+  integer(i4), parameter :: fault_unset = 3       !< an entry was not set
+  integer(i4), parameter :: fault_not_finite = 4  !< an entry is NaN or infinite
+
+  !> One pass over a block: what is called, with what, and where the results go. Arrays belong to the caller.
+  type :: block_t
+    type(c_funptr) :: address
+    logical :: with_material = .false.   !< call with UELMAT's 37 arguments
+    logical :: symmetric = .false.       !< assemble (A + A^T)/2
+    logical :: want_matrix = .false.     !< check and assemble AMATRX
+    logical :: want_residual = .false.   !< check and assemble RHS
+    integer(i4) :: material = 0, tensor = 0, jtype = 0, kstep = 0, kinc = 0
+    integer(i4) :: lflags(5) = 0
+    real(dp) :: time(2) = 0, dtime = 0, period = 0
+    integer(i4), pointer, contiguous :: labels(:) => null(), jprops(:) => null()
+    integer(i4), pointer, contiguous :: equations(:, :) => null()  !< (ndofel, m) unknown, from 1
+    integer(i4), pointer, contiguous :: map(:, :, :) => null()     !< (ndofel, ndofel, m) position in matrix, from 1
+    real(dp), pointer, contiguous :: props(:) => null()
+    real(dp), pointer, contiguous :: coords(:, :, :) => null()     !< (mcrd, nnode, m)
+    real(dp), pointer, contiguous :: u(:) => null(), du(:) => null()
+    real(dp), pointer, contiguous :: svars(:, :) => null(), svars_trial(:, :) => null()     !< (nsvars, m)
+    real(dp), pointer, contiguous :: energy(:, :) => null(), energy_trial(:, :) => null()   !< (8, m)
+    real(dp), pointer, contiguous :: history(:, :, :) => null(), history_trial(:, :, :) => null()  !< (values, npt, m)
+    real(dp), pointer, contiguous :: residual(:) => null(), matrix(:) => null()
+    real(dp), pointer, contiguous :: flux(:) => null()             !< (ndofel) sum of |RHS|
+    real(dp) :: pnewdt = 0                !< smallest returned
+    real(dp) :: energy_sum(8) = 0
+    integer(i4) :: fault = fault_none     !< one of fault_*
+    integer(i4) :: position = 0           !< element of the fault, from 1
+    integer(i4) :: array = 0, index = 0   !< array (number in host_workspace) and entry of the fault
+    procedure(uel_procedure), pointer, nopass :: uel => null()
+    procedure(uelmat_procedure), pointer, nopass :: uelmat => null()
+  end type block_t
+
+  !> PNEWDT on entry: so large that any value a user routine would return is smaller.
+  real(dp), parameter :: untouched = 1.0e36_dp
+  real(dp), parameter :: hht(3) = [0.0_dp, 0.25_dp, 0.5_dp]   !< PARAMS, not used by static procedures
+
+  type(workspace_t), save :: work
+
+contains
+
+  !> Run a pass. On a fault, fault, position, array and index say what happened and the sums are worthless.
+  subroutine run_block(block)
+    type(block_t), intent(inout), target :: block
+    integer :: array, index
+    if (block%with_material) then
+      call c_f_procpointer(block%address, block%uelmat)
+    else
+      call c_f_procpointer(block%address, block%uel)
+    end if
+    call prepare(block)
+    if (protect(c_funloc(loop), c_loc(block)) /= 0) block%fault = fault_left
+    call find_damage(work, array, index)
+    if (array > 0) call diagnose(block, array, index)
+    current%element = 0
+  end subroutine run_block
+
+  !> Workspace and context of this block.
+  subroutine prepare(block)
+    type(block_t), intent(in) :: block
+    integer :: length(n_arrays), ndofel, nnode
+    ndofel = size(block%equations, 1)
+    nnode = size(block%coords, 2)
+    length = ndofel
+    length(i_amatrx) = ndofel*ndofel
+    length(i_svars) = size(block%svars, 1)
+    length(i_energy) = 8
+    length(i_props) = size(block%props)
+    length(i_coords) = size(block%coords, 1)*nnode
+    length(i_predef) = 2*nnode
+    call lay_out(work, length)
+    current%step = block%kstep
+    current%increment = block%kinc
+    current%tensor = block%tensor
+  end subroutine prepare
+
+  !> All elements of the block, until a fault.
+  subroutine loop(context) bind(c)
+    type(c_ptr), value :: context
+    type(block_t), pointer :: block
+    integer :: e, ndofel
+    call c_f_pointer(context, block)
+    ndofel = size(block%equations, 1)
+    block%pnewdt = untouched
+    block%energy_sum = 0
+    do e = 1, size(block%labels)
+      block%position = e
+      call call_element(block, e)
+      if (block%want_residual) then
+        call check(block, i_rhs, ndofel)
+        if (block%fault /= fault_none) return
+        call add_residual(ndofel, work%memory(work%start(i_rhs)), block%equations(:, e), block%residual, block%flux)
+      end if
+      if (block%want_matrix) then
+        call check(block, i_amatrx, ndofel*ndofel)
+        if (block%fault /= fault_none) return
+        call add_matrix(ndofel, work%memory(work%start(i_amatrx)), block%map(:, :, e), block%symmetric, block%matrix)
+      end if
+    end do
+  end subroutine loop
+
+  !> Gather the arguments of an element, call it, and keep its trial state.
+  subroutine call_element(block, e)
+    type(block_t), intent(inout) :: block
+    integer, intent(in) :: e
+    integer :: i, k, s(n_arrays), n(n_arrays)
+    integer(i4) :: ndofel, nsvars, nprops, mcrd, nnode, njprop, mlvarx
+    s = work%start
+    n = work%length
+    ndofel = int(n(i_u), i4)
+    mlvarx = ndofel
+    nsvars = int(n(i_svars), i4)
+    nprops = int(n(i_props), i4)
+    njprop = size(block%jprops, kind=i4)
+    mcrd = size(block%coords, 1, kind=i4)
+    nnode = size(block%coords, 2, kind=i4)
+    current%element = block%labels(e)
+    if (associated(block%history)) then
+      current%history => block%history(:, :, e)
+      current%history_trial => block%history_trial(:, :, e)
+      current%history_trial = current%history
+    end if
+    associate (x => work%memory)
+      do i = 1, ndofel
+        k = block%equations(i, e)
+        x(s(i_u) + i - 1) = block%u(k)
+        x(s(i_du) + i - 1) = block%du(k)
+        x(s(i_v) + i - 1) = 0
+        x(s(i_a) + i - 1) = 0
+      end do
+      call fill(ndofel, unset_bits, x(s(i_rhs)))
+      call fill(ndofel*ndofel, unset_bits, x(s(i_amatrx)))
+      x(s(i_svars):s(i_svars) + nsvars - 1) = block%svars(:, e)
+      x(s(i_energy):s(i_energy) + 7) = block%energy(:, e)
+      x(s(i_props):s(i_props) + nprops - 1) = block%props
+      call copy(mcrd*nnode, block%coords(:, :, e), x(s(i_coords)))
+      x(s(i_predef):s(i_predef) + 2*nnode - 1) = 0
+      call invoke(block, x, s, ndofel, mlvarx, nsvars, nprops, njprop, mcrd, nnode)
+      if (block%lflags(3) == 1) then
+        block%svars_trial(:, e) = x(s(i_svars):s(i_svars) + nsvars - 1)
+        block%energy_trial(:, e) = x(s(i_energy):s(i_energy) + 7)
+        block%energy_sum = block%energy_sum + block%energy_trial(:, e)
+      end if
+    end associate
+  end subroutine call_element
+
+  !> The call itself; scalars are copies, so that a user routine that changes them changes nothing else.
+  subroutine invoke(block, x, s, ndofel, mlvarx, nsvars, nprops, njprop, mcrd, nnode)
+    type(block_t), intent(inout) :: block
+    real(dp), intent(inout) :: x(*)
+    integer, intent(in) :: s(n_arrays)
+    integer(i4), value :: ndofel, mlvarx, nsvars, nprops, njprop, mcrd, nnode
+    integer(i4) :: nrhs, jtype, kstep, kinc, jelem, ndload, jdltyp(1), npredf, lflags(5), mdload, jprops(size(block%jprops)), &
+                   materiallib
+    real(dp) :: time(2), dtime, params(3), adlmag(1), ddlmag(1), pnewdt, period
+    nrhs = 1
+    jtype = block%jtype
+    kstep = block%kstep
+    kinc = block%kinc
+    jelem = current%element
+    ndload = 0
+    mdload = 1
+    jdltyp = 0
+    adlmag = 0
+    ddlmag = 0
+    npredf = 1
+    lflags = block%lflags
+    jprops = block%jprops
+    materiallib = block%material
+    time = block%time
+    dtime = block%dtime
+    period = block%period
+    params = hht
+    pnewdt = untouched
+    if (block%with_material) then
+      call block%uelmat(x(s(i_rhs)), x(s(i_amatrx)), x(s(i_svars)), x(s(i_energy)), ndofel, nrhs, nsvars, x(s(i_props)), &
+                        nprops, x(s(i_coords)), mcrd, nnode, x(s(i_u)), x(s(i_du)), x(s(i_v)), x(s(i_a)), jtype, time, &
+                        dtime, kstep, kinc, jelem, params, ndload, jdltyp, adlmag, x(s(i_predef)), npredf, lflags, mlvarx, &
+                        ddlmag, mdload, pnewdt, jprops, njprop, period, materiallib)
+    else
+      call block%uel(x(s(i_rhs)), x(s(i_amatrx)), x(s(i_svars)), x(s(i_energy)), ndofel, nrhs, nsvars, x(s(i_props)), &
+                     nprops, x(s(i_coords)), mcrd, nnode, x(s(i_u)), x(s(i_du)), x(s(i_v)), x(s(i_a)), jtype, time, &
+                     dtime, kstep, kinc, jelem, params, ndload, jdltyp, adlmag, x(s(i_predef)), npredf, lflags, mlvarx, &
+                     ddlmag, mdload, pnewdt, jprops, njprop, period)
+    end if
+    if (block%lflags(3) == 1) block%pnewdt = min(block%pnewdt, pnewdt)
+  end subroutine invoke
+
+  !> Set the fault if an entry of an array of the running element is not a number.
+  subroutine check(block, array, n)
+    type(block_t), intent(inout) :: block
+    integer, intent(in) :: array, n
+    integer :: i, s
+    s = work%start(array)
+    if (all_finite(n, work%memory(s))) return
+    do i = 1, n
+      if (all_finite(1, work%memory(s + i - 1))) cycle
+      block%fault = merge(fault_unset, fault_not_finite, same_bits(work%memory(s + i - 1), unset_bits))
+      block%array = array
+      block%index = i
+      return
+    end do
+  end subroutine check
+
+  !> Name the element that wrote outside an array, by running the block again with a look after each element.
+  !> If the second run does no damage, the element stays unknown (position 0).
+  subroutine diagnose(block, array, index)
+    type(block_t), intent(inout), target :: block
+    integer, intent(in) :: array, index
+    block%fault = fault_outside
+    block%position = 0
+    block%array = array
+    block%index = index
+    call arm_guards(work)
+    if (protect(c_funloc(search), c_loc(block)) /= 0) call look(block)
+  end subroutine diagnose
+
+  !> Second run over the block.
+  subroutine search(context) bind(c)
+    type(c_ptr), value :: context
+    type(block_t), pointer :: block
+    integer :: e
+    call c_f_pointer(context, block)
+    do e = 1, size(block%labels)
+      call call_element(block, e)
+      call look(block)
+      if (block%position > 0) return
+    end do
+  end subroutine search
+
+  !> Blame the running element for damaged guards.
+  subroutine look(block)
+    type(block_t), intent(inout) :: block
+    integer :: array, index
+    call find_damage(work, array, index)
+    if (array == 0) return
+    block%array = array
+    block%index = index
+    block%position = findloc(block%labels, current%element, dim=1)
+  end subroutine look
+
+  subroutine copy(n, x, y)
+    integer, intent(in) :: n
+    real(dp), intent(in) :: x(n)
+    real(dp), intent(out) :: y(n)
+    y = x
+  end subroutine copy
+
+  !> Scatter RHS and add up its magnitude.
+  subroutine add_residual(n, rhs, equations, residual, flux)
+    integer, intent(in) :: n
+    real(dp), intent(in) :: rhs(n)
+    integer(i4), intent(in) :: equations(n)
+    real(dp), intent(inout) :: residual(*), flux(n)
+    integer :: i
+    do i = 1, n
+      residual(equations(i)) = residual(equations(i)) + rhs(i)
+    end do
+    flux = flux + abs(rhs)
+  end subroutine add_residual
+
+  !> Scatter AMATRX, or its symmetric part, into the values of the sparse matrix.
+  subroutine add_matrix(n, a, map, symmetric, matrix)
+    integer, intent(in) :: n
+    real(dp), intent(in) :: a(n, n)
+    integer(i4), intent(in) :: map(n, n)
+    logical, intent(in) :: symmetric
+    real(dp), intent(inout) :: matrix(*)
+    real(dp) :: mean
+    integer :: i, j
+    if (.not. symmetric) then
+      do j = 1, n
+        do i = 1, n
+          matrix(map(i, j)) = matrix(map(i, j)) + a(i, j)
+        end do
+      end do
+      return
+    end if
+    do j = 1, n
+      matrix(map(j, j)) = matrix(map(j, j)) + a(j, j)
+      do i = j + 1, n
+        mean = 0.5_dp*(a(i, j) + a(j, i))
+        matrix(map(i, j)) = matrix(map(i, j)) + mean
+        matrix(map(j, i)) = matrix(map(j, i)) + mean
+      end do
+    end do
+  end subroutine add_matrix
+end module host_driver

@@ -1,0 +1,96 @@
+! SPDX-FileCopyrightText: The uel-harness authors
+! SPDX-License-Identifier: BSD-3-Clause
+!> Texts that user routines send with STDB_ABQERR, kept until Python fetches them.
+module host_messages
+  use host_kinds, only: dp, i4
+  use host_context, only: current
+  implicit none (type, external)
+  private
+  public :: message_t, add_message, take_message, pending_messages, substitute
+
+  integer, parameter :: text_length = 2048
+
+  type :: message_t
+    integer(i4) :: level = 0      !< LOP of STDB_ABQERR: 1, -1, -2, -3
+    integer(i4) :: element = 0
+    integer(i4) :: step = 0
+    integer(i4) :: increment = 0
+    character(len=text_length) :: text = ' '
+  end type message_t
+
+  type(message_t), allocatable, save :: queue(:)
+  integer, save :: first = 1, last = 0
+
+contains
+
+  !> Append a message; the element, step and increment are those of the running call.
+  subroutine add_message(level, text)
+    integer(i4), intent(in) :: level
+    character(len=*), intent(in) :: text
+    type(message_t), allocatable :: larger(:)
+    if (.not. allocated(queue)) allocate (queue(16))
+    if (last == size(queue)) then
+      allocate (larger(2*size(queue)))
+      larger(:last) = queue
+      call move_alloc(larger, queue)
+    end if
+    last = last + 1
+    queue(last) = message_t(level, current%element, current%step, current%increment, text)
+  end subroutine add_message
+
+  !> Number of messages not yet taken.
+  integer function pending_messages()
+    pending_messages = last - first + 1
+  end function pending_messages
+
+  !> Oldest message not yet taken; level 0 when there is none.
+  subroutine take_message(message)
+    type(message_t), intent(out) :: message
+    if (first > last) return
+    message = queue(first)
+    first = first + 1
+    if (first > last) then
+      first = 1
+      last = 0
+    end if
+  end subroutine take_message
+
+  !> Text of STDB_ABQERR with %I, %R and %S replaced, in order, by the entries of intv, realv and charv.
+  function substitute(string, intv, realv, charv) result(text)
+    character(len=*), intent(in) :: string
+    integer(i4), intent(in) :: intv(*)
+    real(dp), intent(in) :: realv(*)
+    character(len=*), intent(in) :: charv(*)
+    character(len=:), allocatable :: text
+    character(len=32) :: number
+    integer :: i, integers, reals, words
+    integers = 0
+    reals = 0
+    words = 0
+    i = 1
+    text = ''
+    do while (i <= len_trim(string))
+      if (string(i:i) == '%' .and. i < len(string)) then
+        i = i + 1
+        select case (string(i:i))
+        case ('I', 'i')
+          integers = integers + 1
+          write (number, '(i0)') intv(integers)
+          text = text//trim(number)
+        case ('R', 'r')
+          reals = reals + 1
+          write (number, '(1pg14.6)') realv(reals)
+          text = text//trim(adjustl(number))
+        case ('S', 's')
+          words = words + 1
+          text = text//trim(charv(words))
+        case default
+          text = text//string(i - 1:i)
+        end select
+      else
+        text = text//string(i:i)
+      end if
+      i = i + 1
+    end do
+  end function substitute
+end module host_messages

@@ -1,0 +1,23 @@
+! SPDX-FileCopyrightText: The uel-harness authors
+! SPDX-License-Identifier: BSD-3-Clause
+!> Fortran view of protect.c.
+module host_protect
+  use, intrinsic :: iso_c_binding, only: c_funptr, c_int, c_ptr
+  implicit none (type, external)
+  private
+  public :: protect, escape
+
+  interface
+    !> Run routine(context); 1 if it was left through escape, else 0.
+    function protect(routine, context) bind(c, name='uel_host_protect') result(left)
+      import :: c_funptr, c_int, c_ptr
+      type(c_funptr), value :: routine
+      type(c_ptr), value :: context
+      integer(c_int) :: left
+    end function protect
+
+    !> Leave the running protect; does not return.
+    subroutine escape() bind(c, name='uel_host_escape')
+    end subroutine escape
+  end interface
+end module host_protect

@@ -1,0 +1,123 @@
+! SPDX-FileCopyrightText: The uel-harness authors
+! SPDX-License-Identifier: BSD-3-Clause
+!> Memory that a user element writes to: its arrays one behind the other, each between guards.
+!>
+!> A write outside an array changes a guard. The guards are looked at once per block; only if one has changed does the
+!> driver go through the block again and look after each element, so detection costs next to nothing.
+module host_workspace
+  use host_kinds, only: dp, guard_bits, i4, i8
+  implicit none (type, external)
+  private
+  public :: workspace_t, arrays, n_arrays, lay_out, arm_guards, find_damage, fill, same_bits, all_finite
+  public :: i_rhs, i_amatrx, i_svars, i_energy, i_props, i_coords, i_u, i_du, i_v, i_a, i_predef
+
+  integer, parameter :: n_arrays = 11
+  integer, parameter :: i_rhs = 1, i_amatrx = 2, i_svars = 3, i_energy = 4, i_props = 5, i_coords = 6, i_u = 7, i_du = 8, &
+                        i_v = 9, i_a = 10, i_predef = 11
+  character(len=6), parameter :: arrays(n_arrays) = [character(len=6) :: &
+    'RHS', 'AMATRX', 'SVARS', 'ENERGY', 'PROPS', 'COORDS', 'U', 'DU', 'V', 'A', 'PREDEF']
+
+  !> Entries of a guard; odd, so that the arrays do not all fall on the same lines of the cache.
+  integer, parameter :: guard = 203
+
+  type :: workspace_t
+    real(dp), allocatable :: memory(:)
+    integer :: length(n_arrays) = 0   !< entries of each array
+    integer :: start(n_arrays) = 0    !< position of the first entry of each array
+  end type workspace_t
+
+contains
+
+  !> Place the arrays; `length` entries each.
+  subroutine lay_out(work, length)
+    type(workspace_t), intent(inout) :: work
+    integer, intent(in) :: length(n_arrays)
+    integer :: k, total
+    total = guard
+    do k = 1, n_arrays
+      work%start(k) = total + 1
+      total = total + length(k) + guard
+    end do
+    work%length = length
+    if (allocated(work%memory)) then
+      if (size(work%memory) < total) deallocate (work%memory)
+    end if
+    if (.not. allocated(work%memory)) allocate (work%memory(total))
+    work%memory = 0
+    call arm_guards(work)
+  end subroutine lay_out
+
+  !> Write the guards' pattern.
+  subroutine arm_guards(work)
+    type(workspace_t), intent(inout) :: work
+    integer :: k
+    do k = 1, n_arrays
+      call fill(guard, guard_bits, work%memory(work%start(k) - guard))
+    end do
+    call fill(guard, guard_bits, work%memory(work%start(n_arrays) + work%length(n_arrays)))
+  end subroutine arm_guards
+
+  !> First array with a changed guard, and the index written, counted from the array's first entry (1);
+  !> array 0 if all is well. The half of a guard behind an array belongs to it, the other half to the next array.
+  subroutine find_damage(work, array, index)
+    type(workspace_t), intent(in) :: work
+    integer, intent(out) :: array, index
+    integer :: k, position
+    do k = 1, n_arrays
+      position = first_difference(guard/2, guard_bits, work%memory(work%start(k) + work%length(k)))
+      array = k
+      index = work%length(k) + position
+      if (position > 0) return
+      position = first_difference(guard - guard/2, guard_bits, work%memory(work%start(k) - (guard - guard/2)))
+      index = position - (guard - guard/2)
+      if (position > 0) return
+    end do
+    array = 0
+    index = 0
+  end subroutine find_damage
+
+  !> x(:) = the number with these bits.
+  subroutine fill(n, bits, x)
+    integer, intent(in) :: n
+    integer(i8), intent(in) :: bits
+    real(dp), intent(inout) :: x(n)
+    x = transfer(bits, 1.0_dp)
+  end subroutine fill
+
+  !> Index of the first entry that has other bits, 0 if none has.
+  pure integer function first_difference(n, bits, x)
+    integer, intent(in) :: n
+    integer(i8), intent(in) :: bits
+    real(dp), intent(in) :: x(n)
+    integer :: i
+    do i = 1, n
+      first_difference = i
+      if (.not. same_bits(x(i), bits)) return
+    end do
+    first_difference = 0
+  end function first_difference
+
+  !> True where x has exactly these bits (NaN compares unequal to itself).
+  elemental logical function same_bits(x, bits)
+    real(dp), intent(in) :: x
+    integer(i8), intent(in) :: bits
+    same_bits = transfer(x, 1_i8) == bits
+  end function same_bits
+
+  !> True unless an entry is NaN or infinite. 0*x is 0 for every finite x; eight sums at a time vectorise.
+  pure logical function all_finite(n, x)
+    integer, intent(in) :: n
+    real(dp), intent(in) :: x(n)
+    real(dp) :: s(8)
+    integer :: i, whole
+    s = 0
+    whole = n - mod(n, 8)
+    do i = 1, whole, 8
+      s = s + 0*x(i:i + 7)
+    end do
+    do i = whole + 1, n
+      s(1) = s(1) + 0*x(i)
+    end do
+    all_finite = sum(s) == 0
+  end function all_finite
+end module host_workspace

@@ -1,0 +1,80 @@
+! SPDX-FileCopyrightText: The uel-harness authors
+! SPDX-License-Identifier: BSD-3-Clause
+!> Ways out of a user routine, and messages: the routines of Abaqus that a user's file calls by name.
+!> None of them may be in a module, since the file refers to the plain external names.
+
+!> End the analysis; the block driver's caller gets control back.
+subroutine xit()
+  use host_protect, only: escape
+  implicit none (type, external)
+  call escape()
+end subroutine xit
+
+!> Send a message: lop 1 information, -1 warning, -2 error, -3 fatal error, which ends the analysis.
+subroutine stdb_abqerr(lop, string, intv, realv, charv)
+  use host_kinds, only: dp, i4
+  use host_messages, only: add_message, substitute
+  use host_protect, only: escape
+  implicit none (type, external)
+  integer(i4), intent(in) :: lop
+  character(len=*), intent(in) :: string
+  integer(i4), intent(in) :: intv(*)
+  real(dp), intent(in) :: realv(*)
+  character(len=*), intent(in) :: charv(*)
+  call add_message(lop, substitute(string, intv, realv, charv))
+  if (lop == -3) call escape()
+end subroutine stdb_abqerr
+
+!> Name of the job, and its length.
+subroutine getjobname(jobname, lenjobname)
+  use host_context, only: job_name
+  use host_kinds, only: i4
+  implicit none (type, external)
+  character(len=*), intent(out) :: jobname
+  integer(i4), intent(out) :: lenjobname
+  jobname = job_name
+  lenjobname = len_trim(job_name)
+end subroutine getjobname
+
+!> Folder of the output files, and its length.
+subroutine getoutdir(outdir, lenoutdir)
+  use host_context, only: output_directory
+  use host_kinds, only: i4
+  implicit none (type, external)
+  character(len=*), intent(out) :: outdir
+  integer(i4), intent(out) :: lenoutdir
+  outdir = output_directory
+  lenoutdir = len_trim(output_directory)
+end subroutine getoutdir
+
+!> Number of MPI processes: always one here.
+subroutine getnumcpus(numprocesses)
+  use host_kinds, only: i4
+  implicit none (type, external)
+  integer(i4), intent(out) :: numprocesses
+  numprocesses = 1
+end subroutine getnumcpus
+
+!> Rank of this MPI process, from 0.
+subroutine getrank(kprocessnum)
+  use host_kinds, only: i4
+  implicit none (type, external)
+  integer(i4), intent(out) :: kprocessnum
+  kprocessnum = 0
+end subroutine getrank
+
+!> Number of threads: the element loop runs on one.
+function getnumthreads() result(threads)
+  use host_kinds, only: i4
+  implicit none (type, external)
+  integer(i4) :: threads
+  threads = 1
+end function getnumthreads
+
+!> Number of the calling thread, from 0.
+function get_thread_id() result(thread)
+  use host_kinds, only: i4
+  implicit none (type, external)
+  integer(i4) :: thread
+  thread = 0
+end function get_thread_id

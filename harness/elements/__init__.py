@@ -1,0 +1,10 @@
+# SPDX-FileCopyrightText: The uel-harness authors
+# SPDX-License-Identifier: BSD-3-Clause
+"""Blocks of like elements: Python sees blocks, never single elements."""
+
+from harness.elements.block import Block
+from harness.elements.build import build_blocks
+from harness.elements.call import BlockReport, Call
+from harness.elements.fields import FIELD_NAMES, field_of
+
+__all__ = ["FIELD_NAMES", "Block", "BlockReport", "Call", "build_blocks", "field_of"]

@@ -1,0 +1,184 @@
+# SPDX-FileCopyrightText: The uel-harness authors
+# SPDX-License-Identifier: BSD-3-Clause
+"""A block of like elements bound to the Fortran driver."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Final
+
+import numpy as np
+from numpy.typing import NDArray
+
+from harness.elements.call import BlockReport, Call
+from harness.elements.fields import FIELD_NAMES, field_of
+from harness.errors import KernelError
+from harness.model.arrays import FloatArray, IntArray
+from harness.model.mesh import ElementGroup
+from harness.model.records import ElementState, PointVariables
+from harness.usersub import Library, _binding
+from harness.usersub._binding import Fault
+
+NORMAL: Final = 1
+"""LFLAGS(3) of a normal call; only its SVARS and ENERGY are kept."""
+
+_NO_MATRIX = np.zeros(1)
+
+
+@dataclass(frozen=True, slots=True)
+class Procedure:
+    """What the driver calls for a block, and with which constants.
+
+    material  number of the material in the host, 0 without one (then UEL is called, else UELMAT)
+    history   values per point and points of the material history; (1, 1) without one
+    tensor    stress components of the material: 3 plane stress, 4 plane strain, 6 three-dimensional; 0 without one
+    mcrd      coordinates per node
+    """
+
+    address: int
+    jtype: int
+    mcrd: int
+    svars: int
+    props: FloatArray
+    jprops: IntArray
+    material: int = 0
+    tensor: int = 0
+    history: tuple[int, int] = (1, 1)
+
+
+class Block:
+    """Elements of one group: their committed and trial state, and one pass over them.
+
+    unknowns     (local node, dof) of each element unknown, in the order of U and RHS
+    unsymmetric  False: (A + A^T)/2 is assembled
+    variables    meaning of the SVARS, None where unknown
+    """
+
+    def __init__(
+        self,
+        group: ElementGroup,
+        coordinates: FloatArray,
+        unknowns: tuple[tuple[int, int], ...],
+        procedure: Procedure,
+        library: Library,
+        *,
+        unsymmetric: bool,
+        variables: PointVariables | None,
+    ) -> None:
+        self.group = group
+        self.unknowns = unknowns
+        self.unsymmetric = unsymmetric
+        self.variables = variables
+        self._procedure = procedure
+        self._library = library
+        m, n = len(group.labels), len(unknowns)
+        svars = np.zeros((m, procedure.svars))
+        energy = np.zeros((m, 8))
+        history = np.zeros((m, procedure.history[1], procedure.history[0]))
+        self._arrays = _binding.BlockArrays(
+            labels=group.labels.astype(np.int32),
+            jprops=procedure.jprops.astype(np.int32),
+            equations=np.zeros((m, n), dtype=np.int32),
+            map=np.zeros((m, n, n), dtype=np.int32),
+            props=np.ascontiguousarray(procedure.props, dtype=np.float64),
+            coords=np.ascontiguousarray(coordinates[group.nodes, : procedure.mcrd]),
+            svars=svars,
+            svars_trial=svars.copy(),
+            energy=energy,
+            energy_trial=energy.copy(),
+            history=history,
+            history_trial=history.copy(),
+        )
+        fields = np.array([field_of(dof) for _, dof in unknowns])
+        # (unknowns, fields): sums entries of an element vector by field
+        self._by_field = (fields[:, None] == np.arange(len(FIELD_NAMES))).astype(np.float64)
+        self._flux_count = (m * self._by_field.sum(axis=0)).astype(np.int64)
+
+    def bind(self, equations: NDArray[np.int32], scatter: NDArray[np.int32]) -> None:
+        """Tell where the unknowns are.
+
+        equations (m, unknowns) global unknown, scatter (m, unknowns, unknowns) position in the CSR data of each entry
+        of the element matrix (row, column); both from 0.
+        """
+        self._arrays.equations = np.ascontiguousarray(equations + 1, dtype=np.int32)
+        # the driver walks AMATRX by columns
+        self._arrays.map = np.ascontiguousarray(scatter.transpose(0, 2, 1) + 1, dtype=np.int32)
+
+    def evaluate(
+        self, call: Call, u: FloatArray, du: FloatArray, residual: FloatArray, matrix: FloatArray | None
+    ) -> BlockReport:
+        """One pass: add RHS into residual and AMATRX into matrix (CSR data; None: AMATRX is not looked at).
+
+        RHS is left out where LFLAGS(3) asks for a matrix alone (2, 3, 4). SVARS on entry are always the committed
+        ones. Raises KernelError.
+        """
+        p = self._procedure
+        outcome = _binding.evaluate(
+            p.address,
+            (
+                p.material,
+                p.tensor,
+                p.jtype,
+                int(not self.unsymmetric),
+                int(matrix is not None),
+                call.step,
+                call.increment,
+            ),
+            call.lflags,
+            (call.step_time, call.total_time, call.time_increment, call.period),
+            self._arrays,
+            u,
+            du,
+            residual,
+            _NO_MATRIX if matrix is None else matrix,
+        )
+        if outcome.fault is not Fault.NONE:
+            raise self._error(outcome)
+        return BlockReport(outcome.flux @ self._by_field, self._flux_count, outcome.pnewdt, outcome.energy)
+
+    def commit(self) -> None:
+        """End of a converged increment: the state of the last normal call becomes the committed one."""
+        arrays = self._arrays
+        arrays.svars[:] = arrays.svars_trial
+        arrays.energy[:] = arrays.energy_trial
+        arrays.history[:] = arrays.history_trial
+
+    def state(self, index: int) -> ElementState:
+        """Committed state, copied; index: of the group in the model."""
+        return ElementState(index, self._arrays.svars.copy(), self._arrays.energy.copy(), self.variables)
+
+    def _error(self, outcome: _binding.Outcome) -> KernelError:
+        element = int(self.group.labels[outcome.position]) if outcome.position >= 0 else 0
+        match outcome.fault:
+            case Fault.LEFT:
+                message = self._library.stop_reason()
+            case Fault.OUTSIDE:
+                message = self._outside(outcome)
+            case Fault.UNSET:
+                message = (
+                    f"{self._entry(outcome)} was not filled, or was added to without being set first "
+                    "(RHS and AMATRX are not zero on entry)"
+                )
+            case _:
+                message = f"{self._entry(outcome)} is NaN or infinite"
+        return KernelError(element, self.group.type, message)
+
+    def _entry(self, outcome: _binding.Outcome) -> str:
+        if outcome.array != "AMATRX":
+            return f"{outcome.array}({outcome.index})"
+        column, row = divmod(outcome.index - 1, len(self.unknowns))
+        return f"AMATRX({row + 1},{column + 1})"
+
+    def _outside(self, outcome: _binding.Outcome) -> str:
+        n = len(self.unknowns)
+        sizes = {
+            "SVARS": f"{self._procedure.svars} (VARIABLES=)",
+            "ENERGY": "8",
+            "AMATRX": f"{n * n} ({n} x {n})",
+            "PROPS": f"{len(self._procedure.props)} (PROPERTIES=)",
+            "COORDS": str(self._procedure.mcrd * self.group.nodes.shape[1]),
+            "PREDEF": str(2 * self.group.nodes.shape[1]),
+        }
+        size = sizes.get(outcome.array, str(n))
+        unknown = "" if outcome.position >= 0 else "; the element is not known, because a repeated pass did not do it"
+        return f"writes outside {outcome.array}: entry {outcome.index} of {size}{unknown}"

@@ -1,0 +1,43 @@
+# SPDX-FileCopyrightText: The uel-harness authors
+# SPDX-License-Identifier: BSD-3-Clause
+"""What a pass over the elements is told, and what it returns."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from harness.model.arrays import FloatArray, IntArray
+
+
+@dataclass(frozen=True, slots=True)
+class Call:
+    """Arguments common to all elements in one pass.
+
+    lflags       LFLAGS(1..5)
+    step, increment  KSTEP, KINC
+    step_time, total_time  at the end of the increment (Abaqus' manual leaves open which end TIME holds)
+    """
+
+    lflags: tuple[int, int, int, int, int]
+    step: int
+    increment: int
+    step_time: float
+    total_time: float
+    time_increment: float
+    period: float
+
+
+@dataclass(frozen=True, slots=True)
+class BlockReport:
+    """Sums of one pass over one block.
+
+    flux        (fields,) sum of |element nodal force| by field
+    flux_count  (fields,) number of terms in it
+    pnewdt      smallest PNEWDT returned; large where none was
+    energy      (8,) sum of ENERGY
+    """
+
+    flux: FloatArray
+    flux_count: IntArray
+    pnewdt: float
+    energy: FloatArray

@@ -1,0 +1,154 @@
+# SPDX-FileCopyrightText: The uel-harness authors
+# SPDX-License-Identifier: BSD-3-Clause
+"""The only importer of the compiled host (fortran/host); everything above it is typed Python.
+
+The extension is loaded with RTLD_GLOBAL: user libraries find XIT, MATERIAL_LIB_MECH and the rest in it by name.
+"""
+
+from __future__ import annotations
+
+import os
+import sys
+from dataclasses import dataclass
+from enum import IntEnum
+from typing import Final
+
+import numpy as np
+from numpy.typing import NDArray
+
+from harness.model.arrays import FloatArray
+
+_flags = sys.getdlopenflags()
+sys.setdlopenflags(_flags | os.RTLD_GLOBAL)
+try:
+    from harness.usersub import _host
+finally:
+    sys.setdlopenflags(_flags)
+
+Int32Array = NDArray[np.int32]
+
+ARRAYS: Final = ("RHS", "AMATRX", "SVARS", "ENERGY", "PROPS", "COORDS", "U", "DU", "V", "A", "PREDEF")
+"""Guarded arrays, in the order of fortran/host/host_workspace.f90."""
+
+
+class Fault(IntEnum):
+    """What went wrong in a pass over a block (fortran/host/host_driver.f90)."""
+
+    NONE = 0
+    LEFT = 1
+    OUTSIDE = 2
+    UNSET = 3
+    NOT_FINITE = 4
+
+
+@dataclass(frozen=True, slots=True)
+class Outcome:
+    """End of a pass over a block.
+
+    position  element of the fault (from 0; -1 unknown)
+    array     name of the array of the fault
+    index     entry of the array, from 1; below 1 or beyond its length for a write outside
+    flux      (ndofel,) sum over the elements of |RHS|
+    """
+
+    fault: Fault
+    position: int
+    array: str
+    index: int
+    flux: FloatArray
+    pnewdt: float
+    energy: FloatArray
+
+
+@dataclass(slots=True)
+class BlockArrays:
+    """Arrays of a block that the driver reads and writes, C order, element first (the driver's shapes reversed)."""
+
+    labels: Int32Array
+    jprops: Int32Array
+    equations: Int32Array
+    map: Int32Array
+    props: FloatArray
+    coords: FloatArray
+    svars: FloatArray
+    svars_trial: FloatArray
+    energy: FloatArray
+    energy_trial: FloatArray
+    history: FloatArray
+    history_trial: FloatArray
+
+
+@dataclass(frozen=True, slots=True)
+class RawMessage:
+    """A text sent with STDB_ABQERR; level is its LOP."""
+
+    level: int
+    element: int
+    step: int
+    increment: int
+    text: str
+
+
+def evaluate(
+    address: int,
+    options: tuple[int, int, int, int, int, int, int],
+    lflags: tuple[int, int, int, int, int],
+    clock: tuple[float, float, float, float],
+    arrays: BlockArrays,
+    u: FloatArray,
+    du: FloatArray,
+    residual: FloatArray,
+    matrix: FloatArray,
+) -> Outcome:
+    """One pass over a block; options and clock as host_evaluate in fortran/host/entry.f90 names them."""
+    flux, sums, status = _host.host_evaluate(
+        address,
+        options,
+        lflags,
+        clock,
+        arrays.labels,
+        arrays.jprops,
+        arrays.equations.T,
+        arrays.map.T,
+        arrays.props,
+        arrays.coords.T,
+        u,
+        du,
+        arrays.svars.T,
+        arrays.svars_trial.T,
+        arrays.energy.T,
+        arrays.energy_trial.T,
+        arrays.history.T,
+        arrays.history_trial.T,
+        residual,
+        matrix,
+    )
+    fault, position, array, index, _ = (int(k) for k in status)
+    return Outcome(Fault(fault), position - 1, ARRAYS[array - 1], index, flux, float(sums[0]), sums[1:])
+
+
+def external_database(
+    address: int, lop: int, lrestart: int, time: tuple[float, float], dtime: float, step: int, increment: int
+) -> bool:
+    """Call UEXTERNALDB; False if it ended the analysis."""
+    return not _host.host_external_database(address, lop, lrestart, time, dtime, step, increment)
+
+
+def take_messages() -> list[RawMessage]:
+    """Messages of STDB_ABQERR since the last call, oldest first."""
+    found: list[RawMessage] = []
+    while True:
+        level, (element, step, increment), text = _host.host_take_message()
+        if not level:
+            return found
+        found.append(RawMessage(level, int(element), int(step), int(increment), text.decode(errors="replace").rstrip()))
+
+
+def open_job(name: str, directory: str, file6: str, file7: str) -> bool:
+    """Set the job for GETJOBNAME and GETOUTDIR and connect units 6 and 7; False if a file cannot be opened."""
+    return not _host.host_open_job(name, directory, file6, file7)
+
+
+def flush_units(*, close: bool = False) -> None:
+    """Write out what user routines printed to units 6 and 7."""
+    _host.host_flush(int(close))

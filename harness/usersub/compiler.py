@@ -1,0 +1,177 @@
+# SPDX-FileCopyrightText: The uel-harness authors
+# SPDX-License-Identifier: BSD-3-Clause
+"""Compile a user's Fortran as Abaqus does, once: results are kept by content in the user's cache folder."""
+
+from __future__ import annotations
+
+import hashlib
+import os
+import re
+import shutil
+import subprocess
+import tempfile
+from collections.abc import Iterator, Sequence
+from pathlib import Path
+from typing import Final
+
+from harness.errors import CompileError
+
+SUFFIXES: Final = (".f", ".for", ".f90")
+
+FLAGS: Final = (
+    *("-c", "-O2", "-fPIC", "-ffp-contract=off", "-w", "-fdiagnostics-color=never"),
+    *("-cpp", "-std=legacy", "-fdec", "-fno-realloc-lhs"),
+    "-frecursive",  # locals on the stack and not kept from call to call, as Abaqus' -auto has it
+)
+FIXED: Final = ("-ffixed-form", "-ffixed-line-length-132")
+FREE: Final = ("-ffree-form", "-ffree-line-length-none")
+LINK_FLAGS: Final = ("-shared", "-Wl,-Bsymbolic")
+
+HEADERS: Final = {
+    "aba_param.inc": "      implicit real*8(a-h,o-z)\n      parameter (nprecd=2)\n",
+}
+"""Files that Abaqus supplies, by lower-case name."""
+
+_INCLUDE = re.compile(r"^\s*#?\s*include\s*['\"<]([^'\">]+)['\">]", re.IGNORECASE | re.MULTILINE)
+_FREEFORM = re.compile(r"^[!cC*](?:DIR|DEC)\$\s*FREEFORM", re.IGNORECASE | re.MULTILINE)
+_LOCATION = re.compile(r"^(?P<file>.+?):(?P<line>\d+):(?P<column>\d+):")
+_ERROR = re.compile(r"(?:Fatal )?Error: ")
+
+
+def build(files: Sequence[Path], include: Sequence[Path] = ()) -> Path:
+    """Shared library of the files, compiled in their order; include: folders besides the sources' own.
+
+    Raises CompileError with the compiler's first error.
+    """
+    compiler = shutil.which("gfortran")
+    if compiler is None:
+        raise CompileError(
+            files[0],
+            "gfortran is needed to compile it and is not installed (apt install gfortran, dnf install gcc-gfortran)",
+        )
+    folders = list(dict.fromkeys([*(f.resolve().parent for f in files), *(p.resolve() for p in include)]))
+    headers, texts = _scan(files, folders)
+    key = _key(compiler, texts)
+    target = cache_folder() / f"{files[0].stem}-{key}.so"
+    if not target.exists():
+        with tempfile.TemporaryDirectory() as work:
+            _compile(compiler, files, folders, headers, Path(work), target)
+    return target
+
+
+def cache_folder() -> Path:
+    """Folder of compiled user files, private to the user."""
+    base = os.environ.get("XDG_CACHE_HOME")
+    folder = (Path(base) if base else Path.home() / ".cache") / "uel-harness"
+    try:
+        folder.mkdir(parents=True, exist_ok=True)
+        if os.access(folder, os.W_OK):
+            return folder
+    except OSError:
+        pass
+    return Path(tempfile.mkdtemp(prefix="uel-harness-"))
+
+
+def is_free_form(file: Path) -> bool:
+    """True for .f90, and for a file that an Intel directive declares to be in free form."""
+    return file.suffix.lower() == ".f90" or bool(_FREEFORM.search(_read(file)))
+
+
+def _read(file: Path) -> str:
+    return file.read_text(encoding="latin-1")
+
+
+def _key(compiler: str, texts: Sequence[str]) -> str:
+    version = subprocess.run([compiler, "-dumpfullversion"], capture_output=True, text=True, check=False).stdout
+    parts = [version, *FLAGS, *FIXED, *FREE, *LINK_FLAGS, *HEADERS.values(), *texts]
+    return hashlib.sha256("\0".join(parts).encode()).hexdigest()[:16]
+
+
+def _scan(files: Sequence[Path], folders: Sequence[Path]) -> tuple[dict[str, str | Path], list[str]]:
+    """Follow INCLUDE lines.
+
+    Returns the files to supply by the name that a line uses (Abaqus' headers; files whose name differs in case, as
+    they may where a source comes from Windows) and all texts that the result depends on.
+    """
+    supply: dict[str, str | Path] = {}
+    texts: list[str] = []
+    seen: set[Path] = set()
+    pending = list(files)
+    while pending:
+        file = pending.pop()
+        if file.resolve() in seen:
+            continue
+        seen.add(file.resolve())
+        text = _read(file)
+        texts += [file.name, text]
+        for name in _INCLUDE.findall(text):
+            found = next(_matches(name, [file.resolve().parent, *folders]), None)
+            header = HEADERS.get(name.replace("\\", "/").rpartition("/")[2].lower())
+            if found is not None:
+                pending.append(found)
+                supply[name] = found
+            elif header is not None:
+                supply[name] = header
+    return supply, texts
+
+
+def _matches(name: str, folders: Sequence[Path]) -> Iterator[Path]:
+    """Files of that name, whatever its case."""
+    for folder in folders:
+        if (folder / name).is_file():
+            yield folder / name
+    for folder in folders:
+        yield from (p for p in sorted(folder.iterdir()) if p.name.lower() == name.lower() and p.is_file())
+
+
+def _compile(
+    compiler: str,
+    files: Sequence[Path],
+    folders: Sequence[Path],
+    supply: dict[str, str | Path],
+    work: Path,
+    target: Path,
+) -> None:
+    headers = work / "include"
+    for name, content in supply.items():
+        path = headers / name
+        path.parent.mkdir(parents=True, exist_ok=True)
+        path.write_text(content if isinstance(content, str) else _read(content), encoding="latin-1")
+    search = [f"-I{folder}" for folder in (*folders, headers)]
+    objects = []
+    for number, file in enumerate(files):
+        form = FREE if is_free_form(file) else FIXED
+        output = work / f"{number}.o"
+        _run([compiler, *FLAGS, *form, *search, f"-J{work}", str(file), "-o", str(output)], file)
+        objects.append(str(output))
+    shared = work / target.name
+    _run([compiler, *LINK_FLAGS, *objects, "-o", str(shared)], files[0])
+    # another process may write the same file: a rename replaces it in one step
+    partial = target.with_suffix(f".{os.getpid()}")
+    shutil.move(shared, partial)
+    partial.replace(target)
+
+
+def _run(command: Sequence[str], file: Path) -> None:
+    environment = os.environ | {"LC_ALL": "C"}
+    result = subprocess.run(command, capture_output=True, text=True, errors="replace", env=environment, check=False)
+    if result.returncode:
+        raise CompileError(file, first_error(result.stderr))
+
+
+def first_error(output: str) -> str:
+    """The compiler's first error: sentence, place, and the source line with its column marked."""
+    place: re.Match[str] | None = None
+    context: list[str] = []
+    for line in output.splitlines():
+        found = _ERROR.match(line)
+        if found is None:
+            location = _LOCATION.match(line)
+            place, context = (location, []) if location else (place, [*context, line] if line.strip() else context)
+            continue
+        sentence = f"does not compile: {line[found.end() :]}"
+        if place is None:
+            return sentence
+        where = f"{Path(place['file']).name}, line {place['line']}, column {place['column']}"
+        return "\n".join([f"{sentence} ({where})", *context])
+    return f"does not compile or link:\n{output.strip()}"

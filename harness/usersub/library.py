@@ -1,0 +1,119 @@
+# SPDX-FileCopyrightText: The uel-harness authors
+# SPDX-License-Identifier: BSD-3-Clause
+"""A loaded library of user routines."""
+
+from __future__ import annotations
+
+import ctypes
+import shutil
+import tempfile
+from collections.abc import Sequence
+from pathlib import Path
+from typing import Final
+
+from harness.errors import CompileError, UelError
+from harness.model.records import PointVariables
+from harness.usersub import _binding
+from harness.usersub.compiler import SUFFIXES, build
+from harness.usersub.messages import Inbox, Message
+
+ENTRY_POINTS: Final = (
+    *("UEL", "UELMAT", "UEXTERNALDB", "UMAT", "UVARM", "SDVINI", "DLOAD", "DISP", "UAMP", "USDFLD", "UTRACLOAD"),
+    *("UFIELD", "URDFIL", "UMATHT", "UHARD", "UEXPAN", "CREEP", "FRIC", "UINTER", "MPC", "ORIENT", "SIGINI", "HETVAL"),
+    *("DFLUX", "FILM", "UTEMP", "UMESHMOTION", "VUEL", "VUMAT", "VDLOAD", "VUSDFLD", "VEXTERNALDB"),
+)
+"""Names by which Abaqus calls user routines; looked up in a user's file to say what it holds."""
+
+
+class Library:
+    """User routines of a job, and the job's messages from them.
+
+    uel, uelmat, uexternaldb  addresses, None where the file does not have the routine
+    name                      the file as the user named it, for messages
+    entry_points              names of all user routines found
+    """
+
+    def __init__(self, name: str, handle: ctypes.CDLL | None, inbox: Inbox) -> None:
+        self.name = name
+        self._handle = handle  # keeps the library loaded
+        self._inbox = inbox
+        addresses = {entry: _address(handle, entry) for entry in ENTRY_POINTS}
+        self.entry_points = tuple(entry for entry, address in addresses.items() if address)
+        self.uel = addresses["UEL"]
+        self.uelmat = addresses["UELMAT"]
+        self.uexternaldb = addresses["UEXTERNALDB"]
+
+    def variables(self, jtype: int) -> PointVariables | None:
+        """Meaning of the SVARS of an element type; None for a user's own file."""
+        return None
+
+    def external_database(
+        self, lop: int, lrestart: int, time: tuple[float, float], dtime: float, step: int, increment: int
+    ) -> None:
+        """Call UEXTERNALDB if there is one: LOP 0/3 start/end of analysis, 1/2 of increment, 5/6 of step."""
+        if self.uexternaldb is None:
+            return
+        if not _binding.external_database(self.uexternaldb, lop, lrestart, time, dtime, step, increment):
+            raise UelError(f"{self.name}: UEXTERNALDB (LOP={lop}) {self.stop_reason()}")
+
+    def stop_reason(self) -> str:
+        """Why a user routine ended the analysis, as the end of a sentence."""
+        text = self._inbox.last_error()
+        return f"stopped the analysis: {text}" if text else "stopped the analysis (XIT) without a message"
+
+    def messages(self) -> list[Message]:
+        """Texts of user routines since the last call: STDB_ABQERR, then what was printed to units 6 and 7."""
+        return self._inbox.take()
+
+    def close(self) -> None:
+        """End of the job: disconnect units 6 and 7."""
+        self._inbox.close()
+
+
+def load(user: Path | Sequence[Path] | None, *, job: str, output_dir: Path, deck: Path | None = None) -> Library:
+    """Load user routines: Fortran files (compiled, or taken from the cache) or a shared library.
+
+    None gives the project's own kernels. INCLUDE lines are looked up in the folders of the sources and of the deck.
+    Raises CompileError.
+    """
+    files = [] if user is None else [user] if isinstance(user, Path) else list(user)
+    shared = _shared_library(files, () if deck is None else (deck.resolve().parent,))
+    name = " ".join(str(f) for f in files)
+    handle = _open(shared, name) if shared else None
+    return Library(name, handle, Inbox(job, output_dir))
+
+
+def _shared_library(files: Sequence[Path], include: Sequence[Path]) -> Path | None:
+    if not files:
+        return None
+    for file in files:
+        if not file.is_file():
+            raise CompileError(file, "no such file")
+        if file.suffix.lower() not in (*SUFFIXES, ".so"):
+            raise CompileError(file, f"not a file of user routines: expected {', '.join(SUFFIXES)} or .so")
+    if any(file.suffix.lower() == ".so" for file in files):
+        if len(files) > 1:
+            raise CompileError(files[0], "a shared library cannot be combined with other files")
+        return files[0]
+    return build(files, include)
+
+
+def _open(shared: Path, name: str) -> ctypes.CDLL:
+    """Load a copy: data of modules and COMMON blocks then start afresh in every job of this process."""
+    with tempfile.TemporaryDirectory() as folder:
+        copy = Path(folder) / shared.name
+        shutil.copyfile(shared, copy)
+        try:
+            return ctypes.CDLL(str(copy), mode=ctypes.RTLD_LOCAL)
+        except OSError as error:
+            raise CompileError(Path(name), f"cannot be loaded: {error}") from None
+
+
+def _address(handle: ctypes.CDLL | None, entry: str) -> int | None:
+    if handle is None:
+        return None
+    try:
+        symbol = getattr(handle, entry.lower() + "_")
+    except AttributeError:
+        return None
+    return ctypes.cast(symbol, ctypes.c_void_p).value

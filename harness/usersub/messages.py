@@ -1,0 +1,78 @@
+# SPDX-FileCopyrightText: The uel-harness authors
+# SPDX-License-Identifier: BSD-3-Clause
+"""Texts from user routines: STDB_ABQERR, and what they print to units 6 (.dat) and 7 (.msg)."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from pathlib import Path
+
+from harness.errors import UelError
+from harness.usersub import _binding
+
+_KINDS = {1: "note", -1: "warning", -2: "error", -3: "error"}
+
+
+@dataclass(frozen=True, slots=True)
+class Message:
+    """One text of a user routine.
+
+    file      '.msg' or '.dat': where Abaqus puts it
+    kind      'note', 'warning', 'error' (STDB_ABQERR) or 'print' (written to unit 6 or 7)
+    element, step, increment  of the call that sent it; 0 where not known
+    """
+
+    file: str
+    kind: str
+    text: str
+    element: int = 0
+    step: int = 0
+    increment: int = 0
+
+
+class Inbox:
+    """Collects the messages of a job. Units 6 and 7 are JOB.unit6 and JOB.unit7, removed once all is taken over."""
+
+    def __init__(self, job: str, directory: Path) -> None:
+        directory.mkdir(parents=True, exist_ok=True)
+        self._files = {".dat": directory / f"{job}.unit6", ".msg": directory / f"{job}.unit7"}
+        self._read = dict.fromkeys(self._files, 0)
+        self._sent: list[Message] = []
+        folder = str(directory.resolve())
+        if not _binding.open_job(job, folder, *(str(f.resolve()) for f in self._files.values())):
+            raise UelError(f"cannot write {self._files['.dat']} and {self._files['.msg']}")
+
+    def take(self) -> list[Message]:
+        """All messages since the last call."""
+        self._collect()
+        found, self._sent = self._sent, []
+        return found + self._printed()
+
+    def last_error(self) -> str:
+        """Text of the latest error or fatal error not yet taken; '' if there is none."""
+        self._collect()
+        return next((m.text for m in reversed(self._sent) if m.kind == "error"), "")
+
+    def close(self) -> None:
+        """Disconnect the units; remove their files unless they hold text that nobody took."""
+        _binding.flush_units(close=True)
+        for file, path in self._files.items():
+            if path.exists() and path.stat().st_size <= self._read[file]:
+                path.unlink()
+
+    def _collect(self) -> None:
+        for raw in _binding.take_messages():
+            kind = _KINDS.get(raw.level, "note")
+            self._sent.append(Message(".msg", kind, raw.text, raw.element, raw.step, raw.increment))
+
+    def _printed(self) -> list[Message]:
+        _binding.flush_units()
+        found = []
+        for file, path in self._files.items():
+            with path.open("rb") as stream:
+                stream.seek(self._read[file])
+                text = stream.read()
+            if text:
+                self._read[file] += len(text)
+                found.append(Message(file, "print", text.decode(errors="replace")))
+        return found

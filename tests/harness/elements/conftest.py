@@ -1,0 +1,76 @@
+# SPDX-FileCopyrightText: The uel-harness authors
+# SPDX-License-Identifier: BSD-3-Clause
+"""Blocks for tests without a deck and without the assembly."""
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+import scipy.sparse as sp
+
+from harness import usersub
+from harness.elements import Call, build_blocks
+from harness.errors import Source
+from harness.model.mesh import ElementGroup, Mesh
+from harness.model.model import Model
+from harness.model.properties import UserElement, UserProperty
+
+HERE = Path(__file__).parent
+SOURCE = Source("test.inp", 7)
+
+
+@pytest.fixture
+def call():
+    return Call((1, 0, 1, 0, 0), step=1, increment=1, step_time=1.0, total_time=1.0, time_increment=1.0, period=1.0)
+
+
+@pytest.fixture
+def load(tmp_path):
+    """Load a file of this folder, or a text as a file, as the job's user routines."""
+
+    def load(source):
+        file = HERE / source
+        if "\n" in source:
+            file = tmp_path / "user.f"
+            file.write_text(source)
+        return usersub.load(file, job="job", output_dir=tmp_path / "out")
+
+    return load
+
+
+@pytest.fixture
+def user_group():
+    """Group of user elements U1, numbered from 101."""
+
+    def user_group(nodes, dofs, *, properties=(), integers=(), **definition):
+        element = UserElement(
+            1, nodes.shape[1], dofs, SOURCE, properties=len(properties), integer_properties=len(integers), **definition
+        )
+        section = UserProperty("ALL", SOURCE, np.array(properties, dtype=float), np.array(integers, dtype=np.int64))
+        return ElementGroup("U1", 101 + np.arange(len(nodes)), nodes, "", section, element, SOURCE)
+
+    return user_group
+
+
+@pytest.fixture
+def bound():
+    """Block of one group, bound to node-major unknowns, and a zero CSR matrix with its pattern."""
+
+    def bound(group, coordinates, library):
+        labels = np.arange(1, len(coordinates) + 1)
+        mesh = Mesh(labels, coordinates, ("",) * len(labels))
+        (block,) = build_blocks(Model(Path("test.inp"), "", mesh, (group,), ()), library)
+        local, dof = np.array(block.unknowns).T
+        per_node = dof.max()
+        equations = (group.nodes[:, local] * per_node + dof - 1).astype(np.int32)
+        rows, columns = np.broadcast_arrays(equations[:, :, None], equations[:, None, :])
+        shape = (per_node * len(coordinates),) * 2
+        matrix = sp.csr_array((np.ones(rows.size), (rows.ravel(), columns.ravel())), shape=shape)
+        matrix.sum_duplicates()
+        matrix.data[:] = np.arange(matrix.nnz)
+        scatter = matrix[rows.ravel(), columns.ravel()].reshape(rows.shape).astype(np.int32)
+        matrix.data[:] = 0
+        block.bind(equations, scatter)
+        return block, matrix
+
+    return bound
