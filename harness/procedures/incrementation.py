@@ -1,0 +1,144 @@
+# SPDX-FileCopyrightText: The uel-harness authors
+# SPDX-License-Identifier: BSD-3-Clause
+"""Size of the next increment, and when an attempt at one is given up.
+
+Abaqus Analysis User's Guide, "Commonly used control parameters" and "Convergence criteria for nonlinear problems".
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+from harness.model.steps import Static, TimeControls
+
+DIVERGING = "THE SOLUTION APPEARS TO BE DIVERGING. CONVERGENCE IS JUDGED UNLIKELY."
+TOO_SLOW = "THE RATE OF CONVERGENCE IS VERY SLOW. CONVERGENCE IS JUDGED UNLIKELY."
+TOO_MANY_ITERATIONS = "THE SOLUTION FAILS TO CONVERGE IN THE MAXIMUM NUMBER OF EQUILIBRIUM ITERATIONS ALLOWED."
+
+BELOW_MINIMUM = "TIME INCREMENT REQUIRED IS LESS THAN THE MINIMUM SPECIFIED"
+TOO_MANY_ATTEMPTS = "TOO MANY ATTEMPTS MADE FOR THIS INCREMENT"
+FIXED_TOO_LARGE = "FIXED TIME INCREMENT IS TOO LARGE"
+TOO_MANY_INCREMENTS = "TOO MANY INCREMENTS NEEDED TO COMPLETE THE STEP"
+
+UNTOUCHED = 1e10
+"""PNEWDT from here on is the large value that a user element leaves alone."""
+
+_END = 1e-6
+"""A remainder of the step below this fraction of the increment is joined to it: sums of increments round."""
+
+
+@dataclass(frozen=True, slots=True)
+class Abandoned:
+    """An attempt is given up: the next one takes `factor` times the increment; `reason` as Abaqus words it."""
+
+    factor: float
+    reason: str
+
+
+def judge_rate(
+    iteration: int, residuals: Sequence[float], tolerance: float, controls: TimeControls
+) -> Abandoned | None:
+    """Give up on a field whose residual is still too large?
+
+    Parameters
+    ----------
+    iteration
+        i, from 1.
+    residuals
+        Largest residual of each iteration so far, r_1 to r_i.
+    tolerance
+        R_n q~.
+
+    Returns
+    -------
+    Abandoned | None
+        From iteration I_0: the residuals of two iterations in a row above that of the one before. From I_R: more than
+        I_C iterations needed if the residual goes on falling by the factor of the last iteration.
+    """
+    if iteration >= controls.i_0 and len(residuals) > 2 and min(residuals[-2:]) > residuals[-3]:
+        return Abandoned(controls.d_f, DIVERGING)
+    if iteration >= controls.i_r and len(residuals) > 1:
+        needed = math.inf
+        if residuals[-1] < residuals[-2] and tolerance > 0.0:
+            needed = iteration + math.log(tolerance / residuals[-1]) / math.log(residuals[-1] / residuals[-2])
+        if needed > controls.i_c:
+            return Abandoned(controls.d_c, TOO_SLOW)
+    return None
+
+
+def out_of_iterations(iteration: int, controls: TimeControls) -> Abandoned | None:
+    """Give up after iteration I_C."""
+    return Abandoned(controls.d_c, TOO_MANY_ITERATIONS) if iteration >= controls.i_c else None
+
+
+def refused(pnewdt: float) -> Abandoned | None:
+    """Give up where a user element asks for a smaller increment: PNEWDT < 1."""
+    if pnewdt >= 1.0:
+        return None
+    return Abandoned(pnewdt, f"A USER ELEMENT REQUESTS A SMALLER TIME INCREMENT, PNEWDT = {pnewdt:.4g}")
+
+
+class IncrementControl:
+    """Increment sizes of one step, automatic or direct.
+
+    The sequence of a step is: `attempt`, then either `abandon` and `attempt` again, or `converged`.
+    """
+
+    def __init__(self, procedure: Static, controls: TimeControls) -> None:
+        self._procedure = procedure
+        self._controls = controls
+        self._size = procedure.initial if procedure.direct else min(procedure.initial, procedure.maximum)
+        self._easy = 0
+        self.attempts = 0
+
+    def attempt(self, step_time: float) -> float:
+        """Size of the next attempt from `step_time`; the last increment ends with the period."""
+        self.attempts += 1
+        left = self._procedure.period - step_time
+        if left <= self._size * (1.0 + _END):
+            self._size = left
+        return self._size
+
+    def abandon(self, abandoned: Abandoned) -> tuple[float, str]:
+        """Size of the next attempt after one is given up; (0, error) where the job ends.
+
+        I_A cutbacks are allowed, thus I_A + 1 attempts.
+        """
+        if self._procedure.direct:
+            return 0.0, FIXED_TOO_LARGE
+        if self.attempts > self._controls.i_a:
+            return 0.0, TOO_MANY_ATTEMPTS
+        self._size *= abandoned.factor
+        if self._size < self._procedure.minimum:
+            return 0.0, BELOW_MINIMUM
+        return self._size, ""
+
+    def converged(self, iterations: int, pnewdt: float) -> None:
+        """Choose the size of the next increment.
+
+        Parameters
+        ----------
+        iterations
+            Equilibrium iterations of the attempt that converged.
+        pnewdt
+            Smallest PNEWDT of its last iteration: above 1, and not left alone by all, it is the user elements' own
+            ratio of the next increment to this one.
+        """
+        # a cutback does not start the count anew: Abaqus grows right after one if the attempts that converged were easy
+        self._easy = self._easy + 1 if iterations <= self._controls.i_g else 0
+        self.attempts = 0
+        if self._procedure.direct:
+            return
+        if iterations > self._controls.i_l:
+            self._size *= self._controls.d_b
+        elif 1.0 < pnewdt < UNTOUCHED:
+            self._size *= pnewdt
+        elif self._easy >= 2:
+            self._size *= self._controls.d_d
+        self._size = min(max(self._size, self._procedure.minimum), self._procedure.maximum)
+
+    def finished(self, step_time: float) -> bool:
+        """Whether the period is reached."""
+        return step_time >= self._procedure.period * (1.0 - 1e-12)
