@@ -124,3 +124,35 @@ subroutine host_external_database(address, lop, lrestart, time, dtime, kstep, ki
   integer(i4), intent(out) :: left
   call call_external_database(address, lop, lrestart, time, dtime, kstep, kinc, left)
 end subroutine host_external_database
+
+!> Make a material known; returns the number that stands for it.
+subroutine host_define_material(stiffness, compliance, thickness, constants, yield, number, ntens, rows)
+  use host_kinds, only: dp, i4
+  use host_materials, only: define, material_t
+  implicit none (type, external)
+  integer(i4), intent(in) :: ntens, rows
+  real(dp), intent(in) :: stiffness(ntens, ntens), compliance(ntens, ntens)
+  real(dp), intent(in) :: thickness(3)        !< plane stress: elastic strain 33 per stress
+  real(dp), intent(in) :: constants(2)        !< Young's modulus and Poisson's ratio of a plastic material
+  real(dp), intent(in) :: yield(2, rows)      !< yield stress and plastic strain; one row of zeros: elastic
+  integer(i4), intent(out) :: number
+  type(material_t) :: material
+  material%ntens = ntens
+  material%stiffness = stiffness
+  material%compliance = compliance
+  material%thickness = thickness
+  material%young = constants(1)
+  material%poisson = constants(2)
+  if (yield(1, 1) > 0) material%yield = transpose(yield)
+  number = define(material)
+end subroutine host_define_material
+
+!> Address of the built-in plane continuum elements.
+subroutine host_solid_address(address)
+  use, intrinsic :: iso_c_binding, only: c_funloc, c_intptr_t
+  use host_kinds, only: i8
+  use host_solid, only: solid_uelmat
+  implicit none (type, external)
+  integer(i8), intent(out) :: address
+  address = int(transfer(c_funloc(solid_uelmat), 1_c_intptr_t), i8)
+end subroutine host_solid_address

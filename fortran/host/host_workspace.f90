@@ -19,6 +19,7 @@ module host_workspace
 
   !> Entries of a guard; odd, so that the arrays do not all fall on the same lines of the cache.
   integer, parameter :: guard = 203
+  integer, parameter :: behind = 101, before = guard - behind
 
   type :: workspace_t
     real(dp), allocatable :: memory(:)
@@ -64,12 +65,12 @@ contains
     integer, intent(out) :: array, index
     integer :: k, position
     do k = 1, n_arrays
-      position = first_difference(guard/2, guard_bits, work%memory(work%start(k) + work%length(k)))
+      position = first_difference(behind, guard_bits, work%memory(work%start(k) + work%length(k)))
       array = k
       index = work%length(k) + position
       if (position > 0) return
-      position = first_difference(guard - guard/2, guard_bits, work%memory(work%start(k) - (guard - guard/2)))
-      index = position - (guard - guard/2)
+      position = first_difference(before, guard_bits, work%memory(work%start(k) - before))
+      index = position - before
       if (position > 0) return
     end do
     array = 0
@@ -118,6 +119,6 @@ contains
     do i = whole + 1, n
       s(1) = s(1) + 0*x(i)
     end do
-    all_finite = sum(s) == 0
+    all_finite = abs(sum(s)) <= 0   ! false for NaN
   end function all_finite
 end module host_workspace

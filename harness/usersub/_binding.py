@@ -134,6 +134,22 @@ def external_database(
     return not _host.host_external_database(address, lop, lrestart, time, dtime, step, increment)
 
 
+def define_material(
+    stiffness: FloatArray,
+    compliance: FloatArray,
+    thickness: FloatArray,
+    constants: tuple[float, float],
+    table: FloatArray,
+) -> int:
+    """Add a material to the host's library; arguments as host_define_material in fortran/host/entry.f90 names them."""
+    return int(_host.host_define_material(stiffness.T, compliance.T, thickness, constants, table.T))
+
+
+def solid_address() -> int:
+    """Address of the built-in plane continuum elements, called like UELMAT."""
+    return int(_host.host_solid_address())
+
+
 def take_messages() -> list[RawMessage]:
     """Messages of STDB_ABQERR since the last call, oldest first."""
     found: list[RawMessage] = []

@@ -13,7 +13,7 @@ from harness.elements import Call, build_blocks
 from harness.errors import Source
 from harness.model.mesh import ElementGroup, Mesh
 from harness.model.model import Model
-from harness.model.properties import UserElement, UserProperty
+from harness.model.properties import Elastic, ElasticType, Material, SolidSection, UserElement, UserProperty
 
 HERE = Path(__file__).parent
 SOURCE = Source("test.inp", 7)
@@ -26,13 +26,16 @@ def call():
 
 @pytest.fixture
 def load(tmp_path):
-    """Load a file of this folder, or a text as a file, as the job's user routines."""
+    """Load a file of this folder, a text as a file, or None, as the job's user routines."""
 
     def load(source):
-        file = HERE / source
-        if "\n" in source:
+        if source is None:
+            file = None
+        elif "\n" in source:
             file = tmp_path / "user.f"
             file.write_text(source)
+        else:
+            file = HERE / source
         return usersub.load(file, job="job", output_dir=tmp_path / "out")
 
     return load
@@ -50,6 +53,19 @@ def user_group():
         return ElementGroup("U1", 101 + np.arange(len(nodes)), nodes, "", section, element, SOURCE)
 
     return user_group
+
+
+@pytest.fixture
+def solid_group():
+    """Group of built-in elements, numbered from 101; isotropic, E 1000, nu 0.3 unless given."""
+
+    def solid_group(element_type, nodes, thickness, *, elastic=None, plastic=None, orientation=None):
+        elastic = elastic or Elastic(ElasticType.ISOTROPIC, (1000.0, 0.3), SOURCE)
+        material = Material("M", SOURCE, elastic, plastic)
+        section = SolidSection("ALL", material, orientation, thickness, SOURCE)
+        return ElementGroup(element_type, 101 + np.arange(len(nodes)), nodes, "", section, None, SOURCE)
+
+    return solid_group
 
 
 @pytest.fixture

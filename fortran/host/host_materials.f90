@@ -1,0 +1,96 @@
+! SPDX-FileCopyrightText: The uel-harness authors
+! SPDX-License-Identifier: BSD-3-Clause
+!> The material library behind MATERIAL_LIB_MECH and the built-in elements: linear elasticity and Mises plasticity.
+!>
+!> Stress components: plane stress (11, 22, 12), plane strain (11, 22, 33, 12), three-dimensional
+!> (11, 22, 33, 12, 13, 23); shear strains are engineering strains.
+module host_materials
+  use host_context, only: current
+  use host_kinds, only: dp, i4
+  use host_mises, only: mises_plane_stress, mises_solid
+  implicit none (type, external)
+  private
+  public :: material_t, define, find_material, stress_update, elastic_energy, thickness_strain, history_values
+
+  !> Values of the history of a point of a plastic material: plastic strain (6), equivalent plastic strain.
+  integer, parameter :: history_values = 7
+
+  type :: material_t
+    integer :: ntens = 0                           !< 3, 4 or 6
+    real(dp), allocatable :: stiffness(:, :)       !< (ntens, ntens), global axes
+    real(dp), allocatable :: compliance(:, :)      !< its inverse
+    real(dp) :: thickness(3) = 0                   !< plane stress: elastic strain 33 = thickness . stress
+    real(dp), allocatable :: yield(:, :)           !< (k, 2) yield stress, plastic strain; absent: elastic
+    real(dp) :: young = 0, poisson = 0             !< of a plastic material, which is isotropic
+  end type material_t
+
+  type(material_t), allocatable, save, target :: library(:)
+
+contains
+
+  !> Add a material; returns its number, which is what MATERIALLIB holds.
+  function define(material) result(number)
+    type(material_t), intent(in) :: material
+    integer(i4) :: number
+    if (.not. allocated(library)) allocate (library(0))
+    library = [library, material]
+    number = size(library, kind=i4)
+  end function define
+
+  !> The material of that number, null if there is none.
+  function find_material(number) result(material)
+    integer(i4), intent(in) :: number
+    type(material_t), pointer :: material
+    material => null()
+    if (.not. allocated(library)) return
+    if (number >= 1 .and. number <= size(library)) material => library(number)
+  end function find_material
+
+  !> Stress and tangent at the end of the increment; the history of the point goes from committed to trial.
+  !> valid is false if the point has no place in the history.
+  subroutine stress_update(material, point, strain, stress, tangent, valid)
+    type(material_t), intent(in) :: material
+    integer(i4), intent(in) :: point                                        !< from 1
+    real(dp), intent(in) :: strain(material%ntens)                          !< total, at the end of the increment
+    real(dp), intent(out) :: stress(material%ntens)
+    real(dp), intent(out) :: tangent(material%ntens, material%ntens)
+    logical, intent(out) :: valid
+    integer :: i, n
+    valid = .true.
+    n = material%ntens
+    if (.not. allocated(material%yield)) then
+      tangent = material%stiffness
+      stress = material%stiffness(:, 1)*strain(1)
+      do i = 2, n
+        stress = stress + material%stiffness(:, i)*strain(i)
+      end do
+      return
+    end if
+    valid = associated(current%history)
+    if (valid) valid = point >= 1 .and. point <= size(current%history, 2)
+    if (.not. valid) return
+    associate (old => current%history(:, point), new => current%history_trial(:, point))
+      if (n == 3) then
+        call mises_plane_stress(material%young, material%poisson, material%yield, old, strain, stress, tangent, new)
+      else
+        call mises_solid(material%young, material%poisson, material%yield, n, old, strain, stress, tangent, new)
+      end if
+    end associate
+  end subroutine stress_update
+
+  !> Elastic strain energy per volume.
+  pure real(dp) function elastic_energy(material, stress)
+    type(material_t), intent(in) :: material
+    real(dp), intent(in) :: stress(material%ntens)
+    elastic_energy = 0.5_dp*dot_product(stress, matmul(material%compliance, stress))
+  end function elastic_energy
+
+  !> Strain 33 in plane stress, after stress_update of the point.
+  real(dp) function thickness_strain(material, point, stress)
+    type(material_t), intent(in) :: material
+    integer(i4), intent(in) :: point
+    real(dp), intent(in) :: stress(3)
+    thickness_strain = dot_product(material%thickness, stress)
+    if (allocated(material%yield)) thickness_strain = thickness_strain + current%history_trial(3, point)
+  end function thickness_strain
+end module host_materials

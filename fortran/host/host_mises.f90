@@ -1,0 +1,189 @@
+! SPDX-FileCopyrightText: The uel-harness authors
+! SPDX-License-Identifier: BSD-3-Clause
+!> Isotropic Mises plasticity with tabulated hardening, small strains, backward Euler.
+!>
+!> J.C. Simo, T.J.R. Hughes, Computational Inelasticity, Springer 1998: boxes 3.1, 3.2 (solid) and 3.3 (plane stress).
+!> History of a point: plastic strain 11, 22, 33, 12, 13, 23 (engineering shear), equivalent plastic strain.
+module host_mises
+  use host_kinds, only: dp
+  implicit none (type, external)
+  private
+  public :: mises_solid, mises_plane_stress, yield_stress
+
+contains
+
+  !> Yield stress and its slope at an equivalent plastic strain; constant beyond the table.
+  pure subroutine yield_stress(table, plastic, stress, slope)
+    real(dp), intent(in) :: table(:, :)     !< (k, 2) yield stress, plastic strain, ascending
+    real(dp), intent(in) :: plastic
+    real(dp), intent(out) :: stress, slope
+    integer :: i, k
+    k = size(table, 1)
+    stress = table(k, 1)
+    slope = 0
+    do i = 1, k - 1
+      if (plastic >= table(i + 1, 2)) cycle
+      slope = (table(i + 1, 1) - table(i, 1))/(table(i + 1, 2) - table(i, 2))
+      stress = table(i, 1) + slope*(plastic - table(i, 2))
+      return
+    end do
+  end subroutine yield_stress
+
+  !> Plane strain (n = 4) and three dimensions (n = 6).
+  pure subroutine mises_solid(young, poisson, table, n, old, strain, stress, tangent, new)
+    real(dp), intent(in) :: young, poisson, table(:, :), old(7)
+    integer, intent(in) :: n
+    real(dp), intent(in) :: strain(n)
+    real(dp), intent(out) :: stress(n), tangent(n, n), new(7)
+    real(dp) :: shear, bulk, mean, q, flow, slope, multiplier, theta, theta_bar, elastic(n), normal(n)
+    integer :: i, j
+    shear = young/(2*(1 + poisson))
+    bulk = young/(3*(1 - 2*poisson))
+    new = old
+    elastic = strain - old(1:n)
+    mean = sum(elastic(1:3))/3
+    ! trial deviator
+    stress(1:3) = 2*shear*(elastic(1:3) - mean)
+    stress(4:n) = shear*elastic(4:n)
+    q = sqrt(1.5_dp*(sum(stress(1:3)**2) + 2*sum(stress(4:n)**2)))
+    call yield_stress(table, old(7), flow, slope)
+    theta = 1
+    theta_bar = 0
+    normal = 0
+    if (q > flow) then
+      call radial_return(table, old(7), q, 3*shear, multiplier, slope)
+      normal = stress/(q*sqrt(2.0_dp/3.0_dp))      ! of unit length
+      theta = 1 - 3*shear*multiplier/q
+      theta_bar = 1/(1 + slope/(3*shear)) - (1 - theta)
+      stress = theta*stress
+      new(1:3) = old(1:3) + sqrt(1.5_dp)*multiplier*normal(1:3)
+      new(4:n) = old(4:n) + 2*sqrt(1.5_dp)*multiplier*normal(4:n)
+      new(7) = old(7) + multiplier
+    end if
+    stress(1:3) = stress(1:3) + 3*bulk*mean
+    do j = 1, n
+      do i = 1, n
+        tangent(i, j) = -2*shear*theta_bar*normal(i)*normal(j)
+        if (i == j) tangent(i, j) = tangent(i, j) + merge(2*shear*theta, shear*theta, i <= 3)
+        if (i <= 3 .and. j <= 3) tangent(i, j) = tangent(i, j) + bulk - 2*shear*theta/3
+      end do
+    end do
+  end subroutine mises_solid
+
+  !> Increment x of equivalent plastic strain: q - stiffness x - yield(plastic + x) = 0, exact on each line of the table.
+  pure subroutine radial_return(table, plastic, q, stiffness, x, slope)
+    real(dp), intent(in) :: table(:, :), plastic, q, stiffness
+    real(dp), intent(out) :: x, slope
+    real(dp) :: at_zero
+    integer :: i, k
+    k = size(table, 1)
+    do i = 1, k - 1
+      if (q - stiffness*(table(i + 1, 2) - plastic) > table(i + 1, 1) .or. table(i + 1, 2) <= plastic) cycle
+      slope = (table(i + 1, 1) - table(i, 1))/(table(i + 1, 2) - table(i, 2))
+      at_zero = table(i, 1) + slope*(plastic - table(i, 2))
+      x = (q - at_zero)/(stiffness + slope)
+      return
+    end do
+    slope = 0
+    x = (q - table(k, 1))/stiffness
+  end subroutine radial_return
+
+  !> Plane stress: the return stays in the plane.
+  pure subroutine mises_plane_stress(young, poisson, table, old, strain, stress, tangent, new)
+    real(dp), intent(in) :: young, poisson, table(:, :), old(7), strain(3)
+    real(dp), intent(out) :: stress(3), tangent(3, 3), new(7)
+    real(dp) :: shear, flow, slope, multiplier, trial(3), q, algorithmic(3, 3), direction(3), flow_vector(3), beta
+    shear = young/(2*(1 + poisson))
+    new = old
+    algorithmic = plane_modulus(young, poisson, shear, 0.0_dp)
+    trial = matmul(algorithmic, strain - old([1, 2, 4]))
+    stress = trial
+    tangent = algorithmic
+    q = sqrt(1.5_dp*dot_product(trial, projected(trial)))
+    call yield_stress(table, old(7), flow, slope)
+    if (q <= flow) return
+    call plane_return(young, poisson, shear, table, old(7), trial, multiplier, q, slope)
+    algorithmic = plane_modulus(young, poisson, shear, multiplier)
+    stress = matmul(algorithmic, strain - old([1, 2, 4]))
+    flow_vector = projected(stress)
+    direction = matmul(algorithmic, flow_vector)
+    ! Simo and Hughes, box 3.3, without kinematic hardening
+    beta = 2*slope*dot_product(stress, flow_vector)/(3 - 2*slope*multiplier)
+    tangent = algorithmic - outer(direction)/(dot_product(flow_vector, direction) + beta)
+    new([1, 2, 4]) = old([1, 2, 4]) + multiplier*flow_vector
+    new(3) = old(3) - multiplier*(flow_vector(1) + flow_vector(2))
+    new(7) = old(7) + 2*multiplier*q/3
+  end subroutine mises_plane_stress
+
+  !> Multiplier of the return: q(multiplier) = yield(plastic + 2/3 multiplier q), by Newton's method within a bracket.
+  pure subroutine plane_return(young, poisson, shear, table, plastic, trial, multiplier, q, slope)
+    real(dp), intent(in) :: young, poisson, shear, table(:, :), plastic, trial(3)
+    real(dp), intent(out) :: multiplier, q, slope
+    real(dp) :: low, high, excess, rate, derivative, flow
+    integer :: i
+    low = 0
+    high = 1/shear
+    do i = 1, 200
+      call returned(young, poisson, shear, table, plastic, trial, high, q, rate, flow, slope)
+      if (q < flow) exit
+      high = 2*high
+    end do
+    multiplier = 0
+    do i = 1, 200
+      call returned(young, poisson, shear, table, plastic, trial, multiplier, q, rate, flow, slope)
+      excess = q - flow
+      if (abs(excess) <= 1e-14_dp*flow) return
+      if (excess > 0) then
+        low = multiplier
+      else
+        high = multiplier
+      end if
+      derivative = rate - slope*2*(q + multiplier*rate)/3
+      multiplier = multiplier - excess/derivative
+      if (multiplier <= low .or. multiplier >= high) multiplier = (low + high)/2
+      if (high - low <= spacing(high)) return
+    end do
+  end subroutine plane_return
+
+  !> Mises stress q after a return by this multiplier, its derivative, and the yield stress with its slope.
+  pure subroutine returned(young, poisson, shear, table, plastic, trial, multiplier, q, rate, flow, slope)
+    real(dp), intent(in) :: young, poisson, shear, table(:, :), plastic, trial(3), multiplier
+    real(dp), intent(out) :: q, rate, flow, slope
+    real(dp) :: a, b, da, db
+    da = young/(3*(1 - poisson))
+    db = 2*shear
+    a = (trial(1) + trial(2))**2/4/(1 + da*multiplier)**2
+    b = (0.75_dp*(trial(2) - trial(1))**2 + 3*trial(3)**2)/(1 + db*multiplier)**2
+    q = sqrt(a + b)
+    rate = -(a*da/(1 + da*multiplier) + b*db/(1 + db*multiplier))/q
+    call yield_stress(table, plastic + 2*multiplier*q/3, flow, slope)
+  end subroutine returned
+
+  !> (C^-1 + multiplier P)^-1 of plane stress elasticity.
+  pure function plane_modulus(young, poisson, shear, multiplier) result(modulus)
+    real(dp), intent(in) :: young, poisson, shear, multiplier
+    real(dp) :: modulus(3, 3), sum_part, difference
+    ! both matrices have the eigenvectors (1, 1, 0), (1, -1, 0) and (0, 0, 1)
+    sum_part = 1/((1 - poisson)/young + multiplier/3)
+    difference = 1/(1/(2*shear) + multiplier)
+    modulus = 0
+    modulus(1, 1) = (sum_part + difference)/2
+    modulus(2, 2) = modulus(1, 1)
+    modulus(1, 2) = (sum_part - difference)/2
+    modulus(2, 1) = modulus(1, 2)
+    modulus(3, 3) = 1/(1/shear + 2*multiplier)
+  end function plane_modulus
+
+  !> P s, the deviator of a plane stress as a strain (engineering shear).
+  pure function projected(s) result(p)
+    real(dp), intent(in) :: s(3)
+    real(dp) :: p(3)
+    p = [(2*s(1) - s(2))/3, (2*s(2) - s(1))/3, 2*s(3)]
+  end function projected
+
+  pure function outer(x) result(matrix)
+    real(dp), intent(in) :: x(3)
+    real(dp) :: matrix(3, 3)
+    matrix = spread(x, 2, 3)*spread(x, 1, 3)
+  end function outer
+end module host_mises

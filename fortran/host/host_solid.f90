@@ -1,0 +1,153 @@
+! SPDX-FileCopyrightText: The uel-harness authors
+! SPDX-License-Identifier: BSD-3-Clause
+!> Built-in plane continuum elements CPS3, CPE3, CPS4 and CPE4, as a procedure with the arguments of UELMAT.
+!>
+!> Full integration: 1 point in triangles, 2 x 2 Gauss points in quadrilaterals. CPE4 replaces the volume strain of the
+!> points by its mean over the element, as Abaqus does (Theory Guide, Solid isoparametric quadrilaterals and hexahedra:
+!> selectively reduced integration), with half of the difference on each direction in the plane.
+!> PROPS(1) is the thickness. SVARS hold, for each point, E11 E22 E33 E12 S11 S22 S33 S12.
+module host_solid
+  use host_kinds, only: dp, i4
+  use host_materials, only: elastic_energy, find_material, material_t, stress_update, thickness_strain
+  use host_messages, only: add_message
+  use host_protect, only: escape
+  implicit none (type, external)
+  private
+  public :: solid_uelmat
+
+  integer, parameter :: per_point = 8
+
+contains
+
+  subroutine solid_uelmat(rhs, amatrx, svars, energy, ndofel, nrhs, nsvars, props, nprops, coords, mcrd, nnode, u, du, &
+                          v, a, jtype, time, dtime, kstep, kinc, jelem, params, ndload, jdltyp, adlmag, predef, npredf, &
+                          lflags, mlvarx, ddlmag, mdload, pnewdt, jprops, njprop, period, materiallib)
+    integer(i4) :: ndofel, nrhs, nsvars, nprops, mcrd, nnode, jtype, kstep, kinc, jelem, ndload, jdltyp(*), npredf, &
+                   lflags(*), mlvarx, mdload, jprops(*), njprop, materiallib
+    real(dp) :: rhs(*), amatrx(*), svars(*), energy(*), props(*), coords(*), u(*), du(*), v(*), a(*), time(*), dtime, &
+                params(*), adlmag(*), predef(*), ddlmag(*), pnewdt, period
+    integer, parameter :: stiffness_wanted(3) = [1, 2, 5]
+    rhs(1:ndofel) = 0
+    amatrx(1:ndofel*ndofel) = 0
+    if (.not. any(lflags(3) == stiffness_wanted)) return
+    if (nnode == 3) then
+      call integrate(3, 1, find_material(materiallib), props(1), coords, u, rhs, amatrx, svars, energy)
+    else
+      call integrate(4, 4, find_material(materiallib), props(1), coords, u, rhs, amatrx, svars, energy)
+    end if
+  end subroutine solid_uelmat
+
+  !> Residual, tangent, state and energy.
+  subroutine integrate(nodes, points, material, thickness, x, u, rhs, stiffness, svars, energy)
+    integer, intent(in) :: nodes, points
+    type(material_t), intent(in) :: material
+    real(dp), intent(in) :: thickness, x(2, nodes), u(2*nodes)
+    real(dp), intent(inout) :: rhs(2*nodes), stiffness(2*nodes, 2*nodes), svars(per_point, points), energy(8)
+    real(dp) :: b(3, 2*nodes, points), weight(points), stress(3), modulus(3, 3), db(3, 2*nodes)
+    real(dp) :: elastic, work
+    integer :: i, j, p
+    do p = 1, points
+      call gradients(nodes, p, x, b(:, :, p), weight(p))
+    end do
+    if (nodes == 4 .and. material%ntens == 4) call average_volume_strain(nodes, points, weight, b)
+    weight = thickness*weight
+    elastic = 0
+    work = energy(2) + energy(4)
+    do p = 1, points
+      call point_update(material, int(p, i4), weight(p), matmul(b(:, :, p), u), svars(:, p), stress, modulus, elastic, work)
+      do j = 1, 2*nodes
+        db(:, j) = weight(p)*(modulus(:, 1)*b(1, j, p) + modulus(:, 2)*b(2, j, p) + modulus(:, 3)*b(3, j, p))
+        rhs(j) = rhs(j) - weight(p)*(stress(1)*b(1, j, p) + stress(2)*b(2, j, p) + stress(3)*b(3, j, p))
+      end do
+      do j = 1, 2*nodes
+        do i = 1, 2*nodes
+          stiffness(i, j) = stiffness(i, j) + b(1, i, p)*db(1, j) + b(2, i, p)*db(2, j) + b(3, i, p)*db(3, j)
+        end do
+      end do
+    end do
+    energy(2) = elastic
+    energy(4) = work - elastic
+  end subroutine integrate
+
+  !> Stress (11, 22, 12) and in-plane tangent of a point; its state and its part of the energies.
+  subroutine point_update(material, point, volume, plane_strain, state, plane_stress, modulus, elastic, work)
+    type(material_t), intent(in) :: material
+    integer(i4), intent(in) :: point
+    real(dp), intent(in) :: volume, plane_strain(3)
+    real(dp), intent(inout) :: state(per_point), elastic, work
+    real(dp), intent(out) :: plane_stress(3), modulus(3, 3)
+    integer :: inplane(3), n
+    real(dp) :: strain(material%ntens), stress(material%ntens), tangent(material%ntens, material%ntens)
+    logical :: valid
+    n = material%ntens
+    inplane = [1, 2, n]
+    strain = 0
+    strain(inplane) = plane_strain
+    call stress_update(material, point, strain, stress, tangent, valid)
+    plane_stress = stress(inplane)
+    modulus = tangent(inplane, inplane)
+    elastic = elastic + volume*elastic_energy(material, stress)
+    ! trapezoidal rule, exact where the response is linear
+    work = work + volume*0.5_dp*dot_product(plane_stress + state([5, 6, 8]), plane_strain - state([1, 2, 4]))
+    state([1, 2, 4]) = plane_strain
+    state([5, 6, 8]) = plane_stress
+    if (n == 3) then
+      state(3) = thickness_strain(material, point, stress)
+    else
+      state(7) = stress(3)
+    end if
+  end subroutine point_update
+
+  !> Strain matrix (11, 22, 12) of a Gauss point, points counted along x first as in Abaqus, and its area.
+  subroutine gradients(nodes, point, x, b, area)
+    integer, intent(in) :: nodes, point
+    real(dp), intent(in) :: x(2, nodes)
+    real(dp), intent(out) :: b(3, 2*nodes), area
+    real(dp), parameter :: g = 1/sqrt(3.0_dp), corner(2, 4) = reshape([-1, -1, 1, -1, 1, 1, -1, 1], [2, 4])
+    real(dp) :: r, s, local(nodes, 2), jacobian(2, 2), determinant, dx, dy
+    character(len=128) :: text
+    integer :: k
+    if (nodes == 3) then
+      local(:, 1) = [-1, 1, 0]
+      local(:, 2) = [-1, 0, 1]
+    else
+      r = merge(-g, g, mod(point, 2) == 1)
+      s = merge(-g, g, point <= 2)
+      local(:, 1) = corner(1, :nodes)*(1 + corner(2, :nodes)*s)/4
+      local(:, 2) = corner(2, :nodes)*(1 + corner(1, :nodes)*r)/4
+    end if
+    jacobian = matmul(x, local)
+    determinant = jacobian(1, 1)*jacobian(2, 2) - jacobian(1, 2)*jacobian(2, 1)
+    if (.not. determinant > 0) then
+      write (text, '(a,i0,a,es10.2,a)') 'the element is inside out at its integration point ', point, &
+        ' (Jacobian', determinant, '); its nodes must run counter-clockwise'
+      call add_message(-3_i4, trim(text))
+      call escape()
+    end if
+    area = merge(determinant/2, determinant, nodes == 3)
+    do k = 1, nodes
+      dx = (local(k, 1)*jacobian(2, 2) - local(k, 2)*jacobian(2, 1))/determinant
+      dy = (local(k, 2)*jacobian(1, 1) - local(k, 1)*jacobian(1, 2))/determinant
+      b(:, 2*k - 1) = [dx, 0.0_dp, dy]
+      b(:, 2*k) = [0.0_dp, dy, dx]
+    end do
+  end subroutine gradients
+
+  !> Replace the volume strain of each point by its mean over the element.
+  pure subroutine average_volume_strain(nodes, points, weight, b)
+    integer, intent(in) :: nodes, points
+    real(dp), intent(in) :: weight(points)
+    real(dp), intent(inout) :: b(3, 2*nodes, points)
+    real(dp) :: mean(2*nodes), change(2*nodes)
+    integer :: p
+    mean = 0
+    do p = 1, points
+      mean = mean + weight(p)/sum(weight)*(b(1, :, p) + b(2, :, p))
+    end do
+    do p = 1, points
+      change = (mean - b(1, :, p) - b(2, :, p))/2
+      b(1, :, p) = b(1, :, p) + change
+      b(2, :, p) = b(2, :, p) + change
+    end do
+  end subroutine average_volume_strain
+end module host_solid

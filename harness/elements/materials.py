@@ -1,0 +1,156 @@
+# SPDX-FileCopyrightText: The uel-harness authors
+# SPDX-License-Identifier: BSD-3-Clause
+"""Materials of the deck as the host's material library wants them: stiffness in global axes, per state of stress.
+
+Stress components: three-dimensional 11, 22, 33, 12, 13, 23; plane strain 11, 22, 33, 12; plane stress 11, 22, 12.
+Shear strains are engineering strains. The constants' meaning is that of the *ELASTIC data line (Abaqus Analysis User's
+Guide, Linear elastic behavior).
+"""
+
+from __future__ import annotations
+
+from enum import IntEnum
+from typing import Final
+
+import numpy as np
+
+from harness.errors import DeckError, Source
+from harness.model.arrays import FloatArray
+from harness.model.properties import Elastic, ElasticType, Material, Orientation
+from harness.usersub import _binding
+
+
+class Tensor(IntEnum):
+    """State of stress, by its number of components."""
+
+    PLANE_STRESS = 3
+    PLANE_STRAIN = 4
+    SOLID = 6
+
+
+HISTORY_VALUES: Final = 7
+"""Values of the history of a point of a plastic material (fortran/host/host_materials.f90)."""
+
+_PAIRS: Final = ((0, 0), (1, 1), (2, 2), (0, 1), (0, 2), (1, 2))
+_COMPONENTS: Final = {Tensor.PLANE_STRESS: [0, 1, 3], Tensor.PLANE_STRAIN: [0, 1, 2, 3], Tensor.SOLID: list(range(6))}
+_COUNTS: Final = {
+    ElasticType.ISOTROPIC: 2,
+    ElasticType.ENGINEERING_CONSTANTS: 9,
+    ElasticType.LAMINA: 6,
+    ElasticType.ORTHOTROPIC: 9,
+    ElasticType.ANISOTROPIC: 21,
+}
+
+
+def define_material(material: Material, orientation: Orientation | None, tensor: Tensor, user: Source) -> int:
+    """Tell the host of a material; returns its number there. `user` is the place that asks for it. Raises DeckError."""
+    elastic = material.elastic
+    if elastic is None:
+        raise DeckError(user, f"material {material.name} ({material.source}) has no *ELASTIC")
+    axes = np.eye(3) if orientation is None else orientation.axes
+    compliance = _rotated(_compliance(elastic, tensor), axes)
+    components = _COMPONENTS[tensor]
+    stiffness: FloatArray
+    reduced: FloatArray
+    if tensor is Tensor.PLANE_STRESS:
+        reduced = compliance[np.ix_(components, components)]
+        stiffness = np.linalg.inv(reduced)
+    else:
+        stiffness = np.linalg.inv(compliance)[np.ix_(components, components)]
+        reduced = np.linalg.inv(stiffness)
+    constants, table = (0.0, 0.0), np.zeros((1, 2))
+    if material.plastic is not None:
+        if elastic.type is not ElasticType.ISOTROPIC:
+            raise DeckError(material.plastic.source, "*PLASTIC is supported with *ELASTIC, TYPE=ISOTROPIC only")
+        constants, table = _isotropic_constants(elastic), material.plastic.table
+    return _binding.define_material(stiffness, reduced, compliance[2, components[:3]], constants, table)
+
+
+def stiffness_of(elastic: Elastic, axes: FloatArray | None = None) -> FloatArray:
+    """(6, 6) stiffness in global axes; rows of axes (3, 3) are the material's directions."""
+    compliance = _rotated(_compliance(elastic, Tensor.SOLID), np.eye(3) if axes is None else axes)
+    return np.asarray(np.linalg.inv(compliance), dtype=np.float64)
+
+
+def _isotropic_constants(elastic: Elastic) -> tuple[float, float]:
+    young, *rest = elastic.constants
+    return young, rest[0] if rest else 0.0
+
+
+def _compliance(elastic: Elastic, tensor: Tensor) -> FloatArray:
+    """(6, 6) compliance in the material's axes; DeckError unless it is positive definite."""
+    c = elastic.constants
+    count = _COUNTS[elastic.type]
+    alone = elastic.type is ElasticType.ISOTROPIC and len(c) == 1
+    if len(c) != count and not alone:
+        raise DeckError(elastic.source, f"*ELASTIC, TYPE={elastic.type} needs {count} constants, found {len(c)}")
+    if elastic.type in (ElasticType.ORTHOTROPIC, ElasticType.ANISOTROPIC):
+        stiffness = _orthotropic(c) if elastic.type is ElasticType.ORTHOTROPIC else _anisotropic(c)
+        _check_definite(elastic, stiffness)
+        return np.asarray(np.linalg.inv(stiffness), dtype=np.float64)
+    moduli: tuple[float, ...]
+    ratios: tuple[float, ...]
+    shear: tuple[float, ...]
+    if elastic.type is ElasticType.LAMINA:
+        if tensor is not Tensor.PLANE_STRESS:
+            raise DeckError(elastic.source, "*ELASTIC, TYPE=LAMINA is for plane stress only")
+        e1, e2, nu12, g12, g13, g23 = c
+        # plane stress does not see the third direction; any value serves
+        moduli, ratios, shear = (e1, e2, e2), (nu12, 0.0, 0.0), (g12, g13 or g12, g23 or g12)
+    elif elastic.type is ElasticType.ISOTROPIC:
+        young, nu = _isotropic_constants(elastic)
+        _check_isotropic(elastic, young, nu)
+        moduli, ratios, shear = (young,) * 3, (nu,) * 3, (young / (2 * (1 + nu)),) * 3
+    else:
+        moduli, ratios, shear = c[0:3], c[3:6], c[6:9]
+    if min(*moduli, *shear) <= 0:
+        raise DeckError(elastic.source, f"*ELASTIC, TYPE={elastic.type}: moduli must be positive, found {min(c):g}")
+    compliance = np.diag(1 / np.array([*moduli, *shear]))
+    for (i, j), nu in zip(((0, 1), (0, 2), (1, 2)), ratios, strict=True):
+        compliance[i, j] = compliance[j, i] = -nu / moduli[i]
+    _check_definite(elastic, compliance)
+    return compliance
+
+
+def _check_isotropic(elastic: Elastic, young: float, nu: float) -> None:
+    if young <= 0:
+        raise DeckError(elastic.source, f"*ELASTIC: Young's modulus must be positive, found {young:g}")
+    if not -1 < nu < 0.5:
+        raise DeckError(elastic.source, f"*ELASTIC: Poisson's ratio must be between -1 and 0.5, found {nu:g}")
+
+
+def _check_definite(elastic: Elastic, matrix: FloatArray) -> None:
+    # scaled to a unit diagonal, so that moduli of any size are judged alike
+    diagonal = np.diag(matrix)
+    if diagonal.min() > 0:
+        scale = 1 / np.sqrt(diagonal)
+        if np.linalg.eigvalsh(matrix * np.outer(scale, scale)).min() > 1e-12:
+            return
+    raise DeckError(elastic.source, f"*ELASTIC, TYPE={elastic.type}: the stiffness is not positive definite")
+
+
+def _orthotropic(c: tuple[float, ...]) -> FloatArray:
+    """D1111, D1122, D2222, D1133, D2233, D3333, D1212, D1313, D2323."""
+    d = np.diag([c[0], c[2], c[5], *c[6:9]])
+    d[0, 1] = d[1, 0] = c[1]
+    d[0, 2] = d[2, 0] = c[3]
+    d[1, 2] = d[2, 1] = c[4]
+    return d
+
+
+def _anisotropic(c: tuple[float, ...]) -> FloatArray:
+    """D1111, D1122, D2222, D1133, ...: the upper triangle by columns, components ordered 11, 22, 33, 12, 13, 23."""
+    d = np.zeros((6, 6))
+    columns, rows = np.tril_indices(6)
+    d[rows, columns] = d[columns, rows] = c
+    return d
+
+
+def _rotated(compliance: FloatArray, axes: FloatArray) -> FloatArray:
+    """Compliance in global axes. Local stress = T global stress, so S_global = T^T S_local T."""
+    t = np.zeros((6, 6))
+    for row, (i, j) in enumerate(_PAIRS):
+        for column, (k, m) in enumerate(_PAIRS):
+            t[row, column] = axes[i, k] * axes[j, m] + (axes[i, m] * axes[j, k] if k != m else 0.0)
+    rotated: FloatArray = t.T @ compliance @ t
+    return rotated
