@@ -1,0 +1,171 @@
+# SPDX-FileCopyrightText: The uel-harness authors
+# SPDX-License-Identifier: BSD-3-Clause
+"""Keyword blocks of the decks: elements with their properties, and the step."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from harness.delamination.kernels import KERNELS, positions
+from harness.delamination.keywords import captions, keyword, table, wrapped
+from harness.delamination.materials import Cohesive, Ply
+from harness.delamination.mesh import TwoArmMesh
+
+
+@dataclass(frozen=True, slots=True)
+class Interface:
+    """Interface elements of a deck.
+
+    type       'U2' standard, 'U3' stabilised with four nodes, 'U4' stabilised with eight nodes
+    cohesive   parameters of the law
+    beta       stabilisation parameter beta_n = beta_tau (N/mm^3); 0 computes it by equation (21)
+    viscosity  relaxation time of the damage, in step time
+    secant     secant stiffness (24) in place of the consistent tangent; U3 knows nothing else
+    """
+
+    type: str
+    cohesive: Cohesive
+    beta: float = 0.0
+    viscosity: float = 0.0
+    secant: bool = False
+
+
+@dataclass(frozen=True, slots=True)
+class Specimen:
+    """What the elements of a deck are.
+
+    name    beginning of the names of the mesh files
+    quads   'U1', or 'CPS4' for the built-in quads of plane stress
+    width   thickness out of the plane (mm)
+    bottom, top  plies of the two arms
+    """
+
+    name: str
+    mesh: TwoArmMesh
+    interface: Interface
+    width: float
+    bottom: Ply
+    top: Ply
+    quads: str = "U1"
+
+
+def element_blocks(specimen: Specimen) -> list[str]:
+    """*USER ELEMENT, *ELEMENT and the properties of quads and interface elements."""
+    return [*_quad_elements(specimen), *_quad_properties(specimen), *_materials(specimen), *_interface(specimen)]
+
+
+def _user_element(jtype: int, *flags: str, **options: str | int) -> list[str]:
+    kernel = KERNELS[jtype]
+    counts: dict[str, str | int] = {"TYPE": f"U{jtype}", "NODES": kernel.nodes, "COORDINATES": 2}
+    counts |= {"PROPERTIES": kernel.reals, "I_PROPERTIES": kernel.integers, "VARIABLES": kernel.variables}
+    return [keyword("USER ELEMENT", *flags, **counts, **options), "1, 2"]
+
+
+def _uel_property(jtype: int, elset: str, values: dict[str, float], **options: str) -> list[str]:
+    reals, integers = positions(jtype, values)
+    # reals and integers follow each other on the same lines, eight a line
+    return [keyword("UEL PROPERTY", ELSET=elset, **options), *wrapped([*reals, *integers])]
+
+
+def _quad_elements(specimen: Specimen) -> list[str]:
+    lines = ["** continuum: two arms of quads"]
+    if specimen.quads == "U1":
+        lines += _user_element(1, INTEGRATION=4, TENSOR="PSTRESS")
+    lines.append(keyword("ELEMENT", TYPE=specimen.quads, ELSET="QUADS", INPUT=f"{specimen.name}_quads.inp"))
+    for name, first, last, _, _ in _quad_sets(specimen):
+        mesh = specimen.mesh
+        lines.append(keyword("ELSET", "GENERATE", ELSET=name))
+        lines += table((row * mesh.stride + 1, row * mesh.stride + mesh.columns, 1) for row in range(first, last + 1))
+    return lines
+
+
+def _quad_sets(specimen: Specimen) -> list[tuple[str, int, int, int, Ply]]:
+    """Sets of quads: name, first and last row, the face along the interface that U3 wants to know, ply."""
+    below, above = specimen.mesh.rows
+    bottom, top = specimen.bottom, specimen.top
+    if specimen.interface.type != "U3":
+        return [("BOTTOM", 1, below, 0, bottom), ("TOP", below + 1, below + above, 0, top)]
+    return [
+        ("BOTTOM", 1, below - 1, 0, bottom),
+        ("BOTTOM_FACE", below, below, 3, bottom),
+        ("TOP_FACE", below + 1, below + 1, 1, top),
+        ("TOP", below + 2, below + above, 0, top),
+    ]
+
+
+def _quad_properties(specimen: Specimen) -> list[str]:
+    lines = []
+    for name, _, _, face, ply in _quad_sets(specimen):
+        if specimen.quads == "U1":
+            values = {"THICKNESS": specimen.width, "PLANE": 0, "FACE": face}
+            lines += _uel_property(1, name, values, MATERIAL=ply.name)
+        else:
+            lines += [keyword("SOLID SECTION", ELSET=name, MATERIAL=ply.name), *wrapped([specimen.width])]
+    return lines
+
+
+def _materials(specimen: Specimen) -> list[str]:
+    lines = ["** E1, E2, nu12, G12, G13, G23 (MPa)"]
+    for ply in {ply.name: ply for ply in (specimen.bottom, specimen.top)}.values():
+        lines += [keyword("MATERIAL", NAME=ply.name), "*ELASTIC, TYPE=LAMINA", *wrapped(ply.lamina)]
+    return lines
+
+
+_TITLES = {
+    2: "standard cohesive elements",
+    3: "stabilised cohesive elements with four nodes",
+    4: "stabilised cohesive elements with eight nodes: those of the quad below, then those of the quad above",
+}
+
+
+def _interface(specimen: Specimen) -> list[str]:
+    interface = specimen.interface
+    jtype = int(interface.type[1:])
+    nodes = KERNELS[jtype].nodes
+    # the stiffness of U4 is unsymmetric always, that of U2 with the consistent tangent of mixed-mode softening
+    flags = ["UNSYMM"] if unsymmetric(interface) else []
+    mesh_file = f"{specimen.name}_interface{nodes}.inp"
+    return [
+        f"** interface: {_TITLES[jtype]}",
+        *_user_element(jtype, *flags),
+        keyword("ELEMENT", TYPE=interface.type, ELSET="INTERFACE", INPUT=mesh_file),
+        *captions(KERNELS[jtype].names),
+        *_uel_property(jtype, "INTERFACE", interface_values(specimen)),
+    ]
+
+
+def unsymmetric(interface: Interface) -> bool:
+    """Whether the elements' stiffness is to be taken as unsymmetric."""
+    return interface.type == "U4" or (interface.type == "U2" and not interface.secant)
+
+
+def interface_values(specimen: Specimen) -> dict[str, float]:
+    """Properties of the interface elements by name."""
+    interface, law = specimen.interface, specimen.interface.cohesive
+    below, above = specimen.mesh.offsets
+    values = {
+        "THICKNESS": specimen.width,
+        "ALPHAN": law.stiffness_normal,
+        "ALPHAT": law.stiffness_shear,
+        "SIGMAMAX": law.strength_normal,
+        "TAUMAX": law.strength_shear,
+        "GIC": law.toughness_1,
+        "GIIC": law.toughness_2,
+        "VISCOSITY": interface.viscosity,
+        "BETAN": interface.beta,
+        "BETAT": interface.beta,
+        "GAMMABOT": 0.0,
+        "LAW": 1,
+        "INTEGRATION": 0,
+        "TANGENT": 1 if interface.secant or interface.type == "U3" else 0,
+        "SAMPLING": 0,
+        "OFFSETBOTTOM": below,
+        "OFFSETTOP": above,
+        "PLANE": 0,
+    }
+    for side, ply in (("BOTTOM", specimen.bottom), ("TOP", specimen.top)):
+        named = zip(("E1", "E2", "NU12", "G12"), ply.in_plane, strict=True)
+        values |= {f"{constant} {side}": value for constant, value in named}
+        # plane stress asks for no constants along the third axis; the ply's axes are those of the deck
+        values |= {f"{constant} {side}": 0.0 for constant in ("E3", "NU13", "NU23", "ANGLE")}
+    return values

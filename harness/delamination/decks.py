@@ -1,0 +1,97 @@
+# SPDX-FileCopyrightText: The uel-harness authors
+# SPDX-License-Identifier: BSD-3-Clause
+"""All decks of abaqus_inputs that are built: `python -m harness.delamination.decks` writes them again."""
+
+from __future__ import annotations
+
+import argparse
+import sys
+from collections.abc import Sequence
+from pathlib import Path
+
+from harness.delamination import specimens as build
+from harness.delamination.blocks import Interface
+from harness.delamination.materials import TABLE_2
+from harness.delamination.steps import LINEAR, Increments
+
+FOLDER = Path(__file__).parents[2] / "abaqus_inputs"
+KINDS = {"U2": "standard", "U3": "stabilised, four nodes", "U4": "stabilised, eight nodes"}
+STIFFNESSES = {"1e6": 1.0e6, "1e8": 1.0e8}
+# in step time; small enough to leave the curve alone, enough to let an increment pass in which elements fail
+VISCOSITY = 3.0e-6
+
+DCB_INCREMENTS = Increments(
+    initial=0.01, smallest=1e-7, largest=0.01, limit=2000, discontinuous=True, line_search=5, attempts=12
+)
+
+
+def patch_horizontal() -> dict[str, str]:
+    """Square patch with a horizontal interface, section 4.1.1."""
+    files: dict[str, str] = {}
+    for shape, bump in (("flat", 0.0), ("perturbed", build.PATCH_BUMP)):
+        mesh = build.patch_mesh(bump)
+        files |= build.mesh_files(shape, mesh, (4, 8))
+        for kind, name in KINDS.items():
+            title = f"Patch test, horizontal {shape} interface, [0/0], {name} ({kind})"
+            paper = build.patch_specimen(shape, mesh, kind, 0.0 if kind == "U2" else build.PATCH_BETA)
+            files[f"{shape}_{kind.lower()}.inp"] = build.patch_deck(title, paper, -0.1, LINEAR, slide=False)
+            if shape == "flat":
+                deck = build.patch_deck(f"{title}, free to contract", paper, -0.1, LINEAR, slide=True)
+                files[f"free_{kind.lower()}.inp"] = deck
+            elif kind != "U2":
+                estimate = build.patch_specimen(shape, mesh, kind, 0.0)
+                deck = build.patch_deck(f"{title}, beta by equation (21)", estimate, -0.1, LINEAR, slide=False)
+                files[f"{shape}_{kind.lower()}_beta21.inp"] = deck
+    return files
+
+
+def dcb() -> dict[str, str]:
+    """Double cantilever beam of section 4.2, 3 mm each arm."""
+    mesh = build.dcb_mesh()
+    files = build.mesh_files("dcb", mesh, (4, 8))
+    for kind, name in KINDS.items():
+        for exponent, stiffness in STIFFNESSES.items():
+            files[f"dcb_{kind.lower()}_{exponent}.inp"] = _dcb_deck(kind, name, exponent, stiffness, "U1")
+    files["dcb_u4_1e8_cps4.inp"] = _dcb_deck("U4", KINDS["U4"], "1e8", 1.0e8, "CPS4")
+    return files
+
+
+def _dcb_deck(kind: str, name: str, exponent: str, stiffness: float, quads: str) -> str:
+    interface = Interface(kind, TABLE_2.with_stiffness(stiffness), viscosity=VISCOSITY)
+    specimen = build.dcb_specimen("dcb", build.dcb_mesh(), interface, quads)
+    title = f"Double cantilever beam, [0/0], {name} ({kind}), stiffness {exponent} N/mm^3, quads {quads}"
+    return build.dcb_deck(title, specimen, 3.0, DCB_INCREMENTS, field_every=10)
+
+
+def dcb_ref() -> dict[str, str]:
+    """Double cantilever beam that other codes have run: uniform mesh, 5 mm each arm in 100 increments."""
+    mesh = build.dcb_ref_mesh()
+    interface = Interface("U2", TABLE_2.with_stiffness(1.0e6), viscosity=VISCOSITY)
+    specimen = build.dcb_specimen("dcb_ref", mesh, interface)
+    title = "DCB-ref: double cantilever beam, 600 x 8 quads, standard cohesive elements, stiffness 1e6 N/mm^3"
+    deck = build.dcb_deck(title, specimen, 5.0, DCB_INCREMENTS, field_every=10)
+    return build.mesh_files("dcb_ref", mesh, (4,)) | {"dcb_ref.inp": deck}
+
+
+def all_files() -> dict[Path, str]:
+    """Every built file, by its path below abaqus_inputs."""
+    problems = (patch_horizontal, dcb, dcb_ref)
+    return {Path(problem.__name__, name): text for problem in problems for name, text in problem().items()}
+
+
+def main(arguments: Sequence[str] | None = None) -> int:
+    """Write all decks; returns the exit code."""
+    parser = argparse.ArgumentParser(description="Write the decks of abaqus_inputs again.")
+    parser.add_argument("--folder", type=Path, default=FOLDER, help="in place of abaqus_inputs")
+    folder = parser.parse_args(arguments).folder
+    files = all_files()
+    for path, text in files.items():
+        target = folder / path
+        target.parent.mkdir(parents=True, exist_ok=True)
+        target.write_text(text, encoding="ascii")
+    print(f"{folder}: {len(files)} files")
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

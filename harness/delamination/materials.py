@@ -1,0 +1,56 @@
+# SPDX-FileCopyrightText: The uel-harness authors
+# SPDX-License-Identifier: BSD-3-Clause
+"""HTA/6376C carbon/epoxy and its cohesive parameters: tables 1 and 2 of Ghosh, Duddu and Annavarapu (N, mm, MPa)."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+
+@dataclass(frozen=True, slots=True)
+class Ply:
+    """Orthotropic ply in its own plane X1-X2, as the data line of *ELASTIC, TYPE=LAMINA (moduli in MPa).
+
+    The last two shear moduli do not act in a plane model; Abaqus wants them on the line.
+    """
+
+    name: str
+    e1: float
+    e2: float
+    nu12: float
+    g12: float
+    g13: float
+    g23: float
+
+    @property
+    def in_plane(self) -> tuple[float, float, float, float]:
+        """E1, E2, nu12, G12: all that plane stress needs."""
+        return self.e1, self.e2, self.nu12, self.g12
+
+    @property
+    def lamina(self) -> tuple[float, ...]:
+        """Data line of *ELASTIC, TYPE=LAMINA."""
+        return self.e1, self.e2, self.nu12, self.g12, self.g13, self.g23
+
+
+@dataclass(frozen=True, slots=True)
+class Cohesive:
+    """Bilinear anisotropic cohesive law (8)-(11): stiffnesses in N/mm^3, strengths in MPa, toughnesses in N/mm."""
+
+    stiffness_normal: float
+    stiffness_shear: float
+    strength_normal: float = 30.0
+    strength_shear: float = 60.0
+    toughness_1: float = 0.26
+    toughness_2: float = 1.002
+
+    def with_stiffness(self, stiffness: float) -> Cohesive:
+        """Same strengths and toughnesses, another stiffness in both directions."""
+        return replace(self, stiffness_normal=stiffness, stiffness_shear=stiffness)
+
+
+# table 1: fibres along X1, and the same ply with its fibres along X3, whose plane X1-X2 is that of isotropy
+PLY_0 = Ply("PLY_0", 1.2e5, 1.05e4, 0.3, 5.52e3, 5.52e3, 3.48e3)
+PLY_90 = Ply("PLY_90", 1.05e4, 1.05e4, 0.51, 3.48e3, 5.52e3, 5.52e3)
+# table 2, with the middle one of its stiffnesses
+TABLE_2 = Cohesive(1.0e6, 1.0e6)

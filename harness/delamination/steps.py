@@ -1,0 +1,86 @@
+# SPDX-FileCopyrightText: The uel-harness authors
+# SPDX-License-Identifier: BSD-3-Clause
+"""Keyword blocks of a step: increments, solution controls, prescribed displacements, output."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from dataclasses import dataclass
+
+from harness.delamination.keywords import keyword, table
+
+
+@dataclass(frozen=True, slots=True)
+class Increments:
+    """*STATIC over a period of 1: increments, and the solution controls of a failing interface.
+
+    initial, smallest, largest  increment in step time
+    discontinuous  ANALYSIS=DISCONTINUOUS: the residual may rise for longer before an increment is given up
+    line_search    number of line-search iterations, 0 for none
+    attempts       cutbacks allowed in one increment (I_A)
+    """
+
+    initial: float
+    smallest: float
+    largest: float
+    limit: int = 1000
+    discontinuous: bool = False
+    line_search: int = 0
+    attempts: int = 5
+
+
+LINEAR = Increments(initial=1.0, smallest=1.0, largest=1.0, limit=1)
+
+
+def step_block(
+    title: str,
+    increments: Increments,
+    prescribed: Iterable[tuple[str, int, float]],
+    history: Iterable[str],
+    *,
+    unsymmetric: bool,
+    field_every: int = 10,
+) -> list[str]:
+    """*STEP to *END STEP.
+
+    Parameters
+    ----------
+    title, increments
+        Subtitle of the step; its incrementation.
+    prescribed
+        Node set, dof, displacement (mm).
+    history
+        Node sets whose U2 and RF2 are written.
+    unsymmetric
+        UNSYMM=YES.
+    field_every
+        Field output every so many increments.
+    """
+    options = {"INC": increments.limit} | ({"UNSYMM": "YES"} if unsymmetric else {})
+    static = (increments.initial, 1.0, increments.smallest, increments.largest)
+    lines = [keyword("STEP", **options), title, "*STATIC", *table([static])]
+    lines += _controls(increments)
+    lines += ["*BOUNDARY", *(f"{name}, {dof}, {dof}, {table([[value]])[0]}" for name, dof, value in prescribed)]
+    lines += [keyword("OUTPUT", "FIELD", FREQUENCY=field_every), "*NODE OUTPUT", "U, RF"]
+    lines.append(keyword("OUTPUT", "HISTORY", FREQUENCY=1))
+    for name in history:
+        lines += [keyword("NODE OUTPUT", NSET=name), "U2, RF2"]
+    lines += ["*ENERGY OUTPUT", "ALLIE, ALLSE, ALLPD, ALLVD, ALLWK, ETOTAL"]
+    for name in history:
+        lines += [keyword("NODE PRINT", NSET=name, FREQUENCY=field_every), "U2, RF2"]
+    # the state of the first interface element; Abaqus prints the SVARS of user elements as SDV
+    lines += [keyword("EL PRINT", ELSET="TIP", FREQUENCY=field_every), "SDV3, SDV5, SDV7"]
+    return [*lines, "*END STEP"]
+
+
+def _controls(increments: Increments) -> list[str]:
+    lines = []
+    if increments.discontinuous:
+        lines.append("*CONTROLS, ANALYSIS=DISCONTINUOUS")
+    if increments.attempts != 5:
+        # I_0 and I_R are said again: those of ANALYSIS=DISCONTINUOUS are not the defaults of this line
+        first = "8, 10" if increments.discontinuous else "4, 8"
+        lines += ["*CONTROLS, PARAMETERS=TIME INCREMENTATION", f"{first}, 9, 16, 10, 4, 12, {increments.attempts}"]
+    if increments.line_search:
+        lines += ["*CONTROLS, PARAMETERS=LINE SEARCH", f"{increments.line_search}, 1., 0.0001, 0.25, 0.1"]
+    return lines

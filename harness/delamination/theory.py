@@ -1,0 +1,119 @@
+# SPDX-FileCopyrightText: The uel-harness authors
+# SPDX-License-Identifier: BSD-3-Clause
+"""Corrected beam theory of delamination specimens of two equal orthotropic arms, fibres along the beam.
+
+Source of the corrections: J. G. Williams, "End corrections for orthotropic DCB specimens", Composites Science and
+Technology 35 (1989) 367-376, and Y. Wang, J. G. Williams, "Corrections for mode II fracture toughness specimens of
+composites materials", Composites Science and Technology 43 (1992) 251-256. An arm that is clamped to an elastic
+ligament bends as if the crack were longer by chi h in mode I and by 0.42 chi h in mode II.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+
+from harness.model.arrays import FloatArray
+
+MODE_2_CORRECTION = 0.42
+
+
+@dataclass(frozen=True, slots=True)
+class Arms:
+    """Two equal arms: width B and height h of one arm in mm; E11, E22, G12 in MPa."""
+
+    width: float
+    height: float
+    e11: float
+    e22: float
+    g12: float
+
+    @property
+    def inertia(self) -> float:
+        """Second moment of area of one arm, B h^3 / 12 (mm^4)."""
+        return self.width * self.height**3 / 12.0
+
+    @property
+    def bending_stiffness(self) -> float:
+        """E11 I of one arm (N mm^2)."""
+        return self.e11 * self.inertia
+
+    @property
+    def chi(self) -> float:
+        """Williams' correction factor: chi = sqrt(E11/(11 G12) (3 - 2 (Gamma/(1 + Gamma))^2))."""
+        gamma = 1.18 * math.sqrt(self.e11 * self.e22) / self.g12
+        return math.sqrt(self.e11 / (11.0 * self.g12) * (3.0 - 2.0 * (gamma / (1.0 + gamma)) ** 2))
+
+    @property
+    def correction(self) -> float:
+        """Length that mode I adds to the crack, chi h (mm)."""
+        return self.chi * self.height
+
+
+def dcb_load(arms: Arms, crack: float, toughness: float) -> float:
+    """Load (N) at which a double cantilever beam's crack of length a (mm) grows.
+
+    From G_I = P^2 (a + chi h)^2 / (B E11 I) = G_Ic (N/mm).
+    """
+    return math.sqrt(arms.width * arms.bending_stiffness * toughness) / (crack + arms.correction)
+
+
+def dcb_compliance(arms: Arms, crack: float) -> float:
+    """Displacement of one arm's end per load (mm/N): Delta/P = (a + chi h)^3 / (3 E11 I)."""
+    return (crack + arms.correction) ** 3 / (3.0 * arms.bending_stiffness)
+
+
+def dcb_crack(arms: Arms, compliance: float) -> float:
+    """Crack length (mm) whose compliance (mm/N, one arm) is the given one: the inverse of `dcb_compliance`."""
+    return math.cbrt(3.0 * arms.bending_stiffness * compliance) - arms.correction
+
+
+def dcb_displacement(arms: Arms, crack: float, toughness: float) -> float:
+    """Displacement of one arm's end (mm) while the crack of length a (mm) grows."""
+    return dcb_load(arms, crack, toughness) * dcb_compliance(arms, crack)
+
+
+def dcb_curve(arms: Arms, crack: float, toughness: float, displacement: FloatArray) -> FloatArray:
+    """Load (N) of a double cantilever beam that is opened steadily.
+
+    Parameters
+    ----------
+    arms, crack, toughness
+        Specimen, initial crack length (mm) and G_Ic (N/mm).
+    displacement
+        Displacements of one arm's end (mm), any shape.
+
+    Returns
+    -------
+    FloatArray
+        Linear up to the onset of growth, then P = sqrt(B E11 I G_Ic) / (a + chi h) with
+        (a + chi h)^2 = 3 Delta sqrt(E11 I / (B G_Ic)); same shape as `displacement`.
+    """
+    stiff = arms.bending_stiffness
+    linear = displacement / dcb_compliance(arms, crack)
+    length = np.sqrt(3.0 * np.maximum(displacement, 1e-300) * math.sqrt(stiff / (arms.width * toughness)))
+    growing = math.sqrt(arms.width * stiff * toughness) / length
+    return np.asarray(np.where(displacement <= dcb_displacement(arms, crack, toughness), linear, growing))
+
+
+def enf_load(arms: Arms, crack: float, toughness: float) -> float:
+    """Load (N) at which an end-notched flexure specimen's crack of length a (mm) grows.
+
+    From G_II = 9 P^2 (a + 0.42 chi h)^2 / (16 B^2 h^3 E11) = G_IIc (N/mm).
+    """
+    length = crack + MODE_2_CORRECTION * arms.correction
+    return 4.0 * arms.width * math.sqrt(arms.height**3 * arms.e11 * toughness) / (3.0 * length)
+
+
+def frmm_load(arms: Arms, crack: float, toughness_1: float, toughness_2: float) -> float:
+    """Load (N) at which the crack (mm) of a fixed-ratio mixed-mode specimen grows: only the upper arm is loaded.
+
+    The moment M = P a of one arm alone splits into G_I = M^2/(4 B E11 I) and G_II = 3 M^2/(16 B E11 I), 4 to 3
+    (Williams, International Journal of Fracture 36 (1988) 101-119), here with the corrections above; the criterion
+    is G_I/G_Ic + G_II/G_IIc = 1, toughnesses in N/mm.
+    """
+    mode_1 = (crack + arms.correction) ** 2 / (4.0 * toughness_1)
+    mode_2 = 3.0 * (crack + MODE_2_CORRECTION * arms.correction) ** 2 / (16.0 * toughness_2)
+    return math.sqrt(arms.width * arms.bending_stiffness / (mode_1 + mode_2))

@@ -1,0 +1,56 @@
+# SPDX-FileCopyrightText: The uel-harness authors
+# SPDX-License-Identifier: BSD-3-Clause
+"""Beam theory against hand-worked numbers and against itself."""
+
+import numpy as np
+import pytest
+
+from harness.delamination.materials import PLY_0, TABLE_2
+from harness.delamination.theory import (
+    Arms,
+    dcb_compliance,
+    dcb_crack,
+    dcb_curve,
+    dcb_displacement,
+    dcb_load,
+    enf_load,
+    frmm_load,
+)
+
+ARMS = Arms(width=20.0, height=1.55, e11=PLY_0.e1, e22=PLY_0.e2, g12=PLY_0.g12)
+G_1, G_2 = TABLE_2.toughness_1, TABLE_2.toughness_2
+
+
+def test_dcb_by_hand() -> None:
+    # Gamma = 1.18 sqrt(1.2e5 1.05e4)/5.52e3 = 7.588; chi = sqrt(1.976 (3 - 2 0.7807)) = 1.686;
+    # P = sqrt(20 7.4478e5 0.26)/(35 + 2.614) = 1967.9/37.614
+    assert ARMS.chi == pytest.approx(1.686, abs=5e-4)
+    assert ARMS.bending_stiffness == pytest.approx(7.4478e5, rel=1e-4)
+    assert dcb_load(ARMS, 35.0, G_1) == pytest.approx(52.3, abs=0.05)
+
+
+def test_mode_2_and_mixed_mode_by_hand() -> None:
+    # 4 20 sqrt(1.55^3 1.2e5 1.002)/(3 (35 + 0.42 2.614)) = 53534/108.29
+    assert enf_load(ARMS, 35.0, G_2) == pytest.approx(494.3, abs=0.5)
+    # sqrt(20 7.4478e5/(37.614^2/1.04 + 3 36.098^2/16.032)) = sqrt(1.48956e7/(1360.4 + 243.8))
+    assert frmm_load(ARMS, 35.0, G_1, G_2) == pytest.approx(96.4, abs=0.1)
+
+
+def test_energy_release_rate_is_the_derivative_of_the_compliance() -> None:
+    # Irwin-Kies: G_I = P^2/(2 B) d(2 Delta/P)/da
+    step, load = 1e-3, dcb_load(ARMS, 50.0, G_1)
+    slope = (dcb_compliance(ARMS, 50.0 + step) - dcb_compliance(ARMS, 50.0 - step)) / (2.0 * step)
+    assert load**2 / (2.0 * ARMS.width) * 2.0 * slope == pytest.approx(G_1, rel=1e-8)
+
+
+def test_dcb_curve_is_the_parametric_one() -> None:
+    for crack in (35.0, 42.0, 60.0):
+        end = dcb_displacement(ARMS, crack, G_1)
+        assert dcb_curve(ARMS, 35.0, G_1, np.array([end]))[0] == pytest.approx(dcb_load(ARMS, crack, G_1), rel=1e-12)
+    onset = dcb_displacement(ARMS, 35.0, G_1)
+    half = dcb_curve(ARMS, 35.0, G_1, np.array([0.0, 0.5 * onset]))
+    assert half == pytest.approx([0.0, 0.5 * dcb_load(ARMS, 35.0, G_1)], rel=1e-12)
+
+
+def test_crack_from_compliance() -> None:
+    assert dcb_crack(ARMS, dcb_compliance(ARMS, 47.0)) == pytest.approx(47.0, rel=1e-12)
