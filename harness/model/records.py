@@ -87,7 +87,10 @@ class AttemptAbandoned:
 
 @dataclass(frozen=True, slots=True)
 class IncrementDone:
-    """A converged increment, after commit. Times are those of its end."""
+    """A converged increment, after commit. Times are those of its end.
+
+    `next_increment` is what the next increment starts with; 0 where none follows in the step.
+    """
 
     step: int
     increment: int
@@ -97,6 +100,7 @@ class IncrementDone:
     total_time: float
     time_increment: float
     solution: Solution
+    next_increment: float = 0.0
 
 
 @dataclass(frozen=True, slots=True)

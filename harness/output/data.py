@@ -1,0 +1,170 @@
+# SPDX-FileCopyrightText: The uel-harness authors
+# SPDX-License-Identifier: BSD-3-Clause
+"""The data file (.dat): echo of the deck, what was understood of it, printed tables, warnings and errors."""
+
+from __future__ import annotations
+
+from datetime import datetime
+from pathlib import Path
+
+from harness.model.model import Model
+from harness.model.properties import UserElement
+from harness.model.records import IncrementDone, StepStarted
+from harness.output.formats import TextFile, general, program
+from harness.output.nodal import NodalIndex
+from harness.output.schedule import Schedule
+from harness.output.step_header import procedure
+from harness.output.tables import element_tables, node_tables
+from harness.output.wording import remark
+
+_USER_ELEMENT_OUTPUT = (
+    "ABAQUS SUPPORTS NO ELEMENT OUTPUT FOR USER ELEMENTS. HERE FIELD OUTPUT HAS THE VARIABLES OF THE PROJECT'S OWN "
+    "ELEMENTS, AND *EL PRINT OF SDV HAS THE SOLUTION-DEPENDENT VARIABLES OF ANY USER ELEMENT."
+)
+
+
+class DataFile:
+    """Writes NAME.dat."""
+
+    def __init__(self, path: Path, model: Model) -> None:
+        self._model = model
+        self._file = TextFile(path)
+        self._warnings = 0
+        self._index: NodalIndex | None = None
+        requests = [
+            request for step in model.steps for request in (*step.output.node_print, *step.output.element_print)
+        ]
+        self._schedules = {id(request): Schedule() for request in requests}
+        now = datetime.now()
+        self._file.write(
+            f"1\n\n   {program()}                                  Date {now:%d-%b-%Y}   Time {now:%H:%M:%S}\n\n"
+            f"{_echo(model.deck)}{self._input()}"
+        )
+
+    def step_started(self, record: StepStarted) -> None:
+        """Head of a step."""
+        self._file.write(f"\n\n{procedure(self._model.steps[record.step - 1])}")
+
+    def increment(self, record: IncrementDone, *, last: bool) -> None:
+        """Summary and tables of an increment, if the step prints any."""
+        step = self._model.steps[record.step - 1]
+        if self._index is None:
+            self._index = NodalIndex(len(self._model.mesh.labels), record.solution)
+        nodes = "".join(
+            node_tables(request, self._model, record.solution, self._index)
+            for request in step.output.node_print
+            if self._schedules[id(request)].due(request.frequency, record, last=last)
+        )
+        elements = "".join(
+            element_tables(request, self._model, record.solution)
+            for request in step.output.element_print
+            if self._schedules[id(request)].due(request.frequency, record, last=last)
+        )
+        if not nodes and not elements:
+            return
+        fraction = record.step_time / step.procedure.period
+        text = (
+            f"\n\n                                INCREMENT{record.increment:6d} SUMMARY\n\n\n"
+            f" TIME INCREMENT COMPLETED{general(record.time_increment)},"
+            f"  FRACTION OF STEP COMPLETED{general(fraction)}\n"
+            f" STEP TIME COMPLETED     {general(record.step_time)},  TOTAL TIME COMPLETED      "
+            f"{general(record.total_time)}\n"
+        )
+        if elements:
+            text += f"\n\n                             E L E M E N T   O U T P U T\n{elements}"
+        if nodes:
+            text += f"\n\n                                N O D E   O U T P U T\n{nodes}"
+        self._file.write(text)
+
+    def remark(self, kind: str, text: str) -> None:
+        """A note, warning or error."""
+        self._warnings += kind == "WARNING"
+        self._file.write(f"\n{remark(kind, text)}")
+
+    def text(self, text: str) -> None:
+        """Text of a user routine, as it is."""
+        self._file.write(text if text.endswith("\n") else f"{text}\n")
+
+    def close(self, error: str | None) -> None:
+        """Verdict of the job."""
+        if error is not None:
+            self.remark("ERROR", error)
+        verdict = "BEEN COMPLETED" if error is None else "NOT BEEN COMPLETED"
+        self._file.write(
+            f"\n\n          THE ANALYSIS HAS {verdict}\n\n\n"
+            f"                              WITH {self._warnings:6d} WARNING MESSAGES ON THE DAT FILE\n"
+        )
+        self._file.close()
+
+    def _input(self) -> str:
+        """What was understood of the deck: size, user elements, ignored keywords, warnings."""
+        model = self._model
+        elements = sum(len(group.labels) for group in model.groups)
+        text = (
+            "\n\n                            P R O B L E M   S I Z E\n\n\n"
+            f"          NUMBER OF ELEMENTS IS                            {elements:10d}\n"
+            f"          NUMBER OF NODES IS                               {len(model.mesh.labels):10d}\n"
+        )
+        text += "".join(
+            f"          {len(group.labels):10d} ELEMENTS OF TYPE {group.type}"
+            + (f" IN INSTANCE {group.instance}" if group.instance else "")
+            + "\n"
+            for group in model.groups
+        )
+        definitions = {group.type: group.definition for group in model.groups if group.definition is not None}
+        if definitions:
+            text += "\n\n                            U S E R   E L E M E N T S\n\n"
+            text += "".join(_user_element(name, definition) for name, definition in definitions.items())
+            text += "\n" + remark("NOTE", _USER_ELEMENT_OUTPUT)
+        if model.ignored:
+            text += "\n" + remark("NOTE", "THESE OPTIONS DO NOT CHANGE THE SOLUTION AND ARE IGNORED:")
+            places: dict[str, list[str]] = {}
+            for keyword, source in model.ignored:
+                places.setdefault(keyword, []).append(str(source))
+            text += "".join(f"          {_places(keyword, found)}\n" for keyword, found in places.items())
+        for warning in model.warnings:
+            self._warnings += 1
+            text += "\n" + remark("WARNING", warning)
+        return text
+
+
+def _echo(deck: Path) -> str:
+    """The deck with line numbers; included files are not followed."""
+    try:
+        lines = deck.read_text(errors="replace").splitlines()
+    except OSError:
+        return ""
+    text = "".join(f"{number:8d}  {line}".rstrip() + "\n" for number, line in enumerate(lines, 1))
+    return f"                            I N P U T   E C H O\n\n{text}"
+
+
+def _user_element(name: str, definition: UserElement) -> str:
+    """What *USER ELEMENT says of a type."""
+    dofs: dict[int, list[str]] = {}
+    for node, dof in definition.dofs:
+        dofs.setdefault(node, []).append(str(dof))
+    runs: list[tuple[list[int], list[str]]] = []
+    for node in range(definition.nodes):
+        if runs and runs[-1][1] == dofs.get(node, []):
+            runs[-1][0].append(node + 1)
+        else:
+            runs.append(([node + 1], dofs.get(node, [])))
+    text = (
+        f"     TYPE {name}\n"
+        f"          NUMBER OF NODES                                  {definition.nodes:10d}\n"
+        f"          NUMBER OF REAL PROPERTIES                        {definition.properties:10d}\n"
+        f"          NUMBER OF INTEGER PROPERTIES                     {definition.integer_properties:10d}\n"
+        f"          NUMBER OF SOLUTION-DEPENDENT VARIABLES           {definition.variables:10d}\n"
+        f"          MATRIX                                           "
+        f"{'UNSYMMETRIC' if definition.unsymmetric else 'SYMMETRIC'}\n"
+    )
+    for nodes, names in runs:
+        where = f"NODE {nodes[0]}" if len(nodes) == 1 else f"NODES {nodes[0]} TO {nodes[-1]}"
+        text += f"          {where:<20} DEGREES OF FREEDOM {', '.join(names) or 'NONE'}\n"
+    return text
+
+
+def _places(keyword: str, found: list[str]) -> str:
+    """A keyword with the first places where it stands."""
+    more = f" and {len(found) - 3} more" if len(found) > 3 else ""
+    return f"{keyword:<24} {', '.join(found[:3])}{more}"

@@ -1,0 +1,62 @@
+# SPDX-FileCopyrightText: The uel-harness authors
+# SPDX-License-Identifier: BSD-3-Clause
+"""Numbers as Abaqus prints them, and text files that a killed run leaves readable."""
+
+from __future__ import annotations
+
+import math
+import os
+from importlib.metadata import PackageNotFoundError, version
+from pathlib import Path
+
+
+def general(value: float, width: int = 11, digits: int = 3) -> str:
+    """Fortran's `1PGw.d`, with which the .msg and .dat files are written.
+
+    A number that rounds into [0.1, 10**digits) has `digits` significant digits and four blanks in place of the
+    exponent; any other has one digit more and an exponent.
+    """
+    if not math.isfinite(value):
+        return f"{'NaN' if math.isnan(value) else ('Infinity' if value > 0 else '-Infinity'):>{width}}"
+    if value == 0.0:
+        return f"{0.0:{width - 4}.{digits - 1}f}    "
+    exponent = int(f"{value:.{digits - 1}e}".partition("e")[2])
+    if -1 <= exponent < digits:
+        return f"{value:#{width - 4}.{digits - 1 - exponent}f}    "
+    mantissa, _, power = f"{value:.{digits}e}".partition("e")
+    if len(power) > 3:
+        return f"{mantissa}{power}".rjust(width)
+    return f"{mantissa}E{power}".rjust(width)
+
+
+def status_number(value: float, digits: int) -> str:
+    """C's `%#.<digits>g`, with which the .sta file is written; zero has one digit more than C gives it."""
+    return f"{0.0:.{digits}f}" if value == 0.0 else f"{value:#.{digits}g}"
+
+
+def program() -> str:
+    """Name and version for the head of every file."""
+    try:
+        return f"uel-harness {version('uel-harness')}"
+    except PackageNotFoundError:
+        return "uel-harness"
+
+
+class TextFile:
+    """A file that replaces an older one of the same name; each `write` is handed to the system at once.
+
+    So a killed run leaves every text that was written, and a reader sees whole records only.
+    """
+
+    def __init__(self, path: Path) -> None:
+        self._descriptor = os.open(path, os.O_WRONLY | os.O_CREAT | os.O_TRUNC | os.O_APPEND, 0o666)
+
+    def write(self, text: str) -> None:
+        """Append text."""
+        data = memoryview(text.encode())
+        while data:
+            data = data[os.write(self._descriptor, data) :]
+
+    def close(self) -> None:
+        """Close the file; it is not written to again."""
+        os.close(self._descriptor)

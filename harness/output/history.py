@@ -1,0 +1,124 @@
+# SPDX-FileCopyrightText: The uel-harness authors
+# SPDX-License-Identifier: BSD-3-Clause
+"""History output (NAME_history.csv): nodal variables and energies of the increments, a row each.
+
+Columns are step, increment, time (total time), then what *NODE OUTPUT and *ENERGY OUTPUT of the steps ask for, in
+order: `U2[LOAD]` for a set of one node, `RF2[LOAD:17]` for each node of a larger set, `ALLSE` for an energy of the
+whole model. A column that a step does not ask for is empty there.
+"""
+
+from __future__ import annotations
+
+import csv
+import io
+from pathlib import Path
+
+import numpy as np
+
+from harness.model.arrays import FloatArray, IntArray
+from harness.model.model import Model
+from harness.model.records import IncrementDone, Solution
+from harness.model.steps import NodeRequest
+from harness.output.formats import TextFile
+from harness.output.nodal import NodalIndex
+from harness.output.schedule import Schedule
+
+FIXED = ("step", "increment", "time")
+
+
+class HistoryFile:
+    """Writes NAME_history.csv; its first line is written with the first increment, when the dofs are known."""
+
+    def __init__(self, path: Path, model: Model) -> None:
+        self._model = model
+        self._file = TextFile(path)
+        self._schedule = Schedule()
+        self._columns: list[_Column] = []
+        self._of_step: dict[int, list[tuple[int, _Column]]] = {}
+        self.unavailable: list[str] = []
+
+    def write(self, record: IncrementDone, *, last: bool) -> None:
+        """Append the row of an increment if the step asks for it."""
+        output = self._model.steps[record.step - 1].output
+        if not self._schedule.due(output.history_frequency, record, last=last):
+            return
+        if not self._of_step:
+            self._plan(record.solution)
+        cells = [""] * len(self._columns)
+        for position, column in self._of_step[record.step]:
+            cells[position] = repr(column.value(record.solution))
+        head = f"{record.step},{record.increment},{record.total_time!r}"
+        self._file.write(",".join([head, *cells]) + "\n")
+
+    def close(self) -> None:
+        """Close the file."""
+        self._file.close()
+
+    def _plan(self, solution: Solution) -> None:
+        """Fix the columns of all steps and write the first line."""
+        index = NodalIndex(len(self._model.mesh.labels), solution)
+        position: dict[str, int] = {}
+        for step in self._model.steps:
+            columns: list[_Column] = []
+            for request in step.output.history_nodes:
+                columns += self._nodal(request, index)
+            for name in step.output.history_energies:
+                if name in solution.energies:
+                    columns.append(_Column(name, None, 0))
+                else:
+                    self.unavailable.append(f"{name} of step {step.number}")
+            chosen: dict[str, _Column] = {column.name: column for column in columns}
+            for name, column in chosen.items():
+                if name not in position:
+                    position[name] = len(self._columns)
+                    self._columns.append(column)
+            self._of_step[step.number] = [(position[name], column) for name, column in chosen.items()]
+        buffer = io.StringIO()
+        csv.writer(buffer, lineterminator="\n").writerow([*FIXED, *(column.name for column in self._columns)])
+        self._file.write(buffer.getvalue())
+
+    def _nodal(self, request: NodeRequest, index: NodalIndex) -> list[_Column]:
+        components = index.components(request.variables, request.nodes)
+        for variable in request.variables:
+            if not index.components((variable,), request.nodes):
+                self.unavailable.append(f"{variable} of {request.nset or 'all nodes'}")
+        return [
+            _Column(f"{component.name}[{where}]", component.quantity, int(position))
+            for component in components
+            for where, position in zip(
+                _places(self._model, request.nset, request.nodes), index.find(request.nodes, component.dof), strict=True
+            )
+            if position >= 0
+        ]
+
+
+class _Column:
+    """One value of a row: position in an array of the solution, or an energy where there is no array."""
+
+    def __init__(self, name: str, quantity: str | None, position: int) -> None:
+        self.name = name
+        self._quantity = quantity
+        self._position = position
+
+    def value(self, solution: Solution) -> float:
+        if self._quantity is None:
+            return float(solution.energies[self.name])
+        return float(getattr(solution, self._quantity)[self._position])
+
+
+def _places(model: Model, nset: str, nodes: IntArray) -> list[str]:
+    """What stands in the brackets of the columns of a set."""
+    if nset and len(nodes) == 1:
+        return [nset]
+    names = [model.mesh.name(int(node)) for node in nodes]
+    return [f"{nset}:{name}" for name in names] if nset else names
+
+
+def read_history(path: Path) -> dict[str, FloatArray]:
+    """Columns by name; NaN where a step does not write a column. An unfinished last row is left out."""
+    lines = [line for line in path.read_text().splitlines(keepends=True) if line.endswith("\n")]
+    if not lines:
+        return {name: np.zeros(0) for name in FIXED}
+    names, *rows = csv.reader(lines)
+    values = np.array([[float(cell) if cell else np.nan for cell in row] for row in rows]).reshape(-1, len(names))
+    return {name: values[:, k].copy() for k, name in enumerate(names)}

@@ -1,0 +1,115 @@
+# SPDX-FileCopyrightText: The uel-harness authors
+# SPDX-License-Identifier: BSD-3-Clause
+"""Interface profile (NAME_interface.csv): every variable of every integration point of the interface elements.
+
+A block of rows per increment of field output: step, increment, time (total time), element, point (from 1), then the
+variables that the interface elements keep: coordinates X and Y, separations SEPN and SEPT, tractions TN and TT,
+DAMAGE, ... A variable that one element type lacks is empty there.
+"""
+
+from __future__ import annotations
+
+import csv
+from pathlib import Path
+
+import numpy as np
+
+from harness.errors import UelError
+from harness.model.arrays import FloatArray
+from harness.model.model import Model
+from harness.model.records import ElementState, IncrementDone, PointVariables
+from harness.output.formats import TextFile
+from harness.output.points import point_values
+from harness.output.schedule import Schedule
+
+FIXED = ("step", "increment", "time", "element", "point")
+
+
+class InterfaceFile:
+    """Writes NAME_interface.csv; there is no such file if the model has no interface elements that we know."""
+
+    def __init__(self, path: Path, model: Model) -> None:
+        path.unlink(missing_ok=True)
+        self._path = path
+        self._model = model
+        self._schedule = Schedule()
+        self._file: TextFile | None = None
+        self._names: list[str] = []
+
+    def write(self, record: IncrementDone, *, last: bool) -> None:
+        """Append the block of an increment if the step writes field output."""
+        states = [
+            (state, state.variables)
+            for state in record.solution.elements
+            if state.variables is not None and state.variables.kind == "interface"
+        ]
+        frequency = self._model.steps[record.step - 1].output.field_frequency
+        if not states or not self._schedule.due(frequency, record, last=last):
+            return
+        if self._file is None:
+            self._names = list(dict.fromkeys(name for _, variables in states for name in variables.names))
+            self._file = TextFile(self._path)
+            self._file.write(",".join([*FIXED, *self._names]) + "\n")
+        head = f"{record.step},{record.increment},{record.total_time!r}"
+        lines: list[str] = []
+        for state, variables in states:
+            lines += self._rows(head, state, variables)
+        self._file.write("".join(lines))
+
+    def close(self) -> None:
+        """Close the file."""
+        if self._file is not None:
+            self._file.close()
+
+    def _rows(self, head: str, state: ElementState, variables: PointVariables) -> list[str]:
+        order = [variables.names.index(name) if name in variables.names else -1 for name in self._names]
+        labels = self._model.groups[state.group].labels.tolist()
+        return [
+            ",".join([head, str(label), str(k), *(repr(point[i]) if i >= 0 else "" for i in order)]) + "\n"
+            for label, points in zip(labels, point_values(state, variables).tolist(), strict=True)
+            for k, point in enumerate(points, 1)
+        ]
+
+
+def read_interface(path: Path, step: int | None = None, increment: int = -1) -> dict[str, FloatArray]:
+    """Profile of one increment, by column, in the order of the elements.
+
+    Parameters
+    ----------
+    path
+        NAME_interface.csv.
+    step
+        Number of the step; the last one written by default.
+    increment
+        Number of the increment; -1 is the last one written of the step.
+
+    Raises
+    ------
+    UelError
+        There is no such file, or it does not hold the increment.
+    """
+    names, blocks = _read_blocks(path)
+    known = [place for place in blocks if step is None or place[0] == step]
+    if increment > 0:
+        known = [place for place in known if place[1] == increment]
+    if not known:
+        where = f"step {step}, " if step is not None else ""
+        raise UelError(f"{path}: no interface profile of {where}increment {increment}")
+    values = np.array(blocks[known[-1]])
+    return {name: values[:, k].copy() for k, name in enumerate(names)}
+
+
+def _read_blocks(path: Path) -> tuple[list[str], dict[tuple[int, int], list[list[float]]]]:
+    """Rows by step and increment. A last block that a killed run left unfinished is left out."""
+    if not path.exists():
+        raise UelError(f"{path}: no such file; it is written only if the model has interface elements of the project")
+    lines = [line for line in path.read_text().splitlines(keepends=True) if line.endswith("\n")]
+    names, *rows = csv.reader(lines)
+    blocks: dict[tuple[int, int], list[list[float]]] = {}
+    for row in rows:
+        block = blocks.setdefault((int(row[0]), int(row[1])), [])
+        block.append([float(cell) if cell else np.nan for cell in row])
+    places = list(blocks)
+    if len(places) > 1 and len(blocks[places[-1]]) < len(blocks[places[0]]):
+        del blocks[places[-1]]
+    return names, blocks

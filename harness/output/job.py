@@ -1,0 +1,161 @@
+# SPDX-FileCopyrightText: The uel-harness authors
+# SPDX-License-Identifier: BSD-3-Clause
+"""All files of one job, fed by the records of the run.
+
+Each record is in the files when `write` returns, and an increment is named in NAME.sta only after everything else of
+it is written: a run that is killed leaves the files readable and complete up to the last line of NAME.sta.
+"""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+
+from harness.errors import UelError
+from harness.model.model import Model
+from harness.model.records import (
+    AttemptAbandoned,
+    AttemptStarted,
+    IncrementDone,
+    IterationDone,
+    Record,
+    StepDone,
+    StepStarted,
+    Warned,
+)
+from harness.output.data import DataFile
+from harness.output.fields import FieldFiles
+from harness.output.history import HistoryFile
+from harness.output.interface import InterfaceFile
+from harness.output.message import MessageFile
+from harness.output.progress import ProgressDisplay
+from harness.output.status import StatusFile, StatusRow
+
+
+class JobOutput:
+    """Writes NAME.sta, .msg, .dat, _history.csv, _interface.csv, .pvd with its .vtu files, and shows progress.
+
+    Files of an earlier job of the same name are replaced.
+
+    Parameters
+    ----------
+    model
+        The deck that runs.
+    job
+        Name of the files.
+    directory
+        Their folder, which exists.
+    quiet
+        No progress display.
+    """
+
+    def __init__(self, model: Model, job: str, directory: Path, *, quiet: bool = False) -> None:
+        stem = Path(directory) / job
+        self._model = model
+        self._pending: IncrementDone | None = None
+        self._status = StatusFile(stem.with_name(f"{job}.sta"))
+        self._message = MessageFile(stem.with_name(f"{job}.msg"), model)
+        self._data = DataFile(stem.with_name(f"{job}.dat"), model)
+        self._history = HistoryFile(stem.with_name(f"{job}_history.csv"), model)
+        self._interface = InterfaceFile(stem.with_name(f"{job}_interface.csv"), model)
+        self._fields = FieldFiles(stem.with_name(f"{job}.pvd"), model)
+        self._progress = ProgressDisplay(model, quiet=quiet)
+
+    def write(self, record: Record) -> None:
+        """Write one record to every file that it belongs in."""
+        match record:
+            case StepStarted():
+                self._message.step_started(record)
+                self._data.step_started(record)
+            case AttemptStarted():
+                self._message.attempt_started(record)
+            case IterationDone():
+                self._message.iteration(record)
+            case AttemptAbandoned():
+                self._abandoned(record)
+            case IncrementDone():
+                self._increment(record)
+            case StepDone():
+                self._finish_step()
+                self._message.step_done(record)
+            case Warned():
+                self._message.remark("WARNING", record.message)
+        self._progress.write(record)
+
+    def user_text(self, file: str, kind: str, text: str) -> None:
+        """Text of a user routine: `file` '.msg' or '.dat', `kind` 'print', 'note', 'warning' or 'error'."""
+        target = self._data if file == ".dat" else self._message
+        if kind == "print":
+            target.text(text)
+        else:
+            target.remark(kind.upper(), text)
+
+    def close(self, error: UelError | None) -> None:
+        """Write what the last converged increment still owes, and the verdict; the job ends here."""
+        self._finish_step()
+        text = None if error is None else str(error)
+        self._progress.close()
+        self._message.close(text)
+        self._data.close(text)
+        self._history.close()
+        self._interface.close()
+        self._status.close(completed=error is None)
+
+    def _abandoned(self, record: AttemptAbandoned) -> None:
+        self._message.abandoned(record)
+        self._status.write(
+            StatusRow(
+                record.step,
+                record.increment,
+                record.attempt,
+                True,
+                record.iterations,
+                record.total_time,
+                record.step_time,
+                record.time_increment,
+            )
+        )
+
+    def _increment(self, record: IncrementDone) -> None:
+        period = self._model.steps[record.step - 1].procedure.period
+        self._requested(record, last=record.step_time >= period * (1.0 - 1e-9))
+        self._pending = record
+        self._message.increment(record)
+        self._status.write(
+            StatusRow(
+                record.step,
+                record.increment,
+                record.attempt,
+                False,
+                record.iterations,
+                record.total_time,
+                record.step_time,
+                record.time_increment,
+                self._monitored(record),
+            )
+        )
+
+    def _finish_step(self) -> None:
+        """Write the last increment of a step where its frequency left it out."""
+        if self._pending is not None:
+            self._requested(self._pending, last=True)
+            self._pending = None
+
+    def _requested(self, record: IncrementDone, *, last: bool) -> None:
+        self._fields.write(record, last=last)
+        self._interface.write(record, last=last)
+        self._history.write(record, last=last)
+        for name in self._history.unavailable:
+            self._data.remark("WARNING", f"HISTORY OUTPUT OF {name} IS NOT AVAILABLE AND IS LEFT OUT")
+        self._history.unavailable.clear()
+        self._data.increment(record, last=last)
+
+    def _monitored(self, record: IncrementDone) -> float | None:
+        """Value of the dof of *MONITOR."""
+        monitor = self._model.steps[record.step - 1].output.monitor
+        if monitor is None:
+            return None
+        solution = record.solution
+        found = np.flatnonzero((solution.node == monitor[0]) & (solution.dof == monitor[1]))
+        return float(solution.displacement[found[0]]) if len(found) else None

@@ -1,0 +1,182 @@
+# SPDX-FileCopyrightText: The uel-harness authors
+# SPDX-License-Identifier: BSD-3-Clause
+"""The message file (.msg): tolerances of each step, then every iteration with its checks, as Abaqus prints them.
+
+Layout and words are those of the message files of Abaqus 6.14 to 2023. The figures of the solver (equations,
+operations) and the controls of what the harness does not have (contact, hybrid elements) are not there.
+"""
+
+from __future__ import annotations
+
+import time
+from datetime import datetime
+from pathlib import Path
+
+from harness.model.model import Model
+from harness.model.records import (
+    AttemptAbandoned,
+    AttemptStarted,
+    FieldCheck,
+    IncrementDone,
+    IterationDone,
+    Largest,
+    StepDone,
+    StepStarted,
+    Verdict,
+)
+from harness.output.formats import TextFile, general, program
+from harness.output.step_header import procedure, tolerances
+from harness.output.wording import FIELDS, FieldWords, fields_of, remark
+
+
+class MessageFile:
+    """Writes NAME.msg."""
+
+    def __init__(self, path: Path, model: Model) -> None:
+        self._model = model
+        self._file = TextFile(path)
+        self._fields = fields_of(model)
+        self._started = (time.perf_counter(), time.process_time())
+        self._counts = dict.fromkeys(("increments", "cutbacks", "iterations", "searches", "warnings", "errors"), 0)
+
+    def step_started(self, record: StepStarted) -> None:
+        """Head of a step: tolerances and controls."""
+        step = self._model.steps[record.step - 1]
+        now = datetime.now()
+        self._file.write(
+            f"1\n\n   {program()}                                  Date {now:%d-%b-%Y}   Time {now:%H:%M:%S}\n\n"
+            f" {self._model.heading}".rstrip()
+            + "\n\n"
+            f" STEP {step.number:4d}     INCREMENT     1     STEP TIME {general(0.0)}\n\n\n"
+            f"{procedure(step)}{tolerances(step, self._fields)}"
+        )
+
+    def attempt_started(self, record: AttemptStarted) -> None:
+        """First line of an attempt."""
+        self._file.write(
+            f"\n\n  INCREMENT{record.increment:6d} STARTS. ATTEMPT NUMBER{record.attempt:3d}, "
+            f"TIME INCREMENT{general(record.time_increment)}\n"
+        )
+
+    def iteration(self, record: IterationDone) -> None:
+        """Block of one iteration: a paragraph for each field."""
+        self._counts["iterations"] += 1
+        self._counts["searches"] += len(record.line_search)
+        text = f"\n               CONVERGENCE CHECKS FOR EQUILIBRIUM ITERATION{record.iteration:6d}\n\n"
+        if record.line_search:
+            text += "\n CORRECTION SCALE FACTORS OF THE LINE SEARCH" + "".join(map(general, record.line_search)) + "\n"
+        self._file.write(text + "".join(self._check(check) for check in record.checks))
+
+    def abandoned(self, record: AttemptAbandoned) -> None:
+        """Reason why an attempt was given up."""
+        if record.next_increment > 0.0:
+            self._counts["cutbacks"] += 1
+        self._file.write(f" \n\n{remark('NOTE', record.reason)}")
+
+    def increment(self, record: IncrementDone) -> None:
+        """Summary of a converged increment."""
+        self._counts["increments"] += 1
+        fraction = record.step_time / self._model.steps[record.step - 1].procedure.period
+        grows = ""
+        if record.next_increment > record.time_increment:
+            grows = f"          TIME INCREMENT MAY NOW INCREASE TO  {general(record.next_increment)}\n"
+        self._file.write(
+            f"{grows}\n ITERATION SUMMARY FOR THE INCREMENT:{record.iterations:4d} TOTAL ITERATIONS, OF WHICH\n"
+            f"{0:4d} ARE SEVERE DISCONTINUITY ITERATIONS AND{record.iterations:3d} ARE EQUILIBRIUM ITERATIONS.\n\n"
+            f" TIME INCREMENT COMPLETED{general(record.time_increment)},"
+            f"  FRACTION OF STEP COMPLETED{general(fraction)}\n"
+            f" STEP TIME COMPLETED     {general(record.step_time)},  TOTAL TIME COMPLETED      "
+            f"{general(record.total_time)}\n"
+        )
+
+    def step_done(self, record: StepDone) -> None:
+        """Totals of a step."""
+        self._file.write(
+            f"\n\n STEP{record.step:4d} IS COMPLETE:{record.increments:6d} INCREMENTS,{record.cutbacks:5d} CUTBACKS,"
+            f"{record.iterations:6d} ITERATIONS\n"
+        )
+
+    def remark(self, kind: str, text: str) -> None:
+        """A note, warning or error."""
+        if kind == "WARNING":
+            self._counts["warnings"] += 1
+        elif kind == "ERROR":
+            self._counts["errors"] += 1
+        self._file.write(f" \n\n{remark(kind, text)}")
+
+    def text(self, text: str) -> None:
+        """Text of a user routine, as it is."""
+        self._file.write(text if text.endswith("\n") else f"{text}\n")
+
+    def close(self, error: str | None) -> None:
+        """Verdict, summary and times of the job."""
+        if error is None:
+            self._file.write("\n\n          THE ANALYSIS HAS BEEN COMPLETED\n")
+        else:
+            self.remark("ERROR", error)
+            self.remark(
+                "ERROR",
+                "THE ANALYSIS HAS BEEN TERMINATED DUE TO PREVIOUS ERRORS. "
+                "ALL OUTPUT REQUESTS HAVE BEEN WRITTEN FOR THE LAST CONVERGED INCREMENT.",
+            )
+        self._file.write(self._summary())
+        self._file.close()
+
+    def _check(self, check: FieldCheck) -> str:
+        words = FIELDS.get(check.field) or FieldWords(check.field.upper(), check.field.upper(), range(0))
+        flux = words.flux
+        text = (
+            f"\n{f' AVERAGE {flux}':<34}{general(check.average_flux)}   {f'TIME AVG. {flux}':<19} "
+            f"{general(check.time_average_flux)}\n"
+        )
+        text += self._largest(f" LARGEST RESIDUAL {flux}", f" ALL {flux:<9} RESIDUALS ARE ZERO", check.residual)
+        quantity = words.quantity
+        text += self._largest(
+            f" LARGEST INCREMENT OF {quantity}", f" ALL {quantity:<9}INCREMENTS ARE ZERO", check.increment
+        )
+        text += self._largest(
+            f" LARGEST CORRECTION TO {quantity}", f" ALL CORRECTION TO {quantity:<9}ARE ZERO", check.correction
+        )
+        if check.verdict is Verdict.ACCEPTED_ESTIMATE and check.estimated_correction is not None:
+            text += f"{f' ESTIMATE OF {quantity:<9}CORRECTION':<34}{general(check.estimated_correction)}\n"
+        return text + f"{_verdict(check.verdict, words)}\n"
+
+    def _largest(self, words: str, all_zero: str, largest: Largest) -> str:
+        if largest.value == 0.0 or largest.node < 0:
+            return f"{all_zero}\n"
+        mesh = self._model.mesh
+        text = f"{words:<34}{general(largest.value)}   AT NODE{mesh.labels[largest.node]:11d}   DOF{largest.dof:3d}\n"
+        instance = mesh.instances[largest.node]
+        return f"{text}   INSTANCE: {instance}\n" if instance else text
+
+    def _summary(self) -> str:
+        counts = self._counts
+        wall, cpu = time.perf_counter() - self._started[0], time.process_time() - self._started[1]
+        rows = (
+            (counts["cutbacks"], "CUTBACKS IN AUTOMATIC INCREMENTATION"),
+            (counts["iterations"], "ITERATIONS INCLUDING CONTACT ITERATIONS IF PRESENT"),
+            (counts["searches"], "ADDITIONAL RESIDUAL EVALUATIONS FOR LINE SEARCHES"),
+            (len(self._model.warnings), "WARNING MESSAGES DURING USER INPUT PROCESSING"),
+            (counts["warnings"], "WARNING MESSAGES DURING ANALYSIS"),
+            (counts["errors"], "ERROR MESSAGES"),
+        )
+        return (
+            f"\n\n\n     ANALYSIS SUMMARY:\n     TOTAL OF {counts['increments']:10d}  INCREMENTS\n"
+            + "".join(f"{count:24d}  {words}\n" for count, words in rows)
+            + "\n\n\n     JOB TIME SUMMARY\n"
+            + f"       TOTAL CPU TIME (SEC) ={general(cpu, 13, 5)}\n"
+            + f"       WALLCLOCK TIME (SEC) ={general(wall, 13, 5)}\n"
+        )
+
+
+def _verdict(verdict: Verdict, words: FieldWords) -> str:
+    """Sentence of a verdict."""
+    flux, quantity = f"{words.flux:<9}", f"{words.quantity:<9}"
+    return {
+        Verdict.LINEAR: f"          THE {flux} EQUILIBRIUM RESPONSE WAS LINEAR IN THIS INCREMENT",
+        Verdict.ZERO_FLUX: f"          THERE IS ZERO {flux} EVERYWHERE",
+        Verdict.NOT_ACHIEVED: f"          {flux} EQUILIBRIUM NOT ACHIEVED WITHIN TOLERANCE.",
+        Verdict.CONVERGED: f"          THE {flux} EQUILIBRIUM EQUATIONS HAVE CONVERGED",
+        Verdict.ACCEPTED_ESTIMATE: f" {flux} EQUILIB. ACCEPTED BASED ON SMALL RESIDUAL AND ESTIMATED CORRECTION",
+        Verdict.CORRECTION_TOO_LARGE: f"          {quantity}CORRECTION TOO LARGE COMPARED TO {quantity}INCREMENT",
+    }[verdict]

@@ -1,0 +1,86 @@
+# SPDX-FileCopyrightText: The uel-harness authors
+# SPDX-License-Identifier: BSD-3-Clause
+"""Nodal variables by their Abaqus names: which component of which array of the solution they are."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from dataclasses import dataclass
+
+import numpy as np
+
+from harness.model.arrays import FloatArray, IntArray
+from harness.model.records import Solution
+
+LARGEST_DOF = 30
+
+# name of the component of each degree of freedom, by quantity; 11 and up are temperatures
+_NAMES: dict[str, dict[int, str]] = {
+    "displacement": {1: "U1", 2: "U2", 3: "U3", 4: "UR1", 5: "UR2", 6: "UR3", 7: "WARP", 8: "POR", 9: "EPOT"},
+    "reaction": {1: "RF1", 2: "RF2", 3: "RF3", 4: "RM1", 5: "RM2", 6: "RM3", 7: "RWM", 8: "RVF", 9: "RECUR"},
+    "load": {1: "CF1", 2: "CF2", 3: "CF3", 4: "CM1", 5: "CM2", 6: "CM3", 7: "CW", 8: "CVF", 9: "CECUR"},
+}
+for _dof in range(11, LARGEST_DOF + 1):
+    _NAMES["displacement"][_dof] = f"NT{_dof}"
+    _NAMES["reaction"][_dof] = f"RFL{_dof}"
+    _NAMES["load"][_dof] = f"CFL{_dof}"
+
+_COMPONENTS = {name: (quantity, dof) for quantity, names in _NAMES.items() for dof, name in names.items()}
+_GROUPS = {
+    "U": ("displacement", range(1, 8)),
+    "UT": ("displacement", range(1, 4)),
+    "UR": ("displacement", range(4, 7)),
+    "NT": ("displacement", range(11, LARGEST_DOF + 1)),
+    "RF": ("reaction", range(1, 8)),
+    "RT": ("reaction", range(1, 4)),
+    "RM": ("reaction", range(4, 7)),
+    "RFL": ("reaction", range(11, LARGEST_DOF + 1)),
+    "CF": ("load", range(1, 8)),
+    "CM": ("load", range(4, 7)),
+    "CFL": ("load", range(11, LARGEST_DOF + 1)),
+}
+
+
+@dataclass(frozen=True, slots=True)
+class Component:
+    """One nodal component: its name, the array of `Solution` it is in, and its degree of freedom."""
+
+    name: str
+    quantity: str
+    dof: int
+
+    def values(self, solution: Solution) -> FloatArray:
+        """The array of the solution that holds this component."""
+        array: FloatArray = getattr(solution, self.quantity)
+        return array
+
+
+class NodalIndex:
+    """Where the unknown of a node and dof is in the arrays of a solution."""
+
+    def __init__(self, nodes: int, solution: Solution) -> None:
+        self._position = np.full((nodes, LARGEST_DOF + 1), -1, dtype=np.int64)
+        self._position[solution.node, solution.dof] = np.arange(len(solution.node))
+
+    def find(self, nodes: IntArray, dof: int) -> IntArray:
+        """Positions (len(nodes),), -1 where a node does not have the dof."""
+        found: IntArray = self._position[nodes, dof]
+        return found
+
+    def components(self, variables: Iterable[str], nodes: IntArray) -> list[Component]:
+        """Components of the variables asked for that any of the nodes has, in order and without repetition."""
+        present = np.flatnonzero((self._position[nodes] >= 0).any(axis=0))
+        found: dict[str, Component] = {}
+        for variable in variables:
+            if variable in _COMPONENTS:
+                quantity, dof = _COMPONENTS[variable]
+                dofs: Iterable[int] = (dof,)
+            elif variable in _GROUPS:
+                quantity, dofs = _GROUPS[variable]
+            else:
+                continue
+            for dof in dofs:
+                if dof in present:
+                    name = _NAMES[quantity][dof]
+                    found.setdefault(name, Component(name, quantity, dof))
+        return list(found.values())

@@ -1,0 +1,89 @@
+# SPDX-FileCopyrightText: The uel-harness authors
+# SPDX-License-Identifier: BSD-3-Clause
+"""What a job wrote, read back from its files: of a finished job, a failed one or one that was killed."""
+
+from __future__ import annotations
+
+from functools import cached_property
+from pathlib import Path
+
+import meshio
+import numpy as np
+
+from harness.errors import UelError
+from harness.model.arrays import FloatArray
+from harness.output.fields import Frame, read_field_mesh, read_frames
+from harness.output.history import read_history
+from harness.output.interface import read_interface
+from harness.output.status import StatusRow, has_completed, read_status
+
+
+class Result:
+    """The files of one job.
+
+    Parameters
+    ----------
+    stem
+        Folder and name of the job: the files are stem.sta, stem_history.csv and so on.
+    seconds
+        Wall-clock time of the run, where it is known.
+    """
+
+    def __init__(self, stem: Path | str, *, seconds: float | None = None) -> None:
+        self._stem = Path(stem)
+        self.seconds = seconds
+        if not self.file(".sta").exists():
+            raise UelError(f"{self.file('.sta')}: no such job")
+
+    @property
+    def job(self) -> str:
+        """Name of the job."""
+        return self._stem.name
+
+    def file(self, ending: str) -> Path:
+        """Path of a file of the job: `.msg`, `_history.csv`, ..."""
+        return self._stem.with_name(self._stem.name + ending)
+
+    @cached_property
+    def status(self) -> list[StatusRow]:
+        """Lines of the status file."""
+        return read_status(self.file(".sta"))
+
+    @property
+    def completed(self) -> bool:
+        """True if the analysis has completed."""
+        return has_completed(self.file(".sta"))
+
+    @cached_property
+    def history(self) -> dict[str, FloatArray]:
+        """History by column: 'step', 'increment', 'time', 'U2[LOAD]', ...; NaN where a step does not write it."""
+        return read_history(self.file("_history.csv"))
+
+    @property
+    def frames(self) -> list[Frame]:
+        """Increments with field output."""
+        return read_frames(self.file(".pvd"))
+
+    def mesh(self, increment: int = -1, step: int | None = None) -> meshio.Mesh:
+        """Mesh with all fields of an increment; -1 is the last one written, of the last step unless one is given."""
+        return read_field_mesh(self.file(".pvd"), step, increment)
+
+    def field(self, name: str, increment: int = -1, step: int | None = None) -> FloatArray:
+        """One field of an increment: nodal (nodes[, 3]) or of the cells, group after group; NaN where not defined.
+
+        Raises
+        ------
+        UelError
+            The increment or the field was not written.
+        """
+        mesh = self.mesh(increment, step)
+        if name in mesh.point_data:
+            return np.asarray(mesh.point_data[name])
+        if name in mesh.cell_data:
+            return np.concatenate(mesh.cell_data[name])
+        known = ", ".join([*mesh.point_data, *mesh.cell_data])
+        raise UelError(f"{self.file('.pvd')}: no field '{name}'; there are {known}")
+
+    def interface(self, increment: int = -1, step: int | None = None) -> dict[str, FloatArray]:
+        """Interface profile of an increment by column: 'element', 'point', 'X', 'SEPN', 'TN', 'DAMAGE', ..."""
+        return read_interface(self.file("_interface.csv"), step, increment)

@@ -1,0 +1,132 @@
+# SPDX-FileCopyrightText: The uel-harness authors
+# SPDX-License-Identifier: BSD-3-Clause
+"""The head of a step in the .msg and .dat files: procedure, tolerances and time incrementation controls."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+
+from harness.model.steps import Controls, FieldControls, Step, TimeControls
+from harness.output.formats import general
+from harness.output.wording import FIELDS, FieldWords
+
+# *CONTROLS, FIELD= names a field by its conjugate quantity
+CONTROL_NAMES = {
+    "force": "DISPLACEMENT",
+    "moment": "ROTATION",
+    "pore": "PORE FLUID PRESSURE",
+    "electrical": "ELECTRICAL POTENTIAL",
+    "temperature": "TEMPERATURE",
+}
+
+
+def controls_of(field: str, controls: Controls) -> FieldControls:
+    """Tolerances of a field of the records ('force', ...)."""
+    return controls.fields.get(CONTROL_NAMES.get(field, field), controls.default)
+
+
+def procedure(step: Step) -> str:
+    """Kind of the step and its time incrementation."""
+    static = step.procedure
+    lines = [
+        f"                        S T E P  {step.number:6d}     S T A T I C   A N A L Y S I S",
+        "",
+        "",
+        f"          {step.title}".rstrip(),
+        "",
+    ]
+    if static.direct:
+        lines += [
+            "          FIXED TIME INCREMENTS",
+            f"          TIME INCREMENT IS                                  {general(static.initial)}",
+            f"          TIME PERIOD IS                                     {general(static.period)}",
+        ]
+    else:
+        lines += [
+            "     AUTOMATIC TIME CONTROL WITH -",
+            f"          A SUGGESTED INITIAL TIME INCREMENT OF              {general(static.initial)}",
+            f"          AND A TOTAL TIME PERIOD OF                         {general(static.period)}",
+            f"          THE MINIMUM TIME INCREMENT ALLOWED IS              {general(static.minimum)}",
+            f"          THE MAXIMUM TIME INCREMENT ALLOWED IS              {general(static.maximum)}",
+        ]
+    return "\n".join([*lines, "", ""])
+
+
+def tolerances(step: Step, fields: Iterable[str]) -> str:
+    """Everything that the convergence checks and the time incrementation of the step depend on."""
+    blocks = [_field(FIELDS[name], controls_of(name, step.controls)) for name in fields]
+    blocks.append(_time(step.controls.time, direct=step.procedure.direct))
+    search = step.controls.line_search
+    if search.n_ls:
+        blocks.append(
+            " LINE SEARCH CONTROL PARAMETERS:\n"
+            + _row("MAXIMUM NUMBER OF LINE SEARCH ITERATIONS", search.n_ls)
+            + _row("MAXIMUM CORRECTION SCALE FACTOR", search.s_max)
+            + _row("MINIMUM CORRECTION SCALE FACTOR", search.s_min)
+            + _row("RESIDUAL REDUCTION FACTOR AT WHICH LINE SEARCHING STOPS", search.f_s)
+            + _row("RATIO OF CORRECTION SCALE FACTORS AT WHICH LINE SEARCHING STOPS", search.eta_s)
+        )
+    options = [f"     THE MAXIMUM NUMBER OF INCREMENTS IN THIS STEP IS{step.increments:24d}\n"]
+    if step.nlgeom:
+        options.append("          LARGE DISPLACEMENT THEORY WILL BE USED\n")
+    if step.unsymmetric:
+        options.append("          UNSYMMETRIC MATRIX STORAGE AND SOLUTION WILL BE USED\n")
+    kind = (
+        "EXTRAPOLATION WILL NOT" if step.extrapolation in ("NO", "NONE") else f"{step.extrapolation} EXTRAPOLATION WILL"
+    )
+    options.append(f"     {kind} BE USED\n")
+    return "\n".join(blocks + options) + "\n"
+
+
+def _row(words: str, value: float) -> str:
+    """A line of 80 columns: counts end there, tolerances have three digits and factors four."""
+    if isinstance(value, int):
+        return f"     {words:<70}{value:5d}\n"
+    if " FACTOR " in words or " RATIO " in words:
+        return f"     {words:<63}{general(value, 12, 4)}\n"
+    return f"     {words:<64}{general(value)}\n"
+
+
+def _field(words: FieldWords, controls: FieldControls) -> str:
+    flux, quantity = f"{words.flux:<9}", f"{words.quantity:<9}"
+    rows = [
+        (f"CRITERION FOR RESIDUAL {flux} FOR A NONLINEAR PROBLEM", controls.r_n),
+        (f"CRITERION FOR {quantity}CORRECTION IN A NONLINEAR PROBLEM", controls.c_n),
+    ]
+    if controls.q_0:
+        rows.append((f"INITIAL VALUE OF TIME AVERAGE {words.flux}", controls.q_0))
+    if controls.q_u:
+        rows.append((f"TIME AVERAGE {words.flux} IS SET TO", controls.q_u))
+    rows += [
+        (f"ALTERNATE CRIT. FOR RESIDUAL {flux} FOR A NONLINEAR PROBLEM", controls.r_p),
+        (f"CRITERION FOR ZERO {flux} RELATIVE TO TIME AVRG. {words.flux}", controls.eps),
+        (f"CRITERION FOR RESIDUAL {flux} WHEN THERE IS ZERO FLUX", controls.eps),
+        (f"CRITERION FOR {quantity}CORRECTION WHEN THERE IS ZERO FLUX", controls.c_eps),
+        (f"CRITERION FOR RESIDUAL {flux} FOR A LINEAR INCREMENT", controls.r_l),
+    ]
+    return f" CONVERGENCE TOLERANCE PARAMETERS FOR {words.flux}\n" + "".join(_row(*row) for row in rows)
+
+
+def _time(controls: TimeControls, *, direct: bool) -> str:
+    first: list[tuple[str, float]] = [("FIRST EQUILIBRIUM ITERATION FOR CONSECUTIVE DIVERGENCE CHECK", controls.i_0)]
+    alternate = ("EQUILIBRIUM ITERATION AFTER WHICH ALTERNATE RESIDUAL IS USED", controls.i_p)
+    largest = ("MAXIMUM EQUILIBRIUM ITERATIONS ALLOWED", controls.i_c)
+    if direct:
+        return " ITERATION CONTROL PARAMETERS:\n" + "".join(_row(*row) for row in [*first, alternate, largest])
+    rows = [
+        *first,
+        ("EQUILIBRIUM ITERATION AT WHICH LOG. CONVERGENCE RATE CHECK BEGINS", controls.i_r),
+        alternate,
+        largest,
+        ("EQUILIBRIUM ITERATION COUNT FOR CUT-BACK IN NEXT INCREMENT", controls.i_l),
+        ("MAXIMUM EQUILIB. ITERS IN TWO INCREMENTS FOR TIME INCREMENT INCREASE", controls.i_g),
+        ("MAXIMUM ATTEMPTS ALLOWED IN AN INCREMENT", controls.i_a),
+        ("CUT-BACK FACTOR AFTER DIVERGENCE", controls.d_f),
+        ("CUT-BACK FACTOR FOR TOO SLOW CONVERGENCE", controls.d_c),
+        ("CUT-BACK FACTOR AFTER TOO MANY EQUILIBRIUM ITERATIONS", controls.d_b),
+        ("CUT-BACK FACTOR AFTER PROBLEMS IN ELEMENT ASSEMBLY", controls.d_h),
+        ("INCREASE FACTOR AFTER TWO INCREMENTS THAT CONVERGE QUICKLY", controls.d_d),
+        ("MAX. TIME INCREMENT INCREASE FACTOR ALLOWED", controls.d_m),
+        ("MINIMUM TIME INCREMENT RATIO FOR EXTRAPOLATION TO OCCUR", controls.d_e),
+    ]
+    return " TIME INCREMENTATION CONTROL PARAMETERS:\n" + "".join(_row(*row) for row in rows)

@@ -1,0 +1,152 @@
+# SPDX-FileCopyrightText: The uel-harness authors
+# SPDX-License-Identifier: BSD-3-Clause
+"""Tables of *NODE PRINT and *EL PRINT in the .dat file, laid out as Abaqus prints them.
+
+Lines whose values are all zero are left out of a table, as Abaqus does, but count for MAXIMUM and MINIMUM.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from harness.model.arrays import FloatArray, IntArray
+from harness.model.mesh import Mesh
+from harness.model.model import Model
+from harness.model.records import ElementState, Solution
+from harness.model.steps import ElementRequest, NodeRequest
+from harness.output.formats import general
+from harness.output.nodal import NodalIndex
+
+COLUMNS = 9  # of a table of Abaqus
+
+
+@dataclass(frozen=True, slots=True)
+class _Table:
+    """Columns of values (rows, columns) with the heads of lines and columns."""
+
+    title: str
+    head: str
+    indent: int
+    names: list[str]
+    lines: list[str]
+    labels: list[str]
+    values: FloatArray
+    where: str
+    totals: bool = False
+
+    def __str__(self) -> str:
+        if not len(self.values) or not self.values.any():
+            return f"\n\n{self.title}\n\n          ALL VALUES IN THIS TABLE ARE ZERO\n"
+        text = f"\n\n{self.title}\n\n{self.head}\n\n"
+        for line, values in zip(self.lines, self.values.tolist(), strict=True):
+            if any(values):
+                text += line + _row(values) + "\n"
+        for name, best in (
+            ("MAXIMUM", np.argmax(self.values, axis=0)),
+            ("MINIMUM", np.argmin(self.values, axis=0)),
+        ):
+            extremes = np.take_along_axis(self.values, best[None, :], axis=0)[0]
+            text += f"\n{f' {name}':<{self.indent}}{_row(extremes.tolist())}\n"
+            text += f"{f' {self.where}':<{self.indent - 1}}" + "".join(f"{self.labels[k]:>12}" for k in best) + "\n"
+        if self.totals:
+            text += f"\n{' TOTAL':<{self.indent}}{_row(self.values.sum(axis=0).tolist())}\n"
+        return text
+
+
+def node_tables(request: NodeRequest, model: Model, solution: Solution, index: NodalIndex) -> str:
+    """Tables of one *NODE PRINT request; of each variable the components that the nodes have."""
+    components = index.components(request.variables, request.nodes)
+    title = "   THE FOLLOWING TABLE IS PRINTED FOR " + (
+        f"NODES BELONGING TO NODE SET {request.nset}" if request.nset else "ALL NODES"
+    )
+    labels = [_label(model.mesh, node) for node in request.nodes.tolist()]
+    text = ""
+    for first in range(0, len(components), COLUMNS):
+        part = components[first : first + COLUMNS]
+        values = np.zeros((len(request.nodes), len(part)))
+        for k, component in enumerate(part):
+            position = index.find(request.nodes, component.dof)
+            values[:, k] = np.append(component.values(solution), 0.0)[position]
+        text += str(
+            _Table(
+                title,
+                "       NODE FOOT-   " + "".join(f"{component.name:<12}" for component in part) + "\n            NOTE",
+                15,
+                [component.name for component in part],
+                [f"{label:>11}    " for label in labels],
+                labels,
+                values,
+                "AT NODE",
+                request.totals,
+            )
+        )
+    return text
+
+
+def element_tables(request: ElementRequest, model: Model, solution: Solution) -> str:
+    """Tables of one *EL PRINT request, one for each element type that keeps any of the variables."""
+    states = {state.group: state for state in solution.elements}
+    text = ""
+    first = 0
+    for k, group in enumerate(model.groups):
+        inside = request.elements[(request.elements >= first) & (request.elements < first + len(group.labels))] - first
+        first += len(group.labels)
+        if not len(inside) or k not in states:
+            continue
+        names, values = _element_values(states[k], inside, request.variables)
+        labels = group.labels[inside].tolist()
+        points = values.shape[1]
+        title = f"   THE FOLLOWING TABLE IS PRINTED FOR ELEMENTS WITH TYPE {group.type} AT THE INTEGRATION POINTS" + (
+            f" AND BELONGING TO ELEMENT SET {request.elset}" if request.elset else ""
+        )
+        for start in range(0, len(names), COLUMNS):
+            part = names[start : start + COLUMNS]
+            text += str(
+                _Table(
+                    title,
+                    "    ELEMENT  PT FOOT-" + "".join(f"{name:>10}  " for name in part) + "\n                NOTE",
+                    22,
+                    part,
+                    [f"{label:12d}{point:4d}      " for label in labels for point in range(1, points + 1)],
+                    [str(label) for label in labels for _ in range(points)],
+                    values[:, :, start : start + COLUMNS].reshape(-1, len(part)),
+                    "ELEMENT",
+                )
+            )
+    return text
+
+
+def _element_values(state: ElementState, inside: IntArray, variables: tuple[str, ...]) -> tuple[list[str], FloatArray]:
+    """Names and values (elements, points, names) of the variables that the elements keep.
+
+    SDV are the SVARS of a user element, one line an element; other names (S, S11, DAMAGE, ...) need elements whose
+    SVARS are known.
+    """
+    svars = state.svars[inside]
+    wanted = [name for name in variables if name.startswith("SDV")]
+    numbers = [k for name in wanted for k in (range(1, svars.shape[1] + 1) if name == "SDV" else (int(name[3:]),))]
+    if numbers:
+        numbers = [k for k in numbers if 1 <= k <= svars.shape[1]]
+        return [f"SDV{k}" for k in numbers], svars[:, None, [k - 1 for k in numbers]]
+    known = state.variables
+    if known is None:
+        return [], np.zeros((len(inside), 1, 0))
+    names = [name for variable in variables for name in known.names if _asked(variable, name)]
+    values = svars[:, : known.points * len(known.names)].reshape(len(inside), known.points, len(known.names))
+    return names, values[:, :, [known.names.index(name) for name in names]]
+
+
+def _asked(variable: str, name: str) -> bool:
+    """True if a variable as asked for (S, E, S11) takes in a component (S11)."""
+    return name == variable or (name.startswith(variable) and name[len(variable) :] in ("11", "22", "33", "12"))
+
+
+def _row(values: list[float]) -> str:
+    return "".join(general(value, 12, 4) for value in values)
+
+
+def _label(mesh: Mesh, node: int) -> str:
+    """Number of a node; a table has no room for the name of its instance."""
+    return str(int(mesh.labels[node]))
