@@ -63,7 +63,7 @@ def run(
     output = JobOutput(model, job, directory, quiet=quiet)
     try:
         blocks = build_blocks(model, library)
-        system = System(model.mesh, blocks)
+        system = System(model.mesh, blocks, model.equations)
         for record in run_steps(system, model, library, solver):
             output.write(record)
     except UelError as error:

@@ -1,0 +1,156 @@
+# SPDX-FileCopyrightText: The uel-harness authors
+# SPDX-License-Identifier: BSD-3-Clause
+"""Elimination of prescribed unknowns and of *EQUATION: u = T q + P p, solved in T^T K T."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy import sparse
+
+from harness.assembly.equations import eliminate
+from harness.assembly.system import System
+from harness.errors import Source
+from harness.model.arrays import FloatArray, IntArray
+from harness.model.model import Equation
+
+
+class Constraints:
+    """The map between all unknowns u (n,), the free ones q and the prescribed ones p.
+
+    prescribed       (n_p,) unknowns with a given value, in the caller's order
+    free             (n_q,) unknowns that are solved for, ascending
+    reduced_indptr, reduced_indices  CSR pattern of T^T K T, int32, columns ascending in each row
+
+    Everything symbolic is done here once; keep the object while `matches` holds.
+    """
+
+    def __init__(
+        self,
+        system: System,
+        prescribed: IntArray,
+        equations: Sequence[Equation] = (),
+        places: Mapping[int, Source] | None = None,
+    ) -> None:
+        """`places` says where the deck prescribes an unknown, for messages. Raises DeckError if over-constrained."""
+        n = len(system)
+        self.prescribed = np.array(prescribed, dtype=np.int64)
+        self._system = system
+        self._equations = tuple(equations)
+        kind = np.zeros(n, dtype=np.int8)
+        kind[self.prescribed] = 1
+        if np.count_nonzero(kind) < len(self.prescribed) or self.prescribed.min(initial=0) < 0:
+            raise ValueError("prescribed unknowns are to be distinct and not negative")
+        dependent, coefficients = eliminate(system.dofs, equations, self.prescribed, places or {})
+        kind[dependent] = 2
+        self.free = np.flatnonzero(kind == 0)
+        self._t: sparse.csr_array | None = None
+        if len(dependent):
+            self._t = _columns(n, self.free, dependent, coefficients)
+            self._p = _columns(n, self.prescribed, dependent, coefficients)
+            self._t_transposed, self._p_transposed = self._t.T.tocsr(), self._p.T.tocsr()
+            self.reduced_indptr, self.reduced_indices, self._map = _reduce_pattern(system, self._t)
+        else:
+            self.reduced_indptr, self.reduced_indices, self._take = _take_pattern(system, self.free)
+        self._reduced = np.zeros(len(self.reduced_indices))
+
+    def matches(self, prescribed: IntArray, equations: Sequence[Equation] = ()) -> bool:
+        """True if these constraints serve for the given ones, so that symbolic work need not be repeated."""
+        return np.array_equal(self.prescribed, prescribed) and self._equations == tuple(equations)
+
+    @property
+    def coordinates(self) -> FloatArray:
+        """(n_q, 3) original coordinates of the nodes of the free unknowns, for orderings."""
+        return self._system.dofs.coordinates[self.free]
+
+    def name_of(self, reduced: int) -> tuple[str, int]:
+        """Node name and dof of a free unknown, for messages."""
+        return self._system.dofs.name(int(self.free[reduced]))
+
+    def expand(self, dq: FloatArray, dprescribed: FloatArray) -> FloatArray:
+        """du (n,) = T dq + P dp."""
+        if self._t is not None:
+            return np.asarray(self._t @ dq + self._p @ dprescribed)
+        du = np.zeros(len(self._system))
+        du[self.free] = dq
+        du[self.prescribed] = dprescribed
+        return du
+
+    def reduce_vector(self, vector: FloatArray) -> FloatArray:
+        """T^T r (n_q,)."""
+        if self._t is None:
+            return vector[self.free]
+        return np.asarray(self._t_transposed @ vector)
+
+    def reactions(self, residual: FloatArray) -> FloatArray:
+        """Reaction forces (n,), RF of Abaqus: -P^T r at the prescribed unknowns, zero elsewhere.
+
+        residual is external minus internal force over all unknowns, concentrated loads included.
+        """
+        reaction = np.zeros(len(self._system))
+        reaction[self.prescribed] = -residual[self.prescribed] if self._t is None else -(self._p_transposed @ residual)
+        return reaction
+
+    def reduce(self, data: FloatArray) -> FloatArray:
+        """CSR values of T^T K T from those of K; overwritten by the next call."""
+        if self._t is None:
+            # 'clip' only because numpy buffers `out` in the checking mode; positions are all inside
+            return np.take(data, self._take, out=self._reduced, mode="clip")
+        self._reduced[:] = self._map @ data
+        return self._reduced
+
+    def prescribed_residual(self, data: FloatArray, dprescribed: FloatArray) -> FloatArray:
+        """K P dp (n,): internal force of prescribed increments, to be subtracted from the residual before solving."""
+        if not np.any(dprescribed):
+            return np.zeros(len(self._system))
+        du = self.expand(np.zeros(len(self.free)), dprescribed)
+        return np.asarray(self._system.matrix(data) @ du)
+
+
+def _columns(n: int, chosen: IntArray, dependent: IntArray, coefficients: sparse.csr_array) -> sparse.csr_array:
+    """(n, chosen) matrix that gives all unknowns from the chosen independent ones."""
+    by_dependent = coefficients[:, chosen].tocoo()
+    rows = np.concatenate([chosen, dependent[by_dependent.row]])
+    columns = np.concatenate([np.arange(len(chosen)), by_dependent.col])
+    values = np.concatenate([np.ones(len(chosen)), by_dependent.data])
+    return sparse.coo_array((values, (rows, columns)), shape=(n, len(chosen))).tocsr()
+
+
+def _row_of_entries(system: System) -> IntArray:
+    return np.repeat(np.arange(len(system)), np.diff(system.indptr))
+
+
+def _take_pattern(system: System, free: IntArray) -> tuple[NDArray[np.int32], NDArray[np.int32], IntArray]:
+    """Pattern of the rows and columns of free unknowns, and the positions of its entries in the full matrix."""
+    number = np.full(len(system), -1, dtype=np.int32)
+    number[free] = np.arange(len(free))
+    row, column = number[_row_of_entries(system)], number[system.indices]
+    take = np.flatnonzero((row >= 0) & (column >= 0))
+    return _row_starts(row[take], len(free)), column[take], take
+
+
+def _reduce_pattern(
+    system: System, t: sparse.csr_array
+) -> tuple[NDArray[np.int32], NDArray[np.int32], sparse.csr_array]:
+    """Pattern of T^T K T, and the matrix M that gives its values from those of K.
+
+    Entry (i, j) of K contributes T[i, a] T[j, b] to entry (a, b).
+    """
+    count = np.diff(t.indptr)
+    row, column = _row_of_entries(system), system.indices
+    products = count[row] * count[column]
+    entry = np.repeat(np.arange(len(row)), products)
+    nth = np.arange(len(entry)) - np.repeat(np.cumsum(products) - products, products)
+    left = t.indptr[row[entry]] + nth // count[column[entry]]
+    right = t.indptr[column[entry]] + nth % count[column[entry]]
+    key = t.indices[left].astype(np.int64) * t.shape[1] + t.indices[right]
+    unique, position = np.unique(key, return_inverse=True)
+    values = t.data[left] * t.data[right]
+    gather = sparse.coo_array((values, (position, entry)), shape=(len(unique), len(row))).tocsr()
+    return _row_starts(unique // t.shape[1], t.shape[1]), (unique % t.shape[1]).astype(np.int32), gather
+
+
+def _row_starts(rows: NDArray[np.integer], n: int) -> NDArray[np.int32]:
+    return np.concatenate([[0], np.cumsum(np.bincount(rows, minlength=n))]).astype(np.int32)

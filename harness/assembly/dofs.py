@@ -1,0 +1,79 @@
+# SPDX-FileCopyrightText: The uel-harness authors
+# SPDX-License-Identifier: BSD-3-Clause
+"""Numbering of the unknowns: which node and dof each of them is."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Self
+
+import numpy as np
+from numpy.typing import NDArray
+
+from harness.elements import Block, field_of
+from harness.model.arrays import FloatArray, IntArray
+from harness.model.mesh import Mesh
+from harness.model.model import Equation
+
+
+@dataclass(frozen=True, slots=True)
+class DofMap:
+    """Unknowns of a model, ordered by node, then by dof.
+
+    node  (n,) node index of each unknown
+    dof   (n,) its dof, as Abaqus numbers them (1-3 displacements, ...)
+    field (n,) its field, index into FIELD_NAMES
+    """
+
+    mesh: Mesh
+    node: IntArray
+    dof: IntArray
+    field: IntArray
+    _keys: IntArray
+    _base: int
+
+    @classmethod
+    def build(cls, mesh: Mesh, blocks: Sequence[Block], equations: Sequence[Equation] = ()) -> Self:
+        """Collect the unknowns of elements, and of *EQUATION, whose reference nodes need not belong to an element."""
+        nodes = [np.zeros(0, dtype=np.int64)]
+        dofs = [np.zeros(0, dtype=np.int64)]
+        for block in blocks:
+            for local, dof in block.unknowns:
+                used = np.unique(block.group.nodes[:, local])
+                nodes.append(used)
+                dofs.append(np.full(len(used), dof))
+        terms = np.array([(node, dof) for equation in equations for node, dof, _ in equation.terms], dtype=np.int64)
+        nodes.append(terms.reshape(-1, 2)[:, 0])
+        dofs.append(terms.reshape(-1, 2)[:, 1])
+        all_dofs = np.concatenate(dofs)
+        base = int(all_dofs.max(initial=0)) + 1
+        keys = np.unique(np.concatenate(nodes) * base + all_dofs)
+        fields = np.array([field_of(dof) for dof in range(base)])
+        return cls(mesh, keys // base, keys % base, fields[keys % base], keys, base)
+
+    def __len__(self) -> int:
+        return len(self.node)
+
+    def find(self, nodes: IntArray | int, dof: IntArray | int) -> IntArray:
+        """Unknowns of (node, dof) pairs, arguments broadcast; -1 where no element or equation uses the dof."""
+        keys = np.asarray(nodes, dtype=np.int64) * self._base + dof
+        if not len(self._keys):
+            return np.full(keys.shape, -1)
+        found = np.minimum(np.searchsorted(self._keys, keys), len(self._keys) - 1)
+        known = (self._keys[found] == keys) & (np.asarray(dof) < self._base)
+        return np.asarray(np.where(known, found, -1), dtype=np.int64)
+
+    def equations_of(self, block: Block) -> NDArray[np.int32]:
+        """(m, element unknowns) the unknowns of each element of a block."""
+        columns = [self.find(block.group.nodes[:, local], dof) for local, dof in block.unknowns]
+        return np.stack(columns, axis=1).astype(np.int32)
+
+    @property
+    def coordinates(self) -> FloatArray:
+        """(n, 3) original coordinates of the node of each unknown."""
+        return self.mesh.coordinates[self.node]
+
+    def name(self, unknown: int) -> tuple[str, int]:
+        """Node name and dof of an unknown, for messages."""
+        return self.mesh.name(int(self.node[unknown])), int(self.dof[unknown])

@@ -1,0 +1,111 @@
+# SPDX-FileCopyrightText: The uel-harness authors
+# SPDX-License-Identifier: BSD-3-Clause
+"""The assembled system: sparsity and scatter maps once per mesh, one pass over the blocks per evaluation."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy import sparse
+
+from harness.assembly.dofs import DofMap
+from harness.elements import FIELD_NAMES, Block, Call
+from harness.model.arrays import FloatArray, IntArray
+from harness.model.mesh import Mesh
+from harness.model.model import Equation
+
+
+@dataclass(frozen=True, slots=True)
+class Evaluation:
+    """Outcome of one pass over all elements.
+
+    residual    (n,) sum of RHS: external minus internal force
+    data        (nnz,) CSR values of the matrix, None if not asked for; overwritten by the next pass that asks for it
+    flux        (fields,) sum of |element nodal force| by field, as FIELD_NAMES orders them
+    flux_count  (fields,) number of terms in it
+    pnewdt      smallest PNEWDT an element returned
+    energy      (8,) sum of ENERGY
+    """
+
+    residual: FloatArray
+    data: FloatArray | None
+    flux: FloatArray
+    flux_count: IntArray
+    pnewdt: float
+    energy: FloatArray
+
+
+class System:
+    """All blocks of a model on one numbering of unknowns.
+
+    dofs     what each unknown is
+    indptr   (n + 1,) row starts of the matrix, int32
+    indices  (nnz,) columns, ascending in each row, int32; every diagonal entry is there and the pattern is symmetric
+    """
+
+    def __init__(self, mesh: Mesh, blocks: Sequence[Block], equations: Sequence[Equation] = ()) -> None:
+        self.blocks = tuple(blocks)
+        self.dofs = DofMap.build(mesh, self.blocks, equations)
+        numbers = [self.dofs.equations_of(block) for block in self.blocks]
+        self.indptr, self.indices, scatter = build_pattern(len(self.dofs), numbers)
+        for block, equation_numbers, positions in zip(self.blocks, numbers, scatter, strict=True):
+            block.bind(equation_numbers, positions)
+        self._data = np.zeros(len(self.indices))
+
+    def __len__(self) -> int:
+        return len(self.dofs)
+
+    def evaluate(self, call: Call, u: FloatArray, du: FloatArray, *, matrix: bool = True) -> Evaluation:
+        """Call every element once, block by block in the calling order of Abaqus.
+
+        u (n,) is the estimate of the end of the increment and du (n,) the increment, both including prescribed values.
+        Raises KernelError where an element fails.
+        """
+        residual = np.zeros(len(self.dofs))
+        data = self._data if matrix else None
+        if data is not None:
+            data.fill(0.0)
+        flux, count = np.zeros(len(FIELD_NAMES)), np.zeros(len(FIELD_NAMES), dtype=np.int64)
+        energy = np.zeros(8)
+        pnewdt = np.inf
+        for block in self.blocks:
+            report = block.evaluate(call, u, du, residual, data)
+            flux += report.flux
+            count += report.flux_count
+            energy += report.energy
+            pnewdt = min(pnewdt, report.pnewdt)
+        return Evaluation(residual, data, flux, count, pnewdt, energy)
+
+    def commit(self) -> None:
+        """End of a converged increment: the state of the last normal pass becomes the committed one."""
+        for block in self.blocks:
+            block.commit()
+
+    def matrix(self, data: FloatArray) -> sparse.csr_array:
+        """(n, n) matrix with the given CSR values, not copied."""
+        return sparse.csr_array((data, self.indices, self.indptr), shape=(len(self), len(self)))
+
+
+def build_pattern(
+    n: int, numbers: Sequence[NDArray[np.int32]]
+) -> tuple[NDArray[np.int32], NDArray[np.int32], list[NDArray[np.int32]]]:
+    """Sparsity of the assembled matrix and where each element entry goes.
+
+    numbers holds, per block, the (m, k) unknowns of its elements. Returns row starts, columns and, per block, the
+    (m, k, k) positions of the element matrices' (row, column) entries in the CSR values.
+    """
+    diagonal = np.arange(n, dtype=np.int32)
+    pairs = [np.broadcast_arrays(number[:, :, None], number[:, None, :]) for number in numbers]
+    rows = np.concatenate([diagonal, *(row.ravel() for row, _ in pairs)])
+    columns = np.concatenate([diagonal, *(column.ravel() for _, column in pairs)])
+    pattern = sparse.coo_array((np.ones(len(rows), dtype=np.int8), (rows, columns)), shape=(n, n)).tocsr()
+    pattern.sort_indices()
+    # look positions up by indexing the pattern with values that are their own positions
+    positions = sparse.csr_matrix((np.arange(pattern.nnz), pattern.indices, pattern.indptr), shape=(n, n))
+    scatter = [
+        np.asarray(positions[row.ravel(), column.ravel()]).reshape(row.shape).astype(np.int32) for row, column in pairs
+    ]
+    return pattern.indptr.astype(np.int32), pattern.indices.astype(np.int32), scatter

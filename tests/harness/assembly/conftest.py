@@ -1,0 +1,84 @@
+# SPDX-FileCopyrightText: The uel-harness authors
+# SPDX-License-Identifier: BSD-3-Clause
+"""Blocks in plain numpy, so that assembly is tested without compiled elements."""
+
+from collections.abc import Callable
+
+import numpy as np
+import pytest
+
+from harness.elements import BlockReport, Call
+from harness.errors import Source
+from harness.model.mesh import ElementGroup, Mesh
+from harness.model.properties import UserProperty
+
+PLACE = Source("fake.inp", 1)
+
+
+class LinearBlock:
+    """Elements with constant matrices (m, k, k): RHS = -K u."""
+
+    unsymmetric = True
+    variables = None
+
+    def __init__(self, nodes, unknowns, matrices):
+        nodes = np.asarray(nodes)
+        labels = np.arange(1, len(nodes) + 1)
+        self.group = ElementGroup("U1", labels, nodes, "", UserProperty("ALL", PLACE), None, PLACE)
+        self.unknowns = tuple(unknowns)
+        self.matrices = np.asarray(matrices)
+        self.commits = 0
+
+    def bind(self, equations, scatter):
+        self.equations, self.scatter = equations, scatter
+
+    def evaluate(self, call, u, du, residual, matrix):
+        forces = -np.einsum("eij,ej->ei", self.matrices, u[self.equations])
+        np.add.at(residual, self.equations, forces)
+        if matrix is not None:
+            np.add.at(matrix, self.scatter, self.matrices)
+        flux = np.array([np.abs(forces).sum(), 0.0, 0.0, 0.0, 0.0])
+        count = np.array([forces.size, 0, 0, 0, 0])
+        return BlockReport(flux, count, 0.5 + 0.1 * len(self.equations), np.arange(8.0))
+
+    def commit(self):
+        self.commits += 1
+
+
+@pytest.fixture
+def call() -> Call:
+    return Call((1, 0, 1, 0, 0), 1, 1, 1.0, 1.0, 1.0, 1.0)
+
+
+@pytest.fixture
+def make_mesh() -> Callable[..., Mesh]:
+    def make(n: int) -> Mesh:
+        """Nodes 10, 20, ... in a row."""
+        coordinates = np.zeros((n, 3))
+        coordinates[:, 0] = np.arange(n)
+        return Mesh(10 * np.arange(1, n + 1), coordinates, ("",) * n)
+
+    return make
+
+
+@pytest.fixture
+def springs(make_mesh) -> Callable[..., tuple[Mesh, list[LinearBlock]]]:
+    def make(n: int) -> tuple[Mesh, list[LinearBlock]]:
+        """A chain of n nodes with springs of stiffness 1, 2, 3, ... along dof 1."""
+        nodes = np.column_stack([np.arange(n - 1), np.arange(1, n)])
+        stiffness = np.arange(1.0, n)
+        matrices = stiffness[:, None, None] * np.array([[1.0, -1.0], [-1.0, 1.0]])
+        return make_mesh(n), [LinearBlock(nodes, [(0, 1), (1, 1)], matrices)]
+
+    return make
+
+
+@pytest.fixture
+def two_blocks(make_mesh) -> tuple[Mesh, list[LinearBlock]]:
+    """Unsymmetric quads with dofs 1 and 2 and triangles with dofs 1 at two nodes and 11 at the third, random values."""
+    rng = np.random.default_rng(7)
+    quads = LinearBlock(
+        [[0, 1, 4, 3], [1, 2, 5, 4]], [(k, dof) for k in range(4) for dof in (1, 2)], rng.normal(size=(2, 8, 8))
+    )
+    triangles = LinearBlock([[5, 4, 6], [2, 5, 6]], [(0, 1), (1, 1), (2, 11)], rng.normal(size=(2, 3, 3)))
+    return make_mesh(8), [quads, triangles]
