@@ -1,0 +1,135 @@
+# SPDX-FileCopyrightText: The uel-harness authors
+# SPDX-License-Identifier: BSD-3-Clause
+"""Which linear solvers there are, and which one is taken."""
+
+from __future__ import annotations
+
+import io
+from collections.abc import Callable
+from contextlib import redirect_stderr
+from dataclasses import dataclass
+from functools import cache
+from importlib import import_module
+from importlib.metadata import PackageNotFoundError, version
+from typing import Final
+
+import numpy as np
+from numpy.typing import NDArray
+
+from harness.errors import UelError
+from harness.model.arrays import FloatArray
+from harness.solver.linear.band import BandSolver
+from harness.solver.linear.base import LinearSolver, Pattern
+from harness.solver.linear.mumps import MumpsSolver
+from harness.solver.linear.ordering import BandOrdering, narrowest
+from harness.solver.linear.pardiso import PardisoSolver
+from harness.solver.linear.superlu import SuperLUSolver
+
+SOLVERS: Final[dict[str, type[LinearSolver]]] = {
+    solver.name: solver for solver in (BandSolver, PardisoSolver, MumpsSolver, SuperLUSolver)
+}
+"""By name, in the order in which `auto` asks for them."""
+
+REQUIRES: Final = {"band": ("scipy", "scipy"), "superlu": ("scipy", "scipy")} | {
+    "pardiso": ("pypardiso", "pypardiso"),
+    "mumps": ("mumps", "python-mumps"),
+}
+"""Module to import and distribution to install of each solver."""
+
+NOTES: Final = {
+    "band": "auto, first choice where the renumbered matrix is narrow, as in slender bodies",
+    "pardiso": "auto, where the band is too wide",
+    "mumps": "auto, where the band is too wide and pardiso is missing",
+    "superlu": "auto, where nothing better is installed",
+}
+
+
+@dataclass(frozen=True, slots=True)
+class Availability:
+    """A row of the table of solvers; note says when it is taken, or why it cannot be."""
+
+    name: str
+    installed: bool
+    version: str
+    note: str
+
+
+def available() -> list[Availability]:
+    """All solvers, in the order in which `auto` asks for them."""
+    rows = []
+    for name in SOLVERS:
+        obstacle = _obstacle(name)
+        try:
+            release = version(REQUIRES[name][1])
+        except PackageNotFoundError:
+            release = ""
+        note = NOTES[name] + (f" ({obstacle})" if obstacle else "")
+        rows.append(Availability(name, not obstacle, release, note))
+    return rows
+
+
+def choose(
+    name: str,
+    indptr: NDArray[np.int32],
+    indices: NDArray[np.int32],
+    *,
+    coordinates: FloatArray | None = None,
+    name_of: Callable[[int], tuple[str, int]] | None = None,
+) -> LinearSolver:
+    """Solver for matrices of a CSR pattern: the one named, or with 'auto' the one that should be quickest.
+
+    Parameters
+    ----------
+    name
+        'auto', 'band', 'pardiso', 'mumps' or 'superlu'.
+    indptr, indices
+        Symmetric pattern, columns ascending in each row.
+    coordinates
+        (n, 3) of the node of each unknown: a slender body is numbered along its length.
+    name_of
+        Node name and dof of an unknown, for the message of a singular matrix.
+
+    Raises
+    ------
+    UelError
+        The name is unknown, or what the solver needs is not installed.
+    """
+    pattern = Pattern(indptr, indices, coordinates)
+    if name == "auto":
+        return _quickest(pattern, name_of)
+    if name not in SOLVERS:
+        raise UelError(f"unknown linear solver '{name}'; known are auto, {', '.join(SOLVERS)}")
+    if obstacle := _obstacle(name):
+        raise UelError(f"linear solver '{name}' cannot be used: {obstacle}")
+    return SOLVERS[name](pattern, name_of)
+
+
+def _quickest(pattern: Pattern, name_of: Callable[[int], tuple[str, int]] | None) -> LinearSolver:
+    sparse = next(solver for name, solver in SOLVERS.items() if name != "band" and not _obstacle(name))
+    ordering = narrowest(pattern)
+    if _band_is_quicker(pattern.size, ordering, sparse.name):
+        band = BandSolver(pattern, name_of, ordering)
+        band.reason = f"half bandwidth {ordering.width} of {pattern.size} unknowns, {ordering.method}"
+        return band
+    solver = sparse(pattern, name_of)
+    solver.reason = f"half bandwidth {ordering.width} of {pattern.size} unknowns is too wide for the band solver"
+    return solver
+
+
+def _band_is_quicker(unknowns: int, ordering: BandOrdering, other: str) -> bool:
+    return ordering.width <= 100 or unknowns <= 500
+
+
+@cache
+def _obstacle(name: str) -> str:
+    """Why a solver cannot be used, '' if it can."""
+    module, distribution = REQUIRES[name]
+    try:
+        # numpy tells at length on stderr where a module was built for another version of it; the error says it too
+        with redirect_stderr(io.StringIO()):
+            import_module(module)
+    except ModuleNotFoundError:
+        return f"{distribution} is not installed"
+    except ImportError as error:
+        return f"{distribution} does not load: {str(error).partition(' (')[0]}"
+    return ""

@@ -1,0 +1,261 @@
+# SPDX-FileCopyrightText: The uel-harness authors
+# SPDX-License-Identifier: BSD-3-Clause
+"""Every installed linear solver against dense algebra, singular matrices, and the automatic choice."""
+
+import numpy as np
+import pytest
+from scipy import sparse
+
+from harness.errors import SingularMatrixError, UelError
+from harness.solver.linear import available, choose
+from harness.solver.linear.base import Pattern
+from harness.solver.linear.ordering import narrowest
+
+INSTALLED = [row.name for row in available() if row.installed]
+
+
+def quad(width: float, height: float) -> np.ndarray:
+    """(8, 8) stiffness of a four-node quad, plane stress, E = 1e5, nu = 0.3, thickness 1."""
+    d = 1e5 / 0.91 * np.array([[1.0, 0.3, 0.0], [0.3, 1.0, 0.0], [0.0, 0.0, 0.35]])
+    stiffness = np.zeros((8, 8))
+    for x in (-(3**-0.5), 3**-0.5):
+        for y in (-(3**-0.5), 3**-0.5):
+            dx = np.array([y - 1, 1 - y, 1 + y, -1 - y]) / (2 * width)
+            dy = np.array([x - 1, -1 - x, 1 + x, 1 - x]) / (2 * height)
+            b = np.zeros((3, 8))
+            b[0, ::2], b[1, 1::2], b[2, ::2], b[2, 1::2] = dx, dy, dy, dx
+            stiffness += b.T @ d @ b * width * height / 4
+    return stiffness
+
+
+def interface(stiffness: float, length: float) -> np.ndarray:
+    """(8, 8) linear interface, nodes 1-2 below 4-3, two Gauss points."""
+    result = np.zeros((8, 8))
+    for x in (-(3**-0.5), 3**-0.5):
+        n = np.array([(1 - x) / 2, (1 + x) / 2])
+        jump = np.kron(np.concatenate([-n, n[::-1]]), np.eye(2))
+        result += stiffness * length / 2 * jump.T @ jump
+    return result
+
+
+def beam(columns: int, rows: int, stiffness: float = 1e6, size: tuple[float, float] = (0.5, 0.4)):
+    """Two bonded arms of quads: (matrix with all unknowns, (n, 3) coordinates). Node by node, dofs 1 and 2."""
+    width, height = size
+    node = np.arange(2 * (columns + 1) * (rows + 1)).reshape(2, columns + 1, rows + 1)
+    quads = np.stack([node[:, :-1, :-1], node[:, 1:, :-1], node[:, 1:, 1:], node[:, :-1, 1:]], axis=-1).reshape(-1, 4)
+    joint = np.stack([node[0, :-1, -1], node[0, 1:, -1], node[1, 1:, 0], node[1, :-1, 0]], axis=-1)
+    arm, column, row = np.unravel_index(np.arange(node.size), node.shape)
+    coordinates = np.column_stack([column * width, (row + arm * rows) * height, 0.0 * row])
+    rows, columns_of, values = [], [], []
+    for nodes, element in ((quads, quad(width, height)), (joint, interface(stiffness, width))):
+        at = (2 * nodes[:, :, None] + np.arange(2)).reshape(-1, 8)
+        rows.append(np.repeat(at, 8, axis=1).ravel())
+        columns_of.append(np.tile(at, 8).ravel())
+        values.append(np.broadcast_to(element, (len(at), 8, 8)).ravel())
+    entries = np.concatenate(values), (np.concatenate(rows), np.concatenate(columns_of))
+    matrix = sparse.coo_array(entries, shape=(2 * node.size, 2 * node.size)).tocsr()  # keeps zeros in the pattern
+    matrix.sort_indices()
+    return matrix, np.repeat(coordinates, 2, axis=0)
+
+
+def hold(matrix, coordinates, held: np.ndarray):
+    """Matrix and coordinates without the held unknowns."""
+    free = ~held
+    reduced = sparse.csr_array(matrix[free][:, free])
+    reduced.sort_indices()
+    return reduced, coordinates[free]
+
+
+def clamped(columns: int, rows: int, stiffness: float = 1e6):
+    matrix, coordinates = beam(columns, rows, stiffness)
+    return hold(matrix, coordinates, coordinates[:, 0] == coordinates[:, 0].max())
+
+
+def solver_for(name: str, matrix, coordinates=None, **options):
+    pattern = matrix.indptr.astype(np.int32), matrix.indices.astype(np.int32)
+    return choose(name, *pattern, coordinates=coordinates, **options)
+
+
+@pytest.mark.parametrize("name", INSTALLED)
+def test_solution_equals_dense_one_and_analysis_is_kept(name) -> None:
+    matrix, coordinates = clamped(12, 2)
+    rng = np.random.default_rng(3)
+    solver = solver_for(name, matrix, coordinates)
+    for _ in range(3):
+        data = matrix.data * (1 + 0.1 * rng.normal(size=matrix.nnz))  # no longer symmetric
+        rhs = rng.normal(size=matrix.shape[0])
+        expected = np.linalg.solve(sparse.csr_array((data, matrix.indices, matrix.indptr)).toarray(), rhs)
+        solver.factorise(data)
+        scale = np.abs(expected).max()
+        np.testing.assert_allclose(solver.solve(rhs), expected, rtol=0, atol=1e-9 * scale)
+        np.testing.assert_allclose(solver.solve(2 * rhs), 2 * expected, rtol=0, atol=1e-9 * scale)
+
+
+@pytest.mark.parametrize("name", INSTALLED)
+def test_results_are_the_same_bit_by_bit(name) -> None:
+    matrix, coordinates = clamped(20, 3)
+    rhs = np.random.default_rng(5).normal(size=matrix.shape[0])
+    solutions = []
+    for _ in range(3):
+        solver = solver_for(name, matrix, coordinates)
+        solver.factorise(matrix.data)
+        solutions.append(solver.solve(rhs))
+    assert all(np.array_equal(solution, solutions[0]) for solution in solutions)
+
+
+@pytest.mark.parametrize("name", INSTALLED)
+def test_nothing_to_solve(name) -> None:
+    solver = choose(name, np.zeros(1, dtype=np.int32), np.zeros(0, dtype=np.int32))
+    solver.factorise(np.zeros(0))
+    assert solver.solve(np.zeros(0)).shape == (0,)
+
+
+@pytest.mark.parametrize("name", INSTALLED)
+@pytest.mark.parametrize("stiffness", [1e6, 1e12])
+def test_stiff_interface_is_not_taken_for_singular(name, stiffness) -> None:
+    """Tip of a bonded cantilever under unit forces, against a single beam of the same quads with shared nodes."""
+    matrix, coordinates = clamped(40, 2, stiffness)
+    tip = np.flatnonzero((coordinates[:, 0] == 0) & (coordinates[:, 1] == 0.8))[[1, 3]]
+    rhs = np.zeros(matrix.shape[0])
+    rhs[tip] = 0.5
+    solver = solver_for(name, matrix, coordinates)
+    solver.factorise(matrix.data)
+    shared, places = monolithic(40, 4)
+    at = np.flatnonzero((places[:, 0] == 0) & (places[:, 1] == 0.8))[1]
+    compliance = np.linalg.inv(shared.toarray())[at, at]
+    # the interface adds its own shear compliance at 1e6; at 1e12 rounding of 1e12 x eps against a stiffness of 40 N/mm
+    assert solver.solve(rhs)[tip].mean() == pytest.approx(compliance, rel=2e-2 if stiffness == 1e6 else 1e-3)
+
+
+def monolithic(columns: int, rows: int):
+    """The same beam without an interface, its nodes shared."""
+    node = np.arange((columns + 1) * (rows + 1)).reshape(columns + 1, rows + 1)
+    quads = np.stack([node[:-1, :-1], node[1:, :-1], node[1:, 1:], node[:-1, 1:]], axis=-1).reshape(-1, 4)
+    at = (2 * quads[:, :, None] + np.arange(2)).reshape(-1, 8)
+    values = np.broadcast_to(quad(0.5, 0.4), (len(at), 8, 8)).ravel()
+    matrix = sparse.coo_array((values, (np.repeat(at, 8, axis=1).ravel(), np.tile(at, 8).ravel()))).tocsr()
+    column, row = np.unravel_index(np.arange(node.size), node.shape)
+    coordinates = np.repeat(np.column_stack([column * 0.5, row * 0.4, 0.0 * row]), 2, axis=0)
+    return hold(matrix, coordinates, coordinates[:, 0] == columns * 0.5)
+
+
+def unheld(case: str, stiffness: float):
+    matrix, coordinates = beam(60, 2, stiffness)
+    dof = np.arange(len(coordinates)) % 2
+    end = coordinates[:, 0] == coordinates[:, 0].max()
+    held = {
+        "nothing held": np.zeros(len(dof), dtype=bool),
+        "free along 1": (end | (coordinates[:, 0] == 0)) & (dof == 1),
+        "free along 2": end & (dof == 0),
+        "free to turn": end & (coordinates[:, 1] == 0),
+    }[case]
+    return (*hold(matrix, coordinates, held), np.flatnonzero(~held))
+
+
+@pytest.mark.parametrize("name", INSTALLED)
+@pytest.mark.parametrize("stiffness", [1e6, 1e12])
+@pytest.mark.parametrize(
+    ("case", "dofs"),
+    [("nothing held", (1, 2)), ("free along 1", (1,)), ("free along 2", (2,)), ("free to turn", (2,))],
+)
+def test_body_that_is_not_held_is_named(name, stiffness, case, dofs) -> None:
+    matrix, coordinates, free = unheld(case, stiffness)
+    solver = solver_for(name, matrix, coordinates, name_of=lambda k: (str(free[k] // 2 + 1), int(free[k]) % 2 + 1))
+    with pytest.raises(SingularMatrixError, match=r"singular system matrix at node \d+, dof \d: .* not held") as raised:
+        solver.factorise(matrix.data)
+    assert raised.value.dof in dofs
+
+
+@pytest.mark.parametrize("name", INSTALLED)
+def test_part_that_comes_loose_later_is_named(name) -> None:
+    """The interface fails altogether: the upper arm, which hangs on it alone, floats."""
+    sound, coordinates = beam(10, 2, 1e6)
+    loose, _ = beam(10, 2, 0.0)
+    lower = np.arange(len(coordinates)) < len(coordinates) // 2
+    held = lower & (coordinates[:, 0] == 0)
+    matrix, places = hold(sound, coordinates, held)
+    later, _ = hold(loose, coordinates, held)
+    free = np.flatnonzero(~held)
+    solver = solver_for(name, matrix, places, name_of=lambda k: (str(free[k] // 2), int(free[k]) % 2 + 1))
+    solver.factorise(matrix.data)
+    rhs = np.ones(matrix.shape[0])
+    assert np.isfinite(solver.solve(rhs)).all()
+    with pytest.raises(SingularMatrixError, match="not held") as raised:
+        solver.factorise(later.data)
+        solver.solve(rhs)
+    assert int(raised.value.node) >= len(coordinates) // 4
+
+
+@pytest.mark.parametrize("name", INSTALLED)
+def test_unknown_without_stiffness_is_named(name) -> None:
+    matrix, coordinates = clamped(6, 1)
+    data = matrix.data.copy()
+    rows = np.repeat(np.arange(matrix.shape[0]), np.diff(matrix.indptr))
+    data[(rows == 9) | (matrix.indices == 9)] = 0.0
+    solver = solver_for(name, matrix, coordinates, name_of=lambda k: (f"PART-1.{k}", 2))
+    with pytest.raises(SingularMatrixError, match=r"at node PART-1\.9, dof 2"):
+        solver.factorise(data)
+
+
+def test_nan_is_not_called_singular() -> None:
+    """A diverging iteration is the nonlinear solver's business."""
+    matrix, coordinates = clamped(4, 1)
+    solver = solver_for("band", matrix, coordinates)
+    solver.factorise(np.full(matrix.nnz, np.nan))
+    assert np.isnan(solver.solve(np.ones(matrix.shape[0]))).any()
+
+
+def test_numbering_along_the_beam_is_narrower_than_cuthill_mckee() -> None:
+    matrix, coordinates = clamped(40, 4)
+    indptr, indices = matrix.indptr.astype(np.int32), matrix.indices.astype(np.int32)
+    nodes = np.random.default_rng(0).permutation(matrix.shape[0] // 2)
+    shuffle = (2 * nodes[:, None] + np.arange(2)).ravel()
+    mixed = sparse.csr_array(matrix[shuffle][:, shuffle])
+    mixed.sort_indices()
+    ordering = narrowest(Pattern(mixed.indptr, mixed.indices, coordinates[shuffle]))
+    assert ordering.method == "sorted along direction 1"
+    # a column of 10 nodes, and an entry reaches one node beyond the next column: 2 (10 + 1) + 1
+    assert ordering.width == 23
+    assert sorted(ordering.position) == list(range(matrix.shape[0]))
+    without = narrowest(Pattern(indptr, indices))
+    assert without.method == "reverse Cuthill-McKee"
+    assert without.width > 23
+
+
+def test_auto_takes_the_band_solver_on_a_beam() -> None:
+    matrix, coordinates = clamped(100, 4)
+    solver = solver_for("auto", matrix, coordinates)
+    assert solver.name == "band"
+    assert solver.reason == f"half bandwidth 23 of {matrix.shape[0]} unknowns, sorted along direction 1"
+
+
+def test_auto_takes_a_sparse_solver_on_a_square() -> None:
+    matrix, coordinates = clamped(100, 50)
+    solver = solver_for("auto", matrix, coordinates)
+    assert solver.name == next(name for name in INSTALLED if name != "band")
+    assert "too wide" in solver.reason
+
+
+def test_named_solver_is_taken_and_unknown_names_are_refused() -> None:
+    matrix, coordinates = clamped(4, 1)
+    assert solver_for("superlu", matrix, coordinates).name == "superlu"
+    with pytest.raises(UelError, match="unknown linear solver 'lapack'; known are auto, band, pardiso, mumps, superlu"):
+        solver_for("lapack", matrix, coordinates)
+
+
+def test_solver_that_is_not_installed_is_refused(monkeypatch) -> None:
+    from harness.solver.linear import choice  # noqa: PLC0415
+
+    monkeypatch.setattr(choice, "_obstacle", lambda name: "python-mumps is not installed" if name == "mumps" else "")
+    matrix, coordinates = clamped(4, 1)
+    with pytest.raises(UelError, match="linear solver 'mumps' cannot be used: python-mumps is not installed"):
+        solver_for("mumps", matrix, coordinates)
+    row = next(row for row in choice.available() if row.name == "mumps")
+    assert not row.installed and "python-mumps is not installed" in row.note
+
+
+def test_table_of_solvers() -> None:
+    rows = {row.name: row for row in available()}
+    assert list(rows) == ["band", "pardiso", "mumps", "superlu"]
+    assert rows["band"].installed and rows["superlu"].installed
+    assert rows["band"].version == rows["superlu"].version != ""
