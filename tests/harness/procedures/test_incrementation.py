@@ -41,7 +41,7 @@ def test_growth_after_two_easy_increments():
 
 
 def test_sizes_around_a_cutback_of_a_public_status_file():
-    """Abaqus 2025, a contact job: equilibrium iterations 3, 3, U, 4, 4, 3, 3, 8 in a step with a largest increment 0.5."""
+    """Abaqus 2025, contact: equilibrium iterations 3, 3, U, 4, 4, 3, 3, 8; the largest increment is 0.5."""
     cut = Abandoned(DEFAULT.d_f, "")
     tried = sizes(Static(0.5, 100.0, 1e-3, 0.5), [3, 3, cut, 4, 4, 3, 3, 8])
     printed = [0.5, 0.5, 0.5, 0.1250, 0.1875, 0.2812, 0.4219, 0.5]
@@ -66,7 +66,7 @@ def test_sizes_at_the_smallest_increment_of_a_public_status_file():
 
 
 def test_last_increment_of_a_public_status_file_meets_the_period():
-    """Abaqus 2025: period 7.9, largest increment 0.5, easy throughout: 0.1, 0.1, 0.15, ... 0.5, and 0.4875 at the end."""
+    """Abaqus 2025: period 7.9, largest increment 0.5, easy throughout: 0.1, 0.1, 0.15, ... 0.5, last 0.4875."""
     control = IncrementControl(Static(0.1, 7.9, 1e-3, 0.5), DEFAULT)
     time, tried = 0.0, []
     while not control.finished(time):
@@ -79,7 +79,7 @@ def test_last_increment_of_a_public_status_file_meets_the_period():
 
 
 def test_sequences_of_the_public_status_files():
-    """Every run of tests/data starts at its largest increment or is fixed: no size may change but to meet the period."""
+    """Every run of tests/data starts at its largest increment or is fixed: sizes change only to meet the period."""
     with gzip.open(DATA / "abaqus_increments.csv.gz", "rt") as file:
         rows = list(csv.DictReader(file))
     compared = 0

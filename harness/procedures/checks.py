@@ -1,0 +1,148 @@
+# SPDX-FileCopyrightText: The uel-harness authors
+# SPDX-License-Identifier: BSD-3-Clause
+"""From an iterate to the convergence checks of all fields."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, field
+
+import numpy as np
+
+from harness.assembly import Constraints, DofMap
+from harness.elements import FIELD_NAMES
+from harness.model.arrays import FloatArray, IntArray
+from harness.model.records import FieldCheck, Largest, Verdict
+from harness.model.steps import Controls, FieldControls
+from harness.procedures.acceptance import Check, FluxHistory, estimated_correction, judge
+from harness.procedures.incrementation import Abandoned, judge_rate, out_of_iterations
+from harness.solver.newton import Iterate
+
+CONTROLLED_AS = dict(
+    zip(
+        FIELD_NAMES,
+        ("DISPLACEMENT", "ROTATION", "PORE FLUID PRESSURE", "ELECTRICAL POTENTIAL", "TEMPERATURE"),
+        strict=True,
+    )
+)
+"""FIELD= of *CONTROLS by field."""
+
+
+@dataclass(slots=True)
+class FieldChecker:
+    """Checks of one field: where its unknowns are, its controls, and what earlier iterations and increments gave.
+
+    unknowns  unknowns of the field
+    free      positions of its free unknowns in the reduced vector
+    """
+
+    number: int
+    controls: FieldControls
+    unknowns: IntArray
+    free: IntArray
+    history: FluxHistory
+    residuals: list[float] = field(default_factory=list)
+    flux: float = 0.0
+
+    @property
+    def name(self) -> str:
+        """Name of the field."""
+        return FIELD_NAMES[self.number]
+
+
+class Checker:
+    """Convergence checks of the increments of one step."""
+
+    def __init__(
+        self, dofs: DofMap, constraints: Constraints, controls: Controls, histories: Sequence[FluxHistory]
+    ) -> None:
+        self._dofs = dofs
+        self._free = constraints.free
+        self._time = controls.time
+        self._start: list[float] = []
+        self.fields = []
+        for number in np.unique(dofs.field):
+            chosen = controls.fields.get(CONTROLLED_AS[FIELD_NAMES[number]], controls.default)
+            unknowns = np.flatnonzero(dofs.field == number)
+            free = np.flatnonzero(dofs.field[self._free] == number)
+            history = histories[number].next_step(chosen)
+            self.fields.append(FieldChecker(int(number), chosen, unknowns, free, history))
+
+    def start(self, state: Iterate, *, extrapolated: bool) -> None:
+        """Begin an attempt with the state before the first solve.
+
+        Its residual serves the estimate of the correction in iteration 1, but only where it is an extrapolation.
+        """
+        for checked in self.fields:
+            checked.residuals = []
+        self._start = [_largest(state.reduced, checked.free) if extrapolated else 0.0 for checked in self.fields]
+
+    def check(self, state: Iterate) -> tuple[FieldCheck, ...]:
+        """Checks of all fields after an iteration."""
+        return tuple(self._check(k, checked, state) for k, checked in enumerate(self.fields))
+
+    def give_up(self, iteration: int, checks: Sequence[FieldCheck]) -> Abandoned | None:
+        """Whether the attempt is to be abandoned after these checks, none of which need have failed."""
+        for checked, check in zip(self.fields, checks, strict=True):
+            if check.verdict is Verdict.NOT_ACHIEVED:
+                tolerance = checked.controls.r_n * check.time_average_flux
+                abandoned = judge_rate(iteration, checked.residuals, tolerance, self._time)
+                if abandoned is not None:
+                    return abandoned
+        return out_of_iterations(iteration, self._time)
+
+    def converged(self) -> None:
+        """Take the last fluxes into the time average."""
+        for checked in self.fields:
+            checked.history = checked.history.converged(checked.flux, checked.controls)
+
+    def histories(self, before: Sequence[FluxHistory]) -> list[FluxHistory]:
+        """Flux histories by field number, at the end of the step."""
+        after = list(before)
+        for checked in self.fields:
+            after[checked.number] = checked.history
+        return after
+
+    def _check(self, k: int, checked: FieldChecker, state: Iterate) -> FieldCheck:
+        evaluation = state.evaluation
+        count = evaluation.flux_count[checked.number]
+        checked.flux = float(evaluation.flux[checked.number] / count) if count else 0.0
+        time_average = checked.history.average(checked.flux, checked.controls)
+        residual = self._find(state.reduced, checked.free, self._free)
+        increment = self._find(state.increment, checked.unknowns)
+        correction = self._find(state.correction, checked.unknowns)
+        previous = checked.residuals[-1] if checked.residuals else self._start[k]
+        checked.residuals.append(abs(residual.value))
+        check = Check(
+            q=checked.flux,
+            q_time=time_average,
+            r=abs(residual.value),
+            r_previous=previous or None,
+            du=abs(increment.value),
+            c=abs(correction.value),
+            iteration=state.iteration,
+        )
+        return FieldCheck(
+            field=checked.name,
+            average_flux=checked.flux,
+            time_average_flux=time_average,
+            residual=residual,
+            increment=increment,
+            correction=correction,
+            verdict=judge(check, checked.controls, self._time.i_p),
+            estimated_correction=estimated_correction(check),
+        )
+
+    def _find(self, vector: FloatArray, positions: IntArray, unknowns: IntArray | None = None) -> Largest:
+        """Largest entry of a vector among positions; `unknowns` gives the unknown of each position."""
+        if not len(positions):
+            return Largest(0.0, -1, 0)
+        chosen = vector[positions]
+        k = int(np.argmax(np.abs(chosen)))
+        position = positions[k]
+        unknown = position if unknowns is None else unknowns[position]
+        return Largest(float(chosen[k]), int(self._dofs.node[unknown]), int(self._dofs.dof[unknown]))
+
+
+def _largest(vector: FloatArray, positions: IntArray) -> float:
+    return float(np.abs(vector[positions]).max(initial=0.0))

@@ -1,0 +1,90 @@
+# SPDX-FileCopyrightText: The uel-harness authors
+# SPDX-License-Identifier: BSD-3-Clause
+"""What goes from increment to increment and from step to step."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from typing import Self
+
+import numpy as np
+
+from harness.assembly import Constraints, System
+from harness.elements import FIELD_NAMES
+from harness.model.arrays import FloatArray
+from harness.model.model import Model
+from harness.model.records import Solution
+from harness.procedures.acceptance import FluxHistory
+from harness.procedures.loads import Boundaries, Loads
+from harness.solver.newton import Factoriser, Iterate
+
+
+@dataclass(slots=True)
+class State:
+    """State at the end of the last converged increment.
+
+    displacement, reaction, load  (n,) U, RF, CF
+    external   (n,) all forces on the nodes that are not of elements: load, fading reactions of released dofs, reaction
+    work       external work so far
+    energy     (8,) sum of ENERGY
+    flux       flux history by field
+    """
+
+    displacement: FloatArray
+    reaction: FloatArray
+    load: FloatArray
+    external: FloatArray
+    boundaries: Boundaries
+    loads: Loads
+    constraints: Constraints | None = None
+    solver: Factoriser | None = None
+    total_time: float = 0.0
+    work: float = 0.0
+    energy: FloatArray = field(default_factory=lambda: np.zeros(8))
+    flux: list[FluxHistory] = field(default_factory=lambda: [FluxHistory() for _ in FIELD_NAMES])
+
+    @classmethod
+    def start(cls, system: System, model: Model) -> Self:
+        """State before the first step."""
+        zero = np.zeros(len(system))
+        boundaries = Boundaries(system.dofs, model.boundaries)
+        return cls(zero, zero, zero, zero, boundaries, Loads(system.dofs))
+
+    def accept(self, converged: Iterate, load: FloatArray, released: FloatArray) -> None:
+        """Take over a converged increment; load and released (fading reactions) are those of its end."""
+        assert self.constraints is not None
+        reaction = self.constraints.reactions(converged.residual)
+        external = load + released + reaction
+        energy = converged.evaluation.energy
+        # ENERGY(8) is the work of loads that user elements apply by themselves, of this increment alone
+        self.work += 0.5 * float((self.external + external) @ converged.increment) + float(energy[7])
+        self.displacement = self.displacement + converged.increment
+        self.reaction, self.load, self.external, self.energy = reaction, load, external, energy
+
+    def solution(self, system: System) -> Solution:
+        """Copy of the state for output; element states are the committed ones."""
+        return Solution(
+            node=system.dofs.node,
+            dof=system.dofs.dof,
+            displacement=self.displacement,
+            reaction=self.reaction,
+            load=self.load,
+            energies=self._energies(),
+            elements=tuple(block.state(k) for k, block in enumerate(system.blocks)),
+        )
+
+    def _energies(self) -> dict[str, float]:
+        """Energies of the whole model as Abaqus sums them: ETOTAL is constant where the balance holds."""
+        kinetic, elastic, creep, plastic, viscous, artificial, electrostatic = (float(e) for e in self.energy[:7])
+        internal = elastic + plastic + creep + artificial + electrostatic
+        return {
+            "ALLSE": elastic,
+            "ALLPD": plastic,
+            "ALLCD": creep,
+            "ALLVD": viscous,
+            "ALLAE": artificial,
+            "ALLKE": kinetic,
+            "ALLIE": internal,
+            "ALLWK": self.work,
+            "ETOTAL": kinetic + internal + viscous - self.work,
+        }

@@ -1,0 +1,250 @@
+# SPDX-FileCopyrightText: The uel-harness authors
+# SPDX-License-Identifier: BSD-3-Clause
+"""*STATIC: increments of a step by Newton's method, and the sequence of steps."""
+
+from __future__ import annotations
+
+from collections.abc import Generator, Iterator, Sequence
+from typing import Protocol
+
+import numpy as np
+
+from harness.assembly import Constraints, DofMap, System
+from harness.elements import Call
+from harness.errors import ConvergenceError
+from harness.model.model import Model
+from harness.model.records import (
+    AttemptAbandoned,
+    AttemptStarted,
+    IncrementDone,
+    IterationDone,
+    Record,
+    StepDone,
+    StepStarted,
+    Warned,
+)
+from harness.model.steps import Boundary, Load, Step
+from harness.procedures.checks import Checker
+from harness.procedures.extrapolation import Extrapolation
+from harness.procedures.incrementation import TOO_MANY_INCREMENTS, Abandoned, IncrementControl, refused
+from harness.procedures.loads import find_unknowns, released_reactions
+from harness.procedures.state import State
+from harness.solver.linear import LinearSolver, choose
+from harness.solver.newton import Increment, Iterate, Newton
+
+AUTOMATIC, FIXED = 1, 2
+"""LFLAGS(1) of a static step."""
+
+NORMAL, MASS = 1, 4
+"""LFLAGS(3): a normal call, and the mass matrix alone."""
+
+
+class UserRoutines(Protocol):
+    """The part of a loaded library that a procedure calls."""
+
+    def external_database(
+        self, lop: int, lrestart: int, time: tuple[float, float], dtime: float, step: int, increment: int
+    ) -> None:
+        """Call UEXTERNALDB if there is one."""
+
+
+class StaticStep:
+    """One static step."""
+
+    def __init__(self, system: System, model: Model, step: Step, state: State, solver: str, user: UserRoutines) -> None:
+        """Takes over the step's prescribed values and loads; symbolic work is done again only where they differ."""
+        self._system = system
+        self._step = step
+        self._state = state
+        self._user = user
+        self._control = IncrementControl(step.procedure, step.controls.time)
+        self._prescribed = state.boundaries.start_step(step, state.displacement)
+        self._load = state.loads.start_step(step, state.total_time)
+        unknowns = state.boundaries.unknowns
+        self._released = released_reactions(state.reaction, unknowns, step)
+        constraints = state.constraints
+        if constraints is None or state.solver is None or not constraints.matches(unknowns, model.equations):
+            constraints = Constraints(system, unknowns, model.equations, state.boundaries.sources)
+            state.solver = _solver(solver, constraints)
+        state.constraints = constraints
+        self._newton = Newton(system, constraints, state.solver, step.controls.line_search)
+        self._checker = Checker(system.dofs, constraints, step.controls, state.flux)
+        self._extrapolation = Extrapolation(step.extrapolation)
+        self._start = state.total_time
+        self._time = 0.0
+        self._increment = 0
+
+    @property
+    def reached(self) -> tuple[tuple[float, float], float, int, int]:
+        """Step and total time, no time increment, step and increment, as UEXTERNALDB gets them at the end."""
+        return (self._time, self._state.total_time), 0.0, self._step.number, self._increment
+
+    def run(self) -> Iterator[Record]:
+        """Records of the step. Raises ConvergenceError, KernelError, SingularMatrixError."""
+        cutbacks, iterations = 0, 0
+        while not self._control.finished(self._time):
+            if self._increment == self._step.increments:
+                raise ConvergenceError(f"{TOO_MANY_INCREMENTS} (step {self._step.number}, INC={self._step.increments})")
+            self._increment += 1
+            converged = False
+            while not converged:
+                converged, spent = yield from self._attempt(self._increment)
+                cutbacks += not converged
+                iterations += spent
+        self._state.flux = self._checker.histories(self._state.flux)
+        yield StepDone(self._step.number, self._increment, cutbacks, iterations)
+
+    def _attempt(self, increment: int) -> Generator[Record, None, tuple[bool, int]]:
+        """One attempt at an increment; returns whether it converged, and its iterations."""
+        number, size = self._step.number, self._control.attempt(self._time)
+        times = self._time, self._start + self._time
+        yield AttemptStarted(number, increment, self._control.attempts, *times, size)
+        self._user.external_database(1, 0, times, size, number, increment)
+        given = self._given(increment, size)
+        iteration, abandoned = 0, None
+        for state in self._newton.iterates(given):
+            iteration = state.iteration
+            abandoned = refused(state.evaluation.pnewdt)
+            if abandoned is None and iteration == 0:
+                self._checker.start(state, extrapolated=given.guess is not None)
+            elif abandoned is None:
+                checks = self._checker.check(state)
+                yield IterationDone(iteration, checks, state.line_search)
+                if all(check.verdict.accepted for check in checks):
+                    yield self._converge(state, given, increment)
+                    return True, iteration
+                abandoned = self._checker.give_up(iteration, checks)
+            if abandoned is not None:
+                break
+        assert abandoned is not None
+        yield from self._abandon(abandoned, increment, iteration, size)
+        return False, iteration
+
+    def _given(self, increment: int, size: float) -> Increment:
+        """What the end of the increment prescribes."""
+        step, state = self._step, self._state
+        end = self._end(size)
+        total = self._start + end
+        unknowns = state.boundaries.unknowns
+        call = Call(
+            lflags=(FIXED if step.procedure.direct else AUTOMATIC, int(step.nlgeom), NORMAL, 0, 0),
+            step=step.number,
+            increment=increment,
+            step_time=end,
+            total_time=total,
+            time_increment=size,
+            period=step.procedure.period,
+        )
+        return Increment(
+            call=call,
+            displacement=state.displacement,
+            guess=self._extrapolation.guess(size),
+            prescribed=(self._prescribed.at(end, total) - state.displacement)[unknowns],
+            load=self._load.at(end, total) + self._released.at(end, total),
+        )
+
+    def _end(self, size: float) -> float:
+        end = self._time + size
+        return self._step.procedure.period if self._control.finished(end) else end
+
+    def _converge(self, last: Iterate, given: Increment, increment: int) -> IncrementDone:
+        """Commit what the last pass left, and choose the next increment."""
+        call, attempt = given.call, self._control.attempts
+        self._system.commit()
+        released = self._released.at(call.step_time, call.total_time)
+        self._state.accept(last, given.load - released, released)
+        self._checker.converged()
+        self._extrapolation.converged(last.increment, call.time_increment)
+        self._control.converged(last.iteration, last.evaluation.pnewdt)
+        self._time, self._state.total_time = call.step_time, call.total_time
+        times = call.step_time, call.total_time
+        self._user.external_database(2, 0, times, call.time_increment, call.step, increment)
+        solution = self._state.solution(self._system)
+        return IncrementDone(call.step, increment, attempt, last.iteration, *times, call.time_increment, solution)
+
+    def _abandon(self, abandoned: Abandoned, increment: int, iterations: int, size: float) -> Iterator[Record]:
+        """Report the attempt; raise ConvergenceError where no other is left."""
+        number, attempt = self._step.number, self._control.attempts
+        following, error = self._control.abandon(abandoned)
+        times = self._time, self._start + self._time
+        yield AttemptAbandoned(number, increment, attempt, iterations, *times, size, following, abandoned.reason)
+        if error:
+            raise ConvergenceError(f"{error} (step {number}, increment {increment}, attempt {attempt})")
+
+
+def run_steps(system: System, model: Model, user: UserRoutines, solver: str = "auto") -> Iterator[Record]:
+    """Run all steps of a model.
+
+    Parameters
+    ----------
+    system
+        The assembled model, in its initial state.
+    model
+        Its steps, prescribed values and equations.
+    user
+        The loaded library of user routines: UEXTERNALDB is called at the start and end of the analysis, of each step
+        and of each increment.
+    solver
+        Name of a linear solver.
+
+    Yields
+    ------
+    Record
+        In the order in which things happen; what precedes an error is yielded before it is raised.
+
+    Raises
+    ------
+    ConvergenceError
+        The attempts, the increments, or the smallest increment are exhausted.
+    KernelError, SingularMatrixError, DeckError
+        From the elements, the linear solver, and over-constrained models.
+    """
+    state = State.start(system, model)
+    user.external_database(0, 0, (0.0, 0.0), 0.0, 1, 0)
+    yield from _unused(system.dofs, "*BOUNDARY", model.boundaries)
+    try:
+        for step in model.steps:
+            yield StepStarted(step.number)
+            yield from _unused(system.dofs, "*BOUNDARY", step.boundaries)
+            yield from _unused(system.dofs, "*CLOAD", step.loads)
+            user.external_database(5, 0, (0.0, state.total_time), 0.0, step.number, 0)
+            if step is model.steps[0]:
+                _mass_pass(system, step)
+            running = StaticStep(system, model, step, state, solver, user)
+            yield from running.run()
+            user.external_database(6, 0, *running.reached)
+    except ConvergenceError:
+        user.external_database(3, 0, *running.reached)
+        raise
+    if model.steps:
+        user.external_database(3, 0, *running.reached)
+
+
+def _mass_pass(system: System, step: Step) -> None:
+    """The mass matrix that Abaqus asks of user elements at the start of the analysis; the results are not used."""
+    first = FIXED if step.procedure.direct else AUTOMATIC
+    call = Call((first, int(step.nlgeom), MASS, 0, 0), step.number, 0, 0.0, 0.0, 0.0, step.procedure.period)
+    zero = np.zeros(len(system))
+    system.evaluate(call, zero, zero, matrix=False)
+
+
+def _unused(dofs: DofMap, keyword: str, entries: Sequence[Boundary] | Sequence[Load]) -> Iterator[Warned]:
+    """Warn of entries at degrees of freedom that no element uses: they have no effect."""
+    for entry in entries:
+        _, nodes = find_unknowns(dofs, entry)
+        if len(nodes):
+            others = f" and {len(nodes) - 1} more" if len(nodes) > 1 else ""
+            name = dofs.mesh.name(int(nodes[0]))
+            yield Warned(
+                f"{entry.source}: {keyword} has no effect: no element uses dof {entry.dof} of node {name}{others}"
+            )
+
+
+def _solver(name: str, constraints: Constraints) -> LinearSolver:
+    return choose(
+        name,
+        constraints.reduced_indptr,
+        constraints.reduced_indices,
+        coordinates=constraints.coordinates,
+        name_of=constraints.name_of,
+    )

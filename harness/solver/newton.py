@@ -1,0 +1,141 @@
+# SPDX-FileCopyrightText: The uel-harness authors
+# SPDX-License-Identifier: BSD-3-Clause
+"""Newton's method for one attempt at an increment, with the passes over the elements that Abaqus makes."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass, replace
+from typing import Protocol
+
+import numpy as np
+
+from harness.assembly import Constraints, Evaluation, System
+from harness.elements import Call
+from harness.model.arrays import FloatArray
+from harness.model.steps import LineSearchControls
+from harness.solver.linesearch import search
+
+RESIDUAL_ONLY = 5
+"""LFLAGS(3) of a pass that line search makes: RHS alone, the state is not kept."""
+
+
+class Factoriser(Protocol):
+    """What is needed of a linear solver."""
+
+    def factorise(self, data: FloatArray) -> None:
+        """Take the CSR values of the reduced matrix."""
+
+    def solve(self, rhs: FloatArray) -> FloatArray:
+        """Solution for one right-hand side."""
+
+
+@dataclass(frozen=True, slots=True)
+class Increment:
+    """What is given of an increment.
+
+    call          of the passes after a solve; the first pass carries LFLAGS(5) = 1 if it starts from an extrapolation
+    displacement  (n,) at the start
+    guess         (n,) extrapolated increment; None: from the start state
+    prescribed    (n_p,) increment of each prescribed unknown
+    load          (n,) external load at the end
+    """
+
+    call: Call
+    displacement: FloatArray
+    guess: FloatArray | None
+    prescribed: FloatArray
+    load: FloatArray
+
+
+@dataclass(frozen=True, slots=True)
+class Iterate:
+    """State after an iteration: one solve and one pass over the elements; iteration 0 is the pass before the first.
+
+    increment    (n,) increment so far
+    correction   (n,) its change by this iteration
+    residual     (n,) load + RHS; equilibrium is T^T residual = 0
+    reduced      (n_q,) T^T residual
+    line_search  scales tried, none if the full correction was taken without a search
+    """
+
+    iteration: int
+    increment: FloatArray
+    correction: FloatArray
+    residual: FloatArray
+    reduced: FloatArray
+    evaluation: Evaluation
+    line_search: tuple[float, ...] = ()
+
+
+class Newton:
+    """Newton iterations on a constrained system."""
+
+    def __init__(
+        self, system: System, constraints: Constraints, solver: Factoriser, line_search: LineSearchControls
+    ) -> None:
+        self._system = system
+        self._constraints = constraints
+        self._solver = solver
+        self._line_search = line_search
+
+    def iterates(self, given: Increment) -> Iterator[Iterate]:
+        """Iterate without end; the caller stops when it accepts or gives up.
+
+        The first pass is at the start state, or at the extrapolated one. Prescribed values are not written into it:
+        what is missing of them enters the linear system of iteration 1, so that the correction of all unknowns takes
+        part in it. Raises KernelError and SingularMatrixError.
+        """
+        call = given.call
+        if given.guess is None:
+            increment, first = np.zeros_like(given.displacement), call
+        else:
+            increment, first = given.guess, replace(call, lflags=(*call.lflags[:4], 1))
+        state = self._evaluate(first, given, 0, increment, np.zeros_like(increment))
+        yield state
+        missing = given.prescribed - increment[self._constraints.prescribed]
+        while True:
+            correction = self._correction(state, missing)
+            new = self._evaluate(call, given, state.iteration + 1, state.increment + correction, correction)
+            # scaling the first correction would miss the prescribed values
+            searchable = not missing.any() and new.evaluation.pnewdt >= 1.0
+            if self._line_search.n_ls > 0 and searchable:
+                new = self._searched(given, state, new)
+            state = new
+            yield state
+            missing = np.zeros_like(missing)
+
+    def _evaluate(
+        self, call: Call, given: Increment, iteration: int, increment: FloatArray, correction: FloatArray
+    ) -> Iterate:
+        evaluation = self._system.evaluate(call, given.displacement + increment, increment)
+        residual = evaluation.residual + given.load
+        reduced = self._constraints.reduce_vector(residual)
+        return Iterate(iteration, increment, correction, residual, reduced, evaluation)
+
+    def _correction(self, state: Iterate, missing: FloatArray) -> FloatArray:
+        data = state.evaluation.data
+        assert data is not None
+        rhs = state.reduced
+        if missing.any():
+            rhs = rhs - self._constraints.reduce_vector(self._constraints.prescribed_residual(data, missing))
+        self._solver.factorise(self._constraints.reduce(data))
+        return self._constraints.expand(self._solver.solve(rhs), missing)
+
+    def _searched(self, given: Increment, before: Iterate, full: Iterate) -> Iterate:
+        """The state at the scale that line search finds; the last pass is a normal one at that scale."""
+        direction = full.correction
+        call = replace(given.call, lflags=(*given.call.lflags[:2], RESIDUAL_ONLY, *given.call.lflags[3:]))
+
+        def component(scale: float) -> float:
+            increment = before.increment + scale * direction
+            evaluation = self._system.evaluate(call, given.displacement + increment, increment, matrix=False)
+            return float(direction @ (evaluation.residual + given.load))
+
+        at_zero, at_one = float(direction @ before.residual), float(direction @ full.residual)
+        scale, tried = search(component, at_zero, at_one, self._line_search)
+        if len(tried) == 1:
+            return replace(full, line_search=tried)
+        correction = scale * direction
+        found = self._evaluate(given.call, given, full.iteration, before.increment + correction, correction)
+        return replace(found, line_search=tried)

@@ -1,0 +1,130 @@
+# SPDX-FileCopyrightText: The uel-harness authors
+# SPDX-License-Identifier: BSD-3-Clause
+"""Chains of springs, compiled from springs.f, and their runs."""
+
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from harness import usersub
+from harness.assembly import System
+from harness.elements import build_blocks
+from harness.errors import Source
+from harness.model.mesh import ElementGroup, Mesh
+from harness.model.model import Equation, Model
+from harness.model.properties import UserElement, UserProperty
+from harness.model.records import AttemptAbandoned, IncrementDone, IterationDone
+from harness.model.steps import Boundary, Load, Static, Step
+from harness.procedures import run_steps
+
+HERE = Path(__file__).parent
+
+
+def source(line=1):
+    return Source("springs.inp", line)
+
+
+def fix(node, value=0.0, amplitude=None, dof=1):
+    """*BOUNDARY of one node (from 0)."""
+    return Boundary(np.array([node]), dof, value, amplitude, source(node + 1))
+
+
+def force(node, value, amplitude=None, dof=1):
+    """*CLOAD of one node (from 0)."""
+    return Load(np.array([node]), dof, value, amplitude, source(node + 1))
+
+
+def step(number=1, static=None, **options):
+    return Step(number, f"Step-{number}", static or Static(), source(100 * number), **options)
+
+
+def equation(*terms):
+    """*EQUATION of (node from 0, coefficient) terms in dof 1."""
+    return Equation(tuple((node, 1, coefficient) for node, coefficient in terms), source(50))
+
+
+@dataclass
+class Run:
+    """Records of a run, the error that ended it, and what the springs printed."""
+
+    records: list
+    error: Exception | None
+    printed: list
+
+    def of(self, kind):
+        return [record for record in self.records if isinstance(record, kind)]
+
+    @property
+    def increments(self):
+        return self.of(IncrementDone)
+
+    @property
+    def abandoned(self):
+        return self.of(AttemptAbandoned)
+
+    @property
+    def last(self):
+        return self.increments[-1].solution
+
+    def iterations(self):
+        """Checks of the one field, increment by increment of converged attempts."""
+        blocks, current = [], []
+        for record in self.records:
+            if isinstance(record, IterationDone):
+                current.append(record.checks[0])
+            elif isinstance(record, IncrementDone):
+                blocks.append(current)
+                current = []
+            elif isinstance(record, AttemptAbandoned):
+                current = []
+        return blocks
+
+
+class Bench:
+    """Builds steps and runs springs through them."""
+
+    fix, force, step, equation = staticmethod(fix), staticmethod(force), staticmethod(step), staticmethod(equation)
+
+    def __init__(self, folder):
+        self.folder = folder
+
+    def run(self, springs, steps, *, boundaries=(), equations=(), log=False):
+        """springs: (node, node, type, properties) each; the nodes are numbered from 0 here."""
+        nodes = 1 + max(max(spring[:2]) for spring in springs)
+        mesh = Mesh(np.arange(1, nodes + 1), np.zeros((nodes, 3)), ("",) * nodes)
+        groups = tuple(group(k + 1, *spring, log) for k, spring in enumerate(springs))
+        model = Model(
+            Path("springs.inp"),
+            "",
+            mesh,
+            groups,
+            tuple(steps),
+            boundaries=tuple(boundaries),
+            equations=tuple(equations),
+        )
+        library = usersub.load(HERE / "springs.f", job="job", output_dir=self.folder)
+        records, error = [], None
+        try:
+            system = System(mesh, build_blocks(model, library), model.equations)
+            for record in run_steps(system, model, library):
+                records.append(record)
+        except Exception as caught:
+            error = caught
+        printed = [line.split() for message in library.messages() for line in message.text.splitlines()]
+        library.close()
+        return Run(records, error, printed)
+
+
+@pytest.fixture
+def bench(tmp_path):
+    return Bench(tmp_path)
+
+
+def group(label, first, second, jtype, properties, log):
+    definition = UserElement(
+        jtype, 2, ((0, 1), (1, 1)), source(), properties=len(properties), integer_properties=1, unsymmetric=True
+    )
+    section = UserProperty("ALL", source(), np.array(properties, dtype=float), np.array([int(log)], dtype=np.int64))
+    return ElementGroup(f"U{jtype}", np.array([label]), np.array([[first, second]]), "", section, definition, source())

@@ -1,0 +1,49 @@
+! SPDX-FileCopyrightText: The uel-harness authors
+! SPDX-License-Identifier: BSD-3-Clause
+!
+! Springs along x for tests of procedures; d = U(2) - U(1), node by node one unknown (dof 1).
+!   U1  f = PROPS(1) d + PROPS(2) d**3, elastic energy in ENERGY(2)
+!   U2  as U1, with PNEWDT = PROPS(4) where |DU(2) - DU(1)| > PROPS(3)
+!   U3  f = PROPS(1) sign(d) sqrt(|d|): Newton's method jumps from d to -d
+!   U4  f = PROPS(1) d with PROPS(2) times its stiffness in AMATRX: the error goes by 1 - 1/PROPS(2) in an iteration
+! JPROPS(1) = 1 prints each call to the message file, as UEXTERNALDB always does.
+      subroutine uel(rhs,amatrx,svars,energy,ndofel,nrhs,nsvars,
+     &  props,nprops,coords,mcrd,nnode,u,du,v,a,jtype,time,dtime,
+     &  kstep,kinc,jelem,params,ndload,jdltyp,adlmag,predef,npredf,
+     &  lflags,mlvarx,ddlmag,mdload,pnewdt,jprops,njprop,period)
+      include 'aba_param.inc'
+      dimension rhs(mlvarx,*),amatrx(ndofel,ndofel),props(*),
+     &  svars(*),energy(8),coords(mcrd,nnode),u(ndofel),
+     &  du(mlvarx,*),v(ndofel),a(ndofel),time(2),params(*),
+     &  jdltyp(mdload,*),adlmag(mdload,*),ddlmag(mdload,*),
+     &  predef(2,npredf,nnode),lflags(*),jprops(*)
+      if (jprops(1) .eq. 1) write (7,'(a,7i4,9es24.16)') 'UEL',
+     &  lflags(1:5), kstep, kinc, u(1:2), du(1:2,1), time(1:2),
+     &  dtime, svars(1), period
+      d = u(2) - u(1)
+      if (jtype .le. 2) then
+        f = props(1)*d + props(2)*d**3
+        s = props(1) + 3*props(2)*d**2
+        if (lflags(3) .eq. 1) energy(2) = props(1)*d**2/2
+     &    + props(2)*d**4/4
+      else if (jtype .eq. 3) then
+        f = props(1)*sign(sqrt(abs(d)), d)
+        s = props(1)/(2*sqrt(max(abs(d), 1d-12)))
+      else
+        f = props(1)*d
+        s = props(2)*props(1)
+      end if
+      if (jtype .eq. 2) then
+        if (abs(du(2,1) - du(1,1)) .gt. props(3)) pnewdt = props(4)
+      end if
+      svars(1) = d
+      rhs(1,1) = f
+      rhs(2,1) = -f
+      amatrx = reshape((/ s, -s, -s, s /), (/ 2, 2 /))
+      end
+
+      subroutine uexternaldb(lop,lrestart,time,dtime,kstep,kinc)
+      include 'aba_param.inc'
+      dimension time(2)
+      write (7,'(a,3i4,3es24.16)') 'DB', lop, kstep, kinc, time, dtime
+      end
