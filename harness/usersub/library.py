@@ -13,7 +13,8 @@ from typing import Final
 
 from harness.errors import CompileError, UelError
 from harness.model.records import PointVariables
-from harness.usersub import _binding
+from harness.usersub import _binding, layout
+from harness.usersub.amalgam import path_of_kernels
 from harness.usersub.compiler import SUFFIXES, build
 from harness.usersub.messages import Inbox, Message
 
@@ -33,7 +34,7 @@ class Library:
     entry_points              names of all user routines found
     """
 
-    def __init__(self, name: str, handle: ctypes.CDLL | None, inbox: Inbox) -> None:
+    def __init__(self, name: str, handle: ctypes.CDLL, inbox: Inbox) -> None:
         self.name = name
         self._handle = handle  # keeps the library loaded
         self._inbox = inbox
@@ -44,8 +45,8 @@ class Library:
         self.uexternaldb = addresses["UEXTERNALDB"]
 
     def variables(self, jtype: int) -> PointVariables | None:
-        """Meaning of the SVARS of an element type; None for a user's own file."""
-        return None
+        """Meaning of the SVARS of an element type; None where the library does not hold the project's elements."""
+        return layout.variables(jtype) if hasattr(self._handle, layout.MARKER) else None
 
     def external_database(
         self, lop: int, lrestart: int, time: tuple[float, float], dtime: float, step: int, increment: int
@@ -78,14 +79,13 @@ def load(user: Path | Sequence[Path] | None, *, job: str, output_dir: Path, deck
     """
     files = [] if user is None else [user] if isinstance(user, Path) else list(user)
     shared = _shared_library(files, () if deck is None else (deck.resolve().parent,))
-    name = " ".join(str(f) for f in files)
-    handle = _open(shared, name) if shared else None
-    return Library(name, handle, Inbox(job, output_dir))
+    name = " ".join(str(f) for f in files) or "the project's kernels"
+    return Library(name, _open(shared, name), Inbox(job, output_dir))
 
 
-def _shared_library(files: Sequence[Path], include: Sequence[Path]) -> Path | None:
+def _shared_library(files: Sequence[Path], include: Sequence[Path]) -> Path:
     if not files:
-        return None
+        return path_of_kernels()
     for file in files:
         if not file.is_file():
             raise CompileError(file, "no such file")
@@ -109,9 +109,7 @@ def _open(shared: Path, name: str) -> ctypes.CDLL:
             raise CompileError(Path(name), f"cannot be loaded: {error}") from None
 
 
-def _address(handle: ctypes.CDLL | None, entry: str) -> int | None:
-    if handle is None:
-        return None
+def _address(handle: ctypes.CDLL, entry: str) -> int | None:
     try:
         symbol = getattr(handle, entry.lower() + "_")
     except AttributeError:

@@ -1,0 +1,88 @@
+! SPDX-FileCopyrightText: The uel-harness authors
+! SPDX-License-Identifier: BSD-3-Clause
+!> The shared module of the paper's section 3.1: what the continuum quads next to an interface (U1 with FACE) leave for
+!> the four-node stabilised interface elements (U3), by element number.
+!>
+!> It holds the last evaluation of each quad, so the quads must be called before the interface element in every
+!> iteration (lower element numbers), on one thread and in one process.
+module abaqus_bulk_exchange
+  use core_kinds, only: dp
+  implicit none(type, external)
+  private
+  public :: bulk_record, records
+  public :: store_bulk, slot_of_bulk, forget_bulk
+
+  !> Last evaluation of a quad. Stresses are (s11, s22, s12), the places on the face those of `face_places`.
+  type :: bulk_record
+    integer :: face = 0
+    real(dp) :: coordinates(2, 4) = 0.0_dp
+    real(dp) :: displacement(2, 4) = 0.0_dp
+    real(dp) :: area = 0.0_dp
+    real(dp) :: norm = 0.0_dp                     !< |D| of its stiffness
+    real(dp) :: gauss_stress(3, 4) = 0.0_dp
+    real(dp) :: gauss_gradient(2, 4, 4) = 0.0_dp  !< shape function derivatives (the entries of B) of each Gauss point
+    real(dp) :: gauss_area(4) = 0.0_dp
+    real(dp) :: face_stress(3, 5) = 0.0_dp
+    real(dp) :: face_gradient(2, 4, 5) = 0.0_dp
+    real(dp) :: face_length = 0.0_dp
+  end type bulk_record
+
+  type(bulk_record), allocatable, protected :: records(:)
+  integer, allocatable :: slots(:)
+  integer :: used = 0
+
+contains
+
+  !> Slot of an element in `records`, 0 if it has left nothing.
+  function slot_of_bulk(jelem) result(slot)
+    integer, intent(in) :: jelem
+    integer :: slot
+
+    slot = 0
+    if (.not. allocated(slots)) return
+    if (jelem >= 1 .and. jelem <= size(slots)) slot = slots(jelem)
+  end function slot_of_bulk
+
+  !> Keeps the record of an element; storage grows with the largest element number and the number of records.
+  subroutine store_bulk(jelem, record)
+    integer, intent(in) :: jelem
+    type(bulk_record), intent(in) :: record
+
+    call make_room(jelem)
+    if (slots(jelem) == 0) then
+      used = used + 1
+      slots(jelem) = used
+    end if
+    records(slots(jelem)) = record
+  end subroutine store_bulk
+
+  !> Makes sure that element number jelem has an entry in `slots` and that one more record fits.
+  subroutine make_room(jelem)
+    integer, intent(in) :: jelem
+    type(bulk_record), allocatable :: more_records(:)
+    integer, allocatable :: more_slots(:)
+
+    if (.not. allocated(slots)) then
+      allocate (slots(1000), records(100))
+      slots = 0
+    end if
+    if (jelem > size(slots)) then
+      allocate (more_slots(2*jelem))
+      more_slots(1:size(slots)) = slots
+      more_slots(size(slots) + 1:) = 0
+      call move_alloc(more_slots, slots)
+    end if
+    if (used == size(records)) then
+      allocate (more_records(2*used))
+      more_records(1:used) = records
+      call move_alloc(more_records, records)
+    end if
+  end subroutine make_room
+
+  !> Forgets everything, at the start and the end of an analysis.
+  subroutine forget_bulk()
+    if (allocated(slots)) deallocate (slots, records)
+    used = 0
+  end subroutine forget_bulk
+
+end module abaqus_bulk_exchange

@@ -1,0 +1,165 @@
+! SPDX-FileCopyrightText: The uel-harness authors
+! SPDX-License-Identifier: BSD-3-Clause
+!> Checks of what an element is called with: counts, ranges of the properties, kind of analysis.
+module abaqus_check
+  use core_kinds, only: dp
+  use core_status, only: status_type, sentence, too_brittle, zero_length, edges_apart
+  use abaqus_layout, only: elements, reals, integer_item, &
+    continuum_integers, standard_integers, four_node_integers, eight_node_integers, &
+    positive, not_negative, below_one, any_integer, p_gic, p_giic
+  use abaqus_report, only: fatal
+  implicit none(type, external)
+  private
+  public :: call_is_good, refuse
+
+contains
+
+  !> True if the counts fit the element type and every property is in its range; if not, a message has been sent.
+  function call_is_good(jtype, jelem, ndofel, nsvars, nprops, mcrd, nnode, njprop, ndload, lflags, props, jprops) &
+    result(good)
+    integer, intent(in) :: jtype, jelem, ndofel, nsvars, nprops, mcrd, nnode, njprop, ndload, lflags(*)
+    real(dp), intent(in) :: props(*)
+    integer, intent(in) :: jprops(*)
+    logical :: good
+
+    good = .false.
+    if (.not. count_fits('NODES = %I', nnode, elements(jtype)%nodes)) return
+    if (.not. count_fits('number of unknowns %I', ndofel, elements(jtype)%unknowns)) return
+    if (.not. count_fits('PROPERTIES = %I', nprops, elements(jtype)%reals)) return
+    if (.not. count_fits('I PROPERTIES = %I', njprop, elements(jtype)%integers)) return
+    if (nsvars < elements(jtype)%variables) then
+      call fatal(jtype, jelem, 'VARIABLES = %I, at least %I are needed', &
+        [nsvars, elements(jtype)%variables], [real(dp) ::])
+    else if (mcrd < 2 .or. mcrd > 3) then
+      call fatal(jtype, jelem, 'COORDINATES = %I, 2 is expected', [mcrd], [real(dp) ::])
+    else if (lflags(2) /= 0) then
+      call fatal(jtype, jelem, 'NLGEOM is on, but this element is for small displacements: give NLGEOM=NO', &
+        [integer ::], [real(dp) ::])
+    else if (ndload /= 0) then
+      call fatal(jtype, jelem, 'takes no distributed load: load its nodes', [integer ::], [real(dp) ::])
+    else
+      good = reals_are_good(jtype, jelem, props)
+      if (good) good = integers_are_good(jtype, jelem, jprops)
+    end if
+
+  contains
+
+    logical function count_fits(what, found, expected)
+      character(len=*), intent(in) :: what
+      integer, intent(in) :: found, expected
+
+      count_fits = found == expected
+      if (.not. count_fits) call fatal(jtype, jelem, '*USER ELEMENT has ' // what // ', %I is expected', &
+        [found, expected], [real(dp) ::])
+    end function count_fits
+
+  end function call_is_good
+
+  !> True if every real property is in its range.
+  function reals_are_good(jtype, jelem, props) result(good)
+    integer, intent(in) :: jtype, jelem
+    real(dp), intent(in) :: props(*)
+    logical :: good
+    integer :: i
+
+    good = .true.
+    do i = 1, elements(jtype)%reals
+      select case (reals(i)%rule)
+      case (positive)
+        good = props(i) > 0.0_dp
+      case (not_negative)
+        good = props(i) >= 0.0_dp
+      case (below_one)
+        good = props(i) >= 0.0_dp .and. props(i) < 1.0_dp
+      case default
+        good = abs(props(i)) <= huge(1.0_dp)
+      end select
+      if (.not. good) then
+        call fatal(jtype, jelem, 'PROPS(%I) ' // trim(reals(i)%name) // ' = %R, expected is ' // &
+          trim(expectation(reals(i)%rule)), [i], [props(i)])
+        return
+      end if
+    end do
+  end function reals_are_good
+
+  !> What a rule asks for, in words.
+  pure function expectation(rule) result(text)
+    integer, intent(in) :: rule
+    character(len=40) :: text
+
+    select case (rule)
+    case (positive)
+      text = 'a positive value'
+    case (not_negative)
+      text = 'zero or a positive value'
+    case (below_one)
+      text = 'zero or a value between 0 and 1'
+    case default
+      text = 'a finite value'
+    end select
+  end function expectation
+
+  !> True if every integer property is in its range.
+  function integers_are_good(jtype, jelem, jprops) result(good)
+    integer, intent(in) :: jtype, jelem
+    integer, intent(in) :: jprops(*)
+    logical :: good
+
+    select case (jtype)
+    case (1)
+      good = within(continuum_integers)
+    case (2)
+      good = within(standard_integers)
+    case (3)
+      good = within(four_node_integers)
+    case default
+      good = within(eight_node_integers)
+    end select
+
+  contains
+
+    logical function within(items)
+      type(integer_item), intent(in) :: items(:)
+      integer :: i
+
+      within = .true.
+      do i = 1, size(items)
+        if (items(i)%highest == any_integer) cycle
+        within = jprops(i) >= items(i)%lowest .and. jprops(i) <= items(i)%highest
+        if (.not. within) then
+          call fatal(jtype, jelem, 'JPROPS(%I) ' // trim(items(i)%name) // ' = %I, expected is %I to %I', &
+            [i, jprops(i), items(i)%lowest, items(i)%highest], [real(dp) ::])
+          return
+        end if
+      end do
+    end function within
+
+  end function integers_are_good
+
+  !> Sends the message for the status of a kernel; U4 counts its quads in status%item.
+  subroutine refuse(jtype, jelem, status)
+    integer, intent(in) :: jtype, jelem
+    type(status_type), intent(in) :: status
+    integer :: position
+    character(len=8) :: side
+
+    side = ' '
+    if (jtype == 4 .and. status%item == 1) side = 'bottom'
+    if (jtype == 4 .and. status%item == 2) side = 'top'
+    select case (status%code)
+    case (too_brittle)
+      position = merge(p_gic, p_giic, status%item == 1)
+      call fatal(jtype, jelem, 'PROPS(%I) ' // trim(reals(position)%name) // ' = %R, ' // &
+        trim(sentence(status%code)) // '; more than %R is expected', [position], [status%value, status%expected])
+    case (zero_length)
+      call fatal(jtype, jelem, trim(sentence(status%code)), [integer ::], [real(dp) ::])
+    case (edges_apart)
+      call fatal(jtype, jelem, trim(sentence(status%code)) // '; they are %R apart, at most %R is expected', &
+        [integer ::], [status%value, status%expected])
+    case default
+      call fatal(jtype, jelem, trim(side) // ' quad ' // trim(sentence(status%code)) // '; it is %R', &
+        [integer ::], [status%value])
+    end select
+  end subroutine refuse
+
+end module abaqus_check

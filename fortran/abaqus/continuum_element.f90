@@ -1,0 +1,184 @@
+! SPDX-FileCopyrightText: The uel-harness authors
+! SPDX-License-Identifier: BSD-3-Clause
+!> The continuum quad U1: kinematics and integration here, stress and stiffness from MATERIAL_LIB_MECH.
+module abaqus_continuum_element
+  use core_kinds, only: dp
+  use core_quadrature, only: quad_points
+  use core_shape_functions, only: quad_shape, quad_gradient
+  use core_status, only: status_type, inside_out
+  use materials_linear_elasticity, only: plane_strain
+  use materials_spectral_norm, only: spectral_norm
+  use elements_quad4, only: quad4_area, quad4_strain, quad4_add_point, face_point, &
+    face_nodes, gauss_of_face, face_places
+  use abaqus_bulk_exchange, only: bulk_record, store_bulk
+  use abaqus_check, only: refuse
+  use abaqus_report, only: fatal
+  use abaqus_layout, only: continuum_variables, p_thickness, j_plane, j_face, &
+    v_e11, v_e22, v_e33, v_e12, v_s11, v_s22, v_s33, v_s12
+  implicit none(type, external)
+  private
+  public :: evaluate_continuum
+
+  !> Stands in a stress component that a material of plane stress must not write, and one of plane strain must.
+  real(dp), parameter :: untouched = -huge(1.0_dp)
+
+  !> What the four Gauss points have when the stress is known.
+  type :: gauss_state
+    real(dp) :: gradient(2, 4, 4), strain(3, 4), stress(3, 4), stiffness(3, 3, 4), volume(4)
+  end type gauss_state
+
+contains
+
+  !> Evaluates U1; `good` is false after a message.
+  !>
+  !> ENERGY(2) grows by the work of the stress, by the trapezoidal rule: the strain energy of an elastic material, to
+  !> which the work of any inelastic strain is added, as the material does not tell them apart.
+  subroutine evaluate_continuum(jelem, props, jprops, coordinates, u, predef, npredf, materiallib, svars, energy, &
+    residual, tangent, good)
+    integer, intent(in) :: jelem
+    real(dp), intent(in) :: props(*)
+    integer, intent(in) :: jprops(*)
+    real(dp), intent(in) :: coordinates(2, 4), u(8)
+    integer, intent(in) :: npredf
+    real(dp), intent(in) :: predef(2, npredf, 4)   !< end value and increment at the nodes
+    integer, intent(in) :: materiallib(*)          !< handle of the host, passed through
+    real(dp), intent(inout) :: svars(32), energy(8)
+    real(dp), intent(out) :: residual(8), tangent(8, 8)
+    logical, intent(out) :: good
+    type(gauss_state) :: state
+    type(status_type) :: status
+    real(dp) :: jacobian, work, area, length, shape(4), field(npredf), field_change(npredf)
+    integer :: i, k, first
+
+    residual = 0.0_dp
+    tangent = 0.0_dp
+    work = 0.0_dp
+    area = quad4_area(coordinates)
+    length = sqrt(max(area, 0.0_dp))
+    good = .true.
+    do k = 1, 4
+      call quad_gradient(coordinates, quad_points(:, k), state%gradient(:, :, k), jacobian)
+      if (.not. jacobian > 0.0_dp) then
+        good = .false.
+        status = status_type(inside_out, k, jacobian, 0.0_dp)
+        call refuse(1, jelem, status)
+        return
+      end if
+      first = (k - 1)*size(continuum_variables)
+      state%volume(k) = jacobian*props(p_thickness)
+      state%strain(:, k) = quad4_strain(state%gradient(:, :, k), u)
+      shape = quad_shape(quad_points(:, k))
+      do i = 1, npredf
+        field_change(i) = dot_product(shape, predef(2, i, :))
+        field(i) = dot_product(shape, predef(1, i, :)) - field_change(i)
+      end do
+      call ask_material(jelem, k, jprops(j_plane), matmul(coordinates, shape), length, state%volume(k), field, &
+        field_change, materiallib, state%strain(:, k), svars(first + 1:first + 8), state%stress(:, k), &
+        state%stiffness(:, :, k), work, good)
+      if (.not. good) return
+      call quad4_add_point(state%gradient(:, :, k), state%volume(k), state%stress(:, k), state%stiffness(:, :, k), &
+        residual, tangent)
+    end do
+    energy(2) = energy(2) + work
+    if (jprops(j_face) /= 0) call share(jelem, jprops(j_face), coordinates, u, area, props(p_thickness), state)
+  end subroutine evaluate_continuum
+
+  !> Stress and stiffness of Gauss point k from the host; its strains and stresses in SVARS go from start to end values.
+  subroutine ask_material(jelem, k, plane, place, length, volume, field, field_change, materiallib, strain, variables, &
+    stress, stiffness, work, good)
+    integer, intent(in) :: jelem, k, plane
+    real(dp), intent(in) :: place(2)               !< of the point
+    real(dp), intent(in) :: length                 !< characteristic element length
+    real(dp), intent(in) :: volume
+    real(dp), intent(in) :: field(:)               !< predefined fields at the start of the increment
+    real(dp), intent(in) :: field_change(:)
+    integer, intent(in) :: materiallib(*)
+    real(dp), intent(in) :: strain(3)              !< at the end of the increment
+    real(dp), intent(inout) :: variables(8)
+    real(dp), intent(out) :: stress(3), stiffness(3, 3)
+    real(dp), intent(inout) :: work                !< the work of the stress is added
+    logical, intent(out) :: good
+    real(dp), parameter :: identity(3, 3) = reshape([1.0_dp, 0.0_dp, 0.0_dp, 0.0_dp, 1.0_dp, 0.0_dp, &
+      0.0_dp, 0.0_dp, 1.0_dp], [3, 3])
+    ! components among those of the material: 11, 22, 12 in plane stress, 11, 22, 33, 12 in plane strain
+    integer, parameter :: in_plane(3, 0:1) = reshape([1, 2, 3, 1, 2, 4], [3, 2])
+    ! room for what a host might write if TENSOR is not what PLANE says
+    real(dp) :: start(6), change(6), found(6), matrix(36), old_stress(3)
+    integer :: i, j, n, at(3)
+    external :: material_lib_mech
+
+    n = 3 + plane
+    at = in_plane(:, plane)
+    start = 0.0_dp
+    change = 0.0_dp
+    start(at) = variables([v_e11, v_e22, v_e12])
+    change(at) = strain - start(at)
+    found = 0.0_dp
+    found(4) = untouched
+    matrix = 0.0_dp
+    call material_lib_mech(materiallib, found, matrix, start, change, k, 1.0_dp, volume, identity, field, &
+      field_change, size(field), length, [place, 0.0_dp])
+    good = (abs(found(4) - untouched) > 0.0_dp) .eqv. (plane == plane_strain)
+    if (.not. good) then
+      call fatal(1, jelem, 'JPROPS(%I) PLANE = %I, but the material has another number of stress components: ' // &
+        'give TENSOR=PSTRESS with PLANE = 0 and TENSOR=PSTRAIN with PLANE = 1', [j_plane, plane], [real(dp) ::])
+      return
+    end if
+
+    do j = 1, 3
+      do i = 1, 3
+        stiffness(i, j) = matrix(at(i) + n*(at(j) - 1))
+      end do
+    end do
+    stress = found(at)
+    old_stress = variables([v_s11, v_s22, v_s12])
+    work = work + 0.5_dp*volume*dot_product(old_stress + stress, change(at))
+    variables([v_e11, v_e22, v_e12]) = strain
+    variables([v_s11, v_s22, v_s12]) = stress
+    variables(v_e33) = 0.0_dp
+    variables(v_s33) = merge(found(3), 0.0_dp, plane == plane_strain)
+  end subroutine ask_material
+
+  !> Leaves stress, shape function derivatives and areas to the interface elements next door. The stress at a place on
+  !> the face is that of the Gauss point next to it, carried there by the stiffness: exact in linear elasticity, without
+  !> another call of the material. In the middle it is the mean of both.
+  subroutine share(jelem, face, coordinates, u, area, thickness, state)
+    integer, intent(in) :: jelem, face
+    real(dp), intent(in) :: coordinates(2, 4), u(8), area, thickness
+    type(gauss_state), intent(in) :: state
+    type(bulk_record) :: record
+    real(dp) :: strain(3), jacobian, along(2), carried(3, 2)
+    integer :: i, side, k
+
+    record%face = face
+    record%coordinates = coordinates
+    record%displacement = reshape(u, [2, 4])
+    record%area = area
+    record%gauss_stress = state%stress
+    record%gauss_gradient = state%gradient
+    record%gauss_area = state%volume/thickness
+    along = coordinates(:, face_nodes(2, face)) - coordinates(:, face_nodes(1, face))
+    record%face_length = hypot(along(1), along(2))
+    record%norm = 0.0_dp
+    do side = 1, 2
+      record%norm = record%norm + 0.5_dp*spectral_norm(state%stiffness(:, :, gauss_of_face(side, face)))
+    end do
+    do i = 1, size(face_places)
+      call quad_gradient(coordinates, face_point(face, face_places(i)), record%face_gradient(:, :, i), jacobian)
+      strain = quad4_strain(record%face_gradient(:, :, i), u)
+      do side = 1, 2
+        k = gauss_of_face(side, face)
+        carried(:, side) = state%stress(:, k) + matmul(state%stiffness(:, :, k), strain - state%strain(:, k))
+      end do
+      if (face_places(i) < 0.0_dp) then
+        record%face_stress(:, i) = carried(:, 1)
+      else if (face_places(i) > 0.0_dp) then
+        record%face_stress(:, i) = carried(:, 2)
+      else
+        record%face_stress(:, i) = 0.5_dp*(carried(:, 1) + carried(:, 2))
+      end if
+    end do
+    call store_bulk(jelem, record)
+  end subroutine share
+
+end module abaqus_continuum_element

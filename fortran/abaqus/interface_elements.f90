@@ -1,0 +1,147 @@
+! SPDX-FileCopyrightText: The uel-harness authors
+! SPDX-License-Identifier: BSD-3-Clause
+!> From the arrays of a UEL call to the interface kernels and back.
+module abaqus_interface_elements
+  use core_kinds, only: dp
+  use core_status, only: status_type, ok, sentence
+  use materials_linear_elasticity, only: engineering_constants, plane_stiffness
+  use cohesive_law, only: law_parameters
+  use elements_interface_point, only: interface_options, interface_point
+  use elements_standard_interface, only: standard_interface
+  use elements_stabilised_interface, only: stabilisation_type, stabilised_interface_four, stabilised_interface_eight
+  use abaqus_layout, only: reals, interface_variables, &
+    p_thickness, p_alphan, p_alphat, p_sigmamax, p_taumax, p_gic, p_giic, p_viscosity, p_betan, p_betat, p_gammabot, &
+    p_bottom_e1, p_bottom_nu12, p_top_e1, p_top_nu12, &
+    j_law, j_integration, j_tangent, j_sampling, j_eight_plane, &
+    v_x, v_y, v_sepn, v_sept, v_tn, v_tt, v_damage, v_dissi, v_dissii, v_sn, v_st, v_dmax, v_dissv
+  use abaqus_check, only: refuse
+  use abaqus_report, only: fatal
+  use abaqus_neighbours, only: stress_of_neighbours
+  implicit none(type, external)
+  private
+  public :: evaluate_interface
+
+contains
+
+  !> Evaluates U2, U3 or U4; `good` is false after a message. SVARS and ENERGY come back with their end values:
+  !> ENERGY(2) is T.g/2, ENERGY(4) what damage has dissipated, ENERGY(5) what the viscous overstress has.
+  subroutine evaluate_interface(jtype, jelem, props, jprops, coords, u, dtime, svars, energy, residual, tangent, good)
+    integer, intent(in) :: jtype, jelem
+    real(dp), intent(in) :: props(*)
+    integer, intent(in) :: jprops(*)
+    real(dp), intent(in) :: coords(:, :)           !< (2 or 3, nodes)
+    real(dp), intent(in) :: u(*)
+    real(dp), intent(in) :: dtime
+    real(dp), intent(inout) :: svars(*), energy(8)
+    real(dp), intent(out) :: residual(*), tangent(*)
+    logical, intent(out) :: good
+    type(law_parameters) :: law
+    type(interface_options) :: options
+    type(stabilisation_type) :: stabilisation
+    type(interface_point) :: old(2), new(2)
+    type(status_type) :: status
+    real(dp) :: energies(3), bulk_stress(3, 2), stiffness(3, 3, 2), xy(2, 8)
+
+    law = law_parameters(jprops(j_law), [props(p_alphat), props(p_alphan)], [props(p_taumax), props(p_sigmamax)], &
+      [props(p_giic), props(p_gic)], props(p_viscosity))
+    options = interface_options(jprops(j_integration), jprops(j_tangent), 0)
+    if (jtype > 2) then
+      options%sampling = jprops(j_sampling)
+      stabilisation = stabilisation_type([props(p_betat), props(p_betan)], props(p_gammabot))
+    end if
+    xy(:, 1:size(coords, 2)) = coords(1:2, :)
+    old = points_from(svars)
+    select case (jtype)
+    case (2)
+      call standard_interface(law, options, props(p_thickness), xy(:, 1:4), u(1:8), dtime, old, new, &
+        residual(1:8), tangent(1:64), energies, status)
+    case (3)
+      call stress_of_neighbours(jelem, jprops, options, xy(:, 1:4), u(1:8), stabilisation, bulk_stress, good)
+      if (.not. good) return
+      call stabilised_interface_four(law, options, props(p_thickness), stabilisation, xy(:, 1:4), u(1:8), &
+        bulk_stress, dtime, old, new, residual(1:8), tangent(1:64), energies, status)
+    case default
+      call elasticity_of_quads(jelem, props, jprops(j_eight_plane), stiffness, good)
+      if (.not. good) return
+      call stabilised_interface_eight(law, options, props(p_thickness), stabilisation, stiffness, xy, u(1:16), &
+        dtime, old, new, residual(1:16), tangent(1:256), energies, status)
+    end select
+    good = status%code == ok
+    if (good) then
+      call write_state(new, svars)
+      energy = 0.0_dp
+      energy([2, 4, 5]) = energies
+    else
+      call refuse(jtype, jelem, status)
+    end if
+  end subroutine evaluate_interface
+
+  !> Stiffness of the bottom and the top quad of U4.
+  subroutine elasticity_of_quads(jelem, props, plane, stiffness, good)
+    integer, intent(in) :: jelem
+    real(dp), intent(in) :: props(*)
+    integer, intent(in) :: plane
+    real(dp), intent(out) :: stiffness(3, 3, 2)
+    logical, intent(out) :: good
+    integer, parameter :: first(2) = [p_bottom_e1, p_top_e1]
+    integer, parameter :: ratio(2) = [p_bottom_nu12, p_top_nu12]
+    type(engineering_constants) :: material
+    type(status_type) :: status
+    integer :: side
+
+    do side = 1, 2
+      associate (c => props(first(side):first(side) + 7))
+        material = engineering_constants(c(1), c(2), c(3), c(4), c(5), c(6), c(7), c(8))
+      end associate
+      call plane_stiffness(material, plane, stiffness(:, :, side), status)
+      good = status%code == ok
+      if (.not. good) then
+        call fatal(4, jelem, 'PROPS(%I) ' // trim(reals(ratio(side))%name) // ' = %R and its neighbours: ' // &
+          trim(sentence(status%code)) // '; %R is expected to be positive', &
+          [ratio(side)], [props(ratio(side)), status%value])
+        return
+      end if
+    end do
+  end subroutine elasticity_of_quads
+
+  !> Committed state of the two points.
+  pure function points_from(svars) result(points)
+    real(dp), intent(in) :: svars(*)
+    type(interface_point) :: points(2)
+    integer :: k, first
+
+    do k = 1, 2
+      first = (k - 1)*size(interface_variables)
+      points(k)%history%separation = [svars(first + v_sept), svars(first + v_sepn)]
+      points(k)%history%damage = svars(first + v_damage)
+      points(k)%history%damage_max = svars(first + v_dmax)
+      points(k)%history%dissipated = [svars(first + v_dissii), svars(first + v_dissi)]
+      points(k)%history%viscous = svars(first + v_dissv)
+    end do
+  end function points_from
+
+  !> Writes the state of the points to SVARS.
+  pure subroutine write_state(points, svars)
+    type(interface_point), intent(in) :: points(2)
+    real(dp), intent(inout) :: svars(*)
+    integer :: k, first
+
+    do k = 1, 2
+      first = (k - 1)*size(interface_variables)
+      svars(first + v_x) = points(k)%position(1)
+      svars(first + v_y) = points(k)%position(2)
+      svars(first + v_sepn) = points(k)%history%separation(2)
+      svars(first + v_sept) = points(k)%history%separation(1)
+      svars(first + v_tn) = points(k)%traction(2)
+      svars(first + v_tt) = points(k)%traction(1)
+      svars(first + v_damage) = points(k)%history%damage
+      svars(first + v_dissi) = points(k)%history%dissipated(2)
+      svars(first + v_dissii) = points(k)%history%dissipated(1)
+      svars(first + v_sn) = points(k)%stabilisation(2)
+      svars(first + v_st) = points(k)%stabilisation(1)
+      svars(first + v_dmax) = points(k)%history%damage_max
+      svars(first + v_dissv) = points(k)%history%viscous
+    end do
+  end subroutine write_state
+
+end module abaqus_interface_elements

@@ -1,0 +1,213 @@
+! SPDX-FileCopyrightText: The uel-harness authors
+! SPDX-License-Identifier: BSD-3-Clause
+!> Every position of PROPS, JPROPS and SVARS, named once: the kernels index with the constants, the messages and the
+!> tables of the documentation take names, units, ranges and meanings from the same rows.
+!>
+!> harness/usersub/layout.py reads this file line by line: one row a line, its meaning after the row.
+module abaqus_layout
+  use, intrinsic :: iso_c_binding, only: c_int
+  implicit none(type, external)
+  private
+  public :: real_item, integer_item, variable_item, element_item
+  public :: delamination_layout_version
+
+  !> What a real property may be. A property that may be zero is 0 where the deck leaves it out.
+  integer, parameter, public :: positive = 1
+  integer, parameter, public :: not_negative = 2
+  integer, parameter, public :: below_one = 3       ! 0 <= value < 1
+  integer, parameter, public :: any_value = 4
+  integer, parameter, public :: any_integer = huge(1)
+
+  !> A real property.
+  type :: real_item
+    integer :: position
+    character(len=12) :: name
+    character(len=13) :: unit
+    integer :: rule
+  end type real_item
+
+  !> An integer property and its lowest and highest value.
+  type :: integer_item
+    integer :: position
+    character(len=12) :: name
+    integer :: lowest, highest
+  end type integer_item
+
+  !> A variable of an integration point; variable i of point k is SVARS((k - 1)*(variables of a point) + i).
+  type :: variable_item
+    integer :: position
+    character(len=8) :: name
+    character(len=13) :: unit
+  end type variable_item
+
+  !> An element type: the options of *USER ELEMENT that go with Un.
+  type :: element_item
+    integer :: jtype, nodes, unknowns, reals, integers, variables
+  end type element_item
+
+  ! reals of every element
+  integer, parameter, public :: p_thickness = 1
+  ! reals of the interface elements
+  integer, parameter, public :: p_alphan = 2
+  integer, parameter, public :: p_alphat = 3
+  integer, parameter, public :: p_sigmamax = 4
+  integer, parameter, public :: p_taumax = 5
+  integer, parameter, public :: p_gic = 6
+  integer, parameter, public :: p_giic = 7
+  integer, parameter, public :: p_viscosity = 8
+  ! reals of the stabilised interface elements
+  integer, parameter, public :: p_betan = 9
+  integer, parameter, public :: p_betat = 10
+  integer, parameter, public :: p_gammabot = 11
+  ! reals of the eight-node interface element: elastic constants of its two quads
+  integer, parameter, public :: p_bottom_e1 = 12
+  integer, parameter, public :: p_bottom_e2 = 13
+  integer, parameter, public :: p_bottom_e3 = 14
+  integer, parameter, public :: p_bottom_nu12 = 15
+  integer, parameter, public :: p_bottom_nu13 = 16
+  integer, parameter, public :: p_bottom_nu23 = 17
+  integer, parameter, public :: p_bottom_g12 = 18
+  integer, parameter, public :: p_bottom_angle = 19
+  integer, parameter, public :: p_top_e1 = 20
+  integer, parameter, public :: p_top_e2 = 21
+  integer, parameter, public :: p_top_e3 = 22
+  integer, parameter, public :: p_top_nu12 = 23
+  integer, parameter, public :: p_top_nu13 = 24
+  integer, parameter, public :: p_top_nu23 = 25
+  integer, parameter, public :: p_top_g12 = 26
+  integer, parameter, public :: p_top_angle = 27
+
+  type(real_item), parameter, public :: reals(27) = [ &
+    real_item(p_thickness, 'THICKNESS', 'length', positive), & !< thickness out of the plane
+    real_item(p_alphan, 'ALPHAN', 'stress/length', positive), & !< initial normal stiffness alpha_n
+    real_item(p_alphat, 'ALPHAT', 'stress/length', positive), & !< initial tangential stiffness alpha_tau
+    real_item(p_sigmamax, 'SIGMAMAX', 'stress', positive), & !< mode I strength
+    real_item(p_taumax, 'TAUMAX', 'stress', positive), & !< mode II strength
+    real_item(p_gic, 'GIC', 'energy/area', positive), & !< mode I fracture energy, above SIGMAMAX**2/(2 ALPHAN)
+    real_item(p_giic, 'GIIC', 'energy/area', positive), & !< mode II fracture energy, above TAUMAX**2/(2 ALPHAT)
+    real_item(p_viscosity, 'VISCOSITY', 'time', not_negative), & !< relaxation time of the damage; 0: none
+    real_item(p_betan, 'BETAN', 'stress/length', not_negative), & !< stabilisation beta_n; 0: equation (21)
+    real_item(p_betat, 'BETAT', 'stress/length', not_negative), & !< stabilisation beta_tau; 0: equation (21)
+    real_item(p_gammabot, 'GAMMABOT', '1', below_one), & !< weight of the bottom stress; 0: equation (22)
+    real_item(p_bottom_e1, 'E1 BOTTOM', 'stress', positive), & !< Young's modulus along material axis 1
+    real_item(p_bottom_e2, 'E2 BOTTOM', 'stress', positive), & !< Young's modulus along material axis 2
+    real_item(p_bottom_e3, 'E3 BOTTOM', 'stress', not_negative), & !< Young's modulus out of the plane; plane strain
+    real_item(p_bottom_nu12, 'NU12 BOTTOM', '1', any_value), & !< contraction along 2 under stress along 1
+    real_item(p_bottom_nu13, 'NU13 BOTTOM', '1', any_value), & !< contraction along 3 under stress along 1; plane strain
+    real_item(p_bottom_nu23, 'NU23 BOTTOM', '1', any_value), & !< contraction along 3 under stress along 2; plane strain
+    real_item(p_bottom_g12, 'G12 BOTTOM', 'stress', positive), & !< shear modulus in the plane
+    real_item(p_bottom_angle, 'ANGLE BOTTOM', 'degree', any_value), & !< of material axis 1 from x, counter-clockwise
+    real_item(p_top_e1, 'E1 TOP', 'stress', positive), & !< Young's modulus along material axis 1
+    real_item(p_top_e2, 'E2 TOP', 'stress', positive), & !< Young's modulus along material axis 2
+    real_item(p_top_e3, 'E3 TOP', 'stress', not_negative), & !< Young's modulus out of the plane; plane strain
+    real_item(p_top_nu12, 'NU12 TOP', '1', any_value), & !< contraction along 2 under stress along 1
+    real_item(p_top_nu13, 'NU13 TOP', '1', any_value), & !< contraction along 3 under stress along 1; plane strain
+    real_item(p_top_nu23, 'NU23 TOP', '1', any_value), & !< contraction along 3 under stress along 2; plane strain
+    real_item(p_top_g12, 'G12 TOP', 'stress', positive), & !< shear modulus in the plane
+    real_item(p_top_angle, 'ANGLE TOP', 'degree', any_value)] !< of material axis 1 from x, counter-clockwise
+
+  ! integers of the continuum element
+  integer, parameter, public :: j_plane = 1
+  integer, parameter, public :: j_face = 2
+  ! integers of every interface element
+  integer, parameter, public :: j_law = 1
+  integer, parameter, public :: j_integration = 2
+  integer, parameter, public :: j_tangent = 3
+  ! integers of the stabilised interface elements
+  integer, parameter, public :: j_sampling = 4
+  ! integers of the four-node one, which has no tangent to choose
+  integer, parameter, public :: j_offset_bottom = 5
+  integer, parameter, public :: j_offset_top = 6
+  ! integers of the eight-node one
+  integer, parameter, public :: j_eight_plane = 5
+
+  type(integer_item), parameter, public :: continuum_integers(2) = [ &
+    integer_item(j_plane, 'PLANE', 0, 1), & !< 0 plane stress, 1 plane strain
+    integer_item(j_face, 'FACE', 0, 4)] !< face along a four-node stabilised interface (U3), as Abaqus counts; 0 none
+
+  type(integer_item), parameter, public :: standard_integers(3) = [ &
+    integer_item(j_law, 'LAW', 1, 1), & !< 1 bilinear, damage at the displacement jump
+    integer_item(j_integration, 'INTEGRATION', 0, 1), & !< 0 Gauss, 1 Newton-Cotes
+    integer_item(j_tangent, 'TANGENT', 0, 1)] !< 0 consistent (23), 1 secant (24)
+
+  type(integer_item), parameter, public :: four_node_integers(6) = [ &
+    integer_item(j_law, 'LAW', 1, 1), & !< 1 bilinear, damage at the displacement jump
+    integer_item(j_integration, 'INTEGRATION', 0, 1), & !< 0 Gauss, 1 Newton-Cotes
+    integer_item(j_tangent, 'TANGENT', 1, 1), & !< 1 secant: penalty part S alpha (1 - d) alone
+    integer_item(j_sampling, 'SAMPLING', 0, 2), & !< bulk stress: 0 middle of the face, 1 face, 2 nearest Gauss point
+    integer_item(j_offset_bottom, 'OFFSETBOTTOM', -any_integer, any_integer), & !< number of the quad below less its own
+    integer_item(j_offset_top, 'OFFSETTOP', -any_integer, any_integer)] !< number of the quad above, less its own
+
+  type(integer_item), parameter, public :: eight_node_integers(5) = [ &
+    integer_item(j_law, 'LAW', 1, 1), & !< 1 bilinear, damage at the displacement jump
+    integer_item(j_integration, 'INTEGRATION', 0, 1), & !< 0 Gauss, 1 Newton-Cotes
+    integer_item(j_tangent, 'TANGENT', 0, 1), & !< 0 consistent, 1 without the derivative of the damage
+    integer_item(j_sampling, 'SAMPLING', 0, 2), & !< bulk stress: 0 middle of the face, 1 face, 2 nearest Gauss point
+    integer_item(j_eight_plane, 'PLANE', 0, 1)] !< 0 plane stress, 1 plane strain
+
+  ! variables of a point of the continuum element
+  integer, parameter, public :: v_e11 = 1
+  integer, parameter, public :: v_e22 = 2
+  integer, parameter, public :: v_e33 = 3
+  integer, parameter, public :: v_e12 = 4
+  integer, parameter, public :: v_s11 = 5
+  integer, parameter, public :: v_s22 = 6
+  integer, parameter, public :: v_s33 = 7
+  integer, parameter, public :: v_s12 = 8
+
+  type(variable_item), parameter, public :: continuum_variables(8) = [ &
+    variable_item(v_e11, 'E11', '1'), & !< strain along x
+    variable_item(v_e22, 'E22', '1'), & !< strain along y
+    variable_item(v_e33, 'E33', '1'), & !< strain out of the plane; 0 in plane stress too, where it is not known
+    variable_item(v_e12, 'E12', '1'), & !< engineering shear strain
+    variable_item(v_s11, 'S11', 'stress'), & !< stress along x
+    variable_item(v_s22, 'S22', 'stress'), & !< stress along y
+    variable_item(v_s33, 'S33', 'stress'), & !< stress out of the plane
+    variable_item(v_s12, 'S12', 'stress')] !< shear stress
+
+  ! variables of a point of the interface elements
+  integer, parameter, public :: v_x = 1
+  integer, parameter, public :: v_y = 2
+  integer, parameter, public :: v_sepn = 3
+  integer, parameter, public :: v_sept = 4
+  integer, parameter, public :: v_tn = 5
+  integer, parameter, public :: v_tt = 6
+  integer, parameter, public :: v_damage = 7
+  integer, parameter, public :: v_dissi = 8
+  integer, parameter, public :: v_dissii = 9
+  integer, parameter, public :: v_sn = 10
+  integer, parameter, public :: v_st = 11
+  integer, parameter, public :: v_dmax = 12
+  integer, parameter, public :: v_dissv = 13
+
+  type(variable_item), parameter, public :: interface_variables(13) = [ &
+    variable_item(v_x, 'X', 'length'), & !< original position
+    variable_item(v_y, 'Y', 'length'), & !< original position
+    variable_item(v_sepn, 'SEPN', 'length'), & !< normal separation, opening positive
+    variable_item(v_sept, 'SEPT', 'length'), & !< tangential separation
+    variable_item(v_tn, 'TN', 'stress'), & !< normal traction, tension positive
+    variable_item(v_tt, 'TT', 'stress'), & !< tangential traction
+    variable_item(v_damage, 'DAMAGE', '1'), & !< damage that acts, from 0 to 1
+    variable_item(v_dissi, 'DISSI', 'energy/area'), & !< energy dissipated by damage in mode I
+    variable_item(v_dissii, 'DISSII', 'energy/area'), & !< energy dissipated by damage in mode II
+    variable_item(v_sn, 'SN', '1'), & !< stabilised S, normal; 1 in the standard element
+    variable_item(v_st, 'ST', '1'), & !< stabilised S, tangential; 1 in the standard element
+    variable_item(v_dmax, 'DMAX', '1'), & !< largest damage of the law so far; DAMAGE lags behind it with VISCOSITY
+    variable_item(v_dissv, 'DISSV', 'energy/area')] !< energy dissipated by the viscous regularisation
+
+  type(element_item), parameter, public :: elements(4) = [ &
+    element_item(1, 4, 8, 1, 2, 32), & !< continuum quad, stress from a material of the deck (UELMAT)
+    element_item(2, 4, 8, 8, 3, 26), & !< standard cohesive interface
+    element_item(3, 4, 8, 11, 6, 26), & !< stabilised cohesive interface, four nodes, next to U1 quads
+    element_item(4, 8, 16, 27, 5, 26)] !< stabilised cohesive interface, eight nodes, self-contained; UNSYMM
+
+contains
+
+  !> Marks a library as holding these elements, so that a host may name their SVARS.
+  function delamination_layout_version() result(version) bind(c, name='delamination_layout_version')
+    integer(c_int) :: version
+
+    version = 1_c_int
+  end function delamination_layout_version
+
+end module abaqus_layout

@@ -1,0 +1,37 @@
+! SPDX-FileCopyrightText: The uel-harness authors
+! SPDX-License-Identifier: BSD-3-Clause
+!> Stops the analysis with a message: the only place where a kernel speaks.
+module abaqus_report
+  use core_kinds, only: dp
+  implicit none(type, external)
+  private
+  public :: fatal
+
+contains
+
+  !> Message through STDB_ABQERR, then XIT. A host that lets XIT return gets the control back.
+  subroutine fatal(jtype, jelem, text, integers, reals)
+    integer, intent(in) :: jtype                !< n of the element type Un
+    integer, intent(in) :: jelem                !< element number
+    character(len=*), intent(in) :: text        !< with %I and %R in place of the values
+    integer, intent(in) :: integers(:)          !< values of %I, at most 6
+    real(dp), intent(in) :: reals(:)            !< values of %R, at most 4
+    character(len=500) :: string
+    character(len=8) :: names(1)
+    integer :: all_integers(8)
+    real(dp) :: all_reals(4)
+    external :: stdb_abqerr, xit
+
+    names(1) = ' '
+    all_integers = 0
+    all_integers(1) = jtype
+    all_integers(2) = jelem
+    all_integers(3:2 + size(integers)) = integers
+    all_reals = 0.0_dp
+    all_reals(1:size(reals)) = reals
+    string = 'U%I element %I: ' // text
+    call stdb_abqerr(-3, string, all_integers, all_reals, names)
+    call xit()
+  end subroutine fatal
+
+end module abaqus_report

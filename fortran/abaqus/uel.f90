@@ -1,0 +1,55 @@
+! SPDX-FileCopyrightText: The uel-harness authors
+! SPDX-License-Identifier: BSD-3-Clause
+!> Entry point of Abaqus/Standard for the interface elements U2, U3 and U4.
+!>
+!> Everything is declared, so that ABA_PARAM.INC and its implicit typing are not needed. RHS and AMATRX are filled
+!> entirely, whatever they hold on entry. SVARS and ENERGY change only in calls whose values are kept, LFLAGS(3) = 1
+!> and 100.
+subroutine uel(rhs, amatrx, svars, energy, ndofel, nrhs, nsvars, props, nprops, coords, mcrd, nnode, u, du, v, a, &
+  jtype, time, dtime, kstep, kinc, jelem, params, ndload, jdltyp, adlmag, predef, npredf, lflags, mlvarx, ddlmag, &
+  mdload, pnewdt, jprops, njprop, period)
+  use core_kinds, only: dp
+  use abaqus_check, only: call_is_good
+  use abaqus_interface_elements, only: evaluate_interface
+  use abaqus_report, only: fatal
+  implicit none(type, external)
+  integer, intent(in) :: ndofel, nrhs, nsvars, nprops, mcrd, nnode, jtype, kstep, kinc, jelem, ndload, npredf, mlvarx
+  integer, intent(in) :: mdload, njprop, jdltyp(mdload, *), lflags(*), jprops(*)
+  real(dp), intent(inout) :: rhs(mlvarx, *), amatrx(ndofel, ndofel), svars(*), energy(8), pnewdt
+  real(dp), intent(in) :: props(*), coords(mcrd, nnode), u(ndofel), du(mlvarx, *), v(ndofel), a(ndofel), time(2), dtime
+  real(dp), intent(in) :: params(*), adlmag(mdload, *), predef(2, npredf, nnode), ddlmag(mdload, *), period
+  integer, parameter :: most_unknowns = 16, most_variables = 26
+  real(dp) :: residual(most_unknowns), tangent(most_unknowns**2), state(most_variables), energies(8)
+  logical :: good
+  integer :: j
+
+  rhs(1:ndofel, 1:nrhs) = 0.0_dp
+  amatrx = 0.0_dp
+  if (jtype < 2 .or. jtype > 4) then
+    if (jtype == 1) then
+      call fatal(jtype, jelem, 'takes its stress from a material: give MATERIAL= on *UEL PROPERTY', &
+        [integer ::], [real(dp) ::])
+    else
+      call fatal(jtype, jelem, 'is no element of this file; it has U1, U2, U3 and U4', [integer ::], [real(dp) ::])
+    end if
+    return
+  end if
+  good = call_is_good(jtype, jelem, ndofel, nsvars, nprops, mcrd, nnode, njprop, ndload, lflags, props, jprops)
+  if (.not. good) return
+  ! neither damping nor mass: those matrices stay zero
+  if (lflags(3) == 3 .or. lflags(3) == 4) return
+
+  state = svars(1:most_variables)
+  call evaluate_interface(jtype, jelem, props, jprops, coords, u, dtime, state, energies, residual, tangent, good)
+  if (.not. good) return
+  if (lflags(3) /= 2) rhs(1:ndofel, 1) = residual(1:ndofel)
+  if (lflags(3) /= 5 .and. lflags(3) /= 6) then
+    do j = 1, ndofel
+      amatrx(:, j) = tangent((j - 1)*ndofel + 1:j*ndofel)
+    end do
+  end if
+  if (lflags(3) == 1 .or. lflags(3) == 100) then
+    svars(1:most_variables) = state
+    energy = energies
+  end if
+end subroutine uel

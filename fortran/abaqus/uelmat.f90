@@ -1,0 +1,48 @@
+! SPDX-FileCopyrightText: The uel-harness authors
+! SPDX-License-Identifier: BSD-3-Clause
+!> Entry point of Abaqus/Standard for the continuum quad U1.
+!>
+!> Everything is declared, so that ABA_PARAM.INC and its implicit typing are not needed. RHS and AMATRX are filled
+!> entirely, whatever they hold on entry. SVARS and ENERGY change only in calls whose values are kept, LFLAGS(3) = 1
+!> and 100.
+subroutine uelmat(rhs, amatrx, svars, energy, ndofel, nrhs, nsvars, props, nprops, coords, mcrd, nnode, u, du, v, a, &
+  jtype, time, dtime, kstep, kinc, jelem, params, ndload, jdltyp, adlmag, predef, npredf, lflags, mlvarx, ddlmag, &
+  mdload, pnewdt, jprops, njprop, period, materiallib)
+  use core_kinds, only: dp
+  use abaqus_check, only: call_is_good
+  use abaqus_continuum_element, only: evaluate_continuum
+  use abaqus_report, only: fatal
+  implicit none(type, external)
+  integer, intent(in) :: ndofel, nrhs, nsvars, nprops, mcrd, nnode, jtype, kstep, kinc, jelem, ndload, npredf, mlvarx
+  integer, intent(in) :: mdload, njprop, jdltyp(mdload, *), lflags(*), jprops(*)
+  real(dp), intent(inout) :: rhs(mlvarx, *), amatrx(ndofel, ndofel), svars(*), energy(8), pnewdt
+  real(dp), intent(in) :: props(*), coords(mcrd, nnode), u(ndofel), du(mlvarx, *), v(ndofel), a(ndofel), time(2), dtime
+  real(dp), intent(in) :: params(*), adlmag(mdload, *), predef(2, npredf, nnode), ddlmag(mdload, *), period
+  integer, intent(in) :: materiallib(*)
+  real(dp) :: residual(8), tangent(8, 8), state(32), energies(8)
+  logical :: good
+
+  rhs(1:ndofel, 1:nrhs) = 0.0_dp
+  amatrx = 0.0_dp
+  if (jtype /= 1) then
+    call fatal(jtype, jelem, 'is no element of this file with a material: give MATERIAL= for U1 only', &
+      [integer ::], [real(dp) ::])
+    return
+  end if
+  good = call_is_good(jtype, jelem, ndofel, nsvars, nprops, mcrd, nnode, njprop, ndload, lflags, props, jprops)
+  if (.not. good) return
+  ! neither damping nor mass: those matrices stay zero
+  if (lflags(3) == 3 .or. lflags(3) == 4) return
+
+  state = svars(1:32)
+  energies = energy
+  call evaluate_continuum(jelem, props, jprops, coords(1:2, 1:4), u, predef, npredf, materiallib, state, energies, &
+    residual, tangent, good)
+  if (.not. good) return
+  if (lflags(3) /= 2) rhs(1:8, 1) = residual
+  if (lflags(3) /= 5 .and. lflags(3) /= 6) amatrx(1:8, 1:8) = tangent
+  if (lflags(3) == 1 .or. lflags(3) == 100) then
+    svars(1:32) = state
+    energy = energies
+  end if
+end subroutine uelmat

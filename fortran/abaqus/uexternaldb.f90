@@ -1,0 +1,14 @@
+! SPDX-FileCopyrightText: The uel-harness authors
+! SPDX-License-Identifier: BSD-3-Clause
+!> Entry point of Abaqus/Standard at the start and end of analysis, step and increment: the shared module is emptied
+!> before the first and after the last increment of an analysis.
+subroutine uexternaldb(lop, lrestart, time, dtime, kstep, kinc)
+  use core_kinds, only: dp
+  use abaqus_bulk_exchange, only: forget_bulk
+  implicit none(type, external)
+  integer, intent(in) :: lop, lrestart, kstep, kinc
+  real(dp), intent(in) :: time(2), dtime
+  integer, parameter :: analysis_starts = 0, analysis_ends = 3
+
+  if (lop == analysis_starts .or. lop == analysis_ends) call forget_bulk()
+end subroutine uexternaldb

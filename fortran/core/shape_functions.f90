@@ -1,0 +1,55 @@
+! SPDX-FileCopyrightText: The uel-harness authors
+! SPDX-License-Identifier: BSD-3-Clause
+!> Linear shape functions of the line and bilinear ones of the quad, nodes counter-clockwise.
+module core_shape_functions
+  use core_kinds, only: dp
+  implicit none(type, external)
+  private
+  public :: line_shape, quad_shape, quad_gradient
+
+  real(dp), parameter :: xi_of_node(4) = [-1.0_dp, 1.0_dp, 1.0_dp, -1.0_dp]
+  real(dp), parameter :: eta_of_node(4) = [-1.0_dp, -1.0_dp, 1.0_dp, 1.0_dp]
+
+contains
+
+  !> Shape functions of the two ends of (-1, 1) at s.
+  pure function line_shape(s) result(shape)
+    real(dp), intent(in) :: s
+    real(dp) :: shape(2)
+
+    shape = [0.5_dp*(1.0_dp - s), 0.5_dp*(1.0_dp + s)]
+  end function line_shape
+
+  !> Shape functions of the four nodes at (xi, eta).
+  pure function quad_shape(point) result(shape)
+    real(dp), intent(in) :: point(2)
+    real(dp) :: shape(4)
+
+    shape = 0.25_dp*(1.0_dp + xi_of_node*point(1))*(1.0_dp + eta_of_node*point(2))
+  end function quad_shape
+
+  !> Derivatives of the shape functions by x and y, and the Jacobian, at (xi, eta).
+  !> Where the Jacobian is not positive the derivatives are zero.
+  pure subroutine quad_gradient(coordinates, point, gradient, jacobian)
+    real(dp), intent(in) :: coordinates(2, 4)  !< nodes, length
+    real(dp), intent(in) :: point(2)           !< (xi, eta)
+    real(dp), intent(out) :: gradient(2, 4)    !< dN/dx, dN/dy of each node, 1/length
+    real(dp), intent(out) :: jacobian          !< d(x, y)/d(xi, eta), area
+    real(dp) :: along_xi(4), along_eta(4), x_xi, x_eta, y_xi, y_eta
+
+    along_xi = 0.25_dp*xi_of_node*(1.0_dp + eta_of_node*point(2))
+    along_eta = 0.25_dp*eta_of_node*(1.0_dp + xi_of_node*point(1))
+    x_xi = dot_product(along_xi, coordinates(1, :))
+    y_xi = dot_product(along_xi, coordinates(2, :))
+    x_eta = dot_product(along_eta, coordinates(1, :))
+    y_eta = dot_product(along_eta, coordinates(2, :))
+    jacobian = x_xi*y_eta - x_eta*y_xi
+    if (jacobian > 0.0_dp) then
+      gradient(1, :) = (y_eta*along_xi - y_xi*along_eta)/jacobian
+      gradient(2, :) = (x_xi*along_eta - x_eta*along_xi)/jacobian
+    else
+      gradient = 0.0_dp
+    end if
+  end subroutine quad_gradient
+
+end module core_shape_functions

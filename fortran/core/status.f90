@@ -1,0 +1,54 @@
+! SPDX-FileCopyrightText: The uel-harness authors
+! SPDX-License-Identifier: BSD-3-Clause
+!> What a pure kernel reports when its input makes no sense, and the sentence for each code.
+module core_status
+  use core_kinds, only: dp
+  implicit none(type, external)
+  private
+  public :: status_type, sentence
+  public :: ok, too_brittle, not_positive_definite, inside_out, zero_length, edges_apart
+
+  !> Outcome of a kernel; the caller knows the names of elements and properties.
+  type :: status_type
+    integer :: code = 0            !< ok, or one of the codes below
+    integer :: item = 0            !< which mode (1 normal), quad (1 bottom, 2 top), point
+    real(dp) :: value = 0.0_dp     !< what was found
+    real(dp) :: expected = 0.0_dp  !< the bound it misses
+  end type status_type
+
+  integer, parameter :: ok = 0
+  integer, parameter :: too_brittle = 1
+  integer, parameter :: not_positive_definite = 2
+  integer, parameter :: inside_out = 3
+  integer, parameter :: zero_length = 4
+  integer, parameter :: edges_apart = 5
+
+contains
+
+  !> Sentence for a status code, without the names and values only the caller knows.
+  pure function sentence(code) result(text)
+    integer, intent(in) :: code
+    character(len=160) :: text
+
+    select case (code)
+    case (ok)
+      text = 'no error'
+    case (too_brittle)
+      text = 'too brittle for its stiffness: the separation at failure ' // &
+        'does not exceed that at the onset of damage'
+    case (not_positive_definite)
+      text = 'the elastic constants are not positive definite'
+    case (inside_out)
+      text = 'inside out or degenerate: the Jacobian is not positive, ' // &
+        'number the nodes counter-clockwise'
+    case (zero_length)
+      text = 'the interface has no length'
+    case (edges_apart)
+      text = 'the two edges of the interface do not coincide: ' // &
+        'node 4 must lie on node 1, and node 3 on node 2'
+    case default
+      text = 'unknown status'
+    end select
+  end function sentence
+
+end module core_status

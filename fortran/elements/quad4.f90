@@ -1,0 +1,96 @@
+! SPDX-FileCopyrightText: The uel-harness authors
+! SPDX-License-Identifier: BSD-3-Clause
+!> Four-node bilinear quad in the plane, small strain: what a point adds to the element, and the points of a face.
+!>
+!> Faces are those of Abaqus: face 1 from node 1 to node 2, face 2 from 2 to 3, face 3 from 3 to 4, face 4 from 4 to 1.
+!> A place on a face is t in (-1, 1) from its first to its second node.
+module elements_quad4
+  use core_kinds, only: dp
+  use core_quadrature, only: gauss_abscissa
+  implicit none(type, external)
+  private
+  public :: quad4_area, quad4_strain, quad4_add_point, face_point
+  public :: face_nodes, gauss_of_face, face_places
+
+  !> First and second node of each face.
+  integer, parameter :: face_nodes(2, 4) = reshape([1, 2, 2, 3, 3, 4, 4, 1], [2, 4])
+
+  !> Gauss points next to the first and to the second node of each face.
+  integer, parameter :: gauss_of_face(2, 4) = reshape([1, 2, 2, 4, 4, 3, 3, 1], [2, 4])
+
+  !> Places on a face where an interface may want the stress: ends, Gauss points, middle.
+  real(dp), parameter :: face_places(5) = [-1.0_dp, -gauss_abscissa, 0.0_dp, gauss_abscissa, 1.0_dp]
+
+contains
+
+  !> Area; negative where the nodes run clockwise.
+  pure function quad4_area(coordinates) result(area)
+    real(dp), intent(in) :: coordinates(2, 4)
+    real(dp) :: area
+    real(dp) :: diagonal_13(2), diagonal_24(2)
+
+    diagonal_13 = coordinates(:, 3) - coordinates(:, 1)
+    diagonal_24 = coordinates(:, 4) - coordinates(:, 2)
+    area = 0.5_dp*(diagonal_13(1)*diagonal_24(2) - diagonal_13(2)*diagonal_24(1))
+  end function quad4_area
+
+  !> Strain (e11, e22, 2 e12) from the displacements (u1, v1, u2, ...) and the shape function derivatives.
+  pure function quad4_strain(gradient, u) result(strain)
+    real(dp), intent(in) :: gradient(2, 4), u(8)
+    real(dp) :: strain(3)
+    integer :: a
+
+    strain = 0.0_dp
+    do a = 1, 4
+      strain(1) = strain(1) + gradient(1, a)*u(2*a - 1)
+      strain(2) = strain(2) + gradient(2, a)*u(2*a)
+      strain(3) = strain(3) + gradient(2, a)*u(2*a - 1) + gradient(1, a)*u(2*a)
+    end do
+  end function quad4_strain
+
+  !> Adds what a point contributes to the residual (minus the internal force) and to the tangent.
+  pure subroutine quad4_add_point(gradient, weight, stress, stiffness, residual, tangent)
+    real(dp), intent(in) :: gradient(2, 4)    !< shape function derivatives, 1/length
+    real(dp), intent(in) :: weight            !< volume of the point
+    real(dp), intent(in) :: stress(3)         !< s11, s22, s12
+    real(dp), intent(in) :: stiffness(3, 3)   !< d(stress)/d(e11, e22, 2 e12); need not be symmetric
+    real(dp), intent(inout) :: residual(8)
+    real(dp), intent(inout) :: tangent(8, 8)
+    real(dp) :: by_u(3), by_v(3), gx(4), gy(4)
+    integer :: a, b
+
+    gx = weight*gradient(1, :)
+    gy = weight*gradient(2, :)
+    do b = 1, 4
+      by_u = stiffness(:, 1)*gradient(1, b) + stiffness(:, 3)*gradient(2, b)
+      by_v = stiffness(:, 2)*gradient(2, b) + stiffness(:, 3)*gradient(1, b)
+      do a = 1, 4
+        tangent(2*a - 1, 2*b - 1) = tangent(2*a - 1, 2*b - 1) + gx(a)*by_u(1) + gy(a)*by_u(3)
+        tangent(2*a, 2*b - 1) = tangent(2*a, 2*b - 1) + gy(a)*by_u(2) + gx(a)*by_u(3)
+        tangent(2*a - 1, 2*b) = tangent(2*a - 1, 2*b) + gx(a)*by_v(1) + gy(a)*by_v(3)
+        tangent(2*a, 2*b) = tangent(2*a, 2*b) + gy(a)*by_v(2) + gx(a)*by_v(3)
+      end do
+      residual(2*b - 1) = residual(2*b - 1) - gx(b)*stress(1) - gy(b)*stress(3)
+      residual(2*b) = residual(2*b) - gy(b)*stress(2) - gx(b)*stress(3)
+    end do
+  end subroutine quad4_add_point
+
+  !> Parent coordinates (xi, eta) of a place on a face.
+  pure function face_point(face, t) result(point)
+    integer, intent(in) :: face
+    real(dp), intent(in) :: t
+    real(dp) :: point(2)
+
+    select case (face)
+    case (1)
+      point = [t, -1.0_dp]
+    case (2)
+      point = [1.0_dp, t]
+    case (3)
+      point = [-t, 1.0_dp]
+    case default
+      point = [-1.0_dp, -t]
+    end select
+  end function face_point
+
+end module elements_quad4

@@ -1,0 +1,77 @@
+! SPDX-FileCopyrightText: The uel-harness authors
+! SPDX-License-Identifier: BSD-3-Clause
+!> Linear elasticity of an orthotropic material in the plane, from engineering constants.
+module materials_linear_elasticity
+  use core_kinds, only: dp
+  use core_status, only: status_type, not_positive_definite
+  implicit none(type, external)
+  private
+  public :: engineering_constants, plane_stiffness
+  public :: plane_stress, plane_strain
+
+  integer, parameter :: plane_stress = 0
+  integer, parameter :: plane_strain = 1
+
+  !> Constants that matter in the plane; nu_ij is the contraction along j under stress along i.
+  type :: engineering_constants
+    real(dp) :: e1, e2, e3         !< Young's moduli, stress; e3 matters in plane strain only
+    real(dp) :: nu12, nu13, nu23   !< Poisson's ratios; nu13 and nu23 matter in plane strain only
+    real(dp) :: g12                !< shear modulus, stress
+    real(dp) :: angle              !< of axis 1 from the global x axis, counter-clockwise, degrees
+  end type engineering_constants
+
+contains
+
+  !> Stiffness that takes (e11, e22, 2 e12) to (s11, s22, s12), in global axes.
+  pure subroutine plane_stiffness(material, plane, stiffness, status)
+    type(engineering_constants), intent(in) :: material
+    integer, intent(in) :: plane                 !< plane_stress or plane_strain
+    real(dp), intent(out) :: stiffness(3, 3)     !< stress
+    type(status_type), intent(out) :: status     !< not_positive_definite: value is what should be positive
+    real(dp) :: c11, c12, c22, det
+
+    stiffness = 0.0_dp
+    if (plane == plane_strain .and. .not. material%e3 > 0.0_dp) then
+      status = status_type(not_positive_definite, 0, material%e3, 0.0_dp)
+      return
+    end if
+    c11 = 1.0_dp/material%e1
+    c22 = 1.0_dp/material%e2
+    c12 = -material%nu12/material%e1
+    ! no strain along 3: the compliance is the Schur complement of its entry, positive definite if and only if all is
+    if (plane == plane_strain) then
+      c11 = c11 - material%nu13**2*material%e3/material%e1**2
+      c22 = c22 - material%nu23**2*material%e3/material%e2**2
+      c12 = c12 - material%nu13*material%nu23*material%e3/(material%e1*material%e2)
+    end if
+    det = c11*c22 - c12**2
+    if (.not. (c11 > 0.0_dp .and. c22 > 0.0_dp .and. det > 0.0_dp)) then
+      status = status_type(not_positive_definite, 0, min(c11*material%e1, c22*material%e2, &
+        det*material%e1*material%e2), 0.0_dp)
+      return
+    end if
+    stiffness(1, 1) = c22/det
+    stiffness(2, 2) = c11/det
+    stiffness(1, 2) = -c12/det
+    stiffness(2, 1) = stiffness(1, 2)
+    stiffness(3, 3) = material%g12
+    if (abs(material%angle) > 0.0_dp) call rotate(material%angle, stiffness)
+  end subroutine plane_stiffness
+
+  !> Turns a plane stiffness from material axes, at angle (degrees) to the global ones, to global axes.
+  pure subroutine rotate(angle, stiffness)
+    real(dp), intent(in) :: angle
+    real(dp), intent(inout) :: stiffness(3, 3)
+    real(dp), parameter :: degree = acos(-1.0_dp)/180.0_dp
+    real(dp) :: c, s, to_local(3, 3)
+
+    c = cos(angle*degree)
+    s = sin(angle*degree)
+    ! strains, with engineering shear, in material axes from those in global axes
+    to_local(1, :) = [c*c, s*s, c*s]
+    to_local(2, :) = [s*s, c*c, -c*s]
+    to_local(3, :) = [-2.0_dp*c*s, 2.0_dp*c*s, c*c - s*s]
+    stiffness = matmul(transpose(to_local), matmul(stiffness, to_local))
+  end subroutine rotate
+
+end module materials_linear_elasticity

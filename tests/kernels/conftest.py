@@ -1,0 +1,125 @@
+# SPDX-FileCopyrightText: The uel-harness authors
+# SPDX-License-Identifier: BSD-3-Clause
+"""Single elements of the project's kernels, driven as a job would drive them."""
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from harness import usersub
+from harness.elements import Call, build_blocks
+from harness.errors import Source
+from harness.model.mesh import ElementGroup, Mesh
+from harness.model.model import Model
+from harness.model.properties import Elastic, ElasticType, Material, UserElement, UserProperty
+from harness.usersub.amalgam import path_of_amalgam
+from harness.usersub.layout import element_layouts
+
+SOURCE = Source("test.inp", 1)
+
+# HTA/6376C (table 1) and its cohesive parameters, with a stiffness that keeps every length of the law comparable
+LAW = {
+    "THICKNESS": 2.0,
+    "ALPHAN": 2.0e3,
+    "ALPHAT": 3.0e3,
+    "SIGMAMAX": 30.0,
+    "TAUMAX": 60.0,
+    "GIC": 0.26,
+    "GIIC": 1.002,
+    "LAW": 1,
+}
+PLY = {"E1": 1.2e5, "E2": 1.05e4, "E3": 1.05e4, "NU12": 0.3, "NU13": 0.3, "NU23": 0.51, "G12": 5.52e3}
+PLIES = {f"{name} {side}": value for name, value in PLY.items() for side in ("BOTTOM", "TOP")}
+DEFAULTS = {1: {"THICKNESS": 2.0}, 2: LAW, 3: {**LAW, "TANGENT": 1}, 4: {**LAW, **PLIES}}
+ENGINEERING = (1.2e5, 1.05e4, 1.05e4, 0.3, 0.3, 0.51, 5.52e3, 5.52e3, 3.48e3)
+
+
+@pytest.fixture(scope="session", params=["library", "amalgam"])
+def library(request, tmp_path_factory):
+    """The kernels as they are installed, and as Abaqus would compile them."""
+    user = None if request.param == "library" else path_of_amalgam()
+    loaded = usersub.load(user, job="kernels", output_dir=tmp_path_factory.mktemp("job"))
+    yield loaded
+    loaded.close()
+
+
+class Element:
+    """One element; its state is that of the last committed increment."""
+
+    def __init__(self, library, jtype, coordinates, *, label=1, definition=None, **values):
+        layout = element_layouts()[jtype]
+        given = {**DEFAULTS[jtype], **values}
+        self.names = [item.name for item in layout.variables]
+        self.points = layout.points
+        reals = [float(given.pop(item.name, 0.0)) for item in layout.reals]
+        integers = [int(given.pop(item.name, 0)) for item in layout.integers]
+        assert not given, f"no properties of U{jtype}: {given}"
+        plane_strain = jtype == 1 and values.get("PLANE", 0) == 1
+        options = {
+            "nodes": layout.nodes,
+            "coordinates": 2,
+            "variables": layout.svars,
+            "unsymmetric": True,
+            "integration": 4 if jtype == 1 else 0,
+            "tensor": "" if jtype > 1 else "PSTRAIN" if plane_strain else "PSTRESS",
+            "properties": len(reals),
+            "integer_properties": len(integers),
+            "dofs": tuple((node, dof) for node in range(layout.nodes) for dof in (1, 2)),
+            **(definition or {}),
+        }
+        number, nodes = jtype, np.arange(len(coordinates))[None, :]
+        user = UserElement(number, source=SOURCE, **options)
+        material = Material("PLY", SOURCE, Elastic(ElasticType.ENGINEERING_CONSTANTS, ENGINEERING, SOURCE))
+        section = UserProperty(
+            "ALL",
+            SOURCE,
+            np.resize(np.array(reals), user.properties),
+            np.resize(np.array(integers), user.integer_properties),
+            material if jtype == 1 else None,
+        )
+        group = ElementGroup(f"U{number}", np.array([label]), nodes, "", section, user, SOURCE)
+        xyz = np.zeros((len(coordinates), 3))
+        xyz[:, :2] = coordinates
+        mesh = Mesh(np.arange(1, len(xyz) + 1), xyz, ("",) * len(xyz))
+        (self.block,) = build_blocks(Model(Path("test.inp"), "", mesh, (group,), ()), library)
+        n = self.n = len(user.dofs)
+        # row-major positions, so that the matrix comes back dense
+        self.block.bind(np.arange(n, dtype=np.int32)[None], np.arange(n * n, dtype=np.int32).reshape(1, n, n))
+
+    def evaluate(self, u, *, du=None, dtime=1.0, request=1, flags=(1, 0, 0, 0), increment=1):
+        """RHS and AMATRX at u; flags are LFLAGS(1), (2), (4), (5)."""
+        lflags = (flags[0], flags[1], request, flags[2], flags[3])
+        call = Call(lflags, 1, increment, step_time=dtime, total_time=dtime, time_increment=dtime, period=1.0)
+        u = np.ascontiguousarray(u, dtype=float).ravel()
+        du = u if du is None else np.ascontiguousarray(du, dtype=float).ravel()
+        rhs, amatrx = np.zeros(self.n), np.zeros(self.n**2)
+        self.report = self.block.evaluate(call, u, du, rhs, amatrx)
+        return rhs, amatrx.reshape(self.n, self.n)
+
+    def advance(self, u, **options):
+        """A converged increment."""
+        outcome = self.evaluate(u, **options)
+        self.block.commit()
+        return outcome
+
+    @property
+    def state(self):
+        """Committed SVARS by name, one value per point."""
+        table = self.block.state(0).svars.reshape(self.points, len(self.names))
+        return dict(zip(self.names, table.T, strict=True))
+
+    @property
+    def energy(self):
+        """Committed ENERGY(1:8)."""
+        return self.block.state(0).energy[0]
+
+
+@pytest.fixture
+def element(library):
+    """Make an element: element(jtype, coordinates, NAME=value, ...)."""
+
+    def make(jtype, coordinates, **values):
+        return Element(library, jtype, coordinates, **values)
+
+    return make
