@@ -138,8 +138,8 @@ subroutine host_define_material(stiffness, compliance, thickness, constants, yie
   integer(i4), intent(out) :: number
   type(material_t) :: material
   material%ntens = ntens
-  material%stiffness = stiffness
-  material%compliance = compliance
+  material%stiffness(:ntens, :ntens) = stiffness
+  material%compliance(:ntens, :ntens) = compliance
   material%thickness = thickness
   material%young = constants(1)
   material%poisson = constants(2)

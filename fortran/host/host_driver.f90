@@ -74,7 +74,7 @@ contains
     current%element = 0
   end subroutine run_block
 
-  !> Workspace and context of this block.
+  !> Workspace and context of this block. V, A and PREDEF are zero throughout.
   subroutine prepare(block)
     type(block_t), intent(in) :: block
     integer :: length(n_arrays), ndofel, nnode
@@ -122,56 +122,48 @@ contains
   subroutine call_element(block, e)
     type(block_t), intent(inout) :: block
     integer, intent(in) :: e
-    integer :: i, k, s(n_arrays), n(n_arrays)
-    integer(i4) :: ndofel, nsvars, nprops, mcrd, nnode, njprop, mlvarx
-    s = work%start
-    n = work%length
-    ndofel = int(n(i_u), i4)
-    mlvarx = ndofel
-    nsvars = int(n(i_svars), i4)
-    nprops = int(n(i_props), i4)
-    njprop = size(block%jprops, kind=i4)
-    mcrd = size(block%coords, 1, kind=i4)
-    nnode = size(block%coords, 2, kind=i4)
+    integer(i4) :: ndofel, nsvars, nprops
+    ndofel = int(work%length(i_u), i4)
+    nsvars = int(work%length(i_svars), i4)
+    nprops = int(work%length(i_props), i4)
     current%element = block%labels(e)
     if (associated(block%history)) then
       current%history => block%history(:, :, e)
       current%history_trial => block%history_trial(:, :, e)
       current%history_trial = current%history
     end if
-    associate (x => work%memory)
-      do i = 1, ndofel
-        k = block%equations(i, e)
-        x(s(i_u) + i - 1) = block%u(k)
-        x(s(i_du) + i - 1) = block%du(k)
-        x(s(i_v) + i - 1) = 0
-        x(s(i_a) + i - 1) = 0
-      end do
+    ! explicit-shape helpers: their loops compile to plain vector code
+    associate (x => work%memory, s => work%start)
+      call gather(ndofel, block%equations(:, e), block%u, x(s(i_u)))
+      call gather(ndofel, block%equations(:, e), block%du, x(s(i_du)))
       call fill(ndofel, unset_bits, x(s(i_rhs)))
       call fill(ndofel*ndofel, unset_bits, x(s(i_amatrx)))
-      x(s(i_svars):s(i_svars) + nsvars - 1) = block%svars(:, e)
-      x(s(i_energy):s(i_energy) + 7) = block%energy(:, e)
-      x(s(i_props):s(i_props) + nprops - 1) = block%props
-      call copy(mcrd*nnode, block%coords(:, :, e), x(s(i_coords)))
-      x(s(i_predef):s(i_predef) + 2*nnode - 1) = 0
-      call invoke(block, x, s, ndofel, mlvarx, nsvars, nprops, njprop, mcrd, nnode)
+      call copy(nsvars, block%svars(:, e), x(s(i_svars)))
+      call copy(8, block%energy(:, e), x(s(i_energy)))
+      call copy(nprops, block%props, x(s(i_props)))
+      call copy(work%length(i_coords), block%coords(:, :, e), x(s(i_coords)))
+      call invoke(block, x, s, ndofel, nsvars, nprops)
       if (block%lflags(3) == 1) then
-        block%svars_trial(:, e) = x(s(i_svars):s(i_svars) + nsvars - 1)
-        block%energy_trial(:, e) = x(s(i_energy):s(i_energy) + 7)
-        block%energy_sum = block%energy_sum + block%energy_trial(:, e)
+        call copy(nsvars, x(s(i_svars)), block%svars_trial(:, e))
+        call copy(8, x(s(i_energy)), block%energy_trial(:, e))
+        call add(8, x(s(i_energy)), block%energy_sum)
       end if
     end associate
   end subroutine call_element
 
   !> The call itself; scalars are copies, so that a user routine that changes them changes nothing else.
-  subroutine invoke(block, x, s, ndofel, mlvarx, nsvars, nprops, njprop, mcrd, nnode)
+  subroutine invoke(block, x, s, ndofel, nsvars, nprops)
     type(block_t), intent(inout) :: block
     real(dp), intent(inout) :: x(*)
     integer, intent(in) :: s(n_arrays)
-    integer(i4), value :: ndofel, mlvarx, nsvars, nprops, njprop, mcrd, nnode
-    integer(i4) :: nrhs, jtype, kstep, kinc, jelem, ndload, jdltyp(1), npredf, lflags(5), mdload, jprops(size(block%jprops)), &
-                   materiallib
+    integer(i4), value :: ndofel, nsvars, nprops
+    integer(i4) :: mlvarx, njprop, mcrd, nnode, nrhs, jtype, kstep, kinc, jelem, ndload, npredf, mdload, materiallib
+    integer(i4) :: jdltyp(1), lflags(5), jprops(size(block%jprops))
     real(dp) :: time(2), dtime, params(3), adlmag(1), ddlmag(1), pnewdt, period
+    mlvarx = ndofel
+    njprop = size(block%jprops, kind=i4)
+    mcrd = size(block%coords, 1, kind=i4)
+    nnode = size(block%coords, 2, kind=i4)
     nrhs = 1
     jtype = block%jtype
     kstep = block%kstep
@@ -258,12 +250,30 @@ contains
     block%position = findloc(block%labels, current%element, dim=1)
   end subroutine look
 
+  !> y = x
   subroutine copy(n, x, y)
     integer, intent(in) :: n
     real(dp), intent(in) :: x(n)
-    real(dp), intent(out) :: y(n)
+    real(dp), intent(inout) :: y(n)
     y = x
   end subroutine copy
+
+  !> y = y + x
+  subroutine add(n, x, y)
+    integer, intent(in) :: n
+    real(dp), intent(in) :: x(n)
+    real(dp), intent(inout) :: y(n)
+    y = y + x
+  end subroutine add
+
+  !> Entries of a vector of the system.
+  subroutine gather(n, equations, x, y)
+    integer, intent(in) :: n
+    integer(i4), intent(in) :: equations(n)
+    real(dp), intent(in) :: x(*)
+    real(dp), intent(inout) :: y(n)
+    y = x(equations)
+  end subroutine gather
 
   !> Scatter RHS and add up its magnitude.
   subroutine add_residual(n, rhs, equations, residual, flux)

@@ -17,8 +17,8 @@ module host_materials
 
   type :: material_t
     integer :: ntens = 0                           !< 3, 4 or 6
-    real(dp), allocatable :: stiffness(:, :)       !< (ntens, ntens), global axes
-    real(dp), allocatable :: compliance(:, :)      !< its inverse
+    real(dp) :: stiffness(6, 6) = 0                !< (ntens, ntens) of it, global axes
+    real(dp) :: compliance(6, 6) = 0               !< its inverse
     real(dp) :: thickness(3) = 0                   !< plane stress: elastic strain 33 = thickness . stress
     real(dp), allocatable :: yield(:, :)           !< (k, 2) yield stress, plastic strain; absent: elastic
     real(dp) :: young = 0, poisson = 0             !< of a plastic material, which is isotropic
@@ -55,14 +55,16 @@ contains
     real(dp), intent(out) :: stress(material%ntens)
     real(dp), intent(out) :: tangent(material%ntens, material%ntens)
     logical, intent(out) :: valid
-    integer :: i, n
+    integer :: i, j, n
     valid = .true.
     n = material%ntens
     if (.not. allocated(material%yield)) then
-      tangent = material%stiffness
-      stress = material%stiffness(:, 1)*strain(1)
-      do i = 2, n
-        stress = stress + material%stiffness(:, i)*strain(i)
+      stress = 0
+      do j = 1, n
+        do i = 1, n
+          tangent(i, j) = material%stiffness(i, j)
+          stress(i) = stress(i) + material%stiffness(i, j)*strain(j)
+        end do
       end do
       return
     end if
@@ -82,7 +84,13 @@ contains
   pure real(dp) function elastic_energy(material, stress)
     type(material_t), intent(in) :: material
     real(dp), intent(in) :: stress(material%ntens)
-    elastic_energy = 0.5_dp*dot_product(stress, matmul(material%compliance, stress))
+    integer :: i, j
+    elastic_energy = 0
+    do j = 1, material%ntens
+      do i = 1, material%ntens
+        elastic_energy = elastic_energy + 0.5_dp*stress(i)*material%compliance(i, j)*stress(j)
+      end do
+    end do
   end function elastic_energy
 
   !> Strain 33 in plane stress, after stress_update of the point.

@@ -43,25 +43,29 @@ contains
     type(material_t), intent(in) :: material
     real(dp), intent(in) :: thickness, x(2, nodes), u(2*nodes)
     real(dp), intent(inout) :: rhs(2*nodes), stiffness(2*nodes, 2*nodes), svars(per_point, points), energy(8)
-    real(dp) :: b(3, 2*nodes, points), weight(points), stress(3), modulus(3, 3), db(3, 2*nodes)
-    real(dp) :: elastic, work
-    integer :: i, j, p
+    real(dp) :: b(3, 8, 4), weight(4), strain(3), stress(3), modulus(3, 3), db(3), elastic, work
+    integer :: i, j, p, n
+    n = 2*nodes
     do p = 1, points
       call gradients(nodes, p, x, b(:, :, p), weight(p))
     end do
-    if (nodes == 4 .and. material%ntens == 4) call average_volume_strain(nodes, points, weight, b)
-    weight = thickness*weight
+    if (nodes == 4 .and. material%ntens == 4) call average_volume_strain(weight, b)
     elastic = 0
     work = energy(2) + energy(4)
     do p = 1, points
-      call point_update(material, int(p, i4), weight(p), matmul(b(:, :, p), u), svars(:, p), stress, modulus, elastic, work)
-      do j = 1, 2*nodes
-        db(:, j) = weight(p)*(modulus(:, 1)*b(1, j, p) + modulus(:, 2)*b(2, j, p) + modulus(:, 3)*b(3, j, p))
-        rhs(j) = rhs(j) - weight(p)*(stress(1)*b(1, j, p) + stress(2)*b(2, j, p) + stress(3)*b(3, j, p))
+      weight(p) = thickness*weight(p)
+      strain = 0
+      do j = 1, n
+        strain = strain + b(:, j, p)*u(j)
       end do
-      do j = 1, 2*nodes
-        do i = 1, 2*nodes
-          stiffness(i, j) = stiffness(i, j) + b(1, i, p)*db(1, j) + b(2, i, p)*db(2, j) + b(3, i, p)*db(3, j)
+      call point_update(material, int(p, i4), weight(p), strain, svars(:, p), stress, modulus, elastic, work)
+      stress = weight(p)*stress
+      modulus = weight(p)*modulus
+      do j = 1, n
+        rhs(j) = rhs(j) - stress(1)*b(1, j, p) - stress(2)*b(2, j, p) - stress(3)*b(3, j, p)
+        db = modulus(:, 1)*b(1, j, p) + modulus(:, 2)*b(2, j, p) + modulus(:, 3)*b(3, j, p)
+        do i = 1, n
+          stiffness(i, j) = stiffness(i, j) + b(1, i, p)*db(1) + b(2, i, p)*db(2) + b(3, i, p)*db(3)
         end do
       end do
     end do
@@ -76,25 +80,28 @@ contains
     real(dp), intent(in) :: volume, plane_strain(3)
     real(dp), intent(inout) :: state(per_point), elastic, work
     real(dp), intent(out) :: plane_stress(3), modulus(3, 3)
-    integer :: inplane(3), n
-    real(dp) :: strain(material%ntens), stress(material%ntens), tangent(material%ntens, material%ntens)
+    integer :: n
+    real(dp) :: strain(4), stress(4), tangent(material%ntens, material%ntens)
     logical :: valid
     n = material%ntens
-    inplane = [1, 2, n]
-    strain = 0
-    strain(inplane) = plane_strain
+    strain(1:3) = [plane_strain(1:2), 0.0_dp]
+    strain(n) = plane_strain(3)
     call stress_update(material, point, strain, stress, tangent, valid)
-    plane_stress = stress(inplane)
-    modulus = tangent(inplane, inplane)
+    plane_stress = [stress(1), stress(2), stress(n)]
+    modulus(1:2, 1:2) = tangent(1:2, 1:2)
+    modulus(1:2, 3) = tangent(1:2, n)
+    modulus(3, 1:2) = tangent(n, 1:2)
+    modulus(3, 3) = tangent(n, n)
     elastic = elastic + volume*elastic_energy(material, stress)
     ! trapezoidal rule, exact where the response is linear
-    work = work + volume*0.5_dp*dot_product(plane_stress + state([5, 6, 8]), plane_strain - state([1, 2, 4]))
-    state([1, 2, 4]) = plane_strain
-    state([5, 6, 8]) = plane_stress
+    work = work + volume*0.5_dp*((plane_stress(1) + state(5))*(plane_strain(1) - state(1)) &
+                                 + (plane_stress(2) + state(6))*(plane_strain(2) - state(2)) &
+                                 + (plane_stress(3) + state(8))*(plane_strain(3) - state(4)))
     if (n == 3) then
-      state(3) = thickness_strain(material, point, stress)
+      state = [plane_strain(1:2), thickness_strain(material, point, stress), plane_strain(3), &
+               plane_stress(1:2), 0.0_dp, plane_stress(3)]
     else
-      state(7) = stress(3)
+      state = [plane_strain(1:2), 0.0_dp, plane_strain(3), stress]
     end if
   end subroutine point_update
 
@@ -102,21 +109,25 @@ contains
   subroutine gradients(nodes, point, x, b, area)
     integer, intent(in) :: nodes, point
     real(dp), intent(in) :: x(2, nodes)
-    real(dp), intent(out) :: b(3, 2*nodes), area
+    real(dp), intent(inout) :: b(3, 8), area
     real(dp), parameter :: g = 1/sqrt(3.0_dp), corner(2, 4) = reshape([-1, -1, 1, -1, 1, 1, -1, 1], [2, 4])
-    real(dp) :: r, s, local(nodes, 2), jacobian(2, 2), determinant, dx, dy
+    real(dp) :: r, s, local(4, 2), jacobian(2, 2), determinant, dx, dy
     character(len=128) :: text
     integer :: k
     if (nodes == 3) then
-      local(:, 1) = [-1, 1, 0]
-      local(:, 2) = [-1, 0, 1]
+      local(:, 1) = [-1, 1, 0, 0]
+      local(:, 2) = [-1, 0, 1, 0]
     else
       r = merge(-g, g, mod(point, 2) == 1)
       s = merge(-g, g, point <= 2)
-      local(:, 1) = corner(1, :nodes)*(1 + corner(2, :nodes)*s)/4
-      local(:, 2) = corner(2, :nodes)*(1 + corner(1, :nodes)*r)/4
+      local(:, 1) = 0.25_dp*corner(1, :)*(1 + corner(2, :)*s)
+      local(:, 2) = 0.25_dp*corner(2, :)*(1 + corner(1, :)*r)
     end if
-    jacobian = matmul(x, local)
+    jacobian = 0
+    do k = 1, nodes
+      jacobian(:, 1) = jacobian(:, 1) + x(:, k)*local(k, 1)
+      jacobian(:, 2) = jacobian(:, 2) + x(:, k)*local(k, 2)
+    end do
     determinant = jacobian(1, 1)*jacobian(2, 2) - jacobian(1, 2)*jacobian(2, 1)
     if (.not. determinant > 0) then
       write (text, '(a,i0,a,es10.2,a)') 'the element is inside out at its integration point ', point, &
@@ -134,17 +145,17 @@ contains
   end subroutine gradients
 
   !> Replace the volume strain of each point by its mean over the element.
-  pure subroutine average_volume_strain(nodes, points, weight, b)
-    integer, intent(in) :: nodes, points
-    real(dp), intent(in) :: weight(points)
-    real(dp), intent(inout) :: b(3, 2*nodes, points)
-    real(dp) :: mean(2*nodes), change(2*nodes)
+  pure subroutine average_volume_strain(area, b)
+    real(dp), intent(in) :: area(4)
+    real(dp), intent(inout) :: b(3, 8, 4)
+    real(dp) :: mean(8), change(8)
     integer :: p
     mean = 0
-    do p = 1, points
-      mean = mean + weight(p)/sum(weight)*(b(1, :, p) + b(2, :, p))
+    do p = 1, 4
+      mean = mean + area(p)*(b(1, :, p) + b(2, :, p))
     end do
-    do p = 1, points
+    mean = mean/sum(area)
+    do p = 1, 4
       change = (mean - b(1, :, p) - b(2, :, p))/2
       b(1, :, p) = b(1, :, p) + change
       b(2, :, p) = b(2, :, p) + change

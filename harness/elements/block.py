@@ -112,18 +112,9 @@ class Block:
         RHS is left out where LFLAGS(3) asks for a matrix alone (2, 3, 4). SVARS on entry are always the committed
         ones. Raises KernelError.
         """
-        p = self._procedure
         outcome = _binding.evaluate(
-            p.address,
-            (
-                p.material,
-                p.tensor,
-                p.jtype,
-                int(not self.unsymmetric),
-                int(matrix is not None),
-                call.step,
-                call.increment,
-            ),
+            self._procedure.address,
+            self._options(call, assemble=matrix is not None),
             call.lflags,
             (call.step_time, call.total_time, call.time_increment, call.period),
             self._arrays,
@@ -135,6 +126,17 @@ class Block:
         if outcome.fault is not Fault.NONE:
             raise self._error(outcome)
         return BlockReport(outcome.flux @ self._by_field, self._flux_count, outcome.pnewdt, outcome.energy)
+
+    def bare_loop(self, call: Call, u: FloatArray, du: FloatArray) -> None:
+        """Only call the elements, from a plain Fortran loop, with u and du gathered (m, unknowns): the limit of speed."""
+        clock = (call.step_time, call.total_time, call.time_increment, call.period)
+        options = self._options(call, assemble=False)
+        _binding.bare_loop(self._procedure.address, options, call.lflags, clock, self._arrays, u, du)
+
+    def _options(self, call: Call, *, assemble: bool) -> tuple[int, int, int, int, int, int, int]:
+        p = self._procedure
+        symmetric = int(not self.unsymmetric)
+        return p.material, p.tensor, p.jtype, symmetric, int(assemble), call.step, call.increment
 
     def commit(self) -> None:
         """End of a converged increment: the state of the last normal call becomes the committed one."""

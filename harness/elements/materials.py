@@ -50,14 +50,12 @@ def define_material(material: Material, orientation: Orientation | None, tensor:
     axes = np.eye(3) if orientation is None else orientation.axes
     compliance = _rotated(_compliance(elastic, tensor), axes)
     components = _COMPONENTS[tensor]
-    stiffness: FloatArray
-    reduced: FloatArray
     if tensor is Tensor.PLANE_STRESS:
         reduced = compliance[np.ix_(components, components)]
-        stiffness = np.linalg.inv(reduced)
+        stiffness = _inverse(reduced)
     else:
-        stiffness = np.linalg.inv(compliance)[np.ix_(components, components)]
-        reduced = np.linalg.inv(stiffness)
+        stiffness = _inverse(compliance)[np.ix_(components, components)]
+        reduced = _inverse(stiffness)
     constants, table = (0.0, 0.0), np.zeros((1, 2))
     if material.plastic is not None:
         if elastic.type is not ElasticType.ISOTROPIC:
@@ -66,10 +64,8 @@ def define_material(material: Material, orientation: Orientation | None, tensor:
     return _binding.define_material(stiffness, reduced, compliance[2, components[:3]], constants, table)
 
 
-def stiffness_of(elastic: Elastic, axes: FloatArray | None = None) -> FloatArray:
-    """(6, 6) stiffness in global axes; rows of axes (3, 3) are the material's directions."""
-    compliance = _rotated(_compliance(elastic, Tensor.SOLID), np.eye(3) if axes is None else axes)
-    return np.asarray(np.linalg.inv(compliance), dtype=np.float64)
+def _inverse(matrix: FloatArray) -> FloatArray:
+    return np.asarray(np.linalg.inv(matrix), dtype=np.float64)
 
 
 def _isotropic_constants(elastic: Elastic) -> tuple[float, float]:
@@ -87,7 +83,7 @@ def _compliance(elastic: Elastic, tensor: Tensor) -> FloatArray:
     if elastic.type in (ElasticType.ORTHOTROPIC, ElasticType.ANISOTROPIC):
         stiffness = _orthotropic(c) if elastic.type is ElasticType.ORTHOTROPIC else _anisotropic(c)
         _check_definite(elastic, stiffness)
-        return np.asarray(np.linalg.inv(stiffness), dtype=np.float64)
+        return _inverse(stiffness)
     moduli: tuple[float, ...]
     ratios: tuple[float, ...]
     shear: tuple[float, ...]

@@ -127,6 +127,38 @@ def evaluate(
     return Outcome(Fault(fault), position - 1, ARRAYS[array - 1], index, flux, float(sums[0]), sums[1:])
 
 
+def bare_loop(
+    address: int,
+    options: tuple[int, int, int, int, int, int, int],
+    lflags: tuple[int, int, int, int, int],
+    clock: tuple[float, float, float, float],
+    arrays: BlockArrays,
+    u: FloatArray,
+    du: FloatArray,
+) -> None:
+    """Call the elements with prepared u and du (m, ndofel): what `evaluate` is measured against."""
+    ndofel = u.shape[1]
+    rhs, amatrx = np.zeros(ndofel), np.zeros((ndofel, ndofel))
+    _host.host_bare_loop(
+        address,
+        options,
+        lflags,
+        clock,
+        arrays.labels,
+        arrays.jprops,
+        arrays.props,
+        arrays.coords.T,
+        u.T,
+        du.T,
+        arrays.svars.T,
+        arrays.svars_trial.T,
+        arrays.energy.T,
+        arrays.energy_trial.T,
+        rhs,
+        amatrx.T,
+    )
+
+
 def external_database(
     address: int, lop: int, lrestart: int, time: tuple[float, float], dtime: float, step: int, increment: int
 ) -> bool:
