@@ -8,6 +8,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass, field
 
 import numpy as np
+from numpy.typing import NDArray
 
 from harness.assembly import Constraints, DofMap
 from harness.elements import FIELD_NAMES
@@ -28,6 +29,10 @@ CONTROLLED_AS = dict(
 """FIELD= of *CONTROLS by field."""
 
 
+Positions = IntArray | slice
+"""Where in a vector the entries of a field are; a slice where they are all of it, which is much quicker."""
+
+
 @dataclass(slots=True)
 class FieldChecker:
     """Checks of one field: where its unknowns are, its controls, and what earlier iterations and increments gave.
@@ -38,8 +43,8 @@ class FieldChecker:
 
     number: int
     controls: FieldControls
-    unknowns: IntArray
-    free: IntArray
+    unknowns: Positions
+    free: Positions
     history: FluxHistory
     residuals: list[float] = field(default_factory=list)
     flux: float = 0.0
@@ -63,8 +68,8 @@ class Checker:
         self.fields = []
         for number in np.unique(dofs.field):
             chosen = controls.fields.get(CONTROLLED_AS[FIELD_NAMES[number]], controls.default)
-            unknowns = np.flatnonzero(dofs.field == number)
-            free = np.flatnonzero(dofs.field[self._free] == number)
+            unknowns = _positions(dofs.field == number)
+            free = _positions(dofs.field[self._free] == number)
             history = histories[number].next_step(chosen)
             self.fields.append(FieldChecker(int(number), chosen, unknowns, free, history))
 
@@ -133,16 +138,20 @@ class Checker:
             estimated_correction=estimated_correction(check),
         )
 
-    def _find(self, vector: FloatArray, positions: IntArray, unknowns: IntArray | None = None) -> Largest:
+    def _find(self, vector: FloatArray, positions: Positions, unknowns: IntArray | None = None) -> Largest:
         """Largest entry of a vector among positions; `unknowns` gives the unknown of each position."""
-        if not len(positions):
-            return Largest(0.0, -1, 0)
         chosen = vector[positions]
+        if not len(chosen):
+            return Largest(0.0, -1, 0)
         k = int(np.argmax(np.abs(chosen)))
-        position = positions[k]
-        unknown = position if unknowns is None else unknowns[position]
+        position = k if isinstance(positions, slice) else int(positions[k])
+        unknown = position if unknowns is None else int(unknowns[position])
         return Largest(float(chosen[k]), int(self._dofs.node[unknown]), int(self._dofs.dof[unknown]))
 
 
-def _largest(vector: FloatArray, positions: IntArray) -> float:
+def _positions(mask: NDArray[np.bool_]) -> Positions:
+    return slice(None) if mask.all() else np.flatnonzero(mask)
+
+
+def _largest(vector: FloatArray, positions: Positions) -> float:
     return float(np.abs(vector[positions]).max(initial=0.0))

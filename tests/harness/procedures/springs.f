@@ -6,6 +6,7 @@
 !   U2  as U1, with PNEWDT = PROPS(4) where |DU(2) - DU(1)| > PROPS(3)
 !   U3  f = PROPS(1) sign(d) sqrt(|d|): Newton's method jumps from d to -d
 !   U4  f = PROPS(1) d with PROPS(2) times its stiffness in AMATRX: the error goes by 1 - 1/PROPS(2) in an iteration
+!   U5  as U1, NaN where d > PROPS(3)
 ! JPROPS(1) = 1 prints each call to the message file, as UEXTERNALDB always does.
       subroutine uel(rhs,amatrx,svars,energy,ndofel,nrhs,nsvars,
      &  props,nprops,coords,mcrd,nnode,u,du,v,a,jtype,time,dtime,
@@ -21,7 +22,7 @@
      &  lflags(1:5), kstep, kinc, u(1:2), du(1:2,1), time(1:2),
      &  dtime, svars(1), period
       d = u(2) - u(1)
-      if (jtype .le. 2) then
+      if (jtype .le. 2 .or. jtype .eq. 5) then
         f = props(1)*d + props(2)*d**3
         s = props(1) + 3*props(2)*d**2
         if (lflags(3) .eq. 1) energy(2) = props(1)*d**2/2
@@ -35,6 +36,9 @@
       end if
       if (jtype .eq. 2) then
         if (abs(du(2,1) - du(1,1)) .gt. props(3)) pnewdt = props(4)
+      end if
+      if (jtype .eq. 5) then
+        if (d .gt. props(3)) f = sqrt(props(3) - d)
       end if
       svars(1) = d
       rhs(1,1) = f

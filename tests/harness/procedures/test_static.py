@@ -5,7 +5,7 @@
 import numpy as np
 import pytest
 
-from harness.errors import ConvergenceError
+from harness.errors import ConvergenceError, KernelError, SingularMatrixError
 from harness.model.amplitude import Amplitude, AmplitudeType
 from harness.model.records import AttemptStarted, IterationDone, StepDone, StepStarted, Verdict, Warned
 from harness.model.steps import Controls, FieldControls, LineSearchControls, Static, TimeControls
@@ -320,3 +320,20 @@ def test_controls_are_obeyed(bench):
         [DIVERGING], [bench.step(boundaries=(bench.fix(0),), loads=(bench.force(1, 1.0),), controls=strict)]
     )
     assert len(result.abandoned) == 1
+
+
+def test_a_kernel_error_ends_the_run_after_what_came_before(bench):
+    static = Static(0.25, 1.0, 1e-5, 0.25)
+    result = bench.run(
+        [(0, 1, 5, (1.0, 0.0, 0.6))], [bench.step(static=static, boundaries=(bench.fix(0), bench.fix(1, 1.0)))]
+    )
+    with pytest.raises(KernelError, match=r"element 1 \(type U5\): RHS\(1\) is NaN"):
+        raise result.error
+    assert [increment.step_time for increment in result.increments] == [0.25, 0.5]
+    assert result.abandoned == []
+
+
+def test_a_body_that_is_not_held(bench):
+    result = bench.run([LINEAR], [bench.step(loads=(bench.force(1, 1.0),))])
+    with pytest.raises(SingularMatrixError, match="dof 1"):
+        raise result.error
