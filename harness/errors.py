@@ -4,6 +4,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -24,10 +25,10 @@ class UelError(Exception):
 
 
 class DeckError(UelError):
-    """The input deck is wrong or asks for something unsupported; begins with file:line."""
+    """The input deck is wrong or asks for something unsupported; begins with file:line, one line per place."""
 
-    def __init__(self, source: Source, message: str) -> None:
-        super().__init__(f"{source}: {message}")
+    def __init__(self, source: Source, message: str, others: Sequence[DeckError] = ()) -> None:
+        super().__init__("\n".join([f"{source}: {message}", *map(str, others)]))
         self.source = source
 
 

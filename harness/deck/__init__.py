@@ -1,0 +1,7 @@
+# SPDX-FileCopyrightText: The uel-harness authors
+# SPDX-License-Identifier: BSD-3-Clause
+"""Abaqus input decks: keyword table, lexer and reader."""
+
+from harness.deck.reader import read_deck
+
+__all__ = ["read_deck"]

@@ -1,0 +1,129 @@
+# SPDX-FileCopyrightText: The uel-harness authors
+# SPDX-License-Identifier: BSD-3-Clause
+"""A keyword with its options and data lines, and the typed reading of one data line."""
+
+from __future__ import annotations
+
+import bisect
+from collections.abc import Iterator
+from dataclasses import dataclass, field
+
+from harness.deck.numbers import read_integer, read_real
+from harness.deck.table import Keyword, Options, split_fields, unquote
+from harness.errors import DeckError, Source
+
+
+@dataclass(frozen=True, slots=True)
+class Row:
+    """One data line: its fields without those that are empty at its end."""
+
+    keyword: str
+    fields: tuple[str, ...]
+    source: Source
+
+    def __len__(self) -> int:
+        return len(self.fields)
+
+    def blank(self, index: int) -> bool:
+        """True where the field is empty or beyond the end."""
+        return index >= len(self.fields) or not self.fields[index]
+
+    def text(self, index: int, what: str) -> str:
+        """A field as it is written; it must be there."""
+        if self.blank(index):
+            raise self.error(f"{what} is missing")
+        return self.fields[index]
+
+    def name(self, index: int, what: str) -> str:
+        """A name, in the spelling in which names are compared."""
+        return unquote(self.text(index, what))
+
+    def real(self, index: int, what: str, default: float | None = None) -> float:
+        """A real number, or the default for an empty field."""
+        if default is not None and self.blank(index):
+            return default
+        try:
+            return read_real(self.text(index, what))
+        except ValueError as error:
+            raise self.error(f"{what}: {error}") from None
+
+    def integer(self, index: int, what: str, default: int | None = None) -> int:
+        """An integer, or the default for an empty field."""
+        if default is not None and self.blank(index):
+            return default
+        try:
+            return read_integer(self.text(index, what))
+        except ValueError as error:
+            raise self.error(f"{what}: {error}") from None
+
+    def reals(self, what: str, start: int = 0) -> list[float]:
+        """All fields from `start` on as numbers; an empty one is zero."""
+        return [self.real(index, what, 0.0) for index in range(start, len(self.fields))]
+
+    def at_most(self, count: int) -> None:
+        """Refuse more than `count` fields."""
+        if len(self.fields) > count:
+            raise self.error(f"{len(self.fields)} entries where at most {count} are read")
+
+    def error(self, message: str) -> DeckError:
+        """An error at this line."""
+        return DeckError(self.source, f"*{self.keyword}: {message}")
+
+
+@dataclass(slots=True)
+class Block:
+    """One keyword with its options and data lines, comments left out; line numbers are kept beside."""
+
+    keyword: Keyword
+    options: Options
+    source: Source
+    lines: list[str] = field(default_factory=list)
+    _numbers: list[int] = field(default_factory=list)
+    _files: list[str] = field(default_factory=list)
+    _starts: list[int] = field(default_factory=list)
+
+    @property
+    def name(self) -> str:
+        """Keyword name."""
+        return self.keyword.name
+
+    def append(self, line: str, file: str, number: int) -> None:
+        """Add a data line."""
+        if not self._files or self._files[-1] != file:
+            self._files.append(file)
+            self._starts.append(len(self.lines))
+        self.lines.append(line)
+        self._numbers.append(number)
+
+    def trim(self) -> None:
+        """Drop blank lines at the end."""
+        while self.lines and not self.lines[-1]:
+            self.lines.pop()
+            self._numbers.pop()
+
+    def clear(self) -> None:
+        """Forget the data lines."""
+        self.lines, self._numbers, self._files, self._starts = [], [], [], []
+
+    def source_of(self, index: int) -> Source:
+        """Place of a data line."""
+        return Source(self._files[bisect.bisect_right(self._starts, index) - 1], self._numbers[index])
+
+    def row(self, index: int) -> Row:
+        """One data line, cut into fields."""
+        fields = split_fields(self.lines[index])
+        while fields and not fields[-1]:
+            fields.pop()
+        return Row(self.name, tuple(fields), self.source_of(index))
+
+    def rows(self) -> Iterator[Row]:
+        """Data lines that hold something."""
+        return (self.row(index) for index, line in enumerate(self.lines) if line.strip(", \t"))
+
+    def all_rows(self) -> Iterator[Row]:
+        """Data lines, blank ones too, where a blank line stands for defaults."""
+        return (self.row(index) for index in range(len(self.lines)))
+
+    def error(self, message: str) -> DeckError:
+        """An error at the keyword line."""
+        return DeckError(self.source, f"*{self.name}: {message}")

@@ -1,0 +1,205 @@
+# SPDX-FileCopyrightText: The uel-harness authors
+# SPDX-License-Identifier: BSD-3-Clause
+"""Materials, orientations and amplitudes, by name."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from dataclasses import dataclass, field, replace
+from itertools import pairwise
+from typing import TypeVar
+
+import numpy as np
+
+from harness.deck.blocks import Block
+from harness.deck.problems import Problems, nearest
+from harness.errors import DeckError, Source
+from harness.model.amplitude import Amplitude, AmplitudeType
+from harness.model.arrays import FloatArray
+from harness.model.properties import Elastic, ElasticType, Material, Orientation, Plastic
+
+_CONSTANTS = {
+    ElasticType.ISOTROPIC: 2,
+    ElasticType.ENGINEERING_CONSTANTS: 9,
+    ElasticType.LAMINA: 6,
+    ElasticType.ORTHOTROPIC: 9,
+    ElasticType.ANISOTROPIC: 21,
+}
+SMALLEST_SINE = 1e-10
+Entry = TypeVar("Entry")
+
+
+@dataclass(slots=True)
+class Catalogue:
+    """What the deck names for use elsewhere."""
+
+    materials: dict[str, Material] = field(default_factory=dict)
+    orientations: dict[str, Orientation] = field(default_factory=dict)
+    amplitudes: dict[str, Amplitude] = field(default_factory=dict)
+
+
+def look_up(known: Mapping[str, Entry], name: str, what: str, source: Source) -> Entry:
+    """Entry of a name; DeckError that names the nearest one."""
+    if name not in known:
+        raise DeckError(source, f"unknown {what} {name}{nearest(name, known)}")
+    return known[name]
+
+
+def read_materials(blocks: list[Block], problems: Problems) -> dict[str, Material]:
+    """Materials: *MATERIAL and the options that follow it at once."""
+    materials: dict[str, Material] = {}
+    current: str | None = None
+    for block in blocks:
+        with problems.gather():
+            if block.name == "MATERIAL":
+                current = block.options.text("NAME")
+                if current in materials:
+                    raise block.error(f"{current} is defined already, at {materials[current].source}")
+                materials[current] = Material(current, block.source)
+            elif block.name in ("ELASTIC", "PLASTIC", "DENSITY"):
+                if current is None:
+                    raise block.error("does not follow *MATERIAL")
+                materials[current] = _extend(materials[current], block)
+            else:
+                current = None
+    return materials
+
+
+def _extend(material: Material, block: Block) -> Material:
+    if block.name == "ELASTIC":
+        return replace(material, elastic=_read_elastic(block))
+    if block.name == "PLASTIC":
+        return replace(material, plastic=_read_plastic(block))
+    rows = list(block.rows())
+    if len(rows) != 1 or len(rows[0]) != 1:
+        raise block.error("needs one data line with the density; a temperature is not supported")
+    density = rows[0].real(0, "density")
+    if density <= 0:
+        raise rows[0].error(f"density {density:g} must be positive")
+    return replace(material, density=density)
+
+
+def _read_elastic(block: Block) -> Elastic:
+    kind = ElasticType(block.options.text("TYPE"))
+    count = _CONSTANTS[kind]
+    rows = list(block.rows())
+    if not rows:
+        raise block.error("needs a data line")
+    values = [value for row in rows for value in row.reals("elastic constant")]
+    if len(values) > count:
+        message = f"{len(values)} values where {kind.value} takes {count}; dependence on temperature is not supported"
+        raise rows[0].error(message)
+    # trailing constants may be left out: Poisson's ratio, the transverse shear moduli of a lamina
+    needed = {ElasticType.ISOTROPIC: 1, ElasticType.LAMINA: 4}.get(kind, count)
+    if len(values) < needed:
+        raise rows[0].error(f"{len(values)} values where {kind.value} takes {count}")
+    values += [0.0] * (count - len(values))
+    if kind is ElasticType.ISOTROPIC and not (values[0] > 0 and -1 < values[1] <= 0.5):
+        raise rows[0].error(f"E = {values[0]:g}, nu = {values[1]:g}: expected E > 0 and -1 < nu <= 0.5")
+    return Elastic(kind, tuple(values), block.source)
+
+
+def _read_plastic(block: Block) -> Plastic:
+    table = []
+    for row in block.rows():
+        if len(row) > 2:
+            raise row.error("more than yield stress and plastic strain; dependence on temperature is not supported")
+        table.append((row.real(0, "yield stress"), row.real(1, "plastic strain", 0.0)))
+        if table[-1][0] <= 0:
+            raise row.error(f"yield stress {table[-1][0]:g} must be positive")
+        if (table[-1][1] != 0) if len(table) == 1 else (table[-1][1] <= table[-2][1]):
+            raise row.error("plastic strains must begin at zero and increase")
+    if not table:
+        raise block.error("needs a data line")
+    return Plastic(np.array(table), block.source)
+
+
+def read_orientations(blocks: list[Block], problems: Problems) -> dict[str, Orientation]:
+    """Orientations of *ORIENTATION."""
+    found: dict[str, Orientation] = {}
+    for block in blocks:
+        if block.name == "ORIENTATION":
+            with problems.gather():
+                name = block.options.text("NAME")
+                if name in found:
+                    raise block.error(f"{name} is defined already, at {found[name].source}")
+                found[name] = Orientation(name, _read_axes(block), block.source)
+    return found
+
+
+def _read_axes(block: Block) -> FloatArray:
+    """Rows are the local directions: a on the first, b in the plane of the first two, c the origin."""
+    rows = list(block.rows())
+    if not 1 <= len(rows) <= 2:
+        raise block.error("needs a data line with the points a, b and c, and may have one with a rotation")
+    rows[0].at_most(9)
+    a, b, c = np.array([rows[0].real(index, "coordinate", 0.0) for index in range(9)]).reshape(3, 3)
+    third = np.cross(a - c, b - c)
+    if np.linalg.norm(third) <= SMALLEST_SINE * np.linalg.norm(a - c) * np.linalg.norm(b - c):
+        raise rows[0].error("the points a, b and c are on one line")
+    axes = np.array([a - c, np.cross(third, a - c), third])
+    axes /= np.linalg.norm(axes, axis=1)[:, None]
+    if len(rows) == 2:
+        axis = rows[1].integer(0, "axis", 1)
+        if axis not in (1, 2, 3):
+            raise rows[1].error(f"axis {axis} is not 1, 2 or 3")
+        angle = math.radians(rows[1].real(1, "angle", 0.0))
+        first, second = axis % 3, (axis + 1) % 3
+        turned = [math.cos(angle) * axes[first] + math.sin(angle) * axes[second]]
+        turned += [-math.sin(angle) * axes[first] + math.cos(angle) * axes[second]]
+        axes[first], axes[second] = turned
+    return axes
+
+
+def read_amplitudes(blocks: list[Block], problems: Problems) -> dict[str, Amplitude]:
+    """Amplitudes of *AMPLITUDE."""
+    found: dict[str, Amplitude] = {}
+    for block in blocks:
+        if block.name == "AMPLITUDE":
+            with problems.gather():
+                name = block.options.text("NAME")
+                if name in found:
+                    raise block.error(f"{name} is defined already, at {found[name].source}")
+                found[name] = _read_amplitude(block, name)
+    return found
+
+
+def _read_amplitude(block: Block, name: str) -> Amplitude:
+    options = block.options
+    kind = AmplitudeType(options.text("DEFINITION"))
+    data = _read_periodic(block) if kind is AmplitudeType.PERIODIC else _read_pairs(block)
+    if kind is AmplitudeType.SMOOTH_STEP and len(data) < 2:
+        raise block.error("SMOOTH STEP needs two points at least")
+    total = options.text("TIME") == "TOTAL TIME"
+    return Amplitude(name, kind, data, block.source, total, options.text("VALUE") == "ABSOLUTE")
+
+
+def _read_pairs(block: Block) -> FloatArray:
+    values: list[float] = []
+    for row in block.rows():
+        before = values[-2] if len(values) % 2 == 0 and values else None
+        values += row.reals("time or value")
+        times = ([] if before is None else [before]) + values[len(values) - len(row) :: 2]
+        if len(row) % 2:
+            raise row.error("expected pairs of time and value")
+        if any(later <= earlier for earlier, later in pairwise(times)):
+            raise row.error("times must increase")
+    if not values:
+        raise block.error("needs a data line")
+    return np.array(values).reshape(-1, 2)
+
+
+def _read_periodic(block: Block) -> FloatArray:
+    """Rows (omega, t0), (A0, 0), then (An, Bn)."""
+    rows = list(block.rows())
+    if not rows:
+        raise block.error("needs a data line")
+    terms = rows[0].integer(0, "number of terms")
+    head = [rows[0].real(index, what, 0.0) for index, what in ((1, "omega"), (2, "t0"), (3, "A0"))]
+    values = [value for row in rows[1:] for value in row.reals("coefficient")]
+    if len(values) % 2:
+        values.append(0.0)
+    if len(values) != 2 * terms:
+        raise rows[0].error(f"{terms} terms are announced, coefficients of {len(values) / 2:g} are given")
+    return np.array([head[0], head[1], head[2], 0.0, *values]).reshape(-1, 2)

@@ -1,0 +1,102 @@
+# SPDX-FileCopyrightText: The uel-harness authors
+# SPDX-License-Identifier: BSD-3-Clause
+"""*PARAMETER: statements `name = expression` in Python's spelling, evaluated by a small interpreter of its own."""
+
+from __future__ import annotations
+
+import ast
+import math
+import operator
+from collections.abc import Callable, Mapping
+
+Value = float | int | str
+
+_BINARY: dict[type[ast.operator], Callable[[float, float], float]] = {
+    ast.Add: operator.add,
+    ast.Sub: operator.sub,
+    ast.Mult: operator.mul,
+    ast.FloorDiv: operator.floordiv,
+    ast.Mod: operator.mod,
+}
+_FUNCTIONS: dict[str, Callable[..., float]] = {
+    **{name: getattr(math, name) for name in ("sin", "cos", "tan", "asin", "acos", "atan", "atan2", "sinh", "cosh")},
+    **{name: getattr(math, name) for name in ("tanh", "sqrt", "exp", "log", "log10", "floor", "ceil", "radians")},
+    **{"degrees": math.degrees, "abs": abs, "int": int, "float": float, "min": min, "max": max, "pow": math.pow},
+}
+_CONSTANTS: dict[str, Value] = {"pi": math.pi}
+_LONGEST = 2000
+
+
+def assign(statement: str, parameters: Mapping[str, Value]) -> tuple[str, Value]:
+    """Name and value of `name = expression`; ValueError with what is wrong."""
+    if len(statement) > _LONGEST:
+        raise ValueError("the expression is too long")
+    try:
+        tree = ast.parse(statement.strip())
+    except (SyntaxError, ValueError, RecursionError, MemoryError):
+        raise ValueError(f"'{statement.strip()}' is not of the form name = expression") from None
+    if len(tree.body) != 1 or not isinstance(tree.body[0], ast.Assign):
+        raise ValueError(f"'{statement.strip()}' is not of the form name = expression")
+    target = tree.body[0].targets[0]
+    if len(tree.body[0].targets) != 1 or not isinstance(target, ast.Name):
+        raise ValueError(f"'{statement.strip()}' is not of the form name = expression")
+    try:
+        return target.id, _evaluate(tree.body[0].value, parameters)
+    except (ArithmeticError, TypeError, RecursionError) as error:
+        raise ValueError(f"'{statement.strip()}' cannot be evaluated: {error}") from None
+
+
+def find(name: str, parameters: Mapping[str, Value]) -> Value | None:
+    """Value of a parameter: of this very name, else of the only one that differs in case."""
+    if name in parameters:
+        return parameters[name]
+    alike = [value for key, value in parameters.items() if key.lower() == name.lower()]
+    return alike[0] if len(alike) == 1 else None
+
+
+def _evaluate(node: ast.expr, parameters: Mapping[str, Value]) -> Value:
+    match node:
+        case ast.Constant(value=str() | float() | int() as value):
+            return value
+        case ast.Name(id=name):
+            found = find(name, {**_CONSTANTS, **parameters})
+            if found is None:
+                raise ValueError(f"parameter '{name}' is not defined")
+            return found
+        case ast.UnaryOp(op=ast.USub(), operand=operand):
+            return -_number(operand, parameters)
+        case ast.UnaryOp(op=ast.UAdd(), operand=operand):
+            return _number(operand, parameters)
+        case ast.BinOp(left=left, op=op, right=right):
+            return _binary(op, _number(left, parameters), _number(right, parameters))
+        case ast.Call(func=ast.Name(id=name), args=arguments, keywords=[]) if name in _FUNCTIONS:
+            return _FUNCTIONS[name](*(_number(argument, parameters) for argument in arguments))
+    raise ValueError(f"'{ast.unparse(node)}' is not arithmetic that *PARAMETER evaluates here")
+
+
+def _number(node: ast.expr, parameters: Mapping[str, Value]) -> float | int:
+    value = _evaluate(node, parameters)
+    if isinstance(value, str):
+        raise ValueError(f"'{value}' is text where a number is needed")
+    return value
+
+
+def _binary(op: ast.operator, left: float, right: float) -> float:
+    if isinstance(op, ast.Div):
+        if isinstance(left, int) and isinstance(right, int) and right and left % right:
+            # releases of Abaqus differ: Python 2 truncates, Python 3 does not
+            raise ValueError(f"{left}/{right} of two integers depends on the release of Abaqus; write {left}./{right}")
+        return left // right if isinstance(left, int) and isinstance(right, int) else left / right
+    if isinstance(op, ast.Pow):
+        return _power(left, right)
+    if type(op) not in _BINARY:
+        raise ValueError("only + - * / // % ** are evaluated here")
+    return _BINARY[type(op)](left, right)
+
+
+def _power(left: float, right: float) -> float:
+    exact = isinstance(left, int) and isinstance(right, int) and abs(left) < 10**9 and 0 <= right <= 64
+    value: float | complex = left**right if exact else float(left) ** float(right)
+    if isinstance(value, complex):
+        raise ValueError(f"{left}**{right} is not real")
+    return value

@@ -1,0 +1,185 @@
+# SPDX-FileCopyrightText: The uel-harness authors
+# SPDX-License-Identifier: BSD-3-Clause
+"""From parts and instances to one mesh: nodes and elements of the whole model, its sets and its element groups."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass, field
+from functools import partial
+
+import numpy as np
+
+from harness.deck.blocks import Block
+from harness.deck.generation import GENERATORS
+from harness.deck.local_mesh import LocalMesh, Members
+from harness.deck.numbers import LARGEST_INTEGER, is_integer
+from harness.deck.placement import IDENTITY, Placement, read_placement
+from harness.deck.problems import Problems
+from harness.deck.structure import Structure
+from harness.deck.user_elements import Definitions, read_user_element
+from harness.errors import DeckError, Source
+from harness.model.arrays import IntArray
+from harness.model.mesh import Mesh
+from harness.model.properties import UserElement
+
+ROOT = ""
+
+
+@dataclass(slots=True)
+class Owner:
+    """One instance, or the root: its mesh, its blocks, and where its nodes and elements are in the whole model."""
+
+    name: str
+    mesh: LocalMesh
+    blocks: list[Block]
+    placement: Placement
+    nodes: IntArray
+    node_offset: int = 0
+    elements: IntArray = field(default_factory=lambda: np.zeros(0, dtype=np.int64))
+    element_offset: int = 0
+
+    def find_nodes(self, labels: IntArray) -> IntArray:
+        """Indices in the whole model, -1 for nodes that do not exist."""
+        return _find(self.nodes, labels, self.node_offset)
+
+    def find_elements(self, labels: IntArray) -> IntArray:
+        """Positions in the whole model, -1 for elements that do not exist."""
+        return _find(self.elements, labels, self.element_offset)
+
+
+def _find(sorted_labels: IntArray, labels: IntArray, offset: int) -> IntArray:
+    if not len(sorted_labels):
+        return np.full(len(labels), -1)
+    position = np.minimum(np.searchsorted(sorted_labels, labels), len(sorted_labels) - 1)
+    return np.where(sorted_labels[position] == labels, position + offset, -1)
+
+
+class FlatMesh:
+    """The whole mesh, with names resolved as a step sees them."""
+
+    def __init__(self, structure: Structure, problems: Problems) -> None:
+        self._problems = problems
+        self._owners: dict[str, Owner] = {}
+        blocks_of = {
+            name: [*structure.parts[scope.head.options.text("PART")].blocks, *scope.blocks]
+            for name, scope in structure.instances.items()
+        }
+        definitions = _definitions(structure.root, {}, problems)
+        definitions_of = {name: _definitions(blocks, definitions, problems) for name, blocks in blocks_of.items()}
+        problems.check()
+        for name, scope in structure.instances.items():
+            self._add_owner(name, blocks_of[name], LocalMesh(definitions_of[name]))
+            with problems.gather():
+                self._owners[name].placement = read_placement(scope.head)
+        root = LocalMesh(definitions, {name: owner.mesh for name, owner in self._owners.items()})
+        root.assembly = structure.assembly.name if structure.assembly else ""
+        root.find_instance_node = self._instance_node
+        self._add_owner(ROOT, structure.root, root)
+        problems.check()
+        self.mesh = self._make_mesh()
+        offset = 0
+        for owner in self.owners:
+            owner.elements, owner.element_offset = np.array(sorted(owner.mesh.run_of), dtype=np.int64), offset
+            offset += len(owner.elements)
+        self.nsets = self._resolve_sets("NSET")
+        self.elsets = self._resolve_sets("ELSET")
+
+    @property
+    def owners(self) -> list[Owner]:
+        """Instances in their order, then the root."""
+        return list(self._owners.values())
+
+    @property
+    def root(self) -> LocalMesh:
+        """What belongs to no instance."""
+        return self._owners[ROOT].mesh
+
+    def nodes(self, name: str, source: Source, owner: str = ROOT) -> IntArray:
+        """Node indices of a number, a set, INSTANCE.number or INSTANCE.SET; DeckError where there is none."""
+        return self._resolve("NSET", name, source, owner)
+
+    def elements(self, name: str, source: Source, owner: str = ROOT) -> IntArray:
+        """Element positions of a number, a set, INSTANCE.number or INSTANCE.SET; DeckError where there is none."""
+        return self._resolve("ELSET", name, source, owner)
+
+    def _resolve(self, kind: str, name: str, source: Source, owner: str) -> IntArray:
+        outer, _, label = (owner, "", name.split(".", maxsplit=1)[0]) if is_integer(name) else name.rpartition(".")
+        instance = outer.rpartition(".")[2]
+        if (outer or is_integer(name)) and is_integer(label) and instance in self._owners:
+            place = self._owners[instance]
+            find = place.find_nodes if kind == "NSET" else place.find_elements
+            found = find(np.array([min(int(label), LARGEST_INTEGER)]))
+            if found[0] < 0:
+                raise DeckError(source, f"{'node' if kind == 'NSET' else 'element'} {name} is not defined")
+            return found
+        self._owners[owner].mesh.find_set(kind, name, source)
+        sets = self.nsets if kind == "NSET" else self.elsets
+        local = name.split(".")
+        candidates = [f"{owner}.{name}" if owner else name, ".".join(local[-2:]), local[-1]]
+        return next(sets[key] for key in candidates if key in sets)
+
+    def _add_owner(self, name: str, blocks: list[Block], mesh: LocalMesh) -> None:
+        readers: dict[str, Callable[[Block], None]] = {
+            "NODE": mesh.read_node,
+            "ELEMENT": mesh.read_element,
+            "NSET": mesh.read_set,
+            "ELSET": mesh.read_set,
+            **{keyword: partial(make, mesh) for keyword, make in GENERATORS.items()},
+        }
+        for block in blocks:
+            if block.name in readers:
+                with self._problems.gather():
+                    readers[block.name](block)
+        offset = sum(len(owner.nodes) for owner in self.owners)
+        nodes = np.array(sorted(mesh.nodes), dtype=np.int64)
+        self._owners[name] = Owner(name, mesh, blocks, IDENTITY, nodes, offset)
+
+    def _instance_node(self, instance: str, label: int) -> int | None:
+        index = int(self._owners[instance].find_nodes(np.array([label]))[0])
+        return index if index >= 0 else None
+
+    def _make_mesh(self) -> Mesh:
+        points, names = [], []
+        for owner in self.owners:
+            own = np.array([owner.mesh.nodes[label] for label in owner.nodes.tolist()]).reshape(-1, 3)
+            points.append(owner.placement.move(own))
+            names += [owner.name] * len(own)
+        return Mesh(np.concatenate([owner.nodes for owner in self.owners]), np.concatenate(points), tuple(names))
+
+    def _resolve_sets(self, kind: str) -> dict[str, IntArray]:
+        """Sets of the whole model; labels that do not exist are left out with a warning."""
+        found = {}
+        for owner in self.owners:
+            for name, members in owner.mesh.sets(kind).items():
+                parts = [self._resolve_members(kind, owner, name, part) for part in members]
+                whole = np.concatenate(parts) if parts else np.zeros(0, dtype=np.int64)
+                if kind == "NSET" and name in owner.mesh.unsorted:
+                    whole = whole[np.sort(np.unique(whole, return_index=True)[1])]
+                else:
+                    whole = np.unique(whole)
+                found[f"{owner.name}.{name}" if owner.name else name] = whole
+        return found
+
+    def _resolve_members(self, kind: str, owner: Owner, name: str, part: Members) -> IntArray:
+        place = self._owners[part.instance] if part.instance else owner
+        found = place.find_nodes(part.labels) if kind == "NSET" else place.find_elements(part.labels)
+        missing = part.labels[found < 0]
+        if len(missing):
+            what = "node" if kind == "NSET" else "element"
+            more = f" and {len(missing) - 1} more" if len(missing) > 1 else ""
+            self._problems.warn(part.source, f"set {name}: {what} {missing[0]}{more} does not exist and is left out")
+        return found[found >= 0]
+
+
+def _definitions(blocks: list[Block], outer: Definitions, problems: Problems) -> dict[str, UserElement]:
+    """User elements of these blocks, on top of those of the scope around them."""
+    own: dict[str, UserElement] = {}
+    for block in blocks:
+        if block.name == "USER ELEMENT":
+            with problems.gather():
+                name = block.options.text("TYPE")
+                if name in own:
+                    raise block.error(f"{name} is defined already, at {own[name].source}")
+                own[name] = read_user_element(block)
+    return {**outer, **own}

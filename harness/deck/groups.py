@@ -1,0 +1,171 @@
+# SPDX-FileCopyrightText: The uel-harness authors
+# SPDX-License-Identifier: BSD-3-Clause
+"""Elements of the whole model: connectivity by node index, sections, and runs of like elements in calling order."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import replace
+
+import numpy as np
+
+from harness.deck.blocks import Block
+from harness.deck.catalogue import read_orientations
+from harness.deck.flatten import FlatMesh, Owner
+from harness.deck.local_mesh import ElementRun
+from harness.deck.problems import Problems
+from harness.deck.sections import SECTION_KEYWORDS, make_section
+from harness.deck.user_elements import ElementType
+from harness.errors import DeckError, Source
+from harness.model.arrays import IntArray
+from harness.model.mesh import ElementGroup
+from harness.model.properties import Material, Orientation, SolidSection, UserProperty
+
+Section = SolidSection | UserProperty
+
+
+class _Elements:
+    """All elements by position: type, row in the connectivity of the type, section keyword (-1: none)."""
+
+    def __init__(self, flat: FlatMesh, problems: Problems) -> None:
+        self.flat = flat
+        self.types: list[ElementType] = []
+        count = sum(len(owner.elements) for owner in flat.owners)
+        self.type_of, self.row_of, self.section_of = (np.full(count, -1, dtype=np.int64) for _ in range(3))
+        self._nodes: list[list[IntArray]] = []
+        rows: list[int] = []
+        for owner in flat.owners:
+            for run in owner.mesh.runs:
+                with problems.gather():
+                    nodes = _node_indices(owner, run)
+                    if run.type not in self.types:
+                        self.types.append(run.type)
+                        self._nodes.append([])
+                        rows.append(0)
+                    index = self.types.index(run.type)
+                    positions = owner.find_elements(run.labels)
+                    self.type_of[positions] = index
+                    self.row_of[positions] = rows[index] + np.arange(len(positions))
+                    self._nodes[index].append(nodes)
+                    rows[index] += len(positions)
+
+    def connectivity(self) -> list[IntArray]:
+        """Node indices of all elements of each type."""
+        return [np.concatenate(parts) for parts in self._nodes]
+
+
+def _node_indices(owner: Owner, run: ElementRun) -> IntArray:
+    found = np.where(run.nodes < 0, -1 - run.nodes, owner.find_nodes(run.nodes.ravel()).reshape(run.nodes.shape))
+    missing = np.argwhere(found < 0)
+    if len(missing):
+        row, column = missing[0]
+        others = len({int(row) for row, _ in missing}) - 1
+        more = f"; {others} more elements here lack nodes" if others else ""
+        message = f"element {run.labels[row]} uses node {run.nodes[row, column]}, which is not defined{more}"
+        raise DeckError(run.source(int(row)), message)
+    return found
+
+
+def make_groups(flat: FlatMesh, materials: Mapping[str, Material], problems: Problems) -> tuple[ElementGroup, ...]:
+    """Element groups in the order in which Abaqus calls user elements; DeckError via `problems`."""
+    elements = _Elements(flat, problems)
+    problems.check()
+    sections: list[tuple[Block, Owner]] = []
+    for owner in flat.owners:
+        for block in owner.blocks:
+            if block.name in SECTION_KEYWORDS:
+                with problems.gather():
+                    _assign(elements, sections, block, owner)
+    problems.check()
+    _check_assigned(elements, problems)
+    problems.check()
+    made = _make_sections(elements, sections, materials, problems)
+    problems.check()
+    return _cut(elements, made)
+
+
+def _assign(elements: _Elements, sections: list[tuple[Block, Owner]], block: Block, owner: Owner) -> None:
+    positions = elements.flat.elements(block.options.text("ELSET"), block.source, owner.name)
+    taken = positions[elements.section_of[positions] >= 0]
+    if len(taken):
+        other = sections[elements.section_of[taken[0]]][0]
+        label = _label(elements.flat, int(taken[0]))
+        raise block.error(f"element {label} has a section already, by *{other.name} at {other.source}")
+    elements.section_of[positions] = len(sections)
+    sections.append((block, owner))
+
+
+def _check_assigned(elements: _Elements, problems: Problems) -> None:
+    """Every element needs a section; one error for each type that lacks it."""
+    without = np.flatnonzero(elements.section_of < 0)
+    for index, kind in enumerate(elements.types):
+        lacking = without[elements.type_of[without] == index]
+        if len(lacking):
+            keyword = "*UEL PROPERTY" if kind.definition else "*SOLID SECTION"
+            more = f" and {len(lacking) - 1} more of type {kind.name}" if len(lacking) > 1 else ""
+            message = f"element {_label(elements.flat, int(lacking[0]))}{more} has no section: no {keyword} names it"
+            problems.add(_source(elements.flat, int(lacking[0])), message)
+
+
+def _make_sections(
+    elements: _Elements,
+    sections: list[tuple[Block, Owner]],
+    materials: Mapping[str, Material],
+    problems: Problems,
+) -> dict[tuple[int, int], Section]:
+    """Section of each pair of section keyword and element type that occurs."""
+    pairs = np.unique(np.stack([elements.section_of, elements.type_of], axis=1), axis=0)
+    orientations = {owner.name: _orientations(elements.flat, owner, problems) for owner in elements.flat.owners}
+    made = {}
+    for section, kind in pairs.tolist():
+        block, owner = sections[section]
+        with problems.gather():
+            made[section, kind] = make_section(block, elements.types[kind], materials, orientations[owner.name])
+    return made
+
+
+def _orientations(flat: FlatMesh, owner: Owner, problems: Problems) -> dict[str, Orientation]:
+    """Orientations an owner sees: the root's, and its own, which turn with the instance."""
+    own = read_orientations(owner.blocks, problems)
+    turned = {name: replace(found, axes=owner.placement.turn(found.axes)) for name, found in own.items()}
+    return {**read_orientations(flat.owners[-1].blocks, problems), **turned}
+
+
+def _cut(elements: _Elements, made: dict[tuple[int, int], Section]) -> tuple[ElementGroup, ...]:
+    connectivity = elements.connectivity()
+    groups = []
+    for owner in elements.flat.owners:
+        span = slice(owner.element_offset, owner.element_offset + len(owner.elements))
+        types, sections, rows = elements.type_of[span], elements.section_of[span], elements.row_of[span]
+        cuts = np.flatnonzero((np.diff(types) != 0) | (np.diff(sections) != 0)) + 1
+        for part in np.split(np.arange(len(types)), cuts) if len(types) else []:
+            index, section = int(types[part[0]]), int(sections[part[0]])
+            groups.append(
+                ElementGroup(
+                    type=elements.types[index].name,
+                    labels=owner.elements[part],
+                    nodes=connectivity[index][rows[part]],
+                    instance=owner.name,
+                    section=made[section, index],
+                    definition=elements.types[index].definition,
+                    source=_source(elements.flat, span.start + int(part[0])),
+                )
+            )
+    return tuple(groups)
+
+
+def _owner(flat: FlatMesh, position: int) -> Owner:
+    return next(owner for owner in reversed(flat.owners) if len(owner.elements) and owner.element_offset <= position)
+
+
+def _label(flat: FlatMesh, position: int) -> str:
+    owner = _owner(flat, position)
+    label = int(owner.elements[position - owner.element_offset])
+    return f"{owner.name}.{label}" if owner.name else str(label)
+
+
+def _source(flat: FlatMesh, position: int) -> Source:
+    owner = _owner(flat, position)
+    label = int(owner.elements[position - owner.element_offset])
+    run = owner.mesh.runs[owner.mesh.run_of[label]]
+    return run.source(int(np.flatnonzero(run.labels == label)[0]))

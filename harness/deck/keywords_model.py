@@ -1,0 +1,305 @@
+# SPDX-FileCopyrightText: The uel-harness authors
+# SPDX-License-Identifier: BSD-3-Clause
+"""Keyword table, first half: model data."""
+
+from __future__ import annotations
+
+from harness.deck.table import Keyword, Kind, Option, Support, Where
+
+
+def refused(*names: str) -> tuple[Option, ...]:
+    """Options that Abaqus knows and that would change the solution."""
+    return tuple(Option(name, support=Support.REFUSED) for name in names)
+
+
+def ignored(*names: str) -> tuple[Option, ...]:
+    """Options that cannot change the solution."""
+    return tuple(Option(name, support=Support.IGNORED) for name in names)
+
+
+INPUT = Option("INPUT", Kind.FILE, "file that holds the data lines")
+NAME = Option("NAME", Kind.NAME, "name", required=True)
+
+STRUCTURE = (
+    Keyword("HEADING", "Title of the job.", Where.ANY, (*ignored("SPARSE", "UNSYMM"),), "free text"),
+    Keyword(
+        "INCLUDE",
+        "Read another file in this place: sought beside the deck, then beside the including file.",
+        Where.ANY,
+        (Option("INPUT", Kind.FILE, "file", required=True), *refused("PASSWORD")),
+    ),
+    Keyword(
+        "PARAMETER",
+        "Define parameters; <name> on any later line stands for the value.",
+        Where.ANY,
+        (*ignored("INDEPENDENT"), *refused("DEPENDENT", "TABLE")),
+        "name = arithmetic expression in Python's spelling",
+    ),
+    Keyword("PART", "Begin a part.", Where.MODEL, (NAME,)),
+    Keyword("END PART", "End a part.", Where.MODEL),
+    Keyword("ASSEMBLY", "Begin the assembly.", Where.MODEL, (NAME,)),
+    Keyword("END ASSEMBLY", "End the assembly.", Where.MODEL),
+    Keyword(
+        "INSTANCE",
+        "Place a part in the assembly; may hold nodes, elements and sets of its own.",
+        Where.MODEL,
+        (NAME, Option("PART", Kind.NAME, "part", required=True), *refused("INSTANCE", "LIBRARY")),
+        "translation; then two points of an axis and an angle in degrees (rotation follows translation)",
+    ),
+    Keyword("END INSTANCE", "End an instance.", Where.MODEL),
+)
+
+MESH = (
+    Keyword(
+        "NODE",
+        "Define nodes by coordinates.",
+        Where.MODEL,
+        (
+            Option("NSET", Kind.NAME, "set that takes the nodes"),
+            Option("SYSTEM", Kind.CHOICE, "R: rectangular", choices=("R",), refused=("C", "S")),
+            INPUT,
+        ),
+        "node, x, y, z",
+    ),
+    Keyword(
+        "ELEMENT",
+        "Define elements by their nodes.",
+        Where.MODEL,
+        (
+            Option("TYPE", Kind.NAME, "element type", required=True),
+            Option("ELSET", Kind.NAME, "set that takes the elements"),
+            INPUT,
+            *refused("FILE", "OFFSET", "SOLID ELEMENT NUMBERING"),
+        ),
+        "element, nodes; continued on further lines where a line ends before the last node",
+    ),
+    Keyword(
+        "NSET",
+        "Define or extend a node set.",
+        Where.MODEL,
+        (
+            Option("NSET", Kind.NAME, "set", required=True),
+            Option("GENERATE", doc="data lines are first, last, increment"),
+            Option("ELSET", Kind.NAME, "take the nodes of these elements"),
+            Option("INSTANCE", Kind.NAME, "instance the labels belong to"),
+            Option("UNSORTED", doc="keep the order, which counts in *EQUATION"),
+            INPUT,
+            *ignored("INTERNAL"),
+        ),
+        "nodes and node sets",
+    ),
+    Keyword(
+        "ELSET",
+        "Define or extend an element set.",
+        Where.MODEL,
+        (
+            Option("ELSET", Kind.NAME, "set", required=True),
+            Option("GENERATE", doc="data lines are first, last, increment"),
+            Option("INSTANCE", Kind.NAME, "instance the labels belong to"),
+            INPUT,
+            *ignored("INTERNAL", "UNSORTED"),
+        ),
+        "elements and element sets",
+    ),
+    Keyword(
+        "NGEN",
+        "Generate nodes on a line between two nodes.",
+        Where.MODEL,
+        (
+            Option("NSET", Kind.NAME, "set that takes the nodes"),
+            Option("LINE", Kind.CHOICE, "shape of the line", choices=("S",), refused=("C", "P")),
+            *refused("SYSTEM"),
+        ),
+        "first node, last node, increment",
+    ),
+    Keyword(
+        "NFILL",
+        "Fill the region between two node sets with lines of nodes.",
+        Where.MODEL,
+        (
+            Option("NSET", Kind.NAME, "set that takes the nodes"),
+            Option("BIAS", Kind.REAL, "ratio of adjacent intervals"),
+            *refused("SINGULAR", "TWO STEP"),
+        ),
+        "first set, second set, number of intervals, increment of node numbers",
+    ),
+    Keyword(
+        "NCOPY",
+        "Copy a node set.",
+        Where.MODEL,
+        (
+            Option("CHANGE NUMBER", Kind.INTEGER, "added to the node numbers", required=True),
+            Option("OLD SET", Kind.NAME, "set to copy", required=True),
+            Option("NEW SET", Kind.NAME, "set that takes the copies"),
+            Option("SHIFT", doc="translate and rotate the copies", required=True),
+            *refused("MULTIPLE", "POLE", "REFLECT"),
+        ),
+        "translation; then two points of an axis and an angle in degrees",
+    ),
+    Keyword(
+        "ELGEN",
+        "Generate elements from a master element, in rows, rows of rows and layers.",
+        Where.MODEL,
+        (Option("ELSET", Kind.NAME, "set that takes the elements"), *refused("ALL NODES")),
+        "master element, then count, node increment, element increment of each direction",
+    ),
+    Keyword(
+        "SURFACE",
+        "Define a surface: accepted, since nothing that uses surfaces is.",
+        Where.MODEL,
+        support=Support.IGNORED,
+    ),
+    Keyword(
+        "EQUATION",
+        "Linear constraint between dofs; the first term is eliminated. A set stands for its nodes in order.",
+        Where.MODEL,
+        (INPUT,),
+        "number of terms; then node or set, dof, coefficient of each term",
+    ),
+)
+
+PROPERTIES = (
+    Keyword(
+        "USER ELEMENT",
+        "Introduce a user element type.",
+        Where.MODEL,
+        (
+            Option("TYPE", Kind.NAME, "Un, 0 < n < 10000", required=True),
+            Option("NODES", Kind.INTEGER, "nodes per element", required=True),
+            Option("COORDINATES", Kind.INTEGER, "largest coordinate used (1)"),
+            Option("PROPERTIES", Kind.INTEGER, "number of real properties (0)"),
+            Option("I PROPERTIES", Kind.INTEGER, "number of integer properties (0)"),
+            Option("VARIABLES", Kind.INTEGER, "number of solution-dependent variables (1)"),
+            Option("UNSYMM", doc="the matrix is unsymmetric"),
+            Option("INTEGRATION", Kind.INTEGER, "material points, with UELMAT"),
+            Option("TENSOR", Kind.CHOICE, "tensors, with UELMAT", choices=("THREED", "TWOD", "PSTRAIN", "PSTRESS")),
+            *refused("LINEAR", "FILE", "OLD ELEMENT", "STEP"),
+        ),
+        "dofs at the first node; then node position, dofs from that node on",
+    ),
+    Keyword(
+        "UEL PROPERTY",
+        "Properties of user elements; with MATERIAL=, UELMAT is called.",
+        Where.MODEL,
+        (
+            Option("ELSET", Kind.NAME, "element set", required=True),
+            Option("MATERIAL", Kind.NAME, "material for MATERIAL_LIB_MECH"),
+            Option("ORIENTATION", Kind.NAME, "orientation of the material"),
+            *refused("ALPHA", "BETA"),
+        ),
+        "real properties, then integer properties",
+    ),
+    Keyword(
+        "SOLID SECTION",
+        "Section of built-in continuum elements.",
+        Where.MODEL,
+        (
+            Option("ELSET", Kind.NAME, "element set", required=True),
+            Option("MATERIAL", Kind.NAME, "material", required=True),
+            Option("ORIENTATION", Kind.NAME, "orientation of the material"),
+            *refused("COMPOSITE", "CONTROLS", "LAYUP", "ORDER", "REF NODE", "STACK DIRECTION", "SYMMETRIC"),
+        ),
+        "thickness (1)",
+    ),
+    Keyword(
+        "MATERIAL",
+        "Begin a material.",
+        Where.MODEL,
+        (NAME, *refused("RTOL", "SRATE FACTOR", "STRAIN RATE REGULARIZATION")),
+    ),
+    Keyword(
+        "ELASTIC",
+        "Linear elasticity.",
+        Where.MODEL,
+        (
+            Option(
+                "TYPE",
+                Kind.CHOICE,
+                "symmetry",
+                default="ISOTROPIC",
+                choices=("ISOTROPIC", "ENGINEERING CONSTANTS", "LAMINA", "ORTHOTROPIC", "ANISOTROPIC"),
+                refused=("TRACTION", "COUPLED TRACTION", "SHEAR", "SHORT FIBER", "BILAMINA"),
+            ),
+            *ignored("MODULI"),
+            *refused("DEPENDENCIES", "COMPRESSION FACTOR"),
+        ),
+        "constants in the order of the type",
+    ),
+    Keyword(
+        "PLASTIC",
+        "Mises plasticity with isotropic hardening.",
+        Where.MODEL,
+        (
+            Option(
+                "HARDENING",
+                Kind.CHOICE,
+                "hardening",
+                default="ISOTROPIC",
+                choices=("ISOTROPIC",),
+                refused=("KINEMATIC", "COMBINED", "JOHNSON COOK", "USER"),
+            ),
+            *refused("DATA TYPE", "DEPENDENCIES", "NUMBER BACKSTRESSES", "PROPERTIES", "RATE", "SCALESTRESS"),
+        ),
+        "yield stress, plastic strain",
+    ),
+    Keyword("DENSITY", "Mass density.", Where.MODEL, refused("DEPENDENCIES", "PORE FLUID"), "density"),
+    Keyword(
+        "ORIENTATION",
+        "Local rectangular axes from three points, with an additional rotation.",
+        Where.MODEL,
+        (
+            NAME,
+            Option(
+                "DEFINITION",
+                Kind.CHOICE,
+                "how the points are given",
+                choices=("COORDINATES",),
+                refused=("NODES", "OFFSET TO NODES"),
+            ),
+            Option(
+                "SYSTEM",
+                Kind.CHOICE,
+                "kind of axes",
+                choices=("RECTANGULAR",),
+                refused=("CYLINDRICAL", "SPHERICAL", "USER", "Z RECTANGULAR"),
+            ),
+            *refused("LOCAL DIRECTIONS"),
+        ),
+        "a (on the 1-axis), b (in the 1-2 plane), c (origin); then axis number and angle in degrees",
+    ),
+    Keyword(
+        "AMPLITUDE",
+        "Factor of loads and prescribed values over time.",
+        Where.ANY,
+        (
+            NAME,
+            Option(
+                "DEFINITION",
+                Kind.CHOICE,
+                "kind of curve",
+                default="TABULAR",
+                choices=("TABULAR", "SMOOTH STEP", "PERIODIC"),
+                refused=(
+                    *("ACTUATOR", "BUBBLE", "DECAY", "EQUALLY SPACED", "FILM", "MODULATED", "PSD DEFINITION", "RAMP"),
+                    *("SOLUTION DEPENDENT", "SPECTRUM", "USER"),
+                ),
+            ),
+            Option(
+                "TIME",
+                Kind.CHOICE,
+                "which time",
+                default="STEP TIME",
+                choices=("STEP TIME", "TOTAL TIME"),
+                refused=("NORMALIZED",),
+            ),
+            Option("VALUE", Kind.CHOICE, "what the values are", default="RELATIVE", choices=("RELATIVE", "ABSOLUTE")),
+            Option("INPUT", Kind.FILE, "file that holds the data lines"),
+            *refused(
+                "BEGIN", "FIXED INTERVAL", "SMOOTH", "PROPERTIES", "VARIABLES", "SHIFTX", "SHIFTY", "SCALEX", "SCALEY"
+            ),
+        ),
+        "TABULAR, SMOOTH STEP: time, value pairs; PERIODIC: number of terms, omega, t0, A0; then A1, B1, ...",
+    ),
+)
+
+MODEL_KEYWORDS = (*STRUCTURE, *MESH, *PROPERTIES)

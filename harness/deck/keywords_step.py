@@ -1,0 +1,224 @@
+# SPDX-FileCopyrightText: The uel-harness authors
+# SPDX-License-Identifier: BSD-3-Clause
+"""Keyword table, second half: steps, prescribed values, loads and output requests."""
+
+from __future__ import annotations
+
+from harness.deck.keywords_model import ignored, refused
+from harness.deck.table import Keyword, Kind, Option, Support, Where
+
+OP = Option("OP", Kind.CHOICE, "NEW removes what earlier steps prescribed", default="MOD", choices=("MOD", "NEW"))
+FREQUENCY = Option("FREQUENCY", Kind.INTEGER, "every k-th increment (1); 0 never")
+AMPLITUDE = Option("AMPLITUDE", Kind.NAME, "amplitude; the default is that of *STEP")
+
+PROCEDURE = (
+    Keyword(
+        "STEP",
+        "Begin a step.",
+        Where.ANY,
+        (
+            Option("NAME", Kind.NAME, "name"),
+            Option("INC", Kind.INTEGER, "largest number of increments (100)"),
+            Option("NLGEOM", Kind.SWITCH, "large displacements, from this step on"),
+            Option(
+                "EXTRAPOLATION",
+                Kind.CHOICE,
+                "first guess of an increment",
+                default="LINEAR",
+                choices=("LINEAR", "PARABOLIC", "NO"),
+                refused=("VELOCITY PARABOLIC",),
+            ),
+            Option("UNSYMM", Kind.SWITCH, "unsymmetric matrix storage and solution"),
+            Option("AMPLITUDE", Kind.CHOICE, "default time variation", default="RAMP", choices=("RAMP", "STEP")),
+            *ignored("CONVERT SDI"),
+            *refused("PERTURBATION", "SOLVER", "SUBDIVIDE"),
+        ),
+        "title",
+    ),
+    Keyword("END STEP", "End a step.", Where.STEP),
+    Keyword(
+        "STATIC",
+        "Static stress analysis.",
+        Where.STEP,
+        (
+            Option("DIRECT", doc="fixed increments"),
+            *refused("ADIABATIC", "ALLSDTOL", "CONTINUE", "FACTOR", "FULLY PLASTIC", "LONG TERM", "RIKS", "STABILIZE"),
+        ),
+        "initial increment, period (1), smallest increment, largest increment",
+    ),
+    Keyword(
+        "CONTROLS",
+        "Solution controls; blank entries keep their value, later steps keep the controls.",
+        Where.STEP,
+        (
+            Option("ANALYSIS", Kind.CHOICE, "I_0 = 8, I_R = 10", choices=("DISCONTINUOUS",)),
+            Option(
+                "PARAMETERS",
+                Kind.CHOICE,
+                "what the data lines set",
+                choices=("FIELD", "TIME INCREMENTATION", "LINE SEARCH"),
+                refused=("CONSTRAINTS",),
+            ),
+            Option(
+                "FIELD",
+                Kind.CHOICE,
+                "field the values are for; all fields unless given",
+                default="GLOBAL",
+                choices=(
+                    *("GLOBAL", "DISPLACEMENT", "ROTATION", "TEMPERATURE", "PORE FLUID PRESSURE"),
+                    *("ELECTRICAL POTENTIAL", "CONCENTRATION", "HYDROSTATIC FLUID PRESSURE", "MATERIAL FLOW"),
+                    *("PRESSURE LAGRANGE MULTIPLIER", "VOLUMETRIC LAGRANGE MULTIPLIER"),
+                ),
+            ),
+            Option("RESET", doc="all controls back to their defaults"),
+            *refused("TYPE"),
+        ),
+        "the values of the manual's data lines",
+    ),
+)
+
+PRESCRIBED = (
+    Keyword(
+        "BOUNDARY",
+        "Prescribed values of dofs.",
+        Where.ANY,
+        (
+            OP,
+            AMPLITUDE,
+            Option(
+                "TYPE",
+                Kind.CHOICE,
+                "what is prescribed",
+                choices=("DISPLACEMENT",),
+                refused=("VELOCITY", "ACCELERATION"),
+            ),
+            Option("INPUT", Kind.FILE, "file that holds the data lines"),
+            *ignored("REGION TYPE"),
+            *refused(
+                *("BASE NAME", "FIXED", "LOAD CASE", "PHANTOM", "REAL", "IMAGINARY", "SCALE", "STEP", "SUBMODEL"),
+                *("BLOCKING", "TIMESCALE", "USER"),
+            ),
+        ),
+        "node or set, first dof, last dof, value; or node or set, XSYMM, YSYMM, ZSYMM, XASYMM, YASYMM, ZASYMM, "
+        "PINNED or ENCASTRE",
+    ),
+    Keyword(
+        "CLOAD",
+        "Concentrated loads.",
+        Where.STEP,
+        (
+            OP,
+            AMPLITUDE,
+            Option("INPUT", Kind.FILE, "file that holds the data lines"),
+            *ignored("REGION TYPE"),
+            *refused("CYCLIC MODE", "FOLLOWER", "IMAGINARY", "LOAD CASE", "REAL", "SUBMODEL"),
+        ),
+        "node or set, dof, value",
+    ),
+)
+
+OUTPUT = (
+    Keyword(
+        "OUTPUT",
+        "Begin output requests; without any, history and field output are those Abaqus preselects.",
+        Where.STEP,
+        (
+            Option("FIELD", doc="field output, written to .vtu"),
+            Option("HISTORY", doc="history output, written to .csv"),
+            FREQUENCY,
+            Option(
+                "OP", Kind.CHOICE, "what becomes of earlier requests", default="NEW", choices=("NEW", "ADD", "REPLACE")
+            ),
+            Option("NUMBER INTERVAL", Kind.INTEGER, "number of output times in the step"),
+            Option("TIME INTERVAL", Kind.REAL, "time between outputs"),
+            Option("TIME MARKS", Kind.SWITCH, "whether increments end at the output times", default="YES"),
+            Option("VARIABLE", Kind.CHOICE, "default variables", choices=("ALL", "PRESELECT")),
+            *ignored("DIAGNOSTICS", "FILTER", "MODE LIST", "NAME", "SENSOR", "TIME POINTS"),
+        ),
+    ),
+    Keyword(
+        "NODE OUTPUT",
+        "Nodal variables of the *OUTPUT before.",
+        Where.STEP,
+        (
+            Option("NSET", Kind.NAME, "node set"),
+            Option("VARIABLE", Kind.CHOICE, "default variables", choices=("ALL", "PRESELECT")),
+            *ignored("EXTERIOR", "TRACER SET"),
+        ),
+        "variables",
+    ),
+    Keyword(
+        "ENERGY OUTPUT",
+        "Energies of the whole model, of the *OUTPUT, HISTORY before.",
+        Where.STEP,
+        (
+            Option("VARIABLE", Kind.CHOICE, "default variables", choices=("ALL", "PRESELECT")),
+            *ignored("ELSET", "PER ELEMENT SET", "PER SECTION"),
+        ),
+        "variables",
+    ),
+    Keyword(
+        "NODE PRINT",
+        "Table of nodal variables in .dat.",
+        Where.STEP,
+        (
+            Option("NSET", Kind.NAME, "node set"),
+            FREQUENCY,
+            Option("TOTALS", Kind.SWITCH, "print the sum of each column"),
+            *ignored("GLOBAL", "MODE", "LAST MODE", "SUMMARY"),
+        ),
+        "variables, one table a line",
+    ),
+    Keyword(
+        "EL PRINT",
+        "Table of element variables in .dat.",
+        Where.STEP,
+        (
+            Option("ELSET", Kind.NAME, "element set"),
+            FREQUENCY,
+            *ignored("DIRECTIONS", "LAST MODE", "LOCALDIR", "MODE", "POSITION", "REBAR", "SUMMARY", "TOTALS"),
+        ),
+        "variables, one table a line",
+    ),
+    Keyword(
+        "MONITOR",
+        "Dof whose value .sta prints.",
+        Where.STEP,
+        (
+            Option("NODE", Kind.NAME, "node, or set of one node", required=True),
+            Option("DOF", Kind.INTEGER, "dof", required=True),
+            *ignored("FREQUENCY"),
+        ),
+    ),
+)
+
+_IGNORED = {
+    "RESTART": "Restart files, which are not written.",
+    "PREPRINT": "What Abaqus echoes to .dat.",
+    "PRINT": "What Abaqus writes to .msg.",
+    "FILE FORMAT": "Format of the results file.",
+    "FILE OUTPUT": "Results file.",
+    "EL FILE": "Element variables in the results file.",
+    "NODE FILE": "Nodal variables in the results file.",
+    "ENERGY FILE": "Energies in the results file.",
+    "ENERGY PRINT": "Energies in .dat.",
+    "CONTACT FILE": "Contact variables in the results file.",
+    "CONTACT PRINT": "Contact variables in .dat.",
+    "CONTACT OUTPUT": "Contact variables.",
+    "ELEMENT OUTPUT": "Element variables; .vtu holds those of every element type that declares them.",
+    "INCREMENTATION OUTPUT": "Increment sizes as history output.",
+    "INTEGRATED OUTPUT": "Totals over surfaces.",
+    "INTEGRATED OUTPUT SECTION": "Surface of *INTEGRATED OUTPUT.",
+    "MODAL OUTPUT": "Modal variables.",
+    "SURFACE OUTPUT": "Surface variables.",
+    "SECTION FILE": "Section forces in the results file.",
+    "SECTION PRINT": "Section forces in .dat.",
+    "PHYSICAL CONSTANTS": "Absolute zero and the like: nothing that uses them is supported.",
+}
+
+STEP_KEYWORDS = (
+    *PROCEDURE,
+    *PRESCRIBED,
+    *OUTPUT,
+    *(Keyword(name, doc, Where.ANY, support=Support.IGNORED) for name, doc in _IGNORED.items()),
+)

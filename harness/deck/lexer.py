@@ -1,0 +1,194 @@
+# SPDX-FileCopyrightText: The uel-harness authors
+# SPDX-License-Identifier: BSD-3-Clause
+"""Text of a deck and its includes, cut into keyword blocks; parameters are substituted here."""
+
+from __future__ import annotations
+
+import re
+from dataclasses import dataclass
+from pathlib import Path
+
+from harness.deck.blocks import Block
+from harness.deck.expressions import Value, assign, find
+from harness.deck.keywords import find_keyword
+from harness.deck.problems import Problems
+from harness.deck.table import Keyword, Options, compact, read_options, split_fields
+from harness.errors import DeckError, Source
+
+_PARAMETER = re.compile(r"<\s*([A-Za-z_]\w*)\s*>")
+
+
+def read_blocks(deck: Path, problems: Problems) -> list[Block]:
+    """Keyword blocks of a deck in order. What is wrong goes to `problems`; DeckError if the deck cannot be read."""
+    lexer = _Lexer(deck, problems)
+    start = Source(str(deck), 1)
+    lines = _load(deck, start)
+    if not any(line.strip() and not line.lstrip().startswith("**") for line in lines):
+        raise DeckError(start, "the deck is empty")
+    lexer.read(lines, str(deck), (deck.resolve(),))
+    lexer.close()
+    return lexer.blocks
+
+
+def _load(path: Path, source: Source) -> list[str]:
+    """Lines of a text file in UTF-8 or Latin-1, with any kind of line end."""
+    try:
+        raw = path.read_bytes()
+    except OSError as error:
+        reason = error.strerror or type(error).__name__
+        raise DeckError(source, f"cannot read {path}: {reason}") from None
+    except ValueError as error:
+        raise DeckError(source, f"cannot read {path}: {error}") from None
+    if b"\0" in raw:
+        raise DeckError(source, f"{path} is a binary file, not a deck")
+    try:
+        text = raw.decode("utf-8-sig")
+    except UnicodeDecodeError:
+        text = raw.decode("latin-1")
+    return text.replace("\r\n", "\n").replace("\r", "\n").split("\n")
+
+
+@dataclass(slots=True)
+class _Header:
+    """Keyword line under construction: its text so far and where it begins."""
+
+    text: str
+    source: Source
+
+
+class _Lexer:
+    """Walks the lines of a deck and of its includes; `open` is the block that takes data lines."""
+
+    def __init__(self, deck: Path, problems: Problems) -> None:
+        self.blocks: list[Block] = []
+        self._folder = deck.parent
+        self._problems = problems
+        self._parameters: dict[str, Value] = {}
+        self._open: Block | None = None
+        self._discard = False
+
+    def read(self, lines: list[str], file: str, stack: tuple[Path, ...]) -> None:
+        """Take all lines of one file."""
+        number = 0
+        while number < len(lines):
+            line = lines[number].strip()
+            number += 1
+            if not line.startswith("*"):
+                self._data(line, file, number)
+            elif not line.startswith("**"):
+                self.close()
+                header = _Header(line, Source(file, number))
+                number = self._continue(header, lines, number)
+                with self._problems.gather():
+                    self._keyword(header, stack)
+
+    def close(self) -> None:
+        """End the open block; the statements of *PARAMETER are evaluated now, for the lines that follow."""
+        block = self._open
+        if block is None:
+            return
+        block.trim()
+        if block.keyword.name == "PARAMETER":
+            for index, line in enumerate(block.lines):
+                statement = line.split("#")[0]
+                if statement.strip():
+                    with self._problems.gather():
+                        self._assign(statement, block.source_of(index))
+            block.clear()
+
+    def _assign(self, statement: str, source: Source) -> None:
+        try:
+            name, value = assign(statement, self._parameters)
+        except ValueError as error:
+            self._parameters.setdefault(statement.partition("=")[0].strip(), 0.0)
+            raise DeckError(source, f"*PARAMETER: {error}") from None
+        self._parameters[name] = value
+
+    def _data(self, line: str, file: str, number: int) -> None:
+        if self._open is None:
+            if line and not self._discard:
+                self._problems.add(Source(file, number), "data before the first keyword")
+                self._discard = True
+            return
+        if "<" in line and self._open.keyword.name not in ("HEADING", "PARAMETER"):
+            with self._problems.gather():
+                line = self._substitute(line, Source(file, number))
+        self._open.append(line, file, number)
+
+    def _substitute(self, line: str, source: Source) -> str:
+        def value(match: re.Match[str]) -> str:
+            found = find(match[1], self._parameters)
+            if found is None:
+                raise DeckError(source, f"parameter <{match[1]}> is not defined")
+            return str(found)
+
+        return _PARAMETER.sub(value, line)
+
+    def _continue(self, header: _Header, lines: list[str], number: int) -> int:
+        """Join the lines that continue a keyword line; returns the number of lines taken."""
+        while header.text.endswith(",") and number < len(lines):
+            ahead = number
+            while ahead < len(lines) - 1 and lines[ahead].lstrip().startswith("**"):
+                ahead += 1
+            line = lines[ahead].strip()
+            if not _continues(header.text, line):
+                break
+            header.text += line
+            number = ahead + 1
+        return number
+
+    def _keyword(self, header: _Header, stack: tuple[Path, ...]) -> None:
+        """Open the block of a keyword line, or read the file it includes."""
+        self._discard, previous, self._open = True, self._open, None
+        source = header.source
+        text = self._substitute(header.text, source)
+        fields = split_fields(text[1:])
+        keyword = find_keyword(fields[0], source)
+        if keyword.name == "INCLUDE":
+            self._open = previous
+            self._include(read_options(keyword, fields[1:], source).text("INPUT"), source, stack)
+            return
+        self._open = Block(keyword, Options({}), source)
+        self.blocks.append(self._open)
+        # a block with a wrong option stays, so that one wrong *STEP does not condemn all that follows
+        self._open.options = options = _options(keyword, fields[1:], source)
+        if options.text("INPUT"):
+            self._include(options.text("INPUT"), source, stack)
+
+    def _include(self, name: str, source: Source, stack: tuple[Path, ...]) -> None:
+        """Read another file in place; the open block stays open, since the file may begin with data lines."""
+        try:
+            path = self._find(name, stack[-1])
+            resolved = path.resolve()
+        except (OSError, ValueError, RuntimeError) as error:
+            raise DeckError(source, f"cannot read {name}: {error}") from None
+        if resolved in stack:
+            loop = " -> ".join(entry.name for entry in (*stack[stack.index(resolved) :], resolved))
+            raise DeckError(source, f"include loop: {loop}")
+        self.read(_load(path, source), str(path), (*stack, resolved))
+
+    def _find(self, name: str, including: Path) -> Path:
+        beside_deck = self._folder / name
+        beside_including = including.parent / name
+        if not beside_deck.exists() and beside_including.exists():
+            return beside_including
+        return beside_deck
+
+
+def _options(keyword: Keyword, fields: list[str], source: Source) -> Options:
+    """Options of a keyword; those of an ignored one are not looked at."""
+    return read_options(keyword, fields, source) if keyword.options or keyword.support == "read" else Options({})
+
+
+def _continues(header: str, line: str) -> bool:
+    """Whether a line goes on with a keyword line that ends in a comma, or is its first data line."""
+    if not line or line.startswith("*"):
+        return False
+    first = split_fields(line)[0]
+    if "=" in first:
+        return True
+    try:
+        keyword = find_keyword(split_fields(header[1:])[0], Source("", 0))
+    except DeckError:
+        return False
+    return any(compact(option.name) == compact(first) for option in keyword.options)

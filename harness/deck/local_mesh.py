@@ -1,0 +1,289 @@
+# SPDX-FileCopyrightText: The uel-harness authors
+# SPDX-License-Identifier: BSD-3-Clause
+"""Nodes, elements and sets of one part, one instance, or of what belongs to no part, by their labels."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Mapping
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from harness.deck.blocks import Block
+from harness.deck.numbers import integer_table, is_integer, read_integer, real_table
+from harness.deck.problems import nearest
+from harness.deck.table import split_fields, unquote
+from harness.deck.user_elements import Definitions, ElementType, find_type
+from harness.errors import DeckError, Source
+from harness.model.arrays import FloatArray, IntArray
+
+LARGEST_LABEL = 999_999_999
+MOST_GENERATED = 10_000_000
+Point = tuple[float, float, float]
+
+
+@dataclass(frozen=True, slots=True)
+class Members:
+    """Part of a set: labels, the instance they belong to ('' for the mesh that has the set), and their place."""
+
+    instance: str
+    labels: IntArray
+    source: Source
+
+
+@dataclass(frozen=True, slots=True)
+class ElementRun:
+    """Elements of one type from one keyword: labels (m,), node labels (m, nodes), and the place of each.
+
+    A negative node label is that of a node of an instance: -1 - its index in the whole model.
+    """
+
+    type: ElementType
+    labels: IntArray
+    nodes: IntArray
+    source: Callable[[int], Source]
+
+
+class LocalMesh:
+    """What *NODE, *ELEMENT, *NSET, *ELSET and the generating keywords define in one scope."""
+
+    def __init__(self, definitions: Definitions, instances: Mapping[str, LocalMesh] | None = None) -> None:
+        self.definitions = definitions
+        self.instances = instances or {}
+        self.nodes: dict[int, Point] = {}
+        self.runs: list[ElementRun] = []
+        self.run_of: dict[int, int] = {}
+        self.nsets: dict[str, list[Members]] = {}
+        self.elsets: dict[str, list[Members]] = {}
+        self.unsorted: set[str] = set()
+        self.assembly = ""
+        # index in the whole model of a node of an instance; set by the flattening before it reads the root
+        self.find_instance_node: Callable[[str, int], int | None] = lambda instance, label: None
+
+    def add_nodes(self, labels: IntArray, points: FloatArray, source: Callable[[int], Source]) -> None:
+        """Add nodes; one that is there already must be in the same place."""
+        new = dict(zip(labels.tolist(), map(tuple, points.tolist()), strict=True))
+        if len(new) < len(labels) or not self.nodes.keys().isdisjoint(new):
+            seen = dict(self.nodes)
+            for index, (label, point) in enumerate(zip(labels.tolist(), points.tolist(), strict=True)):
+                if seen.setdefault(label, tuple(point)) != tuple(point):
+                    raise DeckError(source(index), f"node {label} is defined twice, with different coordinates")
+        self.nodes.update(new)
+
+    def add_elements(self, run: ElementRun) -> None:
+        """Add elements; their numbers must be new."""
+        labels = run.labels.tolist()
+        new = dict.fromkeys(labels, len(self.runs))
+        if len(new) < len(labels) or not self.run_of.keys().isdisjoint(new):
+            seen = set(self.run_of)
+            for index, label in enumerate(labels):
+                if label in seen:
+                    raise DeckError(run.source(index), f"element {label} is defined twice")
+                seen.add(label)
+        self.run_of.update(new)
+        self.runs.append(run)
+
+    def add_to_set(self, sets: dict[str, list[Members]], name: str, members: Iterable[Members]) -> None:
+        """Extend a set; a set without a name takes nothing."""
+        if name:
+            sets.setdefault(name, []).extend(members)
+
+    def read_node(self, block: Block) -> None:
+        """*NODE."""
+        labels, points, source = _read_nodes(block)
+        self.add_nodes(labels, points, source)
+        self.add_to_set(self.nsets, block.options.text("NSET"), [Members("", labels, block.source)])
+
+    def read_element(self, block: Block) -> None:
+        """*ELEMENT."""
+        name = block.options.text("ELSET")
+        self.add_to_set(self.elsets, name, [])
+        kind = find_type(block.options.text("TYPE"), self.definitions, block.source)
+        labels, nodes, lines = self._connectivity(block, kind)
+        self.add_elements(ElementRun(kind, labels, nodes, lambda index: block.source_of(lines[index])))
+        self.add_to_set(self.elsets, name, [Members("", labels, block.source)])
+
+    def read_set(self, block: Block) -> None:
+        """*NSET or *ELSET."""
+        nodal = block.name == "NSET"
+        sets = self.sets(block.name)
+        name = block.options.text(block.name)
+        self.add_to_set(sets, name, [])
+        if nodal and block.options.flag("UNSORTED"):
+            self.unsorted.add(name)
+        if nodal and block.options.given("ELSET"):
+            elements = self.find_set("ELSET", block.options.text("ELSET"), block.source)
+            self.add_to_set(sets, name, self._nodes_of(elements))
+        instance = block.options.text("INSTANCE")
+        if instance and instance not in self.instances:
+            raise block.error(f"unknown instance {instance}{nearest(instance, self.instances)}")
+        if block.options.flag("GENERATE"):
+            ranges = [_generated(block, index) for index, line in enumerate(block.lines) if line.strip(", ")]
+            self.add_to_set(sets, name, [Members(instance, labels, block.source) for labels in ranges])
+        else:
+            self.add_to_set(sets, name, self._listed(block, instance))
+
+    def find_set(self, kind: str, name: str, source: Source) -> list[Members]:
+        """Members of a node set ('NSET') or element set ('ELSET'): of this scope, or INSTANCE.NAME."""
+        sets = self.sets(kind)
+        if name in sets:
+            return sets[name]
+        instance, dot, local = name.rpartition(".")
+        if dot and instance == self.assembly and local in sets:
+            return sets[local]
+        instance = instance.rpartition(".")[2]
+        if dot and instance in self.instances:
+            members = self.instances[instance].find_set(kind, local, source)
+            return [replace(part, instance=instance) for part in members]
+        known = [*sets, *(f"{key}.{inner}" for key, mesh in self.instances.items() for inner in mesh.sets(kind))]
+        what = "node set" if kind == "NSET" else "element set"
+        raise DeckError(source, f"unknown {what} {name}{nearest(name, known)}")
+
+    def sets(self, kind: str) -> dict[str, list[Members]]:
+        """Node sets ('NSET') or element sets ('ELSET')."""
+        return self.nsets if kind == "NSET" else self.elsets
+
+    def node_labels(self, name: str, source: Source) -> IntArray:
+        """Labels of a node set of this scope in ascending order, or of one node by its number."""
+        if is_integer(name):
+            return np.array([int(name.split(".", maxsplit=1)[0])])
+        members = self.find_set("NSET", name, source)
+        own = [part.labels for part in members if not part.instance]
+        return np.unique(np.concatenate(own)) if own else np.zeros(0, dtype=np.int64)
+
+    def point(self, label: int, source: Source) -> Point:
+        """Coordinates of a node."""
+        if label not in self.nodes:
+            raise DeckError(source, f"node {label} is not defined")
+        return self.nodes[label]
+
+    def element(self, label: int, source: Source) -> tuple[ElementType, IntArray]:
+        """Type and node labels of an element."""
+        if label not in self.run_of:
+            raise DeckError(source, f"element {label} is not defined")
+        run = self.runs[self.run_of[label]]
+        return run.type, run.nodes[int(np.flatnonzero(run.labels == label)[0])]
+
+    def _nodes_of(self, elements: list[Members]) -> list[Members]:
+        found = []
+        for part in elements:
+            mesh = self.instances[part.instance] if part.instance else self
+            wanted = [run.nodes[np.isin(run.labels, part.labels)].ravel() for run in mesh.runs]
+            if wanted:
+                found.append(replace(part, labels=np.unique(np.concatenate(wanted))))
+        return found
+
+    def _listed(self, block: Block, instance: str) -> list[Members]:
+        """Labels and set names of the data lines of *NSET and *ELSET."""
+        tokens = [token for line in block.lines for token in line.split(",")]
+        try:
+            if any("_" in token for token in tokens):
+                raise ValueError
+            labels = [int(token) for token in tokens if token.strip()]
+            if not labels or max(labels) <= LARGEST_LABEL:
+                return [Members(instance, np.array(labels, dtype=np.int64), block.source)]
+        except ValueError:
+            pass
+        found: list[Members] = []
+        for row in block.rows():
+            for index in range(len(row)):
+                if not row.blank(index):
+                    found += self._member(block.name, unquote(row.fields[index]), instance, row.source)
+        return found
+
+    def _member(self, kind: str, token: str, instance: str, source: Source) -> list[Members]:
+        if is_integer(token):
+            return [Members(instance, np.array([_label(token, source)]), source)]
+        owner, dot, label = token.rpartition(".")
+        owner = owner.rpartition(".")[2]
+        if dot and is_integer(label) and owner in self.instances:
+            return [Members(owner, np.array([_label(label, source)]), source)]
+        return self.find_set(kind, f"{instance}.{token}" if instance else token, source)
+
+    def _connectivity(self, block: Block, kind: ElementType) -> tuple[IntArray, IntArray, IntArray]:
+        """Labels, node labels and data line of each element."""
+        table = integer_table(block.lines)
+        if table is not None and table.shape[1] == kind.nodes + 1 and table.min() > 0:
+            return table[:, 0], table[:, 1:], np.arange(len(table))
+        labels: list[int] = []
+        nodes: list[list[int]] = []
+        lines: list[int] = []
+        wanted: list[int] = []
+        for index, line in enumerate(block.lines):
+            fields = split_fields(line)
+            while fields and not fields[-1]:
+                fields.pop()
+            if not fields:
+                continue
+            source = block.source_of(index)
+            if not wanted:
+                lines.append(index)
+            before = len(wanted)
+            wanted += [self._node_reference(block, field, source) for field in fields]
+            if len(wanted) > kind.nodes + 1:
+                raise DeckError(block.source_of(lines[-1]), _wrong_count(wanted[0], kind, (before or len(wanted)) - 1))
+            if len(wanted) == kind.nodes + 1:
+                labels.append(_label(str(wanted[0]), source))
+                nodes.append(wanted[1:])
+                wanted = []
+        if wanted:
+            raise DeckError(block.source_of(lines[-1]), _wrong_count(wanted[0], kind, len(wanted) - 1))
+        shape = (len(labels), kind.nodes)
+        return np.array(labels, dtype=np.int64), np.array(nodes, dtype=np.int64).reshape(shape), np.array(lines)
+
+    def _node_reference(self, block: Block, text: str, source: Source) -> int:
+        """Label of a node of this scope, or the negative code of INSTANCE.label."""
+        if is_integer(text):
+            return _label(text, source)
+        instance, dot, label = unquote(text).rpartition(".")
+        instance = instance.rpartition(".")[2]
+        if dot and is_integer(label) and instance in self.instances:
+            index = self.find_instance_node(instance, int(label))
+            if index is None:
+                raise DeckError(source, f"node {unquote(text)} is not defined")
+            return -1 - index
+        raise DeckError(source, f"*{block.name}: '{text}' is not a node number")
+
+
+def _wrong_count(element: int, kind: ElementType, nodes: int) -> str:
+    return f"element {element} lists {nodes} nodes where {kind.name} has {kind.nodes}"
+
+
+def _label(text: str, source: Source) -> int:
+    try:
+        label = read_integer(text)
+    except ValueError as error:
+        raise DeckError(source, str(error)) from None
+    if not 0 < label <= LARGEST_LABEL:
+        raise DeckError(source, f"{label} is not a node or element number (1 to {LARGEST_LABEL})")
+    return label
+
+
+def _read_nodes(block: Block) -> tuple[IntArray, FloatArray, Callable[[int], Source]]:
+    table = real_table(block.lines)
+    if table is not None and table.shape[1] <= 7 and table[:, 0].min() >= 1 and table[:, 0].max() <= LARGEST_LABEL:
+        labels = table[:, 0].astype(np.int64)
+        if (labels == table[:, 0]).all():
+            points = np.zeros((len(table), 3))
+            points[:, : table.shape[1] - 1] = table[:, 1:4]
+            return labels, points, block.source_of
+    rows = list(block.rows())
+    found = np.array([_label(row.text(0, "node number"), row.source) for row in rows], dtype=np.int64)
+    points = np.zeros((len(rows), 3))
+    for index, row in enumerate(rows):
+        row.at_most(7)
+        points[index] = [row.real(column, f"coordinate {column}", 0.0) for column in (1, 2, 3)]
+    return found, points, lambda index: rows[index].source
+
+
+def _generated(block: Block, index: int) -> IntArray:
+    """Labels of one GENERATE line: first, last, increment (1)."""
+    row = block.row(index)
+    first = row.integer(0, "first number")
+    last = row.integer(1, "last number", first)
+    step = row.integer(2, "increment", 1)
+    if step < 1 or last < first or first < 1:
+        raise row.error(f"cannot generate from {first} to {last} in steps of {step}")
+    if (last - first) // step > MOST_GENERATED:
+        raise row.error(f"{(last - first) // step} numbers are too many")
+    return np.arange(first, last + 1, step, dtype=np.int64)

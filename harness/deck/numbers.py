@@ -1,0 +1,80 @@
+# SPDX-FileCopyrightText: The uel-harness authors
+# SPDX-License-Identifier: BSD-3-Clause
+"""Numbers as a deck writes them: one by one with every spelling, or a whole block of plain ones at once."""
+
+from __future__ import annotations
+
+import math
+import re
+
+import numpy as np
+
+from harness.model.arrays import FloatArray, IntArray
+
+# mantissa, then an exponent with E or D; '210e9.0' has one reading only, so it is taken
+_REAL = re.compile(r"([+-]?(?:\d+\.?\d*|\.\d+))(?:[EeDd]([+-]?\d+)(?:\.0*)?)?", re.ASCII)
+_INTEGER = re.compile(r"[+-]?\d+(?:\.0*)?", re.ASCII)
+# float() and int() read these too: 1_000, nan, inf, and digits of other scripts
+_NOT_PLAIN = re.compile(r"[_a-df-zA-DF-Z]|[^\x00-\x7f]")
+LARGEST_INTEGER = 2**31 - 1
+
+
+def read_real(text: str) -> float:
+    """A real number; ValueError where the text is none or is too large."""
+    match = _REAL.fullmatch(text)
+    if match is None:
+        raise ValueError(f"'{text}' is not a number")
+    value = float(f"{match[1]}e{match[2] or 0}")
+    if math.isinf(value):
+        raise ValueError(f"'{text}' is too large")
+    return value
+
+
+def read_integer(text: str) -> int:
+    """An integer, '3.' included; ValueError where the text is none or does not fit 32 bits."""
+    if _INTEGER.fullmatch(text) is None:
+        raise ValueError(f"'{text}' is not an integer")
+    digits = text.split(".", maxsplit=1)[0]
+    if len(digits) > 11 or abs(int(digits)) > LARGEST_INTEGER:
+        raise ValueError(f"'{text}' is too large for an integer")
+    return int(digits)
+
+
+def is_integer(text: str) -> bool:
+    """True for the spelling of an integer."""
+    return _INTEGER.fullmatch(text) is not None
+
+
+def real_table(lines: list[str]) -> FloatArray | None:
+    """(lines, columns) of a block whose lines all hold the same number of plain numbers, None for any other."""
+    tokens = _plain_tokens(lines)
+    if not tokens:
+        return None
+    try:
+        table = np.array(list(map(float, tokens)))
+    except ValueError:
+        return None
+    return table.reshape(len(lines), -1) if np.isfinite(table).all() else None
+
+
+def integer_table(lines: list[str]) -> IntArray | None:
+    """(lines, columns) of a block whose lines all hold the same number of plain integers, None for any other."""
+    tokens = _plain_tokens(lines)
+    if not tokens:
+        return None
+    try:
+        table = np.array(list(map(int, tokens)), dtype=np.int64)
+    except (ValueError, OverflowError):
+        return None
+    return table.reshape(len(lines), -1) if np.abs(table).max() <= LARGEST_INTEGER else None
+
+
+def _plain_tokens(lines: list[str]) -> list[str]:
+    if not lines:
+        return []
+    if lines[0].endswith(","):
+        lines = [line.rstrip(", \t") for line in lines]
+    if len({line.count(",") for line in lines}) != 1:
+        return []
+    text = ",".join(lines)
+    return [] if _NOT_PLAIN.search(text) else text.split(",")

@@ -1,0 +1,66 @@
+# SPDX-FileCopyrightText: The uel-harness authors
+# SPDX-License-Identifier: BSD-3-Clause
+"""Translation followed by rotation about an axis, as *INSTANCE and *NCOPY give them."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+
+from harness.deck.blocks import Block, Row
+from harness.model.arrays import FloatArray
+
+
+@dataclass(frozen=True, slots=True)
+class Placement:
+    """x -> rotation (3, 3) x + shift (3,)."""
+
+    rotation: FloatArray
+    shift: FloatArray
+
+    @property
+    def rotates(self) -> bool:
+        """True where directions change."""
+        return not np.array_equal(self.rotation, np.eye(3))
+
+    def move(self, points: FloatArray) -> FloatArray:
+        """(n, 3) points in their new place."""
+        return points @ self.rotation.T + self.shift
+
+    def turn(self, directions: FloatArray) -> FloatArray:
+        """(n, 3) directions, rotated."""
+        return directions @ self.rotation.T
+
+
+IDENTITY = Placement(np.eye(3), np.zeros(3))
+
+
+def read_placement(block: Block) -> Placement:
+    """Placement of the data lines: a translation, then two points of an axis and an angle in degrees."""
+    rows = list(block.all_rows())
+    if len(rows) > 2:
+        raise rows[2].error("one line with a translation and one with a rotation are read")
+    shift = np.zeros(3)
+    if rows:
+        rows[0].at_most(3)
+        shift = np.array([rows[0].real(index, "translation", 0.0) for index in range(3)])
+    if len(rows) < 2:
+        return Placement(np.eye(3), shift)
+    start, rotation = _read_rotation(rows[1])
+    return Placement(rotation, rotation @ (shift - start) + start)
+
+
+def _read_rotation(row: Row) -> tuple[FloatArray, FloatArray]:
+    """Point of the axis and rotation matrix (Rodrigues' formula)."""
+    row.at_most(7)
+    values = np.array([row.real(index, "rotation", 0.0) for index in range(6)])
+    start, axis = values[:3], values[3:] - values[:3]
+    length = float(np.linalg.norm(axis))
+    if length == 0:
+        raise row.error("the two points of the axis are the same")
+    x, y, z = axis / length
+    angle = math.radians(row.real(6, "angle", 0.0))
+    cross = np.array([[0, -z, y], [z, 0, -x], [-y, x, 0]])
+    return start, np.eye(3) + math.sin(angle) * cross + (1 - math.cos(angle)) * cross @ cross

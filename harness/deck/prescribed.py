@@ -1,0 +1,153 @@
+# SPDX-FileCopyrightText: The uel-harness authors
+# SPDX-License-Identifier: BSD-3-Clause
+"""*BOUNDARY, *CLOAD and *EQUATION."""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Mapping
+from dataclasses import dataclass
+
+from harness.deck.blocks import Block, Row
+from harness.deck.catalogue import look_up
+from harness.deck.flatten import FlatMesh, Owner
+from harness.deck.problems import Problems, nearest
+from harness.deck.table import unquote
+from harness.deck.user_elements import LARGEST_DOF
+from harness.errors import DeckError, Source
+from harness.model.amplitude import Amplitude
+from harness.model.arrays import IntArray
+from harness.model.model import Equation
+from harness.model.steps import Boundary, Load
+
+# dofs that a named boundary type holds (Abaqus Analysis User's Guide, "Boundary conditions")
+NAMED_DOFS = {
+    "XSYMM": (1, 5, 6),
+    "YSYMM": (2, 4, 6),
+    "ZSYMM": (3, 4, 5),
+    "XASYMM": (2, 3, 4),
+    "YASYMM": (1, 3, 5),
+    "ZASYMM": (1, 2, 6),
+    "PINNED": (1, 2, 3),
+    "ENCASTRE": (1, 2, 3, 4, 5, 6),
+}
+REFUSED_TYPES = ("NOWARP", "NOOVAL", "NODEFORM")
+TERMS_FIELDS = 3
+
+
+@dataclass(frozen=True, slots=True)
+class Prescription:
+    """What reading prescribed values needs to know: names, amplitudes, and the dofs that some element uses."""
+
+    flat: FlatMesh
+    amplitudes: Mapping[str, Amplitude]
+    active_dofs: Collection[int]
+
+    def read_boundary(self, block: Block, in_step: bool) -> list[Boundary]:
+        """Entries of one *BOUNDARY, one for each dof."""
+        amplitude = self._amplitude(block)
+        found = []
+        for row in block.rows():
+            nodes = self.flat.nodes(row.name(0, "node or node set"), row.source)
+            dofs = self._dofs(row)
+            magnitude = row.real(3, "value", 0.0)
+            row.at_most(4)
+            if magnitude and not in_step:
+                raise row.error(f"value {magnitude:g} before the first *STEP, where only zero can be prescribed")
+            found += [Boundary(nodes, dof, magnitude, amplitude, row.source) for dof in dofs]
+        return found
+
+    def read_loads(self, block: Block) -> list[Load]:
+        """Entries of one *CLOAD."""
+        amplitude = self._amplitude(block)
+        found = []
+        for row in block.rows():
+            row.at_most(3)
+            nodes = self.flat.nodes(row.name(0, "node or node set"), row.source)
+            dof = _dof(row, 1)
+            found.append(Load(nodes, dof, row.real(2, "value", 0.0), amplitude, row.source))
+        return found
+
+    def _amplitude(self, block: Block) -> Amplitude | None:
+        name = block.options.text("AMPLITUDE")
+        return look_up(self.amplitudes, name, "amplitude", block.source) if name else None
+
+    def _dofs(self, row: Row) -> list[int]:
+        named = unquote(row.text(1, "dof")).replace(" ", "")
+        if named in NAMED_DOFS:
+            # a named type holds of its dofs those that exist
+            return [dof for dof in NAMED_DOFS[named] if dof in self.active_dofs]
+        if named in REFUSED_TYPES:
+            raise row.error(f"boundary type {named} is not supported")
+        if named[:1].isalpha():
+            raise row.error(f"unknown boundary type {named}{nearest(named, NAMED_DOFS)}")
+        first = _dof(row, 1)
+        last = first if row.blank(2) else _dof(row, 2)
+        if last < first:
+            raise row.error(f"last dof {last} is before the first, {first}")
+        return list(range(first, last + 1))
+
+
+def _dof(row: Row, index: int) -> int:
+    dof = row.integer(index, "dof")
+    if not 1 <= dof <= LARGEST_DOF:
+        raise row.error(f"{dof} is not a dof (1 to {LARGEST_DOF})")
+    return dof
+
+
+def read_equations(flat: FlatMesh, problems: Problems) -> tuple[Equation, ...]:
+    """Equations of all instances and of the root."""
+    found: list[Equation] = []
+    for owner in flat.owners:
+        for block in owner.blocks:
+            if block.name == "EQUATION":
+                with problems.gather():
+                    found += _read_equation(flat, owner, block)
+    return tuple(found)
+
+
+def _read_equation(flat: FlatMesh, owner: Owner, block: Block) -> list[Equation]:
+    if owner.placement.rotates:
+        raise block.error(f"is not supported in an instance that is rotated ({owner.name})")
+    rows = iter(block.rows())
+    found = []
+    for head in rows:
+        count = head.integer(0, "number of terms")
+        if count < 1 or len(head) != 1:
+            raise head.error("expected a line with the number of terms")
+        terms: list[tuple[IntArray, int, float]] = []
+        while len(terms) < count:
+            row = next(rows, None)
+            if row is None:
+                raise head.error(f"{count} terms are announced, {len(terms)} are given")
+            terms += _read_terms(flat, owner, row)
+        if len(terms) > count:
+            raise head.error(f"{count} terms are announced, {len(terms)} are given")
+        found += _expand(terms, head.source)
+    return found
+
+
+def _read_terms(flat: FlatMesh, owner: Owner, row: Row) -> list[tuple[IntArray, int, float]]:
+    if len(row) % TERMS_FIELDS:
+        raise row.error("expected node or set, dof, coefficient of each term")
+    return [
+        (
+            flat.nodes(row.name(start, "node or node set"), row.source, owner.name),
+            _dof(row, start + 1),
+            row.real(start + 2, "coefficient"),
+        )
+        for start in range(0, len(row), TERMS_FIELDS)
+    ]
+
+
+def _expand(terms: list[tuple[IntArray, int, float]], source: Source) -> list[Equation]:
+    """One equation for each node of the first term; single nodes stand beside sets of any size."""
+    count = len(terms[0][0])
+    if terms[0][2] == 0:
+        raise DeckError(source, "*EQUATION: the coefficient of the first term, which is eliminated, is zero")
+    if any(len(nodes) not in (1, count) for nodes, _, _ in terms):
+        sizes = ", ".join(str(len(nodes)) for nodes, _, _ in terms)
+        raise DeckError(source, f"*EQUATION: the node sets of the terms have different sizes ({sizes})")
+    return [
+        Equation(tuple((int(nodes[k if len(nodes) > 1 else 0]), dof, factor) for nodes, dof, factor in terms), source)
+        for k in range(count)
+    ]

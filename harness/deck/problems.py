@@ -1,0 +1,59 @@
+# SPDX-FileCopyrightText: The uel-harness authors
+# SPDX-License-Identifier: BSD-3-Clause
+"""What is wrong with a deck, gathered so that one reading reports all of it."""
+
+from __future__ import annotations
+
+import difflib
+from collections.abc import Iterable, Iterator
+from contextlib import contextmanager
+
+from harness.errors import DeckError, Source
+
+MOST_REPORTED = 50
+
+
+class Problems:
+    """Errors and warnings of one deck, each kept once."""
+
+    def __init__(self) -> None:
+        self._errors: dict[tuple[Source, str], DeckError] = {}
+        self._warnings: dict[str, None] = {}
+
+    def add(self, source: Source, message: str) -> None:
+        """Keep an error."""
+        self._errors.setdefault((source, message), DeckError(source, message))
+
+    def warn(self, source: Source, message: str) -> None:
+        """Keep a warning."""
+        self._warnings.setdefault(f"{source}: {message}")
+
+    @contextmanager
+    def gather(self) -> Iterator[None]:
+        """Keep the DeckError that ends the body, so that reading goes on with the next block."""
+        try:
+            yield
+        except DeckError as error:
+            self._errors.setdefault((error.source, str(error)), error)
+
+    @property
+    def warnings(self) -> tuple[str, ...]:
+        """Warnings in the order they came."""
+        return tuple(self._warnings)
+
+    def check(self) -> None:
+        """Raise one DeckError that names every place so far, if there is any."""
+        errors = list(self._errors.values())
+        if len(errors) == 1:
+            raise errors[0]
+        if errors:
+            shown = errors[:MOST_REPORTED]
+            if len(errors) > MOST_REPORTED:
+                shown.append(DeckError(errors[MOST_REPORTED].source, f"and {len(errors) - MOST_REPORTED} more errors"))
+            raise DeckError(shown[0].source, str(shown[0]).removeprefix(f"{shown[0].source}: "), shown[1:])
+
+
+def nearest(word: str, known: Iterable[str]) -> str:
+    """The ending '; did you mean X?' for a misspelt word, '' where nothing is near."""
+    found = difflib.get_close_matches(word, list(known), n=1, cutoff=0.6)
+    return f"; did you mean {found[0]}?" if found else ""

@@ -1,0 +1,70 @@
+# SPDX-FileCopyrightText: The uel-harness authors
+# SPDX-License-Identifier: BSD-3-Clause
+"""From a deck to the model: the stages in their order, each reporting all its errors before the next begins."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+from harness.deck.catalogue import read_amplitudes, read_materials
+from harness.deck.flatten import FlatMesh
+from harness.deck.groups import make_groups
+from harness.deck.lexer import read_blocks
+from harness.deck.prescribed import Prescription, read_equations
+from harness.deck.problems import Problems
+from harness.deck.requests import RequestReader
+from harness.deck.steps import read_steps
+from harness.deck.structure import sort_blocks
+from harness.deck.user_elements import BUILT_IN_DOFS
+from harness.errors import DeckError, Source
+from harness.model.mesh import ElementGroup
+from harness.model.model import Model
+from harness.model.steps import Boundary
+
+
+def read_deck(path: Path) -> Model:
+    """Read an Abaqus input deck; DeckError, one file:line per line, for all that is wrong or not supported."""
+    problems = Problems()
+    blocks = read_blocks(path, problems)
+    structure = sort_blocks(blocks, problems)
+    problems.check()
+    materials = read_materials(structure.root, problems)
+    in_steps = [block for scope in structure.steps for block in scope.blocks]
+    amplitudes = read_amplitudes([*structure.root, *in_steps], problems)
+    flat = FlatMesh(structure, problems)
+    if not any(len(owner.elements) for owner in flat.owners):
+        raise DeckError(Source(str(path), 1), "the deck has no elements")
+    groups = make_groups(flat, materials, problems)
+    if not structure.steps:
+        raise DeckError(Source(str(path), 1), "the deck has no *STEP")
+    prescription = Prescription(flat, amplitudes, _active_dofs(groups))
+    boundaries: list[Boundary] = []
+    for block in structure.root:
+        if block.name == "BOUNDARY":
+            with problems.gather():
+                boundaries += prescription.read_boundary(block, in_step=False)
+    equations = read_equations(flat, problems)
+    steps = read_steps(structure.steps, prescription, RequestReader(flat, problems), problems)
+    problems.check()
+    headings = [line for block in blocks if block.name == "HEADING" for line in block.lines if line]
+    return Model(
+        deck=path,
+        heading=" ".join(headings[:1]),
+        mesh=flat.mesh,
+        groups=groups,
+        steps=steps,
+        nsets=flat.nsets,
+        elsets=flat.elsets,
+        boundaries=tuple(boundaries),
+        equations=equations,
+        ignored=tuple(structure.ignored),
+        warnings=problems.warnings,
+    )
+
+
+def _active_dofs(groups: tuple[ElementGroup, ...]) -> frozenset[int]:
+    """Dofs that some element uses."""
+    used: set[int] = set()
+    for group in groups:
+        used |= {dof for _, dof in group.definition.dofs} if group.definition else set(BUILT_IN_DOFS)
+    return frozenset(used)

@@ -1,0 +1,162 @@
+# SPDX-FileCopyrightText: The uel-harness authors
+# SPDX-License-Identifier: BSD-3-Clause
+"""Output requests of the steps; requests go on in later steps until they are replaced."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from harness.deck.blocks import Block
+from harness.deck.flatten import FlatMesh
+from harness.deck.problems import Problems
+from harness.deck.table import compact
+from harness.deck.user_elements import LARGEST_DOF
+from harness.model.arrays import IntArray
+from harness.model.steps import ElementRequest, NodeRequest, OutputRequests
+
+PRESELECTED_ENERGIES = ("ALLAE", "ALLCD", "ALLIE", "ALLKE", "ALLPD", "ALLSE", "ALLVD", "ALLWK", "ETOTAL")
+PRESELECTED_NODAL = ("U", "RF", "CF")
+NEVER = 0
+
+
+@dataclass(frozen=True, slots=True)
+class _Open:
+    """The *OUTPUT that *NODE OUTPUT and *ENERGY OUTPUT belong to."""
+
+    history: bool
+    frequency: int
+
+
+class RequestReader:
+    """Reads the requests of one step after the other."""
+
+    def __init__(self, flat: FlatMesh, problems: Problems) -> None:
+        self._flat = flat
+        self._problems = problems
+        self._requests = OutputRequests(history_energies=PRESELECTED_ENERGIES)
+        self._open: _Open | None = None
+        self._dropped: set[str] = set()
+        self._readers: dict[str, Callable[[Block], None]] = {
+            "OUTPUT": self._output,
+            "NODE OUTPUT": self._node_output,
+            "ENERGY OUTPUT": self._energy_output,
+            "NODE PRINT": self._node_print,
+            "EL PRINT": self._element_print,
+            "MONITOR": self._monitor,
+        }
+
+    def reads(self, block: Block) -> bool:
+        """True for the keywords of output requests."""
+        return block.name in self._readers
+
+    def read_step(self, blocks: list[Block]) -> OutputRequests:
+        """Requests in force in a step."""
+        self._open = None
+        self._dropped = set()
+        for block in blocks:
+            if self.reads(block):
+                with self._problems.gather():
+                    self._readers[block.name](block)
+        return self._requests
+
+    def _output(self, block: Block) -> None:
+        options = block.options
+        both = not options.flag("FIELD") and not options.flag("HISTORY")
+        kinds = {kind for kind in ("FIELD", "HISTORY") if options.flag(kind) or both}
+        if (options.given("NUMBER INTERVAL") or options.given("TIME INTERVAL")) and options.flag("TIME MARKS"):
+            message = "*OUTPUT: increments do not end at the output times; every increment is written instead"
+            self._problems.warn(block.source, message)
+        self._drop({"NEW": {"FIELD", "HISTORY"}, "REPLACE": kinds}.get(options.text("OP"), set()))
+        frequency = _frequency(block)
+        self._open = _Open("HISTORY" in kinds, frequency)
+        now = self._requests
+        if frequency == NEVER:
+            return
+        if "FIELD" in kinds:
+            smallest = min(now.field_frequency, frequency) if now.field_frequency != NEVER else frequency
+            self._requests = replace(self._requests, field_frequency=smallest)
+        if "HISTORY" in kinds:
+            smallest = min(now.history_frequency, frequency) if now.history_nodes or now.history_energies else frequency
+            energies = PRESELECTED_ENERGIES if options.given("VARIABLE") else now.history_energies
+            self._requests = replace(self._requests, history_frequency=smallest, history_energies=energies)
+
+    def _drop(self, kinds: set[str]) -> None:
+        """Drop the requests of earlier steps of these kinds, once in a step."""
+        if "FIELD" in kinds - self._dropped:
+            self._requests = replace(self._requests, field_frequency=NEVER)
+        if "HISTORY" in kinds - self._dropped:
+            self._requests = replace(self._requests, history_nodes=(), history_energies=(), history_frequency=1)
+        if "NODE PRINT" in kinds - self._dropped:
+            self._requests = replace(self._requests, node_print=())
+        if "EL PRINT" in kinds - self._dropped:
+            self._requests = replace(self._requests, element_print=())
+        self._dropped |= kinds
+
+    def _history(self, block: Block) -> _Open | None:
+        """The *OUTPUT a request belongs to, None where it writes no history."""
+        if self._open is None:
+            raise block.error("does not follow *OUTPUT")
+        return self._open if self._open.history and self._open.frequency != NEVER else None
+
+    def _node_output(self, block: Block) -> None:
+        nodes = self._nodes(block)
+        output = self._history(block)
+        variables = _listed(block) or PRESELECTED_NODAL
+        if output is not None:
+            request = NodeRequest(block.options.text("NSET"), nodes, variables, output.frequency)
+            self._requests = replace(self._requests, history_nodes=(*self._requests.history_nodes, request))
+
+    def _energy_output(self, block: Block) -> None:
+        if self._history(block) is None:
+            return
+        names = _listed(block) or PRESELECTED_ENERGIES
+        energies = tuple(dict.fromkeys((*self._requests.history_energies, *names)))
+        self._requests = replace(self._requests, history_energies=energies)
+
+    def _node_print(self, block: Block) -> None:
+        self._drop({"NODE PRINT"})
+        name, nodes, frequency = block.options.text("NSET"), self._nodes(block), _frequency(block)
+        totals = block.options.flag("TOTALS")
+        tables = [_variables(row.fields) for row in block.rows()] if frequency != NEVER else []
+        requests = [NodeRequest(name, nodes, variables, frequency, totals) for variables in tables]
+        self._requests = replace(self._requests, node_print=(*self._requests.node_print, *requests))
+
+    def _element_print(self, block: Block) -> None:
+        self._drop({"EL PRINT"})
+        name, frequency = block.options.text("ELSET"), _frequency(block)
+        count = sum(len(owner.elements) for owner in self._flat.owners)
+        elements = self._flat.elements(name, block.source) if name else np.arange(count)
+        tables = [_variables(row.fields) for row in block.rows()] if frequency != NEVER else []
+        requests = [ElementRequest(name, elements, variables, frequency) for variables in tables]
+        self._requests = replace(self._requests, element_print=(*self._requests.element_print, *requests))
+
+    def _monitor(self, block: Block) -> None:
+        name, dof = block.options.text("NODE"), block.options.integer("DOF", 0)
+        nodes = self._flat.nodes(name, block.source)
+        if len(nodes) != 1:
+            raise block.error(f"set {name} holds {len(nodes)} nodes where one is monitored")
+        if not 1 <= dof <= LARGEST_DOF:
+            raise block.error(f"{dof} is not a dof (1 to {LARGEST_DOF})")
+        self._requests = replace(self._requests, monitor=(int(nodes[0]), dof))
+
+    def _nodes(self, block: Block) -> IntArray:
+        name = block.options.text("NSET")
+        return self._flat.nodes(name, block.source) if name else np.arange(len(self._flat.mesh.labels))
+
+
+def _listed(block: Block) -> tuple[str, ...]:
+    return tuple(name for row in block.rows() for name in _variables(row.fields))
+
+
+def _variables(fields: tuple[str, ...]) -> tuple[str, ...]:
+    return tuple(compact(name) for name in fields if name)
+
+
+def _frequency(block: Block) -> int:
+    frequency = block.options.integer("FREQUENCY", 1)
+    if frequency < 0:
+        raise block.error(f"FREQUENCY={frequency} must not be negative")
+    return frequency

@@ -1,0 +1,128 @@
+# SPDX-FileCopyrightText: The uel-harness authors
+# SPDX-License-Identifier: BSD-3-Clause
+"""*STEP and *STATIC: the steps of a deck."""
+
+from __future__ import annotations
+
+from harness.deck.blocks import Block
+from harness.deck.controls import ControlState
+from harness.deck.prescribed import Prescription
+from harness.deck.problems import Problems
+from harness.deck.requests import RequestReader
+from harness.deck.structure import Scope
+from harness.model.steps import Boundary, Load, Static, Step
+
+PROCEDURES = {"STATIC"}
+SMALLEST_FRACTION = 1e-5
+MOST_INCREMENTS = 100
+
+
+def read_steps(
+    scopes: list[Scope], prescription: Prescription, requests: RequestReader, problems: Problems
+) -> tuple[Step, ...]:
+    """All steps; controls, output requests and NLGEOM go on from one to the next."""
+    steps: list[Step] = []
+    controls = ControlState()
+    nlgeom = False
+    for number, scope in enumerate(scopes, start=1):
+        for block in scope.blocks:
+            if block.name == "CONTROLS":
+                with problems.gather():
+                    controls = controls.read(block)
+        output = requests.read_step(scope.blocks)
+        nlgeom = nlgeom or scope.head.options.flag("NLGEOM")
+        options = scope.head.options
+        boundaries, new_boundary = _read_boundaries(scope, prescription, problems)
+        loads, new_loads = _read_loads(scope, prescription, problems)
+        with problems.gather():
+            procedure = _read_procedure(scope)
+            increments = options.integer("INC", MOST_INCREMENTS)
+            if increments < 1:
+                raise scope.head.error(f"INC={increments} must be positive")
+            steps.append(
+                Step(
+                    number=number,
+                    name=options.text("NAME") or f"Step-{number}",
+                    procedure=procedure,
+                    source=scope.head.source,
+                    nlgeom=nlgeom,
+                    increments=increments,
+                    extrapolation=options.text("EXTRAPOLATION"),
+                    unsymmetric=options.flag("UNSYMM"),
+                    amplitude=options.text("AMPLITUDE"),
+                    title=" ".join(line for line in scope.head.lines if line),
+                    controls=controls.effective,
+                    boundaries=tuple(boundaries),
+                    new_boundary=new_boundary,
+                    loads=tuple(loads),
+                    new_loads=new_loads,
+                    output=output,
+                )
+            )
+    return tuple(steps)
+
+
+def _read_boundaries(scope: Scope, prescription: Prescription, problems: Problems) -> tuple[list[Boundary], bool]:
+    found: list[Boundary] = []
+    blocks = [block for block in scope.blocks if block.name == "BOUNDARY"]
+    for block in blocks:
+        with problems.gather():
+            found += prescription.read_boundary(block, in_step=True)
+    return found, _is_new(blocks, problems)
+
+
+def _read_loads(scope: Scope, prescription: Prescription, problems: Problems) -> tuple[list[Load], bool]:
+    found: list[Load] = []
+    blocks = [block for block in scope.blocks if block.name == "CLOAD"]
+    for block in blocks:
+        with problems.gather():
+            found += prescription.read_loads(block)
+    return found, _is_new(blocks, problems)
+
+
+def _is_new(blocks: list[Block], problems: Problems) -> bool:
+    """OP=NEW; a step that gives both OP=NEW and OP=MOD is refused, as Abaqus does."""
+    operations = {block.options.text("OP") for block in blocks}
+    if len(operations) > 1:
+        other = next(block for block in blocks if block.options.text("OP") != blocks[0].options.text("OP"))
+        message = f"*{other.name}: OP=NEW and OP=MOD in one step; first OP={blocks[0].options.text('OP')} at "
+        problems.add(other.source, message + str(blocks[0].source))
+    return operations == {"NEW"}
+
+
+def _read_procedure(scope: Scope) -> Static:
+    blocks = [block for block in scope.blocks if block.name in PROCEDURES]
+    if not blocks:
+        raise scope.head.error("the step has no procedure such as *STATIC")
+    if len(blocks) > 1:
+        raise blocks[1].error(f"the step has a procedure already, at {blocks[0].source}")
+    return _read_static(blocks[0])
+
+
+def _read_static(block: Block) -> Static:
+    rows = list(block.all_rows())
+    if len(rows) > 1:
+        raise rows[1].error("a second data line, where one is read")
+    entries = [0.0] * 4
+    if rows:
+        rows[0].at_most(4)
+        names = ("initial increment", "period", "smallest increment", "largest increment")
+        entries = [rows[0].real(index, name, 0.0) for index, name in enumerate(names)]
+        if min(entries) < 0:
+            raise rows[0].error("increments and period must not be negative")
+    direct = block.options.flag("DIRECT")
+    # zero stands for the default everywhere (Abaqus Keywords Guide, *STATIC)
+    period = entries[1] or 1.0
+    initial = entries[0] or period
+    if initial > period:
+        raise rows[0].error(f"initial increment {initial:g} exceeds the period {period:g}")
+    minimum = entries[2] or min(initial, SMALLEST_FRACTION * period)
+    maximum = entries[3] or period
+    if direct:
+        return Static(initial, period, initial, initial, direct=True)
+    if not minimum <= initial <= maximum:
+        range_text = f"{minimum:g} to {maximum:g}"
+        raise rows[0].error(
+            f"initial increment {initial:g} is outside the smallest and largest increment, {range_text}"
+        )
+    return Static(initial, period, minimum, maximum)

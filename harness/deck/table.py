@@ -1,0 +1,185 @@
+# SPDX-FileCopyrightText: The uel-harness authors
+# SPDX-License-Identifier: BSD-3-Clause
+"""What a keyword and its options are: the entries of the keyword table, and how a keyword line is read against it."""
+
+from __future__ import annotations
+
+import re
+from dataclasses import dataclass
+from enum import StrEnum
+
+from harness.deck.numbers import read_integer, read_real
+from harness.deck.problems import nearest
+from harness.errors import DeckError, Source
+
+
+class Kind(StrEnum):
+    """What the value of an option is."""
+
+    FLAG = "flag"
+    SWITCH = "YES or NO"
+    NAME = "name"
+    INTEGER = "integer"
+    REAL = "real"
+    CHOICE = "choice"
+    FILE = "file"
+
+
+class Support(StrEnum):
+    """What the reader does with a keyword or an option."""
+
+    READ = "read"
+    IGNORED = "cannot change the solution: listed and ignored"
+    REFUSED = "refused"
+
+
+class Where(StrEnum):
+    """Part of the deck a keyword belongs to."""
+
+    MODEL = "model"
+    STEP = "step"
+    ANY = "model or step"
+
+
+@dataclass(frozen=True, slots=True)
+class Option:
+    """One option of a keyword line. `refused` are values Abaqus knows that would change the solution here."""
+
+    name: str
+    kind: Kind = Kind.FLAG
+    doc: str = ""
+    required: bool = False
+    default: str = ""
+    choices: tuple[str, ...] = ()
+    refused: tuple[str, ...] = ()
+    support: Support = Support.READ
+
+
+@dataclass(frozen=True, slots=True)
+class Keyword:
+    """One keyword. `data` says what its data lines hold, '' where it takes none."""
+
+    name: str
+    doc: str
+    where: Where
+    options: tuple[Option, ...] = ()
+    data: str = ""
+    support: Support = Support.READ
+
+
+@dataclass(frozen=True, slots=True)
+class Options:
+    """Options of one keyword line, checked against the table; names are those of the table."""
+
+    values: dict[str, str]
+
+    def flag(self, name: str) -> bool:
+        """True where the flag or switch is on."""
+        return self.values.get(name, "NO") != "NO"
+
+    def given(self, name: str) -> bool:
+        """True where the option is on the line."""
+        return name in self.values
+
+    def text(self, name: str) -> str:
+        """Name, choice or file; the default, or '', where the option is absent."""
+        return self.values.get(name, "")
+
+    def integer(self, name: str, default: int) -> int:
+        """Integer value."""
+        return read_integer(self.values[name]) if name in self.values else default
+
+    def real(self, name: str, default: float) -> float:
+        """Real value."""
+        return read_real(self.values[name]) if name in self.values else default
+
+
+def compact(word: str) -> str:
+    """Spelling in which words are compared: upper case, without blanks."""
+    return re.sub(r"\s+", "", word).upper()
+
+
+def split_fields(line: str) -> list[str]:
+    """Fields between commas, stripped; commas within quotes do not separate."""
+    if '"' not in line:
+        return [part.strip() for part in line.split(",")]
+    return [part.strip() for part in re.findall(r'(?:^|,)((?:[^,"]|"[^"]*"|")*)', line)]
+
+
+def unquote(name: str) -> str:
+    """A name without its quotes, in upper case and with single blanks: names are compared like this."""
+    return re.sub(r"\s+", " ", name.replace('"', "").strip()).upper()
+
+
+def read_options(keyword: Keyword, fields: list[str], source: Source) -> Options:
+    """Options of a keyword line; DeckError for an unknown, missing, ill-typed or unsupported one."""
+    values: dict[str, str] = {}
+    for text in fields:
+        if not text:
+            continue
+        name, equals, value = text.partition("=")
+        option = _find_option(keyword, name, source)
+        if option.support is Support.REFUSED:
+            raise DeckError(source, f"*{keyword.name}: option {option.name} is not supported")
+        if option.support is Support.READ:
+            values[option.name] = _read_value(keyword, option, value.strip() if equals else None, source)
+    for option in keyword.options:
+        if option.required and option.name not in values:
+            raise DeckError(source, f"*{keyword.name} needs the option {option.name}")
+        if option.default:
+            values.setdefault(option.name, option.default)
+    return Options(values)
+
+
+def _find_option(keyword: Keyword, name: str, source: Source) -> Option:
+    """Option of this name, or the only one that begins like this."""
+    wanted = compact(name)
+    begins = [option for option in keyword.options if wanted and compact(option.name).startswith(wanted)]
+    exact = [option for option in begins if compact(option.name) == wanted]
+    if exact or len(begins) == 1:
+        return (exact or begins)[0]
+    if begins:
+        names = " or ".join(option.name for option in begins)
+        raise DeckError(source, f"*{keyword.name}: option {name.strip()} may be {names}; write it out")
+    hint = nearest(name.strip().upper(), [option.name for option in keyword.options])
+    raise DeckError(source, f"*{keyword.name}: unknown option {name.strip()}{hint}")
+
+
+def _read_value(keyword: Keyword, option: Option, value: str | None, source: Source) -> str:
+    place = f"*{keyword.name}, {option.name}"
+    if option.kind is Kind.FLAG:
+        if value and value.upper() not in ("YES", "NO"):
+            raise DeckError(source, f"{place} takes no value, '{value}' is given")
+        return (value or "YES").upper()
+    if option.kind is Kind.SWITCH:
+        return (
+            _choose(place, value or "YES", ("YES", "NO", "ON", "OFF"), (), source)
+            .replace("ON", "YES")
+            .replace("OFF", "NO")
+        )
+    if not value:
+        raise DeckError(source, f"{place} needs a value")
+    if option.kind is Kind.CHOICE:
+        return _choose(place, value, option.choices, option.refused, source)
+    if option.kind is Kind.FILE:
+        return value.strip('"')
+    if option.kind is Kind.NAME:
+        return unquote(value)
+    try:
+        return str(read_integer(value)) if option.kind is Kind.INTEGER else repr(read_real(value))
+    except ValueError as error:
+        raise DeckError(source, f"{place}: {error}") from None
+
+
+def _choose(place: str, value: str, choices: tuple[str, ...], refused: tuple[str, ...], source: Source) -> str:
+    wanted = compact(value.replace('"', ""))
+    begins = [choice for choice in choices + refused if compact(choice).startswith(wanted)]
+    exact = [choice for choice in begins if compact(choice) == wanted]
+    if not exact and len(begins) != 1:
+        raise DeckError(
+            source, f"{place}={value}: expected one of {', '.join(choices)}{nearest(value.upper(), choices)}"
+        )
+    chosen = (exact or begins)[0]
+    if chosen in refused:
+        raise DeckError(source, f"{place}={chosen} is not supported (supported: {', '.join(choices)})")
+    return chosen

@@ -1,0 +1,114 @@
+# SPDX-FileCopyrightText: The uel-harness authors
+# SPDX-License-Identifier: BSD-3-Clause
+"""*USER ELEMENT, and what an element type name stands for."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+from harness.deck.blocks import Block
+from harness.deck.problems import nearest
+from harness.errors import DeckError, Source
+from harness.model.properties import UserElement
+
+BUILT_IN_NODES = {"CPS4": 4, "CPE4": 4, "CPS3": 3, "CPE3": 3}
+BUILT_IN_DOFS = (1, 2)
+_USER_TYPE = re.compile(r"U([1-9]\d{0,3})")
+LARGEST_DOF = 30
+MOST_NODES = 10_000
+MOST_VALUES = 10_000_000
+
+Definitions = Mapping[str, UserElement]
+
+
+@dataclass(frozen=True, slots=True)
+class ElementType:
+    """Type name with the user element it stands for, None for a built-in element."""
+
+    name: str
+    definition: UserElement | None
+
+    @property
+    def nodes(self) -> int:
+        """Nodes per element."""
+        return self.definition.nodes if self.definition else BUILT_IN_NODES[self.name]
+
+
+def find_type(name: str, definitions: Definitions, source: Source) -> ElementType:
+    """The element type of a name; DeckError where it is neither built in nor defined."""
+    if name in BUILT_IN_NODES:
+        return ElementType(name, None)
+    if name in definitions:
+        return ElementType(name, definitions[name])
+    if _USER_TYPE.fullmatch(name):
+        defined = ", ".join(definitions) or "none"
+        raise DeckError(source, f"element type {name} is not defined by *USER ELEMENT (defined: {defined})")
+    known = [*BUILT_IN_NODES, *definitions]
+    message = f"element type {name} is not supported (supported: {', '.join(BUILT_IN_NODES)} and user elements)"
+    raise DeckError(source, message + nearest(name, known))
+
+
+def read_user_element(block: Block) -> UserElement:
+    """The definition a *USER ELEMENT gives."""
+    options = block.options
+    name = options.text("TYPE")
+    match = _USER_TYPE.fullmatch(name)
+    if match is None:
+        raise block.error(f"TYPE={name}: expected Un with n from 1 to 9999")
+    if options.given("INTEGRATION") != options.given("TENSOR"):
+        raise block.error("INTEGRATION and TENSOR are given together or not at all")
+    nodes = _count(block, "NODES", 0, 1, MOST_NODES)
+    return UserElement(
+        number=int(match[1]),
+        nodes=nodes,
+        dofs=_read_dofs(block, nodes),
+        source=block.source,
+        coordinates=_count(block, "COORDINATES", 1, 1, 3),
+        properties=_count(block, "PROPERTIES", 0, 0, MOST_VALUES),
+        integer_properties=_count(block, "I PROPERTIES", 0, 0, MOST_VALUES),
+        variables=_count(block, "VARIABLES", 1, 1, MOST_VALUES),
+        unsymmetric=options.flag("UNSYMM"),
+        integration=_count(block, "INTEGRATION", 0, 0, MOST_VALUES),
+        tensor=options.text("TENSOR"),
+    )
+
+
+def _count(block: Block, name: str, default: int, least: int, most: int) -> int:
+    value = block.options.integer(name, default)
+    if not least <= value <= most:
+        raise block.error(f"{name}={value}: expected a number from {least} to {most}")
+    return value
+
+
+def _read_dofs(block: Block, nodes: int) -> tuple[tuple[int, int], ...]:
+    """(local node, dof) of each unknown.
+
+    The first line holds the dofs from node 1 on, each later line `position, dofs` those from that position on. A
+    position that does not exceed the one before begins another pass over the nodes.
+    """
+    passes: list[list[tuple[int, tuple[int, ...]]]] = []
+    for row in block.rows():
+        first = not passes
+        position = 1 if first else row.integer(0, "node position")
+        if not 1 <= position <= nodes:
+            raise row.error(f"node position {position} of an element of {nodes} nodes")
+        dofs = tuple(row.integer(index, "dof") for index in range(0 if first else 1, len(row)))
+        if any(not 1 <= dof <= LARGEST_DOF for dof in dofs):
+            raise row.error(f"a dof is a number from 1 to {LARGEST_DOF}")
+        if first or position <= passes[-1][-1][0]:
+            passes.append([])
+        passes[-1].append((position, dofs))
+    if not passes:
+        raise block.error("needs a data line with the dofs at the first node")
+    found: list[tuple[int, int]] = []
+    for entries in passes:
+        for (position, dofs), following in zip(entries, [*(entry[0] for entry in entries[1:]), nodes + 1], strict=True):
+            found += [(node - 1, dof) for node in range(position, following) for dof in dofs]
+    if len(set(found)) != len(found):
+        node, dof = next(pair for pair in found if found.count(pair) > 1)
+        raise block.error(f"dof {dof} is listed twice at node {node + 1}")
+    if not found:
+        raise block.error("no node has a dof")
+    return tuple(found)

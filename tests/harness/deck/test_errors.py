@@ -1,0 +1,166 @@
+# SPDX-FileCopyrightText: The uel-harness authors
+# SPDX-License-Identifier: BSD-3-Clause
+"""Every message of the reader: file:line first, then what is wrong."""
+
+from collections.abc import Callable
+from pathlib import Path
+
+import pytest
+
+from harness.errors import DeckError
+from harness.model.model import Model
+
+Read = Callable[[str], Model]
+FLAT = Path(__file__).with_name("flat.inp").read_text()
+CAE = Path(__file__).with_name("cae.inp").read_text()
+
+
+# what to replace in flat.inp, by what, and the line and text of the message
+MISTAKES = {
+    "unknown keyword": ("*MATERIAL", "*MATRIAL", r"29: unknown keyword \*MATRIAL; did you mean MATERIAL\?"),
+    "unknown option": (
+        "TYPE=U1, NODES",
+        "TIPE=U1, NODES",
+        r"7: \*USER ELEMENT: unknown option TIPE; did you mean TYPE\?",
+    ),
+    "missing option": ("*MATERIAL, NAME=PLY", "*MATERIAL", r"29: \*MATERIAL needs the option NAME"),
+    "ambiguous option": ("INC=500", "N=500", r"41: \*STEP: option N may be NAME or NLGEOM; write it out"),
+    "option without value": ("NAME=PLY", "NAME=", r"29: \*MATERIAL, NAME needs a value"),
+    "flag with a value": ("GENERATE", "GENERATE=3", r"25: \*NSET, GENERATE takes no value, '3' is given"),
+    "switch": ("NLGEOM=NO", "NLGEOM=MAYBE", r"41: \*STEP, NLGEOM=MAYBE: expected one of YES, NO, ON, OFF"),
+    "choice": ("TENSOR=PSTRESS", "TENSOR=PSTRES5", r"7: TENSOR=PSTRES5: expected one of .*; did you mean PSTRESS\?"),
+    "integer option": ("NODES=4", "NODES=four", r"7: \*USER ELEMENT, NODES: 'four' is not an integer"),
+    "unsupported keyword": ("*CLOAD\n", "*DLOAD\n", r"48: \*DLOAD is not supported"),
+    "unsupported option": ("*STATIC", "*STATIC, RIKS", r"43: \*STATIC: option RIKS is not supported"),
+    "unsupported value": (
+        "*ELASTIC",
+        "*ELASTIC, TYPE=TRACTION",
+        r"30: \*ELASTIC, TYPE=TRACTION is not supported \(supported: ISO",
+    ),
+    "perturbation": ("INC=500", "PERTURBATION", r"41: \*STEP: option PERTURBATION is not supported"),
+    "stabilize": ("*STATIC", "*STATIC, STABILIZE", r"43: \*STATIC: option STABILIZE is not supported"),
+    "coordinate system": (
+        "*NODE, NSET=ALL",
+        "*NODE, SYSTEM=C",
+        r"11: \*NODE, SYSTEM=C is not supported \(supported: R\)",
+    ),
+    "system": ("*NODE, NSET=ALL", "*SYSTEM\n*NODE, NSET=ALL", r"11: \*SYSTEM is not supported"),
+    "parameter": ("<width>", "<with>", r"33: parameter <with> is not defined"),
+    "expression": ("half = width/2", "half = open('x')", r"6: \*PARAMETER: 'open\('x'\)' is not arithmetic"),
+    "division by zero": ("half = width/2", "half = width/0", r"6: \*PARAMETER: 'half = width/0' cannot be evaluated"),
+    "integer division": ("half = width/2", "half = 1/2", r"6: 1/2 of two integers depends on the release of Abaqus"),
+    "no assignment": ("half = width/2", "half", r"6: 'half' is not of the form name = expression"),
+    "missing include": ("*CLOAD\n", "*INCLUDE, INPUT=loads.inp\n*CLOAD\n", r"48: cannot read loads.inp: No such file"),
+    "no data lines": ("*END STEP", "*END STEP\n1, 2", r"65: \*END STEP takes no data lines"),
+    "step keyword outside": ("*MATERIAL", "*STATIC\n*MATERIAL", r"29: \*STATIC: belongs between \*STEP and \*END STEP"),
+    "model keyword in a step": ("*CLOAD", "*MATERIAL, NAME=X\n*CLOAD", r"48: \*MATERIAL: model data within a step"),
+    "end without step": (
+        "*STEP, NAME=Load, INC=500, NLGEOM=NO\n",
+        "",
+        r"42: \*STATIC: belongs between \*STEP and \*END STEP",
+    ),
+    "type of user element": (
+        "*User Element, Type=U2",
+        "*User Element, Type=V2",
+        r"9: TYPE=V2: expected Un with n from 1",
+    ),
+    "variables": ("VARIABLES=32", "VARIABLES=0", r"7: VARIABLES=0: expected a number from 1"),
+    "nodes": ("NODES=4", "NODES=0", r"7: NODES=0: expected a number from 1"),
+    "tensor alone": ("INTEGRATION=4, ", "", r"7: INTEGRATION and TENSOR are given together or not at all"),
+    "non-numeric coordinate": ("3, 1., 1.\n", "3, 1., one\n", r"14: \*NODE: coordinate 2: 'one' is not a number"),
+    "infinite coordinate": ("3, 1., 1.\n", "3, 1., 1e999\n", r"14: \*NODE: coordinate 2: '1e999' is too large"),
+    "nan": ("3, 1., 1.\n", "3, 1., nan\n", r"14: \*NODE: coordinate 2: 'nan' is not a number"),
+    "node number": ("3, 1., 1.\n", "3.5, 1., 1.\n", r"14: '3.5' is not an integer"),
+    "negative node number": ("3, 1., 1.\n", "-3, 1., 1.\n", r"14: -3 is not a node or element number"),
+    "node twice": ("4, 0., 1.\n", "3, 0., 1.\n", r"15: node 3 is defined twice, with different coordinates"),
+    "element twice": ("2, 5, 6, 7, 8", "1, 5, 6, 7, 8", r"22: element 1 is defined twice"),
+    "missing node": ("1, 1, 2, 3, 4", "1, 1, 2, 3, 9", r"21: element 1 uses node 9, which is not defined"),
+    "too few nodes": ("1, 1, 2, 3, 4", "1, 1, 2, 3", r"21: element 1 lists 3 nodes where U1 has 4"),
+    "too many nodes": ("1, 1, 2, 3, 4", "1, 1, 2, 3, 4, 5", r"21: element 1 lists 5 nodes where U1 has 4"),
+    "non-numeric connectivity": ("1, 1, 2, 3, 4", "1, 1, 2, x, 4", r"21: \*ELEMENT: 'x' is not a node number"),
+    "element type": ("*ELEMENT, TYPE=U2", "*ELEMENT, TYPE=U3", r"23: element type U3 is not defined by \*USER ELEMENT"),
+    "built-in type": (
+        "*ELEMENT, TYPE=U2",
+        "*ELEMENT, TYPE=C3D8",
+        r"23: element type C3D8 is not supported \(supported",
+    ),
+    "set member": ("7, 8,\n", "7, NOWHERE\n", r"28: unknown node set NOWHERE"),
+    "generate": ("GENERATE\n1, 2, 1", "GENERATE\n2, 1, 1", r"26: \*NSET: cannot generate from 2 to 1 in steps of 1"),
+    "node set": ("TOP, 1\n", "TOPP, 1\n", r"47: unknown node set TOPP; did you mean TOP\?"),
+    "node of a boundary": ("TOP, 1\n", "99, 1\n", r"47: node 99 is not defined"),
+    "element set": (
+        "*UEL PROPERTY, ELSET=BULK,",
+        "*UEL PROPERTY, ELSET=BULL,",
+        r"32: unknown element set BULL; did you m",
+    ),
+    "amplitude": ("AMPLITUDE=GROW", "AMPLITUDE=GROWN", r"45: unknown amplitude GROWN; did you mean GROW\?"),
+    "material": ("MATERIAL=PLY", "MATERIAL=PLI", r"32: unknown material PLI; did you mean PLY\?"),
+    "orientation": ("MATERIAL=PLY", "ORIENTATION=FIBRE", r"32: unknown orientation FIBRE"),
+    "too few properties": (
+        "MATERIAL=PLY\n<width>",
+        "MATERIAL=PLY\n",
+        r"32: 0 values where U1 takes 1 \(PROPERTIES=1\)",
+    ),
+    "too many properties": (
+        "MATERIAL=PLY\n<width>",
+        "MATERIAL=PLY\n1,2",
+        r"32: 2 values where U1 takes 1 \(PROPERTIES=1\)",
+    ),
+    "section keyword": (
+        "*ELEMENT, TYPE=U2, ELSET=INTERFACE",
+        "*ELEMENT, TYPE=CPS4, ELSET=INTERFACE",
+        r"34: \*UEL PROPERTY: element set INTERFACE holds elements of type",
+    ),
+    "second section": (
+        "*AMPLITUDE",
+        "*UEL PROPERTY, ELSET=BULK\n1.\n*AMPLITUDE",
+        r"37: element 1 has a section already, by",
+    ),
+    "boundary type": ("BOTTOM, PINNED", "BOTTOM, PINED", r"40: unknown boundary type PINED; did you mean PINNED\?"),
+    "boundary type of tubes": ("BOTTOM, PINNED", "BOTTOM, NOWARP", r"40: boundary type NOWARP is not supported"),
+    "value before the steps": ("BOTTOM, PINNED", "BOTTOM, 1, 1, 0.5", r"40: value 0.5 before the first \*STEP"),
+    "dof": ("TOP, 1\n", "TOP, 31\n", r"47: 31 is not a dof \(1 to 30\)"),
+    "dof range": ("TOP, 1\n", "TOP, 2, 1\n", r"47: last dof 1 is before the first, 2"),
+    "missing dof": ("TOP, 1\n", "TOP\n", r"47: \*BOUNDARY: dof is missing"),
+    "too many entries": ("3, 1, 5.\n", "3, 1, 5., 6.\n", r"49: 4 entries where at most 3 are read"),
+    "prescribed velocity": ("AMPLITUDE=GROW", "TYPE=VELOCITY", r"45: \*BOUNDARY, TYPE=VELOCITY is not supported"),
+    "no procedure": ("*STATIC\n0.1, 1., 1.E-8, 0.25\n", "", r"41: \*STEP: the step has no procedure such as \*STATIC"),
+    "increment too large": ("0.1, 1., 1.E-8, 0.25", "2., 1.", r"44: initial increment 2 exceeds the period 1"),
+    "increment out of range": (
+        "0.1, 1., 1.E-8, 0.25",
+        "0.1, 1., 0.2",
+        r"44: initial increment 0.1 is outside the smallest",
+    ),
+    "negative increment": ("0.1, 1., 1.E-8, 0.25", "-0.1, 1.", r"44: increments and period must not be negative"),
+    "second line of static": (
+        "0.1, 1., 1.E-8, 0.25",
+        "0.1, 1.\n0.1",
+        r"45: \*STATIC: a second data line, where one is read",
+    ),
+    "frequency": ("FREQUENCY=10", "FREQUENCY=-1", r"60: \*EL PRINT: FREQUENCY=-1 must not be negative"),
+    "monitored node": ("NODE=7, DOF=2", "NODE=TOP, DOF=2", r"62: set TOP holds 2 nodes where one is monitored"),
+    "monitored dof": ("NODE=7, DOF=2", "NODE=7, DOF=77", r"62: 77 is not a dof"),
+    "request without output": ("*OUTPUT, FIELD, FREQUENCY=5\n", "", r"50: \*NODE OUTPUT: does not follow \*OUTPUT"),
+    "elastic constants": (
+        "70000., 0.3",
+        "70000., 0.3, 20.",
+        r"31: 3 values where ISOTROPIC takes 2; dependence on temp",
+    ),
+    "modulus": ("70000., 0.3", "-70000., 0.3", r"31: E = -70000, nu = 0.3: expected E > 0"),
+    "stray elastic": ("*MATERIAL, NAME=PLY\n", "", r"29: \*ELASTIC: does not follow \*MATERIAL"),
+    "amplitude times": ("0., 0., 1., 1.\n", "0., 0., 0., 1.\n", r"38: \*AMPLITUDE: times must increase"),
+    "amplitude pairs": ("0., 0., 1., 1.\n", "0., 0., 1.\n", r"38: \*AMPLITUDE: expected pairs of time and value"),
+    "amplitude kind": ("NAME=GROW", "NAME=GROW, DEFINITION=USER", r"37: DEFINITION=USER is not supported"),
+    "load of a list": ("3, 1, 5.\n", "3, 1, five\n", r"49: \*CLOAD: value: 'five' is not a number"),
+    "integer property": ("3, -4\n", "3, -4.5\n", r"36: integer property -4.5 is not an integer"),
+    "real property": ("<half>, 1.E6", "<half>, 1.E6e", r"35: \*UEL PROPERTY: property 2: '1.E6e' is not a number"),
+}
+
+
+@pytest.mark.parametrize("name", MISTAKES)
+def test_mistake(read: Read, name: str) -> None:
+    old, new, message = MISTAKES[name]
+    assert old in FLAT
+    line, text = message.split(": ", 1)
+    with pytest.raises(DeckError, match=rf"^deck\.inp:{line}: .*{text}"):
+        read(FLAT.replace(old, new, 1))

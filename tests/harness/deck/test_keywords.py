@@ -1,0 +1,20 @@
+# SPDX-FileCopyrightText: The uel-harness authors
+# SPDX-License-Identifier: BSD-3-Clause
+"""The keyword table and the page made from it."""
+
+from harness.deck.abaqus_names import ABAQUS_KEYWORDS
+from harness.deck.keywords import KEYWORDS, MARKDOWN, markdown
+
+
+def test_page_is_current() -> None:
+    assert MARKDOWN.read_text(encoding="utf-8") == markdown(), "run python -m harness.deck"
+
+
+def test_every_keyword_is_one_of_abaqus() -> None:
+    assert {keyword.name for keyword in KEYWORDS.values()} <= ABAQUS_KEYWORDS
+
+
+def test_options_have_one_entry_each() -> None:
+    for keyword in KEYWORDS.values():
+        names = [option.name for option in keyword.options]
+        assert len(names) == len(set(names)), keyword.name
