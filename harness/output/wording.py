@@ -42,5 +42,5 @@ def remark(kind: str, text: str) -> str:
     Notes and warnings of Abaqus are in upper case; names and paths are left as they are.
     """
     head = f" ***{kind}: "
-    lines = textwrap.wrap(text, 78 - len(head), break_long_words=False, break_on_hyphens=False) or [""]
+    lines = textwrap.wrap(text, 80 - len(head), break_long_words=False, break_on_hyphens=False) or [""]
     return "\n".join([head + lines[0], *(" " * len(head) + line for line in lines[1:])]) + "\n"

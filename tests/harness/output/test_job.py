@@ -219,8 +219,8 @@ def test_history_and_status_of_an_increment_take_less_than_a_millisecond(
     done = next(record for record in records(model) if isinstance(record, IncrementDone))
     times = []
     for k in range(1, 200):
-        begin = time.perf_counter()
+        begin = time.process_time()
         output.write(replace(done, increment=k))
-        times.append(time.perf_counter() - begin)
+        times.append(time.process_time() - begin)
     output.close(None)
     assert np.median(times) < 1e-3

@@ -1,0 +1,186 @@
+# SPDX-FileCopyrightText: The uel-harness authors
+# SPDX-License-Identifier: BSD-3-Clause
+"""Figures for print: load-displacement curves and profiles along an interface.
+
+Colours are those of Okabe and Ito, which colour-blind readers tell apart; each curve also has its own line style or
+marker, so a figure survives black and white. The legend stands above the axes and covers nothing.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import matplotlib as mpl
+from matplotlib.backends.backend_agg import FigureCanvasAgg
+from matplotlib.figure import Figure
+from numpy.typing import ArrayLike
+
+COLOURS = ("#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9", "#000000")
+_DASHES: tuple[Any, ...] = ("-", (0, (6, 2)), (0, (4, 1.5, 1, 1.5)), (0, (1.5, 1.2)))
+_MARKERS = ("o", "s", "^", "D", "v", "P", "X")
+_STYLE: dict[Any, Any] = {
+    "font.family": "sans-serif",
+    "font.size": 9,
+    "axes.labelsize": 9,
+    "axes.linewidth": 0.8,
+    "axes.spines.top": False,
+    "axes.spines.right": False,
+    "axes.grid": True,
+    "grid.color": "0.9",
+    "grid.linewidth": 0.6,
+    "legend.frameon": False,
+    "legend.fontsize": 8,
+    "lines.linewidth": 1.5,
+    "xtick.direction": "in",
+    "ytick.direction": "in",
+}
+
+
+@dataclass(frozen=True, slots=True)
+class Curve:
+    """One curve of a figure.
+
+    kind  'line'; 'reference' (thin, grey, drawn below the others: theory); 'points' (markers only: few values, as of
+          an experiment or another code); 'marked' (line with a marker at every value)
+    """
+
+    label: str
+    x: ArrayLike
+    y: ArrayLike
+    kind: str = "line"
+
+
+def load_displacement(
+    curves: Sequence[Curve],
+    path: Path,
+    *,
+    x_label: str = "Displacement [mm]",
+    y_label: str = "Load [N]",
+    title: str = "",
+) -> Path:
+    """Load over displacement, both axes from zero where the data allow.
+
+    Parameters
+    ----------
+    curves
+        At least one.
+    path
+        .png (300 dots per inch), .pdf or .svg.
+    x_label, y_label
+        With units.
+    title
+        Above the legend, none by default: print has a caption.
+
+    Returns
+    -------
+    Path
+        `path`.
+    """
+    return _draw([curves], path, x_label, [y_label], title, from_zero=True)
+
+
+def profile(
+    curves: Sequence[Curve],
+    path: Path,
+    *,
+    x_label: str = "Position along the interface [mm]",
+    y_label: str = "Normal traction [MPa]",
+    title: str = "",
+) -> Path:
+    """A quantity along an interface; arguments as in `load_displacement`."""
+    return _draw([curves], path, x_label, [y_label], title)
+
+
+def profiles(
+    panels: Sequence[Sequence[Curve]],
+    path: Path,
+    *,
+    y_labels: Sequence[str],
+    x_label: str = "Position along the interface [mm]",
+    title: str = "",
+) -> Path:
+    """Several quantities along one interface, a panel each above a common axis.
+
+    Curves of the same label look the same in every panel and stand in the legend once.
+    """
+    return _draw(panels, path, x_label, y_labels, title)
+
+
+def _draw(
+    panels: Sequence[Sequence[Curve]],
+    path: Path,
+    x_label: str,
+    y_labels: Sequence[str],
+    title: str,
+    *,
+    from_zero: bool = False,
+) -> Path:
+    with mpl.rc_context(_STYLE):
+        # 140 mm, the text width of a one-column page: prints without scaling, so fonts keep their size
+        figure = Figure(figsize=(5.5, 3.4 + 1.9 * (len(panels) - 1)), layout="constrained")
+        FigureCanvasAgg(figure)
+        axes = figure.subplots(len(panels), 1, sharex=True, squeeze=False)[:, 0]
+        looks = _looks([curve for curves in panels for curve in curves])
+        for axis, curves, y_label in zip(axes, panels, y_labels, strict=True):
+            for curve in curves:
+                axis.plot(curve.x, curve.y, label=curve.label, **looks[curve.label])
+            axis.set_ylabel(y_label)
+            axis.margins(x=0.02)
+            if from_zero:
+                _start_at_zero(axis)
+        axes[-1].set_xlabel(x_label)
+        figure.align_ylabels(axes)
+        handles = {
+            label: handle for axis in axes for handle, label in zip(*axis.get_legend_handles_labels(), strict=True)
+        }
+        if len(handles) > 1:
+            longest = max(map(len, handles))
+            figure.legend(
+                handles.values(),
+                handles.keys(),
+                loc="outside upper center",
+                ncols=max(1, min(len(handles), 84 // (longest + 8))),
+                handlelength=2.8,
+            )
+        if title:
+            figure.suptitle(title, fontsize=10)
+        figure.savefig(path, dpi=300)
+    return path
+
+
+def _looks(curves: Sequence[Curve]) -> dict[str, dict[str, Any]]:
+    """Arguments of `plot` for each label."""
+    looks: dict[str, dict[str, Any]] = {}
+    drawn = references = 0
+    for curve in curves:
+        if curve.label in looks:
+            continue
+        if curve.kind == "reference":
+            looks[curve.label] = {
+                "color": "0.35",
+                "linewidth": 1.0,
+                "linestyle": _DASHES[(references + 1) % len(_DASHES)],
+                "zorder": 1.5,
+            }
+            references += 1
+            continue
+        look: dict[str, Any] = {"color": COLOURS[drawn % len(COLOURS)]}
+        if curve.kind in ("points", "marked"):
+            look |= {"marker": _MARKERS[drawn % len(_MARKERS)], "markersize": 3.5 if curve.kind == "points" else 2.5}
+        look["linestyle"] = "none" if curve.kind == "points" else _DASHES[drawn % len(_DASHES)]
+        looks[curve.label] = look
+        drawn += 1
+    return looks
+
+
+def _start_at_zero(axis: Any) -> None:
+    """Let both axes begin at zero unless there are values below it."""
+    left, right = axis.dataLim.intervalx
+    bottom, top = axis.dataLim.intervaly
+    if left >= 0.0 and right > 0.0:
+        axis.set_xlim(left=0.0)
+    if bottom >= 0.0 and top > 0.0:
+        axis.set_ylim(bottom=0.0)
