@@ -96,10 +96,13 @@ class IncrementControl:
     def attempt(self, step_time: float) -> float:
         """Size of the next attempt from `step_time`; the last increment ends with the period."""
         self.attempts += 1
-        left = self._procedure.period - step_time
-        if left <= self._size * (1.0 + _END):
-            self._size = left
+        self._size = self.following(step_time)
         return self._size
+
+    def following(self, step_time: float) -> float:
+        """Size of an increment from `step_time`; 0 at the end of the step."""
+        left = self._procedure.period - step_time
+        return max(left, 0.0) if left <= self._size * (1.0 + _END) else self._size
 
     def abandon(self, abandoned: Abandoned) -> tuple[float, str]:
         """Size of the next attempt after one is given up; (0, error) where the job ends.

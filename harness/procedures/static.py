@@ -160,7 +160,8 @@ class StaticStep:
         times = call.step_time, call.total_time
         self._user.external_database(2, 0, times, call.time_increment, call.step, increment)
         solution = self._state.solution(self._system)
-        return IncrementDone(call.step, increment, attempt, last.iteration, *times, call.time_increment, solution)
+        size, following = call.time_increment, self._control.following(self._time)
+        return IncrementDone(call.step, increment, attempt, last.iteration, *times, size, solution, following)
 
     def _abandon(self, abandoned: Abandoned, increment: int, iterations: int, size: float) -> Iterator[Record]:
         """Report the attempt; raise ConvergenceError where no other is left."""

@@ -118,6 +118,13 @@ def test_parabolic_extrapolation_is_exact_for_a_parabola(bench):
     assert corrections == pytest.approx([1.0, 2.0, 0.0, 0.0])
 
 
+def test_an_increment_says_what_comes_next(bench):
+    static = Static(0.2, 1.0, 1e-5, 1.0)
+    result = bench.run([LINEAR], [bench.step(static=static, boundaries=(bench.fix(0), bench.fix(1, 1.0)))])
+    # growth by 1.5 from the second increment on, and what is left of the period
+    assert [i.next_increment for i in result.increments] == pytest.approx([0.2, 0.3, 0.3, 0.0])
+
+
 def test_pnewdt_abandons_right_after_the_solve(bench):
     """Increments above 0.3 are refused with PNEWDT = 0.5: 1, 0.5, 0.25, then growth until refused again."""
     spring = (0, 1, 2, (1.0, 0.0, 0.3, 0.5))
