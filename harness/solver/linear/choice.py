@@ -44,6 +44,24 @@ NOTES: Final = {
 }
 
 
+WIDEST_BAND: Final = {"pardiso": 75, "mumps": 120, "superlu": 200}
+"""Half bandwidth up to which the band solver beats another one.
+
+Time of the band solver per unknown grows with the square of the half bandwidth alone, that of the others hardly.
+Measured, one thread, factorisation and solution in ms, plane quads with an interface:
+
+    unknowns, half bandwidth   10k, 71   10k, 135   40k, 71   40k, 135   40k, 263   163k, 71
+    band                             9         17        46         89        221        226
+    pardiso                         11         11        46         57         63        237
+    superlu                         22         25       100        136        169        420
+
+MUMPS lies between them.
+"""
+
+LARGEST_BAND: Final = 2**31
+"""Largest band storage in bytes."""
+
+
 @dataclass(frozen=True, slots=True)
 class Availability:
     """A row of the table of solvers; note says when it is taken, or why it cannot be."""
@@ -107,7 +125,7 @@ def choose(
 def _quickest(pattern: Pattern, name_of: Callable[[int], tuple[str, int]] | None) -> LinearSolver:
     sparse = next(solver for name, solver in SOLVERS.items() if name != "band" and not _obstacle(name))
     ordering = narrowest(pattern)
-    if _band_is_quicker(pattern.size, ordering, sparse.name):
+    if _band_is_quicker(pattern, ordering, sparse.name):
         band = BandSolver(pattern, name_of, ordering)
         band.reason = f"half bandwidth {ordering.width} of {pattern.size} unknowns, {ordering.method}"
         return band
@@ -116,8 +134,9 @@ def _quickest(pattern: Pattern, name_of: Callable[[int], tuple[str, int]] | None
     return solver
 
 
-def _band_is_quicker(unknowns: int, ordering: BandOrdering, other: str) -> bool:
-    return ordering.width <= 100 or unknowns <= 500
+def _band_is_quicker(pattern: Pattern, ordering: BandOrdering, other: str) -> bool:
+    storage = 8 * pattern.size * (3 * ordering.width + 1)
+    return ordering.width <= WIDEST_BAND[other] and storage <= LARGEST_BAND
 
 
 @cache
