@@ -55,7 +55,6 @@ lint: $(INSTALLED)
 	$(RUN) $(BIN)/ruff check .
 	$(RUN) $(BIN)/ruff format --check .
 	$(RUN) $(BIN)/mypy
-	$(RUN) $(BIN)/lint-imports
 	$(RUN) $(BIN)/fortitude check
 	$(RUN) $(BIN)/codespell
 

@@ -14,6 +14,7 @@ from harness.elements import build_blocks
 from harness.errors import UelError
 from harness.output import JobOutput, Result
 from harness.procedures import run_steps
+from harness.usersub import Library
 
 
 def run(
@@ -62,15 +63,24 @@ def run(
     library = usersub.load(None if user is None else Path(user), job=job, output_dir=directory, deck=deck)
     output = JobOutput(model, job, directory, quiet=quiet)
     try:
-        blocks = build_blocks(model, library)
-        system = System(model.mesh, blocks, model.equations)
+        system = System(model.mesh, build_blocks(model, library))
         for record in run_steps(system, model, library, solver):
+            _pass_on(library, output)
             output.write(record)
     except UelError as error:
+        _pass_on(library, output)
         output.close(error)
         raise
     except BaseException:
         output.close(UelError("the run was interrupted"))
         raise
+    finally:
+        library.close()
     output.close(None)
     return Result(directory / job, seconds=time.perf_counter() - started)
+
+
+def _pass_on(library: Library, output: JobOutput) -> None:
+    """Texts of user routines go where Abaqus puts them."""
+    for message in library.messages():
+        output.user_text(message.file, message.kind, message.text)
