@@ -63,7 +63,7 @@ def run(
     library = usersub.load(None if user is None else Path(user), job=job, output_dir=directory, deck=deck)
     output = JobOutput(model, job, directory, quiet=quiet)
     try:
-        system = System(model.mesh, build_blocks(model, library))
+        system = System(model.mesh, build_blocks(model, library), model.equations)
         for record in run_steps(system, model, library, solver):
             _pass_on(library, output)
             output.write(record)

@@ -1,0 +1,119 @@
+# SPDX-FileCopyrightText: The uel-harness authors
+# SPDX-License-Identifier: BSD-3-Clause
+"""The command: exit codes, messages without tracebacks, Abaqus' spelling, and what a killed run leaves."""
+
+import signal
+import subprocess
+import sys
+import time
+from pathlib import Path
+
+import meshio
+import pytest
+
+from harness.cli import main
+from harness.output import Result
+
+DECKS = Path(__file__).parents[2] / "abaqus_inputs"
+FLAT = DECKS / "patch_horizontal" / "flat_u2.inp"
+
+
+def test_run_writes_the_files_and_returns_zero(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["run", str(FLAT), "--output-dir", str(tmp_path)]) == 0
+    assert "flat_u2: completed" in capsys.readouterr().out
+    names = {path.name for path in tmp_path.iterdir()}
+    expected = {"flat_u2.sta", "flat_u2.msg", "flat_u2.dat", "flat_u2_history.csv", "flat_u2_interface.csv"}
+    assert names == expected | {"flat_u2.pvd", "flat_u2_vtu"}
+
+
+def test_quiet_prints_nothing(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["run", str(FLAT), "--output-dir", str(tmp_path), "--quiet"]) == 0
+    assert capsys.readouterr() == ("", "")
+
+
+def test_spelling_of_abaqus(tmp_path: Path) -> None:
+    words = ["run", "job=pressed", f"input={FLAT}", "cpus=2", "interactive", "--quiet", f"--output-dir={tmp_path}"]
+    assert main(words) == 0
+    assert (tmp_path / "pressed.sta").exists()
+
+
+def test_unknown_option_of_abaqus(capsys: pytest.CaptureFixture[str]) -> None:
+    with pytest.raises(SystemExit) as stop:
+        main(["run", "job=a", "oldjob=b"])
+    assert stop.value.code == 2
+    assert "unknown option 'oldjob='" in capsys.readouterr().err
+
+
+def test_deck_error_is_one_line_with_its_place(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    deck = tmp_path / "bad.inp"
+    deck.write_text("*HEADING\nbad\n*NODDE\n1, 0., 0.\n")
+    assert main(["run", str(deck)]) == 1
+    error = capsys.readouterr().err
+    assert error.startswith(f"uel: {deck}:3: unknown keyword *NODDE")
+    assert "Traceback" not in error
+
+
+def test_missing_deck(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["run", str(tmp_path / "nothing.inp")]) == 1
+    assert "nothing.inp" in capsys.readouterr().err
+
+
+def test_failed_job_keeps_its_files(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    text = FLAT.read_text().replace("30., 60., 0.26", "-30., 60., 0.26")
+    for path in FLAT.parent.glob("flat_*.inp"):
+        (tmp_path / path.name).write_text(path.read_text())
+    deck = tmp_path / "negative.inp"
+    deck.write_text(text)
+    assert main(["run", str(deck), "--output-dir", str(tmp_path)]) == 1
+    assert "SIGMAMAX" in capsys.readouterr().err
+    assert "THE ANALYSIS HAS NOT BEEN COMPLETED" in (tmp_path / "negative.sta").read_text()
+    assert "SIGMAMAX" in (tmp_path / "negative.msg").read_text()
+
+
+def test_solvers(capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["solvers"]) == 0
+    printed = capsys.readouterr().out
+    assert "band" in printed
+    assert "superlu" in printed.lower()
+
+
+def test_amalgamate(tmp_path: Path) -> None:
+    target = tmp_path / "kernels.for"
+    assert main(["amalgamate", "-o", str(target)]) == 0
+    text = target.read_text().lower()
+    assert "subroutine uel(" in text
+    assert "subroutine uelmat(" in text
+
+
+def test_amalgamate_into_a_missing_folder(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["amalgamate", "-o", str(tmp_path / "no" / "kernels.for")]) == 1
+    assert "No such file or directory" in capsys.readouterr().err
+
+
+@pytest.mark.parametrize("after", [0.0, 0.4])
+def test_killed_run_leaves_readable_files(tmp_path: Path, after: float) -> None:
+    """kill -9 in the middle of a run: every file reads, up to the last increment of the status file."""
+    deck = DECKS / "dcb" / "dcb_u4_1e8.inp"
+    command = [sys.executable, "-m", "harness.cli", "run", str(deck), "--output-dir", str(tmp_path), "--quiet"]
+    process = subprocess.Popen(command)
+    status = tmp_path / "dcb_u4_1e8.sta"
+    started = time.monotonic()
+    while not (status.exists() and len(status.read_text().splitlines()) > 18):
+        assert process.poll() is None, "the run ended before it could be killed"
+        assert time.monotonic() - started < 120
+        time.sleep(0.01)
+    time.sleep(after)
+    process.send_signal(signal.SIGKILL)
+    process.wait()
+
+    result = Result(tmp_path / "dcb_u4_1e8")
+    last = [row.increment for row in result.status if not row.cutback][-1]
+    assert last >= 10
+    assert not result.completed
+    assert list(result.history["increment"][:last]) == list(range(1, last + 1))
+    assert result.frames
+    for frame in result.frames:
+        mesh = meshio.read(frame.path)
+        assert len(mesh.points)
+    assert (tmp_path / "dcb_u4_1e8.msg").read_text().count("INCREMENT") >= last
+    assert len(result.interface())
