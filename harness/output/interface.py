@@ -62,11 +62,14 @@ class InterfaceFile:
             self._file.close()
 
     def _rows(self, head: str, state: ElementState, variables: PointVariables) -> list[str]:
-        order = [variables.names.index(name) if name in variables.names else -1 for name in self._names]
+        values = point_values(state, variables)
+        columns = np.full((*values.shape[:2], len(self._names)), np.nan)
+        columns[:, :, [self._names.index(name) for name in variables.names]] = values
         labels = self._model.groups[state.group].labels.tolist()
+        # the text of a list has the shortest numbers that read back exactly, and is quicker than one by one
         return [
-            ",".join([head, str(label), str(k), *(repr(point[i]) if i >= 0 else "" for i in order)]) + "\n"
-            for label, points in zip(labels, point_values(state, variables).tolist(), strict=True)
+            f"{head},{label},{k},{str(point)[1:-1].replace(', ', ',').replace('nan', '')}\n"
+            for label, points in zip(labels, columns.tolist(), strict=True)
             for k, point in enumerate(points, 1)
         ]
 

@@ -61,9 +61,9 @@ class MessageFile:
     def iteration(self, record: IterationDone) -> None:
         """Block of one iteration: a paragraph for each field."""
         self._counts["iterations"] += 1
-        self._counts["searches"] += len(record.line_search)
+        self._counts["searches"] += max(len(record.line_search) - 1, 0)
         text = f"\n               CONVERGENCE CHECKS FOR EQUILIBRIUM ITERATION{record.iteration:6d}\n\n"
-        if record.line_search:
+        if len(record.line_search) > 1:
             text += "\n CORRECTION SCALE FACTORS OF THE LINE SEARCH" + "".join(map(general, record.line_search)) + "\n"
         self._file.write(text + "".join(self._check(check) for check in record.checks))
 

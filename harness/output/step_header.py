@@ -75,7 +75,7 @@ def tolerances(step: Step, fields: Iterable[str]) -> str:
         "EXTRAPOLATION WILL NOT" if step.extrapolation in ("NO", "NONE") else f"{step.extrapolation} EXTRAPOLATION WILL"
     )
     options.append(f"     {kind} BE USED\n")
-    return "\n".join(blocks + options) + "\n"
+    return "\n".join(blocks + options)
 
 
 def _row(words: str, value: float) -> str:

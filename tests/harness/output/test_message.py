@@ -279,12 +279,14 @@ def test_controls_of_the_deck_are_printed(model: Model, tmp_path: Path) -> None:
     assert " CONVERGENCE TOLERANCE PARAMETERS FOR HEAT FLUX" not in lines
 
 
-def test_line_searches_are_printed_and_counted(model: Model, tmp_path: Path) -> None:
+def test_line_searches_beyond_the_full_correction_are_printed_and_counted(model: Model, tmp_path: Path) -> None:
     check = FieldCheck("force", 1.0, 1.0, NONE, NONE, NONE, Verdict.CONVERGED)
     file = MessageFile(tmp_path / "job.msg", model)
     file.iteration(IterationDone(1, (check,), line_search=(1.0, 0.345)))
+    file.iteration(IterationDone(2, (check,), line_search=(1.0,)))
     file.close(None)
     text = (tmp_path / "job.msg").read_text()
+    assert text.count(" CORRECTION SCALE FACTORS OF THE LINE SEARCH") == 1
     assert " CORRECTION SCALE FACTORS OF THE LINE SEARCH   1.00      0.345" in text
-    assert "                       2  ADDITIONAL RESIDUAL EVALUATIONS FOR LINE SEARCHES" in text
+    assert "                       1  ADDITIONAL RESIDUAL EVALUATIONS FOR LINE SEARCHES" in text
     assert "          THE ANALYSIS HAS BEEN COMPLETED\n" in text
