@@ -9,7 +9,6 @@ subroutine host_evaluate(address, options, lflags, clock, labels, jprops, equati
   use, intrinsic :: iso_c_binding, only: c_funptr, c_intptr_t
   use host_driver, only: block_t, run_block
   use host_kinds, only: dp, i4, i8
-  use host_messages, only: pending_messages
   implicit none (type, external)
   integer(i8), intent(in) :: address          !< of UEL or UELMAT
   integer(i4), intent(in) :: options(7)       !< material, tensor, jtype, symmetric, want_matrix, kstep, kinc
@@ -23,7 +22,7 @@ subroutine host_evaluate(address, options, lflags, clock, labels, jprops, equati
                                      residual(n), matrix(nnz)
   real(dp), intent(out), target :: flux(ndofel)
   real(dp), intent(out) :: sums(9)            !< PNEWDT, ENERGY
-  integer(i4), intent(out) :: status(5)       !< fault, position, array, index, messages pending
+  integer(i4), intent(out) :: status(4)       !< fault, position, array, index
   type(block_t), target :: block
   block%address = transfer(int(address, c_intptr_t), block%address)
   block%with_material = options(1) > 0
@@ -62,7 +61,7 @@ subroutine host_evaluate(address, options, lflags, clock, labels, jprops, equati
   call run_block(block)
   sums(1) = block%pnewdt
   sums(2:9) = block%energy_sum
-  status = [block%fault, block%position, block%array, block%index, int(pending_messages(), i4)]
+  status = [block%fault, block%position, block%array, block%index]
 end subroutine host_evaluate
 
 !> Oldest message of a user routine; level 0 if none is left.
@@ -80,16 +79,21 @@ subroutine host_take_message(level, place, text)
   text = message%text
 end subroutine host_take_message
 
-!> Name and folder of the job, for GETJOBNAME and GETOUTDIR; units 6 and 7 go to the two files named.
+!> Name and folder of the job, for GETJOBNAME and GETOUTDIR; units 6 and 7 go to the two files named, shared arrays go.
 subroutine host_open_job(name, directory, file6, file7, status)
   use host_context, only: job_name, output_directory
   use host_kinds, only: i4
+  use host_protect, only: clear_arrays
   implicit none (type, external)
   character(len=256), intent(in) :: name, directory
   character(len=2048), intent(in) :: file6, file7
   integer(i4), intent(out) :: status          !< 0, or IOSTAT of the OPEN that failed
   job_name = name
   output_directory = directory
+  call clear_arrays()
+  ! an earlier job in this process may have had the same files
+  close (6)
+  close (7)
   open (unit=6, file=trim(file6), status='replace', action='readwrite', iostat=status)
   if (status /= 0) return
   open (unit=7, file=trim(file7), status='replace', action='readwrite', iostat=status)

@@ -2,11 +2,12 @@
 ! SPDX-License-Identifier: BSD-3-Clause
 !> Texts that user routines send with STDB_ABQERR, kept until Python fetches them.
 module host_messages
+  use, intrinsic :: iso_c_binding, only: c_char, c_int32_t
   use host_kinds, only: dp, i4
   use host_context, only: current
   implicit none (type, external)
   private
-  public :: message_t, add_message, take_message, pending_messages, substitute
+  public :: message_t, add_message, take_message, substitute
 
   integer, parameter :: text_length = 2048
 
@@ -38,10 +39,14 @@ contains
     queue(last) = message_t(level, current%element, current%step, current%increment, text)
   end subroutine add_message
 
-  !> Number of messages not yet taken.
-  integer function pending_messages()
-    pending_messages = last - first + 1
-  end function pending_messages
+  !> The same for C (stops.c).
+  subroutine note(level, text, length) bind(c, name='uel_host_note')
+    integer(c_int32_t), value :: level, length
+    character(kind=c_char), intent(in) :: text(length)
+    character(len=length) :: string
+    string = transfer(text, string)
+    call add_message(int(level, i4), string)
+  end subroutine note
 
   !> Oldest message not yet taken; level 0 when there is none.
   subroutine take_message(message)

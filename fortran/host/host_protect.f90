@@ -1,11 +1,11 @@
 ! SPDX-FileCopyrightText: The uel-harness authors
 ! SPDX-License-Identifier: BSD-3-Clause
-!> Fortran view of protect.c.
+!> Fortran view of protect.c and sma_arrays.c.
 module host_protect
   use, intrinsic :: iso_c_binding, only: c_funptr, c_int, c_ptr
   implicit none (type, external)
   private
-  public :: protect, escape
+  public :: protect, escape, clear_arrays
 
   interface
     !> Run routine(context); 1 if it was left through escape, else 0.
@@ -19,5 +19,9 @@ module host_protect
     !> Leave the running protect; does not return.
     subroutine escape() bind(c, name='uel_host_escape')
     end subroutine escape
+
+    !> Drop the arrays of SMAIntArrayCreate and its like.
+    subroutine clear_arrays() bind(c, name='uel_host_clear_arrays')
+    end subroutine clear_arrays
   end interface
 end module host_protect

@@ -78,3 +78,32 @@ function get_thread_id() result(thread)
   integer(i4) :: thread
   thread = 0
 end function get_thread_id
+
+!> Value of an environment variable, and its length.
+subroutine getenvvar(envvarname, envvar, lenenvvar)
+  use host_kinds, only: i4
+  implicit none (type, external)
+  character(len=*), intent(in) :: envvarname
+  character(len=*), intent(out) :: envvar
+  integer(i4), intent(out) :: lenenvvar
+  call get_environment_variable(trim(envvarname), envvar, lenenvvar)
+end subroutine getenvvar
+
+!> Mutexes 1 to 100: with one thread there is nothing to wait for.
+subroutine mutexinit(id)
+  use host_kinds, only: i4
+  implicit none (type, external)
+  integer(i4), intent(in) :: id
+end subroutine mutexinit
+
+subroutine mutexlock(id)
+  use host_kinds, only: i4
+  implicit none (type, external)
+  integer(i4), intent(in) :: id
+end subroutine mutexlock
+
+subroutine mutexunlock(id)
+  use host_kinds, only: i4
+  implicit none (type, external)
+  integer(i4), intent(in) :: id
+end subroutine mutexunlock

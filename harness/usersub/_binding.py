@@ -123,7 +123,7 @@ def evaluate(
         residual,
         matrix,
     )
-    fault, position, array, index, _ = (int(k) for k in status)
+    fault, position, array, index = (int(k) for k in status)
     return Outcome(Fault(fault), position - 1, ARRAYS[array - 1], index, flux, float(sums[0]), sums[1:])
 
 

@@ -15,22 +15,18 @@ from pathlib import Path
 from typing import Final
 
 from harness.errors import CompileError
+from harness.usersub import linker
+from harness.usersub.headers import HEADERS
 
 SUFFIXES: Final = (".f", ".for", ".f90")
 
 FLAGS: Final = (
     *("-c", "-O2", "-fPIC", "-ffp-contract=off", "-w", "-fdiagnostics-color=never"),
-    *("-cpp", "-std=legacy", "-fdec", "-fno-realloc-lhs"),
+    *("-cpp", "-std=legacy", "-fdec", "-fno-range-check", "-fno-realloc-lhs"),
     "-frecursive",  # locals on the stack and not kept from call to call, as Abaqus' -auto has it
 )
 FIXED: Final = ("-ffixed-form", "-ffixed-line-length-132")
 FREE: Final = ("-ffree-form", "-ffree-line-length-none")
-LINK_FLAGS: Final = ("-shared", "-Wl,-Bsymbolic")
-
-HEADERS: Final = {
-    "aba_param.inc": "      implicit real*8(a-h,o-z)\n      parameter (nprecd=2)\n",
-}
-"""Files that Abaqus supplies, by lower-case name."""
 
 _INCLUDE = re.compile(r"^\s*#?\s*include\s*['\"<]([^'\">]+)['\">]", re.IGNORECASE | re.MULTILINE)
 _FREEFORM = re.compile(r"^[!cC*](?:DIR|DEC)\$\s*FREEFORM", re.IGNORECASE | re.MULTILINE)
@@ -83,7 +79,7 @@ def _read(file: Path) -> str:
 
 def _key(compiler: str, texts: Sequence[str]) -> str:
     version = subprocess.run([compiler, "-dumpfullversion"], capture_output=True, text=True, check=False).stdout
-    parts = [version, *FLAGS, *FIXED, *FREE, *LINK_FLAGS, *HEADERS.values(), *texts]
+    parts = [version, *FLAGS, *FIXED, *FREE, *linker.FLAGS, *HEADERS.values(), *texts]
     return hashlib.sha256("\0".join(parts).encode()).hexdigest()[:16]
 
 
@@ -143,9 +139,10 @@ def _compile(
         form = FREE if is_free_form(file) else FIXED
         output = work / f"{number}.o"
         _run([compiler, *FLAGS, *form, *search, f"-J{work}", str(file), "-o", str(output)], file)
-        objects.append(str(output))
+        objects.append(output)
     shared = work / target.name
-    _run([compiler, *LINK_FLAGS, *objects, "-o", str(shared)], files[0])
+    libraries = linker.lapack_flags(objects)
+    _run([compiler, *linker.FLAGS, *map(str, objects), *libraries, "-o", str(shared)], files[0])
     # another process may write the same file: a rename replaces it in one step
     partial = target.with_suffix(f".{os.getpid()}")
     shutil.move(shared, partial)
@@ -169,7 +166,7 @@ def first_error(output: str) -> str:
             location = _LOCATION.match(line)
             place, context = (location, []) if location else (place, [*context, line] if line.strip() else context)
             continue
-        sentence = f"does not compile: {line[found.end() :]}"
+        sentence = f"does not compile: {line[found.end() :].replace(' at (1)', '')}"
         if place is None:
             return sentence
         where = f"{Path(place['file']).name}, line {place['line']}, column {place['column']}"

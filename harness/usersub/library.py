@@ -16,6 +16,7 @@ from harness.model.records import PointVariables
 from harness.usersub import _binding, layout
 from harness.usersub.amalgam import path_of_kernels
 from harness.usersub.compiler import SUFFIXES, build
+from harness.usersub.linker import undefined_routine
 from harness.usersub.messages import Inbox, Message
 
 ENTRY_POINTS: Final = (
@@ -106,7 +107,7 @@ def _open(shared: Path, name: str) -> ctypes.CDLL:
         try:
             return ctypes.CDLL(str(copy), mode=ctypes.RTLD_LOCAL)
         except OSError as error:
-            raise CompileError(Path(name), f"cannot be loaded: {error}") from None
+            raise CompileError(Path(name), undefined_routine(str(error))) from None
 
 
 def _address(handle: ctypes.CDLL, entry: str) -> int | None:

@@ -6,6 +6,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from pathlib import Path
+from typing import ClassVar
 
 from harness.errors import UelError
 from harness.usersub import _binding
@@ -33,12 +34,16 @@ class Message:
 class Inbox:
     """Collects the messages of a job. Units 6 and 7 are JOB.unit6 and JOB.unit7, removed once all is taken over."""
 
+    _current: ClassVar[Inbox | None] = None
+    """The job that has the units, which are of the process."""
+
     def __init__(self, job: str, directory: Path) -> None:
         directory.mkdir(parents=True, exist_ok=True)
         self._files = {".dat": directory / f"{job}.unit6", ".msg": directory / f"{job}.unit7"}
         self._read = dict.fromkeys(self._files, 0)
         self._sent: list[Message] = []
         folder = str(directory.resolve())
+        Inbox._current = self
         if not _binding.open_job(job, folder, *(str(f.resolve()) for f in self._files.values())):
             raise UelError(f"cannot write {self._files['.dat']} and {self._files['.msg']}")
 
@@ -55,7 +60,9 @@ class Inbox:
 
     def close(self) -> None:
         """Disconnect the units; remove their files unless they hold text that nobody took."""
-        _binding.flush_units(close=True)
+        if Inbox._current is self:
+            _binding.flush_units(close=True)
+            Inbox._current = None
         for file, path in self._files.items():
             if path.exists() and path.stat().st_size <= self._read[file]:
                 path.unlink()

@@ -1,0 +1,135 @@
+! SPDX-FileCopyrightText: The uel-harness authors
+! SPDX-License-Identifier: BSD-3-Clause
+!> Tensor utilities of Abaqus (User Subroutines Guide, Obtaining stress invariants ...): components are stored as
+!> ndi direct ones, then nshr shear ones in the order 12, 13, 23; with lstr = 2 shear components are engineering strains.
+module host_tensors
+  use host_kinds, only: dp, i4
+  implicit none (type, external)
+  private
+  public :: to_matrix, to_components, eigen
+
+contains
+
+  !> Symmetric matrix of a stored tensor.
+  pure function to_matrix(s, lstr, ndi, nshr) result(matrix)
+    real(dp), intent(in) :: s(*)
+    integer(i4), intent(in) :: lstr, ndi, nshr
+    real(dp) :: matrix(3, 3), factor
+    integer, parameter :: row(3) = [1, 1, 2], column(3) = [2, 3, 3]
+    integer :: k
+    factor = merge(0.5_dp, 1.0_dp, lstr == 2)
+    matrix = 0
+    do k = 1, ndi
+      matrix(k, k) = s(k)
+    end do
+    do k = 1, nshr
+      matrix(row(k), column(k)) = factor*s(ndi + k)
+      matrix(column(k), row(k)) = factor*s(ndi + k)
+    end do
+  end function to_matrix
+
+  !> Stored components of a symmetric matrix.
+  pure subroutine to_components(matrix, lstr, ndi, nshr, s)
+    real(dp), intent(in) :: matrix(3, 3)
+    integer(i4), intent(in) :: lstr, ndi, nshr
+    real(dp), intent(inout) :: s(*)
+    real(dp) :: shear(3)
+    integer :: k
+    shear = merge(2.0_dp, 1.0_dp, lstr == 2)*[matrix(1, 2), matrix(1, 3), matrix(2, 3)]
+    do k = 1, ndi
+      s(k) = matrix(k, k)
+    end do
+    s(ndi + 1:ndi + nshr) = shear(1:nshr)
+  end subroutine to_components
+
+  !> Eigenvalues and eigenvectors (rows of vectors) of a symmetric matrix, by Jacobi rotations; not sorted.
+  pure subroutine eigen(matrix, values, vectors)
+    real(dp), intent(in) :: matrix(3, 3)
+    real(dp), intent(out) :: values(3), vectors(3, 3)
+    integer, parameter :: row(3) = [1, 1, 2], column(3) = [2, 3, 3]
+    real(dp) :: a(3, 3), rotation(3, 3), theta, t, c, s
+    integer :: sweep, k, p, q
+    a = matrix
+    vectors = identity()
+    do sweep = 1, 50
+      if (abs(a(1, 2)) + abs(a(1, 3)) + abs(a(2, 3)) <= tiny(1.0_dp) + 1e-16_dp*maxval(abs(matrix))) exit
+      do k = 1, 3
+        p = row(k)
+        q = column(k)
+        if (abs(a(p, q)) <= tiny(1.0_dp)) cycle
+        theta = (a(q, q) - a(p, p))/(2*a(p, q))
+        t = sign(1.0_dp, theta)/(abs(theta) + hypot(theta, 1.0_dp))
+        c = 1/hypot(t, 1.0_dp)
+        s = t*c
+        rotation = identity()
+        rotation(p, p) = c
+        rotation(q, q) = c
+        rotation(p, q) = -s
+        rotation(q, p) = s
+        a = matmul(rotation, matmul(a, transpose(rotation)))
+        vectors = matmul(rotation, vectors)
+      end do
+    end do
+    values = [a(1, 1), a(2, 2), a(3, 3)]
+  end subroutine eigen
+
+  pure function identity() result(matrix)
+    real(dp) :: matrix(3, 3)
+    matrix = reshape([1, 0, 0, 0, 1, 0, 0, 0, 1], [3, 3])
+  end function identity
+end module host_tensors
+
+!> sprime = R s R^T.
+subroutine rotsig(s, r, sprime, lstr, ndi, nshr)
+  use host_kinds, only: dp, i4
+  use host_tensors, only: to_components, to_matrix
+  implicit none (type, external)
+  real(dp), intent(in) :: s(*), r(3, 3)
+  real(dp), intent(inout) :: sprime(*)
+  integer(i4), intent(in) :: lstr, ndi, nshr
+  real(dp) :: rotated(3, 3)
+  rotated = to_matrix(s, lstr, ndi, nshr)
+  rotated = matmul(r, matmul(rotated, transpose(r)))
+  call to_components(rotated, lstr, ndi, nshr, sprime)
+end subroutine rotsig
+
+!> Mean stress and Mises stress.
+subroutine sinv(stress, sinv1, sinv2, ndi, nshr)
+  use host_kinds, only: dp, i4
+  use host_tensors, only: to_matrix
+  implicit none (type, external)
+  real(dp), intent(in) :: stress(*)
+  real(dp), intent(out) :: sinv1, sinv2
+  integer(i4), intent(in) :: ndi, nshr
+  real(dp) :: deviator(3, 3)
+  integer :: k
+  deviator = to_matrix(stress, 1_i4, ndi, nshr)
+  sinv1 = (deviator(1, 1) + deviator(2, 2) + deviator(3, 3))/3
+  do k = 1, 3
+    deviator(k, k) = deviator(k, k) - sinv1
+  end do
+  sinv2 = sqrt(1.5_dp*sum(deviator**2))
+end subroutine sinv
+
+!> Principal values, not sorted.
+subroutine sprinc(s, ps, lstr, ndi, nshr)
+  use host_kinds, only: dp, i4
+  use host_tensors, only: eigen, to_matrix
+  implicit none (type, external)
+  real(dp), intent(in) :: s(*)
+  real(dp), intent(out) :: ps(3)
+  integer(i4), intent(in) :: lstr, ndi, nshr
+  real(dp) :: directions(3, 3)
+  call eigen(to_matrix(s, lstr, ndi, nshr), ps, directions)
+end subroutine sprinc
+
+!> Principal values, not sorted, and their directions: an(k, :) belongs to ps(k).
+subroutine sprind(s, ps, an, lstr, ndi, nshr)
+  use host_kinds, only: dp, i4
+  use host_tensors, only: eigen, to_matrix
+  implicit none (type, external)
+  real(dp), intent(in) :: s(*)
+  real(dp), intent(out) :: ps(3), an(3, 3)
+  integer(i4), intent(in) :: lstr, ndi, nshr
+  call eigen(to_matrix(s, lstr, ndi, nshr), ps, an)
+end subroutine sprind
