@@ -14,6 +14,7 @@ from harness.elements import build_blocks
 from harness.errors import UelError
 from harness.output import JobOutput, Result
 from harness.procedures import run_steps
+from harness.solver.threads import one_blas_thread
 from harness.usersub import Library
 
 
@@ -64,9 +65,10 @@ def run(
     output = JobOutput(model, job, directory, quiet=quiet)
     try:
         system = System(model.mesh, build_blocks(model, library), model.equations)
-        for record in run_steps(system, model, library, solver):
-            _pass_on(library, output)
-            output.write(record)
+        with one_blas_thread():
+            for record in run_steps(system, model, library, solver):
+                _pass_on(library, output)
+                output.write(record)
     except UelError as error:
         _pass_on(library, output)
         output.close(error)

@@ -11,6 +11,7 @@ from dataclasses import dataclass
 from functools import cache
 from importlib import import_module
 from importlib.metadata import PackageNotFoundError, version
+from importlib.util import find_spec
 from typing import Final
 
 import numpy as np
@@ -123,13 +124,16 @@ def choose(
 
 
 def _quickest(pattern: Pattern, name_of: Callable[[int], tuple[str, int]] | None) -> LinearSolver:
-    sparse = next(solver for name, solver in SOLVERS.items() if name != "band" and not _obstacle(name))
     ordering = narrowest(pattern)
-    if _band_is_quicker(pattern, ordering, sparse.name):
+    # looking for a package takes no time, loading MKL half a second, which a narrow model is spared
+    likely = next(name for name in SOLVERS if name != "band" and find_spec(REQUIRES[name][0]))
+    if _band_is_quicker(pattern, ordering, likely):
         band = BandSolver(pattern, name_of, ordering)
         band.reason = f"half bandwidth {ordering.width} of {pattern.size} unknowns, {ordering.method}"
         return band
-    solver = sparse(pattern, name_of)
+    solver = next(solver for name, solver in SOLVERS.items() if name != "band" and not _obstacle(name))(
+        pattern, name_of
+    )
     solver.reason = f"half bandwidth {ordering.width} of {pattern.size} unknowns is too wide for the band solver"
     return solver
 
