@@ -131,9 +131,8 @@ def _quickest(pattern: Pattern, name_of: Callable[[int], tuple[str, int]] | None
         band = BandSolver(pattern, name_of, ordering)
         band.reason = f"half bandwidth {ordering.width} of {pattern.size} unknowns, {ordering.method}"
         return band
-    solver = next(solver for name, solver in SOLVERS.items() if name != "band" and not _obstacle(name))(
-        pattern, name_of
-    )
+    usable = next(name for name in SOLVERS if name != "band" and not _obstacle(name))
+    solver = SOLVERS[usable](pattern, name_of)
     solver.reason = f"half bandwidth {ordering.width} of {pattern.size} unknowns is too wide for the band solver"
     return solver
 
