@@ -1,0 +1,198 @@
+# SPDX-FileCopyrightText: The uel-harness authors
+# SPDX-License-Identifier: BSD-3-Clause
+"""User files are compiled as Abaqus compiles them, and what the compiler says comes back readable."""
+
+import shutil
+
+import pytest
+
+from harness import usersub
+from harness.errors import CompileError
+
+DATABASE = """
+      subroutine uexternaldb(lop,lrestart,time,dtime,kstep,kinc)
+      include 'aba_param.inc'
+      dimension time(2)
+{body}
+      end
+"""
+NOTE = """      call stdb_abqerr({lop},'{text}',(/{integer}/),(/0.d0/),(/'        '/))"""
+
+
+def said(library):
+    """What UEXTERNALDB sends in one call."""
+    library.external_database(0, 0, (0.0, 0.0), 0.0, 0, 0)
+    return [m.text for m in library.messages()]
+
+
+def database(body):
+    return DATABASE.format(body=body)
+
+
+def note(text="here", integer="0"):
+    return NOTE.format(lop=1, text=text, integer=integer)
+
+
+def test_fixed_form_has_132_columns(load):
+    line = "      i = 1 +" + " " * 100 + "2 + 4"
+    assert 72 < len(line) <= 132
+    assert said(load(database(f"{line}\n{note('%I', 'i')}"))) == ["7"]
+
+
+def test_preprocessor_runs(load):
+    text = database("#define VALUE 5\n#ifdef VALUE\n" + note("%I", "VALUE") + "\n#endif")
+    assert said(load(text)) == ["5"]
+
+
+@pytest.mark.parametrize("directive", ["!DIR$ FREEFORM", "!DEC$ FREEFORM", "!dir$ freeform"])
+def test_free_form_by_directive(load, directive):
+    text = f"{directive}\nsubroutine uexternaldb(lop)\ncall stdb_abqerr(1, &\n'free', (/0/), (/0d0/), (/' '/))\nend\n"
+    assert said(load(text, "user.for")) == ["free"]
+
+
+def test_free_form_by_name(load):
+    text = "subroutine uexternaldb(lop)\ncall stdb_abqerr(1, 'free', (/0/), (/0d0/), (/' '/))\nend\n"
+    assert said(load(text, "user.f90")) == ["free"]
+
+
+@pytest.mark.parametrize("name", ["ABA_PARAM.INC", "aba_param.inc", "Aba_Param.Inc"])
+def test_aba_param_in_any_case(load, name):
+    text = database("      a = 1.5\n      iwhole = 2*a\n" + note("%I", "iwhole")).replace("aba_param.inc", name)
+    assert said(load(text)) == ["3"]
+
+
+def test_includes_are_found_beside_the_source_and_beside_the_deck(load, tmp_path):
+    (tmp_path / "deck").mkdir()
+    (tmp_path / "one.inc").write_text("      i = 1\n      include 'TWO.inc'\n")
+    (tmp_path / "deck" / "Two.inc").write_text("      i = i + 2\n")
+    text = database("      INCLUDE 'one.inc'\n" + note("%I", "i"))
+    assert said(load(text, deck=tmp_path / "deck" / "job.inp")) == ["3"]
+
+
+def test_saved_data_last_for_a_job(load):
+    body = "      common /block/ j\n      save i\n      data i /0/\n      i = i + 1\n      j = j + 10\n"
+    text = database(body + note("%I", "i") + "\n" + note("%I", "j"))
+    library = load(text)
+    assert said(library) == ["1", "10"]
+    assert said(library) == ["2", "20"]
+    assert said(load(text)) == ["1", "10"]
+
+
+def test_assignment_does_not_reallocate(load):
+    """Abaqus compiles with -assume norealloc_lhs: the shape stays."""
+    body = "      integer, allocatable :: k(:)\n      allocate(k(3))\n      k = (/1, 2/)\n" + note("%I", "size(k)")
+    assert said(load(database(body))) == ["3"]
+
+
+def test_compiled_once(load, cache, tmp_path):
+    text = database(note())
+    load(text)
+    (first,) = cache.glob("*.so")
+    written = first.stat().st_mtime_ns
+    load(text)
+    assert [f.stat().st_mtime_ns for f in cache.glob("*.so")] == [written]
+    load(database(note("other")))
+    assert len(list(cache.glob("*.so"))) == 2
+
+
+def test_changed_include_compiles_again(load, tmp_path):
+    text = database("      include 'value.inc'\n" + note("%I", "i"))
+    (tmp_path / "value.inc").write_text("      i = 1\n")
+    assert said(load(text)) == ["1"]
+    (tmp_path / "value.inc").write_text("      i = 2\n")
+    assert said(load(text)) == ["2"]
+
+
+def test_several_files_in_order(tmp_path):
+    (tmp_path / "a.f90").write_text("module shared\ninteger :: i = 5\nend module\n")
+    (tmp_path / "b.f").write_text(database(note("%I", "i")).replace("include", "use shared\n      include", 1))
+    files = [tmp_path / "a.f90", tmp_path / "b.f"]
+    assert said(usersub.load(files, job="job", output_dir=tmp_path)) == ["5"]
+
+
+def test_shared_library(load, tmp_path, cache):
+    load(database(note()))
+    shutil.copy(next(cache.glob("*.so")), tmp_path / "user.so")
+    assert said(usersub.load(tmp_path / "user.so", job="job", output_dir=tmp_path)) == ["here"]
+
+
+def test_first_error_with_its_line_and_column(load):
+    text = database("      i = 1\n      x = = 2\n      y = = 3\n")
+    with pytest.raises(CompileError) as caught:
+        load(text, "wrong.f")
+    message = str(caught.value)
+    assert "wrong.f: does not compile: Invalid character in name (wrong.f, line 6, column" in message
+    assert "x = = 2" in message
+    assert "y = = 3" not in message
+    code, mark = message.splitlines()[-2:]
+    # gfortran points just behind the second equals sign
+    assert mark.index("1") == code.rindex("=") + 1
+
+
+def test_what_gfortran_refuses_is_shown(load):
+    with pytest.raises(CompileError, match=r"Logicals must be compared with .eqv. instead of .eq."):
+        load(database("      logical a, b\n      if (a .eq. b) i = 1\n"))
+
+
+def test_missing_include(load):
+    with pytest.raises(CompileError, match=r"Cannot open included file 'nowhere.inc' \(user.f, line 5"):
+        load(database("      include 'nowhere.inc'"))
+
+
+def test_unresolved_routine(load):
+    with pytest.raises(CompileError, match="refers to MYSTERY, which neither the file nor Abaqus"):
+        load(database("      call mystery(1)"))
+
+
+def test_missing_file(tmp_path):
+    with pytest.raises(CompileError, match=r"none\.f: no such file"):
+        usersub.load(tmp_path / "none.f", job="job", output_dir=tmp_path)
+
+
+def test_wrong_kind_of_file(load):
+    with pytest.raises(CompileError, match=r"user.c: not a file of user routines: expected .f, .for, .f90 or .so"):
+        load("int main;", "user.c")
+
+
+def test_shared_library_with_another_file(tmp_path):
+    for name in ("a.so", "b.f"):
+        (tmp_path / name).touch()
+    with pytest.raises(CompileError, match="a shared library cannot be combined with other files"):
+        usersub.load([tmp_path / "a.so", tmp_path / "b.f"], job="job", output_dir=tmp_path)
+
+
+def test_not_a_library(tmp_path):
+    (tmp_path / "a.so").write_text("no library")
+    with pytest.raises(CompileError, match=r"a\.so: cannot be loaded: .*file too short"):
+        usersub.load(tmp_path / "a.so", job="job", output_dir=tmp_path)
+
+
+def test_missing_compiler(load, monkeypatch):
+    monkeypatch.setattr(shutil, "which", lambda name: None)
+    with pytest.raises(
+        CompileError, match=r"gfortran is needed to compile it and is not installed \(apt install gfortran"
+    ):
+        load(database(note()))
+
+
+def test_cache_that_cannot_be_written(load, tmp_path, monkeypatch):
+    monkeypatch.setenv("XDG_CACHE_HOME", "/dev/null")
+    assert said(load(database(note()))) == ["here"]
+
+
+def test_entry_points_are_named(load):
+    assert load(database("") + "      subroutine umat(a)\n      end\n").entry_points == ("UEXTERNALDB", "UMAT")
+
+
+def test_lapack(load):
+    body = """
+      dimension a(2,2),b(2),ip(2)
+      a(1,1) = 2
+      a(2,2) = 4
+      a(1,2) = 0
+      a(2,1) = 0
+      b(1) = 6
+      b(2) = 20
+      call DGESV(2,1,a,2,ip,b,2,info)
+      call stdb_abqerr(1,'%R %R %I',(/info/),b,(/'        '/))"""
+    assert said(load(database(body))) == ["3.00000 5.00000 0"]
