@@ -10,11 +10,12 @@ from pathlib import Path
 from harness.model.model import Model
 from harness.model.properties import UserElement
 from harness.model.records import IncrementDone, StepStarted
+from harness.model.steps import ElementRequest, NodeRequest
 from harness.output.formats import TextFile, general, program
 from harness.output.nodal import NodalIndex
 from harness.output.schedule import Schedule
 from harness.output.step_header import procedure
-from harness.output.tables import element_tables, node_tables
+from harness.output.tables import element_tables, missing_variables, node_tables
 from harness.output.wording import remark
 
 _USER_ELEMENT_OUTPUT = (
@@ -50,6 +51,8 @@ class DataFile:
         step = self._model.steps[record.step - 1]
         if self._index is None:
             self._index = NodalIndex(len(self._model.mesh.labels), record.solution)
+        if record.increment == 1:
+            self._missing(record, self._index)
         nodes = "".join(
             node_tables(request, self._model, record.solution, self._index)
             for request in step.output.node_print
@@ -75,6 +78,16 @@ class DataFile:
         if nodes:
             text += f"\n\n                                N O D E   O U T P U T\n{nodes}"
         self._file.write(text)
+
+    def _missing(self, record: IncrementDone, index: NodalIndex) -> None:
+        """Name what is asked for and not there, once a step."""
+        output = self._model.steps[record.step - 1].output
+        requests: list[tuple[str, NodeRequest | ElementRequest]] = []
+        requests += [(f"*NODE PRINT, NSET={request.nset}", request) for request in output.node_print]
+        requests += [(f"*EL PRINT, ELSET={request.elset}", request) for request in output.element_print]
+        for place, request in requests:
+            for name in missing_variables(request, self._model, record.solution, index):
+                self.remark("WARNING", f"{place}: {name} IS NOT AVAILABLE AND IS LEFT OUT")
 
     def remark(self, kind: str, text: str) -> None:
         """A note, warning or error."""
@@ -131,7 +144,7 @@ class DataFile:
 def _echo(deck: Path) -> str:
     """The deck with line numbers; included files are not followed."""
     try:
-        lines = deck.read_text(errors="replace").splitlines()
+        lines = deck.read_text("utf-8", errors="replace").splitlines()
     except OSError:
         return ""
     text = "".join(f"{number:8d}  {line}".rstrip() + "\n" for number, line in enumerate(lines, 1))

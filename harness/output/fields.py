@@ -118,7 +118,7 @@ class _PointArray:
 def _replace(path: Path, text: str) -> None:
     """Replace a file as a whole."""
     unfinished = path.with_suffix(".tmp")
-    unfinished.write_text(text)
+    unfinished.write_text(text, "utf-8")
     unfinished.replace(path)
 
 
@@ -128,7 +128,7 @@ def read_frames(pvd: Path) -> list[Frame]:
         return []
     return [
         Frame(int(step), int(increment), float(time), pvd.parent / file)
-        for time, file, step, increment in _ENTRY.findall(pvd.read_text())
+        for time, file, step, increment in _ENTRY.findall(pvd.read_text("utf-8"))
     ]
 
 

@@ -116,7 +116,7 @@ def _places(model: Model, nset: str, nodes: IntArray) -> list[str]:
 
 def read_history(path: Path) -> dict[str, FloatArray]:
     """Columns by name; NaN where a step does not write a column. An unfinished last row is left out."""
-    lines = [line for line in path.read_text().splitlines(keepends=True) if line.endswith("\n")]
+    lines = [line for line in path.read_text("utf-8").splitlines(keepends=True) if line.endswith("\n")]
     if not lines:
         return {name: np.zeros(0) for name in FIXED}
     names, *rows = csv.reader(lines)

@@ -106,7 +106,7 @@ def _read_blocks(path: Path) -> tuple[list[str], dict[tuple[int, int], list[list
     """Rows by step and increment. A last block that a killed run left unfinished is left out."""
     if not path.exists():
         raise UelError(f"{path}: no such file; it is written only if the model has interface elements of the project")
-    lines = [line for line in path.read_text().splitlines(keepends=True) if line.endswith("\n")]
+    lines = [line for line in path.read_text("utf-8").splitlines(keepends=True) if line.endswith("\n")]
     names, *rows = csv.reader(lines)
     blocks: dict[tuple[int, int], list[list[float]]] = {}
     for row in rows:

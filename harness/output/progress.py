@@ -34,7 +34,7 @@ class ProgressDisplay:
             return
         self._progress = Progress(
             TextColumn("Step {task.fields[step]}"),
-            BarColumn(bar_width=20),
+            BarColumn(bar_width=10),
             TextColumn("time {task.completed:.4g}/{task.total:.4g}"),
             TextColumn("inc {task.fields[increment]} iter {task.fields[iteration]}"),
             TextColumn("r/tol {task.fields[ratio]}"),

@@ -99,11 +99,11 @@ class StatusFile:
 
 def read_status(path: Path) -> list[StatusRow]:
     """Lines of a status file, of ours or of Abaqus; a line that a killed run left unfinished is left out."""
-    lines = path.read_text(errors="replace").splitlines(keepends=True)
+    lines = path.read_text("utf-8", errors="replace").splitlines(keepends=True)
     rows = [StatusRow.read(line) for line in lines if line.endswith("\n")]
     return [row for row in rows if row is not None]
 
 
 def has_completed(path: Path) -> bool:
     """True if the status file says that the analysis has completed."""
-    return COMPLETED in path.read_text(errors="replace").splitlines()
+    return COMPLETED in path.read_text("utf-8", errors="replace").splitlines()

@@ -12,12 +12,13 @@ from dataclasses import dataclass
 import numpy as np
 
 from harness.model.arrays import FloatArray, IntArray
-from harness.model.mesh import Mesh
+from harness.model.mesh import ElementGroup, Mesh
 from harness.model.model import Model
 from harness.model.records import ElementState, Solution
 from harness.model.steps import ElementRequest, NodeRequest
 from harness.output.formats import general
 from harness.output.nodal import NodalIndex
+from harness.output.points import point_values
 
 COLUMNS = 9  # of a table of Abaqus
 
@@ -87,55 +88,90 @@ def node_tables(request: NodeRequest, model: Model, solution: Solution, index: N
 
 def element_tables(request: ElementRequest, model: Model, solution: Solution) -> str:
     """Tables of one *EL PRINT request, one for each element type that keeps any of the variables."""
-    states = {state.group: state for state in solution.elements}
     text = ""
+    for group, inside, state in _chosen(request, model, solution):
+        for names, values in _element_values(state, inside, request.variables):
+            text += _element_table(request, group, inside, names, values)
+    return text
+
+
+def missing_variables(
+    request: NodeRequest | ElementRequest, model: Model, solution: Solution, index: NodalIndex
+) -> list[str]:
+    """Variables of a request that none of its nodes or elements has."""
+    if isinstance(request, NodeRequest):
+        return [name for name in request.variables if not index.components((name,), request.nodes)]
+    chosen = _chosen(request, model, solution)
+    return [
+        name
+        for name in request.variables
+        if not any(_element_values(state, inside, (name,)) for _, inside, state in chosen)
+    ]
+
+
+def _chosen(
+    request: ElementRequest, model: Model, solution: Solution
+) -> list[tuple[ElementGroup, IntArray, ElementState]]:
+    """Groups with elements of the request, which of their elements, and their state."""
+    states = {state.group: state for state in solution.elements}
+    chosen = []
     first = 0
     for k, group in enumerate(model.groups):
         inside = request.elements[(request.elements >= first) & (request.elements < first + len(group.labels))] - first
         first += len(group.labels)
-        if not len(inside) or k not in states:
-            continue
-        names, values = _element_values(states[k], inside, request.variables)
-        labels = group.labels[inside].tolist()
-        points = values.shape[1]
-        title = f"   THE FOLLOWING TABLE IS PRINTED FOR ELEMENTS WITH TYPE {group.type} AT THE INTEGRATION POINTS" + (
-            f" AND BELONGING TO ELEMENT SET {request.elset}" if request.elset else ""
-        )
-        for start in range(0, len(names), COLUMNS):
-            part = names[start : start + COLUMNS]
-            text += str(
-                _Table(
-                    title,
-                    "    ELEMENT  PT FOOT-" + "".join(f"{name:>10}  " for name in part) + "\n                NOTE",
-                    22,
-                    part,
-                    [f"{label:12d}{point:4d}      " for label in labels for point in range(1, points + 1)],
-                    [str(label) for label in labels for _ in range(points)],
-                    values[:, :, start : start + COLUMNS].reshape(-1, len(part)),
-                    "ELEMENT",
-                )
+        if len(inside) and k in states:
+            chosen.append((group, inside, states[k]))
+    return chosen
+
+
+def _element_table(
+    request: ElementRequest, group: ElementGroup, inside: IntArray, names: list[str], values: FloatArray
+) -> str:
+    """Tables of values (elements, points, names)."""
+    labels = group.labels[inside].tolist()
+    points = range(1, values.shape[1] + 1)
+    title = f"   THE FOLLOWING TABLE IS PRINTED FOR ELEMENTS WITH TYPE {group.type} AT THE INTEGRATION POINTS" + (
+        f" AND BELONGING TO ELEMENT SET {request.elset}" if request.elset else ""
+    )
+    text = ""
+    for start in range(0, len(names), COLUMNS):
+        part = names[start : start + COLUMNS]
+        text += str(
+            _Table(
+                title,
+                "    ELEMENT  PT FOOT-" + "".join(f"{name:>10}  " for name in part) + "\n                NOTE",
+                22,
+                part,
+                [f"{label:12d}{point:4d}      " for label in labels for point in points],
+                [str(label) for label in labels for _ in points],
+                values[:, :, start : start + COLUMNS].reshape(-1, len(part)),
+                "ELEMENT",
             )
+        )
     return text
 
 
-def _element_values(state: ElementState, inside: IntArray, variables: tuple[str, ...]) -> tuple[list[str], FloatArray]:
+def _element_values(
+    state: ElementState, inside: IntArray, variables: tuple[str, ...]
+) -> list[tuple[list[str], FloatArray]]:
     """Names and values (elements, points, names) of the variables that the elements keep.
 
-    SDV are the SVARS of a user element, one line an element; other names (S, S11, DAMAGE, ...) need elements whose
-    SVARS are known.
+    SDV are the SVARS of a user element, one line an element; other names (S, S11, DAMAGE, ...) are values at the
+    points and need elements whose SVARS are known.
     """
     svars = state.svars[inside]
-    wanted = [name for name in variables if name.startswith("SDV")]
-    numbers = [k for name in wanted for k in (range(1, svars.shape[1] + 1) if name == "SDV" else (int(name[3:]),))]
-    if numbers:
-        numbers = [k for k in numbers if 1 <= k <= svars.shape[1]]
-        return [f"SDV{k}" for k in numbers], svars[:, None, [k - 1 for k in numbers]]
-    known = state.variables
-    if known is None:
-        return [], np.zeros((len(inside), 1, 0))
-    names = [name for variable in variables for name in known.names if _asked(variable, name)]
-    values = svars[:, : known.points * len(known.names)].reshape(len(inside), known.points, len(known.names))
-    return names, values[:, :, [known.names.index(name) for name in names]]
+    found: list[tuple[list[str], FloatArray]] = []
+    if state.variables is not None:
+        known = list(state.variables.names)
+        names = [name for variable in variables for name in known if _asked(variable, name)]
+        if names:
+            values = point_values(state, state.variables)[inside]
+            found.append((names, values[:, :, [known.index(name) for name in names]]))
+    names = [f"SDV{k}" for k in range(1, svars.shape[1] + 1)]
+    names = [name for variable in variables for name in names if variable in ("SDV", name)]
+    if names:
+        found.append((names, svars[:, None, [int(name[3:]) - 1 for name in names]]))
+    return found
 
 
 def _asked(variable: str, name: str) -> bool:

@@ -102,6 +102,7 @@ def test_a_table_of_integration_points(model: Model, records: Records) -> None:
         (("SDV3", "SDV4"), [["SDV3", "SDV4"]]),
         (("SDV",), [[f"SDV{k}" for k in range(1, 10)], [f"SDV{k}" for k in range(10, 15)]]),
         (("DAMAGE", "TN"), [["DAMAGE", "TN"]]),
+        (("SDV3", "DAMAGE"), [["DAMAGE"], ["SDV3"]]),
         (("S",), []),
     ],
 )
@@ -163,3 +164,20 @@ def test_tables_are_printed_at_their_frequency(with_requests: Requests, records:
     assert found.count("                             E L E M E N T   O U T P U T") == 1
     assert " STEP TIME COMPLETED       0.250    ,  TOTAL TIME COMPLETED        0.250" in found
     assert "          THE ANALYSIS HAS BEEN COMPLETED" in found
+
+
+def test_what_is_not_available_is_named_once_a_step(with_requests: Requests, records: Records, tmp_path: Path) -> None:
+    model = with_requests(
+        node_print=(NodeRequest("LOAD", np.array([6]), ("U2", "UR3")),),
+        element_print=(ElementRequest("CZ", np.array([2]), ("S", "TN", "SDV15")),),
+    )
+    file = DataFile(tmp_path / "job.dat", model)
+    for record in records(model):
+        if isinstance(record, IncrementDone):
+            file.increment(record, last=False)
+    warnings = [line for line in lines((tmp_path / "job.dat").read_text()) if "***WARNING" in line]
+    assert warnings == [
+        " ***WARNING: *NODE PRINT, NSET=LOAD: UR3 IS NOT AVAILABLE AND IS LEFT OUT",
+        " ***WARNING: *EL PRINT, ELSET=CZ: S IS NOT AVAILABLE AND IS LEFT OUT",
+        " ***WARNING: *EL PRINT, ELSET=CZ: SDV15 IS NOT AVAILABLE AND IS LEFT OUT",
+    ]

@@ -16,7 +16,7 @@ Records = Callable[..., Iterator[Record]]
 
 def shown(model: Model, records: Iterator[Record], *, quiet: bool, terminal: bool) -> str:
     stream = io.StringIO()
-    display = ProgressDisplay(model, quiet=quiet, console=Console(file=stream, force_terminal=terminal, width=140))
+    display = ProgressDisplay(model, quiet=quiet, console=Console(file=stream, force_terminal=terminal, width=80))
     for record in records:
         display.write(record)
     display.close()
