@@ -45,11 +45,12 @@ def load(tmp_path):
 def user_group():
     """Group of user elements U1, numbered from 101."""
 
-    def user_group(nodes, dofs, *, properties=(), integers=(), **definition):
+    def user_group(nodes, dofs, *, properties=(), integers=(), material=None, orientation=None, **definition):
         element = UserElement(
             1, nodes.shape[1], dofs, SOURCE, properties=len(properties), integer_properties=len(integers), **definition
         )
-        section = UserProperty("ALL", SOURCE, np.array(properties, dtype=float), np.array(integers, dtype=np.int64))
+        reals, whole = np.array(properties, dtype=float), np.array(integers, dtype=np.int64)
+        section = UserProperty("ALL", SOURCE, reals, whole, material, orientation)
         return ElementGroup("U1", 101 + np.arange(len(nodes)), nodes, "", section, element, SOURCE)
 
     return user_group

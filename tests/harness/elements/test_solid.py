@@ -2,8 +2,13 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Built-in plane elements: patch test, rigid body, tangent."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
+
+from harness.errors import KernelError, Source
+from harness.model.properties import Elastic, ElasticType, Plastic
 
 E, NU, THICKNESS = 1000.0, 0.3, 2.0
 # an irregular quadrilateral patch of unit square with one inner node, as four quadrilaterals
@@ -68,3 +73,55 @@ def test_rank(patch, call, element_type):
     np.testing.assert_allclose(k @ rigid.T, 0, atol=1e-11)
     assert np.linalg.matrix_rank(k, tol=1e-8 * abs(k).max()) == 15
     np.testing.assert_array_equal(k, k.T)
+
+
+@pytest.mark.parametrize("element_type", TYPES)
+def test_plastic_tangent(patch, call, element_type):
+    """AMATRX against central differences of RHS."""
+    table = np.array([[5.0, 0.0], [8.0, 0.02]])
+    block, matrix = patch(element_type, plastic=Plastic(table, Source("test.inp", 1)))
+    rng = np.random.default_rng(1)
+    u = displacement(STRAIN) + 2e-3 * rng.normal(size=18)
+
+    def residual(u):
+        r = np.zeros(18)
+        block.evaluate(call, u, u, r, None)
+        return r
+
+    report = block.evaluate(call, u, u, np.zeros(18), matrix.data)
+    step = 1e-7
+    differences = np.array([(residual(u + h) - residual(u - h)) / (2 * step) for h in step * np.eye(18)]).T
+    np.testing.assert_allclose(matrix.toarray(), -differences, atol=1e-6 * abs(matrix.data).max())
+    # it does yield: energy is dissipated
+    assert report.energy[3] > 0.1 * report.energy[1]
+
+
+@pytest.mark.parametrize("nu", [0.0, 0.3, 0.4999])
+def test_bending_of_cpe4_does_not_lock(solid_group, bound, load, call, nu):
+    """u1 = xy on a square of side 2, whose mean volume strain is 0: E11 = y/2, E22 = -y/2, 2 E12 = x, energy 4/3 G."""
+    elastic = Elastic(ElasticType.ISOTROPIC, (1000.0, nu), Source("test.inp", 1))
+    square = np.array([[-1.0, -1, 0], [1, -1, 0], [1, 1, 0], [-1, 1, 0]])
+    block, matrix = bound(solid_group("CPE4", np.array([[0, 1, 2, 3]]), 1.0, elastic=elastic), square, load(None))
+    u = np.array([1.0, 0, -1, 0, 1, 0, -1, 0])
+    report = block.evaluate(call, u, u, np.zeros(8), matrix.data)
+    assert report.energy[1] == pytest.approx(4 / 3 * 1000 / (2 * (1 + nu)), rel=1e-9)
+
+
+@pytest.mark.parametrize("element_type, turned", [("CPS4", [0, 3, 2, 1]), ("CPE4", [0, 2, 1, 3]), ("CPS3", [0, 2, 1])])
+def test_inside_out(solid_group, bound, load, call, element_type, turned):
+    square = np.array([[0.0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0]])
+    block, matrix = bound(solid_group(element_type, np.array([turned]), 1.0), square, load(None))
+    with pytest.raises(
+        KernelError, match=rf"element 101 \(type {element_type}\): .*inside out at its integration point"
+    ):
+        block.evaluate(call, np.zeros(8), np.zeros(8), np.zeros(8), matrix.data)
+
+
+def test_calls_for_other_matrices_leave_nothing(patch, call):
+    """Mass and damping calls get zeros, and the state stays."""
+    block, matrix = patch("CPS4")
+    u = displacement(STRAIN)
+    block.evaluate(replace(call, lflags=(1, 0, 4, 0, 0)), u, u, np.zeros(18), matrix.data)
+    block.commit()
+    assert not matrix.data.any()
+    assert not block.state(0).svars.any()

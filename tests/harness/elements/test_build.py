@@ -1,0 +1,99 @@
+# SPDX-FileCopyrightText: The uel-harness authors
+# SPDX-License-Identifier: BSD-3-Clause
+"""What is wrong with a model is said before the first call, with the place in the deck."""
+
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from harness.elements import FIELD_NAMES, build_blocks, field_of
+from harness.errors import DeckError, Source
+from harness.model.mesh import Mesh
+from harness.model.model import Model
+from harness.model.properties import Elastic, ElasticType, Material
+from harness.model.steps import Static, Step
+
+SPRING = ((0, 1), (1, 1))
+NODES = np.array([[0, 1]])
+STEP = Step(1, "Step-1", Static(), Source("test.inp", 40))
+
+
+@pytest.fixture
+def build(load):
+    def build(group, file="spring.f", steps=()):
+        mesh = Mesh(np.arange(1, 5), np.eye(4, 3), ("",) * 4)
+        return build_blocks(Model(Path("test.inp"), "", mesh, (group,), steps), load(file))
+
+    return build
+
+
+def test_number_of_properties(build, user_group):
+    group = user_group(NODES, SPRING, properties=(1.0, 2.0))
+    group = replace(group, definition=replace(group.definition, properties=3, source=Source("test.inp", 5)))
+    message = (
+        r"test.inp:7: \*UEL PROPERTY for ALL gives 2 real properties, but .*TYPE=U1 \(test.inp:5\) has PROPERTIES=3"
+    )
+    with pytest.raises(DeckError, match=message):
+        build(group)
+
+
+def test_number_of_integer_properties(build, user_group):
+    group = user_group(NODES, SPRING, integers=(1,))
+    group = replace(group, definition=replace(group.definition, integer_properties=0))
+    with pytest.raises(DeckError, match=r"gives 1 integer properties, but .* has I PROPERTIES=0"):
+        build(group)
+
+
+def test_number_of_nodes(build, user_group):
+    group = user_group(NODES, SPRING)
+    group = replace(group, definition=replace(group.definition, nodes=3))
+    with pytest.raises(DeckError, match=r"test.inp:7: elements of type U1 have 2 nodes, but .* has NODES=3"):
+        build(group)
+
+
+def test_missing_uel(build, user_group):
+    with pytest.raises(DeckError, match=r"elements of type U1 need UEL; .*point.f has UELMAT"):
+        build(user_group(NODES, SPRING), "point.f")
+
+
+def test_missing_uelmat(build, user_group):
+    material = Material("M", Source("test.inp", 3), Elastic(ElasticType.ISOTROPIC, (1.0, 0.3), Source("test.inp", 4)))
+    group = user_group(NODES, SPRING, material=material, tensor="PSTRESS")
+    message = r"need UELMAT, because \*UEL PROPERTY for ALL names a material; .*spring.f has UEL"
+    with pytest.raises(DeckError, match=message):
+        build(group)
+
+
+@pytest.mark.parametrize("element_type, hint", [("CPS5", "did you mean CPS4"), ("C3D8R", "")])
+def test_unsupported_element_type(build, solid_group, element_type, hint):
+    message = (
+        rf"test.inp:7: element type {element_type} is not supported \(built in are CPS3, CPS4, CPE3, CPE4\).*{hint}"
+    )
+    with pytest.raises(DeckError, match=message):
+        build(solid_group(element_type, np.array([[0, 1, 2, 3]]), 1.0))
+
+
+def test_number_of_nodes_of_a_built_in_element(build, solid_group):
+    with pytest.raises(DeckError, match="elements of type CPS4 have 4 nodes, found 3"):
+        build(solid_group("CPS4", np.array([[0, 1, 2]]), 1.0))
+
+
+def test_large_displacements_of_built_in_elements(build, solid_group):
+    with pytest.raises(DeckError, match=r"test.inp:40: NLGEOM is not supported with elements of type CPE3"):
+        build(solid_group("CPE3", np.array([[0, 1, 2]]), 1.0), steps=(STEP, replace(STEP, nlgeom=True)))
+
+
+def test_sections_of_the_wrong_kind(build, solid_group, user_group):
+    solid, user = solid_group("CPS3", np.array([[0, 1, 2]]), 1.0), user_group(NODES, SPRING)
+    with pytest.raises(DeckError, match=r"\*UEL PROPERTY cannot be used for elements of type CPS3"):
+        build(replace(solid, section=user.section))
+    with pytest.raises(DeckError, match=r"\*SOLID SECTION cannot be used for user elements \(U1\)"):
+        build(replace(user, section=solid.section))
+
+
+def test_fields():
+    """Abaqus: 1-3 forces, 4-7 moments, 8 pore pressure, 9 electrical, 11 and up temperature."""
+    names = [FIELD_NAMES[field_of(dof)] for dof in (1, 3, 4, 6, 7, 8, 9, 11, 12, 30)]
+    assert names == ["force"] * 2 + ["moment"] * 3 + ["pore", "electrical"] + ["temperature"] * 3
