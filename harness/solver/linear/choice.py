@@ -31,19 +31,13 @@ SOLVERS: Final[dict[str, type[LinearSolver]]] = {
 }
 """By name, in the order in which `auto` asks for them."""
 
-REQUIRES: Final = {"band": ("scipy", "scipy"), "superlu": ("scipy", "scipy")} | {
+REQUIRES: Final = {
+    "band": ("scipy", "scipy"),
     "pardiso": ("pypardiso", "pypardiso"),
     "mumps": ("mumps", "python-mumps"),
+    "superlu": ("scipy", "scipy"),
 }
 """Module to import and distribution to install of each solver."""
-
-NOTES: Final = {
-    "band": "auto, first choice where the renumbered matrix is narrow, as in slender bodies",
-    "pardiso": "auto, where the band is too wide",
-    "mumps": "auto, where the band is too wide and pardiso is missing",
-    "superlu": "auto, where nothing better is installed",
-}
-
 
 WIDEST_BAND: Final = {"pardiso": 75, "mumps": 120, "superlu": 200}
 """Half bandwidth up to which the band solver beats another one.
@@ -58,6 +52,15 @@ Measured, one thread, factorisation and solution in ms, plane quads with an inte
 
 MUMPS lies between them.
 """
+
+NOTES: Final = {
+    "band": "auto, half bandwidth up to "
+    + ", ".join(f"{width} (against {name})" for name, width in WIDEST_BAND.items())
+    + ", as in slender bodies",
+    "pardiso": "auto, wider models",
+    "mumps": "auto, wider models without pardiso",
+    "superlu": "auto, wider models without pardiso and mumps",
+}
 
 LARGEST_BAND: Final = 2**31
 """Largest band storage in bytes."""

@@ -236,6 +236,17 @@ def test_auto_takes_a_sparse_solver_on_a_square() -> None:
     assert "too wide" in solver.reason
 
 
+def test_auto_takes_a_sparse_solver_where_the_band_would_fill_the_memory(monkeypatch) -> None:
+    from harness.solver.linear import choice  # noqa: PLC0415
+
+    matrix, coordinates = clamped(100, 4)
+    storage = 8 * matrix.shape[0] * (3 * 23 + 1)
+    monkeypatch.setattr(choice, "LARGEST_BAND", storage)
+    assert solver_for("auto", matrix, coordinates).name == "band"
+    monkeypatch.setattr(choice, "LARGEST_BAND", storage - 1)
+    assert solver_for("auto", matrix, coordinates).name != "band"
+
+
 def test_named_solver_is_taken_and_unknown_names_are_refused() -> None:
     matrix, coordinates = clamped(4, 1)
     assert solver_for("superlu", matrix, coordinates).name == "superlu"
