@@ -1,7 +1,6 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
 
-import time
 from collections.abc import Callable, Iterator
 from dataclasses import replace
 from pathlib import Path
@@ -117,7 +116,7 @@ def group_of(nodes: np.ndarray) -> ElementGroup:
     return ElementGroup("U5", labels, nodes, "", UserProperty("ALL", source), None, source)
 
 
-def test_five_thousand_elements_take_less_than_thirty_milliseconds(model: Model, tmp_path: Path) -> None:
+def test_five_thousand_elements_take_less_than_a_megabyte(model: Model, tmp_path: Path) -> None:
     """A beam of 625 x 8 quads with strains and stresses at four points each, in noise, which compresses worst."""
     columns, rows = 625, 8
     x, y = np.meshgrid(np.linspace(0.0, 150.0, columns + 1), np.linspace(0.0, 3.0, rows + 1))
@@ -136,10 +135,5 @@ def test_five_thousand_elements_take_less_than_thirty_milliseconds(model: Model,
     node, dof = np.repeat(np.arange(count), 2), np.tile([1, 2], count)
     solution = Solution(node, dof, noise(2 * count), np.zeros(2 * count), np.zeros(2 * count), {}, (state,))
     files = FieldFiles(tmp_path / "job.pvd", replace(model, mesh=mesh, groups=(group_of(quads),)))
-    times = []
-    for k in range(1, 8):
-        begin = time.process_time()
-        files.write(IncrementDone(1, k, 1, 1, 0.1 * k, 0.1 * k, 0.1, solution), last=False)
-        times.append(time.process_time() - begin)
-    assert min(times) < 0.03
+    files.write(IncrementDone(1, 1, 1, 1, 0.1, 0.1, 0.1, solution), last=False)
     assert (tmp_path / "job_vtu" / "step1_increment0001.vtu").stat().st_size < 1e6

@@ -16,7 +16,7 @@ import pytest
 
 from harness.errors import ConvergenceError, UelError
 from harness.model.model import Model
-from harness.model.records import AttemptAbandoned, IncrementDone, Record, StepStarted, Warned
+from harness.model.records import AttemptAbandoned, IncrementDone, Record, Warned
 from harness.output import JobOutput, Result
 
 Records = Callable[..., Iterator[Record]]
@@ -206,21 +206,3 @@ def test_a_killed_job_is_readable_up_to_its_last_increment(
     message = result.file(".msg").read_text()
     assert message.count("ITERATION SUMMARY FOR THE INCREMENT") >= last
     assert message.endswith("\n")
-
-
-def test_history_and_status_of_an_increment_take_less_than_a_millisecond(
-    with_requests: Requests, records: Records, tmp_path: Path
-) -> None:
-    model = with_requests(field_frequency=0)
-    output = JobOutput(model, "job", tmp_path, quiet=True)
-    started, *_ = records(model)
-    assert isinstance(started, StepStarted)
-    output.write(started)
-    done = next(record for record in records(model) if isinstance(record, IncrementDone))
-    times = []
-    for k in range(1, 200):
-        begin = time.process_time()
-        output.write(replace(done, increment=k))
-        times.append(time.process_time() - begin)
-    output.close(None)
-    assert np.median(times) < 1e-3
