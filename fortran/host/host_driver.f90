@@ -93,12 +93,17 @@ contains
     current%tensor = block%tensor
   end subroutine prepare
 
-  !> All elements of the block, until a fault.
   subroutine loop(context) bind(c)
     type(c_ptr), value :: context
     type(block_t), pointer :: block
-    integer :: e, ndofel
     call c_f_pointer(context, block)
+    call all_elements(block)
+  end subroutine loop
+
+  !> All elements of the block, until a fault.
+  subroutine all_elements(block)
+    type(block_t), intent(inout) :: block
+    integer :: e, ndofel
     ndofel = size(block%equations, 1)
     block%pnewdt = untouched
     block%energy_sum = 0
@@ -116,7 +121,7 @@ contains
         call add_matrix(ndofel, work%memory(work%start(i_amatrx)), block%map(:, :, e), block%symmetric, block%matrix)
       end if
     end do
-  end subroutine loop
+  end subroutine all_elements
 
   !> Gather the arguments of an element, call it, and keep its trial state.
   subroutine call_element(block, e)
@@ -224,6 +229,7 @@ contains
     block%index = index
     call arm_guards(work)
     if (protect(c_funloc(search), c_loc(block)) /= 0) call look(block)
+    call arm_guards(work)
   end subroutine diagnose
 
   !> Second run over the block.

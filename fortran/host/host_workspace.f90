@@ -29,22 +29,25 @@ module host_workspace
 
 contains
 
-  !> Place the arrays; `length` entries each.
+  !> Place the arrays; `length` entries each, zero. A workspace that has these lengths and whole guards stays.
   subroutine lay_out(work, length)
     type(workspace_t), intent(inout) :: work
     integer, intent(in) :: length(n_arrays)
     integer :: k, total
+    if (allocated(work%memory) .and. all(work%length == length)) then
+      do k = 1, n_arrays
+        work%memory(work%start(k):work%start(k) + length(k) - 1) = 0
+      end do
+      return
+    end if
     total = guard
     do k = 1, n_arrays
       work%start(k) = total + 1
       total = total + length(k) + guard
     end do
     work%length = length
-    if (allocated(work%memory)) then
-      if (size(work%memory) < total) deallocate (work%memory)
-    end if
-    if (.not. allocated(work%memory)) allocate (work%memory(total))
-    work%memory = 0
+    if (allocated(work%memory)) deallocate (work%memory)
+    allocate (work%memory(total), source=0.0_dp)
     call arm_guards(work)
   end subroutine lay_out
 
@@ -90,12 +93,19 @@ contains
     integer, intent(in) :: n
     integer(i8), intent(in) :: bits
     real(dp), intent(in) :: x(n)
+    integer(i8) :: difference
     integer :: i
+    first_difference = 0
+    ! without an exit the loop vectorises, and mostly there is nothing to find
+    difference = 0
+    do i = 1, n
+      difference = ior(difference, ieor(transfer(x(i), 1_i8), bits))
+    end do
+    if (difference == 0) return
     do i = 1, n
       first_difference = i
       if (.not. same_bits(x(i), bits)) return
     end do
-    first_difference = 0
   end function first_difference
 
   !> True where x has exactly these bits (NaN compares unequal to itself).
