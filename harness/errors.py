@@ -52,10 +52,16 @@ class KernelError(UelError):
 class SingularMatrixError(UelError):
     """The system matrix is singular at a node and dof, mostly because a body is not held."""
 
-    def __init__(self, node: str, dof: int, message: str) -> None:
-        super().__init__(f"singular system matrix at node {node}, dof {dof}: {message}")
+    def __init__(self, node: str, dof: int, message: str, source: Source | None = None) -> None:
+        place = f"{source}: " if source else ""
+        super().__init__(f"{place}singular system matrix at node {node}, dof {dof}: {message}")
         self.node = node
         self.dof = dof
+        self.message = message
+
+    def in_step(self, source: Source) -> SingularMatrixError:
+        """The same error with the place of the step in which it came up."""
+        return SingularMatrixError(self.node, self.dof, self.message, source)
 
 
 class ConvergenceError(UelError):

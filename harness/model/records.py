@@ -127,7 +127,14 @@ class Warned:
     message: str
 
 
-Record = StepStarted | AttemptStarted | IterationDone | AttemptAbandoned | IncrementDone | StepDone | Warned
+@dataclass(frozen=True, slots=True)
+class Noted:
+    """Something worth knowing that is no reason to worry; printed to .msg as a note."""
+
+    message: str
+
+
+Record = StepStarted | AttemptStarted | IterationDone | AttemptAbandoned | IncrementDone | StepDone | Warned | Noted
 
 
 @dataclass(frozen=True, slots=True)

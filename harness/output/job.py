@@ -19,6 +19,7 @@ from harness.model.records import (
     AttemptStarted,
     IncrementDone,
     IterationDone,
+    Noted,
     Record,
     StepDone,
     StepStarted,
@@ -81,6 +82,8 @@ class JobOutput:
                 self._message.step_done(record)
             case Warned():
                 self._message.remark("WARNING", record.message)
+            case Noted():
+                self._message.remark("NOTE", record.message)
         self._progress.write(record)
 
     def user_text(self, file: str, kind: str, text: str) -> None:

@@ -11,13 +11,14 @@ import numpy as np
 
 from harness.assembly import Constraints, DofMap, System
 from harness.elements import Call
-from harness.errors import ConvergenceError
+from harness.errors import ConvergenceError, SingularMatrixError
 from harness.model.model import Model
 from harness.model.records import (
     AttemptAbandoned,
     AttemptStarted,
     IncrementDone,
     IterationDone,
+    Noted,
     Record,
     StepDone,
     StepStarted,
@@ -63,9 +64,11 @@ class StaticStep:
         unknowns = state.boundaries.unknowns
         self._released = released_reactions(state.reaction, unknowns, step)
         constraints = state.constraints
+        self._choice = ""
         if constraints is None or state.solver is None or not constraints.matches(unknowns, model.equations):
             constraints = Constraints(system, unknowns, model.equations, state.boundaries.sources)
             state.solver = _solver(solver, constraints)
+            self._choice = f"LINEAR SOLVER {state.solver.name.upper()}: {state.solver.reason}"
         state.constraints = constraints
         self._newton = Newton(system, constraints, state.solver, step.controls.line_search)
         self._checker = Checker(system.dofs, constraints, step.controls, state.flux)
@@ -82,6 +85,8 @@ class StaticStep:
     def run(self) -> Iterator[Record]:
         """Records of the step. Raises ConvergenceError, KernelError, SingularMatrixError."""
         cutbacks, iterations = 0, 0
+        if self._choice:
+            yield Noted(self._choice)
         while not self._control.finished(self._time):
             if self._increment == self._step.increments:
                 raise ConvergenceError(f"{TOO_MANY_INCREMENTS} (step {self._step.number}, INC={self._step.increments})")
@@ -217,6 +222,8 @@ def run_steps(system: System, model: Model, user: UserRoutines, solver: str = "a
     except ConvergenceError:
         user.external_database(3, 0, *running.reached)
         raise
+    except SingularMatrixError as error:
+        raise error.in_step(step.source) from None
     if model.steps:
         user.external_database(3, 0, *running.reached)
 

@@ -53,6 +53,22 @@ def test_deck_error_is_one_line_with_its_place(tmp_path: Path, capsys: pytest.Ca
     assert "Traceback" not in error
 
 
+def test_body_that_is_not_held_names_step_node_and_dof(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    deck = tmp_path / "free.inp"
+    deck.write_text(
+        "*NODE\n1, 0., 0.\n2, 1., 0.\n3, 1., 1.\n4, 0., 1.\n*ELEMENT, TYPE=CPS4, ELSET=ALL\n1, 1, 2, 3, 4\n"
+        "*SOLID SECTION, ELSET=ALL, MATERIAL=STEEL\n1.\n*MATERIAL, NAME=STEEL\n*ELASTIC\n210000., 0.3\n"
+        "*STEP\n*STATIC\n1., 1.\n*CLOAD\n3, 2, 1.\n*END STEP\n"
+    )
+    assert main(["run", str(deck), "--output-dir", str(tmp_path)]) == 1
+    assert f"{deck}:13: singular system matrix at node" in capsys.readouterr().err
+
+
+def test_message_file_names_the_linear_solver(tmp_path: Path) -> None:
+    assert main(["run", str(FLAT), "--output-dir", str(tmp_path), "--quiet"]) == 0
+    assert "LINEAR SOLVER BAND: half bandwidth" in (tmp_path / "flat_u2.msg").read_text()
+
+
 def test_missing_deck(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     assert main(["run", str(tmp_path / "nothing.inp")]) == 1
     assert "nothing.inp" in capsys.readouterr().err
