@@ -56,6 +56,8 @@ class ControlState:
 
 
 def _apply(controls: Controls, parameters: str, block: Block) -> Controls:
+    if parameters == "CONSTRAINTS":
+        return controls
     if parameters == "TIME INCREMENTATION":
         return replace(controls, time=_update(controls.time, TIME_LINES, block))
     if parameters == "LINE SEARCH":

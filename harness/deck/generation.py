@@ -45,13 +45,7 @@ def generate_nodes(mesh: LocalMesh, block: Block) -> None:
 
 
 def fill_nodes(mesh: LocalMesh, block: Block) -> None:
-    """*NFILL: lines of nodes between corresponding nodes of two sets.
-
-    BIAS is the ratio of adjacent intervals, counted from the second set to the first (Abaqus' definition).
-    """
-    bias = block.options.real("BIAS", 1.0)
-    if bias <= 0:
-        raise block.error(f"BIAS={bias:g} must be positive")
+    """*NFILL: lines of equidistant nodes between corresponding nodes of two sets."""
     for row in block.rows():
         first = mesh.node_labels(row.name(0, "first set"), row.source)
         second = mesh.node_labels(row.name(1, "second set"), row.source)
@@ -62,12 +56,10 @@ def fill_nodes(mesh: LocalMesh, block: Block) -> None:
             raise row.error(f"{intervals} intervals cannot be filled")
         start = np.array([mesh.point(label, row.source) for label in first.tolist()])
         end = np.array([mesh.point(label, row.source) for label in second.tolist()])
-        widths = bias ** -np.arange(intervals, dtype=np.float64)
-        fraction = np.cumsum(widths)[:-1] / widths.sum()
         name = block.options.text("NSET")
         mesh.add_to_set(mesh.nsets, name, [Members("", labels, row.source) for labels in (first, second)])
-        for layer, part in enumerate(fraction.tolist(), start=1):
-            _add_nodes(mesh, row, name, first + layer * step, start + (end - start) * part)
+        for layer in range(1, intervals):
+            _add_nodes(mesh, row, name, first + layer * step, start + (end - start) * (layer / intervals))
 
 
 def copy_nodes(mesh: LocalMesh, block: Block) -> None:

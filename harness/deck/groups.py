@@ -116,6 +116,7 @@ def _make_sections(
     """Section of each pair of section keyword and element type that occurs."""
     pairs = np.unique(np.stack([elements.section_of, elements.type_of], axis=1), axis=0)
     orientations = {owner.name: _orientations(elements.flat, owner, problems) for owner in elements.flat.owners}
+    problems.check()
     made = {}
     for section, kind in pairs.tolist():
         block, owner = sections[section]

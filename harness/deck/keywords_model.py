@@ -118,8 +118,7 @@ MESH = (
         Where.MODEL,
         (
             Option("NSET", Kind.NAME, "set that takes the nodes"),
-            Option("BIAS", Kind.REAL, "ratio of adjacent intervals"),
-            *refused("SINGULAR", "TWO STEP"),
+            *refused("BIAS", "SINGULAR", "TWO STEP"),
         ),
         "first set, second set, number of intervals, increment of node numbers",
     ),

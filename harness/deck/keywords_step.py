@@ -30,8 +30,8 @@ PROCEDURE = (
             ),
             Option("UNSYMM", Kind.SWITCH, "unsymmetric matrix storage and solution"),
             Option("AMPLITUDE", Kind.CHOICE, "default time variation", default="RAMP", choices=("RAMP", "STEP")),
-            *ignored("CONVERT SDI"),
-            *refused("PERTURBATION", "SOLVER", "SUBDIVIDE"),
+            *ignored("CONVERT SDI", "SOLVER"),
+            *refused("DSA", "PERTURBATION", "SUBDIVIDE"),
         ),
         "title",
     ),
@@ -48,7 +48,8 @@ PROCEDURE = (
     ),
     Keyword(
         "CONTROLS",
-        "Solution controls; blank entries keep their value, later steps keep the controls.",
+        "Solution controls; blank entries keep their value, later steps keep the controls. CONSTRAINTS is about hybrid "
+        "elements, couplings and contact, of which there are none.",
         Where.STEP,
         (
             Option("ANALYSIS", Kind.CHOICE, "I_0 = 8, I_R = 10", choices=("DISCONTINUOUS",)),
@@ -56,8 +57,7 @@ PROCEDURE = (
                 "PARAMETERS",
                 Kind.CHOICE,
                 "what the data lines set",
-                choices=("FIELD", "TIME INCREMENTATION", "LINE SEARCH"),
-                refused=("CONSTRAINTS",),
+                choices=("FIELD", "TIME INCREMENTATION", "LINE SEARCH", "CONSTRAINTS"),
             ),
             Option(
                 "FIELD",
@@ -133,7 +133,8 @@ OUTPUT = (
             Option("TIME INTERVAL", Kind.REAL, "time between outputs"),
             Option("TIME MARKS", Kind.SWITCH, "whether increments end at the output times", default="YES"),
             Option("VARIABLE", Kind.CHOICE, "default variables", choices=("ALL", "PRESELECT")),
-            *ignored("DIAGNOSTICS", "FILTER", "MODE LIST", "NAME", "SENSOR", "TIME POINTS"),
+            Option("TIME POINTS", Kind.NAME, "output times"),
+            *ignored("DIAGNOSTICS", "FILTER", "MODE LIST", "NAME", "SENSOR"),
         ),
     ),
     Keyword(
@@ -193,6 +194,8 @@ OUTPUT = (
 )
 
 _IGNORED = {
+    "SOLVER CONTROLS": "Controls of the iterative linear solver.",
+    "TIME POINTS": "Points in time, for output.",
     "RESTART": "Restart files, which are not written.",
     "PREPRINT": "What Abaqus echoes to .dat.",
     "PRINT": "What Abaqus writes to .msg.",

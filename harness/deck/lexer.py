@@ -15,6 +15,8 @@ from harness.deck.problems import Problems
 from harness.deck.table import Keyword, Options, compact, read_options, split_fields
 from harness.errors import DeckError, Source
 
+# other characters that some programs take for line ends; a message of ours is one line
+_BLANKS = dict.fromkeys(map(ord, "\v\f\x1c\x1d\x1e\x85\u2028\u2029"), " ")
 _PARAMETER = re.compile(r"<\s*([A-Za-z_]\w*)\s*>")
 
 
@@ -45,7 +47,7 @@ def _load(path: Path, source: Source) -> list[str]:
         text = raw.decode("utf-8-sig")
     except UnicodeDecodeError:
         text = raw.decode("latin-1")
-    return text.replace("\r\n", "\n").replace("\r", "\n").split("\n")
+    return text.replace("\r\n", "\n").replace("\r", "\n").translate(_BLANKS).split("\n")
 
 
 @dataclass(slots=True)

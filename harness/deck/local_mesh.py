@@ -132,8 +132,8 @@ class LocalMesh:
         if dot and instance == self.assembly and local in sets:
             return sets[local]
         instance = instance.rpartition(".")[2]
-        if dot and instance in self.instances:
-            members = self.instances[instance].find_set(kind, local, source)
+        if dot and instance in self.instances and local in self.instances[instance].sets(kind):
+            members = self.instances[instance].sets(kind)[local]
             return [replace(part, instance=instance) for part in members]
         known = [*sets, *(f"{key}.{inner}" for key, mesh in self.instances.items() for inner in mesh.sets(kind))]
         what = "node set" if kind == "NSET" else "element set"

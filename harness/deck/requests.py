@@ -20,6 +20,7 @@ from harness.model.steps import ElementRequest, NodeRequest, OutputRequests
 PRESELECTED_ENERGIES = ("ALLAE", "ALLCD", "ALLIE", "ALLKE", "ALLPD", "ALLSE", "ALLVD", "ALLWK", "ETOTAL")
 PRESELECTED_NODAL = ("U", "RF", "CF")
 NEVER = 0
+_OUTPUT_TIMES = ("NUMBER INTERVAL", "TIME INTERVAL", "TIME POINTS")
 
 
 @dataclass(frozen=True, slots=True)
@@ -66,7 +67,7 @@ class RequestReader:
         options = block.options
         both = not options.flag("FIELD") and not options.flag("HISTORY")
         kinds = {kind for kind in ("FIELD", "HISTORY") if options.flag(kind) or both}
-        if (options.given("NUMBER INTERVAL") or options.given("TIME INTERVAL")) and options.flag("TIME MARKS"):
+        if any(options.given(name) for name in _OUTPUT_TIMES) and options.flag("TIME MARKS"):
             message = "*OUTPUT: increments do not end at the output times; every increment is written instead"
             self._problems.warn(block.source, message)
         self._drop({"NEW": {"FIELD", "HISTORY"}, "REPLACE": kinds}.get(options.text("OP"), set()))

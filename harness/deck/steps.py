@@ -20,10 +20,10 @@ MOST_INCREMENTS = 100
 def read_steps(
     scopes: list[Scope], prescription: Prescription, requests: RequestReader, problems: Problems
 ) -> tuple[Step, ...]:
-    """All steps; controls, output requests and NLGEOM go on from one to the next."""
+    """All steps; controls, output requests, NLGEOM and UNSYMM go on from one to the next."""
     steps: list[Step] = []
     controls = ControlState()
-    nlgeom = False
+    nlgeom = unsymmetric = False
     for number, scope in enumerate(scopes, start=1):
         for block in scope.blocks:
             if block.name == "CONTROLS":
@@ -32,6 +32,10 @@ def read_steps(
         output = requests.read_step(scope.blocks)
         nlgeom = nlgeom or scope.head.options.flag("NLGEOM")
         options = scope.head.options
+        unsymmetric = options.flag("UNSYMM") if options.given("UNSYMM") else unsymmetric
+        name = options.text("NAME") or f"Step-{number}"
+        if name in (step.name for step in steps):
+            problems.add(scope.head.source, f"*STEP: the name {name} is taken by an earlier step")
         boundaries, new_boundary = _read_boundaries(scope, prescription, problems)
         loads, new_loads = _read_loads(scope, prescription, problems)
         with problems.gather():
@@ -42,15 +46,15 @@ def read_steps(
             steps.append(
                 Step(
                     number=number,
-                    name=options.text("NAME") or f"Step-{number}",
+                    name=name,
                     procedure=procedure,
                     source=scope.head.source,
                     nlgeom=nlgeom,
                     increments=increments,
                     extrapolation=options.text("EXTRAPOLATION"),
-                    unsymmetric=options.flag("UNSYMM"),
+                    unsymmetric=unsymmetric,
                     amplitude=options.text("AMPLITUDE"),
-                    title=" ".join(line for line in scope.head.lines if line),
+                    title=next((line for line in scope.head.lines if line), ""),
                     controls=controls.effective,
                     boundaries=tuple(boundaries),
                     new_boundary=new_boundary,

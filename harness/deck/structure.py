@@ -71,7 +71,9 @@ def _place(block: Block, structure: Structure, open_scopes: list[Scope], problem
     elif keyword.name in _OUTER:
         if inside != _OUTER[keyword.name]:
             _misplaced(block, open_scopes, problems)
-        open_scopes.append(_begin(block, structure))
+        scope = Scope(block)
+        open_scopes.append(scope)
+        _begin(scope, structure)
     elif inside == "STEP":
         if keyword.where is Where.MODEL:
             raise block.error("model data within a step; it belongs before the first *STEP")
@@ -88,8 +90,8 @@ def _place(block: Block, structure: Structure, open_scopes: list[Scope], problem
         raise block.error(f"does not belong between *{inside} and *END {inside}")
 
 
-def _begin(block: Block, structure: Structure) -> Scope:
-    scope = Scope(block)
+def _begin(scope: Scope, structure: Structure) -> None:
+    block = scope.head
     if block.name == "STEP":
         structure.steps.append(scope)
     elif structure.steps:
@@ -103,7 +105,6 @@ def _begin(block: Block, structure: Structure) -> Scope:
         if scope.name in scopes:
             raise block.error(f"{scope.name} is defined already, at {scopes[scope.name].head.source}")
         scopes[scope.name] = scope
-    return scope
 
 
 def _end(block: Block, open_scopes: list[Scope]) -> None:

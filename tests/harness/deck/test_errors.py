@@ -14,14 +14,13 @@ Read = Callable[[str], Model]
 FLAT = Path(__file__).with_name("flat.inp").read_text()
 CAE = Path(__file__).with_name("cae.inp").read_text()
 
-
 # what to replace in flat.inp, by what, and the line and text of the message
 MISTAKES = {
-    "unknown keyword": ("*MATERIAL", "*MATRIAL", r"29: unknown keyword \*MATRIAL; did you mean MATERIAL\?"),
+    "unknown keyword": ("*MATERIAL", "*MATERYAL", r"29: unknown keyword \*MATERYAL; did you mean MATERIAL\?"),
     "unknown option": (
         "TYPE=U1, NODES",
-        "TIPE=U1, NODES",
-        r"7: \*USER ELEMENT: unknown option TIPE; did you mean TYPE\?",
+        "TYPEX=U1, NODES",
+        r"7: \*USER ELEMENT: unknown option TYPEX; did you mean TYPE\?",
     ),
     "missing option": ("*MATERIAL, NAME=PLY", "*MATERIAL", r"29: \*MATERIAL needs the option NAME"),
     "ambiguous option": ("INC=500", "N=500", r"41: \*STEP: option N may be NAME or NLGEOM; write it out"),
@@ -164,3 +163,139 @@ def test_mistake(read: Read, name: str) -> None:
     line, text = message.split(": ", 1)
     with pytest.raises(DeckError, match=rf"^deck\.inp:{line}: .*{text}"):
         read(FLAT.replace(old, new, 1))
+
+
+STRUCTURE = {
+    "missing end of a step": ("*End Step\n", "", r"80: \*STEP without \*END STEP"),
+    "missing end of a part": ("*End Part\n", "", r"8: \*PART without \*END PART; \*ASSEMBLY follows at deck.inp:31"),
+    "missing end of the assembly": ("*End Assembly\n", "", r"32: \*ASSEMBLY without \*END ASSEMBLY; \*STEP follows"),
+    "missing end of an instance": ("*End Instance\n", "", r"34: \*INSTANCE without \*END INSTANCE; \*INSTANCE follows"),
+    "end without beginning": ("*Part, name=Plate\n", "", r"27: \*END PART: no \*PART to end"),
+    "instance outside": ("*Assembly, name=Assembly\n", "", r"33: \*INSTANCE belongs between \*ASSEMBLY and \*END ASS"),
+    "unknown part": ("part=Plate\n", "part=Plato\n", r"34: \*INSTANCE: unknown part PLATO; did you mean PLATE\?"),
+    "instance twice": (
+        "name=Plate-2, part",
+        "name=plate-1, part",
+        r"37: \*INSTANCE: PLATE-1 is defined already, at deck",
+    ),
+    "second assembly": (
+        "*End Assembly\n",
+        "*End Assembly\n*Assembly, name=A\n*End Assembly\n",
+        r"67: \*ASSEMBLY: the as",
+    ),
+    "model data after a step": ("*End Step\n", "*End Step\n*Nset, nset=X\n1\n", r"90: \*NSET: model data after the"),
+    "material in a part": ("*End Part\n", "*Material, name=X\n*End Part\n", r"28: \*MATERIAL: does not belong between"),
+    "part after a step": (
+        "*End Step\n",
+        "*End Step\n*Part, name=X\n",
+        r"90: \*PART: model data after the first \*STEP",
+    ),
+    "unknown instance": (
+        "instance=Plate-1\n 1, 4",
+        "instance=Plat-1\n 1, 4",
+        r"44: \*NSET: unknown instance PLAT-1; did",
+    ),
+    "node of an instance": ("Plate-2.4, 1, 2", "Plate-2.9, 1, 2", r"85: node PLATE-2.9 is not defined"),
+    "set of an instance": (
+        "Plate-1.Set-1, ENC",
+        "Plate-1.Set-2, ENC",
+        r"77: unknown node set PLATE-1.SET-2; did you mean",
+    ),
+    "connectivity": ("1, Plate-1.3, Plate-2.1", "1, Plate-1.3, Plate-2.9", r"59: node PLATE-2.9 is not defined"),
+    "same axis points": ("5.,           0.,           1.,          90.", "5., 0., 0., 90.", r"39: .*axis are the same"),
+    "translation": (
+        "          5.,           0.,           0.\n",
+        "five\n",
+        r"38: \*INSTANCE: translation: 'five' is not",
+    ),
+    "third line": ("1.,          90.\n", "1., 90.\n1.\n", r"40: \*INSTANCE: one line with a translation"),
+    "no section": ("*Solid Section, elset=Set-1,", "*Solid Section, elset=None,", r"26: unknown element set NONE"),
+    "points on a line": (
+        "1., 0., 0., 0., 1., 0.\n",
+        "1., 0., 0., 2., 0., 0.\n",
+        r"23: .*the points a, b and c are on one l",
+    ),
+    "axis": ("\n 3, 0.\n", "\n 4, 0.\n", r"24: \*ORIENTATION: axis 4 is not 1, 2 or 3"),
+    "number of terms": ("2\nSet-1, 2, 1.", "3\nSet-1, 2, 1.", r"63: \*EQUATION: 3 terms are announced, 2 are given"),
+    "too many terms": (
+        "2\nSet-1, 2, 1.",
+        "1\nSet-1, 2, 1., RP, 2, 1.",
+        r"63: \*EQUATION: 1 terms are announced, 2 are",
+    ),
+    "no number of terms": (
+        "2\nSet-1, 2, 1.",
+        "Set-1, 2, 1.",
+        r"63: \*EQUATION: number of terms: 'Set-1' is not an inte",
+    ),
+    "half a term": ("Set-1, 2, 1.\n", "Set-1, 2\n", r"64: \*EQUATION: expected node or set, dof, coefficient"),
+    "zero coefficient": ("Set-1, 2, 1.\n", "Set-1, 2, 0.\n", r"63: \*EQUATION: the coefficient of the first term, whi"),
+    "sizes": ("Plate-1.2, 2, -1.", "Plate-1.All, 2, -1.", r"63: \*EQUATION: the node sets of the terms have different"),
+    "density": ("7.8e-09,", "0.,", r"72: \*DENSITY: density 0 must be positive"),
+    "densities": ("7.8e-09,", "7.8e-09, 20.", r"71: \*DENSITY: needs one data line with the density"),
+    "thickness": ("20.,\n", "-20.,\n", r"27: \*SOLID SECTION: thickness -20 must be positive"),
+    "no elasticity": ("*Elastic\n210000., 0.3\n", "", r"26: \*SOLID SECTION: material STEEL has no \*ELASTIC"),
+    "material twice": (
+        "*Boundary\n",
+        "*Material, name=Steel\n*Boundary\n",
+        r"76: \*MATERIAL: STEEL is defined already",
+    ),
+}
+
+
+@pytest.mark.parametrize("name", STRUCTURE)
+def test_mistake_in_structure(read: Read, name: str) -> None:
+    old, new, message = STRUCTURE[name]
+    assert old in CAE
+    line, text = message.split(": ", 1)
+    with pytest.raises(DeckError, match=rf"^deck\.inp:{line}: .*{text}"):
+        read(CAE.replace(old, new, 1))
+
+
+def test_element_without_section(read: Read) -> None:
+    start, end = FLAT.index("*UEL PROPERTY, ELSET=BULK"), FLAT.index("*UEL PROPERTY, ELSET=INTERFACE")
+    with pytest.raises(DeckError, match=r"^deck.inp:21: element 1 and 1 more of type U1 has no section: no \*UEL PROP"):
+        read(FLAT[:start] + FLAT[end:])
+
+
+def test_no_elements(read: Read) -> None:
+    with pytest.raises(DeckError, match=r"^deck.inp:1: the deck has no elements"):
+        read("*NODE\n1, 0., 0.\n*STEP\n*STATIC\n*END STEP\n")
+
+
+def test_no_step(read: Read) -> None:
+    with pytest.raises(DeckError, match=r"^deck.inp:1: the deck has no \*STEP"):
+        read(FLAT[: FLAT.index("*STEP")])
+
+
+def test_missing_step_keyword_is_one_line_of_many(read: Read) -> None:
+    text = FLAT.replace("*STEP, NAME=Load, INC=500, NLGEOM=NO\n", "")
+    with pytest.raises(DeckError) as caught:
+        read(text)
+    assert str(caught.value).splitlines()[-1] == "deck.inp:63: *END STEP: no *STEP to end"
+
+
+def test_all_places_are_reported_at_once(read: Read) -> None:
+    text = FLAT.replace("*CLOAD\n", "*DLOAD\n").replace("*MATERIAL", "*MATERYAL").replace("*STATIC", "*STATIC, RIKS")
+    with pytest.raises(DeckError) as caught:
+        read(text)
+    assert str(caught.value).splitlines() == [
+        "deck.inp:29: unknown keyword *MATERYAL; did you mean MATERIAL?",
+        "deck.inp:43: *STATIC: option RIKS is not supported",
+        "deck.inp:48: *DLOAD is not supported",
+    ]
+
+
+def test_one_wrong_line_gives_one_message(read: Read) -> None:
+    """No message about what only follows from another."""
+    for old, new, message in MISTAKES.values():
+        if "STEP and" in message or "no \\*STEP" in message:
+            continue
+        with pytest.raises(DeckError) as caught:
+            read(FLAT.replace(old, new, 1))
+        assert len(str(caught.value).splitlines()) == 1, new
+
+
+def test_very_many_errors_are_counted(read: Read) -> None:
+    with pytest.raises(DeckError, match=r"and 50 more errors$") as caught:
+        read("*FOO\n" * 100)
+    assert len(str(caught.value).splitlines()) == 51

@@ -1,0 +1,242 @@
+# SPDX-FileCopyrightText: The uel-harness authors
+# SPDX-License-Identifier: BSD-3-Clause
+"""Materials, orientations, amplitudes and parameters."""
+
+import math
+from collections.abc import Callable
+from pathlib import Path
+
+import numpy as np
+import pytest
+from numpy.testing import assert_allclose, assert_array_equal
+
+from harness.deck.expressions import Value, assign
+from harness.deck.numbers import read_integer, read_real
+from harness.errors import DeckError
+from harness.model.amplitude import Amplitude
+from harness.model.model import Model
+from harness.model.properties import Material, Orientation, UserProperty
+
+Read = Callable[[str], Model]
+FLAT = Path(__file__).with_name("flat.inp").read_text()
+
+
+def material(read: Read, lines: str) -> Material:
+    section = read(FLAT.replace("*ELASTIC\n70000., 0.3\n", lines + "\n")).groups[0].section
+    assert isinstance(section, UserProperty)
+    assert section.material is not None
+    return section.material
+
+
+@pytest.mark.parametrize(
+    ("kind", "data", "expected"),
+    [
+        ("ISOTROPIC", "1000.", (1000, 0)),
+        ("LAMINA", "1, 2, .3, 4, 5, 6", (1, 2, 0.3, 4, 5, 6)),
+        ("LAMINA", "1, 2, .3, 4", (1, 2, 0.3, 4, 0, 0)),
+        ("ENGINEERING CONSTANTS", "1, 2, 3, .1, .2, .3, 7, 8\n9", (1, 2, 3, 0.1, 0.2, 0.3, 7, 8, 9)),
+        ("ORTHOTROPIC", "1, 2, 3, 4, 5, 6, 7, 8\n9.", tuple(range(1, 10))),
+        ("ANISO", "1,2,3,4,5,6,7,8\n9,10,11,12,13,14,15,16\n17,18,19,20,21", tuple(range(1, 22))),
+    ],
+)
+def test_elastic(read: Read, kind: str, data: str, expected: tuple[float, ...]) -> None:
+    elastic = material(read, f"*ELASTIC, TYPE={kind}\n{data}").elastic
+    assert elastic is not None
+    assert elastic.constants == expected
+
+
+def test_plastic(read: Read) -> None:
+    plastic = material(read, "*ELASTIC\n1000.\n*PLASTIC\n10., 0.\n12., 0.1").plastic
+    assert plastic is not None
+    assert_array_equal(plastic.table, [[10, 0], [12, 0.1]])
+
+
+@pytest.mark.parametrize(
+    ("lines", "message"),
+    [
+        ("*ELASTIC", r"deck.inp:30: \*ELASTIC: needs a data line"),
+        ("*ELASTIC, TYPE=LAMINA\n1, 2, .3", r"deck.inp:31: \*ELASTIC: 3 values where LAMINA takes 6"),
+        ("*ELASTIC\n1, .6", r"deck.inp:31: \*ELASTIC: E = 1, nu = 0.6: expected E > 0 and -1 < nu <= 0.5"),
+        ("*PLASTIC", r"deck.inp:30: \*PLASTIC: needs a data line"),
+        ("*PLASTIC\n10., .1", r"deck.inp:31: \*PLASTIC: plastic strains must begin at zero and increase"),
+        ("*PLASTIC\n10.\n11., 0.", r"deck.inp:32: \*PLASTIC: plastic strains must begin at zero and increase"),
+        ("*PLASTIC\n0.", r"deck.inp:31: \*PLASTIC: yield stress 0 must be positive"),
+        ("*PLASTIC\n10., 0., 20.", r"deck.inp:31: \*PLASTIC: more than yield stress and plastic strain"),
+        ("*PLASTIC, HARDENING=KINEMATIC\n10.", r"deck.inp:30: \*PLASTIC, HARDENING=KINEMATIC is not supported"),
+        ("*USER MATERIAL, CONSTANTS=2\n1, 2", r"deck.inp:30: \*USER MATERIAL is not supported"),
+    ],
+)
+def test_wrong_material(read: Read, lines: str, message: str) -> None:
+    with pytest.raises(DeckError, match=message):
+        material(read, lines)
+
+
+def orientation(read: Read, lines: str) -> Orientation:
+    text = FLAT.replace("*MATERIAL", f"*ORIENTATION, NAME=O\n{lines}\n*MATERIAL").replace("=PLY\n<", "=PLY, ORI=O\n<")
+    section = read(text).groups[0].section
+    assert isinstance(section, UserProperty)
+    assert section.orientation is not None
+    return section.orientation
+
+
+def test_orientation_by_points(read: Read) -> None:
+    """a on the first axis, b in the first plane, c the origin."""
+    assert_allclose(orientation(read, "1, 3, 0, -5, 9, 0, 1, 1, 0").axes, [[0, 1, 0], [-1, 0, 0], [0, 0, 1]])
+
+
+@pytest.mark.parametrize("axis", [1, 2, 3])
+def test_orientation_turned(read: Read, axis: int) -> None:
+    """Right-handed about the axis: the next direction turns towards the one after it."""
+    axes = orientation(read, f"1, 0, 0, 0, 1, 0\n{axis}, 30.").axes
+    expected = np.eye(3)
+    first, second = axis % 3, (axis + 1) % 3
+    expected[first, [first, second]] = math.cos(math.pi / 6), 0.5
+    expected[second, [first, second]] = -0.5, math.cos(math.pi / 6)
+    assert_allclose(axes, expected, atol=1e-15)
+
+
+def test_orientation_without_data(read: Read) -> None:
+    with pytest.raises(DeckError, match=r"deck.inp:29: \*ORIENTATION: needs a data line with the points a, b and c"):
+        orientation(read, "** nothing")
+
+
+def amplitude(read: Read, options: str, data: str) -> Amplitude:
+    text = FLAT.replace("*AMPLITUDE, NAME=GROW\n0., 0., 1., 1.\n", f"*AMPLITUDE, NAME=GROW{options}\n{data}\n")
+    found = read(text).steps[0].boundaries[0].amplitude
+    assert found is not None
+    return found
+
+
+def test_tabular_amplitude(read: Read) -> None:
+    curve = amplitude(read, ", TIME=TOTAL TIME, VALUE=ABSOLUTE", "0., 0., 1., 2.,\n 2., 1.")
+    assert (curve.total_time, curve.absolute) == (True, True)
+    assert [curve.value(0.0, time) for time in (0.5, 1.0, 1.5, 9.0)] == [1.0, 2.0, 1.5, 1.0]
+
+
+def test_smooth_step(read: Read) -> None:
+    """Quintic of the manual: half way at half time, 53/512 at a quarter."""
+    curve = amplitude(read, ", DEFINITION=SMOOTH", "0., 0., 1., 1.")
+    assert_allclose([curve.value(time, 0.0) for time in (0.25, 0.5, 2.0)], [53 / 512, 0.5, 1.0])
+
+
+def test_periodic(read: Read) -> None:
+    """a = A0 + sum An cos n omega (t - t0) + Bn sin n omega (t - t0) from t0 on, A0 before."""
+    curve = amplitude(read, ", DEFINITION=PERIODIC", "2, 3., 0.5, 0.25\n1., 2., 4., 8.")
+    phase = 3 * 0.2
+    expected = 0.25 + math.cos(phase) + 2 * math.sin(phase) + 4 * math.cos(2 * phase) + 8 * math.sin(2 * phase)
+    assert_allclose([curve.value(0.7, 0.0), curve.value(0.4, 0.0)], [expected, 0.25])
+
+
+@pytest.mark.parametrize(
+    ("options", "data", "message"),
+    [
+        ("", "** nothing", r"deck.inp:37: \*AMPLITUDE: needs a data line"),
+        ("", "0., 0., 1., 1.\n0.5, 2.", r"deck.inp:39: \*AMPLITUDE: times must increase"),
+        (", DEFINITION=SMOOTH STEP", "0., 0.", r"deck.inp:37: \*AMPLITUDE: SMOOTH STEP needs two points at least"),
+        (
+            ", DEFINITION=PERIODIC",
+            "2, 1.\n1., 2.",
+            r"deck.inp:38: \*AMPLITUDE: 2 terms are announced, coefficients of 1",
+        ),
+        (", DEFINITION=PERIODIC", "** nothing", r"deck.inp:37: \*AMPLITUDE: needs a data line"),
+        (", SMOOTH=0.1", "0., 0., 1., 1.", r"deck.inp:37: \*AMPLITUDE: option SMOOTH is not supported"),
+    ],
+)
+def test_wrong_amplitude(read: Read, options: str, data: str, message: str) -> None:
+    with pytest.raises(DeckError, match=message):
+        amplitude(read, options, data)
+
+
+@pytest.mark.parametrize(
+    ("lines", "message"),
+    [
+        ("*AMPLITUDE, NAME=GROW\n0., 0.\n", r"deck.inp:39: \*AMPLITUDE: GROW is defined already, at deck.inp:37"),
+        ("*ORIENTATION, NAME=O\n1,0,0,0,1,0\n*ORIENTATION, NAME=O\n1,0,0,0,1,0\n", r"deck.inp:41: .*defined already"),
+    ],
+)
+def test_defined_twice(read: Read, lines: str, message: str) -> None:
+    with pytest.raises(DeckError, match=message):
+        read(FLAT.replace("*BOUNDARY\nBOTTOM", lines + "*BOUNDARY\nBOTTOM"))
+
+
+@pytest.mark.parametrize(
+    ("statement", "value"),
+    [
+        ("x = 1 + 2*3 - 4/2", 5),
+        ("x = -2.**2", -4.0),
+        ("x = 7 // 2 + 7 % 4", 6),
+        ("x = sqrt(a*a + 16)", 5.0),
+        ("x = max(1, min(2, a))", 2),
+        ("x = 2*pi*cos(0)", 2 * math.pi),
+        ("x = A", 3.0),
+        ("x = 'STEEL'", "STEEL"),
+        ("x = +a", 3.0),
+    ],
+)
+def test_expressions(statement: str, value: Value) -> None:
+    assert assign(statement, {"a": 3.0}) == ("x", value)
+
+
+@pytest.mark.parametrize(
+    "statement",
+    [
+        *("x", "x = ", "x = y", "x = 1; y = 2", "x = y = 1", "x, y = 1, 2", "x = __import__('os')", "x = (1).real"),
+        *(
+            "x = [1]",
+            "x = 'a' + 1",
+            "x = 1 if 1 else 2",
+            "x = 9.**9.**9.",
+            "x = (-1.)**.5",
+            "x = 1 << 3",
+            "x = sqrt(-1.)",
+        ),
+        *(
+            "x = 1/0",
+            "x = " + "(" * 300 + "1",
+            "x = " + "-" * 1500 + "1",
+            "x = " + "1+" * 2000 + "1",
+            "x = 1.e999 - a.b",
+        ),
+        *("x = 10**9**9", "x = sin()", "x = sin(1, 2, 3)", "x = int('x')", "x = floor(1e999)"),
+    ],
+)
+def test_refused_expressions(statement: str) -> None:
+    with pytest.raises(ValueError, match=r"."):
+        assign(statement, {})
+
+
+def test_parameters_in_keyword_lines(read: Read) -> None:
+    text = FLAT.replace("half = width/2\n", "half = width/2\nname = 'PLY'\nn = 4\n")
+    text = text.replace("NODES=4", "NODES=<n>").replace("MATERIAL=PLY", "MATERIAL=<name>")
+    assert read(text).groups[0].nodes.shape == (2, 4)
+
+
+@pytest.mark.parametrize(
+    ("text", "value"),
+    [
+        ("1", 1.0),
+        ("-1.5", -1.5),
+        (".5", 0.5),
+        ("1.", 1.0),
+        ("1.d-3", 1e-3),
+        ("2D+3", 2e3),
+        ("210e9.0", 210e9),
+        ("+1E3", 1e3),
+    ],
+)
+def test_reals(text: str, value: float) -> None:
+    assert read_real(text) == value
+
+
+@pytest.mark.parametrize(
+    "text", ["", "1_000", "nan", "inf", "1e", "e5", "1e999", "1 2", "0x10", "1.5.2", "210e9.5", "\u0661"]
+)
+def test_no_reals(text: str) -> None:
+    with pytest.raises(ValueError, match=r"is not a number|is too large"):
+        read_real(text)
+
+
+@pytest.mark.parametrize("text", ["", "1.5", "1e3", "3000000000", "9" * 5000, "\u0661"])
+def test_no_integers(text: str) -> None:
+    with pytest.raises(ValueError, match=r"is not an integer|is too large"):
+        read_integer(text)

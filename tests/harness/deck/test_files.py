@@ -1,0 +1,111 @@
+# SPDX-FileCopyrightText: The uel-harness authors
+# SPDX-License-Identifier: BSD-3-Clause
+"""Files that cannot be read, and decks of several files."""
+
+from collections.abc import Callable
+from pathlib import Path
+
+import pytest
+from numpy.testing import assert_array_equal
+
+from harness.deck import read_deck
+from harness.errors import DeckError
+from harness.model.model import Model
+
+Read = Callable[[str], Model]
+FLAT = Path(__file__).with_name("flat.inp").read_text()
+NODES = FLAT[FLAT.index("1, 0., 0.\n") : FLAT.index("*ELEMENT, TYPE=U1")]
+
+
+@pytest.mark.parametrize("content", [b"", b"\n\n", b"** only\n ** comments\n"])
+def test_empty_file(tmp_path: Path, content: bytes) -> None:
+    path = tmp_path / "empty.inp"
+    path.write_bytes(content)
+    with pytest.raises(DeckError, match=r"empty.inp:1: the deck is empty"):
+        read_deck(path)
+
+
+def test_binary_file(tmp_path: Path) -> None:
+    path = tmp_path / "job.odb"
+    path.write_bytes(b"*HEADING\n\x00\x01\x02")
+    with pytest.raises(DeckError, match=r"job.odb:1: .*job.odb is a binary file, not a deck"):
+        read_deck(path)
+
+
+def test_missing_file(tmp_path: Path) -> None:
+    with pytest.raises(DeckError, match=r"none.inp:1: cannot read .*none.inp: No such file or directory"):
+        read_deck(tmp_path / "none.inp")
+
+
+def test_folder(tmp_path: Path) -> None:
+    with pytest.raises(DeckError, match=r":1: cannot read .*: Is a directory"):
+        read_deck(tmp_path)
+
+
+def test_text_before_the_first_keyword(read: Read) -> None:
+    with pytest.raises(DeckError, match=r"^deck.inp:2: data before the first keyword$"):
+        read("** comment\n1, 2, 3\n4, 5, 6\n" + FLAT)
+
+
+@pytest.mark.parametrize(
+    "include", ["*NODE, NSET=ALL\n*INCLUDE, INPUT=mesh/nodes.inc\n", "*NODE, NSET=ALL, INPUT=mesh/nodes.inc\n"]
+)
+def test_data_lines_in_another_file(read: Read, include: str) -> None:
+    Path("mesh").mkdir()
+    Path("mesh/nodes.inc").write_text(NODES)
+    model = read(FLAT.replace("*NODE, NSET=ALL\n" + NODES, include))
+    assert_array_equal(model.mesh.coordinates, read(FLAT).mesh.coordinates)
+    assert_array_equal(model.nsets["ALL"], range(8))
+
+
+def test_include_of_an_include(read: Read) -> None:
+    """Sought beside the deck, then beside the including file."""
+    Path("mesh").mkdir()
+    Path("mesh/mesh.inc").write_text("*NODE, NSET=ALL\n** the nodes\n*INCLUDE, INPUT=nodes.inc\n*NSET, NSET=X\n1\n")
+    Path("mesh/nodes.inc").write_text(NODES)
+    model = read(FLAT.replace("*NODE, NSET=ALL\n" + NODES, "*INCLUDE, INPUT=mesh/mesh.inc\n"))
+    assert_array_equal(model.nsets["ALL"], range(8))
+    assert_array_equal(model.nsets["X"], [0])
+
+
+def test_error_in_an_included_file(read: Read) -> None:
+    Path("nodes.inc").write_text("** the nodes\n" + NODES.replace("3, 1., 1.", "3, 1., x"))
+    with pytest.raises(DeckError, match=r"^nodes.inc:4: \*NODE: coordinate 2: 'x' is not a number"):
+        read(FLAT.replace(NODES, "*INCLUDE, INPUT=nodes.inc\n"))
+
+
+def test_error_after_an_included_file(read: Read) -> None:
+    """Lines of one block that come from two files keep their places."""
+    Path("nodes.inc").write_text(NODES)
+    text = FLAT.replace(NODES, "*INCLUDE, INPUT=nodes.inc\n9, x, 0.\n")
+    with pytest.raises(DeckError, match=r"^deck.inp:13: \*NODE: coordinate 1: 'x' is not a number"):
+        read(text)
+
+
+def test_binary_include(read: Read) -> None:
+    Path("nodes.inc").write_bytes(b"1, 0., 0.\n\x00")
+    with pytest.raises(DeckError, match=r"^deck.inp:12: nodes.inc is a binary file, not a deck"):
+        read(FLAT.replace(NODES, "*INCLUDE, INPUT=nodes.inc\n"))
+
+
+def test_include_loop(read: Read) -> None:
+    Path("a.inc").write_text("** a\n*INCLUDE, INPUT=b.inc\n")
+    Path("b.inc").write_text("*INCLUDE, INPUT=a.inc\n")
+    with pytest.raises(DeckError, match=r"^b.inc:1: include loop: a.inc -> b.inc -> a.inc$"):
+        read(FLAT.replace("*NODE, NSET", "*INCLUDE, INPUT=a.inc\n*NODE, NSET"))
+
+
+def test_file_that_includes_itself(read: Read) -> None:
+    with pytest.raises(DeckError, match=r"^deck.inp:65: include loop: deck.inp -> deck.inp$"):
+        read(FLAT + "*INCLUDE, INPUT=deck.inp\n")
+
+
+def test_file_name_that_no_system_takes(read: Read) -> None:
+    with pytest.raises(DeckError, match=r"^deck.inp:65: cannot read x+: "):
+        read(FLAT + f"*INCLUDE, INPUT={'x' * 5000}\n")
+
+
+def test_parameters_reach_included_files(read: Read) -> None:
+    Path("nodes.inc").write_text(NODES.replace("2, 1., 0.", "2, <width>, 0."))
+    model = read(FLAT.replace(NODES, "*INCLUDE, INPUT=nodes.inc\n"))
+    assert model.mesh.coordinates[1, 0] == 20

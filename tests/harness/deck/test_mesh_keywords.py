@@ -1,0 +1,190 @@
+# SPDX-FileCopyrightText: The uel-harness authors
+# SPDX-License-Identifier: BSD-3-Clause
+"""Sets, generated nodes and elements, and element sections."""
+
+from collections.abc import Callable
+from pathlib import Path
+
+import numpy as np
+import pytest
+from numpy.testing import assert_allclose, assert_array_equal
+
+from harness.errors import DeckError
+from harness.model.model import Model
+
+Read = Callable[[str], Model]
+FLAT = Path(__file__).with_name("flat.inp").read_text()
+CAE = Path(__file__).with_name("cae.inp").read_text()
+END = """\
+*SOLID SECTION, ELSET=EALL, MATERIAL=M
+*MATERIAL, NAME=M
+*ELASTIC
+1000.
+*STEP
+*STATIC
+*END STEP
+"""
+
+
+def test_generated_mesh(read: Read) -> None:
+    """A 4 x 2 mesh from six keywords; node 11 + 100 j + i at (i / 2, j)."""
+    model = read(f"""\
+*NODE
+11, 0., 0.
+15, 2., 0.
+211, 0., 2.
+215, 2., 2.
+*NGEN, NSET=BOTTOM
+11, 15
+*NGEN, NSET=TOP
+211, 215, 1
+*NFILL, NSET=ALL
+BOTTOM, TOP, 2, 100
+*ELEMENT, TYPE=CPE4
+1, 11, 12, 112, 111
+*ELGEN, ELSET=EALL
+1, 4, 1, 1, 2, 100, 10
+{END}""")
+    assert_array_equal(model.mesh.labels, [*range(11, 16), *range(111, 116), *range(211, 216)])
+    x, y = np.meshgrid(np.arange(5) / 2, np.arange(3.0))
+    assert_allclose(model.mesh.coordinates, np.stack([x, y, 0 * x], axis=2).reshape(-1, 3))
+    assert_array_equal(model.nsets["ALL"], range(15))
+    (group,) = model.groups
+    assert_array_equal(group.labels, [1, 2, 3, 4, 11, 12, 13, 14])
+    assert_array_equal(group.nodes[-1], [8, 9, 14, 13])
+    assert_array_equal(model.elsets["EALL"], range(8))
+
+
+def test_ncopy(read: Read) -> None:
+    """The translation comes before the rotation, here by 90 degrees about z."""
+    text = "*NODE, NSET=OLD\n1, 1., 0.\n2, 2., 0.\n3, 2., 1.\n"
+    text += "*NCOPY, CHANGE NUMBER=10, OLD SET=OLD, NEW SET=NEW, SHIFT\n1., 0., 0.\n0., 0., 0., 0., 0., 1., 90.\n"
+    model = read(text + f"*ELEMENT, TYPE=CPS3, ELSET=EALL\n1, 1, 2, 3\n{END}")
+    assert_allclose(model.mesh.coordinates[3:], [[0, 2, 0], [0, 3, 0], [-1, 3, 0]], atol=1e-15)
+    assert_array_equal(model.nsets["NEW"], [3, 4, 5])
+
+
+@pytest.mark.parametrize(
+    ("lines", "message"),
+    [
+        ("*NGEN\n11, 15, 3\n", r"deck.inp:8: \*NGEN: the increment 3 does not lead from node 11 to node 15"),
+        ("*NGEN\n11, 16\n", r"deck.inp:8: node 16 is not defined"),
+        ("*NFILL\nA, B, 0\n", r"deck.inp:8: \*NFILL: 0 intervals cannot be filled"),
+        ("*NFILL, BIAS=2.\nA, B, 2\n", r"deck.inp:7: \*NFILL: option BIAS is not supported"),
+        ("*NFILL\nA, C, 2\n", r"deck.inp:8: unknown node set C"),
+        ("*NFILL\nA, B, 2, 2000000000\n", r"deck.inp:8: \*NFILL: generates node numbers outside 1 to"),
+        ("*NSET, NSET=C\n11, 15\n*NFILL\nA, C, 2\n", r"deck.inp:10: \*NFILL: the sets hold 1 and 2 nodes"),
+        ("*ELGEN\n7, 2\n", r"deck.inp:8: element 7 is not defined"),
+        ("*ELGEN\n1, 0\n", r"deck.inp:8: \*ELGEN: 0 elements in one direction cannot be generated"),
+        ("*ELGEN\n1, 3, 1, -1\n", r"deck.inp:8: \*ELGEN: generates element or node numbers outside 1 to"),
+        ("*NSET, NSET=C, GENERATE\n1, 2000000000, 1\n", r"deck.inp:8: \*NSET: 1999999999 numbers are too many"),
+        ("*NCOPY, OLD SET=A, CHANGE NUMBER=5\n", r"deck.inp:7: \*NCOPY needs the option SHIFT"),
+    ],
+)
+def test_what_cannot_be_generated(read: Read, lines: str, message: str) -> None:
+    text = "*NODE, NSET=A\n11, 0., 0.\n*NODE, NSET=B\n15, 2., 0.\n"
+    text += "*ELEMENT, TYPE=CPS3, ELSET=EALL\n1, 11, 15, 11\n"
+    with pytest.raises(DeckError, match=message):
+        read(text + lines + END)
+
+
+def test_set_of_sets_and_of_elements(read: Read) -> None:
+    sets = "*NSET, NSET=BOTH\nBOTTOM, top, 3\n*NSET, NSET=CRACK, ELSET=INTERFACE\n*ELSET, ELSET=ALL\nBULK, 101\n"
+    model = read(FLAT.replace("*MATERIAL", sets + "*MATERIAL"))
+    assert_array_equal(model.nsets["BOTH"], [0, 1, 2, 6, 7])
+    assert_array_equal(model.nsets["CRACK"], [2, 3, 4, 5])
+    assert_array_equal(model.elsets["ALL"], [0, 1, 2])
+
+
+def test_set_is_extended(read: Read) -> None:
+    model = read(FLAT.replace("*MATERIAL", "*NSET, NSET=TOP\n1, 7\n*MATERIAL"))
+    assert_array_equal(model.nsets["TOP"], [0, 6, 7])
+
+
+def test_unsorted_set_keeps_its_order(read: Read) -> None:
+    """The order counts where an equation pairs the nodes of two sets."""
+    sets = "*NSET, NSET=A, UNSORTED\n3, 1, 3\n*EQUATION\n2\nA, 1, 1., TOP, 1, -1.\n"
+    model = read(FLAT.replace("*MATERIAL", sets + "*MATERIAL"))
+    assert_array_equal(model.nsets["A"], [2, 0])
+    assert [equation.terms for equation in model.equations] == [
+        ((2, 1, 1.0), (6, 1, -1.0)),
+        ((0, 1, 1.0), (7, 1, -1.0)),
+    ]
+
+
+def test_members_that_do_not_exist_are_warned_of(read: Read) -> None:
+    model = read(FLAT.replace("7, 8,\n", "7, 8, 98, 99\n"))
+    assert_array_equal(model.nsets["TOP"], [6, 7])
+    assert model.warnings == ("deck.inp:27: set TOP: node 98 and 1 more does not exist and is left out",)
+
+
+def test_part_without_instance_is_warned_of(read: Read) -> None:
+    model = read(CAE.replace("*Assembly,", "*Part, name=Spare\n*Node\n1, 0., 0.\n*End Part\n*Assembly,"))
+    assert model.warnings == ("deck.inp:32: part SPARE has no instance and is left out",)
+
+
+def test_mesh_within_an_instance(read: Read) -> None:
+    """Abaqus/CAE writes independent instances like this: an empty part, the mesh in the instance."""
+    start, end = CAE.index("*Node\n"), CAE.index("*End Part")
+    mesh = CAE[start:end]
+    text = CAE.replace(mesh, "").replace("part=Plate\n*End Instance", "part=Plate\n" + mesh + "*End Instance", 1)
+    text = text.replace("90.\n*End Instance", "90.\n" + mesh + "*End Instance")
+    assert_allclose(read(text).mesh.coordinates, read(CAE).mesh.coordinates)
+
+
+def test_references_through_the_assembly(read: Read) -> None:
+    text = CAE.replace("Plate-1.Set-1, ENCASTRE", "Assembly.Plate-1.Set-1, ENCASTRE\nAssembly.Set-1, 2")
+    model = read(text)
+    assert [entry.nodes.tolist() for entry in model.boundaries] == [[0], [0], [0, 3, 5]]
+
+
+def test_same_node_in_the_same_place_twice(read: Read) -> None:
+    assert len(read(FLAT.replace("*MATERIAL", "*NODE\n3, 1., 1.\n*MATERIAL")).mesh.labels) == 8
+
+
+def test_equation_in_a_rotated_instance(read: Read) -> None:
+    text = CAE.replace("*End Part", "*Equation\n2\n1, 1, 1., 2, 1, -1.\n*End Part")
+    with pytest.raises(
+        DeckError, match=r"deck.inp:28: \*EQUATION: is not supported in an instance that is rotated \(PLATE-2"
+    ):
+        read(text)
+    assert read(text.replace(",          90.", ", 0.")).equations[0].terms == ((0, 1, 1.0), (1, 1, -1.0))
+
+
+def test_dof_lines_of_user_elements(read: Read) -> None:
+    """`position, dofs` from that position on; a repeated position is another pass over the nodes."""
+
+    def dofs(lines: str) -> list[tuple[int, int]]:
+        model = read(FLAT.replace("Unsymm\n1, 2\n", f"Unsymm\n{lines}\n"))
+        definition = model.groups[1].definition
+        assert definition is not None
+        return [(node + 1, dof) for node, dof in definition.dofs]
+
+    assert dofs("1, 2\n3, 11") == [(1, 1), (1, 2), (2, 1), (2, 2), (3, 11), (4, 11)]
+    assert dofs("1, 2\n3,") == [(1, 1), (1, 2), (2, 1), (2, 2)]
+    assert dofs("1\n1, 2") == [(1, 1), (2, 1), (3, 1), (4, 1), (1, 2), (2, 2), (3, 2), (4, 2)]
+    assert dofs("1\n3, 2\n1, 11\n2,") == [(1, 1), (2, 1), (3, 2), (4, 2), (1, 11)]
+
+
+@pytest.mark.parametrize(
+    ("lines", "message"),
+    [
+        ("1, 31", r"deck.inp:10: \*USER ELEMENT: a dof is a number from 1 to 30"),
+        ("1, 2\n5, 1", r"deck.inp:11: \*USER ELEMENT: node position 5 of an element of 4 nodes"),
+        ("1, 2\n1, 2", r"deck.inp:9: \*USER ELEMENT: dof 2 is listed twice at node 1"),
+        ("** nothing", r"deck.inp:9: \*USER ELEMENT: needs a data line with the dofs at the first node"),
+        ("x", r"deck.inp:10: \*USER ELEMENT: dof: 'x' is not an integer"),
+    ],
+)
+def test_wrong_dof_lines(read: Read, lines: str, message: str) -> None:
+    with pytest.raises(DeckError, match=message):
+        read(FLAT.replace("Unsymm\n1, 2\n", f"Unsymm\n{lines}\n"))
+
+
+def test_long_properties(read: Read) -> None:
+    """Reals first, integers right after them, eight values a line; an empty entry is zero."""
+    text = FLAT.replace("Properties=3, I Properties=2", "Properties=10, I Properties=3")
+    text = text.replace("<half>, 1.E6, 1.D-3\n3, -4\n", "1,2,3,4,5,6,7,8\n9., , 11, 12, 13\n")
+    section = read(text).groups[1].section
+    assert_array_equal(section.values, [1, 2, 3, 4, 5, 6, 7, 8, 9, 0])  # type: ignore[union-attr]
+    assert_array_equal(section.integers, [11, 12, 13])  # type: ignore[union-attr]

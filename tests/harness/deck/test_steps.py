@@ -1,0 +1,253 @@
+# SPDX-FileCopyrightText: The uel-harness authors
+# SPDX-License-Identifier: BSD-3-Clause
+"""Steps, procedures, controls and output requests."""
+
+from collections.abc import Callable
+from dataclasses import replace
+from pathlib import Path
+
+import pytest
+
+from harness.errors import DeckError
+from harness.model.model import Model
+from harness.model.steps import Controls, FieldControls, LineSearchControls, Static, Step, TimeControls
+
+Read = Callable[[str], Model]
+FLAT = Path(__file__).with_name("flat.inp").read_text()
+MODEL = FLAT[: FLAT.index("*STEP")]
+
+
+def steps(read: Read, *bodies: str, options: str = "") -> tuple[Step, ...]:
+    """Steps made of these lines each; *STATIC comes first unless the lines hold it."""
+    texts = [
+        f"*STEP{options}\n" + ("" if "*STATIC" in body else "*STATIC\n") + f"{body}\n*END STEP\n" for body in bodies
+    ]
+    return read(MODEL + "".join(texts)).steps
+
+
+@pytest.mark.parametrize(
+    ("line", "expected"),
+    [
+        # Abaqus Keywords Guide, *STATIC: period 1, initial = period, smallest = min(initial, 1e-5 period)
+        ("", Static(1.0, 1.0, 1e-5, 1.0)),
+        (", 4.", Static(4.0, 4.0, 4e-5, 4.0)),
+        ("0.5, 2.", Static(0.5, 2.0, 2e-5, 2.0)),
+        ("1e-6, 1.", Static(1e-6, 1.0, 1e-6, 1.0)),
+        ("0.1, 1., , 0.2", Static(0.1, 1.0, 1e-5, 0.2)),
+        ("0.1, 1., 0., 0.", Static(0.1, 1.0, 1e-5, 1.0)),
+        ("0.1, 1., 0.01, 0.5", Static(0.1, 1.0, 0.01, 0.5)),
+    ],
+)
+def test_static_defaults(read: Read, line: str, expected: Static) -> None:
+    assert steps(read, f"*STATIC\n{line}")[0].procedure == expected
+
+
+def test_direct(read: Read) -> None:
+    assert steps(read, "*STATIC, DIRECT\n0.1, 1.")[0].procedure == Static(0.1, 1.0, 0.1, 0.1, direct=True)
+
+
+def test_step_defaults(read: Read) -> None:
+    (step,) = steps(read, "")
+    assert (step.name, step.increments, step.nlgeom, step.extrapolation) == ("Step-1", 100, False, "LINEAR")
+    assert (step.amplitude, step.unsymmetric, step.controls) == ("RAMP", False, Controls())
+
+
+def test_step_options(read: Read) -> None:
+    (step,) = steps(read, "", options=", NLGEOM, UNSYMM=YES, EXTRAPOLATION=PARABOLIC, AMPLITUDE=STEP, INC=7")
+    assert (step.nlgeom, step.unsymmetric, step.extrapolation) == (True, True, "PARABOLIC")
+    assert (step.amplitude, step.increments) == ("STEP", 7)
+
+
+def test_nlgeom_and_unsymm_stay(read: Read) -> None:
+    """Abaqus Keywords Guide, *STEP: both hold in all later steps."""
+    text = MODEL + "*STEP, NLGEOM, UNSYMM\n*STATIC\n*END STEP\n" + "*STEP\n*STATIC\n*END STEP\n"
+    text += "*STEP, NLGEOM=NO, UNSYMM=NO\n*STATIC\n*END STEP\n"
+    assert [(step.nlgeom, step.unsymmetric) for step in read(text).steps] == [(True, True), (True, True), (True, False)]
+
+
+@pytest.mark.parametrize(
+    ("options", "message"),
+    [
+        (", INC=0", r"deck.inp:41: \*STEP: INC=0 must be positive"),
+        (", NAME=A", r"deck.inp:45: \*STEP: the name A is taken by an earlier step"),
+    ],
+)
+def test_wrong_step_options(read: Read, options: str, message: str) -> None:
+    with pytest.raises(DeckError, match=message):
+        steps(read, "", "", options=options)
+
+
+def test_second_procedure(read: Read) -> None:
+    with pytest.raises(DeckError, match=r"deck.inp:43: \*STATIC: the step has a procedure already, at deck.inp:42"):
+        steps(read, "*STATIC\n*STATIC")
+
+
+def test_op(read: Read) -> None:
+    first, second = steps(
+        read, "*BOUNDARY\nTOP, 2, , 0.1\n*CLOAD\n3, 1, 5.", "*BOUNDARY, OP=NEW\nTOP, 1\n*CLOAD, OP=NEW"
+    )
+    assert (first.new_boundary, first.new_loads) == (False, False)
+    assert (second.new_boundary, second.new_loads) == (True, True)
+    assert [entry.dof for entry in second.boundaries] == [1]
+
+
+def test_op_must_be_one_in_a_step(read: Read) -> None:
+    """Abaqus Keywords Guide, *BOUNDARY: OP must be the same for all uses within a step."""
+    with pytest.raises(
+        DeckError, match=r"deck.inp:45: \*BOUNDARY: OP=NEW and OP=MOD in one step; first OP=NEW at deck.inp:43"
+    ):
+        steps(read, "*BOUNDARY, OP=NEW\nTOP, 1\n*BOUNDARY\nTOP, 2")
+
+
+def test_named_boundaries(read: Read) -> None:
+    """Dofs of the manual's table, of those that some element has; here 1 and 2."""
+    kinds = ("XSYMM", "YSYMM", "ZSYMM", "XASYMM", "YASYMM", "ZASYMM", "PINNED", "ENCASTRE")
+    found = [
+        [entry.dof for entry in read(MODEL.replace("PINNED", kind) + "*STEP\n*STATIC\n*END STEP\n").boundaries]
+        for kind in kinds
+    ]
+    assert found == [[1], [2], [], [2], [1], [1, 2], [1, 2], [1, 2]]
+
+
+FIELD = "*CONTROLS, PARAMETERS=FIELD"
+TIME = "*CONTROLS, PARAMETERS=TIME INCREMENTATION"
+
+
+@pytest.mark.parametrize(
+    ("body", "expected"),
+    [
+        (
+            f"{FIELD}\n.01, .02, 3., 4., .05, 6e-5, 7e-3, 8e-8\n",
+            Controls(default=FieldControls(0.01, 0.02, 3.0, 4.0, 0.05, 6e-5, 7e-3, 8e-8)),
+        ),
+        (f"{FIELD}\n, 1.\n", Controls(default=FieldControls(c_n=1.0))),
+        (f"{FIELD}, FIELD=DISP\n.01\n", Controls(fields={"DISPLACEMENT": FieldControls(r_n=0.01)})),
+        (
+            f"{FIELD}, FIELD=ROTATION\n.01, 1.\n{FIELD}\n.02\n",
+            Controls(default=FieldControls(r_n=0.02), fields={"ROTATION": FieldControls(r_n=0.02, c_n=1.0)}),
+        ),
+        (f"{TIME}\n8, 10, , , , , , 20\n", Controls(time=TimeControls(i_0=8, i_r=10, i_a=20))),
+        (f"{TIME}\n\n.1, , .6\n", Controls(time=TimeControls(d_f=0.1, d_b=0.6))),
+        (
+            f"{TIME}\n5, 6, 7, 8, 9, 3, 11, 12, 13, 2, 50, 50, 50\n"
+            ".2, .4, .6, .8, .3, .31, 1.4, .7\n.9, 1.6, 1.7, 1.8, .96, .2\n",
+            Controls(
+                time=TimeControls(
+                    *(5, 6, 7, 8, 9, 3, 11, 12, 13, 2),
+                    *(0.2, 0.4, 0.6, 0.8, 0.3, 0.31, 1.4, 0.7, 0.9, 1.6, 1.7, 1.8, 0.96, 0.2),
+                )
+            ),
+        ),
+        ("*CONTROLS, ANALYSIS=DISCONTINUOUS\n", Controls(time=TimeControls(i_0=8, i_r=10))),
+        # it overrides what TIME INCREMENTATION gives, in any order
+        (f"*CONTROLS, ANALYSIS=DISC\n{TIME}\n5, 6, 7\n", Controls(time=TimeControls(i_0=8, i_r=10, i_p=7))),
+        ("*CONTROLS, PARAMETERS=LINE SEARCH\n4, 2.\n", Controls(line_search=LineSearchControls(4, 2.0))),
+        (
+            "*CONTROLS, PARAMETERS=LINE\n4, 2., .01, .3, .2\n",
+            Controls(line_search=LineSearchControls(4, 2.0, 0.01, 0.3, 0.2)),
+        ),
+        ("*CONTROLS, PARAMETERS=CONSTRAINTS\n1e-3\n", Controls()),
+        (f"{TIME}\n8, 10\n*CONTROLS, RESET\n", Controls()),
+    ],
+)
+def test_controls(read: Read, body: str, expected: Controls) -> None:
+    assert steps(read, body)[0].controls == expected
+
+
+def test_controls_stay_in_later_steps(read: Read) -> None:
+    found = [step.controls.time for step in steps(read, f"{TIME}\n5", f"{TIME}\n, 6", "*CONTROLS, RESET", "")]
+    changed = TimeControls(i_0=5)
+    assert found == [changed, replace(changed, i_r=6), TimeControls(), TimeControls()]
+
+
+@pytest.mark.parametrize(
+    ("body", "message"),
+    [
+        (f"{FIELD}\n-.01", r"deck.inp:44: \*CONTROLS: R_N = -0.01 must not be negative"),
+        (f"{TIME}\n4.5", r"deck.inp:44: \*CONTROLS: I_0: '4.5' is not an integer"),
+        (f"{FIELD}\n{'1,' * 9}", r"deck.inp:44: \*CONTROLS: 9 entries where at most 8 are read"),
+        (f"{FIELD}\n1\n2", r"deck.inp:45: \*CONTROLS: data line 2 is not supported"),
+        ("*CONTROLS, RESET\n1", r"deck.inp:43: \*CONTROLS: RESET takes no data lines"),
+        ("*CONTROLS\n1", r"deck.inp:43: \*CONTROLS: data lines need PARAMETERS="),
+        ("*CONTROLS", r"deck.inp:43: \*CONTROLS: needs ANALYSIS, PARAMETERS or RESET"),
+        (f"{FIELD}, FIELD=COLOUR\n1", r"deck.inp:43: \*CONTROLS, FIELD=COLOUR: expected one of GLOBAL, DISP"),
+    ],
+)
+def test_wrong_controls(read: Read, body: str, message: str) -> None:
+    with pytest.raises(DeckError, match=message):
+        steps(read, body)
+
+
+def test_preselected_output(read: Read) -> None:
+    """Without any *OUTPUT: field output in every increment, energies of the whole model."""
+    output = steps(read, "")[0].output
+    assert (output.field_frequency, output.history_frequency, output.history_nodes) == (1, 1, ())
+    assert {"ALLIE", "ALLSE", "ALLWK", "ETOTAL"} < set(output.history_energies)
+
+
+def test_output_of_one_kind_drops_the_preselected(read: Read) -> None:
+    field = steps(read, "*OUTPUT, FIELD, FREQUENCY=3")[0].output
+    assert (field.field_frequency, field.history_energies) == (3, ())
+    history = steps(read, "*OUTPUT, HISTORY, FREQUENCY=4\n*NODE OUTPUT, NSET=TOP\nU, RF2")[0].output
+    assert (history.field_frequency, history.history_frequency) == (0, 4)
+    assert history.history_nodes[0].variables == ("U", "RF2")
+    assert history.history_nodes[0].frequency == 4
+
+
+def test_several_outputs_in_a_step_add_up(read: Read) -> None:
+    body = "*OUTPUT, FIELD, FREQUENCY=6\n*OUTPUT, FIELD, FREQUENCY=4\n"
+    body += (
+        "*OUTPUT, HISTORY, FREQUENCY=10\n*NODE OUTPUT, NSET=TOP\nU1\n*OUTPUT, HISTORY\n*NODE OUTPUT, NSET=BOTTOM\nU2"
+    )
+    output = steps(read, body)[0].output
+    assert output.field_frequency == 4
+    assert [(request.nset, request.frequency) for request in output.history_nodes] == [("TOP", 10), ("BOTTOM", 1)]
+    assert output.history_frequency == 1
+
+
+def test_requests_stay_until_replaced(read: Read) -> None:
+    body = "*OUTPUT, FIELD, FREQUENCY=6\n*OUTPUT, HISTORY\n*NODE OUTPUT, NSET=TOP\nU1\n"
+    body += "*NODE PRINT, NSET=TOP\nU\n*EL PRINT\nS"
+    bodies = [
+        body,
+        "",
+        "*OUTPUT, HISTORY, OP=ADD\n*NODE OUTPUT, NSET=BOTTOM\nU2\n*NODE PRINT, FREQUENCY=0",
+        "*OUTPUT, FIELD",
+    ]
+    outputs = [step.output for step in steps(read, *bodies)]
+    assert outputs[1] == outputs[0]
+    assert [request.nset for request in outputs[2].history_nodes] == ["TOP", "BOTTOM"]
+    assert (outputs[2].field_frequency, outputs[2].node_print) == (6, ())
+    assert outputs[2].element_print == outputs[0].element_print
+    assert (outputs[3].field_frequency, outputs[3].history_nodes) == (1, ())
+
+
+def test_replace_drops_one_kind(read: Read) -> None:
+    outputs = steps(
+        read, "*OUTPUT, FIELD\n*OUTPUT, HISTORY\n*NODE OUTPUT, NSET=TOP\nU1", "*OUTPUT, FIELD, OP=REPLACE, FREQUENCY=5"
+    )
+    assert outputs[1].output.field_frequency == 5
+    assert outputs[1].output.history_nodes == outputs[0].output.history_nodes
+
+
+def test_suppressed_output(read: Read) -> None:
+    output = steps(read, "*OUTPUT, FIELD, FREQUENCY=0\n*OUTPUT, HISTORY, FREQUENCY=0\n*NODE OUTPUT, NSET=TOP\nU")[
+        0
+    ].output
+    assert (output.field_frequency, output.history_nodes) == (0, ())
+
+
+def test_output_times_are_warned_of(read: Read) -> None:
+    text = MODEL + "*STEP\n*STATIC\n*OUTPUT, FIELD, NUMBER INTERVAL=10\n*END STEP\n"
+    assert read(text).warnings == (
+        "deck.inp:43: *OUTPUT: increments do not end at the output times; every increment is written instead",
+    )
+    assert read(text.replace("=10", "=10, TIME MARKS=NO")).warnings == ()
+
+
+def test_print_tables(read: Read) -> None:
+    output = steps(read, "*NODE PRINT\nU1, U2\nRF\n*EL PRINT, ELSET=BULK\nSDV1\nSDV 2")[0].output
+    assert [request.variables for request in output.node_print] == [("U1", "U2"), ("RF",)]
+    assert output.node_print[0].nodes.tolist() == list(range(8))
+    assert [request.variables for request in output.element_print] == [("SDV1",), ("SDV2",)]
+    assert output.element_print[0].elements.tolist() == [0, 1]
