@@ -20,6 +20,8 @@ module host_materials
     real(dp) :: stiffness(6, 6) = 0                !< (ntens, ntens) of it, global axes
     real(dp) :: compliance(6, 6) = 0               !< its inverse
     real(dp) :: thickness(3) = 0                   !< plane stress: elastic strain 33 = thickness . stress
+    real(dp) :: axes(2, 2) = 0                     !< rows: directions 1 and 2 of *ORIENTATION in the plane
+    logical :: turned = .false.                    !< axes are not the global ones
     real(dp), allocatable :: yield(:, :)           !< (k, 2) yield stress, plastic strain; absent: elastic
     real(dp) :: young = 0, poisson = 0             !< of a plastic material, which is isotropic
   end type material_t

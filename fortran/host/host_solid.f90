@@ -5,7 +5,8 @@
 !> Full integration: 1 point in triangles, 2 x 2 Gauss points in quadrilaterals. CPE4 replaces the volume strain of the
 !> points by its mean over the element, as Abaqus does (Theory Guide, Solid isoparametric quadrilaterals and hexahedra:
 !> selectively reduced integration), with half of the difference on each direction in the plane.
-!> PROPS(1) is the thickness. SVARS hold, for each point, E11 E22 E33 E12 S11 S22 S33 S12.
+!> PROPS(1) is the thickness. SVARS hold, for each point, E11 E22 E33 E12 S11 S22 S33 S12, in the directions of
+!> *ORIENTATION where the section has one, as Abaqus prints them.
 module host_solid
   use host_kinds, only: dp, i4
   use host_materials, only: elastic_energy, find_material, material_t, stress_update, thickness_strain
@@ -81,7 +82,7 @@ contains
     real(dp), intent(inout) :: state(per_point), elastic, work
     real(dp), intent(out) :: plane_stress(3), modulus(3, 3)
     integer :: n
-    real(dp) :: strain(4), stress(4), tangent(material%ntens, material%ntens)
+    real(dp) :: strain(4), stress(4), tangent(material%ntens, material%ntens), e(3), t(3), out_of_plane(2)
     logical :: valid
     n = material%ntens
     strain(1:3) = [plane_strain(1:2), 0.0_dp]
@@ -93,17 +94,33 @@ contains
     modulus(3, 1:2) = tangent(n, 1:2)
     modulus(3, 3) = tangent(n, n)
     elastic = elastic + volume*elastic_energy(material, stress)
-    ! trapezoidal rule, exact where the response is linear
-    work = work + volume*0.5_dp*((plane_stress(1) + state(5))*(plane_strain(1) - state(1)) &
-                                 + (plane_stress(2) + state(6))*(plane_strain(2) - state(2)) &
-                                 + (plane_stress(3) + state(8))*(plane_strain(3) - state(4)))
     if (n == 3) then
-      state = [plane_strain(1:2), thickness_strain(material, point, stress), plane_strain(3), &
-               plane_stress(1:2), 0.0_dp, plane_stress(3)]
+      out_of_plane = [thickness_strain(material, point, stress), 0.0_dp]
     else
-      state = [plane_strain(1:2), 0.0_dp, plane_strain(3), stress]
+      out_of_plane = [0.0_dp, stress(3)]
     end if
+    e = plane_strain
+    t = plane_stress
+    if (material%turned) then
+      e(3) = e(3)/2
+      e = turn(material%axes, e)
+      e(3) = 2*e(3)
+      t = turn(material%axes, t)
+    end if
+    ! trapezoidal rule, exact where the response is linear
+    work = work + volume*0.5_dp*((t(1) + state(5))*(e(1) - state(1)) + (t(2) + state(6))*(e(2) - state(2)) &
+                                 + (t(3) + state(8))*(e(3) - state(4)))
+    state = [e(1), e(2), out_of_plane(1), e(3), t(1), t(2), out_of_plane(2), t(3)]
   end subroutine point_update
+
+  !> Components 11, 22, 12 of a symmetric tensor along the rows of axes.
+  pure function turn(axes, s) result(local)
+    real(dp), intent(in) :: axes(2, 2), s(3)
+    real(dp) :: local(3), tensor(2, 2)
+    tensor = reshape([s(1), s(3), s(3), s(2)], [2, 2])
+    tensor = matmul(axes, matmul(tensor, transpose(axes)))
+    local = [tensor(1, 1), tensor(2, 2), tensor(1, 2)]
+  end function turn
 
   !> Strain matrix (11, 22, 12) of a Gauss point, points counted along x first as in Abaqus, and its area.
   subroutine gradients(nodes, point, x, b, area)

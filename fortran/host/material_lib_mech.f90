@@ -1,6 +1,7 @@
 ! SPDX-FileCopyrightText: The uel-harness authors
 ! SPDX-License-Identifier: BSD-3-Clause
 !> Stress and tangent of the material that *UEL PROPERTY names, as UELMAT calls for them.
+!> Strain and stress are in global directions, whatever *ORIENTATION says of the material.
 !> The number of components follows from TENSOR= of *USER ELEMENT. Small strain: dfgrd, dvdv0, dvmat and celent are not
 !> used, nor is any predefined field.
 subroutine material_lib_mech(materiallib, stress, ddsdde, stran, dstran, npt, dvdv0, dvmat, dfgrd, predef, dpredef, npredf, &

@@ -47,7 +47,12 @@ def define_material(material: Material, orientation: Orientation | None, tensor:
     elastic = material.elastic
     if elastic is None:
         raise DeckError(user, f"material {material.name} ({material.source}) has no *ELASTIC")
-    axes = np.eye(3) if orientation is None else orientation.axes
+    axes = np.eye(3)
+    if orientation is not None:
+        axes = orientation.axes
+        if tensor is not Tensor.SOLID and abs(axes[2, 2]) < 1 - 1e-9:
+            message = f"*ORIENTATION, NAME={orientation.name}: direction 3 must be normal to the plane of the elements"
+            raise DeckError(orientation.source, message)
     compliance = _rotated(_compliance(elastic, tensor), axes)
     components = _COMPONENTS[tensor]
     if tensor is Tensor.PLANE_STRESS:
@@ -61,7 +66,7 @@ def define_material(material: Material, orientation: Orientation | None, tensor:
         if elastic.type is not ElasticType.ISOTROPIC:
             raise DeckError(material.plastic.source, "*PLASTIC is supported with *ELASTIC, TYPE=ISOTROPIC only")
         constants, table = _isotropic_constants(elastic), material.plastic.table
-    return _binding.define_material(stiffness, reduced, compliance[2, components[:3]], constants, table)
+    return _binding.define_material(stiffness, reduced, compliance[2, components[:3]], axes[:2, :2], constants, table)
 
 
 def _inverse(matrix: FloatArray) -> FloatArray:

@@ -170,11 +170,12 @@ def define_material(
     stiffness: FloatArray,
     compliance: FloatArray,
     thickness: FloatArray,
+    axes: FloatArray,
     constants: tuple[float, float],
     table: FloatArray,
 ) -> int:
     """Add a material to the host's library; arguments as host_define_material in fortran/host/entry.f90 names them."""
-    return int(_host.host_define_material(stiffness.T, compliance.T, thickness, constants, table.T))
+    return int(_host.host_define_material(stiffness.T, compliance.T, thickness, axes, constants, table.T))
 
 
 def solid_address() -> int:

@@ -17,6 +17,7 @@ def host_define_material(
     stiffness: NDArray[np.float64],
     compliance: NDArray[np.float64],
     thickness: NDArray[np.float64],
+    axes: NDArray[np.float64],
     constants: tuple[float, float],
     table: NDArray[np.float64],
 ) -> int: ...

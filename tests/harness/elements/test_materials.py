@@ -147,6 +147,14 @@ def test_orientation_of_90_degrees_exchanges_the_directions(point):
     np.testing.assert_allclose(turned, straight[np.ix_([1, 0, 2], [1, 0, 2])], rtol=1e-12, atol=1e-9)
 
 
+def test_orientation_out_of_the_plane(point):
+    axes = np.array([[1.0, 0, 0], [0, 0, 1], [0, -1, 0]])
+    with pytest.raises(
+        DeckError, match=r"test\.inp:7: \*ORIENTATION, NAME=TURNED: direction 3 must be normal to the plane"
+    ):
+        point(PLY, "PSTRAIN", axes=axes)
+
+
 def test_young_modulus_alone(point):
     _, tangent = point(Elastic(ElasticType.ISOTROPIC, (E,), ELASTIC_LINE), "PSTRESS")(np.zeros(3))
     np.testing.assert_allclose(tangent, np.diag([E, E, E / 2]), rtol=1e-14)

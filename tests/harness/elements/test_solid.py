@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from harness.errors import KernelError, Source
-from harness.model.properties import Elastic, ElasticType, Plastic
+from harness.model.properties import Elastic, ElasticType, Orientation, Plastic
 
 E, NU, THICKNESS = 1000.0, 0.3, 2.0
 # an irregular quadrilateral patch of unit square with one inner node, as four quadrilaterals
@@ -125,3 +125,24 @@ def test_calls_for_other_matrices_leave_nothing(patch, call):
     block.commit()
     assert not matrix.data.any()
     assert not block.state(0).svars.any()
+
+
+@pytest.mark.parametrize("element_type", ["CPS4", "CPE3"])
+@pytest.mark.parametrize("normal", [1.0, -1.0])
+def test_orientation_turns_material_and_output(patch, call, element_type, normal):
+    """The material is drawn in its own direction 1: stress along it, in local components; the rest is equilibrium."""
+    source, angle = Source("test.inp", 1), 0.6
+    c, s = np.cos(angle), np.sin(angle)
+    axes = np.array([[c, s, 0], [-normal * s, normal * c, 0], [0, 0, normal]])
+    e1, e2, nu12, g12 = 2000.0, 500.0, 0.3, 300.0
+    ply = Elastic(ElasticType.ENGINEERING_CONSTANTS, (e1, e2, e2, nu12, 0.0, 0.0, g12, g12, g12), source)
+    block, matrix = patch(element_type, elastic=ply, orientation=Orientation("TURNED", axes, source))
+    local = np.array([[1 / e1, 0.01 / 2], [0.01 / 2, -nu12 / e1]])
+    u = (NODES @ (axes[:2, :2].T @ local @ axes[:2, :2])).ravel()
+    report = block.evaluate(call, u, u, np.zeros(18), matrix.data)
+    block.commit()
+    points = block.state(0).svars.reshape(-1, 8)
+    expected = [1 / e1, -nu12 / e1, 0, 0.01, 1, 0, 0, 0.01 * g12]
+    np.testing.assert_allclose(points, np.tile(expected, (len(points), 1)), atol=1e-12)
+    assert report.energy[1] == pytest.approx(0.5 * (1 / e1 + 0.01**2 * g12) * THICKNESS, rel=1e-12)
+    assert report.energy[3] == pytest.approx(0, abs=1e-12)
