@@ -56,9 +56,9 @@ class Row:
         except ValueError as error:
             raise self.error(f"{what}: {error}") from None
 
-    def reals(self, what: str, start: int = 0) -> list[float]:
-        """All fields from `start` on as numbers; an empty one is zero."""
-        return [self.real(index, what, 0.0) for index in range(start, len(self.fields))]
+    def reals(self, what: str) -> list[float]:
+        """All fields as numbers; an empty one is zero."""
+        return [self.real(index, what, 0.0) for index in range(len(self.fields))]
 
     def at_most(self, count: int) -> None:
         """Refuse more than `count` fields."""

@@ -6,7 +6,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
-from dataclasses import dataclass, field, replace
+from dataclasses import replace
 from itertools import pairwise
 from typing import TypeVar
 
@@ -28,15 +28,6 @@ _CONSTANTS = {
 }
 SMALLEST_SINE = 1e-10
 Entry = TypeVar("Entry")
-
-
-@dataclass(slots=True)
-class Catalogue:
-    """What the deck names for use elsewhere."""
-
-    materials: dict[str, Material] = field(default_factory=dict)
-    orientations: dict[str, Orientation] = field(default_factory=dict)
-    amplitudes: dict[str, Amplitude] = field(default_factory=dict)
 
 
 def look_up(known: Mapping[str, Entry], name: str, what: str, source: Source) -> Entry:

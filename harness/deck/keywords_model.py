@@ -297,7 +297,7 @@ PROPERTIES = (
                 "BEGIN", "FIXED INTERVAL", "SMOOTH", "PROPERTIES", "VARIABLES", "SHIFTX", "SHIFTY", "SCALEX", "SCALEY"
             ),
         ),
-        "TABULAR, SMOOTH STEP: time, value pairs; PERIODIC: number of terms, omega, t0, A0; then A1, B1, ...",
+        "TABULAR, SMOOTH STEP: time, value pairs; PERIODIC: number of terms, omega, t0, A0; A1, B1, A2, B2 and so on",
     ),
 )
 

@@ -9,7 +9,7 @@ from harness.deck.table import Keyword, Kind, Option, Support, Where
 
 OP = Option("OP", Kind.CHOICE, "NEW removes what earlier steps prescribed", default="MOD", choices=("MOD", "NEW"))
 FREQUENCY = Option("FREQUENCY", Kind.INTEGER, "every k-th increment (1); 0 never")
-AMPLITUDE = Option("AMPLITUDE", Kind.NAME, "amplitude; the default is that of *STEP")
+AMPLITUDE = Option("AMPLITUDE", Kind.NAME, "amplitude; without it that of *STEP, but displacements always ramp")
 
 PROCEDURE = (
     Keyword(
@@ -108,7 +108,7 @@ PRESCRIBED = (
         Where.STEP,
         (
             OP,
-            AMPLITUDE,
+            Option("AMPLITUDE", Kind.NAME, "amplitude; without it that of *STEP"),
             Option("INPUT", Kind.FILE, "file that holds the data lines"),
             *ignored("REGION TYPE"),
             *refused("CYCLIC MODE", "FOLLOWER", "IMAGINARY", "LOAD CASE", "REAL", "SUBMODEL"),
