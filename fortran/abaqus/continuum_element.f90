@@ -152,7 +152,8 @@ contains
 
     record%face = face
     record%coordinates = coordinates
-    record%displacement = reshape(u, [2, 4])
+    record%displacement(1, :) = u(1:7:2)
+    record%displacement(2, :) = u(2:8:2)
     record%area = area
     record%gauss_stress = state%stress
     record%gauss_gradient = state%gradient

@@ -14,8 +14,8 @@ module elements_interface_point
   implicit none(type, external)
   private
   public :: interface_options, interface_point, interface_geometry
-  public :: measure_interface, jump_coefficients, separation_at, add_point, close_point, point_energies
-  public :: consistent_tangent, secant_tangent
+  public :: measure_interface, separation_at, add_point, spread_to_nodes, close_point, point_energies
+  public :: consistent_tangent, secant_tangent, end_of_node, sign_of_node
 
   integer, parameter :: consistent_tangent = 0
   integer, parameter :: secant_tangent = 1
@@ -47,6 +47,10 @@ module elements_interface_point
   !> that prints few digits may cause.
   real(dp), parameter :: apart = 1.0e-4_dp
 
+  !> End of the interface where each of its nodes lies, and its sign in the separation.
+  integer, parameter :: end_of_node(4) = [1, 2, 2, 1]
+  real(dp), parameter :: sign_of_node(4) = [-1.0_dp, -1.0_dp, 1.0_dp, 1.0_dp]
+
 contains
 
   !> Geometry of the interface between coincident edges.
@@ -71,50 +75,72 @@ contains
     end if
   end subroutine measure_interface
 
-  !> Coefficients of the nodes 1 to 4 in the separation u_top - u_bottom at s.
-  pure function jump_coefficients(s) result(coefficients)
-    real(dp), intent(in) :: s
-    real(dp) :: coefficients(4)
-    real(dp) :: shape(2)
+  !> Separation (tau, n) at s from the displacements of nodes 1 to 4.
+  pure function separation_at(frame, s, u) result(separation)
+    real(dp), intent(in) :: frame(2, 2), s, u(2, 4)
+    real(dp) :: separation(2)
+    real(dp) :: shape(2), jump(2)
 
     shape = line_shape(s)
-    coefficients = [-shape(1), -shape(2), shape(2), shape(1)]
-  end function jump_coefficients
-
-  !> Separation (tau, n) from the displacements of nodes 1 to 4.
-  pure function separation_at(frame, coefficients, u) result(separation)
-    real(dp), intent(in) :: frame(2, 2), coefficients(4), u(2, 4)
-    real(dp) :: separation(2)
-    real(dp) :: jump(2)
-
-    ! pairwise, so that equal displacements of coincident nodes give zero to the last bit
-    jump = coefficients(4)*(u(:, 4) - u(:, 1)) + coefficients(3)*(u(:, 3) - u(:, 2))
+    jump = shape(1)*(u(:, 4) - u(:, 1)) + shape(2)*(u(:, 3) - u(:, 2))
     separation(1) = frame(1, 1)*jump(1) + frame(1, 2)*jump(2)
     separation(2) = frame(2, 1)*jump(1) + frame(2, 2)*jump(2)
   end function separation_at
 
-  !> Adds what a point contributes to the residual and, where only nodes 1 to 4 matter, to the tangent.
-  pure subroutine add_point(frame, coefficients, weight, traction, tangent_local, residual, tangent)
+  !> Adds the force of a point on the left and right end of the top edge, and its derivative by the separation there.
+  pure subroutine add_point(frame, s, weight, traction, tangent, force, matrix)
     real(dp), intent(in) :: frame(2, 2)
-    real(dp), intent(in) :: coefficients(4)
-    real(dp), intent(in) :: weight                !< area of the point
-    real(dp), intent(in) :: traction(2)           !< (tau, n)
-    real(dp), intent(in) :: tangent_local(2, 2)   !< dT/dg in (tau, n)
-    real(dp), intent(inout) :: residual(2, 4)
-    real(dp), intent(inout) :: tangent(2, 4, 2, 4)
-    real(dp) :: force(2), matrix(2, 2)
-    integer :: a, b
+    real(dp), intent(in) :: s
+    real(dp), intent(in) :: weight                  !< area of the point
+    real(dp), intent(in) :: traction(2)             !< (tau, n)
+    real(dp), intent(in) :: tangent(2, 2)           !< dT/dg in (tau, n)
+    real(dp), intent(inout) :: force(2, 2)          !< (x and y, end)
+    real(dp), intent(inout) :: matrix(2, 2, 2, 2)   !< (x and y, end, x and y, end)
+    real(dp) :: shape(2), global_force(2), global_tangent(2, 2), by_y(2)
+    integer :: i, j
 
-    force = weight*matmul(traction, frame)
-    matrix = weight*matmul(transpose(frame), matmul(tangent_local, frame))
-    do b = 1, 4
-      residual(:, b) = residual(:, b) - coefficients(b)*force
-      do a = 1, 4
-        tangent(:, a, 1, b) = tangent(:, a, 1, b) + (coefficients(a)*coefficients(b))*matrix(:, 1)
-        tangent(:, a, 2, b) = tangent(:, a, 2, b) + (coefficients(a)*coefficients(b))*matrix(:, 2)
+    shape = line_shape(s)
+    global_force = to_global(frame, traction)
+    global_tangent(:, 1) = to_global(frame, tangent(:, 1))
+    global_tangent(:, 2) = to_global(frame, tangent(:, 2))
+    ! now by the components of the separation along x and y
+    by_y = global_tangent(:, 1)*frame(1, 2) + global_tangent(:, 2)*frame(2, 2)
+    global_tangent(:, 1) = global_tangent(:, 1)*frame(1, 1) + global_tangent(:, 2)*frame(2, 1)
+    global_tangent(:, 2) = by_y
+    do j = 1, 2
+      force(:, j) = force(:, j) + (weight*shape(j))*global_force
+      do i = 1, 2
+        matrix(:, i, 1, j) = matrix(:, i, 1, j) + (weight*shape(i)*shape(j))*global_tangent(:, 1)
+        matrix(:, i, 2, j) = matrix(:, i, 2, j) + (weight*shape(i)*shape(j))*global_tangent(:, 2)
       end do
     end do
   end subroutine add_point
+
+  !> Residual and tangent of nodes 1 to 4 from the sums of `add_point`: top and bottom are pulled together.
+  pure subroutine spread_to_nodes(force, matrix, residual, tangent)
+    real(dp), intent(in) :: force(2, 2), matrix(2, 2, 2, 2)
+    real(dp), intent(out) :: residual(2, 4)
+    real(dp), intent(out) :: tangent(2, 4, 2, 4)
+    integer :: a, b, j
+
+    do b = 1, 4
+      residual(:, b) = -sign_of_node(b)*force(:, end_of_node(b))
+      do j = 1, 2
+        do a = 1, 4
+          tangent(:, a, j, b) = (sign_of_node(a)*sign_of_node(b))*matrix(:, end_of_node(a), j, end_of_node(b))
+        end do
+      end do
+    end do
+  end subroutine spread_to_nodes
+
+  !> Global components of a vector given in (tau, n).
+  pure function to_global(frame, local) result(global)
+    real(dp), intent(in) :: frame(2, 2), local(2)
+    real(dp) :: global(2)
+
+    global(1) = frame(1, 1)*local(1) + frame(2, 1)*local(2)
+    global(2) = frame(1, 2)*local(1) + frame(2, 2)*local(2)
+  end function to_global
 
   !> State of a point at the end of the increment.
   pure subroutine close_point(law, geometry, s, old, separation, state, traction, stabilisation, new)

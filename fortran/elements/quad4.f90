@@ -38,14 +38,13 @@ contains
   pure function quad4_strain(gradient, u) result(strain)
     real(dp), intent(in) :: gradient(2, 4), u(8)
     real(dp) :: strain(3)
-    integer :: a
+    real(dp) :: along_x(4), along_y(4)
 
-    strain = 0.0_dp
-    do a = 1, 4
-      strain(1) = strain(1) + gradient(1, a)*u(2*a - 1)
-      strain(2) = strain(2) + gradient(2, a)*u(2*a)
-      strain(3) = strain(3) + gradient(2, a)*u(2*a - 1) + gradient(1, a)*u(2*a)
-    end do
+    along_x = u(1:7:2)
+    along_y = u(2:8:2)
+    strain(1) = dot_product(gradient(1, :), along_x)
+    strain(2) = dot_product(gradient(2, :), along_y)
+    strain(3) = dot_product(gradient(2, :), along_x) + dot_product(gradient(1, :), along_y)
   end function quad4_strain
 
   !> Adds what a point contributes to the residual (minus the internal force) and to the tangent.

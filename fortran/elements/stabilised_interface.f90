@@ -6,13 +6,14 @@ module elements_stabilised_interface
   use core_kinds, only: dp
   use core_rotation, only: traction_operator
   use core_quadrature, only: quad_points
-  use core_shape_functions, only: quad_gradient
+  use core_shape_functions, only: line_shape, quad_gradient
   use core_status, only: status_type, ok, inside_out
   use materials_spectral_norm, only: spectral_norm
   use cohesive_law, only: law_parameters, damage_state, check_law, evolve_damage
   use cohesive_traction, only: stabilised_traction
   use elements_interface_point, only: interface_options, interface_point, interface_geometry, &
-    measure_interface, jump_coefficients, separation_at, add_point, close_point, point_energies, secant_tangent
+    measure_interface, separation_at, add_point, spread_to_nodes, close_point, point_energies, &
+    end_of_node, sign_of_node, secant_tangent
   use elements_quad4, only: face_point, gauss_of_face, quad4_area
   implicit none(type, external)
   private
@@ -68,7 +69,7 @@ contains
     real(dp), intent(out) :: energies(3)          !< stored T.g/2, dissipated by damage, viscous
     type(status_type), intent(out) :: status
     type(interface_geometry) :: geometry
-    real(dp) :: coefficients(4), local(2, 2), s_of_point(2), weight, to_traction(2, 3)
+    real(dp) :: local(2, 2), s_of_point(2), weight, to_traction(2, 3), force(2, 2), matrix(2, 2, 2, 2)
     integer :: k
 
     residual = 0.0_dp
@@ -79,16 +80,18 @@ contains
     call measure_interface(coordinates, options%rule, geometry, status)
     if (status%code /= ok) return
 
+    force = 0.0_dp
+    matrix = 0.0_dp
     weight = 0.5_dp*geometry%length*thickness
     to_traction = traction_operator(geometry%frame)
     do k = 1, 2
-      coefficients = jump_coefficients(geometry%s(k))
       call evaluate_point(law, secant_tangent, geometry, k, stabilisation%beta, dtime, &
-        separation_at(geometry%frame, coefficients, u), matmul(to_traction, bulk_stress(:, k)), &
+        separation_at(geometry%frame, geometry%s(k), u), matmul(to_traction, bulk_stress(:, k)), &
         old(k), new(k), local, s_of_point)
-      call add_point(geometry%frame, coefficients, weight, new(k)%traction, local, residual, tangent)
+      call add_point(geometry%frame, geometry%s(k), weight, new(k)%traction, local, force, matrix)
       energies = energies + point_energies(weight, new(k))
     end do
+    call spread_to_nodes(force, matrix, residual, tangent)
   end subroutine stabilised_interface_four
 
   !> Eight-node variant: nodes 1 to 4 are the bottom quad, whose face 3 (node 4 left, 3 right) is the interface, nodes
@@ -112,49 +115,77 @@ contains
     integer, parameter :: owned(4) = [4, 3, 6, 5]   ! nodes 1 to 4 of the interface
     type(interface_geometry) :: geometry
     type(stabilisation_type) :: used
-    real(dp) :: coefficients(4), local(2, 2), s_of_point(2), weight, bulk(2, 16), by_u(2, 16), nodal(2, 16), areas(2)
-    integer :: a, k
+    real(dp) :: local(2, 2), s_of_point(2), weight, areas(2), norms(2), xy(2, 4), u_interface(2, 4), flat(16)
+    real(dp) :: bulk(2, 16), stress_part(2, 16, 2), force(2, 2), matrix(2, 2, 2, 2), jump_tangent(2, 4, 2, 4)
+    real(dp) :: nodal_force(2, 4)
+    integer :: a, b, k
 
     residual = 0.0_dp
     tangent = 0.0_dp
     energies = 0.0_dp
     call check_law(law, status)
     if (status%code /= ok) return
-    call measure_interface(coordinates(:, owned), options%rule, geometry, status)
+    do a = 1, 4
+      xy(:, a) = coordinates(:, owned(a))
+      u_interface(:, a) = u(:, owned(a))
+      flat(4*a - 3:4*a) = [u(:, 2*a - 1), u(:, 2*a)]
+    end do
+    call measure_interface(xy, options%rule, geometry, status)
     if (status%code /= ok) return
     areas = [quad4_area(coordinates(:, 1:4)), quad4_area(coordinates(:, 5:8))]
     if (.not. minval(areas) > 0.0_dp) then
       status = status_type(inside_out, minloc(areas, 1), minval(areas), 0.0_dp)
       return
     end if
-    used = weigh_sides(given, [spectral_norm(stiffness(:, :, 1)), spectral_norm(stiffness(:, :, 2))], areas, &
-      geometry%length)
+    norms = [spectral_norm(stiffness(:, :, 1)), spectral_norm(stiffness(:, :, 2))]
+    used = weigh_sides(given, norms, areas, geometry%length)
 
+    force = 0.0_dp
+    matrix = 0.0_dp
+    stress_part = 0.0_dp
     weight = 0.5_dp*geometry%length*thickness
     do k = 1, 2
       if (k == 1 .or. options%sampling /= sample_middle) then
         call bulk_traction(options%sampling, geometry, k, used%gamma_bottom, stiffness, coordinates, bulk, status)
         if (status%code /= ok) return
       end if
-      coefficients = jump_coefficients(geometry%s(k))
       call evaluate_point(law, options%tangent, geometry, k, used%beta, dtime, &
-        separation_at(geometry%frame, coefficients, u(:, owned)), matmul(bulk, reshape(u, [16])), &
-        old(k), new(k), local, s_of_point)
-      by_u(1, :) = (1.0_dp - s_of_point(1))*bulk(1, :)
-      by_u(2, :) = (1.0_dp - s_of_point(2))*bulk(2, :)
-      local = matmul(local, geometry%frame)
-      do a = 1, 4
-        by_u(:, 2*owned(a) - 1:2*owned(a)) = by_u(:, 2*owned(a) - 1:2*owned(a)) + coefficients(a)*local
-      end do
-      nodal = weight*matmul(transpose(geometry%frame), by_u)
-      do a = 1, 4
-        tangent(:, owned(a), :) = tangent(:, owned(a), :) + coefficients(a)*nodal
-        residual(:, owned(a)) = residual(:, owned(a)) &
-          - (weight*coefficients(a))*matmul(new(k)%traction, geometry%frame)
-      end do
+        separation_at(geometry%frame, geometry%s(k), u_interface), matmul(bulk, flat), old(k), new(k), local, &
+        s_of_point)
+      call add_point(geometry%frame, geometry%s(k), weight, new(k)%traction, local, force, matrix)
+      call add_stress_part(geometry, k, weight, s_of_point, bulk, stress_part)
       energies = energies + point_energies(weight, new(k))
     end do
+    call spread_to_nodes(force, matrix, nodal_force, jump_tangent)
+    do a = 1, 4
+      residual(:, owned(a)) = nodal_force(:, a)
+      tangent(:, owned(a), :) = sign_of_node(a)*stress_part(:, :, end_of_node(a))
+      do b = 1, 4
+        tangent(:, owned(a), 2*owned(b) - 1) = tangent(:, owned(a), 2*owned(b) - 1) + jump_tangent(:, a, 1, b)
+        tangent(:, owned(a), 2*owned(b)) = tangent(:, owned(a), 2*owned(b)) + jump_tangent(:, a, 2, b)
+      end do
+    end do
   end subroutine stabilised_interface_eight
+
+  !> Adds the derivative of the force of point k on the two ends of the top edge by the bulk stress.
+  pure subroutine add_stress_part(geometry, k, weight, stabilisation, bulk, matrix)
+    type(interface_geometry), intent(in) :: geometry
+    integer, intent(in) :: k
+    real(dp), intent(in) :: weight, stabilisation(2)
+    real(dp), intent(in) :: bulk(2, 16)               !< derivative of <sigma>.n, (tau, n), by the displacements
+    real(dp), intent(inout) :: matrix(2, 16, 2)       !< (x and y, displacement, end)
+    real(dp) :: shape(2), row(16), part(2)
+    integer :: i, j
+
+    shape = weight*line_shape(geometry%s(k))
+    part = 1.0_dp - stabilisation
+    do i = 1, 2
+      row = (part(1)*geometry%frame(1, i))*bulk(1, :) + (part(2)*geometry%frame(2, i))*bulk(2, :)
+      do j = 1, 2
+        matrix(i, :, j) = matrix(i, :, j) + shape(j)*row
+      end do
+    end do
+  end subroutine add_stress_part
 
   !> Damage, traction and state of point k; the derivative of T by g, and S, with which that by <sigma>.n is 1 - S.
   pure subroutine evaluate_point(law, tangent, geometry, k, beta, dtime, separation, bulk, old, new, local, s_of_point)

@@ -7,7 +7,7 @@ module elements_standard_interface
   use cohesive_law, only: law_parameters, damage_state, check_law, evolve_damage
   use cohesive_traction, only: standard_traction
   use elements_interface_point, only: interface_options, interface_point, interface_geometry, &
-    measure_interface, jump_coefficients, separation_at, add_point, close_point, point_energies, secant_tangent
+    measure_interface, separation_at, add_point, spread_to_nodes, close_point, point_energies, secant_tangent
   implicit none(type, external)
   private
   public :: standard_interface
@@ -31,7 +31,7 @@ contains
     type(status_type), intent(out) :: status
     type(interface_geometry) :: geometry
     type(damage_state) :: state
-    real(dp) :: coefficients(4), separation(2), traction(2), local(2, 2), weight
+    real(dp) :: separation(2), traction(2), local(2, 2), force(2, 2), matrix(2, 2, 2, 2), weight
     integer :: k
 
     residual = 0.0_dp
@@ -42,18 +42,20 @@ contains
     call measure_interface(coordinates, options%rule, geometry, status)
     if (status%code /= ok) return
 
+    force = 0.0_dp
+    matrix = 0.0_dp
     weight = 0.5_dp*geometry%length*thickness
     do k = 1, 2
-      coefficients = jump_coefficients(geometry%s(k))
-      separation = separation_at(geometry%frame, coefficients, u)
+      separation = separation_at(geometry%frame, geometry%s(k), u)
       call evolve_damage(law, old(k)%history, separation, dtime, state)
       if (options%tangent == secant_tangent) state%slope = 0.0_dp
       call standard_traction(law%stiffness, separation, state%damage, state%slope, traction, local)
-      call add_point(geometry%frame, coefficients, weight, traction, local, residual, tangent)
+      call add_point(geometry%frame, geometry%s(k), weight, traction, local, force, matrix)
       ! S = 1 turns the stabilised weak form into the standard one
       call close_point(law, geometry, geometry%s(k), old(k), separation, state, traction, [1.0_dp, 1.0_dp], new(k))
       energies = energies + point_energies(weight, new(k))
     end do
+    call spread_to_nodes(force, matrix, residual, tangent)
   end subroutine standard_interface
 
 end module elements_standard_interface

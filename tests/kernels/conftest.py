@@ -2,7 +2,9 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Single elements of the project's kernels, driven as a job would drive them."""
 
+import importlib.util
 from pathlib import Path
+from typing import ClassVar
 
 import numpy as np
 import pytest
@@ -21,8 +23,8 @@ SOURCE = Source("test.inp", 1)
 # HTA/6376C (table 1) and its cohesive parameters, with a stiffness that keeps every length of the law comparable
 LAW = {
     "THICKNESS": 2.0,
-    "ALPHAN": 2.0e3,
-    "ALPHAT": 3.0e3,
+    "ALPHAN": 2.0e4,
+    "ALPHAT": 3.0e4,
     "SIGMAMAX": 30.0,
     "TAUMAX": 60.0,
     "GIC": 0.26,
@@ -123,3 +125,65 @@ def element(library):
         return Element(library, jtype, coordinates, **values)
 
     return make
+
+
+@pytest.fixture(scope="session")
+def reference():
+    """Module reference.py of this folder."""
+    spec = importlib.util.spec_from_file_location("reference", Path(__file__).with_name("reference.py"))
+    module = importlib.util.module_from_spec(spec)
+    spec.loader.exec_module(module)
+    return module
+
+
+@pytest.fixture(scope="session")
+def law():
+    """Properties of the cohesive law that elements have by default."""
+    return dict(LAW)
+
+
+@pytest.fixture(scope="session")
+def ply():
+    """Elastic constants that quads have by default."""
+    return dict(PLY)
+
+
+class Interface:
+    """An inclined interface between two distorted quads, and displacements that open it as wanted.
+
+    edge     (2, 2) left and right end
+    four     (4, 2) nodes of U2 and U3
+    eight    (8, 2) nodes of U4: bottom quad, top quad
+    """
+
+    edge = np.array([[0.1, 0.2], [1.0, 0.5]])
+    four = edge[[0, 1, 1, 0]]
+    eight = np.array([[0.2, -0.7], [1.2, -0.4], edge[1], edge[0], edge[0], edge[1], [0.9, 1.4], [-0.1, 1.2]])
+    owned = (3, 2, 5, 4)  # nodes 1 to 4 of U2 among those of U4
+
+    # separations (tau, n) at the left and right end; the law softens from 0.002 and 0.0015 on, fails at 0.033 and 0.017
+    states: ClassVar = {
+        "elastic": ((0.0005, 0.0003), (-0.0004, 0.0007)),
+        "softening": ((0.004, 0.003), (0.007, 0.002)),
+        "sliding": ((0.006, -0.0015), (0.008, -0.0020)),
+        "closed": ((0.0004, -0.0020), (-0.0006, -0.0025)),
+        "failed": ((0.05, 0.03), (0.06, 0.04)),
+        "mixed": ((0.05, 0.03), (-0.002, -0.030)),
+    }
+
+    def displacements(self, nodes, left, right, seed):
+        """(nodes, 2) displacements with the given separations (tau, n) at both ends, otherwise random."""
+        rng = np.random.default_rng(seed)
+        u = 1e-3 * rng.normal(size=(nodes, 2))
+        tau = (self.edge[1] - self.edge[0]) / np.linalg.norm(self.edge[1] - self.edge[0])
+        axes = np.array([tau, [-tau[1], tau[0]]])
+        bottom, top = ([0, 1], [3, 2]) if nodes == 4 else ([3, 2], [4, 5])
+        noise = 1 + 0.05 * rng.normal(size=(2, 2))
+        u[top] = u[bottom] + (np.array([left, right]) * noise) @ axes
+        return u
+
+
+@pytest.fixture(scope="session")
+def interface():
+    """Geometry and states of an interface."""
+    return Interface()

@@ -1,0 +1,125 @@
+# SPDX-FileCopyrightText: The uel-harness authors
+# SPDX-License-Identifier: BSD-3-Clause
+"""The paper's equations as they are printed, one point at a time, to compare the kernels with.
+
+Ghosh, Duddu, Annavarapu, "A stabilized finite element method for delamination analysis of composites using cohesive
+elements". Signs as in fortran/README.md; vectors are (tau, n).
+"""
+
+import numpy as np
+
+GAUSS = 1 / np.sqrt(3)
+POINTS = {0: (-GAUSS, GAUSS), 1: (-1.0, 1.0)}
+
+
+def damage(law, g):
+    """Equations (9) to (11) without history."""
+    opening = max(g[1], 0.0)
+    equivalent = np.hypot(g[0], opening)
+    if equivalent == 0:
+        return 0.0
+    cos_n, cos_t = opening / equivalent, abs(g[0]) / equivalent
+    onset = 1 / np.hypot(law["ALPHAN"] * cos_n / law["SIGMAMAX"], law["ALPHAT"] * cos_t / law["TAUMAX"])
+    ultimate = 1 / (
+        law["ALPHAN"] * onset * cos_n**2 / (2 * law["GIC"]) + law["ALPHAT"] * onset * cos_t**2 / (2 * law["GIIC"])
+    )
+    if equivalent < onset:
+        return 0.0
+    if equivalent >= ultimate:
+        return 1.0
+    return ultimate * (equivalent - onset) / (equivalent * (ultimate - onset))
+
+
+def stiffness(law, d, closed):
+    """Diagonal of the secant matrix (24)."""
+    return np.array([(1 - d) * law["ALPHAT"], law["ALPHAN"] * (1 if closed else 1 - d)])
+
+
+def standard_traction(law, g, d):
+    """Equation (8)."""
+    return stiffness(law, d, g[1] < 0) * g
+
+
+def stabilised_traction(law, g, d, bulk, beta):
+    """Equation (16), closed where <sigma>_n + beta_n g_n < 0; T and S."""
+    k = stiffness(law, d, bulk[1] + beta[1] * g[1] < 0)
+    s = beta / (k + beta)
+    return (1 - s) * bulk + s * k * g, s
+
+
+def elasticity(ply, angle, plane_strain):
+    """Stiffness in global axes of a ply turned by angle (degrees), from the inverse of the full compliance."""
+    e, nu12, nu13, nu23 = [ply[f"E{i}"] for i in (1, 2, 3)], ply["NU12"], ply["NU13"], ply["NU23"]
+    compliance = np.diag([1 / e[0], 1 / e[1], 1 / e[2], 1 / ply["G12"]])
+    for i, j, nu in ((0, 1, nu12), (0, 2, nu13), (1, 2, nu23)):
+        compliance[i, j] = compliance[j, i] = -nu / e[i]
+    kept = [0, 1, 3]
+    local = (
+        np.linalg.inv(compliance)[np.ix_(kept, kept)] if plane_strain else np.linalg.inv(compliance[np.ix_(kept, kept)])
+    )
+    # through the tensor of fourth order
+    c, s = np.cos(np.radians(angle)), np.sin(np.radians(angle))
+    turn = np.array([[c, -s], [s, c]])
+    pairs = [(0, 0), (1, 1), (0, 1)]
+    place = {(0, 0): 0, (1, 1): 1, (0, 1): 2, (1, 0): 2}
+    tensor = np.array(
+        [[[[local[place[i, j], place[k, m]] for m in (0, 1)] for k in (0, 1)] for j in (0, 1)] for i in (0, 1)]
+    )
+    turned = np.einsum("ai,bj,ck,dm,ijkm->abcd", turn, turn, turn, turn, tensor)
+    return np.array([[turned[*p, *q] for q in pairs] for p in pairs])
+
+
+def strain_matrix(xy, xi, eta):
+    """B (3, 8) and Jacobian of a bilinear quad."""
+    corner = np.array([[-1, -1], [1, -1], [1, 1], [-1, 1]])
+    by_parent = np.array([corner[:, 0] * (1 + corner[:, 1] * eta) / 4, corner[:, 1] * (1 + corner[:, 0] * xi) / 4])
+    jacobian = by_parent @ np.asarray(xy)
+    by_x, by_y = np.linalg.solve(jacobian, by_parent)
+    b = np.zeros((3, 8))
+    b[0, 0::2], b[1, 1::2] = by_x, by_y
+    b[2, 0::2], b[2, 1::2] = by_y, by_x
+    return b, np.linalg.det(jacobian)
+
+
+def frame(start, finish):
+    """Rows tau and n, and the length."""
+    along = np.subtract(finish, start)
+    length = np.linalg.norm(along)
+    tau = along / length
+    return np.array([tau, [-tau[1], tau[0]]]), length
+
+
+def shoelace(xy):
+    """Area of a polygon."""
+    x, y = np.asarray(xy).T
+    return 0.5 * (x @ np.roll(y, -1) - y @ np.roll(x, -1))
+
+
+def weights(norms, areas, length):
+    """Equations (22) and (21): gamma of (bottom, top) and beta."""
+    soft = np.divide(areas, norms)
+    gamma = soft / soft.sum()
+    return gamma, 2 * (gamma**2 / soft).sum() * length
+
+
+def traction_of_stress(axes, stress):
+    """Components (tau, n) of sigma.n for stress (11, 22, 12)."""
+    tensor = np.array([[stress[0], stress[2]], [stress[2], stress[1]]])
+    return axes @ tensor @ axes[1]
+
+
+def sampling_place(sampling, s, side):
+    """(xi, eta) where the stress of the bottom (0) or top (1) quad is taken for the place s of the interface."""
+    face = 1.0 if side == 0 else -1.0
+    return {0: (0.0, face), 1: (s, face), 2: (np.sign(s) * GAUSS, face * GAUSS)}[sampling]
+
+
+def central_differences(function, x, step):
+    """Jacobian of function by central differences of sixth order."""
+    columns = []
+    for i in range(len(x)):
+        e = np.zeros(len(x))
+        e[i] = step
+        terms = ((45, 1), (-9, 2), (1, 3))
+        columns.append(sum(w * (function(x + n * e) - function(x - n * e)) for w, n in terms) / (60 * step))
+    return np.array(columns).T
