@@ -154,11 +154,12 @@ contains
     case (zero_length)
       call fatal(jtype, jelem, trim(sentence(status%code)), [integer ::], [real(dp) ::])
     case (edges_apart)
-      call fatal(jtype, jelem, trim(sentence(status%code)) // '; they are %R apart, at most %R is expected', &
-        [integer ::], [status%value, status%expected])
+      call fatal(jtype, jelem, trim(sentence(status%code)) // ', node %I must lie on %I and %I on %I; ' // &
+        'they are %R apart, at most %R is expected', merge([5, 4, 6, 3], [4, 1, 3, 2], jtype == 4), &
+        [status%value, status%expected])
     case default
-      call fatal(jtype, jelem, trim(side) // ' quad ' // trim(sentence(status%code)) // '; it is %R', &
-        [integer ::], [status%value])
+      call fatal(jtype, jelem, trim(adjustl(trim(side) // ' quad')) // ' ' // trim(sentence(status%code)) // &
+        '; it is %R', [integer ::], [status%value])
     end select
   end subroutine refuse
 

@@ -7,7 +7,7 @@ module abaqus_neighbours
   use elements_quad4, only: face_nodes, gauss_of_face
   use elements_interface_point, only: interface_options
   use elements_stabilised_interface, only: stabilisation_type, weigh_sides, sample_face, sample_gauss
-  use abaqus_layout, only: j_offset_bottom, j_offset_top
+  use abaqus_layout, only: four_node_integers, j_offset_bottom, j_offset_top
   use abaqus_bulk_exchange, only: records, slot_of_bulk
   use abaqus_report, only: fatal
   implicit none(type, external)
@@ -67,7 +67,6 @@ contains
     integer, intent(in) :: jelem, offset, side, slot
     real(dp), intent(in) :: coordinates(2, 4), u(2, 4)
     logical, intent(out) :: good
-    character(len=12), parameter :: names(2) = [character(len=12) :: 'OFFSETBOTTOM', 'OFFSETTOP']
     integer, parameter :: positions(2) = [j_offset_bottom, j_offset_top]
     integer, parameter :: shared(2, 2) = reshape([2, 1, 4, 3], [2, 2])
     real(dp), parameter :: place_tolerance = 1.0e-6_dp, round_off = 16.0_dp*epsilon(1.0_dp)
@@ -75,7 +74,7 @@ contains
     character(len=40) :: property
 
     good = .false.
-    property = 'JPROPS(%I) ' // names(side) // ' = %I'
+    property = 'JPROPS(%I) ' // trim(four_node_integers(positions(side))%name) // ' = %I'
     if (slot == 0) then
       call fatal(3, jelem, trim(property) // ': bulk element %I has not been evaluated before; it must be a U1 ' // &
         'with FACE, have a lower number than the interface element, and the job must run on one thread', &

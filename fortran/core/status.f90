@@ -44,8 +44,7 @@ contains
     case (zero_length)
       text = 'the interface has no length'
     case (edges_apart)
-      text = 'the two edges of the interface do not coincide: ' // &
-        'node 4 must lie on node 1, and node 3 on node 2'
+      text = 'the two edges of the interface do not coincide'
     case default
       text = 'unknown status'
     end select

@@ -59,17 +59,18 @@ contains
     integer, intent(in) :: rule
     type(interface_geometry), intent(out) :: geometry
     type(status_type), intent(out) :: status    !< zero_length, or edges_apart with the distance and its limit
-    real(dp) :: distance
+    real(dp) :: distance, edge
 
     geometry%ends(:, 1) = 0.5_dp*(coordinates(:, 1) + coordinates(:, 4))
     geometry%ends(:, 2) = 0.5_dp*(coordinates(:, 2) + coordinates(:, 3))
     geometry%s = line_points(rule)
     call line_frame(geometry%ends(:, 1), geometry%ends(:, 2), geometry%frame, geometry%length)
     distance = maxval(abs(coordinates(:, [4, 3]) - coordinates(:, [1, 2])))
-    if (.not. geometry%length > 0.0_dp) then
-      status = status_type(zero_length, 0, geometry%length, 0.0_dp)
-    else if (distance > apart*geometry%length) then
-      status = status_type(edges_apart, 0, distance, apart*geometry%length)
+    edge = maxval(abs(coordinates(:, 2) - coordinates(:, 1)))
+    if (.not. edge > 0.0_dp) then
+      status = status_type(zero_length, 0, edge, 0.0_dp)
+    else if (distance > apart*edge) then
+      status = status_type(edges_apart, 0, distance, apart*edge)
     else
       status = status_type(ok, 0, 0.0_dp, 0.0_dp)
     end if

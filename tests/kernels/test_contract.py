@@ -1,0 +1,119 @@
+# SPDX-FileCopyrightText: The uel-harness authors
+# SPDX-License-Identifier: BSD-3-Clause
+"""What Abaqus may ask of an element: every LFLAGS(3), calls without time, several right-hand sides."""
+
+import ctypes
+
+import numpy as np
+import pytest
+
+QUAD = [[0.0, 0.0], [1.1, 0.2], [0.9, 1.3], [-0.2, 0.8]]
+
+
+@pytest.fixture(params=[1, 2, 4], ids=lambda jtype: f"U{jtype}")
+def case(request, element, interface):
+    """An element with a history, and displacements."""
+    jtype = request.param
+    coordinates = {1: QUAD, 2: interface.four, 4: interface.eight}[jtype]
+    item = element(jtype, coordinates)
+    u = interface.displacements(len(coordinates), *interface.states["softening"], seed=0)
+    item.advance(0.8 * u)
+    return item, u
+
+
+def test_requests(case):
+    item, u = case
+    rhs, tangent = item.evaluate(u, request=1)
+    for request, residual, matrix in (
+        (2, 0 * rhs, tangent),
+        (3, 0 * rhs, 0 * tangent),
+        (4, 0 * rhs, 0 * tangent),
+        (5, rhs, 0 * tangent),
+        (6, rhs, 0 * tangent),
+        (100, rhs, tangent),
+    ):
+        found = item.evaluate(u, request=request)
+        np.testing.assert_array_equal(found[1], matrix, err_msg=f"LFLAGS(3) = {request}")
+        np.testing.assert_array_equal(found[0], residual, err_msg=f"LFLAGS(3) = {request}")
+
+
+@pytest.mark.parametrize("procedure", [1, 2, 11, 12, 21, 41, 61, 71, 91])
+def test_no_inertia_whatever_the_procedure(case, procedure):
+    item, u = case
+    expected = item.evaluate(u)
+    found = item.evaluate(u, flags=(procedure, 0, 0, 1))
+    np.testing.assert_array_equal(found[0], expected[0])
+    np.testing.assert_array_equal(found[1], expected[1])
+
+
+def test_calls_without_time(case):
+    """KINC = 0 and DTIME = 0."""
+    item, u = case
+    expected = item.evaluate(u)
+    found = item.evaluate(u, dtime=0.0, increment=0)
+    np.testing.assert_array_equal(found[0], expected[0])
+    np.testing.assert_array_equal(found[1], expected[1])
+
+
+def test_state_starts_from_the_increment_in_every_iteration(case):
+    item, u = case
+    first = item.evaluate(u)
+    item.evaluate(3 * u)
+    second = item.evaluate(u)
+    np.testing.assert_array_equal(first[0], second[0])
+    item.block.commit()
+    once = item.state
+    item.evaluate(0.5 * u, request=5)
+    item.evaluate(0.5 * u, request=2)
+    for name, values in item.state.items():
+        np.testing.assert_array_equal(values, once[name])
+
+
+def test_increment_of_strain_comes_from_the_state(element):
+    """The quad's stress depends on U, whatever DU says: a cutback repeats with the same U and another DU."""
+    item = element(1, QUAD)
+    u = 1e-3 * np.random.default_rng(0).normal(size=8)
+    item.advance(u)
+    np.testing.assert_allclose(item.evaluate(2 * u, du=0 * u)[0], item.evaluate(2 * u, du=u)[0], rtol=1e-15)
+
+
+class Arguments:
+    """A raw UEL call of U2 with more room than needed, poisoned, to see what is written where."""
+
+    def __init__(self, library, interface, *, columns, request):
+        self.rhs = np.full((columns, 11), np.nan)
+        self.amatrx = np.full((8, 8), np.nan)
+        self.svars, self.energy = np.zeros(28), np.full(8, 7.0)
+        u = interface.displacements(4, *interface.states["softening"], seed=0).ravel()
+        props = np.array([2.0, 2e4, 3e4, 30.0, 60.0, 0.26, 1.002, 0.0])
+        zeros, pnewdt = np.zeros(64), np.array([1e36])
+        arguments = [
+            *(self.rhs, self.amatrx, self.svars, self.energy, 8, columns, 28, props, 8, interface.four.copy(), 2, 4),
+            *(u, zeros, zeros, zeros, 2, zeros, np.array([1.0]), 1, 1, 77, zeros, 0, 0, zeros, zeros, 0),
+            *(np.array([1, 0, request, 0, 0], dtype=np.int32), 11, zeros, 1, pnewdt),
+            *(np.array([1, 0, 0], dtype=np.int32), 3, np.array([1.0])),
+        ]
+        self.kept = [np.array([x], dtype=np.int32) if isinstance(x, int) else x for x in arguments]
+        assert len(self.kept) == 36
+        routine = ctypes.CFUNCTYPE(None, *[ctypes.c_void_p] * 36)(library.uel)
+        routine(*[x.ctypes.data for x in self.kept])
+
+
+def test_every_entry_is_filled_and_nothing_else(library, interface):
+    """Riks: NRHS = 2, its second column is zero; MLVARX above NDOFEL, SVARS above what is needed stay untouched."""
+    one, two = (Arguments(library, interface, columns=n, request=1) for n in (1, 2))
+    np.testing.assert_array_equal(two.rhs[0, :8], one.rhs[0, :8])
+    np.testing.assert_array_equal(two.rhs[1, :8], 0)
+    assert np.isnan(two.rhs[:, 8:]).all()
+    assert np.isfinite(two.amatrx).all()
+    assert (two.svars[:26] != 0).any()
+    np.testing.assert_array_equal(two.svars[26:], 0)
+    np.testing.assert_array_equal(two.energy[[0, 2, 4, 5, 6, 7]], 0)
+
+
+@pytest.mark.parametrize("request_", [2, 3, 4, 5, 6])
+def test_state_changes_only_in_calls_that_keep_it(library, interface, request_):
+    call = Arguments(library, interface, columns=1, request=request_)
+    np.testing.assert_array_equal(call.svars, 0)
+    np.testing.assert_array_equal(call.energy, 7.0)
+    assert np.isfinite(call.rhs[0, :8]).all() and np.isfinite(call.amatrx).all()

@@ -1,0 +1,162 @@
+# SPDX-FileCopyrightText: The uel-harness authors
+# SPDX-License-Identifier: BSD-3-Clause
+"""The four-node stabilised interface: what it takes from the quads next to it, and its complaints about them."""
+
+import numpy as np
+import pytest
+
+from harness.errors import KernelError
+
+BOTTOM, TOP, INTERFACE = 11, 12, 400
+OFFSETS = {"OFFSETBOTTOM": BOTTOM - INTERFACE, "OFFSETTOP": TOP - INTERFACE}
+OPTIONS = [
+    {},
+    {"INTEGRATION": 1},
+    {"SAMPLING": 1},
+    {"SAMPLING": 1, "INTEGRATION": 1},
+    {"SAMPLING": 2},
+    {"SAMPLING": 2, "INTEGRATION": 1},
+    {"BETAN": 4.0e3, "BETAT": 6.0e3, "GAMMABOT": 0.3},
+    {"VISCOSITY": 0.5},
+]
+
+
+@pytest.fixture(autouse=True)
+def start_of_analysis(library):
+    """UEXTERNALDB empties the shared module."""
+    library.external_database(0, 0, (0.0, 0.0), 0.0, 0, 0)
+
+
+class Sandwich:
+    """Two quads and the interface between them; quads may start with any node, so that any face is the interface."""
+
+    def __init__(self, element, interface, *, turns=(0, 0), labels=(BOTTOM, TOP), faces=None, **options):
+        self.interface = interface
+        # turning the numbering back by k nodes turns the face on by k: bottom face 3, top face 1
+        self.orders = [np.roll([0, 1, 2, 3], turns[0]), np.roll([4, 5, 6, 7], turns[1])]
+        faces = faces or [(2 + turns[0]) % 4 + 1, turns[1] % 4 + 1]
+        self.quads = [
+            element(1, interface.eight[order], label=label, FACE=face)
+            for order, label, face in zip(self.orders, labels, faces, strict=True)
+        ]
+        offsets = {"OFFSETBOTTOM": labels[0] - INTERFACE, "OFFSETTOP": labels[1] - INTERFACE}
+        self.four = element(3, interface.four, label=INTERFACE, **{**offsets, **options})
+
+    def evaluate(self, u, **options):
+        for quad, order in zip(self.quads, self.orders, strict=True):
+            quad.evaluate(u[order])
+        return self.four.evaluate(u[list(self.interface.owned)], **options)
+
+    def advance(self, u):
+        outcome = self.evaluate(u)
+        self.four.block.commit()
+        return outcome
+
+
+@pytest.mark.parametrize("state", ["elastic", "softening", "sliding", "closed", "failed", "mixed"])
+@pytest.mark.parametrize("options", OPTIONS, ids=lambda options: " ".join(f"{k}={v}" for k, v in options.items()))
+def test_same_as_eight_nodes(element, interface, options, state):
+    """Tractions, state and forces for the same displacements, whichever face of the quads is the interface."""
+    u = interface.displacements(8, *interface.states[state], seed=8)
+    eight = element(4, interface.eight, **options)
+    forces = eight.advance(u)[0].reshape(8, 2)[list(interface.owned)]
+    for turns in ((0, 0), (1, 3), (2, 1)):
+        sandwich = Sandwich(element, interface, turns=turns, **options)
+        rhs, _ = sandwich.advance(u)
+        np.testing.assert_allclose(rhs.reshape(4, 2), forces, rtol=1e-10, atol=1e-10)
+        for name, values in sandwich.four.state.items():
+            np.testing.assert_allclose(values, eight.state[name], rtol=1e-9, atol=1e-9, err_msg=name)
+
+
+@pytest.mark.parametrize("state", ["elastic", "softening", "sliding", "failed"])
+@pytest.mark.parametrize("rule", [0, 1])
+def test_tangent_is_the_penalty_part(element, interface, reference, law, rule, state):
+    """S alpha (1 - d) of each point, without the derivative of damage and bulk stress."""
+    sandwich = Sandwich(element, interface, INTEGRATION=rule)
+    _, tangent = sandwich.advance(interface.displacements(8, *interface.states[state], seed=8))
+    point = sandwich.four.state
+    axes, length = reference.frame(*interface.edge)
+    expected = np.zeros((8, 8))
+    for k, s in enumerate(reference.POINTS[rule]):
+        left, right = (1 - s) / 2, (1 + s) / 2
+        jump = np.kron([-left, -right, right, left], axes)
+        closed = point["TN"][k] < 0
+        secant = reference.stiffness(law, point["DAMAGE"][k], closed)
+        penalty = np.diag([point["ST"][k], point["SN"][k]] * secant)
+        expected += 0.5 * length * law["THICKNESS"] * jump.T @ penalty @ jump
+    np.testing.assert_allclose(tangent, expected, atol=1e-11 * abs(expected).max())
+    assert expected.any() == (state != "failed")
+
+
+def test_large_and_many_element_numbers(element, interface):
+    """The shared module grows with the numbers of the quads and with their count."""
+    u = interface.displacements(8, *interface.states["elastic"], seed=8)
+    sandwich = Sandwich(element, interface, labels=(3_000_000, 20_000))
+    expected, _ = sandwich.evaluate(u)
+    for label in range(1, 260):
+        element(1, interface.eight[:4], label=label, FACE=1).evaluate(np.zeros(8))
+    np.testing.assert_array_equal(sandwich.four.evaluate(u[list(interface.owned)])[0], expected)
+
+
+def test_offset_to_nothing(element, interface):
+    sandwich = Sandwich(element, interface, OFFSETTOP=5)
+    with pytest.raises(
+        KernelError, match=r"U3 element 400: JPROPS\(6\) OFFSETTOP = 5: bulk element 405 has not been evaluated before"
+    ):
+        sandwich.evaluate(np.zeros((8, 2)))
+
+
+def test_quad_that_does_not_share(element, interface):
+    sandwich = Sandwich(element, interface, faces=(3, 0))
+    with pytest.raises(KernelError, match=r"bulk element 12 has not been evaluated.*must be a U1 with FACE"):
+        sandwich.evaluate(np.zeros((8, 2)))
+
+
+@pytest.mark.parametrize(
+    ("changes", "message"),
+    [
+        ({"faces": (1, 1)}, r"JPROPS\(5\) OFFSETBOTTOM = -389: bulk element 11 is no neighbour, its face 1 does not"),
+        ({"faces": (3, 4)}, r"JPROPS\(6\) OFFSETTOP = -388: bulk element 12 is no neighbour, its face 4 does not"),
+        ({"OFFSETBOTTOM": -388, "OFFSETTOP": -389}, r"U3 element 400: .*bulk element 12 is no neighbour"),
+    ],
+)
+def test_wrong_neighbour(element, interface, changes, message):
+    sandwich = Sandwich(element, interface, **changes)
+    with pytest.raises(KernelError, match=message):
+        sandwich.evaluate(np.zeros((8, 2)))
+
+
+def test_quad_not_yet_evaluated_in_this_iteration(element, interface):
+    sandwich = Sandwich(element, interface)
+    u = interface.displacements(8, *interface.states["elastic"], seed=8)
+    sandwich.evaluate(u)
+    sandwich.quads[0].evaluate(1.001 * u[:4])
+    with pytest.raises(
+        KernelError,
+        match=r"U3 element 400: JPROPS\(6\) OFFSETTOP = -388: bulk element 12 has not been evaluated before the "
+        r"interface element in this iteration: give bulk elements lower numbers and run on one thread",
+    ):
+        sandwich.four.evaluate(1.001 * u[list(interface.owned)])
+
+
+@pytest.mark.parametrize("lop", [0, 3])
+def test_shared_module_is_emptied_between_analyses(element, interface, library, lop):
+    sandwich = Sandwich(element, interface)
+    sandwich.evaluate(np.zeros((8, 2)))
+    for kept in (1, 2, 4, 5, 6):
+        library.external_database(kept, 0, (0.0, 0.0), 0.0, 1, 1)
+        sandwich.four.evaluate(np.zeros(8))
+    library.external_database(lop, 0, (0.0, 0.0), 0.0, 1, 1)
+    with pytest.raises(KernelError, match="has not been evaluated before"):
+        sandwich.four.evaluate(np.zeros(8))
+
+
+def test_mass_call_needs_no_quads(element, interface):
+    four = element(3, interface.four, label=INTERFACE, **OFFSETS)
+    assert not four.evaluate(np.zeros(8), request=4)[1].any()
+
+
+def test_consistent_tangent_is_not_on_offer(element, interface):
+    four = element(3, interface.four, label=INTERFACE, TANGENT=0, **OFFSETS)
+    with pytest.raises(KernelError, match=r"U3 element 400: JPROPS\(3\) TANGENT = 0, expected is 1 to 1"):
+        four.evaluate(np.zeros(8))
