@@ -2,8 +2,9 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """The user's side of a job: compile a file of user routines as Abaqus does, load it, call it.
 
-A Fortran STOP or a run-time error of the Fortran library inside a user routine ends the whole process; XIT and
-STDB_ABQERR do not: they end the call, and the caller gets a KernelError.
+XIT, STDB_ABQERR and STOP in a user routine end the call, and the caller gets an error with the reason. What still ends
+the whole process: an error inside the Fortran library (reading a file that is not there), a memory fault, and STOP in a
+library that the user compiled himself.
 """
 
 from harness.usersub.library import Library, load
