@@ -6,8 +6,8 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from harness.delamination.kernels import KERNELS, positions
-from harness.delamination.keywords import captions, keyword, table, wrapped
+from harness.delamination.kernels import uel_property, user_element
+from harness.delamination.keywords import keyword, table, wrapped
 from harness.delamination.materials import Cohesive, Ply
 from harness.delamination.mesh import TwoArmMesh
 
@@ -54,23 +54,10 @@ def element_blocks(specimen: Specimen) -> list[str]:
     return [*_quad_elements(specimen), *_quad_properties(specimen), *_materials(specimen), *_interface(specimen)]
 
 
-def _user_element(jtype: int, *flags: str, **options: str | int) -> list[str]:
-    kernel = KERNELS[jtype]
-    counts: dict[str, str | int] = {"TYPE": f"U{jtype}", "NODES": kernel.nodes, "COORDINATES": 2}
-    counts |= {"PROPERTIES": kernel.reals, "I_PROPERTIES": kernel.integers, "VARIABLES": kernel.variables}
-    return [keyword("USER ELEMENT", *flags, **counts, **options), "1, 2"]
-
-
-def _uel_property(jtype: int, elset: str, values: dict[str, float], **options: str) -> list[str]:
-    reals, integers = positions(jtype, values)
-    # reals and integers follow each other on the same lines, eight a line
-    return [keyword("UEL PROPERTY", ELSET=elset, **options), *wrapped([*reals, *integers])]
-
-
 def _quad_elements(specimen: Specimen) -> list[str]:
     lines = ["** continuum: two arms of quads"]
     if specimen.quads == "U1":
-        lines += _user_element(1, INTEGRATION=4, TENSOR="PSTRESS")
+        lines += user_element(1, INTEGRATION=4, TENSOR="PSTRESS")
     lines.append(keyword("ELEMENT", TYPE=specimen.quads, ELSET="QUADS", INPUT=f"{specimen.name}_quads.inp"))
     for name, first, last, _, _ in _quad_sets(specimen):
         mesh = specimen.mesh
@@ -98,7 +85,7 @@ def _quad_properties(specimen: Specimen) -> list[str]:
     for name, _, _, face, ply in _quad_sets(specimen):
         if specimen.quads == "U1":
             values = {"THICKNESS": specimen.width, "PLANE": 0, "FACE": face}
-            lines += _uel_property(1, name, values, MATERIAL=ply.name)
+            lines += uel_property(1, name, values, MATERIAL=ply.name)
         else:
             lines += [keyword("SOLID SECTION", ELSET=name, MATERIAL=ply.name), *wrapped([specimen.width])]
     return lines
@@ -121,16 +108,14 @@ _TITLES = {
 def _interface(specimen: Specimen) -> list[str]:
     interface = specimen.interface
     jtype = int(interface.type[1:])
-    nodes = KERNELS[jtype].nodes
     # the stiffness of U4 is unsymmetric always, that of U2 with the consistent tangent of mixed-mode softening
     flags = ["UNSYMM"] if unsymmetric(interface) else []
-    mesh_file = f"{specimen.name}_interface{nodes}.inp"
+    mesh_file = f"{specimen.name}_interface{8 if jtype == 4 else 4}.inp"
     return [
         f"** interface: {_TITLES[jtype]}",
-        *_user_element(jtype, *flags),
+        *user_element(jtype, *flags),
         keyword("ELEMENT", TYPE=interface.type, ELSET="INTERFACE", INPUT=mesh_file),
-        *captions(KERNELS[jtype].names),
-        *_uel_property(jtype, "INTERFACE", interface_values(specimen)),
+        *uel_property(jtype, "INTERFACE", interface_values(specimen)),
     ]
 
 

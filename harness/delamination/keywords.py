@@ -18,9 +18,9 @@ def number(value: float) -> str:
 
 
 def keyword(name: str, *flags: str, **options: str | int) -> str:
-    """Keyword line: flags, then options; an underscore in an option's name stands for a blank."""
+    """Keyword line: options, then flags; an underscore in an option's name stands for a blank."""
     words = [f"{key.replace('_', ' ')}={value}" for key, value in options.items()]
-    return ", ".join([f"*{name}", *flags, *words])
+    return ", ".join([f"*{name}", *words, *flags])
 
 
 def table(rows: Iterable[Iterable[float]]) -> list[str]:

@@ -26,7 +26,7 @@ ARMS = Arms(WIDTH, ARM_HEIGHT, PLY_0.e1, PLY_0.e2, PLY_0.g12)
 # compressed and never slides that far, so G_IIc is raised and nothing else changes.
 PATCH_LAW = replace(TABLE_2, stiffness_normal=1.0e8, stiffness_shear=10.0, toughness_2=1000.0)
 PATCH_BETA = 3.0e6
-PATCH_BUMP = 0.003
+PATCH_BUMP = -0.003
 
 
 def patch_mesh(bump: float) -> TwoArmMesh:

@@ -7,7 +7,7 @@ from __future__ import annotations
 from collections.abc import Iterable
 from dataclasses import dataclass
 
-from harness.delamination.keywords import keyword, table
+from harness.delamination.keywords import keyword, number, table
 
 
 @dataclass(frozen=True, slots=True)
@@ -15,9 +15,12 @@ class Increments:
     """*STATIC over a period of 1: increments, and the solution controls of a failing interface.
 
     initial, smallest, largest  increment in step time
+    limit          number of increments allowed
     discontinuous  ANALYSIS=DISCONTINUOUS: the residual may rise for longer before an increment is given up
     line_search    number of line-search iterations, 0 for none
-    attempts       cutbacks allowed in one increment (I_A)
+    slow           a linearly converging iteration (secant stiffness) is given up to 100 iterations
+    attempts       attempts allowed in one increment (I_A)
+    residual       R_n and R_l where the default is not strict enough
     """
 
     initial: float
@@ -26,7 +29,9 @@ class Increments:
     limit: int = 1000
     discontinuous: bool = False
     line_search: int = 0
+    slow: bool = False
     attempts: int = 5
+    residual: float | None = None
 
 
 LINEAR = Increments(initial=1.0, smallest=1.0, largest=1.0, limit=1)
@@ -60,9 +65,9 @@ def step_block(
     static = (increments.initial, 1.0, increments.smallest, increments.largest)
     lines = [keyword("STEP", **options), title, "*STATIC", *table([static])]
     lines += _controls(increments)
-    lines += ["*BOUNDARY", *(f"{name}, {dof}, {dof}, {table([[value]])[0]}" for name, dof, value in prescribed)]
-    lines += [keyword("OUTPUT", "FIELD", FREQUENCY=field_every), "*NODE OUTPUT", "U, RF"]
-    lines.append(keyword("OUTPUT", "HISTORY", FREQUENCY=1))
+    lines += ["*BOUNDARY", *(f"{name}, {dof}, {dof}, {number(value)}" for name, dof, value in prescribed)]
+    lines += [f"*OUTPUT, FIELD, FREQUENCY={field_every}", "*NODE OUTPUT", "U, RF"]
+    lines.append("*OUTPUT, HISTORY, FREQUENCY=1")
     for name in history:
         lines += [keyword("NODE OUTPUT", NSET=name), "U2, RF2"]
     lines += ["*ENERGY OUTPUT", "ALLIE, ALLSE, ALLPD, ALLVD, ALLWK, ETOTAL"]
@@ -75,12 +80,16 @@ def step_block(
 
 def _controls(increments: Increments) -> list[str]:
     lines = []
+    if increments.residual is not None:
+        limit = number(increments.residual)
+        lines += ["*CONTROLS, PARAMETERS=FIELD", f"{limit}, , , , , , , {limit}"]
     if increments.discontinuous:
         lines.append("*CONTROLS, ANALYSIS=DISCONTINUOUS")
-    if increments.attempts != 5:
-        # I_0 and I_R are said again: those of ANALYSIS=DISCONTINUOUS are not the defaults of this line
+    if increments.slow or increments.attempts != 5:
+        # I_0, I_R, I_P, I_C, I_L, I_G, I_S, I_A; what ANALYSIS=DISCONTINUOUS sets is not the default of this line
         first = "8, 10" if increments.discontinuous else "4, 8"
-        lines += ["*CONTROLS, PARAMETERS=TIME INCREMENTATION", f"{first}, 9, 16, 10, 4, 12, {increments.attempts}"]
+        counts = "30, 60, 60, 100, 100, 8, 12" if increments.slow else f"{first}, 9, 16, 10, 4, 12"
+        lines += ["*CONTROLS, PARAMETERS=TIME INCREMENTATION", f"{counts}, {increments.attempts}"]
     if increments.line_search:
         lines += ["*CONTROLS, PARAMETERS=LINE SEARCH", f"{increments.line_search}, 1., 0.0001, 0.25, 0.1"]
     return lines

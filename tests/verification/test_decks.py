@@ -19,11 +19,7 @@ def test_committed_decks_are_the_built_ones(tmp_path: Path) -> None:
     assert decks.main(["--folder", str(tmp_path)]) == 0
     for path in BUILT:
         assert (decks.FOLDER / path).read_bytes() == (tmp_path / path).read_bytes(), path
-    committed = {
-        path.relative_to(decks.FOLDER)
-        for name in ("patch_horizontal", "dcb", "dcb_ref")
-        for path in (decks.FOLDER / name).glob("*.inp")
-    }
+    committed = {path.relative_to(decks.FOLDER) for path in decks.FOLDER.rglob("*.inp")}
     assert committed == set(BUILT)
 
 

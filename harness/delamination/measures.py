@@ -1,0 +1,151 @@
+# SPDX-FileCopyrightText: The uel-harness authors
+# SPDX-License-Identifier: BSD-3-Clause
+"""Named quantities of a run, which the reference.toml files of abaqus_inputs give values for."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+import numpy as np
+
+from harness.delamination.materials import TABLE_2
+from harness.delamination.specimens import ARMS, CRACK, WIDTH
+from harness.delamination.theory import dcb_crack, dcb_curve
+from harness.model.arrays import FloatArray
+from harness.output import Result
+
+
+def load(result: Result) -> FloatArray:
+    """Load of a double cantilever beam (N), positive in opening, by increment."""
+    return result.history["RF2[LOAD_TOP]"]
+
+
+def displacement(result: Result) -> FloatArray:
+    """Displacement of the upper arm's end (mm), by increment."""
+    return result.history["U2[LOAD_TOP]"]
+
+
+def dissipated(result: Result) -> FloatArray:
+    """Energy dissipated by damage and by its viscosity (N mm), by increment."""
+    return result.history["ALLPD"] + result.history["ALLVD"]
+
+
+def crack_growth(result: Result) -> FloatArray:
+    """Growth of the crack (mm) by the compliance method, by increment.
+
+    The interface unloads to the origin, so that 2 Delta/P is the compliance of the damaged specimen at every moment;
+    beam theory gives the crack length that belongs to it. The first increment, still elastic, is the start: errors of
+    beam theory in the initial length cancel. Loads and displacements alone enter, not the interface's state.
+    """
+    moved = displacement(result) > 0.0
+    lengths = np.array([dcb_crack(ARMS, value) for value in displacement(result)[moved] / load(result)[moved]])
+    return np.concatenate([np.zeros(np.count_nonzero(~moved)), lengths - lengths[0]])
+
+
+def beam_theory(result: Result) -> FloatArray:
+    """Load by corrected beam theory at the displacements of the run (N), by increment."""
+    return dcb_curve(ARMS, CRACK, TABLE_2.toughness_1, displacement(result))
+
+
+def peak_load(result: Result) -> float:
+    """Largest load (N)."""
+    return float(load(result).max())
+
+
+def peak_opening(result: Result) -> float:
+    """Distance of the loaded corners at the largest load (mm)."""
+    return float(2.0 * displacement(result)[load(result).argmax()])
+
+
+def final_load(result: Result) -> float:
+    """Load at the end (N)."""
+    return float(load(result)[-1])
+
+
+def final_displacement(result: Result) -> float:
+    """Displacement of the upper arm's end at the end (mm)."""
+    return float(displacement(result)[-1])
+
+
+def theory_deviation(result: Result) -> float:
+    """Largest relative distance from beam theory between the peak and the end."""
+    after = slice(int(load(result).argmax()), None)
+    return float(np.max(np.abs(load(result)[after] / beam_theory(result)[after] - 1.0)))
+
+
+def dissipation_ratio(result: Result) -> float:
+    """Dissipated energy over G_Ic x width x crack growth, from the peak to the end.
+
+    Up to the peak the process zone forms: the compliance grows, at an energy release rate below G_Ic.
+    """
+    peak = int(load(result).argmax())
+    energy, growth = dissipated(result), crack_growth(result)
+    return float((energy[-1] - energy[peak]) / (TABLE_2.toughness_1 * WIDTH * (growth[-1] - growth[peak])))
+
+
+def energy_error(result: Result) -> float:
+    """External work less stored and dissipated energy, over the external work, at the end."""
+    work, stored = result.history["ALLWK"][-1], result.history["ALLSE"][-1]
+    return float((work - stored - dissipated(result)[-1]) / work)
+
+
+def traction_mean(result: Result) -> float:
+    """Mean of the normal traction along the interface at the end (MPa)."""
+    return float(np.mean(result.interface()["TN"]))
+
+
+def traction_deviation(result: Result) -> float:
+    """Standard deviation of the normal traction along the interface at the end (MPa)."""
+    return float(np.std(result.interface()["TN"]))
+
+
+def traction_lowest(result: Result) -> float:
+    """Lowest normal traction along the interface at the end (MPa)."""
+    return float(np.min(result.interface()["TN"]))
+
+
+def traction_highest(result: Result) -> float:
+    """Highest normal traction along the interface at the end (MPa)."""
+    return float(np.max(result.interface()["TN"]))
+
+
+def traction_variation(result: Result) -> float:
+    """Total variation of the normal traction along the interface at the end (MPa)."""
+    return float(np.sum(np.abs(np.diff(result.interface()["TN"]))))
+
+
+def damage_variation(result: Result) -> float:
+    """Total variation of the damage along the interface at the end; 1 where it falls steadily from 1 to 0."""
+    return float(np.sum(np.abs(np.diff(result.interface()["DAMAGE"]))))
+
+
+def increments(result: Result) -> int:
+    """Number of increments done."""
+    return sum(not row.cutback for row in result.status)
+
+
+def cutbacks(result: Result) -> int:
+    """Number of attempts given up."""
+    return sum(row.cutback for row in result.status)
+
+
+def iterations(result: Result) -> int:
+    """Number of iterations, those of attempts given up included."""
+    return sum(row.total_iterations for row in result.status)
+
+
+def curve_distance(result: Result, other: Result) -> float:
+    """Largest distance of two load curves from the peak on, over the peak load; the other is interpolated."""
+    after = slice(int(load(result).argmax()), None)
+    between = np.interp(displacement(result)[after], displacement(other), load(other))
+    return float(np.max(np.abs(load(result)[after] - between)) / peak_load(other))
+
+
+QUANTITIES: dict[str, Callable[[Result], float]] = {
+    function.__name__: function
+    for function in (
+        *(peak_load, peak_opening, final_load, final_displacement, theory_deviation, dissipation_ratio, energy_error),
+        *(traction_mean, traction_deviation, traction_lowest, traction_highest, traction_variation, damage_variation),
+    )
+}
+COMPARISONS: dict[str, Callable[[Result, Result], float]] = {"curve_distance": curve_distance}

@@ -1,0 +1,90 @@
+# SPDX-FileCopyrightText: The uel-harness authors
+# SPDX-License-Identifier: BSD-3-Clause
+"""Reference values of the decks of abaqus_inputs: one reference.toml in each folder.
+
+A file holds a table `[[value]]` for each quantity:
+
+decks      decks it holds for
+quantity   name in `harness.delamination.measures`, or a column of the history, whose last value is meant
+against    deck to compare with, where the quantity is a comparison
+value, unit
+relative, absolute  tolerance, one of them
+why        why the tolerance is what it is
+kind       'analytic', 'paper figure', 'other code', 'regression'
+source     where the value comes from
+
+and at its head `long`, the decks that take too long for the quick tests.
+"""
+
+from __future__ import annotations
+
+import tomllib
+from collections.abc import Callable
+from dataclasses import dataclass
+from pathlib import Path
+
+from harness.delamination.measures import COMPARISONS, QUANTITIES
+from harness.output import Result
+
+ENTRIES = {"decks", "quantity", "value", "unit", "why", "kind", "source"}
+KINDS = ("analytic", "paper figure", "other code", "regression")
+
+
+@dataclass(frozen=True, slots=True)
+class Reference:
+    """One value of one deck; `tolerance` is absolute."""
+
+    deck: Path
+    quantity: str
+    against: Path | None
+    value: float
+    tolerance: float
+    unit: str
+    why: str
+    kind: str
+    source: str
+
+    def measure(self, run: Callable[[Path], Result]) -> float:
+        """The quantity from a run of the deck; `run` gives the result of a deck."""
+        result = run(self.deck)
+        if self.against is not None:
+            return COMPARISONS[self.quantity](result, run(self.against))
+        if self.quantity in QUANTITIES:
+            return QUANTITIES[self.quantity](result)
+        return float(result.history[self.quantity][-1])
+
+
+def read_references(folder: Path) -> tuple[list[Reference], set[Path]]:
+    """References of a folder of decks, deck by deck, and its long decks.
+
+    Raises
+    ------
+    ValueError
+        A value lacks an entry or has one that is not known.
+    """
+    file = folder / "reference.toml"
+    content = tomllib.loads(file.read_text(encoding="utf-8"))
+    references = [
+        _reference(folder, entry, deck, f"{file}: {entry.get('quantity')}")
+        for entry in content["value"]
+        for deck in entry["decks"]
+    ]
+    ordered = sorted(references, key=lambda reference: (reference.deck, str(reference.against or "")))
+    return ordered, {folder / deck for deck in content.get("long", ())}
+
+
+def _reference(folder: Path, entry: dict[str, object], deck: str, place: str) -> Reference:
+    given = set(entry)
+    tolerances = given & {"relative", "absolute"}
+    if given - tolerances - {"against"} != ENTRIES or len(tolerances) != 1:
+        wanted = ", ".join(sorted(ENTRIES))
+        raise ValueError(f"{place}: expected {wanted}, and relative or absolute; against is optional")
+    if entry["kind"] not in KINDS:
+        raise ValueError(f"{place}: kind '{entry['kind']}' is none of {', '.join(KINDS)}")
+    value = float(str(entry["value"]))
+    tolerance = float(str(entry["absolute"])) if "absolute" in given else abs(value) * float(str(entry["relative"]))
+    against = folder / str(entry["against"]) if "against" in given else None
+    if against is not None and entry["quantity"] not in COMPARISONS:
+        raise ValueError(f"{place}: no comparison of that name; there are {', '.join(COMPARISONS)}")
+    texts = (str(entry[key]) for key in ("unit", "why", "kind", "source"))
+    return Reference(folder / deck, str(entry["quantity"]), against, value, tolerance, *texts)
