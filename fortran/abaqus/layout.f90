@@ -115,7 +115,7 @@ module abaqus_layout
   integer, parameter, public :: j_tangent = 3
   ! integers of the stabilised interface elements
   integer, parameter, public :: j_sampling = 4
-  ! integers of the four-node one, which has no tangent to choose
+  ! integers of the four-node one
   integer, parameter, public :: j_offset_bottom = 5
   integer, parameter, public :: j_offset_top = 6
   ! integers of the eight-node one
@@ -133,7 +133,7 @@ module abaqus_layout
   type(integer_item), parameter, public :: four_node_integers(6) = [ &
     integer_item(j_law, 'LAW', 1, 1), & !< 1 bilinear, damage at the displacement jump
     integer_item(j_integration, 'INTEGRATION', 0, 1), & !< 0 Gauss, 1 Newton-Cotes
-    integer_item(j_tangent, 'TANGENT', 1, 1), & !< 1 secant: penalty part S alpha (1 - d) alone
+    integer_item(j_tangent, 'TANGENT', 0, 1), & !< at constant bulk stress: 0 consistent, 1 S alpha (1 - d) alone
     integer_item(j_sampling, 'SAMPLING', 0, 2), & !< bulk stress: 0 middle of the face, 1 face, 2 nearest Gauss point
     integer_item(j_offset_bottom, 'OFFSETBOTTOM', -any_integer, any_integer), & !< number of the quad below less its own
     integer_item(j_offset_top, 'OFFSETTOP', -any_integer, any_integer)] !< number of the quad above, less its own

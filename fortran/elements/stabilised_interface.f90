@@ -50,8 +50,9 @@ contains
       *(used%gamma_bottom**2/softness(1) + (1.0_dp - used%gamma_bottom)**2/softness(2))
   end function weigh_sides
 
-  !> Four-node variant. Its tangent holds the penalty part S alpha (1 - d) alone: what depends on the stress of the
-  !> neighbours involves nodes that it does not own.
+  !> Four-node variant. Its tangent is that at constant bulk stress, since what depends on the stress of the neighbours
+  !> involves nodes that it does not own: the penalty part S alpha (1 - d), with the derivative of the damage if the
+  !> consistent tangent is asked for.
   pure subroutine stabilised_interface_four(law, options, thickness, stabilisation, coordinates, u, bulk_stress, &
     dtime, old, new, residual, tangent, energies, status)
     type(law_parameters), intent(in) :: law
@@ -85,7 +86,7 @@ contains
     weight = 0.5_dp*geometry%length*thickness
     to_traction = traction_operator(geometry%frame)
     do k = 1, 2
-      call evaluate_point(law, secant_tangent, geometry, k, stabilisation%beta, dtime, &
+      call evaluate_point(law, options%tangent, geometry, k, stabilisation%beta, dtime, &
         separation_at(geometry%frame, geometry%s(k), u), matmul(to_traction, bulk_stress(:, k)), &
         old(k), new(k), local, s_of_point)
       call add_point(geometry%frame, geometry%s(k), weight, new(k)%traction, local, force, matrix)

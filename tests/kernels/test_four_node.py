@@ -70,9 +70,9 @@ def test_same_as_eight_nodes(element, interface, options, state):
 
 @pytest.mark.parametrize("state", ["elastic", "softening", "sliding", "failed"])
 @pytest.mark.parametrize("rule", [0, 1])
-def test_tangent_is_the_penalty_part(element, interface, reference, law, rule, state):
+def test_secant_tangent_is_the_penalty_part(element, interface, reference, law, rule, state):
     """S alpha (1 - d) of each point, without the derivative of damage and bulk stress."""
-    sandwich = Sandwich(element, interface, INTEGRATION=rule)
+    sandwich = Sandwich(element, interface, INTEGRATION=rule, TANGENT=1)
     _, tangent = sandwich.advance(interface.displacements(8, *interface.states[state], seed=8))
     point = sandwich.four.state
     axes, length = reference.frame(*interface.edge)
@@ -156,7 +156,13 @@ def test_mass_call_needs_no_quads(element, interface):
     assert not four.evaluate(np.zeros(8), request=4)[1].any()
 
 
-def test_consistent_tangent_is_not_on_offer(element, interface):
-    four = element(3, interface.four, label=INTERFACE, TANGENT=0, **OFFSETS)
-    with pytest.raises(KernelError, match=r"U3 element 400: JPROPS\(3\) TANGENT = 0, expected is 1 to 1"):
-        four.evaluate(np.zeros(8))
+@pytest.mark.parametrize("state", ["softening", "sliding", "mixed"])
+def test_consistent_tangent_adds_the_derivative_of_the_damage(element, interface, state):
+    """What it adds to the penalty part is what the exact tangent of U4 has beyond its own secant one."""
+    u = interface.displacements(8, *interface.states[state], seed=8)
+    dofs = np.array([[2 * node, 2 * node + 1] for node in interface.owned]).ravel()
+    four = [Sandwich(element, interface, TANGENT=tangent).evaluate(u)[1] for tangent in (0, 1)]
+    eight = [element(4, interface.eight, TANGENT=tangent).evaluate(u)[1][np.ix_(dofs, dofs)] for tangent in (0, 1)]
+    difference = four[0] - four[1]
+    np.testing.assert_allclose(difference, eight[0] - eight[1], atol=1e-11 * abs(eight[0]).max())
+    assert abs(difference).max() > 1e-2 * abs(four[1]).max()
