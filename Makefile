@@ -9,6 +9,7 @@ PYTHON ?= python3
 VENV ?= .venv
 MESON_ARGS ?= -Dbuildtype=release
 PYTEST_ARGS ?=
+SELECT ?= not long
 
 BIN := $(VENV)/bin
 INSTALLED := $(VENV)/.installed
@@ -40,13 +41,13 @@ demo: $(INSTALLED)
 	$(RUN) $(BIN)/python -m harness.delamination.demo --output-dir demo
 
 test: $(INSTALLED)
-	$(RUN) $(BIN)/pytest -m 'not long' $(PYTEST_ARGS)
+	$(RUN) $(BIN)/pytest -m '$(SELECT)' $(PYTEST_ARGS)
 
 test-all: $(INSTALLED)
 	$(RUN) $(BIN)/pytest $(PYTEST_ARGS)
 
 test-debug:
-	$(MAKE) test VENV=.venv-debug MESON_ARGS='-Dbuildtype=debug'
+	$(MAKE) test VENV=.venv-debug MESON_ARGS='-Dbuildtype=debug' SELECT='not long and not nan'
 
 bench: $(INSTALLED)
 	$(RUN) $(BIN)/python tests/benchmarks/bench.py

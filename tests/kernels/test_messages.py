@@ -29,7 +29,7 @@ NODES = {1: QUAD, 2: FLAT, 4: EIGHT}
         (2, {"GIC": -0.1}, r"PROPS\(6\) GIC = -.*positive"),
         (2, {"GIIC": 0.0}, r"PROPS\(7\) GIIC = 0.*positive"),
         (2, {"VISCOSITY": -1.0}, r"PROPS\(8\) VISCOSITY = -1.*zero or a positive value"),
-        (2, {"ALPHAN": np.nan}, r"PROPS\(2\) ALPHAN = NaN"),
+        pytest.param(2, {"ALPHAN": np.nan}, r"PROPS\(2\) ALPHAN = NaN", marks=pytest.mark.nan),
         (2, {"LAW": 0}, r"JPROPS\(1\) LAW = 0, expected is 1 to 1"),
         (2, {"INTEGRATION": 2}, r"JPROPS\(2\) INTEGRATION = 2, expected is 0 to 1"),
         (2, {"TANGENT": -1}, r"JPROPS\(3\) TANGENT = -1, expected is 0 to 1"),

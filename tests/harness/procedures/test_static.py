@@ -329,6 +329,7 @@ def test_controls_are_obeyed(bench):
     assert len(result.abandoned) == 1
 
 
+@pytest.mark.nan
 def test_a_kernel_error_ends_the_run_after_what_came_before(bench):
     static = Static(0.25, 1.0, 1e-5, 0.25)
     result = bench.run(
