@@ -20,7 +20,7 @@ class Interface:
     cohesive   parameters of the law
     beta       stabilisation parameter beta_n = beta_tau (N/mm^3); 0 computes it by equation (21)
     viscosity  relaxation time of the damage, in step time
-    secant     secant stiffness (24) in place of the consistent tangent; U3 knows nothing else
+    secant     secant stiffness (24) in place of the consistent tangent
     """
 
     type: str
@@ -108,7 +108,6 @@ _TITLES = {
 def _interface(specimen: Specimen) -> list[str]:
     interface = specimen.interface
     jtype = int(interface.type[1:])
-    # the stiffness of U4 is unsymmetric always, that of U2 with the consistent tangent of mixed-mode softening
     flags = ["UNSYMM"] if unsymmetric(interface) else []
     mesh_file = f"{specimen.name}_interface{8 if jtype == 4 else 4}.inp"
     return [
@@ -120,8 +119,8 @@ def _interface(specimen: Specimen) -> list[str]:
 
 
 def unsymmetric(interface: Interface) -> bool:
-    """Whether the elements' stiffness is to be taken as unsymmetric."""
-    return interface.type == "U4" or (interface.type == "U2" and not interface.secant)
+    """Whether the stiffness is unsymmetric: that of U4 always, the others' with the tangent of mixed-mode softening."""
+    return interface.type == "U4" or not interface.secant
 
 
 def interface_values(specimen: Specimen) -> dict[str, float]:
@@ -142,7 +141,7 @@ def interface_values(specimen: Specimen) -> dict[str, float]:
         "GAMMABOT": 0.0,
         "LAW": 1,
         "INTEGRATION": 0,
-        "TANGENT": 1 if interface.secant or interface.type == "U3" else 0,
+        "TANGENT": 1 if interface.secant else 0,
         "SAMPLING": 0,
         "OFFSETBOTTOM": below,
         "OFFSETTOP": above,

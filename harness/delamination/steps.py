@@ -18,7 +18,6 @@ class Increments:
     limit          number of increments allowed
     discontinuous  ANALYSIS=DISCONTINUOUS: the residual may rise for longer before an increment is given up
     line_search    number of line-search iterations, 0 for none
-    slow           a linearly converging iteration (secant stiffness) is given up to 100 iterations
     attempts       attempts allowed in one increment (I_A)
     residual       R_n and R_l where the default is not strict enough
     """
@@ -29,7 +28,6 @@ class Increments:
     limit: int = 1000
     discontinuous: bool = False
     line_search: int = 0
-    slow: bool = False
     attempts: int = 5
     residual: float | None = None
 
@@ -85,11 +83,10 @@ def _controls(increments: Increments) -> list[str]:
         lines += ["*CONTROLS, PARAMETERS=FIELD", f"{limit}, , , , , , , {limit}"]
     if increments.discontinuous:
         lines.append("*CONTROLS, ANALYSIS=DISCONTINUOUS")
-    if increments.slow or increments.attempts != 5:
+    if increments.attempts != 5:
         # I_0, I_R, I_P, I_C, I_L, I_G, I_S, I_A; what ANALYSIS=DISCONTINUOUS sets is not the default of this line
         first = "8, 10" if increments.discontinuous else "4, 8"
-        counts = "30, 60, 60, 100, 100, 8, 12" if increments.slow else f"{first}, 9, 16, 10, 4, 12"
-        lines += ["*CONTROLS, PARAMETERS=TIME INCREMENTATION", f"{counts}, {increments.attempts}"]
+        lines += ["*CONTROLS, PARAMETERS=TIME INCREMENTATION", f"{first}, 9, 16, 10, 4, 12, {increments.attempts}"]
     if increments.line_search:
         lines += ["*CONTROLS, PARAMETERS=LINE SEARCH", f"{increments.line_search}, 1., 0.0001, 0.25, 0.1"]
     return lines
