@@ -20,14 +20,12 @@ class Interface:
     cohesive   parameters of the law
     beta       stabilisation parameter beta_n = beta_tau (N/mm^3); 0 computes it by equation (21)
     viscosity  relaxation time of the damage, in step time
-    secant     secant stiffness (24) in place of the consistent tangent
     """
 
     type: str
     cohesive: Cohesive
     beta: float = 0.0
     viscosity: float = 0.0
-    secant: bool = False
 
 
 @dataclass(frozen=True, slots=True)
@@ -108,19 +106,13 @@ _TITLES = {
 def _interface(specimen: Specimen) -> list[str]:
     interface = specimen.interface
     jtype = int(interface.type[1:])
-    flags = ["UNSYMM"] if unsymmetric(interface) else []
     mesh_file = f"{specimen.name}_interface{8 if jtype == 4 else 4}.inp"
     return [
         f"** interface: {_TITLES[jtype]}",
-        *user_element(jtype, *flags),
+        *user_element(jtype, "UNSYMM"),
         keyword("ELEMENT", TYPE=interface.type, ELSET="INTERFACE", INPUT=mesh_file),
         *uel_property(jtype, "INTERFACE", interface_values(specimen)),
     ]
-
-
-def unsymmetric(interface: Interface) -> bool:
-    """Whether the stiffness is unsymmetric: that of U4 always, the others' with the tangent of mixed-mode softening."""
-    return interface.type == "U4" or not interface.secant
 
 
 def interface_values(specimen: Specimen) -> dict[str, float]:
@@ -141,7 +133,7 @@ def interface_values(specimen: Specimen) -> dict[str, float]:
         "GAMMABOT": 0.0,
         "LAW": 1,
         "INTEGRATION": 0,
-        "TANGENT": 1 if interface.secant else 0,
+        "TANGENT": 0,
         "SAMPLING": 0,
         "OFFSETBOTTOM": below,
         "OFFSETTOP": above,

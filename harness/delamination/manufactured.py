@@ -19,7 +19,7 @@ from pathlib import Path
 
 import numpy as np
 
-from harness.delamination.blocks import Interface, Specimen, element_blocks, unsymmetric
+from harness.delamination.blocks import Interface, Specimen, element_blocks
 from harness.delamination.keywords import integer_table, node_block, node_set, number, text
 from harness.delamination.materials import PLY_0, Cohesive, Ply
 from harness.delamination.mesh import TwoArmMesh, two_arms
@@ -117,7 +117,7 @@ def write_plate_deck(folder: Path, n: int, field: Field, *, quads: str = "U1", i
     ]
     lines = ["*HEADING", "Plate with a manufactured solution", *node_block(body.labels, body.points), *blocks]
     lines += node_set("EDGE", body.labels[edge])
-    lines += ["*STEP, INC=1" + (", UNSYMM=YES" if interface and unsymmetric(specimen.interface) else ""), "*STATIC"]
+    lines += ["*STEP, INC=1" + (", UNSYMM=YES" if interface else ""), "*STATIC"]
     lines += [
         "1., 1., 1., 1.",
         "*BOUNDARY",

@@ -8,7 +8,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from harness.delamination.blocks import Interface, Specimen, element_blocks, unsymmetric
+from harness.delamination.blocks import Interface, Specimen, element_blocks
 from harness.delamination.keywords import integer_table, keyword, node_block, node_set, text
 from harness.delamination.materials import PLY_0, TABLE_2
 from harness.delamination.mesh import TwoArmMesh, crack_columns, two_arms
@@ -74,7 +74,6 @@ def dcb_deck(title: str, specimen: Specimen, opening: float, increments: Increme
         increments,
         prescribed,
         ["LOAD_TOP", "LOAD_BOTTOM"],
-        unsymmetric=unsymmetric(specimen.interface),
         field_every=field_every,
     )
     return text(lines)
@@ -92,7 +91,6 @@ def patch_deck(title: str, specimen: Specimen, displacement: float, increments: 
         increments,
         [("CROWN", 2, displacement)],
         ["LOAD_TOP"],
-        unsymmetric=unsymmetric(specimen.interface),
         field_every=1,
     )
     return text(lines)

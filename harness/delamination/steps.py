@@ -41,7 +41,6 @@ def step_block(
     prescribed: Iterable[tuple[str, int, float]],
     history: Iterable[str],
     *,
-    unsymmetric: bool,
     field_every: int = 10,
 ) -> list[str]:
     """*STEP to *END STEP.
@@ -54,14 +53,11 @@ def step_block(
         Node set, dof, displacement (mm).
     history
         Node sets whose U2 and RF2 are written.
-    unsymmetric
-        UNSYMM=YES.
     field_every
         Field output every so many increments.
     """
-    options = {"INC": increments.limit} | ({"UNSYMM": "YES"} if unsymmetric else {})
     static = (increments.initial, 1.0, increments.smallest, increments.largest)
-    lines = [keyword("STEP", **options), title, "*STATIC", *table([static])]
+    lines = [keyword("STEP", INC=increments.limit, UNSYMM="YES"), title, "*STATIC", *table([static])]
     lines += _controls(increments)
     lines += ["*BOUNDARY", *(f"{name}, {dof}, {dof}, {number(value)}" for name, dof, value in prescribed)]
     lines += [f"*OUTPUT, FIELD, FREQUENCY={field_every}", "*NODE OUTPUT", "U, RF"]
