@@ -1,26 +1,27 @@
 ! SPDX-FileCopyrightText: The uel-harness authors
 ! SPDX-License-Identifier: BSD-3-Clause
-!> The same calls as host_evaluate makes, in a plain loop with prepared arguments: what the driver is measured against.
-!> SVARS and ENERGY are set to their start values before each call, without which it would not be the same call.
-subroutine host_bare_loop(address, options, lflags, clock, labels, jprops, props, coords, u, du, svars, &
-                          svars_trial, energy, energy_trial, rhs, amatrx, ndofel, nsvars, nprops, njprop, mcrd, &
-                          nnode, m)
+!> The same calls as host_evaluate makes, in a plain loop: what the driver is measured against. As any loop over the
+!> elements of a mesh it gathers U and DU, sets SVARS and ENERGY to their start values, and adds RHS to the residual.
+subroutine host_bare_loop(address, options, lflags, clock, labels, jprops, equations, props, coords, u, du, svars, &
+                          svars_trial, energy, energy_trial, residual, amatrx, ndofel, nsvars, nprops, njprop, mcrd, &
+                          nnode, m, n)
   use, intrinsic :: iso_c_binding, only: c_f_procpointer, c_funptr, c_intptr_t
   use host_interfaces, only: uel_procedure, uelmat_procedure
   use host_kinds, only: dp, i4, i8
   implicit none (type, external)
   integer(i8), intent(in) :: address
   integer(i4), intent(in) :: options(7)       !< as in host_evaluate
-  integer(i4), intent(in) :: ndofel, nsvars, nprops, njprop, mcrd, nnode, m
+  integer(i4), intent(in) :: ndofel, nsvars, nprops, njprop, mcrd, nnode, m, n
+  integer(i4), intent(in) :: equations(ndofel, m)
   integer(i4), intent(inout) :: lflags(5), labels(m), jprops(njprop)
-  real(dp), intent(inout) :: clock(4), props(nprops), coords(mcrd, nnode, m), u(ndofel, m), du(ndofel, m)
-  real(dp), intent(in) :: svars(nsvars, m), energy(8, m)
-  real(dp), intent(inout) :: svars_trial(nsvars, m), energy_trial(8, m), rhs(ndofel), amatrx(ndofel, ndofel)
+  real(dp), intent(inout) :: clock(4), props(nprops), coords(mcrd, nnode, m)
+  real(dp), intent(in) :: u(n), du(n), svars(nsvars, m), energy(8, m)
+  real(dp), intent(inout) :: svars_trial(nsvars, m), energy_trial(8, m), residual(n), amatrx(ndofel, ndofel)
   procedure(uel_procedure), pointer :: uel
   procedure(uelmat_procedure), pointer :: uelmat
   type(c_funptr) :: pointer
   integer(i4) :: material, jtype, kstep, kinc, jdltyp(1), sizes(8), integers
-  real(dp) :: rates(ndofel), params(3), load(1), predef(2*nnode), pnewdt
+  real(dp) :: rates(ndofel), u_element(ndofel), du_element(ndofel), rhs(ndofel), params(3), load(1), predef(2*nnode), pnewdt
   integer :: e
   pointer = transfer(int(address, c_intptr_t), pointer)
   material = options(1)
@@ -38,22 +39,28 @@ subroutine host_bare_loop(address, options, lflags, clock, labels, jprops, props
   if (material > 0) then
     call c_f_procpointer(pointer, uelmat)
     do e = 1, m
+      u_element = u(equations(:, e))
+      du_element = du(equations(:, e))
       svars_trial(:, e) = svars(:, e)
       energy_trial(:, e) = energy(:, e)
       call uelmat(rhs, amatrx, svars_trial(:, e), energy_trial(:, e), sizes(1), sizes(2), sizes(3), props, sizes(4), &
-                  coords(:, :, e), sizes(5), sizes(6), u(:, e), du(:, e), rates, rates, jtype, clock(1:2), clock(3), kstep, &
+                  coords(:, :, e), sizes(5), sizes(6), u_element, du_element, rates, rates, jtype, clock(1:2), clock(3), kstep, &
                   kinc, labels(e), params, sizes(7), jdltyp, load, predef, sizes(8), lflags, sizes(1), load, sizes(8), &
                   pnewdt, jprops, integers, clock(4), material)
+      residual(equations(:, e)) = residual(equations(:, e)) + rhs
     end do
   else
     call c_f_procpointer(pointer, uel)
     do e = 1, m
+      u_element = u(equations(:, e))
+      du_element = du(equations(:, e))
       svars_trial(:, e) = svars(:, e)
       energy_trial(:, e) = energy(:, e)
       call uel(rhs, amatrx, svars_trial(:, e), energy_trial(:, e), sizes(1), sizes(2), sizes(3), props, sizes(4), &
-               coords(:, :, e), sizes(5), sizes(6), u(:, e), du(:, e), rates, rates, jtype, clock(1:2), clock(3), kstep, &
+               coords(:, :, e), sizes(5), sizes(6), u_element, du_element, rates, rates, jtype, clock(1:2), clock(3), kstep, &
                kinc, labels(e), params, sizes(7), jdltyp, load, predef, sizes(8), lflags, sizes(1), load, sizes(8), &
                pnewdt, jprops, integers, clock(4))
+      residual(equations(:, e)) = residual(equations(:, e)) + rhs
     end do
   end if
 end subroutine host_bare_loop

@@ -5,6 +5,7 @@
 !> A write outside an array changes a guard. The guards are looked at once per block; only if one has changed does the
 !> driver go through the block again and look after each element, so detection costs next to nothing.
 module host_workspace
+  use, intrinsic :: iso_c_binding, only: c_intptr_t, c_loc
   use host_kinds, only: dp, guard_bits, i4, i8
   implicit none (type, external)
   private
@@ -17,9 +18,11 @@ module host_workspace
   character(len=6), parameter :: arrays(n_arrays) = [character(len=6) :: &
     'RHS', 'AMATRX', 'SVARS', 'ENERGY', 'PROPS', 'COORDS', 'U', 'DU', 'V', 'A', 'PREDEF']
 
-  !> Entries of a guard; odd, so that the arrays do not all fall on the same lines of the cache.
-  integer, parameter :: guard = 203
-  integer, parameter :: behind = 101, before = guard - behind
+  !> Least entries of a guard; what belongs to the array behind it, and to the one before.
+  integer, parameter :: guard = 200
+  integer, parameter :: behind = 100, before = guard - behind
+  !> Entries of a cache line: each array starts on one, or its place would decide how fast an element runs.
+  integer, parameter :: line = 8
 
   type :: workspace_t
     real(dp), allocatable :: memory(:)
@@ -31,7 +34,7 @@ contains
 
   !> Place the arrays; `length` entries each, zero. A workspace that has these lengths and whole guards stays.
   subroutine lay_out(work, length)
-    type(workspace_t), intent(inout) :: work
+    type(workspace_t), intent(inout), target :: work
     integer, intent(in) :: length(n_arrays)
     integer :: k, total
     if (allocated(work%memory) .and. all(work%length == length)) then
@@ -40,25 +43,29 @@ contains
       end do
       return
     end if
-    total = guard
+    if (allocated(work%memory)) deallocate (work%memory)
+    allocate (work%memory(sum(length) + (n_arrays + 1)*(guard + line)), source=0.0_dp)
+    ! entries from the beginning of the memory to its first cache line
+    total = int(modulo(-transfer(c_loc(work%memory), 0_c_intptr_t)/8, int(line, c_intptr_t))) + guard
     do k = 1, n_arrays
       work%start(k) = total + 1
       total = total + length(k) + guard
+      total = total + modulo(-length(k) - guard, line)
     end do
     work%length = length
-    if (allocated(work%memory)) deallocate (work%memory)
-    allocate (work%memory(total), source=0.0_dp)
     call arm_guards(work)
   end subroutine lay_out
 
   !> Write the guards' pattern.
   subroutine arm_guards(work)
     type(workspace_t), intent(inout) :: work
-    integer :: k
+    integer :: k, end_of_last
+    end_of_last = 0
     do k = 1, n_arrays
-      call fill(guard, guard_bits, work%memory(work%start(k) - guard))
+      call fill(work%start(k) - 1 - end_of_last, guard_bits, work%memory(end_of_last + 1))
+      end_of_last = work%start(k) + work%length(k) - 1
     end do
-    call fill(guard, guard_bits, work%memory(work%start(n_arrays) + work%length(n_arrays)))
+    call fill(size(work%memory) - end_of_last, guard_bits, work%memory(end_of_last + 1))
   end subroutine arm_guards
 
   !> First array with a changed guard, and the index written, counted from the array's first entry (1);

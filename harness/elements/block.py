@@ -127,11 +127,11 @@ class Block:
             raise self._error(outcome)
         return BlockReport(outcome.flux @ self._by_field, self._flux_count, outcome.pnewdt, outcome.energy)
 
-    def bare_loop(self, call: Call, u: FloatArray, du: FloatArray) -> None:
-        """Only call the elements, from a plain Fortran loop, with u and du (m, unknowns) given: the limit of speed."""
+    def bare_loop(self, call: Call, u: FloatArray, du: FloatArray, residual: FloatArray) -> None:
+        """Only call the elements, from a plain Fortran loop over the block: the limit of speed."""
         clock = (call.step_time, call.total_time, call.time_increment, call.period)
         options = self._options(call, assemble=False)
-        _binding.bare_loop(self._procedure.address, options, call.lflags, clock, self._arrays, u, du)
+        _binding.bare_loop(self._procedure.address, options, call.lflags, clock, self._arrays, u, du, residual)
 
     def _options(self, call: Call, *, assemble: bool) -> tuple[int, int, int, int, int, int, int]:
         p = self._procedure

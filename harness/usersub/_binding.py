@@ -135,10 +135,11 @@ def bare_loop(
     arrays: BlockArrays,
     u: FloatArray,
     du: FloatArray,
+    residual: FloatArray,
 ) -> None:
-    """Call the elements with prepared u and du (m, ndofel): what `evaluate` is measured against."""
-    ndofel = u.shape[1]
-    rhs, amatrx = np.zeros(ndofel), np.zeros((ndofel, ndofel))
+    """Call the elements from a plain loop: what `evaluate` is measured against."""
+    ndofel = arrays.equations.shape[1]
+    amatrx = np.zeros((ndofel, ndofel))
     _host.host_bare_loop(
         address,
         options,
@@ -146,15 +147,16 @@ def bare_loop(
         clock,
         arrays.labels,
         arrays.jprops,
+        arrays.equations.T,
         arrays.props,
         arrays.coords.T,
-        u.T,
-        du.T,
+        u,
+        du,
         arrays.svars.T,
         arrays.svars_trial.T,
         arrays.energy.T,
         arrays.energy_trial.T,
-        rhs,
+        residual,
         amatrx.T,
     )
 
