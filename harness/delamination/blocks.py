@@ -20,12 +20,14 @@ class Interface:
     cohesive   parameters of the law
     beta       stabilisation parameter beta_n = beta_tau (N/mm^3); 0 computes it by equation (21)
     viscosity  relaxation time of the damage, in step time
+    sampling   of the bulk stress: 0 middle of the face, 1 face, 2 Gauss point
     """
 
     type: str
     cohesive: Cohesive
     beta: float = 0.0
     viscosity: float = 0.0
+    sampling: int = 0
 
 
 @dataclass(frozen=True, slots=True)
@@ -134,7 +136,7 @@ def interface_values(specimen: Specimen) -> dict[str, float]:
         "LAW": 1,
         "INTEGRATION": 0,
         "TANGENT": 0,
-        "SAMPLING": 0,
+        "SAMPLING": interface.sampling,
         "OFFSETBOTTOM": below,
         "OFFSETTOP": above,
         "PLANE": 0,

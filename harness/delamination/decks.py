@@ -18,6 +18,7 @@ from harness.delamination.steps import LINEAR, Increments
 
 FOLDER = Path(__file__).parents[2] / "abaqus_inputs"
 KINDS = {"U2": "standard", "U3": "stabilised, four nodes", "U4": "stabilised, eight nodes"}
+SAMPLINGS = ("face", "gauss")
 STIFFNESSES = {"1e6": 1.0e6, "1e8": 1.0e8}
 # Relaxation time of the damage in step time, times the stiffness (N/mm^3). Where an element fails within one increment
 # of duration t, its damage stays short of d by viscosity/t; that has to be little against 1 - d, which in softening is
@@ -62,11 +63,15 @@ def dcb() -> dict[str, str]:
         for exponent, stiffness in STIFFNESSES.items():
             files[f"dcb_{kind.lower()}_{exponent}.inp"] = _dcb_deck(kind, name, exponent, stiffness, "U1")
     files["dcb_u4_1e8_cps4.inp"] = _dcb_deck("U4", KINDS["U4"], "1e8", 1.0e8, "CPS4")
+    for sampling, place in enumerate(SAMPLINGS, start=1):
+        name = f"{KINDS['U4']}, bulk stress at the {place} point"
+        files[f"dcb_u4_1e8_{place}.inp"] = _dcb_deck("U4", name, "1e8", 1.0e8, "U1", sampling)
     return files
 
 
-def _dcb_deck(kind: str, name: str, exponent: str, stiffness: float, quads: str) -> str:
-    interface = Interface(kind, TABLE_2.with_stiffness(stiffness), viscosity=VISCOSITY / stiffness)
+def _dcb_deck(kind: str, name: str, exponent: str, stiffness: float, quads: str, sampling: int = 0) -> str:
+    cohesive = TABLE_2.with_stiffness(stiffness)
+    interface = Interface(kind, cohesive, viscosity=VISCOSITY / stiffness, sampling=sampling)
     specimen = build.dcb_specimen("dcb", build.dcb_mesh(), interface, quads)
     title = f"Double cantilever beam, [0/0], {name} ({kind}), stiffness {exponent} N/mm^3, quads {quads}"
     return build.dcb_deck(title, specimen, 3.0, DCB_INCREMENTS, field_every=10)
