@@ -42,8 +42,8 @@ contains
     type(status_type) :: status
     real(dp) :: energies(3), bulk_stress(3, 2), stiffness(3, 3, 2), xy(2, 8)
 
-    law = law_parameters(jprops(j_law), [props(p_alphat), props(p_alphan)], [props(p_taumax), props(p_sigmamax)], &
-      [props(p_giic), props(p_gic)], props(p_viscosity))
+    law = law_parameters(jprops(j_law), 1.0_dp/props(p_alphan), [props(p_alphat)/props(p_alphan), 1.0_dp], &
+      [props(p_taumax), props(p_sigmamax)], [props(p_giic), props(p_gic)], props(p_viscosity))
     options = interface_options(jprops(j_integration), jprops(j_tangent), 0)
     if (jtype > 2) then
       options%sampling = jprops(j_sampling)

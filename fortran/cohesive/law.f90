@@ -6,27 +6,22 @@
 !> max(0, delta_n) as the opening: both cannot hold. Here "bottom" is Omega(2), "top" is Omega(1), n points from bottom
 !> to top, the separation is u_top - u_bottom (opening positive), and the traction is sigma.n (tension positive).
 !>
-!> Components are in the order (tau, n) of equation (8). A further law is a further envelope in `damage_envelope`.
+!> Components are in the order (tau, n) of equation (8).
+!>
+!> A law is a softening curve tau(lambda) for every direction c of the separation, w = lambda c with c = (|w_tau|, w_n)/
+!> lambda, from which the traction follows as t_i = tau ratio_i c_i. It is continued towards smaller separations than that
+!> at the onset of damage, down to none; the straight line lambda/flexibility meets it at the onset. A further law is a
+!> further module with `check_`, `_softening` and `_steepest`, and a line in the three select cases below.
 module cohesive_law
   use core_kinds, only: dp
-  use core_status, only: status_type
-  use cohesive_bilinear, only: bilinear_damage, check_bilinear
+  use core_status, only: status_type, ok, small_beta
+  use cohesive_parameters, only: law_parameters, bilinear_law
+  use cohesive_bilinear, only: check_bilinear, bilinear_softening, bilinear_steepest
   implicit none(type, external)
   private
   public :: law_parameters, point_history, damage_state
-  public :: check_law, evolve_damage, dissipate
+  public :: check_law, check_beta, softening, stiffness_of, evolve_damage, dissipate
   public :: bilinear_law
-
-  integer, parameter :: bilinear_law = 1
-
-  !> Parameters of a law, (tau, n) each.
-  type :: law_parameters
-    integer :: kind                !< bilinear_law
-    real(dp) :: stiffness(2)       !< alpha, stress/length
-    real(dp) :: strength(2)        !< tau_max, sigma_max, stress
-    real(dp) :: toughness(2)       !< G_IIc, G_Ic, energy/area
-    real(dp) :: viscosity          !< relaxation time of the damage; 0 for none
-  end type law_parameters
 
   !> What a point remembers from the end of the last increment.
   type :: point_history
@@ -53,20 +48,90 @@ contains
 
     select case (law%kind)
     case default
-      call check_bilinear(law%stiffness, law%strength, law%toughness, status)
+      call check_bilinear(law, status)
     end select
   end subroutine check_law
 
-  !> Damage of the envelope of the law at a separation, and its slope.
-  pure subroutine damage_envelope(law, separation, damage, slope)
+  !> Demands that beta exceeds the softening slope, without which a separation does not follow from the trial traction.
+  !>
+  !> Along a fixed direction tau + b lambda grows with lambda if b exceeds the steepest slope k. Where b = beta/ratio differs
+  !> between the two components, the direction changes with the damage; for the bilinear law the root stays the only one
+  !> if b exceeds k (2 - b_min/b_max): fortran/README.md.
+  pure subroutine check_beta(law, beta, status)
     type(law_parameters), intent(in) :: law
-    real(dp), intent(in) :: separation(2)
-    real(dp), intent(out) :: damage, slope(2)
+    real(dp), intent(in) :: beta(2)            !< stress/length
+    type(status_type), intent(out) :: status   !< small_beta: item 1 for beta_n, 2 for beta_tau, value and bound
+    real(dp) :: b(2), least
+    integer :: i
+
+    status = status_type(ok, 0, 0.0_dp, 0.0_dp)
+    b = beta/law%ratio
+    least = steepest(law)*(2.0_dp - minval(b)/maxval(b))
+    do i = 2, 1, -1
+      if (.not. b(i) > least) then
+        status = status_type(small_beta, 3 - i, beta(i), law%ratio(i)*least)
+        return
+      end if
+    end do
+  end subroutine check_beta
+
+  !> Largest softening slope -d tau/d lambda of a law.
+  pure function steepest(law) result(slope)
+    type(law_parameters), intent(in) :: law
+    real(dp) :: slope   !< stress/length
 
     select case (law%kind)
     case default
-      call bilinear_damage(law%stiffness, law%strength, law%toughness, separation, damage, slope)
+      slope = bilinear_steepest(law)
     end select
+  end function steepest
+
+  !> Softening curve of a law in the direction c = (sin theta, cos theta), with its derivatives by lambda and theta.
+  pure subroutine softening(law, separation, direction, traction, by_separation, by_angle)
+    type(law_parameters), intent(in) :: law
+    real(dp), intent(in) :: separation       !< lambda, not negative, length
+    real(dp), intent(in) :: direction(2)     !< c, not negative, of unit length
+    real(dp), intent(out) :: traction        !< tau, stress
+    real(dp), intent(out) :: by_separation   !< stress/length
+    real(dp), intent(out) :: by_angle        !< stress
+    real(dp) :: by_direction(2)
+
+    select case (law%kind)
+    case default
+      call bilinear_softening(law, separation, direction, traction, by_separation, by_direction)
+    end select
+    by_angle = by_direction(1)*direction(2) - by_direction(2)*direction(1)
+  end subroutine softening
+
+  !> Initial stiffness alpha of a law that is not rigid.
+  pure function stiffness_of(law) result(stiffness)
+    type(law_parameters), intent(in) :: law
+    real(dp) :: stiffness(2)
+
+    stiffness = law%ratio/law%flexibility
+  end function stiffness_of
+
+  !> Damage d = 1 - tau flexibility/lambda of a law at a separation without history, and its slope; (9) for the bilinear one.
+  pure subroutine damage_envelope(law, separation, damage, slope)
+    type(law_parameters), intent(in) :: law    !< not rigid
+    real(dp), intent(in) :: separation(2)
+    real(dp), intent(out) :: damage
+    real(dp), intent(out) :: slope(2)          !< zero before onset and after failure
+    real(dp) :: direction(2), length, traction, by_separation, by_angle
+
+    damage = 0.0_dp
+    slope = 0.0_dp
+    direction = [abs(separation(1)), max(0.0_dp, separation(2))]
+    length = sqrt(direction(1)**2 + direction(2)**2)
+    if (.not. length > 0.0_dp) return
+    direction = direction/length
+    call softening(law, length, direction, traction, by_separation, by_angle)
+    if (traction*law%flexibility >= length) return
+    damage = 1.0_dp - traction*law%flexibility/length
+    slope = (traction/length - by_separation)*direction
+    slope = slope - (by_angle/length)*[direction(2), -direction(1)]
+    slope = slope*law%flexibility/length
+    slope(1) = sign(1.0_dp, separation(1))*slope(1)
   end subroutine damage_envelope
 
   !> Damage at the end of an increment.
@@ -111,12 +176,13 @@ contains
     type(damage_state), intent(in) :: state
     real(dp), intent(out) :: dissipated(2)   !< by sliding and by opening
     real(dp), intent(out) :: viscous
-    real(dp), dimension(2) :: g0, g1, all_of_it, overstress
+    real(dp), dimension(2) :: stiffness, g0, g1, all_of_it, overstress
 
     g0 = [history%separation(1), max(0.0_dp, history%separation(2))]
     g1 = [separation(1), max(0.0_dp, separation(2))]
-    all_of_it = 0.5_dp*law%stiffness*g0*g1*(state%damage - history%damage)
-    overstress = 0.5_dp*law%stiffness*(g1 - g0) &
+    stiffness = stiffness_of(law)
+    all_of_it = 0.5_dp*stiffness*g0*g1*(state%damage - history%damage)
+    overstress = 0.5_dp*stiffness*(g1 - g0) &
       *((history%damage_max - history%damage)*g0 + (state%damage_max - state%damage)*g1)
     dissipated = history%dissipated + all_of_it - overstress
     viscous = history%viscous + overstress(1) + overstress(2)

@@ -6,7 +6,7 @@ module core_status
   implicit none(type, external)
   private
   public :: status_type, sentence
-  public :: ok, too_brittle, not_positive_definite, inside_out, zero_length, edges_apart
+  public :: ok, too_brittle, not_positive_definite, inside_out, zero_length, edges_apart, small_beta
 
   !> Outcome of a kernel; the caller knows the names of elements and properties.
   type :: status_type
@@ -22,6 +22,7 @@ module core_status
   integer, parameter :: inside_out = 3
   integer, parameter :: zero_length = 4
   integer, parameter :: edges_apart = 5
+  integer, parameter :: small_beta = 6
 
 contains
 
@@ -45,6 +46,9 @@ contains
       text = 'the interface has no length'
     case (edges_apart)
       text = 'the two edges of the interface do not coincide'
+    case (small_beta)
+      text = 'too small for the consistent closure: ' // &
+        'it does not exceed the softening slope of the law'
     case default
       text = 'unknown status'
     end select

@@ -9,7 +9,7 @@ module elements_stabilised_interface
   use core_shape_functions, only: line_shape, quad_gradient
   use core_status, only: status_type, ok, inside_out
   use materials_spectral_norm, only: spectral_norm
-  use cohesive_law, only: law_parameters, damage_state, check_law, evolve_damage
+  use cohesive_law, only: law_parameters, damage_state, check_law, evolve_damage, stiffness_of
   use cohesive_traction, only: stabilised_traction
   use elements_interface_point, only: interface_options, interface_point, interface_geometry, &
     measure_interface, separation_at, add_point, spread_to_nodes, close_point, point_energies, &
@@ -204,7 +204,7 @@ contains
 
     call evolve_damage(law, old%history, separation, dtime, state)
     if (tangent == secant_tangent) state%slope = 0.0_dp
-    call stabilised_traction(law%stiffness, beta, separation, bulk, state%damage, state%slope, traction, s_of_point, &
+    call stabilised_traction(stiffness_of(law), beta, separation, bulk, state%damage, state%slope, traction, s_of_point, &
       local)
     call close_point(law, geometry, geometry%s(k), old, separation, state, traction, s_of_point, new)
   end subroutine evaluate_point
