@@ -49,7 +49,8 @@ class Cohesive:
         return replace(self, stiffness_normal=stiffness, stiffness_shear=stiffness)
 
 
-# table 1, fibres along X1
+# table 1: fibres along X1, and the same ply with its fibres along X3, whose plane X1-X2 is that of isotropy
 PLY_0 = Ply("PLY_0", 1.2e5, 1.05e4, 0.3, 5.52e3, 5.52e3, 3.48e3)
+PLY_90 = Ply("PLY_90", 1.05e4, 1.05e4, 0.51, 3.48e3, 5.52e3, 5.52e3)
 # table 2, with the middle one of its stiffnesses
 TABLE_2 = Cohesive(1.0e6, 1.0e6)

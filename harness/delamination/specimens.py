@@ -34,10 +34,10 @@ def patch_mesh(bump: float) -> TwoArmMesh:
     return two_arms(np.linspace(0.0, 1.0, 11), 0.5, 5, crack=0.0, bump=bump)
 
 
-def dcb_mesh() -> TwoArmMesh:
-    """Quads of 0.125 mm where the crack runs (up to 3 mm of opening), up to 0.5 mm before and 1 mm behind."""
-    x = crack_columns(LENGTH, (33.5, 61.0), 0.125, ratio=1.15, largest=0.5)
-    return two_arms(x, ARM_HEIGHT, 4, CRACK)
+def dcb_mesh(size: float = 0.125, bump: float = 0.0) -> TwoArmMesh:
+    """Quads of `size` (mm) where the crack runs (up to 3 mm of opening), up to 0.5 mm before and 1 mm behind."""
+    x = crack_columns(LENGTH, (33.5, 61.0), size, ratio=1.15, largest=0.5)
+    return two_arms(x, ARM_HEIGHT, 4, CRACK, bump)
 
 
 def dcb_ref_mesh() -> TwoArmMesh:
@@ -55,7 +55,8 @@ def mesh_files(name: str, mesh: TwoArmMesh, interfaces: tuple[int, ...]) -> dict
     return files | {f"{name}_interface{n}.inp": integer_table(connectivity[n]()) for n in interfaces}
 
 
-def _head(title: str, comments: list[str], specimen: Specimen) -> list[str]:
+def deck_head(title: str, comments: list[str], specimen: Specimen) -> list[str]:
+    """Heading with comments, nodes, elements and the set TIP of the first interface element."""
     lines = ["*HEADING", title, *(f"** {comment}" for comment in comments)]
     lines.append("** written by python -m harness.delamination.decks; units N, mm, MPa")
     lines += ["** nodes", keyword("INCLUDE", INPUT=f"{specimen.name}_nodes.inp")]
@@ -66,7 +67,9 @@ def _head(title: str, comments: list[str], specimen: Specimen) -> list[str]:
 
 def dcb_deck(title: str, specimen: Specimen, opening: float, increments: Increments, field_every: int) -> str:
     """Double cantilever beam: right end clamped, the left corners of both arms pulled apart by `opening` each (mm)."""
-    lines = _head(title, ["right end clamped; outer left corners pulled apart, the crack runs to the right"], specimen)
+    lines = deck_head(
+        title, ["right end clamped; outer left corners pulled apart, the crack runs to the right"], specimen
+    )
     lines += ["*BOUNDARY", "RIGHT, 1, 2"]
     prescribed = [("LOAD_TOP", 2, opening), ("LOAD_BOTTOM", 2, -opening)]
     lines += step_block(
@@ -82,7 +85,7 @@ def dcb_deck(title: str, specimen: Specimen, opening: float, increments: Increme
 def patch_deck(title: str, specimen: Specimen, displacement: float, increments: Increments, *, slide: bool) -> str:
     """Square pressed from above by `displacement` (mm); with `slide`, the bottom edge may contract sideways."""
     note = "bottom edge free to slide but for its left end" if slide else "bottom edge held in both directions"
-    lines = _head(title, [f"square of 1 mm pressed from above; {note}"], specimen)
+    lines = deck_head(title, [f"square of 1 mm pressed from above; {note}"], specimen)
     mesh = specimen.mesh
     lines += node_set("BASE", mesh.line(1)) + node_set("CROWN", mesh.top_line) + node_set("CORNER", mesh.line(1)[:1])
     lines += ["*BOUNDARY", "BASE, 2, 2", "CORNER, 1, 1"] if slide else ["*BOUNDARY", "BASE, 1, 2"]

@@ -117,3 +117,25 @@ def frmm_load(arms: Arms, crack: float, toughness_1: float, toughness_2: float) 
     mode_1 = (crack + arms.correction) ** 2 / (4.0 * toughness_1)
     mode_2 = 3.0 * (crack + MODE_2_CORRECTION * arms.correction) ** 2 / (16.0 * toughness_2)
     return math.sqrt(arms.width * arms.bending_stiffness / (mode_1 + mode_2))
+
+
+def enf_compliance(arms: Arms, crack: float, half_span: float) -> float:
+    """Deflection at mid-span per load (mm/N) of an end-notched flexure specimen of span 2 L (mm).
+
+    (2 L^3 + 3 (a + 0.42 chi h)^3)/(8 B h^3 E11) and the shear of the whole beam, 3 L/(10 B h G12): that of the crack's
+    end is in the correction.
+    """
+    length = crack + MODE_2_CORRECTION * arms.correction
+    bending = (2.0 * half_span**3 + 3.0 * length**3) / (8.0 * arms.width * arms.height**3 * arms.e11)
+    return bending + 3.0 * half_span / (10.0 * arms.width * arms.height * arms.g12)
+
+
+def frmm_compliance(arms: Arms, crack: float, length: float) -> float:
+    """Displacement of the loaded end per load (mm/N) of a fixed-ratio mixed-mode specimen, clamped at `length` (mm).
+
+    By its two parts of equal and opposite, and of equal deflections of the arms:
+    (a + chi h)^3/(6 E11 I) + (a + 0.42 chi h)^3/(8 E11 I) + L^3/(24 E11 I).
+    """
+    mode_1 = (crack + arms.correction) ** 3 / 6.0
+    mode_2 = (crack + MODE_2_CORRECTION * arms.correction) ** 3 / 8.0
+    return (mode_1 + mode_2 + length**3 / 24.0) / arms.bending_stiffness
