@@ -58,6 +58,7 @@ def build_parser() -> argparse.ArgumentParser:
     run.add_argument("--job", metavar="NAME", help="name of the output files (the deck's name)")
     run.add_argument("--output-dir", type=Path, metavar="DIR", help="where they go (the current folder)")
     run.add_argument("--solver", default="auto", metavar="NAME", help="linear solver, see `uel solvers` (auto)")
+    run.add_argument("--fallback", action="store_true", help="search downhill where Newton's method fails")
     run.add_argument("--quiet", action="store_true", help="no progress display")
     run.set_defaults(function=run_job)
 
@@ -102,6 +103,7 @@ def run_job(options: argparse.Namespace) -> int:
         job=options.job,
         output_dir=options.output_dir,
         solver=options.solver,
+        fallback=options.fallback,
         quiet=options.quiet,
     )
     if not options.quiet:

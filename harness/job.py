@@ -25,6 +25,7 @@ def run(
     job: str | None = None,
     output_dir: str | Path | None = None,
     solver: str = "auto",
+    fallback: bool = False,
     quiet: bool = True,
 ) -> Result:
     """Run an Abaqus deck.
@@ -41,6 +42,8 @@ def run(
         Folder of the output files, made if missing; the current folder by default.
     solver
         Linear solver, see `uel solvers`.
+    fallback
+        Search downhill where Newton's method fails, before the increment is cut back; Abaqus has no such thing.
     quiet
         No progress display.
 
@@ -66,7 +69,7 @@ def run(
     try:
         system = System(model.mesh, build_blocks(model, library), model.equations)
         with one_blas_thread():
-            for record in run_steps(system, model, library, solver):
+            for record in run_steps(system, model, library, solver, fallback=fallback):
                 _pass_on(library, output)
                 output.write(record)
     except UelError as error:

@@ -128,13 +128,38 @@ class Warned:
 
 
 @dataclass(frozen=True, slots=True)
+class SearchHelped:
+    """An increment converged only with the descent search of the fall-back; comes before its IncrementDone.
+
+    since       iteration from which on the search worked, of `iterations`
+    reason      why it took over
+    """
+
+    step: int
+    increment: int
+    since: int
+    iterations: int
+    reason: str
+
+
+@dataclass(frozen=True, slots=True)
 class Noted:
     """Something worth knowing that is no reason to worry; printed to .msg as a note."""
 
     message: str
 
 
-Record = StepStarted | AttemptStarted | IterationDone | AttemptAbandoned | IncrementDone | StepDone | Warned | Noted
+Record = (
+    StepStarted
+    | AttemptStarted
+    | IterationDone
+    | AttemptAbandoned
+    | SearchHelped
+    | IncrementDone
+    | StepDone
+    | Warned
+    | Noted
+)
 
 
 @dataclass(frozen=True, slots=True)

@@ -21,6 +21,7 @@ from harness.model.records import (
     IterationDone,
     Noted,
     Record,
+    SearchHelped,
     StepDone,
     StepStarted,
     Warned,
@@ -75,6 +76,8 @@ class JobOutput:
                 self._message.iteration(record)
             case AttemptAbandoned():
                 self._abandoned(record)
+            case SearchHelped():
+                self._message.helped(record)
             case IncrementDone():
                 self._increment(record)
             case StepDone():

@@ -20,6 +20,7 @@ from harness.model.records import (
     IncrementDone,
     IterationDone,
     Largest,
+    SearchHelped,
     StepDone,
     StepStarted,
     Verdict,
@@ -37,7 +38,9 @@ class MessageFile:
         self._file = TextFile(path)
         self._fields = fields_of(model)
         self._started = (time.perf_counter(), time.process_time())
-        self._counts = dict.fromkeys(("increments", "cutbacks", "iterations", "searches", "warnings", "errors"), 0)
+        self._counts = dict.fromkeys(
+            ("increments", "cutbacks", "iterations", "searches", "helped", "warnings", "errors"), 0
+        )
 
     def step_started(self, record: StepStarted) -> None:
         """Head of a step: tolerances and controls."""
@@ -72,6 +75,15 @@ class MessageFile:
         if record.next_increment > 0.0:
             self._counts["cutbacks"] += 1
         self._file.write(f" \n\n{remark('NOTE', record.reason)}")
+
+    def helped(self, record: SearchHelped) -> None:
+        """Note of an increment that Newton's method alone did not solve."""
+        self._counts["helped"] += 1
+        text = (
+            f"EQUILIBRIUM FOUND WITH THE DESCENT SEARCH, WHICH TOOK OVER IN ITERATION {record.since} OF "
+            f"{record.iterations}: {record.reason}"
+        )
+        self._file.write(f" \n\n{remark('NOTE', text)}")
 
     def increment(self, record: IncrementDone) -> None:
         """Summary of a converged increment."""
@@ -156,6 +168,7 @@ class MessageFile:
             (counts["cutbacks"], "CUTBACKS IN AUTOMATIC INCREMENTATION"),
             (counts["iterations"], "ITERATIONS INCLUDING CONTACT ITERATIONS IF PRESENT"),
             (counts["searches"], "ADDITIONAL RESIDUAL EVALUATIONS FOR LINE SEARCHES"),
+            *([(counts["helped"], "INCREMENTS THAT NEEDED THE DESCENT SEARCH")] if counts["helped"] else []),
             (len(self._model.warnings), "WARNING MESSAGES DURING USER INPUT PROCESSING"),
             (counts["warnings"], "WARNING MESSAGES DURING ANALYSIS"),
             (counts["errors"], "ERROR MESSAGES"),

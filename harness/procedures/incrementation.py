@@ -118,7 +118,7 @@ class IncrementControl:
             return 0.0, BELOW_MINIMUM
         return self._size, ""
 
-    def converged(self, iterations: int, pnewdt: float) -> None:
+    def converged(self, iterations: int, pnewdt: float, *, searched: bool = False) -> None:
         """Choose the size of the next increment.
 
         Parameters
@@ -128,13 +128,15 @@ class IncrementControl:
         pnewdt
             Smallest PNEWDT of its last iteration: above 1, and not left alone by all, it is the user elements' own
             ratio of the next increment to this one.
+        searched
+            The descent search helped: its many iterations say nothing about the next increment.
         """
         # a cutback does not start the count anew: Abaqus grows right after one if the attempts that converged were easy
         self._easy = self._easy + 1 if iterations <= self._controls.i_g else 0
         self.attempts = 0
         if self._procedure.direct:
             return
-        if iterations > self._controls.i_l:
+        if iterations > self._controls.i_l and not searched:
             self._size *= self._controls.d_b
         elif 1.0 < pnewdt < UNTOUCHED:
             self._size *= pnewdt

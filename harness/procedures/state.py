@@ -16,6 +16,7 @@ from harness.model.model import Model
 from harness.model.records import Solution
 from harness.procedures.acceptance import FluxHistory
 from harness.procedures.loads import Boundaries, Loads
+from harness.solver.descent import Majoriser
 from harness.solver.newton import Factoriser, Iterate
 
 
@@ -28,6 +29,7 @@ class State:
     work       external work so far
     energy     (8,) sum of ENERGY
     flux       flux history by field
+    majoriser  matrix of the start of the analysis, for the fall-back
     """
 
     displacement: FloatArray
@@ -38,6 +40,7 @@ class State:
     loads: Loads
     constraints: Constraints | None = None
     solver: Factoriser | None = None
+    majoriser: Majoriser = field(default_factory=Majoriser)
     total_time: float = 0.0
     work: float = 0.0
     energy: FloatArray = field(default_factory=lambda: np.zeros(8))

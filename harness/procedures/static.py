@@ -5,6 +5,7 @@
 from __future__ import annotations
 
 from collections.abc import Generator, Iterator, Sequence
+from functools import partial
 from typing import Protocol
 
 import numpy as np
@@ -16,10 +17,12 @@ from harness.model.model import Model
 from harness.model.records import (
     AttemptAbandoned,
     AttemptStarted,
+    FieldCheck,
     IncrementDone,
     IterationDone,
     Noted,
     Record,
+    SearchHelped,
     StepDone,
     StepStarted,
     Warned,
@@ -30,11 +33,14 @@ from harness.procedures.extrapolation import Extrapolation
 from harness.procedures.incrementation import TOO_MANY_INCREMENTS, Abandoned, IncrementControl, refused
 from harness.procedures.loads import find_unknowns, released_reactions
 from harness.procedures.state import State
+from harness.solver.descent import ITERATIONS, Descent
 from harness.solver.linear import LinearSolver, choose
 from harness.solver.newton import Increment, Iterate, Newton
 
 AUTOMATIC, FIXED = 1, 2
 """LFLAGS(1) of a static step."""
+
+SEARCH_TOO_LONG = f"THE DESCENT SEARCH HAS NOT CONVERGED IN {ITERATIONS} ITERATIONS."
 
 NORMAL, MASS = 1, 4
 """LFLAGS(3): a normal call, and the mass matrix alone."""
@@ -52,7 +58,17 @@ class UserRoutines(Protocol):
 class StaticStep:
     """One static step."""
 
-    def __init__(self, system: System, model: Model, step: Step, state: State, solver: str, user: UserRoutines) -> None:
+    def __init__(
+        self,
+        system: System,
+        model: Model,
+        step: Step,
+        state: State,
+        solver: str,
+        user: UserRoutines,
+        *,
+        fallback: bool = False,
+    ) -> None:
         """Takes over the step's prescribed values and loads; symbolic work is done again only where they differ."""
         self._system = system
         self._step = step
@@ -69,8 +85,13 @@ class StaticStep:
             constraints = Constraints(system, unknowns, model.equations, state.boundaries.sources)
             state.solver = _solver(solver, constraints)
             self._choice = f"LINEAR SOLVER {state.solver.name.upper()}: {state.solver.reason}"
+            state.majoriser.use(system, constraints, partial(_solver, solver, constraints))
         state.constraints = constraints
-        self._newton = Newton(system, constraints, state.solver, step.controls.line_search)
+        line_search = step.controls.line_search
+        self._descent: Descent | None = None
+        if fallback:
+            self._descent = Descent(system, constraints, state.solver, line_search, state.majoriser)
+        self._newton = self._descent or Newton(system, constraints, state.solver, line_search)
         self._checker = Checker(system.dofs, constraints, step.controls, state.flux)
         self._extrapolation = Extrapolation(step.extrapolation)
         self._start = state.total_time
@@ -116,14 +137,31 @@ class StaticStep:
                 checks = self._checker.check(state)
                 yield IterationDone(iteration, checks, state.line_search)
                 if all(check.verdict.accepted for check in checks):
+                    yield from self._help(increment, iteration)
                     yield self._converge(state, given, increment)
                     return True, iteration
-                abandoned = self._checker.give_up(iteration, checks)
+                abandoned = self._give_up(iteration, checks)
             if abandoned is not None:
                 break
         assert abandoned is not None
         yield from self._abandon(abandoned, increment, iteration, size)
         return False, iteration
+
+    def _give_up(self, iteration: int, checks: Sequence[FieldCheck]) -> Abandoned | None:
+        """Whether to abandon the attempt; with the fall-back the search takes over instead, and is given its time."""
+        if self._descent is None:
+            return self._checker.give_up(iteration, checks)
+        if not self._descent.reason:
+            abandoned = self._checker.give_up(iteration, checks)
+            if abandoned is not None:
+                self._descent.take_over(iteration + 1, abandoned.reason)
+        return Abandoned(self._step.controls.time.d_c, SEARCH_TOO_LONG) if iteration >= ITERATIONS else None
+
+    def _help(self, increment: int, iterations: int) -> Iterator[SearchHelped]:
+        """Say that Newton's method alone did not do."""
+        if self._descent is not None and self._descent.reason:
+            since, reason = self._descent.since, self._descent.reason
+            yield SearchHelped(self._step.number, increment, since, iterations, reason)
 
     def _given(self, increment: int, size: float) -> Increment:
         """What the end of the increment prescribes."""
@@ -160,7 +198,8 @@ class StaticStep:
         self._state.accept(last, given.load - released, released)
         self._checker.converged()
         self._extrapolation.converged(last.increment, call.time_increment)
-        self._control.converged(last.iteration, last.evaluation.pnewdt)
+        searched = self._descent is not None and bool(self._descent.reason)
+        self._control.converged(last.iteration, last.evaluation.pnewdt, searched=searched)
         self._time, self._state.total_time = call.step_time, call.total_time
         times = call.step_time, call.total_time
         self._user.external_database(2, 0, times, call.time_increment, call.step, increment)
@@ -178,7 +217,9 @@ class StaticStep:
             raise ConvergenceError(f"{error} (step {number}, increment {increment}, attempt {attempt})")
 
 
-def run_steps(system: System, model: Model, user: UserRoutines, solver: str = "auto") -> Iterator[Record]:
+def run_steps(
+    system: System, model: Model, user: UserRoutines, solver: str = "auto", *, fallback: bool = False
+) -> Iterator[Record]:
     """Run all steps of a model.
 
     Parameters
@@ -192,6 +233,8 @@ def run_steps(system: System, model: Model, user: UserRoutines, solver: str = "a
         and of each increment.
     solver
         Name of a linear solver.
+    fallback
+        Search downhill where Newton's method fails.
 
     Yields
     ------
@@ -216,7 +259,7 @@ def run_steps(system: System, model: Model, user: UserRoutines, solver: str = "a
             user.external_database(5, 0, (0.0, state.total_time), 0.0, step.number, 0)
             if step is model.steps[0]:
                 _mass_pass(system, step)
-            running = StaticStep(system, model, step, state, solver, user)
+            running = StaticStep(system, model, step, state, solver, user, fallback=fallback)
             yield from running.run()
             user.external_database(6, 0, *running.reached)
     except ConvergenceError:

@@ -1,9 +1,10 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""Line search along a Newton correction, as *CONTROLS, PARAMETERS=LINE SEARCH steers it."""
+"""Line searches: along a Newton correction, as *CONTROLS, PARAMETERS=LINE SEARCH steers it, and downhill."""
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable
 
 from harness.model.steps import LineSearchControls
@@ -55,3 +56,61 @@ def search(
             lower = upper
         upper = scale, value
     return best, tuple(tried)
+
+
+DOWN_TO = 0.25
+"""Fraction of g(0) at which a descent ends, the default of f_s."""
+
+EXPANSION, LARGEST = 4.0, 64.0
+"""Growth of the scale while it goes downhill, and where that ends."""
+
+REFINEMENTS, CLOSEST = 5, 0.02
+"""Evaluations inside a bracket at most, and the relative change of the scale below which they end."""
+
+
+def descend(component: Callable[[float], float | None], at_zero: float) -> tuple[float, tuple[float, ...]]:
+    """Scale s of a direction d that goes downhill at which g(s) = d . r(u + s d) is small.
+
+    Four times as large from 1 on while g > 0.25 g(0), then regula falsi (Illinois variant) until |g| <= 0.25 g(0).
+
+    Parameters
+    ----------
+    component
+        Evaluates g; None where an element refuses the scale, which then is too large.
+    at_zero
+        g(0) > 0.
+
+    Returns
+    -------
+    tuple[float, tuple[float, ...]]
+        The scale: where g does not get so small, that of the smallest |g| < g(0), or else the largest one up to which
+        it goes downhill, 0 where none does. Then all scales tried.
+    """
+    best, smallest, downhill = 0.0, at_zero, 0.0
+    lower, upper = (0.0, at_zero), (math.inf, 0.0)
+    tried: list[float] = []
+    scale, refinements, last = 1.0, 0, 0
+    while True:
+        value = component(scale)
+        tried.append(scale)
+        if value is not None and abs(value) < smallest:
+            best, smallest = scale, abs(value)
+        if smallest <= DOWN_TO * at_zero:
+            break
+        if value is None or value < 0.0:
+            # an end that stays twice: halve its value, or the bracket shrinks from the other side only
+            lower = (lower[0], 0.5 * lower[1]) if last < 0 else lower
+            upper, last = (scale, -math.inf if value is None else value), -1
+        else:
+            upper = (upper[0], 0.5 * upper[1]) if last > 0 else upper
+            lower, downhill, last = (scale, value), scale, 1
+        if math.isinf(upper[0]):
+            following = EXPANSION * scale
+        else:
+            refinements += 1
+            share = 0.5 if math.isinf(upper[1]) else lower[1] / (lower[1] - upper[1])
+            following = lower[0] + share * (upper[0] - lower[0])
+        if following > LARGEST or refinements > REFINEMENTS or abs(following - scale) <= CLOSEST * scale:
+            break
+        scale = following
+    return best or downhill, tuple(tried)

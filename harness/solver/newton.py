@@ -95,15 +95,21 @@ class Newton:
         yield state
         missing = given.prescribed - increment[self._constraints.prescribed]
         while True:
-            correction = self._correction(state, missing)
-            new = self._evaluate(call, given, state.iteration + 1, state.increment + correction, correction)
-            # scaling the first correction would miss the prescribed values
-            searchable = not missing.any() and new.evaluation.pnewdt >= 1.0
-            if self._line_search.n_ls > 0 and searchable:
-                new = self._searched(given, state, new)
-            state = new
+            state = self._advance(given, state, missing)
             yield state
             missing = np.zeros_like(missing)
+
+    def _advance(self, given: Increment, state: Iterate, missing: FloatArray) -> Iterate:
+        """The next iterate: a solve, a pass, and a line search where one is asked for."""
+        correction = self._correction(state, missing)
+        return self._taken(given, state, correction, searchable=not missing.any())
+
+    def _taken(self, given: Increment, state: Iterate, correction: FloatArray, *, searchable: bool) -> Iterate:
+        """The state after a correction; scaling one that brings prescribed values in would miss them."""
+        new = self._evaluate(given.call, given, state.iteration + 1, state.increment + correction, correction)
+        if self._line_search.n_ls > 0 and searchable and new.evaluation.pnewdt >= 1.0:
+            return self._searched(given, state, new)
+        return new
 
     def _evaluate(
         self, call: Call, given: Increment, iteration: int, increment: FloatArray, correction: FloatArray
@@ -122,14 +128,17 @@ class Newton:
         self._solver.factorise(self._constraints.reduce(data))
         return self._constraints.expand(self._solver.solve(rhs), missing)
 
+    def _trial(self, given: Increment, increment: FloatArray) -> Evaluation:
+        """A pass for the residual alone."""
+        call = replace(given.call, lflags=(*given.call.lflags[:2], RESIDUAL_ONLY, *given.call.lflags[3:]))
+        return self._system.evaluate(call, given.displacement + increment, increment, matrix=False)
+
     def _searched(self, given: Increment, before: Iterate, full: Iterate) -> Iterate:
         """The state at the scale that line search finds; the last pass is a normal one at that scale."""
         direction = full.correction
-        call = replace(given.call, lflags=(*given.call.lflags[:2], RESIDUAL_ONLY, *given.call.lflags[3:]))
 
         def component(scale: float) -> float:
-            increment = before.increment + scale * direction
-            evaluation = self._system.evaluate(call, given.displacement + increment, increment, matrix=False)
+            evaluation = self._trial(given, before.increment + scale * direction)
             return float(direction @ (evaluation.residual + given.load))
 
         at_zero, at_one = float(direction @ before.residual), float(direction @ full.residual)

@@ -15,6 +15,7 @@ from harness.cli import main
 from harness.output import Result
 
 DECKS = Path(__file__).parents[2] / "abaqus_inputs"
+SPRINGS = Path(__file__).parent / "procedures" / "springs.f"
 FLAT = DECKS / "patch_horizontal" / "flat_u2.inp"
 
 
@@ -24,6 +25,25 @@ def test_run_writes_the_files_and_returns_zero(tmp_path: Path, capsys: pytest.Ca
     names = {path.name for path in tmp_path.iterdir()}
     expected = {"flat_u2.sta", "flat_u2.msg", "flat_u2.dat", "flat_u2_history.csv", "flat_u2_interface.csv"}
     assert names == expected | {"flat_u2.pvd", "flat_u2_vtu"}
+
+
+def test_fallback_finishes_a_run_that_fails_without_it(tmp_path: Path) -> None:
+    """A spring in series with one that fails at once: a snap, which Newton's method does not pass."""
+    deck = tmp_path / "snap.inp"
+    deck.write_text(
+        "*NODE\n1, 0.\n2, 1.\n3, 2.\n"
+        "*USER ELEMENT, TYPE=U1, NODES=2, COORDINATES=1, PROPERTIES=2, I PROPERTIES=1\n1\n"
+        "*USER ELEMENT, TYPE=U6, NODES=2, COORDINATES=1, PROPERTIES=3, I PROPERTIES=1\n1\n"
+        "*ELEMENT, TYPE=U1, ELSET=ELASTIC\n1, 1, 2\n*ELEMENT, TYPE=U6, ELSET=FAILING\n2, 2, 3\n"
+        "*UEL PROPERTY, ELSET=ELASTIC\n0.5, 0., 0\n*UEL PROPERTY, ELSET=FAILING\n10., 0.1, 1., 0\n"
+        "*STEP\n*STATIC\n0.1, 1., 1e-5, 0.1\n*BOUNDARY\n1, 1\n3, 1, 1, 3.15\n*END STEP\n"
+    )
+    words = ["run", str(deck), "--user", str(SPRINGS), "--quiet", "--output-dir", str(tmp_path)]
+    assert main(words) == 1
+    assert main([*words, "--fallback"]) == 0
+    message = (tmp_path / "snap.msg").read_text()
+    assert "EQUILIBRIUM FOUND WITH THE DESCENT SEARCH" in message
+    assert "1  INCREMENTS THAT NEEDED THE DESCENT SEARCH" in message
 
 
 def test_quiet_prints_nothing(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:

@@ -19,6 +19,7 @@ from harness.model.records import (
     IterationDone,
     Largest,
     Record,
+    SearchHelped,
     StepStarted,
     Verdict,
 )
@@ -290,3 +291,18 @@ def test_line_searches_beyond_the_full_correction_are_printed_and_counted(model:
     assert " CORRECTION SCALE FACTORS OF THE LINE SEARCH   1.00      0.345" in text
     assert "                       1  ADDITIONAL RESIDUAL EVALUATIONS FOR LINE SEARCHES" in text
     assert "          THE ANALYSIS HAS BEEN COMPLETED\n" in text
+
+
+def test_an_increment_that_needed_the_descent_search_says_so_and_is_counted(model: Model, tmp_path: Path) -> None:
+    """Not in Abaqus: the harness runs so only on request."""
+    file = MessageFile(tmp_path / "job.msg", model)
+    file.helped(SearchHelped(1, 4, 3, 9, "THE CORRECTION WENT UPHILL"))
+    file.close(None)
+    text = " ".join((tmp_path / "job.msg").read_text().split())
+    assert (
+        "***NOTE: EQUILIBRIUM FOUND WITH THE DESCENT SEARCH, WHICH TOOK OVER IN ITERATION 3 OF 9: "
+        "THE CORRECTION WENT UPHILL" in text
+    )
+    assert "1 INCREMENTS THAT NEEDED THE DESCENT SEARCH" in text
+    MessageFile(tmp_path / "plain.msg", model).close(None)
+    assert "DESCENT" not in (tmp_path / "plain.msg").read_text()

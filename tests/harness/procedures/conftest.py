@@ -90,7 +90,7 @@ class Bench:
     def __init__(self, folder):
         self.folder = folder
 
-    def run(self, springs, steps, *, boundaries=(), equations=(), log=False):
+    def run(self, springs, steps, *, boundaries=(), equations=(), log=False, **options):
         """springs: (node, node, type, properties) each; the nodes are numbered from 0 here."""
         nodes = 1 + max(max(spring[:2]) for spring in springs)
         mesh = Mesh(np.arange(1, nodes + 1), np.zeros((nodes, 3)), ("",) * nodes)
@@ -108,7 +108,7 @@ class Bench:
         records, error = [], None
         try:
             system = System(mesh, build_blocks(model, library), model.equations)
-            for record in run_steps(system, model, library):
+            for record in run_steps(system, model, library, **options):
                 records.append(record)
         except Exception as caught:
             error = caught

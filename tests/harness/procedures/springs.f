@@ -7,6 +7,7 @@
 !   U3  f = PROPS(1) sign(d) sqrt(|d|): Newton's method jumps from d to -d
 !   U4  f = PROPS(1) d with PROPS(2) times its stiffness in AMATRX: the error goes by 1 - 1/PROPS(2) in an iteration
 !   U5  as U1, NaN where d > PROPS(3)
+!   U6  damage: stiffness PROPS(1) up to d = PROPS(2), then down to no force at PROPS(3); the largest d in SVARS(1)
 ! JPROPS(1) = 1 prints each call to the message file, as UEXTERNALDB always does.
       subroutine uel(rhs,amatrx,svars,energy,ndofel,nrhs,nsvars,
      &  props,nprops,coords,mcrd,nnode,u,du,v,a,jtype,time,dtime,
@@ -30,9 +31,19 @@
       else if (jtype .eq. 3) then
         f = props(1)*sign(sqrt(abs(d)), d)
         s = props(1)/(2*sqrt(max(abs(d), 1d-12)))
-      else
+      else if (jtype .eq. 4) then
         f = props(1)*d
         s = props(2)*props(1)
+      else
+        q = max(svars(1), props(2))
+        if (d .gt. q) q = min(d, props(3))
+        h = props(1)*props(2)/(props(3) - props(2))
+        s = h*(props(3) - q)/q
+        f = s*d
+        if (lflags(3) .eq. 1) energy(2) = f*d/2
+        if (d .gt. max(svars(1), props(2))) s = -h
+        if (d .gt. props(3)) s = 0
+        svars(1) = max(svars(1), q)
       end if
       if (jtype .eq. 2) then
         if (abs(du(2,1) - du(1,1)) .gt. props(3)) pnewdt = props(4)
@@ -40,7 +51,7 @@
       if (jtype .eq. 5) then
         if (d .gt. props(3)) f = sqrt(props(3) - d)
       end if
-      svars(1) = d
+      if (jtype .ne. 6) svars(1) = d
       rhs(1,1) = f
       rhs(2,1) = -f
       amatrx = reshape((/ s, -s, -s, s /), (/ 2, 2 /))

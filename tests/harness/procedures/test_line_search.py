@@ -1,11 +1,11 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""Line search on functions of the scale alone."""
+"""Line searches on functions of the scale alone."""
 
 import pytest
 
 from harness.model.steps import LineSearchControls
-from harness.solver.linesearch import search
+from harness.solver.linesearch import REFINEMENTS, descend, search
 
 
 def scales(g, **controls):
@@ -53,3 +53,33 @@ def test_number_of_evaluations_and_change_of_scale_end_the_search():
 
 def test_a_correction_that_goes_uphill_is_not_searched():
     assert scales(lambda s: -1.0 + 3.0 * s) == (1.0, (1.0,))
+
+
+def test_descent_takes_a_good_scale_at_once():
+    assert descend(lambda s: 1.0 - 0.8 * s, 1.0) == (1.0, (1.0,))
+
+
+def test_descent_lengthens_the_step_and_then_finds_the_root():
+    """g = 1 - s/10: 1 and 4 are still downhill, 16 is too far, the secant through 4 and 16 meets the root."""
+    assert descend(lambda s: 1.0 - 0.1 * s, 1.0) == (pytest.approx(10.0), (1.0, 4.0, 16.0, pytest.approx(10.0)))
+
+
+def test_descent_down_an_endless_slope_takes_the_longest_step():
+    assert descend(lambda s: 1.0 + s, 1.0) == (64.0, (1.0, 4.0, 16.0, 64.0))
+
+
+def test_descent_backs_off_where_an_element_refuses():
+    assert descend(lambda s: None if s > 0.3 else 1.0 - 3.0 * s, 1.0) == (0.25, (1.0, 0.5, 0.25))
+
+
+def test_descent_keeps_what_is_downhill_if_nothing_is_small():
+    """g jumps from 2 to -2 at s = 1.6: no |g| < g(0); the bracket ends at its lower side."""
+    scale, tried = descend(lambda s: 2.0 if s < 1.6 else -2.0, 1.0)
+    assert 1.0 <= scale < 1.6
+    assert len(tried) == 2 + REFINEMENTS
+
+
+def test_descent_without_a_downhill_scale_finds_none():
+    scale, tried = descend(lambda s: -5.0, 1.0)
+    assert scale == 0.0
+    assert len(tried) == 1 + REFINEMENTS

@@ -1,0 +1,128 @@
+# SPDX-FileCopyrightText: The uel-harness authors
+# SPDX-License-Identifier: BSD-3-Clause
+"""The fall-back on springs that Newton's method does not solve; solutions by hand."""
+
+import numpy as np
+import pytest
+
+from harness.errors import ConvergenceError, SingularMatrixError
+from harness.model.records import SearchHelped
+from harness.model.steps import Static
+from harness.procedures.incrementation import DIVERGING, TOO_SLOW
+from harness.solver import descent
+from harness.solver.descent import GROWING, SINGULAR, UPHILL
+
+STIFFNESS, PEAK, END = 10.0, 0.1, 1.0
+DAMAGE = (1, 2, 6, (STIFFNESS, PEAK, END))
+SOFTENING = STIFFNESS * PEAK / (END - PEAK)
+STATIC = Static(0.1, 1.0, 1e-5, 0.1)
+
+
+def pulled(bench, soft, **options):
+    """A spring in series with one that fails, pulled to 3.15 in ten increments: a snap, as soft < SOFTENING."""
+    step = bench.step(static=STATIC, boundaries=(bench.fix(0), bench.fix(2, 3.15)))
+    return bench.run([(0, 1, 1, (soft, 0.0)), DAMAGE], [step], **options)
+
+
+def expected_force(u, soft):
+    """The spring is whole until its force is STIFFNESS PEAK = 1, then it snaps to none."""
+    whole = u / (1 / soft + 1 / STIFFNESS)
+    return whole if whole <= STIFFNESS * PEAK else 0.0
+
+
+def test_newton_stops_at_a_snap_and_the_search_passes_it(bench):
+    assert isinstance(pulled(bench, 0.5).error, ConvergenceError)
+    result = pulled(bench, 0.5, fallback=True)
+    assert result.error is None
+    assert result.abandoned == []
+    solutions = [(r.solution.displacement[2], r.solution.reaction[2]) for r in result.increments]
+    assert len(solutions) == 10
+    for u, force in solutions:
+        assert force == pytest.approx(expected_force(u, 0.5), abs=1e-6)
+    (helped,) = result.of(SearchHelped)
+    # the peak is at u = 2.1, between 6 and 7 increments of 0.315
+    assert (helped.increment, helped.reason) == (7, UPHILL)
+    assert helped.since <= helped.iterations
+
+
+def test_singular_matrix_is_passed(bench):
+    """A spring as soft as the other softens: the matrix of the node between them is exactly zero."""
+    soft = 1.25
+    damage = (1, 2, 6, (12.5, 0.1, 1.1))
+    step = bench.step(static=STATIC, boundaries=(bench.fix(0), bench.fix(2, 3.15)))
+    assert isinstance(bench.run([(0, 1, 1, (soft, 0.0)), damage], [step]).error, SingularMatrixError)
+    result = bench.run([(0, 1, 1, (soft, 0.0)), damage], [step], fallback=True)
+    assert result.error is None
+    assert SINGULAR in [helped.reason for helped in result.of(SearchHelped)]
+    assert result.last.reaction[2] == pytest.approx(0.0, abs=1e-6)
+
+
+def test_slow_convergence_is_hastened(bench):
+    """AMATRX eight times too stiff: the error falls by 7/8 in an iteration, until the search lengthens the steps."""
+    step = bench.step(static=Static(1.0, 1.0), boundaries=(bench.fix(0),), loads=(bench.force(1, 0.5),))
+    spring = (0, 1, 4, (1.0, 8.0))
+    assert bench.run([spring], [step]).abandoned[0].reason == TOO_SLOW
+    result = bench.run([spring], [step], fallback=True)
+    assert (result.error, result.abandoned) == (None, [])
+    (helped,) = result.of(SearchHelped)
+    assert (helped.since, helped.reason) == (9, TOO_SLOW)
+    assert helped.iterations < 13
+    assert result.last.displacement[1] == pytest.approx(0.5, rel=1e-2)
+
+
+def test_diverging_attempt_goes_on_with_the_search(bench):
+    """AMATRX a quarter of the stiffness: each correction is four times too long, and the first reason is that."""
+    step = bench.step(static=Static(1.0, 1.0), boundaries=(bench.fix(0),), loads=(bench.force(1, 0.5),))
+    spring = (0, 1, 4, (1.0, 0.25))
+    assert bench.run([spring], [step]).abandoned[0].reason == DIVERGING
+    result = bench.run([spring], [step], fallback=True)
+    assert (result.error, result.abandoned) == (None, [])
+    (helped,) = result.of(SearchHelped)
+    assert helped.reason == GROWING
+    assert result.last.displacement[1] == pytest.approx(0.5)
+
+
+def test_direction_across_the_residual_is_replaced(bench, monkeypatch):
+    """Two nodes on springs to the ground, after one iteration with c . r = r1^2/K1 + r2^2/K2 = 0.
+
+    Node 1: u = 0.2 on the softening branch, where its force is 0.8 SOFTENING; r1 = 2 - 0.8 SOFTENING, K1 = -1.
+    Node 2: f = k d + q d^3, u = 1, r2 = -q, K2 = k + 3 q.
+    """
+    k1 = SOFTENING - 1.0
+    r1, q = 2.0 - 0.8 * SOFTENING, 6.0
+    k2 = q**2 / r1**2 - 3 * q
+    directions = []
+    original = descent.Majoriser.direction
+
+    def watched(self, reduced):
+        directions.append(reduced.copy())
+        return original(self, reduced)
+
+    monkeypatch.setattr(descent.Majoriser, "direction", watched)
+    springs = [(0, 1, 6, (STIFFNESS, PEAK, END)), (0, 1, 1, (k1, 0.0)), (0, 2, 1, (k2, q))]
+    loads = (bench.force(1, 0.2 * (STIFFNESS + k1)), bench.force(2, k2))
+    result = bench.run(springs, [bench.step(boundaries=(bench.fix(0),), loads=loads)], fallback=True)
+    assert result.error is None
+    assert np.abs(directions[0]) == pytest.approx([r1, q])
+    # node 1 ends on its elastic spring alone, node 2 where k2 d + q d^3 = k2
+    d1, d2 = result.last.displacement[1:]
+    assert k1 * d1 == pytest.approx(0.2 * (STIFFNESS + k1), rel=1e-2)
+    assert k2 * d2 + q * d2**3 == pytest.approx(k2, rel=1e-2)
+
+
+def test_where_newtons_method_does_the_fallback_changes_nothing(bench):
+    step = bench.step(static=Static(0.25, 1.0), boundaries=(bench.fix(0),), loads=(bench.force(1, 2.0),))
+    spring = (0, 1, 1, (1.0, 1.0))
+    plain, with_it = bench.run([spring], [step]), bench.run([spring], [step], fallback=True)
+    assert plain.iterations() == with_it.iterations()
+    assert with_it.of(SearchHelped) == []
+
+
+def test_search_without_end_is_cut_back(bench, monkeypatch):
+    """Nothing carries the load: no equilibrium, and the error is that of a run without the fall-back."""
+    monkeypatch.setattr("harness.procedures.static.ITERATIONS", 20)
+    step = bench.step(static=Static(1.0, 1.0), boundaries=(bench.fix(0),), loads=(bench.force(1, 3.0),))
+    result = bench.run([(0, 1, 6, (STIFFNESS, PEAK, END))], [step], fallback=True)
+    assert "HAS NOT CONVERGED" in result.abandoned[0].reason
+    with pytest.raises(ConvergenceError, match="TOO MANY ATTEMPTS"):
+        raise result.error
