@@ -66,9 +66,39 @@ def build_parser() -> argparse.ArgumentParser:
     amalgamate.add_argument("-o", "--output", type=Path, required=True, metavar="FILE.for")
     amalgamate.set_defaults(function=write_amalgam)
 
+    add_law(commands.add_parser("law", help="drive one interface element, plot traction over separation"))
+
     solvers = commands.add_parser("solvers", help="list the linear solvers and say which is taken when")
     solvers.set_defaults(function=list_solvers)
     return parser
+
+
+def add_law(law: argparse.ArgumentParser) -> None:
+    """Options of `uel law`."""
+    law.add_argument("properties", nargs="*", metavar="NAME=VALUE", help="properties (those of the paper's table 2)")
+    law.add_argument("--deck", type=Path, metavar="DECK.inp", help="take properties and element type from a deck")
+    law.add_argument("--elset", metavar="NAME", help="... from the *UEL PROPERTY of this set (the first)")
+    law.add_argument("--element", choices=["standard", "stabilised"], help="U2 or U4 (U2, or as in the deck)")
+    law.add_argument(
+        *("--angles", "-a"),
+        nargs="+",
+        type=float,
+        metavar="DEGREES",
+        default=[0.0, 30.0, 60.0, 90.0],
+        help="directions of the separation, 0 opening, 90 sliding (0 30 60 90)",
+    )
+    law.add_argument("--reach", type=float, metavar="LENGTH", help="largest separation (where no traction is left)")
+    law.add_argument(
+        *("--unload", "-u"), nargs="+", type=float, metavar="F", default=[], help="go back to 0 at these parts of it"
+    )
+    law.add_argument("--close", type=float, metavar="F", default=0.0, help="... and press together by this part of it")
+    law.add_argument("--path", metavar="'N,T N,T ...'", help="go through these separations instead")
+    law.add_argument("--surface", action="store_true", help="draw both tractions over both separations too")
+    law.add_argument("--increments", type=int, default=400, metavar="N", help="of a curve, or a line of a path (400)")
+    law.add_argument("--duration", type=float, default=1.0, metavar="TIME", help="step time of a curve (1)")
+    law.add_argument("--job", default="law", metavar="NAME", help="name of the output files (law)")
+    law.add_argument("--output-dir", type=Path, default=Path(), metavar="DIR", help="where they go (current folder)")
+    law.set_defaults(function=explore_law)
 
 
 def from_abaqus(parser: argparse.ArgumentParser, words: list[str]) -> list[str]:
@@ -118,6 +148,19 @@ def write_amalgam(options: argparse.Namespace) -> int:
 
     shutil.copyfile(path_of_amalgam(), options.output)
     print(f"{options.output}: UEL, UELMAT and UEXTERNALDB for abaqus job=... user={options.output.name}")
+    return 0
+
+
+def explore_law(options: argparse.Namespace) -> int:
+    """`uel law`."""
+    from harness.delamination.law_report import Exploration, explore, path_points, summary  # noqa: PLC0415
+
+    asked = {name: value for name, value in vars(options).items() if name not in ("function", "element", "path")}
+    path = None if options.path is None else path_points(options.path)
+    stabilised = None if options.element is None else options.element == "stabilised"
+    curves, files = explore(Exploration(**asked, path=path, stabilised=stabilised))
+    Console().print(summary(curves))
+    print("written:", *files)
     return 0
 
 

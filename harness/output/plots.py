@@ -21,7 +21,7 @@ from numpy.typing import ArrayLike
 COLOURS = ("#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9", "#000000")
 _DASHES: tuple[Any, ...] = ("-", (0, (6, 2)), (0, (4, 1.5, 1, 1.5)), (0, (1.5, 1.2)))
 _MARKERS = ("o", "s", "^", "D", "v", "P", "X")
-_STYLE: dict[Any, Any] = {
+STYLE: dict[Any, Any] = {
     "font.family": "sans-serif",
     "font.size": 9,
     "axes.labelsize": 9,
@@ -118,7 +118,7 @@ def _draw(
     *,
     from_zero: bool = False,
 ) -> Path:
-    with mpl.rc_context(_STYLE):
+    with mpl.rc_context(STYLE):
         # 140 mm, the text width of a one-column page: prints without scaling, so fonts keep their size
         figure = Figure(figsize=(5.5, 3.4 + 1.9 * (len(panels) - 1)), layout="constrained")
         FigureCanvasAgg(figure)

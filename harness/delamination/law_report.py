@@ -1,0 +1,188 @@
+# SPDX-FileCopyrightText: The uel-harness authors
+# SPDX-License-Identifier: BSD-3-Clause
+"""Pictures, data and table of `uel law`: traction over separation of one interface element."""
+
+from __future__ import annotations
+
+import csv
+from collections.abc import Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import matplotlib as mpl
+import numpy as np
+from matplotlib.backends.backend_agg import FigureCanvasAgg
+from matplotlib.figure import Figure
+from rich.table import Table
+
+from harness import usersub
+from harness.delamination import law
+from harness.delamination.law import Curve, LawElement
+from harness.errors import UelError
+from harness.model.arrays import FloatArray
+from harness.output.plots import COLOURS, STYLE
+
+SURFACE_ANGLES = 31
+SURFACE_SIZES = 60
+
+
+@dataclass(frozen=True, slots=True)
+class Exploration:
+    """What `uel law` is asked for.
+
+    properties  words NAME=VALUE, in place of those of the deck or of the paper
+    deck, elset *UEL PROPERTY to take the properties from
+    stabilised  U4 in place of U2; None: as in the deck, or U2
+    angles      of the separation, from opening (0) to sliding (90 degrees); a curve each
+    path        points (normal, tangential) to go through from the origin, in place of the angles
+    reach       largest separation of a curve; None: until nothing is left of the traction
+    unload      fractions of the reach at which to go back to the origin
+    close       fraction of the reach by which to press together after unloading
+    surface     draw both tractions over both separations too
+    increments  of a curve, or of each straight line of a path
+    duration    of a curve in step time, for VISCOSITY
+    """
+
+    properties: Sequence[str] = ()
+    deck: Path | None = None
+    elset: str | None = None
+    stabilised: bool | None = None
+    angles: Sequence[float] = (0.0, 30.0, 60.0, 90.0)
+    path: FloatArray | None = None
+    reach: float | None = None
+    unload: Sequence[float] = ()
+    close: float = 0.0
+    surface: bool = False
+    increments: int = 400
+    duration: float = 1.0
+    job: str = "law"
+    output_dir: Path = Path()
+
+
+def explore(asked: Exploration) -> tuple[list[Curve], list[Path]]:
+    """Drive the element, write JOB.csv and JOB.png, and JOB_surface.png if asked for; the curves and the files."""
+    asked.output_dir.mkdir(parents=True, exist_ok=True)
+    jtype, values = law.STANDARD, law.standard_properties()
+    if asked.deck is not None:
+        jtype, from_deck = law.deck_properties(asked.deck, asked.elset)
+        values |= from_deck
+    values |= law.given_properties(asked.properties)
+    if asked.stabilised is not None:
+        jtype = law.STABILISED if asked.stabilised else law.STANDARD
+    library = usersub.load(None, job=asked.job, output_dir=asked.output_dir)
+    try:
+
+        def curve(label: str, path: FloatArray) -> Curve:
+            return law.drive(LawElement(library, jtype, values), label, path, asked.duration)
+
+        def reach(angle: float) -> float:
+            return asked.reach or law.reach_of(library, values, angle)
+
+        if asked.path is None:
+            curves = [
+                curve(
+                    f"{angle:g}°",
+                    law.opening(angle, reach(angle), asked.increments, asked.unload, asked.close),
+                )
+                for angle in asked.angles
+            ]
+        else:
+            curves = [curve("path", law.along(asked.path, asked.increments))]
+        files = [asked.output_dir / f"{asked.job}.csv", asked.output_dir / f"{asked.job}.png"]
+        write_csv(curves, files[0])
+        draw_curves(curves, files[1])
+        if asked.surface:
+            angles = np.linspace(0.0, 90.0, SURFACE_ANGLES)
+            sheets = [curve("", law.opening(angle, reach(angle), SURFACE_SIZES)) for angle in angles]
+            files.append(asked.output_dir / f"{asked.job}_surface.png")
+            draw_surface(sheets, files[-1])
+    finally:
+        library.close()
+    return curves, files
+
+
+def path_points(text: str) -> FloatArray:
+    """Points 'NORMAL,TANGENTIAL NORMAL,TANGENTIAL ...', also with semicolons between them."""
+    try:
+        points = np.array([[float(value) for value in point.split(",")] for point in text.replace(";", " ").split()])
+    except ValueError:
+        points = np.zeros(0)
+    if points.ndim != 2 or points.shape[1] != 2:
+        raise UelError(f"'{text}': expected are points NORMAL,TANGENTIAL with blanks between them")
+    return points
+
+
+def write_csv(curves: Sequence[Curve], path: Path) -> None:
+    """One line per increment: the label of the curve, then its columns."""
+    with path.open("w", newline="", encoding="utf-8") as file:
+        writer = csv.writer(file)
+        writer.writerow(["CURVE", *curves[0].columns])
+        for curve in curves:
+            for row in zip(*curve.columns.values(), strict=True):
+                writer.writerow([curve.label, *(f"{value:.10g}" for value in row)])
+
+
+def summary(curves: Sequence[Curve]) -> Table:
+    """Largest tractions, work and dissipation of each curve."""
+    table = Table("curve", "largest TN", "largest TT", "work", "dissipated I", "dissipated II", "damage")
+    for curve in curves:
+        columns = curve.columns
+        peaks = [float(np.abs(columns[name]).max()) for name in ("TN", "TT")]
+        ends = [float(columns[name][-1]) for name in ("WORK", "DISSI", "DISSII")]
+        table.add_row(curve.label, *_shown(peaks), *_shown(ends), f"{columns['DAMAGE'][-1]:.5g}")
+    return table
+
+
+def _shown(values: list[float]) -> list[str]:
+    """Values of one kind; what is rounding beside the others is none."""
+    largest = max(map(abs, values))
+    return [f"{value if abs(value) > 1e-9 * largest else 0.0:.5g}" for value in values]
+
+
+def draw_curves(curves: Sequence[Curve], path: Path) -> None:
+    """Normal traction over opening and tangential traction over sliding."""
+    with mpl.rc_context(STYLE):
+        figure = Figure(figsize=(7.0, 3.2), layout="constrained")
+        FigureCanvasAgg(figure)
+        panels = figure.subplots(1, 2)
+        for axis, name, words in zip(panels, "NT", (("Opening", "Normal"), ("Sliding", "Tangential")), strict=True):
+            for number, curve in enumerate(curves):
+                colour = COLOURS[number % len(COLOURS)]
+                axis.plot(curve.columns[f"SEP{name}"], curve.columns[f"T{name}"], color=colour, label=curve.label)
+            axis.set_xlabel(words[0])
+            axis.set_ylabel(f"{words[1]} traction")
+            axis.ticklabel_format(axis="x", scilimits=(-2, 3), useMathText=True)
+            axis.axhline(0.0, color="0.6", linewidth=0.6, zorder=1)
+        if len(curves) > 1:
+            handles, labels = panels[0].get_legend_handles_labels()
+            title = "angle of the separation, 0° opening, 90° sliding"
+            figure.legend(handles, labels, title=title, loc="outside upper center", ncols=8)
+        figure.savefig(path, dpi=200)
+
+
+def draw_surface(curves: Sequence[Curve], path: Path) -> None:
+    """Both tractions over opening and sliding, from curves of equally many increments, one per angle."""
+    grids = {name: np.array([curve.columns[name] for curve in curves]) for name in ("SEPN", "SEPT", "TN", "TT")}
+    with mpl.rc_context(STYLE | {"axes.grid": False}):
+        figure = Figure(figsize=(8.0, 3.8), layout="constrained")
+        FigureCanvasAgg(figure)
+        for number, (name, word) in enumerate((("TN", "Normal"), ("TT", "Tangential"))):
+            axis: Any = figure.add_subplot(1, 2, number + 1, projection="3d")
+            axis.plot_surface(
+                grids["SEPN"],
+                grids["SEPT"],
+                grids[name],
+                cmap="viridis",
+                rcount=len(curves),
+                ccount=SURFACE_SIZES,
+                edgecolor="k",
+                linewidth=0.1,
+            )
+            axis.set_xlabel("Opening")
+            axis.set_ylabel("Sliding")
+            axis.set_title(f"{word} traction")
+            axis.view_init(elev=28, azim=35)
+            axis.locator_params(nbins=4, axis="x")
+            axis.locator_params(nbins=4, axis="y")
+        figure.savefig(path, dpi=200)

@@ -1,0 +1,146 @@
+# SPDX-FileCopyrightText: The uel-harness authors
+# SPDX-License-Identifier: BSD-3-Clause
+"""The explorer of one interface element, `uel law`: its paths, its files, and the paper's law seen through it."""
+
+import csv
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from harness.cli import main
+from harness.delamination import law
+from harness.delamination.decks import FOLDER
+from harness.delamination.law_report import Exploration, explore, path_points
+from harness.errors import KernelError, UelError
+
+COMPLIANT = ("ALPHAN=2e4", "ALPHAT=3e4")
+
+
+@pytest.fixture
+def curves(tmp_path):
+    """Explore with options; the curves by label."""
+
+    def run(**options):
+        found, _ = explore(Exploration(output_dir=tmp_path, **options))
+        return {curve.label: curve.columns for curve in found}
+
+    return run
+
+
+def test_figure_2_of_the_paper(curves):
+    """Strengths and fracture energies of table 2 in the pure modes; in mixed mode equations (10) and (11)."""
+    found = curves(increments=1000, angles=(0.0, 45.0, 90.0))
+    opened, mixed, slid = found.values()
+    assert list(found) == ["0°", "45°", "90°"]
+    assert opened["TN"].max() == pytest.approx(30.0, rel=1e-3)
+    assert slid["TT"].max() == pytest.approx(60.0, rel=1e-3)
+    assert opened["WORK"][-1] == pytest.approx(0.26, rel=1e-4)
+    assert slid["WORK"][-1] == pytest.approx(1.002, rel=1e-4)
+    assert max(np.abs(opened["TT"]).max(), np.abs(slid["TN"]).max()) < 1e-10
+    # equal stiffnesses: equal tractions at 45 degrees, equal shares of the energy
+    assert mixed["TN"].max() == pytest.approx((30.0**-2 + 60.0**-2) ** -0.5, rel=1e-3)
+    assert mixed["WORK"][-1] == pytest.approx(2 / (1 / 0.26 + 1 / 1.002), rel=1e-4)
+    # the curve ends where a thousandth of the lower strength is left
+    assert np.hypot(mixed["TN"][-1], mixed["TT"][-1]) == pytest.approx(0.03, rel=1e-3)
+
+
+def test_stabilised_element_shows_its_law(curves):
+    """With the quads in equilibrium, T = <sigma>.n: equations (16) and (17) become T = alpha (1 - d) g."""
+    asked = {"properties": COMPLIANT, "increments": 50, "unload": (0.3,), "close": 0.05, "angles": (0.0, 50.0, 90.0)}
+    standard, stabilised = curves(**asked), curves(**asked, stabilised=True)
+    for label, columns in standard.items():
+        for name in ("SEPN", "SEPT", "TN", "TT", "DAMAGE", "DISSI", "DISSII", "WORK"):
+            np.testing.assert_allclose(stabilised[label][name], columns[name], atol=1e-8)
+        assert (stabilised[label]["SN"] < 1).all() and (columns["SN"] == 1).all()
+
+
+def test_unloading_and_closing(curves):
+    """Back to the origin on the secant; pressed together with the undamaged stiffness; then on as if never unloaded."""
+    there_and_back = curves(properties=COMPLIANT, angles=(40.0,), unload=(0.2, 0.5), close=0.1)["40°"]
+    straight = curves(properties=COMPLIANT, angles=(40.0,))["40°"]
+    closed = there_and_back["SEPN"] < 0
+    assert there_and_back["SEPN"].min() == pytest.approx(-0.1 * np.hypot(straight["SEPN"], straight["SEPT"])[-1])
+    np.testing.assert_allclose(there_and_back["TN"][closed], 2e4 * there_and_back["SEPN"][closed])
+    damage = there_and_back["DAMAGE"]
+    assert (np.diff(damage) >= 0).all()
+    back = ~closed & np.isclose(damage, np.roll(damage, 1)) & (damage > 0) & (damage < 1)
+    assert back.sum() == 2 * 41
+    np.testing.assert_allclose(
+        there_and_back["TT"][back], 3e4 * (1 - damage[back]) * there_and_back["SEPT"][back], atol=1e-9
+    )
+    for name in ("TN", "DISSI", "DISSII", "WORK"):
+        assert there_and_back[name][-1] == pytest.approx(straight[name][-1], abs=1e-9)
+
+
+def test_path_goes_through_its_points(curves):
+    points = path_points("0.003,0 0.003,0.01; -0.0001,0.002")
+    columns = curves(properties=COMPLIANT, path=points, increments=10)["path"]
+    separations = np.column_stack([columns["SEPN"], columns["SEPT"]])
+    np.testing.assert_allclose(separations[::10], np.vstack([[0, 0], points]), atol=1e-15)
+    assert len(separations) == 31
+    np.testing.assert_allclose(columns["TIME"][[0, -1]], [0, 1])
+
+
+def test_viscosity_sees_the_duration(curves):
+    """The damage lags the more, the quicker the curve is run through; none of it changes the reach."""
+    slow, quick = (curves(properties=("VISCOSITY=0.1",), angles=(0.0,), duration=t)["0°"] for t in (1000.0, 1.0))
+    assert quick["SEPN"][-1] == slow["SEPN"][-1]
+    assert slow["TN"].max() == pytest.approx(30.0, rel=0.05)
+    assert quick["TN"].max() > 60.0
+    assert (quick["DAMAGE"] <= quick["DMAX"]).all()
+
+
+@pytest.mark.parametrize(("kind", "jtype"), [("u2", 2), ("u3", 2), ("u4", 4)])
+def test_properties_of_a_deck(kind, jtype):
+    found, values = law.deck_properties(FOLDER / "dcb" / f"dcb_{kind}_1e8.inp", "interface")
+    assert found == jtype
+    assert (values["ALPHAN"], values["SIGMAMAX"], values["GIIC"], values["LAW"]) == (1e8, 30.0, 1.002, 1)
+
+
+@pytest.mark.parametrize(
+    ("options", "message"),
+    [
+        ({"properties": ["ALPHAM=3"]}, r"'ALPHAM=3': expected is NAME=VALUE with a name of ALPHAN, ALPHAT"),
+        ({"properties": ["ALPHAN"]}, r"'ALPHAN': expected is NAME=VALUE"),
+        ({"properties": ["GIC=much"]}, r"'GIC=much': 'MUCH' is no number"),
+        ({"deck": FOLDER / "dcb/dcb_u4_1e8.inp", "elset": "GLUE"}, r"ELSET=GLUE; there are INTERFACE"),
+        ({"deck": FOLDER / "quad_cook/cook_u1.inp"}, r"cook_u1.inp: no interface elements"),
+        ({"properties": ["SIGMAMAX=30", "GIC=1e9"]}, r"traction at 0 degrees does not fall"),
+    ],
+)
+def test_what_cannot_be_explored(curves, options, message):
+    with pytest.raises(UelError, match=message):
+        curves(**options)
+
+
+@pytest.mark.parametrize("text", ["1", "1,2,3", "1,2 3", "a,b", ""])
+def test_paths_that_make_no_sense(text):
+    with pytest.raises(UelError, match=r"expected are points NORMAL,TANGENTIAL"):
+        path_points(text)
+
+
+def test_message_of_the_element_comes_through(curves):
+    with pytest.raises(KernelError, match=r"PROPS\(2\) ALPHAN = -1.*positive"):
+        curves(properties=["ALPHAN=-1"])
+
+
+def test_command_writes_data_and_pictures(tmp_path, capsys):
+    words = ["law", "GIC=0.3", "--angles", "0", "90", "--increments", "50", "--surface"]
+    assert main([*words, "--job", "mine", "--output-dir", str(tmp_path / "new")]) == 0
+    printed = capsys.readouterr().out
+    assert "largest TN" in printed and "mine_surface.png" in printed
+    with (tmp_path / "new/mine.csv").open() as file:
+        rows = list(csv.DictReader(file))
+    assert len(rows) == 2 * 51
+    assert {row["CURVE"] for row in rows} == {"0°", "90°"}
+    assert max(float(row["TN"]) for row in rows) == pytest.approx(30, rel=0.05)
+    for name in ("mine.png", "mine_surface.png"):
+        assert (tmp_path / "new" / name).read_bytes().startswith(b"\x89PNG")
+
+
+def test_command_takes_a_path_and_says_what_is_wrong(tmp_path: Path, capsys):
+    assert main(["law", "--path", "0.01,0.01", "--element", "stabilised", "--output-dir", str(tmp_path)]) == 0
+    assert (tmp_path / "law.csv").read_text().startswith("CURVE,TIME,X,Y,SEPN,SEPT,TN,TT,")
+    assert main(["law", "--path", "nowhere", "--output-dir", str(tmp_path)]) == 1
+    assert capsys.readouterr().err.startswith("uel: 'nowhere': expected are points")
