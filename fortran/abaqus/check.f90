@@ -3,14 +3,15 @@
 !> Checks of what an element is called with: counts, ranges of the properties, kind of analysis.
 module abaqus_check
   use core_kinds, only: dp
-  use core_status, only: status_type, sentence, too_brittle, zero_length, edges_apart
+  use core_status, only: status_type, sentence, too_brittle, zero_length, edges_apart, small_beta
   use abaqus_layout, only: elements, reals, integer_item, &
     continuum_integers, standard_integers, four_node_integers, eight_node_integers, &
-    positive, not_negative, below_one, any_integer, p_gic, p_giic
+    positive, not_negative, below_one, up_to_one, any_integer, p_alphan, p_alphat, p_gic, p_giic, &
+    p_betan, p_betat, j_four_closure, j_eight_closure
   use abaqus_report, only: fatal
   implicit none(type, external)
   private
-  public :: call_is_good, refuse
+  public :: call_is_good, closure_of, refuse
 
 contains
 
@@ -40,6 +41,7 @@ contains
     else
       good = reals_are_good(jtype, jelem, props)
       if (good) good = integers_are_good(jtype, jelem, jprops)
+      if (good .and. jtype > 1) good = stiffness_is_good(jtype, jelem, props, jprops)
     end if
 
   contains
@@ -71,6 +73,8 @@ contains
         good = props(i) >= 0.0_dp
       case (below_one)
         good = props(i) >= 0.0_dp .and. props(i) < 1.0_dp
+      case (up_to_one)
+        good = props(i) >= 0.0_dp .and. props(i) <= 1.0_dp
       case default
         good = abs(props(i)) <= huge(1.0_dp)
       end select
@@ -92,6 +96,8 @@ contains
       text = 'a positive value'
     case (not_negative)
       text = 'zero or a positive value'
+    case (up_to_one)
+      text = 'a value from 0 to 1'
     case (below_one)
       text = 'zero or a value between 0 and 1'
     case default
@@ -136,6 +142,43 @@ contains
 
   end function integers_are_good
 
+  !> True if the initial stiffness is finite, or infinite (0) in both directions with the consistent closure.
+  function stiffness_is_good(jtype, jelem, props, jprops) result(good)
+    integer, intent(in) :: jtype, jelem
+    real(dp), intent(in) :: props(*)
+    integer, intent(in) :: jprops(*)
+    logical :: good
+    integer, parameter :: positions(2) = [p_alphan, p_alphat]
+    logical :: infinite
+    integer :: i
+
+    infinite = closure_of(jtype, jprops) == 1 .and. .not. maxval(props(positions)) > 0.0_dp
+    good = .true.
+    do i = 1, 2
+      good = infinite .or. props(positions(i)) > 0.0_dp
+      if (good) cycle
+      call fatal(jtype, jelem, 'PROPS(%I) ' // trim(reals(positions(i))%name) // ' = %R, expected is a positive ' // &
+        'value; 0, an infinite stiffness, goes with CLOSURE = 1 and for both directions', [positions(i)], &
+        [props(positions(i))])
+      return
+    end do
+  end function stiffness_is_good
+
+  !> CLOSURE of an interface element; the standard one has but the paper's.
+  pure function closure_of(jtype, jprops) result(closure)
+    integer, intent(in) :: jtype, jprops(*)
+    integer :: closure
+
+    select case (jtype)
+    case (3)
+      closure = jprops(j_four_closure)
+    case (4)
+      closure = jprops(j_eight_closure)
+    case default
+      closure = 0
+    end select
+  end function closure_of
+
   !> Sends the message for the status of a kernel; U4 counts its quads in status%item.
   subroutine refuse(jtype, jelem, status)
     integer, intent(in) :: jtype, jelem
@@ -151,6 +194,11 @@ contains
       position = merge(p_gic, p_giic, status%item == 1)
       call fatal(jtype, jelem, 'PROPS(%I) ' // trim(reals(position)%name) // ' = %R, ' // &
         trim(sentence(status%code)) // '; more than %R is expected', [position], [status%value, status%expected])
+    case (small_beta)
+      position = merge(p_betan, p_betat, status%item == 1)
+      call fatal(jtype, jelem, 'PROPS(%I) ' // trim(reals(position)%name) // ': beta = %R, ' // &
+        trim(sentence(status%code)) // '; more than %R is expected: give it, or with 0 refine the mesh', &
+        [position], [status%value, status%expected])
     case (zero_length)
       call fatal(jtype, jelem, trim(sentence(status%code)), [integer ::], [real(dp) ::])
     case (edges_apart)

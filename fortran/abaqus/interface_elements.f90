@@ -10,11 +10,11 @@ module abaqus_interface_elements
   use elements_standard_interface, only: standard_interface
   use elements_stabilised_interface, only: stabilisation_type, stabilised_interface_four, stabilised_interface_eight
   use abaqus_layout, only: reals, interface_variables, &
-    p_thickness, p_alphan, p_alphat, p_sigmamax, p_taumax, p_gic, p_giic, p_viscosity, p_betan, p_betat, p_gammabot, &
+    p_thickness, p_alphan, p_alphat, p_sigmamax, p_taumax, p_gic, p_giic, p_viscosity, p_blend, p_betan, p_betat, p_gammabot, &
     p_bottom_e1, p_bottom_nu12, p_top_e1, p_top_nu12, &
     j_law, j_integration, j_tangent, j_sampling, j_eight_plane, &
-    v_x, v_y, v_sepn, v_sept, v_tn, v_tt, v_damage, v_dissi, v_dissii, v_sn, v_st, v_dmax, v_dissv
-  use abaqus_check, only: refuse
+    v_x, v_y, v_sepn, v_sept, v_tn, v_tt, v_damage, v_dissi, v_dissii, v_sn, v_st, v_dmax, v_dissv, v_wn, v_wt
+  use abaqus_check, only: closure_of, refuse
   use abaqus_report, only: fatal
   use abaqus_neighbours, only: stress_of_neighbours
   implicit none(type, external)
@@ -42,9 +42,9 @@ contains
     type(status_type) :: status
     real(dp) :: energies(3), bulk_stress(3, 2), stiffness(3, 3, 2), xy(2, 8)
 
-    law = law_parameters(jprops(j_law), 1.0_dp/props(p_alphan), [props(p_alphat)/props(p_alphan), 1.0_dp], &
-      [props(p_taumax), props(p_sigmamax)], [props(p_giic), props(p_gic)], props(p_viscosity))
-    options = interface_options(jprops(j_integration), jprops(j_tangent), 0)
+    law = law_of(props, jprops)
+    options = interface_options(jprops(j_integration), 0, closure_of(jtype, jprops) == 1, &
+      merge(1.0_dp, props(p_blend), jprops(j_tangent) == 1))
     if (jtype > 2) then
       options%sampling = jprops(j_sampling)
       stabilisation = stabilisation_type([props(p_betat), props(p_betan)], props(p_gammabot))
@@ -75,6 +75,24 @@ contains
       call refuse(jtype, jelem, status)
     end if
   end subroutine evaluate_interface
+
+  !> The cohesive law; an initial stiffness of 0 stands for an infinite one.
+  pure function law_of(props, jprops) result(law)
+    real(dp), intent(in) :: props(*)
+    integer, intent(in) :: jprops(*)
+    type(law_parameters) :: law
+
+    law%kind = jprops(j_law)
+    law%flexibility = 0.0_dp
+    law%ratio = 1.0_dp
+    if (props(p_alphan) > 0.0_dp) then
+      law%flexibility = 1.0_dp/props(p_alphan)
+      law%ratio = [props(p_alphat)/props(p_alphan), 1.0_dp]
+    end if
+    law%strength = [props(p_taumax), props(p_sigmamax)]
+    law%toughness = [props(p_giic), props(p_gic)]
+    law%viscosity = props(p_viscosity)
+  end function law_of
 
   !> Stiffness of the bottom and the top quad of U4.
   subroutine elasticity_of_quads(jelem, props, plane, stiffness, good)
@@ -112,7 +130,8 @@ contains
 
     do k = 1, 2
       first = (k - 1)*size(interface_variables)
-      points(k)%history%separation = [svars(first + v_sept), svars(first + v_sepn)]
+      points(k)%history%separation = [svars(first + v_wt), svars(first + v_wn)]
+      points(k)%traction = [svars(first + v_tt), svars(first + v_tn)]
       points(k)%history%damage = svars(first + v_damage)
       points(k)%history%damage_max = svars(first + v_dmax)
       points(k)%history%dissipated = [svars(first + v_dissii), svars(first + v_dissi)]
@@ -130,8 +149,8 @@ contains
       first = (k - 1)*size(interface_variables)
       svars(first + v_x) = points(k)%position(1)
       svars(first + v_y) = points(k)%position(2)
-      svars(first + v_sepn) = points(k)%history%separation(2)
-      svars(first + v_sept) = points(k)%history%separation(1)
+      svars(first + v_sepn) = points(k)%jump(2)
+      svars(first + v_sept) = points(k)%jump(1)
       svars(first + v_tn) = points(k)%traction(2)
       svars(first + v_tt) = points(k)%traction(1)
       svars(first + v_damage) = points(k)%history%damage
@@ -141,6 +160,8 @@ contains
       svars(first + v_st) = points(k)%stabilisation(1)
       svars(first + v_dmax) = points(k)%history%damage_max
       svars(first + v_dissv) = points(k)%history%viscous
+      svars(first + v_wn) = points(k)%history%separation(2)
+      svars(first + v_wt) = points(k)%history%separation(1)
     end do
   end subroutine write_state
 

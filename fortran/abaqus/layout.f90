@@ -15,7 +15,8 @@ module abaqus_layout
   integer, parameter, public :: positive = 1
   integer, parameter, public :: not_negative = 2
   integer, parameter, public :: below_one = 3       ! 0 <= value < 1
-  integer, parameter, public :: any_value = 4
+  integer, parameter, public :: up_to_one = 4       ! 0 <= value <= 1
+  integer, parameter, public :: any_value = 5
   integer, parameter, public :: any_integer = huge(1)
 
   !> A real property.
@@ -55,37 +56,39 @@ module abaqus_layout
   integer, parameter, public :: p_gic = 6
   integer, parameter, public :: p_giic = 7
   integer, parameter, public :: p_viscosity = 8
+  integer, parameter, public :: p_blend = 9
   ! reals of the stabilised interface elements
-  integer, parameter, public :: p_betan = 9
-  integer, parameter, public :: p_betat = 10
-  integer, parameter, public :: p_gammabot = 11
+  integer, parameter, public :: p_betan = 10
+  integer, parameter, public :: p_betat = 11
+  integer, parameter, public :: p_gammabot = 12
   ! reals of the eight-node interface element: elastic constants of its two quads
-  integer, parameter, public :: p_bottom_e1 = 12
-  integer, parameter, public :: p_bottom_e2 = 13
-  integer, parameter, public :: p_bottom_e3 = 14
-  integer, parameter, public :: p_bottom_nu12 = 15
-  integer, parameter, public :: p_bottom_nu13 = 16
-  integer, parameter, public :: p_bottom_nu23 = 17
-  integer, parameter, public :: p_bottom_g12 = 18
-  integer, parameter, public :: p_bottom_angle = 19
-  integer, parameter, public :: p_top_e1 = 20
-  integer, parameter, public :: p_top_e2 = 21
-  integer, parameter, public :: p_top_e3 = 22
-  integer, parameter, public :: p_top_nu12 = 23
-  integer, parameter, public :: p_top_nu13 = 24
-  integer, parameter, public :: p_top_nu23 = 25
-  integer, parameter, public :: p_top_g12 = 26
-  integer, parameter, public :: p_top_angle = 27
+  integer, parameter, public :: p_bottom_e1 = 13
+  integer, parameter, public :: p_bottom_e2 = 14
+  integer, parameter, public :: p_bottom_e3 = 15
+  integer, parameter, public :: p_bottom_nu12 = 16
+  integer, parameter, public :: p_bottom_nu13 = 17
+  integer, parameter, public :: p_bottom_nu23 = 18
+  integer, parameter, public :: p_bottom_g12 = 19
+  integer, parameter, public :: p_bottom_angle = 20
+  integer, parameter, public :: p_top_e1 = 21
+  integer, parameter, public :: p_top_e2 = 22
+  integer, parameter, public :: p_top_e3 = 23
+  integer, parameter, public :: p_top_nu12 = 24
+  integer, parameter, public :: p_top_nu13 = 25
+  integer, parameter, public :: p_top_nu23 = 26
+  integer, parameter, public :: p_top_g12 = 27
+  integer, parameter, public :: p_top_angle = 28
 
-  type(real_item), parameter, public :: reals(27) = [ &
+  type(real_item), parameter, public :: reals(28) = [ &
     real_item(p_thickness, 'THICKNESS', 'length', positive), & !< thickness out of the plane
-    real_item(p_alphan, 'ALPHAN', 'stress/length', positive), & !< initial normal stiffness alpha_n
-    real_item(p_alphat, 'ALPHAT', 'stress/length', positive), & !< initial tangential stiffness alpha_tau
+    real_item(p_alphan, 'ALPHAN', 'stress/length', not_negative), & !< initial normal stiffness alpha_n; 0: infinite, with CLOSURE 1
+    real_item(p_alphat, 'ALPHAT', 'stress/length', not_negative), & !< initial tangential stiffness alpha_tau; 0: as ALPHAN
     real_item(p_sigmamax, 'SIGMAMAX', 'stress', positive), & !< mode I strength
     real_item(p_taumax, 'TAUMAX', 'stress', positive), & !< mode II strength
     real_item(p_gic, 'GIC', 'energy/area', positive), & !< mode I fracture energy, above SIGMAMAX**2/(2 ALPHAN)
     real_item(p_giic, 'GIIC', 'energy/area', positive), & !< mode II fracture energy, above TAUMAX**2/(2 ALPHAT)
-    real_item(p_viscosity, 'VISCOSITY', 'time', not_negative), & !< relaxation time of the damage; 0: none
+    real_item(p_viscosity, 'VISCOSITY', 'time', not_negative), & !< relaxation time, see below; 0: none
+    real_item(p_blend, 'BLEND', '1', up_to_one), & !< share of the secant matrix in AMATRX, with TANGENT 0
     real_item(p_betan, 'BETAN', 'stress/length', not_negative), & !< stabilisation beta_n; 0: equation (21)
     real_item(p_betat, 'BETAT', 'stress/length', not_negative), & !< stabilisation beta_tau; 0: equation (21)
     real_item(p_gammabot, 'GAMMABOT', '1', below_one), & !< weight of the bottom stress; 0: equation (22)
@@ -118,32 +121,36 @@ module abaqus_layout
   ! integers of the four-node one
   integer, parameter, public :: j_offset_bottom = 5
   integer, parameter, public :: j_offset_top = 6
+  integer, parameter, public :: j_four_closure = 7
   ! integers of the eight-node one
   integer, parameter, public :: j_eight_plane = 5
+  integer, parameter, public :: j_eight_closure = 6
 
   type(integer_item), parameter, public :: continuum_integers(2) = [ &
     integer_item(j_plane, 'PLANE', 0, 1), & !< 0 plane stress, 1 plane strain
     integer_item(j_face, 'FACE', 0, 4)] !< face along a four-node stabilised interface (U3), as Abaqus counts; 0 none
 
   type(integer_item), parameter, public :: standard_integers(3) = [ &
-    integer_item(j_law, 'LAW', 1, 1), & !< 1 bilinear, damage at the displacement jump
+    integer_item(j_law, 'LAW', 1, 1), & !< 1 bilinear
     integer_item(j_integration, 'INTEGRATION', 0, 1), & !< 0 Gauss, 1 Newton-Cotes
     integer_item(j_tangent, 'TANGENT', 0, 1)] !< 0 consistent (23), 1 secant (24)
 
-  type(integer_item), parameter, public :: four_node_integers(6) = [ &
-    integer_item(j_law, 'LAW', 1, 1), & !< 1 bilinear, damage at the displacement jump
+  type(integer_item), parameter, public :: four_node_integers(7) = [ &
+    integer_item(j_law, 'LAW', 1, 1), & !< 1 bilinear
     integer_item(j_integration, 'INTEGRATION', 0, 1), & !< 0 Gauss, 1 Newton-Cotes
     integer_item(j_tangent, 'TANGENT', 0, 1), & !< at constant bulk stress: 0 consistent, 1 S alpha (1 - d) alone
     integer_item(j_sampling, 'SAMPLING', 0, 2), & !< bulk stress: 0 middle of the face, 1 face, 2 nearest Gauss point
     integer_item(j_offset_bottom, 'OFFSETBOTTOM', -any_integer, any_integer), & !< number of the quad below less its own
-    integer_item(j_offset_top, 'OFFSETTOP', -any_integer, any_integer)] !< number of the quad above, less its own
+    integer_item(j_offset_top, 'OFFSETTOP', -any_integer, any_integer), & !< number of the quad above, less its own
+    integer_item(j_four_closure, 'CLOSURE', 0, 1)] !< damage at 0 the displacement jump, 1 a separation of its own
 
-  type(integer_item), parameter, public :: eight_node_integers(5) = [ &
-    integer_item(j_law, 'LAW', 1, 1), & !< 1 bilinear, damage at the displacement jump
+  type(integer_item), parameter, public :: eight_node_integers(6) = [ &
+    integer_item(j_law, 'LAW', 1, 1), & !< 1 bilinear
     integer_item(j_integration, 'INTEGRATION', 0, 1), & !< 0 Gauss, 1 Newton-Cotes
     integer_item(j_tangent, 'TANGENT', 0, 1), & !< 0 consistent, 1 without the derivative of the damage
     integer_item(j_sampling, 'SAMPLING', 0, 2), & !< bulk stress: 0 middle of the face, 1 face, 2 nearest Gauss point
-    integer_item(j_eight_plane, 'PLANE', 0, 1)] !< 0 plane stress, 1 plane strain
+    integer_item(j_eight_plane, 'PLANE', 0, 1), & !< 0 plane stress, 1 plane strain
+    integer_item(j_eight_closure, 'CLOSURE', 0, 1)] !< damage at 0 the displacement jump, 1 a separation of its own
 
   ! variables of a point of the continuum element
   integer, parameter, public :: v_e11 = 1
@@ -179,27 +186,31 @@ module abaqus_layout
   integer, parameter, public :: v_st = 11
   integer, parameter, public :: v_dmax = 12
   integer, parameter, public :: v_dissv = 13
+  integer, parameter, public :: v_wn = 14
+  integer, parameter, public :: v_wt = 15
 
-  type(variable_item), parameter, public :: interface_variables(13) = [ &
+  type(variable_item), parameter, public :: interface_variables(15) = [ &
     variable_item(v_x, 'X', 'length'), & !< original position
     variable_item(v_y, 'Y', 'length'), & !< original position
-    variable_item(v_sepn, 'SEPN', 'length'), & !< normal separation, opening positive
-    variable_item(v_sept, 'SEPT', 'length'), & !< tangential separation
+    variable_item(v_sepn, 'SEPN', 'length'), & !< normal displacement jump, opening positive
+    variable_item(v_sept, 'SEPT', 'length'), & !< tangential displacement jump
     variable_item(v_tn, 'TN', 'stress'), & !< normal traction, tension positive
     variable_item(v_tt, 'TT', 'stress'), & !< tangential traction
-    variable_item(v_damage, 'DAMAGE', '1'), & !< damage that acts, from 0 to 1
+    variable_item(v_damage, 'DAMAGE', '1'), & !< damage that acts, from 0 to 1; with CLOSURE 1 (1 - K/ALPHAN) k/(K + k)
     variable_item(v_dissi, 'DISSI', 'energy/area'), & !< energy dissipated by damage in mode I
     variable_item(v_dissii, 'DISSII', 'energy/area'), & !< energy dissipated by damage in mode II
     variable_item(v_sn, 'SN', '1'), & !< stabilised S, normal; 1 in the standard element
     variable_item(v_st, 'ST', '1'), & !< stabilised S, tangential; 1 in the standard element
     variable_item(v_dmax, 'DMAX', '1'), & !< largest damage of the law so far; DAMAGE lags behind it with VISCOSITY
-    variable_item(v_dissv, 'DISSV', 'energy/area')] !< energy dissipated by the viscous regularisation
+    variable_item(v_dissv, 'DISSV', 'energy/area'), & !< energy dissipated by the viscous regularisation
+    variable_item(v_wn, 'WN', 'length'), & !< normal separation of the law: with CLOSURE 0 it is SEPN
+    variable_item(v_wt, 'WT', 'length')] !< tangential separation of the law: with CLOSURE 0 it is SEPT
 
   type(element_item), parameter, public :: elements(4) = [ &
     element_item(1, 4, 8, 1, 2, 32), & !< continuum quad, stress from a material of the deck (UELMAT)
-    element_item(2, 4, 8, 8, 3, 26), & !< standard cohesive interface
-    element_item(3, 4, 8, 11, 6, 26), & !< stabilised cohesive interface, four nodes, next to U1 quads
-    element_item(4, 8, 16, 27, 5, 26)] !< stabilised cohesive interface, eight nodes, self-contained; UNSYMM
+    element_item(2, 4, 8, 9, 3, 30), & !< standard cohesive interface
+    element_item(3, 4, 8, 12, 7, 30), & !< stabilised cohesive interface, four nodes, next to U1 quads
+    element_item(4, 8, 16, 28, 6, 30)] !< stabilised cohesive interface, eight nodes, self-contained; UNSYMM
 
 contains
 

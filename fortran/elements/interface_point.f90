@@ -11,20 +11,19 @@ module elements_interface_point
   use core_shape_functions, only: line_shape
   use core_status, only: status_type, zero_length, edges_apart, ok
   use cohesive_law, only: law_parameters, point_history, damage_state, dissipate
+  use cohesive_closure, only: closure_state, dissipate_consistently
   implicit none(type, external)
   private
   public :: interface_options, interface_point, interface_geometry
-  public :: measure_interface, separation_at, add_point, spread_to_nodes, close_point, point_energies
-  public :: consistent_tangent, secant_tangent, end_of_node, sign_of_node
-
-  integer, parameter :: consistent_tangent = 0
-  integer, parameter :: secant_tangent = 1
+  public :: measure_interface, separation_at, add_point, spread_to_nodes, close_point, close_consistent_point, point_energies
+  public :: end_of_node, sign_of_node
 
   !> Options every interface element has.
   type :: interface_options
-    integer :: rule       !< gauss_rule or newton_cotes_rule
-    integer :: tangent    !< consistent_tangent or secant_tangent
-    integer :: sampling   !< of the bulk stress; of no concern to the standard element
+    integer :: rule                 !< gauss_rule or newton_cotes_rule
+    integer :: sampling             !< of the bulk stress; of no concern to the standard element
+    logical :: consistent_closure   !< the law has a separation of its own; likewise
+    real(dp) :: secant_share        !< of the matrix at fixed damage in the tangent, from 0 to 1
   end type interface_options
 
   !> State of an integration point at the end of the increment; components (tau, n).
@@ -32,6 +31,8 @@ module elements_interface_point
     real(dp) :: position(2) = 0.0_dp        !< global x and y
     real(dp) :: traction(2) = 0.0_dp        !< T, stress, tension positive
     real(dp) :: stabilisation(2) = 0.0_dp   !< S
+    real(dp) :: jump(2) = 0.0_dp            !< displacement jump g, opening positive
+    real(dp) :: stored = 0.0_dp             !< recoverable energy, energy/area
     type(point_history) :: history
   end type interface_point
 
@@ -159,20 +160,44 @@ contains
     new%position = shape(1)*geometry%ends(:, 1) + shape(2)*geometry%ends(:, 2)
     new%traction = traction
     new%stabilisation = stabilisation
+    new%jump = separation
+    new%stored = 0.5_dp*(traction(1)*separation(1) + traction(2)*separation(2))
     new%history%separation = separation
     new%history%damage = state%damage
     new%history%damage_max = state%damage_max
     call dissipate(law, old%history, separation, state, new%history%dissipated, new%history%viscous)
   end subroutine close_point
 
-  !> Energies of a point: stored T.g/2, dissipated by damage, dissipated by the viscous overstress.
+  !> State of a point of the consistent closure at the end of the increment.
+  pure subroutine close_consistent_point(law, geometry, s, old, separation, state, new)
+    type(law_parameters), intent(in) :: law
+    type(interface_geometry), intent(in) :: geometry
+    real(dp), intent(in) :: s
+    type(interface_point), intent(in) :: old
+    real(dp), intent(in) :: separation(2)   !< displacement jump
+    type(closure_state), intent(in) :: state
+    type(interface_point), intent(out) :: new
+    real(dp) :: shape(2)
+
+    shape = line_shape(s)
+    new%position = shape(1)*geometry%ends(:, 1) + shape(2)*geometry%ends(:, 2)
+    new%traction = state%traction
+    new%stabilisation = state%stabilisation
+    new%jump = separation
+    new%stored = 0.5_dp*(state%recoverable(1)*state%separation(1) + state%recoverable(2)*state%separation(2))
+    new%history%separation = state%separation
+    new%history%damage = state%damage
+    new%history%damage_max = state%damage
+    call dissipate_consistently(law, old%history, old%traction, state, new%history%dissipated, new%history%viscous)
+  end subroutine close_consistent_point
+
+  !> Energies of a point: stored, dissipated by damage, dissipated by the viscous overstress.
   pure function point_energies(weight, point) result(energies)
     real(dp), intent(in) :: weight   !< area of the point
     type(interface_point), intent(in) :: point
     real(dp) :: energies(3)
 
-    energies(1) = 0.5_dp*weight*(point%traction(1)*point%history%separation(1) &
-      + point%traction(2)*point%history%separation(2))
+    energies(1) = weight*point%stored
     energies(2) = weight*(point%history%dissipated(1) + point%history%dissipated(2))
     energies(3) = weight*point%history%viscous
   end function point_energies

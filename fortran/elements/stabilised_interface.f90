@@ -9,11 +9,12 @@ module elements_stabilised_interface
   use core_shape_functions, only: line_shape, quad_gradient
   use core_status, only: status_type, ok, inside_out
   use materials_spectral_norm, only: spectral_norm
-  use cohesive_law, only: law_parameters, damage_state, check_law, evolve_damage, stiffness_of
+  use cohesive_law, only: law_parameters, damage_state, check_law, check_beta, evolve_damage, stiffness_of
+  use cohesive_closure, only: closure_state, close_consistently
   use cohesive_traction, only: stabilised_traction
   use elements_interface_point, only: interface_options, interface_point, interface_geometry, &
-    measure_interface, separation_at, add_point, spread_to_nodes, close_point, point_energies, &
-    end_of_node, sign_of_node, secant_tangent
+    measure_interface, separation_at, add_point, spread_to_nodes, close_point, close_consistent_point, point_energies, &
+    end_of_node, sign_of_node
   use elements_quad4, only: face_point, gauss_of_face, quad4_area
   implicit none(type, external)
   private
@@ -70,13 +71,15 @@ contains
     real(dp), intent(out) :: energies(3)          !< stored T.g/2, dissipated by damage, viscous
     type(status_type), intent(out) :: status
     type(interface_geometry) :: geometry
-    real(dp) :: local(2, 2), s_of_point(2), weight, to_traction(2, 3), force(2, 2), matrix(2, 2, 2, 2)
+    real(dp) :: local(2, 2), by_bulk(2, 2), weight, to_traction(2, 3), force(2, 2), matrix(2, 2, 2, 2)
     integer :: k
 
     residual = 0.0_dp
     tangent = 0.0_dp
     energies = 0.0_dp
     call check_law(law, status)
+    if (status%code /= ok) return
+    if (options%consistent_closure) call check_beta(law, stabilisation%beta, status)
     if (status%code /= ok) return
     call measure_interface(coordinates, options%rule, geometry, status)
     if (status%code /= ok) return
@@ -86,9 +89,9 @@ contains
     weight = 0.5_dp*geometry%length*thickness
     to_traction = traction_operator(geometry%frame)
     do k = 1, 2
-      call evaluate_point(law, options%tangent, geometry, k, stabilisation%beta, dtime, &
+      call evaluate_point(law, options, geometry, k, stabilisation%beta, dtime, &
         separation_at(geometry%frame, geometry%s(k), u), matmul(to_traction, bulk_stress(:, k)), &
-        old(k), new(k), local, s_of_point)
+        old(k), new(k), local, by_bulk)
       call add_point(geometry%frame, geometry%s(k), weight, new(k)%traction, local, force, matrix)
       energies = energies + point_energies(weight, new(k))
     end do
@@ -116,7 +119,7 @@ contains
     integer, parameter :: owned(4) = [4, 3, 6, 5]   ! nodes 1 to 4 of the interface
     type(interface_geometry) :: geometry
     type(stabilisation_type) :: used
-    real(dp) :: local(2, 2), s_of_point(2), weight, areas(2), norms(2), xy(2, 4), u_interface(2, 4), flat(16)
+    real(dp) :: local(2, 2), by_bulk(2, 2), weight, areas(2), norms(2), xy(2, 4), u_interface(2, 4), flat(16)
     real(dp) :: bulk(2, 16), stress_part(2, 16, 2), force(2, 2), matrix(2, 2, 2, 2), jump_tangent(2, 4, 2, 4)
     real(dp) :: nodal_force(2, 4)
     integer :: a, b, k
@@ -140,6 +143,8 @@ contains
     end if
     norms = [spectral_norm(stiffness(:, :, 1)), spectral_norm(stiffness(:, :, 2))]
     used = weigh_sides(given, norms, areas, geometry%length)
+    if (options%consistent_closure) call check_beta(law, used%beta, status)
+    if (status%code /= ok) return
 
     force = 0.0_dp
     matrix = 0.0_dp
@@ -150,11 +155,11 @@ contains
         call bulk_traction(options%sampling, geometry, k, used%gamma_bottom, stiffness, coordinates, bulk, status)
         if (status%code /= ok) return
       end if
-      call evaluate_point(law, options%tangent, geometry, k, used%beta, dtime, &
+      call evaluate_point(law, options, geometry, k, used%beta, dtime, &
         separation_at(geometry%frame, geometry%s(k), u_interface), matmul(bulk, flat), old(k), new(k), local, &
-        s_of_point)
+        by_bulk)
       call add_point(geometry%frame, geometry%s(k), weight, new(k)%traction, local, force, matrix)
-      call add_stress_part(geometry, k, weight, s_of_point, bulk, stress_part)
+      call add_stress_part(geometry, k, weight, by_bulk, bulk, stress_part)
       energies = energies + point_energies(weight, new(k))
     end do
     call spread_to_nodes(force, matrix, nodal_force, jump_tangent)
@@ -169,44 +174,56 @@ contains
   end subroutine stabilised_interface_eight
 
   !> Adds the derivative of the force of point k on the two ends of the top edge by the bulk stress.
-  pure subroutine add_stress_part(geometry, k, weight, stabilisation, bulk, matrix)
+  pure subroutine add_stress_part(geometry, k, weight, by_bulk, bulk, matrix)
     type(interface_geometry), intent(in) :: geometry
     integer, intent(in) :: k
-    real(dp), intent(in) :: weight, stabilisation(2)
+    real(dp), intent(in) :: weight
+    real(dp), intent(in) :: by_bulk(2, 2)             !< derivative of T by <sigma>.n, (tau, n)
     real(dp), intent(in) :: bulk(2, 16)               !< derivative of <sigma>.n, (tau, n), by the displacements
     real(dp), intent(inout) :: matrix(2, 16, 2)       !< (x and y, displacement, end)
-    real(dp) :: shape(2), row(16), part(2)
+    real(dp) :: shape(2), row(16), part(2, 2)
     integer :: i, j
 
     shape = weight*line_shape(geometry%s(k))
-    part = 1.0_dp - stabilisation
+    part = matmul(transpose(geometry%frame), by_bulk)
     do i = 1, 2
-      row = (part(1)*geometry%frame(1, i))*bulk(1, :) + (part(2)*geometry%frame(2, i))*bulk(2, :)
+      row = part(i, 1)*bulk(1, :) + part(i, 2)*bulk(2, :)
       do j = 1, 2
         matrix(i, :, j) = matrix(i, :, j) + shape(j)*row
       end do
     end do
   end subroutine add_stress_part
 
-  !> Damage, traction and state of point k; the derivative of T by g, and S, with which that by <sigma>.n is 1 - S.
-  pure subroutine evaluate_point(law, tangent, geometry, k, beta, dtime, separation, bulk, old, new, local, s_of_point)
+  !> Traction and state of point k, and the derivatives of T by g and by <sigma>.n.
+  pure subroutine evaluate_point(law, options, geometry, k, beta, dtime, separation, bulk, old, new, by_jump, by_bulk)
     type(law_parameters), intent(in) :: law
-    integer, intent(in) :: tangent
+    type(interface_options), intent(in) :: options
     type(interface_geometry), intent(in) :: geometry
     integer, intent(in) :: k
     real(dp), intent(in) :: beta(2), dtime, separation(2)
     real(dp), intent(in) :: bulk(2)                 !< <sigma>.n in (tau, n)
     type(interface_point), intent(in) :: old
     type(interface_point), intent(out) :: new
-    real(dp), intent(out) :: local(2, 2), s_of_point(2)
+    real(dp), intent(out) :: by_jump(2, 2)          !< at constant bulk stress
+    real(dp), intent(out) :: by_bulk(2, 2)
     type(damage_state) :: state
-    real(dp) :: traction(2)
+    type(closure_state) :: closure
+    real(dp) :: traction(2), s_of_point(2)
 
-    call evolve_damage(law, old%history, separation, dtime, state)
-    if (tangent == secant_tangent) state%slope = 0.0_dp
-    call stabilised_traction(stiffness_of(law), beta, separation, bulk, state%damage, state%slope, traction, s_of_point, &
-      local)
-    call close_point(law, geometry, geometry%s(k), old, separation, state, traction, s_of_point, new)
+    if (options%consistent_closure) then
+      call close_consistently(law, beta, bulk + beta*separation, dtime, options%secant_share, old%history, closure)
+      by_bulk = closure%by_trial
+      by_jump(:, 1) = beta(1)*by_bulk(:, 1)
+      by_jump(:, 2) = beta(2)*by_bulk(:, 2)
+      call close_consistent_point(law, geometry, geometry%s(k), old, separation, closure, new)
+    else
+      call evolve_damage(law, old%history, separation, dtime, state)
+      state%slope = (1.0_dp - options%secant_share)*state%slope
+      call stabilised_traction(stiffness_of(law), beta, separation, bulk, state%damage, state%slope, traction, &
+        s_of_point, by_jump)
+      by_bulk = reshape([1.0_dp - s_of_point(1), 0.0_dp, 0.0_dp, 1.0_dp - s_of_point(2)], [2, 2])
+      call close_point(law, geometry, geometry%s(k), old, separation, state, traction, s_of_point, new)
+    end if
   end subroutine evaluate_point
 
   !> Matrix that takes the 16 displacements to <sigma>.n in (tau, n) at point k.

@@ -7,7 +7,7 @@ module elements_standard_interface
   use cohesive_law, only: law_parameters, damage_state, check_law, evolve_damage, stiffness_of
   use cohesive_traction, only: standard_traction
   use elements_interface_point, only: interface_options, interface_point, interface_geometry, &
-    measure_interface, separation_at, add_point, spread_to_nodes, close_point, point_energies, secant_tangent
+    measure_interface, separation_at, add_point, spread_to_nodes, close_point, point_energies
   implicit none(type, external)
   private
   public :: standard_interface
@@ -48,7 +48,7 @@ contains
     do k = 1, 2
       separation = separation_at(geometry%frame, geometry%s(k), u)
       call evolve_damage(law, old(k)%history, separation, dtime, state)
-      if (options%tangent == secant_tangent) state%slope = 0.0_dp
+      state%slope = (1.0_dp - options%secant_share)*state%slope
       call standard_traction(stiffness_of(law), separation, state%damage, state%slope, traction, local)
       call add_point(geometry%frame, geometry%s(k), weight, traction, local, force, matrix)
       ! S = 1 turns the stabilised weak form into the standard one

@@ -21,6 +21,7 @@ class Interface:
     beta       stabilisation parameter beta_n = beta_tau (N/mm^3); 0 computes it by equation (21)
     viscosity  relaxation time of the damage, in step time
     sampling   of the bulk stress: 0 middle of the face, 1 face, 2 Gauss point
+    consistent the law has a separation of its own (CLOSURE 1), in place of the damage at the displacement jump
     """
 
     type: str
@@ -28,6 +29,7 @@ class Interface:
     beta: float = 0.0
     viscosity: float = 0.0
     sampling: int = 0
+    consistent: bool = False
 
 
 @dataclass(frozen=True, slots=True)
@@ -130,6 +132,7 @@ def interface_values(specimen: Specimen) -> dict[str, float]:
         "GIC": law.toughness_1,
         "GIIC": law.toughness_2,
         "VISCOSITY": interface.viscosity,
+        "BLEND": 0.0,
         "BETAN": interface.beta,
         "BETAT": interface.beta,
         "GAMMABOT": 0.0,
@@ -140,6 +143,7 @@ def interface_values(specimen: Specimen) -> dict[str, float]:
         "OFFSETBOTTOM": below,
         "OFFSETTOP": above,
         "PLANE": 0,
+        "CLOSURE": 1 if interface.consistent else 0,
     }
     for side, ply in (("BOTTOM", specimen.bottom), ("TOP", specimen.top)):
         named = zip(("E1", "E2", "NU12", "G12"), ply.in_plane, strict=True)

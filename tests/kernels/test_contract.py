@@ -83,12 +83,12 @@ class Arguments:
     def __init__(self, library, interface, *, columns, request):
         self.rhs = np.full((columns, 11), np.nan)
         self.amatrx = np.full((8, 8), np.nan)
-        self.svars, self.energy = np.zeros(28), np.full(8, 7.0)
+        self.svars, self.energy = np.zeros(32), np.full(8, 7.0)
         u = interface.displacements(4, *interface.states["softening"], seed=0).ravel()
-        props = np.array([2.0, 2e4, 3e4, 30.0, 60.0, 0.26, 1.002, 0.0])
+        props = np.array([2.0, 2e4, 3e4, 30.0, 60.0, 0.26, 1.002, 0.0, 0.0])
         zeros, pnewdt = np.zeros(64), np.array([1e36])
         arguments = [
-            *(self.rhs, self.amatrx, self.svars, self.energy, 8, columns, 28, props, 8, interface.four.copy(), 2, 4),
+            *(self.rhs, self.amatrx, self.svars, self.energy, 8, columns, 32, props, 9, interface.four.copy(), 2, 4),
             *(u, zeros, zeros, zeros, 2, zeros, np.array([1.0]), 1, 1, 77, zeros, 0, 0, zeros, zeros, 0),
             *(np.array([1, 0, request, 0, 0], dtype=np.int32), 11, zeros, 1, pnewdt),
             *(np.array([1, 0, 0], dtype=np.int32), 3, np.array([1.0])),
@@ -106,8 +106,8 @@ def test_every_entry_is_filled_and_nothing_else(library, interface):
     np.testing.assert_array_equal(two.rhs[1, :8], 0)
     assert np.isnan(two.rhs[:, 8:]).all()
     assert np.isfinite(two.amatrx).all()
-    assert (two.svars[:26] != 0).any()
-    np.testing.assert_array_equal(two.svars[26:], 0)
+    assert (two.svars[:30] != 0).any()
+    np.testing.assert_array_equal(two.svars[30:], 0)
     np.testing.assert_array_equal(two.energy[[0, 2, 4, 5, 6, 7]], 0)
 
 

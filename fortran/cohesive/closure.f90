@@ -1,0 +1,292 @@
+! SPDX-FileCopyrightText: The uel-harness authors
+! SPDX-License-Identifier: BSD-3-Clause
+!> The consistent stabilised law: the cohesive law has a separation w of its own, closed in the integration point.
+!>
+!> The paper evaluates the damage of (16) at the displacement jump g. With a stiff law the jump is dominated by the gap of
+!> Nitsche's method, zero only to the order of the element size. Here, with the trial traction p = <sigma>.n + beta g,
+!>
+!>     t(w; history) + beta w = p,      T = t(w; history).
+!>
+!> Before the onset of damage, t = alpha w, this is (16). With the secant stiffness K of t_i = K ratio_i w_i and
+!> b = beta/ratio, w_i = p_i/(ratio_i (K + b_i)), so that one scalar is sought. It is x = 1/(K + min b), which runs from
+!> 1/(alpha_n + b), or 0 for an infinite alpha, to 1/b at failure; in it a bilinear law is a straight line wherever
+!> b_1 = b_2. T depends on p alone.
+!>
+!> Components are in the order (tau, n). The interface is closed where p_n < 0: the normal stiffness is not damaged there.
+module cohesive_closure
+  use core_kinds, only: dp
+  use cohesive_law, only: law_parameters, point_history, softening
+  implicit none(type, external)
+  private
+  public :: closure_state, close_consistently, dissipate_consistently
+
+  !> Outcome of the closure.
+  type :: closure_state
+    real(dp) :: traction(2)        !< T, stress, tension positive
+    real(dp) :: recoverable(2)     !< T less the viscous overstress
+    real(dp) :: separation(2)      !< w, length
+    real(dp) :: damage             !< see `damage_of`
+    real(dp) :: stabilisation(2)   !< S of (17)
+    real(dp) :: by_trial(2, 2)     !< dT/dp
+  end type closure_state
+
+  !> The scalar equation: b, and p/ratio without its compressive part.
+  type :: closure_equation
+    real(dp) :: b(2)         !< (beta + viscous part)/ratio, stress/length
+    real(dp) :: least        !< smaller one of b
+    real(dp) :: driving(2)   !< absolute value of p/ratio, stress
+  end type closure_equation
+
+contains
+
+  !> Traction, separation and damage for a trial traction, and the derivative of the traction by it.
+  !>
+  !> Viscosity adds the overstress eta dw/dt, by backward Euler: beta and p become beta + eta/dt and p + eta w_old/dt. Its
+  !> eta = viscosity k (1 - D_old) ratio, with the softening stiffness k, leaves failed points alone. A lag of the damage
+  !> will not do: a point of infinite alpha that is not damaged does not open, and one that does not open has no damage
+  !> to catch up with. In an increment of no duration a viscous law keeps its damage.
+  pure subroutine close_consistently(law, beta, trial, dtime, secant_share, history, state)
+    type(law_parameters), intent(in) :: law
+    real(dp), intent(in) :: beta(2)              !< stress/length, (tau, n)
+    real(dp), intent(in) :: trial(2)             !< p, stress
+    real(dp), intent(in) :: dtime                !< duration of the increment
+    real(dp), intent(in) :: secant_share         !< of the tangent at fixed damage in `by_trial`, from 0 to 1
+    type(point_history), intent(in) :: history
+    type(closure_state), intent(out) :: state
+    type(closure_equation) :: equation
+    real(dp), dimension(2) :: viscous, old, p, stiff, soft
+    real(dp), dimension(2, 2) :: loading, opening
+    real(dp) :: x, rest
+    logical :: closed, grows
+
+    old = opening_part(history%separation)
+    viscous = 0.0_dp
+    if (law%viscosity > 0.0_dp .and. dtime > 0.0_dp) viscous = (law%viscosity/dtime) &
+      *softening_stiffness(law)*(1.0_dp - history%damage)*law%ratio
+    p = trial + viscous*old
+    closed = p(2) < 0.0_dp
+    equation%b = (beta + viscous)/law%ratio
+    equation%least = minval(equation%b)
+    equation%driving = [abs(p(1)), max(0.0_dp, p(2))]/law%ratio
+
+    x = at_damage(law, equation%least, history%damage)
+    state%damage = history%damage
+    grows = history%damage < 1.0_dp .and. (dtime > 0.0_dp .or. .not. law%viscosity > 0.0_dp)
+    if (grows) call find_root(law, equation, x, grows)
+    if (grows) state%damage = damage_of(law, equation%least, x)
+    rest = remainder_at(equation%least, x)
+
+    ! t and w as shares of p
+    stiff = rest/(1.0_dp + (equation%b - equation%least)*x)
+    soft = x/(1.0_dp + (equation%b - equation%least)*x)/law%ratio
+    state%stabilisation = (beta/law%ratio)*x/(rest + (beta/law%ratio)*x)
+    if (closed) then
+      stiff(2) = 1.0_dp/(1.0_dp + beta(2)*law%flexibility)
+      soft(2) = law%flexibility*stiff(2)
+      state%stabilisation(2) = beta(2)*soft(2)
+    end if
+    state%recoverable = stiff*p
+    state%separation = soft*p
+    state%traction = state%recoverable + viscous*(opening_part(state%separation) - old)
+
+    if (closed) viscous(2) = 0.0_dp
+    state%by_trial = 0.0_dp
+    state%by_trial(1, 1) = stiff(1) + viscous(1)*soft(1)
+    state%by_trial(2, 2) = stiff(2) + viscous(2)*soft(2)
+    if (grows .and. secant_share < 1.0_dp) then
+      call slopes_of_loading(law, equation, x, p(1), loading, opening)
+      loading(1, :) = loading(1, :) + viscous(1)*opening(1, :)
+      loading(2, :) = loading(2, :) + viscous(2)*opening(2, :)
+      if (closed) loading(:, 2) = [0.0_dp, state%by_trial(2, 2)]
+      state%by_trial = secant_share*state%by_trial + (1.0_dp - secant_share)*loading
+    end if
+  end subroutine close_consistently
+
+  !> Finds x where the damage of the law is that which opens the law to the separation at this damage.
+  !>
+  !> h(x) = 1 - x min b - tau(lambda(x), c(x)) x/lambda, (K - tau/lambda) x with K = 1/x - min b, falls from a positive
+  !> value, if the damage grows at all, to one that is not positive at failure. Newton's method, kept within the bracket.
+  pure subroutine find_root(law, equation, x, grows)
+    type(law_parameters), intent(in) :: law
+    type(closure_equation), intent(in) :: equation
+    real(dp), intent(inout) :: x         !< at the damage so far; at the damage of the end of the increment
+    logical, intent(out) :: grows        !< false if the damage stays
+    integer, parameter :: most_steps = 100
+    real(dp) :: lower, upper, h, slope, new
+    integer :: i
+
+    grows = maxval(equation%driving) > 0.0_dp
+    if (.not. grows) return
+    call closure_function(law, equation, x, h, slope)
+    grows = h > 0.0_dp
+    if (.not. grows) return
+    lower = x
+    upper = 1.0_dp/equation%least
+    call closure_function(law, equation, upper, h, slope)
+    if (h >= 0.0_dp) then
+      x = upper
+      return
+    end if
+    call closure_function(law, equation, x, h, slope)
+    do i = 1, most_steps
+      new = x - h/min(slope, -tiny(1.0_dp)*upper)
+      if (.not. (new > lower .and. new < upper)) new = 0.5_dp*(lower + upper)
+      if (abs(new - x) <= epsilon(1.0_dp)*new) exit
+      x = new
+      call closure_function(law, equation, x, h, slope)
+      if (h > 0.0_dp) then
+        lower = x
+      else
+        upper = x
+      end if
+    end do
+  end subroutine find_root
+
+  !> h of `find_root` and its derivative.
+  pure subroutine closure_function(law, equation, x, h, slope)
+    type(law_parameters), intent(in) :: law
+    type(closure_equation), intent(in) :: equation
+    real(dp), intent(in) :: x
+    real(dp), intent(out) :: h, slope
+    real(dp), dimension(2) :: direction, excess
+    real(dp) :: length, traction, by_separation, by_angle, mean, turn
+
+    call direction_at(equation, x, length, direction)
+    call softening(law, x*length, direction, traction, by_separation, by_angle)
+    h = remainder_at(equation%least, x) - traction/length
+    ! v_i = driving_i/(1 + (b_i - min b) x) and its logarithmic derivative, which turns the direction
+    excess = (equation%b - equation%least)/(1.0_dp + (equation%b - equation%least)*x)
+    mean = excess(1)*direction(1)**2 + excess(2)*direction(2)**2
+    turn = (excess(2) - excess(1))*direction(1)*direction(2)
+    slope = -equation%least - by_separation*(1.0_dp - x*mean) - (by_angle*turn + traction*mean)/length
+  end subroutine closure_function
+
+  !> Direction c of the separation at x, and lambda/x.
+  pure subroutine direction_at(equation, x, length, direction)
+    type(closure_equation), intent(in) :: equation
+    real(dp), intent(in) :: x
+    real(dp), intent(out) :: length         !< stress
+    real(dp), intent(out) :: direction(2)
+
+    direction = equation%driving/(1.0_dp + (equation%b - equation%least)*x)
+    length = sqrt(direction(1)**2 + direction(2)**2)
+    direction = direction/length
+  end subroutine direction_at
+
+  !> dt/dp and dw/dp while the damage grows, through lambda and the angle theta of c = (sin theta, cos theta):
+  !> p_i/ratio_i = tau c_i + b_i lambda c_i.
+  pure subroutine slopes_of_loading(law, equation, x, shear, of_traction, of_separation)
+    type(law_parameters), intent(in) :: law
+    type(closure_equation), intent(in) :: equation
+    real(dp), intent(in) :: x
+    real(dp), intent(in) :: shear                 !< p_tau, for its sign
+    real(dp), intent(out) :: of_traction(2, 2)    !< dt/dp
+    real(dp), intent(out) :: of_separation(2, 2)  !< dw/dp
+    real(dp), dimension(2, 2) :: a, inverse, of_tau, of_w
+    real(dp), dimension(2) :: direction, turned
+    real(dp) :: length, traction, by_separation, by_angle, separation, sides(2)
+    integer :: j
+
+    call direction_at(equation, x, length, direction)
+    separation = x*length
+    call softening(law, separation, direction, traction, by_separation, by_angle)
+    turned = [direction(2), -direction(1)]
+    of_tau(:, 1) = by_separation*direction
+    of_tau(:, 2) = by_angle*direction + traction*turned
+    of_w(:, 1) = direction
+    of_w(:, 2) = separation*turned
+    a(:, 1) = of_tau(:, 1) + equation%b*of_w(:, 1)
+    a(:, 2) = of_tau(:, 2) + equation%b*of_w(:, 2)
+    inverse = reshape([a(2, 2), -a(2, 1), -a(1, 2), a(1, 1)], [2, 2])/(a(1, 1)*a(2, 2) - a(1, 2)*a(2, 1))
+    of_tau = matmul(of_tau, inverse)
+    of_w = matmul(of_w, inverse)
+    sides = [sign(1.0_dp, shear), 1.0_dp]
+    do j = 1, 2
+      of_traction(:, j) = law%ratio*sides*of_tau(:, j)*(sides(j)/law%ratio(j))
+      of_separation(:, j) = sides*of_w(:, j)*(sides(j)/law%ratio(j))
+    end do
+  end subroutine slopes_of_loading
+
+  !> Damage D = (1 - K/alpha) k/(K + k) at x, k the softening stiffness.
+  !>
+  !> 1 - K/alpha jumps to 1 where alpha is large or infinite. D does not: under opening, a bilinear law has dissipated the
+  !> fraction D of its fracture energy, at any alpha. It is a function of K alone, which never grows, so D never falls.
+  pure function damage_of(law, least, x) result(damage)
+    type(law_parameters), intent(in) :: law
+    real(dp), intent(in) :: least, x
+    real(dp) :: damage
+    real(dp) :: k, rest
+
+    k = softening_stiffness(law)
+    rest = remainder_at(least, x)
+    damage = min(1.0_dp, k*max(0.0_dp, x - law%flexibility*rest)/(rest + k*x))
+  end function damage_of
+
+  !> x at a damage: the inverse of `damage_of`.
+  pure function at_damage(law, least, damage) result(x)
+    type(law_parameters), intent(in) :: law
+    real(dp), intent(in) :: least, damage
+    real(dp) :: x
+    real(dp) :: k, flexible
+
+    k = softening_stiffness(law)
+    flexible = damage + k*law%flexibility
+    x = 1.0_dp/least
+    if (damage < 1.0_dp) x = flexible/(k*(1.0_dp - damage) + least*flexible)
+  end function at_damage
+
+  !> 1 - x min b = K x, zero at failure without rounding.
+  pure function remainder_at(least, x) result(rest)
+    real(dp), intent(in) :: least, x
+    real(dp) :: rest
+
+    rest = 0.0_dp
+    if (x < 1.0_dp/least) rest = 1.0_dp - least*x
+  end function remainder_at
+
+  !> Softening stiffness k of the bilinear law in mode I.
+  pure function softening_stiffness(law) result(k)
+    type(law_parameters), intent(in) :: law
+    real(dp) :: k
+
+    k = 1.0_dp/(2.0_dp*law%toughness(2)/law%strength(2)**2 - law%flexibility)
+  end function softening_stiffness
+
+  !> The separation without the penetration of a closed interface.
+  pure function opening_part(separation) result(part)
+    real(dp), intent(in) :: separation(2)
+    real(dp) :: part(2)
+
+    part = [separation(1), max(0.0_dp, separation(2))]
+  end function opening_part
+
+  !> Energies dissipated up to the end of an increment, per area: by the trapezoidal rule (t0 w1 - t1 w0)/2, as in
+  !> `dissipate`, by backward Euler what the overstress works.
+  pure subroutine dissipate_consistently(law, history, old_traction, state, dissipated, viscous)
+    type(law_parameters), intent(in) :: law
+    type(point_history), intent(in) :: history
+    real(dp), intent(in) :: old_traction(2)    !< T at the start of the increment
+    type(closure_state), intent(in) :: state
+    real(dp), intent(out) :: dissipated(2)     !< by sliding and by opening
+    real(dp), intent(out) :: viscous
+    real(dp), dimension(2) :: w0, w1, t0, t1, overstress
+    real(dp) :: k, flexible
+
+    w0 = opening_part(history%separation)
+    w1 = opening_part(state%separation)
+    t1 = state%recoverable
+    k = softening_stiffness(law)
+    flexible = history%damage + k*law%flexibility
+    if (flexible > 0.0_dp) then
+      t0 = law%ratio*w0*(k*(1.0_dp - history%damage)/flexible)
+    else
+      ! rigid so far
+      t0 = old_traction
+    end if
+    overstress = state%traction - state%recoverable
+    dissipated = history%dissipated
+    if (state%damage > history%damage) dissipated = dissipated + 0.5_dp*(opening_part(t0)*w1 - opening_part(t1)*w0)
+    viscous = history%viscous + overstress(1)*(w1(1) - w0(1)) + overstress(2)*(w1(2) - w0(2))
+  end subroutine dissipate_consistently
+
+end module cohesive_closure
