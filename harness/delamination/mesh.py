@@ -133,6 +133,16 @@ def two_arms(x: FloatArray, height: float, rows: int, crack: float, bump: float 
     return TwoArmMesh(x, ordinates, height + ordinates, first, bumps)
 
 
+def refined(mesh: TwoArmMesh, factor: int) -> TwoArmMesh:
+    """Every quad cut into factor x factor quads; the interface keeps its shape, bumps and all."""
+    places = np.arange(factor * mesh.columns + 1) / factor
+    x, bumps = (np.interp(places, np.arange(len(mesh.x)), values) for values in (mesh.x, mesh.bumps))
+    below, above = mesh.rows
+    lower = np.interp(np.arange(factor * below + 1) / factor, np.arange(below + 1), mesh.lower)
+    upper = np.interp(np.arange(factor * above + 1) / factor, np.arange(above + 1), mesh.upper)
+    return TwoArmMesh(np.round(x, 9), lower, upper, factor * mesh.first, bumps)
+
+
 def graded_columns(start: float, end: float, size: float, ratio: float, largest: float) -> FloatArray:
     """Edges from `start` to `end` whose spacing grows from `size` by `ratio` up to `largest`, stretched to fit.
 

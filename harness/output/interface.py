@@ -74,6 +74,12 @@ class InterfaceFile:
         ]
 
 
+def read_profiles(path: Path) -> list[dict[str, FloatArray]]:
+    """All profiles that were written, each by column as `read_interface` gives it; raises UelError without a file."""
+    names, blocks = _read_blocks(path)
+    return [dict(zip(names, np.array(rows).T, strict=True)) for rows in blocks.values()]
+
+
 def read_interface(path: Path, step: int | None = None, increment: int = -1) -> dict[str, FloatArray]:
     """Profile of one increment, by column, in the order of the elements.
 

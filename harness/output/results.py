@@ -14,7 +14,7 @@ from harness.errors import UelError
 from harness.model.arrays import FloatArray
 from harness.output.fields import Frame, read_field_mesh, read_frames
 from harness.output.history import read_history
-from harness.output.interface import read_interface
+from harness.output.interface import read_interface, read_profiles
 from harness.output.status import StatusRow, has_completed, read_status
 
 
@@ -87,3 +87,7 @@ class Result:
     def interface(self, increment: int = -1, step: int | None = None) -> dict[str, FloatArray]:
         """Interface profile of an increment by column: 'element', 'point', 'X', 'SEPN', 'TN', 'DAMAGE', ..."""
         return read_interface(self.file("_interface.csv"), step, increment)
+
+    def interfaces(self) -> list[dict[str, FloatArray]]:
+        """Interface profiles of all increments that were written, in order."""
+        return read_profiles(self.file("_interface.csv"))

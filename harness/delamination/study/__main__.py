@@ -1,0 +1,79 @@
+# SPDX-FileCopyrightText: The uel-harness authors
+# SPDX-License-Identifier: BSD-3-Clause
+"""`python -m harness.delamination.study`: run the rows that are missing, write the table, print what it shows."""
+
+from __future__ import annotations
+
+import argparse
+import os
+import sys
+from collections.abc import Sequence
+from pathlib import Path
+
+from rich.console import Console
+from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeElapsedColumn
+
+from harness.delamination.study.cases import Case, all_cases, select
+from harness.delamination.study.criteria import check
+from harness.delamination.study.rows import Row
+from harness.delamination.study.runner import Store, run_cases
+from harness.delamination.study.tables import csv_table, markdown_tables, verdict_table
+from harness.errors import UelError
+
+
+def main(arguments: Sequence[str] | None = None) -> int:
+    """Run the command; returns the exit code: 0 when all rows are there, 1 if interrupted, 2 on wrong usage."""
+    parser = argparse.ArgumentParser(
+        prog="python -m harness.delamination.study",
+        description="Run delamination specimens with the standard and the stabilised elements, and compare them.",
+        epilog="An interrupted study goes on where it stopped.",
+    )
+    parser.add_argument("--output-dir", type=Path, default=Path("study"), help="folder of all files written (study)")
+    parser.add_argument(
+        "--only",
+        nargs="+",
+        default=[],
+        metavar="WORD",
+        help="rows with these words, such as: enf 0/0 1e6 1e8 consistent perturbed; alternatives stand side by side",
+    )
+    parser.add_argument("--workers", type=int, default=os.cpu_count(), help="processes (one for each core)")
+    options = parser.parse_args(arguments)
+    console = Console()
+    try:
+        cases = select(all_cases(), options.only)
+        rows = _rows(cases, options.output_dir, options.workers, console)
+    except UelError as error:
+        print(f"study: {error}", file=sys.stderr)
+        return 2
+    except KeyboardInterrupt:
+        print("study: interrupted; the rows done so far are kept", file=sys.stderr)
+        return 1
+    verdicts = check(rows)
+    folder = options.output_dir
+    (folder / "study.md").write_text(markdown_tables(rows, verdicts), encoding="utf-8")
+    (folder / "study.csv").write_text(csv_table(rows), encoding="utf-8")
+    console.print(verdict_table(verdicts))
+    console.print(f"table: {folder / 'study.md'}, {folder / 'study.csv'}", highlight=False)
+    return 0
+
+
+def _rows(cases: Sequence[Case], folder: Path, workers: int, console: Console) -> dict[Case, Row]:
+    """Rows of all cases, in their order; those that the folder does not hold are computed."""
+    store = Store(folder)
+    known = {case: row for case in cases if (row := store.get(case)) is not None}
+    missing = [case for case in cases if case not in known]
+    columns = (TextColumn("{task.description}"), BarColumn(), MofNCompleteColumn(), TimeElapsedColumn())
+    with Progress(*columns, console=console) as progress:
+        task = progress.add_task("rows", total=len(cases), completed=len(known))
+        for case, row in run_cases(missing, folder / "runs", workers):
+            store.put(case, row)
+            known[case] = row
+            end = "finished" if row.finished else f"stopped at {row.reached:.0%}"
+            counts = f"{row.increments} increments, {row.iterations} iterations, {row.cutbacks} cutbacks"
+            progress.print(f"{case.name}: {end}, {counts}, peak {row.peak_load:.2f} N", highlight=False)
+            progress.advance(task)
+    return {case: known[case] for case in cases}
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,160 @@
+# SPDX-FileCopyrightText: The uel-harness authors
+# SPDX-License-Identifier: BSD-3-Clause
+"""The rows of the study: every combination of specimen, layup, stiffness, element, mesh and solution."""
+
+from __future__ import annotations
+
+import itertools
+from collections.abc import Callable, Iterable, Sequence
+from dataclasses import dataclass, fields
+from typing import NamedTuple
+
+from harness.delamination import flexure, specimens
+from harness.delamination.blocks import Interface, Specimen
+from harness.delamination.materials import PLY_0, PLY_90, TABLE_2
+from harness.delamination.mesh import TwoArmMesh
+from harness.delamination.steps import Increments
+from harness.errors import UelError
+
+BUMP = 0.03
+"""Height of the perturbed interface nodes over the length of an element."""
+
+# a hundredth of the displacement at a time, Abaqus' own tolerances and cutbacks; the smallest increment is a hundredth
+# of Abaqus' default, for the sake of elements that creep
+INCREMENTS = Increments(initial=0.01, smallest=1e-7, largest=0.01, limit=1000)
+FIELD_EVERY = 10
+
+
+class Kind(NamedTuple):
+    """A specimen on a mesh.
+
+    title         in words
+    size          length of the elements along the crack's way (mm)
+    displacement  at the end (mm), by layup: beyond the peak load
+    mesh, deck    builders
+    load          node set whose U2 and RF2 are displacement and load
+    sign          of both, where they act
+    modes         tractions of the loading mode
+    """
+
+    title: str
+    size: float
+    displacement: dict[str, float]
+    mesh: Callable[[float, float], TwoArmMesh]
+    deck: Callable[[str, Specimen, float, Increments, int], str]
+    load: str
+    sign: float
+    modes: tuple[str, ...]
+
+
+_ENDS = {"0/0": 3.0, "0/90": 6.0}
+KINDS = {
+    "dcb": Kind(
+        "double cantilever beam", 0.125, _ENDS, specimens.dcb_mesh, specimens.dcb_deck, "LOAD_TOP", 1.0, ("TN",)
+    ),
+    "dcb025": Kind(
+        "double cantilever beam, 0.25 mm", 0.25, _ENDS, specimens.dcb_mesh, specimens.dcb_deck, "LOAD_TOP", 1.0, ("TN",)
+    ),
+    "enf": Kind(
+        "end-notched flexure",
+        0.25,
+        {"0/0": 4.0, "0/90": 6.0},
+        flexure.enf_mesh,
+        flexure.enf_deck,
+        "MIDSPAN",
+        -1.0,
+        ("TT",),
+    ),
+    "frmm": Kind(
+        "fixed-ratio mixed mode",
+        0.125,
+        {"0/0": 6.0, "0/90": 6.0},
+        flexure.frmm_mesh,
+        flexure.frmm_deck,
+        "LOAD_TOP",
+        1.0,
+        ("TN", "TT"),
+    ),
+}
+# the first ply is the upper arm's
+LAYUPS = {"0/0": (PLY_0, PLY_0), "0/90": (PLY_0, PLY_90)}
+STIFFNESSES = {"1e4": 1.0e4, "1e6": 1.0e6, "1e8": 1.0e8, "1e12": 1.0e12, "inf": 0.0}
+"""Stiffness of the interface (N/mm^3) by name; the consistent law's infinite one is written 0."""
+ELEMENTS = {"standard": ("U2", False), "paper": ("U4", False), "consistent": ("U4", True)}
+"""Element type, and whether the law is the consistent one."""
+MESHES = {"structured": 0.0, "perturbed": BUMP}
+SOLUTIONS = {"newton": False, "fallback": True}
+
+
+@dataclass(frozen=True, slots=True)
+class Case:
+    """One row; every entry is a key of the table of its name."""
+
+    specimen: str
+    layup: str
+    stiffness: str
+    element: str
+    mesh: str
+    solution: str
+
+    @property
+    def name(self) -> str:
+        """Name of the row and of its folder."""
+        return "_".join(getattr(self, field.name).replace("/", "-") for field in fields(self))
+
+    @property
+    def kind(self) -> Kind:
+        """The specimen."""
+        return KINDS[self.specimen]
+
+    @property
+    def displacement(self) -> float:
+        """Displacement at the end (mm)."""
+        return self.kind.displacement[self.layup]
+
+    def files(self) -> dict[str, str]:
+        """Deck `NAME.inp` and the files that it includes."""
+        kind = self.kind
+        top, bottom = LAYUPS[self.layup]
+        element, consistent = ELEMENTS[self.element]
+        mesh = kind.mesh(kind.size, MESHES[self.mesh] * kind.size)
+        law = TABLE_2.with_stiffness(STIFFNESSES[self.stiffness])
+        specimen = Specimen("mesh", mesh, Interface(element, law, consistent=consistent), specimens.WIDTH, bottom, top)
+        title = f"{kind.title}, [{self.layup}], {self.stiffness} N/mm^3, {self.element} element, {self.mesh} mesh"
+        deck = kind.deck(title, specimen, self.displacement, INCREMENTS, FIELD_EVERY)
+        nodes = 8 if element == "U4" else 4
+        return specimens.mesh_files("mesh", mesh, (nodes,)) | {f"{self.name}.inp": deck}
+
+
+TABLES: dict[str, Iterable[str]] = {
+    "specimen": KINDS,
+    "layup": LAYUPS,
+    "stiffness": STIFFNESSES,
+    "element": ELEMENTS,
+    "mesh": MESHES,
+    "solution": SOLUTIONS,
+}
+
+
+def all_cases() -> list[Case]:
+    """All rows: an infinite stiffness has a meaning for the consistent law alone."""
+    cases = [Case(*entries) for entries in itertools.product(*TABLES.values())]
+    return [case for case in cases if case.stiffness != "inf" or case.element == "consistent"]
+
+
+def select(cases: Iterable[Case], words: Sequence[str]) -> list[Case]:
+    """Cases that agree with the words: words of one table are alternatives, those of different tables add up.
+
+    Raises
+    ------
+    UelError
+        A word is in no table.
+    """
+    wanted: dict[str, set[str]] = {}
+    for word in words:
+        table = next((name for name, entries in TABLES.items() if word in entries), None)
+        if table is None:
+            known = "; ".join(", ".join(entries) for entries in TABLES.values())
+            raise UelError(f"no row has '{word}'; there are {known}")
+        wanted.setdefault(table, set()).add(word)
+    return [case for case in cases if all(getattr(case, name) in choice for name, choice in wanted.items())]
