@@ -30,6 +30,27 @@ def damage(law, g):
     return ultimate * (equivalent - onset) / (equivalent * (ultimate - onset))
 
 
+def law_traction(law, w):
+    """Traction of the bilinear law at an opening w without history; ALPHAN = ALPHAT = 0 is the limit of (8) to (11)."""
+    if law["ALPHAN"] > 0:
+        return (1 - damage(law, w)) * np.array([law["ALPHAT"], law["ALPHAN"]]) * w
+    length = np.hypot(*w)
+    cos_t, cos_n = w / length
+    # delta_c = 0, alpha delta_c the strength in this direction
+    strength = 1 / np.hypot(cos_n / law["SIGMAMAX"], cos_t / law["TAUMAX"])
+    ultimate = 1 / (strength * cos_n**2 / (2 * law["GIC"]) + strength * cos_t**2 / (2 * law["GIIC"]))
+    return max(0.0, strength * (1 - length / ultimate)) * w / length
+
+
+def softening_slopes(law):
+    """Slopes of the softening branch in sliding and opening, stress/length; ALPHAN = ALPHAT = 0 is infinite."""
+    slopes = []
+    for toughness, strength, alpha in (("GIIC", "TAUMAX", "ALPHAT"), ("GIC", "SIGMAMAX", "ALPHAN")):
+        onset = law[strength] / law[alpha] if law[alpha] > 0 else 0.0
+        slopes.append(law[strength] / (2 * law[toughness] / law[strength] - onset))
+    return np.array(slopes)
+
+
 def stiffness(law, d, closed):
     """Diagonal of the secant matrix (24)."""
     return np.array([(1 - d) * law["ALPHAT"], law["ALPHAN"] * (1 if closed else 1 - d)])
@@ -112,6 +133,32 @@ def sampling_place(sampling, s, side):
     """(xi, eta) where the stress of the bottom (0) or top (1) quad is taken for the place s of the interface."""
     face = 1.0 if side == 0 else -1.0
     return {0: (0.0, face), 1: (s, face), 2: (np.sign(s) * GAUSS, face * GAUSS)}[sampling]
+
+
+def trial_traction(sides, u, options, s, elasticity):
+    """p = <sigma>.n + beta g in (tau, n), g, beta and the frame, at the place s of the interface of U4.
+
+    sides       (8, 2) coordinates of the nodes
+    u           (8, 2) displacements
+    options     BETAN, BETAT, GAMMABOT, SAMPLING of the element, where given
+    s           place of the point, from -1 to 1
+    elasticity  stiffness of the bottom and the top quad
+    """
+    axes, length = frame(sides[3], sides[2])
+    norms = [np.linalg.norm(d, 2) for d in elasticity]
+    areas = [shoelace(sides[:4]), shoelace(sides[4:])]
+    gamma, _ = weights(norms, areas, length)
+    if "GAMMABOT" in options:
+        gamma = np.array([options["GAMMABOT"], 1 - options["GAMMABOT"]])
+    computed = 2 * length * (gamma**2 * norms / areas).sum()
+    beta = np.array([options.get("BETAT", computed), options.get("BETAN", computed)])
+    stress = np.zeros(3)
+    for side in (0, 1):
+        nodes = slice(4 * side, 4 * side + 4)
+        place = sampling_place(options.get("SAMPLING", 0), s, side)
+        stress += gamma[side] * elasticity[side] @ strain_matrix(sides[nodes], *place)[0] @ u[nodes].ravel()
+    gap = axes @ ((1 - s) / 2 * (u[4] - u[3]) + (1 + s) / 2 * (u[5] - u[2]))
+    return traction_of_stress(axes, stress) + beta * gap, gap, beta, axes
 
 
 def central_differences(function, x, step):

@@ -18,6 +18,9 @@ OPTIONS = [
     {"SAMPLING": 2, "INTEGRATION": 1},
     {"BETAN": 4.0e3, "BETAT": 6.0e3, "GAMMABOT": 0.3},
     {"VISCOSITY": 0.5},
+    {"CLOSURE": 1},
+    {"CLOSURE": 1, "ALPHAN": 0.0, "ALPHAT": 0.0, "SAMPLING": 1, "INTEGRATION": 1},
+    {"CLOSURE": 1, "ALPHAN": 0.0, "ALPHAT": 0.0, "VISCOSITY": 0.5},
 ]
 
 
@@ -166,3 +169,27 @@ def test_consistent_tangent_adds_the_derivative_of_the_damage(element, interface
     difference = four[0] - four[1]
     np.testing.assert_allclose(difference, eight[0] - eight[1], atol=1e-11 * abs(eight[0]).max())
     assert abs(difference).max() > 1e-2 * abs(four[1]).max()
+
+
+@pytest.mark.parametrize("alpha", [2.0e4, 1.0e12, 0.0])
+@pytest.mark.parametrize("gap", [(0.004, 0.003), (0.006, -0.002), (1e-4, 1e-4), (0.05, 0.03)])
+def test_consistent_closure_at_constant_bulk_stress(element, interface, reference, alpha, gap):
+    """AMATRX is the derivative by the jump alone: that of U4 between quads so soft that their stress is none."""
+    options = {"ALPHAN": alpha, "ALPHAT": alpha, "CLOSURE": 1, "BETAN": 5.0e4, "BETAT": 4.0e4}
+    soft = {f"{name} {side}": 1e-6 for name in ("E1", "E2", "G12") for side in ("BOTTOM", "TOP")}
+    axes, _ = reference.frame(*interface.edge)
+    u = np.zeros((8, 2))
+    u[4:] = gap @ axes  # rigid, so that hard quads have no stress either
+    tangent = Sandwich(element, interface, **options).evaluate(u)[1]
+    dofs = np.array([[2 * node, 2 * node + 1] for node in interface.owned]).ravel()
+    expected = element(4, interface.eight, **options, **soft).evaluate(u)[1][np.ix_(dofs, dofs)]
+    np.testing.assert_allclose(tangent, expected, atol=1e-6 * abs(expected).max())
+    assert expected.any() == (gap[0] < 0.04)
+
+
+def test_small_beta_of_the_consistent_closure_is_refused(element, interface):
+    sandwich = Sandwich(element, interface, CLOSURE=1, BETAN=1.0e3)
+    with pytest.raises(
+        KernelError, match=r"U3 element 400: PROPS\(10\) BETAN: beta = 1000.*, too small for the consist"
+    ):
+        sandwich.evaluate(np.zeros((8, 2)))
