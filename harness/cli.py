@@ -58,7 +58,9 @@ def build_parser() -> argparse.ArgumentParser:
     run.add_argument("--job", metavar="NAME", help="name of the output files (the deck's name)")
     run.add_argument("--output-dir", type=Path, metavar="DIR", help="where they go (the current folder)")
     run.add_argument("--solver", default="auto", metavar="NAME", help="linear solver, see `uel solvers` (auto)")
-    run.add_argument("--fallback", action="store_true", help="search downhill where Newton's method fails")
+    help_ = run.add_mutually_exclusive_group()
+    help_.add_argument("--fallback", action="store_true", help="search downhill where Newton's method fails")
+    help_.add_argument("--control", choices=("load", "energy"), default="load", help="energy: trace snap-backs (load)")
     run.add_argument("--quiet", action="store_true", help="no progress display")
     run.set_defaults(function=run_job)
 
@@ -134,6 +136,7 @@ def run_job(options: argparse.Namespace) -> int:
         output_dir=options.output_dir,
         solver=options.solver,
         fallback=options.fallback,
+        energy_control=options.control == "energy",
         quiet=options.quiet,
     )
     if not options.quiet:

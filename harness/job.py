@@ -26,6 +26,7 @@ def run(
     output_dir: str | Path | None = None,
     solver: str = "auto",
     fallback: bool = False,
+    energy_control: bool = False,
     quiet: bool = True,
 ) -> Result:
     """Run an Abaqus deck.
@@ -44,6 +45,9 @@ def run(
         Linear solver, see `uel solvers`.
     fallback
         Search downhill where Newton's method fails, before the increment is cut back; Abaqus has no such thing.
+    energy_control
+        Trace snap-backs: an increment ends where it has dissipated a share of energy, and the load factor of a step
+        is part of the solution. Not with `fallback`, which keeps the load.
     quiet
         No progress display.
 
@@ -69,7 +73,7 @@ def run(
     try:
         system = System(model.mesh, build_blocks(model, library), model.equations)
         with one_blas_thread():
-            for record in run_steps(system, model, library, solver, fallback=fallback):
+            for record in run_steps(system, model, library, solver, fallback=fallback, energy_control=energy_control):
                 _pass_on(library, output)
                 output.write(record)
     except UelError as error:

@@ -5,7 +5,7 @@
 !> One pass over a block; see block_t for the arrays.
 subroutine host_evaluate(address, options, lflags, clock, labels, jprops, equations, map, props, coords, u, du, svars, &
                          svars_trial, energy, energy_trial, history, history_trial, residual, matrix, flux, sums, status, &
-                         ndofel, nsvars, nprops, njprop, mcrd, nnode, m, n, nnz, values, points)
+                         ndofel, nsvars, nprops, njprop, mcrd, nnode, m, n, nrhs, nnz, values, points)
   use, intrinsic :: iso_c_binding, only: c_funptr, c_intptr_t
   use host_driver, only: block_t, run_block
   use host_kinds, only: dp, i4, i8
@@ -14,12 +14,12 @@ subroutine host_evaluate(address, options, lflags, clock, labels, jprops, equati
   integer(i4), intent(in) :: options(7)       !< material, tensor, jtype, symmetric, want_matrix, kstep, kinc
   integer(i4), intent(in) :: lflags(5)
   real(dp), intent(in) :: clock(4)            !< step time, total time, time increment, period
-  integer(i4), intent(in) :: ndofel, nsvars, nprops, njprop, mcrd, nnode, m, n, nnz, values, points
+  integer(i4), intent(in) :: ndofel, nsvars, nprops, njprop, mcrd, nnode, m, n, nrhs, nnz, values, points
   integer(i4), intent(in), target :: labels(m), jprops(njprop), equations(ndofel, m), map(ndofel, ndofel, m)
   real(dp), intent(in), target :: props(nprops), coords(mcrd, nnode, m), u(n), du(n), svars(nsvars, m), energy(8, m), &
                                   history(values, points, m)
   real(dp), intent(inout), target :: svars_trial(nsvars, m), energy_trial(8, m), history_trial(values, points, m), &
-                                     residual(n), matrix(nnz)
+                                     residual(n, nrhs), matrix(nnz)
   real(dp), intent(out), target :: flux(ndofel)
   real(dp), intent(out) :: sums(9)            !< PNEWDT, ENERGY
   integer(i4), intent(out) :: status(4)       !< fault, position, array, index

@@ -39,7 +39,8 @@ module host_driver
     real(dp), pointer, contiguous :: svars(:, :) => null(), svars_trial(:, :) => null()     !< (nsvars, m)
     real(dp), pointer, contiguous :: energy(:, :) => null(), energy_trial(:, :) => null()   !< (8, m)
     real(dp), pointer, contiguous :: history(:, :, :) => null(), history_trial(:, :, :) => null()  !< (values, npt, m)
-    real(dp), pointer, contiguous :: residual(:) => null(), matrix(:) => null()
+    real(dp), pointer, contiguous :: residual(:, :) => null()  !< (n, NRHS)
+    real(dp), pointer, contiguous :: matrix(:) => null()
     real(dp), pointer, contiguous :: flux(:) => null()             !< (ndofel) sum of |RHS|
     real(dp) :: pnewdt = 0                !< smallest returned
     real(dp) :: energy_sum(8) = 0
@@ -74,13 +75,15 @@ contains
     current%element = 0
   end subroutine run_block
 
-  !> Workspace and context of this block. V, A and PREDEF are zero throughout.
+  !> Workspace and context of this block. V, A, PREDEF and column 2 of DU are zero throughout.
   subroutine prepare(block)
     type(block_t), intent(in) :: block
     integer :: length(n_arrays), ndofel, nnode
     ndofel = size(block%equations, 1)
     nnode = size(block%coords, 2)
     length = ndofel
+    length(i_rhs) = ndofel*size(block%residual, 2)
+    length(i_du) = length(i_rhs)   ! column 2 stays zero
     length(i_amatrx) = ndofel*ndofel
     length(i_svars) = size(block%svars, 1)
     length(i_energy) = 8
@@ -111,9 +114,13 @@ contains
       block%position = e
       call call_element(block, e)
       if (block%want_residual) then
-        call check(block, i_rhs, ndofel)
+        call check(block, i_rhs, work%length(i_rhs))
         if (block%fault /= fault_none) return
-        call add_residual(ndofel, work%memory(work%start(i_rhs)), block%equations(:, e), block%residual, block%flux)
+        call add_residual(ndofel, work%memory(work%start(i_rhs)), block%equations(:, e), block%residual(:, 1))
+        call add_magnitude(ndofel, work%memory(work%start(i_rhs)), block%flux)
+        if (size(block%residual, 2) == 2) then
+          call add_residual(ndofel, work%memory(work%start(i_rhs) + ndofel), block%equations(:, e), block%residual(:, 2))
+        end if
       end if
       if (block%want_matrix) then
         call check(block, i_amatrx, ndofel*ndofel)
@@ -141,7 +148,7 @@ contains
     associate (x => work%memory, s => work%start)
       call gather(ndofel, block%equations(:, e), block%u, x(s(i_u)))
       call gather(ndofel, block%equations(:, e), block%du, x(s(i_du)))
-      call fill(ndofel, unset_bits, x(s(i_rhs)))
+      call fill(work%length(i_rhs), unset_bits, x(s(i_rhs)))
       call fill(ndofel*ndofel, unset_bits, x(s(i_amatrx)))
       call copy(nsvars, block%svars(:, e), x(s(i_svars)))
       call copy(8, block%energy(:, e), x(s(i_energy)))
@@ -169,7 +176,7 @@ contains
     njprop = size(block%jprops, kind=i4)
     mcrd = size(block%coords, 1, kind=i4)
     nnode = size(block%coords, 2, kind=i4)
-    nrhs = 1
+    nrhs = size(block%residual, 2, kind=i4)
     jtype = block%jtype
     kstep = block%kstep
     kinc = block%kinc
@@ -281,18 +288,25 @@ contains
     y = x(equations)
   end subroutine gather
 
-  !> Scatter RHS and add up its magnitude.
-  subroutine add_residual(n, rhs, equations, residual, flux)
+  !> Scatter a column of RHS.
+  subroutine add_residual(n, rhs, equations, residual)
     integer, intent(in) :: n
     real(dp), intent(in) :: rhs(n)
     integer(i4), intent(in) :: equations(n)
-    real(dp), intent(inout) :: residual(*), flux(n)
+    real(dp), intent(inout) :: residual(*)
     integer :: i
     do i = 1, n
       residual(equations(i)) = residual(equations(i)) + rhs(i)
     end do
-    flux = flux + abs(rhs)
   end subroutine add_residual
+
+  !> y = y + |x|
+  subroutine add_magnitude(n, x, y)
+    integer, intent(in) :: n
+    real(dp), intent(in) :: x(n)
+    real(dp), intent(inout) :: y(n)
+    y = y + abs(x)
+  end subroutine add_magnitude
 
   !> Scatter AMATRX, or its symmetric part, into the values of the sparse matrix.
   subroutine add_matrix(n, a, map, symmetric, matrix)

@@ -28,7 +28,7 @@ contains
     real(dp) :: rhs(*), amatrx(*), svars(*), energy(*), props(*), coords(*), u(*), du(*), v(*), a(*), time(*), dtime, &
                 params(*), adlmag(*), predef(*), ddlmag(*), pnewdt, period
     integer, parameter :: stiffness_wanted(3) = [1, 2, 5]
-    rhs(1:ndofel) = 0
+    rhs(1:ndofel*nrhs) = 0
     amatrx(1:ndofel*ndofel) = 0
     if (.not. any(lflags(3) == stiffness_wanted)) return
     if (nnode == 3) then

@@ -28,6 +28,7 @@ class Evaluation:
     flux_count  (fields,) number of terms in it
     pnewdt      smallest PNEWDT an element returned
     energy      (8,) sum of ENERGY
+    load        (n,) sum of column 2 of RHS, increments of the loads that elements apply; None unless NRHS = 2
     """
 
     residual: FloatArray
@@ -36,6 +37,7 @@ class Evaluation:
     flux_count: IntArray
     pnewdt: float
     energy: FloatArray
+    load: FloatArray | None = None
 
 
 class System:
@@ -58,13 +60,13 @@ class System:
     def __len__(self) -> int:
         return len(self.dofs)
 
-    def evaluate(self, call: Call, u: FloatArray, du: FloatArray, *, matrix: bool = True) -> Evaluation:
+    def evaluate(self, call: Call, u: FloatArray, du: FloatArray, *, matrix: bool = True, nrhs: int = 1) -> Evaluation:
         """Call every element once, block by block in the calling order of Abaqus.
 
         u (n,) is the estimate of the end of the increment and du (n,) the increment, both including prescribed values.
-        Raises KernelError where an element fails.
+        nrhs is NRHS: 1, or 2 for the arc length method. Raises KernelError where an element fails.
         """
-        residual = np.zeros(len(self.dofs))
+        columns = np.zeros((nrhs, len(self.dofs)))
         data = self._data if matrix else None
         if data is not None:
             data.fill(0.0)
@@ -72,12 +74,12 @@ class System:
         energy = np.zeros(8)
         pnewdt = np.inf
         for block in self.blocks:
-            report = block.evaluate(call, u, du, residual, data)
+            report = block.evaluate(call, u, du, columns if nrhs > 1 else columns[0], data)
             flux += report.flux
             count += report.flux_count
             energy += report.energy
             pnewdt = min(pnewdt, report.pnewdt)
-        return Evaluation(residual, data, flux, count, pnewdt, energy)
+        return Evaluation(columns[0], data, flux, count, pnewdt, energy, columns[1] if nrhs > 1 else None)
 
     def commit(self) -> None:
         """End of a converged increment: the state of the last normal pass becomes the committed one."""

@@ -42,9 +42,11 @@ PROCEDURE = (
         Where.STEP,
         (
             Option("DIRECT", doc="fixed increments"),
-            *refused("ADIABATIC", "ALLSDTOL", "CONTINUE", "FACTOR", "FULLY PLASTIC", "LONG TERM", "RIKS", "STABILIZE"),
+            Option("RIKS", doc="the load factor is part of the solution; increments are arc lengths"),
+            *refused("ADIABATIC", "ALLSDTOL", "CONTINUE", "FACTOR", "FULLY PLASTIC", "LONG TERM", "STABILIZE"),
         ),
-        "initial increment, period (1), smallest increment, largest increment",
+        "initial increment, period (1), smallest increment, largest increment; with RIKS also the largest load "
+        "proportionality factor, and a node, its dof and the displacement that ends the step",
     ),
     Keyword(
         "CONTROLS",

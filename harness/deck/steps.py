@@ -4,13 +4,15 @@
 
 from __future__ import annotations
 
-from harness.deck.blocks import Block
+import math
+
+from harness.deck.blocks import Block, Row
 from harness.deck.controls import ControlState
 from harness.deck.prescribed import Prescription
 from harness.deck.problems import Problems
 from harness.deck.requests import RequestReader
 from harness.deck.structure import Scope
-from harness.model.steps import Boundary, Load, Static, Step
+from harness.model.steps import Boundary, Load, Riks, Static, Step
 
 PROCEDURES = {"STATIC"}
 SMALLEST_FRACTION = 1e-5
@@ -39,7 +41,7 @@ def read_steps(
         boundaries, new_boundary = _read_boundaries(scope, prescription, problems)
         loads, new_loads = _read_loads(scope, prescription, problems)
         with problems.gather():
-            procedure = _read_procedure(scope)
+            procedure = _read_procedure(scope, prescription)
             increments = options.integer("INC", MOST_INCREMENTS)
             if increments < 1:
                 raise scope.head.error(f"INC={increments} must be positive")
@@ -94,22 +96,23 @@ def _is_new(blocks: list[Block], problems: Problems) -> bool:
     return operations == {"NEW"}
 
 
-def _read_procedure(scope: Scope) -> Static:
+def _read_procedure(scope: Scope, prescription: Prescription) -> Static:
     blocks = [block for block in scope.blocks if block.name in PROCEDURES]
     if not blocks:
         raise scope.head.error("the step has no procedure such as *STATIC")
     if len(blocks) > 1:
         raise blocks[1].error(f"the step has a procedure already, at {blocks[0].source}")
-    return _read_static(blocks[0])
+    return _read_static(blocks[0], prescription)
 
 
-def _read_static(block: Block) -> Static:
+def _read_static(block: Block, prescription: Prescription) -> Static:
     rows = list(block.all_rows())
     if len(rows) > 1:
         raise rows[1].error("a second data line, where one is read")
+    along_path = block.options.flag("RIKS")
     entries = [0.0] * 4
     if rows:
-        rows[0].at_most(4)
+        rows[0].at_most(8 if along_path else 4)
         names = ("initial increment", "period", "smallest increment", "largest increment")
         entries = [rows[0].real(index, name, 0.0) for index, name in enumerate(names)]
         if min(entries) < 0:
@@ -121,12 +124,28 @@ def _read_static(block: Block) -> Static:
     if initial > period:
         raise rows[0].error(f"initial increment {initial:g} exceeds the period {period:g}")
     minimum = entries[2] or min(initial, SMALLEST_FRACTION * period)
-    maximum = entries[3] or period
+    maximum = entries[3] or (math.inf if along_path else period)
+    riks = _read_riks(rows[0] if rows else None, prescription) if along_path else None
     if direct:
-        return Static(initial, period, initial, initial, direct=True)
+        return Static(initial, period, initial, initial, direct=True, riks=riks)
     if not minimum <= initial <= maximum:
         range_text = f"{minimum:g} to {maximum:g}"
         raise rows[0].error(
             f"initial increment {initial:g} is outside the smallest and largest increment, {range_text}"
         )
-    return Static(initial, period, minimum, maximum)
+    return Static(initial, period, minimum, maximum, riks=riks)
+
+
+def _read_riks(row: Row | None, prescription: Prescription) -> Riks:
+    """Where a step with RIKS ends: entries 5 to 8 of its data line."""
+    if row is None:
+        return Riks()
+    largest = row.real(4, "largest load proportionality factor", 0.0) or None
+    if row.blank(5):
+        if len(row) > 5:
+            raise row.error("a dof and a displacement need a node")
+        return Riks(largest)
+    nodes = prescription.flat.nodes(row.name(5, "node"), row.source)
+    if len(nodes) != 1:
+        raise row.error(f"{row.fields[5]} has {len(nodes)} nodes, where one is monitored")
+    return Riks(largest, int(nodes[0]), row.integer(6, "dof"), row.real(7, "displacement"))

@@ -109,6 +109,7 @@ class Block:
     ) -> BlockReport:
         """One pass: add RHS into residual and AMATRX into matrix (CSR data; None: AMATRX is not looked at).
 
+        residual is (n,), or (2, n) for a pass with NRHS = 2: its rows take the columns of RHS.
         RHS is left out where LFLAGS(3) asks for a matrix alone (2, 3, 4). SVARS on entry are always the committed
         ones. Raises KernelError.
         """
@@ -120,11 +121,11 @@ class Block:
             self._arrays,
             u,
             du,
-            residual,
+            np.atleast_2d(residual),
             _NO_MATRIX if matrix is None else matrix,
         )
         if outcome.fault is not Fault.NONE:
-            raise self._error(outcome)
+            raise self._error(outcome, residual.ndim)
         return BlockReport(outcome.flux @ self._by_field, self._flux_count, outcome.pnewdt, outcome.energy)
 
     def bare_loop(self, call: Call, u: FloatArray, du: FloatArray, residual: FloatArray) -> None:
@@ -149,13 +150,13 @@ class Block:
         """Committed state, copied; index: of the group in the model."""
         return ElementState(index, self._arrays.svars.copy(), self._arrays.energy.copy(), self.variables)
 
-    def _error(self, outcome: _binding.Outcome) -> KernelError:
+    def _error(self, outcome: _binding.Outcome, nrhs: int) -> KernelError:
         element = int(self.group.labels[outcome.position]) if outcome.position >= 0 else 0
         match outcome.fault:
             case Fault.LEFT:
                 message = self._library.stop_reason()
             case Fault.OUTSIDE:
-                message = self._outside(outcome)
+                message = self._outside(outcome, nrhs)
             case Fault.UNSET:
                 message = (
                     f"{self._entry(outcome)} was not filled, or was added to without being set first "
@@ -166,14 +167,17 @@ class Block:
         return KernelError(element, self.group.type, message)
 
     def _entry(self, outcome: _binding.Outcome) -> str:
-        if outcome.array != "AMATRX":
-            return f"{outcome.array}({outcome.index})"
         column, row = divmod(outcome.index - 1, len(self.unknowns))
-        return f"AMATRX({row + 1},{column + 1})"
+        if outcome.array == "RHS" and not column:
+            return f"RHS({outcome.index})"
+        return f"{outcome.array}({row + 1},{column + 1})"
 
-    def _outside(self, outcome: _binding.Outcome) -> str:
+    def _outside(self, outcome: _binding.Outcome, nrhs: int) -> str:
         n = len(self.unknowns)
+        columns = str(n) if nrhs == 1 else f"{n * nrhs} ({n} x NRHS = {nrhs})"
         sizes = {
+            "RHS": columns,
+            "DU": columns,
             "SVARS": f"{self._procedure.svars} (VARIABLES=)",
             "ENERGY": "8",
             "AMATRX": f"{n * n} ({n} x {n})",

@@ -89,7 +89,8 @@ class AttemptAbandoned:
 class IncrementDone:
     """A converged increment, after commit. Times are those of its end.
 
-    `next_increment` is what the next increment starts with; 0 where none follows in the step.
+    `next_increment` is what the next increment starts with; 0 where none follows in the step. `load_factor`, where it
+    is part of the solution, is the step time then, and the total time is the length of the path.
     """
 
     step: int
@@ -101,6 +102,7 @@ class IncrementDone:
     time_increment: float
     solution: Solution
     next_increment: float = 0.0
+    load_factor: float | None = None
 
 
 @dataclass(frozen=True, slots=True)

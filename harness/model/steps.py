@@ -81,14 +81,32 @@ class Controls:
 
 
 @dataclass(frozen=True, slots=True)
+class Riks:
+    """*STATIC, RIKS: where the step ends.
+
+    largest_factor     load proportionality factor, None without a limit
+    node, dof, value   displacement of a node (index; -1: none) that ends the step once it is crossed
+    """
+
+    largest_factor: float | None = None
+    node: int = -1
+    dof: int = 0
+    value: float = 0.0
+
+
+@dataclass(frozen=True, slots=True)
 class Static:
-    """*STATIC: initial increment, period, smallest and largest increment; direct = fixed increments."""
+    """*STATIC: initial increment, period, smallest and largest increment; direct = fixed increments.
+
+    With `riks` these are arc lengths, the period is their scale alone, and the step ends where `riks` says.
+    """
 
     initial: float = 1.0
     period: float = 1.0
     minimum: float = 1e-5
     maximum: float = 1.0
     direct: bool = False
+    riks: Riks | None = None
 
 
 @dataclass(frozen=True, slots=True)

@@ -11,10 +11,10 @@ from harness.model.model import Model
 from harness.model.properties import UserElement
 from harness.model.records import IncrementDone, StepStarted
 from harness.model.steps import ElementRequest, NodeRequest
-from harness.output.formats import TextFile, general, program
+from harness.output.formats import TextFile, program
 from harness.output.nodal import NodalIndex
 from harness.output.schedule import Schedule
-from harness.output.step_header import procedure
+from harness.output.step_header import completed, procedure
 from harness.output.tables import element_tables, missing_variables, node_tables
 from harness.output.wording import remark
 
@@ -65,13 +65,9 @@ class DataFile:
         )
         if not nodes and not elements:
             return
-        fraction = record.step_time / step.procedure.period
         text = (
             f"\n\n                                INCREMENT{record.increment:6d} SUMMARY\n\n\n"
-            f" TIME INCREMENT COMPLETED{general(record.time_increment)},"
-            f"  FRACTION OF STEP COMPLETED{general(fraction)}\n"
-            f" STEP TIME COMPLETED     {general(record.step_time)},  TOTAL TIME COMPLETED      "
-            f"{general(record.total_time)}\n"
+            f"{completed(record, step.procedure.period)}"
         )
         if elements:
             text += f"\n\n                             E L E M E N T   O U T P U T\n{elements}"

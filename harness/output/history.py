@@ -2,9 +2,9 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """History output (NAME_history.csv): nodal variables and energies of the increments, a row each.
 
-Columns are step, increment, time (total time), then what *NODE OUTPUT and *ENERGY OUTPUT of the steps ask for, in
-order: `U2[LOAD]` for a set of one node, `RF2[LOAD:17]` for each node of a larger set, `ALLSE` for an energy of the
-whole model. A column that a step does not ask for is empty there.
+Columns are step, increment, time (total time), `LPF` where the load factor is part of the solution, then what *NODE
+OUTPUT and *ENERGY OUTPUT of the steps ask for, in order: `U2[LOAD]` for a set of one node, `RF2[LOAD:17]` for each node
+of a larger set, `ALLSE` for an energy of the whole model. A column that a step does not ask for is empty there.
 """
 
 from __future__ import annotations
@@ -35,6 +35,7 @@ class HistoryFile:
         self._schedule = Schedule()
         self._columns: list[_Column] = []
         self._of_step: dict[int, list[tuple[int, _Column]]] = {}
+        self._along_path = False
         self.unavailable: list[str] = []
 
     def write(self, record: IncrementDone, *, last: bool) -> None:
@@ -43,11 +44,14 @@ class HistoryFile:
         if not self._schedule.due(output.history_frequency, record, last=last):
             return
         if not self._of_step:
+            self._along_path = record.load_factor is not None or any(s.procedure.riks for s in self._model.steps)
             self._plan(record.solution)
         cells = [""] * len(self._columns)
         for position, column in self._of_step[record.step]:
             cells[position] = repr(column.value(record.solution))
         head = f"{record.step},{record.increment},{record.total_time!r}"
+        if self._along_path:
+            head += f",{record.load_factor!r}" if record.load_factor is not None else ","
         self._file.write(",".join([head, *cells]) + "\n")
 
     def close(self) -> None:
@@ -74,7 +78,8 @@ class HistoryFile:
                     self._columns.append(column)
             self._of_step[step.number] = [(position[name], column) for name, column in chosen.items()]
         buffer = io.StringIO()
-        csv.writer(buffer, lineterminator="\n").writerow([*FIXED, *(column.name for column in self._columns)])
+        fixed = (*FIXED, "LPF") if self._along_path else FIXED
+        csv.writer(buffer, lineterminator="\n").writerow([*fixed, *(column.name for column in self._columns)])
         self._file.write(buffer.getvalue())
 
     def _nodal(self, request: NodeRequest, index: NodalIndex) -> list[_Column]:

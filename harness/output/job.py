@@ -120,12 +120,15 @@ class JobOutput:
                 record.total_time,
                 record.step_time,
                 record.time_increment,
+                riks=self._model.steps[record.step - 1].procedure.riks is not None,
             )
         )
 
     def _increment(self, record: IncrementDone) -> None:
-        period = self._model.steps[record.step - 1].procedure.period
-        self._requested(record, last=record.step_time >= period * (1.0 - 1e-9))
+        procedure = self._model.steps[record.step - 1].procedure
+        # the end of a path is known only when its step is done
+        last = procedure.riks is None and record.step_time >= procedure.period * (1.0 - 1e-9)
+        self._requested(record, last=last)
         self._pending = record
         self._message.increment(record)
         self._status.write(
@@ -139,6 +142,7 @@ class JobOutput:
                 record.step_time,
                 record.time_increment,
                 self._monitored(record),
+                riks=procedure.riks is not None,
             )
         )
 

@@ -26,7 +26,7 @@ from harness.model.records import (
     Verdict,
 )
 from harness.output.formats import TextFile, general, program
-from harness.output.step_header import procedure, tolerances
+from harness.output.step_header import completed, procedure, tolerances
 from harness.output.wording import FIELDS, FieldWords, fields_of, remark
 
 
@@ -56,9 +56,10 @@ class MessageFile:
 
     def attempt_started(self, record: AttemptStarted) -> None:
         """First line of an attempt."""
+        along_path = self._model.steps[record.step - 1].procedure.riks is not None
         self._file.write(
             f"\n\n  INCREMENT{record.increment:6d} STARTS. ATTEMPT NUMBER{record.attempt:3d}, "
-            f"TIME INCREMENT{general(record.time_increment)}\n"
+            f"{'ARC LENGTH' if along_path else 'TIME'} INCREMENT{general(record.time_increment)}\n"
         )
 
     def iteration(self, record: IterationDone) -> None:
@@ -88,17 +89,14 @@ class MessageFile:
     def increment(self, record: IncrementDone) -> None:
         """Summary of a converged increment."""
         self._counts["increments"] += 1
-        fraction = record.step_time / self._model.steps[record.step - 1].procedure.period
-        grows = ""
-        if record.next_increment > record.time_increment:
+        period = self._model.steps[record.step - 1].procedure.period
+        grows, path = "", record.load_factor
+        if record.next_increment > record.time_increment and path is None:
             grows = f"          TIME INCREMENT MAY NOW INCREASE TO  {general(record.next_increment)}\n"
         self._file.write(
             f"{grows}\n ITERATION SUMMARY FOR THE INCREMENT:{record.iterations:4d} TOTAL ITERATIONS, OF WHICH\n"
             f"{0:4d} ARE SEVERE DISCONTINUITY ITERATIONS AND{record.iterations:3d} ARE EQUILIBRIUM ITERATIONS.\n\n"
-            f" TIME INCREMENT COMPLETED{general(record.time_increment)},"
-            f"  FRACTION OF STEP COMPLETED{general(fraction)}\n"
-            f" STEP TIME COMPLETED     {general(record.step_time)},  TOTAL TIME COMPLETED      "
-            f"{general(record.total_time)}\n"
+            f"{completed(record, period)}"
         )
 
     def step_done(self, record: StepDone) -> None:

@@ -20,8 +20,12 @@ HEADER = """\
 COMPLETED = " THE ANALYSIS HAS COMPLETED SUCCESSFULLY"
 NOT_COMPLETED = " THE ANALYSIS HAS NOT BEEN COMPLETED"
 
+RIKS_COLUMN = HEADER.index("IF\n") - HEADER.index(" STEP")
+"""Where the R of an increment along a path stands, below IF RIKS."""
+
 _ROW = re.compile(
-    r"^ *(\d+) +(\d+) +(\d+)(U?) +(\d+) +(\d+) +(\d+) +([\d.eE+-]+) +([\d.eE+-]+) +([\d.eE+-]+)(?: +([\d.eE+-]+))?"
+    r"^ *(\d+) +(\d+) +(\d+)(U?) +(\d+) +(\d+) +(\d+) +([\d.eE+-]+) +([\d.eE+-]+) +([\d.eE+-]+)"
+    r"(?: +([\d.eE+-]+))?(?: +(R))?"
 )
 
 
@@ -30,7 +34,8 @@ class StatusRow:
     """One line of the status file.
 
     An abandoned attempt (`cutback`) has the times of its start, a converged one those of its end. `monitor` is the
-    value of the degree of freedom of *MONITOR, if one is asked for.
+    value of the degree of freedom of *MONITOR, if one is asked for. With `riks` the step time is the load
+    proportionality factor, and the total time the length of the path.
     """
 
     step: int
@@ -43,6 +48,7 @@ class StatusRow:
     time_increment: float
     monitor: float | None = None
     severe_discontinuity_iterations: int = 0
+    riks: bool = False
 
     @property
     def total_iterations(self) -> int:
@@ -56,7 +62,9 @@ class StatusRow:
             f"{status_number(self.total_time, 3):<11}{status_number(self.step_time, 3):<11}"
             f"{status_number(self.time_increment, 4):<10}"
         )
-        return text if self.monitor is None else f"{text}{status_number(self.monitor, 3):<10}"
+        if self.monitor is not None:
+            text += f"{status_number(self.monitor, 3):<10}"
+        return f"{text:<{RIKS_COLUMN}}R" if self.riks else text
 
     @classmethod
     def read(cls, line: str) -> StatusRow | None:
@@ -64,7 +72,7 @@ class StatusRow:
         match = _ROW.match(line)
         if match is None:
             return None
-        step, increment, attempt, flag, severe, iterations, _, total, step_time, size, monitor = match.groups()
+        step, increment, attempt, flag, severe, iterations, _, total, step_time, size, monitor, riks = match.groups()
         return cls(
             int(step),
             int(increment),
@@ -76,6 +84,7 @@ class StatusRow:
             float(size),
             None if monitor is None else float(monitor),
             int(severe),
+            riks is not None,
         )
 
 

@@ -4,9 +4,11 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterable
 
-from harness.model.steps import Controls, FieldControls, Step, TimeControls
+from harness.model.records import IncrementDone
+from harness.model.steps import Controls, FieldControls, Static, Step, TimeControls
 from harness.output.formats import general
 from harness.output.wording import FIELDS, FieldWords
 
@@ -35,7 +37,9 @@ def procedure(step: Step) -> str:
         f"          {step.title}".rstrip(),
         "",
     ]
-    if static.direct:
+    if static.riks is not None:
+        lines += _riks(static)
+    elif static.direct:
         lines += [
             "          FIXED TIME INCREMENTS",
             f"          TIME INCREMENT IS                                  {general(static.initial)}",
@@ -50,6 +54,38 @@ def procedure(step: Step) -> str:
             f"          THE MAXIMUM TIME INCREMENT ALLOWED IS              {general(static.maximum)}",
         ]
     return "\n".join([*lines, "", ""])
+
+
+def _riks(static: Static) -> list[str]:
+    lines = [
+        f"     {'FIXED' if static.direct else 'AUTOMATIC'} ARC LENGTH CONTROL (RIKS METHOD) WITH -",
+        f"          AN INITIAL ARC LENGTH INCREMENT OF                 {general(static.initial)}",
+        f"          A TOTAL ARC LENGTH SCALE FACTOR OF                 {general(static.period)}",
+    ]
+    if not static.direct:
+        lines.append(f"          THE MINIMUM ARC LENGTH INCREMENT ALLOWED IS        {general(static.minimum)}")
+    if math.isfinite(static.maximum) and not static.direct:
+        lines.append(f"          THE MAXIMUM ARC LENGTH INCREMENT ALLOWED IS        {general(static.maximum)}")
+    if static.riks is not None and static.riks.largest_factor is not None:
+        factor = general(static.riks.largest_factor)
+        lines.append(f"          THE MAXIMUM LOAD PROPORTIONALITY FACTOR IS         {factor}")
+    return lines
+
+
+def completed(record: IncrementDone, period: float) -> str:
+    """How far an increment has come, in time or along a path."""
+    if record.load_factor is None:
+        fraction = record.step_time / period
+        return (
+            f" TIME INCREMENT COMPLETED{general(record.time_increment)},"
+            f"  FRACTION OF STEP COMPLETED{general(fraction)}\n"
+            f" STEP TIME COMPLETED     {general(record.step_time)},  TOTAL TIME COMPLETED      "
+            f"{general(record.total_time)}\n"
+        )
+    return (
+        f" LOAD PROPORTIONALITY FACTOR{general(record.load_factor)},"
+        f"  LENGTH OF THE PATH    {general(record.total_time)}\n"
+    )
 
 
 def tolerances(step: Step, fields: Iterable[str]) -> str:

@@ -2,6 +2,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Step procedures: generators of records, without output of their own."""
 
-from harness.procedures.static import run_steps
+from harness.procedures.sequence import run_steps
 
 __all__ = ["run_steps"]

@@ -1,18 +1,18 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""*STATIC: increments of a step by Newton's method, and the sequence of steps."""
+"""*STATIC: increments of a step by Newton's method."""
 
 from __future__ import annotations
 
 from collections.abc import Generator, Iterator, Sequence
+from dataclasses import dataclass
 from functools import partial
 from typing import Protocol
 
-import numpy as np
-
-from harness.assembly import Constraints, DofMap, System
+from harness.assembly import Constraints, System
 from harness.elements import Call
-from harness.errors import ConvergenceError, SingularMatrixError
+from harness.errors import ConvergenceError
+from harness.model.arrays import FloatArray
 from harness.model.model import Model
 from harness.model.records import (
     AttemptAbandoned,
@@ -24,14 +24,12 @@ from harness.model.records import (
     Record,
     SearchHelped,
     StepDone,
-    StepStarted,
-    Warned,
 )
-from harness.model.steps import Boundary, Load, Step
+from harness.model.steps import Step
 from harness.procedures.checks import Checker
 from harness.procedures.extrapolation import Extrapolation
 from harness.procedures.incrementation import TOO_MANY_INCREMENTS, Abandoned, IncrementControl, refused
-from harness.procedures.loads import find_unknowns, released_reactions
+from harness.procedures.loads import released_reactions
 from harness.procedures.state import State
 from harness.solver.descent import ITERATIONS, Descent
 from harness.solver.linear import LinearSolver, choose
@@ -53,6 +51,23 @@ class UserRoutines(Protocol):
         self, lop: int, lrestart: int, time: tuple[float, float], dtime: float, step: int, increment: int
     ) -> None:
         """Call UEXTERNALDB if there is one."""
+
+
+@dataclass(frozen=True, slots=True)
+class Reached:
+    """End of a converged increment.
+
+    load, released  (n,) loads and fading reactions
+    size            change of the step time
+    load_factor     where it is part of the solution
+    """
+
+    load: FloatArray
+    released: FloatArray
+    step_time: float
+    total_time: float
+    size: float
+    load_factor: float | None = None
 
 
 class StaticStep:
@@ -103,12 +118,21 @@ class StaticStep:
         """Step and total time, no time increment, step and increment, as UEXTERNALDB gets them at the end."""
         return (self._time, self._state.total_time), 0.0, self._step.number, self._increment
 
+    @property
+    def _times(self) -> tuple[float, float]:
+        """Step and total time at the start of the increment."""
+        return self._time, self._start + self._time
+
+    def _finished(self) -> bool:
+        """Whether the step is complete."""
+        return self._control.finished(self._time)
+
     def run(self) -> Iterator[Record]:
         """Records of the step. Raises ConvergenceError, KernelError, SingularMatrixError."""
         cutbacks, iterations = 0, 0
         if self._choice:
             yield Noted(self._choice)
-        while not self._control.finished(self._time):
+        while not self._finished():
             if self._increment == self._step.increments:
                 raise ConvergenceError(f"{TOO_MANY_INCREMENTS} (step {self._step.number}, INC={self._step.increments})")
             self._increment += 1
@@ -123,22 +147,22 @@ class StaticStep:
     def _attempt(self, increment: int) -> Generator[Record, None, tuple[bool, int]]:
         """One attempt at an increment; returns whether it converged, and its iterations."""
         number, size = self._step.number, self._control.attempt(self._time)
-        times = self._time, self._start + self._time
+        times = self._times
         yield AttemptStarted(number, increment, self._control.attempts, *times, size)
         self._user.external_database(1, 0, times, size, number, increment)
-        given = self._given(increment, size)
+        iterates, extrapolated = self._begin(increment, size)
         iteration, abandoned = 0, None
-        for state in self._newton.iterates(given):
+        for state in iterates:
             iteration = state.iteration
             abandoned = refused(state.evaluation.pnewdt)
             if abandoned is None and iteration == 0:
-                self._checker.start(state, extrapolated=given.guess is not None)
+                self._checker.start(state, extrapolated=extrapolated)
             elif abandoned is None:
                 checks = self._checker.check(state)
                 yield IterationDone(iteration, checks, state.line_search)
                 if all(check.verdict.accepted for check in checks):
                     yield from self._help(increment, iteration)
-                    yield self._converge(state, given, increment)
+                    yield self._converge(state, increment, size)
                     return True, iteration
                 abandoned = self._give_up(iteration, checks)
             if abandoned is not None:
@@ -163,132 +187,82 @@ class StaticStep:
             since, reason = self._descent.since, self._descent.reason
             yield SearchHelped(self._step.number, increment, since, iterations, reason)
 
+    def _begin(self, increment: int, size: float) -> tuple[Iterator[Iterate], bool]:
+        """Iterates of an attempt, and whether they start from an extrapolation."""
+        given = self._given(increment, size)
+        return self._newton.iterates(given), given.guess is not None
+
     def _given(self, increment: int, size: float) -> Increment:
         """What the end of the increment prescribes."""
-        step, state = self._step, self._state
+        state = self._state
         end = self._end(size)
         total = self._start + end
         unknowns = state.boundaries.unknowns
-        call = Call(
-            lflags=(FIXED if step.procedure.direct else AUTOMATIC, int(step.nlgeom), NORMAL, 0, 0),
-            step=step.number,
-            increment=increment,
-            step_time=end,
-            total_time=total,
-            time_increment=size,
-            period=step.procedure.period,
-        )
         return Increment(
-            call=call,
+            call=self._call(increment, size, end, total),
             displacement=state.displacement,
             guess=self._extrapolation.guess(size),
             prescribed=(self._prescribed.at(end, total) - state.displacement)[unknowns],
             load=self._load.at(end, total) + self._released.at(end, total),
         )
 
+    def _call(self, increment: int, size: float, step_time: float, total_time: float) -> Call:
+        """Arguments of the passes of an increment that ends at these times."""
+        step = self._step
+        return Call(
+            lflags=(FIXED if step.procedure.direct else AUTOMATIC, int(step.nlgeom), NORMAL, 0, 0),
+            step=step.number,
+            increment=increment,
+            step_time=step_time,
+            total_time=total_time,
+            time_increment=size,
+            period=step.procedure.period,
+        )
+
     def _end(self, size: float) -> float:
         end = self._time + size
         return self._step.procedure.period if self._control.finished(end) else end
 
-    def _converge(self, last: Iterate, given: Increment, increment: int) -> IncrementDone:
+    def _reach(self, last: Iterate, size: float) -> Reached:
+        """Where a converged increment ends."""
+        end = self._end(size)
+        total = self._start + end
+        self._extrapolation.converged(last.increment, size)
+        self._time = end
+        return Reached(self._load.at(end, total), self._released.at(end, total), end, total, size)
+
+    def _converge(self, last: Iterate, increment: int, size: float) -> IncrementDone:
         """Commit what the last pass left, and choose the next increment."""
-        call, attempt = given.call, self._control.attempts
+        number, attempt = self._step.number, self._control.attempts
         self._system.commit()
-        released = self._released.at(call.step_time, call.total_time)
-        self._state.accept(last, given.load - released, released)
+        reached = self._reach(last, size)
+        self._state.accept(last, reached.load, reached.released)
         self._checker.converged()
-        self._extrapolation.converged(last.increment, call.time_increment)
         searched = self._descent is not None and bool(self._descent.reason)
         self._control.converged(last.iteration, last.evaluation.pnewdt, searched=searched)
-        self._time, self._state.total_time = call.step_time, call.total_time
-        times = call.step_time, call.total_time
-        self._user.external_database(2, 0, times, call.time_increment, call.step, increment)
-        solution = self._state.solution(self._system)
-        size, following = call.time_increment, self._control.following(self._time)
-        return IncrementDone(call.step, increment, attempt, last.iteration, *times, size, solution, following)
+        self._state.total_time = reached.total_time
+        times = reached.step_time, reached.total_time
+        self._user.external_database(2, 0, times, size, number, increment)
+        return IncrementDone(
+            number,
+            increment,
+            attempt,
+            last.iteration,
+            *times,
+            reached.size,
+            self._state.solution(self._system),
+            self._control.following(self._time),
+            reached.load_factor,
+        )
 
     def _abandon(self, abandoned: Abandoned, increment: int, iterations: int, size: float) -> Iterator[Record]:
         """Report the attempt; raise ConvergenceError where no other is left."""
         number, attempt = self._step.number, self._control.attempts
         following, error = self._control.abandon(abandoned)
-        times = self._time, self._start + self._time
+        times = self._times
         yield AttemptAbandoned(number, increment, attempt, iterations, *times, size, following, abandoned.reason)
         if error:
             raise ConvergenceError(f"{error} (step {number}, increment {increment}, attempt {attempt})")
-
-
-def run_steps(
-    system: System, model: Model, user: UserRoutines, solver: str = "auto", *, fallback: bool = False
-) -> Iterator[Record]:
-    """Run all steps of a model.
-
-    Parameters
-    ----------
-    system
-        The assembled model, in its initial state.
-    model
-        Its steps, prescribed values and equations.
-    user
-        The loaded library of user routines: UEXTERNALDB is called at the start and end of the analysis, of each step
-        and of each increment.
-    solver
-        Name of a linear solver.
-    fallback
-        Search downhill where Newton's method fails.
-
-    Yields
-    ------
-    Record
-        In the order in which things happen; what precedes an error is yielded before it is raised.
-
-    Raises
-    ------
-    ConvergenceError
-        The attempts, the increments, or the smallest increment are exhausted.
-    KernelError, SingularMatrixError, DeckError
-        From the elements, the linear solver, and over-constrained models.
-    """
-    state = State.start(system, model)
-    user.external_database(0, 0, (0.0, 0.0), 0.0, 1, 0)
-    yield from _unused(system.dofs, "*BOUNDARY", model.boundaries)
-    try:
-        for step in model.steps:
-            yield StepStarted(step.number)
-            yield from _unused(system.dofs, "*BOUNDARY", step.boundaries)
-            yield from _unused(system.dofs, "*CLOAD", step.loads)
-            user.external_database(5, 0, (0.0, state.total_time), 0.0, step.number, 0)
-            if step is model.steps[0]:
-                _mass_pass(system, step)
-            running = StaticStep(system, model, step, state, solver, user, fallback=fallback)
-            yield from running.run()
-            user.external_database(6, 0, *running.reached)
-    except ConvergenceError:
-        user.external_database(3, 0, *running.reached)
-        raise
-    except SingularMatrixError as error:
-        raise error.in_step(step.source) from None
-    if model.steps:
-        user.external_database(3, 0, *running.reached)
-
-
-def _mass_pass(system: System, step: Step) -> None:
-    """The mass matrix that Abaqus asks of user elements at the start of the analysis; the results are not used."""
-    first = FIXED if step.procedure.direct else AUTOMATIC
-    call = Call((first, int(step.nlgeom), MASS, 0, 0), step.number, 0, 0.0, 0.0, 0.0, step.procedure.period)
-    zero = np.zeros(len(system))
-    system.evaluate(call, zero, zero, matrix=False)
-
-
-def _unused(dofs: DofMap, keyword: str, entries: Sequence[Boundary] | Sequence[Load]) -> Iterator[Warned]:
-    """Warn of entries at degrees of freedom that no element uses: they have no effect."""
-    for entry in entries:
-        _, nodes = find_unknowns(dofs, entry)
-        if len(nodes):
-            others = f" and {len(nodes) - 1} more" if len(nodes) > 1 else ""
-            name = dofs.mesh.name(int(nodes[0]))
-            yield Warned(
-                f"{entry.source}: {keyword} has no effect: no element uses dof {entry.dof} of node {name}{others}"
-            )
 
 
 def _solver(name: str, constraints: Constraints) -> LinearSolver:

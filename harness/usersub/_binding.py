@@ -100,7 +100,10 @@ def evaluate(
     residual: FloatArray,
     matrix: FloatArray,
 ) -> Outcome:
-    """One pass over a block; options and clock as host_evaluate in fortran/host/entry.f90 names them."""
+    """One pass over a block; options and clock as host_evaluate in fortran/host/entry.f90 names them.
+
+    residual is (NRHS, n); its rows take the columns of RHS.
+    """
     flux, sums, status = _host.host_evaluate(
         address,
         options,
@@ -120,7 +123,7 @@ def evaluate(
         arrays.energy_trial.T,
         arrays.history.T,
         arrays.history_trial.T,
-        residual,
+        residual.T,
         matrix,
     )
     fault, position, array, index = (int(k) for k in status)

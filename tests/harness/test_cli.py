@@ -9,6 +9,7 @@ import time
 from pathlib import Path
 
 import meshio
+import numpy as np
 import pytest
 
 from harness.cli import main
@@ -29,21 +30,66 @@ def test_run_writes_the_files_and_returns_zero(tmp_path: Path, capsys: pytest.Ca
 
 def test_fallback_finishes_a_run_that_fails_without_it(tmp_path: Path) -> None:
     """A spring in series with one that fails at once: a snap, which Newton's method does not pass."""
-    deck = tmp_path / "snap.inp"
-    deck.write_text(
-        "*NODE\n1, 0.\n2, 1.\n3, 2.\n"
-        "*USER ELEMENT, TYPE=U1, NODES=2, COORDINATES=1, PROPERTIES=2, I PROPERTIES=1\n1\n"
-        "*USER ELEMENT, TYPE=U6, NODES=2, COORDINATES=1, PROPERTIES=3, I PROPERTIES=1\n1\n"
-        "*ELEMENT, TYPE=U1, ELSET=ELASTIC\n1, 1, 2\n*ELEMENT, TYPE=U6, ELSET=FAILING\n2, 2, 3\n"
-        "*UEL PROPERTY, ELSET=ELASTIC\n0.5, 0., 0\n*UEL PROPERTY, ELSET=FAILING\n10., 0.1, 1., 0\n"
-        "*STEP\n*STATIC\n0.1, 1., 1e-5, 0.1\n*BOUNDARY\n1, 1\n3, 1, 1, 3.15\n*END STEP\n"
-    )
+    deck = snapping(tmp_path, "*STATIC\n0.1, 1., 1e-5, 0.1\n")
     words = ["run", str(deck), "--user", str(SPRINGS), "--quiet", "--output-dir", str(tmp_path)]
     assert main(words) == 1
     assert main([*words, "--fallback"]) == 0
     message = (tmp_path / "snap.msg").read_text()
     assert "EQUILIBRIUM FOUND WITH THE DESCENT SEARCH" in message
     assert "1  INCREMENTS THAT NEEDED THE DESCENT SEARCH" in message
+
+
+def test_energy_control_traces_the_snap_back(tmp_path: Path) -> None:
+    deck = snapping(tmp_path, "*STATIC\n0.05, 1., 1e-5, 0.05\n")
+    words = ["run", str(deck), "--user", str(SPRINGS), "--quiet", "--output-dir", str(tmp_path)]
+    assert main([*words, "--control", "energy"]) == 0
+    assert "ENERGY CONTROL" in (tmp_path / "snap.msg").read_text()
+    history = Result(tmp_path / "snap").history
+    assert history["LPF"][-1] == 1.0
+    assert (np.diff(history["LPF"]) < 0).any()
+    assert (np.diff(history["time"]) > 0).all()
+
+
+def test_fallback_and_energy_control_exclude_each_other(capsys: pytest.CaptureFixture[str]) -> None:
+    with pytest.raises(SystemExit):
+        main(["run", str(FLAT), "--fallback", "--control", "energy"])
+    assert "not allowed with argument --fallback" in capsys.readouterr().err
+
+
+def test_riks_in_all_files(tmp_path: Path) -> None:
+    """A shallow truss under twice its limit load: the load factor falls and rises again."""
+    deck = tmp_path / "snap.inp"
+    deck.write_text(
+        "*NODE\n1, 0.\n2, 1.\n*USER ELEMENT, TYPE=U7, NODES=2, COORDINATES=1, PROPERTIES=2, I PROPERTIES=1\n1\n"
+        "*ELEMENT, TYPE=U7, ELSET=TRUSS\n1, 1, 2\n*UEL PROPERTY, ELSET=TRUSS\n1., 1., 0\n"
+        "*STEP, INC=50\n*STATIC, RIKS\n0.05, 1., 1e-5, 0.1, 0.8\n*BOUNDARY\n1, 1\n*CLOAD\n2, 1, 0.77\n*END STEP\n"
+    )
+    assert main(["run", str(deck), "--user", str(SPRINGS), "--quiet", "--output-dir", str(tmp_path)]) == 0
+    result = Result(tmp_path / "snap")
+    factor = result.history["LPF"]
+    assert factor[-1] >= 0.8
+    assert factor.min() < 0.0 < factor[0]
+    assert all(row.riks for row in result.status)
+    assert [row.step_time for row in result.status if not row.cutback] == pytest.approx(factor, rel=5e-3)
+    message = (tmp_path / "snap.msg").read_text()
+    assert "AUTOMATIC ARC LENGTH CONTROL (RIKS METHOD)" in message
+    assert "ARC LENGTH INCREMENT" in message
+    assert "LOAD PROPORTIONALITY FACTOR" in message
+
+
+def snapping(folder: Path, static: str) -> Path:
+    """A spring in series with one that fails at once, pulled to 3.15."""
+    deck = folder / "snap.inp"
+    deck.write_text(
+        "*NODE\n1, 0.\n2, 1.\n3, 2.\n*NSET, NSET=END\n3\n"
+        "*USER ELEMENT, TYPE=U1, NODES=2, COORDINATES=1, PROPERTIES=2, I PROPERTIES=1\n1\n"
+        "*USER ELEMENT, TYPE=U6, NODES=2, COORDINATES=1, PROPERTIES=3, I PROPERTIES=1\n1\n"
+        "*ELEMENT, TYPE=U1, ELSET=ELASTIC\n1, 1, 2\n*ELEMENT, TYPE=U6, ELSET=FAILING\n2, 2, 3\n"
+        "*UEL PROPERTY, ELSET=ELASTIC\n0.5, 0., 0\n*UEL PROPERTY, ELSET=FAILING\n10., 0.1, 1., 0\n"
+        f"*STEP, INC=500\n{static}*BOUNDARY\n1, 1\n3, 1, 1, 3.15\n"
+        "*OUTPUT, HISTORY\n*NODE OUTPUT, NSET=END\nU1, RF1\n*END STEP\n"
+    )
+    return deck
 
 
 def test_quiet_prints_nothing(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:

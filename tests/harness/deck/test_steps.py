@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Steps, procedures, controls and output requests."""
 
+import math
 from collections.abc import Callable
 from dataclasses import replace
 from pathlib import Path
@@ -10,7 +11,7 @@ import pytest
 
 from harness.errors import DeckError
 from harness.model.model import Model
-from harness.model.steps import Controls, FieldControls, LineSearchControls, Static, Step, TimeControls
+from harness.model.steps import Controls, FieldControls, LineSearchControls, Riks, Static, Step, TimeControls
 
 Read = Callable[[str], Model]
 FLAT = Path(__file__).with_name("flat.inp").read_text()
@@ -44,6 +45,34 @@ def test_static_defaults(read: Read, line: str, expected: Static) -> None:
 
 def test_direct(read: Read) -> None:
     assert steps(read, "*STATIC, DIRECT\n0.1, 1.")[0].procedure == Static(0.1, 1.0, 0.1, 0.1, direct=True)
+
+
+@pytest.mark.parametrize(
+    ("line", "expected"),
+    [
+        # Abaqus Keywords Guide, *STATIC, RIKS: no limit of the arc length, and none of the load factor
+        ("", Static(1.0, 1.0, 1e-5, math.inf, riks=Riks())),
+        ("0.1, 2., 1e-4, 0.5, 1.5", Static(0.1, 2.0, 1e-4, 0.5, riks=Riks(1.5))),
+        ("0.1, , , , , 3, 2, -0.5", Static(0.1, 1.0, 1e-5, math.inf, riks=Riks(None, 2, 2, -0.5))),
+    ],
+)
+def test_riks(read: Read, line: str, expected: Static) -> None:
+    assert steps(read, f"*STATIC, RIKS\n{line}")[0].procedure == expected
+
+
+@pytest.mark.parametrize(
+    ("line", "message"),
+    [
+        ("0.1, 1., , , 1., 3, 2, 1., 5.", "9 entries where at most 8 are read"),
+        ("0.1, 1., , , , 3, 2", "displacement is missing"),
+        ("0.1, 1., , , , 3", "dof is missing"),
+        ("0.1, 1., , , , , 2", "a dof and a displacement need a node"),
+        ("0.1, 1., , , , ALL, 1, 1.", "ALL has 8 nodes, where one is monitored"),
+    ],
+)
+def test_wrong_riks(read: Read, line: str, message: str) -> None:
+    with pytest.raises(DeckError, match=message):
+        steps(read, f"*STATIC, RIKS\n{line}")
 
 
 def test_step_defaults(read: Read) -> None:

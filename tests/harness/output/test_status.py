@@ -87,6 +87,15 @@ def test_the_monitored_dof_stands_in_its_column(tmp_path: Path) -> None:
     assert StatusRow.read(str(row)) == row
 
 
+@pytest.mark.parametrize("monitor", [None, -0.00125])
+def test_an_increment_along_a_path_has_an_r_below_if_riks(monitor: float | None) -> None:
+    row = StatusRow(1, 2, 1, False, 3, 0.2, -0.15, -0.05, monitor, riks=True)
+    head = " STEP  INC ATT SEVERE EQUIL TOTAL  TOTAL      STEP       INC OF       DOF    IF"
+    assert str(row).index("R") == head.index("IF")
+    assert str(row).startswith("   1     2   1     0     3     3  0.200      -0.150     -0.05000")
+    assert StatusRow.read(str(row)) == row
+
+
 def test_an_unfinished_line_is_left_out(tmp_path: Path) -> None:
     path = tmp_path / "job.sta"
     path.write_text(f"{LINES[0]}\n{LINES[1][:50]}")

@@ -8,7 +8,9 @@
 !   U4  f = PROPS(1) d with PROPS(2) times its stiffness in AMATRX: the error goes by 1 - 1/PROPS(2) in an iteration
 !   U5  as U1, NaN where d > PROPS(3)
 !   U6  damage: stiffness PROPS(1) up to d = PROPS(2), then down to no force at PROPS(3); the largest d in SVARS(1)
-! JPROPS(1) = 1 prints each call to the message file, as UEXTERNALDB always does.
+!   U7  shallow truss, f = PROPS(1) d (d - PROPS(2)) (d - 2 PROPS(2)): snaps through
+!   U8  as U1, and says of a load PROPS(3) on its second node in column 2 of RHS
+! JPROPS(1) = 1 prints each call to the message file, as UEXTERNALDB always does; 2 leaves column 2 of RHS alone.
       subroutine uel(rhs,amatrx,svars,energy,ndofel,nrhs,nsvars,
      &  props,nprops,coords,mcrd,nnode,u,du,v,a,jtype,time,dtime,
      &  kstep,kinc,jelem,params,ndload,jdltyp,adlmag,predef,npredf,
@@ -23,7 +25,8 @@
      &  lflags(1:5), kstep, kinc, u(1:2), du(1:2,1), time(1:2),
      &  dtime, svars(1), period
       d = u(2) - u(1)
-      if (jtype .le. 2 .or. jtype .eq. 5) then
+      if (jprops(1) .ne. 2) rhs(1:2,1:nrhs) = 0
+      if (jtype .le. 2 .or. jtype .eq. 5 .or. jtype .eq. 8) then
         f = props(1)*d + props(2)*d**3
         s = props(1) + 3*props(2)*d**2
         if (lflags(3) .eq. 1) energy(2) = props(1)*d**2/2
@@ -34,6 +37,10 @@
       else if (jtype .eq. 4) then
         f = props(1)*d
         s = props(2)*props(1)
+      else if (jtype .eq. 7) then
+        h = props(2)
+        f = props(1)*d*(d - h)*(d - 2*h)
+        s = props(1)*(3*d**2 - 6*h*d + 2*h**2)
       else
         q = max(svars(1), props(2))
         if (d .gt. q) q = min(d, props(3))
@@ -54,6 +61,7 @@
       if (jtype .ne. 6) svars(1) = d
       rhs(1,1) = f
       rhs(2,1) = -f
+      if (jtype .eq. 8 .and. nrhs .eq. 2) rhs(2,2) = props(3)
       amatrx = reshape((/ s, -s, -s, s /), (/ 2, 2 /))
       end
 

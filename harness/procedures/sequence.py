@@ -1,0 +1,108 @@
+# SPDX-FileCopyrightText: The uel-harness authors
+# SPDX-License-Identifier: BSD-3-Clause
+"""The sequence of the steps of a model."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+
+import numpy as np
+
+from harness.assembly import DofMap, System
+from harness.elements import Call
+from harness.errors import ConvergenceError, SingularMatrixError
+from harness.model.model import Model
+from harness.model.records import Record, StepStarted, Warned
+from harness.model.steps import Boundary, Load, Step
+from harness.procedures.loads import find_unknowns
+from harness.procedures.path import EnergyStep, RiksStep
+from harness.procedures.state import State
+from harness.procedures.static import AUTOMATIC, FIXED, MASS, StaticStep, UserRoutines
+
+
+def run_steps(
+    system: System,
+    model: Model,
+    user: UserRoutines,
+    solver: str = "auto",
+    *,
+    fallback: bool = False,
+    energy_control: bool = False,
+) -> Iterator[Record]:
+    """Run all steps of a model.
+
+    Parameters
+    ----------
+    system
+        The assembled model, in its initial state.
+    model
+        Its steps, prescribed values and equations.
+    user
+        The loaded library of user routines: UEXTERNALDB is called at the start and end of the analysis, of each step
+        and of each increment.
+    solver
+        Name of a linear solver.
+    fallback
+        Search downhill where Newton's method fails.
+    energy_control
+        Trace snap-backs: the load factor of each step is unknown too, see `harness.solver.dissipation`.
+
+    Yields
+    ------
+    Record
+        In the order in which things happen; what precedes an error is yielded before it is raised.
+
+    Raises
+    ------
+    ConvergenceError
+        The attempts, the increments, or the smallest increment are exhausted.
+    KernelError, SingularMatrixError, DeckError
+        From the elements, the linear solver, and over-constrained models.
+    """
+    state = State.start(system, model)
+    user.external_database(0, 0, (0.0, 0.0), 0.0, 1, 0)
+    yield from _unused(system.dofs, "*BOUNDARY", model.boundaries)
+    try:
+        for step in model.steps:
+            yield StepStarted(step.number)
+            yield from _unused(system.dofs, "*BOUNDARY", step.boundaries)
+            yield from _unused(system.dofs, "*CLOAD", step.loads)
+            user.external_database(5, 0, (0.0, state.total_time), 0.0, step.number, 0)
+            running: StaticStep
+            if step is model.steps[0]:
+                _mass_pass(system, step)
+            if step.procedure.riks:
+                running = RiksStep(system, model, step, state, solver, user)
+            elif energy_control:
+                running = EnergyStep(system, model, step, state, solver, user)
+            else:
+                running = StaticStep(system, model, step, state, solver, user, fallback=fallback)
+            yield from running.run()
+            user.external_database(6, 0, *running.reached)
+    except ConvergenceError:
+        user.external_database(3, 0, *running.reached)
+        raise
+    except SingularMatrixError as error:
+        raise error.in_step(step.source) from None
+    if model.steps:
+        user.external_database(3, 0, *running.reached)
+
+
+def _mass_pass(system: System, step: Step) -> None:
+    """The mass matrix that Abaqus asks of user elements at the start of the analysis; the results are not used."""
+    first = FIXED if step.procedure.direct else AUTOMATIC
+    call = Call((first, int(step.nlgeom), MASS, 0, 0), step.number, 0, 0.0, 0.0, 0.0, step.procedure.period)
+    zero = np.zeros(len(system))
+    system.evaluate(call, zero, zero, matrix=False)
+
+
+def _unused(dofs: DofMap, keyword: str, entries: Sequence[Boundary] | Sequence[Load]) -> Iterator[Warned]:
+    """Warn of entries at degrees of freedom that no element uses: they have no effect."""
+    for entry in entries:
+        _, nodes = find_unknowns(dofs, entry)
+        if len(nodes):
+            others = f" and {len(nodes) - 1} more" if len(nodes) > 1 else ""
+            name = dofs.mesh.name(int(nodes[0]))
+            yield Warned(
+                f"{entry.source}: {keyword} has no effect: no element uses dof {entry.dof} of node {name}{others}"
+            )

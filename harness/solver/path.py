@@ -1,0 +1,153 @@
+# SPDX-FileCopyrightText: The uel-harness authors
+# SPDX-License-Identifier: BSD-3-Clause
+"""Newton's method where the load factor is unknown too: loads and prescribed values are proportional to it.
+
+Each iteration solves for two right-hand sides with one factorisation, K c_r = r and K v = q, where q is the load per
+unit of the factor (column 2 of RHS in it, and prescribed values through K). The correction is c_r + mu v, the factor
+grows by mu, and mu follows from one more equation, the `Control`.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass, replace
+from typing import Protocol
+
+import numpy as np
+
+from harness.assembly import Constraints, System
+from harness.elements import Call
+from harness.model.arrays import FloatArray
+from harness.solver.newton import Factoriser, Iterate
+
+
+@dataclass(frozen=True, slots=True)
+class PathIncrement:
+    """What is given of an increment along a path.
+
+    call             of the passes after a solve
+    displacement     (n,) at the start
+    guess            (n,) extrapolated increment and its part of the factor; None: from the start state
+    load             (n,) external load at the start
+    load_rate        (n,) its change per unit of the factor
+    prescribed_rate  (n_p,) change of each prescribed unknown per unit of the factor
+    nrhs             NRHS of the passes
+    """
+
+    call: Call
+    displacement: FloatArray
+    guess: tuple[FloatArray, float] | None
+    load: FloatArray
+    load_rate: FloatArray
+    prescribed_rate: FloatArray
+    nrhs: int = 1
+
+
+@dataclass(frozen=True, slots=True)
+class PathIterate(Iterate):
+    """An iterate with the change of the load factor so far."""
+
+    factor: float = 0.0
+
+
+@dataclass(frozen=True, slots=True)
+class Directions:
+    """Solutions of one iteration, (n,) each.
+
+    particular  c_r, the correction at a fixed load factor
+    tangent     v, per unit of the factor
+    """
+
+    particular: FloatArray
+    tangent: FloatArray
+
+
+class Control(Protocol):
+    """The equation that fixes the load factor."""
+
+    def change(self, state: PathIterate, directions: Directions, reaction: Reaction) -> float:
+        """Change mu of the load factor in the iteration that follows `state`."""
+
+
+class Reaction(Protocol):
+    """Linearised reactions."""
+
+    def __call__(self, correction: FloatArray, factor: float) -> FloatArray:
+        """Change (n,) of the reactions by a correction and a change of the factor."""
+
+
+class PathFollower:
+    """Newton iterations with a load factor."""
+
+    def __init__(self, system: System, constraints: Constraints, solver: Factoriser) -> None:
+        self._system = system
+        self._constraints = constraints
+        self._solver = solver
+
+    def iterates(self, given: PathIncrement, control: Control) -> Iterator[PathIterate]:
+        """Iterate without end, as `Newton.iterates`; the factor of each iterate satisfies the control."""
+        first = given.call
+        increment, factor = np.zeros_like(given.displacement), 0.0
+        if given.guess is not None:
+            increment, factor = given.guess
+            first = replace(first, lflags=(*first.lflags[:4], 1))
+        state = self._evaluate(first, given, 0, increment, np.zeros_like(increment), factor)
+        yield state
+        while True:
+            directions = self._directions(given, state)
+            change = control.change(state, directions, self._reaction(given, state))
+            correction = directions.particular + change * directions.tangent
+            state = self._evaluate(
+                given.call,
+                given,
+                state.iteration + 1,
+                state.increment + correction,
+                correction,
+                state.factor + change,
+            )
+            yield state
+
+    def _evaluate(
+        self,
+        call: Call,
+        given: PathIncrement,
+        iteration: int,
+        increment: FloatArray,
+        correction: FloatArray,
+        factor: float,
+    ) -> PathIterate:
+        evaluation = self._system.evaluate(call, given.displacement + increment, increment, nrhs=given.nrhs)
+        residual = evaluation.residual + given.load + factor * given.load_rate
+        reduced = self._constraints.reduce_vector(residual)
+        return PathIterate(iteration, increment, correction, residual, reduced, evaluation, factor=factor)
+
+    def _directions(self, given: PathIncrement, state: PathIterate) -> Directions:
+        data, constraints = state.evaluation.data, self._constraints
+        assert data is not None
+        self._solver.factorise(constraints.reduce(data))
+        # prescribed values are those of the factor, but for rounding
+        missing = state.factor * given.prescribed_rate - state.increment[constraints.prescribed]
+        held = state.residual - constraints.prescribed_residual(data, missing)
+        particular = constraints.expand(self._solver.solve(constraints.reduce_vector(held)), missing)
+        pattern = self._load_rate(given, state) - constraints.prescribed_residual(data, given.prescribed_rate)
+        tangent = constraints.expand(self._solver.solve(constraints.reduce_vector(pattern)), given.prescribed_rate)
+        return Directions(particular, tangent)
+
+    @staticmethod
+    def _load_rate(given: PathIncrement, state: PathIterate) -> FloatArray:
+        """Load per unit of the factor, with what elements say of theirs."""
+        element = state.evaluation.load
+        if element is None or state.factor == 0.0:
+            return given.load_rate
+        return given.load_rate + element / state.factor
+
+    def _reaction(self, given: PathIncrement, state: PathIterate) -> Reaction:
+        data = state.evaluation.data
+        assert data is not None
+        # the next pass overwrites the values, but this serves before it only
+        matrix = self._system.matrix(data)
+
+        def change(correction: FloatArray, factor: float) -> FloatArray:
+            return self._constraints.reactions(factor * given.load_rate - matrix @ correction)
+
+        return change
