@@ -6,7 +6,7 @@ module abaqus_check
   use core_status, only: status_type, sentence, too_brittle, zero_length, edges_apart, small_beta
   use abaqus_layout, only: elements, reals, integer_item, &
     continuum_integers, standard_integers, four_node_integers, eight_node_integers, &
-    positive, not_negative, below_one, up_to_one, any_integer, p_alphan, p_alphat, p_gic, p_giic, &
+    positive, not_negative, below_one, up_to_one, estimated, any_integer, p_alphan, p_alphat, p_gic, p_giic, &
     p_betan, p_betat, j_four_closure, j_eight_closure
   use abaqus_report, only: fatal
   implicit none(type, external)
@@ -71,6 +71,8 @@ contains
         good = props(i) > 0.0_dp
       case (not_negative)
         good = props(i) >= 0.0_dp
+      case (estimated)
+        good = props(i) >= 0.0_dp .or. (jtype == 4 .and. .not. abs(props(i) + 1.0_dp) > 0.0_dp)
       case (below_one)
         good = props(i) >= 0.0_dp .and. props(i) < 1.0_dp
       case (up_to_one)
@@ -98,6 +100,8 @@ contains
       text = 'zero or a positive value'
     case (up_to_one)
       text = 'a value from 0 to 1'
+    case (estimated)
+      text = 'zero or a positive value, or -1 in U4'
     case (below_one)
       text = 'zero or a value between 0 and 1'
     case default

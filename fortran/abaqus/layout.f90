@@ -17,6 +17,7 @@ module abaqus_layout
   integer, parameter, public :: below_one = 3       ! 0 <= value < 1
   integer, parameter, public :: up_to_one = 4       ! 0 <= value <= 1
   integer, parameter, public :: any_value = 5
+  integer, parameter, public :: estimated = 7       ! 0 <= value, or -1 in U4
   integer, parameter, public :: any_integer = huge(1)
 
   !> A real property.
@@ -89,9 +90,9 @@ module abaqus_layout
     real_item(p_giic, 'GIIC', 'energy/area', positive), & !< mode II fracture energy, above TAUMAX**2/(2 ALPHAT)
     real_item(p_viscosity, 'VISCOSITY', 'time', not_negative), & !< relaxation time, see below; 0: none
     real_item(p_blend, 'BLEND', '1', up_to_one), & !< share of the secant matrix in AMATRX, with TANGENT 0
-    real_item(p_betan, 'BETAN', 'stress/length', not_negative), & !< stabilisation beta_n; 0: equation (21)
-    real_item(p_betat, 'BETAT', 'stress/length', not_negative), & !< stabilisation beta_tau; 0: equation (21)
-    real_item(p_gammabot, 'GAMMABOT', '1', below_one), & !< weight of the bottom stress; 0: equation (22)
+    real_item(p_betan, 'BETAN', 'stress/length', estimated), & !< stabilisation beta_n; 0: equation (21), -1: local eigenvalues
+    real_item(p_betat, 'BETAT', 'stress/length', estimated), & !< stabilisation beta_tau; 0: equation (21), -1: local eigenvalues
+    real_item(p_gammabot, 'GAMMABOT', '1', below_one), & !< weight of the bottom stress; 0: equation (22) with the same estimate
     real_item(p_bottom_e1, 'E1 BOTTOM', 'stress', positive), & !< Young's modulus along material axis 1
     real_item(p_bottom_e2, 'E2 BOTTOM', 'stress', positive), & !< Young's modulus along material axis 2
     real_item(p_bottom_e3, 'E3 BOTTOM', 'stress', not_negative), & !< Young's modulus out of the plane; plane strain

@@ -16,6 +16,7 @@ module elements_stabilised_interface
     measure_interface, separation_at, add_point, spread_to_nodes, close_point, close_consistent_point, point_energies, &
     end_of_node, sign_of_node
   use elements_quad4, only: face_point, gauss_of_face, quad4_area
+  use elements_face_eigenvalue, only: quad4_face_eigenvalue
   implicit none(type, external)
   private
   public :: stabilisation_type, stabilised_interface_four, stabilised_interface_eight, weigh_sides
@@ -27,7 +28,11 @@ module elements_stabilised_interface
   integer, parameter :: sample_face = 1
   integer, parameter :: sample_gauss = 2
 
-  !> Parameters of the stabilisation; a zero asks for (21) or (22).
+  !> Faces of the bottom and the top quad that are the interface.
+  integer, parameter :: faces(2) = [3, 1]
+
+  !> Parameters of the stabilisation; a zero asks for (21) or (22), a negative
+  !> beta for both from the local eigenvalue problem.
   type :: stabilisation_type
     real(dp) :: beta(2)        !< (tau, n), stress/length
     real(dp) :: gamma_bottom   !< weight of the bottom stress; that of the top is 1 - gamma_bottom
@@ -105,7 +110,7 @@ contains
     type(law_parameters), intent(in) :: law
     type(interface_options), intent(in) :: options
     real(dp), intent(in) :: thickness               !< out of the plane, length
-    type(stabilisation_type), intent(in) :: given   !< beta and gamma, zero for (21) and (22)
+    type(stabilisation_type), intent(in) :: given   !< beta and gamma, or what they follow from
     real(dp), intent(in) :: stiffness(3, 3, 2)      !< D of bottom and top, stress
     real(dp), intent(in) :: coordinates(2, 8)       !< original coordinates, length
     real(dp), intent(in) :: u(2, 8)                 !< displacements at the end of the increment, length
@@ -119,7 +124,7 @@ contains
     integer, parameter :: owned(4) = [4, 3, 6, 5]   ! nodes 1 to 4 of the interface
     type(interface_geometry) :: geometry
     type(stabilisation_type) :: used
-    real(dp) :: local(2, 2), by_bulk(2, 2), weight, areas(2), norms(2), xy(2, 4), u_interface(2, 4), flat(16)
+    real(dp) :: local(2, 2), by_bulk(2, 2), weight, xy(2, 4), u_interface(2, 4), flat(16)
     real(dp) :: bulk(2, 16), stress_part(2, 16, 2), force(2, 2), matrix(2, 2, 2, 2), jump_tangent(2, 4, 2, 4)
     real(dp) :: nodal_force(2, 4)
     integer :: a, b, k
@@ -136,13 +141,8 @@ contains
     end do
     call measure_interface(xy, options%rule, geometry, status)
     if (status%code /= ok) return
-    areas = [quad4_area(coordinates(:, 1:4)), quad4_area(coordinates(:, 5:8))]
-    if (.not. minval(areas) > 0.0_dp) then
-      status = status_type(inside_out, minloc(areas, 1), minval(areas), 0.0_dp)
-      return
-    end if
-    norms = [spectral_norm(stiffness(:, :, 1)), spectral_norm(stiffness(:, :, 2))]
-    used = weigh_sides(given, norms, areas, geometry%length)
+    call stabilise(given, stiffness, coordinates, geometry%length, used, status)
+    if (status%code /= ok) return
     if (options%consistent_closure) call check_beta(law, used%beta, status)
     if (status%code /= ok) return
 
@@ -172,6 +172,40 @@ contains
       end do
     end do
   end subroutine stabilised_interface_eight
+
+  !> Beta and gamma of the eight-node variant.
+  pure subroutine stabilise(given, stiffness, coordinates, length, used, status)
+    type(stabilisation_type), intent(in) :: given
+    real(dp), intent(in) :: stiffness(3, 3, 2), coordinates(2, 8)
+    real(dp), intent(in) :: length              !< meas(Gamma)
+    type(stabilisation_type), intent(out) :: used
+    type(status_type), intent(out) :: status    !< inside_out: item 1 for the bottom quad, 2 for the top one
+    real(dp) :: areas(2), norms(2), lambda(2)
+    integer :: side
+
+    used = given
+    areas = [quad4_area(coordinates(:, 1:4)), quad4_area(coordinates(:, 5:8))]
+    if (.not. minval(areas) > 0.0_dp) then
+      status = status_type(inside_out, minloc(areas, 1), minval(areas), 0.0_dp)
+      return
+    end if
+    status = status_type(ok, 0, 0.0_dp, 0.0_dp)
+    if (minval(given%beta) < 0.0_dp) then
+      do side = 1, 2
+        call quad4_face_eigenvalue(coordinates(:, 4*side - 3:4*side), faces(side), stiffness(:, :, side), &
+          lambda(side), status)
+        if (status%code /= ok) then
+          status%item = side
+          return
+        end if
+      end do
+      ! lambda takes the place of |D| meas(Gamma)/meas(Omega)
+      used = weigh_sides(given, lambda, [length, length], length)
+    else
+      norms = [spectral_norm(stiffness(:, :, 1)), spectral_norm(stiffness(:, :, 2))]
+      used = weigh_sides(given, norms, areas, length)
+    end if
+  end subroutine stabilise
 
   !> Adds the derivative of the force of point k on the two ends of the top edge by the bulk stress.
   pure subroutine add_stress_part(geometry, k, weight, by_bulk, bulk, matrix)
@@ -234,7 +268,6 @@ contains
     real(dp), intent(in) :: gamma_bottom, stiffness(3, 3, 2), coordinates(2, 8)
     real(dp), intent(out) :: matrix(2, 16)
     type(status_type), intent(out) :: status      !< inside_out: item 1 for the bottom quad, 2 for the top one
-    integer, parameter :: faces(2) = [3, 1]
     real(dp) :: gradient(2, 4), jacobian, by_strain(2, 3), weights(2), t
     integer :: side, a, column
 

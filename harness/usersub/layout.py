@@ -24,6 +24,7 @@ RULES: Final = {
     "not_negative": ">= 0, default 0",
     "below_one": ">= 0 and < 1, default 0",
     "up_to_one": "0 to 1, default 0",
+    "estimated": ">= 0 or, in U4, -1, default 0",
     "any_value": "any, default 0",
 }
 

@@ -12,7 +12,7 @@ from harness.errors import KernelError
 QUAD = np.array([[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]])
 FLAT = QUAD[[0, 1, 1, 0]]
 EIGHT = np.array([[0, -1], [1, -1], [1, 0], [0, 0], [0, 0], [1, 0], [1, 1], [0, 1]], dtype=float)
-NODES = {1: QUAD, 2: FLAT, 4: EIGHT}
+NODES = {1: QUAD, 2: FLAT, 3: FLAT, 4: EIGHT}
 
 
 @pytest.mark.parametrize("request_", [1, 4], ids=["normal", "mass"])
@@ -40,8 +40,9 @@ NODES = {1: QUAD, 2: FLAT, 4: EIGHT}
         (2, {"LAW": 0}, r"JPROPS\(1\) LAW = 0, expected is 1 to 1"),
         (2, {"INTEGRATION": 2}, r"JPROPS\(2\) INTEGRATION = 2, expected is 0 to 1"),
         (2, {"TANGENT": -1}, r"JPROPS\(3\) TANGENT = -1, expected is 0 to 1"),
-        (4, {"BETAN": -1.0}, r"U4 element 42: PROPS\(10\) BETAN = -1.*zero or a positive value"),
-        (4, {"BETAT": -1.0}, r"PROPS\(11\) BETAT = -1.*zero or a positive value"),
+        (4, {"BETAN": -2.0}, r"U4 element 42: PROPS\(10\) BETAN = -2.*zero or a positive value, or -1 in U4"),
+        (3, {"BETAN": -1.0}, r"U3 element 42: PROPS\(10\) BETAN = -1.*zero or a positive value, or -1 in U4"),
+        (4, {"BETAT": -0.5}, r"PROPS\(11\) BETAT = -0?.5.*zero or a positive value"),
         (4, {"GAMMABOT": 1.0}, r"PROPS\(12\) GAMMABOT = 1.*between 0 and 1"),
         (4, {"E1 BOTTOM": 0.0}, r"PROPS\(13\) E1 BOTTOM = 0.*positive"),
         (4, {"G12 TOP": -5.0}, r"PROPS\(27\) G12 TOP = -5.*positive"),

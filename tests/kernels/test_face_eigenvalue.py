@@ -1,0 +1,161 @@
+# SPDX-FileCopyrightText: The uel-harness authors
+# SPDX-License-Identifier: BSD-3-Clause
+"""Stabilisation from the local eigenvalue problem (BETAN = -1) against a dense solution, and beside equation (21)."""
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+from scipy.linalg import eigh
+
+from harness.errors import KernelError
+
+README = Path(__file__).parents[2] / "fortran/README.md"
+PLY_90 = {"E1": 1.05e4, "E2": 1.05e4, "E3": 1.2e5, "NU12": 0.51, "NU13": 0.02625, "NU23": 0.02625, "G12": 3.48e3}
+
+
+def quads(length, height, shear=0.0, bottom=None):
+    """Quads below and above an interface; bottom is the length of the outer edges where it differs."""
+    outer = length if bottom is None else bottom
+    inset = (length - outer) / 2
+    low = [[inset - shear, -height], [inset + outer - shear, -height], [length, 0], [0, 0]]
+    high = [[0, 0], [length, 0], [inset + outer + shear, height], [inset + shear, height]]
+    return np.array(low + high)
+
+
+SHAPES = {
+    "square, 0.1": quads(0.1, 0.1),
+    "rectangle, 0.25 x 0.3875": quads(0.25, 0.3875),
+    "rectangle, 0.125 x 0.3875": quads(0.125, 0.3875),
+    "rectangle, 1 x 0.1": quads(1.0, 0.1),
+    "parallelogram, 0.1 x 0.1, 45 degrees": quads(0.1, 0.1, shear=0.1),
+    "trapezoid, 0.1 and 0.05 x 0.1": quads(0.1, 0.1, bottom=0.05),
+    "trapezoid, 0.1 and 0.2 x 0.1": quads(0.1, 0.1, bottom=0.2),
+}
+LAYUPS = ("0/0", "0/90", "90/90")
+
+
+def beta_of(element, coordinates, **values):
+    """(tau, n) of an element, from its S = beta/(alpha + beta)."""
+    item = element(4, coordinates, ALPHAN=1e6, ALPHAT=1e6, **values)
+    item.advance(np.zeros(16))
+    s = np.array([item.state["ST"][0], item.state["SN"][0]])
+    return 1e6 * s / (1 - s)
+
+
+def expected_lambda(reference, xy, face, d):
+    """Largest eigenvalue of face v = lambda energy v on the complement of the rigid displacements."""
+    start, finish = (xy[3], xy[2]) if face > 0 else (xy[0], xy[1])
+    axes, length = reference.frame(start, finish)
+    energy, traction = np.zeros((8, 8)), np.zeros((8, 8))
+    for s in reference.POINTS[0]:
+        for t in reference.POINTS[0]:
+            b, jacobian = reference.strain_matrix(xy, s, t)
+            energy += jacobian * b.T @ d @ b
+        stress = d @ reference.strain_matrix(xy, s, face)[0]
+        on_face = np.array([reference.traction_of_stress(axes, column) for column in stress.T]).T
+        traction += length / 2 * on_face.T @ on_face
+    values, vectors = np.linalg.eigh(energy)
+    assert values[2] < 1e-9 * values[3]
+    kept = vectors[:, 3:]
+    return eigh(kept.T @ traction @ kept, kept.T @ energy @ kept, eigvals_only=True)[-1]
+
+
+def plies(ply, layup):
+    """Properties of bottom and top; a fibre out of the plane is 90 degrees."""
+    sides = {
+        side: PLY_90 if angle == "90" else ply for side, angle in zip(("TOP", "BOTTOM"), layup.split("/"), strict=True)
+    }
+    return sides, {f"{name} {side}": value for side, values in sides.items() for name, value in values.items()}
+
+
+@pytest.mark.parametrize("layup", LAYUPS)
+@pytest.mark.parametrize("angle", [0.0, 37.0])
+@pytest.mark.parametrize("shape", [*SHAPES, "inclined, distorted"])
+def test_dense_solution(element, interface, reference, ply, shape, layup, angle):
+    coordinates = SHAPES.get(shape, interface.eight)
+    sides, values = plies(ply, layup)
+    found = beta_of(element, coordinates, BETAN=-1, **{**values, "ANGLE TOP": angle})
+    turned = {"BOTTOM": 0.0, "TOP": angle}
+    d = [reference.elasticity(sides[side], turned[side], False) for side in ("BOTTOM", "TOP")]
+    halves = coordinates[:4], coordinates[4:]
+    lam = np.array([expected_lambda(reference, xy, face, c) for xy, face, c in zip(halves, (1, -1), d, strict=True)])
+    # (22) and (21) with lambda for |D| meas(Gamma)/meas(Omega): gamma_1 = lambda_2/(lambda_1 + lambda_2)
+    np.testing.assert_allclose(found, 2 * lam.prod() / lam.sum(), rtol=1e-9)
+    given = beta_of(element, coordinates, BETAT=-1, GAMMABOT=0.3, **{**values, "ANGLE TOP": angle})
+    np.testing.assert_allclose(given, 2 * (0.09 * lam[0] + 0.49 * lam[1]), rtol=1e-9)
+
+
+def test_a_given_beta_stays(element, interface):
+    computed = beta_of(element, interface.eight, BETAN=-1)
+    assert computed[0] == pytest.approx(computed[1], rel=1e-12)
+    mixed = beta_of(element, interface.eight, BETAN=-1, BETAT=4.0e5)
+    np.testing.assert_allclose(mixed, [4.0e5, computed[1]], rtol=1e-9)
+
+
+def test_rectangle_by_hand(element):
+    """No contraction, hardly any shear stiffness: both modes with sigma_n, v = y and v = x y, have lambda = E2/h.
+
+    v = y: face E2^2 l, energy E2 l h. v = x y: both with the integral of x^2 for l. beta = 2 (1/4 + 1/4) E2/h.
+    """
+    values = {f"{name} {side}": 0.0 for name in ("NU12", "NU13", "NU23") for side in ("BOTTOM", "TOP")}
+    values |= {f"G12 {side}": 1e-3 for side in ("BOTTOM", "TOP")}
+    assert beta_of(element, quads(0.3, 0.2), BETAN=-1, **values)[0] == pytest.approx(1.05e4 / 0.2, rel=1e-6)
+
+
+def test_inverse_scaling_with_size_and_indifference_to_rotation(element, interface):
+    beta = beta_of(element, interface.eight, BETAN=-1)
+    np.testing.assert_allclose(beta_of(element, 0.1 * interface.eight, BETAN=-1), 10 * beta, rtol=1e-8)
+    c, s = np.cos(0.7), np.sin(0.7)
+    turned = interface.eight @ np.array([[c, s], [-s, c]])
+    angles = {f"ANGLE {side}": np.degrees(0.7) for side in ("BOTTOM", "TOP")}
+    np.testing.assert_allclose(beta_of(element, turned, BETAN=-1, **angles), beta, rtol=1e-8)
+
+
+def test_coercivity(element, interface, ply, reference):
+    """Two quads and a rigid interface: no negative eigenvalue with BETAN = -1, but one with a sixteenth of it."""
+    angles = (30.0, -55.0)
+    d = [reference.elasticity(ply, angle, False) for angle in angles]
+    bulk = np.zeros((16, 16))
+    for side, constants in enumerate(d):
+        nodes = slice(4 * side, 4 * side + 4)
+        block = slice(8 * side, 8 * side + 8)
+        for s in reference.POINTS[0]:
+            for t in reference.POINTS[0]:
+                b, jacobian = reference.strain_matrix(interface.eight[nodes], s, t)
+                bulk[block, block] += 2.0 * jacobian * b.T @ constants @ b
+    stiff = {"ALPHAN": 1e18, "ALPHAT": 1e18, "SIGMAMAX": 1e12, "TAUMAX": 1e12, "GIC": 1e12, "GIIC": 1e12}
+    stiff |= {"ANGLE BOTTOM": angles[0], "ANGLE TOP": angles[1], "SAMPLING": 1}
+
+    def smallest(**beta):
+        item = element(4, interface.eight, **stiff, **beta)
+        whole = bulk + item.evaluate(np.zeros(16))[1]
+        values = np.linalg.eigvalsh(whole + whole.T)
+        return values[0] / values[-1]
+
+    assert smallest(BETAN=-1) > -1e-12
+    computed = beta_of(element, interface.eight, BETAN=-1, **{"ANGLE BOTTOM": angles[0], "ANGLE TOP": angles[1]})
+    assert smallest(BETAN=computed[1] / 16, BETAT=computed[0] / 16) < -1e-6
+
+
+def test_quad_inside_out_at_a_gauss_point(element):
+    """Area and middle of the face are good, a Gauss point is not: only the integral over the quad sees it."""
+    coordinates = quads(1.0, 1.0)
+    coordinates[6] = [0.2, 0.3]
+    item = element(4, coordinates, label=42, BETAN=-1)
+    with pytest.raises(KernelError, match="U4 element 42: top quad inside out"):
+        item.evaluate(np.zeros(16))
+
+
+def test_table_of_the_documentation_is_current(element, ply):
+    """The rows that README.md prints, worked out by the element."""
+    text = README.read_text()
+    for shape, coordinates in SHAPES.items():
+        cells = [shape]
+        for layup in LAYUPS:
+            values = plies(ply, layup)[1]
+            papers = beta_of(element, coordinates, **values)[1]
+            local = beta_of(element, coordinates, BETAN=-1, **values)[1]
+            cells += [f"{papers:.3g}", f"{local:.3g}", f"{local / papers:.2f}"]
+        row = "| " + " | ".join(cells) + " |"
+        assert row in text
