@@ -14,6 +14,7 @@ from harness.delamination.study import cases as study
 from harness.delamination.study.__main__ import main
 from harness.delamination.study.cases import Case, all_cases, select
 from harness.delamination.study.criteria import check, index_ratios
+from harness.delamination.study.refinement import variations
 from harness.delamination.study.rows import Row, at_tenths, bonded_part, damage_variation, measure
 from harness.delamination.study.runner import Store
 from harness.delamination.study.tables import csv_table, markdown_tables
@@ -32,7 +33,8 @@ GOOD = Row(
     peak_load=100.0,
     peak_displacement=2.0,
     final_load=80.0,
-    energy_error=0.001,
+    dissipation_error=0.002,
+    balance_error=0.001,
     index_n=1.0,
     index_t=1.0,
     damage_variation=1.0,
@@ -101,12 +103,18 @@ class Run:
             StatusRow(1, 4, 1, False, 4, 1.0, 1.0, 0.25),
         ]
 
+    def interface(self) -> dict[str, np.ndarray]:
+        """The last profile."""
+        return self.interfaces()[-1]
+
     def interfaces(self) -> list[dict[str, np.ndarray]]:
         """Smooth at first, then with one point of tension less and a damage that comes back."""
         smooth = {
             "TN": [0.0, 0.0, 30.0, -9.0, 0.0],
             "TT": [0.0, 0.0, -50.0, 0.0, 0.0],
             "DAMAGE": [1.0, 0.5, 0.2, 0.0, 0.0],
+            "DISSI": [0.13, 0.1, 0.0, 0.0, 0.0],
+            "DISSII": [0.5511, 0.0, 0.0, 0.0, 0.0],
         }
         later = smooth | {"TN": [0.0, 0.0, 28.0, -9.0, 0.0], "DAMAGE": [1.0, 0.5, 0.2, 0.4, 0.0]}
         return [
@@ -122,7 +130,9 @@ def test_measures_of_a_run() -> None:
     # the load falls by 10 of 20 N in the third increment: a snap, whose 12 iterations are counted apart
     assert (row.snaps, row.snap_iterations, row.iterations_per_increment) == (1, 12, 3.0)
     assert (row.peak_load, row.peak_displacement, row.final_load) == (20.0, 3.0, 9.7)
-    assert row.energy_error == pytest.approx((8.0 - 7.0) / 8.0)
+    assert row.balance_error == pytest.approx((8.0 - 7.0) / 8.0)
+    # one failed point, which has spent 0.13 of 0.26 and 0.5511 of 1.002 N/mm
+    assert row.dissipation_error == pytest.approx(0.05)
     assert (row.peak_n, row.peak_t) == (30.0, 50.0)
     assert (row.index_n, row.index_t) == (1.0, 1.0)
     # down by 0.8, up by 0.2, down by 0.4
@@ -135,7 +145,7 @@ def test_a_run_that_stopped() -> None:
     row = measure(CASE, run, "TOO MANY ATTEMPTS", 1.0)  # type: ignore[arg-type]
     assert not row.finished
     assert row.reached == 0.5
-    assert row.energy_error == 0.0
+    assert row.balance_error == 0.0
 
 
 def test_profiles_are_those_of_the_tenths() -> None:
@@ -258,6 +268,15 @@ def test_command_runs_what_is_missing(tmp_path: Path, capsys: pytest.CaptureFixt
     assert not list((tmp_path / "runs" / CASE.name).glob("*_vtu"))
     assert main(words) == 0
     assert f"{CASE.name}:" not in capsys.readouterr().out
+
+
+def test_refinement_tells_real_from_numerical(tmp_path: Path) -> None:
+    # the same bumps, quads of a quarter of the area
+    coarse, fine = (variations("frmm", "0/0", "consistent", factor, tmp_path) for factor in (1, 2))
+    assert coarse["TT"] == pytest.approx(fine["TT"], rel=0.1)
+    assert coarse["TN"] == pytest.approx(fine["TN"], rel=0.1)
+    # the standard element adds more than twice as much that is not there
+    assert variations("frmm", "0/0", "standard", 1, tmp_path)["TT"] > 3.0 * fine["TT"]
 
 
 def test_command_names_what_it_does_not_know(capsys: pytest.CaptureFixture[str], tmp_path: Path) -> None:

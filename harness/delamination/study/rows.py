@@ -32,7 +32,8 @@ class Row:
     snaps        increments in which the load falls by more than `SNAP` of the peak load
     snap_iterations  iterations of these increments, among the above
     peak_load, peak_displacement, final_load  N, mm
-    energy_error     (work - stored - dissipated energy) over (work - stored energy), at the end
+    dissipation_error  energy dissipated by failed points over their toughness, less 1
+    balance_error    (work - stored - dissipated energy) over (work - stored energy), at the end
     index_n, index_t   largest oscillation index of the tractions over the bonded part and the process zone
     damage_variation   total variation of the damage over its largest value, where it is farthest from 1, which is a
                        steady fall to 0
@@ -50,7 +51,8 @@ class Row:
     peak_load: float
     peak_displacement: float
     final_load: float
-    energy_error: float
+    dissipation_error: float
+    balance_error: float
     index_n: float
     index_t: float
     damage_variation: float
@@ -99,7 +101,8 @@ def measure(case: Case, result: Result, stopped: str, seconds: float) -> Row:
         peak_load=float(load[peak]),
         peak_displacement=float(displacement[peak]),
         final_load=float(load[-1]),
-        energy_error=(lost - dissipated) / lost if lost > 0.0 else 0.0,
+        dissipation_error=dissipation_error(result.interface()),
+        balance_error=(lost - dissipated) / lost if lost > 0.0 else 0.0,
         **_along_the_interface(result.interfaces()),
         seconds=seconds,
     )
@@ -138,6 +141,13 @@ def damage_variation(damage: FloatArray) -> float:
     """Total variation of the damage (n,) along the interface, over its largest value; 1 without damage."""
     largest = float(damage.max())
     return total_variation(damage) / largest if largest > 0.0 else 1.0
+
+
+def dissipation_error(profile: dict[str, FloatArray]) -> float:
+    """Mean over the failed points of DISSI/G_Ic + DISSII/G_IIc, less 1; 0 where none has failed."""
+    failed = profile["DAMAGE"] >= 1.0
+    spent = profile["DISSI"] / TABLE_2.toughness_1 + profile["DISSII"] / TABLE_2.toughness_2
+    return float(np.mean(spent[failed])) - 1.0 if failed.any() else 0.0
 
 
 def loading_mode(kind: Kind, row: Row) -> dict[str, float]:

@@ -20,7 +20,17 @@ SHOWN = 4
 
 HEAD = (
     *("stiffness", "element", "mesh", "solution", "increments", "iterations", "per increment", "cutbacks"),
-    *("peak load (N)", "energy error", "index t_n", "index t_tau", "TV damage", "max t_n", "max t_tau (MPa)", "end"),
+    *(
+        "peak load (N)",
+        "dissipated",
+        "balance",
+        "index t_n",
+        "index t_tau",
+        "TV damage",
+        "max t_n",
+        "max t_tau (MPa)",
+        "end",
+    ),
 )
 
 
@@ -55,8 +65,9 @@ def _cells(case: Case, row: Row) -> list[str]:
     return [
         *(case.stiffness, case.element, case.mesh, case.solution),
         *(str(row.increments), str(row.iterations), _mean(row), str(row.cutbacks)),
-        *(f"{row.peak_load:.2f}", f"{row.energy_error:.2%}", f"{row.index_n:.3f}", f"{row.index_t:.3f}"),
-        *(f"{row.damage_variation:.4f}", f"{row.peak_n:.2f}", f"{row.peak_t:.2f}"),
+        *(f"{row.peak_load:.2f}", f"{row.dissipation_error:+.2%}", f"{row.balance_error:+.2%}"),
+        *(f"{row.index_n:.3f}", f"{row.index_t:.3f}", f"{row.damage_variation:.4f}"),
+        *(f"{row.peak_n:.2f}", f"{row.peak_t:.2f}"),
         "finished" if row.finished else f"{row.reached:.1%}: {row.stopped.split(' (')[0].lower()}",
     ]
 
