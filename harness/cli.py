@@ -70,6 +70,8 @@ def build_parser() -> argparse.ArgumentParser:
 
     add_law(commands.add_parser("law", help="drive one interface element, plot traction over separation"))
 
+    add_check(commands.add_parser("check", help="check the elements of a deck in the calls of a run"))
+
     solvers = commands.add_parser("solvers", help="list the linear solvers and say which is taken when")
     solvers.set_defaults(function=list_solvers)
     return parser
@@ -101,6 +103,25 @@ def add_law(law: argparse.ArgumentParser) -> None:
     law.add_argument("--job", default="law", metavar="NAME", help="name of the output files (law)")
     law.add_argument("--output-dir", type=Path, default=Path(), metavar="DIR", help="where they go (current folder)")
     law.set_defaults(function=explore_law)
+
+
+def add_check(check: argparse.ArgumentParser) -> None:
+    """Options of `uel check`."""
+    check.add_argument("deck", type=Path, metavar="DECK.inp")
+    check.add_argument("--user", type=Path, metavar="FILE", help="user elements, as for `uel run`; ours by default")
+    check.add_argument(
+        "--shuffle", action="store_true", required=True, help="call the elements in random order: the same results?"
+    )
+    check.add_argument("--seed", type=positive, default=1, metavar="N", help="of the random orders (1)")
+    check.add_argument("--increments", type=positive, default=3, metavar="K", help="of the deck that are run (3)")
+    check.set_defaults(function=check_elements)
+
+
+def positive(text: str) -> int:
+    """A whole number from 1, given as an option."""
+    if (count := int(text)) < 1:
+        raise argparse.ArgumentTypeError(f"expected at least 1, found {count}")
+    return count
 
 
 def from_abaqus(parser: argparse.ArgumentParser, words: list[str]) -> list[str]:
@@ -165,6 +186,15 @@ def explore_law(options: argparse.Namespace) -> int:
     Console().print(summary(curves))
     print("written:", *files)
     return 0
+
+
+def check_elements(options: argparse.Namespace) -> int:
+    """`uel check`."""
+    from harness.check.shuffle import report, shuffle  # noqa: PLC0415
+
+    outcome = shuffle(options.deck, options.user, seed=options.seed, increments=options.increments)
+    Console().print(report(outcome))
+    return int(not outcome.passed)
 
 
 def list_solvers(_: argparse.Namespace) -> int:

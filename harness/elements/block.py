@@ -4,7 +4,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Final
 
 import numpy as np
@@ -69,6 +69,7 @@ class Block:
         self.unknowns = unknowns
         self.unsymmetric = unsymmetric
         self.variables = variables
+        self._coordinates = coordinates
         self._procedure = procedure
         self._library = library
         m, n = len(group.labels), len(unknowns)
@@ -103,6 +104,22 @@ class Block:
         self._arrays.equations = np.ascontiguousarray(equations + 1, dtype=np.int32)
         # the driver walks AMATRX by columns
         self._arrays.map = np.ascontiguousarray(scatter.transpose(0, 2, 1) + 1, dtype=np.int32)
+
+    def split(self) -> list[Block]:
+        """Its elements, each in an unbound block of its own and in the initial state, for calls in any order."""
+        group = self.group
+        return [
+            Block(
+                replace(group, labels=group.labels[k : k + 1], nodes=group.nodes[k : k + 1]),
+                self._coordinates,
+                self.unknowns,
+                self._procedure,
+                self._library,
+                unsymmetric=self.unsymmetric,
+                variables=self.variables,
+            )
+            for k in range(len(group.labels))
+        ]
 
     def evaluate(
         self, call: Call, u: FloatArray, du: FloatArray, residual: FloatArray, matrix: FloatArray | None
@@ -149,6 +166,10 @@ class Block:
     def state(self, index: int) -> ElementState:
         """Committed state, copied; index: of the group in the model."""
         return ElementState(index, self._arrays.svars.copy(), self._arrays.energy.copy(), self.variables)
+
+    def trial(self, index: int) -> ElementState:
+        """State that the last normal call left, copied; index: of the group in the model."""
+        return ElementState(index, self._arrays.svars_trial.copy(), self._arrays.energy_trial.copy(), self.variables)
 
     def _error(self, outcome: _binding.Outcome, nrhs: int) -> KernelError:
         element = int(self.group.labels[outcome.position]) if outcome.position >= 0 else 0

@@ -1,0 +1,148 @@
+# SPDX-FileCopyrightText: The uel-harness authors
+# SPDX-License-Identifier: BSD-3-Clause
+"""Does an element depend on the order in which elements are called?
+
+Abaqus calls user elements by ascending number on one thread, and in no fixed order on several threads or processes.
+The calls of a run are made again with the elements in random order, another one in every pass, and each element has to
+return the same bits. The results of elements are compared, not their sums, which round differently in another order.
+Two elements at the same time, as threads call them, are not tried.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Final
+
+import numpy as np
+from rich.console import Group
+from rich.table import Table
+from rich.text import Text
+
+from harness.check.recording import Pass, Recording, record
+from harness.check.replay import Elements, Results, abaqus_order, replay
+from harness.errors import KernelError
+
+ORDERS: Final = 3
+"""Replays with random orders."""
+
+MASS: Final = 4
+"""LFLAGS(3) of the mass matrix, which a static analysis asks for and does not use."""
+
+THREADS: Final = "run on one thread and in one process (no cpus= above 1)"
+
+
+@dataclass(slots=True)
+class TypeVerdict:
+    """Outcome for one element type.
+
+    elements   of this type in the model
+    calls      compared
+    different  names of the elements that returned something else in a random order
+    first      the first difference, as a sentence
+    refusal    error with which an element ended a call, None if none did
+    """
+
+    type: str
+    elements: int
+    calls: int = 0
+    different: set[str] = field(default_factory=set)
+    first: str = ""
+    refusal: KernelError | None = None
+
+    @property
+    def passed(self) -> bool:
+        """Every call gave the same bits."""
+        return self.refusal is None and not self.different
+
+    @property
+    def verdict(self) -> str:
+        """In a few words."""
+        if self.refusal is not None:
+            return "refused, depends on the order"
+        if self.different:
+            return f"depends on the order ({len(self.different)} of {self.elements} elements)"
+        return "the same in any order"
+
+
+@dataclass(frozen=True, slots=True)
+class Shuffled:
+    """Outcome of the check; seed is that of the random orders."""
+
+    recording: Recording
+    seed: int
+    types: tuple[TypeVerdict, ...]
+
+    @property
+    def passed(self) -> bool:
+        """No element depends on the order."""
+        return all(kind.passed for kind in self.types)
+
+
+def shuffle(deck: Path, user: Path | None = None, *, seed: int = 1, increments: int = 3) -> Shuffled:
+    """Replay the first increments of a deck in random orders. Raises UelError where it fails in Abaqus' order."""
+    recording = record(deck, user, increments)
+    ordered = [results for _, results in replay(recording, abaqus_order)]
+    verdicts: dict[str, TypeVerdict] = {}
+    for group in recording.model.groups:
+        verdicts.setdefault(group.type, TypeVerdict(group.type, 0)).elements += len(group.labels)
+    for number in range(1, ORDERS + 1):
+        random = np.random.default_rng([seed, number])
+        for expected, (elements, found) in zip(ordered, replay(recording, random.permutation), strict=True):
+            _compare(elements, expected, found, f"random order {number}", verdicts)
+    return Shuffled(recording, seed, tuple(verdicts.values()))
+
+
+def _compare(
+    elements: Elements, expected: Results, found: Results, order: str, verdicts: dict[str, TypeVerdict]
+) -> None:
+    call = found.made.call
+    where = f"step {call.step}, increment {call.increment}"
+    for position, error in found.refusals.items():
+        verdict = verdicts[str(elements.types[position])]
+        verdict.refusal = verdict.refusal or error
+    if call.lflags[2] != MASS:
+        for kind, count in zip(*np.unique(elements.types[found.called], return_counts=True), strict=True):
+            verdicts[str(kind)].calls += int(count)
+    # bits, so that -0.0 and NaN are told apart too
+    unequal = np.flatnonzero(expected.values.view(np.int64) != found.values.view(np.int64))
+    positions, firsts = np.unique(np.searchsorted(elements.starts, unequal, side="right") - 1, return_index=True)
+    for position, index in zip(positions.tolist(), unequal[firsts].tolist(), strict=True):
+        if not found.called[position]:
+            continue
+        verdict = verdicts[str(elements.types[position])]
+        verdict.different.add(elements.names[position])
+        if not verdict.first:
+            entry = elements.entry(position, index - int(elements.starts[position]))
+            values = f"{expected.values[index]:.17g} in Abaqus' order, {found.values[index]:.17g} in {order}"
+            verdict.first = f"element {elements.names[position]}, {where}: {entry} is {values}"
+
+
+def report(outcome: Shuffled) -> Group:
+    """Table of the verdicts, and what to do about those that are bad."""
+    recording = outcome.recording
+    passes = sum(isinstance(event, Pass) and event.call.lflags[2] != MASS for event in recording.events)
+    title = f"{recording.model.deck.name}: {ORDERS} random orders (seed {outcome.seed}) against Abaqus' order"
+    caption = f"increments: {recording.increments}; calls of each element in each order: {passes}"
+    table = Table("type", "elements", "calls compared", "verdict", "first difference", title=title, caption=caption)
+    for kind in outcome.types:
+        first = kind.first if kind.refusal is None else f"element {kind.refusal.element} ended the analysis, see below"
+        table.add_row(kind.type, str(kind.elements), str(kind.calls), kind.verdict, Text(first))
+    lines = [f"The run ended early: {recording.stopped}"] if recording.stopped else []
+    lines += [str(kind.refusal) for kind in outcome.types if kind.refusal is not None]
+    lines += [_advice(kind, ours=recording.user is None) for kind in outcome.types if not kind.passed]
+    return Group(table, *(Text(line) for line in lines))
+
+
+def _advice(kind: TypeVerdict, *, ours: bool) -> str:
+    if kind.refusal is None:
+        return (
+            f"{kind.type}: something outlives a call and is not in SVARS: look for SAVE, COMMON, module variables, and "
+            "local variables with an initial value in their declaration (which are saved); keep in SVARS what an "
+            f"element has to remember. Until then {THREADS}."
+        )
+    advice = (
+        f"{kind.type}: it needs what other elements leave behind when they are called: give those lower element "
+        f"numbers, and {THREADS}."
+    )
+    return f"{advice} U4 is the same element without that need." if ours and kind.type == "U3" else advice
