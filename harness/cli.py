@@ -35,6 +35,9 @@ def main(arguments: Sequence[str] | None = None) -> int:
     words = list(sys.argv[1:] if arguments is None else arguments)
     if words[:1] == ["run"]:
         words[1:] = from_abaqus(parser, words[1:])
+    elif words[:1] == ["law"]:
+        # properties may stand anywhere between the options
+        words[1:] = sorted(words[1:], key=lambda word: word.startswith("-") or "=" not in word)
     options = parser.parse_args(words)
     try:
         return int(options.function(options))

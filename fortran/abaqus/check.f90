@@ -3,10 +3,11 @@
 !> Checks of what an element is called with: counts, ranges of the properties, kind of analysis.
 module abaqus_check
   use core_kinds, only: dp
-  use core_status, only: status_type, sentence, too_brittle, zero_length, edges_apart, small_beta
+  use core_status, only: status_type, sentence, too_brittle, zero_length, edges_apart, small_beta, &
+    too_brittle_mixed
   use abaqus_layout, only: elements, reals, integer_item, &
     continuum_integers, standard_integers, four_node_integers, eight_node_integers, &
-    positive, not_negative, below_one, up_to_one, estimated, any_integer, p_alphan, p_alphat, p_gic, p_giic, &
+    positive, not_negative, below_one, up_to_one, exponent, estimated, any_integer, p_alphan, p_alphat, p_gic, p_giic, &
     p_betan, p_betat, j_four_closure, j_eight_closure
   use abaqus_report, only: fatal
   implicit none(type, external)
@@ -77,6 +78,8 @@ contains
         good = props(i) >= 0.0_dp .and. props(i) < 1.0_dp
       case (up_to_one)
         good = props(i) >= 0.0_dp .and. props(i) <= 1.0_dp
+      case (exponent)
+        good = props(i) >= 0.5_dp .or. abs(props(i)) <= 0.0_dp
       case default
         good = abs(props(i)) <= huge(1.0_dp)
       end select
@@ -104,6 +107,8 @@ contains
       text = 'zero or a positive value, or -1 in U4'
     case (below_one)
       text = 'zero or a value between 0 and 1'
+    case (exponent)
+      text = 'zero or at least 0.5'
     case default
       text = 'a finite value'
     end select
@@ -198,6 +203,10 @@ contains
       position = merge(p_gic, p_giic, status%item == 1)
       call fatal(jtype, jelem, 'PROPS(%I) ' // trim(reals(position)%name) // ' = %R, ' // &
         trim(sentence(status%code)) // '; more than %R is expected', [position], [status%value, status%expected])
+    case (too_brittle_mixed)
+      call fatal(jtype, jelem, 'PROPS(%I) ' // trim(reals(p_alphan)%name) // ' = %R, ' // &
+        trim(sentence(status%code)) // ' where mode II has %I per cent of the energy; more than %R is expected', &
+        [p_alphan, status%item], [status%value, status%expected])
     case (small_beta)
       position = merge(p_betan, p_betat, status%item == 1)
       call fatal(jtype, jelem, 'PROPS(%I) ' // trim(reals(position)%name) // ': beta = %R, ' // &

@@ -5,13 +5,13 @@ module abaqus_interface_elements
   use core_kinds, only: dp
   use core_status, only: status_type, ok, sentence
   use materials_linear_elasticity, only: engineering_constants, plane_stiffness
-  use cohesive_law, only: law_parameters
+  use cohesive_law, only: law_parameters, bilinear_law
   use elements_interface_point, only: interface_options, interface_point
   use elements_standard_interface, only: standard_interface
   use elements_stabilised_interface, only: stabilisation_type, stabilised_interface_four, stabilised_interface_eight
   use abaqus_layout, only: reals, interface_variables, &
-    p_thickness, p_alphan, p_alphat, p_sigmamax, p_taumax, p_gic, p_giic, p_viscosity, p_blend, p_betan, p_betat, p_gammabot, &
-    p_bottom_e1, p_bottom_nu12, p_top_e1, p_top_nu12, &
+    p_thickness, p_alphan, p_alphat, p_sigmamax, p_taumax, p_gic, p_giic, p_viscosity, p_eta, p_power, &
+    p_blend, p_betan, p_betat, p_gammabot, p_bottom_e1, p_bottom_nu12, p_top_e1, p_top_nu12, &
     j_law, j_integration, j_tangent, j_sampling, j_eight_plane, &
     v_x, v_y, v_sepn, v_sept, v_tn, v_tt, v_damage, v_dissi, v_dissii, v_sn, v_st, v_dmax, v_dissv, v_wn, v_wt
   use abaqus_check, only: closure_of, refuse
@@ -92,6 +92,9 @@ contains
     law%strength = [props(p_taumax), props(p_sigmamax)]
     law%toughness = [props(p_giic), props(p_gic)]
     law%viscosity = props(p_viscosity)
+    if (law%kind == bilinear_law) return
+    law%eta = props(p_eta)
+    if (props(p_power) > 0.0_dp) law%power = props(p_power)
   end function law_of
 
   !> Stiffness of the bottom and the top quad of U4.

@@ -17,6 +17,7 @@ module abaqus_layout
   integer, parameter, public :: below_one = 3       ! 0 <= value < 1
   integer, parameter, public :: up_to_one = 4       ! 0 <= value <= 1
   integer, parameter, public :: any_value = 5
+  integer, parameter, public :: exponent = 6        ! 0 or at least 1/2
   integer, parameter, public :: estimated = 7       ! 0 <= value, or -1 in U4
   integer, parameter, public :: any_integer = huge(1)
 
@@ -57,30 +58,32 @@ module abaqus_layout
   integer, parameter, public :: p_gic = 6
   integer, parameter, public :: p_giic = 7
   integer, parameter, public :: p_viscosity = 8
-  integer, parameter, public :: p_blend = 9
+  integer, parameter, public :: p_eta = 9
+  integer, parameter, public :: p_power = 10
+  integer, parameter, public :: p_blend = 11
   ! reals of the stabilised interface elements
-  integer, parameter, public :: p_betan = 10
-  integer, parameter, public :: p_betat = 11
-  integer, parameter, public :: p_gammabot = 12
+  integer, parameter, public :: p_betan = 12
+  integer, parameter, public :: p_betat = 13
+  integer, parameter, public :: p_gammabot = 14
   ! reals of the eight-node interface element: elastic constants of its two quads
-  integer, parameter, public :: p_bottom_e1 = 13
-  integer, parameter, public :: p_bottom_e2 = 14
-  integer, parameter, public :: p_bottom_e3 = 15
-  integer, parameter, public :: p_bottom_nu12 = 16
-  integer, parameter, public :: p_bottom_nu13 = 17
-  integer, parameter, public :: p_bottom_nu23 = 18
-  integer, parameter, public :: p_bottom_g12 = 19
-  integer, parameter, public :: p_bottom_angle = 20
-  integer, parameter, public :: p_top_e1 = 21
-  integer, parameter, public :: p_top_e2 = 22
-  integer, parameter, public :: p_top_e3 = 23
-  integer, parameter, public :: p_top_nu12 = 24
-  integer, parameter, public :: p_top_nu13 = 25
-  integer, parameter, public :: p_top_nu23 = 26
-  integer, parameter, public :: p_top_g12 = 27
-  integer, parameter, public :: p_top_angle = 28
+  integer, parameter, public :: p_bottom_e1 = 15
+  integer, parameter, public :: p_bottom_e2 = 16
+  integer, parameter, public :: p_bottom_e3 = 17
+  integer, parameter, public :: p_bottom_nu12 = 18
+  integer, parameter, public :: p_bottom_nu13 = 19
+  integer, parameter, public :: p_bottom_nu23 = 20
+  integer, parameter, public :: p_bottom_g12 = 21
+  integer, parameter, public :: p_bottom_angle = 22
+  integer, parameter, public :: p_top_e1 = 23
+  integer, parameter, public :: p_top_e2 = 24
+  integer, parameter, public :: p_top_e3 = 25
+  integer, parameter, public :: p_top_nu12 = 26
+  integer, parameter, public :: p_top_nu13 = 27
+  integer, parameter, public :: p_top_nu23 = 28
+  integer, parameter, public :: p_top_g12 = 29
+  integer, parameter, public :: p_top_angle = 30
 
-  type(real_item), parameter, public :: reals(28) = [ &
+  type(real_item), parameter, public :: reals(30) = [ &
     real_item(p_thickness, 'THICKNESS', 'length', positive), & !< thickness out of the plane
     real_item(p_alphan, 'ALPHAN', 'stress/length', not_negative), & !< initial normal stiffness alpha_n; 0: infinite, with CLOSURE 1
     real_item(p_alphat, 'ALPHAT', 'stress/length', not_negative), & !< initial tangential stiffness alpha_tau; 0: as ALPHAN
@@ -89,6 +92,8 @@ module abaqus_layout
     real_item(p_gic, 'GIC', 'energy/area', positive), & !< mode I fracture energy, above SIGMAMAX**2/(2 ALPHAN)
     real_item(p_giic, 'GIIC', 'energy/area', positive), & !< mode II fracture energy, above TAUMAX**2/(2 ALPHAT)
     real_item(p_viscosity, 'VISCOSITY', 'time', not_negative), & !< relaxation time, see below; 0: none
+    real_item(p_eta, 'ETA', '1', exponent), & !< exponent of Benzeggagh and Kenane (LAW 2, 3); 0: power law
+    real_item(p_power, 'POWER', '1', exponent), & !< exponent of the power law (LAW 2, 3); 0: 1, the linear criterion
     real_item(p_blend, 'BLEND', '1', up_to_one), & !< share of the secant matrix in AMATRX, with TANGENT 0
     real_item(p_betan, 'BETAN', 'stress/length', estimated), & !< stabilisation beta_n; 0: equation (21), -1: local eigenvalues
     real_item(p_betat, 'BETAT', 'stress/length', estimated), & !< stabilisation beta_tau; 0: equation (21), -1: local eigenvalues
@@ -132,12 +137,12 @@ module abaqus_layout
     integer_item(j_face, 'FACE', 0, 4)] !< face along a four-node stabilised interface (U3), as Abaqus counts; 0 none
 
   type(integer_item), parameter, public :: standard_integers(3) = [ &
-    integer_item(j_law, 'LAW', 1, 1), & !< 1 bilinear
+    integer_item(j_law, 'LAW', 1, 3), & !< 1 bilinear (9) to (11), 2 bilinear by ETA or POWER, 3 exponential by ETA or POWER
     integer_item(j_integration, 'INTEGRATION', 0, 1), & !< 0 Gauss, 1 Newton-Cotes
     integer_item(j_tangent, 'TANGENT', 0, 1)] !< 0 consistent (23), 1 secant (24)
 
   type(integer_item), parameter, public :: four_node_integers(7) = [ &
-    integer_item(j_law, 'LAW', 1, 1), & !< 1 bilinear
+    integer_item(j_law, 'LAW', 1, 3), & !< 1 bilinear (9) to (11), 2 bilinear by ETA or POWER, 3 exponential by ETA or POWER
     integer_item(j_integration, 'INTEGRATION', 0, 1), & !< 0 Gauss, 1 Newton-Cotes
     integer_item(j_tangent, 'TANGENT', 0, 1), & !< at constant bulk stress: 0 consistent, 1 S alpha (1 - d) alone
     integer_item(j_sampling, 'SAMPLING', 0, 2), & !< bulk stress: 0 middle of the face, 1 face, 2 nearest Gauss point
@@ -146,7 +151,7 @@ module abaqus_layout
     integer_item(j_four_closure, 'CLOSURE', 0, 1)] !< damage at 0 the displacement jump, 1 a separation of its own
 
   type(integer_item), parameter, public :: eight_node_integers(6) = [ &
-    integer_item(j_law, 'LAW', 1, 1), & !< 1 bilinear
+    integer_item(j_law, 'LAW', 1, 3), & !< 1 bilinear (9) to (11), 2 bilinear by ETA or POWER, 3 exponential by ETA or POWER
     integer_item(j_integration, 'INTEGRATION', 0, 1), & !< 0 Gauss, 1 Newton-Cotes
     integer_item(j_tangent, 'TANGENT', 0, 1), & !< 0 consistent, 1 without the derivative of the damage
     integer_item(j_sampling, 'SAMPLING', 0, 2), & !< bulk stress: 0 middle of the face, 1 face, 2 nearest Gauss point
@@ -209,9 +214,9 @@ module abaqus_layout
 
   type(element_item), parameter, public :: elements(4) = [ &
     element_item(1, 4, 8, 1, 2, 32), & !< continuum quad, stress from a material of the deck (UELMAT)
-    element_item(2, 4, 8, 9, 3, 30), & !< standard cohesive interface
-    element_item(3, 4, 8, 12, 7, 30), & !< stabilised cohesive interface, four nodes, next to U1 quads
-    element_item(4, 8, 16, 28, 6, 30)] !< stabilised cohesive interface, eight nodes, self-contained; UNSYMM
+    element_item(2, 4, 8, 11, 3, 30), & !< standard cohesive interface
+    element_item(3, 4, 8, 14, 7, 30), & !< stabilised cohesive interface, four nodes, next to U1 quads
+    element_item(4, 8, 16, 30, 6, 30)] !< stabilised cohesive interface, eight nodes, self-contained; UNSYMM
 
 contains
 

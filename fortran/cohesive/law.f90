@@ -11,12 +11,14 @@
 !> A law is a softening curve tau(lambda) for every direction c of the separation, w = lambda c with c = (|w_tau|, w_n)/
 !> lambda, from which the traction follows as t_i = tau ratio_i c_i. It is continued towards smaller separations than that
 !> at the onset of damage, down to none; the straight line lambda/flexibility meets it at the onset. A further law is a
-!> further module with `check_`, `_softening` and `_steepest`, and a line in the three select cases below.
+!> further module with `_softening` and `_steepest`, and a line in the select cases below.
 module cohesive_law
   use core_kinds, only: dp
   use core_status, only: status_type, ok, small_beta
-  use cohesive_parameters, only: law_parameters, bilinear_law
-  use cohesive_bilinear, only: check_bilinear, bilinear_softening, bilinear_steepest
+  use cohesive_parameters, only: law_parameters, bilinear_law, exponential_law
+  use cohesive_mode_mix, only: check_mode_mix
+  use cohesive_bilinear, only: bilinear_softening, bilinear_steepest
+  use cohesive_exponential, only: exponential_softening, exponential_steepest
   implicit none(type, external)
   private
   public :: law_parameters, point_history, damage_state
@@ -46,10 +48,7 @@ contains
     type(law_parameters), intent(in) :: law
     type(status_type), intent(out) :: status
 
-    select case (law%kind)
-    case default
-      call check_bilinear(law, status)
-    end select
+    call check_mode_mix(law, status)
   end subroutine check_law
 
   !> Demands that beta exceeds the softening slope, without which a separation does not follow from the trial traction.
@@ -81,6 +80,8 @@ contains
     real(dp) :: slope   !< stress/length
 
     select case (law%kind)
+    case (exponential_law)
+      slope = exponential_steepest(law)
     case default
       slope = bilinear_steepest(law)
     end select
@@ -97,6 +98,8 @@ contains
     real(dp) :: by_direction(2)
 
     select case (law%kind)
+    case (exponential_law)
+      call exponential_softening(law, separation, direction, traction, by_separation, by_direction)
     case default
       call bilinear_softening(law, separation, direction, traction, by_separation, by_direction)
     end select

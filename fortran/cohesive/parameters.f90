@@ -6,19 +6,23 @@ module cohesive_parameters
   implicit none(type, external)
   private
   public :: law_parameters
-  public :: bilinear_law
+  public :: bilinear_law, mixed_bilinear_law, exponential_law
 
   integer, parameter :: bilinear_law = 1
+  integer, parameter :: mixed_bilinear_law = 2
+  integer, parameter :: exponential_law = 3
 
   !> Parameters of a law. The initial stiffness is alpha_i = ratio_i/flexibility, so that an infinite one has a finite
   !> description: laws are written in the flexibility.
   type :: law_parameters
-    integer :: kind           !< bilinear_law
+    integer :: kind           !< one of the above
     real(dp) :: flexibility   !< 1/alpha_n, length/stress; 0 for a law that is rigid up to the onset of damage
     real(dp) :: ratio(2)      !< alpha/alpha_n; 1 where alpha is infinite
     real(dp) :: strength(2)   !< tau_max, sigma_max, stress
     real(dp) :: toughness(2)  !< G_IIc, G_Ic, energy/area
     real(dp) :: viscosity     !< relaxation time; 0 for none
+    real(dp) :: eta = 0.0_dp     !< exponent of Benzeggagh and Kenane; 0 for the power law
+    real(dp) :: power = 1.0_dp   !< exponent of the power law, positive
   end type law_parameters
 
 end module cohesive_parameters

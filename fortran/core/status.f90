@@ -6,12 +6,12 @@ module core_status
   implicit none(type, external)
   private
   public :: status_type, sentence
-  public :: ok, too_brittle, not_positive_definite, inside_out, zero_length, edges_apart, small_beta
+  public :: ok, too_brittle, not_positive_definite, inside_out, zero_length, edges_apart, small_beta, too_brittle_mixed
 
   !> Outcome of a kernel; the caller knows the names of elements and properties.
   type :: status_type
     integer :: code = 0            !< ok, or one of the codes below
-    integer :: item = 0            !< which mode (1 normal), quad (1 bottom, 2 top), point
+    integer :: item = 0            !< which mode (1 normal), quad (1 bottom, 2 top), point, share in per cent
     real(dp) :: value = 0.0_dp     !< what was found
     real(dp) :: expected = 0.0_dp  !< the bound it misses
   end type status_type
@@ -23,6 +23,7 @@ module core_status
   integer, parameter :: zero_length = 4
   integer, parameter :: edges_apart = 5
   integer, parameter :: small_beta = 6
+  integer, parameter :: too_brittle_mixed = 7
 
 contains
 
@@ -36,6 +37,9 @@ contains
       text = 'no error'
     case (too_brittle)
       text = 'too brittle for its stiffness: the separation at failure ' // &
+        'does not exceed that at the onset of damage'
+    case (too_brittle_mixed)
+      text = 'too soft for the fracture energy in mixed mode: the separation at failure ' // &
         'does not exceed that at the onset of damage'
     case (not_positive_definite)
       text = 'the elastic constants are not positive definite'

@@ -132,6 +132,8 @@ def interface_values(specimen: Specimen) -> dict[str, float]:
         "GIC": law.toughness_1,
         "GIIC": law.toughness_2,
         "VISCOSITY": interface.viscosity,
+        "ETA": 0.0,
+        "POWER": 0.0,
         "BLEND": 0.0,
         "BETAN": interface.beta,
         "BETAT": interface.beta,

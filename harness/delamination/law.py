@@ -39,6 +39,8 @@ SIZE: Final = 0.125
 
 MOST_ITERATIONS: Final = 50
 BISECTIONS: Final = 30
+RIGID: Final = 1e6
+"""Stiffness in place of an infinite one, over that of the softening, where only the end of a curve is sought."""
 BACK: Final = 20
 """Increments of an unloading."""
 
@@ -202,8 +204,12 @@ class LawElement:
             if np.abs(residual).max() <= 1e-10 * self._strength:
                 return gradient
             steps = np.linalg.solve(self._operator, 1e-6 * self._strength * np.eye(2)).T
-            slopes = [(miss(gradient + step) - residual) / (1e-6 * self._strength) for step in steps]
-            stress = np.linalg.solve(np.array(slopes).T, -residual)
+            slopes = np.array([(miss(gradient + step) - residual) / (1e-6 * self._strength) for step in steps]).T
+            if abs(np.linalg.det(slopes)) < 1e-6:
+                # rigid up to the onset: no stress but that at the onset allows a separation
+                stress = self._operator @ gradient + residual
+            else:
+                stress = np.linalg.solve(slopes, -residual)
             gradient = gradient + np.linalg.solve(self._operator, stress)
         raise UelError(f"the quads find no equilibrium with the interface at a separation of {separation}")
 
@@ -238,8 +244,9 @@ def opening(
 def reach_of(library: Library, values: Properties, angle: float) -> float:
     """Separation at an angle (degrees) at which a thousandth of the strength is left of the traction."""
     direction = np.array([np.cos(np.radians(angle)), np.sin(np.radians(angle))])
+    stiff = {name: values[name] or RIGID * values["SIGMAMAX"] ** 2 / values["GIC"] for name in ("ALPHAN", "ALPHAT")}
     # in one increment, which viscosity would hold back
-    element = LawElement(library, STANDARD, {**values, "VISCOSITY": 0.0})
+    element = LawElement(library, STANDARD, {**values, **stiff, "VISCOSITY": 0.0})
     least = 1e-3 * min(values["SIGMAMAX"], values["TAUMAX"])
 
     def holds(size: float) -> bool:

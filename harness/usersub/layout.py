@@ -25,6 +25,7 @@ RULES: Final = {
     "below_one": ">= 0 and < 1, default 0",
     "up_to_one": "0 to 1, default 0",
     "estimated": ">= 0 or, in U4, -1, default 0",
+    "exponent": "0 or >= 0.5, default 0",
     "any_value": "any, default 0",
 }
 

@@ -170,3 +170,40 @@ def central_differences(function, x, step):
         terms = ((45, 1), (-9, 2), (1, 3))
         columns.append(sum(w * (function(x + n * e) - function(x - n * e)) for w, n in terms) / (60 * step))
     return np.array(columns).T
+
+
+def toughness(law, g):
+    """Fracture energy in the mode mix of g: Benzeggagh and Kenane with ETA, the power law with POWER (0: 1).
+
+    Abaqus Analysis User's Guide, "Defining the constitutive response of cohesive elements using a traction-separation
+    description", "Dependence of fracture energy on mode mix"; the mode mix is that of the energies.
+    """
+    normal, tangential = law["ALPHAN"] * max(g[1], 0.0) ** 2, law["ALPHAT"] * g[0] ** 2
+    m1, m2 = normal / (normal + tangential), tangential / (normal + tangential)
+    if law.get("ETA", 0) > 0:
+        return law["GIC"] + (law["GIIC"] - law["GIC"]) * m2 ** law["ETA"]
+    power = law.get("POWER", 0) or 1.0
+    return ((m1 / law["GIC"]) ** power + (m2 / law["GIIC"]) ** power) ** (-1 / power)
+
+
+def onset(law, g):
+    """Separation at which a ray through g meets the quadratic stress criterion."""
+    return 1 / np.hypot(law["ALPHAN"] * max(g[1], 0.0) / law["SIGMAMAX"], law["ALPHAT"] * g[0] / law["TAUMAX"])
+
+
+def damage_of_law(law, g):
+    """Damage without history of LAW 2 and 3, from size of the separation along its ray: 1 at the onset.
+
+    The traction along the ray is 1 at the onset too, so the areas are in units of twice the energy at the onset.
+    LAW 2: Camanho and Davila, NASA/TM-2002-211737. LAW 3: exponential decay of the traction from the onset.
+    """
+    scale = onset(law, g) if any(g) else np.inf
+    size = 1 / scale
+    if size <= 1:
+        return 0.0
+    at_onset = 0.5 * (law["ALPHAN"] * max(g[1], 0.0) ** 2 + law["ALPHAT"] * g[0] ** 2) * scale**2
+    area = 0.5 * toughness(law, g) / at_onset
+    if law["LAW"] == 3:
+        return 1 - np.exp(-(size - 1) / (area - 0.5)) / size
+    last = 2 * area
+    return 1.0 if size >= last else last * (size - 1) / (size * (last - 1))

@@ -7,6 +7,8 @@ import ctypes
 import numpy as np
 import pytest
 
+from harness.usersub.layout import element_layouts
+
 QUAD = [[0.0, 0.0], [1.1, 0.2], [0.9, 1.3], [-0.2, 0.8]]
 
 
@@ -85,10 +87,23 @@ class Arguments:
         self.amatrx = np.full((8, 8), np.nan)
         self.svars, self.energy = np.zeros(32), np.full(8, 7.0)
         u = interface.displacements(4, *interface.states["softening"], seed=0).ravel()
-        props = np.array([2.0, 2e4, 3e4, 30.0, 60.0, 0.26, 1.002, 0.0, 0.0])
+        props = np.array([2.0, 2e4, 3e4, 30.0, 60.0, 0.26, 1.002, *np.zeros(len(element_layouts()[2].reals) - 7)])
         zeros, pnewdt = np.zeros(64), np.array([1e36])
         arguments = [
-            *(self.rhs, self.amatrx, self.svars, self.energy, 8, columns, 32, props, 9, interface.four.copy(), 2, 4),
+            *(
+                self.rhs,
+                self.amatrx,
+                self.svars,
+                self.energy,
+                8,
+                columns,
+                32,
+                props,
+                len(props),
+                interface.four.copy(),
+                2,
+                4,
+            ),
             *(u, zeros, zeros, zeros, 2, zeros, np.array([1.0]), 1, 1, 77, zeros, 0, 0, zeros, zeros, 0),
             *(np.array([1, 0, request, 0, 0], dtype=np.int32), 11, zeros, 1, pnewdt),
             *(np.array([1, 0, 0], dtype=np.int32), 3, np.array([1.0])),

@@ -190,6 +190,6 @@ def test_consistent_closure_at_constant_bulk_stress(element, interface, referenc
 def test_small_beta_of_the_consistent_closure_is_refused(element, interface):
     sandwich = Sandwich(element, interface, CLOSURE=1, BETAN=1.0e3)
     with pytest.raises(
-        KernelError, match=r"U3 element 400: PROPS\(10\) BETAN: beta = 1000.*, too small for the consist"
+        KernelError, match=r"U3 element 400: PROPS\(12\) BETAN: beta = 1000.*, too small for the consist"
     ):
         sandwich.evaluate(np.zeros((8, 2)))

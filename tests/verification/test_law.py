@@ -55,6 +55,21 @@ def test_stabilised_element_shows_its_law(curves):
         assert (stabilised[label]["SN"] < 1).all() and (columns["SN"] == 1).all()
 
 
+@pytest.mark.parametrize("kind", [("LAW=1",), ("LAW=2", "ETA=2.3"), ("LAW=3", "POWER=1.5")], ids=lambda kind: kind[0])
+def test_consistent_closure_shows_its_law(curves, kind):
+    """t(w) + beta w = <sigma>.n + beta g with T = <sigma>.n is w = g: the law itself, at any stiffness."""
+    asked = {"increments": 60, "unload": (0.3,), "angles": (0.0, 50.0, 90.0)}
+    for stiffness in (("ALPHAN=2e4", "ALPHAT=3e4"), ("ALPHAN=1e8", "ALPHAT=1e8"), ("ALPHAN=0", "ALPHAT=0")):
+        rigid = stiffness[0] == "ALPHAN=0"
+        asked["close"] = 0.0 if rigid else 0.05
+        standard = curves(properties=(*kind, *(("ALPHAN=1e9", "ALPHAT=1e9") if rigid else stiffness)), **asked)
+        consistent = curves(properties=(*kind, *stiffness, "CLOSURE=1"), stabilised=True, **asked)
+        for label, columns in standard.items():
+            for name in ("TN", "TT"):
+                tolerance = 1e-3 if rigid else 1e-6
+                np.testing.assert_allclose(consistent[label][name], columns[name], atol=tolerance)
+
+
 def test_unloading_and_closing(curves):
     """Back to the origin on the secant; pressed together with the undamaged stiffness; then on as if never unloaded."""
     there_and_back = curves(properties=COMPLIANT, angles=(40.0,), unload=(0.2, 0.5), close=0.1)["40°"]
@@ -120,13 +135,19 @@ def test_paths_that_make_no_sense(text):
         path_points(text)
 
 
+def test_a_rigid_interface_cannot_be_closed(curves):
+    rigid = ("ALPHAN=0", "ALPHAT=0", "CLOSURE=1")
+    with pytest.raises(UelError, match=r"the quads find no equilibrium with the interface at a separation of \[-"):
+        curves(properties=rigid, stabilised=True, unload=(0.3,), close=0.05)
+
+
 def test_message_of_the_element_comes_through(curves):
     with pytest.raises(KernelError, match=r"PROPS\(2\) ALPHAN = -1.*positive"):
         curves(properties=["ALPHAN=-1"])
 
 
 def test_command_writes_data_and_pictures(tmp_path, capsys):
-    words = ["law", "GIC=0.3", "--angles", "0", "90", "--increments", "50", "--surface"]
+    words = ["law", "TAUMAX=50", "--angles", "0", "90", "SIGMAMAX=20", "--increments", "50", "--surface", "GIC=0.3"]
     assert main([*words, "--job", "mine", "--output-dir", str(tmp_path / "new")]) == 0
     printed = capsys.readouterr().out
     assert "largest TN" in printed and "mine_surface.png" in printed
@@ -134,7 +155,8 @@ def test_command_writes_data_and_pictures(tmp_path, capsys):
         rows = list(csv.DictReader(file))
     assert len(rows) == 2 * 51
     assert {row["CURVE"] for row in rows} == {"0°", "90°"}
-    assert max(float(row["TN"]) for row in rows) == pytest.approx(30, rel=0.05)
+    assert max(float(row["TN"]) for row in rows) == pytest.approx(20, rel=0.05)
+    assert max(float(row["TT"]) for row in rows) == pytest.approx(50, rel=0.05)
     for name in ("mine.png", "mine_surface.png"):
         assert (tmp_path / "new" / name).read_bytes().startswith(b"\x89PNG")
 
