@@ -18,6 +18,27 @@ from harness.delamination.study.rows import Row
 SHOWN = 4
 """Failures of a criterion that a terminal shows."""
 
+INTRODUCTION = """\
+<!-- SPDX-FileCopyrightText: The uel-harness authors -->
+<!-- SPDX-License-Identifier: BSD-3-Clause -->
+# Parameter study of the interface elements
+
+Written by `python -m harness.delamination.study`. HTA/6376C, plane stress, width 20 mm, strengths 30 and 60 MPa,
+toughnesses 0.26 and 1.002 N/mm, no viscosity. Displacement in increments of 1 % at most, Abaqus' default tolerances and
+cutbacks. Perturbed: the interface nodes lie 3 % of an element's length up and down in turns.
+
+- **element**: standard (U2), the paper's stabilised one (U4), the consistent stabilised one (U4, CLOSURE 1; inf is
+  ALPHAN = ALPHAT = 0). **solution**: newton is Abaqus' own, fallback adds the search of `uel run --fallback`.
+- **iterations**: those of attempts given up included; **per increment** without snaps, increments in which the load
+  falls by more than 5 % of the peak load.
+- **dissipated**: energy that failed points have dissipated over their toughness, less 1. **balance**: work less stored
+  less dissipated energy, over work less stored energy.
+- **index**: largest oscillation index of a traction over the bonded part and the process zone, at every tenth of the
+  displacement (`harness/delamination/oscillation.py`); 1 without oscillations. Bumps make tractions vary in truth:
+  see `python -m harness.delamination.study.refinement`.
+- **TV damage**: total variation of the damage over its largest value; 1 where it falls steadily to 0.
+"""
+
 HEAD = (
     *("stiffness", "element", "mesh", "solution", "increments", "iterations", "per increment", "cutbacks"),
     *(
@@ -45,8 +66,8 @@ def csv_table(rows: Mapping[Case, Row]) -> str:
 
 
 def markdown_tables(rows: Mapping[Case, Row], verdicts: Sequence[Verdict]) -> str:
-    """Verdicts, then a table for each specimen and layup."""
-    parts = ["## Criteria\n", *_markdown_verdicts(verdicts)]
+    """A page: verdicts, then a table for each specimen and layup."""
+    parts = [INTRODUCTION, "## Criteria\n", *_markdown_verdicts(verdicts)]
     groups: dict[tuple[str, str], list[str]] = {}
     for case, row in rows.items():
         groups.setdefault((case.specimen, case.layup), []).append(_line(_cells(case, row)))
