@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """What the consistent element is asked to show, checked on the rows that are there.
 
-Rows of the fall-back and of Newton's method alone are judged apart.
+Rows of Newton's method alone, with viscosity and with the fall-back are judged apart.
 """
 
 from __future__ import annotations
@@ -11,7 +11,7 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
 
 from harness.delamination.materials import TABLE_2
-from harness.delamination.study.cases import KINDS, STIFFNESSES, Case
+from harness.delamination.study.cases import KINDS, SOLUTIONS, STIFFNESSES, Case
 from harness.delamination.study.rows import Row, loading_mode
 
 MEAN_ITERATIONS = {"dcb": 6.0, "enf": 3.0, "frmm": 3.0}
@@ -42,9 +42,9 @@ class Verdict:
 
 
 def check(rows: Rows) -> list[Verdict]:
-    """All criteria that there are rows for, with the fall-back and without."""
+    """All criteria that there are rows for, for each kind of solution."""
     verdicts = []
-    for solution in ("fallback", "newton"):
+    for solution in SOLUTIONS:
         chosen = {case: row for case, row in rows.items() if case.solution == solution}
         own = {case: row for case, row in chosen.items() if case.element == "consistent"}
         found = [

@@ -70,9 +70,10 @@ def run_case(case: Case, folder: Path) -> Row:
     place.mkdir(parents=True, exist_ok=True)
     for name, content in case.files().items():
         (place / name).write_text(content, encoding="ascii")
+    fallback, _ = SOLUTIONS[case.solution]
     started, stopped = time.perf_counter(), ""
     try:
-        run(place / f"{case.name}.inp", output_dir=place, fallback=SOLUTIONS[case.solution])
+        run(place / f"{case.name}.inp", output_dir=place, fallback=fallback)
     except ConvergenceError as error:
         stopped = str(error)
     row = measure(case, Result(place / case.name), stopped, time.perf_counter() - started)

@@ -24,11 +24,12 @@ INTRODUCTION = """\
 # Parameter study of the interface elements
 
 Written by `python -m harness.delamination.study`. HTA/6376C, plane stress, width 20 mm, strengths 30 and 60 MPa,
-toughnesses 0.26 and 1.002 N/mm, no viscosity. Displacement in increments of 1 % at most, Abaqus' default tolerances and
+toughnesses 0.26 and 1.002 N/mm. Displacement in increments of 1 % at most, Abaqus' default tolerances and
 cutbacks. Perturbed: the interface nodes lie 3 % of an element's length up and down in turns.
 
 - **element**: standard (U2), the paper's stabilised one (U4), the consistent stabilised one (U4, CLOSURE 1; inf is
-  ALPHAN = ALPHAT = 0). **solution**: newton is Abaqus' own, fallback adds the search of `uel run --fallback`.
+  ALPHAN = ALPHAT = 0). **solution**: newton is Abaqus' own, viscous the same with a VISCOSITY of 3e-4 of the step time,
+  fallback adds the search of `uel run --fallback` to newton.
 - **iterations**: those of attempts given up included; **per increment** without snaps, increments in which the load
   falls by more than 5 % of the peak load.
 - **dissipated**: energy that failed points have dissipated over their toughness, less 1. **balance**: work less stored
