@@ -8,7 +8,7 @@ module abaqus_check
   use abaqus_layout, only: elements, reals, integer_item, &
     continuum_integers, standard_integers, four_node_integers, eight_node_integers, &
     positive, not_negative, below_one, up_to_one, exponent, estimated, any_integer, p_alphan, p_alphat, p_gic, p_giic, &
-    p_betan, p_betat, j_four_closure, j_eight_closure
+    p_betan, p_betat, p_friction, j_four_closure, j_eight_closure
   use abaqus_report, only: fatal
   implicit none(type, external)
   private
@@ -42,7 +42,7 @@ contains
     else
       good = reals_are_good(jtype, jelem, props)
       if (good) good = integers_are_good(jtype, jelem, jprops)
-      if (good .and. jtype > 1) good = stiffness_is_good(jtype, jelem, props, jprops)
+      if (good .and. jtype > 1) good = closure_is_good(jtype, jelem, props, jprops)
     end if
 
   contains
@@ -151,8 +151,9 @@ contains
 
   end function integers_are_good
 
-  !> True if the initial stiffness is finite, or infinite (0) in both directions with the consistent closure.
-  function stiffness_is_good(jtype, jelem, props, jprops) result(good)
+  !> True if what the consistent closure alone can do is asked of it alone: an initial stiffness that is infinite (0), in
+  !> both directions, and friction.
+  function closure_is_good(jtype, jelem, props, jprops) result(good)
     integer, intent(in) :: jtype, jelem
     real(dp), intent(in) :: props(*)
     integer, intent(in) :: jprops(*)
@@ -171,7 +172,11 @@ contains
         [props(positions(i))])
       return
     end do
-  end function stiffness_is_good
+    if (jtype == 2) return
+    good = closure_of(jtype, jprops) == 1 .or. .not. props(p_friction) > 0.0_dp
+    if (.not. good) call fatal(jtype, jelem, 'PROPS(%I) ' // trim(reals(p_friction)%name) // ' = %R goes with ' // &
+      'CLOSURE = 1, else 0 is expected', [p_friction], [props(p_friction)])
+  end function closure_is_good
 
   !> CLOSURE of an interface element; the standard one has but the paper's.
   pure function closure_of(jtype, jprops) result(closure)

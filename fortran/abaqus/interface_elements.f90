@@ -11,9 +11,9 @@ module abaqus_interface_elements
   use elements_stabilised_interface, only: stabilisation_type, stabilised_interface_four, stabilised_interface_eight
   use abaqus_layout, only: reals, interface_variables, &
     p_thickness, p_alphan, p_alphat, p_sigmamax, p_taumax, p_gic, p_giic, p_viscosity, p_eta, p_power, &
-    p_blend, p_betan, p_betat, p_gammabot, p_bottom_e1, p_bottom_nu12, p_top_e1, p_top_nu12, &
+    p_blend, p_betan, p_betat, p_gammabot, p_friction, p_bottom_e1, p_bottom_nu12, p_top_e1, p_top_nu12, &
     j_law, j_integration, j_tangent, j_sampling, j_eight_plane, &
-    v_x, v_y, v_sepn, v_sept, v_tn, v_tt, v_damage, v_dissi, v_dissii, v_sn, v_st, v_dmax, v_dissv, v_wn, v_wt
+    v_x, v_y, v_sepn, v_sept, v_tn, v_tt, v_damage, v_dissi, v_dissii, v_sn, v_st, v_dmax, v_dissv, v_wn, v_wt, v_dissf
   use abaqus_check, only: closure_of, refuse
   use abaqus_report, only: fatal
   use abaqus_neighbours, only: stress_of_neighbours
@@ -24,7 +24,7 @@ module abaqus_interface_elements
 contains
 
   !> Evaluates U2, U3 or U4; `good` is false after a message. SVARS and ENERGY come back with their end values:
-  !> ENERGY(2) is T.g/2, ENERGY(4) what damage has dissipated, ENERGY(5) what the viscous overstress has.
+  !> ENERGY(2) is T.g/2, ENERGY(4) what damage and friction have dissipated, ENERGY(5) what the viscous overstress has.
   subroutine evaluate_interface(jtype, jelem, props, jprops, coords, u, dtime, svars, energy, residual, tangent, good)
     integer, intent(in) :: jtype, jelem
     real(dp), intent(in) :: props(*)
@@ -42,7 +42,7 @@ contains
     type(status_type) :: status
     real(dp) :: energies(3), bulk_stress(3, 2), stiffness(3, 3, 2), xy(2, 8)
 
-    law = law_of(props, jprops)
+    law = law_of(jtype, props, jprops)
     options = interface_options(jprops(j_integration), 0, closure_of(jtype, jprops) == 1, &
       merge(1.0_dp, props(p_blend), jprops(j_tangent) == 1))
     if (jtype > 2) then
@@ -77,7 +77,8 @@ contains
   end subroutine evaluate_interface
 
   !> The cohesive law; an initial stiffness of 0 stands for an infinite one.
-  pure function law_of(props, jprops) result(law)
+  pure function law_of(jtype, props, jprops) result(law)
+    integer, intent(in) :: jtype
     real(dp), intent(in) :: props(*)
     integer, intent(in) :: jprops(*)
     type(law_parameters) :: law
@@ -92,6 +93,7 @@ contains
     law%strength = [props(p_taumax), props(p_sigmamax)]
     law%toughness = [props(p_giic), props(p_gic)]
     law%viscosity = props(p_viscosity)
+    if (jtype > 2) law%friction = props(p_friction)
     if (law%kind == bilinear_law) return
     law%eta = props(p_eta)
     if (props(p_power) > 0.0_dp) law%power = props(p_power)
@@ -139,6 +141,7 @@ contains
       points(k)%history%damage_max = svars(first + v_dmax)
       points(k)%history%dissipated = [svars(first + v_dissii), svars(first + v_dissi)]
       points(k)%history%viscous = svars(first + v_dissv)
+      points(k)%history%rubbed = svars(first + v_dissf)
     end do
   end function points_from
 
@@ -163,6 +166,7 @@ contains
       svars(first + v_st) = points(k)%stabilisation(1)
       svars(first + v_dmax) = points(k)%history%damage_max
       svars(first + v_dissv) = points(k)%history%viscous
+      svars(first + v_dissf) = points(k)%history%rubbed
       svars(first + v_wn) = points(k)%history%separation(2)
       svars(first + v_wt) = points(k)%history%separation(1)
     end do

@@ -65,25 +65,26 @@ module abaqus_layout
   integer, parameter, public :: p_betan = 12
   integer, parameter, public :: p_betat = 13
   integer, parameter, public :: p_gammabot = 14
+  integer, parameter, public :: p_friction = 15
   ! reals of the eight-node interface element: elastic constants of its two quads
-  integer, parameter, public :: p_bottom_e1 = 15
-  integer, parameter, public :: p_bottom_e2 = 16
-  integer, parameter, public :: p_bottom_e3 = 17
-  integer, parameter, public :: p_bottom_nu12 = 18
-  integer, parameter, public :: p_bottom_nu13 = 19
-  integer, parameter, public :: p_bottom_nu23 = 20
-  integer, parameter, public :: p_bottom_g12 = 21
-  integer, parameter, public :: p_bottom_angle = 22
-  integer, parameter, public :: p_top_e1 = 23
-  integer, parameter, public :: p_top_e2 = 24
-  integer, parameter, public :: p_top_e3 = 25
-  integer, parameter, public :: p_top_nu12 = 26
-  integer, parameter, public :: p_top_nu13 = 27
-  integer, parameter, public :: p_top_nu23 = 28
-  integer, parameter, public :: p_top_g12 = 29
-  integer, parameter, public :: p_top_angle = 30
+  integer, parameter, public :: p_bottom_e1 = 16
+  integer, parameter, public :: p_bottom_e2 = 17
+  integer, parameter, public :: p_bottom_e3 = 18
+  integer, parameter, public :: p_bottom_nu12 = 19
+  integer, parameter, public :: p_bottom_nu13 = 20
+  integer, parameter, public :: p_bottom_nu23 = 21
+  integer, parameter, public :: p_bottom_g12 = 22
+  integer, parameter, public :: p_bottom_angle = 23
+  integer, parameter, public :: p_top_e1 = 24
+  integer, parameter, public :: p_top_e2 = 25
+  integer, parameter, public :: p_top_e3 = 26
+  integer, parameter, public :: p_top_nu12 = 27
+  integer, parameter, public :: p_top_nu13 = 28
+  integer, parameter, public :: p_top_nu23 = 29
+  integer, parameter, public :: p_top_g12 = 30
+  integer, parameter, public :: p_top_angle = 31
 
-  type(real_item), parameter, public :: reals(30) = [ &
+  type(real_item), parameter, public :: reals(31) = [ &
     real_item(p_thickness, 'THICKNESS', 'length', positive), & !< thickness out of the plane
     real_item(p_alphan, 'ALPHAN', 'stress/length', not_negative), & !< initial normal stiffness alpha_n; 0: infinite, with CLOSURE 1
     real_item(p_alphat, 'ALPHAT', 'stress/length', not_negative), & !< initial tangential stiffness alpha_tau; 0: as ALPHAN
@@ -98,6 +99,7 @@ module abaqus_layout
     real_item(p_betan, 'BETAN', 'stress/length', estimated), & !< stabilisation beta_n; 0: equation (21), -1: local eigenvalues
     real_item(p_betat, 'BETAT', 'stress/length', estimated), & !< stabilisation beta_tau; 0: equation (21), -1: local eigenvalues
     real_item(p_gammabot, 'GAMMABOT', '1', below_one), & !< weight of the bottom stress; 0: equation (22) with the same estimate
+    real_item(p_friction, 'FRICTION', '1', not_negative), & !< coefficient of friction, with CLOSURE 1; 0: none
     real_item(p_bottom_e1, 'E1 BOTTOM', 'stress', positive), & !< Young's modulus along material axis 1
     real_item(p_bottom_e2, 'E2 BOTTOM', 'stress', positive), & !< Young's modulus along material axis 2
     real_item(p_bottom_e3, 'E3 BOTTOM', 'stress', not_negative), & !< Young's modulus out of the plane; plane strain
@@ -194,8 +196,9 @@ module abaqus_layout
   integer, parameter, public :: v_dissv = 13
   integer, parameter, public :: v_wn = 14
   integer, parameter, public :: v_wt = 15
+  integer, parameter, public :: v_dissf = 16
 
-  type(variable_item), parameter, public :: interface_variables(15) = [ &
+  type(variable_item), parameter, public :: interface_variables(16) = [ &
     variable_item(v_x, 'X', 'length'), & !< original position
     variable_item(v_y, 'Y', 'length'), & !< original position
     variable_item(v_sepn, 'SEPN', 'length'), & !< normal displacement jump, opening positive
@@ -210,13 +213,14 @@ module abaqus_layout
     variable_item(v_dmax, 'DMAX', '1'), & !< largest damage of the law so far; DAMAGE lags behind it with VISCOSITY
     variable_item(v_dissv, 'DISSV', 'energy/area'), & !< energy dissipated by the viscous regularisation
     variable_item(v_wn, 'WN', 'length'), & !< normal separation of the law: with CLOSURE 0 it is SEPN
-    variable_item(v_wt, 'WT', 'length')] !< tangential separation of the law: with CLOSURE 0 it is SEPT
+    variable_item(v_wt, 'WT', 'length'), & !< tangential separation of the law: with CLOSURE 0 it is SEPT
+    variable_item(v_dissf, 'DISSF', 'energy/area')] !< energy dissipated by friction
 
   type(element_item), parameter, public :: elements(4) = [ &
     element_item(1, 4, 8, 1, 2, 32), & !< continuum quad, stress from a material of the deck (UELMAT)
-    element_item(2, 4, 8, 11, 3, 30), & !< standard cohesive interface
-    element_item(3, 4, 8, 14, 7, 30), & !< stabilised cohesive interface, four nodes, next to U1 quads
-    element_item(4, 8, 16, 30, 6, 30)] !< stabilised cohesive interface, eight nodes, self-contained; UNSYMM
+    element_item(2, 4, 8, 11, 3, 32), & !< standard cohesive interface
+    element_item(3, 4, 8, 15, 7, 32), & !< stabilised cohesive interface, four nodes, next to U1 quads
+    element_item(4, 8, 16, 31, 6, 32)] !< stabilised cohesive interface, eight nodes, self-contained; UNSYMM
 
 contains
 

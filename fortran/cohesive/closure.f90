@@ -23,7 +23,8 @@ module cohesive_closure
   !> Outcome of the closure.
   type :: closure_state
     real(dp) :: traction(2)        !< T, stress, tension positive
-    real(dp) :: recoverable(2)     !< T less the viscous overstress
+    real(dp) :: recoverable(2)     !< t: T less the viscous overstress and the friction
+    real(dp) :: friction           !< part of T_tau, stress
     real(dp) :: separation(2)      !< w, length
     real(dp) :: damage             !< see `damage_of`
     real(dp) :: stabilisation(2)   !< S of (17)
@@ -55,9 +56,8 @@ contains
     type(closure_state), intent(out) :: state
     type(closure_equation) :: equation
     real(dp), dimension(2) :: viscous, old, p, stiff, soft
-    real(dp), dimension(2, 2) :: loading, opening
-    real(dp) :: x, rest
-    logical :: closed, grows
+    real(dp) :: x, friction_slope
+    logical :: closed, grows, sticks
 
     old = opening_part(history%separation)
     viscous = 0.0_dp
@@ -67,40 +67,101 @@ contains
     closed = p(2) < 0.0_dp
     equation%b = (beta + viscous)/law%ratio
     equation%least = minval(equation%b)
+    x = at_damage(law, equation%least, history%damage)
+    call shares(law, beta, equation, closed, x, stiff, soft)
+    call rub(law, history%damage, merge(p(2)*stiff(2), 0.0_dp, closed), p(1), old(1), soft(1), sticks, &
+      state%friction, friction_slope)
+    p(1) = p(1) - state%friction
     equation%driving = [abs(p(1)), max(0.0_dp, p(2))]/law%ratio
 
-    x = at_damage(law, equation%least, history%damage)
     state%damage = history%damage
-    grows = history%damage < 1.0_dp .and. (dtime > 0.0_dp .or. .not. law%viscosity > 0.0_dp)
+    grows = history%damage < 1.0_dp .and. .not. sticks .and. (dtime > 0.0_dp .or. .not. law%viscosity > 0.0_dp)
     if (grows) call find_root(law, equation, x, grows)
-    if (grows) state%damage = damage_of(law, equation%least, x)
-    rest = remainder_at(equation%least, x)
-
-    ! t and w as shares of p
-    stiff = rest/(1.0_dp + (equation%b - equation%least)*x)
-    soft = x/(1.0_dp + (equation%b - equation%least)*x)/law%ratio
-    state%stabilisation = (beta/law%ratio)*x/(rest + (beta/law%ratio)*x)
-    if (closed) then
-      stiff(2) = 1.0_dp/(1.0_dp + beta(2)*law%flexibility)
-      soft(2) = law%flexibility*stiff(2)
-      state%stabilisation(2) = beta(2)*soft(2)
+    if (grows) then
+      state%damage = damage_of(law, equation%least, x)
+      call shares(law, beta, equation, closed, x, stiff, soft)
     end if
     state%recoverable = stiff*p
     state%separation = soft*p
-    state%traction = state%recoverable + viscous*(opening_part(state%separation) - old)
+    if (sticks) state%separation(1) = old(1)
+    state%traction = state%recoverable + viscous*(opening_part(state%separation) - old) + [state%friction, 0.0_dp]
+    state%stabilisation = beta*soft/(stiff + beta*soft)
 
     if (closed) viscous(2) = 0.0_dp
     state%by_trial = 0.0_dp
     state%by_trial(1, 1) = stiff(1) + viscous(1)*soft(1)
     state%by_trial(2, 2) = stiff(2) + viscous(2)*soft(2)
-    if (grows .and. secant_share < 1.0_dp) then
-      call slopes_of_loading(law, equation, x, p(1), loading, opening)
-      loading(1, :) = loading(1, :) + viscous(1)*opening(1, :)
-      loading(2, :) = loading(2, :) + viscous(2)*opening(2, :)
-      if (closed) loading(:, 2) = [0.0_dp, state%by_trial(2, 2)]
-      state%by_trial = secant_share*state%by_trial + (1.0_dp - secant_share)*loading
-    end if
+    if (grows .and. secant_share < 1.0_dp) call blend_loading(law, equation, x, p(1), closed, viscous, &
+      1.0_dp - secant_share, state%by_trial)
+    ! friction takes from p_tau what it adds to T_tau
+    if (sticks) state%by_trial(1, 1) = 1.0_dp
+    if (closed) state%by_trial(1, 2) = friction_slope*stiff(2)*(1.0_dp - state%by_trial(1, 1))
   end subroutine close_consistently
+
+  !> t and ratio w as shares of p, the damage being that of x.
+  pure subroutine shares(law, beta, equation, closed, x, stiff, soft)
+    type(law_parameters), intent(in) :: law
+    real(dp), intent(in) :: beta(2)
+    type(closure_equation), intent(in) :: equation
+    logical, intent(in) :: closed
+    real(dp), intent(in) :: x
+    real(dp), intent(out) :: stiff(2)   !< t_i/p_i
+    real(dp), intent(out) :: soft(2)    !< w_i/p_i, length/stress
+
+    stiff = remainder_at(equation%least, x)/(1.0_dp + (equation%b - equation%least)*x)
+    soft = x/(1.0_dp + (equation%b - equation%least)*x)/law%ratio
+    if (closed) then
+      stiff(2) = 1.0_dp/(1.0_dp + beta(2)*law%flexibility)
+      soft(2) = law%flexibility*stiff(2)
+    end if
+  end subroutine shares
+
+  !> Coulomb friction on the damaged share D of a closed point, D at the start of the increment: |friction| <= mu D |T_n|.
+  !>
+  !> It sticks where this holds with w_tau as it was, else it slides. As beta closes the law, so it does the friction: no
+  !> further stiffness is needed.
+  pure subroutine rub(law, damage, pressed, p, old, soft, sticks, friction, slope)
+    type(law_parameters), intent(in) :: law
+    real(dp), intent(in) :: damage
+    real(dp), intent(in) :: pressed      !< T_n of a closed point, zero of an open one
+    real(dp), intent(in) :: p            !< p_tau
+    real(dp), intent(in) :: old          !< w_tau at the start of the increment
+    real(dp), intent(in) :: soft         !< w_tau/p_tau without friction and further damage
+    logical, intent(out) :: sticks
+    real(dp), intent(out) :: friction    !< stress
+    real(dp), intent(out) :: slope       !< derivative of the friction by T_n
+    real(dp) :: excess
+
+    sticks = .false.
+    friction = 0.0_dp
+    slope = 0.0_dp
+    if (.not. (law%friction*damage > 0.0_dp .and. pressed < 0.0_dp)) return
+    excess = p - old/soft
+    sticks = abs(excess) <= -law%friction*damage*pressed
+    friction = excess
+    if (sticks) return
+    slope = sign(law%friction*damage, -excess)
+    friction = slope*pressed
+  end subroutine rub
+
+  !> Puts the slopes of growing damage into a share of dT/dp.
+  pure subroutine blend_loading(law, equation, x, shear, closed, viscous, share, by_trial)
+    type(law_parameters), intent(in) :: law
+    type(closure_equation), intent(in) :: equation
+    real(dp), intent(in) :: x
+    real(dp), intent(in) :: shear                   !< p_tau
+    logical, intent(in) :: closed
+    real(dp), intent(in) :: viscous(2)              !< overstress by w, stress/length
+    real(dp), intent(in) :: share                   !< from 0 to 1
+    real(dp), intent(inout) :: by_trial(2, 2)       !< at fixed damage; blended
+    real(dp), dimension(2, 2) :: loading, opening
+
+    call slopes_of_loading(law, equation, x, shear, loading, opening)
+    loading(1, :) = loading(1, :) + viscous(1)*opening(1, :)
+    loading(2, :) = loading(2, :) + viscous(2)*opening(2, :)
+    if (closed) loading(:, 2) = [0.0_dp, by_trial(2, 2)]
+    by_trial = (1.0_dp - share)*by_trial + share*loading
+  end subroutine blend_loading
 
   !> Finds x where the damage of the law is that which opens the law to the separation at this damage.
   !>
@@ -261,14 +322,15 @@ contains
   end function opening_part
 
   !> Energies dissipated up to the end of an increment, per area: by the trapezoidal rule (t0 w1 - t1 w0)/2, as in
-  !> `dissipate`, by backward Euler what the overstress works.
-  pure subroutine dissipate_consistently(law, history, old_traction, state, dissipated, viscous)
+  !> `dissipate`; by backward Euler what the overstress and the friction work.
+  pure subroutine dissipate_consistently(law, history, old_traction, state, dissipated, viscous, rubbed)
     type(law_parameters), intent(in) :: law
     type(point_history), intent(in) :: history
     real(dp), intent(in) :: old_traction(2)    !< T at the start of the increment
     type(closure_state), intent(in) :: state
     real(dp), intent(out) :: dissipated(2)     !< by sliding and by opening
     real(dp), intent(out) :: viscous
+    real(dp), intent(out) :: rubbed            !< by friction
     real(dp), dimension(2) :: w0, w1, t0, t1, overstress
     real(dp) :: k, flexible
 
@@ -283,9 +345,10 @@ contains
       ! rigid so far
       t0 = old_traction
     end if
-    overstress = state%traction - state%recoverable
+    overstress = state%traction - state%recoverable - [state%friction, 0.0_dp]
     dissipated = history%dissipated
     if (state%damage > history%damage) dissipated = dissipated + 0.5_dp*(opening_part(t0)*w1 - opening_part(t1)*w0)
+    rubbed = history%rubbed + state%friction*(w1(1) - w0(1))
     viscous = history%viscous + overstress(1)*(w1(1) - w0(1)) + overstress(2)*(w1(2) - w0(2))
   end subroutine dissipate_consistently
 

@@ -32,6 +32,7 @@ module cohesive_law
     real(dp) :: damage_max = 0.0_dp      !< largest damage of the envelope so far
     real(dp) :: dissipated(2) = 0.0_dp   !< by sliding and by opening, energy/area
     real(dp) :: viscous = 0.0_dp         !< by the viscous overstress, energy/area
+    real(dp) :: rubbed = 0.0_dp          !< by friction, energy/area
   end type point_history
 
   !> Damage at the end of the increment.

@@ -188,17 +188,18 @@ contains
     new%history%separation = state%separation
     new%history%damage = state%damage
     new%history%damage_max = state%damage
-    call dissipate_consistently(law, old%history, old%traction, state, new%history%dissipated, new%history%viscous)
+    call dissipate_consistently(law, old%history, old%traction, state, new%history%dissipated, new%history%viscous, &
+      new%history%rubbed)
   end subroutine close_consistent_point
 
-  !> Energies of a point: stored, dissipated by damage, dissipated by the viscous overstress.
+  !> Energies of a point: stored, dissipated by damage and friction, dissipated by the viscous overstress.
   pure function point_energies(weight, point) result(energies)
     real(dp), intent(in) :: weight   !< area of the point
     type(interface_point), intent(in) :: point
     real(dp) :: energies(3)
 
     energies(1) = weight*point%stored
-    energies(2) = weight*(point%history%dissipated(1) + point%history%dissipated(2))
+    energies(2) = weight*(point%history%dissipated(1) + point%history%dissipated(2) + point%history%rubbed)
     energies(3) = weight*point%history%viscous
   end function point_energies
 

@@ -138,6 +138,7 @@ def interface_values(specimen: Specimen) -> dict[str, float]:
         "BETAN": interface.beta,
         "BETAT": interface.beta,
         "GAMMABOT": 0.0,
+        "FRICTION": 0.0,
         "LAW": 1,
         "INTEGRATION": 0,
         "TANGENT": 0,

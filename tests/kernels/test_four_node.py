@@ -187,6 +187,18 @@ def test_consistent_closure_at_constant_bulk_stress(element, interface, referenc
     assert expected.any() == (gap[0] < 0.04)
 
 
+def test_friction_is_that_of_eight_nodes(element, interface):
+    options = {"CLOSURE": 1, "FRICTION": 0.4}
+    eight, sandwich = element(4, interface.eight, **options), Sandwich(element, interface, **options)
+    for seed, factor in ((8, 1.0), (9, 3.0), (10, -2.0)):
+        left, right = np.array(interface.states["sliding"]) * [[factor, 2.0]]
+        u = interface.displacements(8, left, right, seed)
+        forces = eight.advance(u)[0].reshape(8, 2)[list(interface.owned)]
+        np.testing.assert_allclose(sandwich.advance(u)[0].reshape(4, 2), forces, rtol=1e-10, atol=1e-10)
+        np.testing.assert_allclose(sandwich.four.state["DISSF"], eight.state["DISSF"], rtol=1e-9)
+    assert (eight.state["DISSF"] > 0.01).all()
+
+
 def test_small_beta_of_the_consistent_closure_is_refused(element, interface):
     sandwich = Sandwich(element, interface, CLOSURE=1, BETAN=1.0e3)
     with pytest.raises(
