@@ -119,5 +119,4 @@ def test_random_states(element, interface, kind, variant):
             assert (item.state["DAMAGE"] <= 1).all()
 
     check()
-    print(compared)
     assert compared >= 10_000
