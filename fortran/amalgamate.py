@@ -21,7 +21,8 @@ LONGEST_PIECE = 40
 TITLE = """\
 ! Cohesive interface elements for Abaqus/Standard: U1 continuum quad
 ! (UELMAT), U2 standard, U3 four-node and U4 eight-node stabilised
-! interface (UEL).
+! interface, U5 and U6 standard and stabilised interface of quadratic
+! quads (UEL).
 !
 !   abaqus job=NAME user=FILE
 !

@@ -14,6 +14,9 @@ module abaqus_check
   private
   public :: call_is_good, closure_of, refuse
 
+  !> Types that hold the quads on both sides.
+  integer, parameter :: self_contained(2) = [4, 6]
+
 contains
 
   !> True if the counts fit the element type and every property is in its range; if not, a message has been sent.
@@ -73,7 +76,7 @@ contains
       case (not_negative)
         good = props(i) >= 0.0_dp
       case (estimated)
-        good = props(i) >= 0.0_dp .or. (jtype == 4 .and. .not. abs(props(i) + 1.0_dp) > 0.0_dp)
+        good = props(i) >= 0.0_dp .or. (any(jtype == self_contained) .and. .not. abs(props(i) + 1.0_dp) > 0.0_dp)
       case (below_one)
         good = props(i) >= 0.0_dp .and. props(i) < 1.0_dp
       case (up_to_one)
@@ -94,7 +97,7 @@ contains
   !> What a rule asks for, in words.
   pure function expectation(rule) result(text)
     integer, intent(in) :: rule
-    character(len=40) :: text
+    character(len=48) :: text
 
     select case (rule)
     case (positive)
@@ -104,7 +107,7 @@ contains
     case (up_to_one)
       text = 'a value from 0 to 1'
     case (estimated)
-      text = 'zero or a positive value, or -1 in U4'
+      text = 'zero or a positive value, or -1 in U4 and U6'
     case (below_one)
       text = 'zero or a value between 0 and 1'
     case (exponent)
@@ -123,7 +126,7 @@ contains
     select case (jtype)
     case (1)
       good = within(continuum_integers)
-    case (2)
+    case (2, 5)
       good = within(standard_integers)
     case (3)
       good = within(four_node_integers)
@@ -172,7 +175,7 @@ contains
         [props(positions(i))])
       return
     end do
-    if (jtype == 2) return
+    if (jtype == 2 .or. jtype == 5) return
     good = closure_of(jtype, jprops) == 1 .or. .not. props(p_friction) > 0.0_dp
     if (.not. good) call fatal(jtype, jelem, 'PROPS(%I) ' // trim(reals(p_friction)%name) // ' = %R goes with ' // &
       'CLOSURE = 1, else 0 is expected', [p_friction], [props(p_friction)])
@@ -186,23 +189,25 @@ contains
     select case (jtype)
     case (3)
       closure = jprops(j_four_closure)
-    case (4)
+    case (4, 6)
       closure = jprops(j_eight_closure)
     case default
       closure = 0
     end select
   end function closure_of
 
-  !> Sends the message for the status of a kernel; U4 counts its quads in status%item.
+  !> Sends the message for the status of a kernel; U4 and U6 count their quads in status%item.
   subroutine refuse(jtype, jelem, status)
     integer, intent(in) :: jtype, jelem
     type(status_type), intent(in) :: status
-    integer :: position
+    integer :: position, pairs(4)
     character(len=8) :: side
 
     side = ' '
-    if (jtype == 4 .and. status%item == 1) side = 'bottom'
-    if (jtype == 4 .and. status%item == 2) side = 'top'
+    if (any(jtype == self_contained)) then
+      if (status%item == 1) side = 'bottom'
+      if (status%item == 2) side = 'top'
+    end if
     select case (status%code)
     case (too_brittle)
       position = merge(p_gic, p_giic, status%item == 1)
@@ -220,9 +225,17 @@ contains
     case (zero_length)
       call fatal(jtype, jelem, trim(sentence(status%code)), [integer ::], [real(dp) ::])
     case (edges_apart)
-      call fatal(jtype, jelem, trim(sentence(status%code)) // ', node %I must lie on %I and %I on %I; ' // &
-        'they are %R apart, at most %R is expected', merge([5, 4, 6, 3], [4, 1, 3, 2], jtype == 4), &
-        [status%value, status%expected])
+      select case (jtype)
+      case (4)
+        pairs = [5, 4, 6, 3]
+      case (6)
+        pairs = [9, 4, 10, 3]
+      case default
+        pairs = [4, 1, 3, 2]
+      end select
+      call fatal(jtype, jelem, trim(sentence(status%code)) // ', node %I must lie on %I and %I on %I' // &
+        trim(merge(', and the middle nodes on each other', repeat(' ', 36), jtype > 4)) // &
+        '; they are %R apart, at most %R is expected', pairs, [status%value, status%expected])
     case default
       call fatal(jtype, jelem, trim(adjustl(trim(side) // ' quad')) // ' ' // trim(sentence(status%code)) // &
         '; it is %R', [integer ::], [status%value])

@@ -9,7 +9,8 @@ module abaqus_interface_elements
   use elements_interface_point, only: interface_options, interface_point
   use elements_standard_interface, only: standard_interface
   use elements_stabilised_interface, only: stabilisation_type, stabilised_interface_four, stabilised_interface_eight
-  use abaqus_layout, only: reals, interface_variables, &
+  use elements_quadratic_interface, only: quadratic_standard, quadratic_stabilised
+  use abaqus_layout, only: elements, reals, interface_variables, &
     p_thickness, p_alphan, p_alphat, p_sigmamax, p_taumax, p_gic, p_giic, p_viscosity, p_eta, p_power, &
     p_blend, p_betan, p_betat, p_gammabot, p_friction, p_bottom_e1, p_bottom_nu12, p_top_e1, p_top_nu12, &
     j_law, j_integration, j_tangent, j_sampling, j_eight_plane, &
@@ -23,7 +24,7 @@ module abaqus_interface_elements
 
 contains
 
-  !> Evaluates U2, U3 or U4; `good` is false after a message. SVARS and ENERGY come back with their end values:
+  !> Evaluates U2 to U6; `good` is false after a message. SVARS and ENERGY come back with their end values:
   !> ENERGY(2) is T.g/2, ENERGY(4) what damage and friction have dissipated, ENERGY(5) what the viscous overstress has.
   subroutine evaluate_interface(jtype, jelem, props, jprops, coords, u, dtime, svars, energy, residual, tangent, good)
     integer, intent(in) :: jtype, jelem
@@ -38,37 +39,48 @@ contains
     type(law_parameters) :: law
     type(interface_options) :: options
     type(stabilisation_type) :: stabilisation
-    type(interface_point) :: old(2), new(2)
+    type(interface_point) :: old(3), new(3)
     type(status_type) :: status
-    real(dp) :: energies(3), bulk_stress(3, 2), stiffness(3, 3, 2), xy(2, 8)
+    real(dp) :: energies(3), bulk_stress(3, 2), stiffness(3, 3, 2), xy(2, 16)
+    integer :: points
 
     law = law_of(jtype, props, jprops)
     options = interface_options(jprops(j_integration), 0, closure_of(jtype, jprops) == 1, &
       merge(1.0_dp, props(p_blend), jprops(j_tangent) == 1))
-    if (jtype > 2) then
+    if (jtype /= 2 .and. jtype /= 5) then
       options%sampling = jprops(j_sampling)
       stabilisation = stabilisation_type([props(p_betat), props(p_betan)], props(p_gammabot))
     end if
     xy(:, 1:size(coords, 2)) = coords(1:2, :)
-    old = points_from(svars)
+    points = elements(jtype)%variables/size(interface_variables)
+    old(1:points) = points_from(svars, points)
+    good = .true.
+    if (jtype == 4 .or. jtype == 6) then
+      call elasticity_of_quads(jtype, jelem, props, jprops(j_eight_plane), stiffness, good)
+    end if
+    if (.not. good) return
     select case (jtype)
     case (2)
-      call standard_interface(law, options, props(p_thickness), xy(:, 1:4), u(1:8), dtime, old, new, &
+      call standard_interface(law, options, props(p_thickness), xy(:, 1:4), u(1:8), dtime, old(1:2), new(1:2), &
         residual(1:8), tangent(1:64), energies, status)
     case (3)
       call stress_of_neighbours(jelem, jprops, options, xy(:, 1:4), u(1:8), stabilisation, bulk_stress, good)
       if (.not. good) return
       call stabilised_interface_four(law, options, props(p_thickness), stabilisation, xy(:, 1:4), u(1:8), &
-        bulk_stress, dtime, old, new, residual(1:8), tangent(1:64), energies, status)
+        bulk_stress, dtime, old(1:2), new(1:2), residual(1:8), tangent(1:64), energies, status)
+    case (4)
+      call stabilised_interface_eight(law, options, props(p_thickness), stabilisation, stiffness, xy(:, 1:8), u(1:16), &
+        dtime, old(1:2), new(1:2), residual(1:16), tangent(1:256), energies, status)
+    case (5)
+      call quadratic_standard(law, options, props(p_thickness), xy(:, 1:6), u(1:12), dtime, old, new, &
+        residual(1:12), tangent(1:144), energies, status)
     case default
-      call elasticity_of_quads(jelem, props, jprops(j_eight_plane), stiffness, good)
-      if (.not. good) return
-      call stabilised_interface_eight(law, options, props(p_thickness), stabilisation, stiffness, xy, u(1:16), &
-        dtime, old, new, residual(1:16), tangent(1:256), energies, status)
+      call quadratic_stabilised(law, options, props(p_thickness), stabilisation, stiffness, xy, u(1:32), &
+        dtime, old, new, residual(1:32), tangent(1:1024), energies, status)
     end select
     good = status%code == ok
     if (good) then
-      call write_state(new, svars)
+      call write_state(new(1:points), svars)
       energy = 0.0_dp
       energy([2, 4, 5]) = energies
     else
@@ -93,15 +105,15 @@ contains
     law%strength = [props(p_taumax), props(p_sigmamax)]
     law%toughness = [props(p_giic), props(p_gic)]
     law%viscosity = props(p_viscosity)
-    if (jtype > 2) law%friction = props(p_friction)
+    if (jtype /= 2 .and. jtype /= 5) law%friction = props(p_friction)
     if (law%kind == bilinear_law) return
     law%eta = props(p_eta)
     if (props(p_power) > 0.0_dp) law%power = props(p_power)
   end function law_of
 
-  !> Stiffness of the bottom and the top quad of U4.
-  subroutine elasticity_of_quads(jelem, props, plane, stiffness, good)
-    integer, intent(in) :: jelem
+  !> Stiffness of the bottom and the top quad of U4 and U6.
+  subroutine elasticity_of_quads(jtype, jelem, props, plane, stiffness, good)
+    integer, intent(in) :: jtype, jelem
     real(dp), intent(in) :: props(*)
     integer, intent(in) :: plane
     real(dp), intent(out) :: stiffness(3, 3, 2)
@@ -119,7 +131,7 @@ contains
       call plane_stiffness(material, plane, stiffness(:, :, side), status)
       good = status%code == ok
       if (.not. good) then
-        call fatal(4, jelem, 'PROPS(%I) ' // trim(reals(ratio(side))%name) // ' = %R and its neighbours: ' // &
+        call fatal(jtype, jelem, 'PROPS(%I) ' // trim(reals(ratio(side))%name) // ' = %R and its neighbours: ' // &
           trim(sentence(status%code)) // '; %R is expected to be positive', &
           [ratio(side)], [props(ratio(side)), status%value])
         return
@@ -127,13 +139,14 @@ contains
     end do
   end subroutine elasticity_of_quads
 
-  !> Committed state of the two points.
-  pure function points_from(svars) result(points)
+  !> Committed state of n points.
+  pure function points_from(svars, n) result(points)
     real(dp), intent(in) :: svars(*)
-    type(interface_point) :: points(2)
+    integer, intent(in) :: n
+    type(interface_point) :: points(n)
     integer :: k, first
 
-    do k = 1, 2
+    do k = 1, n
       first = (k - 1)*size(interface_variables)
       points(k)%history%separation = [svars(first + v_wt), svars(first + v_wn)]
       points(k)%traction = [svars(first + v_tt), svars(first + v_tn)]
@@ -147,11 +160,11 @@ contains
 
   !> Writes the state of the points to SVARS.
   pure subroutine write_state(points, svars)
-    type(interface_point), intent(in) :: points(2)
+    type(interface_point), intent(in) :: points(:)
     real(dp), intent(inout) :: svars(*)
     integer :: k, first
 
-    do k = 1, 2
+    do k = 1, size(points)
       first = (k - 1)*size(interface_variables)
       svars(first + v_x) = points(k)%position(1)
       svars(first + v_y) = points(k)%position(2)

@@ -18,7 +18,7 @@ module abaqus_layout
   integer, parameter, public :: up_to_one = 4       ! 0 <= value <= 1
   integer, parameter, public :: any_value = 5
   integer, parameter, public :: exponent = 6        ! 0 or at least 1/2
-  integer, parameter, public :: estimated = 7       ! 0 <= value, or -1 in U4
+  integer, parameter, public :: estimated = 7       ! 0 <= value, or -1 in U4 and U6
   integer, parameter, public :: any_integer = huge(1)
 
   !> A real property.
@@ -66,7 +66,7 @@ module abaqus_layout
   integer, parameter, public :: p_betat = 13
   integer, parameter, public :: p_gammabot = 14
   integer, parameter, public :: p_friction = 15
-  ! reals of the eight-node interface element: elastic constants of its two quads
+  ! reals of the self-contained interface elements: elastic constants of their two quads
   integer, parameter, public :: p_bottom_e1 = 16
   integer, parameter, public :: p_bottom_e2 = 17
   integer, parameter, public :: p_bottom_e3 = 18
@@ -130,7 +130,7 @@ module abaqus_layout
   integer, parameter, public :: j_offset_bottom = 5
   integer, parameter, public :: j_offset_top = 6
   integer, parameter, public :: j_four_closure = 7
-  ! integers of the eight-node one
+  ! integers of those with quads of their own
   integer, parameter, public :: j_eight_plane = 5
   integer, parameter, public :: j_eight_closure = 6
 
@@ -156,7 +156,7 @@ module abaqus_layout
     integer_item(j_law, 'LAW', 1, 3), & !< 1 bilinear (9) to (11), 2 bilinear by ETA or POWER, 3 exponential by ETA or POWER
     integer_item(j_integration, 'INTEGRATION', 0, 1), & !< 0 Gauss, 1 Newton-Cotes
     integer_item(j_tangent, 'TANGENT', 0, 1), & !< 0 consistent, 1 without the derivative of the damage
-    integer_item(j_sampling, 'SAMPLING', 0, 2), & !< bulk stress: 0 middle of the face, 1 face, 2 nearest Gauss point
+    integer_item(j_sampling, 'SAMPLING', 0, 2), & !< bulk stress: 0 middle of face (U6: line), 1 face, 2 nearest Gauss point
     integer_item(j_eight_plane, 'PLANE', 0, 1), & !< 0 plane stress, 1 plane strain
     integer_item(j_eight_closure, 'CLOSURE', 0, 1)] !< damage at 0 the displacement jump, 1 a separation of its own
 
@@ -216,11 +216,13 @@ module abaqus_layout
     variable_item(v_wt, 'WT', 'length'), & !< tangential separation of the law: with CLOSURE 0 it is SEPT
     variable_item(v_dissf, 'DISSF', 'energy/area')] !< energy dissipated by friction
 
-  type(element_item), parameter, public :: elements(4) = [ &
+  type(element_item), parameter, public :: elements(6) = [ &
     element_item(1, 4, 8, 1, 2, 32), & !< continuum quad, stress from a material of the deck (UELMAT)
     element_item(2, 4, 8, 11, 3, 32), & !< standard cohesive interface
     element_item(3, 4, 8, 15, 7, 32), & !< stabilised cohesive interface, four nodes, next to U1 quads
-    element_item(4, 8, 16, 31, 6, 32)] !< stabilised cohesive interface, eight nodes, self-contained; UNSYMM
+    element_item(4, 8, 16, 31, 6, 32), & !< stabilised cohesive interface, eight nodes, self-contained; UNSYMM
+    element_item(5, 6, 12, 11, 3, 48), & !< standard cohesive interface between edges of three nodes
+    element_item(6, 16, 32, 31, 6, 48)] !< stabilised cohesive interface of eight-node quads, self-contained; UNSYMM
 
 contains
 

@@ -1,6 +1,6 @@
 ! SPDX-FileCopyrightText: The uel-harness authors
 ! SPDX-License-Identifier: BSD-3-Clause
-!> Entry point of Abaqus/Standard for the interface elements U2, U3 and U4.
+!> Entry point of Abaqus/Standard for the interface elements U2 to U6.
 !>
 !> Everything is declared, so that ABA_PARAM.INC and its implicit typing are not needed. RHS and AMATRX are filled
 !> entirely, whatever they hold on entry. SVARS and ENERGY change only in calls whose values are kept, LFLAGS(3) = 1
@@ -11,6 +11,7 @@ subroutine uel(rhs, amatrx, svars, energy, ndofel, nrhs, nsvars, props, nprops, 
   use core_kinds, only: dp
   use abaqus_check, only: call_is_good
   use abaqus_interface_elements, only: evaluate_interface
+  use abaqus_layout, only: elements
   use abaqus_report, only: fatal
   implicit none(type, external)
   integer, intent(in) :: ndofel, nrhs, nsvars, nprops, mcrd, nnode, jtype, kstep, kinc, jelem, ndload, npredf, mlvarx
@@ -18,19 +19,19 @@ subroutine uel(rhs, amatrx, svars, energy, ndofel, nrhs, nsvars, props, nprops, 
   real(dp), intent(inout) :: rhs(mlvarx, *), amatrx(ndofel, ndofel), svars(*), energy(8), pnewdt
   real(dp), intent(in) :: props(*), coords(mcrd, nnode), u(ndofel), du(mlvarx, *), v(ndofel), a(ndofel), time(2), dtime
   real(dp), intent(in) :: params(*), adlmag(mdload, *), predef(2, npredf, nnode), ddlmag(mdload, *), period
-  integer, parameter :: most_unknowns = 16, most_variables = 32
+  integer, parameter :: most_unknowns = 32, most_variables = 48
   real(dp) :: residual(most_unknowns), tangent(most_unknowns**2), state(most_variables), energies(8)
   logical :: good
-  integer :: j
+  integer :: j, n
 
   rhs(1:ndofel, 1:nrhs) = 0.0_dp
   amatrx = 0.0_dp
-  if (jtype < 2 .or. jtype > 4) then
+  if (jtype < 2 .or. jtype > size(elements)) then
     if (jtype == 1) then
       call fatal(jtype, jelem, 'takes its stress from a material: give MATERIAL= on *UEL PROPERTY', &
         [integer ::], [real(dp) ::])
     else
-      call fatal(jtype, jelem, 'is no element of this file; it has U1, U2, U3 and U4', [integer ::], [real(dp) ::])
+      call fatal(jtype, jelem, 'is no element of this file; it has U1 to U6', [integer ::], [real(dp) ::])
     end if
     return
   end if
@@ -39,7 +40,8 @@ subroutine uel(rhs, amatrx, svars, energy, ndofel, nrhs, nsvars, props, nprops, 
   ! neither damping nor mass: those matrices stay zero
   if (lflags(3) == 3 .or. lflags(3) == 4) return
 
-  state = svars(1:most_variables)
+  n = elements(jtype)%variables
+  state(1:n) = svars(1:n)
   call evaluate_interface(jtype, jelem, props, jprops, coords, u, dtime, state, energies, residual, tangent, good)
   if (.not. good) return
   if (lflags(3) /= 2) rhs(1:ndofel, 1) = residual(1:ndofel)
@@ -49,7 +51,7 @@ subroutine uel(rhs, amatrx, svars, energy, ndofel, nrhs, nsvars, props, nprops, 
     end do
   end if
   if (lflags(3) == 1 .or. lflags(3) == 100) then
-    svars(1:most_variables) = state
+    svars(1:n) = state(1:n)
     energy = energies
   end if
 end subroutine uel

@@ -16,7 +16,7 @@ module elements_interface_point
   private
   public :: interface_options, interface_point, interface_geometry
   public :: measure_interface, separation_at, add_point, spread_to_nodes, close_point, close_consistent_point, point_energies
-  public :: end_of_node, sign_of_node
+  public :: end_of_node, sign_of_node, apart
 
   !> Options every interface element has.
   type :: interface_options

@@ -19,7 +19,7 @@ module elements_stabilised_interface
   use elements_face_eigenvalue, only: quad4_face_eigenvalue
   implicit none(type, external)
   private
-  public :: stabilisation_type, stabilised_interface_four, stabilised_interface_eight, weigh_sides
+  public :: stabilisation_type, stabilised_interface_four, stabilised_interface_eight, weigh_sides, evaluate_point
   public :: sample_middle, sample_face, sample_gauss
 
   !> Where the bulk stress is taken: in the middle of the face, at the face with the xi of the point, or in the Gauss

@@ -1,8 +1,10 @@
 ! SPDX-FileCopyrightText: The uel-harness authors
 ! SPDX-License-Identifier: BSD-3-Clause
-!> Built-in plane continuum elements CPS3, CPE3, CPS4 and CPE4, as a procedure with the arguments of UELMAT.
+!> Built-in plane continuum elements CPS3, CPS4, CPS8 and CPS8R, and CPE likewise, as a procedure with the arguments of
+!> UELMAT.
 !>
-!> Full integration: 1 point in triangles, 2 x 2 Gauss points in quadrilaterals. CPE4 replaces the volume strain of the
+!> Full integration: 1 point in triangles, 2 x 2 Gauss points in quadrilaterals of four nodes, 3 x 3 in those of eight,
+!> 2 x 2 where the name ends in R. NSVARS tells how many points there are. CPE4 replaces the volume strain of the
 !> points by its mean over the element, as Abaqus does (Theory Guide, Solid isoparametric quadrilaterals and hexahedra:
 !> selectively reduced integration), with half of the difference on each direction in the plane.
 !> PROPS(1) is the thickness. SVARS hold, for each point, E11 E22 E33 E12 S11 S22 S33 S12, in the directions of
@@ -31,11 +33,8 @@ contains
     rhs(1:ndofel*nrhs) = 0
     amatrx(1:ndofel*ndofel) = 0
     if (.not. any(lflags(3) == stiffness_wanted)) return
-    if (nnode == 3) then
-      call integrate(3, 1, find_material(materiallib), props(1), coords, u, rhs, amatrx, svars, energy)
-    else
-      call integrate(4, 4, find_material(materiallib), props(1), coords, u, rhs, amatrx, svars, energy)
-    end if
+    call integrate(int(nnode), int(nsvars)/per_point, find_material(materiallib), props(1), coords, u, rhs, amatrx, svars, &
+                   energy)
   end subroutine solid_uelmat
 
   !> Residual, tangent, state and energy.
@@ -44,11 +43,11 @@ contains
     type(material_t), intent(in) :: material
     real(dp), intent(in) :: thickness, x(2, nodes), u(2*nodes)
     real(dp), intent(inout) :: rhs(2*nodes), stiffness(2*nodes, 2*nodes), svars(per_point, points), energy(8)
-    real(dp) :: b(3, 8, 4), weight(4), strain(3), stress(3), modulus(3, 3), db(3), elastic, work
+    real(dp) :: b(3, 2*nodes, points), weight(points), strain(3), stress(3), modulus(3, 3), db(3), elastic, work
     integer :: i, j, p, n
     n = 2*nodes
     do p = 1, points
-      call gradients(nodes, p, x, b(:, :, p), weight(p))
+      call gradients(nodes, points, p, x, b(:, :, p), weight(p))
     end do
     if (nodes == 4 .and. material%ntens == 4) call average_volume_strain(weight, b)
     elastic = 0
@@ -123,17 +122,21 @@ contains
   end function turn
 
   !> Strain matrix (11, 22, 12) of a Gauss point, points counted along x first as in Abaqus, and its area.
-  subroutine gradients(nodes, point, x, b, area)
-    integer, intent(in) :: nodes, point
+  subroutine gradients(nodes, points, point, x, b, area)
+    integer, intent(in) :: nodes, points, point
     real(dp), intent(in) :: x(2, nodes)
-    real(dp), intent(inout) :: b(3, 8), area
+    real(dp), intent(inout) :: b(3, 2*nodes), area
     real(dp), parameter :: g = 1/sqrt(3.0_dp), corner(2, 4) = reshape([-1, -1, 1, -1, 1, 1, -1, 1], [2, 4])
-    real(dp) :: r, s, local(4, 2), jacobian(2, 2), determinant, dx, dy
+    real(dp) :: r, s, local(nodes, 2), jacobian(2, 2), determinant, dx, dy
     character(len=128) :: text
     integer :: k
+    real(dp) :: rule_weight
+    rule_weight = merge(0.5_dp, 1.0_dp, nodes == 3)
     if (nodes == 3) then
-      local(:, 1) = [-1, 1, 0, 0]
-      local(:, 2) = [-1, 0, 1, 0]
+      local(:, 1) = [-1, 1, 0]
+      local(:, 2) = [-1, 0, 1]
+    else if (nodes == 8) then
+      call serendipity(points, point, local, rule_weight)
     else
       r = merge(-g, g, mod(point, 2) == 1)
       s = merge(-g, g, point <= 2)
@@ -152,7 +155,7 @@ contains
       call add_message(-3_i4, trim(text))
       call escape()
     end if
-    area = merge(determinant/2, determinant, nodes == 3)
+    area = rule_weight*determinant
     do k = 1, nodes
       dx = (local(k, 1)*jacobian(2, 2) - local(k, 2)*jacobian(2, 1))/determinant
       dy = (local(k, 2)*jacobian(1, 1) - local(k, 1)*jacobian(1, 2))/determinant
@@ -160,6 +163,36 @@ contains
       b(:, 2*k) = [0.0_dp, dy, dx]
     end do
   end subroutine gradients
+
+  !> Derivatives of the shape functions of eight nodes by the parent coordinates in a point of 2 x 2 or 3 x 3, and its weight.
+  pure subroutine serendipity(points, point, local, weight)
+    integer, intent(in) :: points, point
+    real(dp), intent(out) :: local(8, 2), weight
+    real(dp), parameter :: node(2, 8) = reshape([-1, -1, 1, -1, 1, 1, -1, 1, 0, -1, 1, 0, 0, 1, -1, 0], [2, 8])
+    real(dp), parameter :: outer = sqrt(0.6_dp), places(3) = [-outer, 0.0_dp, outer], weights(3) = [5, 8, 5]/9.0_dp
+    real(dp) :: r, s, a, b
+    integer :: i, j, k
+    if (points == 4) then
+      r = merge(-1, 1, mod(point, 2) == 1)/sqrt(3.0_dp)
+      s = merge(-1, 1, point <= 2)/sqrt(3.0_dp)
+      weight = 1
+    else
+      i = mod(point - 1, 3) + 1
+      j = (point - 1)/3 + 1
+      r = places(i)
+      s = places(j)
+      weight = weights(i)*weights(j)
+    end if
+    do k = 1, 4
+      a = node(1, k)*r
+      b = node(2, k)*s
+      local(k, :) = 0.25_dp*node(:, k)*[(1 + b)*(2*a + b), (1 + a)*(a + 2*b)]
+    end do
+    do k = 5, 7, 2
+      local(k, :) = [-r*(1 + node(2, k)*s), 0.5_dp*node(2, k)*(1 - r**2)]
+      local(k + 1, :) = [0.5_dp*node(1, k + 1)*(1 - s**2), -s*(1 + node(1, k + 1)*r)]
+    end do
+  end subroutine serendipity
 
   !> Replace the volume strain of each point by its mean over the element.
   pure subroutine average_volume_strain(area, b)

@@ -13,7 +13,7 @@ from harness.deck.problems import nearest
 from harness.errors import DeckError, Source
 from harness.model.properties import UserElement
 
-BUILT_IN_NODES = {"CPS4": 4, "CPE4": 4, "CPS3": 3, "CPE3": 3}
+BUILT_IN_NODES = {"CPS4": 4, "CPE4": 4, "CPS3": 3, "CPE3": 3, "CPS8": 8, "CPE8": 8, "CPS8R": 8, "CPE8R": 8}
 BUILT_IN_DOFS = (1, 2)
 _USER_TYPE = re.compile(r"U([1-9]\d{0,3})")
 LARGEST_DOF = 30

@@ -21,8 +21,12 @@ from harness.usersub import Library, _binding
 BUILT_IN: Final = {
     "CPS3": (3, 1, Tensor.PLANE_STRESS),
     "CPS4": (4, 4, Tensor.PLANE_STRESS),
+    "CPS8": (8, 9, Tensor.PLANE_STRESS),
+    "CPS8R": (8, 4, Tensor.PLANE_STRESS),
     "CPE3": (3, 1, Tensor.PLANE_STRAIN),
     "CPE4": (4, 4, Tensor.PLANE_STRAIN),
+    "CPE8": (8, 9, Tensor.PLANE_STRAIN),
+    "CPE8R": (8, 4, Tensor.PLANE_STRAIN),
 }
 """Built-in elements: nodes, integration points, state of stress."""
 

@@ -171,15 +171,16 @@ class PointVariables:
     kind    'continuum' or 'interface'
     names   name of each variable of a point, in order ('S11', ..., 'DAMAGE')
     points  number of points; the variables of point k are SVARS[k*len(names) : (k+1)*len(names)]
-    bottom, top  interface only: local nodes (from 0) of the two coincident edges, both along the tangent
+    bottom, top  interface only: local nodes (from 0) of the two coincident edges, both along the tangent: left and
+            right end, and the middle where the edges are quadratic
     outline continuum only: local nodes (from 0) of the cell
     """
 
     kind: str
     names: tuple[str, ...]
     points: int
-    bottom: tuple[int, int] = (0, 1)
-    top: tuple[int, int] = (3, 2)
+    bottom: tuple[int, ...] = (0, 1)
+    top: tuple[int, ...] = (3, 2)
     outline: tuple[int, ...] = ()
 
 

@@ -4,7 +4,8 @@
 
 Which cell an element becomes:
 
-- an interface of the project: a line along its bottom edge; a continuum element of the project: its outline;
+- an interface of the project: a line of 2 or 3 nodes along its bottom edge; a continuum element of the project: its
+  outline;
 - a built-in element, or a user's own element: by its number of nodes, with the node order of Abaqus' own elements
   (2D: 3, 4, 6, 8 nodes; 3D: 4, 6, 8, 10, 15, 20; a line of 2 or 3). Abaqus does not know either what a user element
   looks like;
@@ -52,7 +53,8 @@ def cells_of(group: ElementGroup, variables: PointVariables | None, *, solid: bo
     nodes = group.nodes
     if variables is not None and variables.kind == "interface":
         nodes = nodes[:, list(variables.bottom)]
-    elif variables is not None and variables.outline:
+        return Cells("line" if nodes.shape[1] == 2 else "line3", nodes, np.arange(len(nodes)))
+    if variables is not None and variables.outline:
         nodes = nodes[:, list(variables.outline)]
     elements, count = nodes.shape
     kind = (_SOLID if solid and nodes is group.nodes else _PLANE).get(count)

@@ -24,7 +24,7 @@ RULES: Final = {
     "not_negative": ">= 0, default 0",
     "below_one": ">= 0 and < 1, default 0",
     "up_to_one": "0 to 1, default 0",
-    "estimated": ">= 0 or, in U4, -1, default 0",
+    "estimated": ">= 0 or, in U4 and U6, -1, default 0",
     "exponent": "0 or >= 0.5, default 0",
     "any_value": "any, default 0",
 }
@@ -72,7 +72,8 @@ class ElementLayout:
 def element_layouts() -> dict[int, ElementLayout]:
     """Every element type of the project by its JTYPE."""
     tables = _tables(path_of_layout().read_text(encoding="utf-8"))
-    integers = {1: "continuum_integers", 2: "standard_integers", 3: "four_node_integers", 4: "eight_node_integers"}
+    integers = {1: "continuum_integers", 3: "four_node_integers"}
+    integers |= {2: "standard_integers", 5: "standard_integers", 4: "eight_node_integers", 6: "eight_node_integers"}
     layouts = {}
     for fields, meaning in tables["elements"]:
         jtype, nodes, _, reals, _, svars = map(int, fields)
@@ -97,7 +98,11 @@ def variables(jtype: int) -> PointVariables | None:
     names = tuple(item.name for item in layout.variables)
     if jtype == 1:
         return PointVariables("continuum", names, layout.points, outline=(0, 1, 2, 3))
-    edges = {4: ((3, 2), (4, 5))}
+    edges: dict[int, tuple[tuple[int, ...], tuple[int, ...]]] = {
+        4: ((3, 2), (4, 5)),
+        5: ((0, 1, 4), (3, 2, 5)),
+        6: ((3, 2, 6), (8, 9, 12)),
+    }
     bottom, top = edges.get(jtype, ((0, 1), (3, 2)))
     return PointVariables("interface", names, layout.points, bottom=bottom, top=top)
 

@@ -33,7 +33,7 @@ LAW = {
 }
 PLY = {"E1": 1.2e5, "E2": 1.05e4, "E3": 1.05e4, "NU12": 0.3, "NU13": 0.3, "NU23": 0.51, "G12": 5.52e3}
 PLIES = {f"{name} {side}": value for name, value in PLY.items() for side in ("BOTTOM", "TOP")}
-DEFAULTS = {1: {"THICKNESS": 2.0}, 2: LAW, 3: LAW, 4: {**LAW, **PLIES}}
+DEFAULTS = {1: {"THICKNESS": 2.0}, 2: LAW, 3: LAW, 4: {**LAW, **PLIES}, 5: LAW, 6: {**LAW, **PLIES}}
 ENGINEERING = (1.2e5, 1.05e4, 1.05e4, 0.3, 0.3, 0.51, 5.52e3, 5.52e3, 3.48e3)
 
 

@@ -23,6 +23,12 @@ def quads(length, height, shear=0.0, bottom=None):
     return np.array(low + high)
 
 
+def with_middles(corners):
+    """Nodes of U6 from those of U4."""
+    halves = corners[:4], corners[4:]
+    return np.vstack([xy for half in halves for xy in (half, (half + np.roll(half, -1, axis=0)) / 2)])
+
+
 SHAPES = {
     "square, 0.1": quads(0.1, 0.1),
     "rectangle, 0.25 x 0.3875": quads(0.25, 0.3875),
@@ -36,9 +42,9 @@ LAYUPS = ("0/0", "0/90", "90/90")
 
 
 def beta_of(element, coordinates, **values):
-    """(tau, n) of an element, from its S = beta/(alpha + beta)."""
-    item = element(4, coordinates, ALPHAN=1e6, ALPHAT=1e6, **values)
-    item.advance(np.zeros(16))
+    """(tau, n) of U4 or U6, from its S = beta/(alpha + beta)."""
+    item = element(4 if len(coordinates) == 8 else 6, coordinates, ALPHAN=1e6, ALPHAT=1e6, **values)
+    item.advance(np.zeros(item.n))
     s = np.array([item.state["ST"][0], item.state["SN"][0]])
     return 1e6 * s / (1 - s)
 
@@ -150,7 +156,8 @@ def test_quad_inside_out_at_a_gauss_point(element):
 def test_table_of_the_documentation_is_current(element, ply):
     """The rows that README.md prints, worked out by the element."""
     text = README.read_text()
-    for shape, coordinates in SHAPES.items():
+    quadratic = {f"{shape}, eight nodes": with_middles(xy) for shape, xy in list(SHAPES.items())[:3]}
+    for shape, coordinates in (SHAPES | quadratic).items():
         cells = [shape]
         for layup in LAYUPS:
             values = plies(ply, layup)[1]

@@ -42,8 +42,8 @@ NODES = {1: QUAD, 2: FLAT, 3: FLAT, 4: EIGHT}
         (2, {"LAW": 0}, r"JPROPS\(1\) LAW = 0, expected is 1 to 3"),
         (2, {"INTEGRATION": 2}, r"JPROPS\(2\) INTEGRATION = 2, expected is 0 to 1"),
         (2, {"TANGENT": -1}, r"JPROPS\(3\) TANGENT = -1, expected is 0 to 1"),
-        (4, {"BETAN": -2.0}, r"U4 element 42: PROPS\(12\) BETAN = -2.*zero or a positive value, or -1 in U4"),
-        (3, {"BETAN": -1.0}, r"U3 element 42: PROPS\(12\) BETAN = -1.*zero or a positive value, or -1 in U4"),
+        (4, {"BETAN": -2.0}, r"U4 element 42: PROPS\(12\) BETAN = -2.*zero or a positive value, or -1 in U4 and U6"),
+        (3, {"BETAN": -1.0}, r"U3 element 42: PROPS\(12\) BETAN = -1.*zero or a positive value, or -1 in U4 and U6"),
         (4, {"BETAT": -0.5}, r"PROPS\(13\) BETAT = -0?.5.*zero or a positive value"),
         (4, {"GAMMABOT": 1.0}, r"PROPS\(14\) GAMMABOT = 1.*between 0 and 1"),
         (4, {"E1 BOTTOM": 0.0}, r"PROPS\(16\) E1 BOTTOM = 0.*positive"),
@@ -162,7 +162,7 @@ def test_state_of_stress_of_the_material_must_fit(element):
 def test_unknown_types(library, element):
     item = element(2, FLAT, label=42)
     item.block._procedure = replace(item.block._procedure, jtype=9)
-    with pytest.raises(KernelError, match="U9 element 42: is no element of this file; it has U1, U2, U3 and U4"):
+    with pytest.raises(KernelError, match="U9 element 42: is no element of this file; it has U1 to U6"):
         item.evaluate(np.zeros(8))
     item.block._procedure = replace(item.block._procedure, jtype=1)
     with pytest.raises(KernelError, match="U1 element 42: takes its stress from a material: give MATERIAL="):
