@@ -7,7 +7,8 @@ Where elements soften, the tangent K is indefinite while one of them snaps. The 
 
 - d = c where c . r > 0, else d = -c: the correction points to a saddle, and this is the side of it on which the energy
   falls. Where d is almost orthogonal to K_0^-1 r, or no scale lowers the residual along d, or K is singular,
-  d = K_0^-1 r;
+  d = K_0^-1 r. After a step of a hundredth of c or less, which near a singular K repeats itself, c is that of
+  K + mu (K_0 - K), with mu four times as large after each such step, and less again after good ones;
 - a scale s with |d . r(s)| <= 0.25 d . r(0): four times as large while the residual still points along d, since a step
   must be long where an element fails, then regula falsi.
 
@@ -52,6 +53,12 @@ NEGLIGIBLE = 1e-8
 ROUNDING = 1e-14
 """Rounding error of a residual over the sum of all element forces."""
 
+SHORT, GOOD = 0.01, 0.5
+"""Scales below which K is mixed with K_0, and from which on it is less so."""
+
+FIRST_SHARE, CHANGE = 0.01, 4.0
+"""Share of K_0 after the first short step, and the factor of its changes."""
+
 UPHILL = "THE CORRECTION WENT UPHILL"
 GROWING = "THE RESIDUAL ALONG THE CORRECTION GREW"
 SINGULAR = "THE MATRIX WAS SINGULAR"
@@ -73,6 +80,13 @@ class Majoriser:
         """Copy K_0 (CSR values); calls after the first have no effect."""
         if self._data is None:
             self._data = data.copy()
+
+    def blend(self, data: FloatArray, share: float) -> FloatArray:
+        """K + share (K_0 - K), CSR values; K itself for a share of 0."""
+        if not share:
+            return data
+        assert self._data is not None
+        return (1.0 - share) * data + share * self._data
 
     def direction(self, reduced: FloatArray) -> FloatArray:
         """K_0^-1 r (n,) of a reduced residual. Raises SingularMatrixError."""
@@ -107,6 +121,7 @@ class Descent(Newton):
         self._majoriser = majoriser
         self.reason = ""
         self.since = 0
+        self._share = 0.0
 
     def take_over(self, iteration: int, reason: str) -> None:
         """Search from this iteration on; the first reason stays."""
@@ -116,14 +131,16 @@ class Descent(Newton):
     def _advance(self, given: Increment, state: Iterate, missing: FloatArray) -> Iterate:
         assert state.evaluation.data is not None
         if state.iteration == 0:
-            self.reason = ""
+            self.reason, self._share = "", 0.0
             self._majoriser.keep(state.evaluation.data)
         if np.abs(missing).max(initial=0.0) > NEGLIGIBLE * np.abs(given.prescribed).max(initial=0.0):
             # the correction brings the prescribed values in: it has to be taken whole
             return super()._advance(given, state, missing)
         iteration = state.iteration + 1
         try:
-            correction = self._correction(state, np.zeros_like(missing))
+            data = self._majoriser.blend(state.evaluation.data, self._share)
+            blended = replace(state, evaluation=replace(state.evaluation, data=data))
+            correction = self._correction(blended, np.zeros_like(missing))
         except SingularMatrixError:
             self.take_over(iteration, SINGULAR)
             return self._descend(given, state, missing, self._majoriser.direction(state.reduced))
@@ -151,6 +168,13 @@ class Descent(Newton):
             return steepest
         return correction if slope > 0.0 else -correction
 
+    def _adapt(self, scale: float) -> None:
+        """Mix more of K_0 into the matrix after a short step, less after a good one."""
+        if scale < SHORT:
+            self._share = min(max(FIRST_SHARE, CHANGE * self._share), 1.0)
+        elif scale >= GOOD:
+            self._share = self._share / CHANGE if self._share > FIRST_SHARE else 0.0
+
     def _descend(self, given: Increment, state: Iterate, missing: FloatArray, direction: FloatArray) -> Iterate:
         """The state at the scale found along a direction, or along K_0^-1 r where there is none."""
         start = state.increment + self._lift(missing)
@@ -164,6 +188,7 @@ class Descent(Newton):
             direction = self._majoriser.direction(state.reduced)
             scale, more = descend(component, float(direction @ state.residual))
             tried += more
+        self._adapt(scale)
         end = start + (scale or tried[-1]) * direction
         new = self._evaluate(given.call, given, state.iteration + 1, end, end - state.increment)
         return replace(new, line_search=tried)

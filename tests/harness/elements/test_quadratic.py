@@ -20,6 +20,7 @@ LAW = {
     "VISCOSITY": 0.0,
     "BLEND": 0.0,
     "GAMMABOT": 0.0,
+    "FRICTION": 0.0,
     "ETA": 0.0,
     "POWER": 0.0,
 }
