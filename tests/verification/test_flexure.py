@@ -11,7 +11,7 @@ import pytest
 from harness.delamination import flexure
 from harness.delamination.blocks import Interface, Specimen
 from harness.delamination.materials import PLY_0, PLY_90, TABLE_2
-from harness.delamination.mesh import TwoArmMesh
+from harness.delamination.mesh import TwoArmMesh, refined
 from harness.delamination.specimens import ARMS, CRACK, WIDTH, mesh_files
 from harness.delamination.steps import LINEAR
 from harness.delamination.theory import enf_compliance, enf_load, frmm_compliance, frmm_load
@@ -82,3 +82,17 @@ def test_energy_release_rates_are_the_derivatives_of_the_compliances() -> None:
     slope = (frmm_compliance(ARMS, crack + step, 50.0) - frmm_compliance(ARMS, crack - step, 50.0)) / (2.0 * step)
     load = frmm_load(ARMS, crack, toughness, toughness)
     assert load**2 * slope / (2.0 * WIDTH) == pytest.approx(toughness, rel=1e-8)
+
+
+def test_refinement_keeps_the_shape_of_the_interface() -> None:
+    mesh = flexure.frmm_mesh(0.25, 0.0075)
+    fine = refined(mesh, 4)
+    assert fine.rows == (16, 16)
+    assert fine.columns == 4 * mesh.columns
+    assert fine.x[fine.first] == mesh.x[mesh.first] == CRACK
+    # the old nodes are where they were, the new ones on the straight lines between them
+    assert fine.x[::4] == pytest.approx(mesh.x, abs=1e-9)
+    assert fine.bumps[::4] == pytest.approx(mesh.bumps, abs=1e-15)
+    assert np.interp(fine.x, mesh.x, mesh.bumps) == pytest.approx(fine.bumps, abs=1e-9)
+    assert (fine.lower[::4] == mesh.lower).all()
+    assert fine.upper[0] == fine.lower[-1]
