@@ -13,6 +13,8 @@ from concurrent.futures import Future, ProcessPoolExecutor, as_completed
 from multiprocessing import get_context
 from pathlib import Path
 
+import harness.procedures
+import harness.solver
 from harness.delamination.study.cases import SOLUTIONS, Case
 from harness.delamination.study.rows import Row, measure
 from harness.errors import ConvergenceError
@@ -32,7 +34,7 @@ class Store:
             self._entries = json.loads(self._path.read_text(encoding="utf-8"))
 
     def get(self, case: Case) -> Row | None:
-        """Row of a case; None if there is none, or if its deck or the elements have changed since."""
+        """Row of a case; None if there is none, or if its deck, the elements or the solver have changed since."""
         entry = self._entries.get(case.name)
         if entry is None or entry["fingerprint"] != fingerprint(case):
             return None
@@ -49,8 +51,11 @@ class Store:
 
 
 def fingerprint(case: Case) -> str:
-    """Digest of the deck with all its files, and of the elements' source."""
+    """Digest of the deck with all its files, and of the sources of the elements and of the solution procedure."""
     digest = hashlib.sha256(path_of_amalgam().read_bytes())
+    for package in (harness.procedures, harness.solver):
+        for file in sorted(Path(package.__path__[0]).rglob("*.py")):
+            digest.update(file.read_bytes())
     for name, content in sorted(case.files().items()):
         digest.update(f"{name}\n{content}".encode())
     return digest.hexdigest()[:16]
