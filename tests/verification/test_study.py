@@ -16,7 +16,7 @@ from harness.delamination.study.cases import Case, all_cases, select
 from harness.delamination.study.criteria import check, index_ratios
 from harness.delamination.study.refinement import variations
 from harness.delamination.study.rows import Row, at_tenths, bonded_part, damage_variation, measure
-from harness.delamination.study.runner import Store
+from harness.delamination.study.runner import row_store
 from harness.delamination.study.tables import csv_table, markdown_tables
 from harness.errors import UelError
 from harness.output.status import StatusRow
@@ -239,11 +239,11 @@ def test_tables() -> None:
 
 
 def test_rows_are_kept_until_their_deck_changes(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    Store(tmp_path).put(CASE, GOOD)
-    assert Store(tmp_path).get(CASE) == GOOD
-    assert Store(tmp_path).get(replace(CASE, stiffness="1e8")) is None
+    row_store(tmp_path).put(CASE, GOOD)
+    assert row_store(tmp_path).get(CASE) == GOOD
+    assert row_store(tmp_path).get(replace(CASE, stiffness="1e8")) is None
     monkeypatch.setattr(study, "FIELD_EVERY", 7)
-    assert Store(tmp_path).get(CASE) is None
+    assert row_store(tmp_path).get(CASE) is None
 
 
 def test_command_runs_what_is_missing(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:

@@ -11,12 +11,12 @@ from collections.abc import Sequence
 from pathlib import Path
 
 from rich.console import Console
-from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeElapsedColumn
 
+from harness.delamination.batch import complete
 from harness.delamination.study.cases import Case, all_cases, select
 from harness.delamination.study.criteria import check
 from harness.delamination.study.rows import Row
-from harness.delamination.study.runner import Store, run_cases
+from harness.delamination.study.runner import row_store, run_case
 from harness.delamination.study.tables import csv_table, markdown_tables, verdict_table
 from harness.errors import UelError
 
@@ -59,20 +59,21 @@ def main(arguments: Sequence[str] | None = None) -> int:
 
 def _rows(cases: Sequence[Case], folder: Path, workers: int, console: Console) -> dict[Case, Row]:
     """Rows of all cases, in their order; those that the folder does not hold are computed."""
-    store = Store(folder)
-    known = {case: row for case in cases if (row := store.get(case)) is not None}
-    missing = [case for case in cases if case not in known]
-    columns = (TextColumn("{task.description}"), BarColumn(), MofNCompleteColumn(), TimeElapsedColumn())
-    with Progress(*columns, console=console) as progress:
-        task = progress.add_task("rows", total=len(cases), completed=len(known))
-        for case, row in run_cases(missing, folder / "runs", workers):
-            store.put(case, row)
-            known[case] = row
-            end = "finished" if row.finished else f"stopped at {row.reached:.0%}"
-            counts = f"{row.increments} increments, {row.iterations} iterations, {row.cutbacks} cutbacks"
-            progress.print(f"{case.name}: {end}, {counts}, peak {row.peak_load:.2f} N", highlight=False)
-            progress.advance(task)
-    return {case: known[case] for case in cases}
+    return complete(
+        cases,
+        row_store(folder),
+        run_case,
+        folder / "runs",
+        workers=workers,
+        console=console,
+        describe=_end,
+    )
+
+
+def _end(row: Row) -> str:
+    end = "finished" if row.finished else f"stopped at {row.reached:.0%}"
+    counts = f"{row.increments} increments, {row.iterations} iterations, {row.cutbacks} cutbacks"
+    return f"{end}, {counts}, peak {row.peak_load:.2f} N"
 
 
 if __name__ == "__main__":
