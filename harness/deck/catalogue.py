@@ -17,7 +17,7 @@ from harness.deck.problems import Problems, nearest
 from harness.errors import DeckError, Source
 from harness.model.amplitude import Amplitude, AmplitudeType
 from harness.model.arrays import FloatArray
-from harness.model.properties import Elastic, ElasticType, Material, Orientation, Plastic
+from harness.model.properties import Elastic, ElasticType, Material, Orientation, Plastic, UserMaterial
 
 _CONSTANTS = {
     ElasticType.ISOTROPIC: 2,
@@ -26,7 +26,9 @@ _CONSTANTS = {
     ElasticType.ORTHOTROPIC: 9,
     ElasticType.ANISOTROPIC: 21,
 }
+MATERIAL_OPTIONS = ("ELASTIC", "PLASTIC", "DENSITY", "USER MATERIAL", "DEPVAR", "USER OUTPUT VARIABLES")
 SMALLEST_SINE = 1e-10
+MOST_VARIABLES = 1_000_000
 Entry = TypeVar("Entry")
 
 
@@ -48,7 +50,7 @@ def read_materials(blocks: list[Block], problems: Problems) -> dict[str, Materia
                 if current in materials:
                     raise block.error(f"{current} is defined already, at {materials[current].source}")
                 materials[current] = Material(current, block.source)
-            elif block.name in ("ELASTIC", "PLASTIC", "DENSITY"):
+            elif block.name in MATERIAL_OPTIONS:
                 if current is None:
                     raise block.error("does not follow *MATERIAL")
                 materials[current] = _extend(materials[current], block)
@@ -62,6 +64,12 @@ def _extend(material: Material, block: Block) -> Material:
         return replace(material, elastic=_read_elastic(block))
     if block.name == "PLASTIC":
         return replace(material, plastic=_read_plastic(block))
+    if block.name == "USER MATERIAL":
+        return replace(material, user=_read_user_material(block))
+    if block.name == "DEPVAR":
+        return replace(material, state_variables=_read_count(block))
+    if block.name == "USER OUTPUT VARIABLES":
+        return replace(material, output_variables=_read_count(block))
     rows = list(block.rows())
     if len(rows) != 1 or len(rows[0]) != 1:
         raise block.error("needs one data line with the density; a temperature is not supported")
@@ -89,6 +97,26 @@ def _read_elastic(block: Block) -> Elastic:
     if kind is ElasticType.ISOTROPIC and not (values[0] > 0 and -1 < values[1] <= 0.5):
         raise rows[0].error(f"E = {values[0]:g}, nu = {values[1]:g}: expected E > 0 and -1 < nu <= 0.5")
     return Elastic(kind, tuple(values), block.source)
+
+
+def _read_user_material(block: Block) -> UserMaterial:
+    count = block.options.integer("CONSTANTS", 0)
+    values = [value for row in block.rows() for value in row.reals("constant")]
+    if len(values) > count:
+        message = f"{len(values)} values where CONSTANTS={count} announces {count}; dependence on temperature is not "
+        raise block.error(message + "supported")
+    # entries that are not given are zero, as everywhere
+    return UserMaterial(np.array(values + [0.0] * (count - len(values))), block.options.flag("UNSYMM"), block.source)
+
+
+def _read_count(block: Block) -> int:
+    row = next(block.rows(), None)
+    if row is None:
+        raise block.error("needs a data line with the number of variables")
+    count = row.integer(0, "number of variables")
+    if not 0 <= count <= MOST_VARIABLES:
+        raise row.error(f"{count} is not a number of variables (0 to {MOST_VARIABLES})")
+    return count
 
 
 def _read_plastic(block: Block) -> Plastic:
@@ -159,7 +187,8 @@ def read_amplitudes(blocks: list[Block], problems: Problems) -> dict[str, Amplit
 def _read_amplitude(block: Block, name: str) -> Amplitude:
     options = block.options
     kind = AmplitudeType(options.text("DEFINITION"))
-    data = _read_periodic(block) if kind is AmplitudeType.PERIODIC else _read_pairs(block)
+    readers = {AmplitudeType.PERIODIC: _read_periodic, AmplitudeType.DECAY: _read_decay}
+    data = readers.get(kind, _read_pairs)(block)
     if kind is AmplitudeType.SMOOTH_STEP and len(data) < 2:
         raise block.error("SMOOTH STEP needs two points at least")
     total = options.text("TIME") == "TOTAL TIME"
@@ -179,6 +208,18 @@ def _read_pairs(block: Block) -> FloatArray:
     if not values:
         raise block.error("needs a data line")
     return np.array(values).reshape(-1, 2)
+
+
+def _read_decay(block: Block) -> FloatArray:
+    """Rows (A0, A), (t0, td)."""
+    row = next(block.rows(), None)
+    if row is None:
+        raise block.error("needs a data line")
+    row.at_most(4)
+    values = [row.real(index, what, 0.0) for index, what in enumerate(("A0", "A", "t0", "td"))]
+    if values[3] <= 0:
+        raise row.error(f"decay time td = {values[3]:g} must be positive")
+    return np.array(values).reshape(2, 2)
 
 
 def _read_periodic(block: Block) -> FloatArray:

@@ -122,6 +122,7 @@ class FlatMesh:
     def _add_owner(self, name: str, blocks: list[Block], mesh: LocalMesh) -> None:
         readers: dict[str, Callable[[Block], None]] = {
             "NODE": mesh.read_node,
+            "SYSTEM": mesh.read_system,
             "ELEMENT": mesh.read_element,
             "NSET": mesh.read_set,
             "ELSET": mesh.read_set,

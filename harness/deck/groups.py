@@ -121,7 +121,9 @@ def _make_sections(
     for section, kind in pairs.tolist():
         block, owner = sections[section]
         with problems.gather():
-            made[section, kind] = make_section(block, elements.types[kind], materials, orientations[owner.name])
+            made[section, kind] = make_section(
+                block, elements.types[kind], materials, orientations[owner.name], problems
+            )
     return made
 
 

@@ -62,6 +62,12 @@ MESH = (
         "node, x, y, z",
     ),
     Keyword(
+        "SYSTEM",
+        "Rectangular system in which the nodes that follow are given; without data lines the global one.",
+        Where.MODEL,
+        data="origin, point on the local x-axis; then a point of the local x-y plane",
+    ),
+    Keyword(
         "ELEMENT",
         "Define elements by their nodes.",
         Where.MODEL,
@@ -241,6 +247,31 @@ PROPERTIES = (
         ),
         "yield stress, plastic strain",
     ),
+    Keyword(
+        "USER MATERIAL",
+        "Material of UMAT.",
+        Where.MODEL,
+        (
+            Option("CONSTANTS", Kind.INTEGER, "number of constants", required=True),
+            Option("UNSYMM", doc="DDSDDE is unsymmetric"),
+            Option("TYPE", Kind.CHOICE, "what the user routine gives", choices=("MECHANICAL",), refused=("THERMAL",)),
+            *refused("HYBRID FORMULATION"),
+        ),
+        "constants",
+    ),
+    Keyword(
+        "DEPVAR",
+        "Number of state variables (STATEV) of a material point.",
+        Where.MODEL,
+        (*ignored("DELETE"),),
+        "number of variables; then number, name, description of variables, which are not read",
+    ),
+    Keyword(
+        "USER OUTPUT VARIABLES",
+        "Number of variables that UVARM gives at a material point.",
+        Where.MODEL,
+        data="number of variables",
+    ),
     Keyword("DENSITY", "Mass density.", Where.MODEL, refused("DEPENDENCIES", "PORE FLUID"), "density"),
     Keyword(
         "ORIENTATION",
@@ -277,9 +308,9 @@ PROPERTIES = (
                 Kind.CHOICE,
                 "kind of curve",
                 default="TABULAR",
-                choices=("TABULAR", "SMOOTH STEP", "PERIODIC"),
+                choices=("TABULAR", "SMOOTH STEP", "PERIODIC", "DECAY"),
                 refused=(
-                    *("ACTUATOR", "BUBBLE", "DECAY", "EQUALLY SPACED", "FILM", "MODULATED", "PSD DEFINITION", "RAMP"),
+                    *("ACTUATOR", "BUBBLE", "EQUALLY SPACED", "FILM", "MODULATED", "PSD DEFINITION", "RAMP"),
                     *("SOLUTION DEPENDENT", "SPECTRUM", "USER"),
                 ),
             ),
@@ -297,7 +328,8 @@ PROPERTIES = (
                 "BEGIN", "FIXED INTERVAL", "SMOOTH", "PROPERTIES", "VARIABLES", "SHIFTX", "SHIFTY", "SCALEX", "SCALEY"
             ),
         ),
-        "TABULAR, SMOOTH STEP: time, value pairs; PERIODIC: number of terms, omega, t0, A0; A1, B1, A2, B2 and so on",
+        "TABULAR, SMOOTH STEP: time, value pairs; PERIODIC: number of terms, omega, t0, A0; A1, B1, A2, B2 and so on; "
+        "DECAY: A0, A, t0, td",
     ),
 )
 

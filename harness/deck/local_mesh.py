@@ -11,6 +11,7 @@ import numpy as np
 
 from harness.deck.blocks import Block
 from harness.deck.numbers import integer_table, is_integer, read_integer, real_table
+from harness.deck.placement import IDENTITY, read_system
 from harness.deck.problems import nearest
 from harness.deck.table import split_fields, unquote
 from harness.deck.user_elements import Definitions, ElementType, find_type
@@ -57,6 +58,7 @@ class LocalMesh:
         self.elsets: dict[str, list[Members]] = {}
         self.unsorted: set[str] = set()
         self.assembly = ""
+        self.system = IDENTITY
         # index in the whole model of a node of an instance; set by the flattening before it reads the root
         self.find_instance_node: Callable[[str, int], int | None] = lambda instance, label: None
 
@@ -91,8 +93,12 @@ class LocalMesh:
     def read_node(self, block: Block) -> None:
         """*NODE."""
         labels, points, source = _read_nodes(block)
-        self.add_nodes(labels, points, source)
+        self.add_nodes(labels, self.system.move(points) if self.system is not IDENTITY else points, source)
         self.add_to_set(self.nsets, block.options.text("NSET"), [Members("", labels, block.source)])
+
+    def read_system(self, block: Block) -> None:
+        """*SYSTEM."""
+        self.system = read_system(block)
 
     def read_element(self, block: Block) -> None:
         """*ELEMENT."""

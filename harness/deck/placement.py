@@ -12,6 +12,8 @@ import numpy as np
 from harness.deck.blocks import Block, Row
 from harness.model.arrays import FloatArray
 
+SMALLEST_LENGTH = 1e-10
+
 
 @dataclass(frozen=True, slots=True)
 class Placement:
@@ -50,6 +52,32 @@ def read_placement(block: Block) -> Placement:
         return Placement(np.eye(3), shift)
     start, rotation = _read_rotation(rows[1])
     return Placement(rotation, rotation @ (shift - start) + start)
+
+
+def read_system(block: Block) -> Placement:
+    """Placement of the nodes after *SYSTEM: origin a, point b on the local x-axis, point c of the local x-y plane."""
+    rows = list(block.rows())
+    if len(rows) > 2:
+        raise rows[2].error("two data lines are read")
+    if not rows:
+        return IDENTITY
+    rows[0].at_most(6)
+    points = np.array([rows[0].real(index, "coordinate", 0.0) for index in range(6)]).reshape(2, 3)
+    origin = points[0]
+    if len(rows[0]) <= 3:
+        return Placement(np.eye(3), origin)
+    first = points[1] - origin
+    # without a third point the z-axis stays
+    third = np.array([0.0, 0.0, 1.0])
+    if len(rows) == 2:
+        rows[1].at_most(3)
+        third = np.cross(first, [rows[1].real(index, "coordinate", 0.0) for index in range(3)] - origin)
+    second = np.cross(third, first)
+    lengths = np.array([np.linalg.norm(axis) for axis in (first, second, third)])
+    if lengths.min() <= SMALLEST_LENGTH * np.linalg.norm(first):
+        raise rows[0].error("the points of the system are on one line")
+    rotation = np.stack([first, second, np.cross(first, second)])
+    return Placement((rotation / np.linalg.norm(rotation, axis=1)[:, None]).T, origin)
 
 
 def _read_rotation(row: Row) -> tuple[FloatArray, FloatArray]:

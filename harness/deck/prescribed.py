@@ -45,6 +45,7 @@ class Prescription:
     def read_boundary(self, block: Block, in_step: bool) -> list[Boundary]:
         """Entries of one *BOUNDARY, one for each dof."""
         amplitude = self._amplitude(block)
+        velocity = block.options.text("TYPE") == "VELOCITY"
         found = []
         for row in block.rows():
             nodes = self.flat.nodes(row.name(0, "node or node set"), row.source)
@@ -53,7 +54,7 @@ class Prescription:
             row.at_most(4)
             if magnitude and not in_step:
                 raise row.error(f"value {magnitude:g} before the first *STEP, where only zero can be prescribed")
-            found += [Boundary(nodes, dof, magnitude, amplitude, row.source) for dof in dofs]
+            found += [Boundary(nodes, dof, magnitude, amplitude, row.source, velocity) for dof in dofs]
         return found
 
     def read_loads(self, block: Block) -> list[Load]:

@@ -4,6 +4,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping
 
 import numpy as np
@@ -11,15 +12,23 @@ import numpy as np
 from harness.deck.blocks import Block
 from harness.deck.catalogue import look_up
 from harness.deck.numbers import LARGEST_INTEGER
+from harness.deck.problems import Problems
 from harness.deck.user_elements import ElementType
 from harness.errors import DeckError
 from harness.model.properties import Material, Orientation, SolidSection, UserElement, UserProperty
+
+ENTRIES = 8
+"""Entries of a data line."""
 
 SECTION_KEYWORDS = {"SOLID SECTION", "UEL PROPERTY"}
 
 
 def make_section(
-    block: Block, kind: ElementType, materials: Mapping[str, Material], orientations: Mapping[str, Orientation]
+    block: Block,
+    kind: ElementType,
+    materials: Mapping[str, Material],
+    orientations: Mapping[str, Orientation],
+    problems: Problems,
 ) -> SolidSection | UserProperty:
     """The section a keyword gives to elements of a type; DeckError where the two do not go together."""
     options = block.options
@@ -32,10 +41,10 @@ def make_section(
     name = options.text("ORIENTATION")
     orientation = look_up(orientations, name, "orientation", block.source) if name else None
     if kind.definition:
-        return _user_property(block, kind.definition, material, orientation)
+        return _user_property(block, kind.definition, material, orientation, problems)
     assert material is not None
-    if material.elastic is None:
-        raise block.error(f"material {material.name} has no *ELASTIC")
+    if material.elastic is None and material.user is None:
+        raise block.error(f"material {material.name} has no *ELASTIC and no *USER MATERIAL")
     return SolidSection(elset, material, orientation, _thickness(block), block.source)
 
 
@@ -50,14 +59,24 @@ def _thickness(block: Block) -> float:
 
 
 def _user_property(
-    block: Block, definition: UserElement, material: Material | None, orientation: Orientation | None
+    block: Block,
+    definition: UserElement,
+    material: Material | None,
+    orientation: Orientation | None,
+    problems: Problems,
 ) -> UserProperty:
-    entries = [(row, index) for row in block.rows() for index in range(len(row))]
+    rows = list(block.rows())
+    entries = [(row, index) for row in rows for index in range(len(row))]
     reals, integers = definition.properties, definition.integer_properties
-    if len(entries) != reals + integers:
+    wanted = reals + integers
+    if len(entries) != wanted:
         announced = f"PROPERTIES={reals}" + (f", I PROPERTIES={integers}" if integers else "")
-        message = f"{len(entries)} values where U{definition.number} takes {reals + integers} ({announced})"
-        raise block.error(message)
+        message = f"{len(entries)} values where U{definition.number} takes {wanted} ({announced})"
+        if len(entries) > wanted or len(rows) != math.ceil(wanted / ENTRIES):
+            raise block.error(message)
+        # a line has eight entries, those left out are zero
+        problems.warn(block.source, f"*{block.name}: {message}; the others are zero")
+        entries = [(row, index) for row in rows for index in range(ENTRIES)][:wanted]
     values = [row.real(index, f"property {index + 1}", 0.0) for row, index in entries[:reals]]
     whole = []
     for row, index in entries[reals:]:

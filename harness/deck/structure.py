@@ -13,7 +13,7 @@ from harness.errors import DeckError, Source
 
 _ENDS = {"END PART": "PART", "END ASSEMBLY": "ASSEMBLY", "END INSTANCE": "INSTANCE", "END STEP": "STEP"}
 _IN_PARTS = {
-    *("NODE", "ELEMENT", "NSET", "ELSET", "NGEN", "NFILL", "NCOPY", "ELGEN", "EQUATION"),
+    *("NODE", "ELEMENT", "NSET", "ELSET", "NGEN", "NFILL", "NCOPY", "ELGEN", "EQUATION", "SYSTEM"),
     *("USER ELEMENT", "UEL PROPERTY", "SOLID SECTION", "ORIENTATION"),
 }
 _OUTER = {"PART": "", "ASSEMBLY": "", "INSTANCE": "ASSEMBLY", "STEP": ""}

@@ -19,13 +19,15 @@ class AmplitudeType(StrEnum):
     TABULAR = "TABULAR"
     SMOOTH_STEP = "SMOOTH STEP"
     PERIODIC = "PERIODIC"
+    DECAY = "DECAY"
 
 
 @dataclass(frozen=True, slots=True)
 class Amplitude:
     """One amplitude curve.
 
-    data        TABULAR, SMOOTH STEP: (k, 2) of time and value. PERIODIC: rows (omega, t0), (A0, 0), then (An, Bn)
+    data        TABULAR, SMOOTH STEP: (k, 2) of time and value. PERIODIC: rows (omega, t0), (A0, 0), then (An, Bn).
+                DECAY: rows (A0, A), (t0, td)
     total_time  TIME=TOTAL TIME; step time otherwise
     absolute    VALUE=ABSOLUTE: the curve is the magnitude itself
     """
@@ -38,10 +40,13 @@ class Amplitude:
     absolute: bool = False
 
     def value(self, step_time: float, total_time: float) -> float:
-        """Factor at a time; constant outside the table, A0 before t0 of PERIODIC."""
+        """Factor at a time; constant outside the table, A0 before t0 of PERIODIC and DECAY."""
         time = total_time if self.total_time else step_time
         if self.type is AmplitudeType.PERIODIC:
             return self._periodic(time)
+        if self.type is AmplitudeType.DECAY:
+            (base, size), (start, constant) = self.data.tolist()
+            return float(base + size * np.exp(-(time - start) / constant)) if time >= start else base
         times, values = self.data[:, 0], self.data[:, 1]
         if self.type is AmplitudeType.TABULAR or not times[0] < time < times[-1]:
             return float(np.interp(time, times, values))

@@ -41,14 +41,26 @@ class Plastic:
 
 
 @dataclass(frozen=True, slots=True)
+class UserMaterial:
+    """*USER MATERIAL: constants are the PROPS of UMAT."""
+
+    constants: FloatArray
+    unsymmetric: bool
+    source: Source
+
+
+@dataclass(frozen=True, slots=True)
 class Material:
-    """*MATERIAL."""
+    """*MATERIAL; state_variables is *DEPVAR, output_variables *USER OUTPUT VARIABLES."""
 
     name: str
     source: Source
     elastic: Elastic | None = None
     plastic: Plastic | None = None
     density: float = 0.0
+    user: UserMaterial | None = None
+    state_variables: int = 0
+    output_variables: int = 0
 
 
 @dataclass(frozen=True, slots=True)

@@ -111,13 +111,17 @@ class Static:
 
 @dataclass(frozen=True, slots=True)
 class Boundary:
-    """One *BOUNDARY entry: nodes (indices), one dof, magnitude, amplitude (None: the step's default)."""
+    """One *BOUNDARY entry: nodes (indices), one dof, magnitude, amplitude (None: the step's default).
+
+    With `velocity` (TYPE=VELOCITY) it is the rate of the dof that is prescribed.
+    """
 
     nodes: IntArray
     dof: int
     magnitude: float
     amplitude: Amplitude | None
     source: Source
+    velocity: bool = False
 
 
 @dataclass(frozen=True, slots=True)

@@ -8,6 +8,7 @@ Abaqus Analysis User's Guide, "Prescribed conditions: overview", "Amplitude curv
   AMPLITUDE= of *STEP says; prescribed displacements and rotations always ramp;
 - with an amplitude it is the magnitude times the curve, or the curve itself (VALUE=ABSOLUTE);
 - in later steps that do not give it anew it stays at the end value, or goes on along a curve in total time;
+- TYPE=VELOCITY prescribes the rate, by default constant over the step, and goes on in later steps;
 - OP=NEW removes what is not given anew: a load, and the reaction of a released degree of freedom, fade over the step
   (RAMP) or vanish at once (STEP).
 """
@@ -48,19 +49,67 @@ class Curve:
 
 
 @dataclass(frozen=True, slots=True)
+class Course:
+    """Unknowns whose rate is `magnitude` times an amplitude, 1 without one; at the start of the step they are `start`.
+
+    begin  total time at the start of the step
+    """
+
+    unknowns: IntArray
+    magnitude: float
+    amplitude: Amplitude | None
+    start: FloatArray
+    begin: float
+
+    def value(self, step_time: float) -> FloatArray:
+        """Values at a time of the step: the start and the integral of the rate."""
+        if self.amplitude is None:
+            return self.start + self.magnitude * step_time
+        scale = 1.0 if self.amplitude.absolute else self.magnitude
+        times, factors = self._sampled(self.amplitude, step_time)
+        return self.start + scale * float(np.trapezoid(factors, times))
+
+    def following(self, period: float, displacement: FloatArray, total_time: float) -> Course:
+        """The same in the next step: it goes on at the rate of the end, or along a curve in total time."""
+        amplitude, magnitude = self.amplitude, self.magnitude
+        if amplitude is not None and not amplitude.total_time:
+            factor = amplitude.value(period, total_time)
+            magnitude, amplitude = factor if amplitude.absolute else magnitude * factor, None
+        return Course(self.unknowns, magnitude, amplitude, displacement[self.unknowns], total_time)
+
+    def without(self, unknowns: IntArray) -> Course:
+        """The same for fewer unknowns."""
+        kept = ~np.isin(self.unknowns, unknowns)
+        return Course(self.unknowns[kept], self.magnitude, self.amplitude, self.start[kept], self.begin)
+
+    def _sampled(self, amplitude: Amplitude, step_time: float) -> tuple[FloatArray, FloatArray]:
+        """Points that hold the corners of a table, for which the trapezoidal rule is exact, and many between."""
+        corners = amplitude.data[:, 0] - (self.begin if amplitude.total_time else 0.0)
+        times = np.union1d(np.linspace(0.0, step_time, SAMPLES), corners[(corners > 0) & (corners < step_time)])
+        return times, np.array([amplitude.value(time, self.begin + time) for time in times.tolist()])
+
+
+SAMPLES = 501
+"""Points of the integral of a velocity's amplitude."""
+
+
+@dataclass(frozen=True, slots=True)
 class Variation:
-    """Values of all unknowns over one step: base + slope t/T + curves."""
+    """Values of all unknowns over one step: base + slope t/T + curves; courses have zero base and slope."""
 
     base: FloatArray
     slope: FloatArray
     period: float
     curves: tuple[Curve, ...] = ()
+    courses: tuple[Course, ...] = ()
 
     def at(self, step_time: float, total_time: float) -> FloatArray:
         """Values (n,) at a time."""
         values = self.base + self.slope * (step_time / self.period)
         for curve in self.curves:
             values[curve.unknowns] += curve.value(step_time, total_time)
+        for course in self.courses:
+            values[course.unknowns] = course.value(step_time)
         return values
 
 
@@ -78,6 +127,8 @@ class Boundaries:
         self._dofs = dofs
         self._active = np.zeros(len(dofs), dtype=bool)
         self._curves: tuple[Curve, ...] = ()
+        self._courses: tuple[Course, ...] = ()
+        self._period = 1.0
         self.sources: dict[int, Source] = {}
         for entry in model_data:
             self._activate(entry)
@@ -87,19 +138,25 @@ class Boundaries:
         """Prescribed unknowns of the current step, ascending."""
         return np.flatnonzero(self._active)
 
-    def start_step(self, step: Step, displacement: FloatArray) -> Variation:
-        """Take over a step's entries; displacement (n,) is that at the end of the previous step."""
+    def start_step(self, step: Step, displacement: FloatArray, total_time: float = 0.0) -> Variation:
+        """Take over a step's entries; displacement (n,) and total time are those at the end of the previous step."""
         if step.new_boundary:
             self._active[:] = False
-            self._curves = ()
+            self._curves, self._courses = (), ()
             self.sources.clear()
         base, slope = displacement.copy(), np.zeros_like(displacement)
         curves = [curve for curve in self._curves if curve.amplitude.total_time]
+        courses = [course.following(self._period, displacement, total_time) for course in self._courses]
         for entry in step.boundaries:
             unknowns = self._activate(entry)
             curves = [curve.without(unknowns) for curve in curves]
+            courses = [course.without(unknowns) for course in courses]
             base[unknowns], slope[unknowns] = 0.0, 0.0
-            if entry.amplitude is not None:
+            if entry.velocity:
+                # the default is always a velocity that is there at once
+                start = displacement[unknowns]
+                courses.append(Course(unknowns, entry.magnitude, entry.amplitude, start, total_time))
+            elif entry.amplitude is not None:
                 curves.append(Curve(unknowns, entry.magnitude, entry.amplitude))
             elif step.amplitude == "RAMP" or entry.dof <= _LAST_ROTATION:
                 base[unknowns] = displacement[unknowns]
@@ -108,8 +165,9 @@ class Boundaries:
                 base[unknowns] = entry.magnitude
         for curve in curves:
             base[curve.unknowns] = 0.0
-        self._curves = tuple(curves)
-        return Variation(base, slope, step.procedure.period, self._curves)
+        self._curves, self._courses = tuple(curves), tuple(courses)
+        self._period = step.procedure.period
+        return Variation(base, slope, self._period, self._curves, self._courses)
 
     def _activate(self, entry: Boundary) -> IntArray:
         unknowns, _ = find_unknowns(self._dofs, entry)

@@ -90,7 +90,7 @@ class StaticStep:
         self._state = state
         self._user = user
         self._control = IncrementControl(step.procedure, step.controls.time)
-        self._prescribed = state.boundaries.start_step(step, state.displacement)
+        self._prescribed = state.boundaries.start_step(step, state.displacement, state.total_time)
         self._load = state.loads.start_step(step, state.total_time)
         unknowns = state.boundaries.unknowns
         self._released = released_reactions(state.reaction, unknowns, step)

@@ -23,7 +23,9 @@ SUFFIXES: Final = (".f", ".for", ".f90")
 FLAGS: Final = (
     *("-c", "-O2", "-fPIC", "-ffp-contract=off", "-w", "-fdiagnostics-color=never"),
     *("-cpp", "-std=legacy", "-fdec", "-fno-range-check", "-fno-realloc-lhs"),
-    "-frecursive",  # locals on the stack and not kept from call to call, as Abaqus' -auto has it
+    # locals on the stack and not kept from call to call, as Abaqus' -auto has it, automatic arrays too: on the heap a
+    # write behind one ends the process later on
+    *("-frecursive", "-fstack-arrays"),
 )
 FIXED: Final = ("-ffixed-form", "-ffixed-line-length-132")
 FREE: Final = ("-ffree-form", "-ffree-line-length-none")

@@ -63,12 +63,30 @@ def test_plastic(read: Read) -> None:
         ("*PLASTIC\n0.", r"deck.inp:31: \*PLASTIC: yield stress 0 must be positive"),
         ("*PLASTIC\n10., 0., 20.", r"deck.inp:31: \*PLASTIC: more than yield stress and plastic strain"),
         ("*PLASTIC, HARDENING=KINEMATIC\n10.", r"deck.inp:30: \*PLASTIC, HARDENING=KINEMATIC is not supported"),
-        ("*USER MATERIAL, CONSTANTS=2\n1, 2", r"deck.inp:30: \*USER MATERIAL is not supported"),
+        (
+            "*USER MATERIAL, CONSTANTS=2\n1, 2, 3",
+            r"deck.inp:30: \*USER MATERIAL: 3 values where CONSTANTS=2 announces 2",
+        ),
+        (
+            "*USER MATERIAL, CONSTANTS=1, TYPE=THERMAL\n1",
+            r"deck.inp:30: \*USER MATERIAL, TYPE=THERMAL is not supported",
+        ),
+        ("*DEPVAR\n-1", r"deck.inp:31: \*DEPVAR: -1 is not a number of variables"),
+        ("*USER OUTPUT VARIABLES", r"deck.inp:30: \*USER OUTPUT VARIABLES: needs a data line"),
     ],
 )
 def test_wrong_material(read: Read, lines: str, message: str) -> None:
     with pytest.raises(DeckError, match=message):
         material(read, lines)
+
+
+def test_user_material(read: Read) -> None:
+    """Constants that are not given are zero; the descriptions of *DEPVAR are not read."""
+    lines = '*USER MATERIAL, CONSTANTS=3, UNSYMM\n1., 2.\n*DEPVAR\n4\n1, DAMAGE, "how far"\n*USER OUTPUT VARIABLES\n6'
+    found = material(read, lines)
+    assert found.user is not None
+    assert (found.user.unsymmetric, found.state_variables, found.output_variables) == (True, 4, 6)
+    assert_array_equal(found.user.constants, [1, 2, 0])
 
 
 def orientation(read: Read, lines: str) -> Orientation:
@@ -127,9 +145,17 @@ def test_periodic(read: Read) -> None:
     assert_allclose([curve.value(0.7, 0.0), curve.value(0.4, 0.0)], [expected, 0.25])
 
 
+def test_decay(read: Read) -> None:
+    """a = A0 + A exp(-(t - t0)/td) from t0 on, A0 before."""
+    curve = amplitude(read, ", DEFINITION=DECAY", "2., 3., 0.5, 0.1")
+    assert_allclose([curve.value(time, 0.0) for time in (0.4, 0.5, 0.7)], [2.0, 5.0, 2 + 3 * math.exp(-2)])
+
+
 @pytest.mark.parametrize(
     ("options", "data", "message"),
     [
+        (", DEFINITION=DECAY", "1., 2., 3.", r"deck.inp:38: \*AMPLITUDE: decay time td = 0 must be positive"),
+        (", DEFINITION=DECAY", "** nothing", r"deck.inp:37: \*AMPLITUDE: needs a data line"),
         ("", "** nothing", r"deck.inp:37: \*AMPLITUDE: needs a data line"),
         ("", "0., 0., 1., 1.\n0.5, 2.", r"deck.inp:39: \*AMPLITUDE: times must increase"),
         (", DEFINITION=SMOOTH STEP", "0., 0.", r"deck.inp:37: \*AMPLITUDE: SMOOTH STEP needs two points at least"),

@@ -43,7 +43,11 @@ MISTAKES = {
         "*NODE, SYSTEM=C",
         r"11: \*NODE, SYSTEM=C is not supported \(supported: R\)",
     ),
-    "system": ("*NODE, NSET=ALL", "*SYSTEM\n*NODE, NSET=ALL", r"11: \*SYSTEM is not supported"),
+    "system": (
+        "*NODE, NSET=ALL",
+        "*SYSTEM\n0., 0., 0., 1., 0., 0.\n2., 0., 0.\n*NODE, NSET=ALL",
+        r"12: \*SYSTEM: the points of the system are on one line",
+    ),
     "parameter": ("<width>", "<with>", r"33: parameter <with> is not defined"),
     "expression": ("half = width/2", "half = open('x')", r"6: \*PARAMETER: 'open\('x'\)' is not arithmetic"),
     "division by zero": ("half = width/2", "half = width/0", r"6: \*PARAMETER: 'half = width/0' cannot be evaluated"),
@@ -122,7 +126,7 @@ MISTAKES = {
     "dof range": ("TOP, 1\n", "TOP, 2, 1\n", r"47: last dof 1 is before the first, 2"),
     "missing dof": ("TOP, 1\n", "TOP\n", r"47: \*BOUNDARY: dof is missing"),
     "too many entries": ("3, 1, 5.\n", "3, 1, 5., 6.\n", r"49: 4 entries where at most 3 are read"),
-    "prescribed velocity": ("AMPLITUDE=GROW", "TYPE=VELOCITY", r"45: \*BOUNDARY, TYPE=VELOCITY is not supported"),
+    "acceleration": ("AMPLITUDE=GROW", "TYPE=ACCELERATION", r"45: \*BOUNDARY, TYPE=ACCELERATION is not supported"),
     "no procedure": ("*STATIC\n0.1, 1., 1.E-8, 0.25\n", "", r"41: \*STEP: the step has no procedure such as \*STATIC"),
     "increment too large": ("0.1, 1., 1.E-8, 0.25", "2., 1.", r"44: initial increment 2 exceeds the period 1"),
     "increment out of range": (

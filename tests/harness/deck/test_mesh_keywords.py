@@ -11,6 +11,7 @@ from numpy.testing import assert_allclose, assert_array_equal
 
 from harness.errors import DeckError
 from harness.model.model import Model
+from harness.model.properties import UserProperty
 
 Read = Callable[[str], Model]
 FLAT = Path(__file__).with_name("flat.inp").read_text()
@@ -53,6 +54,25 @@ BOTTOM, TOP, 2, 100
     assert_array_equal(group.labels, [1, 2, 3, 4, 11, 12, 13, 14])
     assert_array_equal(group.nodes[-1], [8, 9, 14, 13])
     assert_array_equal(model.elsets["EALL"], range(8))
+
+
+def test_system(read: Read) -> None:
+    """Origin (1, 2, 0), local x along global y, local y along -x; a second *SYSTEM without data ends it."""
+    nodes = "*SYSTEM\n1., 2., 0., 1., 3., 0.\n0., 2., 0.\n*NODE\n1, 0., 0., 5.\n2, 3., 1.\n"
+    nodes += (
+        "*SYSTEM\n1., 1.\n*NODE\n3, 1., 2.\n*SYSTEM\n*NODE\n4, 0., 9.\n*ELEMENT, TYPE=CPE4, ELSET=EALL\n1, 1, 2, 3, 4\n"
+    )
+    model = read(nodes + END)
+    assert_allclose(model.mesh.coordinates, [[1, 2, 5], [0, 5, 0], [2, 3, 0], [0, 9, 0]], atol=1e-12)
+
+
+def test_properties_left_out_at_the_end_of_a_line_are_zero(read: Read) -> None:
+    model = read(FLAT.replace("<half>, 1.E6, 1.D-3\n3, -4\n", "<half>, 1.E6\n"))
+    section = next(group.section for group in model.groups if group.type == "U2")
+    assert isinstance(section, UserProperty)
+    assert_array_equal(section.values, [10.0, 1e6, 0.0])
+    assert_array_equal(section.integers, [0, 0])
+    assert any("2 values where U2 takes 5" in warning and "are zero" in warning for warning in model.warnings)
 
 
 def test_ncopy(read: Read) -> None:

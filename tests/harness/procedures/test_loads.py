@@ -37,8 +37,8 @@ def curve(*points, **options):
     return Amplitude("A", AmplitudeType.TABULAR, np.array(points, dtype=float), SOURCE, **options)
 
 
-def boundary(node, value, amplitude=None, dof=1):
-    return Boundary(np.array([node]), dof, value, amplitude, SOURCE)
+def boundary(node, value, amplitude=None, dof=1, **options):
+    return Boundary(np.array([node]), dof, value, amplitude, SOURCE, **options)
 
 
 def load(node, value, amplitude=None):
@@ -82,6 +82,26 @@ def test_a_curve_in_total_time_goes_on_and_one_in_step_time_stays_at_its_end():
     following = conditions.start_step(step(), end)
     assert history(following, 0, start=2.0) == [2.0, 3.0, 4.0]
     assert history(following, 1, start=2.0) == [2.0, 2.0, 2.0]
+
+
+def test_a_velocity_is_integrated_from_where_the_dof_is_and_goes_on():
+    """The integral of the triangle is t^2/2 up to 1 and 1/2 + (t - 1) - (t - 1)^2/2 from there on."""
+    entries = (
+        boundary(0, 3.0, velocity=True),
+        boundary(1, 4.0, curve((0, 0), (1, 1), (2, 0)), velocity=True),
+        boundary(2, 2.0, curve((0, 0), (4, 4), total_time=True), velocity=True),
+    )
+    conditions = Boundaries(Dofs(), ())
+    variation = conditions.start_step(step(boundaries=entries), np.ones(N))
+    assert history(variation, 0) == pytest.approx([1.0, 4.0, 7.0])
+    assert history(variation, 1) == pytest.approx([1.0, 3.0, 5.0])
+    assert history(variation, 2) == pytest.approx([1.0, 2.0, 5.0])
+    following = conditions.start_step(step(boundaries=(boundary(1, 9.0),)), variation.at(2.0, 2.0), 2.0)
+    assert history(following, 0, start=2.0) == pytest.approx([7.0, 10.0, 13.0])
+    assert history(following, 1, start=2.0) == pytest.approx([5.0, 7.0, 9.0])
+    assert history(following, 2, start=2.0) == pytest.approx([5.0, 10.0, 17.0])
+    conditions.start_step(step(new_boundary=True), np.zeros(N), 4.0)
+    assert not conditions.unknowns.size
 
 
 def test_mod_replaces_the_same_dof_and_keeps_the_others():

@@ -3,6 +3,7 @@
 """User files are compiled as Abaqus compiles them, and what the compiler says comes back readable."""
 
 import shutil
+import subprocess
 
 import pytest
 
@@ -196,3 +197,14 @@ def test_lapack(load):
       call DGESV(2,1,a,2,ip,b,2,info)
       call stdb_abqerr(1,'%R %R %I',(/info/),b,(/'        '/))"""
     assert said(load(database(body))) == ["3.00000 5.00000 0"]
+
+
+def test_automatic_arrays_are_on_the_stack(load, cache):
+    """As with Abaqus' compiler: on the heap a write behind one ends the process, often much later."""
+    body = "      call work(lop)\n      end\n"
+    body += "      subroutine work(n)\n      integer n\n      real*8 a(n+1,n+1)\n      call use(a)\n"
+    load(database(body) + "      subroutine use(a)\n      real*8 a(*)\n      a(1) = 1\n      end\n")
+    (library,) = cache.glob("*.so")
+    symbols = subprocess.run(["nm", "-D", str(library)], capture_output=True, text=True, check=True).stdout
+    assert "work_" in symbols
+    assert "malloc" not in symbols
