@@ -76,6 +76,7 @@ def run(
             for record in run_steps(system, model, library, solver, fallback=fallback, energy_control=energy_control):
                 _pass_on(library, output)
                 output.write(record)
+        _pass_on(library, output)
     except UelError as error:
         _pass_on(library, output)
         output.close(error)

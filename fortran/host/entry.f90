@@ -154,6 +154,63 @@ subroutine host_define_material(stiffness, compliance, thickness, axes, constant
   number = define(material)
 end subroutine host_define_material
 
+!> Make a material of UMAT known; returns the number that stands for it.
+subroutine host_define_user_material(umat, name, ntens, constants, count, number, n)
+  use, intrinsic :: iso_c_binding, only: c_intptr_t
+  use host_kinds, only: dp, i4, i8
+  use host_materials, only: define, material_t
+  implicit none (type, external)
+  integer(i8), intent(in) :: umat             !< address
+  character(len=80), intent(in) :: name
+  integer(i4), intent(in) :: n, ntens
+  real(dp), intent(in) :: constants(n)
+  integer(i4), intent(in) :: count            !< of the constants: f2py passes no empty arrays
+  integer(i4), intent(out) :: number
+  type(material_t) :: material
+  material%ntens = ntens
+  allocate (material%user)
+  material%user%umat = transfer(int(umat, c_intptr_t), material%user%umat)
+  material%user%name = name
+  material%user%constants = constants(:count)
+  number = define(material)
+end subroutine host_define_user_material
+
+!> Call UVARM at all material points of a block of built-in elements.
+subroutine host_uvarm_pass(address, name, tensor, place, clock, labels, coords, svars, history, uvar, left, element, mcrd, nnode, &
+                           variables, points, values, nuvarm, m)
+  use, intrinsic :: iso_c_binding, only: c_intptr_t
+  use host_context, only: current
+  use host_kinds, only: dp, i4, i8
+  use host_uvarm, only: run_uvarm, uvarm_pass_t
+  implicit none (type, external)
+  integer(i8), intent(in) :: address
+  character(len=80), intent(in) :: name       !< of the material
+  integer(i4), intent(in) :: tensor           !< stress components
+  integer(i4), intent(in) :: place(2)         !< step, increment
+  real(dp), intent(in) :: clock(3)            !< step time, total time at the start of the increment, time increment
+  integer(i4), intent(in) :: mcrd, nnode, variables, points, values, nuvarm, m
+  integer(i4), intent(in), target :: labels(m)
+  real(dp), intent(in), target :: coords(mcrd, nnode, m), svars(variables, points, m), history(values, points, m)
+  real(dp), intent(inout), target :: uvar(nuvarm, points, m)
+  integer(i4), intent(out) :: left            !< 1 if the routine ended the analysis
+  integer(i4), intent(out) :: element         !< of the last call
+  type(uvarm_pass_t) :: pass
+  pass%address = transfer(int(address, c_intptr_t), pass%address)
+  pass%material = name
+  pass%tensor = tensor
+  pass%kstep = place(1)
+  pass%kinc = place(2)
+  pass%time = clock(:2)
+  pass%dtime = clock(3)
+  pass%labels => labels
+  pass%coords => coords
+  pass%svars => svars
+  pass%history => history
+  pass%uvar => uvar
+  call run_uvarm(pass, left)
+  element = current%element
+end subroutine host_uvarm_pass
+
 !> Address of the built-in plane continuum elements.
 subroutine host_solid_address(address)
   use, intrinsic :: iso_c_binding, only: c_funloc, c_intptr_t

@@ -11,9 +11,16 @@ module host_context
     integer(i4) :: element = 0    !< element number, 0 outside an element loop
     integer(i4) :: step = 0
     integer(i4) :: increment = 0
+    integer(i4) :: point = 0      !< material point, from 1
+    real(dp) :: time(2) = 0       !< step and total time at the start of the increment
+    real(dp) :: dtime = 0
+    real(dp) :: place(3) = 0      !< coordinates of the material point
+    real(dp) :: length = 0        !< characteristic length of the element
+    real(dp) :: pnewdt = 0        !< smallest that a user material has returned in this call
     integer(i4) :: tensor = 0     !< components of stress: 3, 4 or 6; 0 without a material
     real(dp), pointer, contiguous :: history(:, :) => null()        !< (values, npt) committed material history
     real(dp), pointer, contiguous :: history_trial(:, :) => null()  !< (values, npt) of this call
+    real(dp), pointer, contiguous :: values(:) => null()            !< strain, then stress of the point, while UVARM runs
   end type call_context
 
   type(call_context), save :: current

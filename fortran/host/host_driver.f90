@@ -94,6 +94,8 @@ contains
     current%step = block%kstep
     current%increment = block%kinc
     current%tensor = block%tensor
+    current%time = block%time - block%dtime
+    current%dtime = block%dtime
   end subroutine prepare
 
   subroutine loop(context) bind(c)
@@ -195,6 +197,7 @@ contains
     period = block%period
     params = hht
     pnewdt = untouched
+    current%pnewdt = untouched
     if (block%with_material) then
       call block%uelmat(x(s(i_rhs)), x(s(i_amatrx)), x(s(i_svars)), x(s(i_energy)), ndofel, nrhs, nsvars, x(s(i_props)), &
                         nprops, x(s(i_coords)), mcrd, nnode, x(s(i_u)), x(s(i_du)), x(s(i_v)), x(s(i_a)), jtype, time, &
@@ -206,7 +209,7 @@ contains
                      dtime, kstep, kinc, jelem, params, ndload, jdltyp, adlmag, x(s(i_predef)), npredf, lflags, mlvarx, &
                      ddlmag, mdload, pnewdt, jprops, njprop, period)
     end if
-    if (block%lflags(3) == 1) block%pnewdt = min(block%pnewdt, pnewdt)
+    if (block%lflags(3) == 1) block%pnewdt = min(block%pnewdt, pnewdt, current%pnewdt)
   end subroutine invoke
 
   !> Set the fault if an entry of an array of the running element is not a number.

@@ -1,6 +1,6 @@
 ! SPDX-FileCopyrightText: The uel-harness authors
 ! SPDX-License-Identifier: BSD-3-Clause
-!> The material library behind MATERIAL_LIB_MECH and the built-in elements: linear elasticity and Mises plasticity.
+!> The material library behind MATERIAL_LIB_MECH and the built-in elements: linear elasticity, Mises plasticity, UMAT.
 !>
 !> Stress components: plane stress (11, 22, 12), plane strain (11, 22, 33, 12), three-dimensional
 !> (11, 22, 33, 12, 13, 23); shear strains are engineering strains.
@@ -8,6 +8,7 @@ module host_materials
   use host_context, only: current
   use host_kinds, only: dp, i4
   use host_mises, only: mises_plane_stress, mises_solid
+  use host_umat, only: call_umat, strain_energy, user_material_t
   implicit none (type, external)
   private
   public :: material_t, define, find_material, stress_update, elastic_energy, thickness_strain, history_values
@@ -24,6 +25,7 @@ module host_materials
     logical :: turned = .false.                    !< axes are not the global ones
     real(dp), allocatable :: yield(:, :)           !< (k, 2) yield stress, plastic strain; absent: elastic
     real(dp) :: young = 0, poisson = 0             !< of a plastic material, which is isotropic
+    type(user_material_t), allocatable :: user     !< of UMAT; then nothing above counts but ntens
   end type material_t
 
   type(material_t), allocatable, save, target :: library(:)
@@ -60,7 +62,7 @@ contains
     integer :: i, j, n
     valid = .true.
     n = material%ntens
-    if (.not. allocated(material%yield)) then
+    if (.not. (allocated(material%yield) .or. allocated(material%user))) then
       stress = 0
       do j = 1, n
         do i = 1, n
@@ -74,7 +76,9 @@ contains
     if (valid) valid = point >= 1 .and. point <= size(current%history, 2)
     if (.not. valid) return
     associate (old => current%history(:, point), new => current%history_trial(:, point))
-      if (n == 3) then
+      if (allocated(material%user)) then
+        call call_umat(material%user, n, point, strain, old, stress, tangent, new)
+      else if (n == 3) then
         call mises_plane_stress(material%young, material%poisson, material%yield, old, strain, stress, tangent, new)
       else
         call mises_solid(material%young, material%poisson, material%yield, n, old, strain, stress, tangent, new)
@@ -82,12 +86,17 @@ contains
     end associate
   end subroutine stress_update
 
-  !> Elastic strain energy per volume.
-  pure real(dp) function elastic_energy(material, stress)
+  !> Elastic strain energy per volume, after stress_update of the point.
+  real(dp) function elastic_energy(material, point, stress)
     type(material_t), intent(in) :: material
+    integer(i4), intent(in) :: point
     real(dp), intent(in) :: stress(material%ntens)
     integer :: i, j
     elastic_energy = 0
+    if (allocated(material%user)) then
+      elastic_energy = current%history_trial(strain_energy, point)
+      return
+    end if
     do j = 1, material%ntens
       do i = 1, material%ntens
         elastic_energy = elastic_energy + 0.5_dp*stress(i)*material%compliance(i, j)*stress(j)
@@ -95,7 +104,7 @@ contains
     end do
   end function elastic_energy
 
-  !> Strain 33 in plane stress, after stress_update of the point.
+  !> Strain 33 in plane stress, after stress_update of the point; zero with UMAT, which does not give it.
   real(dp) function thickness_strain(material, point, stress)
     type(material_t), intent(in) :: material
     integer(i4), intent(in) :: point

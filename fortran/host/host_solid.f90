@@ -10,13 +10,14 @@
 !> PROPS(1) is the thickness. SVARS hold, for each point, E11 E22 E33 E12 S11 S22 S33 S12, in the directions of
 !> *ORIENTATION where the section has one, as Abaqus prints them.
 module host_solid
+  use host_context, only: current
   use host_kinds, only: dp, i4
   use host_materials, only: elastic_energy, find_material, material_t, stress_update, thickness_strain
   use host_messages, only: add_message
   use host_protect, only: escape
   implicit none (type, external)
   private
-  public :: solid_uelmat
+  public :: solid_uelmat, point_position
 
   integer, parameter :: per_point = 8
 
@@ -52,7 +53,10 @@ contains
     if (nodes == 4 .and. material%ntens == 4) call average_volume_strain(weight, b)
     elastic = 0
     work = energy(2) + energy(4)
+    ! a line across the element, half of it where there are nodes in the middle of the edges
+    current%length = sqrt(sum(weight))/merge(2, 1, nodes == 8)
     do p = 1, points
+      current%place = point_position(nodes, points, p, x)
       weight(p) = thickness*weight(p)
       strain = 0
       do j = 1, n
@@ -92,7 +96,7 @@ contains
     modulus(1:2, 3) = tangent(1:2, n)
     modulus(3, 1:2) = tangent(n, 1:2)
     modulus(3, 3) = tangent(n, n)
-    elastic = elastic + volume*elastic_energy(material, stress)
+    elastic = elastic + volume*elastic_energy(material, point, stress)
     if (n == 3) then
       out_of_plane = [thickness_strain(material, point, stress), 0.0_dp]
     else
@@ -193,6 +197,35 @@ contains
       local(k + 1, :) = [0.5_dp*node(1, k + 1)*(1 - s**2), -s*(1 + node(1, k + 1)*r)]
     end do
   end subroutine serendipity
+
+  !> Coordinates of an integration point.
+  pure function point_position(nodes, points, point, x) result(place)
+    integer, intent(in) :: nodes, points, point
+    real(dp), intent(in) :: x(:, :)             !< (coordinates, nodes)
+    real(dp) :: place(3), parent(2), n(nodes), a, b
+    real(dp), parameter :: g = 1/sqrt(3.0_dp), outer = sqrt(0.6_dp), places(3) = [-outer, 0.0_dp, outer]
+    real(dp), parameter :: node(2, 8) = reshape([-1, -1, 1, -1, 1, 1, -1, 1, 0, -1, 1, 0, 0, 1, -1, 0], [2, 8])
+    integer :: k
+    if (points == 9) then
+      parent = [places(mod(point - 1, 3) + 1), places((point - 1)/3 + 1)]
+    else
+      parent = [merge(-g, g, mod(point, 2) == 1), merge(-g, g, point <= 2)]
+    end if
+    n = 1.0_dp/nodes
+    if (nodes > 3) then
+      do k = 1, 4
+        a = node(1, k)*parent(1)
+        b = node(2, k)*parent(2)
+        n(k) = 0.25_dp*(1 + a)*(1 + b)*merge(a + b - 1, 1.0_dp, nodes == 8)
+      end do
+      do k = 5, nodes, 2
+        n(k) = 0.5_dp*(1 - parent(1)**2)*(1 + node(2, k)*parent(2))
+        n(k + 1) = 0.5_dp*(1 + node(1, k + 1)*parent(1))*(1 - parent(2)**2)
+      end do
+    end if
+    place = 0
+    place(:size(x, 1)) = matmul(x, n)
+  end function point_position
 
   !> Replace the volume strain of each point by its mean over the element.
   pure subroutine average_volume_strain(area, b)

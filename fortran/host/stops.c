@@ -74,7 +74,6 @@ void __wrap__gfortran_exit_i4(const int32_t *code) { stop_number("CALL EXIT", co
 #define NOT_SUPPLIED(name, title)                                                                                      \
     void name(void) { fatal("it calls " title ", which is not supplied here"); }
 
-NOT_SUPPLIED(getvrm_, "GETVRM")
 NOT_SUPPLIED(getvrn_, "GETVRN")
 NOT_SUPPLIED(getvrmavgatnode_, "GETVRMAVGATNODE")
 NOT_SUPPLIED(getinternal_, "GETINTERNAL")

@@ -31,6 +31,8 @@ class Procedure:
 
     material  number of the material in the host, 0 without one (then UEL is called, else UELMAT)
     history   values per point and points of the material history; (1, 1) without one
+    statev    number of STATEV, which are the last values of the history
+    uvarm     UVARM to call after each increment, None for none
     tensor    stress components of the material: 3 plane stress, 4 plane strain, 6 three-dimensional; 0 without one
     mcrd      coordinates per node
     """
@@ -44,6 +46,18 @@ class Procedure:
     material: int = 0
     tensor: int = 0
     history: tuple[int, int] = (1, 1)
+    statev: int = 0
+    uvarm: OutputVariables | None = None
+
+
+@dataclass(frozen=True, slots=True)
+class OutputVariables:
+    """*USER OUTPUT VARIABLES of a material: the address of UVARM, the material's name, points and variables of each."""
+
+    address: int
+    material: str
+    points: int
+    count: int
 
 
 class Block:
@@ -51,7 +65,8 @@ class Block:
 
     unknowns     (local node, dof) of each element unknown, in the order of U and RHS
     unsymmetric  False: (A + A^T)/2 is assembled
-    variables    meaning of the SVARS, None where unknown
+    variables    meaning of the state's SVARS, None where unknown; those of a point of a built-in element go on with
+                 STATEV and UVAR
     """
 
     def __init__(
@@ -90,6 +105,8 @@ class Block:
             history=history,
             history_trial=history.copy(),
         )
+        self._uvar = np.zeros((m, procedure.uvarm.points, procedure.uvarm.count)) if procedure.uvarm else None
+        self._last: Call | None = None
         fields = np.array([field_of(dof) for _, dof in unknowns])
         # (unknowns, fields): sums entries of an element vector by field
         self._by_field = (fields[:, None] == np.arange(len(FIELD_NAMES))).astype(np.float64)
@@ -141,6 +158,7 @@ class Block:
             np.atleast_2d(residual),
             _NO_MATRIX if matrix is None else matrix,
         )
+        self._last = call
         if outcome.fault is not Fault.NONE:
             raise self._error(outcome, residual.ndim)
         return BlockReport(outcome.flux @ self._by_field, self._flux_count, outcome.pnewdt, outcome.energy)
@@ -157,19 +175,49 @@ class Block:
         return p.material, p.tensor, p.jtype, symmetric, int(assemble), call.step, call.increment
 
     def commit(self) -> None:
-        """End of a converged increment: the state of the last normal call becomes the committed one."""
+        """End of a converged increment: the state of the last normal call becomes the committed one, then UVARM.
+
+        Raises KernelError where UVARM ends the analysis.
+        """
         arrays = self._arrays
         arrays.svars[:] = arrays.svars_trial
         arrays.energy[:] = arrays.energy_trial
         arrays.history[:] = arrays.history_trial
+        if self._uvar is not None and self._last is not None:
+            self._call_uvarm(self._last, self._uvar)
 
     def state(self, index: int) -> ElementState:
         """Committed state, copied; index: of the group in the model."""
-        return ElementState(index, self._arrays.svars.copy(), self._arrays.energy.copy(), self.variables)
+        arrays = self._arrays
+        return ElementState(index, self._extended(arrays.svars, arrays.history), arrays.energy.copy(), self.variables)
 
     def trial(self, index: int) -> ElementState:
         """State that the last normal call left, copied; index: of the group in the model."""
-        return ElementState(index, self._arrays.svars_trial.copy(), self._arrays.energy_trial.copy(), self.variables)
+        arrays = self._arrays
+        svars = self._extended(arrays.svars_trial, arrays.history_trial)
+        return ElementState(index, svars, arrays.energy_trial.copy(), self.variables)
+
+    def _extended(self, svars: FloatArray, history: FloatArray) -> FloatArray:
+        """Copy of SVARS, with STATEV and UVAR behind those of each point."""
+        statev, points = self._procedure.statev, self._procedure.history[1]
+        parts = [history[:, :, history.shape[2] - statev :]] if statev else []
+        if self._uvar is not None:
+            parts.append(self._uvar)
+            points = self._uvar.shape[1]
+        if not parts:
+            return svars.copy()
+        return np.concatenate([svars.reshape(len(svars), points, -1), *parts], axis=2).reshape(len(svars), -1)
+
+    def _call_uvarm(self, call: Call, uvar: FloatArray) -> None:
+        given = self._procedure.uvarm
+        assert given is not None
+        start = call.step_time - call.time_increment, call.total_time - call.time_increment, call.time_increment
+        place = call.step, call.increment
+        element = _binding.uvarm(
+            given.address, given.material, self._procedure.tensor, place, start, self._arrays, uvar
+        )
+        if element:
+            raise KernelError(element, self.group.type, f"UVARM {self._library.stop_reason()}")
 
     def _error(self, outcome: _binding.Outcome, nrhs: int) -> KernelError:
         element = int(self.group.labels[outcome.position]) if outcome.position >= 0 else 0

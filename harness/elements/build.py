@@ -9,8 +9,8 @@ from typing import Final
 
 import numpy as np
 
-from harness.elements.block import Block, Procedure
-from harness.elements.materials import HISTORY_VALUES, Tensor, define_material
+from harness.elements.block import Block, OutputVariables, Procedure
+from harness.elements.materials import Tensor, define_material, history_values
 from harness.errors import DeckError
 from harness.model.mesh import ElementGroup
 from harness.model.model import Model
@@ -69,7 +69,7 @@ def _user_block(model: Model, group: ElementGroup, definition: UserElement, libr
     material, tensor, history = 0, 0, (1, 1)
     if section.material is not None:
         tensor = _tensor(definition, section)
-        material = define_material(section.material, section.orientation, tensor, section.source)
+        material = define_material(section.material, section.orientation, tensor, section.source, library)
         history = _history(section.material, definition.integration or MOST_POINTS)
     procedure = Procedure(
         address=address,
@@ -99,7 +99,19 @@ MOST_POINTS: Final = 64
 
 
 def _history(material: Material, points: int) -> tuple[int, int]:
-    return (1, 1) if material.plastic is None else (HISTORY_VALUES, points)
+    values = history_values(material)
+    return values, points if values > 1 else 1
+
+
+def _output_variables(material: Material, points: int, library: Library) -> OutputVariables | None:
+    """UVARM of a material; None where the job has none, which leaves out the variables alone."""
+    if not material.output_variables or library.uvarm is None:
+        return None
+    return OutputVariables(library.uvarm, material.name, points, material.output_variables)
+
+
+def _numbered(name: str, count: int) -> tuple[str, ...]:
+    return tuple(f"{name}{number}" for number in range(1, count + 1))
 
 
 def _built_in_block(model: Model, group: ElementGroup, library: Library) -> Block:
@@ -119,12 +131,17 @@ def _built_in_block(model: Model, group: ElementGroup, library: Library) -> Bloc
         svars=points * len(POINT_NAMES),
         props=np.array([section.thickness]),
         jprops=np.zeros(0, dtype=np.int64),
-        material=define_material(section.material, section.orientation, tensor, section.source),
+        material=define_material(section.material, section.orientation, tensor, section.source, library),
         tensor=int(tensor),
         history=_history(section.material, points),
+        statev=section.material.state_variables if section.material.user is not None else 0,
+        uvarm=_output_variables(section.material, points, library),
     )
     unknowns = tuple((node, dof) for node in range(nodes) for dof in (1, 2))
-    variables = PointVariables("continuum", POINT_NAMES, points, outline=tuple(range(nodes)))
+    names = *POINT_NAMES, *_numbered("SDV", procedure.statev)
+    if procedure.uvarm is not None:
+        names = *names, *_numbered("UVARM", procedure.uvarm.count)
+    variables = PointVariables("continuum", names, points, outline=tuple(range(nodes)))
     return Block(
         group,
         model.mesh.coordinates,
@@ -132,7 +149,7 @@ def _built_in_block(model: Model, group: ElementGroup, library: Library) -> Bloc
         procedure,
         library,
         # the elastic and the plastic tangent are symmetric
-        unsymmetric=False,
+        unsymmetric=section.material.user is not None and section.material.user.unsymmetric,
         variables=variables,
     )
 

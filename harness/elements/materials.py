@@ -16,8 +16,8 @@ import numpy as np
 
 from harness.errors import DeckError, Source
 from harness.model.arrays import FloatArray
-from harness.model.properties import Elastic, ElasticType, Material, Orientation
-from harness.usersub import _binding
+from harness.model.properties import Elastic, ElasticType, Material, Orientation, UserMaterial
+from harness.usersub import Library, _binding
 
 
 class Tensor(IntEnum):
@@ -30,6 +30,8 @@ class Tensor(IntEnum):
 
 HISTORY_VALUES: Final = 7
 """Values of the history of a point of a plastic material (fortran/host/host_materials.f90)."""
+USER_HISTORY_VALUES: Final = 15
+"""Those of a point of a user material besides STATEV (fortran/host/host_umat.f90)."""
 
 _PAIRS: Final = ((0, 0), (1, 1), (2, 2), (0, 1), (0, 2), (1, 2))
 _COMPONENTS: Final = {Tensor.PLANE_STRESS: [0, 1, 3], Tensor.PLANE_STRAIN: [0, 1, 2, 3], Tensor.SOLID: list(range(6))}
@@ -42,8 +44,19 @@ _COUNTS: Final = {
 }
 
 
-def define_material(material: Material, orientation: Orientation | None, tensor: Tensor, user: Source) -> int:
+def history_values(material: Material) -> int:
+    """Values of the history of a point; 1 for a material without one."""
+    if material.user is not None:
+        return USER_HISTORY_VALUES + material.state_variables
+    return 1 if material.plastic is None else HISTORY_VALUES
+
+
+def define_material(
+    material: Material, orientation: Orientation | None, tensor: Tensor, user: Source, library: Library
+) -> int:
     """Tell the host of a material; returns its number there. `user` is the place that asks for it. Raises DeckError."""
+    if material.user is not None:
+        return _define_user_material(material, material.user, orientation, tensor, library)
     elastic = material.elastic
     if elastic is None:
         raise DeckError(user, f"material {material.name} ({material.source}) has no *ELASTIC")
@@ -67,6 +80,18 @@ def define_material(material: Material, orientation: Orientation | None, tensor:
             raise DeckError(material.plastic.source, "*PLASTIC is supported with *ELASTIC, TYPE=ISOTROPIC only")
         constants, table = _isotropic_constants(elastic), material.plastic.table
     return _binding.define_material(stiffness, reduced, compliance[2, components[:3]], axes[:2, :2], constants, table)
+
+
+def _define_user_material(
+    material: Material, given: UserMaterial, orientation: Orientation | None, tensor: Tensor, library: Library
+) -> int:
+    if library.umat is None:
+        found = ", ".join(library.entry_points) or "no user routine"
+        message = f"material {material.name} needs UMAT; {library.name} has {found}"
+        raise DeckError(given.source, f"*USER MATERIAL: {message}")
+    if orientation is not None:
+        raise DeckError(orientation.source, f"*ORIENTATION is not supported for *USER MATERIAL ({material.name})")
+    return _binding.define_user_material(library.umat, material.name, int(tensor), given.constants)
 
 
 def _inverse(matrix: FloatArray) -> FloatArray:

@@ -183,6 +183,33 @@ def define_material(
     return int(_host.host_define_material(stiffness.T, compliance.T, thickness, axes, constants, table.T))
 
 
+def define_user_material(umat: int, name: str, ntens: int, constants: FloatArray) -> int:
+    """Add a material of UMAT, whose address is given, to the host's library."""
+    return int(_host.host_define_user_material(umat, name, ntens, np.append(constants, 0.0), len(constants)))
+
+
+def uvarm(
+    address: int,
+    name: str,
+    tensor: int,
+    place: tuple[int, int],
+    clock: tuple[float, float, float],
+    arrays: BlockArrays,
+    uvar: FloatArray,
+) -> int:
+    """Call UVARM at the points of a block; returns the element at which it ended the analysis, 0 if it did not.
+
+    place is step and increment, clock the times at the start and the time increment; uvar (m, points, NUVARM).
+    """
+    m, points, _ = uvar.shape
+    svars = arrays.svars.reshape(m, points, -1)
+    history = arrays.history if arrays.history.shape[1] == points else np.zeros((m, points, 1))
+    left, element = _host.host_uvarm_pass(
+        address, name, tensor, place, clock, arrays.labels, arrays.coords.T, svars.T, history.T, uvar.T
+    )
+    return element if left else 0
+
+
 def solid_address() -> int:
     """Address of the built-in plane continuum elements, called like UELMAT."""
     return int(_host.host_solid_address())

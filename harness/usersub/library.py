@@ -30,7 +30,7 @@ ENTRY_POINTS: Final = (
 class Library:
     """User routines of a job, and the job's messages from them.
 
-    uel, uelmat, uexternaldb  addresses, None where the file does not have the routine
+    uel, uelmat, umat, uvarm, uexternaldb  addresses, None where the file does not have the routine
     name                      the file as the user named it, for messages
     entry_points              names of all user routines found
     """
@@ -44,6 +44,8 @@ class Library:
         self.uel = addresses["UEL"]
         self.uelmat = addresses["UELMAT"]
         self.uexternaldb = addresses["UEXTERNALDB"]
+        self.umat = addresses["UMAT"]
+        self.uvarm = addresses["UVARM"]
 
     def variables(self, jtype: int) -> PointVariables | None:
         """Meaning of the SVARS of an element type; None where the library does not hold the project's elements."""

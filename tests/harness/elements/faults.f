@@ -51,7 +51,7 @@
       case (12)
         pnewdt = 0.25d0
       case (13)
-        call getvrm('S',realv,charv,intv,idum,jdum,kdum,ldum)
+        call getvrn('S',realv,charv,intv,idum,jdum,kdum,ldum)
       case (14)
         props(1) = -1
         coords(1,1) = -1

@@ -1,0 +1,102 @@
+! SPDX-FileCopyrightText: The uel-harness authors
+! SPDX-License-Identifier: BSD-3-Clause
+!> UMAT at a material point, with the arguments of Abaqus (User Subroutines Guide, UMAT).
+!>
+!> The history of a point holds strain and stress (six places each), the energies SSE, SPD, SCD, then STATEV. Strains are
+!> those of small displacements, so DFGRD0, DFGRD1 and DROT are the identity.
+module host_umat
+  use, intrinsic :: iso_c_binding, only: c_f_procpointer, c_funptr
+  use host_context, only: current
+  use host_kinds, only: dp, i4
+  implicit none (type, external)
+  private
+  public :: user_material_t, call_umat, direct_components, head, strain_energy
+
+  !> Values of the history before STATEV, and among them the place of SSE.
+  integer, parameter :: head = 15, strain_energy = 13
+
+  type :: user_material_t
+    type(c_funptr) :: umat
+    character(len=80) :: name = ' '
+    real(dp), allocatable :: constants(:)
+  end type user_material_t
+
+  abstract interface
+    subroutine umat_procedure(stress, statev, ddsdde, sse, spd, scd, rpl, ddsddt, drplde, drpldt, stran, dstran, time, dtime, &
+                              temp, dtemp, predef, dpred, cmname, ndi, nshr, ntens, nstatv, props, nprops, coords, drot, &
+                              pnewdt, celent, dfgrd0, dfgrd1, noel, npt, layer, kspt, jstep, kinc)
+      import :: dp, i4
+      real(dp) :: stress(*), statev(*), ddsdde(*), sse, spd, scd, rpl, ddsddt(*), drplde(*), drpldt, stran(*), dstran(*), &
+                  time(*), dtime, temp, dtemp, predef(*), dpred(*), props(*), coords(*), drot(*), pnewdt, celent, &
+                  dfgrd0(*), dfgrd1(*)
+      character(len=80) :: cmname
+      integer(i4) :: ndi, nshr, ntens, nstatv, nprops, noel, npt, layer, kspt, jstep(*), kinc
+    end subroutine umat_procedure
+  end interface
+
+contains
+
+  !> Number of direct components among ntens.
+  pure integer(i4) function direct_components(ntens)
+    integer, intent(in) :: ntens
+    direct_components = merge(2_i4, 3_i4, ntens == 3)
+  end function direct_components
+
+  !> Stress and tangent at the end of the increment; the history goes from old to new.
+  subroutine call_umat(material, ntens, point, strain, old, stress, tangent, new)
+    type(user_material_t), intent(in) :: material
+    integer, intent(in) :: ntens
+    integer(i4), intent(in) :: point                     !< from 1
+    real(dp), intent(in) :: strain(ntens)                !< total, at the end of the increment
+    real(dp), intent(in) :: old(:)
+    real(dp), intent(out) :: stress(ntens), tangent(ntens, ntens)
+    real(dp), intent(inout) :: new(:)
+    procedure(umat_procedure), pointer :: umat
+    real(dp) :: stran(ntens), dstran(ntens), time(2), dtime, ddsddt(ntens), drplde(ntens), constants(size(material%constants))
+    real(dp) :: rpl, drpldt, temp, dtemp, predef(1), dpred(1), coords(3), drot(3, 3), dfgrd0(3, 3), dfgrd1(3, 3), celent, pnewdt
+    real(dp), parameter :: identity(3, 3) = reshape([1, 0, 0, 0, 1, 0, 0, 0, 1], [3, 3])
+    integer(i4) :: ndi, nshr, components, nstatv, nprops, noel, npt, layer, kspt, jstep(4), kinc
+    character(len=80) :: cmname
+    call c_f_procpointer(material%umat, umat)
+    new = old
+    stran = old(:ntens)
+    dstran = strain - stran
+    stress = old(7:6 + ntens)
+    tangent = 0
+    time = current%time
+    dtime = current%dtime
+    ddsddt = 0
+    drplde = 0
+    rpl = 0
+    drpldt = 0
+    temp = 0
+    dtemp = 0
+    predef = 0
+    dpred = 0
+    coords = current%place
+    drot = identity
+    dfgrd0 = identity
+    dfgrd1 = identity
+    celent = current%length
+    pnewdt = current%pnewdt
+    constants = material%constants
+    components = int(ntens, i4)
+    ndi = direct_components(ntens)
+    nshr = components - ndi
+    nstatv = size(new, kind=i4) - head
+    nprops = size(constants, kind=i4)
+    noel = current%element
+    npt = point
+    layer = 1
+    kspt = 1
+    jstep = [current%step, 1_i4, 0_i4, 0_i4]
+    kinc = current%increment
+    cmname = material%name
+    call umat(stress, new(head + 1:), tangent, new(13), new(14), new(15), rpl, ddsddt, drplde, drpldt, stran, dstran, time, dtime, &
+              temp, dtemp, predef, dpred, cmname, ndi, nshr, components, nstatv, constants, nprops, coords, drot, pnewdt, &
+              celent, dfgrd0, dfgrd1, noel, npt, layer, kspt, jstep, kinc)
+    current%pnewdt = min(current%pnewdt, pnewdt)
+    new(:ntens) = strain
+    new(7:6 + ntens) = stress
+  end subroutine call_umat
+end module host_umat

@@ -1,0 +1,140 @@
+! SPDX-FileCopyrightText: The uel-harness authors
+! SPDX-License-Identifier: BSD-3-Clause
+!> UVARM at every material point of a block of built-in elements, at the end of an increment, and GETVRM within it.
+module host_uvarm
+  use, intrinsic :: iso_c_binding, only: c_f_pointer, c_f_procpointer, c_funloc, c_funptr, c_loc, c_ptr
+  use host_context, only: current
+  use host_kinds, only: dp, i4
+  use host_protect, only: protect
+  use host_solid, only: point_position
+  use host_umat, only: direct_components
+  implicit none (type, external)
+  private
+  public :: uvarm_pass_t, run_uvarm
+
+  abstract interface
+    subroutine uvarm_procedure(uvar, direct, t, time, dtime, cmname, orname, nuvarm, noel, npt, layer, kspt, kstep, kinc, ndi, &
+                               nshr, coord, jmac, jmatyp, matlayo, laccfla)
+      import :: dp, i4
+      real(dp) :: uvar(*), direct(*), t(*), time(*), dtime, coord(*)
+      character(len=80) :: cmname, orname
+      integer(i4) :: nuvarm, noel, npt, layer, kspt, kstep, kinc, ndi, nshr, jmac(*), jmatyp(*), matlayo, laccfla
+    end subroutine uvarm_procedure
+  end interface
+
+  !> One pass over a block. Arrays belong to the caller.
+  type :: uvarm_pass_t
+    type(c_funptr) :: address
+    character(len=80) :: material = ' '
+    integer(i4) :: tensor = 0, kstep = 0, kinc = 0
+    real(dp) :: time(2) = 0, dtime = 0    !< start of the increment
+    integer(i4), pointer, contiguous :: labels(:) => null()
+    real(dp), pointer, contiguous :: coords(:, :, :) => null()     !< (mcrd, nnode, m)
+    real(dp), pointer, contiguous :: svars(:, :, :) => null()      !< (variables, points, m)
+    real(dp), pointer, contiguous :: history(:, :, :) => null()    !< (values, points, m)
+    real(dp), pointer, contiguous :: uvar(:, :, :) => null()       !< (NUVARM, points, m)
+  end type uvarm_pass_t
+
+contains
+
+  !> left = 1 if the routine ended the analysis, at current%element.
+  subroutine run_uvarm(pass, left)
+    type(uvarm_pass_t), intent(in), target :: pass
+    integer(i4), intent(out) :: left
+    current%step = pass%kstep
+    current%increment = pass%kinc
+    current%time = pass%time
+    current%dtime = pass%dtime
+    left = int(protect(c_funloc(all_points), c_loc(pass)), i4)
+    nullify (current%values, current%history)
+    if (left == 0) current%element = 0
+  end subroutine run_uvarm
+
+  subroutine all_points(context) bind(c, name='uel_host_uvarm_points')
+    type(c_ptr), value :: context
+    type(uvarm_pass_t), pointer :: pass
+    integer(i4) :: e, point
+    call c_f_pointer(context, pass)
+    do e = 1, size(pass%labels, kind=i4)
+      current%element = pass%labels(e)
+      current%history => pass%history(:, :, e)
+      do point = 1, size(pass%uvar, 2, kind=i4)
+        current%point = point
+        current%values => pass%svars(:, point, e)
+        call call_uvarm(pass, point, pass%coords(:, :, e), pass%uvar(:, point, e))
+      end do
+    end do
+  end subroutine all_points
+
+  subroutine call_uvarm(pass, point, x, uvar)
+    type(uvarm_pass_t), intent(in) :: pass
+    integer(i4), intent(in) :: point
+    real(dp), intent(in) :: x(:, :)
+    real(dp), intent(inout) :: uvar(:)
+    procedure(uvarm_procedure), pointer :: uvarm
+    real(dp) :: direct(3, 3), t(3, 3), time(2), dtime, coord(3)
+    real(dp), parameter :: identity(3, 3) = reshape([1, 0, 0, 0, 1, 0, 0, 0, 1], [3, 3])
+    integer(i4) :: nuvarm, noel, npt, layer, kspt, kstep, kinc, ndi, nshr, jmac(1), jmatyp(1), matlayo, laccfla
+    character(len=80) :: cmname, orname
+    call c_f_procpointer(pass%address, uvarm)
+    direct = identity
+    t = identity
+    time = pass%time
+    dtime = pass%dtime
+    coord = point_position(size(x, 2), size(pass%uvar, 2), int(point), x)
+    cmname = pass%material
+    orname = ' '
+    nuvarm = size(uvar, kind=i4)
+    noel = current%element
+    npt = point
+    layer = 1
+    kspt = 1
+    kstep = pass%kstep
+    kinc = pass%kinc
+    ndi = direct_components(int(pass%tensor))
+    nshr = pass%tensor - ndi
+    jmac = 0
+    jmatyp = 0
+    matlayo = 0
+    laccfla = 0
+    call uvarm(uvar, direct, t, time, dtime, cmname, orname, nuvarm, noel, npt, layer, kspt, kstep, kinc, ndi, nshr, coord, jmac, &
+               jmatyp, matlayo, laccfla)
+  end subroutine call_uvarm
+end module host_uvarm
+
+!> Values of the material point for which UVARM is running: S, E and LE (direct components, then shear) and SDV;
+!> jrcd = 1 for a variable that the point does not have.
+subroutine getvrm(var, array, jarray, flgray, jrcd, jmac, jmatyp, matlayo, laccfla)
+  use host_context, only: current
+  use host_kinds, only: dp, i4
+  use host_umat, only: head
+  implicit none (type, external)
+  character(len=*), intent(in) :: var
+  real(dp), intent(inout) :: array(15)
+  integer(i4), intent(inout) :: jarray(15)
+  character(len=3), intent(inout) :: flgray(15)
+  integer(i4), intent(out) :: jrcd
+  integer(i4), intent(in) :: jmac(*), jmatyp(*), matlayo, laccfla
+  integer :: n
+  jrcd = 1
+  if (.not. associated(current%values)) return
+  array = 0
+  jarray = 0
+  flgray = 'YES'
+  n = size(current%values)/2
+  select case (var)
+  case ('E', 'LE')
+    array(:n) = current%values(:n)
+    jrcd = 0
+  case ('S')
+    array(:n) = current%values(n + 1:)
+    jrcd = 0
+  case ('SDV')
+    n = min(size(current%history, 1) - head, 15)
+    if (n < 1) return
+    array(:n) = current%history(head + 1:head + n, current%point)
+    jrcd = 0
+  case default
+    jrcd = 1
+  end select
+end subroutine getvrm

@@ -1,0 +1,119 @@
+# SPDX-FileCopyrightText: The uel-harness authors
+# SPDX-License-Identifier: BSD-3-Clause
+"""UMAT on built-in elements and UVARM, in whole jobs: a strip of two elements that is pulled."""
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import harness
+from harness.elements.materials import USER_HISTORY_VALUES
+from harness.errors import DeckError, KernelError
+
+HERE = Path(__file__).parent
+DECK = """\
+*NODE
+1, 0., 0.
+2, 3., 0.
+3, 4., 0.
+4, 0., 2.
+5, 3., 2.
+6, 4., 2.
+*ELEMENT, TYPE={type}, ELSET=ALL
+1, 1, 2, 5, 4
+{last}, 2, 3, 6, 5
+*SOLID SECTION, ELSET=ALL, MATERIAL=FLEXIBLE{orientation}
+*MATERIAL, NAME=FLEXIBLE
+{material}
+*BOUNDARY
+1, 1, 2
+4, 1
+*STEP
+*STATIC
+0.25, 1., , 0.25
+*BOUNDARY
+3, 1, 1, 0.4
+6, 1, 1, 0.4
+*NODE PRINT
+RF
+*END STEP
+"""
+USER = "*USER MATERIAL, CONSTANTS=3\n1000., 0.3, {}\n*DEPVAR\n7\n*USER OUTPUT VARIABLES\n5"
+
+
+@pytest.fixture
+def run(tmp_path):
+    def run(material, *, type="CPE4", last=2, orientation="", user=HERE / "points.f"):
+        deck = tmp_path / "strip.inp"
+        deck.write_text(DECK.format(material=material, type=type, last=last, orientation=orientation))
+        return harness.run(deck, user, output_dir=tmp_path)
+
+    return run
+
+
+@pytest.mark.parametrize("type", ["CPE4", "CPS4"])
+def test_umat_does_what_the_elastic_material_does(run, type):
+    """The same constants: the same stresses and energies, and as many iterations."""
+    built_in, user = run("*ELASTIC\n1000., 0.3", type=type), run(USER.format(0), type=type)
+    for name in ("S11", "S22", "S12", "E22", "U"):
+        np.testing.assert_allclose(user.field(name), built_in.field(name), rtol=1e-9, atol=1e-9)
+    assert [line.total_iterations for line in user.status] == [line.total_iterations for line in built_in.status]
+    assert user.history["ALLSE"][-1] == pytest.approx(built_in.history["ALLSE"][-1], rel=1e-9)
+
+
+def test_what_umat_is_given(run):
+    """At the end of four increments; means over the four points of elements that are 3 by 2 and 1 by 2."""
+    result = run(USER.format(0))
+    expected = {
+        "SDV1": [4, 4],  # increments, not iterations
+        "SDV2": [0.75, 0.75],  # TIME is that of the start
+        "SDV3": [0.25, 0.25],
+        "SDV4": [1.5, 3.5],
+        "SDV5": [1, 1],
+        "SDV6": [3104, 3104],
+        "SDV7": [np.sqrt(6), np.sqrt(2)],
+    }
+    for name, values in expected.items():
+        np.testing.assert_allclose(result.field(name), values, rtol=1e-12, err_msg=name)
+
+
+def test_uvarm_sees_the_point_and_the_common_block(run):
+    """Means of 11 to 14 and 21 to 24; TEMP is not known (JRCD = 1); UMAT saw element 2, point 4, last."""
+    result = run(USER.format(0))
+    np.testing.assert_allclose(result.field("UVARM1"), result.field("S22"), atol=1e-9)
+    np.testing.assert_allclose(result.field("UVARM2"), [101.5, 103.5])
+    np.testing.assert_allclose(result.field("UVARM3"), [4, 4])
+    np.testing.assert_allclose(result.field("UVARM4"), [1012.5, 1022.5])
+    np.testing.assert_allclose(result.field("UVARM5"), [24, 24])
+
+
+def test_umat_cuts_the_increment_back(run):
+    """PNEWDT = 0.5 where the increment exceeds 0.2, as all that the deck asks for do."""
+    lines = run(USER.format(1)).status
+    assert lines[0].cutback
+    assert {line.time_increment for line in lines if not line.cutback} <= {0.125, 0.1875}
+
+
+def test_xit_in_umat_and_uvarm(run):
+    with pytest.raises(KernelError, match=r"element 1 \(type CPE4\): stopped the analysis \(XIT\)"):
+        run(USER.format(2))
+    with pytest.raises(KernelError, match=r"element 99 \(type CPE4\): UVARM stopped the analysis \(XIT\)"):
+        run(USER.format(0), last=99)
+
+
+def test_a_job_without_umat_or_with_an_orientation_is_refused(run):
+    with pytest.raises(DeckError, match=r"strip.inp:13: \*USER MATERIAL: material FLEXIBLE needs UMAT; .* has UEL"):
+        run(USER.format(0), user=HERE / "spring.f")
+    material = USER.format(0) + "\n*ORIENTATION, NAME=TURNED\n0., 1., 0., -1., 0., 0."
+    with pytest.raises(DeckError, match=r"\*ORIENTATION is not supported for \*USER MATERIAL \(FLEXIBLE\)"):
+        run(material, orientation=", ORIENTATION=TURNED")
+
+
+def test_without_uvarm_its_variables_are_left_out(run):
+    assert run("*ELASTIC\n1000., 0.3\n*USER OUTPUT VARIABLES\n2", user=None).status
+
+
+def test_history_is_laid_out_as_in_fortran():
+    text = (Path(harness.__file__).parents[1] / "fortran/host/host_umat.f90").read_text()
+    assert f"head = {USER_HISTORY_VALUES}," in text
