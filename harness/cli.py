@@ -13,6 +13,7 @@ from pathlib import Path
 from rich.console import Console
 from rich.table import Table
 
+from harness import isolation
 from harness.errors import UelError
 
 # options of the `abaqus` command and what they are here; None: accepted and without effect on one machine
@@ -30,7 +31,10 @@ ABAQUS_OPTIONS = {
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
-    """Run the command; returns the exit code: 0 on success, 1 on a failed job, 2 on wrong usage."""
+    """Run the command; returns the exit code: 0 on success, 1 on a failed job, 2 on wrong usage.
+
+    Without arguments it is those of the command line, and `uel run` runs in a process of its own.
+    """
     parser = build_parser()
     words = list(sys.argv[1:] if arguments is None else arguments)
     if words[:1] == ["run"]:
@@ -40,6 +44,9 @@ def main(arguments: Sequence[str] | None = None) -> int:
         words[1:] = sorted(words[1:], key=lambda word: word.startswith("-") or "=" not in word)
     options = parser.parse_args(words)
     try:
+        if arguments is None and options.function is run_job and not options.same_process:
+            stem = (options.output_dir or Path()) / (options.job or options.deck.stem)
+            return isolation.supervise(words, stem)
         return int(options.function(options))
     except UelError as error:
         print(f"uel: {error}", file=sys.stderr)
@@ -64,6 +71,10 @@ def build_parser() -> argparse.ArgumentParser:
     help_ = run.add_mutually_exclusive_group()
     help_.add_argument("--fallback", action="store_true", help="search downhill where Newton's method fails")
     help_.add_argument("--control", choices=("load", "energy"), default="load", help="energy: trace snap-backs (load)")
+    run.add_argument(
+        "--call-limit", type=float, default=60.0, metavar="SECONDS", help="time for one call of a user routine (60)"
+    )
+    run.add_argument(isolation.SAME_PROCESS, action="store_true", help="for debuggers: no process of its own")
     run.add_argument("--quiet", action="store_true", help="no progress display")
     run.set_defaults(function=run_job)
 
@@ -161,6 +172,7 @@ def run_job(options: argparse.Namespace) -> int:
         solver=options.solver,
         fallback=options.fallback,
         energy_control=options.control == "energy",
+        call_limit=options.call_limit,
         quiet=options.quiet,
     )
     if not options.quiet:

@@ -27,6 +27,7 @@ def run(
     solver: str = "auto",
     fallback: bool = False,
     energy_control: bool = False,
+    call_limit: float = 0.0,
     quiet: bool = True,
 ) -> Result:
     """Run an Abaqus deck.
@@ -48,6 +49,8 @@ def run(
     energy_control
         Trace snap-backs: an increment ends where it has dissipated a share of energy, and the load factor of a step
         is part of the solution. Not with `fallback`, which keeps the load.
+    call_limit
+        Seconds that one call of a user routine may take; 0: any.
     quiet
         No progress display.
 
@@ -68,6 +71,7 @@ def run(
     directory.mkdir(parents=True, exist_ok=True)
     started = time.perf_counter()
     model = read_deck(deck)
+    usersub.limit_calls(call_limit)
     library = usersub.load(None if user is None else Path(user), job=job, output_dir=directory, deck=deck)
     output = JobOutput(model, job, directory, quiet=quiet)
     try:

@@ -99,6 +99,15 @@ subroutine host_open_job(name, directory, file6, file7, status)
   open (unit=7, file=trim(file7), status='replace', action='readwrite', iostat=status)
 end subroutine host_open_job
 
+!> Time in seconds that one call of a user routine may take; 0: any.
+subroutine host_limit_calls(seconds)
+  use host_kinds, only: dp
+  use host_protect, only: limit_calls
+  implicit none (type, external)
+  real(dp), intent(in) :: seconds
+  call limit_calls(seconds)
+end subroutine host_limit_calls
+
 !> Write out what user routines have printed to units 6 and 7; with `finish` the units are closed too.
 subroutine host_flush(finish)
   use host_kinds, only: i4

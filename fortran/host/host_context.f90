@@ -8,6 +8,7 @@ module host_context
   public :: call_context, current, job_name, output_directory
 
   type :: call_context
+    character(len=16) :: routine = ' '   !< name of the user routine that runs
     integer(i4) :: element = 0    !< element number, 0 outside an element loop
     integer(i4) :: step = 0
     integer(i4) :: increment = 0

@@ -6,7 +6,7 @@ module host_driver
   use host_context, only: current
   use host_interfaces, only: uel_procedure, uelmat_procedure
   use host_kinds, only: dp, i4, unset_bits
-  use host_protect, only: protect
+  use host_protect, only: calls, protect
   use host_workspace, only: all_finite, arm_guards, fill, find_damage, i_a, i_amatrx, i_coords, i_du, i_energy, i_predef, &
                             i_props, i_rhs, i_svars, i_u, i_v, lay_out, n_arrays, same_bits, workspace_t
   implicit none (type, external)
@@ -94,6 +94,7 @@ contains
     current%step = block%kstep
     current%increment = block%kinc
     current%tensor = block%tensor
+    current%routine = merge('UELMAT', 'UEL   ', block%with_material)
     current%time = block%time - block%dtime
     current%dtime = block%dtime
   end subroutine prepare
@@ -141,6 +142,7 @@ contains
     nsvars = int(work%length(i_svars), i4)
     nprops = int(work%length(i_props), i4)
     current%element = block%labels(e)
+    calls = calls + 1
     if (associated(block%history)) then
       current%history => block%history(:, :, e)
       current%history_trial => block%history_trial(:, :, e)

@@ -2,7 +2,7 @@
 ! SPDX-License-Identifier: BSD-3-Clause
 !> Texts that user routines send with STDB_ABQERR, kept until Python fetches them.
 module host_messages
-  use, intrinsic :: iso_c_binding, only: c_char, c_int32_t
+  use, intrinsic :: iso_c_binding, only: c_char, c_int32_t, c_null_char
   use host_kinds, only: dp, i4
   use host_context, only: current
   implicit none (type, external)
@@ -47,6 +47,23 @@ contains
     string = transfer(text, string)
     call add_message(int(level, i4), string)
   end subroutine note
+
+  !> What ended the running call, for C (protect.c); text ends with a null character.
+  subroutine fault(text) bind(c, name='uel_host_fault')
+    character(kind=c_char), intent(in) :: text(*)
+    integer :: length
+    length = 0
+    do while (text(length + 1) /= c_null_char)
+      length = length + 1
+    end do
+    call add_message(-3_i4, 'in '//trim(current%routine)//': '//transfer(text(:length), repeat(' ', length)))
+  end subroutine fault
+
+  !> Element, step and increment of the running call, for C.
+  subroutine get_place(place) bind(c, name='uel_host_place')
+    integer(c_int32_t), intent(out) :: place(3)
+    place = [current%element, current%step, current%increment]
+  end subroutine get_place
 
   !> Oldest message not yet taken; level 0 when there is none.
   subroutine take_message(message)

@@ -2,10 +2,13 @@
 ! SPDX-License-Identifier: BSD-3-Clause
 !> Fortran view of protect.c and sma_arrays.c.
 module host_protect
-  use, intrinsic :: iso_c_binding, only: c_funptr, c_int, c_ptr
+  use, intrinsic :: iso_c_binding, only: c_double, c_funptr, c_int, c_int64_t, c_ptr
   implicit none (type, external)
   private
-  public :: protect, escape, clear_arrays
+  public :: protect, escape, clear_arrays, calls, limit_calls
+
+  !> Calls of user routines so far: by it the clock sees whether one is still the same.
+  integer(c_int64_t), bind(c, name='uel_host_calls') :: calls = 0
 
   interface
     !> Run routine(context); 1 if it was left through escape, else 0.
@@ -19,6 +22,12 @@ module host_protect
     !> Leave the running protect; does not return.
     subroutine escape() bind(c, name='uel_host_escape')
     end subroutine escape
+
+    !> Time that one call of a user routine may take; 0: any.
+    subroutine limit_calls(seconds) bind(c, name='uel_host_limit')
+      import :: c_double
+      real(c_double), value :: seconds
+    end subroutine limit_calls
 
     !> Drop the arrays of SMAIntArrayCreate and its like.
     subroutine clear_arrays() bind(c, name='uel_host_clear_arrays')

@@ -57,6 +57,7 @@ contains
     real(dp), parameter :: identity(3, 3) = reshape([1, 0, 0, 0, 1, 0, 0, 0, 1], [3, 3])
     integer(i4) :: ndi, nshr, components, nstatv, nprops, noel, npt, layer, kspt, jstep(4), kinc
     character(len=80) :: cmname
+    character(len=len(current%routine)) :: routine
     call c_f_procpointer(material%umat, umat)
     new = old
     stran = old(:ntens)
@@ -92,9 +93,12 @@ contains
     jstep = [current%step, 1_i4, 0_i4, 0_i4]
     kinc = current%increment
     cmname = material%name
+    routine = current%routine
+    current%routine = 'UMAT'
     call umat(stress, new(head + 1:), tangent, new(13), new(14), new(15), rpl, ddsddt, drplde, drpldt, stran, dstran, time, dtime, &
               temp, dtemp, predef, dpred, cmname, ndi, nshr, components, nstatv, constants, nprops, coords, drot, pnewdt, &
               celent, dfgrd0, dfgrd1, noel, npt, layer, kspt, jstep, kinc)
+    current%routine = routine
     current%pnewdt = min(current%pnewdt, pnewdt)
     new(:ntens) = strain
     new(7:6 + ntens) = stress

@@ -160,7 +160,7 @@ class Block:
         )
         self._last = call
         if outcome.fault is not Fault.NONE:
-            raise self._error(outcome, residual.ndim)
+            raise self._error(outcome, residual.ndim, call)
         return BlockReport(outcome.flux @ self._by_field, self._flux_count, outcome.pnewdt, outcome.energy)
 
     def bare_loop(self, call: Call, u: FloatArray, du: FloatArray, residual: FloatArray) -> None:
@@ -219,7 +219,7 @@ class Block:
         if element:
             raise KernelError(element, self.group.type, f"UVARM {self._library.stop_reason()}")
 
-    def _error(self, outcome: _binding.Outcome, nrhs: int) -> KernelError:
+    def _error(self, outcome: _binding.Outcome, nrhs: int, call: Call) -> KernelError:
         element = int(self.group.labels[outcome.position]) if outcome.position >= 0 else 0
         match outcome.fault:
             case Fault.LEFT:
@@ -233,7 +233,7 @@ class Block:
                 )
             case _:
                 message = f"{self._entry(outcome)} is NaN or infinite"
-        return KernelError(element, self.group.type, message)
+        return KernelError(element, self.group.type, f"{message} (step {call.step}, increment {call.increment})")
 
     def _entry(self, outcome: _binding.Outcome) -> str:
         column, row = divmod(outcome.index - 1, len(self.unknowns))

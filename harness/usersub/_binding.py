@@ -230,6 +230,11 @@ def open_job(name: str, directory: str, file6: str, file7: str) -> bool:
     return not _host.host_open_job(name, directory, file6, file7)
 
 
+def limit_calls(seconds: float) -> None:
+    """Let no call of a user routine take longer; 0: no limit."""
+    _host.host_limit_calls(seconds)
+
+
 def flush_units(*, close: bool = False) -> None:
     """Write out what user routines printed to units 6 and 7."""
     _host.host_flush(int(close))

@@ -1,0 +1,71 @@
+# SPDX-FileCopyrightText: The uel-harness authors
+# SPDX-License-Identifier: BSD-3-Clause
+"""A run in a process of its own: whatever user code does to it, the files are closed and the reason is said."""
+
+from __future__ import annotations
+
+import resource
+import signal
+import subprocess
+import sys
+from collections.abc import Sequence
+from pathlib import Path
+from typing import Final
+
+from harness.output.broken import close_broken
+
+SAME_PROCESS: Final = "--same-process"
+"""Option of `uel run` for the process that runs."""
+
+_ENDED = 2
+"""Exit code with which the Fortran library ends a process; usage errors, which have it too, were found before."""
+
+_REASONS: Final = {
+    signal.SIGKILL: "killed, by a user or by the system for lack of memory",
+    signal.SIGABRT: "abort, mostly because a user routine wrote outside an array",
+    signal.SIGSEGV: "segmentation fault outside a user routine, mostly because one wrote outside an array before",
+}
+
+
+def supervise(words: Sequence[str], stem: Path) -> int:
+    """Run `uel` with these words in a process of its own; returns the exit code.
+
+    stem is the folder and name of the job. A run that ends without closing its files gets them closed here.
+    """
+    _take_all_stack()
+    process = subprocess.Popen([sys.executable, "-m", "harness.cli", *words, SAME_PROCESS])
+    code = None
+    while code is None:
+        try:
+            code = process.wait()
+        except KeyboardInterrupt:
+            # the process gets the signal as well, and ends by itself
+            continue
+    if code in (0, 1):
+        return code
+    reason = _reason(code)
+    close_broken(stem, reason)
+    print(f"uel: {reason}; the output written so far is readable", file=sys.stderr)
+    return 1
+
+
+def _reason(code: int) -> str:
+    if code >= 0:
+        who = " by the Fortran library, in an input or output statement of a user routine" if code == _ENDED else ""
+        return f"the run was ended{who} (exit code {code})"
+    try:
+        found = signal.Signals(-code)
+    except ValueError:
+        return f"the run was ended by signal {-code}"
+    return f"the run was ended by {found.name}: {_REASONS.get(found, signal.strsignal(found))}"
+
+
+def _take_all_stack() -> None:
+    """Local arrays of user routines are on the stack; Abaqus runs them with as much of it as the system gives."""
+    _, hard = resource.getrlimit(resource.RLIMIT_STACK)
+    most = MOST_STACK if hard == resource.RLIM_INFINITY else min(hard, MOST_STACK)
+    resource.setrlimit(resource.RLIMIT_STACK, (most, hard))
+
+
+MOST_STACK: Final = 1 << 28
+"""Bytes of stack: finite, so that endless recursion ends soon and is recognised."""

@@ -1,0 +1,70 @@
+# SPDX-FileCopyrightText: The uel-harness authors
+# SPDX-License-Identifier: BSD-3-Clause
+"""User code that ends its process: the message, the files so far, and the exit code of the command."""
+
+import re
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+from harness.isolation import supervise
+from harness.output.broken import close_broken
+from harness.output.status import read_status
+
+USER = Path(__file__).parent / "usersub" / "crashes.f"
+DECK = """\
+*USER ELEMENT, TYPE=U1, NODES=2, I PROPERTIES=2
+1
+*NODE
+1, 0.
+2, 1.
+*ELEMENT, TYPE=U1, ELSET=ALL
+7, 1, 2
+*UEL PROPERTY, ELSET=ALL
+{way}, 0
+*STEP
+*STATIC, DIRECT
+0.25, 1.
+*BOUNDARY
+1, 1
+2, 1, 1, 1.
+*END STEP
+"""
+PLACE = r"element 7 \(type U1\): stopped the analysis: {} \(step 1, increment 2\)"
+
+
+@pytest.mark.parametrize(
+    ("way", "message"),
+    [
+        (1, PLACE.format("in UEL: segmentation fault: it reads or writes where no memory is.*")),
+        pytest.param(2, PLACE.format("in UEL: segmentation fault: the stack is full.*"), marks=pytest.mark.long),
+        pytest.param(3, PLACE.format("in UEL: division of an integer by zero"), marks=pytest.mark.long),
+        (4, PLACE.format("in UEL: the call does not return, see the time limit for one call")),
+        (5, r"in a call for element 7, step 1, increment 2: abort.*\nuel: the run was ended by SIGABRT: abort, mostly"),
+        (6, r"in a call for element 7, step 1, increment 2: the process ends\nuel: the run was ended by the Fortran"),
+        pytest.param(7, PLACE.format("STOP 'enough'"), marks=pytest.mark.long),
+    ],
+)
+def test_the_end_is_reported(tmp_path: Path, way: int, message: str) -> None:
+    deck = tmp_path / "crash.inp"
+    deck.write_text(DECK.format(way=way))
+    command = [sys.executable, "-m", "harness.cli", "run", "crash.inp", "--user", str(USER), "--call-limit", "4"]
+    result = subprocess.run([*command, "--quiet"], cwd=tmp_path, capture_output=True, text=True, check=False)
+    assert result.returncode == 1
+    assert "Traceback" not in result.stderr
+    assert re.search(message, result.stderr), result.stderr
+    assert [row.increment for row in read_status(tmp_path / "crash.sta")] == [1]
+    assert (tmp_path / "crash.sta").read_text().endswith(" THE ANALYSIS HAS NOT BEEN COMPLETED\n")
+    assert "***ERROR" in (tmp_path / "crash.msg").read_text()
+
+
+def test_a_run_that_ends_well_or_closes_its_files_is_left_alone(tmp_path: Path) -> None:
+    deck = tmp_path / "crash.inp"
+    deck.write_text(DECK.format(way=0))
+    assert supervise(["run", str(deck), "--user", str(USER), "--quiet", "--output-dir", str(tmp_path)], deck) == 0
+    before = (tmp_path / "crash.sta").read_text()
+    close_broken(tmp_path / "crash", "nothing")
+    close_broken(tmp_path / "absent", "nothing")
+    assert (tmp_path / "crash.sta").read_text() == before

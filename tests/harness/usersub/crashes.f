@@ -1,0 +1,44 @@
+! SPDX-FileCopyrightText: The uel-harness authors
+! SPDX-License-Identifier: BSD-3-Clause
+! A spring that ends the process, or does not end, in increment 2, in the way that JPROPS(1) says.
+      subroutine uel(rhs,amatrx,svars,energy,ndofel,nrhs,nsvars,props,nprops,coords,mcrd,nnode,u,du,v,a,jtype,time,dtime,kstep,
+     1 kinc,jelem,params,ndload,jdltyp,adlmag,predef,npredf,lflags,mlvarx,ddlmag,mdload,pnewdt,jprops,njprop,period)
+      include 'aba_param.inc'
+      dimension rhs(mlvarx,*),amatrx(ndofel,ndofel),props(*),svars(*),u(ndofel),jprops(*),lflags(*)
+      rhs(1,1) = u(2) - u(1)
+      rhs(2,1) = -rhs(1,1)
+      amatrx(1,1) = 1
+      amatrx(2,2) = 1
+      amatrx(1,2) = -1
+      amatrx(2,1) = -1
+      if (kinc /= 2 .or. jelem /= 7) return
+      select case (jprops(1))
+      case (1)
+        k = 2000000000
+        svars(k) = 1
+      case (2)
+        rhs(1,1) = endless(svars(1))
+      case (3)
+        k = jprops(2)
+        svars(1) = 5/k
+      case (4)
+        k = 0
+        do while (k >= 0)
+          k = mod(k + 1, 1000)
+        end do
+        svars(1) = k
+      case (5)
+        call abort
+      case (6)
+        open (unit=99, file='no-such-folder/no-such-file', status='old')
+      case (7)
+        stop 'enough'
+      end select
+      end
+
+      recursive function endless(x) result(y)
+      include 'aba_param.inc'
+      dimension room(1000)
+      room = x + 1
+      y = sqrt(endless(room(7))) + sum(room)
+      end
