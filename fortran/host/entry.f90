@@ -3,7 +3,7 @@
 !> The procedures Python calls (through f2py, see _host.pyf). They only pack and unpack.
 
 !> One pass over a block; see block_t for the arrays.
-subroutine host_evaluate(address, options, lflags, clock, labels, jprops, equations, map, props, coords, u, du, svars, &
+subroutine host_evaluate(address, options, lflags, clock, labels, jprops, equations, map, props, coords, u, du, v, a, svars, &
                          svars_trial, energy, energy_trial, history, history_trial, residual, matrix, flux, sums, status, &
                          ndofel, nsvars, nprops, njprop, mcrd, nnode, m, n, nrhs, nnz, values, points)
   use, intrinsic :: iso_c_binding, only: c_funptr, c_intptr_t
@@ -13,11 +13,11 @@ subroutine host_evaluate(address, options, lflags, clock, labels, jprops, equati
   integer(i8), intent(in) :: address          !< of UEL or UELMAT
   integer(i4), intent(in) :: options(7)       !< material, tensor, jtype, symmetric, want_matrix, kstep, kinc
   integer(i4), intent(in) :: lflags(5)
-  real(dp), intent(in) :: clock(4)            !< step time, total time, time increment, period
+  real(dp), intent(in) :: clock(7)            !< step time, total time, time increment, period, PARAMS
   integer(i4), intent(in) :: ndofel, nsvars, nprops, njprop, mcrd, nnode, m, n, nrhs, nnz, values, points
   integer(i4), intent(in), target :: labels(m), jprops(njprop), equations(ndofel, m), map(ndofel, ndofel, m)
-  real(dp), intent(in), target :: props(nprops), coords(mcrd, nnode, m), u(n), du(n), svars(nsvars, m), energy(8, m), &
-                                  history(values, points, m)
+  real(dp), intent(in), target :: props(nprops), coords(mcrd, nnode, m), u(n), du(n), v(n), a(n), svars(nsvars, m), &
+                                  energy(8, m), history(values, points, m)
   real(dp), intent(inout), target :: svars_trial(nsvars, m), energy_trial(8, m), history_trial(values, points, m), &
                                      residual(n, nrhs), matrix(nnz)
   real(dp), intent(out), target :: flux(ndofel)
@@ -38,6 +38,7 @@ subroutine host_evaluate(address, options, lflags, clock, labels, jprops, equati
   block%time = clock(1:2)
   block%dtime = clock(3)
   block%period = clock(4)
+  block%params = clock(5:7)
   block%labels => labels
   block%jprops => jprops
   block%equations => equations
@@ -46,6 +47,8 @@ subroutine host_evaluate(address, options, lflags, clock, labels, jprops, equati
   block%coords => coords
   block%u => u
   block%du => du
+  block%v => v
+  block%a => a
   block%svars => svars
   block%svars_trial => svars_trial
   block%energy => energy

@@ -30,12 +30,14 @@ module host_driver
     integer(i4) :: material = 0, tensor = 0, jtype = 0, kstep = 0, kinc = 0
     integer(i4) :: lflags(5) = 0
     real(dp) :: time(2) = 0, dtime = 0, period = 0
+    real(dp) :: params(3) = 0             !< PARAMS: alpha, beta, gamma of a dynamic step
     integer(i4), pointer, contiguous :: labels(:) => null(), jprops(:) => null()
     integer(i4), pointer, contiguous :: equations(:, :) => null()  !< (ndofel, m) unknown, from 1
     integer(i4), pointer, contiguous :: map(:, :, :) => null()     !< (ndofel, ndofel, m) position in matrix, from 1
     real(dp), pointer, contiguous :: props(:) => null()
     real(dp), pointer, contiguous :: coords(:, :, :) => null()     !< (mcrd, nnode, m)
     real(dp), pointer, contiguous :: u(:) => null(), du(:) => null()
+    real(dp), pointer, contiguous :: v(:) => null(), a(:) => null()   !< velocity and acceleration, zero unless dynamic
     real(dp), pointer, contiguous :: svars(:, :) => null(), svars_trial(:, :) => null()     !< (nsvars, m)
     real(dp), pointer, contiguous :: energy(:, :) => null(), energy_trial(:, :) => null()   !< (8, m)
     real(dp), pointer, contiguous :: history(:, :, :) => null(), history_trial(:, :, :) => null()  !< (values, npt, m)
@@ -53,9 +55,9 @@ module host_driver
 
   !> PNEWDT on entry: so large that any value a user routine would return is smaller.
   real(dp), parameter :: untouched = 1.0e36_dp
-  real(dp), parameter :: hht(3) = [0.0_dp, 0.25_dp, 0.5_dp]   !< PARAMS, not used by static procedures
 
   type(workspace_t), save :: work
+  real(dp), allocatable, target, save :: discarded(:, :)   !< material history that a call leaves and that is not kept
 
 contains
 
@@ -75,7 +77,7 @@ contains
     current%element = 0
   end subroutine run_block
 
-  !> Workspace and context of this block. V, A, PREDEF and column 2 of DU are zero throughout.
+  !> Workspace and context of this block. PREDEF and column 2 of DU are zero throughout.
   subroutine prepare(block)
     type(block_t), intent(in) :: block
     integer :: length(n_arrays), ndofel, nnode
@@ -91,6 +93,10 @@ contains
     length(i_coords) = size(block%coords, 1)*nnode
     length(i_predef) = 2*nnode
     call lay_out(work, length)
+    if (associated(block%history)) then
+      if (allocated(discarded)) deallocate (discarded)
+      allocate (discarded(size(block%history, 1), size(block%history, 2)))
+    end if
     current%step = block%kstep
     current%increment = block%kinc
     current%tensor = block%tensor
@@ -145,13 +151,19 @@ contains
     calls = calls + 1
     if (associated(block%history)) then
       current%history => block%history(:, :, e)
-      current%history_trial => block%history_trial(:, :, e)
+      if (keeps_state(block%lflags(3))) then
+        current%history_trial => block%history_trial(:, :, e)
+      else
+        current%history_trial => discarded
+      end if
       current%history_trial = current%history
     end if
     ! explicit-shape helpers: their loops compile to plain vector code
     associate (x => work%memory, s => work%start)
       call gather(ndofel, block%equations(:, e), block%u, x(s(i_u)))
       call gather(ndofel, block%equations(:, e), block%du, x(s(i_du)))
+      call gather(ndofel, block%equations(:, e), block%v, x(s(i_v)))
+      call gather(ndofel, block%equations(:, e), block%a, x(s(i_a)))
       call fill(work%length(i_rhs), unset_bits, x(s(i_rhs)))
       call fill(ndofel*ndofel, unset_bits, x(s(i_amatrx)))
       call copy(nsvars, block%svars(:, e), x(s(i_svars)))
@@ -159,13 +171,20 @@ contains
       call copy(nprops, block%props, x(s(i_props)))
       call copy(work%length(i_coords), block%coords(:, :, e), x(s(i_coords)))
       call invoke(block, x, s, ndofel, nsvars, nprops)
-      if (block%lflags(3) == 1) then
+      if (keeps_state(block%lflags(3))) then
         call copy(nsvars, x(s(i_svars)), block%svars_trial(:, e))
         call copy(8, x(s(i_energy)), block%energy_trial(:, e))
         call add(8, x(s(i_energy)), block%energy_sum)
       end if
     end associate
   end subroutine call_element
+
+  !> Calls whose SVARS and ENERGY are kept: the normal one, and that for the initial acceleration, as the example of UEL in
+  !> the User Subroutines Guide needs for the forces at the start of the first increment.
+  elemental logical function keeps_state(request)
+    integer(i4), intent(in) :: request   !< LFLAGS(3)
+    keeps_state = request == 1 .or. request == 6
+  end function keeps_state
 
   !> The call itself; scalars are copies, so that a user routine that changes them changes nothing else.
   subroutine invoke(block, x, s, ndofel, nsvars, nprops)
@@ -197,7 +216,7 @@ contains
     time = block%time
     dtime = block%dtime
     period = block%period
-    params = hht
+    params = block%params
     pnewdt = untouched
     current%pnewdt = untouched
     if (block%with_material) then

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from scipy import sparse
 
 from harness.assembly.dofs import DofMap
-from harness.elements import FIELD_NAMES, Block, Call
+from harness.elements import FIELD_NAMES, Block, Call, Motion
 from harness.model.arrays import FloatArray, IntArray
 from harness.model.mesh import Mesh
 from harness.model.model import Equation
@@ -56,15 +56,26 @@ class System:
         for block, equation_numbers, positions in zip(self.blocks, numbers, scatter, strict=True):
             block.bind(equation_numbers, positions)
         self._data = np.zeros(len(self.indices))
+        self._rest = Motion(np.zeros(len(self)), np.zeros(len(self)))
 
     def __len__(self) -> int:
         return len(self.dofs)
 
-    def evaluate(self, call: Call, u: FloatArray, du: FloatArray, *, matrix: bool = True, nrhs: int = 1) -> Evaluation:
+    def evaluate(
+        self,
+        call: Call,
+        u: FloatArray,
+        du: FloatArray,
+        *,
+        matrix: bool = True,
+        nrhs: int = 1,
+        motion: Motion | None = None,
+    ) -> Evaluation:
         """Call every element once, block by block in the calling order of Abaqus.
 
         u (n,) is the estimate of the end of the increment and du (n,) the increment, both including prescribed values.
-        nrhs is NRHS: 1, or 2 for the arc length method. Raises KernelError where an element fails.
+        nrhs is NRHS: 1, or 2 for the arc length method. Without `motion` the model is at rest.
+        Raises KernelError where an element fails.
         """
         columns = np.zeros((nrhs, len(self.dofs)))
         data = self._data if matrix else None
@@ -73,8 +84,9 @@ class System:
         flux, count = np.zeros(len(FIELD_NAMES)), np.zeros(len(FIELD_NAMES), dtype=np.int64)
         energy = np.zeros(8)
         pnewdt = np.inf
+        motion = motion or self._rest
         for block in self.blocks:
-            report = block.evaluate(call, u, du, columns if nrhs > 1 else columns[0], data)
+            report = block.evaluate(call, u, du, columns if nrhs > 1 else columns[0], data, motion)
             flux += report.flux
             count += report.flux_count
             energy += report.energy

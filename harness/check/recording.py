@@ -15,7 +15,7 @@ import numpy as np
 from harness import usersub
 from harness.assembly import Evaluation, System
 from harness.deck import read_deck
-from harness.elements import Block, Call, build_blocks
+from harness.elements import Block, Call, Motion, build_blocks
 from harness.errors import ConvergenceError
 from harness.model.arrays import FloatArray, IntArray
 from harness.model.model import Model
@@ -27,13 +27,14 @@ from harness.usersub import Library
 
 @dataclass(frozen=True, slots=True)
 class Pass:
-    """One call of all elements: U and DU (n,) of the system, whether AMATRX was wanted, and NRHS."""
+    """One call of all elements: U, DU, V and A (n,) of the system, whether AMATRX was wanted, and NRHS."""
 
     call: Call
     u: FloatArray
     du: FloatArray
     matrix: bool
     nrhs: int
+    motion: Motion | None
 
 
 @dataclass(frozen=True, slots=True)
@@ -114,9 +115,18 @@ class _RecordedSystem(System):
         super().__init__(model.mesh, blocks, model.equations)
         self._events = events
 
-    def evaluate(self, call: Call, u: FloatArray, du: FloatArray, *, matrix: bool = True, nrhs: int = 1) -> Evaluation:
-        self._events.append(Pass(call, u.copy(), du.copy(), matrix, nrhs))
-        return super().evaluate(call, u, du, matrix=matrix, nrhs=nrhs)
+    def evaluate(
+        self,
+        call: Call,
+        u: FloatArray,
+        du: FloatArray,
+        *,
+        matrix: bool = True,
+        nrhs: int = 1,
+        motion: Motion | None = None,
+    ) -> Evaluation:
+        self._events.append(Pass(call, u.copy(), du.copy(), matrix, nrhs, motion))
+        return super().evaluate(call, u, du, matrix=matrix, nrhs=nrhs, motion=motion)
 
     def commit(self) -> None:
         self._events.append(Commit())

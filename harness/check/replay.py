@@ -94,6 +94,7 @@ class Elements:
             made.du[equations],
             residual[0] if made.nrhs == 1 else residual,
             matrix if made.matrix else None,
+            made.motion and made.motion.at(equations),
         )
         state = block.trial(0)
         values[self.starts[position] : self.starts[position + 1]] = np.concatenate(

@@ -5,49 +5,14 @@
 from __future__ import annotations
 
 from harness.deck.keywords_model import ignored, refused
+from harness.deck.keywords_procedure import INITIAL, PROCEDURE
 from harness.deck.table import Keyword, Kind, Option, Support, Where
 
 OP = Option("OP", Kind.CHOICE, "NEW removes what earlier steps prescribed", default="MOD", choices=("MOD", "NEW"))
 FREQUENCY = Option("FREQUENCY", Kind.INTEGER, "every k-th increment (1); 0 never")
 AMPLITUDE = Option("AMPLITUDE", Kind.NAME, "amplitude; without it that of *STEP, but displacements always ramp")
 
-PROCEDURE = (
-    Keyword(
-        "STEP",
-        "Begin a step.",
-        Where.ANY,
-        (
-            Option("NAME", Kind.NAME, "name"),
-            Option("INC", Kind.INTEGER, "largest number of increments (100)"),
-            Option("NLGEOM", Kind.SWITCH, "large displacements, from this step on"),
-            Option(
-                "EXTRAPOLATION",
-                Kind.CHOICE,
-                "first guess of an increment",
-                default="LINEAR",
-                choices=("LINEAR", "PARABOLIC", "NO"),
-                refused=("VELOCITY PARABOLIC",),
-            ),
-            Option("UNSYMM", Kind.SWITCH, "unsymmetric matrix storage and solution"),
-            Option("AMPLITUDE", Kind.CHOICE, "default time variation", default="RAMP", choices=("RAMP", "STEP")),
-            *ignored("CONVERT SDI", "SOLVER"),
-            *refused("DSA", "PERTURBATION", "SUBDIVIDE"),
-        ),
-        "title",
-    ),
-    Keyword("END STEP", "End a step.", Where.STEP),
-    Keyword(
-        "STATIC",
-        "Static stress analysis.",
-        Where.STEP,
-        (
-            Option("DIRECT", doc="fixed increments"),
-            Option("RIKS", doc="the load factor is part of the solution; increments are arc lengths"),
-            *refused("ADIABATIC", "ALLSDTOL", "CONTINUE", "FACTOR", "FULLY PLASTIC", "LONG TERM", "STABILIZE"),
-        ),
-        "initial increment, period (1), smallest increment, largest increment; with RIKS also the largest load "
-        "proportionality factor, and a node, its dof and the displacement that ends the step",
-    ),
+CONTROLS = (
     Keyword(
         "CONTROLS",
         "Solution controls; blank entries keep their value, later steps keep the controls. CONSTRAINTS is about hybrid "
@@ -116,6 +81,18 @@ PRESCRIBED = (
             *refused("CYCLIC MODE", "FOLLOWER", "IMAGINARY", "LOAD CASE", "REAL", "SUBMODEL"),
         ),
         "node or set, dof, value",
+    ),
+    Keyword(
+        "CFLUX",
+        "Concentrated heat fluxes; with *CLOAD in the same step both take the same OP.",
+        Where.STEP,
+        (
+            OP,
+            Option("AMPLITUDE", Kind.NAME, "amplitude; without it that of *STEP"),
+            Option("INPUT", Kind.FILE, "file that holds the data lines"),
+            *ignored("REGION TYPE"),
+        ),
+        "node or set, dof (11), value",
     ),
 )
 
@@ -223,6 +200,8 @@ _IGNORED = {
 
 STEP_KEYWORDS = (
     *PROCEDURE,
+    *INITIAL,
+    *CONTROLS,
     *PRESCRIBED,
     *OUTPUT,
     *(Keyword(name, doc, Where.ANY, support=Support.IGNORED) for name, doc in _IGNORED.items()),

@@ -58,13 +58,13 @@ class Prescription:
         return found
 
     def read_loads(self, block: Block) -> list[Load]:
-        """Entries of one *CLOAD."""
+        """Entries of one *CLOAD or *CFLUX."""
         amplitude = self._amplitude(block)
         found = []
         for row in block.rows():
             row.at_most(3)
             nodes = self.flat.nodes(row.name(0, "node or node set"), row.source)
-            dof = _dof(row, 1)
+            dof = 11 if block.name == "CFLUX" and row.blank(1) else _dof(row, 1)
             found.append(Load(nodes, dof, row.real(2, "value", 0.0), amplitude, row.source))
         return found
 

@@ -9,6 +9,7 @@ from pathlib import Path
 from harness.deck.catalogue import read_amplitudes, read_materials
 from harness.deck.flatten import FlatMesh
 from harness.deck.groups import make_groups
+from harness.deck.initial import read_initial_values
 from harness.deck.lexer import read_blocks
 from harness.deck.prescribed import Prescription, read_equations
 from harness.deck.problems import Problems
@@ -43,6 +44,9 @@ def read_deck(path: Path) -> Model:
         if block.name == "BOUNDARY":
             with problems.gather():
                 boundaries += prescription.read_boundary(block, in_step=False)
+    velocities, temperatures = (
+        read_initial_values(structure.root, kind, flat, problems) for kind in ("VELOCITY", "TEMPERATURE")
+    )
     equations = read_equations(flat, problems)
     steps = read_steps(structure.steps, prescription, RequestReader(flat, problems), problems)
     problems.check()
@@ -57,6 +61,8 @@ def read_deck(path: Path) -> Model:
         elsets=flat.elsets,
         boundaries=tuple(boundaries),
         equations=equations,
+        initial_velocities=tuple(velocities),
+        initial_temperatures=tuple(temperatures),
         ignored=tuple(structure.ignored),
         warnings=problems.warnings,
     )

@@ -89,6 +89,10 @@ class Options:
         """Integer value."""
         return read_integer(self.values[name]) if name in self.values else default
 
+    def real(self, name: str, default: float) -> float:
+        """Real value."""
+        return read_real(self.values[name]) if name in self.values else default
+
 
 def compact(word: str) -> str:
     """Spelling in which words are compared: upper case, without blanks."""

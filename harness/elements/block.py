@@ -10,7 +10,7 @@ from typing import Final
 import numpy as np
 from numpy.typing import NDArray
 
-from harness.elements.call import BlockReport, Call
+from harness.elements.call import BlockReport, Call, Motion
 from harness.elements.fields import FIELD_NAMES, field_of
 from harness.errors import KernelError
 from harness.model.arrays import FloatArray, IntArray
@@ -20,7 +20,7 @@ from harness.usersub import Library, _binding
 from harness.usersub._binding import Fault
 
 NORMAL: Final = 1
-"""LFLAGS(3) of a normal call; only its SVARS and ENERGY are kept."""
+"""LFLAGS(3) of a normal call."""
 
 _NO_MATRIX = np.zeros(1)
 
@@ -139,22 +139,32 @@ class Block:
         ]
 
     def evaluate(
-        self, call: Call, u: FloatArray, du: FloatArray, residual: FloatArray, matrix: FloatArray | None
+        self,
+        call: Call,
+        u: FloatArray,
+        du: FloatArray,
+        residual: FloatArray,
+        matrix: FloatArray | None,
+        motion: Motion | None = None,
     ) -> BlockReport:
         """One pass: add RHS into residual and AMATRX into matrix (CSR data; None: AMATRX is not looked at).
 
         residual is (n,), or (2, n) for a pass with NRHS = 2: its rows take the columns of RHS.
         RHS is left out where LFLAGS(3) asks for a matrix alone (2, 3, 4). SVARS on entry are always the committed
-        ones. Raises KernelError.
+        ones; those returned are kept for `commit` where LFLAGS(3) is 1 or 6. Without `motion` V and A are zero.
+        Raises KernelError.
         """
+        motion = motion or Motion(np.zeros_like(u), np.zeros_like(u))
         outcome = _binding.evaluate(
             self._procedure.address,
             self._options(call, assemble=matrix is not None),
             call.lflags,
-            (call.step_time, call.total_time, call.time_increment, call.period),
+            (call.step_time, call.total_time, call.time_increment, call.period, *call.params),
             self._arrays,
             u,
             du,
+            motion.velocity,
+            motion.acceleration,
             np.atleast_2d(residual),
             _NO_MATRIX if matrix is None else matrix,
         )

@@ -15,6 +15,7 @@ class Call:
 
     lflags       LFLAGS(1..5)
     step, increment  KSTEP, KINC
+    params       PARAMS: alpha, beta and gamma of a dynamic step
     step_time, total_time  at the end of the increment (Abaqus' manual leaves open which end TIME holds)
     """
 
@@ -25,6 +26,19 @@ class Call:
     total_time: float
     time_increment: float
     period: float
+    params: tuple[float, float, float] = (0.0, 0.0, 0.0)
+
+
+@dataclass(frozen=True, slots=True)
+class Motion:
+    """Velocities and accelerations (n,) of all unknowns, V and A."""
+
+    velocity: FloatArray
+    acceleration: FloatArray
+
+    def at(self, unknowns: IntArray) -> Motion:
+        """Those of some unknowns."""
+        return Motion(self.velocity[unknowns], self.acceleration[unknowns])
 
 
 @dataclass(frozen=True, slots=True)

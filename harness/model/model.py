@@ -10,7 +10,7 @@ from pathlib import Path
 from harness.errors import Source
 from harness.model.arrays import IntArray
 from harness.model.mesh import ElementGroup, Mesh
-from harness.model.steps import Boundary, Step
+from harness.model.steps import Boundary, InitialValue, Step
 
 
 @dataclass(frozen=True, slots=True)
@@ -28,6 +28,8 @@ class Model:
     nsets      node indices of each set; a set of an instance is also there as INSTANCE.NAME
     elsets     element positions of each set (position in the groups walked in order)
     boundaries *BOUNDARY before the first step
+    initial_velocities    *INITIAL CONDITIONS, TYPE=VELOCITY
+    initial_temperatures  TYPE=TEMPERATURE, for unknowns that are temperatures
     ignored    keywords that cannot change the solution, with their places: listed once in .dat
     warnings   places where the deck is odd but understood
     """
@@ -41,5 +43,7 @@ class Model:
     elsets: dict[str, IntArray] = field(default_factory=dict)
     boundaries: tuple[Boundary, ...] = ()
     equations: tuple[Equation, ...] = ()
+    initial_velocities: tuple[InitialValue, ...] = ()
+    initial_temperatures: tuple[InitialValue, ...] = ()
     ignored: tuple[tuple[str, Source], ...] = ()
     warnings: tuple[str, ...] = ()

@@ -7,6 +7,8 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 from enum import StrEnum
 
+import numpy as np
+
 from harness.model.arrays import FloatArray, IntArray
 
 
@@ -208,6 +210,7 @@ class Solution:
     displacement      (n,) U
     reaction          (n,) RF, zero where nothing is prescribed
     load              (n,) CF, concentrated load
+    velocity, acceleration  (n,) V and A
     energies          whole model, by Abaqus name: ALLSE, ALLPD, ALLVD, ALLAE, ALLCD, ALLKE, ALLWK, ALLIE, ETOTAL
     """
 
@@ -218,3 +221,5 @@ class Solution:
     load: FloatArray
     energies: dict[str, float] = field(default_factory=dict)
     elements: tuple[ElementState, ...] = ()
+    velocity: FloatArray = field(default_factory=lambda: np.zeros(0))
+    acceleration: FloatArray = field(default_factory=lambda: np.zeros(0))

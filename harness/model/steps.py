@@ -9,6 +9,7 @@ from dataclasses import dataclass, field
 from harness.errors import Source
 from harness.model.amplitude import Amplitude
 from harness.model.arrays import IntArray
+from harness.model.procedures import Procedure
 
 
 @dataclass(frozen=True, slots=True)
@@ -81,35 +82,6 @@ class Controls:
 
 
 @dataclass(frozen=True, slots=True)
-class Riks:
-    """*STATIC, RIKS: where the step ends.
-
-    largest_factor     load proportionality factor, None without a limit
-    node, dof, value   displacement of a node (index; -1: none) that ends the step once it is crossed
-    """
-
-    largest_factor: float | None = None
-    node: int = -1
-    dof: int = 0
-    value: float = 0.0
-
-
-@dataclass(frozen=True, slots=True)
-class Static:
-    """*STATIC: initial increment, period, smallest and largest increment; direct = fixed increments.
-
-    With `riks` these are arc lengths, the period is their scale alone, and the step ends where `riks` says.
-    """
-
-    initial: float = 1.0
-    period: float = 1.0
-    minimum: float = 1e-5
-    maximum: float = 1.0
-    direct: bool = False
-    riks: Riks | None = None
-
-
-@dataclass(frozen=True, slots=True)
 class Boundary:
     """One *BOUNDARY entry: nodes (indices), one dof, magnitude, amplitude (None: the step's default).
 
@@ -132,6 +104,16 @@ class Load:
     dof: int
     magnitude: float
     amplitude: Amplitude | None
+    source: Source
+
+
+@dataclass(frozen=True, slots=True)
+class InitialValue:
+    """One *INITIAL CONDITIONS entry: nodes (indices), one dof, value."""
+
+    nodes: IntArray
+    dof: int
+    value: float
     source: Source
 
 
@@ -171,11 +153,14 @@ class OutputRequests:
 
 @dataclass(frozen=True, slots=True)
 class Step:
-    """*STEP. `amplitude` RAMP or STEP; `new_boundary`/`new_loads`: OP=NEW removes what earlier steps prescribed."""
+    """*STEP. `amplitude` RAMP or STEP; `new_boundary`/`new_loads`: OP=NEW removes what earlier steps prescribed.
+
+    `notes` say where the step is not run quite as it is asked for.
+    """
 
     number: int
     name: str
-    procedure: Static
+    procedure: Procedure
     source: Source
     nlgeom: bool = False
     increments: int = 100
@@ -189,3 +174,4 @@ class Step:
     loads: tuple[Load, ...] = ()
     new_loads: bool = False
     output: OutputRequests = field(default_factory=OutputRequests)
+    notes: tuple[str, ...] = ()

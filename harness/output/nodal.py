@@ -18,6 +18,8 @@ LARGEST_DOF = 30
 _NAMES: dict[str, dict[int, str]] = {
     "displacement": {1: "U1", 2: "U2", 3: "U3", 4: "UR1", 5: "UR2", 6: "UR3", 7: "WARP", 8: "POR", 9: "EPOT"},
     "reaction": {1: "RF1", 2: "RF2", 3: "RF3", 4: "RM1", 5: "RM2", 6: "RM3", 7: "RWM", 8: "RVF", 9: "RECUR"},
+    "velocity": {1: "V1", 2: "V2", 3: "V3", 4: "VR1", 5: "VR2", 6: "VR3"},
+    "acceleration": {1: "A1", 2: "A2", 3: "A3", 4: "AR1", 5: "AR2", 6: "AR3"},
     "load": {1: "CF1", 2: "CF2", 3: "CF3", 4: "CM1", 5: "CM2", 6: "CM3", 7: "CW", 8: "CVF", 9: "CECUR"},
 }
 for _dof in range(11, LARGEST_DOF + 1):
@@ -31,6 +33,12 @@ _GROUPS = {
     "UT": ("displacement", range(1, 4)),
     "UR": ("displacement", range(4, 7)),
     "NT": ("displacement", range(11, LARGEST_DOF + 1)),
+    "V": ("velocity", range(1, 7)),
+    "VT": ("velocity", range(1, 4)),
+    "VR": ("velocity", range(4, 7)),
+    "A": ("acceleration", range(1, 7)),
+    "AT": ("acceleration", range(1, 4)),
+    "AR": ("acceleration", range(4, 7)),
     "RF": ("reaction", range(1, 8)),
     "RT": ("reaction", range(1, 4)),
     "RM": ("reaction", range(4, 7)),

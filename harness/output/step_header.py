@@ -7,8 +7,9 @@ from __future__ import annotations
 import math
 from collections.abc import Iterable
 
+from harness.model.procedures import Dynamic, HeatTransfer, Integrator, Procedure, Visco
 from harness.model.records import IncrementDone
-from harness.model.steps import Controls, FieldControls, Static, Step, TimeControls
+from harness.model.steps import Controls, FieldControls, Step, TimeControls
 from harness.output.formats import general
 from harness.output.wording import FIELDS, FieldWords
 
@@ -30,8 +31,9 @@ def controls_of(field: str, controls: Controls) -> FieldControls:
 def procedure(step: Step) -> str:
     """Kind of the step and its time incrementation."""
     static = step.procedure
+    title = " ".join("  " if letter == " " else letter for letter in _title(static))
     lines = [
-        f"                        S T E P  {step.number:6d}     S T A T I C   A N A L Y S I S",
+        f"                        S T E P  {step.number:6d}     {title}",
         "",
         "",
         f"          {step.title}".rstrip(),
@@ -53,10 +55,34 @@ def procedure(step: Step) -> str:
             f"          THE MINIMUM TIME INCREMENT ALLOWED IS              {general(static.minimum)}",
             f"          THE MAXIMUM TIME INCREMENT ALLOWED IS              {general(static.maximum)}",
         ]
-    return "\n".join([*lines, "", ""])
+    return "\n".join([*lines, *_accuracy(static), "", ""])
 
 
-def _riks(static: Static) -> list[str]:
+def _title(given: Procedure) -> str:
+    if isinstance(given, Dynamic):
+        return "DYNAMIC ANALYSIS"
+    if isinstance(given, HeatTransfer):
+        kind = "STEADY STATE" if given.steady else "TRANSIENT"
+        return f"{kind} COUPLED TEMPERATURE-DISPLACEMENT" if given.coupled else f"{kind} HEAT TRANSFER"
+    return "VISCO ANALYSIS" if isinstance(given, Visco) else "STATIC ANALYSIS"
+
+
+def _accuracy(given: Procedure) -> list[str]:
+    """What the integration over time depends on."""
+    rows: list[tuple[str, float]] = []
+    if isinstance(given, Dynamic) and given.integrator is Integrator.HHT:
+        rows = [("NUMERICAL DAMPING CONTROL PARAMETER (ALPHA) IS", given.alpha)]
+        rows += [("BETA", given.beta), ("GAMMA", given.gamma)]
+    if isinstance(given, Dynamic) and given.half_force:
+        rows.append(("HALF-INCREMENT RESIDUAL TOLERANCE IS", given.half_force))
+    elif isinstance(given, Dynamic) and math.isfinite(given.half_increment):
+        rows.append(("HALF-INCREMENT SCALE FACTOR IS", given.half_increment))
+    if isinstance(given, HeatTransfer) and math.isfinite(given.largest_change):
+        rows.append(("MAXIMUM TEMPERATURE CHANGE IN AN INCREMENT IS", given.largest_change))
+    return [f"          {words:<51}{general(value)}" for words, value in rows]
+
+
+def _riks(static: Procedure) -> list[str]:
     lines = [
         f"     {'FIXED' if static.direct else 'AUTOMATIC'} ARC LENGTH CONTROL (RIKS METHOD) WITH -",
         f"          AN INITIAL ARC LENGTH INCREMENT OF                 {general(static.initial)}",

@@ -4,7 +4,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+import math
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 
 import numpy as np
@@ -62,6 +63,7 @@ class Checker:
         self, dofs: DofMap, constraints: Constraints, controls: Controls, histories: Sequence[FluxHistory]
     ) -> None:
         self._dofs = dofs
+        self._constraints = constraints
         self._free = constraints.free
         self._time = controls.time
         self._start: list[float] = []
@@ -95,6 +97,21 @@ class Checker:
                 if abandoned is not None:
                     return abandoned
         return out_of_iterations(iteration, self._time)
+
+    def time_averages(self) -> dict[str, float]:
+        """Time average flux of each field after the last check."""
+        return {field.name: field.history.average(field.flux, field.controls) for field in self.fields}
+
+    def largest_ratio(self, residual: FloatArray, tolerances: Mapping[str, float]) -> float:
+        """Largest residual over its tolerance, of the fields that have one."""
+        reduced = self._constraints.reduce_vector(residual)
+        ratios = [0.0]
+        for checked in self.fields:
+            largest = _largest(reduced, checked.free)
+            if checked.name in tolerances and largest:
+                tolerance = tolerances[checked.name]
+                ratios.append(largest / tolerance if tolerance else math.inf)
+        return max(ratios)
 
     def converged(self) -> None:
         """Take the last fluxes into the time average."""

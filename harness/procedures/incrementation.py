@@ -11,7 +11,8 @@ import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-from harness.model.steps import Static, TimeControls
+from harness.model.procedures import Dynamic, HeatTransfer, Procedure
+from harness.model.steps import TimeControls
 
 DIVERGING = "THE SOLUTION APPEARS TO BE DIVERGING. CONVERGENCE IS JUDGED UNLIKELY."
 TOO_SLOW = "THE RATE OF CONVERGENCE IS VERY SLOW. CONVERGENCE IS JUDGED UNLIKELY."
@@ -73,11 +74,30 @@ def out_of_iterations(iteration: int, controls: TimeControls) -> Abandoned | Non
     return Abandoned(controls.d_c, TOO_MANY_ITERATIONS) if iteration >= controls.i_c else None
 
 
+@dataclass(frozen=True, slots=True)
+class Accuracy:
+    """Accuracy of the integration over time in an increment.
+
+    measure    error measure over its tolerance: above 1 the increment is too large
+    complaint  what Abaqus says then
+    """
+
+    measure: float
+    complaint: str
+
+
 def refused(pnewdt: float) -> Abandoned | None:
     """Give up where a user element asks for a smaller increment: PNEWDT < 1."""
     if pnewdt >= 1.0:
         return None
     return Abandoned(pnewdt, f"A USER ELEMENT REQUESTS A SMALLER TIME INCREMENT, PNEWDT = {pnewdt:.4g}")
+
+
+def largest_growth(procedure: Procedure, controls: TimeControls) -> float:
+    """D_M: the largest factor from one increment to the next."""
+    if isinstance(procedure, Dynamic):
+        return controls.d_m_dyn
+    return controls.d_m_diff if isinstance(procedure, HeatTransfer) else controls.d_m
 
 
 class IncrementControl:
@@ -86,11 +106,13 @@ class IncrementControl:
     The sequence of a step is: `attempt`, then either `abandon` and `attempt` again, or `converged`.
     """
 
-    def __init__(self, procedure: Static, controls: TimeControls) -> None:
+    def __init__(self, procedure: Procedure, controls: TimeControls) -> None:
         self._procedure = procedure
         self._controls = controls
         self._size = procedure.initial if procedure.direct else min(procedure.initial, procedure.maximum)
         self._easy = 0
+        self._measures: list[float] = []
+        self._most = largest_growth(procedure, controls)
         self.attempts = 0
 
     def attempt(self, step_time: float) -> float:
@@ -109,6 +131,7 @@ class IncrementControl:
 
         I_A cutbacks are allowed, thus I_A + 1 attempts.
         """
+        self._measures = []
         if self._procedure.direct:
             return 0.0, FIXED_TOO_LARGE
         if self.attempts > self._controls.i_a:
@@ -118,7 +141,15 @@ class IncrementControl:
             return 0.0, BELOW_MINIMUM
         return self._size, ""
 
-    def converged(self, iterations: int, pnewdt: float, *, searched: bool = False) -> None:
+    def too_inaccurate(self, accuracy: Accuracy | None) -> Abandoned | None:
+        """Give up where the integration over time is too inaccurate, unless increments are fixed."""
+        if accuracy is None or accuracy.measure <= 1.0 or self._procedure.direct:
+            return None
+        return Abandoned(self._controls.d_a / accuracy.measure, accuracy.complaint)
+
+    def converged(
+        self, iterations: int, pnewdt: float, *, searched: bool = False, accuracy: Accuracy | None = None
+    ) -> None:
         """Choose the size of the next increment.
 
         Parameters
@@ -130,6 +161,8 @@ class IncrementControl:
             ratio of the next increment to this one.
         searched
             The descent search helped: its many iterations say nothing about the next increment.
+        accuracy
+            Of the integration over time: where it is measured, growth is decided by it.
         """
         # a cutback does not start the count anew: Abaqus grows right after one if the attempts that converged were easy
         self._easy = self._easy + 1 if iterations <= self._controls.i_g else 0
@@ -140,9 +173,20 @@ class IncrementControl:
             self._size *= self._controls.d_b
         elif 1.0 < pnewdt < UNTOUCHED:
             self._size *= pnewdt
+        elif accuracy is not None:
+            self._size *= self._growth_by_accuracy(accuracy.measure)
         elif self._easy >= 2:
-            self._size *= self._controls.d_d
+            self._size *= min(self._controls.d_d, self._most)
         self._size = min(max(self._size, self._procedure.minimum), self._procedure.maximum)
+
+    def _growth_by_accuracy(self, measure: float) -> float:
+        """Growth after I_T increments in a row whose measures are below W_G: D_G over their mean, D_M at most."""
+        self._measures.append(measure)
+        last = self._measures[-self._controls.i_t :]
+        if len(last) < self._controls.i_t or max(last) >= self._controls.w_g:
+            return 1.0
+        mean = sum(last) / len(last)
+        return max(1.0, self._most if mean == 0.0 else min(self._most, self._controls.d_g / mean))
 
     def finished(self, step_time: float) -> bool:
         """Whether the period is reached."""

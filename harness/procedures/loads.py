@@ -24,7 +24,7 @@ from harness.assembly import DofMap
 from harness.errors import Source
 from harness.model.amplitude import Amplitude
 from harness.model.arrays import FloatArray, IntArray
-from harness.model.steps import Boundary, Load, Step
+from harness.model.steps import Boundary, InitialValue, Load, Step
 
 _LAST_ROTATION = 7
 """Dofs 1 to 7 are displacements, rotations and warping."""
@@ -113,10 +113,18 @@ class Variation:
         return values
 
 
-def find_unknowns(dofs: DofMap, entry: Boundary | Load) -> tuple[IntArray, IntArray]:
+def find_unknowns(dofs: DofMap, entry: Boundary | Load | InitialValue) -> tuple[IntArray, IntArray]:
     """Unknowns of an entry, and the nodes where no element uses its dof."""
     found = dofs.find(entry.nodes, entry.dof)
     return found[found >= 0], entry.nodes[found < 0]
+
+
+def initial_values(dofs: DofMap, entries: Sequence[InitialValue]) -> FloatArray:
+    """Values (n,) of *INITIAL CONDITIONS; later entries replace earlier ones."""
+    values = np.zeros(len(dofs))
+    for entry in entries:
+        values[find_unknowns(dofs, entry)[0]] = entry.value
+    return values
 
 
 class Boundaries:

@@ -12,12 +12,15 @@ from harness.assembly import DofMap, System
 from harness.elements import Call
 from harness.errors import ConvergenceError, SingularMatrixError
 from harness.model.model import Model
-from harness.model.records import Record, StepStarted, Warned
+from harness.model.procedures import Dynamic, HeatTransfer
+from harness.model.records import Noted, Record, StepStarted, Warned
 from harness.model.steps import Boundary, Load, Step
+from harness.procedures.dynamic import DynamicStep
+from harness.procedures.heat_transfer import HeatTransferStep
 from harness.procedures.loads import find_unknowns
 from harness.procedures.path import EnergyStep, RiksStep
 from harness.procedures.state import State
-from harness.procedures.static import AUTOMATIC, FIXED, MASS, StaticStep, UserRoutines
+from harness.procedures.static import MASS, StaticStep, UserRoutines
 
 
 def run_steps(
@@ -71,7 +74,15 @@ def run_steps(
             running: StaticStep
             if step is model.steps[0]:
                 _mass_pass(system, step)
-            if step.procedure.riks:
+            yield from map(Noted, step.notes)
+            procedure = step.procedure
+            if not isinstance(procedure, Dynamic):
+                state.come_to_rest()
+            if isinstance(procedure, Dynamic):
+                running = DynamicStep(system, model, step, procedure, state, solver, user)
+            elif isinstance(procedure, HeatTransfer):
+                running = HeatTransferStep(system, model, step, procedure, state, solver, user, fallback=fallback)
+            elif procedure.riks:
                 running = RiksStep(system, model, step, state, solver, user)
             elif energy_control:
                 running = EnergyStep(system, model, step, state, solver, user)
@@ -90,8 +101,9 @@ def run_steps(
 
 def _mass_pass(system: System, step: Step) -> None:
     """The mass matrix that Abaqus asks of user elements at the start of the analysis; the results are not used."""
-    first = FIXED if step.procedure.direct else AUTOMATIC
-    call = Call((first, int(step.nlgeom), MASS, 0, 0), step.number, 0, 0.0, 0.0, 0.0, step.procedure.period)
+    call = Call(
+        (step.procedure.lflag, int(step.nlgeom), MASS, 0, 0), step.number, 0, 0.0, 0.0, 0.0, step.procedure.period
+    )
     zero = np.zeros(len(system))
     system.evaluate(call, zero, zero, matrix=False)
 

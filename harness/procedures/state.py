@@ -15,7 +15,7 @@ from harness.model.arrays import FloatArray
 from harness.model.model import Model
 from harness.model.records import Solution
 from harness.procedures.acceptance import FluxHistory
-from harness.procedures.loads import Boundaries, Loads
+from harness.procedures.loads import Boundaries, Loads, initial_values
 from harness.solver.descent import Majoriser
 from harness.solver.newton import Factoriser, Iterate
 
@@ -25,6 +25,7 @@ class State:
     """State at the end of the last converged increment.
 
     displacement, reaction, load  (n,) U, RF, CF
+    velocity, acceleration  (n,) V, A
     external   (n,) all forces on the nodes that are not of elements: load, fading reactions of released dofs, reaction
     work       external work so far
     energy     (8,) sum of ENERGY
@@ -38,6 +39,8 @@ class State:
     external: FloatArray
     boundaries: Boundaries
     loads: Loads
+    velocity: FloatArray
+    acceleration: FloatArray
     constraints: Constraints | None = None
     solver: Factoriser | None = None
     majoriser: Majoriser = field(default_factory=Majoriser)
@@ -51,7 +54,13 @@ class State:
         """State before the first step."""
         zero = np.zeros(len(system))
         boundaries = Boundaries(system.dofs, model.boundaries)
-        return cls(zero, zero, zero, zero, boundaries, Loads(system.dofs))
+        velocity = initial_values(system.dofs, model.initial_velocities)
+        temperature = initial_values(system.dofs, model.initial_temperatures)
+        return cls(temperature, zero, zero, zero, boundaries, Loads(system.dofs), velocity, zero)
+
+    def come_to_rest(self) -> None:
+        """No velocities and accelerations: a step begins that has none."""
+        self.velocity = self.acceleration = np.zeros_like(self.displacement)
 
     def accept(self, converged: Iterate, load: FloatArray, released: FloatArray) -> None:
         """Take over a converged increment; load and released (fading reactions) are those of its end."""
@@ -72,6 +81,8 @@ class State:
             displacement=self.displacement,
             reaction=self.reaction,
             load=self.load,
+            velocity=self.velocity,
+            acceleration=self.acceleration,
             energies=self._energies(),
             elements=tuple(block.state(k) for k, block in enumerate(system.blocks)),
         )

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""*STATIC: increments of a step by Newton's method."""
+"""*STATIC and *VISCO: increments of a step by Newton's method; the other procedures are variants of it."""
 
 from __future__ import annotations
 
@@ -28,15 +28,12 @@ from harness.model.records import (
 from harness.model.steps import Step
 from harness.procedures.checks import Checker
 from harness.procedures.extrapolation import Extrapolation
-from harness.procedures.incrementation import TOO_MANY_INCREMENTS, Abandoned, IncrementControl, refused
+from harness.procedures.incrementation import TOO_MANY_INCREMENTS, Abandoned, Accuracy, IncrementControl, refused
 from harness.procedures.loads import released_reactions
 from harness.procedures.state import State
 from harness.solver.descent import ITERATIONS, Descent
 from harness.solver.linear import LinearSolver, choose
 from harness.solver.newton import Increment, Iterate, Newton
-
-AUTOMATIC, FIXED = 1, 2
-"""LFLAGS(1) of a static step."""
 
 SEARCH_TOO_LONG = f"THE DESCENT SEARCH HAS NOT CONVERGED IN {ITERATIONS} ITERATIONS."
 
@@ -161,15 +158,23 @@ class StaticStep:
                 checks = self._checker.check(state)
                 yield IterationDone(iteration, checks, state.line_search)
                 if all(check.verdict.accepted for check in checks):
-                    yield from self._help(increment, iteration)
-                    yield self._converge(state, increment, size)
-                    return True, iteration
-                abandoned = self._give_up(iteration, checks)
+                    accuracy = self._accuracy(state, size)
+                    abandoned = self._control.too_inaccurate(accuracy)
+                    if abandoned is None:
+                        yield from self._help(increment, iteration)
+                        yield self._converge(state, increment, size, accuracy)
+                        return True, iteration
+                else:
+                    abandoned = self._give_up(iteration, checks)
             if abandoned is not None:
                 break
         assert abandoned is not None
         yield from self._abandon(abandoned, increment, iteration, size)
         return False, iteration
+
+    def _accuracy(self, last: Iterate, size: float) -> Accuracy | None:
+        """How accurate the integration over time is, None where nothing measures it."""
+        return None
 
     def _give_up(self, iteration: int, checks: Sequence[FieldCheck]) -> Abandoned | None:
         """Whether to abandon the attempt; with the fall-back the search takes over instead, and is given its time."""
@@ -210,7 +215,7 @@ class StaticStep:
         """Arguments of the passes of an increment that ends at these times."""
         step = self._step
         return Call(
-            lflags=(FIXED if step.procedure.direct else AUTOMATIC, int(step.nlgeom), NORMAL, 0, 0),
+            lflags=(step.procedure.lflag, int(step.nlgeom), NORMAL, 0, 0),
             step=step.number,
             increment=increment,
             step_time=step_time,
@@ -231,7 +236,7 @@ class StaticStep:
         self._time = end
         return Reached(self._load.at(end, total), self._released.at(end, total), end, total, size)
 
-    def _converge(self, last: Iterate, increment: int, size: float) -> IncrementDone:
+    def _converge(self, last: Iterate, increment: int, size: float, accuracy: Accuracy | None) -> IncrementDone:
         """Commit what the last pass left, and choose the next increment."""
         number, attempt = self._step.number, self._control.attempts
         self._system.commit()
@@ -239,7 +244,7 @@ class StaticStep:
         self._state.accept(last, reached.load, reached.released)
         self._checker.converged()
         searched = self._descent is not None and bool(self._descent.reason)
-        self._control.converged(last.iteration, last.evaluation.pnewdt, searched=searched)
+        self._control.converged(last.iteration, last.evaluation.pnewdt, searched=searched, accuracy=accuracy)
         self._state.total_time = reached.total_time
         times = reached.step_time, reached.total_time
         self._user.external_database(2, 0, times, size, number, increment)

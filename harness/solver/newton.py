@@ -4,14 +4,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass, replace
 from typing import Protocol
 
 import numpy as np
 
 from harness.assembly import Constraints, Evaluation, System
-from harness.elements import Call
+from harness.elements import Call, Motion
 from harness.model.arrays import FloatArray
 from harness.model.steps import LineSearchControls
 from harness.solver.linesearch import search
@@ -39,6 +39,7 @@ class Increment:
     guess         (n,) extrapolated increment; None: from the start state
     prescribed    (n_p,) increment of each prescribed unknown
     load          (n,) external load at the end
+    motion        velocities and accelerations at the end that go with an increment (n,); None: at rest
     """
 
     call: Call
@@ -46,6 +47,7 @@ class Increment:
     guess: FloatArray | None
     prescribed: FloatArray
     load: FloatArray
+    motion: Callable[[FloatArray], Motion] | None = None
 
 
 @dataclass(frozen=True, slots=True)
@@ -114,7 +116,7 @@ class Newton:
     def _evaluate(
         self, call: Call, given: Increment, iteration: int, increment: FloatArray, correction: FloatArray
     ) -> Iterate:
-        evaluation = self._system.evaluate(call, given.displacement + increment, increment)
+        evaluation = self._pass(call, given, increment)
         residual = evaluation.residual + given.load
         reduced = self._constraints.reduce_vector(residual)
         return Iterate(iteration, increment, correction, residual, reduced, evaluation)
@@ -131,7 +133,11 @@ class Newton:
     def _trial(self, given: Increment, increment: FloatArray) -> Evaluation:
         """A pass for the residual alone."""
         call = replace(given.call, lflags=(*given.call.lflags[:2], RESIDUAL_ONLY, *given.call.lflags[3:]))
-        return self._system.evaluate(call, given.displacement + increment, increment, matrix=False)
+        return self._pass(call, given, increment, matrix=False)
+
+    def _pass(self, call: Call, given: Increment, increment: FloatArray, *, matrix: bool = True) -> Evaluation:
+        motion = given.motion and given.motion(increment)
+        return self._system.evaluate(call, given.displacement + increment, increment, matrix=matrix, motion=motion)
 
     def _searched(self, given: Increment, before: Iterate, full: Iterate) -> Iterate:
         """The state at the scale that line search finds; the last pass is a normal one at that scale."""

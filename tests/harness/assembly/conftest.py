@@ -32,7 +32,7 @@ class LinearBlock:
     def bind(self, equations, scatter):
         self.equations, self.scatter = equations, scatter
 
-    def evaluate(self, call, u, du, residual, matrix):
+    def evaluate(self, call, u, du, residual, matrix, motion=None):
         forces = -np.einsum("eij,ej->ei", self.matrices, u[self.equations])
         np.add.at(residual, self.equations, forces)
         if matrix is not None:

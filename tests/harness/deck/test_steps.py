@@ -11,7 +11,8 @@ import pytest
 
 from harness.errors import DeckError
 from harness.model.model import Model
-from harness.model.steps import Controls, FieldControls, LineSearchControls, Riks, Static, Step, TimeControls
+from harness.model.procedures import Riks, Static
+from harness.model.steps import Controls, FieldControls, LineSearchControls, Step, TimeControls
 
 Read = Callable[[str], Model]
 FLAT = Path(__file__).with_name("flat.inp").read_text()

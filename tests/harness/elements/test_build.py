@@ -12,8 +12,9 @@ from harness.elements import FIELD_NAMES, build_blocks, field_of
 from harness.errors import DeckError, Source
 from harness.model.mesh import Mesh
 from harness.model.model import Model
+from harness.model.procedures import Static
 from harness.model.properties import Elastic, ElasticType, Material
-from harness.model.steps import Static, Step
+from harness.model.steps import Step
 
 SPRING = ((0, 1), (1, 1))
 NODES = np.array([[0, 1]])

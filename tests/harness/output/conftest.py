@@ -14,6 +14,7 @@ import pytest
 from harness.errors import Source
 from harness.model.mesh import ElementGroup, Mesh
 from harness.model.model import Model
+from harness.model.procedures import Static
 from harness.model.properties import UserElement, UserProperty
 from harness.model.records import (
     AttemptStarted,
@@ -29,7 +30,7 @@ from harness.model.records import (
     StepStarted,
     Verdict,
 )
-from harness.model.steps import NodeRequest, OutputRequests, Static, Step
+from harness.model.steps import NodeRequest, OutputRequests, Step
 
 SOURCE = Source("deck.inp", 1)
 DECK = """\

@@ -11,6 +11,7 @@ import pytest
 
 from harness.model.mesh import ElementGroup, Mesh
 from harness.model.model import Model
+from harness.model.procedures import Static
 from harness.model.records import (
     AttemptAbandoned,
     AttemptStarted,
@@ -23,7 +24,7 @@ from harness.model.records import (
     StepStarted,
     Verdict,
 )
-from harness.model.steps import Controls, FieldControls, LineSearchControls, Static, TimeControls
+from harness.model.steps import Controls, FieldControls, LineSearchControls, TimeControls
 from harness.output.message import MessageFile
 
 Records = Callable[..., Iterator[Record]]

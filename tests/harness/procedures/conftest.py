@@ -14,9 +14,10 @@ from harness.elements import build_blocks
 from harness.errors import Source
 from harness.model.mesh import ElementGroup, Mesh
 from harness.model.model import Equation, Model
+from harness.model.procedures import Static
 from harness.model.properties import UserElement, UserProperty
 from harness.model.records import AttemptAbandoned, IncrementDone, IterationDone
-from harness.model.steps import Boundary, Load, Static, Step
+from harness.model.steps import Boundary, InitialValue, Load, Step
 from harness.procedures import run_steps
 
 HERE = Path(__file__).parent
@@ -38,6 +39,11 @@ def force(node, value, amplitude=None, dof=1):
 
 def step(number=1, static=None, **options):
     return Step(number, f"Step-{number}", static or Static(), source(100 * number), **options)
+
+
+def initial(node, value, dof=1):
+    """*INITIAL CONDITIONS of one node (from 0)."""
+    return InitialValue(np.array([node]), dof, value, source(60))
 
 
 def equation(*terms):
@@ -83,18 +89,19 @@ class Run:
 
 
 class Bench:
-    """Builds steps and runs springs through them."""
+    """Builds steps and runs springs, or other two-node elements of one unknown per node, through them."""
 
-    fix, force, step, equation = staticmethod(fix), staticmethod(force), staticmethod(step), staticmethod(equation)
+    fix, force, step = staticmethod(fix), staticmethod(force), staticmethod(step)
+    equation, initial = staticmethod(equation), staticmethod(initial)
 
-    def __init__(self, folder):
-        self.folder = folder
+    def __init__(self, folder, user="springs.f", variables=1, dof=1):
+        self.folder, self.user, self.variables, self.dof = folder, user, variables, dof
 
-    def run(self, springs, steps, *, boundaries=(), equations=(), log=False, **options):
+    def run(self, springs, steps, *, boundaries=(), equations=(), velocities=(), temperatures=(), log=False, **options):
         """springs: (node, node, type, properties) each; the nodes are numbered from 0 here."""
         nodes = 1 + max(max(spring[:2]) for spring in springs)
         mesh = Mesh(np.arange(1, nodes + 1), np.zeros((nodes, 3)), ("",) * nodes)
-        groups = tuple(group(k + 1, *spring, log) for k, spring in enumerate(springs))
+        groups = tuple(group(k + 1, *spring, log, self.variables, self.dof) for k, spring in enumerate(springs))
         model = Model(
             Path("springs.inp"),
             "",
@@ -103,8 +110,10 @@ class Bench:
             tuple(steps),
             boundaries=tuple(boundaries),
             equations=tuple(equations),
+            initial_velocities=tuple(velocities),
+            initial_temperatures=tuple(temperatures),
         )
-        library = usersub.load(HERE / "springs.f", job="job", output_dir=self.folder)
+        library = usersub.load(HERE / self.user, job="job", output_dir=self.folder)
         records, error = [], None
         try:
             system = System(mesh, build_blocks(model, library), model.equations)
@@ -122,9 +131,16 @@ def bench(tmp_path):
     return Bench(tmp_path)
 
 
-def group(label, first, second, jtype, properties, log):
+def group(label, first, second, jtype, properties, log, variables, dof):
     definition = UserElement(
-        jtype, 2, ((0, 1), (1, 1)), source(), properties=len(properties), integer_properties=1, unsymmetric=True
+        jtype,
+        2,
+        ((0, dof), (1, dof)),
+        source(),
+        properties=len(properties),
+        integer_properties=1,
+        variables=variables,
+        unsymmetric=True,
     )
     section = UserProperty("ALL", source(), np.array(properties, dtype=float), np.array([int(log)], dtype=np.int64))
     return ElementGroup(f"U{jtype}", np.array([label]), np.array([[first, second]]), "", section, definition, source())

@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 
 from harness.errors import ConvergenceError, SingularMatrixError
+from harness.model.procedures import Static
 from harness.model.records import SearchHelped
-from harness.model.steps import Static
 from harness.procedures.incrementation import DIVERGING, TOO_SLOW
 from harness.solver import descent
 from harness.solver.descent import GROWING, SINGULAR, UPHILL

@@ -10,7 +10,8 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from harness.model.steps import Static, TimeControls
+from harness.model.procedures import Static
+from harness.model.steps import TimeControls
 from harness.procedures import incrementation
 from harness.procedures.incrementation import Abandoned, IncrementControl, judge_rate, out_of_iterations, refused
 

@@ -9,7 +9,8 @@ import pytest
 
 from harness.errors import Source
 from harness.model.amplitude import Amplitude, AmplitudeType
-from harness.model.steps import Boundary, Load, Static, Step
+from harness.model.procedures import Static
+from harness.model.steps import Boundary, Load, Step
 from harness.procedures.loads import Boundaries, Loads, released_reactions
 
 SOURCE = Source("loads.inp", 3)

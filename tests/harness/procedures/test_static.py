@@ -7,8 +7,9 @@ import pytest
 
 from harness.errors import ConvergenceError, KernelError, SingularMatrixError
 from harness.model.amplitude import Amplitude, AmplitudeType
+from harness.model.procedures import Static
 from harness.model.records import AttemptStarted, IterationDone, StepDone, StepStarted, Verdict, Warned
-from harness.model.steps import Controls, FieldControls, LineSearchControls, Static, TimeControls
+from harness.model.steps import Controls, FieldControls, LineSearchControls, TimeControls
 
 LINEAR = (0, 1, 1, (2.0, 0.0))
 DIVERGING = (0, 1, 4, (1.0, 0.25))

@@ -26,7 +26,7 @@ class Landscape:
         self.free = np.arange(n)
         self.passes = []
 
-    def evaluate(self, call, u, du, *, matrix=True):
+    def evaluate(self, call, u, du, *, matrix=True, motion=None):
         self.passes.append(call.lflags[2])
         data = np.array(self._hessian(*u), dtype=float).ravel() if matrix else None
         residual = -np.array(self._gradient(*u), dtype=float)

@@ -1,0 +1,35 @@
+# SPDX-FileCopyrightText: The uel-harness authors
+# SPDX-License-Identifier: BSD-3-Clause
+"""*INITIAL CONDITIONS."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+
+from harness.deck.blocks import Block
+from harness.deck.flatten import FlatMesh
+from harness.deck.problems import Problems
+from harness.model.steps import InitialValue
+
+TEMPERATURE = 11
+"""First of the dofs that are temperatures."""
+
+
+def read_initial_values(blocks: Iterable[Block], kind: str, flat: FlatMesh, problems: Problems) -> list[InitialValue]:
+    """Entries of all *INITIAL CONDITIONS of a TYPE=: VELOCITY (node, dof, value) or TEMPERATURE (node, value)."""
+    found = []
+    for block in blocks:
+        if block.name != "INITIAL CONDITIONS" or block.options.text("TYPE") != kind:
+            continue
+        for row in block.rows():
+            with problems.gather():
+                nodes = flat.nodes(row.name(0, "node or node set"), row.source)
+                if kind == "VELOCITY":
+                    dof, value = row.integer(1, "dof"), row.real(2, "velocity", 0.0)
+                    if not 1 <= dof <= 6:
+                        raise row.error(f"dof {dof} has no velocity (1 to 6)")
+                else:
+                    row.at_most(2)
+                    dof, value = TEMPERATURE, row.real(1, "temperature", 0.0)
+                found.append(InitialValue(nodes, dof, value, row.source))
+    return found

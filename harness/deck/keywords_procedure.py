@@ -1,0 +1,159 @@
+# SPDX-FileCopyrightText: The uel-harness authors
+# SPDX-License-Identifier: BSD-3-Clause
+"""Keyword table: *STEP and the procedures."""
+
+from __future__ import annotations
+
+from harness.deck.keywords_model import ignored, refused
+from harness.deck.table import Keyword, Kind, Option, Where
+
+_TIMES = "initial increment, period (1), smallest increment, largest increment"
+_DIRECT = Option("DIRECT", doc="fixed increments")
+_HEAT = (
+    Option("STEADY STATE", doc="no storage of heat: time is a scale for loads"),
+    Option("DELTMX", Kind.REAL, "largest change of temperature in an increment; without it increments are fixed"),
+)
+
+PROCEDURE = (
+    Keyword(
+        "STEP",
+        "Begin a step.",
+        Where.ANY,
+        (
+            Option("NAME", Kind.NAME, "name"),
+            Option("INC", Kind.INTEGER, "largest number of increments (100)"),
+            Option("NLGEOM", Kind.SWITCH, "large displacements, from this step on"),
+            Option(
+                "EXTRAPOLATION",
+                Kind.CHOICE,
+                "first guess of an increment",
+                default="LINEAR",
+                choices=("LINEAR", "PARABOLIC", "VELOCITY PARABOLIC", "NO"),
+            ),
+            Option("UNSYMM", Kind.SWITCH, "unsymmetric matrix storage and solution"),
+            Option(
+                "AMPLITUDE",
+                Kind.CHOICE,
+                "default time variation; RAMP unless given, STEP in transient procedures",
+                choices=("RAMP", "STEP"),
+            ),
+            *ignored("CONVERT SDI", "SOLVER"),
+            *refused("DSA", "PERTURBATION", "SUBDIVIDE"),
+        ),
+        "title",
+    ),
+    Keyword("END STEP", "End a step.", Where.STEP),
+    Keyword(
+        "STATIC",
+        "Static stress analysis.",
+        Where.STEP,
+        (
+            Option("DIRECT", doc="fixed increments"),
+            Option("RIKS", doc="the load factor is part of the solution; increments are arc lengths"),
+            *refused("ADIABATIC", "ALLSDTOL", "CONTINUE", "FACTOR", "FULLY PLASTIC", "LONG TERM", "STABILIZE"),
+        ),
+        "initial increment, period (1), smallest increment, largest increment; with RIKS also the largest load "
+        "proportionality factor, and a node, its dof and the displacement that ends the step",
+    ),
+    Keyword(
+        "VISCO",
+        "Static stress analysis on a real time scale.",
+        Where.STEP,
+        (
+            _DIRECT,
+            *ignored("CETOL"),
+            *refused("CREEP", "FACTOR", "STABILIZE", "ALLSDTOL", "CONTINUE"),
+        ),
+        _TIMES,
+    ),
+    Keyword(
+        "DYNAMIC",
+        "Dynamic analysis by implicit integration.",
+        Where.STEP,
+        (
+            _DIRECT,
+            Option(
+                "APPLICATION",
+                Kind.CHOICE,
+                "sets the integrator and the largest increment: 1/100, 1/10 and all of the period",
+                default="TRANSIENT FIDELITY",
+                choices=("TRANSIENT FIDELITY", "MODERATE DISSIPATION", "QUASI-STATIC"),
+            ),
+            Option(
+                "TIME INTEGRATOR",
+                Kind.CHOICE,
+                "Hilber, Hughes and Taylor with alpha -0.05 or -0.41421, or backward Euler",
+                choices=("HHT-TF", "HHT-MD", "BWE"),
+            ),
+            Option("ALPHA", Kind.REAL, "-0.5 to 0: numerical damping"),
+            Option("BETA", Kind.REAL, "of the integrator, (1 - alpha)^2/4"),
+            Option("GAMMA", Kind.REAL, "of the integrator, 1/2 - alpha"),
+            Option("INITIAL", Kind.SWITCH, "compute accelerations at the start; YES for transient fidelity"),
+            Option("HAFTOL", Kind.REAL, "tolerance of the half-increment residual, a force"),
+            Option("HALFINC SCALE FACTOR", Kind.REAL, "the same over the time average force (10000)"),
+            Option("NOHAF", doc="no half-increment residual"),
+            *ignored("IMPACT", "INCREMENTATION"),
+            *refused("ADIABATIC", "EXPLICIT", "SUBSPACE", "SINGULAR MASS", "NONLINEAR MODE"),
+        ),
+        _TIMES,
+    ),
+    Keyword(
+        "HEAT TRANSFER",
+        "Uncoupled heat transfer, for user elements with dof 11 and up.",
+        Where.STEP,
+        (*_HEAT, Option("END", Kind.CHOICE, "end of a transient step", choices=("PERIOD", "SS")), *refused("MXDEM")),
+        _TIMES + "; rate of temperature change that ends a step with END=SS",
+    ),
+    Keyword(
+        "COUPLED TEMPERATURE-DISPLACEMENT",
+        "Temperatures and displacements together, for user elements with dof 11 and up.",
+        Where.STEP,
+        (
+            *_HEAT,
+            *ignored("CETOL"),
+            *refused("ALLSDTOL", "CONTINUE", "CREEP", "ELECTRICAL", "FACTOR", "STABILIZE"),
+        ),
+        _TIMES,
+    ),
+    Keyword(
+        "SOLUTION TECHNIQUE",
+        "Newton's method with the full matrix, whatever is asked for: .msg says so.",
+        Where.STEP,
+        (
+            Option(
+                "TYPE",
+                Kind.CHOICE,
+                "technique",
+                default="QUASI-NEWTON",
+                choices=("QUASI-NEWTON", "SEPARATED", "UNSYMMETRIC"),
+            ),
+            *ignored("REFORM KERNEL"),
+        ),
+        "ignored",
+    ),
+)
+
+INITIAL = (
+    Keyword(
+        "INITIAL CONDITIONS",
+        "Values at the start of the analysis.",
+        Where.MODEL,
+        (
+            Option(
+                "TYPE",
+                Kind.CHOICE,
+                "what is given; TEMPERATURE is for user elements with dof 11",
+                required=True,
+                choices=("VELOCITY", "TEMPERATURE"),
+                refused=(
+                    *("ACOUSTIC STATIC PRESSURE", "CONCENTRATION", "FIELD", "HARDENING", "PLASTIC STRAIN"),
+                    *("PORE PRESSURE", "RATIO", "REF COORDINATE", "ROTATING VELOCITY", "SATURATION", "SOLUTION"),
+                    *("SPECIFIC ENERGY", "STRESS", "UNBALANCED STRESS"),
+                ),
+            ),
+            Option("INPUT", Kind.FILE, "file that holds the data lines"),
+            *refused("FILE", "GEOSTATIC", "USER", "REBAR", "SECTION POINTS", "VARIABLE", "UNBALANCED STRESS"),
+        ),
+        "node or set, dof, velocity; or node or set, temperature",
+    ),
+)

@@ -1,0 +1,136 @@
+# SPDX-FileCopyrightText: The uel-harness authors
+# SPDX-License-Identifier: BSD-3-Clause
+"""Procedures of a step: *STATIC, *VISCO, *DYNAMIC, *HEAT TRANSFER and *COUPLED TEMPERATURE-DISPLACEMENT."""
+
+from __future__ import annotations
+
+import math
+from abc import ABC, abstractmethod
+from dataclasses import dataclass
+from enum import StrEnum
+
+
+@dataclass(frozen=True, slots=True)
+class Riks:
+    """*STATIC, RIKS: where the step ends.
+
+    largest_factor     load proportionality factor, None without a limit
+    node, dof, value   displacement of a node (index; -1: none) that ends the step once it is crossed
+    """
+
+    largest_factor: float | None = None
+    node: int = -1
+    dof: int = 0
+    value: float = 0.0
+
+
+@dataclass(frozen=True, slots=True)
+class Procedure(ABC):
+    """Initial increment, period, smallest and largest increment of a step; direct = fixed increments.
+
+    With `riks` these are arc lengths, the period is their scale alone, and the step ends where `riks` says.
+    """
+
+    initial: float = 1.0
+    period: float = 1.0
+    minimum: float = 1e-5
+    maximum: float = 1.0
+    direct: bool = False
+    riks: Riks | None = None
+
+    @property
+    @abstractmethod
+    def lflag(self) -> int:
+        """LFLAGS(1), which tells user elements the procedure."""
+
+    @property
+    def default_amplitude(self) -> str:
+        """How loads vary where neither they nor *STEP name an amplitude: RAMP or STEP."""
+        return "RAMP"
+
+
+@dataclass(frozen=True, slots=True)
+class Static(Procedure):
+    """*STATIC."""
+
+    @property
+    def lflag(self) -> int:
+        """1 automatic, 2 fixed increments."""
+        return 2 if self.direct else 1
+
+
+@dataclass(frozen=True, slots=True)
+class Visco(Procedure):
+    """*VISCO: a static step on a real time scale."""
+
+    @property
+    def lflag(self) -> int:
+        """21."""
+        return 21
+
+    @property
+    def default_amplitude(self) -> str:
+        """Loads are there at once."""
+        return "STEP"
+
+
+class Integrator(StrEnum):
+    """TIME INTEGRATOR= of *DYNAMIC."""
+
+    HHT = "HHT"
+    BACKWARD_EULER = "BWE"
+
+
+@dataclass(frozen=True, slots=True)
+class Dynamic(Procedure):
+    """*DYNAMIC by an implicit operator.
+
+    alpha, beta, gamma    of Hilber, Hughes and Taylor; PARAMS of the calls
+    initial_acceleration  computed at the start of the step from equilibrium; zero otherwise
+    half_increment        tolerance of the half-increment residual as a multiple of the average force; inf: no check
+    half_force            the same as a force (HAFTOL); 0: not given
+    """
+
+    alpha: float = -0.05
+    beta: float = 0.275625
+    gamma: float = 0.55
+    integrator: Integrator = Integrator.HHT
+    initial_acceleration: bool = True
+    half_increment: float = math.inf
+    half_force: float = 0.0
+
+    @property
+    def lflag(self) -> int:
+        """11 automatic, 12 fixed increments."""
+        return 12 if self.direct else 11
+
+    @property
+    def default_amplitude(self) -> str:
+        """Loads are there at once, but ramp where the step looks for a static state."""
+        return "RAMP" if self.integrator is Integrator.BACKWARD_EULER else "STEP"
+
+
+@dataclass(frozen=True, slots=True)
+class HeatTransfer(Procedure):
+    """*HEAT TRANSFER, and *COUPLED TEMPERATURE-DISPLACEMENT where displacements are `coupled`.
+
+    steady          STEADY STATE: time is a scale for loads
+    largest_change  DELTMX, largest change of temperature in an increment; inf: not limited
+    end_change      END=SS: the step ends where no temperature changes faster than this; 0: with the period
+    """
+
+    coupled: bool = False
+    steady: bool = False
+    largest_change: float = math.inf
+    end_change: float = 0.0
+
+    @property
+    def lflag(self) -> int:
+        """31 or 71 steady, 32 or 72 transient, 33 or 73 with fixed increments."""
+        kind = 1 if self.steady else 3 if self.direct else 2
+        return (70 if self.coupled else 30) + kind
+
+    @property
+    def default_amplitude(self) -> str:
+        """Loads are there at once, but ramp to a steady state."""
+        return "RAMP" if self.steady else "STEP"
