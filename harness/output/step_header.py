@@ -31,7 +31,7 @@ def controls_of(field: str, controls: Controls) -> FieldControls:
 def procedure(step: Step) -> str:
     """Kind of the step and its time incrementation."""
     static = step.procedure
-    title = " ".join("  " if letter == " " else letter for letter in _title(static))
+    title = " ".join(_title(static))
     lines = [
         f"                        S T E P  {step.number:6d}     {title}",
         "",

@@ -60,12 +60,13 @@ def test_state_variables_start_from_the_committed_ones(springs, call):
 
 
 @pytest.mark.parametrize("lflag", [2, 3, 4, 5, 6, 100])
-def test_only_normal_calls_are_kept(springs, call, lflag):
+def test_only_calls_at_ends_of_increments_are_kept(springs, call, lflag):
     block, matrix = springs
     residual, u = np.zeros(3), np.array([0.0, 0.1, 0.3])
     block.evaluate(replace(call, lflags=(1, 0, lflag, 0, 0)), u, u, residual, matrix.data)
     block.commit()
-    assert block.state(0).svars.ravel().tolist() == [0, 0]
+    # the forces at the start of a dynamic step are left in SVARS by the call for the initial acceleration
+    assert block.state(0).svars.any() == (lflag == 6)
     assert residual.any() == (lflag in (5, 6, 100))
 
 
