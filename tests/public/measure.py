@@ -1,0 +1,128 @@
+# SPDX-FileCopyrightText: The uel-harness authors
+# SPDX-License-Identifier: BSD-3-Clause
+"""Run one public user element, unmodified, and measure one quantity: `python measure.py FOLDER ROW` prints JSON.
+
+Each row runs in a process of its own (see table.py), since user code may end its process.
+"""
+
+from __future__ import annotations
+
+import json
+import sys
+import tempfile
+import tomllib
+from collections.abc import Iterator
+from dataclasses import asdict, dataclass
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from harness import usersub
+from harness.assembly import System
+from harness.deck import read_deck
+from harness.elements import build_blocks
+from harness.errors import UelError
+from harness.model.model import Model
+from harness.model.records import AttemptAbandoned, IncrementDone, Solution
+from harness.output.status import read_status
+from harness.procedures import run_steps
+
+MANIFEST = Path(__file__).with_name("manifest.toml")
+Row = dict[str, Any]
+
+
+@dataclass
+class Outcome:
+    """What came of a row: increments and cutbacks done, the figure (None without one), and the error ('' if none)."""
+
+    increments: int = 0
+    cutbacks: int = 0
+    figure: float | None = None
+    error: str = ""
+
+
+def rows() -> dict[str, Row]:
+    """Rows of the manifest by name."""
+    return {row["name"]: row for row in tomllib.loads(MANIFEST.read_text("utf-8"))["row"]}
+
+
+def missing(folder: Path, row: Row) -> list[str]:
+    """Files of a row that are not in the folder."""
+    root = folder / row["folder"]
+    wanted = [row["deck"], *row["sources"], *([row["status"]] if "status" in row else [])]
+    return [name for name in wanted if not (root / name).is_file()]
+
+
+def measure(folder: Path, row: Row) -> Outcome:
+    """Run a row and evaluate its quantity after every increment."""
+    outcome = Outcome()
+    lines: list[tuple[int, int]] = []
+    values: list[tuple[float, float]] = []
+    try:
+        for model, record in _records(folder / row["folder"], row):
+            if isinstance(record, AttemptAbandoned):
+                outcome.cutbacks += 1
+            if isinstance(record, IncrementDone):
+                outcome.increments += 1
+                lines.append((record.attempt, record.iterations))
+                if "quantity" in row:
+                    values.append((record.total_time, _evaluate(model, record.solution, row["quantity"])))
+    except UelError as error:
+        outcome.error = str(error).splitlines()[0]
+    if values:
+        outcome.figure = _pick(values, row["quantity"]["pick"])
+    if "status" in row and not outcome.error:
+        outcome.figure = _agreement(lines, folder / row["folder"] / row["status"])
+    return outcome
+
+
+def _records(root: Path, row: Row) -> Iterator[tuple[Model, Any]]:
+    deck = root / row["deck"]
+    model = read_deck(deck)
+    with tempfile.TemporaryDirectory() as output:
+        library = usersub.load([root / name for name in row["sources"]], job="job", output_dir=Path(output), deck=deck)
+        try:
+            system = System(model.mesh, build_blocks(model, library), model.equations)
+            for record in run_steps(system, model, library):
+                library.messages()
+                yield model, record
+        finally:
+            library.close()
+
+
+def _evaluate(model: Model, solution: Solution, quantity: Row) -> float:
+    """Sum, smallest or largest of a nodal quantity of one dof over nodes; or the sum of an entry of ENERGY."""
+    if "energy" in quantity:
+        return float(solution.energies[quantity["energy"]])
+    if "nset" in quantity:
+        nodes = model.nsets[quantity["nset"].upper()]
+    elif "nodes" in quantity:
+        nodes = np.flatnonzero(np.isin(model.mesh.labels, quantity["nodes"]))
+    else:
+        nodes = np.arange(len(model.mesh.labels))
+    chosen = np.isin(solution.node, nodes) & (solution.dof == quantity["dof"])
+    values = {"RF": solution.reaction, "U": solution.displacement}[quantity["what"]][chosen]
+    reduced = {"sum": np.sum, "min": np.min, "max": np.max}[quantity["over"]](values)
+    return float(reduced) * float(quantity.get("factor", 1.0))
+
+
+def _pick(values: list[tuple[float, float]], which: str | float) -> float:
+    """The value of the largest magnitude ('peak'), the last one ('end'), or the one at a total time."""
+    if which == "end":
+        return values[-1][1]
+    if which == "peak":
+        return max((value for _, value in values), key=abs)
+    times, found = np.array(values).T
+    return float(np.interp(float(which), times, found))
+
+
+def _agreement(lines: list[tuple[int, int]], status: Path) -> float:
+    """Share of the increments of Abaqus' status file that ended with as many iterations in the same attempt here."""
+    theirs = [(row.attempt, row.total_iterations) for row in read_status(status) if not row.cutback]
+    same = sum(ours == other for ours, other in zip(lines, theirs, strict=False))
+    return same / max(len(theirs), len(lines))
+
+
+if __name__ == "__main__":
+    print(json.dumps(asdict(measure(Path(sys.argv[1]), rows()[sys.argv[2]]))))

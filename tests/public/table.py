@@ -1,0 +1,96 @@
+# SPDX-FileCopyrightText: The uel-harness authors
+# SPDX-License-Identifier: BSD-3-Clause
+"""Table of public user elements that run here unmodified: `python tests/public/table.py FOLDER [-o FILE] [ROW ...]`.
+
+FOLDER holds a checkout of each public repository of manifest.toml, under the repository's name. Nothing of theirs is
+in this repository.
+"""
+
+from __future__ import annotations
+
+import argparse
+import json
+import os
+import subprocess
+import sys
+from pathlib import Path
+
+from measure import Outcome, Row, missing, rows
+
+MEASURE = Path(__file__).with_name("measure.py")
+HEAD = """\
+# Public user elements, unmodified
+
+Codes that others wrote for Abaqus, with their decks, run by this harness as they are. Their files are not part of this
+repository; `python tests/public/table.py FOLDER -o harness/usersub/public-uels.md` writes this page from a folder of
+checkouts, by [the manifest](../../tests/public/manifest.toml). Grade of the expected value: **T** theory, **A** real
+Abaqus, **M** the stored result of another code, **Q** an independent small-strain host (plausibility only).
+
+| code | deck | quantity | our figure | expected | grade | verdict |
+|---|---|---|---|---|---|---|
+"""
+
+
+def run(folder: Path, row: Row) -> Outcome:
+    """Outcome of a row that runs in a process of its own, for as long as the row allows."""
+    absent = missing(folder, row)
+    if absent:
+        return Outcome(error=f"not in the folder: {absent[0]}")
+    command = [sys.executable, str(MEASURE), str(folder), row["name"]]
+    environment = os.environ | {"OMP_NUM_THREADS": "1"}
+    limit = float(row.get("seconds", 300))
+    try:
+        done = subprocess.run(command, capture_output=True, text=True, env=environment, timeout=limit, check=False)
+    except subprocess.TimeoutExpired:
+        return Outcome(error=f"not finished after {limit:g} s")
+    if done.returncode:
+        return Outcome(error=(done.stderr.strip().splitlines() or [f"exit code {done.returncode}"])[-1])
+    return Outcome(**json.loads(done.stdout.splitlines()[-1]))
+
+
+def verdict(row: Row, outcome: Outcome) -> tuple[bool, str]:
+    """Whether the row is as it should be, and what to say of it."""
+    if outcome.error:
+        shown = outcome.error if len(outcome.error) < 300 else f"{outcome.error[:297]}..."
+        return False, shown.replace("|", "\\|")
+    done = f"{outcome.increments} increments, {outcome.cutbacks} cutbacks"
+    if "expected" not in row:
+        return True, f"completed ({done})"
+    assert outcome.figure is not None
+    deviation = abs(outcome.figure / row["expected"] - 1.0)
+    agrees = outcome.figure >= row["expected"] if "status" in row else deviation <= row["tolerance"]
+    return agrees, f"{'agrees' if agrees else 'differs'}, {100 * deviation:.2g} % ({done})"
+
+
+def line(row: Row, outcome: Outcome) -> str:
+    """Row of the table."""
+    figure = "" if outcome.figure is None else f"{outcome.figure:.5g}"
+    expected = f"{row['expected']:.5g}" if "expected" in row else ""
+    deck = row["deck"].rpartition("/")[2]
+    entries = row["code"], deck, row.get("text", "runs to the end"), figure, expected, row.get("grade", "")
+    return f"| {' | '.join(entries)} | {verdict(row, outcome)[1]} |\n"
+
+
+def main() -> int:
+    """Write the table; 1 if a row is not as it should be."""
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("folder", type=Path)
+    parser.add_argument("rows", nargs="*", help="names of rows (all)")
+    parser.add_argument("-o", "--output", type=Path, help="file to write (print)")
+    options = parser.parse_args()
+    known = rows()
+    text, good = HEAD, True
+    for name in options.rows or known:
+        outcome = run(options.folder, known[name])
+        good &= verdict(known[name], outcome)[0]
+        text += line(known[name], outcome)
+        print(name, *verdict(known[name], outcome), outcome.figure, file=sys.stderr)
+    if options.output:
+        options.output.write_text(text, encoding="utf-8")
+    else:
+        print(text)
+    return int(not good)
+
+
+if __name__ == "__main__":
+    sys.exit(main())
