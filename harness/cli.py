@@ -78,6 +78,10 @@ def build_parser() -> argparse.ArgumentParser:
     run.add_argument("--quiet", action="store_true", help="no progress display")
     run.set_defaults(function=run_job)
 
+    add_reproduce(
+        commands.add_parser("reproduce", help="run the cases of the paper, draw its figures, check what it says")
+    )
+
     amalgamate = commands.add_parser("amalgamate", help="write our elements as one file for Abaqus")
     amalgamate.add_argument("-o", "--output", type=Path, required=True, metavar="FILE.for")
     amalgamate.set_defaults(function=write_amalgam)
@@ -117,6 +121,19 @@ def add_law(law: argparse.ArgumentParser) -> None:
     law.add_argument("--job", default="law", metavar="NAME", help="name of the output files (law)")
     law.add_argument("--output-dir", type=Path, default=Path(), metavar="DIR", help="where they go (current folder)")
     law.set_defaults(function=explore_law)
+
+
+def add_reproduce(reproduce: argparse.ArgumentParser) -> None:
+    """Options of `uel reproduce`."""
+    reproduce.epilog = "An interrupted run goes on where it stopped."
+    reproduce.add_argument(
+        "cases", nargs="*", metavar="CASE", help="law, patch, dcb, enf, frmm, sensitivity (all of them)"
+    )
+    reproduce.add_argument("--quick", action="store_true", help="coarser meshes")
+    reproduce.add_argument(
+        "--output-dir", type=Path, default=Path("reproduce"), metavar="DIR", help="where all goes (reproduce)"
+    )
+    reproduce.set_defaults(function=reproduce_paper)
 
 
 def add_check(check: argparse.ArgumentParser) -> None:
@@ -210,6 +227,14 @@ def check_elements(options: argparse.Namespace) -> int:
     outcome = shuffle(options.deck, options.user, seed=options.seed, increments=options.increments)
     Console().print(report(outcome))
     return int(not outcome.passed)
+
+
+def reproduce_paper(options: argparse.Namespace) -> int:
+    """`uel reproduce`."""
+    from harness.delamination.reproduce.command import reproduce  # noqa: PLC0415
+
+    reproduce(options.cases, options.output_dir, quick=options.quick, console=Console())
+    return 0
 
 
 def list_solvers(_: argparse.Namespace) -> int:

@@ -104,7 +104,7 @@ class Outcome:
     seconds: float
 
 
-def run_deck(deck: Deck, folder: Path, *, fallback: bool) -> Outcome:
+def run_deck(deck: Deck, folder: Path, *, fallback: bool, fields: bool = False) -> Outcome:
     """Write a deck, run it.
 
     Parameters
@@ -112,9 +112,11 @@ def run_deck(deck: Deck, folder: Path, *, fallback: bool) -> Outcome:
     deck
         The deck.
     folder
-        Gets a folder of the deck's name with the deck and all that a job writes but the fields.
+        Gets a folder of the deck's name with the deck and all that a job writes.
     fallback
         Search downhill where Newton's method fails, as `uel run --fallback`.
+    fields
+        Keep the files of fields, fifty times the rest, and nothing that a table or a profile needs.
     """
     place = folder / deck.name
     place.mkdir(parents=True, exist_ok=True)
@@ -125,8 +127,8 @@ def run_deck(deck: Deck, folder: Path, *, fallback: bool) -> Outcome:
         run(place / f"{deck.name}.inp", output_dir=place, fallback=fallback)
     except ConvergenceError as error:
         stopped = str(error)
-    # a fiftieth of the rest, and nothing that a table or a profile needs
-    shutil.rmtree(place / f"{deck.name}_vtu", ignore_errors=True)
+    if not fields:
+        shutil.rmtree(place / f"{deck.name}_vtu", ignore_errors=True)
     return Outcome(Result(place / deck.name), stopped, time.perf_counter() - started)
 
 

@@ -22,6 +22,9 @@ class Interface:
     viscosity  relaxation time of the damage, in step time
     sampling   of the bulk stress: 0 middle of the face, 1 face, 2 Gauss point
     consistent the law has a separation of its own (CLOSURE 1), in place of the damage at the displacement jump
+    law        1 linear criterion (11), 2 criterion of Benzeggagh and Kenane with the exponent `eta`
+    newton_cotes  integration points at the nodes, in place of Gauss points
+    secant     AMATRX without the derivative of the damage (TANGENT 1), equation (24)
     """
 
     type: str
@@ -30,6 +33,10 @@ class Interface:
     viscosity: float = 0.0
     sampling: int = 0
     consistent: bool = False
+    law: int = 1
+    eta: float = 0.0
+    newton_cotes: bool = False
+    secant: bool = False
 
 
 @dataclass(frozen=True, slots=True)
@@ -132,21 +139,21 @@ def interface_values(specimen: Specimen) -> dict[str, float]:
         "GIC": law.toughness_1,
         "GIIC": law.toughness_2,
         "VISCOSITY": interface.viscosity,
-        "ETA": 0.0,
+        "ETA": interface.eta,
         "POWER": 0.0,
         "BLEND": 0.0,
         "BETAN": interface.beta,
         "BETAT": interface.beta,
         "GAMMABOT": 0.0,
         "FRICTION": 0.0,
-        "LAW": 1,
-        "INTEGRATION": 0,
-        "TANGENT": 0,
+        "LAW": interface.law,
+        "INTEGRATION": int(interface.newton_cotes),
+        "TANGENT": int(interface.secant),
         "SAMPLING": interface.sampling,
         "OFFSETBOTTOM": below,
         "OFFSETTOP": above,
         "PLANE": 0,
-        "CLOSURE": 1 if interface.consistent else 0,
+        "CLOSURE": int(interface.consistent),
     }
     for side, ply in (("BOTTOM", specimen.bottom), ("TOP", specimen.top)):
         named = zip(("E1", "E2", "NU12", "G12"), ply.in_plane, strict=True)

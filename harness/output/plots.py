@@ -8,7 +8,7 @@ marker, so a figure survives black and white. The legend stands above the axes a
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -51,6 +51,18 @@ class Curve:
     x: ArrayLike
     y: ArrayLike
     kind: str = "line"
+
+
+@dataclass(frozen=True, slots=True)
+class Panel:
+    """One pair of axes of a `grid`: title, labels with units, and the ranges shown (all of the data by default)."""
+
+    title: str
+    curves: Sequence[Curve]
+    x_label: str
+    y_label: str
+    x_range: tuple[float, float] | None = None
+    y_range: tuple[float, float] | None = None
 
 
 def load_displacement(
@@ -109,6 +121,56 @@ def profiles(
     return _draw(panels, path, x_label, y_labels, title)
 
 
+def grid(rows: Sequence[Sequence[Panel]], path: Path, *, share_y: bool = False) -> Path:
+    """Panels in rows and columns, each with axes of its own.
+
+    Parameters
+    ----------
+    rows
+        Panels of each row, equally many.
+    path
+        .png (200 dots per inch), .pdf or .svg.
+    share_y
+        One range of ordinates for the panels of a row, so that heights compare.
+
+    Curves of the same label look the same in every panel and stand in the legend once.
+    """
+    with mpl.rc_context(STYLE | {"axes.titlesize": 9}):
+        height, width = len(rows), len(rows[0])
+        figure = Figure(figsize=(max(5.5, 2.9 * width), 0.5 + 2.3 * height), layout="constrained")
+        FigureCanvasAgg(figure)
+        sharing: Any = "row" if share_y else "none"
+        axes = figure.subplots(height, width, squeeze=False, sharey=sharing)
+        looks = _looks([curve for row in rows for panel in row for curve in panel.curves])
+        for axis, panel in zip(axes.flat, (panel for row in rows for panel in row), strict=True):
+            for curve in panel.curves:
+                axis.plot(curve.x, curve.y, label=curve.label, **looks[curve.label])
+            axis.set(title=panel.title, xlabel=panel.x_label, ylabel=panel.y_label)
+            axis.margins(x=0.02)
+            if panel.x_range:
+                axis.set_xlim(panel.x_range)
+            if panel.y_range:
+                axis.set_ylim(panel.y_range)
+            axis.tick_params(labelleft=True)
+        _legend(figure, axes.flat, 30 * max(2, width))
+        figure.savefig(path, dpi=200)
+    return path
+
+
+def _legend(figure: Figure, axes: Iterable[Any], letters: int) -> None:
+    """One legend above all axes, if there is more than one curve; `letters` is what fits on a line."""
+    handles = {label: handle for axis in axes for handle, label in zip(*axis.get_legend_handles_labels(), strict=True)}
+    if len(handles) > 1:
+        longest = max(map(len, handles))
+        figure.legend(
+            handles.values(),
+            handles.keys(),
+            loc="outside upper center",
+            ncols=max(1, min(len(handles), letters // (longest + 8))),
+            handlelength=2.8,
+        )
+
+
 def _draw(
     panels: Sequence[Sequence[Curve]],
     path: Path,
@@ -133,18 +195,7 @@ def _draw(
                 _start_at_zero(axis)
         axes[-1].set_xlabel(x_label)
         figure.align_ylabels(axes)
-        handles = {
-            label: handle for axis in axes for handle, label in zip(*axis.get_legend_handles_labels(), strict=True)
-        }
-        if len(handles) > 1:
-            longest = max(map(len, handles))
-            figure.legend(
-                handles.values(),
-                handles.keys(),
-                loc="outside upper center",
-                ncols=max(1, min(len(handles), 84 // (longest + 8))),
-                handlelength=2.8,
-            )
+        _legend(figure, axes, 84)
         if title:
             figure.suptitle(title, fontsize=10)
         figure.savefig(path, dpi=300)

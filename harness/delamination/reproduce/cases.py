@@ -1,0 +1,171 @@
+# SPDX-FileCopyrightText: The uel-harness authors
+# SPDX-License-Identifier: BSD-3-Clause
+"""The paper's delamination tests: one deck for each specimen, layup, element, stiffness and mesh."""
+
+from __future__ import annotations
+
+import itertools
+from dataclasses import dataclass
+
+from harness.delamination import specimens
+from harness.delamination.blocks import Interface, Specimen
+from harness.delamination.materials import TABLE_2, Cohesive
+from harness.delamination.mesh import TwoArmMesh
+from harness.delamination.patches import PLIES, stabilisation
+from harness.delamination.steps import Increments
+from harness.delamination.study.cases import BUMP, KINDS, STIFFNESSES, Kind
+
+FIELD_EVERY = 4
+
+
+ENDS = {"dcb": {"0/0": 3.0, "0/90": 8.0}, "enf": {"0/0": 5.0, "0/90": 8.0}, "frmm": {"0/0": 5.0, "0/90": 6.0}}
+"""Displacement at the end (mm), beyond the softening branch."""
+PROBLEMS = {name: KINDS[name]._replace(displacement=ends) for name, ends in ENDS.items()}
+"""The specimens, on the meshes of the study."""
+QUICK_SIZES = {"dcb": 0.25, "enf": 0.5, "frmm": 0.25}
+"""Length of the elements with --quick (mm)."""
+MOMENTS = {
+    ("dcb", "0/0"): 1.7,
+    ("dcb", "0/90"): 5.0,
+    ("enf", "0/0"): 2.9,
+    ("enf", "0/90"): 5.0,
+    ("frmm", "0/0"): 3.0,
+    ("frmm", "0/90"): 4.2,
+}
+"""Displacement at which the profiles are drawn (mm). The paper gives none; in its figure 9 the traction of the DCB
+[0/0] changes its sign at X1 = 44 mm, which is at 1.7 mm."""
+LAYUPS = tuple(PLIES)
+ELEMENTS = {
+    "standard": Interface("U2", TABLE_2),
+    "stabilised": Interface("U4", TABLE_2),
+    "consistent": Interface("U4", TABLE_2, consistent=True),
+}
+"""The paper's two methods, and the stabilised one whose law has a separation of its own."""
+
+
+@dataclass(frozen=True, slots=True)
+class Case:
+    """One run.
+
+    problem, layup, element, stiffness   keys of PROBLEMS, LAYUPS, ELEMENTS, STIFFNESSES
+    perturbed     the interface nodes are moved
+    coarse        the mesh of --quick
+    size          length of the elements in place of the problem's (mm)
+    increments    number of increments, if none is cut
+    strength      factor of both strengths
+    beta          factor of the stabilisation by equation (21)
+    sampling      of the bulk stress: 0 middle of the face, 1 face, 2 Gauss point
+    newton_cotes  integration points at the nodes
+    secant, tolerance  AMATRX by equation (24), and the residual R_n that is let pass
+    """
+
+    problem: str
+    layup: str
+    element: str
+    stiffness: str
+    perturbed: bool = False
+    coarse: bool = False
+    size: float | None = None
+    increments: int = 100
+    strength: float = 1.0
+    beta: float = 1.0
+    sampling: int = 0
+    newton_cotes: bool = False
+    secant: bool = False
+    tolerance: float | None = None
+
+    @property
+    def name(self) -> str:
+        """Name of the deck."""
+        words = [self.problem, self.layup.replace("/", "_"), self.element, self.stiffness]
+        words += ["perturbed"] * self.perturbed + ["coarse"] * self.coarse
+        words += [f"size{self.size:g}"] if self.size is not None else []
+        numbers = {"inc": (self.increments, 100), "strength": (self.strength, 1.0), "beta": (self.beta, 1.0)}
+        words += [f"{word}{value:g}" for word, (value, usual) in numbers.items() if value != usual]
+        words += [f"sampling{self.sampling}"] if self.sampling else []
+        words += ["newtoncotes"] * self.newton_cotes + ["secant"] * self.secant
+        words += [f"tol{self.tolerance:g}"] if self.tolerance is not None else []
+        return "_".join(words).replace(".", "p")
+
+    @property
+    def kind(self) -> Kind:
+        """The specimen."""
+        return PROBLEMS[self.problem]
+
+    @property
+    def fallback(self) -> bool:
+        """Search downhill where Newton's method fails; the paper's own way, secant and tolerance, goes without."""
+        return not self.secant
+
+    @property
+    def element_size(self) -> float:
+        """Length of the elements along the crack's way (mm)."""
+        if self.size is not None:
+            return self.size
+        return QUICK_SIZES[self.problem] if self.coarse else self.kind.size
+
+    @property
+    def displacement(self) -> float:
+        """Displacement at the end (mm)."""
+        return self.kind.displacement[self.layup]
+
+    @property
+    def law(self) -> Cohesive:
+        """The law's parameters."""
+        stiffness, factor = STIFFNESSES[self.stiffness], self.strength
+        return Cohesive(stiffness, stiffness, factor * TABLE_2.strength_normal, factor * TABLE_2.strength_shear)
+
+    def mesh(self) -> TwoArmMesh:
+        """The mesh."""
+        return self.kind.mesh(self.element_size, BUMP * self.element_size * self.perturbed)
+
+    def files(self) -> dict[str, str]:
+        """Deck `NAME.inp` and the files that it includes."""
+        mesh_name = f"{self.problem}_{'perturbed' if self.perturbed else 'structured'}"
+        mesh = self.mesh()
+        interface = self._interface(mesh)
+        nodes = 8 if interface.type == "U4" else 4
+        return specimens.mesh_files(mesh_name, mesh, (nodes,)) | {
+            f"{self.name}.inp": self._deck(mesh_name, mesh, interface)
+        }
+
+    def _interface(self, mesh: TwoArmMesh) -> Interface:
+        base = ELEMENTS[self.element]
+        beta = 0.0
+        if self.beta != 1.0:
+            top, bottom = PLIES[self.layup]
+            heights = float(mesh.lower[-1] - mesh.lower[-2]), float(mesh.upper[1] - mesh.upper[0])
+            beta = self.beta * stabilisation(bottom, top, heights, 1.0)
+        return Interface(
+            base.type,
+            self.law,
+            beta=beta,
+            sampling=self.sampling,
+            consistent=base.consistent,
+            newton_cotes=self.newton_cotes,
+            secant=self.secant,
+        )
+
+    def _deck(self, mesh_name: str, mesh: TwoArmMesh, interface: Interface) -> str:
+        top, bottom = PLIES[self.layup]
+        specimen = Specimen(mesh_name, mesh, interface, specimens.WIDTH, bottom, top)
+        step = 1.0 / self.increments
+        increments = Increments(step, 1e-7, step, limit=20 * self.increments, residual=self.tolerance)
+        title = f"{self.kind.title.capitalize()}, [{self.layup}], {self.element} element, {self.stiffness} N/mm^3"
+        return self.kind.deck(
+            title + ", perturbed mesh" * self.perturbed, specimen, self.displacement, increments, FIELD_EVERY
+        )
+
+
+def paper_cases(problem: str, *, coarse: bool = False) -> list[Case]:
+    """The paper's runs of a specimen: both layups, three stiffnesses on the structured mesh, 1e8 on the perturbed one.
+
+    To the paper's two methods comes the consistent one.
+    """
+    pairs = itertools.product(LAYUPS, ELEMENTS)
+    variants = [("1e4", False), ("1e6", False), ("1e8", False), ("1e8", True)]
+    return [
+        Case(problem, layup, element, stiffness, perturbed, coarse)
+        for layup, element in pairs
+        for stiffness, perturbed in variants
+    ]

@@ -1,0 +1,132 @@
+# SPDX-FileCopyrightText: The uel-harness authors
+# SPDX-License-Identifier: BSD-3-Clause
+"""The paper's statements (claims.toml), each decided by one number from the runs.
+
+A claim has
+
+id, section, figure   figure is empty where the paper shows none
+quote                 a few words of the paper
+number                what our number is
+measure, arguments    function of `findings` or `basics`
+at_least, at_most     what the number has to be, one of them or both
+cases                 part of the command that runs what the number needs: 'law', 'patch', 'dcb', 'enf', 'frmm', ...
+also                  further numbers that are shown, each with number, measure and arguments
+why                   what is to be said about it; needed where the statement is not reproduced
+"""
+
+from __future__ import annotations
+
+import tomllib
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+
+from harness.delamination.reproduce import basics, findings
+from harness.delamination.reproduce.findings import Evidence
+
+FILE = Path(__file__).with_name("claims.toml")
+MEASURES = findings.MEASURES | basics.MEASURES
+REQUIRED = {"id", "section", "figure", "quote", "number", "measure", "cases"}
+OPTIONAL = {"arguments", "at_least", "at_most", "also", "why"}
+
+
+@dataclass(frozen=True, slots=True)
+class Number:
+    """A number: what it is, and how it is measured."""
+
+    text: str
+    measure: str
+    arguments: Mapping[str, object]
+
+    def of(self, evidence: Evidence) -> float:
+        """Its value."""
+        return float(MEASURES[self.measure](evidence, **self.arguments))
+
+
+@dataclass(frozen=True, slots=True)
+class Claim:
+    """A statement of the paper and the number that decides on it."""
+
+    id: str
+    section: str
+    figure: str
+    quote: str
+    number: Number
+    at_least: float | None
+    at_most: float | None
+    cases: tuple[str, ...]
+    also: tuple[Number, ...]
+    why: str
+
+    @property
+    def limits(self) -> str:
+        """What the number has to be."""
+        low = "" if self.at_least is None else f"at least {self.at_least:g}"
+        high = "" if self.at_most is None else f"at most {self.at_most:g}"
+        return ", ".join(filter(None, (low, high)))
+
+    def holds(self, value: float) -> bool:
+        """Whether a value is within the limits; not a number is not."""
+        low = self.at_least is None or value >= self.at_least
+        high = self.at_most is None or value <= self.at_most
+        return low and high
+
+
+@dataclass(frozen=True, slots=True)
+class Verdict:
+    """A claim with our numbers."""
+
+    claim: Claim
+    value: float
+    also: tuple[tuple[str, float], ...]
+
+    @property
+    def reproduced(self) -> bool:
+        """Whether our number is what the statement wants."""
+        return self.claim.holds(self.value)
+
+
+def read_claims(file: Path = FILE) -> list[Claim]:
+    """All claims.
+
+    Raises
+    ------
+    ValueError
+        A claim lacks an entry, has one that is not known, or names no measure of ours.
+    """
+    entries = tomllib.loads(file.read_text(encoding="utf-8"))["claim"]
+    return [_claim(entry, f"{file.name}: {entry.get('id')}") for entry in entries]
+
+
+def _claim(entry: Mapping[str, object], place: str) -> Claim:
+    given = set(entry)
+    if not given >= REQUIRED or given - REQUIRED - OPTIONAL or not given & {"at_least", "at_most"}:
+        wanted = ", ".join(sorted(REQUIRED))
+        raise ValueError(f"{place}: expected {wanted}, and at_least or at_most; {', '.join(sorted(OPTIONAL))} may be")
+    texts = {name: str(entry[name]) for name in ("id", "section", "figure", "quote")}
+    low, high = (None if entry.get(name) is None else float(str(entry[name])) for name in ("at_least", "at_most"))
+    also, cases = entry.get("also", []), entry["cases"]
+    assert isinstance(also, Sequence)
+    assert isinstance(cases, Sequence)
+    return Claim(
+        **texts,
+        number=_number(entry, place),
+        at_least=low,
+        at_most=high,
+        cases=tuple(cases),
+        also=tuple(_number(other, place) for other in also),
+        why=str(entry.get("why", "")),
+    )
+
+
+def _number(entry: Mapping[str, object], place: str) -> Number:
+    measure, arguments = str(entry["measure"]), entry.get("arguments", {})
+    if measure not in MEASURES:
+        raise ValueError(f"{place}: no measure '{measure}'; there are {', '.join(sorted(MEASURES))}")
+    assert isinstance(arguments, Mapping)
+    return Number(str(entry["number"]), measure, arguments)
+
+
+def judge(claim: Claim, evidence: Evidence) -> Verdict:
+    """Our numbers for a claim."""
+    return Verdict(claim, claim.number.of(evidence), tuple((number.text, number.of(evidence)) for number in claim.also))

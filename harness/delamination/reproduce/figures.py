@@ -1,0 +1,164 @@
+# SPDX-FileCopyrightText: The uel-harness authors
+# SPDX-License-Identifier: BSD-3-Clause
+"""The figures of the paper that show results: 4, 6, 8 to 11, 13 to 16, 18 to 20. Figure 2 is `uel law`."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+
+from harness.delamination.law_report import Exploration, explore
+from harness.delamination.reproduce.beams import RIGID_ROOT, growth
+from harness.delamination.reproduce.cases import ELEMENTS, MOMENTS, Case
+from harness.delamination.reproduce.patch_cases import METHODS, PatchCase
+from harness.delamination.reproduce.runs import Profile, Runs
+from harness.output.plots import Curve, Panel, grid
+
+SHOWN = ("1e4", "1e6", "1e8")
+X = "$X_1$ [mm]"
+TRACTIONS = {"TN": "Normal traction [MPa]", "TT": "Tangential traction [MPa]", "DAMAGE": "Damage"}
+AROUND = {"dcb": (-6.0, 8.0), "enf": (-10.0, 14.0), "frmm": (-6.0, 14.0)}
+"""Stretch about the front of the damage that the profiles show (mm)."""
+CLOSE = {"dcb": (0.5, 4.0), "enf": (-4.0, 4.0), "frmm": (-3.0, 3.0)}
+"""... and the zooms."""
+
+
+def front(profile: Profile) -> float:
+    """Place of the front: the last point whose damage is at least one half, or the first point (mm)."""
+    damaged = profile["DAMAGE"] >= 0.5
+    return float(profile["X"][damaged].max()) if damaged.any() else float(profile["X"].min())
+
+
+def draw_law(folder: Path) -> Path:
+    """Figure 2: both tractions over both separations, at the softest of the stiffnesses, where the rise shows."""
+    asked = Exploration(["ALPHAN=1e4", "ALPHAT=1e4"], surface=True, job="figure_02", output_dir=folder)
+    _, files = explore(asked)
+    return files[-1]
+
+
+def draw_horizontal_patch(runs: Runs, folder: Path) -> Path:
+    """Figure 4: normal traction along a straight and a perturbed horizontal interface."""
+    rows = [[_patch_panel(runs, "horizontal", "0/0", moved) for moved in (False, True)]]
+    rows[0][0] = replace(rows[0][0], y_range=(-1500.0, -500.0))
+    rows[0][1] = replace(rows[0][1], y_range=(-1500.0, -500.0))
+    return grid(rows, folder / "figure_04.png")
+
+
+def draw_inclined_patch(runs: Runs, folder: Path) -> Path:
+    """Figure 6: normal traction along the inclined interface, on straight and on moved nodes."""
+    rows = [[_patch_panel(runs, "inclined", layup, moved) for layup in ("0/0", "0/90")] for moved in (False, True)]
+    return grid(rows, folder / "figure_06.png", share_y=True)
+
+
+def _patch_panel(runs: Runs, shape: str, layup: str, moved: bool) -> Panel:
+    curves = []
+    for element in METHODS:
+        run = runs.patch(PatchCase(shape, layup, element, moved))
+        curves.append(Curve(element, run.profile["X"], run.traction, "marked"))
+    nodes = "perturbed interface" if moved else "straight interface"
+    return Panel(f"[{layup}], {nodes}", curves, X, TRACTIONS["TN"])
+
+
+def draw_loads(runs: Runs, base: Case, path: Path) -> Path:
+    """Figures 8, 13, 18: load over displacement of the stabilised method, [0/0] with theory, [0/90] with COH2D4."""
+    panels = []
+    for layup in ("0/0", "0/90"):
+        curves = [*_theory(base.problem)] if layup == "0/0" else []
+        for stiffness in SHOWN:
+            run = runs[replace(base, layup=layup, stiffness=stiffness)]
+            curves.append(Curve(f"stabilised {stiffness}", run.displacement, run.load))
+        built_in = replace(base, layup=layup, element="COH2D4", stiffness="1e6")
+        if built_in in runs:
+            run = runs[built_in]
+            curves.append(Curve("COH2D4 1e6", run.displacement[::2], run.load[::2], "points"))
+        panels.append(Panel(f"[{layup}]", curves, "Displacement [mm]", "Load [N]"))
+    return grid([panels], path)
+
+
+def _theory(problem: str) -> list[Curve]:
+    corrected, plain = growth(problem), growth(problem, RIGID_ROOT)
+    return [
+        Curve("corrected beam theory", *corrected.with_origin(), "reference"),
+        Curve("LEFM, no end correction", *plain.with_origin(), "reference"),
+    ]
+
+
+def draw_profiles(runs: Runs, base: Case, names: Sequence[str], path: Path) -> Path:
+    """Figures 9, 11, 14, 16, 19, 20: tractions and damage by stiffness; a column for each method."""
+    moment = MOMENTS[base.problem, base.layup]
+    rows = []
+    for name in names:
+        row = []
+        for element in ELEMENTS:
+            profiles = {
+                stiffness: runs[replace(base, element=element, stiffness=stiffness)].at(moment) for stiffness in SHOWN
+            }
+            middle = front(profiles["1e6"])
+            curves = [_curve(f"{stiffness} N/mm³", profile, name) for stiffness, profile in profiles.items()]
+            row.append(_profile_panel(element, curves, name, middle, AROUND[base.problem]))
+        rows.append(row)
+    return grid(rows, path, share_y=True)
+
+
+def draw_perturbed(runs: Runs, base: Case, name: str, path: Path) -> Path:
+    """Figures 10, 15: traction on the perturbed mesh; below, close to the front."""
+    moment = MOMENTS[base.problem, base.layup]
+    rows: list[list[Panel]] = [[], []]
+    for element in ELEMENTS:
+        profile = runs[replace(base, element=element, perturbed=True)].at(moment)
+        plain = runs[replace(base, element=element)].at(moment)
+        curves = [_curve("perturbed mesh", profile, name), _curve("structured mesh", plain, name)]
+        middle = front(plain)
+        for row, stretch in zip(rows, (AROUND, CLOSE), strict=True):
+            row.append(_profile_panel(element, curves, name, middle, stretch[base.problem]))
+    return grid(rows, path)
+
+
+def _curve(label: str, profile: Profile, name: str) -> Curve:
+    return Curve(label, profile["X"], profile[name])
+
+
+def _profile_panel(
+    title: str, curves: Sequence[Curve], name: str, middle: float, stretch: tuple[float, float]
+) -> Panel:
+    low, high = middle + stretch[0], middle + stretch[1]
+    # points outside the range shown would stretch the ordinates
+    cut = []
+    for curve in curves:
+        x, y = np.asarray(curve.x), np.asarray(curve.y)
+        inside = (x >= low) & (x <= high)
+        cut.append(replace(curve, x=x[inside], y=y[inside]))
+    return Panel(title, cut, X, TRACTIONS[name], (low, high))
+
+
+def problem_figures(runs: Runs, problem: str, *, coarse: bool, folder: Path) -> dict[str, Path]:
+    """All result figures of a specimen by the paper's numbers."""
+    base = Case(problem, "0/0", "stabilised", "1e8", coarse=coarse)
+    cross = replace(base, layup="0/90")
+
+    def at(number: int) -> Path:
+        return folder / f"figure_{number:02d}.png"
+
+    drawn: dict[str, dict[int, Callable[[], Path]]] = {
+        "dcb": {
+            8: lambda: draw_loads(runs, base, at(8)),
+            9: lambda: draw_profiles(runs, base, ("TN", "DAMAGE"), at(9)),
+            10: lambda: draw_perturbed(runs, base, "TN", at(10)),
+            11: lambda: draw_profiles(runs, cross, ("TN", "DAMAGE"), at(11)),
+        },
+        "enf": {
+            13: lambda: draw_loads(runs, base, at(13)),
+            14: lambda: draw_profiles(runs, base, ("TT", "DAMAGE"), at(14)),
+            15: lambda: draw_perturbed(runs, base, "TT", at(15)),
+            16: lambda: draw_profiles(runs, cross, ("TT", "DAMAGE"), at(16)),
+        },
+        "frmm": {
+            18: lambda: draw_loads(runs, base, at(18)),
+            19: lambda: draw_profiles(runs, base, ("TN", "TT"), at(19)),
+            20: lambda: draw_profiles(runs, cross, ("TN", "TT"), at(20)),
+        },
+    }
+    return {str(number): draw() for number, draw in drawn[problem].items()}

@@ -1,0 +1,105 @@
+# SPDX-FileCopyrightText: The uel-harness authors
+# SPDX-License-Identifier: BSD-3-Clause
+"""The paper's patch tests, section 4.1."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+from harness.delamination import specimens
+from harness.delamination.blocks import Interface
+from harness.delamination.mesh import TwoArmMesh
+from harness.delamination.patches import BETAS, PLIES, inclined_mesh, inclined_specimen
+from harness.delamination.steps import Increments
+
+# Sliding is soft and never gets near its strength. With the consistent closure beta has to exceed the softening slope,
+# in units of each direction, which a contrast of 1e7 in stiffness makes enormous: a tougher law has a flatter slope.
+LAW = replace(specimens.PATCH_LAW, toughness_2=1.0e6)
+MOVED = -0.03
+"""Distance of the moved nodes from the straight line over the length of an element, to both sides in turns."""
+DISPLACEMENT = -0.1
+# one increment if it converges; where slip over bumps opens and closes points, smaller ones
+INCREMENTS = Increments(initial=1.0, smallest=1e-6, largest=1.0, limit=500)
+METHODS = {"standard": ("U2", False), "stabilised": ("U4", False), "consistent": ("U4", True)}
+
+
+@dataclass(frozen=True, slots=True)
+class PatchCase:
+    """One run of a patch test.
+
+    shape    'horizontal' or 'inclined'
+    layup    '0/0' or '0/90'
+    element  'standard', 'stabilised', 'consistent'
+    moved    the interface nodes are moved by 3 % of an element
+    normal, shear  stiffnesses of the interface (N/mm^3)
+    beta     stabilisation (N/mm^3): None takes the paper's, 0 that of equation (21)
+    """
+
+    shape: str
+    layup: str
+    element: str
+    moved: bool
+    normal: float = LAW.stiffness_normal
+    shear: float = LAW.stiffness_shear
+    beta: float | None = None
+
+    @property
+    def name(self) -> str:
+        """Name of the deck."""
+        words = [self.shape, self.layup.replace("/", "_"), self.element, "moved" if self.moved else "straight"]
+        if (self.normal, self.shear) != (LAW.stiffness_normal, LAW.stiffness_shear):
+            words.append(f"{self.normal:.0e}_{self.shear:.0e}".replace("+", ""))
+        if self.beta is not None:
+            words.append(f"beta{self.beta:.0e}".replace("+", "") if self.beta else "beta21")
+        return "_".join(words)
+
+    @property
+    def fallback(self) -> bool:
+        """Search downhill where Newton's method fails."""
+        return True
+
+    def mesh(self) -> TwoArmMesh:
+        """The mesh."""
+        if self.shape == "inclined":
+            return inclined_mesh(MOVED * self.moved)
+        return specimens.patch_mesh(specimens.PATCH_BUMP * self.moved)
+
+    def files(self) -> dict[str, str]:
+        """Deck `NAME.inp` and the files that it includes."""
+        mesh, mesh_name = self.mesh(), "moved" if self.moved else "straight"
+        kind, consistent = METHODS[self.element]
+        paper = BETAS[self.layup] if self.shape == "inclined" else specimens.PATCH_BETA
+        beta = 0.0 if kind == "U2" else paper if self.beta is None else self.beta
+        law = replace(LAW, stiffness_normal=self.normal, stiffness_shear=self.shear)
+        if self.shear == self.normal:
+            # both directions are stiff: out of reach of the strengths
+            law = replace(law, strength_normal=1.0e6, strength_shear=1.0e6, toughness_1=1.0e9, toughness_2=1.0e9)
+        interface = Interface(kind, law, beta=beta, consistent=consistent)
+        specimen = inclined_specimen(mesh_name, mesh, self.layup, interface)
+        title = f"Patch test, {self.shape} interface, [{self.layup}], {self.element} element" + ", moved" * self.moved
+        deck = specimens.patch_deck(title, specimen, DISPLACEMENT, INCREMENTS, slide=False)
+        nodes = 8 if kind == "U4" else 4
+        return specimens.mesh_files(mesh_name, mesh, (nodes,)) | {f"{self.name}.inp": deck}
+
+
+STIFF = tuple(10.0**exponent for exponent in range(6, 19))
+"""Equal stiffnesses in both directions at which the flat patch is run (N/mm^3)."""
+
+
+def inclined_cases() -> list[PatchCase]:
+    """Figure 6 with beta of the paper, on straight and on moved nodes, and with beta by (21)."""
+    cases = [
+        PatchCase("inclined", layup, element, moved)
+        for layup in PLIES
+        for element in METHODS
+        for moved in (False, True)
+    ]
+    return cases + [PatchCase("inclined", layup, "stabilised", True, beta=0.0) for layup in PLIES]
+
+
+def patch_cases() -> list[PatchCase]:
+    """All patch tests of the paper."""
+    horizontal = [PatchCase("horizontal", "0/0", element, moved) for element in METHODS for moved in (False, True)]
+    horizontal += [PatchCase("horizontal", "0/0", "stabilised", True, beta=beta) for beta in (0.0, 3.0e8, 3.0e12)]
+    flat = [PatchCase("horizontal", "0/0", element, False, a, a) for element in METHODS for a in STIFF]
+    return [*horizontal, *inclined_cases(), *flat]

@@ -1,0 +1,198 @@
+# SPDX-FileCopyrightText: The uel-harness authors
+# SPDX-License-Identifier: BSD-3-Clause
+"""Runs of the cases, kept on disk, and what is read from them."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import asdict, dataclass
+from functools import cached_property
+from pathlib import Path
+
+import numpy as np
+from rich.console import Console
+
+from harness.delamination.batch import Store, complete, run_deck
+from harness.delamination.reproduce.cases import Case
+from harness.delamination.reproduce.patch_cases import PatchCase
+from harness.delamination.study.rows import at_tenths, bonded_part
+from harness.errors import UelError
+from harness.model.arrays import FloatArray
+from harness.output import Result
+
+AnyCase = Case | PatchCase
+Profile = dict[str, FloatArray]
+
+
+@dataclass(frozen=True, slots=True)
+class Entry:
+    """How a run ended.
+
+    stopped   why it went no further; empty for a run that finished
+    increments, iterations, cutbacks  iterations of attempts given up included
+    seconds   wall-clock time
+    """
+
+    stopped: str
+    increments: int
+    iterations: int
+    cutbacks: int
+    seconds: float
+
+    def to_json(self) -> dict[str, object]:
+        """Entries by name."""
+        return asdict(self)
+
+    @classmethod
+    def from_json(cls, entries: Mapping[str, object]) -> Entry:
+        """Entry of the mapping that `to_json` gave."""
+        return cls(**entries)  # type: ignore[arg-type]
+
+    def __str__(self) -> str:
+        end = f"stopped: {self.stopped}" if self.stopped else "finished"
+        counts = f"{self.increments} increments, {self.iterations} iterations, {self.cutbacks} cutbacks"
+        return f"{end}, {counts}, {self.seconds:.0f} s"
+
+
+class Run:
+    """One run, read from its files.
+
+    Loads and displacements are positive in the direction of loading and start at 0, before the first increment.
+    """
+
+    def __init__(self, case: Case, entry: Entry, folder: Path) -> None:
+        self.case = case
+        self.entry = entry
+        self._result = Result(folder / case.name / case.name)
+
+    @cached_property
+    def history(self) -> dict[str, FloatArray]:
+        """Columns of the history."""
+        return self._result.history
+
+    @cached_property
+    def displacement(self) -> FloatArray:
+        """Displacement of the loaded node (mm)."""
+        return self._column("U2")
+
+    @cached_property
+    def load(self) -> FloatArray:
+        """Load (N)."""
+        return self._column("RF2")
+
+    def _column(self, name: str) -> FloatArray:
+        kind = self.case.kind
+        return np.concatenate([[0.0], kind.sign * self.history[f"{name}[{kind.load}]"]])
+
+    @property
+    def peak(self) -> tuple[float, float]:
+        """Largest load before the end of the crack's way, where it rises again, and its displacement: N, mm."""
+        k = self.peak_index
+        return float(self.load[k]), float(self.displacement[k])
+
+    @cached_property
+    def peak_index(self) -> int:
+        """Index of the first load that is followed by a fall of a twentieth."""
+        highest = np.maximum.accumulate(self.load)
+        fallen = np.flatnonzero(self.load < 0.95 * highest)
+        return int(self.load[: fallen[0] if fallen.size else None].argmax())
+
+    @cached_property
+    def profiles(self) -> list[Profile]:
+        """Profiles along the interface, in time."""
+        return self._result.interfaces()
+
+    def at(self, displacement: float) -> Profile:
+        """The profile nearest to a displacement (mm)."""
+        times = np.array([profile["time"][0] for profile in self.profiles])
+        return self.profiles[int(np.argmin(np.abs(times * self.case.displacement - displacement)))]
+
+    @cached_property
+    def bonded(self) -> list[Profile]:
+        """Process zone and bonded part at every tenth of the displacement."""
+        return [bonded_part(profile) for profile in at_tenths(self.profiles)]
+
+
+class PatchRun:
+    """One run of a patch test."""
+
+    def __init__(self, case: PatchCase, entry: Entry, folder: Path) -> None:
+        self.case = case
+        self.entry = entry
+        self._result = Result(folder / case.name / case.name)
+
+    @cached_property
+    def profile(self) -> Profile:
+        """Profile along the interface at the end."""
+        return self._result.interface()
+
+    @property
+    def traction(self) -> FloatArray:
+        """Normal traction at the integration points (MPa)."""
+        return self.profile["TN"]
+
+    def displacements(self) -> tuple[FloatArray, FloatArray]:
+        """Places and displacements of all nodes (n, 2), in mm."""
+        return self._result.mesh().points[:, :2], self._result.field("U")[:, :2]
+
+
+class Runs:
+    """All runs by their cases."""
+
+    def __init__(self, entries: Mapping[AnyCase, Entry], folder: Path) -> None:
+        self._entries = entries
+        self._folder = folder
+        self._read: dict[AnyCase, Run | PatchRun] = {}
+
+    def __contains__(self, case: AnyCase) -> bool:
+        return case in self._entries
+
+    def entries(self) -> dict[AnyCase, Entry]:
+        """How the runs ended."""
+        return dict(self._entries)
+
+    def deck(self, case: AnyCase) -> Path:
+        """The deck that was run."""
+        return self._folder / case.name / f"{case.name}.inp"
+
+    def __getitem__(self, case: Case) -> Run:
+        """Run of a delamination test."""
+        run = self._read.get(case)
+        if run is None:
+            run = self._read[case] = Run(case, self._entry(case), self._folder)
+        assert isinstance(run, Run)
+        return run
+
+    def patch(self, case: PatchCase) -> PatchRun:
+        """Run of a patch test."""
+        run = self._read.get(case)
+        if run is None:
+            run = self._read[case] = PatchRun(case, self._entry(case), self._folder)
+        assert isinstance(run, PatchRun)
+        return run
+
+    def _entry(self, case: AnyCase) -> Entry:
+        if case not in self._entries:
+            raise UelError(f"{case.name}: this case was not run")
+        return self._entries[case]
+
+
+def run_case(case: AnyCase, folder: Path) -> Entry:
+    """Run a case in a folder of its name below `folder`."""
+    outcome = run_deck(case, folder, fallback=case.fallback, fields=isinstance(case, PatchCase))
+    status = outcome.result.status
+    return Entry(
+        stopped=outcome.stopped,
+        increments=sum(not line.cutback for line in status),
+        iterations=sum(line.total_iterations for line in status),
+        cutbacks=sum(line.cutback for line in status),
+        seconds=outcome.seconds,
+    )
+
+
+def run_cases(cases: Sequence[AnyCase], folder: Path, workers: int, console: Console) -> Runs:
+    """Run the cases that `folder` does not hold, on several processes, each kept as it ends."""
+    store = Store(folder / "runs.json", Entry.from_json)
+    place = folder / "runs"
+    entries = complete(cases, store, run_case, place, workers=workers, console=console, describe=str)
+    return Runs(entries, place)

@@ -1,0 +1,184 @@
+# SPDX-FileCopyrightText: The uel-harness authors
+# SPDX-License-Identifier: BSD-3-Clause
+"""What the result depends on: mesh, increments, stiffness, strength, sampling, integration rule, stabilisation."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from pathlib import Path
+
+from harness.delamination.oscillation import oscillation_index
+from harness.delamination.reproduce.cases import Case
+from harness.delamination.reproduce.runs import Run, Runs
+from harness.delamination.study.cases import STIFFNESSES
+from harness.delamination.study.rows import STRENGTHS, at_tenths, damage_variation
+from harness.output.plots import Curve, Panel, grid
+
+CONSISTENT = ("consistent", "inf")
+METHODS = (("standard", "1e6"), ("stabilised", "1e8"), CONSISTENT)
+"""Element and stiffness of the rows: the standard one at the stiffness that the paper would choose."""
+HEAD = (
+    *("peak load (N)", "load at the end (N)", "oscillation index", "damage that turns back"),
+    *("iterations", "cutbacks", "end"),
+)
+
+
+@dataclass(frozen=True, slots=True)
+class Study:
+    """One parameter.
+
+    title, parameter  heading, and the parameter with its unit
+    variants  value as shown and case, by label of the curve
+    number    values as numbers for the plot; None where they are names
+    advice    what follows for a user
+    """
+
+    title: str
+    parameter: str
+    variants: dict[str, list[tuple[str, Case]]]
+    number: bool
+    advice: str
+
+    def cases(self) -> list[Case]:
+        """All its cases."""
+        return [case for pairs in self.variants.values() for _, case in pairs]
+
+
+def _bases(problem: str, methods: Sequence[tuple[str, str]], *, coarse: bool) -> dict[str, Case]:
+    return {
+        f"{problem.upper()}, {element} {stiffness}": Case(problem, "0/0", element, stiffness, coarse=coarse)
+        for element, stiffness in methods
+    }
+
+
+def studies(*, coarse: bool) -> list[Study]:
+    """All parameters; with `coarse`, around the coarse meshes and without the finest one."""
+    dcb, enf = (_bases(problem, METHODS, coarse=coarse) for problem in ("dcb", "enf"))
+    sizes = {"dcb": (0.5, 0.25, 0.125, 0.0625), "enf": (1.0, 0.5, 0.25, 0.125)}
+    kept = {name: values[:2] if coarse else values for name, values in sizes.items()}
+    both = dcb | enf
+    return [
+        Study(
+            "Mesh",
+            "length of the elements (mm)",
+            {label: [(f"{s:g}", replace(case, size=s)) for s in kept[case.problem]] for label, case in both.items()},
+            number=True,
+            advice=ADVICE["mesh"],
+        ),
+        Study(
+            "Increments",
+            "number of increments",
+            {label: [(str(n), replace(case, increments=n)) for n in (25, 50, 100, 200)] for label, case in dcb.items()},
+            number=True,
+            advice=ADVICE["increments"],
+        ),
+        Study(
+            "Stiffness",
+            "stiffness (N/mm³)",
+            {
+                f"{problem.upper()}, {element}": [
+                    (name, Case(problem, "0/0", element, name, coarse=coarse))
+                    for name in STIFFNESSES
+                    if name != "inf" or element == "consistent"
+                ]
+                for problem in ("dcb", "enf")
+                for element in ("standard", "stabilised", "consistent")
+            },
+            number=False,
+            advice=ADVICE["stiffness"],
+        ),
+        Study(
+            "Strength",
+            "factor of both strengths",
+            {
+                label: [(f"{f:g}", replace(case, strength=f)) for f in (0.5, 1.0, 1.5)]
+                for label, case in both.items()
+                if "consistent" in label
+            },
+            number=True,
+            advice=ADVICE["strength"],
+        ),
+        Study(
+            "Place where the bulk stress is taken",
+            "sampling",
+            {
+                label: [(name, replace(case, sampling=k)) for k, name in enumerate(("middle", "face", "Gauss point"))]
+                for label, case in both.items()
+                if "standard" not in label
+            },
+            number=False,
+            advice=ADVICE["sampling"],
+        ),
+        Study(
+            "Integration rule",
+            "rule",
+            {
+                label: [(name, replace(case, newton_cotes=k)) for k, name in ((False, "Gauss"), (True, "Newton-Cotes"))]
+                for label, case in (both | _bases("dcb", [("standard", "1e8")], coarse=coarse)).items()
+            },
+            number=False,
+            advice=ADVICE["integration"],
+        ),
+        Study(
+            "Stabilisation",
+            "factor of beta by (21)",
+            {
+                label: [(f"{f:g}", replace(case, beta=f)) for f in (0.1, 0.3, 1.0, 3.0, 10.0)]
+                for label, case in both.items()
+                if "standard" not in label
+            },
+            number=True,
+            advice=ADVICE["beta"],
+        ),
+    ]
+
+
+ADVICE = {
+    "mesh": "Five elements in the process zone are enough for the load: 0.25 mm in mode I, 1 mm in mode II.",
+    "increments": "100 increments; more change the load by less than the saw of single points that fail.",
+    "stiffness": "Consistent element: leave the stiffness out. Standard element: 1e6 N/mm³, by (25).",
+    "strength": "The strengths set the peak where the process zone is long (mode II), and hardly the load after it.",
+    "sampling": "The middle of the face.",
+    "integration": "Gauss for the stabilised elements; Newton-Cotes makes a stiff standard element smoother.",
+    "beta": "Leave beta at 0: equation (21).",
+}
+
+
+def row(run: Run) -> dict[str, float]:
+    """Numbers of a run: those of HEAD but the last."""
+    kind = run.case.kind
+    index = max(oscillation_index(profile[name], STRENGTHS[name]) for profile in run.bonded for name in kind.modes)
+    turns = max(damage_variation(profile["DAMAGE"]) for profile in at_tenths(run.profiles)) - 1.0
+    values = (run.peak[0], float(run.load[-1]), index, turns, run.entry.iterations, run.entry.cutbacks)
+    return dict(zip(HEAD, values, strict=False))
+
+
+def cells(run: Run) -> list[str]:
+    """A line of the table."""
+    peak, last, index, turns, iterations, cutbacks = row(run).values()
+    reached = run.displacement[-1] / run.case.displacement
+    end = "finished" if not run.entry.stopped else f"stopped at {reached:.0%}"
+    counts = f"{iterations:.0f}", f"{cutbacks:.0f}"
+    return [f"{peak:.2f}", f"{last:.2f}", f"{index:.3f}", f"{max(turns, 0.0):.4f}", *counts, end]
+
+
+def draw(study: Study, runs: Runs, path: Path) -> Path:
+    """Peak load and oscillation index over the parameter: a row of panels for each specimen."""
+    rows = []
+    for problem in dict.fromkeys(case.problem for case in study.cases()):
+        panels = []
+        for name in ("peak load (N)", "oscillation index"):
+            curves = [
+                Curve(
+                    label.split(", ")[1],
+                    [float(value) if study.number else value for value, _ in pairs],
+                    [row(runs[case])[name] for _, case in pairs],
+                    "marked",
+                )
+                for label, pairs in study.variants.items()
+                if pairs[0][1].problem == problem
+            ]
+            panels.append(Panel(f"{problem.upper()} [0/0]", curves, study.parameter, name.capitalize()))
+        rows.append(panels)
+    return grid(rows, path)

@@ -1,0 +1,206 @@
+# SPDX-FileCopyrightText: The uel-harness authors
+# SPDX-License-Identifier: BSD-3-Clause
+"""`uel reproduce`: cases, claims, page; that it goes on where it stopped."""
+
+import io
+import math
+import re
+from pathlib import Path
+
+import numpy as np
+import pytest
+from rich.console import Console
+
+from harness import cli
+from harness.delamination import theory
+from harness.delamination.materials import PLY_0, PLY_90, TABLE_2
+from harness.delamination.patches import ANGLE, COLUMNS, inclined_mesh, stabilisation
+from harness.delamination.reproduce import command, findings, patch_cases, sensitivity
+from harness.delamination.reproduce.beams import RIGID_ROOT, growth
+from harness.delamination.reproduce.cases import PROBLEMS, Case, paper_cases
+from harness.delamination.reproduce.claims import Claim, Number, Verdict, judge, read_claims
+from harness.delamination.reproduce.findings import Evidence, to_line
+from harness.delamination.reproduce.page import Content, Table, write_page
+from harness.delamination.reproduce.runs import Runs
+from harness.delamination.specimens import ARMS, CRACK
+from harness.errors import UelError
+
+
+def quiet() -> Console:
+    return Console(file=io.StringIO(), width=200)
+
+
+def test_cases_are_there_once() -> None:
+    cases = [case for problem in PROBLEMS for case in paper_cases(problem)]
+    # 3 specimens, 2 layups, 3 elements; 3 stiffnesses and the perturbed mesh at the stiffest
+    assert len(cases) == len({case.name for case in cases}) == 3 * 2 * 3 * 4
+    everything = [*cases, *patch_cases.patch_cases()]
+    everything += [case for study in sensitivity.studies(coarse=False) for case in study.cases()]
+    different = set(everything)
+    assert len({case.name for case in different}) == len(different)
+
+
+@pytest.mark.parametrize("problem", PROBLEMS)
+def test_quick_decks_are_coarser(problem: str) -> None:
+    fine, coarse = (Case(problem, "0/90", "consistent", "inf", coarse=coarse).mesh() for coarse in (False, True))
+    assert np.diff(coarse.x).min() == pytest.approx(2.0 * np.diff(fine.x).min(), rel=1e-6)
+
+
+def test_deck_of_a_variation() -> None:
+    case = Case("enf", "0/90", "stabilised", "1e8", increments=50, beta=2.0, sampling=1, newton_cotes=True)
+    text = case.files()[f"{case.name}.inp"]
+    names = [n.strip() for line in text.splitlines() if line.startswith("** ") for n in line[3:].split(",")]
+    start = names.index("THICKNESS", names.index("ALPHAN") - 1)
+    values = text.split("*UEL PROPERTY, ELSET=INTERFACE\n")[1].split("*")[0].replace("\n", ",").split(",")
+    given = dict(zip(names[start:], (value.strip() for value in values if value.strip()), strict=False))
+    assert "*STATIC\n0.02, 1., 1e-07, 0.02\n" in text
+    assert (given["SAMPLING"], given["INTEGRATION"], given["CLOSURE"]) == ("1", "1", "0")
+    height = 1.55 / 4.0
+    # (21) and (22) with |D| = E/(1 - nu) of the isotropic ply and, within 1 %, E11 of the other
+    soft, stiff = height * (1.0 - PLY_90.nu12) / PLY_90.e1, height / PLY_0.e1
+    assert float(given["BETAN"]) == pytest.approx(2.0 * 2.0 / (soft + stiff), rel=0.01)
+
+
+def test_stabilisation_of_the_horizontal_patch() -> None:
+    # formulation of the 10 x 10 patch, [0/0], by an independent code: 1.21e6 N/mm^3
+    assert stabilisation(PLY_0, PLY_0, (0.01, 0.01), 0.1) == pytest.approx(1.21e6, rel=2e-3)
+
+
+def test_inclined_interface() -> None:
+    straight, moved = inclined_mesh(), inclined_mesh(0.03)
+    labels, places = straight.nodes()
+    low, high = (places[np.isin(labels, line)] for line in straight.interface_lines)
+    assert (low == high).all()
+    assert len(straight.interface8()) == COLUMNS
+    along = np.diff(low, axis=0)
+    assert np.degrees(np.arctan2(along[:, 1], along[:, 0])) % 180.0 == pytest.approx(ANGLE)
+    assert (places.min(axis=0), places.max(axis=0)) == (pytest.approx([0.0, 0.0]), pytest.approx([1.0, 1.0]))
+    normal = np.array([-along[0, 1], along[0, 0]]) / math.hypot(*along[0])
+    size = math.hypot(*along[0])
+    other = moved.nodes()[1][np.isin(labels, straight.interface_lines[0])]
+    assert (other - low) @ normal / size == pytest.approx([0.03, -0.03] * (COLUMNS // 2 + 1))
+
+
+@pytest.mark.parametrize("problem", PROBLEMS)
+def test_growth_curves_start_at_the_onset(problem: str) -> None:
+    curve = growth(problem)
+    load = {
+        "dcb": theory.dcb_load(ARMS, CRACK, TABLE_2.toughness_1),
+        "enf": theory.enf_load(ARMS, CRACK, TABLE_2.toughness_2),
+        "frmm": theory.frmm_load(ARMS, CRACK, TABLE_2.toughness_1, TABLE_2.toughness_2),
+    }[problem]
+    assert curve.load[0] == pytest.approx(load)
+    # the crack grows steadily under displacement, and the load falls
+    assert (np.diff(curve.displacement) > 0.0).all()
+    assert (np.diff(curve.load) < 0.0).all()
+    assert curve.deviation(curve.displacement, 1.03 * curve.load) == pytest.approx(0.03)
+    # without end corrections the specimen is stiffer and carries more
+    assert RIGID_ROOT.correction < 0.1 * ARMS.correction
+    assert growth(problem, RIGID_ROOT).load[0] > curve.load[0]
+
+
+def test_distance_to_a_curve_with_a_jump() -> None:
+    # two loads that fall at once, at displacements that differ by one increment: 0.01 apart, not 1
+    line = np.array([[0.0, 0.0], [0.5, 1.0], [0.51, 0.0], [1.0, 0.5]])
+    assert to_line(np.array([0.52, 0.5]), line) == pytest.approx(0.015, abs=1e-4)
+    assert to_line(np.array([0.25, 0.5]), line) == 0.0
+
+
+def test_claims_are_well_formed() -> None:
+    claims = read_claims()
+    assert len(claims) >= 20
+    assert len({claim.id for claim in claims}) == len(claims)
+    for claim in claims:
+        assert set(claim.cases) <= set(command.PARTS)
+        assert claim.limits
+        assert len(claim.quote.split()) <= 30, claim.id
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "message"),
+    [
+        ('quote = "a"\n', "", "bad: expected cases, figure, id, measure, number, quote, section, and at_least"),
+        ("at_most = 1\n", "", "bad: expected .* and at_least or at_most"),
+        ('measure = "isotropy"', 'measure = "beauty"', "bad: no measure 'beauty'; there are closed_index"),
+        ('quote = "a"', 'quote = "a"\nmood = 1', "bad: expected"),
+    ],
+)
+def test_bad_claims_are_refused(tmp_path: Path, old: str, new: str, message: str) -> None:
+    good = (
+        '[[claim]]\nid = "bad"\nsection = "1"\nfigure = ""\nquote = "a"\nnumber = "b"\n'
+        'measure = "isotropy"\nat_most = 1\ncases = []\n'
+    )
+    file = tmp_path / "claims.toml"
+    file.write_text(good)
+    assert read_claims(file)[0].at_most == 1.0
+    file.write_text(good.replace(old, new))
+    with pytest.raises(ValueError, match=message):
+        read_claims(file)
+
+
+def claim(low: float | None, high: float | None, figure: str = "") -> Claim:
+    number = Number("a ratio", "modulus_contrast", {})
+    return Claim("x", "1", figure, "<quote>", number, low, high, (), (number,), "because")
+
+
+def test_limits_decide() -> None:
+    assert claim(1.0, None).holds(1.0)
+    assert not claim(1.0, None).holds(0.9)
+    assert claim(1.0, 2.0).limits == "at least 1, at most 2"
+    assert not claim(1.0, 2.0).holds(2.1)
+    assert not claim(1.0, 2.0).holds(math.nan)
+    verdict = judge(claim(11.0, 12.0), Evidence(Runs({}, Path()), coarse=False))
+    assert verdict.reproduced
+    assert verdict.value == pytest.approx(1.2e5 / 1.05e4)
+
+
+def test_page_is_one_file(tmp_path: Path) -> None:
+    picture = tmp_path / "a.png"
+    picture.write_bytes(b"\x89PNG")
+    verdicts = [Verdict(claim(1.0, 2.0, "9"), 3.0, (("more", 4.0),)), Verdict(claim(1.0, None), 3.0, ())]
+    table = Table("Loads & ends", "text", ("a", "b"), [["1", "<2"]], picture)
+    page = write_page(Content(["how"], {"9": picture}, verdicts, [table]), tmp_path / "index.html").read_text()
+    assert "1 of 2 statements reproduced (50%)" in page
+    # the one that is not stands at the head and beside its figure
+    assert page.count("✗ not reproduced") == 2
+    assert page.count("✓ reproduced") == 1
+    assert "&lt;quote&gt;" in page
+    assert "Loads &amp; ends" in page
+    assert set(re.findall(r'(?:src|href)="([^"]{5})', page)) == {"data:"}
+
+
+def test_command_runs_once_and_decides(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(patch_cases, "STIFF", (1.0e6,))
+    monkeypatch.setattr("harness.delamination.reproduce.basics.STIFF", (1.0e6,))
+    verdicts = command.reproduce(["law", "patch"], tmp_path, quick=False, console=quiet(), workers=1)
+    found = {verdict.claim.id: verdict for verdict in verdicts}
+    # prototype of the equations (formulation of the paper's 10 x 10 patch): deviations 168 and 25 MPa of 1050
+    assert found["patch-perturbed-standard"].value == pytest.approx(168.0 / 1050.0, rel=0.01)
+    assert found["patch-perturbed-stabilised"].value == pytest.approx(25.4 / 167.7, rel=0.01)
+    assert found["law-energy-mixed"].value == pytest.approx(1.0, abs=1e-3)
+    assert found["patch-perturbed-stabilised"].reproduced
+    assert not found["patch-beta"].reproduced
+    folder = tmp_path / "full"
+    assert (folder / "figure_06.png").read_bytes().startswith(b"\x89PNG")
+    assert "patch-beta" in (folder / "claims.csv").read_text()
+    before = (folder / "runs.json").stat().st_mtime_ns
+    command.reproduce(["law", "patch"], tmp_path, quick=False, console=quiet(), workers=1)
+    assert (folder / "runs.json").stat().st_mtime_ns == before
+
+
+def test_missing_runs_are_named() -> None:
+    with pytest.raises(UelError, match="enf_0_0_standard_1e6: this case was not run"):
+        findings.energy_error(Evidence(Runs({}, Path()), coarse=False), "enf", "standard", ["1e6"])
+
+
+def test_unknown_case_is_named(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    assert cli.main(["reproduce", "dbc", "--output-dir", str(tmp_path)]) == 1
+    expected = "uel: no case 'dbc'; there are law, patch, dcb, enf, frmm, sensitivity"
+    assert expected in capsys.readouterr().err
+
+
+@pytest.mark.long
+def test_quick_reproduction(tmp_path: Path) -> None:
+    verdicts = command.reproduce([], tmp_path, quick=True, console=quiet())
+    assert sum(verdict.reproduced for verdict in verdicts) >= 0.8 * len(verdicts)
+    assert len(list((tmp_path / "quick").glob("figure_*.png"))) >= 20
