@@ -11,7 +11,7 @@ subroutine host_evaluate(address, options, lflags, clock, labels, jprops, equati
   use host_kinds, only: dp, i4, i8
   implicit none (type, external)
   integer(i8), intent(in) :: address          !< of UEL or UELMAT
-  integer(i4), intent(in) :: options(7)       !< material, tensor, jtype, symmetric, want_matrix, kstep, kinc
+  integer(i4), intent(in) :: options(8)       !< material, tensor, jtype, symmetric, want_matrix, kstep, kinc, guards
   integer(i4), intent(in) :: lflags(5)
   real(dp), intent(in) :: clock(7)            !< step time, total time, time increment, period, PARAMS
   integer(i4), intent(in) :: ndofel, nsvars, nprops, njprop, mcrd, nnode, m, n, nrhs, nnz, values, points
@@ -34,6 +34,7 @@ subroutine host_evaluate(address, options, lflags, clock, labels, jprops, equati
   block%want_residual = any(lflags(3) == [1, 5, 6, 100])
   block%kstep = options(6)
   block%kinc = options(7)
+  block%guards = options(8)
   block%lflags = lflags
   block%time = clock(1:2)
   block%dtime = clock(3)

@@ -20,11 +20,17 @@ module host_driver
   integer(i4), parameter :: fault_unset = 3       !< an entry was not set
   integer(i4), parameter :: fault_not_finite = 4  !< an entry is NaN or infinite
 
+  integer(i4), parameter :: guards_stop = 0       !< a write outside an array ends the pass; the element is searched for
+  integer(i4), parameter :: guards_notice = 1     !< it is noticed after the pass
+  integer(i4), parameter :: guards_search = 2     !< it is looked for after each element
+  integer(i4), parameter :: guards_ignore = 3     !< it is of no interest
+
   !> One pass over a block: what is called, with what, and where the results go. Arrays belong to the caller.
   type :: block_t
     type(c_funptr) :: address
     logical :: with_material = .false.   !< call with UELMAT's 37 arguments
     logical :: symmetric = .false.       !< assemble (A + A^T)/2
+    integer(i4) :: guards = guards_stop  !< one of guards_*
     logical :: want_matrix = .false.     !< check and assemble AMATRX
     logical :: want_residual = .false.   !< check and assemble RHS
     integer(i4) :: material = 0, tensor = 0, jtype = 0, kstep = 0, kinc = 0
@@ -47,7 +53,8 @@ module host_driver
     real(dp) :: pnewdt = 0                !< smallest returned
     real(dp) :: energy_sum(8) = 0
     integer(i4) :: fault = fault_none     !< one of fault_*
-    integer(i4) :: position = 0           !< element of the fault, from 1
+    integer(i4) :: position = 0           !< element of the fault, from 1; 0 if it is not known
+    integer(i4) :: culprit = 0            !< first element that wrote outside an array, with guards_search
     integer(i4) :: array = 0, index = 0   !< array (number in host_workspace) and entry of the fault
     procedure(uel_procedure), pointer, nopass :: uel => null()
     procedure(uelmat_procedure), pointer, nopass :: uelmat => null()
@@ -61,7 +68,8 @@ module host_driver
 
 contains
 
-  !> Run a pass. On a fault, fault, position, array and index say what happened and the sums are worthless.
+  !> Run a pass. On a fault, fault, position, array and index say what happened and the sums are worthless, except with a
+  !> block that goes on after a write outside an array: its sums are those of the pass.
   subroutine run_block(block)
     type(block_t), intent(inout), target :: block
     integer :: array, index
@@ -73,11 +81,12 @@ contains
     call prepare(block)
     if (protect(c_funloc(loop), c_loc(block)) /= 0) block%fault = fault_left
     call find_damage(work, array, index)
-    if (array > 0) call diagnose(block, array, index)
+    if (array > 0 .and. block%guards == guards_stop) call diagnose(block, array, index)
+    if (block%guards /= guards_stop) call notice(block, array, index)
     current%element = 0
   end subroutine run_block
 
-  !> Workspace and context of this block. PREDEF and column 2 of DU are zero throughout.
+  !> Workspace and context of this block, guards whole. PREDEF and column 2 of DU are zero throughout.
   subroutine prepare(block)
     type(block_t), intent(in) :: block
     integer :: length(n_arrays), ndofel, nnode
@@ -115,13 +124,21 @@ contains
   !> All elements of the block, until a fault.
   subroutine all_elements(block)
     type(block_t), intent(inout) :: block
-    integer :: e, ndofel
+    integer :: e, ndofel, array, index
     ndofel = size(block%equations, 1)
     block%pnewdt = untouched
     block%energy_sum = 0
     do e = 1, size(block%labels)
       block%position = e
       call call_element(block, e)
+      if (block%guards == guards_search .and. block%culprit == 0) then
+        call find_damage(work, array, index)
+        if (array > 0) then
+          block%culprit = e
+          block%array = array
+          block%index = index
+        end if
+      end if
       if (block%want_residual) then
         call check(block, i_rhs, work%length(i_rhs))
         if (block%fault /= fault_none) return
@@ -262,6 +279,24 @@ contains
     if (protect(c_funloc(search), c_loc(block)) /= 0) call look(block)
     call arm_guards(work)
   end subroutine diagnose
+
+  !> Report damage, unless the pass has ended with another fault. Which element did it is known only where each one was
+  !> looked at.
+  subroutine notice(block, array, index)
+    type(block_t), intent(inout) :: block
+    integer, intent(in) :: array, index
+    if (array > 0) call arm_guards(work)
+    if (block%fault /= fault_none) return
+    if (block%guards == guards_notice .and. array > 0) then
+      block%fault = fault_outside
+      block%position = 0
+      block%array = array
+      block%index = index
+    else if (block%guards == guards_search .and. block%culprit > 0) then
+      block%fault = fault_outside
+      block%position = block%culprit
+    end if
+  end subroutine notice
 
   !> Second run over the block.
   subroutine search(context) bind(c)

@@ -18,9 +18,9 @@ module host_workspace
   character(len=6), parameter :: arrays(n_arrays) = [character(len=6) :: &
     'RHS', 'AMATRX', 'SVARS', 'ENERGY', 'PROPS', 'COORDS', 'U', 'DU', 'V', 'A', 'PREDEF']
 
-  !> Least entries of a guard; what belongs to the array behind it, and to the one before.
-  integer, parameter :: guard = 200
-  integer, parameter :: behind = 100, before = guard - behind
+  !> Entries of a guard that belong to the array behind it; to the one before belong as many as that has, within limits, so
+  !> that a routine that takes an array for twice as large meets the guard and not the next array.
+  integer, parameter :: before = 100, least = 100, most = 20000
   !> Entries of a cache line: each array starts on one, or its place would decide how fast an element runs.
   integer, parameter :: line = 8
 
@@ -28,6 +28,7 @@ module host_workspace
     real(dp), allocatable :: memory(:)
     integer :: length(n_arrays) = 0   !< entries of each array
     integer :: start(n_arrays) = 0    !< position of the first entry of each array
+    integer :: behind(n_arrays) = 0   !< entries of its guard behind it
   end type workspace_t
 
 contains
@@ -44,13 +45,15 @@ contains
       return
     end if
     if (allocated(work%memory)) deallocate (work%memory)
-    allocate (work%memory(sum(length) + (n_arrays + 1)*(guard + line)), source=0.0_dp)
-    ! entries from the beginning of the memory to its first cache line
-    total = int(modulo(-transfer(c_loc(work%memory), 0_c_intptr_t)/8, int(line, c_intptr_t))) + guard
+    work%behind = min(max(length, least), most)
+    allocate (work%memory(sum(length + work%behind) + (n_arrays + 1)*(before + line)), source=0.0_dp)
+    ! entries from the beginning of the memory to its first cache line, and whole lines before the first array
+    total = int(modulo(-transfer(c_loc(work%memory), 0_c_intptr_t)/8, int(line, c_intptr_t)))
+    total = total + before + modulo(-before, line)
     do k = 1, n_arrays
       work%start(k) = total + 1
-      total = total + length(k) + guard
-      total = total + modulo(-length(k) - guard, line)
+      total = total + length(k) + work%behind(k) + before
+      total = total + modulo(-length(k) - work%behind(k) - before, line)
     end do
     work%length = length
     call arm_guards(work)
@@ -69,13 +72,13 @@ contains
   end subroutine arm_guards
 
   !> First array with a changed guard, and the index written, counted from the array's first entry (1);
-  !> array 0 if all is well. The half of a guard behind an array belongs to it, the other half to the next array.
+  !> array 0 if all is well.
   subroutine find_damage(work, array, index)
     type(workspace_t), intent(in) :: work
     integer, intent(out) :: array, index
     integer :: k, position
     do k = 1, n_arrays
-      position = first_difference(behind, guard_bits, work%memory(work%start(k) + work%length(k)))
+      position = first_difference(work%behind(k), guard_bits, work%memory(work%start(k) + work%length(k)))
       array = k
       index = work%length(k) + position
       if (position > 0) return

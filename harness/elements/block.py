@@ -17,7 +17,7 @@ from harness.model.arrays import FloatArray, IntArray
 from harness.model.mesh import ElementGroup
 from harness.model.records import ElementState, PointVariables
 from harness.usersub import Library, _binding
-from harness.usersub._binding import Fault
+from harness.usersub._binding import Fault, Guards, Options
 
 NORMAL: Final = 1
 """LFLAGS(3) of a normal call."""
@@ -65,6 +65,7 @@ class Block:
 
     unknowns     (local node, dof) of each element unknown, in the order of U and RHS
     unsymmetric  False: (A + A^T)/2 is assembled
+    strict       a write outside an array is an error, else a warning
     variables    meaning of the state's SVARS, None where unknown; those of a point of a built-in element go on with
                  STATEV and UVAR
     """
@@ -79,6 +80,7 @@ class Block:
         *,
         unsymmetric: bool,
         variables: PointVariables | None,
+        strict: bool = True,
     ) -> None:
         self.group = group
         self.unknowns = unknowns
@@ -87,6 +89,8 @@ class Block:
         self._coordinates = coordinates
         self._procedure = procedure
         self._library = library
+        self._guards = Guards.STOP if strict else Guards.NOTICE
+        self._noticed: _binding.Outcome | None = None
         m, n = len(group.labels), len(unknowns)
         svars = np.zeros((m, procedure.svars))
         energy = np.zeros((m, 8))
@@ -169,7 +173,9 @@ class Block:
             _NO_MATRIX if matrix is None else matrix,
         )
         self._last = call
-        if outcome.fault is not Fault.NONE:
+        if self._guards is not Guards.STOP and outcome.fault in (Fault.NONE, Fault.OUTSIDE):
+            self._warn(outcome, residual.ndim, call)
+        elif outcome.fault is not Fault.NONE:
             raise self._error(outcome, residual.ndim, call)
         return BlockReport(outcome.flux @ self._by_field, self._flux_count, outcome.pnewdt, outcome.energy)
 
@@ -179,10 +185,10 @@ class Block:
         options = self._options(call, assemble=False)
         _binding.bare_loop(self._procedure.address, options, call.lflags, clock, self._arrays, u, du, residual)
 
-    def _options(self, call: Call, *, assemble: bool) -> tuple[int, int, int, int, int, int, int]:
+    def _options(self, call: Call, *, assemble: bool) -> Options:
         p = self._procedure
         symmetric = int(not self.unsymmetric)
-        return p.material, p.tensor, p.jtype, symmetric, int(assemble), call.step, call.increment
+        return p.material, p.tensor, p.jtype, symmetric, int(assemble), call.step, call.increment, self._guards
 
     def commit(self) -> None:
         """End of a converged increment: the state of the last normal call becomes the committed one, then UVARM.
@@ -244,6 +250,16 @@ class Block:
             case _:
                 message = f"{self._entry(outcome)} is NaN or infinite"
         return KernelError(element, self.group.type, f"{message} (step {call.step}, increment {call.increment})")
+
+    def _warn(self, outcome: _binding.Outcome, nrhs: int, call: Call) -> None:
+        """Report a write outside an array once; the run goes on, and the next pass looks which element it is."""
+        if self._guards is Guards.SEARCH:
+            self._guards = Guards.IGNORE
+            found = outcome if outcome.fault is Fault.OUTSIDE else self._noticed
+            assert found is not None
+            self._library.warn(f"{self._error(found, nrhs, call)}; the run goes on, on arrays with room behind them")
+        elif outcome.fault is Fault.OUTSIDE:
+            self._guards, self._noticed = Guards.SEARCH, outcome
 
     def _entry(self, outcome: _binding.Outcome) -> str:
         column, row = divmod(outcome.index - 1, len(self.unknowns))

@@ -42,12 +42,15 @@ POINT_NAMES: Final = ("E11", "E22", "E33", "E12", "S11", "S22", "S33", "S12")
 """SVARS of a point of a built-in element."""
 
 
-def build_blocks(model: Model, library: Library) -> list[Block]:
-    """One block per group of the model, in the same order. Raises DeckError."""
+def build_blocks(model: Model, library: Library, *, strict: bool = True) -> list[Block]:
+    """One block per group of the model, in the same order. Raises DeckError.
+
+    strict: a user element that writes outside an array is an error, else a warning.
+    """
     blocks = []
     for group in model.groups:
         if group.definition is not None:
-            blocks.append(_user_block(model, group, group.definition, library))
+            blocks.append(_user_block(model, group, group.definition, library, strict=strict))
         elif group.type.upper() in BUILT_IN:
             blocks.append(_built_in_block(model, group, library))
         else:
@@ -58,7 +61,7 @@ def build_blocks(model: Model, library: Library) -> list[Block]:
     return blocks
 
 
-def _user_block(model: Model, group: ElementGroup, definition: UserElement, library: Library) -> Block:
+def _user_block(model: Model, group: ElementGroup, definition: UserElement, library: Library, *, strict: bool) -> Block:
     section = group.section
     if not isinstance(section, UserProperty):
         raise DeckError(section.source, f"*SOLID SECTION cannot be used for user elements ({group.type})")
@@ -91,6 +94,7 @@ def _user_block(model: Model, group: ElementGroup, definition: UserElement, libr
         library,
         unsymmetric=definition.unsymmetric,
         variables=variables,
+        strict=strict,
     )
 
 

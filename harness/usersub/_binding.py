@@ -31,6 +31,19 @@ ARRAYS: Final = ("RHS", "AMATRX", "SVARS", "ENERGY", "PROPS", "COORDS", "U", "DU
 """Guarded arrays, in the order of fortran/host/host_workspace.f90."""
 
 
+Options = tuple[int, int, int, int, int, int, int, int]
+"""As host_evaluate in fortran/host/entry.f90 names them."""
+
+
+class Guards(IntEnum):
+    """What a write outside an array does to a pass (fortran/host/host_driver.f90)."""
+
+    STOP = 0
+    NOTICE = 1
+    SEARCH = 2
+    IGNORE = 3
+
+
 class Fault(IntEnum):
     """What went wrong in a pass over a block (fortran/host/host_driver.f90)."""
 
@@ -91,7 +104,7 @@ class RawMessage:
 
 def evaluate(
     address: int,
-    options: tuple[int, int, int, int, int, int, int],
+    options: Options,
     lflags: tuple[int, int, int, int, int],
     clock: tuple[float, ...],
     arrays: BlockArrays,
@@ -136,7 +149,7 @@ def evaluate(
 
 def bare_loop(
     address: int,
-    options: tuple[int, int, int, int, int, int, int],
+    options: Options,
     lflags: tuple[int, int, int, int, int],
     clock: tuple[float, float, float, float],
     arrays: BlockArrays,

@@ -69,6 +69,10 @@ class Library:
         """Texts of user routines since the last call: STDB_ABQERR, then what was printed to units 6 and 7."""
         return self._inbox.take()
 
+    def warn(self, text: str) -> None:
+        """Add a warning of our own to the messages."""
+        self._inbox.warn(text)
+
     def close(self) -> None:
         """End of the job: disconnect units 6 and 7."""
         self._inbox.close()

@@ -58,6 +58,10 @@ class Inbox:
         self._collect()
         return next((m.text for m in reversed(self._sent) if m.kind == "error"), "")
 
+    def warn(self, text: str) -> None:
+        """Add a warning of the harness."""
+        self._sent.append(Message(".msg", "warning", text))
+
     def close(self) -> None:
         """Disconnect the units; remove their files unless they hold text that nobody took."""
         if Inbox._current is self:

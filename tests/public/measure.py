@@ -83,7 +83,7 @@ def _records(root: Path, row: Row) -> Iterator[tuple[Model, Any]]:
     with tempfile.TemporaryDirectory() as output:
         library = usersub.load([root / name for name in row["sources"]], job="job", output_dir=Path(output), deck=deck)
         try:
-            system = System(model.mesh, build_blocks(model, library), model.equations)
+            system = System(model.mesh, build_blocks(model, library, strict=False), model.equations)
             for record in run_steps(system, model, library):
                 library.messages()
                 yield model, record

@@ -3,12 +3,15 @@
 """The block driver with small user elements: what they are given, and what becomes of what they return."""
 
 from dataclasses import replace
+from pathlib import Path
 
 import numpy as np
 import pytest
 
+import harness
 from harness.errors import KernelError
 
+HERE = Path(__file__).parent
 ROW = np.array([[0.0, 0, 0], [1, 0, 0], [2, 0, 0]])
 SPRING = ((0, 1), (1, 1))
 
@@ -184,3 +187,40 @@ def test_messages_are_kept_with_their_place(run):
         (".msg", "error", "an error of 0.125000", 102, 1, 4),
     ]
     assert library.messages() == []
+
+
+OUTSIDE = """\
+*USER ELEMENT, TYPE=U1, NODES=2, I PROPERTIES=1, VARIABLES=2
+1
+*NODE
+1, 0.
+2, 1.
+3, 2.
+*ELEMENT, TYPE=U1, ELSET=ALL
+101, 1, 2
+102, 2, 3
+*UEL PROPERTY, ELSET=ALL
+{option}
+*STEP
+*STATIC, DIRECT
+0.25, 1.
+*BOUNDARY
+1, 1
+3, 1, 1, 1.
+*END STEP
+"""
+
+
+def test_a_job_goes_on_after_a_write_outside_an_array(tmp_path):
+    """The write is reported once, with its element; the results are those of the element that stays inside."""
+    results = {}
+    for option in (0, 1):
+        deck = tmp_path / f"outside{option}.inp"
+        deck.write_text(OUTSIDE.format(option=option))
+        results[option] = harness.run(deck, HERE / "faults.f", output_dir=tmp_path)
+    np.testing.assert_array_equal(results[1].field("U"), results[0].field("U"))
+    assert len(results[1].status) == 4
+    text = " ".join(results[1].file(".msg").read_text().split())
+    assert text.count("writes outside SVARS: entry 5 of 2 (VARIABLES=)") == 1
+    assert "***WARNING: element 102 (type U1): writes outside SVARS" in text
+    assert "writes outside" not in results[0].file(".msg").read_text()
