@@ -4,11 +4,12 @@
 module abaqus_check
   use core_kinds, only: dp
   use core_status, only: status_type, sentence, too_brittle, zero_length, edges_apart, small_beta, &
-    too_brittle_mixed
+    too_brittle_mixed, late_secant
   use abaqus_layout, only: elements, reals, integer_item, &
     continuum_integers, standard_integers, four_node_integers, eight_node_integers, &
-    positive, not_negative, below_one, up_to_one, exponent, estimated, any_integer, p_alphan, p_alphat, p_gic, p_giic, &
-    p_betan, p_betat, p_friction, j_four_closure, j_eight_closure
+    positive, not_negative, below_one, up_to_one, exponent, estimated, above_one, any_integer, p_alphan, p_alphat, p_gic, p_giic, &
+    p_betan, p_betat, p_shapen, p_shapet, p_friction, j_law, j_four_closure, j_eight_closure
+  use cohesive_parameters, only: ppr_law
   use abaqus_report, only: fatal
   implicit none(type, external)
   private
@@ -83,6 +84,8 @@ contains
         good = props(i) >= 0.0_dp .and. props(i) <= 1.0_dp
       case (exponent)
         good = props(i) >= 0.5_dp .or. abs(props(i)) <= 0.0_dp
+      case (above_one)
+        good = props(i) > 1.0_dp .or. abs(props(i)) <= 0.0_dp
       case default
         good = abs(props(i)) <= huge(1.0_dp)
       end select
@@ -112,6 +115,8 @@ contains
       text = 'zero or a value between 0 and 1'
     case (exponent)
       text = 'zero or at least 0.5'
+    case (above_one)
+      text = 'zero or more than 1'
     case default
       text = 'a finite value'
     end select
@@ -155,13 +160,13 @@ contains
   end function integers_are_good
 
   !> True if what the consistent closure alone can do is asked of it alone: an initial stiffness that is infinite (0), in
-  !> both directions, and friction.
+  !> both directions, and friction. Nor is it asked for a PPR law that falls infinitely fast at its end.
   function closure_is_good(jtype, jelem, props, jprops) result(good)
     integer, intent(in) :: jtype, jelem
     real(dp), intent(in) :: props(*)
     integer, intent(in) :: jprops(*)
     logical :: good
-    integer, parameter :: positions(2) = [p_alphan, p_alphat]
+    integer, parameter :: positions(2) = [p_alphan, p_alphat], shapes(2) = [p_shapen, p_shapet]
     logical :: infinite
     integer :: i
 
@@ -179,6 +184,14 @@ contains
     good = closure_of(jtype, jprops) == 1 .or. .not. props(p_friction) > 0.0_dp
     if (.not. good) call fatal(jtype, jelem, 'PROPS(%I) ' // trim(reals(p_friction)%name) // ' = %R goes with ' // &
       'CLOSURE = 1, else 0 is expected', [p_friction], [props(p_friction)])
+    if (.not. good .or. closure_of(jtype, jprops) == 0 .or. jprops(j_law) /= ppr_law) return
+    do i = 1, 2
+      good = props(shapes(i)) >= 2.0_dp .or. .not. props(shapes(i)) > 0.0_dp
+      if (good) cycle
+      call fatal(jtype, jelem, 'PROPS(%I) ' // trim(reals(shapes(i))%name) // ' = %R: with CLOSURE = 1 zero or ' // &
+        'at least 2 is expected; below, the law falls infinitely fast at its end', [shapes(i)], [props(shapes(i))])
+      return
+    end do
   end function closure_is_good
 
   !> CLOSURE of an interface element; the standard one has but the paper's.
@@ -209,7 +222,7 @@ contains
       if (status%item == 2) side = 'top'
     end if
     select case (status%code)
-    case (too_brittle)
+    case (too_brittle, late_secant)
       position = merge(p_gic, p_giic, status%item == 1)
       call fatal(jtype, jelem, 'PROPS(%I) ' // trim(reals(position)%name) // ' = %R, ' // &
         trim(sentence(status%code)) // '; more than %R is expected', [position], [status%value, status%expected])

@@ -5,16 +5,18 @@ module abaqus_interface_elements
   use core_kinds, only: dp
   use core_status, only: status_type, ok, sentence
   use materials_linear_elasticity, only: engineering_constants, plane_stiffness
-  use cohesive_law, only: law_parameters, bilinear_law
+  use cohesive_parameters, only: law_parameters, bilinear_law, ppr_law
+  use cohesive_ppr, only: prepare_ppr
   use elements_interface_point, only: interface_options, interface_point
   use elements_standard_interface, only: standard_interface
   use elements_stabilised_interface, only: stabilisation_type, stabilised_interface_four, stabilised_interface_eight
   use elements_quadratic_interface, only: quadratic_standard, quadratic_stabilised
   use abaqus_layout, only: elements, reals, interface_variables, &
     p_thickness, p_alphan, p_alphat, p_sigmamax, p_taumax, p_gic, p_giic, p_viscosity, p_eta, p_power, &
-    p_blend, p_betan, p_betat, p_gammabot, p_friction, p_bottom_e1, p_bottom_nu12, p_top_e1, p_top_nu12, &
+    p_shapen, p_shapet, p_blend, p_betan, p_betat, p_gammabot, p_friction, p_bottom_e1, p_bottom_nu12, p_top_e1, p_top_nu12, &
     j_law, j_integration, j_tangent, j_sampling, j_eight_plane, &
-    v_x, v_y, v_sepn, v_sept, v_tn, v_tt, v_damage, v_dissi, v_dissii, v_sn, v_st, v_dmax, v_dissv, v_wn, v_wt, v_dissf
+    v_x, v_y, v_sepn, v_sept, v_tn, v_tt, v_damage, v_dissi, v_dissii, v_sn, v_st, v_dmax, v_dissv, v_wn, v_wt, v_dissf, &
+    v_maxn, v_maxt
   use abaqus_check, only: closure_of, refuse
   use abaqus_report, only: fatal
   use abaqus_neighbours, only: stress_of_neighbours
@@ -107,6 +109,12 @@ contains
     law%viscosity = props(p_viscosity)
     if (jtype /= 2 .and. jtype /= 5) law%friction = props(p_friction)
     if (law%kind == bilinear_law) return
+    if (law%kind == ppr_law) then
+      if (props(p_shapet) > 0.0_dp) law%shape(1) = props(p_shapet)
+      if (props(p_shapen) > 0.0_dp) law%shape(2) = props(p_shapen)
+      call prepare_ppr(law)
+      return
+    end if
     law%eta = props(p_eta)
     if (props(p_power) > 0.0_dp) law%power = props(p_power)
   end function law_of
@@ -155,6 +163,7 @@ contains
       points(k)%history%dissipated = [svars(first + v_dissii), svars(first + v_dissi)]
       points(k)%history%viscous = svars(first + v_dissv)
       points(k)%history%rubbed = svars(first + v_dissf)
+      points(k)%history%largest = [svars(first + v_maxt), svars(first + v_maxn)]
     end do
   end function points_from
 
@@ -180,6 +189,8 @@ contains
       svars(first + v_dmax) = points(k)%history%damage_max
       svars(first + v_dissv) = points(k)%history%viscous
       svars(first + v_dissf) = points(k)%history%rubbed
+      svars(first + v_maxn) = points(k)%history%largest(2)
+      svars(first + v_maxt) = points(k)%history%largest(1)
       svars(first + v_wn) = points(k)%history%separation(2)
       svars(first + v_wt) = points(k)%history%separation(1)
     end do

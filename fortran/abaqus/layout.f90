@@ -19,6 +19,7 @@ module abaqus_layout
   integer, parameter, public :: any_value = 5
   integer, parameter, public :: exponent = 6        ! 0 or at least 1/2
   integer, parameter, public :: estimated = 7       ! 0 <= value, or -1 in U4 and U6
+  integer, parameter, public :: above_one = 8       ! 0 or above 1
   integer, parameter, public :: any_integer = huge(1)
 
   !> A real property.
@@ -60,31 +61,33 @@ module abaqus_layout
   integer, parameter, public :: p_viscosity = 8
   integer, parameter, public :: p_eta = 9
   integer, parameter, public :: p_power = 10
-  integer, parameter, public :: p_blend = 11
+  integer, parameter, public :: p_shapen = 11
+  integer, parameter, public :: p_shapet = 12
+  integer, parameter, public :: p_blend = 13
   ! reals of the stabilised interface elements
-  integer, parameter, public :: p_betan = 12
-  integer, parameter, public :: p_betat = 13
-  integer, parameter, public :: p_gammabot = 14
-  integer, parameter, public :: p_friction = 15
+  integer, parameter, public :: p_betan = 14
+  integer, parameter, public :: p_betat = 15
+  integer, parameter, public :: p_gammabot = 16
+  integer, parameter, public :: p_friction = 17
   ! reals of the self-contained interface elements: elastic constants of their two quads
-  integer, parameter, public :: p_bottom_e1 = 16
-  integer, parameter, public :: p_bottom_e2 = 17
-  integer, parameter, public :: p_bottom_e3 = 18
-  integer, parameter, public :: p_bottom_nu12 = 19
-  integer, parameter, public :: p_bottom_nu13 = 20
-  integer, parameter, public :: p_bottom_nu23 = 21
-  integer, parameter, public :: p_bottom_g12 = 22
-  integer, parameter, public :: p_bottom_angle = 23
-  integer, parameter, public :: p_top_e1 = 24
-  integer, parameter, public :: p_top_e2 = 25
-  integer, parameter, public :: p_top_e3 = 26
-  integer, parameter, public :: p_top_nu12 = 27
-  integer, parameter, public :: p_top_nu13 = 28
-  integer, parameter, public :: p_top_nu23 = 29
-  integer, parameter, public :: p_top_g12 = 30
-  integer, parameter, public :: p_top_angle = 31
+  integer, parameter, public :: p_bottom_e1 = 18
+  integer, parameter, public :: p_bottom_e2 = 19
+  integer, parameter, public :: p_bottom_e3 = 20
+  integer, parameter, public :: p_bottom_nu12 = 21
+  integer, parameter, public :: p_bottom_nu13 = 22
+  integer, parameter, public :: p_bottom_nu23 = 23
+  integer, parameter, public :: p_bottom_g12 = 24
+  integer, parameter, public :: p_bottom_angle = 25
+  integer, parameter, public :: p_top_e1 = 26
+  integer, parameter, public :: p_top_e2 = 27
+  integer, parameter, public :: p_top_e3 = 28
+  integer, parameter, public :: p_top_nu12 = 29
+  integer, parameter, public :: p_top_nu13 = 30
+  integer, parameter, public :: p_top_nu23 = 31
+  integer, parameter, public :: p_top_g12 = 32
+  integer, parameter, public :: p_top_angle = 33
 
-  type(real_item), parameter, public :: reals(31) = [ &
+  type(real_item), parameter, public :: reals(33) = [ &
     real_item(p_thickness, 'THICKNESS', 'length', positive), & !< thickness out of the plane
     real_item(p_alphan, 'ALPHAN', 'stress/length', not_negative), & !< initial normal stiffness alpha_n; 0: infinite, with CLOSURE 1
     real_item(p_alphat, 'ALPHAT', 'stress/length', not_negative), & !< initial tangential stiffness alpha_tau; 0: as ALPHAN
@@ -95,6 +98,8 @@ module abaqus_layout
     real_item(p_viscosity, 'VISCOSITY', 'time', not_negative), & !< relaxation time, see below; 0: none
     real_item(p_eta, 'ETA', '1', exponent), & !< exponent of Benzeggagh and Kenane (LAW 2, 3); 0: power law
     real_item(p_power, 'POWER', '1', exponent), & !< exponent of the power law (LAW 2, 3); 0: 1, the linear criterion
+    real_item(p_shapen, 'SHAPEN', '1', above_one), & !< exponent of the softening in opening (LAW 4); 0: 2, about linear
+    real_item(p_shapet, 'SHAPET', '1', above_one), & !< exponent of the softening in sliding (LAW 4); 0: 2, about linear
     real_item(p_blend, 'BLEND', '1', up_to_one), & !< share of the secant matrix in AMATRX, with TANGENT 0
     real_item(p_betan, 'BETAN', 'stress/length', estimated), & !< stabilisation beta_n; 0: equation (21), -1: local eigenvalues
     real_item(p_betat, 'BETAT', 'stress/length', estimated), & !< stabilisation beta_tau; 0: equation (21), -1: local eigenvalues
@@ -139,12 +144,12 @@ module abaqus_layout
     integer_item(j_face, 'FACE', 0, 4)] !< face along a four-node stabilised interface (U3), as Abaqus counts; 0 none
 
   type(integer_item), parameter, public :: standard_integers(3) = [ &
-    integer_item(j_law, 'LAW', 1, 3), & !< 1 bilinear (9) to (11), 2 bilinear by ETA or POWER, 3 exponential by ETA or POWER
+    integer_item(j_law, 'LAW', 1, 4), & !< 1 bilinear (9) to (11), 2 bilinear by ETA or POWER, 3 exponential by ETA or POWER, 4 PPR
     integer_item(j_integration, 'INTEGRATION', 0, 1), & !< 0 Gauss, 1 Newton-Cotes
     integer_item(j_tangent, 'TANGENT', 0, 1)] !< 0 consistent (23), 1 secant (24)
 
   type(integer_item), parameter, public :: four_node_integers(7) = [ &
-    integer_item(j_law, 'LAW', 1, 3), & !< 1 bilinear (9) to (11), 2 bilinear by ETA or POWER, 3 exponential by ETA or POWER
+    integer_item(j_law, 'LAW', 1, 4), & !< 1 bilinear (9) to (11), 2 bilinear by ETA or POWER, 3 exponential by ETA or POWER, 4 PPR
     integer_item(j_integration, 'INTEGRATION', 0, 1), & !< 0 Gauss, 1 Newton-Cotes
     integer_item(j_tangent, 'TANGENT', 0, 1), & !< at constant bulk stress: 0 consistent, 1 S alpha (1 - d) alone
     integer_item(j_sampling, 'SAMPLING', 0, 2), & !< bulk stress: 0 middle of the face, 1 face, 2 nearest Gauss point
@@ -153,7 +158,7 @@ module abaqus_layout
     integer_item(j_four_closure, 'CLOSURE', 0, 1)] !< damage at 0 the displacement jump, 1 a separation of its own
 
   type(integer_item), parameter, public :: eight_node_integers(6) = [ &
-    integer_item(j_law, 'LAW', 1, 3), & !< 1 bilinear (9) to (11), 2 bilinear by ETA or POWER, 3 exponential by ETA or POWER
+    integer_item(j_law, 'LAW', 1, 4), & !< 1 bilinear (9) to (11), 2 bilinear by ETA or POWER, 3 exponential by ETA or POWER, 4 PPR
     integer_item(j_integration, 'INTEGRATION', 0, 1), & !< 0 Gauss, 1 Newton-Cotes
     integer_item(j_tangent, 'TANGENT', 0, 1), & !< 0 consistent, 1 without the derivative of the damage
     integer_item(j_sampling, 'SAMPLING', 0, 2), & !< bulk stress: 0 middle of face (U6: line), 1 face, 2 nearest Gauss point
@@ -197,15 +202,17 @@ module abaqus_layout
   integer, parameter, public :: v_wn = 14
   integer, parameter, public :: v_wt = 15
   integer, parameter, public :: v_dissf = 16
+  integer, parameter, public :: v_maxn = 17
+  integer, parameter, public :: v_maxt = 18
 
-  type(variable_item), parameter, public :: interface_variables(16) = [ &
+  type(variable_item), parameter, public :: interface_variables(18) = [ &
     variable_item(v_x, 'X', 'length'), & !< original position
     variable_item(v_y, 'Y', 'length'), & !< original position
     variable_item(v_sepn, 'SEPN', 'length'), & !< normal displacement jump, opening positive
     variable_item(v_sept, 'SEPT', 'length'), & !< tangential displacement jump
     variable_item(v_tn, 'TN', 'stress'), & !< normal traction, tension positive
     variable_item(v_tt, 'TT', 'stress'), & !< tangential traction
-    variable_item(v_damage, 'DAMAGE', '1'), & !< damage that acts, from 0 to 1; with CLOSURE 1 (1 - K/ALPHAN) k/(K + k)
+    variable_item(v_damage, 'DAMAGE', '1'), & !< acting damage, 0 to 1; with CLOSURE 1 (1 - K/ALPHAN) k/(K + k); LAW 4: see above
     variable_item(v_dissi, 'DISSI', 'energy/area'), & !< energy dissipated by damage in mode I
     variable_item(v_dissii, 'DISSII', 'energy/area'), & !< energy dissipated by damage in mode II
     variable_item(v_sn, 'SN', '1'), & !< stabilised S, normal; 1 in the standard element
@@ -214,15 +221,17 @@ module abaqus_layout
     variable_item(v_dissv, 'DISSV', 'energy/area'), & !< energy dissipated by the viscous regularisation
     variable_item(v_wn, 'WN', 'length'), & !< normal separation of the law: with CLOSURE 0 it is SEPN
     variable_item(v_wt, 'WT', 'length'), & !< tangential separation of the law: with CLOSURE 0 it is SEPT
-    variable_item(v_dissf, 'DISSF', 'energy/area')] !< energy dissipated by friction
+    variable_item(v_dissf, 'DISSF', 'energy/area'), & !< energy dissipated by friction
+    variable_item(v_maxn, 'MAXN', 'length'), & !< largest normal separation of the law so far, with LAW 4; else 0
+    variable_item(v_maxt, 'MAXT', 'length')] !< largest tangential separation of the law so far, with LAW 4; else 0
 
   type(element_item), parameter, public :: elements(6) = [ &
     element_item(1, 4, 8, 1, 2, 32), & !< continuum quad, stress from a material of the deck (UELMAT)
-    element_item(2, 4, 8, 11, 3, 32), & !< standard cohesive interface
-    element_item(3, 4, 8, 15, 7, 32), & !< stabilised cohesive interface, four nodes, next to U1 quads
-    element_item(4, 8, 16, 31, 6, 32), & !< stabilised cohesive interface, eight nodes, self-contained; UNSYMM
-    element_item(5, 6, 12, 11, 3, 48), & !< standard cohesive interface between edges of three nodes
-    element_item(6, 16, 32, 31, 6, 48)] !< stabilised cohesive interface of eight-node quads, self-contained; UNSYMM
+    element_item(2, 4, 8, 13, 3, 36), & !< standard cohesive interface
+    element_item(3, 4, 8, 17, 7, 36), & !< stabilised cohesive interface, four nodes, next to U1 quads
+    element_item(4, 8, 16, 33, 6, 36), & !< stabilised cohesive interface, eight nodes, self-contained; UNSYMM
+    element_item(5, 6, 12, 13, 3, 54), & !< standard cohesive interface between edges of three nodes
+    element_item(6, 16, 32, 33, 6, 54)] !< stabilised cohesive interface of eight-node quads, self-contained; UNSYMM
 
 contains
 

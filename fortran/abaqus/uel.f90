@@ -19,7 +19,7 @@ subroutine uel(rhs, amatrx, svars, energy, ndofel, nrhs, nsvars, props, nprops, 
   real(dp), intent(inout) :: rhs(mlvarx, *), amatrx(ndofel, ndofel), svars(*), energy(8), pnewdt
   real(dp), intent(in) :: props(*), coords(mcrd, nnode), u(ndofel), du(mlvarx, *), v(ndofel), a(ndofel), time(2), dtime
   real(dp), intent(in) :: params(*), adlmag(mdload, *), predef(2, npredf, nnode), ddlmag(mdload, *), period
-  integer, parameter :: most_unknowns = 32, most_variables = 48
+  integer, parameter :: most_unknowns = 32, most_variables = 54
   real(dp) :: residual(most_unknowns), tangent(most_unknowns**2), state(most_variables), energies(8)
   logical :: good
   integer :: j, n

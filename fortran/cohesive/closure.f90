@@ -15,21 +15,15 @@
 !> Components are in the order (tau, n). The interface is closed where p_n < 0: the normal stiffness is not damaged there.
 module cohesive_closure
   use core_kinds, only: dp
-  use cohesive_law, only: law_parameters, point_history, softening
+  use cohesive_parameters, only: law_parameters, ppr_law
+  use cohesive_state, only: point_history, closure_state
+  use cohesive_law, only: softening
+  use cohesive_friction, only: rub
+  use cohesive_ppr, only: ppr_start_of_increment
+  use cohesive_ppr_closure, only: close_ppr
   implicit none(type, external)
   private
-  public :: closure_state, close_consistently, dissipate_consistently
-
-  !> Outcome of the closure.
-  type :: closure_state
-    real(dp) :: traction(2)        !< T, stress, tension positive
-    real(dp) :: recoverable(2)     !< t: T less the viscous overstress and the friction
-    real(dp) :: friction           !< part of T_tau, stress
-    real(dp) :: separation(2)      !< w, length
-    real(dp) :: damage             !< see `damage_of`
-    real(dp) :: stabilisation(2)   !< S of (17)
-    real(dp) :: by_trial(2, 2)     !< dT/dp
-  end type closure_state
+  public :: close_consistently, dissipate_consistently
 
   !> The scalar equation: b, and p/ratio without its compressive part.
   type :: closure_equation
@@ -59,6 +53,10 @@ contains
     real(dp) :: x, friction_slope
     logical :: closed, grows, sticks
 
+    if (law%kind == ppr_law) then
+      call close_ppr(law, beta, trial, dtime, secant_share, history, state)
+      return
+    end if
     old = opening_part(history%separation)
     viscous = 0.0_dp
     if (law%viscosity > 0.0_dp .and. dtime > 0.0_dp) viscous = (law%viscosity/dtime) &
@@ -69,12 +67,13 @@ contains
     equation%least = minval(equation%b)
     x = at_damage(law, equation%least, history%damage)
     call shares(law, beta, equation, closed, x, stiff, soft)
-    call rub(law, history%damage, merge(p(2)*stiff(2), 0.0_dp, closed), p(1), old(1), soft(1), sticks, &
-      state%friction, friction_slope)
+    call rub(law, history%damage, merge(p(2)*stiff(2), 0.0_dp, closed), p(1), &
+      old(1)/max(soft(1), tiny(1.0_dp)), sticks, state%friction, friction_slope)
     p(1) = p(1) - state%friction
     equation%driving = [abs(p(1)), max(0.0_dp, p(2))]/law%ratio
 
     state%damage = history%damage
+    state%largest = 0.0_dp
     grows = history%damage < 1.0_dp .and. .not. sticks .and. (dtime > 0.0_dp .or. .not. law%viscosity > 0.0_dp)
     if (grows) call find_root(law, equation, x, grows)
     if (grows) then
@@ -115,34 +114,6 @@ contains
       soft(2) = law%flexibility*stiff(2)
     end if
   end subroutine shares
-
-  !> Coulomb friction on the damaged share D of a closed point, D at the start of the increment: |friction| <= mu D |T_n|.
-  !>
-  !> It sticks where this holds with w_tau as it was, else it slides. As beta closes the law, so it does the friction: no
-  !> further stiffness is needed.
-  pure subroutine rub(law, damage, pressed, p, old, soft, sticks, friction, slope)
-    type(law_parameters), intent(in) :: law
-    real(dp), intent(in) :: damage
-    real(dp), intent(in) :: pressed      !< T_n of a closed point, zero of an open one
-    real(dp), intent(in) :: p            !< p_tau
-    real(dp), intent(in) :: old          !< w_tau at the start of the increment
-    real(dp), intent(in) :: soft         !< w_tau/p_tau without friction and further damage
-    logical, intent(out) :: sticks
-    real(dp), intent(out) :: friction    !< stress
-    real(dp), intent(out) :: slope       !< derivative of the friction by T_n
-    real(dp) :: excess
-
-    sticks = .false.
-    friction = 0.0_dp
-    slope = 0.0_dp
-    if (.not. (law%friction*damage > 0.0_dp .and. pressed < 0.0_dp)) return
-    excess = p - old/soft
-    sticks = abs(excess) <= -law%friction*damage*pressed
-    friction = excess
-    if (sticks) return
-    slope = sign(law%friction*damage, -excess)
-    friction = slope*pressed
-  end subroutine rub
 
   !> Puts the slopes of growing damage into a share of dT/dp.
   pure subroutine blend_loading(law, equation, x, shear, closed, viscous, share, by_trial)
@@ -339,7 +310,9 @@ contains
     t1 = state%recoverable
     k = softening_stiffness(law)
     flexible = history%damage + k*law%flexibility
-    if (flexible > 0.0_dp) then
+    if (law%kind == ppr_law) then
+      t0 = ppr_start_of_increment(law, history, old_traction)
+    else if (flexible > 0.0_dp) then
       t0 = law%ratio*w0*(k*(1.0_dp - history%damage)/flexible)
     else
       ! rigid so far

@@ -11,36 +11,20 @@
 !> A law is a softening curve tau(lambda) for every direction c of the separation, w = lambda c with c = (|w_tau|, w_n)/
 !> lambda, from which the traction follows as t_i = tau ratio_i c_i. It is continued towards smaller separations than that
 !> at the onset of damage, down to none; the straight line lambda/flexibility meets it at the onset. A further law is a
-!> further module with `_softening` and `_steepest`, and a line in the select cases below.
+!> further module with `_softening` and `_steepest`, and a line in the select cases below. The PPR law is none of these: its
+!> two components have a damage each, and it brings its own routines.
 module cohesive_law
   use core_kinds, only: dp
   use core_status, only: status_type, ok, small_beta
-  use cohesive_parameters, only: law_parameters, bilinear_law, exponential_law
+  use cohesive_parameters, only: law_parameters, bilinear_law, exponential_law, ppr_law
+  use cohesive_state, only: point_history, damage_state
   use cohesive_mode_mix, only: check_mode_mix
   use cohesive_bilinear, only: bilinear_softening, bilinear_steepest
   use cohesive_exponential, only: exponential_softening, exponential_steepest
+  use cohesive_ppr, only: check_ppr, check_ppr_beta, evolve_ppr, ppr_damage_of_components
   implicit none(type, external)
   private
-  public :: law_parameters, point_history, damage_state
   public :: check_law, check_beta, softening, stiffness_of, evolve_damage, dissipate
-  public :: bilinear_law
-
-  !> What a point remembers from the end of the last increment.
-  type :: point_history
-    real(dp) :: separation(2) = 0.0_dp   !< (tau, n)
-    real(dp) :: damage = 0.0_dp          !< the damage that acts
-    real(dp) :: damage_max = 0.0_dp      !< largest damage of the envelope so far
-    real(dp) :: dissipated(2) = 0.0_dp   !< by sliding and by opening, energy/area
-    real(dp) :: viscous = 0.0_dp         !< by the viscous overstress, energy/area
-    real(dp) :: rubbed = 0.0_dp          !< by friction, energy/area
-  end type point_history
-
-  !> Damage at the end of the increment.
-  type :: damage_state
-    real(dp) :: damage       !< the damage that acts
-    real(dp) :: damage_max   !< largest damage of the envelope so far, this increment included
-    real(dp) :: slope(2)     !< derivative of `damage` by the separation (tau, n), 1/length
-  end type damage_state
 
 contains
 
@@ -49,7 +33,11 @@ contains
     type(law_parameters), intent(in) :: law
     type(status_type), intent(out) :: status
 
-    call check_mode_mix(law, status)
+    if (law%kind == ppr_law) then
+      call check_ppr(law, status)
+    else
+      call check_mode_mix(law, status)
+    end if
   end subroutine check_law
 
   !> Demands that beta exceeds the softening slope, without which a separation does not follow from the trial traction.
@@ -64,6 +52,10 @@ contains
     real(dp) :: b(2), least
     integer :: i
 
+    if (law%kind == ppr_law) then
+      call check_ppr_beta(law, beta, status)
+      return
+    end if
     status = status_type(ok, 0, 0.0_dp, 0.0_dp)
     b = beta/law%ratio
     least = steepest(law)*(2.0_dp - minval(b)/maxval(b))
@@ -151,19 +143,28 @@ contains
     real(dp), intent(in) :: separation(2)   !< (tau, n), opening positive
     real(dp), intent(in) :: dtime           !< duration of the increment
     type(damage_state), intent(out) :: state
-    real(dp) :: fraction
+    real(dp) :: fraction, slope(2)
 
-    call damage_envelope(law, separation, state%damage_max, state%slope)
+    fraction = 1.0_dp
+    if (law%viscosity > 0.0_dp) fraction = dtime/(law%viscosity + dtime)
+    if (law%kind == ppr_law) then
+      call evolve_ppr(law, history, separation, fraction, state)
+      return
+    end if
+    call damage_envelope(law, separation, state%damage_max, slope)
     if (state%damage_max < history%damage_max) then
       state%damage_max = history%damage_max
-      state%slope = 0.0_dp
+      slope = 0.0_dp
     end if
     state%damage = state%damage_max
     if (law%viscosity > 0.0_dp) then
-      fraction = dtime/(law%viscosity + dtime)
       state%damage = history%damage + fraction*(state%damage_max - history%damage)
-      state%slope = fraction*state%slope
+      slope = fraction*slope
     end if
+    state%largest = 0.0_dp
+    state%acting = state%damage
+    state%slope(1, :) = slope
+    state%slope(2, :) = slope
   end subroutine evolve_damage
 
   !> Energies dissipated up to the end of an increment, per area.
@@ -180,14 +181,22 @@ contains
     type(damage_state), intent(in) :: state
     real(dp), intent(out) :: dissipated(2)   !< by sliding and by opening
     real(dp), intent(out) :: viscous
-    real(dp), dimension(2) :: stiffness, g0, g1, all_of_it, overstress
+    real(dp), dimension(2) :: stiffness, g0, g1, d0, d0_max, d1_max, all_of_it, overstress
 
     g0 = [history%separation(1), max(0.0_dp, history%separation(2))]
     g1 = [separation(1), max(0.0_dp, separation(2))]
+    if (law%kind == ppr_law) then
+      d0 = ppr_damage_of_components(law, history%largest)
+      d0_max = ppr_damage_of_components(law, max(history%largest, abs(g0)))
+      d1_max = ppr_damage_of_components(law, max(state%largest, abs(g1)))
+    else
+      d0 = history%damage
+      d0_max = history%damage_max
+      d1_max = state%damage_max
+    end if
     stiffness = stiffness_of(law)
-    all_of_it = 0.5_dp*stiffness*g0*g1*(state%damage - history%damage)
-    overstress = 0.5_dp*stiffness*(g1 - g0) &
-      *((history%damage_max - history%damage)*g0 + (state%damage_max - state%damage)*g1)
+    all_of_it = 0.5_dp*stiffness*g0*g1*(state%acting - d0)
+    overstress = 0.5_dp*stiffness*(g1 - g0)*((d0_max - d0)*g0 + (d1_max - state%acting)*g1)
     dissipated = history%dissipated + all_of_it - overstress
     viscous = history%viscous + overstress(1) + overstress(2)
   end subroutine dissipate

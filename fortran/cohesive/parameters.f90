@@ -6,11 +6,12 @@ module cohesive_parameters
   implicit none(type, external)
   private
   public :: law_parameters
-  public :: bilinear_law, mixed_bilinear_law, exponential_law
+  public :: bilinear_law, mixed_bilinear_law, exponential_law, ppr_law
 
   integer, parameter :: bilinear_law = 1
   integer, parameter :: mixed_bilinear_law = 2
   integer, parameter :: exponential_law = 3
+  integer, parameter :: ppr_law = 4
 
   !> Parameters of a law. The initial stiffness is alpha_i = ratio_i/flexibility, so that an infinite one has a finite
   !> description: laws are written in the flexibility.
@@ -24,6 +25,10 @@ module cohesive_parameters
     real(dp) :: friction = 0.0_dp   !< coefficient of Coulomb's friction in the consistent closure; 0 for none
     real(dp) :: eta = 0.0_dp        !< exponent of Benzeggagh and Kenane; 0 for the power law
     real(dp) :: power = 1.0_dp      !< exponent of the power law, positive
+    ! of the PPR law alone
+    real(dp) :: shape(2) = 2.0_dp   !< exponents of the softening, the paper's beta and alpha, above 1
+    real(dp) :: rise(2) = 0.0_dp    !< exponents of the rise, the paper's n and m: `prepare_ppr`
+    real(dp) :: final(2) = 0.0_dp   !< separations at failure in the pure modes, length: `prepare_ppr`
   end type law_parameters
 
 end module cohesive_parameters

@@ -14,8 +14,8 @@ contains
   pure subroutine standard_traction(stiffness, separation, damage, slope, traction, tangent)
     real(dp), intent(in) :: stiffness(2)    !< alpha, stress/length
     real(dp), intent(in) :: separation(2)   !< g, opening positive
-    real(dp), intent(in) :: damage
-    real(dp), intent(in) :: slope(2)        !< derivative of the damage by g, zero for the secant matrix
+    real(dp), intent(in) :: damage(2)       !< of each component
+    real(dp), intent(in) :: slope(2, 2)     !< derivative of the damage by g, zero for the secant matrix
     real(dp), intent(out) :: traction(2)    !< stress, tension positive
     real(dp), intent(out) :: tangent(2, 2)  !< dT/dg
     real(dp) :: secant(2), softening(2)
@@ -24,8 +24,8 @@ contains
     traction = secant*separation
     softening = stiffness*separation
     if (separation(2) < 0.0_dp) softening(2) = 0.0_dp
-    tangent(:, 1) = -softening*slope(1)
-    tangent(:, 2) = -softening*slope(2)
+    tangent(:, 1) = -softening*slope(:, 1)
+    tangent(:, 2) = -softening*slope(:, 2)
     tangent(1, 1) = tangent(1, 1) + secant(1)
     tangent(2, 2) = tangent(2, 2) + secant(2)
   end subroutine standard_traction
@@ -41,8 +41,8 @@ contains
     real(dp), intent(in) :: beta(2)             !< stress/length
     real(dp), intent(in) :: separation(2)       !< g, opening positive
     real(dp), intent(in) :: bulk(2)             !< <sigma>.n, stress
-    real(dp), intent(in) :: damage
-    real(dp), intent(in) :: slope(2)            !< derivative of the damage by g, zero for the secant matrix
+    real(dp), intent(in) :: damage(2)           !< of each component
+    real(dp), intent(in) :: slope(2, 2)         !< derivative of the damage by g, zero for the secant matrix
     real(dp), intent(out) :: traction(2)        !< T, stress, tension positive
     real(dp), intent(out) :: stabilisation(2)   !< S
     real(dp), intent(out) :: tangent(2, 2)      !< dT/dg at constant bulk stress; by that stress it is 1 - S, diagonal
@@ -56,15 +56,15 @@ contains
     traction = trial*(secant/(secant + beta))
     softening = trial*stabilisation*stiffness/(secant + beta)
     if (closed) softening(2) = 0.0_dp
-    tangent(:, 1) = -softening*slope(1)
-    tangent(:, 2) = -softening*slope(2)
+    tangent(:, 1) = -softening*slope(:, 1)
+    tangent(:, 2) = -softening*slope(:, 2)
     tangent(1, 1) = tangent(1, 1) + stabilisation(1)*secant(1)
     tangent(2, 2) = tangent(2, 2) + stabilisation(2)*secant(2)
   end subroutine stabilised_traction
 
   !> Stiffness alpha (1 - d); of a closed interface the normal one is not damaged.
   pure function damaged(stiffness, damage, closed) result(secant)
-    real(dp), intent(in) :: stiffness(2), damage
+    real(dp), intent(in) :: stiffness(2), damage(2)
     logical, intent(in) :: closed
     real(dp) :: secant(2)
 

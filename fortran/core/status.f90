@@ -6,7 +6,8 @@ module core_status
   implicit none(type, external)
   private
   public :: status_type, sentence
-  public :: ok, too_brittle, not_positive_definite, inside_out, zero_length, edges_apart, small_beta, too_brittle_mixed
+  public :: ok, too_brittle, not_positive_definite, inside_out, zero_length, edges_apart, small_beta, too_brittle_mixed, &
+    late_secant
 
   !> Outcome of a kernel; the caller knows the names of elements and properties.
   type :: status_type
@@ -24,6 +25,7 @@ module core_status
   integer, parameter :: edges_apart = 5
   integer, parameter :: small_beta = 6
   integer, parameter :: too_brittle_mixed = 7
+  integer, parameter :: late_secant = 8
 
 contains
 
@@ -41,6 +43,8 @@ contains
     case (too_brittle_mixed)
       text = 'too soft for the fracture energy in mixed mode: the separation at failure ' // &
         'does not exceed that at the onset of damage'
+    case (late_secant)
+      text = 'too small for its stiffness: the secant of the PPR law has to fall from the origin on'
     case (not_positive_definite)
       text = 'the elastic constants are not positive definite'
     case (inside_out)

@@ -10,8 +10,10 @@ module elements_interface_point
   use core_rotation, only: line_frame
   use core_shape_functions, only: line_shape
   use core_status, only: status_type, zero_length, edges_apart, ok
-  use cohesive_law, only: law_parameters, point_history, damage_state, dissipate
-  use cohesive_closure, only: closure_state, dissipate_consistently
+  use cohesive_parameters, only: law_parameters
+  use cohesive_state, only: point_history, damage_state, closure_state
+  use cohesive_law, only: dissipate
+  use cohesive_closure, only: dissipate_consistently
   implicit none(type, external)
   private
   public :: interface_options, interface_point, interface_geometry
@@ -165,6 +167,7 @@ contains
     new%history%separation = separation
     new%history%damage = state%damage
     new%history%damage_max = state%damage_max
+    new%history%largest = state%largest
     call dissipate(law, old%history, separation, state, new%history%dissipated, new%history%viscous)
   end subroutine close_point
 
@@ -188,6 +191,7 @@ contains
     new%history%separation = state%separation
     new%history%damage = state%damage
     new%history%damage_max = state%damage
+    new%history%largest = state%largest
     call dissipate_consistently(law, old%history, old%traction, state, new%history%dissipated, new%history%viscous, &
       new%history%rubbed)
   end subroutine close_consistent_point

@@ -9,7 +9,9 @@ module elements_quadratic_interface
   use core_rotation, only: line_frame
   use core_status, only: status_type, ok, zero_length, edges_apart
   use materials_spectral_norm, only: spectral_norm
-  use cohesive_law, only: law_parameters, damage_state, check_law, check_beta, evolve_damage, stiffness_of
+  use cohesive_parameters, only: law_parameters
+  use cohesive_state, only: damage_state
+  use cohesive_law, only: check_law, check_beta, evolve_damage, stiffness_of
   use cohesive_traction, only: standard_traction
   use elements_interface_point, only: interface_options, interface_point, interface_geometry, close_point, point_energies, &
     apart
@@ -69,7 +71,7 @@ contains
       separation = matmul(jump, u)
       call evolve_damage(law, old(k)%history, separation, dtime, state)
       state%slope = (1.0_dp - options%secant_share)*state%slope
-      call standard_traction(stiffness_of(law), separation, state%damage, state%slope, traction, local)
+      call standard_traction(stiffness_of(law), separation, state%acting, state%slope, traction, local)
       call close_point(law, places(k)%geometry, 0.0_dp, old(k), separation, state, traction, [1.0_dp, 1.0_dp], new(k))
       call add_point(jump, places(k)%length*thickness, traction, matmul(local, jump), residual, tangent)
       energies = energies + point_energies(places(k)%length*thickness, new(k))

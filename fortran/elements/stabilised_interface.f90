@@ -9,8 +9,10 @@ module elements_stabilised_interface
   use core_shape_functions, only: line_shape, quad_gradient
   use core_status, only: status_type, ok, inside_out
   use materials_spectral_norm, only: spectral_norm
-  use cohesive_law, only: law_parameters, damage_state, check_law, check_beta, evolve_damage, stiffness_of
-  use cohesive_closure, only: closure_state, close_consistently
+  use cohesive_parameters, only: law_parameters
+  use cohesive_state, only: damage_state, closure_state
+  use cohesive_law, only: check_law, check_beta, evolve_damage, stiffness_of
+  use cohesive_closure, only: close_consistently
   use cohesive_traction, only: stabilised_traction
   use elements_interface_point, only: interface_options, interface_point, interface_geometry, &
     measure_interface, separation_at, add_point, spread_to_nodes, close_point, close_consistent_point, point_energies, &
@@ -253,7 +255,7 @@ contains
     else
       call evolve_damage(law, old%history, separation, dtime, state)
       state%slope = (1.0_dp - options%secant_share)*state%slope
-      call stabilised_traction(stiffness_of(law), beta, separation, bulk, state%damage, state%slope, traction, &
+      call stabilised_traction(stiffness_of(law), beta, separation, bulk, state%acting, state%slope, traction, &
         s_of_point, by_jump)
       by_bulk = reshape([1.0_dp - s_of_point(1), 0.0_dp, 0.0_dp, 1.0_dp - s_of_point(2)], [2, 2])
       call close_point(law, geometry, geometry%s(k), old, separation, state, traction, s_of_point, new)

@@ -4,7 +4,9 @@
 module elements_standard_interface
   use core_kinds, only: dp
   use core_status, only: status_type, ok
-  use cohesive_law, only: law_parameters, damage_state, check_law, evolve_damage, stiffness_of
+  use cohesive_parameters, only: law_parameters
+  use cohesive_state, only: damage_state
+  use cohesive_law, only: check_law, evolve_damage, stiffness_of
   use cohesive_traction, only: standard_traction
   use elements_interface_point, only: interface_options, interface_point, interface_geometry, &
     measure_interface, separation_at, add_point, spread_to_nodes, close_point, point_energies
@@ -49,7 +51,7 @@ contains
       separation = separation_at(geometry%frame, geometry%s(k), u)
       call evolve_damage(law, old(k)%history, separation, dtime, state)
       state%slope = (1.0_dp - options%secant_share)*state%slope
-      call standard_traction(stiffness_of(law), separation, state%damage, state%slope, traction, local)
+      call standard_traction(stiffness_of(law), separation, state%acting, state%slope, traction, local)
       call add_point(geometry%frame, geometry%s(k), weight, traction, local, force, matrix)
       ! S = 1 turns the stabilised weak form into the standard one
       call close_point(law, geometry, geometry%s(k), old(k), separation, state, traction, [1.0_dp, 1.0_dp], new(k))

@@ -141,6 +141,8 @@ def interface_values(specimen: Specimen) -> dict[str, float]:
         "VISCOSITY": interface.viscosity,
         "ETA": interface.eta,
         "POWER": 0.0,
+        "SHAPEN": 0.0,
+        "SHAPET": 0.0,
         "BLEND": 0.0,
         "BETAN": interface.beta,
         "BETAT": interface.beta,

@@ -26,6 +26,7 @@ RULES: Final = {
     "up_to_one": "0 to 1, default 0",
     "estimated": ">= 0 or, in U4 and U6, -1, default 0",
     "exponent": "0 or >= 0.5, default 0",
+    "above_one": "0 or > 1, default 0",
     "any_value": "any, default 0",
 }
 

@@ -34,7 +34,7 @@ def test_beta_must_exceed_the_softening_slope(element, interface, reference, law
     # with different betas the smaller one must exceed the slope by 2 - b_min/b_max
     other = {"N": "T", "T": "N"}[mode]
     given = {f"BETA{mode}": 1.4999 * steepest, f"BETA{other}": 3.0 * steepest}
-    position = {"N": 12, "T": 13}[mode]
+    position = {"N": 14, "T": 15}[mode]
     below = element(4, interface.eight, label=42, **rigid(alpha), **given)
     message = (
         rf"U4 element 42: PROPS\({position}\) BETA{mode}: beta = {str(1.4999 * steepest)[:3]}.*, too small for the "
@@ -50,7 +50,7 @@ def test_computed_beta_is_checked_too(element, interface):
     """Equation (21) gives 1e5 N/mm^3 here; a law that fails within 1e-6 mm is steeper."""
     brittle = {"SIGMAMAX": 30.0, "GIC": 1e-4, "GIIC": 1.0}
     item = element(4, interface.eight, label=42, **rigid(0.0), **brittle)
-    with pytest.raises(KernelError, match=r"PROPS\(12\) BETAN: beta = .* refine the mesh"):
+    with pytest.raises(KernelError, match=r"PROPS\(14\) BETAN: beta = .* refine the mesh"):
         item.evaluate(np.zeros(16))
 
 

@@ -202,6 +202,6 @@ def test_friction_is_that_of_eight_nodes(element, interface):
 def test_small_beta_of_the_consistent_closure_is_refused(element, interface):
     sandwich = Sandwich(element, interface, CLOSURE=1, BETAN=1.0e3)
     with pytest.raises(
-        KernelError, match=r"U3 element 400: PROPS\(12\) BETAN: beta = 1000.*, too small for the consist"
+        KernelError, match=r"U3 element 400: PROPS\(14\) BETAN: beta = 1000.*, too small for the consist"
     ):
         sandwich.evaluate(np.zeros((8, 2)))

@@ -23,6 +23,8 @@ LAW = {
     "FRICTION": 0.0,
     "ETA": 0.0,
     "POWER": 0.0,
+    "SHAPEN": 0.0,
+    "SHAPET": 0.0,
 }
 LAW |= {"THICKNESS": 2.0, "ALPHAN": ALPHA, "ALPHAT": ALPHA, "BETAN": -1, "BETAT": -1}
 LAW |= {"LAW": 1, "INTEGRATION": 0, "TANGENT": 0, "SAMPLING": 0, "PLANE": 0, "CLOSURE": 1}

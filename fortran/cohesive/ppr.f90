@@ -1,0 +1,287 @@
+! SPDX-FileCopyrightText: The uel-harness authors
+! SPDX-License-Identifier: BSD-3-Clause
+!> The PPR law: Park, Paulino and Roesler, J. of the Mechanics and Physics of Solids 57 (2009) 891-908, the potential of the
+!> intrinsic model and, where the stiffness is infinite, that of the extrinsic one. Components are in the order (tau, n).
+!>
+!> With x_i = w_i/final_i and the exponents a of the softening (alpha and beta of the paper) and m of the rise (m and n),
+!>
+!>     F_i = (1 - x_i)**a_i (1 + a_i x_i/m_i)**m_i,    without the second factor for infinite stiffness,
+!>
+!> which falls from 1 to 0, the potential and its gradient, the traction, are
+!>
+!>     psi = G_i - F_i (G_i - G_j (1 - F_j)),    G_i <= G_j,
+!>     t_i = -G_i F_i' c_j,    c_j = max(0, 1 - max(1, G_j/G_i) (1 - F_j)).
+!>
+!> -G_i F_i' is the curve of a pure mode: it has the strength for its peak and G_i for its area. c_j is what the other
+!> component leaves of it. It vanishes from the conjugate final separation of the paper on.
+!>
+!> The paper describes the rise by the slope indicator lambda = (separation at the peak)/final. Here the slope of the curve
+!> at the origin is the initial stiffness, m and lambda follow from it.
+!>
+!> History: the largest separation so far of each component. Unloading is secant to the origin in both components, with
+!> secants K_i = t_i/w_i at the largest separations of both. Park and Paulino, Engineering Fracture Mechanics 93 (2012)
+!> 239-262, take the secant of a component at its own largest separation and the coupling at the present one of the other,
+!> by which a sliding that goes back heals the opening. Here no secant ever grows, so no path gains energy. Where
+!> both separations grow, the two are the same.
+module cohesive_ppr
+  use core_kinds, only: dp
+  use core_status, only: status_type, ok, late_secant, small_beta
+  use cohesive_parameters, only: law_parameters
+  use cohesive_state, only: point_history, damage_state
+  implicit none(type, external)
+  private
+  public :: ppr_component
+  public :: prepare_ppr, check_ppr, check_ppr_beta, component_at, damage_at, evolve_ppr, ppr_damage_of_components
+  public :: ppr_start_of_increment
+
+  !> A component at its largest separation.
+  type :: ppr_component
+    real(dp) :: secant     !< of the curve of its pure mode, stress/length; huge where it is rigid
+    real(dp) :: traction   !< of that curve, stress
+    real(dp) :: slope      !< of that curve, stress/length
+    real(dp) :: share      !< c: what it leaves of the other component
+    real(dp) :: by_share   !< derivative of c, 1/length
+  end type ppr_component
+
+contains
+
+  !> Puts the exponents of the rise and the final separations.
+  !>
+  !> With k the initial stiffness, G k/strength**2 = a (a/m + 1)/q**2 and the product q = final strength/G of the
+  !> paper, a function of m. Newton's method in log(m), from m = strength**2/(G k), its limit for a large stiffness. For
+  !> the derivative: q is what makes the peak the strength, so it does not depend on where the peak is.
+  pure subroutine prepare_ppr(law)
+    type(law_parameters), intent(inout) :: law
+    integer, parameter :: most_steps = 50
+    real(dp) :: wanted, m, a, q, peak, rises, step
+    integer :: i, k
+
+    do i = 1, 2
+      a = law%shape(i)
+      q = a
+      if (law%flexibility > 0.0_dp) then
+        wanted = law%toughness(i)*law%ratio(i)/(law%flexibility*law%strength(i)**2)
+        m = 1.0_dp/wanted
+        do k = 1, most_steps
+          peak = peak_of(a, m)
+          q = final_of(a, m)
+          rises = (m - 1.0_dp)*a*peak/(m + a*peak) - m*log(1.0_dp + a*peak/m)
+          step = log(a*(a/m + 1.0_dp)/(wanted*q**2))/(a/(a + m) + 2.0_dp*rises)
+          ! the slope is -1 where the law is stiff and not far from it elsewhere
+          m = m*exp(-min(1.0_dp, max(-1.0_dp, step)))
+          ! the next one would be rounding
+          if (abs(step) <= sqrt(epsilon(1.0_dp))) exit
+        end do
+        q = final_of(a, m)
+        law%rise(i) = m
+      end if
+      law%final(i) = q*law%toughness(i)/law%strength(i)
+    end do
+  end subroutine prepare_ppr
+
+  !> Separation at the peak over the final one, lambda of the paper.
+  pure function peak_of(a, m) result(peak)
+    real(dp), intent(in) :: a, m
+    real(dp) :: peak
+
+    peak = sqrt(m/(a*(a + m - 1.0_dp)))
+  end function peak_of
+
+  !> Final separation in units of G/strength.
+  pure function final_of(a, m) result(final)
+    real(dp), intent(in) :: a, m
+    real(dp) :: final
+    real(dp) :: peak
+
+    peak = peak_of(a, m)
+    final = a*peak*(1.0_dp - peak)**(a - 1.0_dp)*(a/m + 1.0_dp)*(1.0_dp + a*peak/m)**(m - 1.0_dp)
+  end function final_of
+
+  !> Demands that the secant falls from the origin on, as it does if and only if m <= a: a law that is softer has its
+  !> steepest secant on the way.
+  pure subroutine check_ppr(law, status)
+    type(law_parameters), intent(in) :: law
+    type(status_type), intent(out) :: status   !< late_secant: item 1 for mode I, 2 for mode II, value and bound of G_c
+    real(dp) :: least, a
+    integer :: i
+
+    status = status_type(ok, 0, 0.0_dp, 0.0_dp)
+    do i = 2, 1, -1
+      a = law%shape(i)
+      if (law%rise(i) <= a) cycle
+      least = 2.0_dp*a/final_of(a, a)**2*law%strength(i)**2*law%flexibility/law%ratio(i)
+      status = status_type(late_secant, 3 - i, law%toughness(i), least)
+      return
+    end do
+  end subroutine check_ppr
+
+  !> Demands a beta with which one separation belongs to a trial traction: one that makes t + beta w strongly monotone,
+  !> (beta_n - s_n) (beta_tau - s_tau) > o**2 with the largest softening slopes s and coupling o = max |dt_n/dw_tau|.
+  pure subroutine check_ppr_beta(law, beta, status)
+    type(law_parameters), intent(in) :: law
+    real(dp), intent(in) :: beta(2)            !< stress/length
+    type(status_type), intent(out) :: status   !< small_beta: item 1 for beta_n, 2 for beta_tau, value and bound
+    real(dp) :: steepest(2), coupling, least
+    integer :: i
+
+    status = status_type(ok, 0, 0.0_dp, 0.0_dp)
+    coupling = law%strength(1)*law%strength(2)/minval(law%toughness)
+    do i = 1, 2
+      steepest(i) = steepest_of(law, i)
+    end do
+    do i = 2, 1, -1
+      least = steepest(i) + coupling
+      if (beta(3 - i) > steepest(3 - i)) least = steepest(i) + coupling**2/(beta(3 - i) - steepest(3 - i))
+      if (beta(i) > least) cycle
+      status = status_type(small_beta, 3 - i, beta(i), least)
+      return
+    end do
+  end subroutine check_ppr_beta
+
+  !> Bound of the softening slope of a pure mode, a >= 2: the largest value of (a - 1) traction/(final - w).
+  !>
+  !> It is the slope without a term that goes against it; it is exact for a = 2 and for infinite stiffness.
+  pure function steepest_of(law, i) result(slope)
+    type(law_parameters), intent(in) :: law
+    integer, intent(in) :: i
+    real(dp) :: slope   !< stress/length
+    real(dp) :: a, m, q, x
+    type(ppr_component) :: curve
+
+    a = law%shape(i)
+    x = 0.0_dp
+    if (law%flexibility > 0.0_dp) then
+      m = law%rise(i)
+      q = (a/m)*(a + m - 2.0_dp)
+      x = (1.0_dp + sqrt(1.0_dp + 4.0_dp*q))/(2.0_dp*q)
+    end if
+    if (x < 1.0_dp) then
+      curve = component_at(law, i, x*law%final(i))
+      slope = (a - 1.0_dp)*curve%traction/(law%final(i)*(1.0_dp - x))
+    else
+      ! a = 2: at the end
+      slope = (law%ratio(i)/law%flexibility)*(1.0_dp + a/m)**(m - 1.0_dp)
+    end if
+  end function steepest_of
+
+  !> A component at its largest separation.
+  pure function component_at(law, i, largest) result(component)
+    type(law_parameters), intent(in) :: law
+    integer, intent(in) :: i            !< 1 tau, 2 n
+    real(dp), intent(in) :: largest     !< not negative, length
+    type(ppr_component) :: component
+    real(dp) :: a, m, x, rest, rise, remainder, weight
+
+    component = ppr_component(0.0_dp, 0.0_dp, 0.0_dp, 0.0_dp, 0.0_dp)
+    a = law%shape(i)
+    m = law%rise(i)
+    x = largest/law%final(i)
+    if (x >= 1.0_dp) return
+    rest = 1.0_dp - x
+    if (law%flexibility > 0.0_dp) then
+      rise = 1.0_dp + a*x/m
+      component%secant = (law%ratio(i)/law%flexibility)*rest**(a - 1.0_dp)*rise**(m - 1.0_dp)
+      component%traction = component%secant*largest
+      component%slope = component%secant*(1.0_dp - x**2*(a/m)*(a + m - 1.0_dp))/(rest*rise)
+      remainder = (rest*rise)*rest**(a - 1.0_dp)*rise**(m - 1.0_dp)
+    else
+      component%traction = law%strength(i)*rest**(a - 1.0_dp)
+      component%secant = component%traction/max(largest, tiny(1.0_dp)*component%traction)
+      component%slope = -(a - 1.0_dp)*component%traction/(rest*law%final(i))
+      remainder = rest**a
+    end if
+    weight = max(1.0_dp, law%toughness(i)/law%toughness(3 - i))
+    component%share = 1.0_dp - weight*(1.0_dp - remainder)
+    if (component%share > 0.0_dp) then
+      component%by_share = -weight*component%traction/law%toughness(i)
+    else
+      component%share = 0.0_dp
+    end if
+  end function component_at
+
+  !> DAMAGE: 1 - (1 - x_tau)(1 - x_n) with the largest separations over the final ones. It is 0 before the first separation
+  !> and 1 once nothing is left of either component.
+  pure function damage_at(law, largest) result(damage)
+    type(law_parameters), intent(in) :: law
+    real(dp), intent(in) :: largest(2)
+    real(dp) :: damage
+    real(dp) :: x(2)
+
+    x = min(1.0_dp, largest/law%final)
+    damage = x(1) + x(2)*(1.0_dp - x(1))
+  end function damage_at
+
+  !> Damage d_i = 1 - K_i/alpha_i of each component of a law that is not rigid.
+  pure function ppr_damage_of_components(law, largest) result(damage)
+    type(law_parameters), intent(in) :: law
+    real(dp), intent(in) :: largest(2)
+    real(dp) :: damage(2)
+    type(ppr_component) :: tau, n
+
+    tau = component_at(law, 1, largest(1))
+    n = component_at(law, 2, largest(2))
+    damage = 1.0_dp - [tau%secant*n%share, n%secant*tau%share]*(law%flexibility/law%ratio)
+  end function ppr_damage_of_components
+
+  !> Damage at the end of an increment, of a law that is not rigid, at the displacement jump.
+  !>
+  !> The largest separations follow the present ones where these exceed them, with VISCOSITY by backward Euler.
+  pure subroutine evolve_ppr(law, history, separation, fraction, state)
+    type(law_parameters), intent(in) :: law
+    type(point_history), intent(in) :: history
+    real(dp), intent(in) :: separation(2)   !< (tau, n), opening positive
+    real(dp), intent(in) :: fraction        !< of the excess by which the largest separations grow
+    type(damage_state), intent(out) :: state
+    type(ppr_component) :: parts(2)
+    real(dp) :: jump(2), by_largest(2, 2), grown
+    integer :: i, j
+
+    jump = [abs(separation(1)), max(0.0_dp, separation(2))]
+    state%largest = history%largest + fraction*max(0.0_dp, jump - history%largest)
+    do i = 1, 2
+      parts(i) = component_at(law, i, state%largest(i))
+    end do
+    state%slope = 0.0_dp
+    do i = 1, 2
+      j = 3 - i
+      state%acting(i) = 1.0_dp - parts(i)%secant*parts(j)%share*law%flexibility/law%ratio(i)
+      by_largest(i, i) = 0.0_dp
+      if (state%largest(i) > 0.0_dp) by_largest(i, i) = &
+        (parts(i)%slope - parts(i)%secant)*parts(j)%share/state%largest(i)
+      by_largest(i, j) = parts(i)%secant*parts(j)%by_share
+    end do
+    do j = 1, 2
+      if (.not. jump(j) > history%largest(j)) cycle
+      grown = sign(fraction, separation(j))
+      state%slope(:, j) = -by_largest(:, j)*grown*law%flexibility/law%ratio
+    end do
+    state%damage = damage_at(law, state%largest)
+    state%damage_max = max(history%damage_max, damage_at(law, max(state%largest, jump)))
+  end subroutine evolve_ppr
+
+  !> Recoverable traction at the start of an increment in the consistent closure, without the compression of a closed
+  !> point. A component that has been rigid so far has what it can have of the traction there was.
+  pure function ppr_start_of_increment(law, history, old_traction) result(traction)
+    type(law_parameters), intent(in) :: law
+    type(point_history), intent(in) :: history
+    real(dp), intent(in) :: old_traction(2)   !< T, stress
+    real(dp) :: traction(2)
+    type(ppr_component) :: parts(2)
+    real(dp) :: most
+    integer :: i
+
+    do i = 1, 2
+      parts(i) = component_at(law, i, history%largest(i))
+    end do
+    do i = 1, 2
+      if (law%flexibility > 0.0_dp .or. history%largest(i) > 0.0_dp) then
+        traction(i) = parts(i)%secant*parts(3 - i)%share*history%separation(i)
+      else
+        most = parts(i)%traction*parts(3 - i)%share
+        traction(i) = max(-most, min(most, old_traction(i)))
+      end if
+    end do
+    traction(2) = max(0.0_dp, traction(2))
+  end function ppr_start_of_increment
+
+end module cohesive_ppr

@@ -1,0 +1,300 @@
+! SPDX-FileCopyrightText: The uel-harness authors
+! SPDX-License-Identifier: BSD-3-Clause
+!> The consistent closure t(w; history) + beta w = p of the PPR law, in two unknowns; components in the order (tau, n).
+!>
+!> With a sufficient beta, `check_ppr_beta`, the left side is strongly monotone in w, with history and for infinite
+!> stiffness too: w_n follows from w_tau by one equation that rises with w_n, and what is left rises with w_tau.
+!> Both are solved by Newton's method within a bracket.
+module cohesive_ppr_closure
+  use core_kinds, only: dp
+  use cohesive_parameters, only: law_parameters
+  use cohesive_state, only: point_history, closure_state
+  use cohesive_ppr, only: ppr_component, component_at, damage_at
+  use cohesive_friction, only: rub
+  implicit none(type, external)
+  private
+  public :: close_ppr
+
+  !> The equations t_i + b_i w_i = driving_i, and how far their solution is.
+  type :: ppr_equations
+    real(dp) :: b(2)                  !< beta and viscous part, stress/length
+    real(dp) :: driving(2)            !< absolute value of p without its compressive part, stress
+    real(dp) :: largest(2)            !< largest separations: at the start of the increment
+    logical :: fixed(2)               !< the damage may not grow
+    type(ppr_component) :: parts(2)   !< at the separations
+    real(dp) :: w(2)                  !< absolute value of the separations, length
+    logical :: grows(2)               !< beyond the largest separation so far
+    logical :: held(2)                !< rigid, without a separation
+  end type ppr_equations
+
+  !> A root in a bracket of positive numbers.
+  type :: bracket_type
+    real(dp) :: lower, upper
+  end type bracket_type
+
+  integer, parameter :: most_steps = 100
+
+contains
+
+  !> Traction, separation and damage for a trial traction, and the derivative of the traction by it.
+  !>
+  !> Viscosity, contact and friction are those of the other laws, `close_consistently`; the overstress is that of
+  !> eta_i = viscosity k_i (1 - DAMAGE), k_i = strength_i**2/(2 G_i).
+  pure subroutine close_ppr(law, beta, trial, dtime, secant_share, history, state)
+    type(law_parameters), intent(in) :: law
+    real(dp), intent(in) :: beta(2)              !< stress/length, (tau, n)
+    real(dp), intent(in) :: trial(2)             !< p, stress
+    real(dp), intent(in) :: dtime                !< duration of the increment
+    real(dp), intent(in) :: secant_share         !< of the tangent at fixed damage in `by_trial`, from 0 to 1
+    type(point_history), intent(in) :: history
+    type(closure_state), intent(out) :: state
+    type(ppr_equations) :: equations
+    real(dp), dimension(2) :: viscous, old, p, secants, overstress
+    real(dp) :: stiff, rest, friction_slope
+    logical :: closed, sticks
+
+    old = [history%separation(1), max(0.0_dp, history%separation(2))]
+    viscous = 0.0_dp
+    if (law%viscosity > 0.0_dp .and. dtime > 0.0_dp) viscous = (law%viscosity/dtime) &
+      *0.5_dp*law%strength**2/law%toughness*(1.0_dp - history%damage)
+    p = trial + viscous*old
+    closed = p(2) < 0.0_dp
+    stiff = 1.0_dp/(1.0_dp + beta(2)*law%flexibility)
+    equations%b = beta + viscous
+    equations%driving = [0.0_dp, max(0.0_dp, p(2))]
+    equations%largest = history%largest
+    equations%fixed = law%viscosity > 0.0_dp .and. .not. dtime > 0.0_dp
+
+    rest = 0.0_dp
+    if (law%friction > 0.0_dp) rest = trial_of_rest(law, equations, p(1), old(1))
+    call rub(law, history%damage, merge(p(2)*stiff, 0.0_dp, closed), p(1), rest, sticks, state%friction, friction_slope)
+    p(1) = p(1) - state%friction
+    equations%fixed(1) = equations%fixed(1) .or. sticks
+    equations%driving(1) = abs(p(1))
+    call solve(law, equations)
+
+    state%largest = history%largest
+    where (equations%grows) state%largest = equations%w
+    state%damage = damage_at(law, state%largest)
+    secants = [equations%parts(1)%secant*equations%parts(2)%share, equations%parts(2)%secant*equations%parts(1)%share]
+    state%separation = [sign(equations%w(1), p(1)), equations%w(2)]
+    if (sticks) state%separation(1) = old(1)
+    state%recoverable = p - equations%b*state%separation
+    where (.not. equations%held) state%recoverable = secants*state%separation
+    overstress = viscous*(state%separation - old)
+    state%stabilisation = 0.0_dp
+    where (.not. equations%held) state%stabilisation = beta/(secants + beta)
+    call derive(equations, beta, viscous, sign(1.0_dp, p(1)), secants, secant_share, state%by_trial)
+    if (closed) then
+      state%separation(2) = law%flexibility*stiff*p(2)
+      state%recoverable(2) = stiff*p(2)
+      state%stabilisation(2) = 1.0_dp - stiff
+      state%by_trial(:, 2) = [0.0_dp, stiff]
+      state%by_trial(2, 1) = 0.0_dp
+    end if
+    state%traction = state%recoverable + overstress + [state%friction, 0.0_dp]
+    ! friction takes from p_tau what it adds to T_tau
+    if (sticks) state%by_trial(1, 1) = 1.0_dp
+    if (closed) state%by_trial(1, 2) = friction_slope*stiff*(1.0_dp - state%by_trial(1, 1))
+  end subroutine close_ppr
+
+  !> p_tau at which w_tau stays as it was, without friction; of a rigid point the nearest one.
+  pure function trial_of_rest(law, equations, p, old) result(rest)
+    type(law_parameters), intent(in) :: law
+    type(ppr_equations), intent(in) :: equations
+    real(dp), intent(in) :: p, old
+    real(dp) :: rest
+    type(ppr_component) :: tau, n
+
+    tau = component_at(law, 1, equations%largest(1))
+    n = component_at(law, 2, equations%largest(2))
+    if (law%flexibility > 0.0_dp .or. equations%largest(1) > 0.0_dp) then
+      rest = (tau%secant*n%share + equations%b(1))*old
+    else
+      rest = max(-tau%traction*n%share, min(tau%traction*n%share, p))
+    end if
+  end function trial_of_rest
+
+  !> Solves for w_tau; w_n follows from every w_tau.
+  pure subroutine solve(law, equations)
+    type(law_parameters), intent(in) :: law
+    type(ppr_equations), intent(inout) :: equations
+    type(bracket_type) :: bracket
+    real(dp) :: residual, slope, w
+    logical :: settled
+    integer :: i
+
+    equations%parts(1) = component_at(law, 1, equations%largest(1))
+    call open_normally(law, equations)
+    call stay(law, equations, 1)
+    if (.not. equations%grows(1)) return
+
+    bracket = bracket_of(law, equations, 1)
+    w = bracket%upper
+    do i = 1, most_steps
+      equations%w(1) = w
+      equations%parts(1) = component_at(law, 1, w)
+      call open_normally(law, equations)
+      call miss(equations, 1, residual, slope)
+      if (equations%grows(2)) slope = slope - cross(equations, 1)*cross(equations, 2)/normal_slope(equations)
+      call step(residual, slope, bracket, w, settled)
+      if (settled) exit
+    end do
+  end subroutine solve
+
+  !> Solves for w_n, the other component being what it is.
+  pure subroutine open_normally(law, equations)
+    type(law_parameters), intent(in) :: law
+    type(ppr_equations), intent(inout) :: equations
+    type(bracket_type) :: bracket
+    real(dp) :: residual, slope, w
+    logical :: settled
+    integer :: i
+
+    equations%parts(2) = component_at(law, 2, equations%largest(2))
+    call stay(law, equations, 2)
+    if (.not. equations%grows(2)) return
+
+    bracket = bracket_of(law, equations, 2)
+    w = bracket%upper
+    do i = 1, most_steps
+      equations%w(2) = w
+      equations%parts(2) = component_at(law, 2, w)
+      call miss(equations, 2, residual, slope)
+      call step(residual, slope, bracket, w, settled)
+      if (settled) exit
+    end do
+  end subroutine open_normally
+
+  !> Separation of component i at its largest separation so far, and whether it has to grow beyond it.
+  pure subroutine stay(law, equations, i)
+    type(law_parameters), intent(in) :: law
+    type(ppr_equations), intent(inout) :: equations
+    integer, intent(in) :: i
+    real(dp) :: share
+
+    share = equations%parts(3 - i)%share
+    equations%held(i) = .not. law%flexibility > 0.0_dp .and. .not. equations%largest(i) > 0.0_dp
+    if (equations%held(i)) then
+      equations%w(i) = 0.0_dp
+      equations%grows(i) = equations%driving(i) > equations%parts(i)%traction*share
+    else
+      equations%w(i) = equations%driving(i)/(equations%parts(i)%secant*share + equations%b(i))
+      equations%grows(i) = equations%w(i) > equations%largest(i)
+    end if
+    equations%grows(i) = equations%grows(i) .and. .not. equations%fixed(i)
+    if (equations%grows(i)) equations%held(i) = .false.
+  end subroutine stay
+
+  !> Where w_i is that grows: the secant, or the strength of a rigid one, is not greater than it was, nor less than nothing.
+  pure function bracket_of(law, equations, i) result(bracket)
+    type(law_parameters), intent(in) :: law
+    type(ppr_equations), intent(in) :: equations
+    integer, intent(in) :: i
+    type(bracket_type) :: bracket
+
+    bracket%upper = equations%driving(i)/equations%b(i)
+    bracket%lower = equations%w(i)
+    if (.not. law%flexibility > 0.0_dp) bracket%lower = max(equations%largest(i), &
+      (equations%driving(i) - equations%parts(i)%traction*equations%parts(3 - i)%share)/equations%b(i))
+  end function bracket_of
+
+  !> t_i + b_i w_i - driving_i and its derivative by w_i.
+  pure subroutine miss(equations, i, residual, slope)
+    type(ppr_equations), intent(in) :: equations
+    integer, intent(in) :: i
+    real(dp), intent(out) :: residual, slope
+
+    residual = equations%parts(i)%traction*equations%parts(3 - i)%share + equations%b(i)*equations%w(i) &
+      - equations%driving(i)
+    slope = equations%parts(i)%slope*equations%parts(3 - i)%share + equations%b(i)
+  end subroutine miss
+
+  !> Derivative of t_n + b_n w_n by w_n.
+  pure function normal_slope(equations) result(slope)
+    type(ppr_equations), intent(in) :: equations
+    real(dp) :: slope
+    real(dp) :: residual
+
+    call miss(equations, 2, residual, slope)
+  end function normal_slope
+
+  !> Derivative of t_i by the other separation.
+  pure function cross(equations, i) result(slope)
+    type(ppr_equations), intent(in) :: equations
+    integer, intent(in) :: i
+    real(dp) :: slope
+
+    slope = 0.0_dp
+    if (equations%grows(3 - i)) slope = equations%parts(i)%secant*equations%w(i)*equations%parts(3 - i)%by_share
+  end function cross
+
+  !> A step of Newton's method towards the root of a function that rises; where it leaves the bracket, the middle in
+  !> logarithms, since the root of a stiff law is smaller by orders of magnitude than that of a soft one.
+  pure subroutine step(residual, slope, bracket, w, settled)
+    real(dp), intent(in) :: residual, slope
+    type(bracket_type), intent(inout) :: bracket
+    real(dp), intent(inout) :: w
+    logical, intent(out) :: settled
+    real(dp) :: new
+
+    settled = .not. abs(residual) > 0.0_dp
+    if (settled) return
+    if (residual > 0.0_dp) then
+      bracket%upper = w
+    else
+      bracket%lower = w
+    end if
+    new = w - residual/slope
+    settled = abs(new - w) <= 2.0_dp*epsilon(1.0_dp)*w
+    if (settled) return
+    if (.not. (new > bracket%lower .and. new < bracket%upper)) new = sqrt(bracket%lower*bracket%upper)
+    settled = abs(new - w) <= 2.0_dp*epsilon(1.0_dp)*w
+    w = new
+  end subroutine step
+
+  !> dT/dp = (dt/dw + viscous part) (dt/dw + b)**-1 of an open point, blended with that at fixed damage.
+  pure subroutine derive(equations, beta, viscous, side, secants, secant_share, by_trial)
+    type(ppr_equations), intent(in) :: equations
+    real(dp), intent(in) :: beta(2), viscous(2)
+    real(dp), intent(in) :: side               !< sign of w_tau
+    real(dp), intent(in) :: secants(2)         !< t_i/w_i
+    real(dp), intent(in) :: secant_share       !< from 0 to 1
+    real(dp), intent(out) :: by_trial(2, 2)
+    real(dp) :: a(2, 2), determinant
+    integer :: i
+
+    by_trial = 0.0_dp
+    do i = 1, 2
+      ! without a separation, T is p
+      by_trial(i, i) = 1.0_dp
+      if (.not. equations%held(i)) by_trial(i, i) = (secants(i) + viscous(i))/(secants(i) + equations%b(i))
+    end do
+    if (.not. any(equations%grows) .or. secant_share >= 1.0_dp) return
+
+    do i = 1, 2
+      a(i, i) = secants(i)
+      if (equations%grows(i)) a(i, i) = equations%parts(i)%slope*equations%parts(3 - i)%share
+      a(i, 3 - i) = side*cross(equations, i)
+    end do
+    by_trial = secant_share*by_trial
+    associate (blend => 1.0_dp - secant_share)
+      if (any(equations%held)) then
+        do i = 1, 2
+          if (equations%held(i)) by_trial(i, i) = 1.0_dp
+          if (.not. equations%held(i)) by_trial(i, i) = by_trial(i, i) &
+            + blend*(a(i, i) + viscous(i))/(a(i, i) + equations%b(i))
+        end do
+      else
+        determinant = (a(1, 1) + equations%b(1))*(a(2, 2) + equations%b(2)) - a(1, 2)*a(2, 1)
+        do i = 1, 2
+          by_trial(i, i) = by_trial(i, i) + blend &
+            *((a(i, i) + viscous(i))*(a(3 - i, 3 - i) + equations%b(3 - i)) - a(1, 2)*a(2, 1))/determinant
+          ! (a_ij (a_ii + b_i) - (a_ii + viscous_i) a_ij)/determinant, and b is beta and viscous part
+          by_trial(i, 3 - i) = blend*a(i, 3 - i)*beta(i)/determinant
+        end do
+      end if
+    end associate
+  end subroutine derive
+
+end module cohesive_ppr_closure
