@@ -5,6 +5,7 @@
 from __future__ import annotations
 
 import hashlib
+import inspect
 import json
 import shutil
 import time
@@ -88,7 +89,8 @@ def fingerprint(deck: Deck) -> str:
     """Digest of a deck with all its files, and of the sources of the elements and of the solution procedure."""
     digest = hashlib.sha256(path_of_amalgam().read_bytes())
     for package in (harness.elements, harness.procedures, harness.solver):
-        for file in sorted(Path(package.__path__[0]).rglob("*.py")):
+        # __path__ of an editable installation is no folder
+        for file in sorted(Path(inspect.getfile(package)).parent.rglob("*.py")):
             digest.update(file.read_bytes())
     for name, content in sorted(deck.files().items()):
         digest.update(f"{name}\n{content}".encode())

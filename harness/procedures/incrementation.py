@@ -29,6 +29,9 @@ UNTOUCHED = 1e10
 _END = 1e-6
 """A remainder of the step below this fraction of the increment is joined to it: sums of increments round."""
 
+_ROUNDING = 1e-12
+"""Of a sum of increments, relative to it."""
+
 
 @dataclass(frozen=True, slots=True)
 class Abandoned:
@@ -113,18 +116,35 @@ class IncrementControl:
         self._easy = 0
         self._measures: list[float] = []
         self._most = largest_growth(procedure, controls)
+        self._whole: tuple[float, float] | None = None
+        self.in_parts = False
         self.attempts = 0
+
+    def part(self, end: float) -> bool:
+        """Whether the present increment, to the step time `end`, may be taken in parts; `abandon` gives their size.
+
+        At `end` the size of the whole is taken up again. Where a part fails, the rest is taken in one: `in_parts` ends.
+        """
+        if self._procedure.direct or self._whole:
+            return False
+        self._whole, self.in_parts = (end, self._size), True
+        return True
 
     def attempt(self, step_time: float) -> float:
         """Size of the next attempt from `step_time`; the last increment ends with the period."""
         self.attempts += 1
+        if self._whole and self._complete(step_time, self._whole[0]):
+            self._size, self._whole, self.in_parts = self._whole[1], None, False
         self._size = self.following(step_time)
         return self._size
 
     def following(self, step_time: float) -> float:
         """Size of an increment from `step_time`; 0 at the end of the step."""
-        left = self._procedure.period - step_time
-        return max(left, 0.0) if left <= self._size * (1.0 + _END) else self._size
+        end, size = self._procedure.period, self._size
+        if self._whole:
+            end, size = (end, self._whole[1]) if self._complete(step_time, self._whole[0]) else (self._whole[0], size)
+        left = end - step_time
+        return max(left, 0.0) if left <= size * (1.0 + _END) else size
 
     def abandon(self, abandoned: Abandoned) -> tuple[float, str]:
         """Size of the next attempt after one is given up; (0, error) where the job ends.
@@ -136,6 +156,9 @@ class IncrementControl:
             return 0.0, FIXED_TOO_LARGE
         if self.attempts > self._controls.i_a:
             return 0.0, TOO_MANY_ATTEMPTS
+        if self.in_parts and self._whole and self._size < self._whole[1]:
+            self._size, self.in_parts = self._whole[1], False
+            return self._size, ""
         self._size *= abandoned.factor
         if self._size < self._procedure.minimum:
             return 0.0, BELOW_MINIMUM
@@ -167,7 +190,7 @@ class IncrementControl:
         # a cutback does not start the count anew: Abaqus grows right after one if the attempts that converged were easy
         self._easy = self._easy + 1 if iterations <= self._controls.i_g else 0
         self.attempts = 0
-        if self._procedure.direct:
+        if self._procedure.direct or self.in_parts:
             return
         if iterations > self._controls.i_l and not searched:
             self._size *= self._controls.d_b
@@ -190,4 +213,8 @@ class IncrementControl:
 
     def finished(self, step_time: float) -> bool:
         """Whether the period is reached."""
-        return step_time >= self._procedure.period * (1.0 - 1e-12)
+        return self._complete(step_time, self._procedure.period)
+
+    @staticmethod
+    def _complete(step_time: float, end: float) -> bool:
+        return step_time >= end * (1.0 - _ROUNDING)

@@ -11,7 +11,7 @@ from typing import Protocol
 
 from harness.assembly import Constraints, System
 from harness.elements import Call
-from harness.errors import ConvergenceError
+from harness.errors import ConvergenceError, SingularMatrixError
 from harness.model.arrays import FloatArray
 from harness.model.model import Model
 from harness.model.records import (
@@ -29,9 +29,10 @@ from harness.model.steps import Step
 from harness.procedures.checks import Checker
 from harness.procedures.extrapolation import Extrapolation
 from harness.procedures.incrementation import TOO_MANY_INCREMENTS, Abandoned, Accuracy, IncrementControl, refused
+from harness.procedures.limit import PASSED, LimitLoad
 from harness.procedures.loads import released_reactions
 from harness.procedures.state import State
-from harness.solver.descent import ITERATIONS, Descent
+from harness.solver.descent import ITERATIONS, SINGULAR, Descent
 from harness.solver.linear import LinearSolver, choose
 from harness.solver.newton import Increment, Iterate, Newton
 
@@ -103,9 +104,10 @@ class StaticStep:
         self._descent: Descent | None = None
         if fallback:
             self._descent = Descent(system, constraints, state.solver, line_search, state.majoriser)
-        self._newton = self._descent or Newton(system, constraints, state.solver, line_search)
+        self._newton = Newton(system, constraints, state.solver, line_search)
         self._checker = Checker(system.dofs, constraints, step.controls, state.flux)
         self._extrapolation = Extrapolation(step.extrapolation)
+        self._limit = LimitLoad()
         self._start = state.total_time
         self._time = 0.0
         self._increment = 0
@@ -149,7 +151,14 @@ class StaticStep:
         self._user.external_database(1, 0, times, size, number, increment)
         iterates, extrapolated = self._begin(increment, size)
         iteration, abandoned = 0, None
-        for state in iterates:
+        while abandoned is None:
+            try:
+                state = next(iterates)
+            except SingularMatrixError:
+                if not self._control.in_parts:
+                    raise
+                abandoned = Abandoned(self._step.controls.time.d_f, SINGULAR)
+                break
             iteration = state.iteration
             abandoned = refused(state.evaluation.pnewdt)
             if abandoned is None and iteration == 0:
@@ -159,16 +168,13 @@ class StaticStep:
                 yield IterationDone(iteration, checks, state.line_search)
                 if all(check.verdict.accepted for check in checks):
                     accuracy = self._accuracy(state, size)
-                    abandoned = self._control.too_inaccurate(accuracy)
+                    abandoned = self._control.too_inaccurate(accuracy) or self._passed_limit(state, size)
                     if abandoned is None:
                         yield from self._help(increment, iteration)
                         yield self._converge(state, increment, size, accuracy)
                         return True, iteration
                 else:
                     abandoned = self._give_up(iteration, checks)
-            if abandoned is not None:
-                break
-        assert abandoned is not None
         yield from self._abandon(abandoned, increment, iteration, size)
         return False, iteration
 
@@ -176,26 +182,44 @@ class StaticStep:
         """How accurate the integration over time is, None where nothing measures it."""
         return None
 
+    @property
+    def _search(self) -> Descent | None:
+        """The fall-back; none in a part of an increment, where the equilibrium near by is wanted and no other."""
+        return None if self._control.in_parts else self._descent
+
+    @property
+    def _helped(self) -> bool:
+        """Whether the descent search took over in this attempt."""
+        return self._search is not None and bool(self._search.reason)
+
+    def _passed_limit(self, last: Iterate, size: float) -> Abandoned | None:
+        """Take the increment in parts where the search passed the largest load in it."""
+        external = -last.evaluation.residual
+        if not self._helped or not self._limit.passed(self._state.external, external, last.increment, size):
+            return None
+        in_parts = self._control.part(self._time + size)
+        return Abandoned(self._step.controls.time.d_f, PASSED) if in_parts else None
+
     def _give_up(self, iteration: int, checks: Sequence[FieldCheck]) -> Abandoned | None:
         """Whether to abandon the attempt; with the fall-back the search takes over instead, and is given its time."""
-        if self._descent is None:
+        if self._search is None:
             return self._checker.give_up(iteration, checks)
-        if not self._descent.reason:
+        if not self._search.reason:
             abandoned = self._checker.give_up(iteration, checks)
             if abandoned is not None:
-                self._descent.take_over(iteration + 1, abandoned.reason)
+                self._search.take_over(iteration + 1, abandoned.reason)
         return Abandoned(self._step.controls.time.d_c, SEARCH_TOO_LONG) if iteration >= ITERATIONS else None
 
     def _help(self, increment: int, iterations: int) -> Iterator[SearchHelped]:
         """Say that Newton's method alone did not do."""
-        if self._descent is not None and self._descent.reason:
-            since, reason = self._descent.since, self._descent.reason
+        if self._search is not None and self._search.reason:
+            since, reason = self._search.since, self._search.reason
             yield SearchHelped(self._step.number, increment, since, iterations, reason)
 
     def _begin(self, increment: int, size: float) -> tuple[Iterator[Iterate], bool]:
         """Iterates of an attempt, and whether they start from an extrapolation."""
         given = self._given(increment, size)
-        return self._newton.iterates(given), given.guess is not None
+        return (self._search or self._newton).iterates(given), given.guess is not None
 
     def _given(self, increment: int, size: float) -> Increment:
         """What the end of the increment prescribes."""
@@ -241,10 +265,10 @@ class StaticStep:
         number, attempt = self._step.number, self._control.attempts
         self._system.commit()
         reached = self._reach(last, size)
+        self._limit.converged(self._state.external, -last.evaluation.residual, last.increment, size)
         self._state.accept(last, reached.load, reached.released)
         self._checker.converged()
-        searched = self._descent is not None and bool(self._descent.reason)
-        self._control.converged(last.iteration, last.evaluation.pnewdt, searched=searched, accuracy=accuracy)
+        self._control.converged(last.iteration, last.evaluation.pnewdt, searched=self._helped, accuracy=accuracy)
         self._state.total_time = reached.total_time
         times = reached.step_time, reached.total_time
         self._user.external_database(2, 0, times, size, number, increment)

@@ -2,6 +2,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """The fall-back on springs that Newton's method does not solve; solutions by hand."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
@@ -9,6 +11,7 @@ from harness.errors import ConvergenceError, SingularMatrixError
 from harness.model.procedures import Static
 from harness.model.records import SearchHelped
 from harness.procedures.incrementation import DIVERGING, TOO_SLOW
+from harness.procedures.limit import PASSED
 from harness.solver import descent
 from harness.solver.descent import GROWING, SINGULAR, UPHILL
 
@@ -18,9 +21,9 @@ SOFTENING = STIFFNESS * PEAK / (END - PEAK)
 STATIC = Static(0.1, 1.0, 1e-5, 0.1)
 
 
-def pulled(bench, soft, **options):
+def pulled(bench, soft, static=STATIC, **options):
     """A spring in series with one that fails, pulled to 3.15 in ten increments: a snap, as soft < SOFTENING."""
-    step = bench.step(static=STATIC, boundaries=(bench.fix(0), bench.fix(2, 3.15)))
+    step = bench.step(static=static, boundaries=(bench.fix(0), bench.fix(2, 3.15)))
     return bench.run([(0, 1, 1, (soft, 0.0)), DAMAGE], [step], **options)
 
 
@@ -34,15 +37,30 @@ def test_newton_stops_at_a_snap_and_the_search_passes_it(bench):
     assert isinstance(pulled(bench, 0.5).error, ConvergenceError)
     result = pulled(bench, 0.5, fallback=True)
     assert result.error is None
-    assert result.abandoned == []
     solutions = [(r.solution.displacement[2], r.solution.reaction[2]) for r in result.increments]
-    assert len(solutions) == 10
     for u, force in solutions:
         assert force == pytest.approx(expected_force(u, 0.5), abs=1e-6)
     (helped,) = result.of(SearchHelped)
-    # the peak is at u = 2.1, between 6 and 7 increments of 0.315
-    assert (helped.increment, helped.reason) == (7, UPHILL)
+    assert helped.reason == UPHILL
     assert helped.since <= helped.iterations
+
+
+def test_largest_load_is_approached_in_quarters_of_an_increment(bench):
+    """The peak is at u = 2.1, between 6 and 6.75 increments of 0.315: two quarters reach it, the third fails."""
+    result = pulled(bench, 0.5, fallback=True)
+    sizes = [record.time_increment for record in result.increments]
+    assert sizes == pytest.approx([0.1] * 6 + [0.025] * 2 + [0.05] + [0.1] * 3)
+    following = [record.next_increment for record in result.increments]
+    assert following == pytest.approx([0.1] * 6 + [0.025] * 2 + [0.1] * 3 + [0.0])
+    assert [(record.increment, record.attempt) for record in result.abandoned] == [(7, 1), (9, 1)]
+    assert result.abandoned[0].reason == PASSED
+    assert max(record.solution.reaction[2] for record in result.increments) == pytest.approx(2.0475 / 2.1)
+
+
+def test_largest_load_in_fixed_increments_is_passed(bench):
+    result = pulled(bench, 0.5, static=replace(STATIC, direct=True), fallback=True)
+    assert (result.error, result.abandoned) == (None, [])
+    assert len(result.increments) == 10
 
 
 def test_singular_matrix_is_passed(bench):
