@@ -150,7 +150,7 @@ subroutine host_define_material(stiffness, compliance, thickness, axes, constant
   integer(i4), intent(in) :: ntens, rows
   real(dp), intent(in) :: stiffness(ntens, ntens), compliance(ntens, ntens)
   real(dp), intent(in) :: thickness(3)        !< plane stress: elastic strain 33 per stress
-  real(dp), intent(in) :: axes(2, 2)          !< rows: material directions 1 and 2 in the plane
+  real(dp), intent(in) :: axes(3, 3)          !< rows: material directions
   real(dp), intent(in) :: constants(2)        !< Young's modulus and Poisson's ratio of a plastic material
   real(dp), intent(in) :: yield(2, rows)      !< yield stress and plastic strain; one row of zeros: elastic
   integer(i4), intent(out) :: number
@@ -160,7 +160,7 @@ subroutine host_define_material(stiffness, compliance, thickness, axes, constant
   material%compliance(:ntens, :ntens) = compliance
   material%thickness = thickness
   material%axes = axes
-  material%turned = any(abs(axes - reshape([1, 0, 0, 1], [2, 2])) > 0)
+  material%turned = any(abs(axes - reshape([1, 0, 0, 0, 1, 0, 0, 0, 1], [3, 3])) > 0)
   material%young = constants(1)
   material%poisson = constants(2)
   if (yield(1, 1) > 0) material%yield = transpose(yield)

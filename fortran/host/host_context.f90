@@ -19,6 +19,9 @@ module host_context
     real(dp) :: length = 0        !< characteristic length of the element
     real(dp) :: pnewdt = 0        !< smallest that a user material has returned in this call
     integer(i4) :: tensor = 0     !< components of stress: 3, 4 or 6; 0 without a material
+    logical :: finite = .false.   !< large displacements: the next two are those of the point
+    real(dp) :: rotation(3, 3) = 0         !< of the increment
+    real(dp) :: deformation(3, 3, 2) = 0   !< deformation gradients at its start and end, for UMAT
     real(dp), pointer, contiguous :: history(:, :) => null()        !< (values, npt) committed material history
     real(dp), pointer, contiguous :: history_trial(:, :) => null()  !< (values, npt) of this call
     real(dp), pointer, contiguous :: values(:) => null()            !< strain, then stress of the point, while UVARM runs

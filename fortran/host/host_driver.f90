@@ -109,6 +109,7 @@ contains
     current%step = block%kstep
     current%increment = block%kinc
     current%tensor = block%tensor
+    current%finite = .false.
     current%routine = merge('UELMAT', 'UEL   ', block%with_material)
     current%time = block%time - block%dtime
     current%dtime = block%dtime

@@ -7,6 +7,7 @@
 module host_materials
   use host_context, only: current
   use host_kinds, only: dp, i4
+  use host_kinematics, only: rotated
   use host_mises, only: mises_plane_stress, mises_solid
   use host_umat, only: call_umat, strain_energy, user_material_t
   implicit none (type, external)
@@ -21,7 +22,7 @@ module host_materials
     real(dp) :: stiffness(6, 6) = 0                !< (ntens, ntens) of it, global axes
     real(dp) :: compliance(6, 6) = 0               !< its inverse
     real(dp) :: thickness(3) = 0                   !< plane stress: elastic strain 33 = thickness . stress
-    real(dp) :: axes(2, 2) = 0                     !< rows: directions 1 and 2 of *ORIENTATION in the plane
+    real(dp) :: axes(3, 3) = 0                     !< rows: directions of *ORIENTATION
     logical :: turned = .false.                    !< axes are not the global ones
     real(dp), allocatable :: yield(:, :)           !< (k, 2) yield stress, plastic strain; absent: elastic
     real(dp) :: young = 0, poisson = 0             !< of a plastic material, which is isotropic
@@ -59,6 +60,7 @@ contains
     real(dp), intent(out) :: stress(material%ntens)
     real(dp), intent(out) :: tangent(material%ntens, material%ntens)
     logical, intent(out) :: valid
+    real(dp) :: old(history_values)
     integer :: i, j, n
     valid = .true.
     n = material%ntens
@@ -75,10 +77,15 @@ contains
     valid = associated(current%history)
     if (valid) valid = point >= 1 .and. point <= size(current%history, 2)
     if (.not. valid) return
-    associate (old => current%history(:, point), new => current%history_trial(:, point))
-      if (allocated(material%user)) then
-        call call_umat(material%user, n, point, strain, old, stress, tangent, new)
-      else if (n == 3) then
+    if (allocated(material%user)) then
+      call call_umat(material%user, n, point, strain, current%history(:, point), stress, tangent, current%history_trial(:, point))
+      return
+    end if
+    old = current%history(:history_values, point)
+    ! plastic strains turn with the material
+    if (current%finite) old(:6) = rotated(6, old(:6), current%rotation, 2.0_dp)
+    associate (new => current%history_trial(:, point))
+      if (n == 3) then
         call mises_plane_stress(material%young, material%poisson, material%yield, old, strain, stress, tangent, new)
       else
         call mises_solid(material%young, material%poisson, material%yield, n, old, strain, stress, tangent, new)

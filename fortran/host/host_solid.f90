@@ -1,25 +1,33 @@
 ! SPDX-FileCopyrightText: The uel-harness authors
 ! SPDX-License-Identifier: BSD-3-Clause
-!> Built-in plane continuum elements CPS3, CPS4, CPS8 and CPS8R, and CPE likewise, as a procedure with the arguments of
-!> UELMAT.
+!> Built-in continuum elements CPS3, CPS4, CPS4R, CPS8 and CPS8R, CPE likewise, C3D4, C3D8, C3D8R, C3D20 and C3D20R, as
+!> a procedure with the arguments of UELMAT.
 !>
-!> Full integration: 1 point in triangles, 2 x 2 Gauss points in quadrilaterals of four nodes, 3 x 3 in those of eight,
-!> 2 x 2 where the name ends in R. NSVARS tells how many points there are. CPE4 replaces the volume strain of the
-!> points by its mean over the element, as Abaqus does (Theory Guide, Solid isoparametric quadrilaterals and hexahedra:
-!> selectively reduced integration), with half of the difference on each direction in the plane.
-!> PROPS(1) is the thickness. SVARS hold, for each point, E11 E22 E33 E12 S11 S22 S33 S12, in the directions of
-!> *ORIENTATION where the section has one, as Abaqus prints them.
+!> JPROPS(1) is the number of integration points. CPE4 and C3D8 replace the volume strain of the points by its mean over
+!> the element, as Abaqus does. Elements of one point have the uniform strain, and with four or eight nodes hourglass
+!> stiffness: PROPS(3) times volume, sum of the squared gradients of the shape functions, and hourglass displacement.
+!> PROPS(1) is the thickness, PROPS(2) the density.
+!>
+!> Large displacements: Cauchy stress, turned and extended increment by increment with the strain and the rotation at the
+!> middle of the increment (Jaumann rate; Hughes and Winget). The tangent leaves out the change of the volume and of the
+!> middle of the increment.
+!>
+!> SVARS hold, for each point, E11 E22 E33 E12 S11 S22 S33 S12, in space with 13 and 23 after 12, in the directions of
+!> *ORIENTATION where the section has one, as Abaqus prints them; then hourglass displacements; in dynamic analyses then
+!> the forces of the last two increments.
 module host_solid
   use host_context, only: current
+  use host_inertia, only: is_dynamic, mass_matrix, respond
   use host_kinds, only: dp, i4
+  use host_kinematics, only: average_volume_strain, gradients, mean_gradients, point_position, rotated, rotation_of, &
+                             strain_matrix
   use host_materials, only: elastic_energy, find_material, material_t, stress_update, thickness_strain
-  use host_messages, only: add_message
-  use host_protect, only: escape
+  use host_shape, only: hourglass_shapes
   implicit none (type, external)
   private
-  public :: solid_uelmat, point_position
+  public :: solid_uelmat
 
-  integer, parameter :: per_point = 8
+  real(dp), parameter :: identity(3, 3) = reshape([1, 0, 0, 0, 1, 0, 0, 0, 1], [3, 3])
 
 contains
 
@@ -30,218 +38,319 @@ contains
                    lflags(*), mlvarx, mdload, jprops(*), njprop, materiallib
     real(dp) :: rhs(*), amatrx(*), svars(*), energy(*), props(*), coords(*), u(*), du(*), v(*), a(*), time(*), dtime, &
                 params(*), adlmag(*), predef(*), ddlmag(*), pnewdt, period
-    integer, parameter :: stiffness_wanted(3) = [1, 2, 5]
-    rhs(1:ndofel*nrhs) = 0
-    amatrx(1:ndofel*ndofel) = 0
-    if (.not. any(lflags(3) == stiffness_wanted)) return
-    call integrate(int(nnode), int(nsvars)/per_point, find_material(materiallib), props(1), coords, u, rhs, amatrx, svars, &
-                   energy)
+    type(material_t), pointer :: material
+    real(dp) :: mass(ndofel, ndofel), old(ndofel, 2)
+    integer :: dim, nodes, points, modes, first, last, n
+    dim = mcrd
+    nodes = nnode
+    points = jprops(1)
+    n = ndofel
+    modes = hourglass_modes(dim, nodes, points)
+    material => find_material(materiallib)
+    first = points*values_of_point(dim) + dim*modes + 1
+    last = first + 2*n - 1
+    old = 0
+    if (nsvars >= last) old = reshape(svars(first:last), [n, 2])
+    if (any(lflags(3) == [4, 6]) .or. is_dynamic(lflags(1))) then
+      call mass_matrix(dim, nodes, props(2)*merge(props(1), 1.0_dp, dim == 2), coords, mass)
+    end if
+    rhs(1:n*nrhs) = 0
+    amatrx(1:n*n) = 0
+    if (lflags(3) /= 3 .and. lflags(3) /= 4) then
+      call integrate(dim, nodes, points, modes, lflags(2) /= 0, material, props(1), props(3), coords, u, du, rhs, amatrx, svars, &
+                     svars(points*values_of_point(dim) + 1), energy)
+    end if
+    call respond(n, lflags, params, dtime, v, a, mass, old, rhs, amatrx, energy(1))
+    if (nsvars >= last) svars(first:last) = reshape(old, [2*n])
   end subroutine solid_uelmat
 
-  !> Residual, tangent, state and energy.
-  subroutine integrate(nodes, points, material, thickness, x, u, rhs, stiffness, svars, energy)
-    integer, intent(in) :: nodes, points
+  !> Strains and stresses that SVARS hold for a point.
+  pure integer function values_of_point(dim)
+    integer, intent(in) :: dim
+    values_of_point = merge(8, 12, dim == 2)
+  end function values_of_point
+
+  !> Number of hourglass patterns: one in a quadrilateral, four in a hexahedron of one point.
+  pure integer function hourglass_modes(dim, nodes, points)
+    integer, intent(in) :: dim, nodes, points
+    hourglass_modes = 0
+    if (points == 1 .and. nodes == 2**dim) hourglass_modes = merge(1, 4, dim == 2)
+  end function hourglass_modes
+
+  !> Force, tangent, state and energies.
+  subroutine integrate(dim, nodes, points, modes, finite, material, thickness, hourglass, x, u, du, force, stiffness, svars, &
+                       hourglass_state, energy)
+    integer, intent(in) :: dim, nodes, points, modes
+    logical, intent(in) :: finite
     type(material_t), intent(in) :: material
-    real(dp), intent(in) :: thickness, x(2, nodes), u(2*nodes)
-    real(dp), intent(inout) :: rhs(2*nodes), stiffness(2*nodes, 2*nodes), svars(per_point, points), energy(8)
-    real(dp) :: b(3, 2*nodes, points), weight(points), strain(3), stress(3), modulus(3, 3), db(3), elastic, work
-    integer :: i, j, p, n
-    n = 2*nodes
-    do p = 1, points
-      call gradients(nodes, points, p, x, b(:, :, p), weight(p))
-    end do
-    if (nodes == 4 .and. material%ntens == 4) call average_volume_strain(weight, b)
+    real(dp), intent(in) :: thickness, hourglass, x(dim, nodes), u(dim, nodes), du(dim, nodes)
+    real(dp), intent(inout) :: force(dim*nodes), stiffness(dim*nodes, dim*nodes), svars(values_of_point(dim), points)
+    real(dp), intent(inout) :: hourglass_state(dim, modes), energy(8)
+    real(dp) :: now(dim, nodes), g(nodes, dim, points), b(dim*nodes, 3*(dim - 1), points), volume(points)
+    real(dp) :: g_mid(nodes, dim, points), b_mid(dim*nodes, 3*(dim - 1), points), volume_mid(points), weight, elastic, work
+    real(dp) :: strain(3*(dim - 1)), stress(3*(dim - 1)), modulus(3*(dim - 1), 3*(dim - 1))
+    logical :: averaged
+    integer :: p
+    ! full integration of elements with straight edges locks where volume is kept, but not in plane stress
+    averaged = points > 1 .and. nodes == 2**dim .and. material%ntens /= 3
+    now = x
+    if (finite) now = x + u
+    call all_gradients(dim, nodes, points, averaged, now, g, b, volume)
+    if (finite) call all_gradients(dim, nodes, points, averaged, now - 0.5_dp*du, g_mid, b_mid, volume_mid)
     elastic = 0
     work = energy(2) + energy(4)
     ! a line across the element, half of it where there are nodes in the middle of the edges
-    current%length = sqrt(sum(weight))/merge(2, 1, nodes == 8)
+    if (allocated(material%user)) current%length = sum(volume)**(1.0_dp/dim)/merge(2, 1, nodes > 2**dim)
+    current%finite = finite
     do p = 1, points
-      current%place = point_position(nodes, points, p, x)
-      weight(p) = thickness*weight(p)
-      strain = 0
-      do j = 1, n
-        strain = strain + b(:, j, p)*u(j)
-      end do
-      call point_update(material, int(p, i4), weight(p), strain, svars(:, p), stress, modulus, elastic, work)
-      stress = weight(p)*stress
-      modulus = weight(p)*modulus
-      do j = 1, n
-        rhs(j) = rhs(j) - stress(1)*b(1, j, p) - stress(2)*b(2, j, p) - stress(3)*b(3, j, p)
-        db = modulus(:, 1)*b(1, j, p) + modulus(:, 2)*b(2, j, p) + modulus(:, 3)*b(3, j, p)
-        do i = 1, n
-          stiffness(i, j) = stiffness(i, j) + b(1, i, p)*db(1) + b(2, i, p)*db(2) + b(3, i, p)*db(3)
-        end do
-      end do
+      if (allocated(material%user)) current%place = point_position(points, p, now)
+      if (finite) then
+        current%rotation = rotation_of(gradient_of(dim, nodes, du, g_mid(:, :, p)))
+        call find_strain(dim*nodes, 3*(dim - 1), b_mid(:, :, p), du, strain)
+        if (allocated(material%user)) call set_deformation(dim, nodes, points, p, averaged, x, u, du)
+      else
+        call find_strain(dim*nodes, 3*(dim - 1), b(:, :, p), u, strain)
+      end if
+      weight = volume(p)*merge(thickness, 1.0_dp, dim == 2)
+      call point_update(dim, material, int(p, i4), weight, finite, strain, svars(:, p), stress, modulus, elastic, work)
+      if (finite .and. material%ntens == 3) weight = weight*exp(svars(3, p))
+      if (finite) call add_geometric(dim, nodes, g(:, :, p), stress, weight, modulus, stiffness)
+      if (dim == 2) then
+        call add_plane_point(2*nodes, b(:, :, p), weight*stress, weight*modulus, force, stiffness)
+      else
+        call add_space_point(3*nodes, b(:, :, p), weight*stress, weight*modulus, force, stiffness)
+      end if
     end do
     energy(2) = elastic
     energy(4) = work - elastic
+    if (modes > 0) then
+      call resist(dim, nodes, modes, hourglass*volume(1)*merge(thickness, 1.0_dp, dim == 2), finite, now, u, du, g(:, :, 1), &
+                  hourglass_state, force, stiffness, energy(6))
+    end if
   end subroutine integrate
 
-  !> Stress (11, 22, 12) and in-plane tangent of a point; its state and its part of the energies.
-  subroutine point_update(material, point, volume, plane_strain, state, plane_stress, modulus, elastic, work)
+  pure subroutine find_strain(n, m, b, u, strain)
+    integer, intent(in) :: n, m
+    real(dp), intent(in) :: b(n, m), u(n)
+    real(dp), intent(out) :: strain(m)
+    integer :: k
+    do k = 1, m
+      strain(k) = sum(b(:, k)*u)
+    end do
+  end subroutine find_strain
+
+  !> Gradients, strain matrices and volumes of all points.
+  subroutine all_gradients(dim, nodes, points, averaged, x, g, b, volume)
+    integer, intent(in) :: dim, nodes, points
+    logical, intent(in) :: averaged
+    real(dp), intent(in) :: x(dim, nodes)
+    real(dp), intent(out) :: g(nodes, dim, points), b(dim*nodes, 3*(dim - 1), points), volume(points)
+    integer :: p
+    do p = 1, points
+      if (points == 1 .and. nodes == 2**dim) then
+        call mean_gradients(dim, x, g(:, :, p), volume(p))
+      else
+        call gradients(dim, nodes, points, p, x, g(:, :, p), volume(p))
+      end if
+      call strain_matrix(dim, nodes, g(:, :, p), b(:, :, p))
+    end do
+    if (averaged) call average_volume_strain(dim, dim*nodes, points, volume, b)
+  end subroutine all_gradients
+
+  !> Gradient (3, 3) of displacements.
+  pure function gradient_of(dim, nodes, u, g) result(gradient)
+    integer, intent(in) :: dim, nodes
+    real(dp), intent(in) :: u(dim, nodes), g(nodes, dim)
+    real(dp) :: gradient(3, 3)
+    gradient = 0
+    gradient(:dim, :dim) = matmul(u, g)
+  end function gradient_of
+
+  !> Deformation gradients at both ends of the increment, for UMAT; with the mean change of volume where it is averaged.
+  subroutine set_deformation(dim, nodes, points, point, averaged, x, u, du)
+    integer, intent(in) :: dim, nodes, points, point
+    logical, intent(in) :: averaged
+    real(dp), intent(in) :: x(dim, nodes), u(dim, nodes), du(dim, nodes)
+    real(dp) :: g(nodes, dim), volume, f(3, 3, 2), total, swept(2)
+    integer :: p, k
+    total = 0
+    swept = 0
+    do p = 1, points
+      if (.not. (averaged .or. p == point)) cycle
+      if (points == 1 .and. nodes == 2**dim) then
+        call mean_gradients(dim, x, g, volume)
+      else
+        call gradients(dim, nodes, points, p, x, g, volume)
+      end if
+      f(:, :, 1) = identity + gradient_of(dim, nodes, u - du, g)
+      f(:, :, 2) = identity + gradient_of(dim, nodes, u, g)
+      total = total + volume
+      do k = 1, 2
+        swept(k) = swept(k) + volume*determinant(f(:, :, k))
+      end do
+      if (p == point) current%deformation = f
+    end do
+    if (.not. averaged) return
+    do k = 1, 2
+      f(:, :, k) = current%deformation(:, :, k)
+      current%deformation(:dim, :dim, k) = f(:dim, :dim, k)*(swept(k)/total/determinant(f(:, :, k)))**(1.0_dp/dim)
+    end do
+  end subroutine set_deformation
+
+  pure real(dp) function determinant(a)
+    real(dp), intent(in) :: a(3, 3)
+    determinant = a(1, 1)*(a(2, 2)*a(3, 3) - a(2, 3)*a(3, 2)) + a(1, 2)*(a(2, 3)*a(3, 1) - a(2, 1)*a(3, 3)) &
+                  + a(1, 3)*(a(2, 1)*a(3, 2) - a(2, 2)*a(3, 1))
+  end function determinant
+
+  !> Stress and tangent of a point (11, 22, 12 in the plane); its state and its part of the energies. strain is the total
+  !> one in small displacements, that of the increment in large ones.
+  subroutine point_update(dim, material, point, volume, finite, strain, state, stress, modulus, elastic, work)
+    integer, intent(in) :: dim
     type(material_t), intent(in) :: material
     integer(i4), intent(in) :: point
-    real(dp), intent(in) :: volume, plane_strain(3)
-    real(dp), intent(inout) :: state(per_point), elastic, work
-    real(dp), intent(out) :: plane_stress(3), modulus(3, 3)
-    integer :: n
-    real(dp) :: strain(4), stress(4), tangent(material%ntens, material%ntens), e(3), t(3), out_of_plane(2)
+    logical, intent(in) :: finite
+    real(dp), intent(in) :: volume, strain(3*(dim - 1))
+    real(dp), intent(inout) :: state(values_of_point(dim)), elastic, work
+    real(dp), intent(out) :: stress(3*(dim - 1)), modulus(3*(dim - 1), 3*(dim - 1))
+    integer, parameter :: plane(3) = [1, 2, 4], space(6) = [1, 2, 3, 4, 5, 6]
+    integer :: j, k, n, m, of_material(6), of_state(6)
+    real(dp) :: total(material%ntens), t(material%ntens), tangent(material%ntens, material%ntens)
+    real(dp) :: e_old(values_of_point(dim)/2), t_old(values_of_point(dim)/2), e_new(values_of_point(dim)/2), &
+                t_new(values_of_point(dim)/2)
     logical :: valid
-    n = material%ntens
-    strain(1:3) = [plane_strain(1:2), 0.0_dp]
-    strain(n) = plane_strain(3)
-    call stress_update(material, point, strain, stress, tangent, valid)
-    plane_stress = [stress(1), stress(2), stress(n)]
-    modulus(1:2, 1:2) = tangent(1:2, 1:2)
-    modulus(1:2, 3) = tangent(1:2, n)
-    modulus(3, 1:2) = tangent(n, 1:2)
-    modulus(3, 3) = tangent(n, n)
-    elastic = elastic + volume*elastic_energy(material, point, stress)
-    if (n == 3) then
-      out_of_plane = [thickness_strain(material, point, stress), 0.0_dp]
-    else
-      out_of_plane = [0.0_dp, stress(3)]
+    n = values_of_point(dim)/2
+    m = 3*(dim - 1)
+    of_state = space
+    if (dim == 2) of_state(:3) = plane
+    of_material = of_state
+    if (material%ntens == 3) of_material(3) = 3
+    e_old = state(:n)
+    t_old = state(n + 1:)
+    if (finite) then
+      e_old = rotated(n, e_old, current%rotation, 2.0_dp)
+      t_old = rotated(n, t_old, current%rotation, 1.0_dp)
     end if
-    e = plane_strain
-    t = plane_stress
+    total = 0
+    do k = 1, m
+      total(of_material(k)) = strain(k)
+      if (finite) total(of_material(k)) = e_old(of_state(k)) + strain(k)
+    end do
+    call stress_update(material, point, total, t, tangent, valid)
+    e_new = 0
+    t_new = 0
+    do k = 1, m
+      stress(k) = t(of_material(k))
+      e_new(of_state(k)) = total(of_material(k))
+      t_new(of_state(k)) = stress(k)
+      do j = 1, m
+        modulus(j, k) = tangent(of_material(j), of_material(k))
+      end do
+    end do
+    elastic = elastic + volume*elastic_energy(material, point, t)
+    if (material%ntens == 3) e_new(3) = thickness_strain(material, point, t)
+    if (material%ntens == 4) t_new(3) = t(3)
     if (material%turned) then
-      e(3) = e(3)/2
-      e = turn(material%axes, e)
-      e(3) = 2*e(3)
-      t = turn(material%axes, t)
+      e_new = rotated(n, e_new, material%axes, 2.0_dp)
+      t_new = rotated(n, t_new, material%axes, 1.0_dp)
     end if
     ! trapezoidal rule, exact where the response is linear
-    work = work + volume*0.5_dp*((t(1) + state(5))*(e(1) - state(1)) + (t(2) + state(6))*(e(2) - state(2)) &
-                                 + (t(3) + state(8))*(e(3) - state(4)))
-    state = [e(1), e(2), out_of_plane(1), e(3), t(1), t(2), out_of_plane(2), t(3)]
+    work = work + volume*0.5_dp*dot_product(t_new + t_old, e_new - e_old)
+    state(:n) = e_new
+    state(n + 1:) = t_new
   end subroutine point_update
 
-  !> Components 11, 22, 12 of a symmetric tensor along the rows of axes.
-  pure function turn(axes, s) result(local)
-    real(dp), intent(in) :: axes(2, 2), s(3)
-    real(dp) :: local(3), tensor(2, 2)
-    tensor = reshape([s(1), s(3), s(3), s(2)], [2, 2])
-    tensor = matmul(axes, matmul(tensor, transpose(axes)))
-    local = [tensor(1, 1), tensor(2, 2), tensor(1, 2)]
-  end function turn
-
-  !> Strain matrix (11, 22, 12) of a Gauss point, points counted along x first as in Abaqus, and its area.
-  subroutine gradients(nodes, points, point, x, b, area)
-    integer, intent(in) :: nodes, points, point
-    real(dp), intent(in) :: x(2, nodes)
-    real(dp), intent(inout) :: b(3, 2*nodes), area
-    real(dp), parameter :: g = 1/sqrt(3.0_dp), corner(2, 4) = reshape([-1, -1, 1, -1, 1, 1, -1, 1], [2, 4])
-    real(dp) :: r, s, local(nodes, 2), jacobian(2, 2), determinant, dx, dy
-    character(len=128) :: text
-    integer :: k
-    real(dp) :: rule_weight
-    rule_weight = merge(0.5_dp, 1.0_dp, nodes == 3)
-    if (nodes == 3) then
-      local(:, 1) = [-1, 1, 0]
-      local(:, 2) = [-1, 0, 1]
-    else if (nodes == 8) then
-      call serendipity(points, point, local, rule_weight)
-    else
-      r = merge(-g, g, mod(point, 2) == 1)
-      s = merge(-g, g, point <= 2)
-      local(:, 1) = 0.25_dp*corner(1, :)*(1 + corner(2, :)*s)
-      local(:, 2) = 0.25_dp*corner(2, :)*(1 + corner(1, :)*r)
-    end if
-    jacobian = 0
-    do k = 1, nodes
-      jacobian(:, 1) = jacobian(:, 1) + x(:, k)*local(k, 1)
-      jacobian(:, 2) = jacobian(:, 2) + x(:, k)*local(k, 2)
+  !> Force and tangent of a point in the plane; its volume is in stress and modulus. Sizes that are known here make this
+  !> and the next, which are most of the work, quick.
+  pure subroutine add_plane_point(n, b, stress, modulus, force, stiffness)
+    integer, intent(in) :: n
+    real(dp), intent(in) :: b(n, 3), stress(3), modulus(3, 3)
+    real(dp), intent(inout) :: force(n), stiffness(n, n)
+    real(dp) :: db(3)
+    integer :: i, j
+    do j = 1, n
+      force(j) = force(j) + b(j, 1)*stress(1) + b(j, 2)*stress(2) + b(j, 3)*stress(3)
+      db = modulus(:, 1)*b(j, 1) + modulus(:, 2)*b(j, 2) + modulus(:, 3)*b(j, 3)
+      do i = 1, n
+        stiffness(i, j) = stiffness(i, j) + b(i, 1)*db(1) + b(i, 2)*db(2) + b(i, 3)*db(3)
+      end do
     end do
-    determinant = jacobian(1, 1)*jacobian(2, 2) - jacobian(1, 2)*jacobian(2, 1)
-    if (.not. determinant > 0) then
-      write (text, '(a,i0,a,es10.2,a)') 'the element is inside out at its integration point ', point, &
-        ' (Jacobian', determinant, '); its nodes must run counter-clockwise'
-      call add_message(-3_i4, trim(text))
-      call escape()
-    end if
-    area = rule_weight*determinant
-    do k = 1, nodes
-      dx = (local(k, 1)*jacobian(2, 2) - local(k, 2)*jacobian(2, 1))/determinant
-      dy = (local(k, 2)*jacobian(1, 1) - local(k, 1)*jacobian(1, 2))/determinant
-      b(:, 2*k - 1) = [dx, 0.0_dp, dy]
-      b(:, 2*k) = [0.0_dp, dy, dx]
-    end do
-  end subroutine gradients
+  end subroutine add_plane_point
 
-  !> Derivatives of the shape functions of eight nodes by the parent coordinates in a point of 2 x 2 or 3 x 3, and its weight.
-  pure subroutine serendipity(points, point, local, weight)
-    integer, intent(in) :: points, point
-    real(dp), intent(out) :: local(8, 2), weight
-    real(dp), parameter :: node(2, 8) = reshape([-1, -1, 1, -1, 1, 1, -1, 1, 0, -1, 1, 0, 0, 1, -1, 0], [2, 8])
-    real(dp), parameter :: outer = sqrt(0.6_dp), places(3) = [-outer, 0.0_dp, outer], weights(3) = [5, 8, 5]/9.0_dp
-    real(dp) :: r, s, a, b
+  !> The same in space.
+  pure subroutine add_space_point(n, b, stress, modulus, force, stiffness)
+    integer, intent(in) :: n
+    real(dp), intent(in) :: b(n, 6), stress(6), modulus(6, 6)
+    real(dp), intent(inout) :: force(n), stiffness(n, n)
+    real(dp) :: db(6)
     integer :: i, j, k
-    if (points == 4) then
-      r = merge(-1, 1, mod(point, 2) == 1)/sqrt(3.0_dp)
-      s = merge(-1, 1, point <= 2)/sqrt(3.0_dp)
-      weight = 1
-    else
-      i = mod(point - 1, 3) + 1
-      j = (point - 1)/3 + 1
-      r = places(i)
-      s = places(j)
-      weight = weights(i)*weights(j)
-    end if
-    do k = 1, 4
-      a = node(1, k)*r
-      b = node(2, k)*s
-      local(k, :) = 0.25_dp*node(:, k)*[(1 + b)*(2*a + b), (1 + a)*(a + 2*b)]
-    end do
-    do k = 5, 7, 2
-      local(k, :) = [-r*(1 + node(2, k)*s), 0.5_dp*node(2, k)*(1 - r**2)]
-      local(k + 1, :) = [0.5_dp*node(1, k + 1)*(1 - s**2), -s*(1 + node(1, k + 1)*r)]
-    end do
-  end subroutine serendipity
-
-  !> Coordinates of an integration point.
-  pure function point_position(nodes, points, point, x) result(place)
-    integer, intent(in) :: nodes, points, point
-    real(dp), intent(in) :: x(:, :)             !< (coordinates, nodes)
-    real(dp) :: place(3), parent(2), n(nodes), a, b
-    real(dp), parameter :: g = 1/sqrt(3.0_dp), outer = sqrt(0.6_dp), places(3) = [-outer, 0.0_dp, outer]
-    real(dp), parameter :: node(2, 8) = reshape([-1, -1, 1, -1, 1, 1, -1, 1, 0, -1, 1, 0, 0, 1, -1, 0], [2, 8])
-    integer :: k
-    if (points == 9) then
-      parent = [places(mod(point - 1, 3) + 1), places((point - 1)/3 + 1)]
-    else
-      parent = [merge(-g, g, mod(point, 2) == 1), merge(-g, g, point <= 2)]
-    end if
-    n = 1.0_dp/nodes
-    if (nodes > 3) then
-      do k = 1, 4
-        a = node(1, k)*parent(1)
-        b = node(2, k)*parent(2)
-        n(k) = 0.25_dp*(1 + a)*(1 + b)*merge(a + b - 1, 1.0_dp, nodes == 8)
+    do j = 1, n
+      db = 0
+      do k = 1, 6
+        force(j) = force(j) + b(j, k)*stress(k)
+        db = db + modulus(:, k)*b(j, k)
       end do
-      do k = 5, nodes, 2
-        n(k) = 0.5_dp*(1 - parent(1)**2)*(1 + node(2, k)*parent(2))
-        n(k + 1) = 0.5_dp*(1 + node(1, k + 1)*parent(1))*(1 - parent(2)**2)
+      do i = 1, n
+        stiffness(i, j) = stiffness(i, j) + b(i, 1)*db(1) + b(i, 2)*db(2) + b(i, 3)*db(3) &
+                          + b(i, 4)*db(4) + b(i, 5)*db(5) + b(i, 6)*db(6)
       end do
-    end if
-    place = 0
-    place(:size(x, 1)) = matmul(x, n)
-  end function point_position
+    end do
+  end subroutine add_space_point
 
-  !> Replace the volume strain of each point by its mean over the element.
-  pure subroutine average_volume_strain(area, b)
-    real(dp), intent(in) :: area(4)
-    real(dp), intent(inout) :: b(3, 8, 4)
-    real(dp) :: mean(8), change(8)
-    integer :: p
-    mean = 0
-    do p = 1, 4
-      mean = mean + area(p)*(b(1, :, p) + b(2, :, p))
+  !> Change of the force where a stress that turns with the material keeps its size: sigma : (grad dv^T grad du) to the
+  !> stiffness, - 2 sigma : (dD dD) to the modulus.
+  pure subroutine add_geometric(dim, nodes, g, stress, volume, modulus, stiffness)
+    integer, intent(in) :: dim, nodes
+    real(dp), intent(in) :: g(nodes, dim), stress(3*(dim - 1)), volume
+    real(dp), intent(inout) :: modulus(3*(dim - 1), 3*(dim - 1)), stiffness(dim*nodes, dim*nodes)
+    integer, parameter :: first(3) = [1, 1, 2], second(3) = [2, 3, 3]
+    real(dp) :: full(dim, dim), basis(dim, dim, 3*(dim - 1)), between(nodes, nodes)
+    integer :: i, j, m
+    m = 3*(dim - 1)
+    basis = 0
+    full = 0
+    do i = 1, dim
+      basis(i, i, i) = 1
+      full(i, i) = stress(i)
     end do
-    mean = mean/sum(area)
-    do p = 1, 4
-      change = (mean - b(1, :, p) - b(2, :, p))/2
-      b(1, :, p) = b(1, :, p) + change
-      b(2, :, p) = b(2, :, p) + change
+    do i = dim + 1, m
+      basis(first(i - dim), second(i - dim), i) = 0.5_dp
+      basis(second(i - dim), first(i - dim), i) = 0.5_dp
+      full(first(i - dim), second(i - dim)) = stress(i)
+      full(second(i - dim), first(i - dim)) = stress(i)
     end do
-  end subroutine average_volume_strain
+    do j = 1, m
+      do i = 1, m
+        modulus(i, j) = modulus(i, j) - 2*sum(transpose(basis(:, :, i))*matmul(full, basis(:, :, j)))
+      end do
+    end do
+    between = volume*matmul(g, matmul(full, transpose(g)))
+    do i = 1, dim
+      stiffness(i::dim, i::dim) = stiffness(i::dim, i::dim) + between
+    end do
+  end subroutine add_geometric
+
+  !> Stiffness against displacements that the point in the middle does not feel.
+  pure subroutine resist(dim, nodes, modes, modulus, finite, x, u, du, g, state, force, stiffness, energy)
+    integer, intent(in) :: dim, nodes, modes
+    logical, intent(in) :: finite
+    real(dp), intent(in) :: modulus     !< hourglass stiffness times volume
+    real(dp), intent(in) :: x(dim, nodes), u(dim, nodes), du(dim, nodes), g(nodes, dim)
+    real(dp), intent(inout) :: state(dim, modes), force(dim, nodes), stiffness(dim*nodes, dim*nodes), energy
+    real(dp) :: pattern(nodes, modes), k
+    integer :: i
+    pattern = hourglass_shapes(dim)
+    pattern = pattern - matmul(g, matmul(x, pattern))
+    if (finite) then
+      state = matmul(current%rotation(:dim, :dim), state) + matmul(du, pattern)
+    else
+      state = matmul(u, pattern)
+    end if
+    k = modulus*sum(g**2)
+    force = force + k*matmul(state, transpose(pattern))
+    do i = 1, dim
+      stiffness(i::dim, i::dim) = stiffness(i::dim, i::dim) + k*matmul(pattern, transpose(pattern))
+    end do
+    energy = 0.5_dp*k*sum(state**2)
+  end subroutine resist
 end module host_solid

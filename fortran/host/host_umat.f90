@@ -2,12 +2,13 @@
 ! SPDX-License-Identifier: BSD-3-Clause
 !> UMAT at a material point, with the arguments of Abaqus (User Subroutines Guide, UMAT).
 !>
-!> The history of a point holds strain and stress (six places each), the energies SSE, SPD, SCD, then STATEV. Strains are
-!> those of small displacements, so DFGRD0, DFGRD1 and DROT are the identity.
+!> The history of a point holds strain and stress (six places each), the energies SSE, SPD, SCD, then STATEV. In small
+!> displacements DFGRD0, DFGRD1 and DROT are the identity; in large ones STRAN and STRESS come turned by DROT.
 module host_umat
   use, intrinsic :: iso_c_binding, only: c_f_procpointer, c_funptr
   use host_context, only: current
   use host_kinds, only: dp, i4
+  use host_kinematics, only: rotated
   implicit none (type, external)
   private
   public :: user_material_t, call_umat, direct_components, head, strain_energy
@@ -61,8 +62,18 @@ contains
     call c_f_procpointer(material%umat, umat)
     new = old
     stran = old(:ntens)
-    dstran = strain - stran
     stress = old(7:6 + ntens)
+    drot = identity
+    dfgrd0 = identity
+    dfgrd1 = identity
+    if (current%finite) then
+      drot = current%rotation
+      dfgrd0 = current%deformation(:, :, 1)
+      dfgrd1 = current%deformation(:, :, 2)
+      stran = rotated(ntens, stran, drot, 2.0_dp)
+      stress = rotated(ntens, stress, drot, 1.0_dp)
+    end if
+    dstran = strain - stran
     tangent = 0
     time = current%time
     dtime = current%dtime
@@ -75,9 +86,6 @@ contains
     predef = 0
     dpred = 0
     coords = current%place
-    drot = identity
-    dfgrd0 = identity
-    dfgrd1 = identity
     celent = current%length
     pnewdt = current%pnewdt
     constants = material%constants

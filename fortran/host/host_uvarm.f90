@@ -6,7 +6,7 @@ module host_uvarm
   use host_context, only: current
   use host_kinds, only: dp, i4
   use host_protect, only: calls, protect
-  use host_solid, only: point_position
+  use host_kinematics, only: point_position
   use host_umat, only: direct_components
   implicit none (type, external)
   private
@@ -83,7 +83,7 @@ contains
     t = identity
     time = pass%time
     dtime = pass%dtime
-    coord = point_position(size(x, 2), size(pass%uvar, 2), int(point), x)
+    coord = point_position(size(pass%uvar, 2), int(point), x)
     cmname = pass%material
     orname = ' '
     nuvarm = size(uvar, kind=i4)

@@ -16,7 +16,7 @@ from harness.deck.problems import Problems
 from harness.deck.requests import RequestReader
 from harness.deck.steps import read_steps
 from harness.deck.structure import sort_blocks
-from harness.deck.user_elements import BUILT_IN_DOFS
+from harness.deck.user_elements import dofs_of
 from harness.errors import DeckError, Source
 from harness.model.mesh import ElementGroup
 from harness.model.model import Model
@@ -72,5 +72,5 @@ def _active_dofs(groups: tuple[ElementGroup, ...]) -> frozenset[int]:
     """Dofs that some element uses."""
     used: set[int] = set()
     for group in groups:
-        used |= {dof for _, dof in group.definition.dofs} if group.definition else set(BUILT_IN_DOFS)
+        used |= dofs_of(group.type, group.definition)
     return frozenset(used)

@@ -13,8 +13,11 @@ from harness.deck.problems import nearest
 from harness.errors import DeckError, Source
 from harness.model.properties import UserElement
 
-BUILT_IN_NODES = {"CPS4": 4, "CPE4": 4, "CPS3": 3, "CPE3": 3, "CPS8": 8, "CPE8": 8, "CPS8R": 8, "CPE8R": 8}
-BUILT_IN_DOFS = (1, 2)
+_PLANE_NODES = {"3": 3, "4": 4, "4R": 4, "8": 8, "8R": 8}
+BUILT_IN_NODES = {
+    **{f"{kind}{name}": nodes for kind in ("CPS", "CPE") for name, nodes in _PLANE_NODES.items()},
+    **{"C3D4": 4, "C3D8": 8, "C3D8R": 8, "C3D20": 20, "C3D20R": 20},
+}
 _USER_TYPE = re.compile(r"U([1-9]\d{0,3})")
 LARGEST_DOF = 30
 MOST_NODES = 10_000
@@ -34,6 +37,13 @@ class ElementType:
     def nodes(self) -> int:
         """Nodes per element."""
         return self.definition.nodes if self.definition else BUILT_IN_NODES[self.name]
+
+
+def dofs_of(name: str, definition: UserElement | None) -> set[int]:
+    """Dofs of an element type."""
+    if definition is not None:
+        return {dof for _, dof in definition.dofs}
+    return {1, 2, 3} if name.startswith("C3D") else {1, 2}
 
 
 def find_type(name: str, definitions: Definitions, source: Source) -> ElementType:

@@ -33,6 +33,7 @@ class Procedure:
     history   values per point and points of the material history; (1, 1) without one
     statev    number of STATEV, which are the last values of the history
     uvarm     UVARM to call after each increment, None for none
+    hidden    SVARS at the end that are no state of a point, which output does not see
     tensor    stress components of the material: 3 plane stress, 4 plane strain, 6 three-dimensional; 0 without one
     mcrd      coordinates per node
     """
@@ -47,6 +48,7 @@ class Procedure:
     tensor: int = 0
     history: tuple[int, int] = (1, 1)
     statev: int = 0
+    hidden: int = 0
     uvarm: OutputVariables | None = None
 
 
@@ -214,7 +216,8 @@ class Block:
         return ElementState(index, svars, arrays.energy_trial.copy(), self.variables)
 
     def _extended(self, svars: FloatArray, history: FloatArray) -> FloatArray:
-        """Copy of SVARS, with STATEV and UVAR behind those of each point."""
+        """Copy of SVARS without the hidden ones, with STATEV and UVAR behind those of each point."""
+        svars = svars[:, : svars.shape[1] - self._procedure.hidden]
         statev, points = self._procedure.statev, self._procedure.history[1]
         parts = [history[:, :, history.shape[2] - statev :]] if statev else []
         if self._uvar is not None:
@@ -230,7 +233,14 @@ class Block:
         start = call.step_time - call.time_increment, call.total_time - call.time_increment, call.time_increment
         place = call.step, call.increment
         element = _binding.uvarm(
-            given.address, given.material, self._procedure.tensor, place, start, self._arrays, uvar
+            given.address,
+            given.material,
+            self._procedure.tensor,
+            place,
+            start,
+            self._arrays,
+            self._procedure.hidden,
+            uvar,
         )
         if element:
             raise KernelError(element, self.group.type, f"UVARM {self._library.stop_reason()}")

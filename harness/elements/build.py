@@ -7,28 +7,14 @@ from __future__ import annotations
 from difflib import get_close_matches
 from typing import Final
 
-import numpy as np
-
-from harness.elements.block import Block, OutputVariables, Procedure
-from harness.elements.materials import Tensor, define_material, history_values
+from harness.elements.block import Block, Procedure
+from harness.elements.materials import Tensor, define_material
+from harness.elements.solid import SOLIDS, history_of, solid_procedure, solid_variables
 from harness.errors import DeckError
 from harness.model.mesh import ElementGroup
 from harness.model.model import Model
-from harness.model.properties import Material, SolidSection, UserElement, UserProperty
-from harness.model.records import PointVariables
-from harness.usersub import Library, _binding
-
-BUILT_IN: Final = {
-    "CPS3": (3, 1, Tensor.PLANE_STRESS),
-    "CPS4": (4, 4, Tensor.PLANE_STRESS),
-    "CPS8": (8, 9, Tensor.PLANE_STRESS),
-    "CPS8R": (8, 4, Tensor.PLANE_STRESS),
-    "CPE3": (3, 1, Tensor.PLANE_STRAIN),
-    "CPE4": (4, 4, Tensor.PLANE_STRAIN),
-    "CPE8": (8, 9, Tensor.PLANE_STRAIN),
-    "CPE8R": (8, 4, Tensor.PLANE_STRAIN),
-}
-"""Built-in elements: nodes, integration points, state of stress."""
+from harness.model.properties import SolidSection, UserElement, UserProperty
+from harness.usersub import Library
 
 TENSORS: Final = {
     "PSTRESS": Tensor.PLANE_STRESS,
@@ -37,9 +23,6 @@ TENSORS: Final = {
     "THREED": Tensor.SOLID,
 }
 """TENSOR= of *USER ELEMENT; TWOD has the components of plane strain."""
-
-POINT_NAMES: Final = ("E11", "E22", "E33", "E12", "S11", "S22", "S33", "S12")
-"""SVARS of a point of a built-in element."""
 
 
 def build_blocks(model: Model, library: Library, *, strict: bool = True) -> list[Block]:
@@ -51,11 +34,11 @@ def build_blocks(model: Model, library: Library, *, strict: bool = True) -> list
     for group in model.groups:
         if group.definition is not None:
             blocks.append(_user_block(model, group, group.definition, library, strict=strict))
-        elif group.type.upper() in BUILT_IN:
-            blocks.append(_built_in_block(model, group, library))
+        elif group.type in SOLIDS:
+            blocks.append(_solid_block(model, group, library))
         else:
-            known = ", ".join(BUILT_IN)
-            near = get_close_matches(group.type.upper(), BUILT_IN, n=1)
+            known = ", ".join(SOLIDS)
+            near = get_close_matches(group.type.upper(), SOLIDS, n=1)
             hint = f"; did you mean {near[0]}?" if near else ""
             raise DeckError(group.source, f"element type {group.type} is not supported (built in are {known}){hint}")
     return blocks
@@ -73,7 +56,7 @@ def _user_block(model: Model, group: ElementGroup, definition: UserElement, libr
     if section.material is not None:
         tensor = _tensor(definition, section)
         material = define_material(section.material, section.orientation, tensor, section.source, library)
-        history = _history(section.material, definition.integration or MOST_POINTS)
+        history = history_of(section.material, definition.integration or MOST_POINTS)
     procedure = Procedure(
         address=address,
         jtype=definition.number,
@@ -102,59 +85,23 @@ MOST_POINTS: Final = 64
 """Points of a plastic material per user element where *USER ELEMENT does not give INTEGRATION=."""
 
 
-def _history(material: Material, points: int) -> tuple[int, int]:
-    values = history_values(material)
-    return values, points if values > 1 else 1
-
-
-def _output_variables(material: Material, points: int, library: Library) -> OutputVariables | None:
-    """UVARM of a material; None where the job has none, which leaves out the variables alone."""
-    if not material.output_variables or library.uvarm is None:
-        return None
-    return OutputVariables(library.uvarm, material.name, points, material.output_variables)
-
-
-def _numbered(name: str, count: int) -> tuple[str, ...]:
-    return tuple(f"{name}{number}" for number in range(1, count + 1))
-
-
-def _built_in_block(model: Model, group: ElementGroup, library: Library) -> Block:
-    section = group.section
-    nodes, points, tensor = BUILT_IN[group.type.upper()]
+def _solid_block(model: Model, group: ElementGroup, library: Library) -> Block:
+    section, kind = group.section, SOLIDS[group.type]
     if not isinstance(section, SolidSection):
         raise DeckError(section.source, f"*UEL PROPERTY cannot be used for elements of type {group.type}")
-    if group.nodes.shape[1] != nodes:
-        raise DeckError(group.source, f"elements of type {group.type} have {nodes} nodes, found {group.nodes.shape[1]}")
-    nonlinear = next((step for step in model.steps if step.nlgeom), None)
-    if nonlinear is not None:
-        raise DeckError(nonlinear.source, f"NLGEOM is not supported with elements of type {group.type}")
-    procedure = Procedure(
-        address=_binding.solid_address(),
-        jtype=nodes,
-        mcrd=2,
-        svars=points * len(POINT_NAMES),
-        props=np.array([section.thickness]),
-        jprops=np.zeros(0, dtype=np.int64),
-        material=define_material(section.material, section.orientation, tensor, section.source, library),
-        tensor=int(tensor),
-        history=_history(section.material, points),
-        statev=section.material.state_variables if section.material.user is not None else 0,
-        uvarm=_output_variables(section.material, points, library),
-    )
-    unknowns = tuple((node, dof) for node in range(nodes) for dof in (1, 2))
-    names = *POINT_NAMES, *_numbered("SDV", procedure.statev)
-    if procedure.uvarm is not None:
-        names = *names, *_numbered("UVARM", procedure.uvarm.count)
-    variables = PointVariables("continuum", names, points, outline=tuple(range(nodes)))
+    if group.nodes.shape[1] != kind.nodes:
+        message = f"elements of type {group.type} have {kind.nodes} nodes, found {group.nodes.shape[1]}"
+        raise DeckError(group.source, message)
+    procedure = solid_procedure(model, group, section, library)
     return Block(
         group,
         model.mesh.coordinates,
-        unknowns,
+        tuple((node, dof) for node in range(kind.nodes) for dof in range(1, kind.dimension + 1)),
         procedure,
         library,
         # the elastic and the plastic tangent are symmetric
         unsymmetric=section.material.user is not None and section.material.user.unsymmetric,
-        variables=variables,
+        variables=solid_variables(group, procedure),
     )
 
 

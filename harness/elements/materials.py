@@ -79,7 +79,13 @@ def define_material(
         if elastic.type is not ElasticType.ISOTROPIC:
             raise DeckError(material.plastic.source, "*PLASTIC is supported with *ELASTIC, TYPE=ISOTROPIC only")
         constants, table = _isotropic_constants(elastic), material.plastic.table
-    return _binding.define_material(stiffness, reduced, compliance[2, components[:3]], axes[:2, :2], constants, table)
+    return _binding.define_material(stiffness, reduced, compliance[2, components[:3]], axes, constants, table)
+
+
+def shear_modulus(elastic: Elastic, tensor: Tensor) -> float:
+    """Mean of the shear moduli; in the plane that of the plane."""
+    moduli = 1.0 / np.diag(_compliance(elastic, tensor))[3:]
+    return float(moduli.mean() if tensor is Tensor.SOLID else moduli[0])
 
 
 def _define_user_material(

@@ -74,13 +74,14 @@ class Orientation:
 
 @dataclass(frozen=True, slots=True)
 class SolidSection:
-    """*SOLID SECTION of built-in continuum elements; thickness 1 unless given."""
+    """*SOLID SECTION of built-in continuum elements; thickness 1, default hourglass stiffness (0) unless given."""
 
     elset: str
     material: Material
     orientation: Orientation | None
     thickness: float
     source: Source
+    hourglass: float = 0.0
 
 
 @dataclass(frozen=True, slots=True)

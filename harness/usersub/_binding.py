@@ -212,14 +212,16 @@ def uvarm(
     place: tuple[int, int],
     clock: tuple[float, float, float],
     arrays: BlockArrays,
+    hidden: int,
     uvar: FloatArray,
 ) -> int:
     """Call UVARM at the points of a block; returns the element at which it ended the analysis, 0 if it did not.
 
-    place is step and increment, clock the times at the start and the time increment; uvar (m, points, NUVARM).
+    place is step and increment, clock the times at the start and the time increment; the last `hidden` SVARS are of no
+    point; uvar (m, points, NUVARM).
     """
     m, points, _ = uvar.shape
-    svars = arrays.svars.reshape(m, points, -1)
+    svars = np.ascontiguousarray(arrays.svars[:, : arrays.svars.shape[1] - hidden]).reshape(m, points, -1)
     history = arrays.history if arrays.history.shape[1] == points else np.zeros((m, points, 1))
     left, element = _host.host_uvarm_pass(
         address, name, tensor, place, clock, arrays.labels, arrays.coords.T, svars.T, history.T, uvar.T

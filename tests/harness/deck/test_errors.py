@@ -84,8 +84,8 @@ MISTAKES = {
     "element type": ("*ELEMENT, TYPE=U2", "*ELEMENT, TYPE=U3", r"23: element type U3 is not defined by \*USER ELEMENT"),
     "built-in type": (
         "*ELEMENT, TYPE=U2",
-        "*ELEMENT, TYPE=C3D8",
-        r"23: element type C3D8 is not supported \(supported",
+        "*ELEMENT, TYPE=S4R",
+        r"23: element type S4R is not supported \(supported",
     ),
     "set member": ("7, 8,\n", "7, NOWHERE\n", r"28: unknown node set NOWHERE"),
     "generate": ("GENERATE\n1, 2, 1", "GENERATE\n2, 1, 1", r"26: \*NSET: cannot generate from 2 to 1 in steps of 1"),

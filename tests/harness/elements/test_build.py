@@ -12,8 +12,8 @@ from harness.elements import FIELD_NAMES, build_blocks, field_of
 from harness.errors import DeckError, Source
 from harness.model.mesh import Mesh
 from harness.model.model import Model
-from harness.model.procedures import Static
-from harness.model.properties import Elastic, ElasticType, Material
+from harness.model.procedures import Dynamic, Static
+from harness.model.properties import Elastic, ElasticType, Material, Orientation, UserMaterial
 from harness.model.steps import Step
 
 SPRING = ((0, 1), (1, 1))
@@ -67,9 +67,9 @@ def test_missing_uelmat(build, user_group):
         build(group)
 
 
-@pytest.mark.parametrize("element_type, hint", [("CPS5", "did you mean CPS8"), ("C3D8R", "")])
+@pytest.mark.parametrize("element_type, hint", [("CPS5", "did you mean CPS8"), ("S4R", "")])
 def test_unsupported_element_type(build, solid_group, element_type, hint):
-    message = rf"test.inp:7: element type {element_type} is not supported \(built in are CPS3, .*, CPE8R\).*{hint}"
+    message = rf"test.inp:7: element type {element_type} is not supported \(built in are CPS3, .*, C3D20R\).*{hint}"
     with pytest.raises(DeckError, match=message):
         build(solid_group(element_type, np.array([[0, 1, 2, 3]]), 1.0))
 
@@ -79,9 +79,26 @@ def test_number_of_nodes_of_a_built_in_element(build, solid_group):
         build(solid_group("CPS4", np.array([[0, 1, 2]]), 1.0))
 
 
-def test_large_displacements_of_built_in_elements(build, solid_group):
-    with pytest.raises(DeckError, match=r"test.inp:40: NLGEOM is not supported with elements of type CPE3"):
-        build(solid_group("CPE3", np.array([[0, 1, 2]]), 1.0), steps=(STEP, replace(STEP, nlgeom=True)))
+def test_large_displacements_of_turned_materials(build, solid_group):
+    turned = Orientation("TURNED", np.eye(3), Source("test.inp", 5))
+    message = r"\*ORIENTATION is not supported for elements of type CPE3 with NLGEOM \(test.inp:40\)"
+    with pytest.raises(DeckError, match=message):
+        group = solid_group("CPE3", np.array([[0, 1, 2]]), 1.0, orientation=turned)
+        build(group, steps=(STEP, replace(STEP, nlgeom=True)))
+
+
+def test_dynamic_steps_need_a_density(build, solid_group):
+    message = r"test.inp:7: material M has no \*DENSITY, which elements of type CPE3 need in \*DYNAMIC"
+    with pytest.raises(DeckError, match=message):
+        build(solid_group("CPE3", np.array([[0, 1, 2]]), 1.0), steps=(replace(STEP, procedure=Dynamic()),))
+
+
+def test_hourglass_stiffness_of_user_materials(build, solid_group, load):
+    group = solid_group("CPE4R", np.array([[0, 1, 2, 3]]), 1.0)
+    user = Material("M", Source("test.inp", 3), user=UserMaterial(np.zeros(1), False, Source("test.inp", 4)))
+    message = r"elements of type CPE4R with \*USER MATERIAL need \*HOURGLASS STIFFNESS"
+    with pytest.raises(DeckError, match=message):
+        build(replace(group, section=replace(group.section, material=user)))
 
 
 def test_sections_of_the_wrong_kind(build, solid_group, user_group):

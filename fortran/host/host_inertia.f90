@@ -1,0 +1,90 @@
+! SPDX-FileCopyrightText: The uel-harness authors
+! SPDX-License-Identifier: BSD-3-Clause
+!> What built-in elements answer to each LFLAGS(3), from their forces, stiffness and mass.
+!>
+!> In dynamic steps the operator of Hilber, Hughes and Taylor needs the forces of the last two increments: they are kept
+!> as state, as in the example of UEL in the Abaqus User Subroutines Guide.
+module host_inertia
+  use host_kinds, only: dp, i4
+  use host_shape, only: rule_of, rule_t
+  implicit none (type, external)
+  private
+  public :: is_dynamic, mass_matrix, respond
+
+contains
+
+  !> LFLAGS(1) of a dynamic step.
+  elemental logical function is_dynamic(procedure_code)
+    integer(i4), intent(in) :: procedure_code
+    is_dynamic = procedure_code == 11 .or. procedure_code == 12
+  end function is_dynamic
+
+  !> Mass matrix: lumped in elements with straight edges, consistent in those with middle nodes, as in Abaqus, and
+  !> always fully integrated.
+  subroutine mass_matrix(dim, nodes, density, x, mass)
+    integer, intent(in) :: dim, nodes
+    real(dp), intent(in) :: density, x(dim, nodes)     !< density per volume, or per area where dim is 2
+    real(dp), intent(out) :: mass(dim*nodes, dim*nodes)
+    type(rule_t), pointer :: rule
+    real(dp) :: weight, at_nodes(nodes, nodes)
+    integer :: i, k, p, points
+    logical :: lumped
+    lumped = nodes <= 2**dim
+    points = merge(1, merge(2, 3, lumped)**dim, nodes == dim + 1)
+    rule => rule_of(dim, nodes, points)
+    at_nodes = 0
+    do p = 1, points
+      weight = density*rule%weight(p)*determinant(dim, matmul(x, rule%dn(:, :, p)))
+      do k = 1, nodes
+        if (lumped) then
+          at_nodes(k, k) = at_nodes(k, k) + weight*rule%n(k, p)
+        else
+          at_nodes(:, k) = at_nodes(:, k) + weight*rule%n(k, p)*rule%n(:, p)
+        end if
+      end do
+    end do
+    mass = 0
+    do i = 1, dim
+      mass(i::dim, i::dim) = at_nodes
+    end do
+  end subroutine mass_matrix
+
+  pure real(dp) function determinant(dim, a)
+    integer, intent(in) :: dim
+    real(dp), intent(in) :: a(dim, dim)
+    determinant = a(1, 1)*a(2, 2) - a(1, 2)*a(2, 1)
+    if (dim == 3) then
+      determinant = determinant*a(3, 3) + (a(1, 2)*a(2, 3) - a(1, 3)*a(2, 2))*a(3, 1) &
+                    - (a(1, 1)*a(2, 3) - a(1, 3)*a(2, 1))*a(3, 2)
+    end if
+  end function determinant
+
+  !> RHS and AMATRX, which hold internal force and stiffness on entry. mass is used by dynamic steps and where it is asked
+  !> for; old: forces of the last two increments, changed where the call keeps state; kinetic: ENERGY(1).
+  pure subroutine respond(n, lflags, params, dtime, v, a, mass, old, rhs, amatrx, kinetic)
+    integer, intent(in) :: n
+    integer(i4), intent(in) :: lflags(3)
+    real(dp), intent(in) :: params(3), dtime, v(n), a(n), mass(n, n)
+    real(dp), intent(inout) :: old(n, 2), rhs(n), amatrx(n, n), kinetic
+    real(dp) :: force(n), alpha
+    logical :: dynamic
+    dynamic = is_dynamic(lflags(1))
+    if (any(lflags(3) == [1, 6])) then
+      old(:, 2) = merge(rhs, old(:, 1), lflags(3) == 6)
+      force = old(:, 1)
+      old(:, 1) = rhs
+    else
+      force = 0.5_dp*(old(:, 1) + old(:, 2))
+    end if
+    if (dynamic .and. any(lflags(3) == [1, 5])) then
+      alpha = params(1)
+      rhs = -matmul(mass, a) - (1 + alpha)*rhs + alpha*force
+      if (lflags(3) == 1) amatrx = (1 + alpha)*amatrx + mass/(params(2)*dtime**2)
+    else
+      rhs = -rhs
+    end if
+    if (lflags(3) == 3) amatrx = 0
+    if (any(lflags(3) == [4, 6])) amatrx = mass
+    if (dynamic) kinetic = 0.5_dp*dot_product(v, matmul(mass, v))
+  end subroutine respond
+end module host_inertia

@@ -1,0 +1,195 @@
+! SPDX-FileCopyrightText: The uel-harness authors
+! SPDX-License-Identifier: BSD-3-Clause
+!> Gradients, strains and rotations at the points of the built-in continuum elements.
+module host_kinematics
+  use host_kinds, only: dp, i4
+  use host_messages, only: add_message
+  use host_protect, only: escape
+  use host_shape, only: rule_of, rule_t
+  implicit none (type, external)
+  private
+  public :: gradients, mean_gradients, strain_matrix, average_volume_strain, point_position, rotation_of, rotated
+
+contains
+
+  !> Derivatives of the shape functions by the coordinates in a point, and its volume. Leaves the analysis where the
+  !> element is inside out.
+  subroutine gradients(dim, nodes, points, point, x, g, volume)
+    integer, intent(in) :: dim, nodes, points, point
+    real(dp), intent(in) :: x(dim, nodes)
+    real(dp), intent(out) :: g(nodes, dim), volume
+    type(rule_t), pointer :: rule
+    real(dp) :: determinant
+    character(len=160) :: text
+    rule => rule_of(dim, nodes, points)
+    if (dim == 2) then
+      call plane_gradients(nodes, x, rule%dn(:, :, point), g, determinant)
+    else
+      call space_gradients(nodes, x, rule%dn(:, :, point), g, determinant)
+    end if
+    volume = rule%weight(point)*determinant
+    if (determinant > 0) return
+    write (text, '(a,i0,a,es10.2,a)') 'the element is inside out at its integration point ', point, &
+      ' (Jacobian', determinant, '); its nodes must run counter-clockwise'
+    if (dim == 3) text = trim(text)//' as seen from its other side'
+    call add_message(-3_i4, trim(text))
+    call escape()
+  end subroutine gradients
+
+  !> Derivatives by the coordinates from those by the parent coordinates, and the determinant of the Jacobian.
+  pure subroutine plane_gradients(nodes, x, dn, g, determinant)
+    integer, intent(in) :: nodes
+    real(dp), intent(in) :: x(2, nodes), dn(nodes, 2)
+    real(dp), intent(out) :: g(nodes, 2), determinant
+    real(dp) :: j(2, 2)
+    integer :: k
+    j = 0
+    do k = 1, nodes
+      j(:, 1) = j(:, 1) + x(:, k)*dn(k, 1)
+      j(:, 2) = j(:, 2) + x(:, k)*dn(k, 2)
+    end do
+    determinant = j(1, 1)*j(2, 2) - j(1, 2)*j(2, 1)
+    do k = 1, nodes
+      g(k, 1) = (dn(k, 1)*j(2, 2) - dn(k, 2)*j(2, 1))/determinant
+      g(k, 2) = (dn(k, 2)*j(1, 1) - dn(k, 1)*j(1, 2))/determinant
+    end do
+  end subroutine plane_gradients
+
+  !> The same in space.
+  pure subroutine space_gradients(nodes, x, dn, g, determinant)
+    integer, intent(in) :: nodes
+    real(dp), intent(in) :: x(3, nodes), dn(nodes, 3)
+    real(dp), intent(out) :: g(nodes, 3), determinant
+    real(dp) :: j(3, 3), c(3, 3)
+    integer :: i, k, i1, i2, k1, k2
+    j = 0
+    do i = 1, 3
+      do k = 1, nodes
+        j(:, i) = j(:, i) + x(:, k)*dn(k, i)
+      end do
+    end do
+    do k = 1, 3
+      do i = 1, 3
+        i1 = mod(i, 3) + 1
+        i2 = mod(i + 1, 3) + 1
+        k1 = mod(k, 3) + 1
+        k2 = mod(k + 1, 3) + 1
+        c(i, k) = j(i1, k1)*j(i2, k2) - j(i1, k2)*j(i2, k1)
+      end do
+    end do
+    determinant = dot_product(j(:, 1), c(:, 1))
+    do i = 1, 3
+      g(:, i) = (dn(:, 1)*c(i, 1) + dn(:, 2)*c(i, 2) + dn(:, 3)*c(i, 3))/determinant
+    end do
+  end subroutine space_gradients
+
+  !> Mean of the gradients over the volume of a four- or eight-node element, and the volume: the uniform strain of
+  !> D.P. Flanagan, T. Belytschko, Int. J. for Numerical Methods in Engineering 17 (1981) 679.
+  subroutine mean_gradients(dim, x, g, volume)
+    integer, intent(in) :: dim
+    real(dp), intent(in) :: x(dim, 2**dim)
+    real(dp), intent(out) :: g(2**dim, dim), volume
+    real(dp) :: part(2**dim, dim), weight
+    integer :: point
+    g = 0
+    volume = 0
+    do point = 1, 2**dim
+      call gradients(dim, 2**dim, 2**dim, point, x, part, weight)
+      g = g + weight*part
+      volume = volume + weight
+    end do
+    g = g/volume
+  end subroutine mean_gradients
+
+  !> Strains by displacements, transposed: 11, 22, 12 in the plane; 11, 22, 33, 12, 13, 23 in space (engineering shear).
+  pure subroutine strain_matrix(dim, nodes, g, b)
+    integer, intent(in) :: dim, nodes
+    real(dp), intent(in) :: g(nodes, dim)
+    real(dp), intent(out) :: b(dim, nodes, 3*(dim - 1))
+    integer, parameter :: first(3) = [1, 1, 2], second(3) = [2, 3, 3]
+    integer :: i
+    b = 0
+    do i = 1, dim
+      b(i, :, i) = g(:, i)
+    end do
+    do i = 1, 2*dim - 3
+      b(first(i), :, dim + i) = g(:, second(i))
+      b(second(i), :, dim + i) = g(:, first(i))
+    end do
+  end subroutine strain_matrix
+
+  !> Replace the volume strain of each point by its mean over the element, with equal parts of the difference in each
+  !> direction (Abaqus Theory Guide, Solid isoparametric quadrilaterals and hexahedra).
+  pure subroutine average_volume_strain(dim, n, points, volume, b)
+    integer, intent(in) :: dim, n, points
+    real(dp), intent(in) :: volume(points)
+    real(dp), intent(inout) :: b(n, 3*(dim - 1), points)
+    real(dp) :: mean(n), change(n)
+    integer :: i, p
+    mean = 0
+    do p = 1, points
+      mean = mean + volume(p)*sum(b(:, :dim, p), dim=2)
+    end do
+    mean = mean/sum(volume)
+    do p = 1, points
+      change = (mean - sum(b(:, :dim, p), dim=2))/dim
+      do i = 1, dim
+        b(:, i, p) = b(:, i, p) + change
+      end do
+    end do
+  end subroutine average_volume_strain
+
+  !> Coordinates of an integration point.
+  function point_position(points, point, x) result(place)
+    integer, intent(in) :: points, point
+    real(dp), intent(in) :: x(:, :)     !< (dimension, nodes)
+    real(dp) :: place(3)
+    type(rule_t), pointer :: rule
+    rule => rule_of(size(x, 1), size(x, 2), points)
+    place = 0
+    place(:size(x, 1)) = matmul(x, rule%n(:, point))
+  end function point_position
+
+  !> Rotation of an increment from the gradient (3, 3) of its displacements at its middle (T.J.R. Hughes, J. Winget,
+  !> Int. J. for Numerical Methods in Engineering 15 (1980) 1862): (1 - W/2)^-1 (1 + W/2).
+  pure function rotation_of(gradient) result(rotation)
+    real(dp), intent(in) :: gradient(3, 3)
+    real(dp) :: rotation(3, 3), half(3), dyad(3, 3), cross(3, 3), s
+    integer :: i
+    ! W/2 is the cross product with this vector
+    half = 0.25_dp*[gradient(3, 2) - gradient(2, 3), gradient(1, 3) - gradient(3, 1), gradient(2, 1) - gradient(1, 2)]
+    s = dot_product(half, half)
+    dyad = spread(half, 2, 3)*spread(half, 1, 3)
+    cross = reshape([0.0_dp, half(3), -half(2), -half(3), 0.0_dp, half(1), half(2), -half(1), 0.0_dp], [3, 3])
+    rotation = 2*(cross + dyad)
+    do i = 1, 3
+      rotation(i, i) = rotation(i, i) + 1 - s
+    end do
+    rotation = rotation/(1 + s)
+  end function rotation_of
+
+  !> A symmetric tensor turned by a rotation; n = 3: 11, 22, 12, n = 4: 11, 22, 33, 12, n = 6: 11, 22, 33, 12, 13, 23.
+  !> shear is the factor of shear components: 1 of stresses, 2 of engineering strains.
+  pure function rotated(n, tensor, rotation, shear) result(turned)
+    integer, intent(in) :: n
+    real(dp), intent(in) :: tensor(n), rotation(3, 3), shear
+    real(dp) :: turned(n), full(3, 3)
+    integer :: direct
+    direct = merge(2, 3, n == 3)
+    full = 0
+    full(1, 1) = tensor(1)
+    full(2, 2) = tensor(2)
+    if (direct == 3) full(3, 3) = tensor(3)
+    full(1, 2) = tensor(direct + 1)/shear
+    if (n == 6) full(1, 3) = tensor(5)/shear
+    if (n == 6) full(2, 3) = tensor(6)/shear
+    full(2, 1) = full(1, 2)
+    full(3, 1) = full(1, 3)
+    full(3, 2) = full(2, 3)
+    full = matmul(rotation, matmul(full, transpose(rotation)))
+    turned(:2) = [full(1, 1), full(2, 2)]
+    if (direct == 3) turned(3) = full(3, 3)
+    turned(direct + 1) = shear*full(1, 2)
+    if (n == 6) turned(5:6) = shear*[full(1, 3), full(2, 3)]
+  end function rotated
+end module host_kinematics

@@ -1,0 +1,127 @@
+# SPDX-FileCopyrightText: The uel-harness authors
+# SPDX-License-Identifier: BSD-3-Clause
+"""Built-in continuum elements: what the driver calls for them, and what their state variables mean."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Final
+
+import numpy as np
+
+from harness.elements.block import OutputVariables, Procedure
+from harness.elements.materials import Tensor, define_material, history_values, shear_modulus
+from harness.errors import DeckError
+from harness.model.mesh import ElementGroup
+from harness.model.model import Model
+from harness.model.procedures import Dynamic
+from harness.model.properties import Material, SolidSection
+from harness.model.records import PointVariables
+from harness.usersub import Library, _binding
+
+HOURGLASS_FRACTION: Final = 0.005
+"""Hourglass stiffness over the shear modulus (Abaqus Analysis User's Guide, Section controls)."""
+
+
+@dataclass(frozen=True, slots=True)
+class Solid:
+    """A built-in element type: nodes, integration points, state of stress."""
+
+    nodes: int
+    points: int
+    tensor: Tensor
+
+    @property
+    def dimension(self) -> int:
+        """2 or 3."""
+        return 3 if self.tensor is Tensor.SOLID else 2
+
+    @property
+    def hourglass_modes(self) -> int:
+        """Patterns of displacement that its points do not feel."""
+        if self.points > 1 or self.nodes != 2**self.dimension:
+            return 0
+        return 1 if self.dimension == 2 else 4
+
+
+_PLANE = {"3": (3, 1), "4": (4, 4), "4R": (4, 1), "8": (8, 9), "8R": (8, 4)}
+SOLIDS: Final = {
+    **{f"CPS{name}": Solid(*counts, Tensor.PLANE_STRESS) for name, counts in _PLANE.items()},
+    **{f"CPE{name}": Solid(*counts, Tensor.PLANE_STRAIN) for name, counts in _PLANE.items()},
+    "C3D4": Solid(4, 1, Tensor.SOLID),
+    "C3D8": Solid(8, 8, Tensor.SOLID),
+    "C3D8R": Solid(8, 1, Tensor.SOLID),
+    "C3D20": Solid(20, 27, Tensor.SOLID),
+    "C3D20R": Solid(20, 8, Tensor.SOLID),
+}
+"""Built-in continuum elements by their names."""
+
+_COMPONENTS: Final = {2: ("11", "22", "33", "12"), 3: ("11", "22", "33", "12", "13", "23")}
+
+
+def solid_procedure(model: Model, group: ElementGroup, section: SolidSection, library: Library) -> Procedure:
+    """What the driver calls for a group of solids. Raises DeckError."""
+    kind, material = SOLIDS[group.type], section.material
+    dynamic = next((step for step in model.steps if isinstance(step.procedure, Dynamic)), None)
+    if dynamic is not None and not material.density:
+        message = f"material {material.name} has no *DENSITY, which elements of type {group.type} need in *DYNAMIC"
+        raise DeckError(material.source, message)
+    nonlinear = next((step for step in model.steps if step.nlgeom), None)
+    if nonlinear is not None and section.orientation is not None:
+        message = f"*ORIENTATION is not supported for elements of type {group.type} with NLGEOM ({nonlinear.source})"
+        raise DeckError(section.source, message)
+    unknowns = kind.dimension * kind.nodes
+    hidden = kind.dimension * kind.hourglass_modes + (2 * unknowns if dynamic is not None else 0)
+    return Procedure(
+        address=_binding.solid_address(),
+        jtype=kind.nodes,
+        mcrd=kind.dimension,
+        svars=kind.points * 2 * len(_COMPONENTS[kind.dimension]) + hidden,
+        hidden=hidden,
+        props=np.array([section.thickness, material.density, _hourglass_stiffness(group, kind, section)]),
+        jprops=np.array([kind.points]),
+        material=define_material(material, section.orientation, kind.tensor, section.source, library),
+        tensor=int(kind.tensor),
+        history=history_of(material, kind.points),
+        statev=material.state_variables if material.user is not None else 0,
+        uvarm=_output_variables(material, kind.points, library),
+    )
+
+
+def solid_variables(group: ElementGroup, procedure: Procedure) -> PointVariables:
+    """Meaning of the state variables of a group of solids."""
+    kind = SOLIDS[group.type]
+    names = tuple(f"{letter}{component}" for letter in "ES" for component in _COMPONENTS[kind.dimension])
+    names = *names, *_numbered("SDV", procedure.statev)
+    if procedure.uvarm is not None:
+        names = *names, *_numbered("UVARM", procedure.uvarm.count)
+    outline = tuple(range(kind.nodes)) if kind.dimension == 2 else ()
+    return PointVariables("continuum", names, kind.points, outline=outline)
+
+
+def history_of(material: Material, points: int) -> tuple[int, int]:
+    """Values and points of the material history of an element."""
+    values = history_values(material)
+    return values, points if values > 1 else 1
+
+
+def _hourglass_stiffness(group: ElementGroup, kind: Solid, section: SolidSection) -> float:
+    if not kind.hourglass_modes:
+        return 0.0
+    if section.hourglass:
+        return section.hourglass
+    if section.material.elastic is None:
+        message = f"elements of type {group.type} with *USER MATERIAL need *HOURGLASS STIFFNESS after *SOLID SECTION"
+        raise DeckError(section.source, message)
+    return HOURGLASS_FRACTION * shear_modulus(section.material.elastic, kind.tensor)
+
+
+def _output_variables(material: Material, points: int, library: Library) -> OutputVariables | None:
+    """UVARM of a material; None where the job has none, which leaves out the variables alone."""
+    if not material.output_variables or library.uvarm is None:
+        return None
+    return OutputVariables(library.uvarm, material.name, points, material.output_variables)
+
+
+def _numbered(name: str, count: int) -> tuple[str, ...]:
+    return tuple(f"{name}{number}" for number in range(1, count + 1))

@@ -1,0 +1,163 @@
+# SPDX-FileCopyrightText: The uel-harness authors
+# SPDX-License-Identifier: BSD-3-Clause
+"""Built-in continuum elements with NLGEOM: rotations, stretches, tangents, and what UMAT gets."""
+
+from dataclasses import replace
+from itertools import pairwise
+
+import numpy as np
+import pytest
+
+from harness.errors import Source
+from harness.model.mesh import ElementGroup
+from harness.model.properties import Elastic, ElasticType, Material, Plastic, SolidSection, UserMaterial
+
+SOURCE = Source("test.inp", 1)
+E = 1000.0
+SQUARE = np.array([[0.0, 0, 0], [1, 0, 0], [1.2, 0.9, 0], [0.1, 1, 0]])
+CUBE = np.array([[0.0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0], [0, 0, 1], [1, 0, 1], [1, 1, 1], [0, 1, 1]])
+NODES = {"CPS3": SQUARE[:3], "CPE3": SQUARE[:3], "C3D4": CUBE[[0, 1, 3, 4]], "C3D8": CUBE, "C3D8R": CUBE}
+TYPES = ["CPS3", "CPS4", "CPS4R", "CPE3", "CPE4", "CPE4R", "C3D4", "C3D8", "C3D8R"]
+
+
+class Element:
+    """One element that is led through increments."""
+
+    def __init__(self, block, matrix, nodes, call):
+        self.block, self.matrix, self.nodes = block, matrix, nodes
+        self.dimension = matrix.shape[0] // len(nodes)
+        self.call = replace(call, lflags=(1, 1, 1, 0, 0))
+        self.u = np.zeros(matrix.shape[0])
+
+    def evaluate(self, u):
+        residual = np.zeros(u.size)
+        self.matrix.data[:] = 0
+        report = self.block.evaluate(self.call, u, u - self.u, residual, self.matrix.data)
+        return residual, report
+
+    def move(self, f):
+        """To x = F X."""
+        d = self.dimension
+        u = (self.nodes[:, :d] @ (np.asarray(f)[:d, :d] - np.eye(d)).T).ravel()
+        residual, report = self.evaluate(u)
+        self.block.commit()
+        self.u = u
+        return residual.reshape(-1, d), report
+
+    def values(self):
+        """Values (points, variables) of the points."""
+        state = self.block.state(0)
+        return state.svars.reshape(len(state.variables.names) and -1, len(state.variables.names))
+
+
+@pytest.fixture
+def element(solid_group, bound, load, call):
+    def element(element_type, *, nu=0.3, group=None, user=None, **material):
+        nodes = NODES.get(element_type, SQUARE)
+        elastic = Elastic(ElasticType.ISOTROPIC, (E, nu), SOURCE)
+        group = group or solid_group(element_type, np.arange(len(nodes))[None], 1.0, elastic=elastic, **material)
+        return Element(*bound(group, nodes, load(user)), nodes, call)
+
+    return element
+
+
+def turn(angle):
+    c, s = np.cos(angle), np.sin(angle)
+    return np.array([[c, -s, 0], [s, c, 0], [0, 0, 1]])
+
+
+@pytest.mark.parametrize("element_type", TYPES)
+def test_stress_and_forces_turn_with_the_body(element, element_type):
+    """A stretched element turned by 150 degrees in three increments: exact, for the rule of Hughes and Winget is."""
+    solid = element(element_type)
+    stretch = np.array([[1.01, 0.004, 0], [0.002, 0.995, 0], [0, 0, 1.0]])
+    forces, before = solid.move(stretch)
+    at_start = solid.values()[0]
+    n = len(at_start) // 2
+    for k in (1, 2, 3):
+        rotation = turn(k * np.radians(50))
+        turned, report = solid.move(rotation @ stretch)
+    np.testing.assert_allclose(turned, forces @ rotation[: solid.dimension, : solid.dimension].T, atol=1e-10)
+    np.testing.assert_allclose(report.energy, before.energy, atol=1e-12)
+
+    def full(values):
+        shear = values[[3]] if n == 4 else values[3:6]
+        (xy, *others), (x, y, z) = shear, values[:3]
+        xz, yz = others or (0, 0)
+        return np.array([[x, xy, xz], [xy, y, yz], [xz, yz, z]])
+
+    expected = rotation @ full(at_start[n:]) @ rotation.T
+    np.testing.assert_allclose(full(solid.values()[0][n:]), expected, atol=1e-10)
+
+
+@pytest.mark.parametrize("element_type", TYPES)
+def test_stretch_in_increments(element, element_type):
+    """Strains add up by the lengths in the middle, sum of 2 (l_1 - l_0)/(l_1 + l_0), close to the logarithm; nu = 0."""
+    solid = element(element_type, nu=0.0)
+    stretches, strain = np.linspace(1, 1.5, 6), 0.0
+    for before, after in pairwise(stretches):
+        forces, _ = solid.move(np.diag([after, 1, 1]))
+        strain += 2 * (after - before) / (after + before)
+    assert strain == pytest.approx(np.log(1.5), rel=2e-3)
+    points = solid.values()
+    n = points.shape[1] // 2
+    np.testing.assert_allclose(points[:, 0], strain, rtol=1e-12)
+    np.testing.assert_allclose(points[:, n], E * strain, rtol=1e-12)
+    # work of the forces on a further stretch is stress times volume times its strain: forces have the virtual work
+    # principle in the deformed shape
+    rate = np.zeros_like(forces)
+    rate[:, 0] = solid.nodes[:, 0]
+    volume = {"3": 0.45, "4": 1 / 6}.get(element_type[-1], 1.0) if len(solid.nodes) == solid.dimension + 1 else None
+    if volume is None:
+        x, y = solid.nodes[:4, 0], solid.nodes[:4, 1]
+        volume = 0.5 * abs(x @ np.roll(y, -1) - y @ np.roll(x, -1))
+    assert -(forces * rate).sum() == pytest.approx(E * strain * volume, rel=1e-10)
+
+
+@pytest.mark.parametrize("element_type", ["CPE3", "CPE4", "CPE4R", "C3D4", "C3D8", "C3D8R"])
+def test_tangent_at_the_start_of_an_increment(element, element_type):
+    """Along x -> A x the differences of the forces are the tangent's and what it leaves out, forces times tr A."""
+    solid = element(element_type)
+    solid.move(np.array([[1.05, 0.1, 0], [0.02, 0.98, 0], [0, 0, 1.0]]))
+    forces, _ = solid.evaluate(solid.u)
+    tangent = solid.matrix.toarray()
+    now, step = solid.nodes[:, : solid.dimension] + solid.u.reshape(-1, solid.dimension), 1e-6
+    for a in np.eye(solid.dimension**2).reshape(-1, solid.dimension, solid.dimension):
+        d = (now @ a.T).ravel()
+        slope = (solid.evaluate(solid.u - step * d)[0] - solid.evaluate(solid.u + step * d)[0]) / (2 * step)
+        np.testing.assert_allclose(slope, tangent @ d - forces * np.trace(a), atol=1e-6 * abs(tangent).max())
+
+
+def test_plastic_strain_turns_with_the_body(element):
+    """Yielded, turned by 90 degrees, unloaded along the turned direction: no stress is left in the other one."""
+    plastic = Plastic(np.array([[5.0, 0.0], [6.0, 0.1]]), SOURCE)
+    straight, turned = element("C3D8", plastic=plastic), element("C3D8", plastic=plastic)
+    for body in (straight, turned):
+        body.move(np.diag([1.03, 1, 1]))
+    quarter = turn(np.pi / 2)
+    turned.move(quarter @ np.diag([1.03, 1, 1]))
+    straight.move(np.diag([1.025, 1, 1]))
+    turned.move(quarter @ np.diag([1.025, 1, 1]))
+    a, b = straight.values()[0], turned.values()[0]
+    np.testing.assert_allclose(b[[7, 6, 8]], a[[6, 7, 8]], rtol=1e-9)
+
+
+@pytest.mark.parametrize("element_type", ["CPE4", "CPE3"])
+def test_user_material_gets_deformation_gradient_and_rotation(element, element_type):
+    """Simple shear 0.4, then a turn: J sigma = mu (F F^T - 1) + lambda ln J."""
+    mu, lame = 3.0, 5.0
+    material = Material("M", SOURCE, user=UserMaterial(np.array([mu, lame]), False, SOURCE), state_variables=9)
+    nodes = NODES.get(element_type, SQUARE)
+    section = SolidSection("ALL", material, None, 1.0, SOURCE)
+    group = ElementGroup(element_type, np.array([1]), np.arange(len(nodes))[None], "", section, None, SOURCE)
+    solid = element(element_type, group=group, user="neohooke.f")
+    shear = np.array([[1.1, 0.4, 0], [0, 1, 0], [0, 0, 1]])
+    solid.move(shear)
+    rotation = turn(0.3)
+    solid.move(rotation @ shear)
+    f = rotation @ shear
+    det = np.linalg.det(f)
+    stress = (mu * (f @ f.T - np.eye(3)) + lame * np.log(det) * np.eye(3)) / det
+    point = solid.values()[0]
+    np.testing.assert_allclose(point[4:8], stress[[0, 1, 2, 0], [0, 1, 2, 1]], rtol=1e-12)
+    np.testing.assert_allclose(point[8:17].reshape(3, 3).T, rotation, atol=1e-12)

@@ -1,0 +1,231 @@
+# SPDX-FileCopyrightText: The uel-harness authors
+# SPDX-License-Identifier: BSD-3-Clause
+"""Built-in elements in space, elements of one point with hourglass stiffness, and masses."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from scipy.linalg import eigh
+
+from harness.elements.solid import HOURGLASS_FRACTION, SOLIDS
+from harness.errors import KernelError, Source
+from harness.model.properties import Elastic, ElasticType, Orientation, Plastic
+
+SOURCE = Source("test.inp", 1)
+# R.H. MacNeal, R.L. Harder, A proposed standard set of problems to test finite element accuracy, Finite Elements in
+# Analysis and Design 1 (1985) 3: a cube of seven hexahedra, E 1e6, nu 0.25
+CUBE = np.array([[0.0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0], [0, 0, 1], [1, 0, 1], [1, 1, 1], [0, 1, 1]])
+INNER = np.array(
+    [
+        *([0.249, 0.342, 0.192], [0.826, 0.288, 0.288], [0.850, 0.649, 0.263], [0.273, 0.750, 0.230]),
+        *([0.320, 0.186, 0.643], [0.677, 0.305, 0.683], [0.788, 0.693, 0.644], [0.165, 0.745, 0.702]),
+    ]
+)
+CORNERS = np.vstack([CUBE, INNER])
+FACES = [[0, 3, 2, 1], [4, 5, 6, 7], [0, 1, 5, 4], [1, 2, 6, 5], [2, 3, 7, 6], [3, 0, 4, 7]]
+# each hexahedron between a face of the cube and the same face of the inner one
+HEXAHEDRA = np.array([[*range(8, 16)], *([k + 8 for k in face] + face for face in FACES)])
+SPLIT = np.array([[0, 1, 3, 4], [1, 2, 3, 6], [4, 6, 5, 1], [4, 7, 6, 3], [1, 3, 4, 6]])
+EDGES = np.array([*([0, 1], [1, 2], [2, 3], [3, 0], [4, 5], [5, 6], [6, 7], [7, 4]), *([0, 4], [1, 5], [2, 6], [3, 7])])
+MATERIAL = Elastic(ElasticType.ISOTROPIC, (1e6, 0.25), SOURCE)
+TYPES = ["C3D4", "C3D8", "C3D8R", "C3D20", "C3D20R"]
+
+
+def mesh(element_type):
+    """Nodes and elements of the cube."""
+    hexahedra = HEXAHEDRA
+    if element_type == "C3D4":
+        # a split of each hexahedron alone: its volume is that of the five parts only where faces are plane
+        return CUBE, SPLIT
+    if "20" not in element_type:
+        return CORNERS, hexahedra
+    pairs = hexahedra[:, EDGES].reshape(-1, 2)
+    edges, inverse = np.unique(np.sort(pairs, axis=1), axis=0, return_inverse=True)
+    middles = CORNERS[edges].mean(axis=1)
+    return np.vstack([CORNERS, middles]), np.hstack([hexahedra, len(CORNERS) + inverse.reshape(-1, 12)])
+
+
+@pytest.fixture
+def patch(solid_group, bound, load):
+    def patch(element_type, **material):
+        nodes, elements = mesh(element_type)
+        material = {"elastic": MATERIAL} | material
+        return nodes, *bound(solid_group(element_type, elements, 1.0, **material), nodes, load(None))
+
+    return patch
+
+
+@pytest.mark.parametrize("element_type", TYPES)
+def test_patch_of_macneal_and_harder(patch, call, element_type):
+    """u = 1e-3 (2 x + y + z)/2 and so on: all strains 1e-3, direct stresses 2000, shear stresses 400."""
+    nodes, block, matrix = patch(element_type)
+    u = (1e-3 * nodes @ np.array([[2, 1, 1], [1, 2, 1], [1, 1, 2]]) / 2).ravel()
+    residual = np.zeros(u.size)
+    report = block.evaluate(call, u, u, residual, matrix.data)
+    block.commit()
+    points = block.state(0).svars.reshape(-1, 12)
+    np.testing.assert_allclose(points, np.tile([1e-3] * 6 + [2000] * 3 + [400] * 3, (len(points), 1)), rtol=1e-10)
+    inside = ((nodes > 0) & (nodes < 1)).all(axis=1)
+    assert abs(residual.reshape(-1, 3)[inside]).max(initial=0) < 1e-10 * abs(residual).max()
+    np.testing.assert_allclose(matrix @ u, -residual, atol=1e-9)
+    # energy of 3 direct and 3 shear components in the unit cube, none of it artificial
+    assert report.energy[1] == pytest.approx(0.5e-3 * (3 * 2000 + 3 * 400), rel=1e-10)
+    assert report.energy[5] < 1e-20
+
+
+@pytest.mark.parametrize("element_type", TYPES)
+def test_only_rigid_bodies_are_free(patch, call, element_type):
+    nodes, block, matrix = patch(element_type)
+    n = nodes.size
+    block.evaluate(call, np.zeros(n), np.zeros(n), np.zeros(n), matrix.data)
+    k = matrix.toarray()
+    x, y, z = nodes.T
+    o = 0 * x
+    turns = [np.column_stack(c).ravel() for c in ([o, -z, y], [z, o, -x], [-y, x, o])]
+    rigid = np.array([*(np.tile(e, len(nodes)) for e in np.eye(3)), *turns])
+    np.testing.assert_allclose(k @ rigid.T, 0, atol=1e-9 * abs(k).max())
+    np.testing.assert_allclose(k, k.T, atol=1e-9 * abs(k).max())
+    assert np.linalg.matrix_rank(k, tol=1e-9 * abs(k).max()) == n - 6
+
+
+@pytest.mark.parametrize("element_type, free", [("C3D4", 6), ("C3D8", 6), ("C3D8R", 6), ("C3D20", 6), ("C3D20R", 12)])
+def test_modes_of_a_single_element(solid_group, bound, load, call, element_type, free):
+    """C3D20R alone has six modes beside the rigid ones, as 8 points times 6 strains for 60 unknowns leave."""
+    nodes = np.vstack([CUBE, CUBE[EDGES].mean(axis=1)])[: SOLIDS[element_type].nodes]
+    if element_type == "C3D4":
+        nodes = CUBE[[0, 1, 3, 4]]
+    block, matrix = bound(solid_group(element_type, np.arange(len(nodes))[None], 1.0), nodes, load(None))
+    n = nodes.size
+    block.evaluate(call, np.zeros(n), np.zeros(n), np.zeros(n), matrix.data)
+    k = matrix.toarray()
+    assert np.linalg.matrix_rank(k, tol=1e-9 * abs(k).max()) == n - free
+
+
+@pytest.mark.parametrize("element_type", TYPES)
+def test_plastic_tangent(patch, call, element_type):
+    """AMATRX against central differences of RHS."""
+    nodes, block, matrix = patch(element_type, plastic=Plastic(np.array([[900.0, 0.0], [1500.0, 0.02]]), SOURCE))
+    rng = np.random.default_rng(1)
+    u = (nodes @ np.diag([4e-3, -2e-3, 1e-3])).ravel() + 1e-4 * rng.normal(size=nodes.size)
+
+    def residual(u):
+        r = np.zeros(u.size)
+        block.evaluate(call, u, u, r, None)
+        return r
+
+    report = block.evaluate(call, u, u, np.zeros(u.size), matrix.data)
+    step, direction = 1e-8, rng.normal(size=(u.size, 4))
+    differences = np.array([(residual(u + step * d) - residual(u - step * d)) / (2 * step) for d in direction.T]).T
+    np.testing.assert_allclose(matrix @ direction, -differences, atol=1e-5 * abs(matrix.data).max())
+    assert report.energy[3] > 0.1 * report.energy[1]
+
+
+def test_bending_of_a_nearly_incompressible_hexahedron_does_not_lock(solid_group, bound, load, call):
+    """u1 = x y on a cube of side 2: E11 = y less a third of it in each direction, 2 E12 = x; energy G (16/9 + 4/3)."""
+    nu = 0.49999
+    elastic = Elastic(ElasticType.ISOTROPIC, (1000.0, nu), SOURCE)
+    nodes = 2 * CUBE - 1
+    block, matrix = bound(solid_group("C3D8", np.arange(8)[None], 1.0, elastic=elastic), nodes, load(None))
+    u = np.column_stack([nodes[:, 0] * nodes[:, 1], np.zeros(8), np.zeros(8)]).ravel()
+    report = block.evaluate(call, u, u, np.zeros(24), matrix.data)
+    # deviator of E11 = y: y (2/3, -1/3, -1/3); G times its square is 2/3 G y^2, and G x^2/2; integrals of x^2, y^2: 8/3
+    assert report.energy[1] == pytest.approx(1000 / (2 * (1 + nu)) * (2 / 3 + 1 / 2) * 8 / 3, rel=1e-6)
+
+
+@pytest.mark.parametrize("element_type", ["CPS4R", "CPE4R", "C3D8R"])
+def test_hourglass_energy(solid_group, bound, load, call, element_type):
+    """u1 = x y on a square or cube of side 2, without strain in its middle.
+
+    Gradients of the d directions are 1/2 of the corners' signs over 2^(d - 1), so their squares sum up to d/2^d; the
+    mode is sqrt(2^d) times the pattern of unit length.
+    """
+    d = SOLIDS[element_type].dimension
+    nodes = (2 * CUBE - 1)[: 2**d] * [1, 1, d - 2]
+    block, matrix = bound(solid_group(element_type, np.arange(2**d)[None], 1.0), nodes, load(None))
+    u = np.outer(nodes[:, 0] * nodes[:, 1], np.eye(d)[0]).ravel()
+    report = block.evaluate(call, u, u, np.zeros(u.size), matrix.data)
+    shear, volume = 1000 / 2.6, 2**d
+    assert report.energy[5] == pytest.approx(0.5 * HOURGLASS_FRACTION * shear * volume * d / 2**d * 2**d, rel=1e-12)
+    assert report.energy[1] == pytest.approx(0.0, abs=1e-12)
+    np.testing.assert_allclose(u @ (matrix @ u) / 2, report.energy[5], rtol=1e-12)
+
+
+def test_orientation_in_space(patch, call):
+    """A material drawn in its direction 1, which is turned in space: local stress 1 there, local strains of the ply."""
+    e1, e2, nu12, g12 = 2000.0, 500.0, 0.3, 300.0
+    ply = Elastic(ElasticType.ENGINEERING_CONSTANTS, (e1, e2, e2, nu12, nu12, 0.0, g12, g12, 250.0), SOURCE)
+    axes, _ = np.linalg.qr(np.random.default_rng(3).normal(size=(3, 3)))
+    axes[2] = np.cross(axes[0], axes[1])
+    nodes, block, matrix = patch("C3D8", elastic=ply, orientation=Orientation("TURNED", axes, SOURCE))
+    strain = axes.T @ np.diag([1 / e1, -nu12 / e1, -nu12 / e1]) @ axes
+    u = (nodes @ strain).ravel()
+    block.evaluate(call, u, u, np.zeros(u.size), matrix.data)
+    block.commit()
+    points = block.state(0).svars.reshape(-1, 12)
+    expected = [1 / e1, -nu12 / e1, -nu12 / e1, 0, 0, 0, 1, 0, 0, 0, 0, 0]
+    np.testing.assert_allclose(points, np.tile(expected, (len(points), 1)), atol=1e-10)
+
+
+def test_inside_out(solid_group, bound, load, call):
+    nodes = CUBE[[4, 5, 6, 7, 0, 1, 2, 3]]
+    block, matrix = bound(solid_group("C3D8", np.arange(8)[None], 1.0), nodes, load(None))
+    with pytest.raises(KernelError, match=r"element 101 \(type C3D8\): .*inside out.*as seen from its other side"):
+        block.evaluate(call, np.zeros(24), np.zeros(24), np.zeros(24), matrix.data)
+
+
+DENSITY = 3.0
+
+
+@pytest.mark.parametrize("element_type", sorted(SOLIDS))
+def test_mass_of_rigid_and_linear_motions(solid_group, bound, load, call, element_type):
+    """Translations have the whole mass; a consistent mass is exact for linear velocities, a lumped one is diagonal."""
+    kind = SOLIDS[element_type]
+    corners = CUBE if kind.dimension == 3 else CUBE[:4]
+    edges = EDGES if kind.dimension == 3 else EDGES[:4]
+    nodes = np.vstack([corners, corners[edges].mean(axis=1)])[: kind.nodes]
+    if kind.nodes == kind.dimension + 1:
+        nodes = CUBE[[0, 1, 3, 4]][: kind.nodes]
+    group = solid_group(element_type, np.arange(kind.nodes)[None], 2.0)
+    material = replace(group.section.material, density=DENSITY)
+    group = replace(group, section=replace(group.section, material=material))
+    block, matrix = bound(group, nodes, load(None))
+    n = kind.nodes * kind.dimension
+    block.evaluate(replace(call, lflags=(1, 0, 4, 0, 0)), np.zeros(n), np.zeros(n), np.zeros(n), matrix.data)
+    mass = matrix.toarray()
+    volume = {3: 0.5, 4: 1 / 6}.get(kind.nodes, 1.0) if kind.nodes == kind.dimension + 1 else 1.0
+    total = DENSITY * volume * (2.0 if kind.dimension == 2 else 1.0)
+    for direction in np.eye(kind.dimension):
+        v = np.tile(direction, kind.nodes)
+        assert v @ mass @ v == pytest.approx(total, rel=1e-12)
+    if kind.nodes > 2**kind.dimension:
+        v = np.outer(nodes[:, 0], np.eye(kind.dimension)[0]).ravel()
+        assert v @ mass @ v == pytest.approx(total / 3, rel=1e-12)
+        assert eigh(mass, eigvals_only=True).min() > 0
+    else:
+        np.testing.assert_allclose(mass, np.diag(np.diag(mass)))
+
+
+def test_frequencies_of_a_cantilever(solid_group, bound, load, call):
+    """1.8751^2 and 4.6941^2 times sqrt(E I/(rho A))/L^2 (S. Timoshenko, Vibration Problems in Engineering); a slender
+    beam, so that shear and rotatory inertia take less than one percent of the second."""
+    length, height, count = 20.0, 0.5, 10
+    x = np.linspace(0, length, 2 * count + 1)
+    grid = np.array([[a, b, 0.0] for a in x for b in (0, height / 2, height)])
+    k = 6 * np.arange(count)[:, None]
+    elements = k + np.array([0, 6, 8, 2, 3, 7, 5, 1])
+    group = solid_group("CPS8R", elements, 1.0, elastic=Elastic(ElasticType.ISOTROPIC, (1000.0, 0.0), SOURCE))
+    material = replace(group.section.material, density=DENSITY)
+    block, matrix = bound(replace(group, section=replace(group.section, material=material)), grid, load(None))
+    n = 2 * len(grid)
+    zero = np.zeros(n)
+    matrices = []
+    for request in (2, 4):
+        matrix.data[:] = 0
+        block.evaluate(replace(call, lflags=(1, 0, request, 0, 0)), zero, zero, zero.copy(), matrix.data)
+        matrices.append(matrix.toarray())
+    # the middle node of an element without one has no stiffness
+    free = [dof for dof in range(6, n) if matrices[0][dof, dof]]
+    values = eigh(*(m[np.ix_(free, free)] for m in matrices), eigvals_only=True)
+    theory = np.array([1.87510, 4.69409]) ** 2 * np.sqrt(1000 * height**2 / 12 / DENSITY) / length**2
+    assert np.sqrt(values[:2]) == pytest.approx(theory, rel=0.01)
