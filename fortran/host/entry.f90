@@ -3,9 +3,10 @@
 !> The procedures Python calls (through f2py, see _host.pyf). They only pack and unpack.
 
 !> One pass over a block; see block_t for the arrays.
-subroutine host_evaluate(address, options, lflags, clock, labels, jprops, equations, map, props, coords, u, du, v, a, svars, &
-                         svars_trial, energy, energy_trial, history, history_trial, residual, matrix, flux, sums, status, &
-                         ndofel, nsvars, nprops, njprop, mcrd, nnode, m, n, nrhs, nnz, values, points)
+subroutine host_evaluate(address, options, lflags, clock, labels, jprops, equations, map, props, coords, u, du, v, a, counts, &
+                         kinds, loads, predef, svars, svars_trial, energy, energy_trial, history, history_trial, residual, matrix, &
+                         flux, sums, status, ndofel, nsvars, nprops, njprop, mcrd, nnode, m, n, nrhs, nnz, values, points, most, &
+                         nfield)
   use, intrinsic :: iso_c_binding, only: c_funptr, c_intptr_t
   use host_driver, only: block_t, run_block
   use host_kinds, only: dp, i4, i8
@@ -14,10 +15,12 @@ subroutine host_evaluate(address, options, lflags, clock, labels, jprops, equati
   integer(i4), intent(in) :: options(8)       !< material, tensor, jtype, symmetric, want_matrix, kstep, kinc, guards
   integer(i4), intent(in) :: lflags(5)
   real(dp), intent(in) :: clock(7)            !< step time, total time, time increment, period, PARAMS
-  integer(i4), intent(in) :: ndofel, nsvars, nprops, njprop, mcrd, nnode, m, n, nrhs, nnz, values, points
+  integer(i4), intent(in) :: ndofel, nsvars, nprops, njprop, mcrd, nnode, m, n, nrhs, nnz, values, points, most, nfield
   integer(i4), intent(in), target :: labels(m), jprops(njprop), equations(ndofel, m), map(ndofel, ndofel, m)
   real(dp), intent(in), target :: props(nprops), coords(mcrd, nnode, m), u(n), du(n), v(n), a(n), svars(nsvars, m), &
                                   energy(8, m), history(values, points, m)
+  integer(i4), intent(in), target :: counts(m), kinds(most, m)   !< distributed loads: how many, JDLTYP
+  real(dp), intent(in), target :: loads(2, most, m), predef(2, nfield, nnode, m)
   real(dp), intent(inout), target :: svars_trial(nsvars, m), energy_trial(8, m), history_trial(values, points, m), &
                                      residual(n, nrhs), matrix(nnz)
   real(dp), intent(out), target :: flux(ndofel)
@@ -50,6 +53,10 @@ subroutine host_evaluate(address, options, lflags, clock, labels, jprops, equati
   block%du => du
   block%v => v
   block%a => a
+  block%counts => counts
+  block%kinds => kinds
+  block%loads => loads
+  block%predef => predef
   block%svars => svars
   block%svars_trial => svars_trial
   block%energy => energy

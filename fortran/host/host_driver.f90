@@ -44,6 +44,10 @@ module host_driver
     real(dp), pointer, contiguous :: coords(:, :, :) => null()     !< (mcrd, nnode, m)
     real(dp), pointer, contiguous :: u(:) => null(), du(:) => null()
     real(dp), pointer, contiguous :: v(:) => null(), a(:) => null()   !< velocity and acceleration, zero unless dynamic
+    integer(i4), pointer, contiguous :: counts(:) => null()        !< (m) distributed loads
+    integer(i4), pointer, contiguous :: kinds(:, :) => null()      !< (most, m) JDLTYP
+    real(dp), pointer, contiguous :: loads(:, :, :) => null()      !< (2, most, m) magnitude at the end, increment
+    real(dp), pointer, contiguous :: predef(:, :, :, :) => null()  !< (2, NPREDF, nnode, m)
     real(dp), pointer, contiguous :: svars(:, :) => null(), svars_trial(:, :) => null()     !< (nsvars, m)
     real(dp), pointer, contiguous :: energy(:, :) => null(), energy_trial(:, :) => null()   !< (8, m)
     real(dp), pointer, contiguous :: history(:, :, :) => null(), history_trial(:, :, :) => null()  !< (values, npt, m)
@@ -86,7 +90,7 @@ contains
     current%element = 0
   end subroutine run_block
 
-  !> Workspace and context of this block, guards whole. PREDEF and column 2 of DU are zero throughout.
+  !> Workspace and context of this block, guards whole. Column 2 of DU is zero throughout.
   subroutine prepare(block)
     type(block_t), intent(in) :: block
     integer :: length(n_arrays), ndofel, nnode
@@ -100,7 +104,7 @@ contains
     length(i_energy) = 8
     length(i_props) = size(block%props)
     length(i_coords) = size(block%coords, 1)*nnode
-    length(i_predef) = 2*nnode
+    length(i_predef) = 2*size(block%predef, 2)*nnode
     call lay_out(work, length)
     if (associated(block%history)) then
       if (allocated(discarded)) deallocate (discarded)
@@ -188,7 +192,8 @@ contains
       call copy(8, block%energy(:, e), x(s(i_energy)))
       call copy(nprops, block%props, x(s(i_props)))
       call copy(work%length(i_coords), block%coords(:, :, e), x(s(i_coords)))
-      call invoke(block, x, s, ndofel, nsvars, nprops)
+      call copy(work%length(i_predef), block%predef(:, :, :, e), x(s(i_predef)))
+      call invoke(block, e, x, s, ndofel, nsvars, nprops)
       if (keeps_state(block%lflags(3))) then
         call copy(nsvars, x(s(i_svars)), block%svars_trial(:, e))
         call copy(8, x(s(i_energy)), block%energy_trial(:, e))
@@ -205,14 +210,16 @@ contains
   end function keeps_state
 
   !> The call itself; scalars are copies, so that a user routine that changes them changes nothing else.
-  subroutine invoke(block, x, s, ndofel, nsvars, nprops)
+  subroutine invoke(block, e, x, s, ndofel, nsvars, nprops)
     type(block_t), intent(inout) :: block
+    integer, intent(in) :: e
     real(dp), intent(inout) :: x(*)
     integer, intent(in) :: s(n_arrays)
     integer(i4), value :: ndofel, nsvars, nprops
     integer(i4) :: mlvarx, njprop, mcrd, nnode, nrhs, jtype, kstep, kinc, jelem, ndload, npredf, mdload, materiallib
-    integer(i4) :: jdltyp(1), lflags(5), jprops(size(block%jprops))
-    real(dp) :: time(2), dtime, params(3), adlmag(1), ddlmag(1), pnewdt, period
+    integer(i4) :: jdltyp(max(block%counts(e), 1), 2), lflags(5), jprops(size(block%jprops))
+    real(dp) :: adlmag(max(block%counts(e), 1), 2), ddlmag(max(block%counts(e), 1), 2)
+    real(dp) :: time(2), dtime, params(3), pnewdt, period
     mlvarx = ndofel
     njprop = size(block%jprops, kind=i4)
     mcrd = size(block%coords, 1, kind=i4)
@@ -222,12 +229,16 @@ contains
     kstep = block%kstep
     kinc = block%kinc
     jelem = current%element
-    ndload = 0
-    mdload = 1
+    ndload = block%counts(e)
+    mdload = size(jdltyp, 1, kind=i4)
+    ! the second column, of the other load case with NRHS = 2, is zero
     jdltyp = 0
     adlmag = 0
     ddlmag = 0
-    npredf = 1
+    jdltyp(:ndload, 1) = block%kinds(:ndload, e)
+    adlmag(:ndload, 1) = block%loads(1, :ndload, e)
+    ddlmag(:ndload, 1) = block%loads(2, :ndload, e)
+    npredf = size(block%predef, 2, kind=i4)
     lflags = block%lflags
     jprops = block%jprops
     materiallib = block%material

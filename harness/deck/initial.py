@@ -15,8 +15,22 @@ TEMPERATURE = 11
 """First of the dofs that are temperatures."""
 
 
+MOST_FIELDS = 1000
+
+
+def field_number(block: Block) -> int:
+    """VARIABLE= of *FIELD and *INITIAL CONDITIONS, TYPE=FIELD."""
+    number = block.options.integer("VARIABLE", 1)
+    if not 1 <= number <= MOST_FIELDS:
+        raise block.error(f"VARIABLE={number}: expected a number from 1 to {MOST_FIELDS}")
+    return number
+
+
 def read_initial_values(blocks: Iterable[Block], kind: str, flat: FlatMesh, problems: Problems) -> list[InitialValue]:
-    """Entries of all *INITIAL CONDITIONS of a TYPE=: VELOCITY (node, dof, value) or TEMPERATURE (node, value)."""
+    """Entries of all *INITIAL CONDITIONS of a TYPE=: VELOCITY (node, dof, value), TEMPERATURE or FIELD (node, value).
+
+    The dof of a field is its number, VARIABLE=.
+    """
     found = []
     for block in blocks:
         if block.name != "INITIAL CONDITIONS" or block.options.text("TYPE") != kind:
@@ -28,6 +42,9 @@ def read_initial_values(blocks: Iterable[Block], kind: str, flat: FlatMesh, prob
                     dof, value = row.integer(1, "dof"), row.real(2, "velocity", 0.0)
                     if not 1 <= dof <= 6:
                         raise row.error(f"dof {dof} has no velocity (1 to 6)")
+                elif kind == "FIELD":
+                    row.at_most(2)
+                    dof, value = field_number(block), row.real(1, "value", 0.0)
                 else:
                     row.at_most(2)
                     dof, value = TEMPERATURE, row.real(1, "temperature", 0.0)

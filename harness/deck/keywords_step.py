@@ -96,6 +96,44 @@ PRESCRIBED = (
     ),
 )
 
+_FIELD = (
+    OP,
+    Option("AMPLITUDE", Kind.NAME, "amplitude; without it that of *STEP"),
+    Option("INPUT", Kind.FILE, "file that holds the data lines"),
+)
+
+DISTRIBUTED = (
+    Keyword(
+        "DLOAD",
+        "Distributed loads on user elements.",
+        Where.STEP,
+        (
+            OP,
+            Option("AMPLITUDE", Kind.NAME, "amplitude; without it that of *STEP"),
+            Option("INPUT", Kind.FILE, "file that holds the data lines"),
+            *refused(
+                *("CONSTANT RESULTANT", "CYCLIC MODE", "FOLLOWER", "IMAGINARY", "LOAD CASE", "ORIENTATION", "REAL"),
+                *("REF NODE", "REGION TYPE"),
+            ),
+        ),
+        "element or set, Un or UnNU, magnitude",
+    ),
+    Keyword(
+        "TEMPERATURE",
+        "Temperature as a predefined field.",
+        Where.STEP,
+        (*_FIELD, *refused("ABSOLUTE EXTERIOR TOLERANCE", "BSTEP", "DRIVING ELSETS", "ESTEP", "FILE", "USER")),
+        "node or set, temperature",
+    ),
+    Keyword(
+        "FIELD",
+        "Predefined field variable.",
+        Where.STEP,
+        (Option("VARIABLE", Kind.INTEGER, "number of the field variable (1)"), *_FIELD, *refused("FILE", "USER")),
+        "node or set, value",
+    ),
+)
+
 OUTPUT = (
     Keyword(
         "OUTPUT",
@@ -203,6 +241,7 @@ STEP_KEYWORDS = (
     *INITIAL,
     *CONTROLS,
     *PRESCRIBED,
+    *DISTRIBUTED,
     *OUTPUT,
     *(Keyword(name, doc, Where.ANY, support=Support.IGNORED) for name, doc in _IGNORED.items()),
 )

@@ -7,6 +7,9 @@ from __future__ import annotations
 from collections.abc import Collection, Mapping
 from dataclasses import dataclass
 
+import numpy as np
+from numpy.typing import NDArray
+
 from harness.deck.blocks import Block, Row
 from harness.deck.catalogue import look_up
 from harness.deck.flatten import FlatMesh, Owner
@@ -36,15 +39,21 @@ TERMS_FIELDS = 3
 
 @dataclass(frozen=True, slots=True)
 class Prescription:
-    """What reading prescribed values needs to know: names, amplitudes, and the dofs that some element uses."""
+    """What reading prescribed values needs to know.
+
+    flat, amplitudes  names
+    active_dofs       dofs that some element uses
+    built_in          (elements,) whether each is a built-in one
+    """
 
     flat: FlatMesh
     amplitudes: Mapping[str, Amplitude]
     active_dofs: Collection[int]
+    built_in: NDArray[np.bool_]
 
     def read_boundary(self, block: Block, in_step: bool) -> list[Boundary]:
         """Entries of one *BOUNDARY, one for each dof."""
-        amplitude = self._amplitude(block)
+        amplitude = self.amplitude(block)
         velocity = block.options.text("TYPE") == "VELOCITY"
         found = []
         for row in block.rows():
@@ -59,7 +68,7 @@ class Prescription:
 
     def read_loads(self, block: Block) -> list[Load]:
         """Entries of one *CLOAD or *CFLUX."""
-        amplitude = self._amplitude(block)
+        amplitude = self.amplitude(block)
         found = []
         for row in block.rows():
             row.at_most(3)
@@ -68,7 +77,8 @@ class Prescription:
             found.append(Load(nodes, dof, row.real(2, "value", 0.0), amplitude, row.source))
         return found
 
-    def _amplitude(self, block: Block) -> Amplitude | None:
+    def amplitude(self, block: Block) -> Amplitude | None:
+        """Amplitude that a keyword names."""
         name = block.options.text("AMPLITUDE")
         return look_up(self.amplitudes, name, "amplitude", block.source) if name else None
 

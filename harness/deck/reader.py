@@ -6,6 +6,8 @@ from __future__ import annotations
 
 from pathlib import Path
 
+import numpy as np
+
 from harness.deck.catalogue import read_amplitudes, read_materials
 from harness.deck.flatten import FlatMesh
 from harness.deck.groups import make_groups
@@ -38,14 +40,16 @@ def read_deck(path: Path) -> Model:
     groups = make_groups(flat, materials, problems)
     if not structure.steps:
         raise DeckError(Source(str(path), 1), "the deck has no *STEP")
-    prescription = Prescription(flat, amplitudes, _active_dofs(groups))
+    built_in = np.concatenate([np.full(len(group.labels), group.definition is None) for group in groups])
+    prescription = Prescription(flat, amplitudes, _active_dofs(groups), built_in)
     boundaries: list[Boundary] = []
     for block in structure.root:
         if block.name == "BOUNDARY":
             with problems.gather():
                 boundaries += prescription.read_boundary(block, in_step=False)
-    velocities, temperatures = (
-        read_initial_values(structure.root, kind, flat, problems) for kind in ("VELOCITY", "TEMPERATURE")
+    kinds = ("VELOCITY", "TEMPERATURE", "FIELD")
+    velocities, temperatures, fields = (
+        tuple(read_initial_values(structure.root, kind, flat, problems)) for kind in kinds
     )
     equations = read_equations(flat, problems)
     steps = read_steps(structure.steps, prescription, RequestReader(flat, problems), problems)
@@ -61,8 +65,9 @@ def read_deck(path: Path) -> Model:
         elsets=flat.elsets,
         boundaries=tuple(boundaries),
         equations=equations,
-        initial_velocities=tuple(velocities),
-        initial_temperatures=tuple(temperatures),
+        initial_velocities=velocities,
+        initial_temperatures=temperatures,
+        initial_fields=fields,
         ignored=tuple(structure.ignored),
         warnings=problems.warnings,
     )

@@ -4,19 +4,23 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator, Sequence
+from functools import partial
+from typing import TypeVar
 
 from harness.deck.blocks import Block
 from harness.deck.controls import ControlState
+from harness.deck.distributed import read_distributed, read_fields
 from harness.deck.prescribed import Prescription
 from harness.deck.problems import Problems
 from harness.deck.procedures import read_procedure
 from harness.deck.requests import RequestReader
 from harness.deck.structure import Scope
 from harness.model.procedures import Dynamic, Procedure
-from harness.model.steps import Boundary, Load, Step
+from harness.model.steps import Step
 
 MOST_INCREMENTS = 100
+Entry = TypeVar("Entry")
 
 
 def read_steps(
@@ -38,8 +42,16 @@ def read_steps(
         name = options.text("NAME") or f"Step-{number}"
         if name in (step.name for step in steps):
             problems.add(scope.head.source, f"*STEP: the name {name} is taken by an earlier step")
-        boundaries, new_boundary = _read_boundaries(scope, prescription, problems)
-        loads, new_loads = _read_loads(scope, prescription, problems)
+        boundaries, new_boundary = _read_entries(
+            scope, ("BOUNDARY",), partial(prescription.read_boundary, in_step=True), problems
+        )
+        loads, new_loads = _read_entries(scope, ("CLOAD", "CFLUX"), prescription.read_loads, problems)
+        distributed, new_distributed = _read_entries(
+            scope, ("DLOAD",), partial(read_distributed, prescription=prescription), problems
+        )
+        fields, new_fields = _read_entries(
+            scope, ("TEMPERATURE", "FIELD"), partial(read_fields, prescription=prescription), problems
+        )
         with problems.gather():
             procedure = read_procedure(scope, prescription)
             increments = options.integer("INC", MOST_INCREMENTS)
@@ -58,10 +70,14 @@ def read_steps(
                     amplitude=options.text("AMPLITUDE") or procedure.default_amplitude,
                     title=next((line for line in scope.head.lines if line), ""),
                     controls=controls.effective,
-                    boundaries=tuple(boundaries),
+                    boundaries=boundaries,
                     new_boundary=new_boundary,
-                    loads=tuple(loads),
+                    loads=loads,
                     new_loads=new_loads,
+                    distributed=distributed,
+                    new_distributed=new_distributed,
+                    fields=fields,
+                    new_fields=new_fields,
                     output=output,
                     notes=tuple(_notes(scope)),
                 )
@@ -69,22 +85,16 @@ def read_steps(
     return tuple(steps)
 
 
-def _read_boundaries(scope: Scope, prescription: Prescription, problems: Problems) -> tuple[list[Boundary], bool]:
-    found: list[Boundary] = []
-    blocks = [block for block in scope.blocks if block.name == "BOUNDARY"]
+def _read_entries(
+    scope: Scope, names: tuple[str, ...], read: Callable[[Block], Sequence[Entry]], problems: Problems
+) -> tuple[tuple[Entry, ...], bool]:
+    """Entries of some keywords of a step, and whether they replace those of earlier steps."""
+    found: list[Entry] = []
+    blocks = [block for block in scope.blocks if block.name in names]
     for block in blocks:
         with problems.gather():
-            found += prescription.read_boundary(block, in_step=True)
-    return found, _is_new(blocks, problems)
-
-
-def _read_loads(scope: Scope, prescription: Prescription, problems: Problems) -> tuple[list[Load], bool]:
-    found: list[Load] = []
-    blocks = [block for block in scope.blocks if block.name in ("CLOAD", "CFLUX")]
-    for block in blocks:
-        with problems.gather():
-            found += prescription.read_loads(block)
-    return found, _is_new(blocks, problems)
+            found += read(block)
+    return tuple(found), _is_new(blocks, problems)
 
 
 def _is_new(blocks: list[Block], problems: Problems) -> bool:

@@ -4,7 +4,17 @@
 
 from harness.elements.block import Block
 from harness.elements.build import build_blocks
-from harness.elements.call import BlockReport, Call, Motion
+from harness.elements.call import BlockReport, Call, Distributed, Motion, Predefined
 from harness.elements.fields import FIELD_NAMES, field_of
 
-__all__ = ["FIELD_NAMES", "Block", "BlockReport", "Call", "Motion", "build_blocks", "field_of"]
+__all__ = [
+    "FIELD_NAMES",
+    "Block",
+    "BlockReport",
+    "Call",
+    "Distributed",
+    "Motion",
+    "Predefined",
+    "build_blocks",
+    "field_of",
+]

@@ -10,14 +10,14 @@ from typing import Final
 import numpy as np
 from numpy.typing import NDArray
 
-from harness.elements.call import BlockReport, Call, Motion
+from harness.elements.call import BlockReport, Call, Distributed, Motion, Predefined
 from harness.elements.fields import FIELD_NAMES, field_of
 from harness.errors import KernelError
 from harness.model.arrays import FloatArray, IntArray
 from harness.model.mesh import ElementGroup
 from harness.model.records import ElementState, PointVariables
 from harness.usersub import Library, _binding
-from harness.usersub._binding import Fault, Guards, Options
+from harness.usersub._binding import Fault, Guards, LoadArrays, Options
 
 NORMAL: Final = 1
 """LFLAGS(3) of a normal call."""
@@ -67,6 +67,7 @@ class Block:
 
     unknowns     (local node, dof) of each element unknown, in the order of U and RHS
     unsymmetric  False: (A + A^T)/2 is assembled
+    first        position of the first element in the model
     strict       a write outside an array is an error, else a warning
     variables    meaning of the state's SVARS, None where unknown; those of a point of a built-in element go on with
                  STATEV and UVAR
@@ -91,6 +92,7 @@ class Block:
         self._coordinates = coordinates
         self._procedure = procedure
         self._library = library
+        self.first = 0
         self._guards = Guards.STOP if strict else Guards.NOTICE
         self._noticed: _binding.Outcome | None = None
         m, n = len(group.labels), len(unknowns)
@@ -131,7 +133,7 @@ class Block:
     def split(self) -> list[Block]:
         """Its elements, each in an unbound block of its own and in the initial state, for calls in any order."""
         group = self.group
-        return [
+        parts = [
             Block(
                 replace(group, labels=group.labels[k : k + 1], nodes=group.nodes[k : k + 1]),
                 self._coordinates,
@@ -143,6 +145,9 @@ class Block:
             )
             for k in range(len(group.labels))
         ]
+        for k, part in enumerate(parts):
+            part.first = self.first + k
+        return parts
 
     def evaluate(
         self,
@@ -171,6 +176,8 @@ class Block:
             du,
             motion.velocity,
             motion.acceleration,
+            self._loads(call.distributed),
+            self._fields(call.predefined),
             np.atleast_2d(residual),
             _NO_MATRIX if matrix is None else matrix,
         )
@@ -180,6 +187,30 @@ class Block:
         elif outcome.fault is not Fault.NONE:
             raise self._error(outcome, residual.ndim, call)
         return BlockReport(outcome.flux @ self._by_field, self._flux_count, outcome.pnewdt, outcome.energy)
+
+    def _loads(self, distributed: Distributed | None) -> LoadArrays:
+        """Loads on the elements of the block, one row for each element."""
+        m = len(self.group.labels)
+        if distributed is None:
+            return LoadArrays(np.zeros(m, np.int32), np.zeros((m, 1), np.int32), np.zeros((m, 1, 2)))
+        mine = (distributed.elements >= self.first) & (distributed.elements < self.first + m)
+        row = distributed.elements[mine] - self.first
+        counts = np.bincount(row, minlength=m)
+        # number of a load among those of its element
+        column = np.arange(len(row)) - (np.cumsum(counts) - counts)[row]
+        most = max(int(counts.max(initial=0)), 1)
+        kinds, values = np.zeros((m, most), np.int32), np.zeros((m, most, 2))
+        kinds[row, column] = distributed.kinds[mine]
+        values[row, column] = np.stack([distributed.end[mine], distributed.increment[mine]], axis=1)
+        return LoadArrays(counts.astype(np.int32), kinds, values)
+
+    def _fields(self, predefined: Predefined | None) -> FloatArray:
+        """PREDEF of the elements, (m, nodes, fields, 2)."""
+        nodes = self.group.nodes
+        if predefined is None:
+            return np.zeros((*nodes.shape, 1, 2))
+        values = np.stack([predefined.end, predefined.increment], axis=-1)[:, nodes]
+        return np.ascontiguousarray(values.transpose(1, 2, 0, 3))
 
     def bare_loop(self, call: Call, u: FloatArray, du: FloatArray, residual: FloatArray) -> None:
         """Only call the elements, from a plain Fortran loop over the block: the limit of speed."""

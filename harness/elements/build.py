@@ -5,6 +5,7 @@
 from __future__ import annotations
 
 from difflib import get_close_matches
+from itertools import pairwise
 from typing import Final
 
 from harness.elements.block import Block, Procedure
@@ -41,6 +42,8 @@ def build_blocks(model: Model, library: Library, *, strict: bool = True) -> list
             near = get_close_matches(group.type.upper(), SOLIDS, n=1)
             hint = f"; did you mean {near[0]}?" if near else ""
             raise DeckError(group.source, f"element type {group.type} is not supported (built in are {known}){hint}")
+    for block, following in pairwise(blocks):
+        following.first = block.first + len(block.group.labels)
     return blocks
 
 

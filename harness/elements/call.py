@@ -10,6 +10,29 @@ from harness.model.arrays import FloatArray, IntArray
 
 
 @dataclass(frozen=True, slots=True)
+class Distributed:
+    """Distributed loads on user elements that are active.
+
+    elements   (k,) positions in the model, ascending
+    kinds      (k,) n of type Un, -n of type UnNU
+    end, increment  (k,) magnitude at the end of the increment and its change; 0 for UnNU
+    """
+
+    elements: IntArray
+    kinds: IntArray
+    end: FloatArray
+    increment: FloatArray
+
+
+@dataclass(frozen=True, slots=True)
+class Predefined:
+    """Predefined fields (fields, nodes) at the end of the increment and their change; temperature is the first."""
+
+    end: FloatArray
+    increment: FloatArray
+
+
+@dataclass(frozen=True, slots=True)
 class Call:
     """Arguments common to all elements in one pass.
 
@@ -27,6 +50,8 @@ class Call:
     time_increment: float
     period: float
     params: tuple[float, float, float] = (0.0, 0.0, 0.0)
+    distributed: Distributed | None = None
+    predefined: Predefined | None = None
 
 
 @dataclass(frozen=True, slots=True)

@@ -29,7 +29,8 @@ class Model:
     elsets     element positions of each set (position in the groups walked in order)
     boundaries *BOUNDARY before the first step
     initial_velocities    *INITIAL CONDITIONS, TYPE=VELOCITY
-    initial_temperatures  TYPE=TEMPERATURE, for unknowns that are temperatures
+    initial_temperatures  TYPE=TEMPERATURE, for unknowns that are temperatures, and as a predefined field
+    initial_fields        TYPE=FIELD; their dof is the number of the field
     ignored    keywords that cannot change the solution, with their places: listed once in .dat
     warnings   places where the deck is odd but understood
     """
@@ -45,5 +46,6 @@ class Model:
     equations: tuple[Equation, ...] = ()
     initial_velocities: tuple[InitialValue, ...] = ()
     initial_temperatures: tuple[InitialValue, ...] = ()
+    initial_fields: tuple[InitialValue, ...] = ()
     ignored: tuple[tuple[str, Source], ...] = ()
     warnings: tuple[str, ...] = ()

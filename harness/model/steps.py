@@ -108,6 +108,17 @@ class Load:
 
 
 @dataclass(frozen=True, slots=True)
+class DistributedLoad:
+    """One *DLOAD entry on user elements: their positions in the model, n of type Un or -n of UnNU, magnitude."""
+
+    elements: IntArray
+    kind: int
+    magnitude: float
+    amplitude: Amplitude | None
+    source: Source
+
+
+@dataclass(frozen=True, slots=True)
 class InitialValue:
     """One *INITIAL CONDITIONS entry: nodes (indices), one dof, value."""
 
@@ -173,5 +184,9 @@ class Step:
     new_boundary: bool = False
     loads: tuple[Load, ...] = ()
     new_loads: bool = False
+    distributed: tuple[DistributedLoad, ...] = ()
+    new_distributed: bool = False
+    fields: tuple[Load, ...] = ()
+    new_fields: bool = False
     output: OutputRequests = field(default_factory=OutputRequests)
     notes: tuple[str, ...] = ()

@@ -17,6 +17,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from typing import Protocol
 
 import numpy as np
 
@@ -113,7 +114,7 @@ class Variation:
         return values
 
 
-def find_unknowns(dofs: DofMap, entry: Boundary | Load | InitialValue) -> tuple[IntArray, IntArray]:
+def find_unknowns(dofs: Unknowns, entry: Boundary | Load | InitialValue) -> tuple[IntArray, IntArray]:
     """Unknowns of an entry, and the nodes where no element uses its dof."""
     found = dofs.find(entry.nodes, entry.dof)
     return found[found >= 0], entry.nodes[found < 0]
@@ -184,22 +185,39 @@ class Boundaries:
         return unknowns
 
 
-class Loads:
-    """Concentrated loads through the steps; several entries of a step at one unknown add up."""
+class Unknowns(Protocol):
+    """What is numbered by two numbers: unknowns by node and dof, and the like."""
 
-    def __init__(self, dofs: DofMap) -> None:
+    def __len__(self) -> int:
+        """How many there are."""
+
+    def find(self, nodes: IntArray | int, dof: IntArray | int) -> IntArray:
+        """Numbers of pairs; -1 for one that there is not."""
+
+
+class Loads:
+    """Concentrated loads through the steps; several entries of a step at one unknown add up.
+
+    initial: values before the first step, to which those go back that a step removes; zero by default.
+    """
+
+    def __init__(self, dofs: Unknowns, initial: FloatArray | None = None) -> None:
         self._dofs = dofs
-        zero = np.zeros(len(dofs))
-        self._previous = Variation(zero, zero, 1.0)
+        self._initial = np.zeros(len(dofs)) if initial is None else initial
+        self._previous = Variation(self._initial, np.zeros(len(dofs)), 1.0)
 
     def start_step(self, step: Step, total_time: float) -> Variation:
-        """Take over a step's entries; total_time is that at the end of the previous step."""
+        """Take over a step's concentrated loads; total_time is that at the end of the previous step."""
+        return self.take(step.loads, step.new_loads, step, total_time)
+
+    def take(self, entries: Sequence[Load], new: bool, step: Step, total_time: float) -> Variation:
+        """Take over entries of a step; new: those of earlier steps are removed."""
         reached = self._previous.at(self._previous.period, total_time)
-        given = [(entry, find_unknowns(self._dofs, entry)[0]) for entry in step.loads]
+        given = [(entry, find_unknowns(self._dofs, entry)[0]) for entry in entries]
         anew = np.concatenate([np.zeros(0, dtype=np.int64), *(unknowns for _, unknowns in given)])
         curves: list[Curve] = []
-        if step.new_loads:
-            held, start = np.zeros_like(reached), reached.copy()
+        if new:
+            held, start = self._initial.copy(), reached.copy()
         else:
             held = reached.copy()
             curves = [curve.without(anew) for curve in self._previous.curves if curve.amplitude.total_time]

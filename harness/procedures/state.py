@@ -15,6 +15,7 @@ from harness.model.arrays import FloatArray
 from harness.model.model import Model
 from harness.model.records import Solution
 from harness.procedures.acceptance import FluxHistory
+from harness.procedures.conditions import Conditions
 from harness.procedures.loads import Boundaries, Loads, initial_values
 from harness.solver.descent import Majoriser
 from harness.solver.newton import Factoriser, Iterate
@@ -39,6 +40,7 @@ class State:
     external: FloatArray
     boundaries: Boundaries
     loads: Loads
+    conditions: Conditions
     velocity: FloatArray
     acceleration: FloatArray
     constraints: Constraints | None = None
@@ -56,7 +58,7 @@ class State:
         boundaries = Boundaries(system.dofs, model.boundaries)
         velocity = initial_values(system.dofs, model.initial_velocities)
         temperature = initial_values(system.dofs, model.initial_temperatures)
-        return cls(temperature, zero, zero, zero, boundaries, Loads(system.dofs), velocity, zero)
+        return cls(temperature, zero, zero, zero, boundaries, Loads(system.dofs), Conditions(model), velocity, zero)
 
     def come_to_rest(self) -> None:
         """No velocities and accelerations: a step begins that has none."""

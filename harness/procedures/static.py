@@ -90,6 +90,7 @@ class StaticStep:
         self._control = IncrementControl(step.procedure, step.controls.time)
         self._prescribed = state.boundaries.start_step(step, state.displacement, state.total_time)
         self._load = state.loads.start_step(step, state.total_time)
+        self._conditions = state.conditions.start_step(step, state.total_time)
         unknowns = state.boundaries.unknowns
         self._released = released_reactions(state.reaction, unknowns, step)
         constraints = state.constraints
@@ -238,6 +239,7 @@ class StaticStep:
     def _call(self, increment: int, size: float, step_time: float, total_time: float) -> Call:
         """Arguments of the passes of an increment that ends at these times."""
         step = self._step
+        distributed, predefined = self._conditions.at(self._times, (step_time, total_time))
         return Call(
             lflags=(step.procedure.lflag, int(step.nlgeom), NORMAL, 0, 0),
             step=step.number,
@@ -246,6 +248,8 @@ class StaticStep:
             total_time=total_time,
             time_increment=size,
             period=step.procedure.period,
+            distributed=distributed,
+            predefined=predefined,
         )
 
     def _end(self, size: float) -> float:

@@ -92,6 +92,20 @@ class BlockArrays:
 
 
 @dataclass(frozen=True, slots=True)
+class LoadArrays:
+    """Distributed loads of the elements of a block, C order.
+
+    counts  (m,) number of loads on each element
+    kinds   (m, most) JDLTYP
+    values  (m, most, 2) magnitude at the end of the increment, and its change
+    """
+
+    counts: Int32Array
+    kinds: Int32Array
+    values: FloatArray
+
+
+@dataclass(frozen=True, slots=True)
 class RawMessage:
     """A text sent with STDB_ABQERR; level is its LOP."""
 
@@ -112,12 +126,14 @@ def evaluate(
     du: FloatArray,
     v: FloatArray,
     a: FloatArray,
+    loads: LoadArrays,
+    predef: FloatArray,
     residual: FloatArray,
     matrix: FloatArray,
 ) -> Outcome:
     """One pass over a block; options and clock as host_evaluate in fortran/host/entry.f90 names them.
 
-    residual is (NRHS, n); its rows take the columns of RHS.
+    predef is (m, nodes, fields, 2), residual (NRHS, n); its rows take the columns of RHS.
     """
     flux, sums, status = _host.host_evaluate(
         address,
@@ -134,6 +150,10 @@ def evaluate(
         du,
         v,
         a,
+        loads.counts,
+        loads.kinds.T,
+        loads.values.T,
+        predef.T,
         arrays.svars.T,
         arrays.svars_trial.T,
         arrays.energy.T,

@@ -29,7 +29,7 @@ MISTAKES = {
     "switch": ("NLGEOM=NO", "NLGEOM=MAYBE", r"41: \*STEP, NLGEOM=MAYBE: expected one of YES, NO, ON, OFF"),
     "choice": ("TENSOR=PSTRESS", "TENSOR=PSTRES5", r"7: TENSOR=PSTRES5: expected one of .*; did you mean PSTRESS\?"),
     "integer option": ("NODES=4", "NODES=four", r"7: \*USER ELEMENT, NODES: 'four' is not an integer"),
-    "unsupported keyword": ("*CLOAD\n", "*DLOAD\n", r"48: \*DLOAD is not supported"),
+    "unsupported keyword": ("*CLOAD\n", "*DECHARGE\n", r"48: \*DECHARGE is not supported"),
     "unsupported option": ("*STATIC", "*STATIC, ADIABATIC", r"43: \*STATIC: option ADIABATIC is not supported"),
     "unsupported value": (
         "*ELASTIC",
@@ -280,14 +280,14 @@ def test_missing_step_keyword_is_one_line_of_many(read: Read) -> None:
 
 def test_all_places_are_reported_at_once(read: Read) -> None:
     text = (
-        FLAT.replace("*CLOAD\n", "*DLOAD\n").replace("*MATERIAL", "*MATERYAL").replace("*STATIC", "*STATIC, ADIABATIC")
+        FLAT.replace("*CLOAD\n", "*DECHARGE\n").replace("*MATERIAL", "*MATERYAL").replace("*STATIC", "*STATIC, ADIABATIC")
     )
     with pytest.raises(DeckError) as caught:
         read(text)
     assert str(caught.value).splitlines() == [
         "deck.inp:29: unknown keyword *MATERYAL; did you mean MATERIAL?",
         "deck.inp:43: *STATIC: option ADIABATIC is not supported",
-        "deck.inp:48: *DLOAD is not supported",
+        "deck.inp:48: *DECHARGE is not supported",
     ]
 
 

@@ -1,0 +1,115 @@
+# SPDX-FileCopyrightText: The uel-harness authors
+# SPDX-License-Identifier: BSD-3-Clause
+"""Distributed loads on user elements and predefined fields through the steps: what elements are told of them.
+
+Both vary as *CLOAD does. A field that a step removes (OP=NEW) goes back to its initial value.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from harness.elements import Distributed, Predefined
+from harness.model.arrays import IntArray
+from harness.model.model import Model
+from harness.model.procedures import HeatTransfer
+from harness.model.steps import Load, Step
+from harness.procedures.loads import Loads, Variation
+
+
+class _Slots:
+    """Numbers of pairs (element or node, load type or field), as `Loads` asks for them."""
+
+    def __init__(self, pairs: Sequence[tuple[IntArray, int]]) -> None:
+        columns = [np.zeros((2, 0), dtype=np.int64)]
+        columns += [np.stack([places, np.full(len(places), kind)]) for places, kind in pairs]
+        self.places, self.kinds = np.unique(np.concatenate(columns, axis=1), axis=1)
+        self._number = {pair: k for k, pair in enumerate(zip(self.places.tolist(), self.kinds.tolist(), strict=True))}
+
+    def __len__(self) -> int:
+        return len(self.places)
+
+    def find(self, places: IntArray | int, kind: IntArray | int) -> IntArray:
+        """Numbers of the pairs."""
+        return np.array([self._number[place, int(kind)] for place in np.atleast_1d(places).tolist()], dtype=np.int64)
+
+
+class Conditions:
+    """Loads and fields of all steps."""
+
+    def __init__(self, model: Model) -> None:
+        entries = [entry for step in model.steps for entry in step.distributed]
+        self._slots = _Slots([(entry.elements, entry.kind) for entry in entries])
+        self._loads = Loads(self._slots)
+        self._active = np.zeros(len(self._slots), dtype=bool)
+        numbers = [entry.dof for step in model.steps for entry in step.fields]
+        starts = list(model.initial_fields)
+        if model.steps and not isinstance(model.steps[0].procedure, HeatTransfer):
+            starts += [replace(entry, dof=0) for entry in model.initial_temperatures]
+        count = max([*numbers, *(start.dof for start in starts)], default=-1) + 1
+        self._initial = np.zeros(count * len(model.mesh.labels))
+        self._nodes = _Grid(len(model.mesh.labels), count)
+        for start in starts:
+            self._initial[self._nodes.find(start.nodes, start.dof)] = start.value
+        self._fields = Loads(self._nodes, self._initial)
+
+    def start_step(self, step: Step, total_time: float) -> StepConditions:
+        """Take over a step's entries; total_time is that at the end of the previous step."""
+        if step.new_distributed:
+            self._active[:] = False
+        for entry in step.distributed:
+            self._active[self._slots.find(entry.elements, entry.kind)] = True
+        loads = [Load(e.elements, e.kind, e.magnitude, e.amplitude, e.source) for e in step.distributed]
+        return StepConditions(
+            self._slots.places[self._active],
+            self._slots.kinds[self._active],
+            np.flatnonzero(self._active),
+            self._loads.take(loads, step.new_distributed, step, total_time),
+            self._fields.take(step.fields, step.new_fields, step, total_time),
+            self._nodes,
+        )
+
+
+@dataclass(frozen=True, slots=True)
+class _Grid:
+    """Numbers of (node, field), fields one after the other."""
+
+    nodes: int
+    fields: int
+
+    def __len__(self) -> int:
+        return self.nodes * self.fields
+
+    def find(self, nodes: IntArray | int, field: IntArray | int) -> IntArray:
+        return np.asarray(np.asarray(field) * self.nodes + nodes, dtype=np.int64)
+
+
+@dataclass(frozen=True, slots=True)
+class StepConditions:
+    """Those of one step: the loads that are active, and how loads and fields vary."""
+
+    elements: IntArray
+    kinds: IntArray
+    slots: NDArray[np.int64]
+    loads: Variation
+    fields: Variation
+    grid: _Grid
+
+    def at(self, start: tuple[float, float], end: tuple[float, float]) -> tuple[Distributed | None, Predefined | None]:
+        """What is in force in an increment between these step and total times."""
+        distributed = predefined = None
+        if len(self.slots):
+            values, before = self.loads.at(*end)[self.slots], self.loads.at(*start)[self.slots]
+            given = self.kinds > 0  # UEL itself gives those of type UnNU
+            distributed = Distributed(
+                self.elements, self.kinds, np.where(given, values, 0.0), np.where(given, values - before, 0.0)
+            )
+        if len(self.grid):
+            shape = self.grid.fields, self.grid.nodes
+            values, before = self.fields.at(*end), self.fields.at(*start)
+            predefined = Predefined(values.reshape(shape), (values - before).reshape(shape))
+        return distributed, predefined
