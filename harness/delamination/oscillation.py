@@ -1,29 +1,40 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""How much a profile along the interface oscillates.
+"""How much a traction along the interface oscillates.
 
 The total variation of a profile, the sum of its steps up and down, counts the variation that the solution has and the
-one that the discretisation adds. What tells them apart is the number of turns. The traction of a delamination specimen
-turns a few times whatever the mesh: it rises through the process zone, falls to the other sign ahead of it, comes back,
-and does something at a load and at a support. Spurious oscillations turn at every element.
-
-So the profile f is compared with a smooth one g: of the profiles of at most `PIECES` monotone pieces that are nearest
-in the largest distance, the one of least total variation. The oscillation index is
+one that the discretisation adds. The oscillation index of a profile f is
 
     1 + (TV(f) - TV(g))/max(TV(g), scale)
 
-which is 1 without oscillations and 1.1 where they add a tenth to the variation that the solution has. `scale`, the
-strength of the mode, keeps the traction of a mode that is not loaded, all of it round-off, from counting.
+with g the traction that really acts at the same points. It is 1 without oscillations and 1.1 where they add a tenth to
+the variation that the solution has. `scale`, the strength of the mode, keeps the traction of a mode that is not
+loaded, all of it round-off, from counting. g is the solution on a finer mesh of the same interface, averaged over what
+belongs to each point (`harness/delamination/study/reference.py`): an interface with bumps carries tractions that vary
+from facet to facet in truth, and no function of f alone can tell that part from an error.
 
-TV(g) has a closed form. Turns of f cancel in pairs, those closest to each other first, until few enough pieces are
+In the index too little variation in one place may pay for too much in another. The error index
+
+    1 + TV(f - g)/max(TV(g), scale)
+
+lets nothing cancel. It counts what is no oscillation as well, such as a process zone that is a little ahead on the
+coarser mesh, and so is far from 1 on any mesh; what bumps or a stiffness add to it is oscillation.
+
+Where nothing but f is known, the raw index takes for g the smooth profile next to f. The traction on a straight
+interface turns a few times whatever the mesh: it rises through the process zone, falls to the other sign ahead of it,
+comes back, and does something at a load and at a support. Spurious oscillations turn at every element. So this g is,
+of the profiles of at most `PIECES` monotone pieces that are nearest in the largest distance, the one of least total
+variation. On a straight interface the raw index is the index; on bumps it takes real variation for oscillation.
+
+Its TV(g) has a closed form. Turns of f cancel in pairs, those closest to each other first, until few enough pieces are
 left; at an end of the profile the end itself goes. With c the largest difference that has gone, no profile of as few
 pieces is nearer than c/2, and every turn that is left may move by c/2 towards its neighbours, so that TV(g) is the sum
 of |difference| - c over the pieces left. For a zig-zag on a smooth profile, g is that smooth profile; where turns that
-are left do not oscillate themselves, g is a little too flat, and the index errs high.
+are left do not oscillate themselves, g is a little too flat, and the raw index errs high.
 
-For a smooth profile the index does not change with the number of points, and wiggles count however short they are: a
-zig-zag of amplitude A adds 2 A for every point, and ten times as many elements make it ten times as bad. A profile
-with fewer turns than `PIECES` allows has index 1 even where they are spurious: a single kink is no oscillation.
+For a smooth profile no index changes with the number of points, and wiggles count however short they are: a zig-zag of
+amplitude A adds 2 A for every point, and ten times as many elements make it ten times as bad. A profile with fewer
+turns than `PIECES` allows has the raw index 1 even where they are spurious: a single kink is no oscillation.
 """
 
 from __future__ import annotations
@@ -79,22 +90,32 @@ def smooth_variation(profile: FloatArray, pieces: int = PIECES) -> float:
     return float(np.sum(np.abs(np.diff(kept)) - largest))
 
 
-def oscillation_index(profile: FloatArray, scale: float, pieces: int = PIECES) -> float:
-    """Oscillation index of a profile.
+def _index(excess: float, variation: float, scale: float) -> float:
+    return 1.0 + excess / max(variation, scale)
+
+
+def oscillation_index(profile: FloatArray, real: FloatArray, scale: float) -> float:
+    """1 + (TV(f) - TV(g))/max(TV(g), scale).
 
     Parameters
     ----------
     profile
-        Values (n,) in the order along the interface.
+        f: values (n,) in the order along the interface.
+    real
+        g: what really acts (m,); the two may begin at different points.
     scale
-        Variation, in the unit of the profile, below which a profile counts as flat: the strength of the mode.
-    pieces
-        Monotone pieces of the smooth profile, at least 1.
-
-    Returns
-    -------
-    float
-        1 + (TV(f) - TV(g))/max(TV(g), scale).
+        Variation, in the unit of the profile, below which g counts as flat: the strength of the mode.
     """
+    variation = total_variation(real)
+    return _index(total_variation(profile) - variation, variation, scale)
+
+
+def error_index(profile: FloatArray, real: FloatArray, scale: float) -> float:
+    """1 + TV(f - g)/max(TV(g), scale), of profiles (n,) at the same points; parameters of `oscillation_index`."""
+    return _index(total_variation(profile - real), total_variation(real), scale)
+
+
+def raw_index(profile: FloatArray, scale: float, pieces: int = PIECES) -> float:
+    """1 + (TV(f) - TV(g))/max(TV(g), scale) with the smooth profile g of at most `pieces` >= 1 monotone pieces."""
     smooth = smooth_variation(profile, pieces)
-    return 1.0 + (total_variation(profile) - smooth) / max(smooth, scale)
+    return _index(total_variation(profile) - smooth, smooth, scale)

@@ -11,7 +11,9 @@ from hypothesis import strategies as st
 
 from harness.delamination.oscillation import (
     cancelled,
+    error_index,
     oscillation_index,
+    raw_index,
     smooth_variation,
     total_variation,
     turns,
@@ -34,7 +36,7 @@ def zigzag(points: int) -> FloatArray:
 @pytest.mark.parametrize("points", [101, 1001])
 def test_smooth_profiles_have_index_1_on_any_mesh(points: int) -> None:
     for profile in (rise_and_fall(points), np.linspace(5.0, -3.0, points), np.full(points, 7.0)):
-        assert oscillation_index(profile, STRENGTH) == pytest.approx(1.0, abs=1e-13)
+        assert raw_index(profile, STRENGTH) == pytest.approx(1.0, abs=1e-13)
 
 
 @pytest.mark.parametrize("amplitude", [0.5, 2.0, 10.0])
@@ -44,7 +46,7 @@ def test_zigzag_within_elements_counts_twice_its_amplitude_at_every_point(amplit
     # each of 400 steps of the smooth profile has 2 A added or taken away
     steps = np.abs(np.diff(rise_and_fall(points)) + amplitude * np.diff(zigzag(points)))
     assert smooth_variation(profile) == pytest.approx(140.0, rel=0.03)
-    assert oscillation_index(profile, STRENGTH) == pytest.approx(steps.sum() / 140.0, rel=0.03)
+    assert raw_index(profile, STRENGTH) == pytest.approx(steps.sum() / 140.0, rel=0.03)
     if amplitude > 0.6:  # every step turns
         assert steps.sum() == pytest.approx(400 * 2.0 * amplitude, rel=1e-3)
 
@@ -56,7 +58,7 @@ def test_oscillation_over_the_bonded_part_alone() -> None:
     profile = rise_and_fall(4001) + waves
     # the smooth profile stays 3 MPa inside the turns of the process zone, which do not oscillate: the index errs high
     assert 140.0 - 4 * 3.0 < smooth_variation(profile) < 140.0
-    assert oscillation_index(profile, STRENGTH) == pytest.approx((140.0 - 10.0 + 240.0) / 140.0, rel=0.1)
+    assert raw_index(profile, STRENGTH) == pytest.approx((140.0 - 10.0 + 240.0) / 140.0, rel=0.1)
 
 
 def test_noise_on_a_monotone_profile() -> None:
@@ -65,20 +67,47 @@ def test_noise_on_a_monotone_profile() -> None:
     variation = 2000 * 2.0 * 0.5 / np.sqrt(np.pi)
     profile = np.linspace(0.0, 60.0, 2001) + noise
     assert smooth_variation(profile) == pytest.approx(60.0, rel=0.05)
-    assert oscillation_index(profile, STRENGTH) == pytest.approx(variation / 60.0, rel=0.05)
+    assert raw_index(profile, STRENGTH) == pytest.approx(variation / 60.0, rel=0.05)
 
 
 def test_round_off_of_a_mode_that_is_not_loaded_does_not_count() -> None:
     noise = np.random.default_rng(4).normal(0.0, 1e-6, 500)
-    assert oscillation_index(noise, STRENGTH) == pytest.approx(1.0, abs=1e-4)
-    assert oscillation_index(noise, 1e-6) > 10.0
+    assert raw_index(noise, STRENGTH) == pytest.approx(1.0, abs=1e-4)
+    assert raw_index(noise, 1e-6) > 10.0
 
 
 def test_worse_oscillation_has_a_larger_index() -> None:
     profiles = [rise_and_fall(401) + a * zigzag(401) for a in (0.0, 0.5, 1.0, 2.0, 4.0, 8.0)]
-    indices = [oscillation_index(profile, STRENGTH) for profile in profiles]
+    indices = [raw_index(profile, STRENGTH) for profile in profiles]
     assert indices == sorted(indices)
     assert len(set(indices)) == len(indices)
+
+
+def test_index_counts_what_the_real_profile_does_not_have() -> None:
+    # an interface with bumps: facets carry 5 MPa more and less in turns, in truth
+    real = rise_and_fall(401) + 5.0 * zigzag(401)
+    assert oscillation_index(real, real, STRENGTH) == 1.0
+    assert raw_index(real, STRENGTH) > 20.0
+    # a tenth more
+    variation = total_variation(real)
+    assert variation == pytest.approx(400 * 10.0)
+    assert oscillation_index(rise_and_fall(401) + 5.5 * zigzag(401), real, STRENGTH) == pytest.approx(1.1)
+    assert error_index(rise_and_fall(401) + 5.5 * zigzag(401), real, STRENGTH) == pytest.approx(1.1)
+
+
+def test_nothing_cancels_in_the_error_index() -> None:
+    # up and down where the real one goes down and up: the same variation, 4 each, and a difference of 8
+    profile, real = np.array([0.0, 2.0, 0.0]), np.array([0.0, -2.0, 0.0])
+    assert oscillation_index(profile, real, 1.0) == 1.0
+    assert error_index(profile, real, 1.0) == 1.0 + 8.0 / 4.0
+    # a constant is no variation
+    assert error_index(real + 3.0, real, 1.0) == 1.0
+
+
+def test_a_mode_that_is_not_loaded_is_measured_by_its_strength() -> None:
+    profile, real = np.array([0.0, 6.0, 0.0]), np.zeros(3)
+    assert oscillation_index(profile, real, STRENGTH) == 1.0 + 12.0 / 60.0
+    assert error_index(profile, real, STRENGTH) == 1.0 + 12.0 / 60.0
 
 
 def test_turns() -> None:

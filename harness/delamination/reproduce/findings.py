@@ -15,7 +15,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from harness.delamination.materials import TABLE_2
-from harness.delamination.oscillation import oscillation_index
+from harness.delamination.oscillation import raw_index
 from harness.delamination.reproduce.beams import growth
 from harness.delamination.reproduce.cases import LAYUPS, MOMENTS, PROBLEMS, Case
 from harness.delamination.reproduce.runs import Profile, Run, Runs
@@ -53,7 +53,7 @@ def index(
 ) -> float:
     """Largest oscillation index of the tractions, over all stiffnesses and tenths of the displacement."""
     found = [
-        oscillation_index(profile[name], STRENGTHS[name])
+        raw_index(profile[name], STRENGTHS[name])
         for stiffness in stiffnesses
         for profile in evidence.run(problem, layup, element, stiffness, perturbed=perturbed).bonded
         for name in tractions
@@ -222,7 +222,7 @@ def closed_index(evidence: Evidence, problem: str, element: str) -> float:
     ends = smooth["X"][smooth["TN"] < 0.01 * pressure]
     rough = moment(evidence.run(problem, "0/0", element, "1e8", perturbed=True))
     inside = (rough["X"] >= sign_change(smooth)) & (rough["X"] <= ends.max())
-    return oscillation_index(rough["TN"][inside], abs(float(pressure)))
+    return raw_index(rough["TN"][inside], abs(float(pressure)))
 
 
 def process_zone(evidence: Evidence, problem: str) -> float:

@@ -8,7 +8,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
 
-from harness.delamination.oscillation import oscillation_index
+from harness.delamination.oscillation import raw_index
 from harness.delamination.reproduce.cases import Case
 from harness.delamination.reproduce.runs import Run, Runs
 from harness.delamination.study.cases import STIFFNESSES
@@ -148,7 +148,7 @@ ADVICE = {
 def row(run: Run) -> dict[str, float]:
     """Numbers of a run: those of HEAD but the last."""
     kind = run.case.kind
-    index = max(oscillation_index(profile[name], STRENGTHS[name]) for profile in run.bonded for name in kind.modes)
+    index = max(raw_index(profile[name], STRENGTHS[name]) for profile in run.bonded for name in kind.modes)
     turns = max(damage_variation(profile["DAMAGE"]) for profile in at_tenths(run.profiles)) - 1.0
     values = (run.peak[0], float(run.load[-1]), index, turns, run.entry.iterations, run.entry.cutbacks)
     return dict(zip(HEAD, values, strict=False))

@@ -15,8 +15,9 @@ from rich.console import Console
 from harness.delamination.batch import complete
 from harness.delamination.study.cases import Case, all_cases, select
 from harness.delamination.study.criteria import check
+from harness.delamination.study.reference import FOLDER, ReferenceRun, reference_of, run_reference
 from harness.delamination.study.rows import Row
-from harness.delamination.study.runner import row_store, run_case
+from harness.delamination.study.runner import reference_store, row_store, run_case
 from harness.delamination.study.tables import csv_table, markdown_tables, verdict_table
 from harness.errors import UelError
 
@@ -36,6 +37,9 @@ def main(arguments: Sequence[str] | None = None) -> int:
         metavar="WORD",
         help="rows with these words, such as: enf 0/0 1e6 1e8 consistent perturbed; alternatives stand side by side",
     )
+    parser.add_argument(
+        "--page", type=Path, help="the table, and beside it the same as .csv (study.md in the output folder)"
+    )
     parser.add_argument("--workers", type=int, default=os.cpu_count(), help="processes (one for each core)")
     options = parser.parse_args(arguments)
     console = Console()
@@ -49,16 +53,26 @@ def main(arguments: Sequence[str] | None = None) -> int:
         print("study: interrupted; the rows done so far are kept", file=sys.stderr)
         return 1
     verdicts = check(rows)
-    folder = options.output_dir
-    (folder / "study.md").write_text(markdown_tables(rows, verdicts), encoding="utf-8")
-    (folder / "study.csv").write_text(csv_table(rows), encoding="utf-8")
+    page: Path = options.page or options.output_dir / "study.md"
+    page.write_text(markdown_tables(rows, verdicts), encoding="utf-8")
+    page.with_suffix(".csv").write_text(csv_table(rows), encoding="utf-8")
     console.print(verdict_table(verdicts))
-    console.print(f"table: {folder / 'study.md'}, {folder / 'study.csv'}", highlight=False)
+    console.print(f"table: {page}, {page.with_suffix('.csv')}", highlight=False)
     return 0
 
 
 def _rows(cases: Sequence[Case], folder: Path, workers: int, console: Console) -> dict[Case, Row]:
-    """Rows of all cases, in their order; those that the folder does not hold are computed."""
+    """Rows of all cases, in their order; those that the folder does not hold are computed, after their references."""
+    missing = [case for case in cases if row_store(folder).get(case) is None]
+    complete(
+        list(dict.fromkeys(map(reference_of, missing))),
+        reference_store(folder),
+        run_reference,
+        folder / FOLDER,
+        workers=workers,
+        console=console,
+        describe=_reference_end,
+    )
     return complete(
         cases,
         row_store(folder),
@@ -68,6 +82,10 @@ def _rows(cases: Sequence[Case], folder: Path, workers: int, console: Console) -
         console=console,
         describe=_end,
     )
+
+
+def _reference_end(run: ReferenceRun) -> str:
+    return f"reference, {run.stopped or 'finished'}"
 
 
 def _end(row: Row) -> str:

@@ -83,8 +83,10 @@ STIFFNESSES = {"1e4": 1.0e4, "1e6": 1.0e6, "1e8": 1.0e8, "1e12": 1.0e12, "inf": 
 ELEMENTS = {"standard": ("U2", False), "paper": ("U4", False), "consistent": ("U4", True)}
 """Element type, and whether the law is the consistent one."""
 MESHES = {"structured": 0.0, "perturbed": BUMP}
-SOLUTIONS = {"newton": (False, 0.0), "viscous": (False, 3.0e-4), "fallback": (True, 0.0)}
-"""Whether the fall-back helps, and the viscosity in step time: what Abaqus alone can do where Newton's method stops."""
+VISCOSITIES = {f"viscous{text}": float(text) for text in ("1e-4", "3e-4", "1e-3")}
+"""Viscosity in step time: what Abaqus alone can do where Newton's method stops."""
+SOLUTIONS = {"newton": (False, 0.0), "fallback": (True, 0.0)} | {n: (False, v) for n, v in VISCOSITIES.items()}
+"""Whether the fall-back helps, and the viscosity in step time."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -116,17 +118,22 @@ class Case:
     def files(self) -> dict[str, str]:
         """Deck `NAME.inp` and the files that it includes."""
         kind = self.kind
-        top, bottom = LAYUPS[self.layup]
         element, consistent = ELEMENTS[self.element]
-        mesh = kind.mesh(kind.size, MESHES[self.mesh] * kind.size)
         law = TABLE_2.with_stiffness(STIFFNESSES[self.stiffness])
         _, viscosity = SOLUTIONS[self.solution]
         interface = Interface(element, law, viscosity=viscosity, consistent=consistent)
-        specimen = Specimen("mesh", mesh, interface, specimens.WIDTH, bottom, top)
         title = f"{kind.title}, [{self.layup}], {self.stiffness} N/mm^3, {self.element} element, {self.mesh} mesh"
-        deck = kind.deck(title, specimen, self.displacement, INCREMENTS, FIELD_EVERY)
-        nodes = 8 if element == "U4" else 4
-        return specimens.mesh_files("mesh", mesh, (nodes,)) | {f"{self.name}.inp": deck}
+        mesh = kind.mesh(kind.size, MESHES[self.mesh] * kind.size)
+        return deck_files(self.name, title, kind, self.layup, mesh, interface)
+
+
+def deck_files(name: str, title: str, kind: Kind, layup: str, mesh: TwoArmMesh, interface: Interface) -> dict[str, str]:
+    """Deck `NAME.inp` of a specimen with the displacement and the increments of the study, and its mesh files."""
+    top, bottom = LAYUPS[layup]
+    specimen = Specimen("mesh", mesh, interface, specimens.WIDTH, bottom, top)
+    deck = kind.deck(title, specimen, kind.displacement[layup], INCREMENTS, FIELD_EVERY)
+    nodes = 8 if interface.type == "U4" else 4
+    return specimens.mesh_files("mesh", mesh, (nodes,)) | {f"{name}.inp": deck}
 
 
 TABLES: dict[str, Iterable[str]] = {
@@ -140,10 +147,14 @@ TABLES: dict[str, Iterable[str]] = {
 
 
 def all_cases() -> list[Case]:
-    """All rows: an infinite stiffness, and a viscosity that suits every stiffness, are the consistent law's alone."""
+    """All rows: an infinite stiffness is the consistent law's alone, and has the rows with viscosity."""
     cases = [Case(*entries) for entries in itertools.product(*TABLES.values())]
-    own = {"inf", "viscous"}
-    return [case for case in cases if case.element == "consistent" or not own & {case.stiffness, case.solution}]
+    return [
+        case
+        for case in cases
+        if (case.element == "consistent" or case.stiffness != "inf")
+        and (case.stiffness == "inf" or case.solution not in VISCOSITIES)
+    ]
 
 
 def select(cases: Iterable[Case], words: Sequence[str]) -> list[Case]:

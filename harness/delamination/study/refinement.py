@@ -4,11 +4,16 @@
 
 An interface with bumps carries tractions that vary along it in truth: a facet inclined by theta has the shear
 (sigma_yy - sigma_xx) sin(theta) cos(theta) of the bending stress in the arms, and slip over bumps opens and closes
-them. So the oscillation index of a perturbed mesh does not tell an element's error. Here the bumps stay and the quads
-are cut into 2 x 2 and 4 x 4: what stays is real, what goes is numerical.
+them. Here the bumps stay and the quads are cut into 2 x 2 and 4 x 4: what stays is real, what goes is numerical. All
+tractions are averaged over the share of each point of the coarsest mesh, as the references of the study are.
 
-The problem is linear: an interface of finite stiffness that does not fail, under a unit displacement. The tractions are
-taken from 2 mm beyond the crack's tip on, which refinement makes sharper, to 2 mm before the load or the clamp.
+- Bonded: a linear problem, an interface of finite stiffness that does not fail, under a displacement of 1 mm. The
+  tractions are taken from 2 mm beyond the crack's tip on, which refinement makes sharper, to 2 mm before the load or
+  the clamp. Between plies of the same direction the interface is a line inside a homogeneous body, whose stress knows
+  nothing of the line: the stress on a straight interface, turned into each facet, is what acts there, by no
+  stabilisation and no cohesive stiffness.
+- Failing: rows of the study, with the fall-back. The consistent element with an infinite stiffness and the standard
+  one at 1e6 N/mm^3 are to come to the same tractions.
 """
 
 from __future__ import annotations
@@ -16,20 +21,25 @@ from __future__ import annotations
 import argparse
 import sys
 from collections.abc import Sequence
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from pathlib import Path
 
+import numpy as np
 from rich.console import Console
 from rich.table import Table
 
 from harness.delamination import specimens
+from harness.delamination.batch import run_deck
 from harness.delamination.blocks import Interface, Specimen
-from harness.delamination.materials import TABLE_2
-from harness.delamination.mesh import refined
+from harness.delamination.materials import PLY_0, TABLE_2
+from harness.delamination.mesh import TwoArmMesh, refined
 from harness.delamination.oscillation import total_variation
 from harness.delamination.steps import LINEAR
-from harness.delamination.study.cases import ELEMENTS, KINDS, LAYUPS, MESHES
-from harness.job import run
+from harness.delamination.study.cases import ELEMENTS, KINDS, LAYUPS, MESHES, STIFFNESSES, deck_files
+from harness.delamination.study.reference import Profile, restricted
+from harness.delamination.study.rows import at_tenths, bonded_part
+from harness.model.arrays import FloatArray
+from harness.output import Result
 
 FACTORS = (1, 2, 4)
 STIFFNESS = 1.0e8
@@ -39,52 +49,149 @@ INTACT = replace(
 )
 # where the tractions are taken (mm)
 STRETCHES = {"dcb": (37.0, 59.0), "enf": (37.0, 48.0), "frmm": (37.0, 48.0)}
+# half of the displacement: the process zone of the mixed-mode specimen has formed and runs
+FAILING = {"frmm": 0.5}
+TRACTIONS = ("TN", "TT")
 
 
-def variations(specimen: str, layup: str, element: str, factor: int, folder: Path) -> dict[str, float]:
-    """Total variation (MPa) of TN and TT along the perturbed interface at a displacement of 1 mm.
+@dataclass(frozen=True, slots=True)
+class Bonded:
+    """Linear problem of a specimen whose interface holds; entries as in the rows of the study, and the refinement."""
 
-    Parameters
-    ----------
-    specimen, layup, element
-        As in the rows of the study.
-    factor
-        Every quad is cut into factor x factor; the bumps are those of the mesh with 1.
-    folder
-        Gets the files of the run.
-    """
+    specimen: str
+    layup: str
+    element: str
+    mesh: str
+    factor: int
+
+    @property
+    def name(self) -> str:
+        """Name of the run."""
+        return f"bonded_{self.specimen}_{self.layup.replace('/', '-')}_{self.element}_{self.mesh}_{self.factor}"
+
+    @property
+    def refined_mesh(self) -> TwoArmMesh:
+        """Every quad cut into factor x factor."""
+        return refined_mesh(self.specimen, self.mesh, self.factor)
+
+    def files(self) -> dict[str, str]:
+        """Deck `NAME.inp` and the files that it includes."""
+        kind = KINDS[self.specimen]
+        top, bottom = LAYUPS[self.layup]
+        element, consistent = ELEMENTS[self.element]
+        interface = Interface(element, INTACT, consistent=consistent)
+        specimen = Specimen("mesh", self.refined_mesh, interface, specimens.WIDTH, bottom, top)
+        deck = kind.deck("bumps", specimen, 1.0, LINEAR, 1)
+        nodes = 8 if element == "U4" else 4
+        return specimens.mesh_files("mesh", self.refined_mesh, (nodes,)) | {f"{self.name}.inp": deck}
+
+
+@dataclass(frozen=True, slots=True)
+class Failing:
+    """Row of the study on its perturbed mesh, [0/0], with the quads cut into factor x factor."""
+
+    specimen: str
+    stiffness: str
+    element: str
+    factor: int
+
+    @property
+    def name(self) -> str:
+        """Name of the run."""
+        return f"failing_{self.specimen}_{self.stiffness}_{self.element}_{self.factor}"
+
+    def files(self) -> dict[str, str]:
+        """Deck `NAME.inp` and the files that it includes."""
+        element, consistent = ELEMENTS[self.element]
+        interface = Interface(element, TABLE_2.with_stiffness(STIFFNESSES[self.stiffness]), consistent=consistent)
+        mesh = refined_mesh(self.specimen, "perturbed", self.factor)
+        return deck_files(self.name, "bumps", KINDS[self.specimen], "0/0", mesh, interface)
+
+
+def refined_mesh(specimen: str, mesh: str, factor: int) -> TwoArmMesh:
+    """Mesh of a specimen with every quad cut into factor x factor; the bumps are those of the mesh with 1."""
     kind = KINDS[specimen]
-    top, bottom = LAYUPS[layup]
-    element_type, consistent = ELEMENTS[element]
-    mesh = refined(kind.mesh(kind.size, MESHES["perturbed"] * kind.size), factor)
-    interface = Interface(element_type, INTACT, consistent=consistent)
-    deck = kind.deck("bumps", Specimen("mesh", mesh, interface, specimens.WIDTH, bottom, top), 1.0, LINEAR, 1)
-    folder.mkdir(parents=True, exist_ok=True)
-    nodes = 8 if element_type == "U4" else 4
-    for name, content in (specimens.mesh_files("mesh", mesh, (nodes,)) | {"bumps.inp": deck}).items():
-        (folder / name).write_text(content, encoding="ascii")
-    profile = run(folder / "bumps.inp", output_dir=folder).interface()
+    return refined(kind.mesh(kind.size, MESHES[mesh] * kind.size), factor)
+
+
+def bonded(problem: Bonded, folder: Path) -> dict[str, FloatArray]:
+    """TN and TT (MPa) of a bonded interface at the points of the coarsest mesh, on the specimen's stretch."""
+    result = run_deck(problem, folder, fallback=False).result
+    return _stretch(problem.specimen, restricted(result.interface(), problem.factor))
+
+
+def turned(specimen: str, folder: Path) -> dict[str, FloatArray]:
+    """TN and TT (MPa) on the facets of the perturbed [0/0] mesh from the stress along a straight interface, bonded."""
+    problem = Bonded(specimen, "0/0", "consistent", "structured", 2)
+    outcome = run_deck(problem, folder, fallback=False, fields=True)
+    profile = restricted(outcome.result.interface(), problem.factor)
+    strain = _strain_along(outcome.result, problem.refined_mesh)
+    stress = (PLY_0.e1 * strain + PLY_0.nu12 * profile["TN"], profile["TN"], profile["TT"])
+    coarse = refined_mesh(specimen, "perturbed", 1)
+    angle = np.arctan(np.diff(coarse.bumps) / np.diff(coarse.x))[coarse.first :]
+    normal, tangential = on_facets(stress, np.repeat(angle, 2))
+    return _stretch(specimen, profile | {"TN": normal, "TT": tangential})
+
+
+def on_facets(stress: tuple[FloatArray, FloatArray, FloatArray], angle: FloatArray) -> tuple[FloatArray, FloatArray]:
+    """t_n, t_tau (n,) on facets inclined by `angle` (n,) of the stress sigma_xx, sigma_yy, sigma_xy, each (n,)."""
+    xx, yy, xy = stress
+    sin, cos = np.sin(angle), np.cos(angle)
+    return xx * sin**2 + yy * cos**2 - 2.0 * xy * sin * cos, (yy - xx) * sin * cos + xy * (cos**2 - sin**2)
+
+
+def _strain_along(result: Result, mesh: TwoArmMesh) -> FloatArray:
+    """epsilon_xx of every interface element, the mean of its two sides."""
+    labels = mesh.nodes()[0]
+    places = [np.searchsorted(labels, line[mesh.first :]) for line in mesh.interface_lines]
+    displacement = result.field("U")[:, 0]
+    mean = 0.5 * sum(displacement[place] for place in places)
+    return np.diff(mean) / np.diff(mesh.x[mesh.first :])
+
+
+def _stretch(specimen: str, profile: Profile) -> dict[str, FloatArray]:
     begin, end = STRETCHES[specimen]
     inside = (profile["X"] > begin) & (profile["X"] < end)
-    return {name: total_variation(profile[name][inside]) for name in ("TN", "TT")}
+    return {name: profile[name][inside] for name in TRACTIONS}
+
+
+def failing(problem: Failing, folder: Path) -> dict[str, FloatArray]:
+    """TN and TT (MPa) of a failing interface at the points of the coarsest mesh that hold, in the middle of the run."""
+    profiles = at_tenths(run_deck(problem, folder, fallback=True).result.interfaces())
+    moment = FAILING[problem.specimen]
+    profile = min(profiles, key=lambda profile: abs(float(profile["time"][0]) - moment))
+    return bonded_part(restricted(profile, problem.factor))
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
-    """Run all, print a table; returns the exit code."""
+    """Run all, print the tables; returns the exit code."""
     parser = argparse.ArgumentParser(
         prog="python -m harness.delamination.study.refinement",
         description="Refine meshes inside the bumps of an interface: what of its tractions stays is real.",
     )
     parser.add_argument("--output-dir", type=Path, default=Path("study/refinement"), help="folder of all files written")
     folder: Path = parser.parse_args(arguments).output_dir
-    table = Table("specimen", "layup", "element", "traction", *(f"TV, h/{factor} (MPa)" for factor in FACTORS))
+    console = Console()
+    variations = tuple(f"TV, h/{factor} (MPa)" for factor in FACTORS)
+    table = Table("specimen", "layup", "element", "traction", *variations, "turned", title="bonded")
     for specimen in STRETCHES:
         for layup in LAYUPS:
+            exact = turned(specimen, folder) if layup == "0/0" else None
             for element in ("standard", "consistent"):
-                found = [variations(specimen, layup, element, factor, folder) for factor in FACTORS]
-                for name in ("TN", "TT"):
-                    table.add_row(specimen, layup, element, name, *(f"{values[name]:.2f}" for values in found))
-    Console().print(table)
+                found = [bonded(Bonded(specimen, layup, element, "perturbed", factor), folder) for factor in FACTORS]
+                for name in TRACTIONS:
+                    last = "" if exact is None else f"{total_variation(exact[name]):.2f}"
+                    cells = [f"{total_variation(values[name]):.2f}" for values in found]
+                    table.add_row(specimen, layup, element, name, *cells, last)
+    console.print(table)
+    table = Table("specimen", "element", "stiffness", "traction", *variations, title="failing")
+    for specimen in FAILING:
+        for element, stiffness in (("standard", "1e6"), ("consistent", "inf")):
+            found = [failing(Failing(specimen, stiffness, element, factor), folder) for factor in FACTORS]
+            for name in TRACTIONS:
+                cells = [f"{total_variation(values[name]):.1f}" for values in found]
+                table.add_row(specimen, element, stiffness, name, *cells)
+    console.print(table)
     return 0
 
 

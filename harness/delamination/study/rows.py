@@ -10,8 +10,9 @@ from dataclasses import asdict, dataclass
 import numpy as np
 
 from harness.delamination.materials import TABLE_2
-from harness.delamination.oscillation import oscillation_index, total_variation
-from harness.delamination.study.cases import Case, Kind
+from harness.delamination.oscillation import error_index, oscillation_index, raw_index, total_variation
+from harness.delamination.study.cases import INCREMENTS, Case, Kind
+from harness.delamination.study.reference import Profile
 from harness.model.arrays import FloatArray
 from harness.output import Result
 from harness.output.status import StatusRow
@@ -34,7 +35,12 @@ class Row:
     peak_load, peak_displacement, final_load  N, mm
     dissipation_error  energy dissipated by failed points over their toughness, less 1
     balance_error    (work - stored - dissipated energy) over (work - stored energy), at the end
-    index_n, index_t   largest oscillation index of the tractions over the bonded part and the process zone
+    index_n, index_t   largest oscillation index of the tractions over the bonded part and the process zone, at the
+                       tenths of the displacement; NaN if the run ended at none of them
+    error_n, error_t, raw_n, raw_t  the same for the error index and for the raw index
+    variation_n, variation_t  total variation of the tractions (MPa) where that of the reference is largest
+    real_n, real_t     that of the reference
+    difference_n, difference_t  that of the traction less that of the reference
     damage_variation   total variation of the damage over its largest value, where it is farthest from 1, which is a
                        steady fall to 0
     peak_n, peak_t     largest tension and shear traction (MPa)
@@ -55,6 +61,16 @@ class Row:
     balance_error: float
     index_n: float
     index_t: float
+    error_n: float
+    error_t: float
+    raw_n: float
+    raw_t: float
+    variation_n: float
+    variation_t: float
+    real_n: float
+    real_t: float
+    difference_n: float
+    difference_t: float
     damage_variation: float
     peak_n: float
     peak_t: float
@@ -80,8 +96,8 @@ class Row:
         return cls(**entries)  # type: ignore[arg-type]
 
 
-def measure(case: Case, result: Result, stopped: str, seconds: float) -> Row:
-    """Row of a case from the files of its run."""
+def measure(case: Case, result: Result, stopped: str, seconds: float, real: list[Profile]) -> Row:
+    """Row of a case from the files of its run, and the profiles of its reference."""
     history = result.history
     kind = case.kind
     load, displacement = (kind.sign * history[f"{name}2[{kind.load}]"] for name in ("RF", "U"))
@@ -103,7 +119,7 @@ def measure(case: Case, result: Result, stopped: str, seconds: float) -> Row:
         final_load=float(load[-1]),
         dissipation_error=dissipation_error(result.interface()),
         balance_error=(lost - dissipated) / lost if lost > 0.0 else 0.0,
-        **_along_the_interface(result.interfaces()),
+        **_along_the_interface(result.interfaces(), real),
         seconds=seconds,
     )
 
@@ -112,26 +128,65 @@ def _iterations(lines: list[StatusRow]) -> int:
     return sum(line.total_iterations for line in lines)
 
 
-def _along_the_interface(profiles: list[dict[str, FloatArray]]) -> dict[str, float]:
+def _along_the_interface(profiles: list[Profile], real: list[Profile]) -> dict[str, float]:
     chosen = at_tenths(profiles)
     variations = [damage_variation(profile["DAMAGE"]) for profile in chosen]
-    bonded = [bonded_part(profile) for profile in chosen]
+    pairs = same_moments(chosen, real)
     return {
-        "index_n": max(oscillation_index(profile["TN"], STRENGTHS["TN"]) for profile in bonded),
-        "index_t": max(oscillation_index(profile["TT"], STRENGTHS["TT"]) for profile in bonded),
+        **oscillations("TN", "n", chosen, pairs),
+        **oscillations("TT", "t", chosen, pairs),
         "damage_variation": max(variations, key=lambda value: abs(value - 1.0)),
         "peak_n": max(float(profile["TN"].max()) for profile in chosen),
         "peak_t": max(float(np.abs(profile["TT"]).max()) for profile in chosen),
     }
 
 
-def at_tenths(profiles: list[dict[str, FloatArray]]) -> list[dict[str, FloatArray]]:
+def oscillations(
+    traction: str, ending: str, chosen: list[Profile], pairs: list[tuple[Profile, Profile]]
+) -> dict[str, float]:
+    """What a row says of the oscillation of one traction; its entries end in `ending`."""
+    scale = STRENGTHS[traction]
+    indices, errors, variations = [], [], [(float("nan"),) * 3]
+    for profile, real in pairs:
+        computed, acting = bonded_part(profile)[traction], bonded_part(real)[traction]
+        # where both hold; where one has failed the two states differ, not their oscillations
+        both = min(len(computed), len(acting))
+        indices.append(oscillation_index(computed, acting, scale))
+        errors.append(error_index(computed[-both:], acting[-both:], scale))
+        difference = total_variation(computed[-both:] - acting[-both:])
+        variations.append((total_variation(acting), total_variation(computed), difference))
+    real_variation, variation, difference = max(variations[1:], default=variations[0])
+    found = {
+        "index": max(indices, default=float("nan")),
+        "error": max(errors, default=float("nan")),
+        "raw": max(raw_index(bonded_part(profile)[traction], scale) for profile in chosen),
+        "variation": variation,
+        "real": real_variation,
+        "difference": difference,
+    }
+    return {f"{name}_{ending}": value for name, value in found.items()}
+
+
+def same_moments(profiles: list[Profile], real: list[Profile]) -> list[tuple[Profile, Profile]]:
+    """Profiles with those of the reference at the same moment, less than half an increment apart.
+
+    Where increments were cut back, a run is elsewhere when it writes; such a profile has no partner.
+    """
+    close = 0.5 * INCREMENTS.largest
+    return [(profile, other) for profile in profiles for other in real if abs(_time(profile) - _time(other)) < close]
+
+
+def _time(profile: Profile) -> float:
+    return float(profile["time"][0])
+
+
+def at_tenths(profiles: list[Profile]) -> list[Profile]:
     """The last profile in each tenth of the displacement: the same moments for all runs, however many increments."""
     tenths = {int(np.ceil(10.0 * profile["time"][0] - 1e-9)): profile for profile in profiles}
     return list(tenths.values())
 
 
-def bonded_part(profile: dict[str, FloatArray]) -> dict[str, FloatArray]:
+def bonded_part(profile: Profile) -> Profile:
     """The profile from the first point that has not failed: process zone and bonded part, failed islands included."""
     first = int(np.argmax(profile["DAMAGE"] < 1.0))
     return {name: column[first:] for name, column in profile.items()}
@@ -143,13 +198,13 @@ def damage_variation(damage: FloatArray) -> float:
     return total_variation(damage) / largest if largest > 0.0 else 1.0
 
 
-def dissipation_error(profile: dict[str, FloatArray]) -> float:
+def dissipation_error(profile: Profile) -> float:
     """Mean over the failed points of DISSI/G_Ic + DISSII/G_IIc, less 1; 0 where none has failed."""
     failed = profile["DAMAGE"] >= 1.0
     spent = profile["DISSI"] / TABLE_2.toughness_1 + profile["DISSII"] / TABLE_2.toughness_2
     return float(np.mean(spent[failed])) - 1.0 if failed.any() else 0.0
 
 
-def loading_mode(kind: Kind, row: Row) -> dict[str, float]:
-    """Oscillation index of each traction of the loading mode."""
-    return {name: {"TN": row.index_n, "TT": row.index_t}[name] for name in kind.modes}
+def loading_mode(kind: Kind, row: Row, quantity: str) -> dict[str, float]:
+    """`index`, `error` or `raw` of each traction of the loading mode."""
+    return {name: float(getattr(row, f"{quantity}_{name[1].lower()}")) for name in kind.modes}

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""Runs the cases of the study and keeps their rows."""
+"""Runs the cases of the study and their references, and keeps their rows."""
 
 from __future__ import annotations
 
@@ -8,6 +8,7 @@ from pathlib import Path
 
 from harness.delamination.batch import Store, run_deck
 from harness.delamination.study.cases import SOLUTIONS, Case
+from harness.delamination.study.reference import FOLDER, ReferenceRun, real_profiles, reference_of
 from harness.delamination.study.rows import Row, measure
 
 
@@ -16,8 +17,17 @@ def row_store(folder: Path) -> Store[Row]:
     return Store(folder / "rows.json", Row.from_json)
 
 
+def reference_store(folder: Path) -> Store[ReferenceRun]:
+    """References that have run, by name, in references.json."""
+    return Store(folder / "references.json", ReferenceRun.from_json)
+
+
 def run_case(case: Case, folder: Path) -> Row:
-    """Run the deck of a case in a folder of its name below `folder`, and measure what came out."""
+    """Run the deck of a case in a folder of its name below `folder`, and measure what came out.
+
+    The reference has to have run, in its folder beside `folder`.
+    """
     fallback, _ = SOLUTIONS[case.solution]
     outcome = run_deck(case, folder, fallback=fallback)
-    return measure(case, outcome.result, outcome.stopped, outcome.seconds)
+    real = real_profiles(reference_of(case), folder.parent / FOLDER)
+    return measure(case, outcome.result, outcome.stopped, outcome.seconds, real)

@@ -13,6 +13,7 @@ from rich.table import Table
 
 from harness.delamination.study.cases import KINDS, Case
 from harness.delamination.study.criteria import Verdict
+from harness.delamination.study.digests import head, line, variations, viscosity
 from harness.delamination.study.rows import Row
 
 SHOWN = 4
@@ -28,31 +29,41 @@ toughnesses 0.26 and 1.002 N/mm. Displacement in increments of 1 % at most, Abaq
 cutbacks. Perturbed: the interface nodes lie 3 % of an element's length up and down in turns.
 
 - **element**: standard (U2), the paper's stabilised one (U4), the consistent stabilised one (U4, CLOSURE 1; inf is
-  ALPHAN = ALPHAT = 0). **solution**: newton is Abaqus' own, viscous the same with a VISCOSITY of 3e-4 of the step time,
-  fallback adds the search of `uel run --fallback` to newton.
+  ALPHAN = ALPHAT = 0). **solution**: newton is Abaqus' own, fallback adds the search of `uel run --fallback`;
+  viscous1e-4 is newton with a VISCOSITY of 1e-4 of the step time. No other row has viscosity.
 - **iterations**: those of attempts given up included; **per increment** without snaps, increments in which the load
   falls by more than 5 % of the peak load.
 - **dissipated**: energy that failed points have dissipated over their toughness, less 1. **balance**: work less stored
   less dissipated energy, over work less stored energy.
-- **index**: largest oscillation index of a traction over the bonded part and the process zone, at every tenth of the
-  displacement (`harness/delamination/oscillation.py`); 1 without oscillations. Bumps make tractions vary in truth:
-  see `python -m harness.delamination.study.refinement`.
-- **TV damage**: total variation of the damage over its largest value; 1 where it falls steadily to 0.
+- **index** of t_n and t_tau: oscillation index over the bonded part and the process zone, the largest at the tenths of
+  the displacement, against the tractions that really act, bumps included. **error index**: the same without
+  cancelling. **raw**: against a smooth profile, so that on bumps real variation counts as oscillation.
+  `harness/delamination/oscillation.py` defines the three. A dash: the run ended at none of these moments. Where a
+  structure snaps, a run may have snapped at a moment when its reference has not: the index is then no measure of
+  oscillation.
+- **index of d**: total variation of the damage over its largest value; 1 where it falls steadily to 0.
+"""
+
+BUMPS = """
+## What is real on an interface with bumps
+
+Total variation (MPa) of the tractions of the loading mode at a stiffness of 1e8 N/mm^3, with the fall-back, at the
+tenth of the displacement where the reference has the most. Real: the reference, the same interface on quads cut into
+2 x 2 (frmm: 4 x 4), averaged over what belongs to each point (`harness/delamination/study/reference.py`). Difference:
+total variation of the traction less the reference's.
+"""
+
+VISCOSITY = """
+## What viscosity costs
+
+The consistent element with an infinite stiffness. VISCOSITY is given in step time; changes are against no viscosity
+with the fall-back. Without viscosity and without the fall-back a run stops where the interface snaps.
 """
 
 HEAD = (
     *("stiffness", "element", "mesh", "solution", "increments", "iterations", "per increment", "cutbacks"),
-    *(
-        "peak load (N)",
-        "dissipated",
-        "balance",
-        "index t_n",
-        "index t_tau",
-        "TV damage",
-        "max t_n",
-        "max t_tau (MPa)",
-        "end",
-    ),
+    *("peak load (N)", "dissipated", "balance", "index t_n", "index t_tau", "error index t_n", "error index t_tau"),
+    *("raw t_n", "raw t_tau", "index d", "max t_n", "max t_tau (MPa)", "end"),
 )
 
 
@@ -67,20 +78,19 @@ def csv_table(rows: Mapping[Case, Row]) -> str:
 
 
 def markdown_tables(rows: Mapping[Case, Row], verdicts: Sequence[Verdict]) -> str:
-    """A page: verdicts, then a table for each specimen and layup."""
+    """A page: verdicts, the digests, then a table for each specimen and layup."""
     parts = [INTRODUCTION, "## Criteria\n", *_markdown_verdicts(verdicts)]
+    for text, digest in ((BUMPS, variations(rows)), (VISCOSITY, viscosity(rows))):
+        if digest:
+            parts += [text, *digest]
     groups: dict[tuple[str, str], list[str]] = {}
     for case, row in rows.items():
-        groups.setdefault((case.specimen, case.layup), []).append(_line(_cells(case, row)))
+        groups.setdefault((case.specimen, case.layup), []).append(line(_cells(case, row)))
     for (specimen, layup), lines in groups.items():
         kind = KINDS[specimen]
-        parts.append(f"\n## {kind.title}, [{layup}], to {kind.displacement[layup]:g} mm\n")
-        parts += [_line(HEAD), _line(["---"] * len(HEAD)), *lines]
+        parts.append(f"\n## {specimen}: {kind.title}, [{layup}], to {kind.displacement[layup]:g} mm\n")
+        parts += [*head(HEAD), *lines]
     return "\n".join(parts) + "\n"
-
-
-def _line(cells: Sequence[str]) -> str:
-    return f"| {' | '.join(cells)} |"
 
 
 def _cells(case: Case, row: Row) -> list[str]:
@@ -88,7 +98,11 @@ def _cells(case: Case, row: Row) -> list[str]:
         *(case.stiffness, case.element, case.mesh, case.solution),
         *(str(row.increments), str(row.iterations), _mean(row), str(row.cutbacks)),
         *(f"{row.peak_load:.2f}", f"{row.dissipation_error:+.2%}", f"{row.balance_error:+.2%}"),
-        *(f"{row.index_n:.3f}", f"{row.index_t:.3f}", f"{row.damage_variation:.4f}"),
+        *(
+            f"{value:.3f}".replace("nan", "-")
+            for value in (row.index_n, row.index_t, row.error_n, row.error_t, row.raw_n, row.raw_t)
+        ),
+        f"{row.damage_variation:.4f}",
         *(f"{row.peak_n:.2f}", f"{row.peak_t:.2f}"),
         "finished" if row.finished else f"{row.reached:.1%}: {row.stopped.split(' (')[0].lower()}",
     ]
@@ -100,10 +114,10 @@ def _mean(row: Row) -> str:
 
 
 def _markdown_verdicts(verdicts: Sequence[Verdict]) -> list[str]:
-    lines = [_line(["criterion", "rows", "holds"]), _line(["---"] * 3)]
+    lines = head(["criterion", "rows", "holds"])
     for verdict in verdicts:
         failed = "; ".join(verdict.failures)
-        lines.append(_line([verdict.criterion, str(verdict.judged), "yes" if verdict.holds else f"no: {failed}"]))
+        lines.append(line([verdict.criterion, str(verdict.judged), "yes" if verdict.holds else f"no: {failed}"]))
     return lines
 
 

@@ -1,0 +1,77 @@
+# SPDX-FileCopyrightText: The uel-harness authors
+# SPDX-License-Identifier: BSD-3-Clause
+"""Two short tables out of the rows: what is real on an interface with bumps, and what viscosity costs."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import replace
+
+from harness.delamination.study.cases import ELEMENTS, VISCOSITIES, Case
+from harness.delamination.study.rows import Row
+
+STIFFNESS = "1e8"
+TRACTIONS = {"TN": ("n", "normal"), "TT": ("t", "tangential")}
+
+Rows = Mapping[Case, Row]
+
+
+def line(cells: Sequence[str]) -> str:
+    """A line of a Markdown table."""
+    return f"| {' | '.join(cells)} |"
+
+
+def head(cells: Sequence[str]) -> list[str]:
+    """The first two lines of a Markdown table."""
+    return [line(cells), line(["---"] * len(cells))]
+
+
+def variations(rows: Rows) -> list[str]:
+    """Total variation of the tractions of the loading mode: the reference's, each element's, that of the difference."""
+    lines = []
+    for case in rows:
+        # one line for the three elements
+        if (case.stiffness, case.solution, case.element) != (STIFFNESS, "fallback", "consistent"):
+            continue
+        for traction in case.kind.modes:
+            ending, word = TRACTIONS[traction]
+            cells = [f"{case.specimen} [{case.layup}]", case.mesh, word]
+            cells.append(_number(rows[case], f"real_{ending}"))
+            for element in ELEMENTS:
+                row = rows.get(replace(case, element=element))
+                cells += [_number(row, f"variation_{ending}"), _number(row, f"difference_{ending}")]
+            lines.append(line(cells))
+    if not lines:
+        return []
+    columns = [column for element in ELEMENTS for column in (element, "difference")]
+    return [*head(["specimen", "mesh", "traction", "real", *columns]), *lines]
+
+
+def _number(row: Row | None, name: str) -> str:
+    return "" if row is None else f"{getattr(row, name):.0f}".replace("nan", "-")
+
+
+def viscosity(rows: Rows) -> list[str]:
+    """Infinite stiffness: plain Newton, the fall-back, and the viscosities, with the loads over the fall-back's."""
+    lines = []
+    for case in rows:
+        exact = rows[case]
+        viscous = {name: rows.get(replace(case, solution=name)) for name in VISCOSITIES}
+        if case.solution != "fallback" or case.stiffness != "inf" or not any(viscous.values()):
+            continue
+        for name, row in {"0": rows.get(replace(case, solution="newton")), "0, fall-back": exact, **viscous}.items():
+            if row is not None:
+                cells = [f"{case.specimen} [{case.layup}]", case.mesh, name.removeprefix("viscous")]
+                lines.append(line([*cells, *_cost(row, exact)]))
+    if not lines:
+        return []
+    columns = ("increments", "iterations", "cutbacks", "peak load (N)", "change", "load at the end (N)", "change")
+    return [*head(["specimen", "mesh", "viscosity", *columns]), *lines]
+
+
+def _cost(row: Row, exact: Row) -> list[str]:
+    counts = [str(row.increments), str(row.iterations), str(row.cutbacks)]
+    if not row.finished:
+        return [*counts, f"stops at {row.reached:.1%}", "", "", ""]
+    loads = ((row.peak_load, exact.peak_load), (row.final_load, exact.final_load))
+    return [*counts, *(cell for load, base in loads for cell in (f"{load:.2f}", f"{load / base - 1.0:+.1%}"))]

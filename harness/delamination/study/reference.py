@@ -1,0 +1,106 @@
+# SPDX-FileCopyrightText: The uel-harness authors
+# SPDX-License-Identifier: BSD-3-Clause
+"""The tractions that really act on an interface, bumps included: on a finer mesh of the same interface.
+
+The quads are cut into 2 x 2, or 4 x 4, inside the bumps, which stay as they are. The interface is a rigid bond before
+it fails, that is, the consistent element with an infinite stiffness: finite ones are approximations of that.
+
+A traction on the finer mesh varies within the facet of a coarser one, and more so the finer it is: bumps have kinks,
+and at a kink the stress of two different plies, or of two arms that slip, has a weak singularity. A coarser mesh does
+not show that and need not. So the finer traction is averaged over what belongs to each point of the coarser mesh before
+the two are compared: the two Gauss points of a facet have the same weight, and half of the facet each.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from functools import lru_cache
+from pathlib import Path
+
+from harness.delamination.batch import run_deck
+from harness.delamination.blocks import Interface
+from harness.delamination.materials import TABLE_2
+from harness.delamination.mesh import refined
+from harness.delamination.study.cases import ELEMENTS, KINDS, MESHES, STIFFNESSES, Case, deck_files
+from harness.model.arrays import FloatArray
+from harness.output import Result
+
+FACTORS = {"dcb": 2, "dcb025": 2, "enf": 2, "frmm": 4}
+"""Every quad is cut into so many, squared: more where bumps act on both tractions, through bending stress and slip."""
+FOLDER = "references"
+"""Folder of the runs, below that of the study."""
+
+Profile = dict[str, FloatArray]
+
+
+@dataclass(frozen=True, slots=True)
+class Reference:
+    """Reference of all rows of a specimen, layup and mesh; every entry is a key of the table of its name."""
+
+    specimen: str
+    layup: str
+    mesh: str
+
+    @property
+    def factor(self) -> int:
+        """Every quad is cut into factor x factor."""
+        return FACTORS[self.specimen]
+
+    @property
+    def name(self) -> str:
+        """Name of the run and of its folder."""
+        return f"{self.specimen}_{self.layup.replace('/', '-')}_{self.mesh}"
+
+    def files(self) -> dict[str, str]:
+        """Deck `NAME.inp` and the files that it includes."""
+        kind = KINDS[self.specimen]
+        element, consistent = ELEMENTS["consistent"]
+        interface = Interface(element, TABLE_2.with_stiffness(STIFFNESSES["inf"]), consistent=consistent)
+        mesh = refined(kind.mesh(kind.size, MESHES[self.mesh] * kind.size), self.factor)
+        title = f"{kind.title}, [{self.layup}], {self.mesh} mesh, quads cut into {self.factor} x {self.factor}"
+        return deck_files(self.name, title, kind, self.layup, mesh, interface)
+
+
+@dataclass(frozen=True, slots=True)
+class ReferenceRun:
+    """How a reference ended: `stopped` says why it went no further, empty if it finished; wall-clock time."""
+
+    stopped: str
+    seconds: float
+
+    def to_json(self) -> dict[str, object]:
+        """Entries by name."""
+        return {"stopped": self.stopped, "seconds": self.seconds}
+
+    @classmethod
+    def from_json(cls, entries: Mapping[str, object]) -> ReferenceRun:
+        """Run of the entries that `to_json` gave."""
+        return cls(**entries)  # type: ignore[arg-type]
+
+
+def reference_of(case: Case) -> Reference:
+    """Reference that a row is compared with."""
+    return Reference(case.specimen, case.layup, case.mesh)
+
+
+def run_reference(reference: Reference, folder: Path) -> ReferenceRun:
+    """Run a reference in a folder of its name below `folder`, with the fall-back."""
+    outcome = run_deck(reference, folder, fallback=True)
+    return ReferenceRun(outcome.stopped, outcome.seconds)
+
+
+@lru_cache(maxsize=2)
+def real_profiles(reference: Reference, folder: Path) -> list[Profile]:
+    """Profiles of a reference that has run in `folder`, at the points of the mesh that is not refined."""
+    profiles = Result(folder / reference.name / reference.name).interfaces()
+    return [restricted(profile, reference.factor) for profile in profiles]
+
+
+def restricted(profile: Profile, factor: int) -> Profile:
+    """Every column (factor n,) of a profile, averaged over the share of each point of the mesh that is not refined.
+
+    Both meshes have two points of equal weight on every interface element, left to right: the first `factor` points of
+    the finer one lie in the share of the first point of the coarser one.
+    """
+    return {name: column.reshape(-1, factor).mean(axis=1) for name, column in profile.items()}
