@@ -12,6 +12,7 @@ import time
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from concurrent.futures import Future, ProcessPoolExecutor, as_completed
 from dataclasses import dataclass
+from functools import cache
 from multiprocessing import get_context
 from pathlib import Path
 from typing import Generic, Protocol, TypeVar
@@ -87,14 +88,21 @@ class Store(Generic[EntryT]):
 
 def fingerprint(deck: Deck) -> str:
     """Digest of a deck with all its files, and of the sources of the elements and of the solution procedure."""
+    digest = hashlib.sha256(_sources())
+    for name, content in sorted(deck.files().items()):
+        digest.update(f"{name}\n{content}".encode())
+    return digest.hexdigest()[:16]
+
+
+@cache
+def _sources() -> bytes:
+    """Digest of the sources as they are when they are first asked for: a batch goes on with what it has imported."""
     digest = hashlib.sha256(path_of_amalgam().read_bytes())
     for package in (harness.elements, harness.procedures, harness.solver):
         # __path__ of an editable installation is no folder
         for file in sorted(Path(inspect.getfile(package)).parent.rglob("*.py")):
             digest.update(file.read_bytes())
-    for name, content in sorted(deck.files().items()):
-        digest.update(f"{name}\n{content}".encode())
-    return digest.hexdigest()[:16]
+    return digest.digest()
 
 
 @dataclass(frozen=True, slots=True)
