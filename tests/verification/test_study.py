@@ -68,8 +68,9 @@ GOOD = Row(
 def test_all_combinations_are_there_once() -> None:
     cases = all_cases()
     # 4 specimens, 2 layups, 2 meshes; 4 stiffnesses of 2 elements and 5 of the consistent one with 2 solutions, and
-    # the fifth with 3 viscosities
-    assert len(cases) == len(set(cases)) == 4 * 2 * 2 * (4 * 2 * 2 + 5 * 2 + 3)
+    # the fifth with 3 viscosities; 3 other laws in 2 specimens with 3 solutions
+    assert len(cases) == len(set(cases)) == 4 * 2 * 2 * (4 * 2 * 2 + 5 * 2 + 3) + 3 * 2 * 3
+    assert {case.stiffness for case in cases if case.law != study.OWN_LAW} == {"inf"}
     assert len({case.name for case in cases}) == len(cases)
     assert {case.element for case in cases if case.stiffness == "inf"} == {"consistent"}
     assert {case.stiffness for case in cases if case.solution in study.VISCOSITIES} == {"inf"}
@@ -104,6 +105,19 @@ def test_decks(specimen: str) -> None:
     # the soft ply is the lower arm
     assert "ELSET=BOTTOM, MATERIAL=PLY_90" in deck
     assert "ELSET=TOP, MATERIAL=PLY_0" in deck
+
+
+def test_laws() -> None:
+    case = Case("dcb", "0/0", "inf", "consistent", "structured", "fallback", "bk")
+    assert case.name == "dcb_0-0_inf_consistent_structured_fallback_bk"
+    assert replace(case, law=study.OWN_LAW).name == "dcb_0-0_inf_consistent_structured_fallback"
+    decks = [c.files()[f"{c.name}.inp"].splitlines() for c in (case, replace(case, law="ppr"))]
+    differing = [lines for lines in zip(*decks, strict=True) if lines[0] != lines[1]]
+    # the exponent of Benzeggagh and Kenane, then LAW
+    assert [[line.split(", ")[k] for line in lines] for k, lines in enumerate(differing)] == [
+        ["1.45", "0."],
+        ["2", "4"],
+    ]
 
 
 class Run:
@@ -321,9 +335,9 @@ def test_digests() -> None:
         replace(exact, solution="viscous1e-3"): replace(GOOD, peak_load=102.0, final_load=84.0),
     }
     assert viscosity(rows)[2:] == [
-        "| enf [0/0] | perturbed | 0 | 100 | 200 | 0 | stops at 40.0% |  |  |  |",
-        "| enf [0/0] | perturbed | 0, fall-back | 100 | 200 | 0 | 100.00 | +0.0% | 80.00 | +0.0% |",
-        "| enf [0/0] | perturbed | 1e-3 | 100 | 200 | 0 | 102.00 | +2.0% | 84.00 | +5.0% |",
+        "| enf [0/0] | perturbed | linear | 0 | 100 | 200 | 0 | stops at 40.0% |  |  |  |",
+        "| enf [0/0] | perturbed | linear | 0, fall-back | 100 | 200 | 0 | 100.00 | +0.0% | 80.00 | +0.0% |",
+        "| enf [0/0] | perturbed | linear | 1e-3 | 100 | 200 | 0 | 102.00 | +2.0% | 84.00 | +5.0% |",
     ]
     assert variations({}) == viscosity({}) == []
 

@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """What the consistent element is asked to show, checked on the rows that are there.
 
-Rows of Newton's method alone and with the fall-back are judged apart; those with viscosity are not judged.
+Rows of Newton's method alone and with the fall-back are judged apart; those with viscosity or another law are not.
 """
 
 from __future__ import annotations
@@ -12,7 +12,7 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
 
 from harness.delamination.materials import TABLE_2
-from harness.delamination.study.cases import KINDS, Case
+from harness.delamination.study.cases import KINDS, OWN_LAW, Case
 from harness.delamination.study.rows import Row, loading_mode
 
 MEAN_ITERATIONS = {"dcb": 6.0, "enf": 3.0, "frmm": 3.0}
@@ -50,7 +50,7 @@ def check(rows: Rows) -> list[Verdict]:
     """All criteria that there are rows for, for each kind of solution."""
     verdicts = []
     for solution in JUDGED:
-        chosen = {case: row for case, row in rows.items() if case.solution == solution}
+        chosen = {case: row for case, row in rows.items() if (case.solution, case.law) == (solution, OWN_LAW)}
         own = {case: row for case, row in chosen.items() if case.element == "consistent"}
         found = [
             _each("consistent element: every row finishes", own, _unfinished),

@@ -61,12 +61,12 @@ def viscosity(rows: Rows) -> list[str]:
             continue
         for name, row in {"0": rows.get(replace(case, solution="newton")), "0, fall-back": exact, **viscous}.items():
             if row is not None:
-                cells = [f"{case.specimen} [{case.layup}]", case.mesh, name.removeprefix("viscous")]
+                cells = [f"{case.specimen} [{case.layup}]", case.mesh, case.law, name.removeprefix("viscous")]
                 lines.append(line([*cells, *_cost(row, exact)]))
     if not lines:
         return []
     columns = ("increments", "iterations", "cutbacks", "peak load (N)", "change", "load at the end (N)", "change")
-    return [*head(["specimen", "mesh", "viscosity", *columns]), *lines]
+    return [*head(["specimen", "mesh", "law", "viscosity", *columns]), *lines]
 
 
 def _cost(row: Row, exact: Row) -> list[str]:

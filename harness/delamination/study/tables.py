@@ -11,7 +11,7 @@ from dataclasses import asdict
 
 from rich.table import Table
 
-from harness.delamination.study.cases import KINDS, Case
+from harness.delamination.study.cases import KINDS, OWN_LAW, Case
 from harness.delamination.study.criteria import Verdict
 from harness.delamination.study.digests import head, line, variations, viscosity
 from harness.delamination.study.rows import Row
@@ -57,7 +57,9 @@ VISCOSITY = """
 ## What viscosity costs
 
 The consistent element with an infinite stiffness. VISCOSITY is given in step time; changes are against no viscosity
-with the fall-back. Without viscosity and without the fall-back a run stops where the interface snaps.
+with the fall-back. Without viscosity and without the fall-back a run stops where the interface snaps. The law is
+linear softening with the paper's criterion (LAW 1) or with that of Benzeggagh and Kenane (bk: LAW 2, exponent 1.45),
+exponential softening (LAW 3), or the PPR potential with its default shapes (LAW 4).
 """
 
 HEAD = (
@@ -85,6 +87,8 @@ def markdown_tables(rows: Mapping[Case, Row], verdicts: Sequence[Verdict]) -> st
             parts += [text, *digest]
     groups: dict[tuple[str, str], list[str]] = {}
     for case, row in rows.items():
+        if case.law != OWN_LAW:
+            continue
         groups.setdefault((case.specimen, case.layup), []).append(line(_cells(case, row)))
     for (specimen, layup), lines in groups.items():
         kind = KINDS[specimen]
