@@ -17,7 +17,7 @@ from harness.delamination.study.cases import Case, all_cases, select
 from harness.delamination.study.criteria import check, index_ratios
 from harness.delamination.study.digests import variations, viscosity
 from harness.delamination.study.reference import FOLDER, ReferenceRun, reference_of, restricted
-from harness.delamination.study.refinement import Bonded, bonded, on_facets, turned
+from harness.delamination.study.refinement import Bonded, bonded, facet_means, on_facets, turned
 from harness.delamination.study.rows import (
     Row,
     at_tenths,
@@ -407,6 +407,13 @@ def test_stress_of_the_homogeneous_body_acts_on_bonded_facets(tmp_path: Path) ->
         assert errors == sorted(errors)
         assert errors[0] < 0.3 * total_variation(real[name])
         assert errors[2] > max(5.0 * errors[1], total_variation(real[name]))
+        # what the consistent one adds on the coarsest mesh lies between the two points of a facet
+        real_facets, consistent, standard = (
+            total_variation(facet_means(profile[name])) for profile in (real, found[1], found[2])
+        )
+        assert consistent == pytest.approx(real_facets, rel=0.06)
+        # and the standard one misses even the mean over a facet
+        assert standard < 0.6 * real_facets
 
 
 def test_command_names_what_it_does_not_know(capsys: pytest.CaptureFixture[str], tmp_path: Path) -> None:
