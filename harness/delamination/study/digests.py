@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""Two short tables out of the rows: what is real on an interface with bumps, and what viscosity costs."""
+"""Short tables out of the rows: what is real on an interface with bumps, what bumps add, what viscosity costs."""
 
 from __future__ import annotations
 
@@ -8,6 +8,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import replace
 
 from harness.delamination.study.cases import ELEMENTS, VISCOSITIES, Case
+from harness.delamination.study.criteria import index_ratios, is_judged_on_oscillation
 from harness.delamination.study.rows import Row
 
 STIFFNESS = "1e8"
@@ -49,6 +50,30 @@ def variations(rows: Rows) -> list[str]:
 
 def _number(row: Row | None, name: str) -> str:
     return "" if row is None else f"{getattr(row, name):.0f}".replace("nan", "-")
+
+
+def ratios(rows: Rows) -> list[str]:
+    """Index and error index on the perturbed mesh at 1e8 and above over those on the structured one at 1e6."""
+    found: dict[tuple[str, str], dict[tuple[str, str], list[float]]] = {}
+    for case in rows:
+        if case.solution != "fallback" or not is_judged_on_oscillation(case):
+            continue
+        for quantity in ("index", "error"):
+            for traction, ratio in (index_ratios(case, rows, quantity) or {}).items():
+                of_specimen = found.setdefault((case.specimen, TRACTIONS[traction][1]), {})
+                of_specimen.setdefault((quantity, case.element), []).append(ratio)
+    if not found:
+        return []
+    pairs = [(quantity, element) for quantity in ("index", "error") for element in ELEMENTS]
+    lines = [line([*place, *(_range(by_pair.get(pair, [])) for pair in pairs)]) for place, by_pair in found.items()]
+    return [*head(["specimen", "traction", *(f"{quantity}, {element}" for quantity, element in pairs)]), *lines]
+
+
+def _range(values: Sequence[float]) -> str:
+    if not values:
+        return ""
+    ends = [f"{end(values):.3f}" for end in (min, max)]
+    return ends[0] if ends[0] == ends[1] else " to ".join(ends)
 
 
 def viscosity(rows: Rows) -> list[str]:

@@ -13,7 +13,7 @@ from rich.table import Table
 
 from harness.delamination.study.cases import KINDS, OWN_LAW, Case
 from harness.delamination.study.criteria import Verdict
-from harness.delamination.study.digests import head, line, variations, viscosity
+from harness.delamination.study.digests import head, line, ratios, variations, viscosity
 from harness.delamination.study.rows import Row
 
 SHOWN = 4
@@ -53,6 +53,12 @@ tenth of the displacement where the reference has the most. Real: the reference,
 total variation of the traction less the reference's.
 """
 
+RATIOS = """
+What bumps and stiffness add: index and error index, [0/0], on the perturbed mesh at 1e8 and above over the same
+element's on the structured mesh at 1e6. A process zone that is a little elsewhere than on the finer mesh is an error
+without oscillation; it differs with the stiffness on structured meshes too.
+"""
+
 VISCOSITY = """
 ## What viscosity costs
 
@@ -82,7 +88,7 @@ def csv_table(rows: Mapping[Case, Row]) -> str:
 def markdown_tables(rows: Mapping[Case, Row], verdicts: Sequence[Verdict]) -> str:
     """A page: verdicts, the digests, then a table for each specimen and layup."""
     parts = [INTRODUCTION, "## Criteria\n", *_markdown_verdicts(verdicts)]
-    for text, digest in ((BUMPS, variations(rows)), (VISCOSITY, viscosity(rows))):
+    for text, digest in ((BUMPS, variations(rows)), (RATIOS, ratios(rows)), (VISCOSITY, viscosity(rows))):
         if digest:
             parts += [text, *digest]
     groups: dict[tuple[str, str], list[str]] = {}
