@@ -29,6 +29,7 @@ class Evaluation:
     pnewdt      smallest PNEWDT an element returned
     energy      (8,) sum of ENERGY
     load        (n,) sum of column 2 of RHS, increments of the loads that elements apply; None unless NRHS = 2
+    damage      dissipated by the damage of built-in elements
     """
 
     residual: FloatArray
@@ -38,6 +39,7 @@ class Evaluation:
     pnewdt: float
     energy: FloatArray
     load: FloatArray | None = None
+    damage: float = 0.0
 
 
 class System:
@@ -82,7 +84,7 @@ class System:
         if data is not None:
             data.fill(0.0)
         flux, count = np.zeros(len(FIELD_NAMES)), np.zeros(len(FIELD_NAMES), dtype=np.int64)
-        energy = np.zeros(8)
+        energy, damage = np.zeros(8), 0.0
         pnewdt = np.inf
         motion = motion or self._rest
         for block in self.blocks:
@@ -90,8 +92,10 @@ class System:
             flux += report.flux
             count += report.flux_count
             energy += report.energy
+            damage += report.damage
             pnewdt = min(pnewdt, report.pnewdt)
-        return Evaluation(columns[0], data, flux, count, pnewdt, energy, columns[1] if nrhs > 1 else None)
+        load = columns[1] if nrhs > 1 else None
+        return Evaluation(columns[0], data, flux, count, pnewdt, energy, load, damage)
 
     def commit(self) -> None:
         """End of a converged increment: the state of the last normal pass becomes the committed one."""

@@ -13,6 +13,7 @@ from typing import TypeVar
 import numpy as np
 
 from harness.deck.blocks import Block
+from harness.deck.damage import DAMAGE_KEYWORDS, extend_damage
 from harness.deck.problems import Problems, nearest
 from harness.errors import DeckError, Source
 from harness.model.amplitude import Amplitude, AmplitudeType
@@ -25,8 +26,12 @@ _CONSTANTS = {
     ElasticType.LAMINA: 6,
     ElasticType.ORTHOTROPIC: 9,
     ElasticType.ANISOTROPIC: 21,
+    ElasticType.TRACTION: 3,
 }
-MATERIAL_OPTIONS = ("ELASTIC", "PLASTIC", "DENSITY", "USER MATERIAL", "DEPVAR", "USER OUTPUT VARIABLES")
+MATERIAL_OPTIONS = (
+    *("ELASTIC", "PLASTIC", "DENSITY", "USER MATERIAL", "DEPVAR", "USER OUTPUT VARIABLES"),
+    *DAMAGE_KEYWORDS,
+)
 SMALLEST_SINE = 1e-10
 MOST_VARIABLES = 1_000_000
 Entry = TypeVar("Entry")
@@ -60,23 +65,32 @@ def read_materials(blocks: list[Block], problems: Problems) -> dict[str, Materia
 
 
 def _extend(material: Material, block: Block) -> Material:
-    if block.name == "ELASTIC":
-        return replace(material, elastic=_read_elastic(block))
-    if block.name == "PLASTIC":
-        return replace(material, plastic=_read_plastic(block))
-    if block.name == "USER MATERIAL":
-        return replace(material, user=_read_user_material(block))
-    if block.name == "DEPVAR":
-        return replace(material, state_variables=_read_count(block))
-    if block.name == "USER OUTPUT VARIABLES":
-        return replace(material, output_variables=_read_count(block))
+    match block.name:
+        case "ELASTIC":
+            extended = replace(material, elastic=_read_elastic(block))
+        case "PLASTIC":
+            extended = replace(material, plastic=_read_plastic(block))
+        case "USER MATERIAL":
+            extended = replace(material, user=_read_user_material(block))
+        case "DEPVAR":
+            extended = replace(material, state_variables=_read_count(block))
+        case "USER OUTPUT VARIABLES":
+            extended = replace(material, output_variables=_read_count(block))
+        case "DENSITY":
+            extended = replace(material, density=_read_density(block))
+        case _:
+            extended = replace(material, damage=extend_damage(material.damage, block))
+    return extended
+
+
+def _read_density(block: Block) -> float:
     rows = list(block.rows())
     if len(rows) != 1 or len(rows[0]) != 1:
         raise block.error("needs one data line with the density; a temperature is not supported")
     density = rows[0].real(0, "density")
     if density <= 0:
         raise rows[0].error(f"density {density:g} must be positive")
-    return replace(material, density=density)
+    return density
 
 
 def _read_elastic(block: Block) -> Elastic:
@@ -89,8 +103,8 @@ def _read_elastic(block: Block) -> Elastic:
     if len(values) > count:
         message = f"{len(values)} values where {kind.value} takes {count}; dependence on temperature is not supported"
         raise rows[0].error(message)
-    # trailing constants may be left out: Poisson's ratio, the transverse shear moduli of a lamina
-    needed = {ElasticType.ISOTROPIC: 1, ElasticType.LAMINA: 4}.get(kind, count)
+    # trailing constants may be left out: Poisson's ratio, the transverse shear moduli of a lamina, Ett in the plane
+    needed = {ElasticType.ISOTROPIC: 1, ElasticType.LAMINA: 4, ElasticType.TRACTION: 2}.get(kind, count)
     if len(values) < needed:
         raise rows[0].error(f"{len(values)} values where {kind.value} takes {count}")
     values += [0.0] * (count - len(values))

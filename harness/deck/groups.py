@@ -19,9 +19,9 @@ from harness.deck.user_elements import ElementType
 from harness.errors import DeckError, Source
 from harness.model.arrays import IntArray
 from harness.model.mesh import ElementGroup
-from harness.model.properties import Material, Orientation, SolidSection, UserProperty
+from harness.model.properties import CohesiveSection, Material, Orientation, SectionControls, SolidSection, UserProperty
 
-Section = SolidSection | UserProperty
+Section = SolidSection | CohesiveSection | UserProperty
 
 
 class _Elements:
@@ -66,7 +66,9 @@ def _node_indices(owner: Owner, run: ElementRun) -> IntArray:
     return found
 
 
-def make_groups(flat: FlatMesh, materials: Mapping[str, Material], problems: Problems) -> tuple[ElementGroup, ...]:
+def make_groups(
+    flat: FlatMesh, materials: Mapping[str, Material], controls: Mapping[str, SectionControls], problems: Problems
+) -> tuple[ElementGroup, ...]:
     """Element groups in the order in which Abaqus calls user elements; DeckError via `problems`."""
     elements = _Elements(flat, problems)
     problems.check()
@@ -79,7 +81,7 @@ def make_groups(flat: FlatMesh, materials: Mapping[str, Material], problems: Pro
     problems.check()
     _check_assigned(elements, problems)
     problems.check()
-    made = _make_sections(elements, sections, materials, problems)
+    made = _make_sections(elements, sections, materials, controls, problems)
     problems.check()
     return _cut(elements, made)
 
@@ -101,9 +103,10 @@ def _check_assigned(elements: _Elements, problems: Problems) -> None:
     for index, kind in enumerate(elements.types):
         lacking = without[elements.type_of[without] == index]
         if len(lacking):
-            keyword = "*UEL PROPERTY" if kind.definition else "*SOLID SECTION"
             more = f" and {len(lacking) - 1} more of type {kind.name}" if len(lacking) > 1 else ""
-            message = f"element {_label(elements.flat, int(lacking[0]))}{more} has no section: no {keyword} names it"
+            message = (
+                f"element {_label(elements.flat, int(lacking[0]))}{more} has no section: no *{kind.section} names it"
+            )
             problems.add(_source(elements.flat, int(lacking[0])), message)
 
 
@@ -111,6 +114,7 @@ def _make_sections(
     elements: _Elements,
     sections: list[tuple[Block, Owner]],
     materials: Mapping[str, Material],
+    controls: Mapping[str, SectionControls],
     problems: Problems,
 ) -> dict[tuple[int, int], Section]:
     """Section of each pair of section keyword and element type that occurs."""
@@ -121,9 +125,8 @@ def _make_sections(
     for section, kind in pairs.tolist():
         block, owner = sections[section]
         with problems.gather():
-            made[section, kind] = make_section(
-                block, elements.types[kind], materials, orientations[owner.name], problems
-            )
+            found = orientations[owner.name]
+            made[section, kind] = make_section(block, elements.types[kind], materials, found, controls, problems)
     return made
 
 

@@ -4,18 +4,8 @@
 
 from __future__ import annotations
 
-from harness.deck.table import Keyword, Kind, Option, Support, Where
-
-
-def refused(*names: str) -> tuple[Option, ...]:
-    """Options that Abaqus knows and that would change the solution."""
-    return tuple(Option(name, support=Support.REFUSED) for name in names)
-
-
-def ignored(*names: str) -> tuple[Option, ...]:
-    """Options that cannot change the solution."""
-    return tuple(Option(name, support=Support.IGNORED) for name in names)
-
+from harness.deck.keywords_cohesive import COHESIVE, DAMAGE
+from harness.deck.table import Keyword, Kind, Option, Support, Where, ignored, refused
 
 INPUT = Option("INPUT", Kind.FILE, "file that holds the data lines")
 NAME = Option("NAME", Kind.NAME, "name", required=True)
@@ -206,6 +196,7 @@ PROPERTIES = (
         ),
         "thickness (1)",
     ),
+    *COHESIVE,
     Keyword(
         "MATERIAL",
         "Begin a material.",
@@ -222,8 +213,8 @@ PROPERTIES = (
                 Kind.CHOICE,
                 "symmetry",
                 default="ISOTROPIC",
-                choices=("ISOTROPIC", "ENGINEERING CONSTANTS", "LAMINA", "ORTHOTROPIC", "ANISOTROPIC"),
-                refused=("TRACTION", "COUPLED TRACTION", "SHEAR", "SHORT FIBER", "BILAMINA"),
+                choices=("ISOTROPIC", "ENGINEERING CONSTANTS", "LAMINA", "ORTHOTROPIC", "ANISOTROPIC", "TRACTION"),
+                refused=("COUPLED TRACTION", "SHEAR", "SHORT FIBER", "BILAMINA"),
             ),
             *ignored("MODULI"),
             *refused("DEPENDENCIES", "COMPRESSION FACTOR"),
@@ -272,6 +263,7 @@ PROPERTIES = (
         Where.MODEL,
         data="number of variables",
     ),
+    *DAMAGE,
     Keyword("DENSITY", "Mass density.", Where.MODEL, refused("DEPENDENCIES", "PORE FLUID"), "density"),
     Keyword(
         "ORIENTATION",

@@ -4,8 +4,7 @@
 
 from __future__ import annotations
 
-from harness.deck.keywords_model import ignored, refused
-from harness.deck.table import Keyword, Kind, Option, Where
+from harness.deck.table import Keyword, Kind, Option, Where, ignored, refused
 
 _TIMES = "initial increment, period (1), smallest increment, largest increment"
 _DIRECT = Option("DIRECT", doc="fixed increments")

@@ -4,9 +4,8 @@
 
 from __future__ import annotations
 
-from harness.deck.keywords_model import ignored, refused
 from harness.deck.keywords_procedure import INITIAL, PROCEDURE
-from harness.deck.table import Keyword, Kind, Option, Support, Where
+from harness.deck.table import Keyword, Kind, Option, Support, Where, ignored, refused
 
 OP = Option("OP", Kind.CHOICE, "NEW removes what earlier steps prescribed", default="MOD", choices=("MOD", "NEW"))
 FREQUENCY = Option("FREQUENCY", Kind.INTEGER, "every k-th increment (1); 0 never")

@@ -9,6 +9,7 @@ from pathlib import Path
 import numpy as np
 
 from harness.deck.catalogue import read_amplitudes, read_materials
+from harness.deck.damage import read_controls
 from harness.deck.flatten import FlatMesh
 from harness.deck.groups import make_groups
 from harness.deck.initial import read_initial_values
@@ -37,7 +38,7 @@ def read_deck(path: Path) -> Model:
     flat = FlatMesh(structure, problems)
     if not any(len(owner.elements) for owner in flat.owners):
         raise DeckError(Source(str(path), 1), "the deck has no elements")
-    groups = make_groups(flat, materials, problems)
+    groups = make_groups(flat, materials, read_controls(structure.root, problems), problems)
     if not structure.steps:
         raise DeckError(Source(str(path), 1), "the deck has no *STEP")
     built_in = np.concatenate([np.full(len(group.labels), group.definition is None) for group in groups])

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""*SOLID SECTION and *UEL PROPERTY, made for the element type they are used with."""
+"""*SOLID SECTION, *COHESIVE SECTION and *UEL PROPERTY, made for the element type they are used with."""
 
 from __future__ import annotations
 
@@ -9,18 +9,27 @@ from collections.abc import Mapping
 
 import numpy as np
 
-from harness.deck.blocks import Block
+from harness.deck.blocks import Block, Row
 from harness.deck.catalogue import look_up
 from harness.deck.numbers import LARGEST_INTEGER
 from harness.deck.problems import Problems
 from harness.deck.user_elements import ElementType
 from harness.errors import DeckError
-from harness.model.properties import Material, Orientation, SolidSection, UserElement, UserProperty
+from harness.model.properties import (
+    CohesiveSection,
+    ElasticType,
+    Material,
+    Orientation,
+    SectionControls,
+    SolidSection,
+    UserElement,
+    UserProperty,
+)
 
 ENTRIES = 8
 """Entries of a data line."""
 
-SECTION_KEYWORDS = {"SOLID SECTION", "UEL PROPERTY"}
+SECTION_KEYWORDS = {"SOLID SECTION", "COHESIVE SECTION", "UEL PROPERTY"}
 
 
 def make_section(
@@ -28,34 +37,72 @@ def make_section(
     kind: ElementType,
     materials: Mapping[str, Material],
     orientations: Mapping[str, Orientation],
+    controls: Mapping[str, SectionControls],
     problems: Problems,
-) -> SolidSection | UserProperty:
+) -> SolidSection | CohesiveSection | UserProperty:
     """The section a keyword gives to elements of a type; DeckError where the two do not go together."""
     options = block.options
     elset = options.text("ELSET")
-    wanted = "UEL PROPERTY" if kind.definition else "SOLID SECTION"
-    if block.name != wanted:
-        raise block.error(f"element set {elset} holds elements of type {kind.name}, which take *{wanted}")
+    if block.name != kind.section:
+        raise block.error(f"element set {elset} holds elements of type {kind.name}, which take *{kind.section}")
     name = options.text("MATERIAL")
     material = look_up(materials, name, "material", block.source) if name else None
+    if material is not None:
+        _check_material(block, material)
+    if block.name == "COHESIVE SECTION":
+        assert material is not None
+        return _cohesive_section(block, material, controls)
     name = options.text("ORIENTATION")
     orientation = look_up(orientations, name, "orientation", block.source) if name else None
     if kind.definition:
         return _user_property(block, kind.definition, material, orientation, problems)
     assert material is not None
-    if material.elastic is None and material.user is None:
-        raise block.error(f"material {material.name} has no *ELASTIC and no *USER MATERIAL")
-    return SolidSection(elset, material, orientation, _thickness(block), block.source)
+    return SolidSection(elset, material, orientation, _thickness(list(block.rows()), 0, "thickness"), block.source)
 
 
-def _thickness(block: Block) -> float:
-    rows = list(block.rows())
-    thickness = rows[0].real(0, "thickness", 1.0) if rows else 1.0
+def _check_material(block: Block, material: Material) -> None:
+    """A material has elasticity of the kind that the section is for, and nothing else that it has no use for."""
+    cohesive = block.name == "COHESIVE SECTION"
+    if material.elastic is None:
+        if block.name == "SOLID SECTION" and material.user is None:
+            raise block.error(f"material {material.name} has no *ELASTIC and no *USER MATERIAL")
+        if cohesive:
+            raise block.error(f"material {material.name} has no *ELASTIC, TYPE=TRACTION")
+        return
+    if cohesive != (material.elastic.type is ElasticType.TRACTION):
+        message = f"material {material.name} ({material.elastic.source}) has *ELASTIC, TYPE={material.elastic.type}"
+        raise block.error(f"{message}; TYPE=TRACTION goes with *COHESIVE SECTION, and with nothing else")
+    for keyword, other in (("PLASTIC", material.plastic), ("USER MATERIAL", material.user)):
+        if cohesive and other is not None:
+            raise block.error(f"material {material.name} has *{keyword}, at {other.source}, which is not supported")
+    if not cohesive and material.damage is not None:
+        place = material.damage.source
+        raise block.error(f"material {material.name} has *DAMAGE INITIATION, at {place}, which needs *COHESIVE SECTION")
+
+
+def _thickness(rows: list[Row], index: int, what: str) -> float:
+    """Field of the first data line; 1 where it is zero or left out."""
+    thickness = rows[0].real(index, what, 1.0) if rows else 1.0
     if thickness == 0:
         return 1.0
     if thickness < 0:
-        raise rows[0].error(f"thickness {thickness:g} must be positive")
+        raise rows[0].error(f"{what} {thickness:g} must be positive")
     return thickness
+
+
+def _cohesive_section(block: Block, material: Material, controls: Mapping[str, SectionControls]) -> CohesiveSection:
+    options, rows = block.options, list(block.rows())
+    name = options.text("CONTROLS")
+    found = look_up(controls, name, "section controls", block.source) if name else SectionControls()
+    geometry = options.text("THICKNESS") == "GEOMETRY"
+    return CohesiveSection(
+        options.text("ELSET"),
+        material,
+        thickness=0.0 if geometry else _thickness(rows, 0, "constitutive thickness"),
+        width=_thickness(rows, 1, "out-of-plane width"),
+        controls=found,
+        source=block.source,
+    )
 
 
 def _user_property(

@@ -67,6 +67,16 @@ class Keyword:
     support: Support = Support.READ
 
 
+def refused(*names: str) -> tuple[Option, ...]:
+    """Options that Abaqus knows and that would change the solution."""
+    return tuple(Option(name, support=Support.REFUSED) for name in names)
+
+
+def ignored(*names: str) -> tuple[Option, ...]:
+    """Options that cannot change the solution."""
+    return tuple(Option(name, support=Support.IGNORED) for name in names)
+
+
 @dataclass(frozen=True, slots=True)
 class Options:
     """Options of one keyword line, checked against the table; names are those of the table."""
@@ -85,13 +95,13 @@ class Options:
         """Name, choice or file; the default, or '', where the option is absent."""
         return self.values.get(name, "")
 
-    def integer(self, name: str, default: int) -> int:
-        """Integer value."""
-        return read_integer(self.values[name]) if name in self.values else default
-
     def real(self, name: str, default: float) -> float:
         """Real value."""
         return read_real(self.values[name]) if name in self.values else default
+
+    def integer(self, name: str, default: int) -> int:
+        """Integer value."""
+        return read_integer(self.values[name]) if name in self.values else default
 
 
 def compact(word: str) -> str:

@@ -14,9 +14,11 @@ from harness.errors import DeckError, Source
 from harness.model.properties import UserElement
 
 _PLANE_NODES = {"3": 3, "4": 4, "4R": 4, "8": 8, "8R": 8}
+COHESIVE_NODES = {"COH2D4": 4, "COH3D8": 8}
 BUILT_IN_NODES = {
     **{f"{kind}{name}": nodes for kind in ("CPS", "CPE") for name, nodes in _PLANE_NODES.items()},
     **{"C3D4": 4, "C3D8": 8, "C3D8R": 8, "C3D20": 20, "C3D20R": 20},
+    **COHESIVE_NODES,
 }
 _USER_TYPE = re.compile(r"U([1-9]\d{0,3})")
 LARGEST_DOF = 30
@@ -38,12 +40,19 @@ class ElementType:
         """Nodes per element."""
         return self.definition.nodes if self.definition else BUILT_IN_NODES[self.name]
 
+    @property
+    def section(self) -> str:
+        """Keyword that gives its properties."""
+        if self.definition:
+            return "UEL PROPERTY"
+        return "COHESIVE SECTION" if self.name in COHESIVE_NODES else "SOLID SECTION"
+
 
 def dofs_of(name: str, definition: UserElement | None) -> set[int]:
     """Dofs of an element type."""
     if definition is not None:
         return {dof for _, dof in definition.dofs}
-    return {1, 2, 3} if name.startswith("C3D") else {1, 2}
+    return {1, 2, 3} if name.startswith(("C3D", "COH3D")) else {1, 2}
 
 
 def find_type(name: str, definitions: Definitions, source: Source) -> ElementType:

@@ -7,7 +7,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from harness.delamination.kernels import uel_property, user_element
-from harness.delamination.keywords import keyword, table, wrapped
+from harness.delamination.keywords import keyword, number, table, wrapped
 from harness.delamination.materials import Cohesive, Ply
 from harness.delamination.mesh import TwoArmMesh
 
@@ -16,15 +16,19 @@ from harness.delamination.mesh import TwoArmMesh
 class Interface:
     """Interface elements of a deck.
 
-    type       'U2' standard, 'U3' stabilised with four nodes, 'U4' stabilised with eight nodes
+    type       'U2' standard, 'U3' stabilised with four nodes, 'U4' stabilised with eight nodes; 'COH2D4' Abaqus' own
     cohesive   parameters of the law
     beta       stabilisation parameter beta_n = beta_tau (N/mm^3); 0 computes it by equation (21)
     viscosity  relaxation time of the damage, in step time
     sampling   of the bulk stress: 0 middle of the face, 1 face, 2 Gauss point
     consistent the law has a separation of its own (CLOSURE 1), in place of the damage at the displacement jump
-    law        1 linear criterion (11), 2 criterion of Benzeggagh and Kenane with the exponent `eta`
+    law        1 linear criterion (11), 2 criterion of Benzeggagh and Kenane with the exponent `eta`, or the power law
+    power      exponent of the power law, where `eta` is 0; 0: 1, the linear criterion
     newton_cotes  integration points at the nodes, in place of Gauss points
     secant     AMATRX without the derivative of the damage (TANGENT 1), equation (24)
+
+    COH2D4 is built in: it has the law of `law` 1 or 2, integrates by Newton-Cotes, and takes no notice of beta,
+    sampling, consistent, newton_cotes and secant.
     """
 
     type: str
@@ -35,8 +39,19 @@ class Interface:
     consistent: bool = False
     law: int = 1
     eta: float = 0.0
+    power: float = 0.0
     newton_cotes: bool = False
     secant: bool = False
+
+    @property
+    def built_in(self) -> bool:
+        """True for an element of Abaqus."""
+        return self.type == "COH2D4"
+
+    @property
+    def nodes(self) -> int:
+        """Nodes per element."""
+        return 8 if self.type == "U4" else 4
 
 
 @dataclass(frozen=True, slots=True)
@@ -116,13 +131,42 @@ _TITLES = {
 
 def _interface(specimen: Specimen) -> list[str]:
     interface = specimen.interface
+    mesh_file = f"{specimen.name}_interface{interface.nodes}.inp"
+    elements = keyword("ELEMENT", TYPE=interface.type, ELSET="INTERFACE", INPUT=mesh_file)
+    if interface.built_in:
+        return ["** interface: cohesive elements of Abaqus", elements, *cohesive_section(interface, specimen.width)]
     jtype = int(interface.type[1:])
-    mesh_file = f"{specimen.name}_interface{8 if jtype == 4 else 4}.inp"
     return [
         f"** interface: {_TITLES[jtype]}",
         *user_element(jtype, "UNSYMM"),
-        keyword("ELEMENT", TYPE=interface.type, ELSET="INTERFACE", INPUT=mesh_file),
+        elements,
         *uel_property(jtype, "INTERFACE", interface_values(specimen)),
+    ]
+
+
+def cohesive_section(interface: Interface, width: float) -> list[str]:
+    """*COHESIVE SECTION of the set INTERFACE with its material: the law of the user elements in Abaqus' words."""
+    law = interface.cohesive
+    mixed = ("BK", interface.eta) if interface.eta else ("POWER LAW", interface.power or 1.0)
+    evolution = {"TYPE": "ENERGY", "SOFTENING": "LINEAR", "MIXED_MODE_BEHAVIOR": mixed[0], "POWER": number(mixed[1])}
+    section = {"ELSET": "INTERFACE", "MATERIAL": "INTERFACE", "RESPONSE": "TRACTION SEPARATION"}
+    # like the user elements, failed ones still resist compression
+    controls = {"NAME": "INTERFACE", "ELEMENT_DELETION": "NO", "MAX_DEGRADATION": "1."}
+    if interface.viscosity:
+        controls["VISCOSITY"] = number(interface.viscosity)
+    return [
+        "** constitutive thickness, width",
+        keyword("COHESIVE SECTION", CONTROLS="INTERFACE", **section),
+        *wrapped([1.0, width]),
+        keyword("SECTION CONTROLS", **controls),
+        keyword("MATERIAL", NAME="INTERFACE"),
+        "** normal, first and second shear direction: stiffness, strength, fracture energy",
+        keyword("ELASTIC", TYPE="TRACTION"),
+        *wrapped([law.stiffness_normal, law.stiffness_shear, law.stiffness_shear]),
+        keyword("DAMAGE INITIATION", CRITERION="QUADS"),
+        *wrapped([law.strength_normal, law.strength_shear, law.strength_shear]),
+        keyword("DAMAGE EVOLUTION", **evolution),
+        *wrapped([law.toughness_1, law.toughness_2, law.toughness_2]),
     ]
 
 
@@ -140,7 +184,7 @@ def interface_values(specimen: Specimen) -> dict[str, float]:
         "GIIC": law.toughness_2,
         "VISCOSITY": interface.viscosity,
         "ETA": interface.eta,
-        "POWER": 0.0,
+        "POWER": interface.power,
         "SHAPEN": 0.0,
         "SHAPET": 0.0,
         "BLEND": 0.0,

@@ -54,6 +54,7 @@ def enf_deck(title: str, specimen: Specimen, deflection: float, increments: Incr
         [("MIDSPAN", 2, -deflection)],
         ["MIDSPAN"],
         field_every=field_every,
+        built_in=specimen.interface.built_in,
     )
     return text(lines)
 
@@ -68,5 +69,6 @@ def frmm_deck(title: str, specimen: Specimen, opening: float, increments: Increm
         [("LOAD_TOP", 2, opening)],
         ["LOAD_TOP"],
         field_every=field_every,
+        built_in=specimen.interface.built_in,
     )
     return text(lines)

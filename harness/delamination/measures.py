@@ -26,8 +26,9 @@ def displacement(result: Result) -> FloatArray:
 
 
 def dissipated(result: Result) -> FloatArray:
-    """Energy dissipated by damage and by its viscosity (N mm), by increment."""
-    return result.history["ALLPD"] + result.history["ALLVD"]
+    """Energy dissipated by damage and by its viscosity (N mm), by increment, under Abaqus' names for the element."""
+    names = ("ALLPD", "ALLVD") if "ALLPD" in result.history else ("ALLDMD", "ALLCD")
+    return result.history[names[0]] + result.history[names[1]]
 
 
 def crack_growth(result: Result) -> FloatArray:

@@ -78,6 +78,7 @@ def dcb_deck(title: str, specimen: Specimen, opening: float, increments: Increme
         prescribed,
         ["LOAD_TOP", "LOAD_BOTTOM"],
         field_every=field_every,
+        built_in=specimen.interface.built_in,
     )
     return text(lines)
 
@@ -95,6 +96,7 @@ def patch_deck(title: str, specimen: Specimen, displacement: float, increments: 
         [("CROWN", 2, displacement)],
         ["LOAD_TOP"],
         field_every=1,
+        built_in=specimen.interface.built_in,
     )
     return text(lines)
 

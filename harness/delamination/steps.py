@@ -42,6 +42,7 @@ def step_block(
     history: Iterable[str],
     *,
     field_every: int = 10,
+    built_in: bool = False,
 ) -> list[str]:
     """*STEP to *END STEP.
 
@@ -55,6 +56,8 @@ def step_block(
         Node sets whose U2 and RF2 are written.
     field_every
         Field output every so many increments.
+    built_in
+        The interface elements are Abaqus' own: other names of their variables and energies.
     """
     static = (increments.initial, 1.0, increments.smallest, increments.largest)
     lines = [keyword("STEP", INC=increments.limit, UNSYMM="YES"), title, "*STATIC", *table([static])]
@@ -64,11 +67,12 @@ def step_block(
     lines.append("*OUTPUT, HISTORY, FREQUENCY=1")
     for name in history:
         lines += [keyword("NODE OUTPUT", NSET=name), "U2, RF2"]
-    lines += ["*ENERGY OUTPUT", "ALLIE, ALLSE, ALLPD, ALLVD, ALLWK, ETOTAL"]
+    dissipated = "ALLDMD, ALLCD" if built_in else "ALLPD, ALLVD"
+    lines += ["*ENERGY OUTPUT", f"ALLIE, ALLSE, {dissipated}, ALLWK, ETOTAL"]
     for name in history:
         lines += [keyword("NODE PRINT", NSET=name, FREQUENCY=field_every), "U2, RF2"]
     # the state of the first interface element; Abaqus prints the SVARS of user elements as SDV
-    lines += [keyword("EL PRINT", ELSET="TIP", FREQUENCY=field_every), "SDV3, SDV5, SDV7"]
+    lines += [keyword("EL PRINT", ELSET="TIP", FREQUENCY=field_every), "S, E, SDEG" if built_in else "SDV3, SDV5, SDV7"]
     return [*lines, "*END STEP"]
 
 

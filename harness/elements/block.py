@@ -22,6 +22,9 @@ from harness.usersub._binding import Fault, Guards, LoadArrays, Options
 NORMAL: Final = 1
 """LFLAGS(3) of a normal call."""
 
+_PLASTIC: Final = 3
+"""Index of ENERGY(4)."""
+
 _NO_MATRIX = np.zeros(1)
 
 
@@ -36,6 +39,7 @@ class Procedure:
     hidden    SVARS at the end that are no state of a point, which output does not see
     tensor    stress components of the material: 3 plane stress, 4 plane strain, 6 three-dimensional; 0 without one
     mcrd      coordinates per node
+    damages   ENERGY(4) is dissipated by damage, not by plasticity
     """
 
     address: int
@@ -50,6 +54,7 @@ class Procedure:
     statev: int = 0
     hidden: int = 0
     uvarm: OutputVariables | None = None
+    damages: bool = False
 
 
 @dataclass(frozen=True, slots=True)
@@ -186,7 +191,10 @@ class Block:
             self._warn(outcome, residual.ndim, call)
         elif outcome.fault is not Fault.NONE:
             raise self._error(outcome, residual.ndim, call)
-        return BlockReport(outcome.flux @ self._by_field, self._flux_count, outcome.pnewdt, outcome.energy)
+        energy, damage = outcome.energy, 0.0
+        if self._procedure.damages:
+            damage, energy[_PLASTIC] = float(energy[_PLASTIC]), 0.0
+        return BlockReport(outcome.flux @ self._by_field, self._flux_count, outcome.pnewdt, energy, damage)
 
     def _loads(self, distributed: Distributed | None) -> LoadArrays:
         """Loads on the elements of the block, one row for each element."""

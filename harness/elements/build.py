@@ -9,12 +9,13 @@ from itertools import pairwise
 from typing import Final
 
 from harness.elements.block import Block, Procedure
+from harness.elements.cohesive import COHESIVE, cohesive_procedure, cohesive_variables
 from harness.elements.materials import Tensor, define_material
 from harness.elements.solid import SOLIDS, history_of, solid_procedure, solid_variables
 from harness.errors import DeckError
 from harness.model.mesh import ElementGroup
 from harness.model.model import Model
-from harness.model.properties import SolidSection, UserElement, UserProperty
+from harness.model.properties import CohesiveSection, SolidSection, UserElement, UserProperty
 from harness.usersub import Library
 
 TENSORS: Final = {
@@ -37,9 +38,12 @@ def build_blocks(model: Model, library: Library, *, strict: bool = True) -> list
             blocks.append(_user_block(model, group, group.definition, library, strict=strict))
         elif group.type in SOLIDS:
             blocks.append(_solid_block(model, group, library))
+        elif group.type in COHESIVE:
+            blocks.append(_cohesive_block(model, group, library))
         else:
-            known = ", ".join(SOLIDS)
-            near = get_close_matches(group.type.upper(), SOLIDS, n=1)
+            types = [*SOLIDS, *COHESIVE]
+            known = ", ".join(types)
+            near = get_close_matches(group.type.upper(), types, n=1)
             hint = f"; did you mean {near[0]}?" if near else ""
             raise DeckError(group.source, f"element type {group.type} is not supported (built in are {known}){hint}")
     for block, following in pairwise(blocks):
@@ -50,7 +54,7 @@ def build_blocks(model: Model, library: Library, *, strict: bool = True) -> list
 def _user_block(model: Model, group: ElementGroup, definition: UserElement, library: Library, *, strict: bool) -> Block:
     section = group.section
     if not isinstance(section, UserProperty):
-        raise DeckError(section.source, f"*SOLID SECTION cannot be used for user elements ({group.type})")
+        raise DeckError(section.source, f"user elements ({group.type}) take *UEL PROPERTY")
     _check_counts(group, definition, section)
     address = _user_address(group, section, library)
     # COORDS holds what *USER ELEMENT asks for, or more where dofs 1-3 say that the element is of higher dimension
@@ -91,10 +95,8 @@ MOST_POINTS: Final = 64
 def _solid_block(model: Model, group: ElementGroup, library: Library) -> Block:
     section, kind = group.section, SOLIDS[group.type]
     if not isinstance(section, SolidSection):
-        raise DeckError(section.source, f"*UEL PROPERTY cannot be used for elements of type {group.type}")
-    if group.nodes.shape[1] != kind.nodes:
-        message = f"elements of type {group.type} have {kind.nodes} nodes, found {group.nodes.shape[1]}"
-        raise DeckError(group.source, message)
+        raise DeckError(section.source, f"elements of type {group.type} take *SOLID SECTION")
+    _check_nodes(group, kind.nodes)
     procedure = solid_procedure(model, group, section, library)
     return Block(
         group,
@@ -106,6 +108,29 @@ def _solid_block(model: Model, group: ElementGroup, library: Library) -> Block:
         unsymmetric=section.material.user is not None and section.material.user.unsymmetric,
         variables=solid_variables(group, procedure),
     )
+
+
+def _cohesive_block(model: Model, group: ElementGroup, library: Library) -> Block:
+    section = group.section
+    nodes, dimension = COHESIVE[group.type]
+    if not isinstance(section, CohesiveSection):
+        raise DeckError(section.source, f"elements of type {group.type} take *COHESIVE SECTION")
+    _check_nodes(group, nodes)
+    return Block(
+        group,
+        model.mesh.coordinates,
+        tuple((node, dof) for node in range(nodes) for dof in range(1, dimension + 1)),
+        cohesive_procedure(model, group, section),
+        library,
+        # damage that depends on the mode mix
+        unsymmetric=True,
+        variables=cohesive_variables(section, nodes, dimension),
+    )
+
+
+def _check_nodes(group: ElementGroup, nodes: int) -> None:
+    if group.nodes.shape[1] != nodes:
+        raise DeckError(group.source, f"elements of type {group.type} have {nodes} nodes, found {group.nodes.shape[1]}")
 
 
 def _tensor(definition: UserElement, section: UserProperty) -> Tensor:

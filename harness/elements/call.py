@@ -74,9 +74,11 @@ class BlockReport:
     flux_count  (fields,) number of terms in it
     pnewdt      smallest PNEWDT returned; large where none was
     energy      (8,) sum of ENERGY
+    damage      dissipated by the damage of built-in elements (ALLDMD), for which ENERGY has no entry
     """
 
     flux: FloatArray
     flux_count: IntArray
     pnewdt: float
     energy: FloatArray
+    damage: float = 0.0

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 
 from harness.errors import Source
 from harness.model.arrays import FloatArray, IntArray
-from harness.model.properties import SolidSection, UserElement, UserProperty
+from harness.model.properties import CohesiveSection, SolidSection, UserElement, UserProperty
 
 
 @dataclass(frozen=True, slots=True)
@@ -47,6 +47,6 @@ class ElementGroup:
     labels: IntArray
     nodes: IntArray
     instance: str
-    section: SolidSection | UserProperty
+    section: SolidSection | CohesiveSection | UserProperty
     definition: UserElement | None
     source: Source

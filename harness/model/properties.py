@@ -21,6 +21,7 @@ class ElasticType(StrEnum):
     LAMINA = "LAMINA"
     ORTHOTROPIC = "ORTHOTROPIC"
     ANISOTROPIC = "ANISOTROPIC"
+    TRACTION = "TRACTION"
 
 
 @dataclass(frozen=True, slots=True)
@@ -50,6 +51,42 @@ class UserMaterial:
 
 
 @dataclass(frozen=True, slots=True)
+class DamageEvolution:
+    """*DAMAGE EVOLUTION of a traction-separation response.
+
+    type       'DISPLACEMENT' or 'ENERGY'
+    softening  'LINEAR' or 'EXPONENTIAL'
+    mixed_mode '' mode independent, 'BK' or 'POWER LAW'
+    values     displacement from onset to failure and exponential law parameter; or the fracture energy; or those of the
+               normal and both shear modes
+    power      POWER=
+    """
+
+    type: str
+    softening: str
+    mixed_mode: str
+    values: tuple[float, ...]
+    power: float
+    source: Source
+
+
+@dataclass(frozen=True, slots=True)
+class Damage:
+    """*DAMAGE INITIATION of a traction-separation response, with what follows it.
+
+    criterion  'MAXS', 'QUADS', 'MAXE' or 'QUADE'
+    onset      nominal stresses, or strains, at the onset: normal, first and second shear direction
+    viscosity  of *DAMAGE STABILIZATION, time
+    """
+
+    criterion: str
+    onset: tuple[float, float, float]
+    source: Source
+    evolution: DamageEvolution | None = None
+    viscosity: float = 0.0
+
+
+@dataclass(frozen=True, slots=True)
 class Material:
     """*MATERIAL; state_variables is *DEPVAR, output_variables *USER OUTPUT VARIABLES."""
 
@@ -57,6 +94,7 @@ class Material:
     source: Source
     elastic: Elastic | None = None
     plastic: Plastic | None = None
+    damage: Damage | None = None
     density: float = 0.0
     user: UserMaterial | None = None
     state_variables: int = 0
@@ -82,6 +120,36 @@ class SolidSection:
     thickness: float
     source: Source
     hourglass: float = 0.0
+
+
+@dataclass(frozen=True, slots=True)
+class SectionControls:
+    """*SECTION CONTROLS of cohesive elements.
+
+    deletion     ELEMENT DELETION=
+    degradation  MAX DEGRADATION=
+    viscosity    VISCOSITY=, time; None if not given
+    """
+
+    deletion: bool = True
+    degradation: float = 1.0
+    viscosity: float | None = None
+
+
+@dataclass(frozen=True, slots=True)
+class CohesiveSection:
+    """*COHESIVE SECTION with RESPONSE=TRACTION SEPARATION.
+
+    thickness  initial constitutive thickness; 0 for that of the nodes (THICKNESS=GEOMETRY)
+    width      out of the plane
+    """
+
+    elset: str
+    material: Material
+    thickness: float
+    width: float
+    controls: SectionControls
+    source: Source
 
 
 @dataclass(frozen=True, slots=True)

@@ -176,6 +176,7 @@ class PointVariables:
     bottom, top  interface only: local nodes (from 0) of the two coincident edges, both along the tangent: left and
             right end, and the middle where the edges are quadratic
     outline continuum only: local nodes (from 0) of the cell
+    aliases pairs of a name in Abaqus' output and the name here, where they differ ('S22', 'TN')
     """
 
     kind: str
@@ -184,6 +185,7 @@ class PointVariables:
     bottom: tuple[int, ...] = (0, 1)
     top: tuple[int, ...] = (3, 2)
     outline: tuple[int, ...] = ()
+    aliases: tuple[tuple[str, str], ...] = ()
 
 
 @dataclass(frozen=True, slots=True)
@@ -211,7 +213,8 @@ class Solution:
     reaction          (n,) RF, zero where nothing is prescribed
     load              (n,) CF, concentrated load
     velocity, acceleration  (n,) V and A
-    energies          whole model, by Abaqus name: ALLSE, ALLPD, ALLVD, ALLAE, ALLCD, ALLKE, ALLWK, ALLIE, ETOTAL
+    energies          whole model, by Abaqus name: ALLSE, ALLPD, ALLDMD, ALLCD, ALLVD, ALLAE, ALLKE, ALLIE, ALLWK,
+                      ETOTAL
     """
 
     node: IntArray

@@ -4,8 +4,8 @@
 
 Which cell an element becomes:
 
-- an interface of the project: a line of 2 or 3 nodes along its bottom edge; a continuum element of the project: its
-  outline;
+- an interface of the project, or a cohesive element: a line of 2 or 3 nodes along its bottom edge, or its bottom face;
+  a continuum element of the project: its outline;
 - a built-in element, or a user's own element: by its number of nodes, with the node order of Abaqus' own elements
   (2D: 3, 4, 6, 8 nodes; 3D: 4, 6, 8, 10, 15, 20; a line of 2 or 3). Abaqus does not know either what a user element
   looks like;
@@ -36,6 +36,7 @@ _SOLID = {
     15: "wedge15",
     20: "hexahedron20",
 }
+_FACE = {2: "line", 3: "line3", 4: "quad"}
 _COORDINATES = ("X", "Y", "Z")
 
 
@@ -53,7 +54,7 @@ def cells_of(group: ElementGroup, variables: PointVariables | None, *, solid: bo
     nodes = group.nodes
     if variables is not None and variables.kind == "interface":
         nodes = nodes[:, list(variables.bottom)]
-        return Cells("line" if nodes.shape[1] == 2 else "line3", nodes, np.arange(len(nodes)))
+        return Cells(_FACE[nodes.shape[1]], nodes, np.arange(len(nodes)))
     if variables is not None and variables.outline:
         nodes = nodes[:, list(variables.outline)]
     elements, count = nodes.shape

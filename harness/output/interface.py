@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""Interface profile (NAME_interface.csv): every variable of every integration point of the interface elements.
+"""Interface profile (NAME_interface.csv): every variable of every integration point of interface and cohesive elements.
 
 A block of rows per increment of field output: step, increment, time (total time), element, point (from 1), then the
 variables that the interface elements keep: coordinates X and Y, separations SEPN and SEPT, tractions TN and TT,

@@ -21,6 +21,7 @@ from harness.output.nodal import NodalIndex
 from harness.output.points import point_values
 
 COLUMNS = 9  # of a table of Abaqus
+_SUFFIXES = ("11", "22", "33", "12", "13", "23")
 
 
 @dataclass(frozen=True, slots=True)
@@ -162,11 +163,12 @@ def _element_values(
     svars = state.svars[inside]
     found: list[tuple[list[str], FloatArray]] = []
     if state.variables is not None:
-        known = list(state.variables.names)
+        known = {name: k for k, name in enumerate(state.variables.names)}
+        known |= {name: known[own] for name, own in state.variables.aliases}
         names = [name for variable in variables for name in known if _asked(variable, name)]
         if names:
             values = point_values(state, state.variables)[inside]
-            found.append((names, values[:, :, [known.index(name) for name in names]]))
+            found.append((names, values[:, :, [known[name] for name in names]]))
     names = [f"SDV{k}" for k in range(1, svars.shape[1] + 1)]
     names = [name for variable in variables for name in names if variable in ("SDV", name)]
     if names:
@@ -176,7 +178,7 @@ def _element_values(
 
 def _asked(variable: str, name: str) -> bool:
     """True if a variable as asked for (S, E, S11) takes in a component (S11)."""
-    return name == variable or (name.startswith(variable) and name[len(variable) :] in ("11", "22", "33", "12"))
+    return name == variable or (name.startswith(variable) and name[len(variable) :] in _SUFFIXES)
 
 
 def _row(values: list[float]) -> str:

@@ -30,6 +30,7 @@ class State:
     external   (n,) all forces on the nodes that are not of elements: load, fading reactions of released dofs, reaction
     work       external work so far
     energy     (8,) sum of ENERGY
+    damage     dissipated by the damage of built-in elements
     flux       flux history by field
     majoriser  matrix of the start of the analysis, for the fall-back
     """
@@ -49,6 +50,7 @@ class State:
     total_time: float = 0.0
     work: float = 0.0
     energy: FloatArray = field(default_factory=lambda: np.zeros(8))
+    damage: float = 0.0
     flux: list[FluxHistory] = field(default_factory=lambda: [FluxHistory() for _ in FIELD_NAMES])
 
     @classmethod
@@ -74,6 +76,7 @@ class State:
         self.work += 0.5 * float((self.external + external) @ converged.increment) + float(energy[7])
         self.displacement = self.displacement + converged.increment
         self.reaction, self.load, self.external, self.energy = reaction, load, external, energy
+        self.damage = converged.evaluation.damage
 
     def solution(self, system: System) -> Solution:
         """Copy of the state for output; element states are the committed ones."""
@@ -92,10 +95,11 @@ class State:
     def _energies(self) -> dict[str, float]:
         """Energies of the whole model as Abaqus sums them: ETOTAL is constant where the balance holds."""
         kinetic, elastic, creep, plastic, viscous, artificial, electrostatic = (float(e) for e in self.energy[:7])
-        internal = elastic + plastic + creep + artificial + electrostatic
+        internal = elastic + plastic + self.damage + creep + artificial + electrostatic
         return {
             "ALLSE": elastic,
             "ALLPD": plastic,
+            "ALLDMD": self.damage,
             "ALLCD": creep,
             "ALLVD": viscous,
             "ALLAE": artificial,

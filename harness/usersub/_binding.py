@@ -254,6 +254,11 @@ def solid_address() -> int:
     return int(_host.host_solid_address())
 
 
+def cohesive_address() -> int:
+    """Address of the built-in cohesive elements, called like UEL."""
+    return int(_host.host_cohesive_address())
+
+
 def take_messages() -> list[RawMessage]:
     """Messages of STDB_ABQERR since the last call, oldest first."""
     found: list[RawMessage] = []

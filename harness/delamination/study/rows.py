@@ -10,6 +10,7 @@ from dataclasses import asdict, dataclass
 import numpy as np
 
 from harness.delamination.materials import TABLE_2
+from harness.delamination.measures import dissipated
 from harness.delamination.oscillation import error_index, oscillation_index, raw_index, total_variation
 from harness.delamination.study.cases import INCREMENTS, Case, Kind
 from harness.delamination.study.reference import Profile
@@ -105,7 +106,7 @@ def measure(case: Case, result: Result, stopped: str, seconds: float, real: list
     drops = -np.diff(load, prepend=0.0)
     snaps = {k + 1 for k in np.flatnonzero(drops > SNAP * load[peak]).tolist()}
     lost = float(history["ALLWK"][-1] - history["ALLSE"][-1])
-    dissipated = float(history["ALLPD"][-1] + history["ALLVD"][-1])
+    spent = float(dissipated(result)[-1])
     return Row(
         reached=float(displacement[-1]) / case.displacement,
         stopped=stopped,
@@ -118,7 +119,7 @@ def measure(case: Case, result: Result, stopped: str, seconds: float, real: list
         peak_displacement=float(displacement[peak]),
         final_load=float(load[-1]),
         dissipation_error=dissipation_error(result.interface()),
-        balance_error=(lost - dissipated) / lost if lost > 0.0 else 0.0,
+        balance_error=(lost - spent) / lost if lost > 0.0 else 0.0,
         **_along_the_interface(result.interfaces(), real),
         seconds=seconds,
     )

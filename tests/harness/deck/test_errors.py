@@ -33,8 +33,8 @@ MISTAKES = {
     "unsupported option": ("*STATIC", "*STATIC, ADIABATIC", r"43: \*STATIC: option ADIABATIC is not supported"),
     "unsupported value": (
         "*ELASTIC",
-        "*ELASTIC, TYPE=TRACTION",
-        r"30: \*ELASTIC, TYPE=TRACTION is not supported \(supported: ISO",
+        "*ELASTIC, TYPE=SHEAR",
+        r"30: \*ELASTIC, TYPE=SHEAR is not supported \(supported: ISO",
     ),
     "perturbation": ("INC=500", "PERTURBATION", r"41: \*STEP: option PERTURBATION is not supported"),
     "stabilize": ("*STATIC", "*STATIC, STABILIZE", r"43: \*STATIC: option STABILIZE is not supported"),
@@ -280,7 +280,9 @@ def test_missing_step_keyword_is_one_line_of_many(read: Read) -> None:
 
 def test_all_places_are_reported_at_once(read: Read) -> None:
     text = (
-        FLAT.replace("*CLOAD\n", "*DECHARGE\n").replace("*MATERIAL", "*MATERYAL").replace("*STATIC", "*STATIC, ADIABATIC")
+        FLAT.replace("*CLOAD\n", "*DECHARGE\n")
+        .replace("*MATERIAL", "*MATERYAL")
+        .replace("*STATIC", "*STATIC, ADIABATIC")
     )
     with pytest.raises(DeckError) as caught:
         read(text)

@@ -69,7 +69,7 @@ def test_missing_uelmat(build, user_group):
 
 @pytest.mark.parametrize("element_type, hint", [("CPS5", "did you mean CPS8"), ("S4R", "")])
 def test_unsupported_element_type(build, solid_group, element_type, hint):
-    message = rf"test.inp:7: element type {element_type} is not supported \(built in are CPS3, .*, C3D20R\).*{hint}"
+    message = rf"test.inp:7: element type {element_type} is not supported \(built in are CPS3, .*, COH3D8\).*{hint}"
     with pytest.raises(DeckError, match=message):
         build(solid_group(element_type, np.array([[0, 1, 2, 3]]), 1.0))
 
@@ -103,10 +103,13 @@ def test_hourglass_stiffness_of_user_materials(build, solid_group, load):
 
 def test_sections_of_the_wrong_kind(build, solid_group, user_group):
     solid, user = solid_group("CPS3", np.array([[0, 1, 2]]), 1.0), user_group(NODES, SPRING)
-    with pytest.raises(DeckError, match=r"\*UEL PROPERTY cannot be used for elements of type CPS3"):
+    with pytest.raises(DeckError, match=r"elements of type CPS3 take \*SOLID SECTION"):
         build(replace(solid, section=user.section))
-    with pytest.raises(DeckError, match=r"\*SOLID SECTION cannot be used for user elements \(U1\)"):
+    with pytest.raises(DeckError, match=r"user elements \(U1\) take \*UEL PROPERTY"):
         build(replace(user, section=solid.section))
+    cohesive = replace(solid, type="COH2D4", nodes=np.array([[0, 1, 2, 0]]))
+    with pytest.raises(DeckError, match=r"elements of type COH2D4 take \*COHESIVE SECTION"):
+        build(cohesive)
 
 
 def test_fields():

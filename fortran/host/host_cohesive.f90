@@ -1,0 +1,185 @@
+! SPDX-FileCopyrightText: The uel-harness authors
+! SPDX-License-Identifier: BSD-3-Clause
+!> Built-in cohesive elements COH2D4 and COH3D8 with traction-separation response, as a procedure with the arguments of UEL.
+!>
+!> Nodes of the bottom face, then of the top face: 1 2 and 4 3, or 1 2 3 4 and 5 6 7 8. Integration points lie in the
+!> corners of the mid-surface, so that the separation of a point is that of one pair of nodes. The normal points from
+!> bottom to top; s is the tangent from 1 to 2 in the plane, and otherwise the projection of the global 1-axis on the
+!> mid-surface (of the 3-axis where the 1-axis is within 0.1 degrees of the normal), t = n x s.
+!>
+!> An element is deleted at the end of the increment in which the damage of all its points has reached MAX DEGRADATION with
+!> none of them in compression (Analysis User's Guide, Maximum degradation and choice of element removal).
+!>
+!> PROPS, JPROPS: harness/elements/cohesive.py. SVARS hold for each point, with a component for each dimension:
+!> position, separation, traction, damage, energies dissipated by damage, by viscosity, damage without viscosity, strain,
+!> initiation criterion, status.
+module host_cohesive
+  use host_kinds, only: dp, i4
+  use host_messages, only: add_message
+  use host_protect, only: escape
+  use host_traction_separation, only: cohesive_law, cohesive_point, fine, n_law_integers, n_law_reals, read_law, &
+                                      update_point
+  implicit none (type, external)
+  private
+  public :: cohesive_uel
+
+  integer, parameter :: p_thickness = 1, p_width = 2, p_law = 3
+  integer, parameter :: j_deletion = 1, j_law = 2
+
+contains
+
+  subroutine cohesive_uel(rhs, amatrx, svars, energy, ndofel, nrhs, nsvars, props, nprops, coords, mcrd, nnode, u, du, &
+                          v, a, jtype, time, dtime, kstep, kinc, jelem, params, ndload, jdltyp, adlmag, predef, npredf, &
+                          lflags, mlvarx, ddlmag, mdload, pnewdt, jprops, njprop, period)
+    integer(i4) :: ndofel, nrhs, nsvars, nprops, mcrd, nnode, jtype, kstep, kinc, jelem, ndload, jdltyp(*), npredf, &
+                   lflags(*), mlvarx, mdload, jprops(*), njprop
+    real(dp) :: rhs(*), amatrx(*), svars(*), energy(*), props(*), coords(*), u(*), du(*), v(*), a(*), time(*), dtime, &
+                params(*), adlmag(*), predef(*), ddlmag(*), pnewdt, period
+    integer, parameter :: stiffness_wanted(3) = [1, 2, 5]
+    integer :: points
+    type(cohesive_law) :: law
+    rhs(1:ndofel*nrhs) = 0
+    amatrx(1:ndofel*ndofel) = 0
+    if (.not. any(lflags(3) == stiffness_wanted)) return
+    points = nnode/2
+    law = read_law(props(p_law:p_law + n_law_reals - 1), jprops(j_law:j_law + n_law_integers - 1))
+    call integrate(int(mcrd), points, int(nsvars)/points, law, props(p_thickness), props(p_width), &
+                   jprops(j_deletion) /= 0, dtime, coords, u, rhs, amatrx, svars, energy)
+  end subroutine cohesive_uel
+
+  !> Residual, tangent, state and energies.
+  subroutine integrate(n, points, per_point, law, thickness, width, deletion, dtime, x, u, rhs, stiffness, svars, energy)
+    integer, intent(in) :: n, points, per_point
+    type(cohesive_law), intent(in) :: law
+    real(dp), intent(in) :: thickness, width, dtime, x(n, 2*points), u(n, 2*points)
+    logical, intent(in) :: deletion
+    real(dp), intent(inout) :: rhs(n, 2*points), stiffness(n, 2*points, n, 2*points), svars(per_point, points), energy(8)
+    type(cohesive_point) :: old, new
+    real(dp) :: frame(3, n), area, separation(3), tangent(3, 3), force(n), block(n, n), distance, fault
+    integer :: p, bottom, top, status
+    logical :: removed, failed
+    removed = is_removed(n, svars(:, 1))
+    failed = deletion
+    ! what is still stored when an element is deleted is lost by its damage
+    if (removed) energy(4) = energy(4) + energy(2)
+    energy(2) = 0
+    if (.not. removed) energy(3:4) = 0
+    do p = 1, points
+      bottom = p
+      top = merge(5 - p, p + 4, n == 2)
+      call measure(n, points, p, x, frame, area)
+      distance = thickness
+      if (.not. thickness > 0) distance = dot_product(frame(1, :), x(:, top) - x(:, bottom))
+      if (.not. distance > 0) call stop_with('THICKNESS=GEOMETRY: the thickness between the faces is', distance, p)
+      separation = matmul(frame, u(:, top) - u(:, bottom))
+      call get_point(n, svars(:, p), old)
+      if (removed) then
+        new = old
+        new%separation = separation
+        new%traction = 0
+      else
+        call update_point(law, distance, dtime, separation, old, new, tangent, status, fault)
+        if (status /= fine) call stop_with('*DAMAGE EVOLUTION: the fracture energy at the mode mix must exceed the elastic ' &
+                                           //'energy at the onset of damage, and falls short by', fault, p)
+        area = width*area
+        force = area*matmul(new%traction, frame)
+        rhs(:, bottom) = rhs(:, bottom) + force
+        rhs(:, top) = rhs(:, top) - force
+        block = area*matmul(transpose(frame), matmul(tangent, frame))
+        stiffness(:, bottom, :, bottom) = block
+        stiffness(:, top, :, top) = block
+        stiffness(:, bottom, :, top) = -block
+        stiffness(:, top, :, bottom) = -block
+        energy(2) = energy(2) + 0.5_dp*area*dot_product(new%traction, separation)
+        energy(3) = energy(3) + area*new%viscous
+        energy(4) = energy(4) + area*sum(new%dissipated)
+        failed = failed .and. new%damage >= law%most .and. separation(1) >= 0
+      end if
+      call put_point(n, 0.5_dp*(x(:, bottom) + x(:, top)), new, distance, svars(:, p))
+    end do
+    svars(per_point, :) = merge(0, 1, removed .or. failed)
+  end subroutine integrate
+
+  !> True for an element that was deleted: STATUS is 0, and so is the damage of one that has never been called.
+  pure logical function is_removed(n, svars)
+    integer, intent(in) :: n
+    real(dp), intent(in) :: svars(5*n + 5)
+    is_removed = svars(3*n + 1) > 0 .and. .not. svars(5*n + 5) > 0
+  end function is_removed
+
+  !> State of a point from its SVARS.
+  pure subroutine get_point(n, svars, point)
+    integer, intent(in) :: n
+    real(dp), intent(in) :: svars(5*n + 5)
+    type(cohesive_point), intent(out) :: point
+    point%separation(:n) = svars(n + 1:2*n)
+    point%traction(:n) = svars(2*n + 1:3*n)
+    point%damage = svars(3*n + 1)
+    point%dissipated(:n) = svars(3*n + 2:4*n + 1)
+    point%viscous = svars(4*n + 2)
+    point%largest = svars(4*n + 3)
+    point%criterion = svars(5*n + 4)
+  end subroutine get_point
+
+  !> SVARS of a point but for the status.
+  pure subroutine put_point(n, position, point, thickness, svars)
+    integer, intent(in) :: n
+    real(dp), intent(in) :: position(n), thickness
+    type(cohesive_point), intent(in) :: point
+    real(dp), intent(inout) :: svars(5*n + 5)
+    svars(:5*n + 4) = [position, point%separation(:n), point%traction(:n), point%damage, point%dissipated(:n), &
+                       point%viscous, point%largest, point%separation(:n)/thickness, point%criterion]
+  end subroutine put_point
+
+  !> Rows n, s, t of the frame of a corner of the mid-surface, and its area (its length in the plane).
+  subroutine measure(n, points, point, x, frame, area)
+    integer, intent(in) :: n, points, point
+    real(dp), intent(in) :: x(n, 2*points)
+    real(dp), intent(out) :: frame(3, n), area
+    integer, parameter :: before(4) = [2, 1, 4, 3], beside(4) = [4, 3, 2, 1]
+    real(dp), parameter :: along(4) = [0.5_dp, -0.5_dp, -0.5_dp, 0.5_dp], across(4) = [0.5_dp, 0.5_dp, -0.5_dp, -0.5_dp]
+    real(dp), parameter :: smallest_sine = 1.745328e-3_dp   ! of 0.1 degrees
+    real(dp) :: middle(n, points), a(3), b(3)
+    integer :: p
+    do p = 1, points
+      middle(:, p) = 0.5_dp*(x(:, p) + x(:, merge(5 - p, p + 4, n == 2)))
+    end do
+    frame = 0
+    if (n == 2) then
+      a(:2) = middle(:, 2) - middle(:, 1)
+      area = 0.5_dp*norm2(a(:2))
+      if (area > 0) frame(1:2, :) = reshape([-a(2), a(1), a(1), a(2)], [2, 2])/(2*area)
+    else
+      a = along(point)*(middle(:, before(point)) - middle(:, point))
+      b = across(point)*(middle(:, beside(point)) - middle(:, point))
+      frame(1, :) = cross(a, b)
+      area = norm2(frame(1, :))
+      if (area > 0) then
+        frame(1, :) = frame(1, :)/area
+        a = [1, 0, 0]
+        if (norm2(cross(frame(1, :), a)) < smallest_sine) a = [0, 0, 1]
+        a = a - dot_product(a, frame(1, :))*frame(1, :)
+        frame(2, :) = a/norm2(a)
+        frame(3, :) = cross(frame(1, :), frame(2, :))
+      end if
+    end if
+    if (.not. area > 0) call stop_with('the area of the mid-surface is', area, point)
+  end subroutine measure
+
+  pure function cross(a, b) result(c)
+    real(dp), intent(in) :: a(3), b(3)
+    real(dp) :: c(3)
+    c = [a(2)*b(3) - a(3)*b(2), a(3)*b(1) - a(1)*b(3), a(1)*b(2) - a(2)*b(1)]
+  end function cross
+
+  !> End the analysis with a message.
+  subroutine stop_with(what, value, point)
+    character(len=*), intent(in) :: what
+    real(dp), intent(in) :: value
+    integer, intent(in) :: point
+    character(len=256) :: text
+    write (text, '(a,es10.2,a,i0)') what, value, ' at integration point ', point
+    call add_message(-3_i4, trim(text))
+    call escape()
+  end subroutine stop_with
+end module host_cohesive

@@ -1,0 +1,106 @@
+# SPDX-FileCopyrightText: The uel-harness authors
+# SPDX-License-Identifier: BSD-3-Clause
+"""Damage of traction-separation materials, and section controls."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+from harness.deck.blocks import Block, Row
+from harness.deck.problems import Problems
+from harness.model.properties import Damage, DamageEvolution, SectionControls
+
+DAMAGE_KEYWORDS = ("DAMAGE INITIATION", "DAMAGE EVOLUTION", "DAMAGE STABILIZATION")
+
+
+def extend_damage(damage: Damage | None, block: Block) -> Damage:
+    """The damage of a material with what one more keyword says of it."""
+    if block.name == "DAMAGE INITIATION":
+        if damage is not None:
+            raise block.error(f"one criterion is supported; the material has one already, at {damage.source}")
+        first, second, third = _values(block, 2, 3, "onset value")
+        return Damage(block.options.text("CRITERION"), (first, second, third), block.source)
+    if damage is None:
+        raise block.error("does not follow *DAMAGE INITIATION")
+    if block.name == "DAMAGE EVOLUTION":
+        if damage.evolution is not None:
+            raise block.error(f"the material has one already, at {damage.evolution.source}")
+        return replace(damage, evolution=_read_evolution(block))
+    if damage.evolution is None:
+        raise block.error("does not follow *DAMAGE EVOLUTION")
+    row = _only_row(block)
+    row.at_most(1)
+    viscosity = row.real(0, "viscosity")
+    if viscosity < 0:
+        raise row.error(f"viscosity {viscosity:g} must not be negative")
+    return replace(damage, viscosity=viscosity)
+
+
+def _read_evolution(block: Block) -> DamageEvolution:
+    options = block.options
+    kind, softening, mixed = (options.text(name) for name in ("TYPE", "SOFTENING", "MIXED MODE BEHAVIOR"))
+    power = options.real("POWER", 1.0)
+    if mixed:
+        if kind == "DISPLACEMENT":
+            raise block.error(f"MIXED MODE BEHAVIOR={mixed} goes with TYPE=ENERGY")
+        if not options.given("POWER"):
+            raise block.error(f"MIXED MODE BEHAVIOR={mixed} needs POWER")
+        if power <= 0:
+            raise block.error(f"POWER={power:g} must be positive")
+        values = _values(block, 2, 3, "fracture energy")
+        if mixed == "BK" and values[2] not in (0.0, values[1]):
+            message = f"shear fracture energies {values[1]:g} and {values[2]:g}: BK has one for both directions"
+            raise _only_row(block).error(message)
+        return DamageEvolution(kind, softening, mixed, values, power, block.source)
+    if options.given("POWER"):
+        raise block.error("POWER goes with MIXED MODE BEHAVIOR")
+    if kind == "DISPLACEMENT" and softening == "EXPONENTIAL":
+        values = _values(block, 2, 2, "displacement or exponential law parameter")
+    else:
+        values = _values(block, 1, 1, "displacement" if kind == "DISPLACEMENT" else "fracture energy")
+    if values[0] <= 0:
+        what = "displacement at failure" if kind == "DISPLACEMENT" else "fracture energy"
+        raise _only_row(block).error(f"{what} {values[0]:g} must be positive")
+    return DamageEvolution(kind, softening, mixed, values, power, block.source)
+
+
+def _only_row(block: Block) -> Row:
+    rows = list(block.rows())
+    if len(rows) != 1:
+        raise block.error("needs one data line; dependence on temperature is not supported")
+    return rows[0]
+
+
+def _values(block: Block, least: int, most: int, what: str) -> tuple[float, ...]:
+    """`most` values of the only data line, zero where they are left out."""
+    row = _only_row(block)
+    if not least <= len(row) <= most:
+        expected = str(most) if least == most else f"{least} or {most}"
+        message = f"{len(row)} values where {expected} are read; dependence on temperature is not supported"
+        raise row.error(message)
+    return tuple(row.real(index, what, 0.0) for index in range(most))
+
+
+def read_controls(blocks: list[Block], problems: Problems) -> dict[str, SectionControls]:
+    """Section controls by name."""
+    found: dict[str, SectionControls] = {}
+    for block in blocks:
+        if block.name == "SECTION CONTROLS":
+            with problems.gather():
+                name = block.options.text("NAME")
+                if name in found:
+                    raise block.error(f"{name} is defined already")
+                found[name] = _read_controls(block)
+    return found
+
+
+def _read_controls(block: Block) -> SectionControls:
+    options = block.options
+    degradation = options.real("MAX DEGRADATION", 1.0)
+    if not 0 < degradation <= 1:
+        raise block.error(f"MAX DEGRADATION={degradation:g}: expected a number above 0, up to 1")
+    viscosity = options.real("VISCOSITY", 0.0) if options.given("VISCOSITY") else None
+    if viscosity is not None and viscosity < 0:
+        raise block.error(f"VISCOSITY={viscosity:g} must not be negative")
+    deletion = options.flag("ELEMENT DELETION") or not options.given("ELEMENT DELETION")
+    return SectionControls(deletion, degradation, viscosity)

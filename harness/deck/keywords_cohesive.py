@@ -1,0 +1,132 @@
+# SPDX-FileCopyrightText: The uel-harness authors
+# SPDX-License-Identifier: BSD-3-Clause
+"""Keyword table: what belongs to cohesive elements with traction-separation response."""
+
+from __future__ import annotations
+
+from harness.deck.table import Keyword, Kind, Option, Where, ignored, refused
+
+COHESIVE = (
+    Keyword(
+        "COHESIVE SECTION",
+        "Section of cohesive elements.",
+        Where.MODEL,
+        (
+            Option("ELSET", Kind.NAME, "element set", required=True),
+            Option("MATERIAL", Kind.NAME, "material", required=True),
+            Option(
+                "RESPONSE",
+                Kind.CHOICE,
+                "response",
+                required=True,
+                choices=("TRACTION SEPARATION",),
+                refused=("CONTINUUM", "GASKET"),
+            ),
+            Option(
+                "THICKNESS",
+                Kind.CHOICE,
+                "constitutive thickness: of the data line or of the nodes",
+                default="SPECIFIED",
+                choices=("SPECIFIED", "GEOMETRY"),
+            ),
+            Option("CONTROLS", Kind.NAME, "section controls"),
+            *refused("HALF", "ORIENTATION", "STACK DIRECTION", "SYMMETRIC"),
+        ),
+        "constitutive thickness (1), width out of the plane (1)",
+    ),
+    Keyword(
+        "SECTION CONTROLS",
+        "Deletion, largest damage and viscosity of cohesive elements.",
+        Where.MODEL,
+        (
+            Option("NAME", Kind.NAME, "name", required=True),
+            Option("ELEMENT DELETION", Kind.SWITCH, "delete failed elements, unless they are in compression (YES)"),
+            Option("MAX DEGRADATION", Kind.REAL, "largest damage (1)"),
+            Option("VISCOSITY", Kind.REAL, "relaxation time of the damage (0)"),
+            *ignored("DISTORTION CONTROL", "HOURGLASS", "KINEMATIC SPLIT", "LENGTH RATIO", "SECOND ORDER ACCURACY"),
+        ),
+        "factors of other elements, which are not read",
+    ),
+)
+
+DAMAGE = (
+    Keyword(
+        "DAMAGE INITIATION",
+        "Onset of damage in a traction-separation response.",
+        Where.MODEL,
+        (
+            Option(
+                "CRITERION",
+                Kind.CHOICE,
+                "criterion",
+                required=True,
+                choices=("MAXS", "QUADS", "MAXE", "QUADE"),
+                refused=(
+                    *(
+                        "DUCTILE",
+                        "FLD",
+                        "FLSD",
+                        "HASHIN",
+                        "HASHIN-ROTEM",
+                        "HYSTERESIS ENERGY",
+                        "JOHNSON COOK",
+                        "LARC05",
+                    ),
+                    *("MAXPE", "MAXPS", "MK", "MSFLD", "SHEAR", "USER"),
+                ),
+            ),
+            *ignored("TOLERANCE"),
+            *refused("ALPHA", "DEPENDENCIES", "NAME", "PROPERTIES"),
+        ),
+        "normal, first shear and second shear stress or strain at the onset",
+    ),
+    Keyword(
+        "DAMAGE EVOLUTION",
+        "Evolution of damage after its onset.",
+        Where.MODEL,
+        (
+            Option(
+                "TYPE",
+                Kind.CHOICE,
+                "what is given",
+                required=True,
+                choices=("DISPLACEMENT", "ENERGY"),
+                refused=("HYSTERESIS ENERGY",),
+            ),
+            Option(
+                "SOFTENING",
+                Kind.CHOICE,
+                "softening",
+                default="LINEAR",
+                choices=("LINEAR", "EXPONENTIAL"),
+                refused=("TABULAR",),
+            ),
+            Option(
+                "MIXED MODE BEHAVIOR",
+                Kind.CHOICE,
+                "fracture energy in mixed mode",
+                choices=("BK", "POWER LAW"),
+                refused=("TABULAR",),
+            ),
+            Option(
+                "MODE MIX RATIO",
+                Kind.CHOICE,
+                "measure of the mode mix",
+                default="ENERGY",
+                choices=("ENERGY",),
+                refused=("ACCUMULATED ENERGY", "TRACTION"),
+            ),
+            Option("POWER", Kind.REAL, "exponent of MIXED MODE BEHAVIOR"),
+            *ignored("DEGRADATION"),
+            *refused("DEPENDENCIES", "FAILURE INDEX"),
+        ),
+        "displacement from onset to failure, exponential law parameter; or fracture energy; or those of the normal, "
+        "first shear and second shear mode",
+    ),
+    Keyword(
+        "DAMAGE STABILIZATION",
+        "Viscosity of the damage; that of the section controls goes first.",
+        Where.MODEL,
+        data="relaxation time of the damage",
+    ),
+)

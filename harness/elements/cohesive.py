@@ -1,0 +1,149 @@
+# SPDX-FileCopyrightText: The uel-harness authors
+# SPDX-License-Identifier: BSD-3-Clause
+"""Built-in cohesive elements: properties, point variables and checks (fortran/host/host_cohesive.f90)."""
+
+from __future__ import annotations
+
+from typing import Final
+
+import numpy as np
+
+from harness.elements.block import Procedure
+from harness.errors import DeckError
+from harness.model.mesh import ElementGroup
+from harness.model.model import Model
+from harness.model.procedures import Dynamic
+from harness.model.properties import CohesiveSection, Damage, DamageEvolution
+from harness.model.records import PointVariables
+from harness.usersub import _binding
+
+COHESIVE: Final = {"COH2D4": (4, 2), "COH3D8": (8, 3)}
+"""Cohesive elements: nodes, dimensions."""
+
+# in the order of the cases of fortran/host/host_traction_separation.f90
+_CRITERIA: Final = ("", "MAXS", "QUADS", "MAXE", "QUADE")
+_EVOLUTIONS: Final = ("", "DISPLACEMENT", "ENERGY")
+_SOFTENINGS: Final = ("", "LINEAR", "EXPONENTIAL")
+_MIXED_MODES: Final = ("", "BK", "POWER LAW")
+
+Triple = tuple[float, float, float]
+
+
+def cohesive_procedure(model: Model, group: ElementGroup, section: CohesiveSection) -> Procedure:
+    """What the driver calls for a group of cohesive elements. Raises DeckError."""
+    nodes, dimension = COHESIVE[group.type]
+    for step in model.steps:
+        for refused, what in ((step.nlgeom, "NLGEOM"), (isinstance(step.procedure, Dynamic), "*DYNAMIC")):
+            if refused:
+                raise DeckError(step.source, f"{what} is not supported with elements of type {group.type}")
+    reals, integers = cohesive_properties(section, dimension)
+    return Procedure(
+        address=_binding.cohesive_address(),
+        jtype=nodes,
+        mcrd=dimension,
+        svars=nodes // 2 * (5 * dimension + 5),
+        props=np.array(reals),
+        jprops=np.array(integers),
+        damages=True,
+    )
+
+
+def cohesive_variables(section: CohesiveSection, nodes: int, dimension: int) -> PointVariables:
+    """SVARS of a point: the names of the project's interface elements where they have one, else those of Abaqus."""
+    places = ("X", "Y", "Z")[:dimension]
+    directions = ("N", "T") if dimension == 2 else ("N", "S", "T")
+    tensor = ("22", "12") if dimension == 2 else ("33", "13", "23")
+    damage = section.material.damage
+    criterion = f"{damage.criterion if damage else 'DMI'}CRT"
+    names = (
+        *places,
+        *(f"SEP{direction}" for direction in directions),
+        *(f"T{direction}" for direction in directions),
+        *("DAMAGE", *("DISSI", "DISSII", "DISSIII")[:dimension], "DISSV", "DMAX"),
+        *(f"E{component}" for component in tensor),
+        *(criterion, "STATUS"),
+    )
+    aliases = tuple((f"S{component}", f"T{direction}") for component, direction in zip(tensor, directions, strict=True))
+    aliases += (("SDEG", "DAMAGE"),) + ((("DMICRT", criterion),) if damage else ())
+    half = nodes // 2
+    bottom, top = tuple(range(half)), tuple(range(half, nodes))
+    if dimension == 2:
+        top = top[::-1]
+    return PointVariables("interface", names, half, bottom=bottom, top=top, aliases=aliases)
+
+
+def cohesive_properties(section: CohesiveSection, dimension: int) -> tuple[list[float], list[int]]:
+    """PROPS and JPROPS.
+
+    PROPS: constitutive thickness (0: from the nodes), width, Enn, Ess, Ett, onset (3), evolution (3), exponent,
+    viscosity, largest damage. JPROPS: deletion, then criterion, evolution, softening and mixed mode behaviour, each as
+    its place in a table.
+    """
+    material, controls = section.material, section.controls
+    elastic, damage = material.elastic, material.damage
+    assert elastic is not None
+    moduli = _directions(elastic.constants, dimension)
+    if min(moduli) <= 0:
+        message = f"*ELASTIC, TYPE=TRACTION: moduli must be positive, found {min(moduli):g}"
+        raise DeckError(elastic.source, message)
+    onset, values, power, viscosity = (1.0,) * 3, (1.0,) * 3, 1.0, 0.0
+    codes = [0, 0, 0, 0]
+    if damage is not None:
+        onset = _directions(damage.onset, dimension)
+        if min(onset) <= 0:
+            raise DeckError(damage.source, f"*DAMAGE INITIATION: onset values must be positive, found {min(onset):g}")
+        codes[0] = _CRITERIA.index(damage.criterion)
+        viscosity = damage.viscosity if controls.viscosity is None else controls.viscosity
+        evolution = damage.evolution
+        if evolution is not None:
+            values, power = _evolution_values(evolution, dimension), evolution.power
+            codes[1] = _EVOLUTIONS.index(evolution.type)
+            codes[2] = _SOFTENINGS.index(evolution.softening)
+            codes[3] = _MIXED_MODES.index(evolution.mixed_mode)
+            if evolution.type == "ENERGY" and section.thickness > 0:
+                _check_toughness(damage, evolution, moduli, onset, values, section.thickness, dimension)
+    reals = [section.thickness, section.width, *moduli, *onset, *values, power, viscosity, controls.degradation]
+    return reals, [int(controls.deletion), *codes]
+
+
+def _directions(values: tuple[float, ...], dimension: int) -> Triple:
+    """Values of the normal and both shear directions; in the plane the third is of no concern and may be left out."""
+    normal, first, second = (*values, 0.0, 0.0)[:3]
+    return normal, first, first if dimension == 2 else second
+
+
+def _evolution_values(evolution: DamageEvolution, dimension: int) -> Triple:
+    if not evolution.mixed_mode:
+        first, second = (*evolution.values, 0.0)[:2]
+        return first, second, 0.0
+    values = _directions(evolution.values, dimension)
+    if evolution.mixed_mode == "BK":
+        # one fracture energy for both shear directions
+        values = values[0], values[1], values[1]
+    if min(values) <= 0:
+        message = f"*DAMAGE EVOLUTION: fracture energies must be positive, found {min(values):g}"
+        raise DeckError(evolution.source, message)
+    return values
+
+
+def _check_toughness(
+    damage: Damage,
+    evolution: DamageEvolution,
+    moduli: Triple,
+    onset: Triple,
+    values: Triple,
+    thickness: float,
+    dimension: int,
+) -> None:
+    """In each pure mode the fracture energy has to exceed the elastic energy at the onset of damage."""
+    names = ("normal", "first shear", "second shear")
+    for k in range(dimension):
+        strength = onset[k] * (moduli[k] if damage.criterion in ("MAXE", "QUADE") else 1.0)
+        stored = 0.5 * strength**2 * thickness / moduli[k]
+        energy = values[k] if evolution.mixed_mode else values[0]
+        if energy <= stored:
+            message = (
+                f"*DAMAGE EVOLUTION: the fracture energy {energy:g} of the {names[k]} mode must exceed the elastic "
+                f"energy at the onset of damage, {stored:g}"
+            )
+            raise DeckError(evolution.source, message)
