@@ -14,6 +14,7 @@ from harness.delamination import specimens as build
 from harness.delamination.blocks import Interface
 from harness.delamination.cook import cook_files
 from harness.delamination.materials import TABLE_2
+from harness.delamination.reproduce.patch_cases import inclined_cases
 from harness.delamination.steps import LINEAR, Increments
 
 FOLDER = Path(__file__).parents[2] / "abaqus_inputs"
@@ -87,9 +88,15 @@ def dcb_ref() -> dict[str, str]:
     return build.mesh_files("dcb_ref", mesh, (4,)) | {"dcb_ref.inp": deck}
 
 
+def patch_inclined() -> dict[str, str]:
+    """Square patch with an inclined interface, section 4.1.2."""
+    return {name: content for case in inclined_cases() for name, content in case.files().items()}
+
+
 def all_files() -> dict[Path, str]:
     """Every built file, by its path below abaqus_inputs."""
     problems = {"patch_horizontal": patch_horizontal, "dcb": dcb, "dcb_ref": dcb_ref, "quad_cook": cook_files}
+    problems |= {"patch_inclined": patch_inclined}
     return {Path(folder, name): text for folder, problem in problems.items() for name, text in problem().items()}
 
 

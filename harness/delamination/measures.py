@@ -8,6 +8,7 @@ from collections.abc import Callable
 
 import numpy as np
 
+from harness.delamination.beams import branch_deviation
 from harness.delamination.materials import TABLE_2
 from harness.delamination.specimens import ARMS, CRACK, WIDTH
 from harness.delamination.theory import dcb_crack, dcb_curve
@@ -120,6 +121,17 @@ def damage_variation(result: Result) -> float:
     return float(np.sum(np.abs(np.diff(result.interface()["DAMAGE"]))))
 
 
+def enf_deviation(result: Result) -> float:
+    """Largest relative distance of an end-notched flexure's load from corrected beam theory on its growth branch."""
+    history = result.history
+    return float(np.max(np.abs(branch_deviation("enf", -history["U2[MIDSPAN]"], -history["RF2[MIDSPAN]"]))))
+
+
+def frmm_deviation(result: Result) -> float:
+    """Largest relative distance of a fixed-ratio specimen's load from corrected beam theory on its growth branch."""
+    return float(np.max(np.abs(branch_deviation("frmm", displacement(result), load(result)))))
+
+
 def increments(result: Result) -> int:
     """Number of increments done."""
     return sum(not row.cutback for row in result.status)
@@ -146,6 +158,7 @@ QUANTITIES: dict[str, Callable[[Result], float]] = {
     function.__name__: function
     for function in (
         *(peak_load, peak_opening, final_load, final_displacement, theory_deviation, dissipation_ratio, energy_error),
+        *(enf_deviation, frmm_deviation),
         *(traction_mean, traction_deviation, traction_lowest, traction_highest, traction_variation, damage_variation),
     )
 }

@@ -13,7 +13,8 @@ why        why the tolerance is what it is
 kind       'analytic', 'paper figure', 'other code', 'regression'
 source     where the value comes from
 
-and at its head `long`, the decks that take too long for the quick tests.
+and at its head `long`, the decks that take too long for the quick tests, and `fallback`, true where the decks are run
+with `uel run --fallback`.
 """
 
 from __future__ import annotations
@@ -22,6 +23,7 @@ import tomllib
 from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
+from typing import NamedTuple
 
 from harness.delamination.measures import COMPARISONS, QUANTITIES
 from harness.output import Result
@@ -54,8 +56,16 @@ class Reference:
         return float(result.history[self.quantity][-1])
 
 
-def read_references(folder: Path) -> tuple[list[Reference], set[Path]]:
-    """References of a folder of decks, deck by deck, and its long decks.
+class References(NamedTuple):
+    """References of a folder of decks, deck by deck, its long decks, and whether they need the fall-back."""
+
+    values: list[Reference]
+    long: set[Path]
+    fallback: bool
+
+
+def read_references(folder: Path) -> References:
+    """What reference.toml of a folder says.
 
     Raises
     ------
@@ -70,7 +80,7 @@ def read_references(folder: Path) -> tuple[list[Reference], set[Path]]:
         for deck in entry["decks"]
     ]
     ordered = sorted(references, key=lambda reference: (reference.deck, str(reference.against or "")))
-    return ordered, {folder / deck for deck in content.get("long", ())}
+    return References(ordered, {folder / deck for deck in content.get("long", ())}, content.get("fallback", False))
 
 
 def _reference(folder: Path, entry: dict[str, object], deck: str, place: str) -> Reference:

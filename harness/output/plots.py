@@ -152,7 +152,7 @@ def grid(rows: Sequence[Sequence[Panel]], path: Path, *, share_y: bool = False) 
             if panel.y_range:
                 axis.set_ylim(panel.y_range)
             axis.tick_params(labelleft=True)
-        _legend(figure, axes.flat, 30 * max(2, width))
+        _legend(figure, axes.flat, 42 * max(2, width))
         figure.savefig(path, dpi=200)
     return path
 

@@ -20,7 +20,7 @@ FOLDERS = sorted(path.parent for path in FOLDER.glob("*/reference.toml"))
 def by_deck() -> list:
     cases = []
     for folder in FOLDERS:
-        references, long = read_references(folder)
+        references, long, _ = read_references(folder)
         for (deck, against), group in groupby(references, key=lambda reference: (reference.deck, reference.against)):
             name = f"{folder.name}/{deck.name}" + (f" against {against.name}" if against else "")
             marks = [pytest.mark.long] if long & {deck, against} else []
@@ -31,11 +31,12 @@ def by_deck() -> list:
 @pytest.fixture(scope="module")
 def runner():
     """Runs a deck once."""
+    searching = {folder for folder in FOLDERS if read_references(folder).fallback}
     with tempfile.TemporaryDirectory() as folder:
 
         @cache
         def result(deck: Path) -> Result:
-            return run(deck, output_dir=folder)
+            return run(deck, output_dir=folder, fallback=deck.parent in searching)
 
         yield result
 
@@ -57,7 +58,7 @@ def test_reference_values(references: list[Reference], runner) -> None:
 @pytest.mark.parametrize("folder", sorted({path.parent for path in FOLDER.rglob("*.inp")}), ids=lambda path: path.name)
 def test_every_deck_has_a_page_and_a_value(folder: Path) -> None:
     assert (folder / "README.md").exists()
-    references, long = read_references(folder)
+    references, long, _ = read_references(folder)
     decks = {path for path in folder.glob("*.inp") if "*STEP" in path.read_text() and "ccx" not in path.name}
     assert {reference.deck for reference in references} == decks
     assert long <= decks
@@ -89,7 +90,7 @@ source = "a book"
 )
 def test_bad_references_are_refused(tmp_path: Path, old: str, new: str, message: str) -> None:
     (tmp_path / "reference.toml").write_text(VALUE)
-    assert read_references(tmp_path)[0][0].tolerance == pytest.approx(0.1)
+    assert read_references(tmp_path).values[0].tolerance == pytest.approx(0.1)
     (tmp_path / "reference.toml").write_text(VALUE.replace(old, new))
     with pytest.raises(ValueError, match=message):
         read_references(tmp_path)

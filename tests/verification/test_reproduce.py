@@ -13,10 +13,10 @@ from rich.console import Console
 
 from harness import cli
 from harness.delamination import theory
+from harness.delamination.beams import RIGID_ROOT, growth
 from harness.delamination.materials import PLY_0, PLY_90, TABLE_2
 from harness.delamination.patches import ANGLE, COLUMNS, inclined_mesh, stabilisation
 from harness.delamination.reproduce import command, findings, patch_cases, sensitivity
-from harness.delamination.reproduce.beams import RIGID_ROOT, growth
 from harness.delamination.reproduce.cases import PROBLEMS, Case, paper_cases
 from harness.delamination.reproduce.claims import Claim, Number, Verdict, judge, read_claims
 from harness.delamination.reproduce.findings import Evidence, to_line
@@ -121,7 +121,7 @@ def test_claims_are_well_formed() -> None:
     [
         ('quote = "a"\n', "", "bad: expected cases, figure, id, measure, number, quote, section, and at_least"),
         ("at_most = 1\n", "", "bad: expected .* and at_least or at_most"),
-        ('measure = "isotropy"', 'measure = "beauty"', "bad: no measure 'beauty'; there are closed_index"),
+        ('measure = "isotropy"', 'measure = "beauty"', "bad: no measure 'beauty'; there are closed_error"),
         ('quote = "a"', 'quote = "a"\nmood = 1', "bad: expected"),
     ],
 )

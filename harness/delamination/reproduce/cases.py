@@ -25,7 +25,7 @@ PROBLEMS = {name: KINDS[name]._replace(displacement=ends) for name, ends in ENDS
 QUICK_SIZES = {"dcb": 0.25, "enf": 0.5, "frmm": 0.25}
 """Length of the elements with --quick (mm)."""
 MOMENTS = {
-    ("dcb", "0/0"): 1.7,
+    ("dcb", "0/0"): 1.8,
     ("dcb", "0/90"): 5.0,
     ("enf", "0/0"): 2.9,
     ("enf", "0/90"): 5.0,
@@ -33,7 +33,7 @@ MOMENTS = {
     ("frmm", "0/90"): 4.2,
 }
 """Displacement at which the profiles are drawn (mm). The paper gives none; in its figure 9 the traction of the DCB
-[0/0] changes its sign at X1 = 44 mm, which is at 1.7 mm."""
+[0/0] changes its sign at X1 = 44 mm, which is at 1.8 mm."""
 LAYUPS = tuple(PLIES)
 ELEMENTS = {
     "standard": Interface("U2", TABLE_2),

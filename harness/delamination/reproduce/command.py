@@ -12,6 +12,7 @@ from pathlib import Path
 from rich.console import Console
 from rich.table import Table as TerminalTable
 
+from harness.delamination.beams import BRANCH
 from harness.delamination.materials import PLY_0, TABLE_2
 from harness.delamination.reproduce import drawings, figures, findings, sensitivity
 from harness.delamination.reproduce.cases import ELEMENTS, PROBLEMS, Case, paper_cases
@@ -174,7 +175,7 @@ def _theory(problems: Sequence[str], evidence: Evidence) -> Table:
             rows.append([problem.upper(), element, *(f"{share:.2%}" for share in shares), number(spent), ratio])
     text = (
         "[0/0], worst of 1e4, 1e6, 1e8 N/mm³; toughness and ratio at 1e6. Growth branch: where a sharp crack would be "
-        + ", ".join(f"{low:g} to {high:g} mm ({name.upper()})" for name, (low, high) in findings.BRANCH.items())
+        + ", ".join(f"{low:g} to {high:g} mm ({name.upper()})" for name, (low, high) in BRANCH.items())
         + " long. Energy missing: work less stored less dissipated, over the work. G_I/G_II of beams is 4/3."
     )
     return Table("Theory", text, head, rows)

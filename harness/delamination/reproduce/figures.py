@@ -10,8 +10,8 @@ from pathlib import Path
 
 import numpy as np
 
+from harness.delamination.beams import RIGID_ROOT, growth
 from harness.delamination.law_report import Exploration, explore
-from harness.delamination.reproduce.beams import RIGID_ROOT, growth
 from harness.delamination.reproduce.cases import ELEMENTS, MOMENTS, Case
 from harness.delamination.reproduce.patch_cases import METHODS, PatchCase
 from harness.delamination.reproduce.runs import Profile, Runs
@@ -22,7 +22,7 @@ X = "$X_1$ [mm]"
 TRACTIONS = {"TN": "Normal traction [MPa]", "TT": "Tangential traction [MPa]", "DAMAGE": "Damage"}
 AROUND = {"dcb": (-6.0, 8.0), "enf": (-10.0, 14.0), "frmm": (-6.0, 14.0)}
 """Stretch about the front of the damage that the profiles show (mm)."""
-CLOSE = {"dcb": (0.5, 4.0), "enf": (-4.0, 4.0), "frmm": (-3.0, 3.0)}
+CLOSE = {"dcb": (0.0, 4.0), "enf": (-4.0, 4.0), "frmm": (-3.0, 3.0)}
 """... and the zooms."""
 
 
@@ -89,6 +89,7 @@ def _theory(problem: str) -> list[Curve]:
 def draw_profiles(runs: Runs, base: Case, names: Sequence[str], path: Path) -> Path:
     """Figures 9, 11, 14, 16, 19, 20: tractions and damage by stiffness; a column for each method."""
     moment = MOMENTS[base.problem, base.layup]
+    middle = front(runs[replace(base, element="standard", stiffness="1e6")].at(moment))
     rows = []
     for name in names:
         row = []
@@ -96,7 +97,6 @@ def draw_profiles(runs: Runs, base: Case, names: Sequence[str], path: Path) -> P
             profiles = {
                 stiffness: runs[replace(base, element=element, stiffness=stiffness)].at(moment) for stiffness in SHOWN
             }
-            middle = front(profiles["1e6"])
             curves = [_curve(f"{stiffness} N/mm³", profile, name) for stiffness, profile in profiles.items()]
             row.append(_profile_panel(element, curves, name, middle, AROUND[base.problem]))
         rows.append(row)
@@ -107,14 +107,14 @@ def draw_perturbed(runs: Runs, base: Case, name: str, path: Path) -> Path:
     """Figures 10, 15: traction on the perturbed mesh; below, close to the front."""
     moment = MOMENTS[base.problem, base.layup]
     rows: list[list[Panel]] = [[], []]
+    middle = front(runs[replace(base, element="standard")].at(moment))
     for element in ELEMENTS:
         profile = runs[replace(base, element=element, perturbed=True)].at(moment)
         plain = runs[replace(base, element=element)].at(moment)
         curves = [_curve("perturbed mesh", profile, name), _curve("structured mesh", plain, name)]
-        middle = front(plain)
         for row, stretch in zip(rows, (AROUND, CLOSE), strict=True):
             row.append(_profile_panel(element, curves, name, middle, stretch[base.problem]))
-    return grid(rows, path)
+    return grid(rows, path, share_y=True)
 
 
 def _curve(label: str, profile: Profile, name: str) -> Curve:

@@ -14,12 +14,12 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from harness.delamination.beams import branch_deviation
 from harness.delamination.materials import TABLE_2
-from harness.delamination.oscillation import raw_index
-from harness.delamination.reproduce.beams import growth
+from harness.delamination.oscillation import total_variation
 from harness.delamination.reproduce.cases import LAYUPS, MOMENTS, PROBLEMS, Case
 from harness.delamination.reproduce.runs import Profile, Run, Runs
-from harness.delamination.study.rows import STRENGTHS, at_tenths, damage_variation
+from harness.delamination.study.rows import STRENGTHS, at_tenths, bonded_part, damage_variation
 from harness.model.arrays import FloatArray
 
 ALL = ("1e4", "1e6", "1e8")
@@ -41,7 +41,7 @@ class Evidence:
         return self.runs[replace(case, coarse=self.coarse)]
 
 
-def index(
+def variation(
     evidence: Evidence,
     problem: str,
     layup: str,
@@ -50,55 +50,76 @@ def index(
     stiffnesses: Sequence[str] = ("1e8",),
     *,
     perturbed: bool = False,
+    ever: bool = False,
 ) -> float:
-    """Largest oscillation index of the tractions, over all stiffnesses and tenths of the displacement."""
-    found = [
-        raw_index(profile[name], STRENGTHS[name])
-        for stiffness in stiffnesses
-        for profile in evidence.run(problem, layup, element, stiffness, perturbed=perturbed).bonded
-        for name in tractions
-    ]
+    """Total variation of a traction over that of the consistent method on the structured mesh, the largest.
+
+    1 is a profile that rises and falls as the consistent method's, 1.05 one that adds a twentieth of ups and downs.
+
+    Parameters
+    ----------
+    problem, layup, element, tractions, stiffnesses, perturbed
+        Runs and tractions; stiffnesses are compared each with its own.
+    ever
+        At every tenth of the displacement in place of the moment of the figures.
+    """
+    found = []
+    for stiffness in stiffnesses:
+        profiles, smooth = (
+            _profiles(run, ever=ever)
+            for run in (
+                evidence.run(problem, layup, element, stiffness, perturbed=perturbed),
+                evidence.run(problem, layup, "consistent", stiffness),
+            )
+        )
+        for name in tractions:
+            pairs = zip(profiles, smooth, strict=True)
+            found += [_varies(one, name) / max(_varies(other, name), STRENGTHS[name]) for one, other in pairs]
     return max(found)
 
 
-def smallest_index(
-    evidence: Evidence, problem: str, layup: str, element: str, tractions: Sequence[str], *, perturbed: bool = False
-) -> float:
-    """The smallest among the tractions of each one's largest oscillation index at 1e8: all of them oscillate."""
-    return min(index(evidence, problem, layup, element, [name], perturbed=perturbed) for name in tractions)
+def _profiles(run: Run, *, ever: bool) -> list[Profile]:
+    return run.bonded if ever else [bonded_part(moment(run))]
 
 
-def index_gain(
-    evidence: Evidence, problem: str, layup: str, tractions: Sequence[str], *, perturbed: bool = False
+def _varies(profile: Profile, name: str) -> float:
+    return max(total_variation(profile[name]), STRENGTHS[name])
+
+
+def smallest_variation(
+    evidence: Evidence, problem: str, layup: str, element: str, tractions: Sequence[str], *, ever: bool = False
 ) -> float:
-    """Spurious variation (index less 1) of the stabilised method at 1e8 over that of the standard one."""
+    """The smallest among the tractions of `variation` at 1e8: all of them oscillate."""
+    return min(variation(evidence, problem, layup, element, [name], ever=ever) for name in tractions)
+
+
+def variation_gain(
+    evidence: Evidence, problem: str, layup: str, tractions: Sequence[str], *, ever: bool = False
+) -> float:
+    """What the stabilised method adds to the smooth variation on the perturbed mesh, over what the standard one adds.
+
+    At 1e8. Real variation, which bumps cause, is in both.
+    """
     stabilised, standard = (
-        index(evidence, problem, layup, element, tractions, perturbed=perturbed) - 1.0
+        variation(evidence, problem, layup, element, tractions, perturbed=True, ever=ever) - 1.0
         for element in ("stabilised", "standard")
     )
-    return stabilised / standard if standard > 0.0 else np.inf
+    return max(stabilised, 0.0) / standard if standard > 0.0 else np.inf
 
 
 def damage_turns(
-    evidence: Evidence,
-    problem: str,
-    layup: str,
-    element: str,
-    stiffnesses: Sequence[str] = ("1e8",),
+    evidence: Evidence, problem: str, layup: str, element: str, stiffness: str = "1e8", *, ever: bool = False
 ) -> float:
-    """Largest total variation of the damage over its largest value, less 1: what comes and goes again."""
-    found = [
-        damage_variation(profile["DAMAGE"]) - 1.0
-        for stiffness in stiffnesses
-        for profile in at_tenths(evidence.run(problem, layup, element, stiffness).profiles)
-    ]
-    return max(found)
+    """Total variation of the damage over its largest value, less 1: what comes and goes again; `ever` as above."""
+    run = evidence.run(problem, layup, element, stiffness)
+    profiles = at_tenths(run.profiles) if ever else [moment(run)]
+    return max(damage_variation(profile["DAMAGE"]) - 1.0 for profile in profiles)
 
 
 def theory_distance(evidence: Evidence, problem: str, element: str, stiffnesses: Sequence[str] = ALL) -> float:
     """Largest distance from corrected beam theory on the growth branch, relative.
 
-    The branch lies between the lengths of a sharp crack that BRANCH gives.
+    The branch lies between the lengths of a sharp crack that `beams.BRANCH` gives.
     """
     return max(abs(value) for value in _branch(evidence, problem, element, stiffnesses))
 
@@ -108,18 +129,11 @@ def theory_mean(evidence: Evidence, problem: str, element: str, stiffnesses: Seq
     return max(float(np.mean(np.abs(_branch(evidence, problem, element, [stiffness])))) for stiffness in stiffnesses)
 
 
-BRANCH = {"dcb": (36.0, 60.0), "enf": (38.0, 48.5), "frmm": (36.0, 44.0)}
-"""Lengths of a sharp crack between which the growth branch is compared (mm): before, the process zone forms, which
-rounds the peak, and is longest in mode II; after, it meets the load at mid-span or the clamp."""
-
-
 def _branch(evidence: Evidence, problem: str, element: str, stiffnesses: Iterable[str]) -> list[float]:
-    curve = growth(problem)
     distances: list[float] = []
     for stiffness in stiffnesses:
         run = evidence.run(problem, "0/0", element, stiffness)
-        inside = curve.between(*BRANCH[problem])
-        distances += inside.deviation(run.displacement, run.load).tolist()
+        distances += branch_deviation(problem, run.displacement, run.load).tolist()
     return distances
 
 
@@ -211,18 +225,34 @@ def local_error(evidence: Evidence, problem: str, element: str, traction: str) -
     return float(np.abs(rest[bonded]).max()) / STRENGTHS[traction]
 
 
-def closed_index(evidence: Evidence, problem: str, element: str) -> float:
-    """Oscillation index of the normal traction on the perturbed mesh at 1e8 where it is compressive, [0/0].
+def closed_stretch(smooth: Profile) -> tuple[float, float]:
+    """Where the normal traction is compressive ahead of the crack, to a hundredth of its largest pressure (mm)."""
+    pressed = smooth["X"][smooth["TN"] < 0.01 * smooth["TN"].min()]
+    return sign_change(smooth), float(pressed.max())
 
-    That is the stretch from the change of its sign to where the consistent method's on the structured mesh is back
-    at a hundredth of its largest pressure.
+
+def closed_variation(evidence: Evidence, problem: str, element: str) -> float:
+    """As `variation`, of the normal traction on the perturbed mesh at 1e8 where it is compressive, [0/0]."""
+    smooth = moment(evidence.run(problem, "0/0", "consistent", "1e8"))
+    rough = moment(evidence.run(problem, "0/0", element, "1e8", perturbed=True))
+    low, high = closed_stretch(smooth)
+    one, other = (
+        total_variation(profile["TN"][(profile["X"] >= low) & (profile["X"] <= high)]) for profile in (rough, smooth)
+    )
+    return one / other
+
+
+def closed_error(evidence: Evidence, problem: str, element: str) -> float:
+    """Mean distance of the normal traction on the perturbed mesh from the structured one's, over the strength.
+
+    At 1e8, in the compressive stretch of the consistent method, which is the reference too.
     """
     smooth = moment(evidence.run(problem, "0/0", "consistent", "1e8"))
-    pressure = smooth["TN"].min()
-    ends = smooth["X"][smooth["TN"] < 0.01 * pressure]
     rough = moment(evidence.run(problem, "0/0", element, "1e8", perturbed=True))
-    inside = (rough["X"] >= sign_change(smooth)) & (rough["X"] <= ends.max())
-    return raw_index(rough["TN"][inside], abs(float(pressure)))
+    low, high = closed_stretch(smooth)
+    inside = (rough["X"] >= low) & (rough["X"] <= high)
+    rest = rough["TN"] - np.interp(rough["X"], smooth["X"], smooth["TN"])
+    return float(np.abs(rest[inside]).mean()) / STRENGTHS["TN"]
 
 
 def process_zone(evidence: Evidence, problem: str) -> float:
@@ -270,8 +300,16 @@ def toughness(evidence: Evidence, problem: str, element: str, stiffness: str = "
 MEASURES: dict[str, Callable[..., float]] = {
     function.__name__: function
     for function in (
-        *(index, smallest_index, index_gain, damage_turns, theory_distance, theory_mean, methods_distance),
-        *(profile_distance, oscillation_place, peak_traction_ratio, local_error, closed_index, process_zone),
+        *(variation, smallest_variation, variation_gain, damage_turns, theory_distance, theory_mean, methods_distance),
+        *(
+            profile_distance,
+            oscillation_place,
+            peak_traction_ratio,
+            local_error,
+            closed_variation,
+            closed_error,
+            process_zone,
+        ),
         *(iterations_ratio, energy_error, mode_ratio, toughness),
     )
 }

@@ -18,6 +18,9 @@ from harness.model.arrays import FloatArray
 
 LONGEST = {"dcb": 60.0, "enf": 0.5 * SPAN, "frmm": FRMM_LENGTH}
 """Crack lengths up to which the formulas hold: the load at mid-span, the clamp (mm)."""
+BRANCH = {"dcb": (36.0, 60.0), "enf": (38.0, 48.5), "frmm": (36.0, 44.0)}
+"""Lengths of a sharp crack between which the growth branch is compared (mm): before, the process zone forms, which
+rounds the peak, and is longest in mode II; after, it meets the load at mid-span or the clamp."""
 # the arms as beams on a rigid ligament: chi goes to zero with 1/sqrt(G12) as the shear stiffness grows
 RIGID_ROOT = replace(ARMS, g12=1.0e12)
 
@@ -56,6 +59,11 @@ def growth(problem: str, arms: Arms = ARMS) -> BeamCurve:
     return BeamCurve(cracks, loads * np.array([compliance(crack) for crack in cracks]), loads)
 
 
+def branch_deviation(problem: str, displacement: FloatArray, load: FloatArray) -> FloatArray:
+    """Relative distances of a load (N) from corrected beam theory at the displacements (mm) between those of BRANCH."""
+    return growth(problem).between(*BRANCH[problem]).deviation(displacement, load)
+
+
 def _formulas(problem: str, arms: Arms) -> tuple[Callable[[float], float], Callable[[float], float]]:
     """Load (N) and compliance (mm/N) as functions of the crack's length (mm)."""
     tough_1, tough_2 = TABLE_2.toughness_1, TABLE_2.toughness_2
@@ -67,10 +75,3 @@ def _formulas(problem: str, arms: Arms) -> tuple[Callable[[float], float], Calla
         lambda a: theory.frmm_load(arms, a, tough_1, tough_2),
         lambda a: theory.frmm_compliance(arms, a, FRMM_LENGTH),
     )
-
-
-def frmm_ratio(arms: Arms, crack: float) -> float:
-    """G_I/G_II of the fixed-ratio specimen with its end corrections; 4/3 without them (theory.frmm_load)."""
-    corrected_1 = crack + arms.correction
-    corrected_2 = crack + theory.MODE_2_CORRECTION * arms.correction
-    return 4.0 / 3.0 * (corrected_1 / corrected_2) ** 2
