@@ -76,7 +76,10 @@ class RequestReader:
         now = self._requests
         if frequency == NEVER:
             return
-        if "FIELD" in kinds:
+        intervals = _intervals(block) if kinds == {"FIELD"} and not options.flag("TIME MARKS") else 0
+        if intervals:
+            self._requests = replace(self._requests, field_intervals=max(now.field_intervals, intervals))
+        elif "FIELD" in kinds:
             smallest = min(now.field_frequency, frequency) if now.field_frequency != NEVER else frequency
             self._requests = replace(self._requests, field_frequency=smallest)
         if "HISTORY" in kinds:
@@ -87,7 +90,7 @@ class RequestReader:
     def _drop(self, kinds: set[str]) -> None:
         """Drop the requests of earlier steps of these kinds, once in a step."""
         if "FIELD" in kinds - self._dropped:
-            self._requests = replace(self._requests, field_frequency=NEVER)
+            self._requests = replace(self._requests, field_frequency=NEVER, field_intervals=0)
         if "HISTORY" in kinds - self._dropped:
             self._requests = replace(self._requests, history_nodes=(), history_energies=(), history_frequency=1)
         if "NODE PRINT" in kinds - self._dropped:
@@ -154,6 +157,13 @@ def _listed(block: Block) -> tuple[str, ...]:
 
 def _variables(fields: tuple[str, ...]) -> tuple[str, ...]:
     return tuple(compact(name) for name in fields if name)
+
+
+def _intervals(block: Block) -> int:
+    intervals = block.options.integer("NUMBER INTERVAL", 0)
+    if intervals < 1 and block.options.given("NUMBER INTERVAL"):
+        raise block.error(f"NUMBER INTERVAL={intervals} must be positive")
+    return intervals
 
 
 def _frequency(block: Block) -> int:

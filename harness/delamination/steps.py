@@ -20,6 +20,7 @@ class Increments:
     line_search    number of line-search iterations, 0 for none
     attempts       attempts allowed in one increment (I_A)
     residual       R_n and R_l where the default is not strict enough
+    field_parts    field output at the end of so many equal parts of the step; 0: every so many increments
     """
 
     initial: float
@@ -30,6 +31,7 @@ class Increments:
     line_search: int = 0
     attempts: int = 5
     residual: float | None = None
+    field_parts: int = 0
 
 
 LINEAR = Increments(initial=1.0, smallest=1.0, largest=1.0, limit=1)
@@ -55,7 +57,7 @@ def step_block(
     history
         Node sets whose U2 and RF2 are written.
     field_every
-        Field output every so many increments.
+        Field output every so many increments, unless the increments say otherwise; printed output too.
     built_in
         The interface elements are Abaqus' own: other names of their variables and energies.
     """
@@ -63,7 +65,9 @@ def step_block(
     lines = [keyword("STEP", INC=increments.limit, UNSYMM="YES"), title, "*STATIC", *table([static])]
     lines += _controls(increments)
     lines += ["*BOUNDARY", *(f"{name}, {dof}, {dof}, {number(value)}" for name, dof, value in prescribed)]
-    lines += [f"*OUTPUT, FIELD, FREQUENCY={field_every}", "*NODE OUTPUT", "U, RF"]
+    every = f"NUMBER INTERVAL={increments.field_parts}, TIME MARKS=NO"
+    lines += [f"*OUTPUT, FIELD, {every if increments.field_parts else f'FREQUENCY={field_every}'}"]
+    lines += ["*NODE OUTPUT", "U, RF"]
     lines.append("*OUTPUT, HISTORY, FREQUENCY=1")
     for name in history:
         lines += [keyword("NODE OUTPUT", NSET=name), "U2, RF2"]

@@ -151,12 +151,16 @@ class ElementRequest:
 
 @dataclass(frozen=True, slots=True)
 class OutputRequests:
-    """What the step writes. field_frequency: every k-th increment a .vtu, 0 never; the last one always unless 0."""
+    """What the step writes. field_frequency: every k-th increment a .vtu, 0 never; the last one always unless 0.
+
+    field_intervals: also at the end of each of so many parts of the step, at the first increment that gets there.
+    """
 
     history_nodes: tuple[NodeRequest, ...] = ()
     history_energies: tuple[str, ...] = ()
     history_frequency: int = 1
     field_frequency: int = 1
+    field_intervals: int = 0
     node_print: tuple[NodeRequest, ...] = ()
     element_print: tuple[ElementRequest, ...] = ()
     monitor: tuple[int, int] | None = None

@@ -54,7 +54,7 @@ class FieldFiles:
 
     def write(self, record: IncrementDone, *, last: bool) -> None:
         """Write the increment if the step asks for it."""
-        if not self._schedule.due(self._model.steps[record.step - 1].output.field_frequency, record, last=last):
+        if not self._schedule.due_field(self._model.steps[record.step - 1], record, last=last):
             return
         if not self._entries:
             self._plan(record.solution)

@@ -43,8 +43,8 @@ class InterfaceFile:
             for state in record.solution.elements
             if state.variables is not None and state.variables.kind == "interface"
         ]
-        frequency = self._model.steps[record.step - 1].output.field_frequency
-        if not states or not self._schedule.due(frequency, record, last=last):
+        step = self._model.steps[record.step - 1]
+        if not states or not self._schedule.due_field(step, record, last=last):
             return
         if self._file is None:
             self._names = list(dict.fromkeys(name for _, variables in states for name in variables.names))

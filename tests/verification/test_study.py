@@ -81,6 +81,7 @@ def test_decks(specimen: str) -> None:
     # a hundredth of the displacement at most, no controls of the solution, no viscosity
     assert "*STATIC\n0.01, 1., 1e-07, 0.01\n" in deck
     assert "CONTROLS" not in deck
+    assert "*OUTPUT, FIELD, NUMBER INTERVAL=10, TIME MARKS=NO\n" in deck
     names = [
         name.strip()
         for line in deck.splitlines()

@@ -21,7 +21,7 @@ BUMP = 0.03
 
 # a hundredth of the displacement at a time, Abaqus' own tolerances and cutbacks; the smallest increment is a hundredth
 # of Abaqus' default, for the sake of elements that creep
-INCREMENTS = Increments(initial=0.01, smallest=1e-7, largest=0.01, limit=1000)
+INCREMENTS = Increments(initial=0.01, smallest=1e-7, largest=0.01, limit=1000, field_parts=10)
 FIELD_EVERY = 10
 
 

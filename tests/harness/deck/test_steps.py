@@ -267,6 +267,18 @@ def test_suppressed_output(read: Read) -> None:
     assert (output.field_frequency, output.history_nodes) == (0, ())
 
 
+def test_field_output_in_parts_of_the_step(read: Read) -> None:
+    output = steps(read, "*OUTPUT, FIELD, NUMBER INTERVAL=10, TIME MARKS=NO")[0].output
+    assert (output.field_frequency, output.field_intervals) == (0, 10)
+    body = "*OUTPUT, FIELD, NUMBER INTERVAL=10, TIME MARKS=NO\n*OUTPUT, FIELD, FREQUENCY=3"
+    output = steps(read, body)[0].output
+    assert (output.field_frequency, output.field_intervals) == (3, 10)
+    first, second = steps(read, "*OUTPUT, FIELD, NUMBER INTERVAL=10, TIME MARKS=NO", "*OUTPUT, FIELD")
+    assert (first.output.field_intervals, second.output.field_intervals) == (10, 0)
+    with pytest.raises(DeckError, match="NUMBER INTERVAL=0 must be positive"):
+        steps(read, "*OUTPUT, FIELD, NUMBER INTERVAL=0, TIME MARKS=NO")
+
+
 def test_output_times_are_warned_of(read: Read) -> None:
     text = MODEL + "*STEP\n*STATIC\n*OUTPUT, FIELD, NUMBER INTERVAL=10\n*END STEP\n"
     assert read(text).warnings == (
