@@ -124,6 +124,11 @@ def test_restriction_takes_the_mean_over_the_share_of_a_point() -> None:
     assert restricted(fine, 1)["TN"].tolist() == fine["TN"].tolist()
 
 
+def test_means_over_facets() -> None:
+    assert facet_means(np.array([1.0, 3.0, 4.0, 8.0])).tolist() == [2.0, 6.0]
+    assert facet_means(np.array([9.0, 1.0, 3.0, 4.0, 8.0])).tolist() == [2.0, 6.0]
+
+
 def test_stress_on_facets() -> None:
     # turned by 45 degrees: uniaxial tension has half of itself as tension and as shear; pure shear becomes tension
     angle, zero, one = np.full(1, np.pi / 4), np.zeros(1), np.ones(1)

@@ -8,7 +8,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import replace
 
 from harness.delamination.study.cases import ELEMENTS, VISCOSITIES, Case
-from harness.delamination.study.criteria import index_ratios, is_judged_on_oscillation
+from harness.delamination.study.criteria import index_ratios, is_stiff_on_bumps
 from harness.delamination.study.rows import Row
 
 STIFFNESS = "1e8"
@@ -56,7 +56,7 @@ def ratios(rows: Rows) -> list[str]:
     """Index and error index on the perturbed mesh at 1e8 and above over those on the structured one at 1e6."""
     found: dict[tuple[str, str], dict[tuple[str, str], list[float]]] = {}
     for case in rows:
-        if case.solution != "fallback" or not is_judged_on_oscillation(case):
+        if case.solution != "fallback" or not is_stiff_on_bumps(case):
             continue
         for quantity in ("index", "error"):
             for traction, ratio in (index_ratios(case, rows, quantity) or {}).items():

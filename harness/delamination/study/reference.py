@@ -3,7 +3,8 @@
 """The tractions that really act on an interface, bumps included: on a finer mesh of the same interface.
 
 The quads are cut into 2 x 2, or 4 x 4, inside the bumps, which stay as they are. The interface is a rigid bond before
-it fails, that is, the consistent element with an infinite stiffness: finite ones are approximations of that.
+it fails, that is, the consistent element with an infinite stiffness: finite ones are approximations of that. A bond of
+1e6 N/mm^3 and less is so soft that it gives way to the bumps (`refinement.py`), and shows less of them in truth.
 
 A traction on the finer mesh varies within the facet of a coarser one, and more so the finer it is: bumps have kinks,
 and at a kink the stress of two different plies, or of two arms that slip, has a weak singularity. A coarser mesh does

@@ -38,9 +38,10 @@ cutbacks. Perturbed: the interface nodes lie 3 % of an element's length up and d
 - **index** of t_n and t_tau: oscillation index over the bonded part and the process zone, the largest at the tenths of
   the displacement, against the tractions that really act, bumps included. **error index**: the same without
   cancelling. **raw**: against a smooth profile, so that on bumps real variation counts as oscillation.
-  `harness/delamination/oscillation.py` defines the three. A dash: the run ended at none of these moments. Where a
-  structure snaps, a run may have snapped at a moment when its reference has not: the index is then no measure of
-  oscillation.
+  `harness/delamination/oscillation.py` defines the three. What really acts is that of a rigid bond: one of 1e4 or
+  1e6 gives way to the bumps, and has an index below 1 without an error. A dash: the run ended at none of these moments.
+  Where a structure snaps, a run may have snapped at a moment when its reference has not: the index is then no measure
+  of oscillation.
 - **index of d**: total variation of the damage over its largest value; 1 where it falls steadily to 0.
 """
 
@@ -56,7 +57,8 @@ total variation of the traction less the reference's.
 RATIOS = """
 What bumps and stiffness add: index and error index, [0/0], on the perturbed mesh at 1e8 and above over the same
 element's on the structured mesh at 1e6. A process zone that is a little elsewhere than on the finer mesh is an error
-without oscillation; it differs with the stiffness on structured meshes too.
+without oscillation, and so is a peak at the crack's tip that a coarse mesh does not resolve (dcb025): both differ with
+the stiffness on structured meshes too.
 """
 
 VISCOSITY = """
