@@ -77,13 +77,15 @@ contains
     grows = history%damage < 1.0_dp .and. .not. sticks .and. (dtime > 0.0_dp .or. .not. law%viscosity > 0.0_dp)
     if (grows) call find_root(law, equation, x, grows)
     if (grows) then
-      state%damage = damage_of(law, equation%least, x)
+      ! where it is nearly 1, rounding would let it fall
+      state%damage = max(history%damage, damage_of(law, equation%least, x))
       call shares(law, beta, equation, closed, x, stiff, soft)
     end if
     state%recoverable = stiff*p
     state%separation = soft*p
     if (sticks) state%separation(1) = old(1)
-    state%traction = state%recoverable + viscous*(opening_part(state%separation) - old) + [state%friction, 0.0_dp]
+    state%overstress = viscous*(opening_part(state%separation) - old)
+    state%traction = state%recoverable + state%overstress + [state%friction, 0.0_dp]
     state%stabilisation = beta*soft/(stiff + beta*soft)
 
     if (closed) viscous(2) = 0.0_dp
@@ -302,7 +304,7 @@ contains
     real(dp), intent(out) :: dissipated(2)     !< by sliding and by opening
     real(dp), intent(out) :: viscous
     real(dp), intent(out) :: rubbed            !< by friction
-    real(dp), dimension(2) :: w0, w1, t0, t1, overstress
+    real(dp), dimension(2) :: w0, w1, t0, t1
     real(dp) :: k, flexible
 
     w0 = opening_part(history%separation)
@@ -318,11 +320,10 @@ contains
       ! rigid so far
       t0 = old_traction
     end if
-    overstress = state%traction - state%recoverable - [state%friction, 0.0_dp]
     dissipated = history%dissipated
     if (state%damage > history%damage) dissipated = dissipated + 0.5_dp*(opening_part(t0)*w1 - opening_part(t1)*w0)
     rubbed = history%rubbed + state%friction*(w1(1) - w0(1))
-    viscous = history%viscous + overstress(1)*(w1(1) - w0(1)) + overstress(2)*(w1(2) - w0(2))
+    viscous = history%viscous + dot_product(state%overstress, w1 - w0)
   end subroutine dissipate_consistently
 
 end module cohesive_closure

@@ -187,8 +187,12 @@ contains
     g1 = [separation(1), max(0.0_dp, separation(2))]
     if (law%kind == ppr_law) then
       d0 = ppr_damage_of_components(law, history%largest)
-      d0_max = ppr_damage_of_components(law, max(history%largest, abs(g0)))
-      d1_max = ppr_damage_of_components(law, max(state%largest, abs(g1)))
+      d0_max = d0
+      d1_max = state%acting
+      if (law%viscosity > 0.0_dp) then
+        d0_max = ppr_damage_of_components(law, max(history%largest, abs(g0)))
+        d1_max = ppr_damage_of_components(law, max(state%largest, abs(g1)))
+      end if
     else
       d0 = history%damage
       d0_max = history%damage_max

@@ -146,21 +146,15 @@ contains
     integer, intent(in) :: i
     real(dp) :: slope   !< stress/length
     real(dp) :: a, m, q, x
-    type(ppr_component) :: curve
 
     a = law%shape(i)
-    x = 0.0_dp
     if (law%flexibility > 0.0_dp) then
       m = law%rise(i)
       q = (a/m)*(a + m - 2.0_dp)
-      x = (1.0_dp + sqrt(1.0_dp + 4.0_dp*q))/(2.0_dp*q)
-    end if
-    if (x < 1.0_dp) then
-      curve = component_at(law, i, x*law%final(i))
-      slope = (a - 1.0_dp)*curve%traction/(law%final(i)*(1.0_dp - x))
+      x = min(1.0_dp, (1.0_dp + sqrt(1.0_dp + 4.0_dp*q))/(2.0_dp*q))
+      slope = (a - 1.0_dp)*(law%ratio(i)/law%flexibility)*x*(1.0_dp - x)**(a - 2.0_dp)*(1.0_dp + a*x/m)**(m - 1.0_dp)
     else
-      ! a = 2: at the end
-      slope = (law%ratio(i)/law%flexibility)*(1.0_dp + a/m)**(m - 1.0_dp)
+      slope = (a - 1.0_dp)*law%strength(i)/law%final(i)
     end if
   end function steepest_of
 
@@ -237,7 +231,8 @@ contains
     integer :: i, j
 
     jump = [abs(separation(1)), max(0.0_dp, separation(2))]
-    state%largest = history%largest + fraction*max(0.0_dp, jump - history%largest)
+    state%largest = max(history%largest, jump)
+    if (fraction < 1.0_dp) state%largest = history%largest + fraction*(state%largest - history%largest)
     do i = 1, 2
       parts(i) = component_at(law, i, state%largest(i))
     end do

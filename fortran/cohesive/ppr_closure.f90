@@ -49,7 +49,7 @@ contains
     type(point_history), intent(in) :: history
     type(closure_state), intent(out) :: state
     type(ppr_equations) :: equations
-    real(dp), dimension(2) :: viscous, old, p, secants, overstress
+    real(dp), dimension(2) :: viscous, old, p, secants
     real(dp) :: stiff, rest, friction_slope
     logical :: closed, sticks
 
@@ -81,7 +81,7 @@ contains
     if (sticks) state%separation(1) = old(1)
     state%recoverable = p - equations%b*state%separation
     where (.not. equations%held) state%recoverable = secants*state%separation
-    overstress = viscous*(state%separation - old)
+    state%overstress = viscous*(state%separation - old)
     state%stabilisation = 0.0_dp
     where (.not. equations%held) state%stabilisation = beta/(secants + beta)
     call derive(equations, beta, viscous, sign(1.0_dp, p(1)), secants, secant_share, state%by_trial)
@@ -92,7 +92,7 @@ contains
       state%by_trial(:, 2) = [0.0_dp, stiff]
       state%by_trial(2, 1) = 0.0_dp
     end if
-    state%traction = state%recoverable + overstress + [state%friction, 0.0_dp]
+    state%traction = state%recoverable + state%overstress + [state%friction, 0.0_dp]
     ! friction takes from p_tau what it adds to T_tau
     if (sticks) state%by_trial(1, 1) = 1.0_dp
     if (closed) state%by_trial(1, 2) = friction_slope*stiff*(1.0_dp - state%by_trial(1, 1))

@@ -30,7 +30,8 @@ module cohesive_state
   !> Outcome of the consistent closure.
   type :: closure_state
     real(dp) :: traction(2)        !< T, stress, tension positive
-    real(dp) :: recoverable(2)     !< t: T less the viscous overstress and the friction
+    real(dp) :: recoverable(2)     !< t: T less overstress and friction
+    real(dp) :: overstress(2)      !< viscous part of T
     real(dp) :: friction           !< part of T_tau, stress
     real(dp) :: separation(2)      !< w, length
     real(dp) :: damage             !< the damage that acts

@@ -47,9 +47,12 @@ def library(request, tmp_path_factory):
 
 
 class Element:
-    """One element; its state is that of the last committed increment."""
+    """One element, or `copies` of it with consecutive labels; its state is that of the last committed increment.
 
-    def __init__(self, library, jtype, coordinates, *, label=1, definition=None, **values):
+    Arrays of copies have one axis more, the first.
+    """
+
+    def __init__(self, library, jtype, coordinates, *, label=1, copies=None, definition=None, **values):
         layout = element_layouts()[jtype]
         given = {**DEFAULTS[jtype], **values}
         self.names = [item.name for item in layout.variables]
@@ -70,7 +73,9 @@ class Element:
             "dofs": tuple((node, dof) for node in range(layout.nodes) for dof in (1, 2)),
             **(definition or {}),
         }
-        number, nodes = jtype, np.arange(len(coordinates))[None, :]
+        self.copies = copies
+        count = copies or 1
+        number, nodes = jtype, np.arange(count * len(coordinates)).reshape(count, -1)
         user = UserElement(number, source=SOURCE, **options)
         material = Material("PLY", SOURCE, Elastic(ElasticType.ENGINEERING_CONSTANTS, ENGINEERING, SOURCE))
         section = UserProperty(
@@ -80,14 +85,15 @@ class Element:
             np.resize(np.array(integers), user.integer_properties),
             material if jtype == 1 else None,
         )
-        group = ElementGroup(f"U{number}", np.array([label]), nodes, "", section, user, SOURCE)
-        xyz = np.zeros((len(coordinates), 3))
-        xyz[:, :2] = coordinates
+        group = ElementGroup(f"U{number}", label + np.arange(count), nodes, "", section, user, SOURCE)
+        xyz = np.zeros((nodes.size, 3))
+        xyz[:, :2] = np.tile(coordinates, (count, 1))
         mesh = Mesh(np.arange(1, len(xyz) + 1), xyz, ("",) * len(xyz))
         (self.block,) = build_blocks(Model(Path("test.inp"), "", mesh, (group,), ()), library)
         n = self.n = len(user.dofs)
         # row-major positions, so that the matrix comes back dense
-        self.block.bind(np.arange(n, dtype=np.int32)[None], np.arange(n * n, dtype=np.int32).reshape(1, n, n))
+        equations, entries = (np.arange(count * size, dtype=np.int32) for size in (n, n * n))
+        self.block.bind(equations.reshape(count, n), entries.reshape(count, n, n))
 
     def evaluate(self, u, *, du=None, dtime=1.0, request=1, flags=(1, 0, 0, 0), increment=1):
         """RHS and AMATRX at u; flags are LFLAGS(1), (2), (4), (5)."""
@@ -95,9 +101,10 @@ class Element:
         call = Call(lflags, 1, increment, step_time=dtime, total_time=dtime, time_increment=dtime, period=1.0)
         u = np.ascontiguousarray(u, dtype=float).ravel()
         du = u if du is None else np.ascontiguousarray(du, dtype=float).ravel()
-        rhs, amatrx = np.zeros(self.n), np.zeros(self.n**2)
+        rhs, amatrx = np.zeros(u.size), np.zeros(u.size * self.n)
         self.report = self.block.evaluate(call, u, du, rhs, amatrx)
-        return rhs, amatrx.reshape(self.n, self.n)
+        leading = (self.copies,) if self.copies else ()
+        return rhs.reshape(*leading, self.n), amatrx.reshape(*leading, self.n, self.n)
 
     def advance(self, u, **options):
         """A converged increment."""
@@ -108,13 +115,14 @@ class Element:
     @property
     def state(self):
         """Committed SVARS by name, one value per point."""
-        table = self.block.state(0).svars.reshape(self.points, len(self.names))
-        return dict(zip(self.names, table.T, strict=True))
+        table = self.block.state(0).svars.reshape(-1, self.points, len(self.names))
+        return dict(zip(self.names, np.moveaxis(table if self.copies else table[0], -1, 0), strict=True))
 
     @property
     def energy(self):
         """Committed ENERGY(1:8)."""
-        return self.block.state(0).energy[0]
+        energy = self.block.state(0).energy
+        return energy if self.copies else energy[0]
 
 
 @pytest.fixture

@@ -7,6 +7,7 @@ elements". Signs as in fortran/README.md; vectors are (tau, n).
 """
 
 import numpy as np
+from scipy.optimize import brentq
 
 GAUSS = 1 / np.sqrt(3)
 POINTS = {0: (-GAUSS, GAUSS), 1: (-1.0, 1.0)}
@@ -207,3 +208,35 @@ def damage_of_law(law, g):
         return 1 - np.exp(-(size - 1) / (area - 0.5)) / size
     last = 2 * area
     return 1.0 if size >= last else last * (size - 1) / (size * (last - 1))
+
+
+def reserve(values, ratio):
+    """Least separation at failure less that at onset over the traction at onset, in any mode mix; LAW 1 to 3.
+
+    ratio is ALPHAT/ALPHAN; ALPHAN = 0 is infinite. Its inverse is the steepest softening of the bilinear laws.
+    """
+    share = np.linspace(0.0, 1.0, 401)
+    power = values.get("POWER", 1.0)
+    toughness = ((share / values["GIIC"]) ** power + ((1 - share) / values["GIC"]) ** power) ** (-1 / power)
+    if "ETA" in values:
+        toughness = values["GIC"] + (values["GIIC"] - values["GIC"]) * share ** values["ETA"]
+    strength = share * ratio / values["TAUMAX"] ** 2 + (1 - share) / values["SIGMAMAX"] ** 2
+    return (2 * toughness * strength).min() - (1 / values["ALPHAN"] if values["ALPHAN"] else 0.0)
+
+
+def ppr_final(a, m):
+    """Final separation of the PPR law in units of G/strength (Park, Paulino, Roesler 2009)."""
+    lam = np.sqrt(m / (a * (a + m - 1)))
+    return a * lam * (1 - lam) ** (a - 1) * (a / m + 1) * (1 + a * lam / m) ** (m - 1)
+
+
+def ppr_slope(strength, toughness, alpha, a):
+    """A little more than the bound of its softening slope: (a - 1) times the largest traction/(final - separation)."""
+    if alpha == 0:
+        return 1.01 * (a - 1) * strength**2 / (a * toughness)
+    wanted = np.log(toughness * alpha / strength**2)
+    log_m = brentq(lambda z: np.log(a * (a / np.exp(z) + 1) / ppr_final(a, np.exp(z)) ** 2) - wanted, -60, np.log(a))
+    m, final = np.exp(log_m), ppr_final(a, np.exp(log_m)) * toughness / strength
+    x = np.concatenate([np.geomspace(1e-2 * m, 0.5, 400), 1 - np.geomspace(0.5, 1e-9, 200)])
+    over_rest = alpha * final * x * (1 - x) ** (a - 2) * (1 + a * x / m) ** (m - 1)
+    return 1.01 * (a - 1) / final * over_rest.max()

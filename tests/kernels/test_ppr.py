@@ -357,6 +357,21 @@ def test_beta_must_exceed_slope_and_coupling(element):
         item.evaluate(np.zeros(16))
 
 
+@pytest.mark.parametrize("alpha", np.geomspace(5.0, 1e6, 40))
+def test_steepest_slope_at_the_end_is_not_rounding(element, reference, alpha):
+    """With exponent 2 it is at the very end, where traction and rest of the separation both vanish."""
+    mode = {"SIGMAMAX": 1.0, "GIC": 1.0, "TAUMAX": 1.0, "GIIC": 1.0, "ALPHAN": alpha, "ALPHAT": alpha}
+    # a coupling of 1, alike in both directions: beta - slope > 1
+    least = reference.ppr_slope(1.0, 1.0, alpha, 2.0) / 1.01 + 1.0
+    values = {"LAW": 4, "CLOSURE": 1, **mode}
+    above, below = (
+        element(4, interface_of(element), **values, BETAN=f * least, BETAT=f * least) for f in (1.001, 0.98)
+    )
+    above.evaluate(np.zeros(16))
+    with pytest.raises(KernelError, match="BETAN"):
+        below.evaluate(np.zeros(16))
+
+
 @pytest.mark.parametrize(
     ("values", "message"),
     [
