@@ -100,7 +100,7 @@ def add_law(law: argparse.ArgumentParser) -> None:
     law.add_argument("properties", nargs="*", metavar="NAME=VALUE", help="properties (those of the paper's table 2)")
     law.add_argument("--deck", type=Path, metavar="DECK.inp", help="take properties and element type from a deck")
     law.add_argument("--elset", metavar="NAME", help="... from the *UEL PROPERTY of this set (the first)")
-    law.add_argument("--element", choices=["standard", "stabilised"], help="U2 or U4 (U2, or as in the deck)")
+    law.add_argument("--element", choices=["U2", "U4", "U5", "U6"], help="element type (U2, or as in the deck)")
     law.add_argument(
         *("--angles", "-a"),
         nargs="+",
@@ -213,8 +213,8 @@ def explore_law(options: argparse.Namespace) -> int:
 
     asked = {name: value for name, value in vars(options).items() if name not in ("function", "element", "path")}
     path = None if options.path is None else path_points(options.path)
-    stabilised = None if options.element is None else options.element == "stabilised"
-    curves, files = explore(Exploration(**asked, path=path, stabilised=stabilised))
+    element = None if options.element is None else int(options.element[1:])
+    curves, files = explore(Exploration(**asked, path=path, element=element))
     Console().print(summary(curves))
     print("written:", *files)
     return 0

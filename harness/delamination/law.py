@@ -3,9 +3,9 @@
 """One interface element driven along paths of the separation: what `uel law` does.
 
 The element is square and small, its separation is the same all along it. Separations and tractions are (normal,
-tangential). A standard element (U2) is opened by its nodes. The two quads of a stabilised element (U4) are strained so
-that their stress equals the traction of the interface, as in a structure at rest, so it shows its law, not Nitsche's
-compliance.
+tangential). A standard element (U2, U5) is opened by its nodes. The two quads of a stabilised element (U4, U6) are
+strained so that their stress equals the traction of the interface, as in a structure at rest, so it shows its law, not
+Nitsche's compliance.
 """
 
 from __future__ import annotations
@@ -33,7 +33,17 @@ from harness.usersub.layout import element_layouts
 
 PLACE: Final = Source("uel law", 0)
 STANDARD: Final = 2
-STABILISED: Final = 4
+LOW: Final = np.array([[0, -1], [1, -1], [1, 0], [0, 0], [0.5, -1], [1, -0.5], [0.5, 0], [0, -0.5]])
+HIGH: Final = np.add(LOW, [0, 1])
+NODES: Final = {
+    2: np.array([[0, 0], [1, 0], [1, 0], [0, 0]]),
+    4: np.vstack([LOW[:4], HIGH[:4]]),
+    5: np.array([[0, 0], [1, 0], [1, 0], [0, 0], [0.5, 0], [0.5, 0]]),
+    6: np.vstack([LOW, HIGH]),
+}
+"""Coordinates over the size, of each element type that can be driven."""
+TOP: Final = {2: [2, 3], 4: [4, 5, 6, 7], 5: [2, 3, 5], 6: list(range(8, 16))}
+"""Nodes above the interface."""
 SIZE: Final = 0.125
 """Edge of the quads of a stabilised element, on which beta depends: that of the double cantilever beam (mm)."""
 
@@ -76,16 +86,16 @@ def deck_properties(path: Path, elset: str | None = None) -> tuple[int, dict[str
     sections = []
     for group in read_deck(path).groups:
         definition, section = group.definition, group.section
-        if definition is None or not isinstance(section, UserProperty) or definition.number not in (2, 3, 4):
+        if definition is None or not isinstance(section, UserProperty) or definition.number < 2:
             continue
         if elset is None or section.elset.upper() == elset.upper():
             layout = element_layouts()[definition.number]
             values = dict(zip((item.name for item in layout.reals), section.values.tolist(), strict=True))
             values |= dict(zip((item.name for item in layout.integers), section.integers.tolist(), strict=True))
-            return STABILISED if definition.number == STABILISED else STANDARD, values
+            return definition.number if definition.number in NODES else STANDARD, values
         sections.append(section.elset)
     if not sections:
-        raise UelError(f"{path}: no interface elements (U2, U3, U4) with *UEL PROPERTY")
+        raise UelError(f"{path}: no interface elements (U2 to U6) with *UEL PROPERTY")
     raise UelError(f"{path}: no interface elements with *UEL PROPERTY, ELSET={elset}; there are {', '.join(sections)}")
 
 
@@ -107,15 +117,12 @@ class LawElement:
 
     def __init__(self, library: Library, jtype: int, values: Properties, size: float = SIZE) -> None:
         layout = element_layouts()[jtype]
-        self._stabilised = jtype == STABILISED
+        nodes = NODES[jtype]
+        self._stabilised = len(nodes) > 6
         self._names = [item.name for item in layout.variables]
         self._points = layout.points
-        low, high = np.array([[0, 0], [1, 0]]), np.array([[1, 0], [0, 0]])
-        nodes = np.vstack([low, high])
-        if self._stabilised:
-            nodes = np.array([[0, -1], [1, -1], [1, 0], [0, 0], [0, 0], [1, 0], [1, 1], [0, 1]])
         self._height = nodes[:, 1] * size
-        self._top = np.arange(len(nodes)) >= len(nodes) // 2
+        self._top = np.isin(np.arange(len(nodes)), TOP[jtype])
         self._area = size * values["THICKNESS"]
         user = UserElement(
             jtype,
@@ -205,11 +212,11 @@ class LawElement:
                 return gradient
             steps = np.linalg.solve(self._operator, 1e-6 * self._strength * np.eye(2)).T
             slopes = np.array([(miss(gradient + step) - residual) / (1e-6 * self._strength) for step in steps]).T
-            if abs(np.linalg.det(slopes)) < 1e-6:
-                # rigid up to the onset: no stress but that at the onset allows a separation
-                stress = self._operator @ gradient + residual
-            else:
-                stress = np.linalg.solve(slopes, -residual)
+            left, sizes, right = np.linalg.svd(slopes)
+            free, rigid = sizes > 1e-6, right[sizes <= 1e-6]
+            stress = -right[free].T @ ((left.T @ residual)[free] / sizes[free])
+            # rigid up to the onset: no stress but that at the onset allows a separation
+            stress = stress + rigid.T @ (rigid @ (self._operator @ gradient + residual))
             gradient = gradient + np.linalg.solve(self._operator, stress)
         raise UelError(f"the quads find no equilibrium with the interface at a separation of {separation}")
 

@@ -33,7 +33,7 @@ class Exploration:
 
     properties  words NAME=VALUE, in place of those of the deck or of the paper
     deck, elset *UEL PROPERTY to take the properties from
-    stabilised  U4 in place of U2; None: as in the deck, or U2
+    element     number of the element type, 2 and 5 standard, 4 and 6 stabilised; None: as in the deck, or U2
     angles      of the separation, from opening (0) to sliding (90 degrees); a curve each
     path        points (normal, tangential) to go through from the origin, in place of the angles
     reach       largest separation of a curve; None: until nothing is left of the traction
@@ -47,7 +47,7 @@ class Exploration:
     properties: Sequence[str] = ()
     deck: Path | None = None
     elset: str | None = None
-    stabilised: bool | None = None
+    element: int | None = None
     angles: Sequence[float] = (0.0, 30.0, 60.0, 90.0)
     path: FloatArray | None = None
     reach: float | None = None
@@ -68,8 +68,7 @@ def explore(asked: Exploration) -> tuple[list[Curve], list[Path]]:
         jtype, from_deck = law.deck_properties(asked.deck, asked.elset)
         values |= from_deck
     values |= law.given_properties(asked.properties)
-    if asked.stabilised is not None:
-        jtype = law.STABILISED if asked.stabilised else law.STANDARD
+    jtype = asked.element or jtype
     library = usersub.load(None, job=asked.job, output_dir=asked.output_dir)
     try:
 
