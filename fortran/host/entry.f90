@@ -250,3 +250,13 @@ subroutine host_cohesive_address(address)
   integer(i8), intent(out) :: address
   address = int(transfer(c_funloc(cohesive_uel), 1_c_intptr_t), i8)
 end subroutine host_cohesive_address
+
+!> Address of the built-in trusses, springs and masses.
+subroutine host_discrete_address(address)
+  use, intrinsic :: iso_c_binding, only: c_funloc, c_intptr_t
+  use host_discrete, only: discrete_uel
+  use host_kinds, only: i8
+  implicit none (type, external)
+  integer(i8), intent(out) :: address
+  address = int(transfer(c_funloc(discrete_uel), 1_c_intptr_t), i8)
+end subroutine host_discrete_address

@@ -8,7 +8,7 @@ module host_mises
   use host_kinds, only: dp
   implicit none (type, external)
   private
-  public :: mises_solid, mises_plane_stress, yield_stress
+  public :: mises_solid, mises_plane_stress, yield_stress, radial_return
 
 contains
 

@@ -19,9 +19,7 @@ from harness.deck.user_elements import ElementType
 from harness.errors import DeckError, Source
 from harness.model.arrays import IntArray
 from harness.model.mesh import ElementGroup
-from harness.model.properties import CohesiveSection, Material, Orientation, SectionControls, SolidSection, UserProperty
-
-Section = SolidSection | CohesiveSection | UserProperty
+from harness.model.properties import Material, Orientation, Section, SectionControls, SolidSection
 
 
 class _Elements:
@@ -73,17 +71,37 @@ def make_groups(
     elements = _Elements(flat, problems)
     problems.check()
     sections: list[tuple[Block, Owner]] = []
+    hourglass: dict[int, float] = {}
     for owner in flat.owners:
         for block in owner.blocks:
-            if block.name in SECTION_KEYWORDS:
-                with problems.gather():
+            with problems.gather():
+                if block.name in SECTION_KEYWORDS:
                     _assign(elements, sections, block, owner)
+                elif block.name == "HOURGLASS STIFFNESS":
+                    hourglass[_last_solid(block, sections)] = _hourglass_stiffness(block)
     problems.check()
     _check_assigned(elements, problems)
     problems.check()
     made = _make_sections(elements, sections, materials, controls, problems)
     problems.check()
+    for (section, kind), found in made.items():
+        if section in hourglass and isinstance(found, SolidSection):
+            made[section, kind] = replace(found, hourglass=hourglass[section])
     return _cut(elements, made)
+
+
+def _last_solid(block: Block, sections: list[tuple[Block, Owner]]) -> int:
+    if not sections or sections[-1][0].name != "SOLID SECTION":
+        raise block.error("does not follow *SOLID SECTION")
+    return len(sections) - 1
+
+
+def _hourglass_stiffness(block: Block) -> float:
+    row = next(block.rows(), None)
+    stiffness = row.real(0, "hourglass stiffness", 0.0) if row is not None else 0.0
+    if stiffness < 0:
+        raise block.error(f"stiffness {stiffness:g} must not be negative")
+    return stiffness
 
 
 def _assign(elements: _Elements, sections: list[tuple[Block, Owner]], block: Block, owner: Owner) -> None:

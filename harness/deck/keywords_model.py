@@ -5,7 +5,8 @@
 from __future__ import annotations
 
 from harness.deck.keywords_cohesive import COHESIVE, DAMAGE
-from harness.deck.table import Keyword, Kind, Option, Support, Where, ignored, refused
+from harness.deck.keywords_constraint import CONSTRAINTS, DISCRETE
+from harness.deck.table import Keyword, Kind, Option, Where, ignored, refused
 
 INPUT = Option("INPUT", Kind.FILE, "file that holds the data lines")
 NAME = Option("NAME", Kind.NAME, "name", required=True)
@@ -137,12 +138,6 @@ MESH = (
         Where.MODEL,
         (Option("ELSET", Kind.NAME, "set that takes the elements"), *refused("ALL NODES")),
         "master element, then count, node increment, element increment of each direction",
-    ),
-    Keyword(
-        "SURFACE",
-        "Define a surface: accepted, since nothing that uses surfaces is.",
-        Where.MODEL,
-        support=Support.IGNORED,
     ),
     Keyword(
         "EQUATION",
@@ -325,4 +320,4 @@ PROPERTIES = (
     ),
 )
 
-MODEL_KEYWORDS = (*STRUCTURE, *MESH, *PROPERTIES)
+MODEL_KEYWORDS = (*STRUCTURE, *MESH, *PROPERTIES, *DISCRETE, *CONSTRAINTS)

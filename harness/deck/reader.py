@@ -9,6 +9,7 @@ from pathlib import Path
 import numpy as np
 
 from harness.deck.catalogue import read_amplitudes, read_materials
+from harness.deck.constraints import ConstraintReader
 from harness.deck.damage import read_controls
 from harness.deck.flatten import FlatMesh
 from harness.deck.groups import make_groups
@@ -53,7 +54,9 @@ def read_deck(path: Path) -> Model:
         tuple(read_initial_values(structure.root, kind, flat, problems)) for kind in kinds
     )
     equations = read_equations(flat, problems)
+    constraints = ConstraintReader(flat, groups, problems)
     steps = read_steps(structure.steps, prescription, RequestReader(flat, problems), problems)
+    related = constraints.read(steps)
     problems.check()
     headings = [line for block in blocks if block.name == "HEADING" for line in block.lines if line]
     return Model(
@@ -65,7 +68,7 @@ def read_deck(path: Path) -> Model:
         nsets=flat.nsets,
         elsets=flat.elsets,
         boundaries=tuple(boundaries),
-        equations=equations,
+        equations=(*equations, *related),
         initial_velocities=velocities,
         initial_temperatures=temperatures,
         initial_fields=fields,

@@ -6,6 +6,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
+from itertools import pairwise
 
 import numpy as np
 
@@ -13,15 +14,18 @@ from harness.deck.blocks import Block, Row
 from harness.deck.catalogue import look_up
 from harness.deck.numbers import LARGEST_INTEGER
 from harness.deck.problems import Problems
-from harness.deck.user_elements import ElementType
+from harness.deck.user_elements import LARGEST_DOF, ElementType
 from harness.errors import DeckError
 from harness.model.properties import (
     CohesiveSection,
     ElasticType,
+    MassSection,
     Material,
     Orientation,
+    Section,
     SectionControls,
     SolidSection,
+    SpringSection,
     UserElement,
     UserProperty,
 )
@@ -29,7 +33,7 @@ from harness.model.properties import (
 ENTRIES = 8
 """Entries of a data line."""
 
-SECTION_KEYWORDS = {"SOLID SECTION", "COHESIVE SECTION", "UEL PROPERTY"}
+SECTION_KEYWORDS = {"SOLID SECTION", "COHESIVE SECTION", "UEL PROPERTY", "SPRING", "MASS"}
 
 
 def make_section(
@@ -39,12 +43,16 @@ def make_section(
     orientations: Mapping[str, Orientation],
     controls: Mapping[str, SectionControls],
     problems: Problems,
-) -> SolidSection | CohesiveSection | UserProperty:
+) -> Section:
     """The section a keyword gives to elements of a type; DeckError where the two do not go together."""
     options = block.options
     elset = options.text("ELSET")
     if block.name != kind.section:
         raise block.error(f"element set {elset} holds elements of type {kind.name}, which take *{kind.section}")
+    if block.name == "MASS":
+        return MassSection(elset, _mass(block), block.source)
+    if block.name == "SPRING":
+        return _spring(block, kind)
     name = options.text("MATERIAL")
     material = look_up(materials, name, "material", block.source) if name else None
     if material is not None:
@@ -58,6 +66,33 @@ def make_section(
         return _user_property(block, kind.definition, material, orientation, problems)
     assert material is not None
     return SolidSection(elset, material, orientation, _thickness(list(block.rows()), 0, "thickness"), block.source)
+
+
+def _mass(block: Block) -> float:
+    row = next(block.rows(), None)
+    if row is None:
+        raise block.error("needs a data line with the mass")
+    mass = row.real(0, "mass")
+    if mass < 0:
+        raise row.error(f"mass {mass:g} must not be negative")
+    return mass
+
+
+def _spring(block: Block, kind: ElementType) -> SpringSection:
+    """A first line with the dofs, blank for SPRINGA, then the stiffness, or force and elongation."""
+    rows = list(block.all_rows())
+    if len(rows) < 2:
+        raise block.error("needs a line with dofs, blank for SPRINGA, and the stiffness on the next")
+    count = {"SPRING1": 1, "SPRING2": 2}.get(kind.name, 0)
+    dofs = tuple(rows[0].integer(k, "dof") for k in range(count))
+    if any(not 1 <= dof <= LARGEST_DOF for dof in dofs):
+        raise rows[0].error(f"a dof is a number from 1 to {LARGEST_DOF}")
+    table = [rows[1].real(0, "stiffness")]
+    if block.options.flag("NONLINEAR"):
+        table = [row.real(k, what) for row in rows[1:] for k, what in enumerate(("force", "elongation"))]
+        if len(table) < 4 or any(later <= earlier for earlier, later in pairwise(table[1::2])):
+            raise rows[1].error("NONLINEAR needs two or more lines of force and elongation, elongations ascending")
+    return SpringSection(block.options.text("ELSET"), dofs, np.array(table), block.source)
 
 
 def _check_material(block: Block, material: Material) -> None:

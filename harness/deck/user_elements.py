@@ -5,13 +5,14 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
 from harness.deck.blocks import Block
 from harness.deck.problems import nearest
 from harness.errors import DeckError, Source
-from harness.model.properties import UserElement
+from harness.model.mesh import ElementGroup
+from harness.model.properties import SpringSection, UserElement
 
 _PLANE_NODES = {"3": 3, "4": 4, "4R": 4, "8": 8, "8R": 8}
 COHESIVE_NODES = {"COH2D4": 4, "COH3D8": 8}
@@ -19,6 +20,7 @@ BUILT_IN_NODES = {
     **{f"{kind}{name}": nodes for kind in ("CPS", "CPE") for name, nodes in _PLANE_NODES.items()},
     **{"C3D4": 4, "C3D8": 8, "C3D8R": 8, "C3D20": 20, "C3D20R": 20},
     **COHESIVE_NODES,
+    **{"T2D2": 2, "T3D2": 2, "SPRING1": 1, "SPRING2": 2, "SPRINGA": 2, "MASS": 1},
 }
 _USER_TYPE = re.compile(r"U([1-9]\d{0,3})")
 LARGEST_DOF = 30
@@ -45,14 +47,32 @@ class ElementType:
         """Keyword that gives its properties."""
         if self.definition:
             return "UEL PROPERTY"
-        return "COHESIVE SECTION" if self.name in COHESIVE_NODES else "SOLID SECTION"
+        if self.name in COHESIVE_NODES:
+            return "COHESIVE SECTION"
+        return next((keyword for keyword in ("SPRING", "MASS") if self.name.startswith(keyword)), "SOLID SECTION")
 
 
 def dofs_of(name: str, definition: UserElement | None) -> set[int]:
     """Dofs of an element type."""
     if definition is not None:
         return {dof for _, dof in definition.dofs}
-    return {1, 2, 3} if name.startswith(("C3D", "COH3D")) else {1, 2}
+    return {1, 2} if name.startswith(("CPS", "CPE", "COH2D", "T2D")) else {1, 2, 3}
+
+
+def dofs_by_node(count: int, groups: Sequence[ElementGroup]) -> list[set[int]]:
+    """Dofs that elements use at each of `count` nodes."""
+    found: list[set[int]] = [set() for _ in range(count)]
+    for group in groups:
+        for local in range(group.nodes.shape[1]):
+            if group.definition is not None:
+                dofs = {dof for node, dof in group.definition.dofs if node == local}
+            elif isinstance(group.section, SpringSection) and group.section.dofs:
+                dofs = {group.section.dofs[local]}
+            else:
+                dofs = dofs_of(group.type, None)
+            for node in group.nodes[:, local].tolist():
+                found[node] |= dofs
+    return found
 
 
 def find_type(name: str, definitions: Definitions, source: Source) -> ElementType:

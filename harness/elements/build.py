@@ -10,6 +10,7 @@ from typing import Final
 
 from harness.elements.block import Block, Procedure
 from harness.elements.cohesive import COHESIVE, cohesive_procedure, cohesive_variables
+from harness.elements.discrete import DISCRETE, discrete_procedure, discrete_unknowns, discrete_variables
 from harness.elements.materials import Tensor, define_material
 from harness.elements.solid import SOLIDS, history_of, solid_procedure, solid_variables
 from harness.errors import DeckError
@@ -40,8 +41,10 @@ def build_blocks(model: Model, library: Library, *, strict: bool = True) -> list
             blocks.append(_solid_block(model, group, library))
         elif group.type in COHESIVE:
             blocks.append(_cohesive_block(model, group, library))
+        elif group.type in DISCRETE:
+            blocks.append(_discrete_block(model, group, library))
         else:
-            types = [*SOLIDS, *COHESIVE]
+            types = [*SOLIDS, *COHESIVE, *DISCRETE]
             known = ", ".join(types)
             near = get_close_matches(group.type.upper(), types, n=1)
             hint = f"; did you mean {near[0]}?" if near else ""
@@ -125,6 +128,19 @@ def _cohesive_block(model: Model, group: ElementGroup, library: Library) -> Bloc
         # damage that depends on the mode mix
         unsymmetric=True,
         variables=cohesive_variables(section, nodes, dimension),
+    )
+
+
+def _discrete_block(model: Model, group: ElementGroup, library: Library) -> Block:
+    unknowns = discrete_unknowns(model, group)
+    return Block(
+        group,
+        model.mesh.coordinates,
+        unknowns,
+        discrete_procedure(model, group, len(unknowns)),
+        library,
+        unsymmetric=False,
+        variables=discrete_variables(group),
     )
 
 

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 
 from harness.errors import Source
 from harness.model.arrays import FloatArray, IntArray
-from harness.model.properties import CohesiveSection, SolidSection, UserElement, UserProperty
+from harness.model.properties import Section, UserElement
 
 
 @dataclass(frozen=True, slots=True)
@@ -47,6 +47,6 @@ class ElementGroup:
     labels: IntArray
     nodes: IntArray
     instance: str
-    section: SolidSection | CohesiveSection | UserProperty
+    section: Section
     definition: UserElement | None
     source: Source

@@ -153,6 +153,29 @@ class CohesiveSection:
 
 
 @dataclass(frozen=True, slots=True)
+class SpringSection:
+    """*SPRING.
+
+    dofs   dof at each node of SPRING1 and SPRING2; none for SPRINGA
+    table  stiffness alone, or force and elongation in turn
+    """
+
+    elset: str
+    dofs: tuple[int, ...]
+    table: FloatArray
+    source: Source
+
+
+@dataclass(frozen=True, slots=True)
+class MassSection:
+    """*MASS of point masses."""
+
+    elset: str
+    mass: float
+    source: Source
+
+
+@dataclass(frozen=True, slots=True)
 class UserElement:
     """*USER ELEMENT, TYPE=Un.
 
@@ -191,3 +214,6 @@ class UserProperty:
     integers: IntArray = field(default_factory=lambda: np.zeros(0, dtype=np.int64))
     material: Material | None = None
     orientation: Orientation | None = None
+
+
+Section = SolidSection | CohesiveSection | SpringSection | MassSection | UserProperty

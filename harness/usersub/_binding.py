@@ -259,6 +259,11 @@ def cohesive_address() -> int:
     return int(_host.host_cohesive_address())
 
 
+def discrete_address() -> int:
+    """Address of the built-in trusses, springs and masses, called like UEL."""
+    return int(_host.host_discrete_address())
+
+
 def take_messages() -> list[RawMessage]:
     """Messages of STDB_ABQERR since the last call, oldest first."""
     found: list[RawMessage] = []

@@ -75,4 +75,4 @@ def test_step_and_ignored(model: Model) -> None:
     assert model.steps[0].nlgeom
     assert model.steps[0].output.field_frequency == 1
     assert "ALLIE" in model.steps[0].output.history_energies
-    assert [name for name, _ in model.ignored] == ["PREPRINT", "SURFACE", "RESTART"]
+    assert [name for name, _ in model.ignored] == ["PREPRINT", "RESTART"]

@@ -1,0 +1,200 @@
+! SPDX-FileCopyrightText: The uel-harness authors
+! SPDX-License-Identifier: BSD-3-Clause
+!> Built-in trusses, springs and masses, as a procedure with the arguments of UEL. JTYPE tells which:
+!>
+!> 1  T2D2, T3D2: PROPS hold area, Young's modulus, density, then yield stress and plastic strain in turn; SVARS strain,
+!>    stress, plastic strain, equivalent plastic strain. With NLGEOM the strain is the logarithm of the stretch and the
+!>    volume stays (Abaqus Theory Guide, Truss elements).
+!> 2  SPRINGA: PROPS hold force and elongation in turn, ascending; SVARS elongation, force.
+!> 3  SPRING1, SPRING2: the same between the first unknown and the second, or the ground; SVARS as SPRINGA.
+!> 4  MASS: PROPS(1).
+!>
+!> In dynamic analyses SVARS go on with the forces of the last two increments.
+module host_discrete
+  use host_inertia, only: respond
+  use host_kinds, only: dp, i4
+  use host_messages, only: add_message
+  use host_mises, only: radial_return, yield_stress
+  use host_protect, only: escape
+  implicit none (type, external)
+  private
+  public :: discrete_uel
+
+  integer(i4), parameter :: truss = 1, axial_spring = 2, spring = 3
+
+contains
+
+  subroutine discrete_uel(rhs, amatrx, svars, energy, ndofel, nrhs, nsvars, props, nprops, coords, mcrd, nnode, u, du, &
+                          v, a, jtype, time, dtime, kstep, kinc, jelem, params, ndload, jdltyp, adlmag, predef, npredf, &
+                          lflags, mlvarx, ddlmag, mdload, pnewdt, jprops, njprop, period)
+    integer(i4) :: ndofel, nrhs, nsvars, nprops, mcrd, nnode, jtype, kstep, kinc, jelem, ndload, jdltyp(*), npredf, &
+                   lflags(*), mlvarx, mdload, jprops(*), njprop
+    real(dp) :: rhs(*), amatrx(*), svars(*), energy(*), props(*), coords(*), u(*), du(*), v(*), a(*), time(*), dtime, &
+                params(*), adlmag(*), predef(*), ddlmag(*), pnewdt, period
+    real(dp) :: mass(ndofel, ndofel), old(ndofel, 2)
+    integer :: i, n, states
+    n = ndofel
+    states = merge(4, 2, jtype == truss)
+    rhs(1:n*nrhs) = 0
+    amatrx(1:n*n) = 0
+    mass = 0
+    do i = 1, n
+      if (jtype > spring) mass(i, i) = props(1)
+      if (jtype == truss) mass(i, i) = 0.5_dp*props(1)*props(3)*initial_length(int(mcrd), coords)
+    end do
+    old = 0
+    if (nsvars >= states + 2*n) old = reshape(svars(states + 1:states + 2*n), [n, 2])
+    if (lflags(3) /= 3 .and. lflags(3) /= 4) then
+      select case (jtype)
+      case (truss, axial_spring)
+        call bar(int(mcrd), jtype, lflags(2) /= 0, int(nprops), props, coords, u, svars, rhs, amatrx, energy)
+      case (spring)
+        call dof_spring(n, int(nprops), props, u, svars, rhs, amatrx, energy)
+      case default   ! a mass has no force of its own
+      end select
+    end if
+    call respond(n, lflags, params, dtime, v, a, mass, old, rhs, amatrx, energy(1))
+    if (nsvars >= states + 2*n) svars(states + 1:states + 2*n) = reshape(old, [2*n])
+  end subroutine discrete_uel
+
+  pure real(dp) function initial_length(dim, x)
+    integer, intent(in) :: dim
+    real(dp), intent(in) :: x(dim, 2)
+    initial_length = norm2(x(:, 2) - x(:, 1))
+  end function initial_length
+
+  !> A force along the line between two nodes.
+  subroutine bar(dim, kind, finite, n, props, x, u, state, force, stiffness, energy)
+    integer, intent(in) :: dim, n
+    integer(i4), intent(in) :: kind
+    logical, intent(in) :: finite
+    real(dp), intent(in) :: props(n), x(dim, 2), u(dim, 2)
+    real(dp), intent(inout) :: state(4), force(dim, 2), stiffness(dim, 2, dim, 2), energy(8)
+    real(dp) :: along(dim), length, now, elongation, pull, slope, block(dim, dim)
+    integer :: i
+    length = initial_length(dim, x)
+    if (.not. length > 0) then
+      call add_message(-3_i4, 'both nodes are in the same place')
+      call escape()
+    end if
+    along = (x(:, 2) - x(:, 1))/length
+    now = length
+    elongation = dot_product(along, u(:, 2) - u(:, 1))
+    if (finite) then
+      along = x(:, 2) + u(:, 2) - x(:, 1) - u(:, 1)
+      now = norm2(along)
+      along = along/now
+      elongation = now - length
+    end if
+    if (kind == truss) then
+      call truss_force(n, props, length, now, elongation, finite, state, pull, slope, energy)
+    else
+      call spring_force(n, props, elongation, state, pull, slope, energy)
+    end if
+    block = slope*outer(dim, along)
+    if (finite) then
+      ! the force turns with the line
+      block = block - pull/now*outer(dim, along)
+      do i = 1, dim
+        block(i, i) = block(i, i) + pull/now
+      end do
+    end if
+    force(:, 1) = -pull*along
+    force(:, 2) = pull*along
+    stiffness(:, 1, :, 1) = block
+    stiffness(:, 2, :, 2) = block
+    stiffness(:, 1, :, 2) = -block
+    stiffness(:, 2, :, 1) = -block
+  end subroutine bar
+
+  pure function outer(n, x) result(matrix)
+    integer, intent(in) :: n
+    real(dp), intent(in) :: x(n)
+    real(dp) :: matrix(n, n)
+    matrix = spread(x, 2, n)*spread(x, 1, n)
+  end function outer
+
+  !> Force of a truss and its derivative by the elongation; Mises plasticity in one direction where there is a table.
+  pure subroutine truss_force(n, props, length, now, elongation, finite, state, pull, slope, energy)
+    integer, intent(in) :: n
+    real(dp), intent(in) :: props(n), length, now, elongation
+    logical, intent(in) :: finite
+    real(dp), intent(inout) :: state(4), energy(8)
+    real(dp), intent(out) :: pull, slope
+    real(dp) :: area, young, strain, stress, modulus, flow, hardening, increment, volume, work, table((n - 3)/2, 2)
+    area = props(1)
+    young = props(2)
+    volume = area*length
+    strain = elongation/length
+    if (finite) strain = log(now/length)
+    stress = young*(strain - state(3))
+    modulus = young
+    if (n > 3) then
+      table = transpose(reshape(props(4:), [2, (n - 3)/2]))
+      call yield_stress(table, state(4), flow, hardening)
+      if (abs(stress) > flow) then
+        call radial_return(table, state(4), abs(stress), young, increment, hardening)
+        state(3) = state(3) + sign(increment, stress)
+        state(4) = state(4) + increment
+        stress = young*(strain - state(3))
+        modulus = young*hardening/(young + hardening)
+      end if
+    end if
+    ! trapezoidal rule, exact where the response is linear
+    work = energy(2) + energy(4) + 0.5_dp*volume*(stress + state(2))*(strain - state(1))
+    state(1:2) = [strain, stress]
+    energy(2) = 0.5_dp*volume*stress**2/young
+    energy(4) = work - energy(2)
+    pull = area*stress
+    slope = area*modulus/length
+    if (finite) then
+      pull = pull*length/now
+      slope = volume*(modulus - stress)/now**2
+    end if
+  end subroutine truss_force
+
+  !> Force of a spring and its derivative by the elongation: proportional where PROPS is one number, else along the table
+  !> of force and elongation, constant outside it.
+  pure subroutine spring_force(n, props, elongation, state, pull, slope, energy)
+    integer, intent(in) :: n
+    real(dp), intent(in) :: props(n), elongation
+    real(dp), intent(inout) :: state(2), energy(8)
+    real(dp), intent(out) :: pull, slope
+    integer :: k
+    slope = 0
+    if (n == 1) then
+      slope = props(1)
+      pull = slope*elongation
+    else if (elongation <= props(2)) then
+      pull = props(1)
+    else
+      pull = props(n - 1)
+      do k = 2, n - 2, 2
+        if (elongation > props(k + 2)) cycle
+        slope = (props(k + 1) - props(k - 1))/(props(k + 2) - props(k))
+        pull = props(k - 1) + slope*(elongation - props(k))
+        exit
+      end do
+    end if
+    energy(2) = energy(2) + 0.5_dp*(pull + state(2))*(elongation - state(1))
+    state = [elongation, pull]
+  end subroutine spring_force
+
+  !> A spring between a dof and another, or the ground.
+  pure subroutine dof_spring(n, count, props, u, state, force, stiffness, energy)
+    integer, intent(in) :: n, count
+    real(dp), intent(in) :: props(count), u(n)
+    real(dp), intent(inout) :: state(2), force(n), stiffness(n, n), energy(8)
+    real(dp) :: elongation, pull, slope
+    elongation = u(1)
+    if (n == 2) elongation = u(1) - u(2)
+    call spring_force(count, props, elongation, state, pull, slope, energy)
+    force(1) = pull
+    stiffness(1, 1) = slope
+    if (n == 1) return
+    force(2) = -pull
+    stiffness(2, 2) = slope
+    stiffness(1, 2) = -slope
+    stiffness(2, 1) = -slope
+  end subroutine dof_spring
+end module host_discrete

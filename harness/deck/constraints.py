@@ -1,0 +1,216 @@
+# SPDX-FileCopyrightText: The uel-harness authors
+# SPDX-License-Identifier: BSD-3-Clause
+"""*MPC, *COUPLING with *KINEMATIC, *KINEMATIC COUPLING, *RIGID BODY and *TIE, as linear equations between dofs.
+
+Rotations are small: with NLGEOM, what couples displacements to rotations is refused.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator, Sequence
+
+import numpy as np
+from scipy.spatial import cKDTree
+
+from harness.deck.blocks import Block, Row
+from harness.deck.flatten import FlatMesh, Owner
+from harness.deck.problems import Problems
+from harness.deck.surfaces import Surfaces
+from harness.deck.user_elements import dofs_by_node
+from harness.errors import DeckError, Source
+from harness.model.arrays import IntArray
+from harness.model.mesh import ElementGroup
+from harness.model.model import Equation
+from harness.model.steps import Step
+
+ROTATIONS = (4, 5, 6)
+CLOSE = 0.05
+"""Position tolerance of *TIE as a fraction of the largest distance between neighbouring nodes of the main surface."""
+
+Terms = tuple[tuple[int, int, float], ...]
+
+
+class ConstraintReader:
+    """Turns constraints into equations, each of which eliminates a dof of the node that follows."""
+
+    def __init__(self, flat: FlatMesh, groups: Sequence[ElementGroup], problems: Problems) -> None:
+        self._flat = flat
+        self._surfaces = Surfaces(flat, groups)
+        self._problems = problems
+        self._points = flat.mesh.coordinates
+        self._solid = bool(np.ptp(self._points[:, 2]) > 0.0)
+        self._active = dofs_by_node(len(self._points), groups)
+        self._turning: list[Source] = []
+
+    def read(self, steps: Sequence[Step]) -> tuple[Equation, ...]:
+        """Equations of all constraints of the deck."""
+        found: list[Equation] = []
+        readers = {
+            "MPC": self._mpc,
+            "KINEMATIC": self._kinematic,
+            "KINEMATIC COUPLING": self._kinematic_coupling,
+            "RIGID BODY": self._rigid_body,
+            "TIE": self._tie,
+        }
+        for owner in self._flat.owners:
+            coupling: Block | None = None
+            for block in owner.blocks:
+                with self._problems.gather():
+                    if block.name == "COUPLING":
+                        coupling = block
+                    elif block.name == "KINEMATIC" and coupling is None:
+                        raise block.error("does not follow *COUPLING")
+                    elif block.name in readers:
+                        self._coupling = coupling
+                        found += readers[block.name](block, owner)
+        nonlinear = next((step for step in steps if step.nlgeom), None)
+        if nonlinear is not None:
+            for source in self._turning:
+                message = f"a constraint with rotations is not supported with NLGEOM ({nonlinear.source})"
+                self._problems.add(source, message)
+        return tuple(found)
+
+    def _mpc(self, block: Block, owner: Owner) -> Iterator[Equation]:
+        for row in block.rows():
+            kind = row.name(0, "type")
+            if kind not in ("TIE", "PIN", "LINEAR", "BEAM"):
+                raise row.error(f"type {kind} is not supported (supported: TIE, PIN, LINEAR, BEAM)")
+            wanted = 3 if kind == "LINEAR" else 2
+            if len(row) != wanted + 1:
+                raise row.error(f"{kind} takes {wanted} nodes or node sets, found {len(row) - 1}")
+            for nodes in self._tuples(row, wanted, owner):
+                yield from self._mpc_of(kind, nodes, row.source)
+
+    def _tuples(self, row: Row, count: int, owner: Owner) -> Iterable[tuple[int, ...]]:
+        """Nodes of the sets, one by one; a single node stands beside a set of any size."""
+        sets = [self._flat.nodes(row.name(k, "node or set"), row.source, owner.name) for k in range(1, count + 1)]
+        size = len(sets[0])
+        if any(len(nodes) not in (1, size) for nodes in sets):
+            sizes = ", ".join(str(len(nodes)) for nodes in sets)
+            raise row.error(f"the node sets have different sizes ({sizes})")
+        return zip(*(np.resize(nodes, size).tolist() for nodes in sets), strict=True)
+
+    def _mpc_of(self, kind: str, nodes: tuple[int, ...], source: Source) -> Iterator[Equation]:
+        first, *others = nodes
+        active = sorted(self._active[first])
+        if kind == "BEAM":
+            yield from self._follow(first, others[0], active, source)
+        elif kind == "LINEAR":
+            a, b = others
+            along = self._points[b] - self._points[a]
+            if not along.any():
+                raise DeckError(source, "*MPC: LINEAR needs two nodes in different places")
+            t = float((self._points[first] - self._points[a]) @ along / (along @ along))
+            for dof in active:
+                yield Equation(((first, dof, 1.0), (a, dof, t - 1.0), (b, dof, -t)), source)
+        else:
+            yield from self._equal(first, others[0], [dof for dof in active if kind == "TIE" or dof <= 3], source)
+
+    @staticmethod
+    def _equal(node: int, other: int, dofs: Iterable[int], source: Source) -> Iterator[Equation]:
+        for dof in dofs:
+            yield Equation(((node, dof, 1.0), (other, dof, -1.0)), source)
+
+    def _follow(self, node: int, reference: int, dofs: Iterable[int], source: Source) -> Iterator[Equation]:
+        """Dofs of a node that moves with the reference node as a rigid body: u = u_ref + theta_ref x r."""
+        if node == reference:
+            return
+        x, y, z = (float(c) for c in self._points[node] - self._points[reference])
+        turning: dict[int, Terms] = {
+            1: ((reference, 5, -z), (reference, 6, y)),
+            2: ((reference, 6, -x), (reference, 4, z)),
+            3: ((reference, 4, -y), (reference, 5, x)),
+        }
+        if any((x, y, z)) and source not in self._turning:
+            self._turning.append(source)
+        for dof in dofs:
+            if dof <= (3 if self._solid else 2):
+                terms = tuple(t for t in turning[dof] if t[2] != 0.0 and (self._solid or t[1] == 6))
+                yield Equation(((node, dof, 1.0), (reference, dof, -1.0), *terms), source)
+            elif dof in ROTATIONS:
+                yield Equation(((node, dof, 1.0), (reference, dof, -1.0)), source)
+
+    def _reference(self, block: Block, owner: Owner) -> int:
+        name = block.options.text("REF NODE")
+        nodes = self._flat.nodes(name, block.source, owner.name)
+        if len(nodes) != 1:
+            raise block.error(f"REF NODE={name} holds {len(nodes)} nodes where one is the reference node")
+        return int(nodes[0])
+
+    def _kinematic(self, block: Block, owner: Owner) -> Iterator[Equation]:
+        coupling = self._coupling
+        assert coupling is not None
+        nodes = self._surfaces.nodes(coupling.options.text("SURFACE"), coupling.source, owner.name)
+        chosen = set()
+        for row in block.rows():
+            chosen |= _dofs(row, 0)
+        yield from self._follow_all(nodes, self._reference(coupling, owner), chosen, block.source)
+
+    def _kinematic_coupling(self, block: Block, owner: Owner) -> Iterator[Equation]:
+        reference = self._reference(block, owner)
+        for row in block.rows():
+            nodes = self._flat.nodes(row.name(0, "node or set"), row.source, owner.name)
+            yield from self._follow_all(nodes, reference, _dofs(row, 1), row.source)
+
+    def _follow_all(self, nodes: IntArray, reference: int, chosen: set[int], source: Source) -> Iterator[Equation]:
+        """All nodes follow, in the dofs chosen, or in all of them."""
+        for node in nodes.tolist():
+            dofs = sorted(dof for dof in self._active[node] if not chosen or dof in chosen)
+            yield from self._follow(node, reference, dofs, source)
+
+    def _rigid_body(self, block: Block, owner: Owner) -> Iterator[Equation]:
+        reference, options = self._reference(block, owner), block.options
+        pinned: set[int] = set()
+        tied: set[int] = set()
+        if options.given("ELSET"):
+            elements = self._flat.elements(options.text("ELSET"), block.source, owner.name)
+            tied |= self._surfaces.nodes_of(elements)
+        for name, nodes in (("PIN NSET", pinned), ("TIE NSET", tied)):
+            if options.given(name):
+                nodes |= set(self._flat.nodes(options.text(name), block.source, owner.name).tolist())
+        if not pinned | tied:
+            raise block.error("needs ELSET, PIN NSET or TIE NSET")
+        for node in sorted(pinned | tied):
+            dofs = sorted(dof for dof in self._active[node] if dof <= 3 or node in tied)
+            yield from self._follow(node, reference, dofs, block.source)
+
+    def _tie(self, block: Block, owner: Owner) -> Iterator[Equation]:
+        for row in block.rows():
+            second, main = (self._surfaces.nodes(row.name(k, "surface"), row.source, owner.name) for k in range(2))
+            if not len(main) or not len(second):
+                raise row.error("a surface has no nodes")
+            tree = cKDTree(self._points[main])
+            tolerance = block.options.real("POSITION TOLERANCE", CLOSE * _spacing(self._points[main]))
+            distance, nearest = tree.query(self._points[second])
+            apart = second[distance > tolerance]
+            if len(apart):
+                name, more = self._flat.mesh.name(int(apart[0])), len(apart) - 1
+                others = f" and {more} more" if more else ""
+                raise row.error(
+                    f"node {name}{others} of the first surface lies on no node of the second one (tolerance "
+                    f"{tolerance:g}): only surfaces with matching nodes can be tied"
+                )
+            rotations = not block.options.flag("NO ROTATION")
+            for node, other in zip(second.tolist(), main[nearest].tolist(), strict=True):
+                dofs = [dof for dof in sorted(self._active[node]) if rotations or dof not in ROTATIONS]
+                if node != other:
+                    yield from self._equal(node, other, dofs, row.source)
+
+
+def _dofs(row: Row, start: int) -> set[int]:
+    """Dofs from the first to the last of a data line; none: all."""
+    if row.blank(start):
+        return set()
+    first = row.integer(start, "first dof")
+    last = row.integer(start + 1, "last dof", first)
+    if not 1 <= first <= last <= 6:
+        raise row.error(f"dofs {first} to {last}: expected 1 to 6")
+    return set(range(first, last + 1))
+
+
+def _spacing(points: np.ndarray) -> float:
+    """Largest distance of a point to the one nearest to it; 1 for a single point."""
+    if len(points) == 1:
+        return 1.0
+    distance, _ = cKDTree(points).query(points, k=2)
+    return float(distance[:, 1].max())

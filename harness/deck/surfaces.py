@@ -1,0 +1,94 @@
+# SPDX-FileCopyrightText: The uel-harness authors
+# SPDX-License-Identifier: BSD-3-Clause
+"""*SURFACE: the nodes of a surface, for constraints. A surface is read when something uses it."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+
+from harness.deck.blocks import Block
+from harness.deck.flatten import FlatMesh
+from harness.deck.problems import nearest
+from harness.errors import DeckError, Source
+from harness.model.arrays import IntArray
+from harness.model.mesh import ElementGroup
+
+_QUAD: dict[str, tuple[int, ...]] = {"S1": (0, 1, 4), "S2": (1, 2, 5), "S3": (2, 3, 6), "S4": (3, 0, 7)}
+_HEX: dict[str, tuple[int, ...]] = {
+    "S1": (0, 1, 2, 3, 8, 9, 10, 11),
+    "S2": (4, 5, 6, 7, 12, 13, 14, 15),
+    "S3": (0, 1, 5, 4, 8, 17, 12, 16),
+    "S4": (1, 2, 6, 5, 9, 18, 13, 17),
+    "S5": (2, 3, 7, 6, 10, 19, 14, 18),
+    "S6": (3, 0, 4, 7, 11, 16, 15, 19),
+}
+_FACES: dict[tuple[int, int], dict[str, tuple[int, ...]]] = {
+    (2, 3): {"S1": (0, 1), "S2": (1, 2), "S3": (2, 0)},
+    (2, 4): _QUAD,
+    (2, 8): _QUAD,
+    (3, 4): {"S1": (0, 1, 2), "S2": (0, 1, 3), "S3": (1, 2, 3), "S4": (0, 2, 3)},
+    (3, 8): _HEX,
+    (3, 20): _HEX,
+}
+"""Nodes of the faces of continuum elements by dimension and number of nodes; middle nodes where there are some."""
+
+
+class Surfaces:
+    """Surfaces of the whole model, by their names at the level where they are used."""
+
+    def __init__(self, flat: FlatMesh, groups: Sequence[ElementGroup]) -> None:
+        self._flat = flat
+        self._groups = groups
+        self._starts = np.cumsum([0, *(len(group.labels) for group in groups)])
+        self._blocks: dict[str, tuple[str, Block]] = {}
+        for owner in flat.owners:
+            for block in owner.blocks:
+                if block.name == "SURFACE":
+                    name = block.options.text("NAME")
+                    self._blocks[f"{owner.name}.{name}" if owner.name else name] = (owner.name, block)
+
+    def nodes(self, name: str, source: Source, owner: str = "") -> IntArray:
+        """Node indices of a surface, ascending; DeckError where there is none, or its faces are not known."""
+        local = name.split(".")
+        candidates = [f"{owner}.{name}" if owner else name, ".".join(local[-2:]), local[-1]]
+        key = next((candidate for candidate in candidates if candidate in self._blocks), None)
+        if key is None:
+            raise DeckError(source, f"unknown surface {name}{nearest(name, self._blocks)}")
+        place, block = self._blocks[key]
+        kind = block.options.text("TYPE")
+        if kind not in ("ELEMENT", "NODE"):
+            raise DeckError(source, f"surface {name} ({block.source}) is of TYPE={kind}, which constraints cannot use")
+        parts = [np.zeros(0, dtype=np.int64)]
+        for row in block.rows():
+            what = row.name(0, "set")
+            if kind == "NODE":
+                parts.append(self._flat.nodes(what, row.source, place))
+            else:
+                elements = self._flat.elements(what, row.source, place)
+                parts += [self._face(element, row.name(1, "face"), row.source) for element in elements.tolist()]
+        return np.unique(np.concatenate(parts))
+
+    def nodes_of(self, elements: IntArray) -> set[int]:
+        """Nodes of elements, by their positions in the model."""
+        found: set[int] = set()
+        for element in elements.tolist():
+            k = int(np.searchsorted(self._starts, element, side="right")) - 1
+            found |= set(self._groups[k].nodes[element - self._starts[k]].tolist())
+        return found
+
+    def _face(self, element: int, face: str, source: Source) -> IntArray:
+        """Nodes of a face of an element, by its position in the model."""
+        k = int(np.searchsorted(self._starts, element, side="right")) - 1
+        group = self._groups[k]
+        dimension = 3 if group.type.startswith("C3D") else 2
+        faces = {}
+        if group.definition is None:
+            faces = _FACES.get((dimension, group.nodes.shape[1]), {})
+        if face not in faces:
+            known = ", ".join(faces) or "none"
+            raise DeckError(source, f"*SURFACE: elements of type {group.type} have no face {face} (faces: {known})")
+        row = group.nodes[element - self._starts[k]]
+        chosen: IntArray = row[[node for node in faces[face] if node < len(row)]]
+        return chosen

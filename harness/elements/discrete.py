@@ -1,0 +1,76 @@
+# SPDX-FileCopyrightText: The uel-harness authors
+# SPDX-License-Identifier: BSD-3-Clause
+"""Built-in trusses, springs and masses: what the driver calls for them."""
+
+from __future__ import annotations
+
+from typing import Final
+
+import numpy as np
+
+from harness.elements.block import Procedure
+from harness.errors import DeckError
+from harness.model.mesh import ElementGroup
+from harness.model.model import Model
+from harness.model.procedures import Dynamic
+from harness.model.properties import ElasticType, MassSection, SolidSection, SpringSection
+from harness.model.records import PointVariables
+from harness.usersub import _binding
+
+_KINDS: Final = {"T2D2": 1, "T3D2": 1, "SPRINGA": 2, "SPRING1": 3, "SPRING2": 3, "MASS": 4}
+DISCRETE: Final = tuple(_KINDS)
+"""Types of these elements; _KINDS is the JTYPE of fortran/host/host_discrete.f90."""
+
+_STATES: Final = {1: 4, 2: 2, 3: 2, 4: 2}
+
+
+def discrete_unknowns(model: Model, group: ElementGroup) -> tuple[tuple[int, int], ...]:
+    """(local node, dof) of each unknown; a mass and SPRINGA have the displacements of the model's dimension."""
+    section = group.section
+    if isinstance(section, SpringSection) and section.dofs:
+        return tuple(enumerate(section.dofs))
+    solid = group.type == "T3D2" or bool(np.ptp(model.mesh.coordinates[:, 2]) > 0.0)
+    dimension = 2 if group.type == "T2D2" or not solid else 3
+    return tuple((node, dof) for node in range(group.nodes.shape[1]) for dof in range(1, dimension + 1))
+
+
+def discrete_procedure(model: Model, group: ElementGroup, unknowns: int) -> Procedure:
+    """What the driver calls for a group. Raises DeckError."""
+    kind = _KINDS[group.type]
+    dynamic = any(isinstance(step.procedure, Dynamic) for step in model.steps)
+    hidden = 2 * unknowns if dynamic else 0
+    return Procedure(
+        address=_binding.discrete_address(),
+        jtype=kind,
+        mcrd=unknowns // 2 if kind <= 2 else 3,
+        svars=_STATES[kind] + hidden,
+        hidden=hidden,
+        props=_properties(group, dynamic=dynamic),
+        jprops=np.zeros(0, dtype=np.int64),
+    )
+
+
+def discrete_variables(group: ElementGroup) -> PointVariables | None:
+    """Meaning of the state variables: strain and stress of a truss; those of springs have no name in Abaqus' output."""
+    if _KINDS[group.type] != 1:
+        return None
+    return PointVariables("continuum", ("E11", "S11", "PE11", "PEEQ"), 1)
+
+
+def _properties(group: ElementGroup, *, dynamic: bool) -> np.ndarray:
+    section = group.section
+    if isinstance(section, MassSection):
+        return np.array([section.mass])
+    if isinstance(section, SpringSection):
+        return section.table
+    if not isinstance(section, SolidSection):
+        raise DeckError(section.source, f"elements of type {group.type} take *SOLID SECTION")
+    material = section.material
+    if material.elastic is None or material.elastic.type is not ElasticType.ISOTROPIC:
+        message = f"elements of type {group.type} need *ELASTIC, TYPE=ISOTROPIC (material {material.name})"
+        raise DeckError(section.source, message)
+    if dynamic and not material.density:
+        message = f"material {material.name} has no *DENSITY, which elements of type {group.type} need in *DYNAMIC"
+        raise DeckError(material.source, message)
+    table = np.zeros(0) if material.plastic is None else material.plastic.table.ravel()
+    return np.array([section.thickness, material.elastic.constants[0], material.density, *table])

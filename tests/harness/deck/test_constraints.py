@@ -1,0 +1,253 @@
+# SPDX-FileCopyrightText: The uel-harness authors
+# SPDX-License-Identifier: BSD-3-Clause
+"""*MPC, *COUPLING, *RIGID BODY and *TIE: runs whose results are known, and what is wrong with them."""
+
+import numpy as np
+import pytest
+
+import harness
+from harness.errors import DeckError
+
+# two squares side by side with nodes of their own on the common edge: 2, 3 and 5, 8; stretched along x, nu = 0.3
+SQUARES = """*NODE, NSET=ALL
+1, 0., 0.
+2, 1., 0.
+3, 1., 1.
+4, 0., 1.
+5, 1., 0.
+6, 2., 0.
+7, 2., 1.
+8, 1., 1.
+*ELEMENT, TYPE=CPS4, ELSET=LEFT
+1, 1, 2, 3, 4
+*ELEMENT, TYPE=CPS4, ELSET=RIGHT
+2, 5, 6, 7, 8
+*SOLID SECTION, ELSET=LEFT, MATERIAL=M
+*SOLID SECTION, ELSET=RIGHT, MATERIAL=M
+*MATERIAL, NAME=M
+*ELASTIC
+1000., 0.3
+*NSET, NSET=A, UNSORTED
+2, 3
+*NSET, NSET=B, UNSORTED
+5, 8
+*SURFACE, NAME=SA, TYPE=ELEMENT
+LEFT, S2
+*SURFACE, NAME=SB, TYPE=NODE
+B
+%s
+*BOUNDARY
+1, 1, 2
+4, 1
+*STEP
+*STATIC
+1., 1.
+*BOUNDARY
+6, 1, 1, 0.02
+7, 1, 1, 0.02
+*OUTPUT, HISTORY
+*NODE OUTPUT, NSET=ALL
+U
+*END STEP
+"""
+
+
+@pytest.fixture
+def run(tmp_path):
+    def run(text):
+        (tmp_path / "deck.inp").write_text(text)
+        history = harness.run(tmp_path / "deck.inp", output_dir=tmp_path).history
+        return {name: float(history[name][-1]) for name in history if name.startswith("U")}
+
+    return run
+
+
+def at(found, component, node):
+    return next(value for name, value in found.items() if name.startswith(f"{component}[") and f"{node}]" in name[-3:])
+
+
+@pytest.mark.parametrize(
+    "constraint",
+    [
+        "*MPC\nTIE, A, B",
+        "*MPC\nPIN, 2, 5\nTIE, 3, 8",
+        "*TIE, NAME=T\nSA, SB",
+        "*TIE, NAME=T, POSITION TOLERANCE=0.1\nSB, SA",
+        "*EQUATION\n2\nA, 1, 1., B, 1, -1.\n2\nA, 2, 1., B, 2, -1.",
+    ],
+)
+def test_two_squares_become_one(run, constraint):
+    """Uniaxial stress: u1 = 0.01 x, u2 = -0.003 y."""
+    found = run(SQUARES % constraint)
+    for node, (x, y) in zip(range(1, 9), [(0, 0), (1, 0), (1, 1), (0, 1), (1, 0), (2, 0), (2, 1), (1, 1)], strict=True):
+        assert at(found, "U1", node) == pytest.approx(0.01 * x, abs=1e-9)
+        assert at(found, "U2", node) == pytest.approx(-0.003 * y, abs=1e-9)
+
+
+def test_a_node_in_the_middle_of_an_edge(run):
+    """Two small squares against a large one: with LINEAR the node between them keeps to its edge; uniform stress."""
+    deck = """*NODE, NSET=ALL
+1, 0., 0.
+2, 2., 0.
+3, 2., 2.
+4, 0., 2.
+5, 2., 0.5
+6, 3., 0.
+7, 3., 0.5
+8, 3., 2.
+*ELEMENT, TYPE=CPS4, ELSET=E
+1, 1, 2, 3, 4
+2, 2, 6, 7, 5
+3, 5, 7, 8, 3
+*SOLID SECTION, ELSET=E, MATERIAL=M
+*MATERIAL, NAME=M
+*ELASTIC
+1000., 0.3
+*MPC
+LINEAR, 5, 2, 3
+*BOUNDARY
+1, 1, 2
+4, 1
+*STEP
+*STATIC
+1., 1.
+*BOUNDARY
+6, 1, 1, 0.03
+7, 1, 1, 0.03
+8, 1, 1, 0.03
+*OUTPUT, HISTORY
+*NODE OUTPUT, NSET=ALL
+U
+*END STEP
+"""
+    found = run(deck)
+    assert at(found, "U1", 5) == pytest.approx(0.02)
+    assert at(found, "U2", 5) == pytest.approx(-0.003 * 0.5)
+
+
+BEAM = """*NODE, NSET=ALL
+1, 0., 0.
+2, 2., 0.
+3, 2., 1.
+4, 0., 1.
+5, 1., 0.
+6, 2., 0.5
+7, 1., 1.
+8, 0., 0.5
+9, 3., 0.7
+*NSET, NSET=END
+2, 3, 6
+*ELEMENT, TYPE=CPS8R, ELSET=BEAM
+1, 1, 2, 3, 4, 5, 6, 7, 8
+*SOLID SECTION, ELSET=BEAM, MATERIAL=M
+*MATERIAL, NAME=M
+*ELASTIC
+1000., 0.
+*SURFACE, NAME=FACE
+BEAM, S2
+%s
+*BOUNDARY
+1, 1
+4, 1
+8, 1, 2
+*STEP%s
+*STATIC
+1., 1.
+*CLOAD
+9, 6, 1.
+*OUTPUT, HISTORY
+*NODE OUTPUT, NSET=ALL
+U
+*END STEP
+"""
+
+
+@pytest.mark.parametrize(
+    "constraint",
+    [
+        "*COUPLING, CONSTRAINT NAME=C, REF NODE=9, SURFACE=FACE\n*KINEMATIC\n1, 6",
+        "*COUPLING, CONSTRAINT NAME=C, REF NODE=9, SURFACE=FACE\n*KINEMATIC",
+        "*KINEMATIC COUPLING, REF NODE=9\nEND, 1, 2",
+        "*RIGID BODY, REF NODE=9, PIN NSET=END",
+        "*MPC\nBEAM, END, 9",
+    ],
+)
+def test_moment_on_an_end_that_stays_plane(run, constraint):
+    """Pure bending: theta = M L/(E I), u1 = -theta (y - 1/2), u2 = theta L/2 at the axis, I = 1/12; the reference node
+    turns with the end: u1 = -theta (0.7 - 0.5), u2 = theta (L/2 + 1).
+    """
+    found = run(BEAM % (constraint, ""))
+    theta = 2.0 / (1000.0 / 12)
+    assert at(found, "UR3", 9) == pytest.approx(theta)
+    assert at(found, "U1", 3) == pytest.approx(-theta / 2)
+    assert at(found, "U2", 6) == pytest.approx(theta)
+    assert at(found, "U1", 9) == pytest.approx(-0.2 * theta)
+    assert at(found, "U2", 9) == pytest.approx(2 * theta)
+
+
+def test_a_rigid_cube_turns_about_its_reference_node(run):
+    """u = theta x r in space, for a cube that is rigid as a whole."""
+    corners = np.array([[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0], [0, 0, 1], [1, 0, 1], [1, 1, 1], [0, 1, 1.0]])
+    reference, theta = np.array([2.0, -1.0, 0.5]), np.array([1e-3, -2e-3, 3e-3])
+    nodes = "".join(f"{k + 1}, {x}, {y}, {z}\n" for k, (x, y, z) in enumerate(corners.tolist()))
+    prescribed = "".join(f"9, {dof}, {dof}, {value}\n" for dof, value in zip((4, 5, 6), theta.tolist(), strict=True))
+    found = run(
+        f"*NODE, NSET=ALL\n{nodes}9, 2., -1., 0.5\n*ELEMENT, TYPE=C3D8, ELSET=E\n1, 1, 2, 3, 4, 5, 6, 7, 8\n"
+        "*SOLID SECTION, ELSET=E, MATERIAL=M\n*MATERIAL, NAME=M\n*ELASTIC\n1., 0.\n"
+        "*RIGID BODY, REF NODE=9, ELSET=E\n*BOUNDARY\n9, 1, 3\n*STEP\n*STATIC\n1., 1.\n"
+        f"*BOUNDARY\n{prescribed}*OUTPUT, HISTORY\n*NODE OUTPUT, NSET=ALL\nU\n*END STEP\n"
+    )
+    for k, corner in enumerate(corners):
+        expected = np.cross(theta, corner - reference)
+        values = [at(found, f"U{i}", k + 1) for i in (1, 2, 3)]
+        assert values == pytest.approx(expected.tolist(), abs=1e-12)
+
+
+@pytest.mark.parametrize(
+    "constraint, message",
+    [
+        (
+            "*MPC\nSLIDER, 2, 5",
+            r"deck.inp:28: \*MPC: type SLIDER is not supported \(supported: TIE, PIN, LINEAR, BEAM\)",
+        ),
+        ("*MPC\nTIE, 2", r":28: \*MPC: TIE takes 2 nodes or node sets, found 1"),
+        ("*MPC\nTIE, A, ALL", r":28: \*MPC: the node sets have different sizes \(2, 8\)"),
+        ("*MPC\nLINEAR, 2, 5, 5", r":28: \*MPC: LINEAR needs two nodes in different places"),
+        ("*KINEMATIC", r":27: \*KINEMATIC: does not follow \*COUPLING"),
+        (
+            "*COUPLING, CONSTRAINT NAME=C, REF NODE=1, SURFACE=SX\n*KINEMATIC",
+            r":27: unknown surface SX",
+        ),
+        ("*RIGID BODY, REF NODE=A, PIN NSET=B", r":27: \*RIGID BODY: REF NODE=A holds 2 nodes"),
+        ("*RIGID BODY, REF NODE=1", r":27: \*RIGID BODY: needs ELSET, PIN NSET or TIE NSET"),
+        ("*KINEMATIC COUPLING, REF NODE=1\nA, 3, 1", r":28: \*KINEMATIC COUPLING: dofs 3 to 1: expected 1 to 6"),
+        (
+            "*NSET, NSET=C\n1\n*SURFACE, NAME=SC, TYPE=NODE\nC\n*TIE, NAME=T\nSC, SB",
+            r"node 1 of the first surface lies on",
+        ),
+        ("*SURFACE, NAME=SC\nLEFT, S7\n*TIE, NAME=T\nSC, SB", r":28: \*SURFACE: elements of type CPS4 have no face S7"),
+        ("*SURFACE, NAME=SC, TYPE=USER\n*TIE, NAME=T\nSC, SB", "TYPE=USER, which constraints cannot use"),
+        (
+            "*COUPLING, CONSTRAINT NAME=C, REF NODE=1, SURFACE=SA\n*DISTRIBUTING",
+            r":28: \*DISTRIBUTING is not supported",
+        ),
+    ],
+)
+def test_what_is_wrong_is_named(run, constraint, message):
+    with pytest.raises(DeckError, match=message):
+        run(SQUARES % constraint)
+
+
+def test_rotations_are_small(run):
+    message = r"deck.inp:\d+: a constraint with rotations is not supported with NLGEOM \(.*deck.inp:\d+\)"
+    with pytest.raises(DeckError, match=message):
+        run(BEAM % ("*RIGID BODY, REF NODE=9, PIN NSET=END", ", NLGEOM"))
+
+
+def test_hourglass_stiffness_of_a_section(read):
+    """*HOURGLASS STIFFNESS belongs to the section before it."""
+    text = SQUARES % ""
+    model = read(text.replace("*MATERIAL", "*HOURGLASS STIFFNESS\n7.5\n*MATERIAL", 1))
+    assert [group.section.hourglass for group in model.groups] == [0.0, 7.5]
+    with pytest.raises(DeckError, match=r"\*HOURGLASS STIFFNESS: does not follow \*SOLID SECTION"):
+        read(text.replace("*SOLID", "*HOURGLASS STIFFNESS\n7.5\n*SOLID", 1))
