@@ -5,7 +5,7 @@
 from __future__ import annotations
 
 import itertools
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from harness.delamination import specimens
 from harness.delamination.blocks import Interface, Specimen
@@ -41,13 +41,21 @@ ELEMENTS = {
     "consistent": Interface("U4", TABLE_2, consistent=True),
 }
 """The paper's two methods, and the stabilised one whose law has a separation of its own."""
+BK = 2.0
+"""Exponent of Benzeggagh and Kenane's criterion; the paper gives none."""
+COMPARATORS = {
+    "COH2D4": Interface("COH2D4", TABLE_2, law=2, eta=BK),
+    "standard_bk": Interface("U2", TABLE_2, law=2, eta=BK, newton_cotes=True),
+    "consistent_bk": Interface("U4", TABLE_2, law=2, eta=BK, consistent=True),
+}
+"""Abaqus' built-in element, and ours with its criterion."""
 
 
 @dataclass(frozen=True, slots=True)
 class Case:
     """One run.
 
-    problem, layup, element, stiffness   keys of PROBLEMS, LAYUPS, ELEMENTS, STIFFNESSES
+    problem, layup, element, stiffness   keys of PROBLEMS, LAYUPS, ELEMENTS or COMPARATORS, STIFFNESSES
     perturbed     the interface nodes are moved
     coarse        the mesh of --quick
     size          length of the elements in place of the problem's (mm)
@@ -124,25 +132,23 @@ class Case:
         mesh_name = f"{self.problem}_{'perturbed' if self.perturbed else 'structured'}"
         mesh = self.mesh()
         interface = self._interface(mesh)
-        nodes = 8 if interface.type == "U4" else 4
-        return specimens.mesh_files(mesh_name, mesh, (nodes,)) | {
+        return specimens.mesh_files(mesh_name, mesh, (interface.nodes,)) | {
             f"{self.name}.inp": self._deck(mesh_name, mesh, interface)
         }
 
     def _interface(self, mesh: TwoArmMesh) -> Interface:
-        base = ELEMENTS[self.element]
+        base = (ELEMENTS | COMPARATORS)[self.element]
         beta = 0.0
         if self.beta != 1.0:
             top, bottom = PLIES[self.layup]
             heights = float(mesh.lower[-1] - mesh.lower[-2]), float(mesh.upper[1] - mesh.upper[0])
             beta = self.beta * stabilisation(bottom, top, heights, 1.0)
-        return Interface(
-            base.type,
-            self.law,
+        return replace(
+            base,
+            cohesive=self.law,
             beta=beta,
             sampling=self.sampling,
-            consistent=base.consistent,
-            newton_cotes=self.newton_cotes,
+            newton_cotes=base.newton_cotes or self.newton_cotes,
             secant=self.secant,
         )
 
@@ -169,3 +175,15 @@ def paper_cases(problem: str, *, coarse: bool = False) -> list[Case]:
         for layup, element in pairs
         for stiffness, perturbed in variants
     ]
+
+
+def comparator_cases(problem: str, *, coarse: bool = False) -> list[Case]:
+    """Runs with the built-in element and with its criterion; the built-in one also at the softest stiffness."""
+    cases = [Case(problem, layup, element, "1e6", coarse=coarse) for layup in LAYUPS for element in COMPARATORS]
+    return [*cases, Case(problem, "0/0", "COH2D4", "1e4", coarse=coarse)]
+
+
+def secant_cases(*, coarse: bool = False) -> list[Case]:
+    """The paper's way to a solution, section 3.2: secant, small increments; the default residual, and a hundredfold."""
+    base = Case("dcb", "0/0", "stabilised", "1e6", coarse=coarse, secant=True, increments=500)
+    return [base, replace(base, tolerance=0.5)]

@@ -15,7 +15,7 @@ from rich.table import Table as TerminalTable
 from harness.delamination.beams import BRANCH
 from harness.delamination.materials import PLY_0, TABLE_2
 from harness.delamination.reproduce import drawings, figures, findings, sensitivity
-from harness.delamination.reproduce.cases import ELEMENTS, PROBLEMS, Case, paper_cases
+from harness.delamination.reproduce.cases import ELEMENTS, PROBLEMS, Case, comparator_cases, paper_cases, secant_cases
 from harness.delamination.reproduce.claims import Verdict, judge, read_claims
 from harness.delamination.reproduce.findings import Evidence
 from harness.delamination.reproduce.page import Content, Table, number, write_page
@@ -81,7 +81,8 @@ def _cases(parts: Sequence[str], *, quick: bool) -> list[AnyCase]:
         if part == "patch":
             cases += patch_cases()
         elif part in PROBLEMS:
-            cases += paper_cases(part, coarse=quick)
+            cases += paper_cases(part, coarse=quick) + comparator_cases(part, coarse=quick)
+            cases += secant_cases(coarse=quick) if part == "dcb" else []
         elif part == "sensitivity":
             cases += [case for study in sensitivity.studies(coarse=quick) for case in study.cases()]
     return list({case.name: case for case in cases}.values())

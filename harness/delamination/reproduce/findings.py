@@ -17,7 +17,7 @@ import numpy as np
 from harness.delamination.beams import branch_deviation
 from harness.delamination.materials import TABLE_2
 from harness.delamination.oscillation import total_variation
-from harness.delamination.reproduce.cases import LAYUPS, MOMENTS, PROBLEMS, Case
+from harness.delamination.reproduce.cases import LAYUPS, MOMENTS, PROBLEMS, Case, secant_cases
 from harness.delamination.reproduce.runs import Profile, Run, Runs
 from harness.delamination.study.rows import STRENGTHS, at_tenths, bonded_part, damage_variation
 from harness.model.arrays import FloatArray
@@ -73,7 +73,8 @@ def variation(
             )
         )
         for name in tractions:
-            pairs = zip(profiles, smooth, strict=True)
+            # a run that stopped has fewer
+            pairs = zip(profiles, smooth, strict=False)
             found += [_varies(one, name) / max(_varies(other, name), STRENGTHS[name]) for one, other in pairs]
     return max(found)
 
@@ -163,6 +164,32 @@ def methods_distance(evidence: Evidence, problem: str, layups: Sequence[str] = (
         for layup in layups
         for s in ALL
     )
+
+
+def comparator_distance(
+    evidence: Evidence, problem: str, layup: str, element: str, stiffness: str = "1e6", last: float = np.inf
+) -> float:
+    """Largest distance of an element's load curve from COH2D4's over the peak load, up to a displacement (mm)."""
+    built_in = evidence.run(problem, layup, "COH2D4", "1e6")
+    return curve_distance(evidence.run(problem, layup, element, stiffness), built_in, last)
+
+
+def peak_difference(evidence: Evidence, problem: str, layup: str, element: str, stiffness: str = "1e6") -> float:
+    """Relative difference of an element's peak load from COH2D4's, without its sign."""
+    built_in = evidence.run(problem, layup, "COH2D4", "1e6").peak[0]
+    return abs(evidence.run(problem, layup, element, stiffness).peak[0] / built_in - 1.0)
+
+
+def single_iterations(evidence: Evidence) -> float:
+    """Share of the increments with the secant and the residual 0.5 that converge in one iteration."""
+    lines = [line for line in evidence.case(secant_cases()[1]).status if not line.cutback]
+    return sum(line.total_iterations == 1 for line in lines) / len(lines)
+
+
+def secant_reach(evidence: Evidence, which: int) -> float:
+    """Share of the displacement that the secant reaches: 0 with the default residual, 1 with 0.5."""
+    run = evidence.case(secant_cases()[which])
+    return float(run.displacement[-1]) / run.case.displacement
 
 
 def profile_distance(
@@ -310,6 +337,7 @@ MEASURES: dict[str, Callable[..., float]] = {
             closed_error,
             process_zone,
         ),
-        *(iterations_ratio, energy_error, mode_ratio, toughness),
+        *(iterations_ratio, energy_error, mode_ratio, toughness, comparator_distance, peak_difference),
+        *(single_iterations, secant_reach),
     )
 }

@@ -19,6 +19,7 @@ from harness.delamination.study.rows import at_tenths, bonded_part
 from harness.errors import UelError
 from harness.model.arrays import FloatArray
 from harness.output import Result
+from harness.output.status import StatusRow
 
 AnyCase = Case | PatchCase
 Profile = dict[str, FloatArray]
@@ -69,6 +70,11 @@ class Run:
     def history(self) -> dict[str, FloatArray]:
         """Columns of the history."""
         return self._result.history
+
+    @cached_property
+    def status(self) -> list[StatusRow]:
+        """Lines of the status file."""
+        return self._result.status
 
     @cached_property
     def displacement(self) -> FloatArray:
