@@ -3,10 +3,10 @@
 !> The procedures Python calls (through f2py, see _host.pyf). They only pack and unpack.
 
 !> One pass over a block; see block_t for the arrays.
-subroutine host_evaluate(address, options, lflags, clock, labels, jprops, equations, map, props, coords, u, du, v, a, counts, &
-                         kinds, loads, predef, svars, svars_trial, energy, energy_trial, history, history_trial, residual, matrix, &
-                         flux, sums, status, ndofel, nsvars, nprops, njprop, mcrd, nnode, m, n, nrhs, nnz, values, points, most, &
-                         nfield)
+subroutine host_evaluate(address, options, lflags, clock, labels, jprops, equations, map, props, coords, u, du, v, a, &
+                         counts, kinds, loads, predef, floor, svars, svars_trial, energy, energy_trial, history, &
+                         history_trial, residual, matrix, flux, terms, sums, status, ndofel, nsvars, nprops, njprop, mcrd, &
+                         nnode, m, n, nrhs, nnz, values, points, most, nfield)
   use, intrinsic :: iso_c_binding, only: c_funptr, c_intptr_t
   use host_driver, only: block_t, run_block
   use host_kinds, only: dp, i4, i8
@@ -23,7 +23,9 @@ subroutine host_evaluate(address, options, lflags, clock, labels, jprops, equati
   real(dp), intent(in), target :: loads(2, most, m), predef(2, nfield, nnode, m)
   real(dp), intent(inout), target :: svars_trial(nsvars, m), energy_trial(8, m), history_trial(values, points, m), &
                                      residual(n, nrhs), matrix(nnz)
+  real(dp), intent(in), target :: floor(ndofel)
   real(dp), intent(out), target :: flux(ndofel)
+  integer(i4), intent(out), target :: terms(ndofel)
   real(dp), intent(out) :: sums(9)            !< PNEWDT, ENERGY
   integer(i4), intent(out) :: status(4)       !< fault, position, array, index
   type(block_t), target :: block
@@ -66,9 +68,12 @@ subroutine host_evaluate(address, options, lflags, clock, labels, jprops, equati
     block%history_trial => history_trial
   end if
   flux = 0
+  terms = 0
   block%residual => residual
   block%matrix => matrix
+  block%floor => floor
   block%flux => flux
+  block%terms => terms
   call run_block(block)
   sums(1) = block%pnewdt
   sums(2:9) = block%energy_sum

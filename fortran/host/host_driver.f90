@@ -53,7 +53,9 @@ module host_driver
     real(dp), pointer, contiguous :: history(:, :, :) => null(), history_trial(:, :, :) => null()  !< (values, npt, m)
     real(dp), pointer, contiguous :: residual(:, :) => null()  !< (n, NRHS)
     real(dp), pointer, contiguous :: matrix(:) => null()
+    real(dp), pointer, contiguous :: floor(:) => null()            !< (ndofel) |RHS| above which an entry counts as a term
     real(dp), pointer, contiguous :: flux(:) => null()             !< (ndofel) sum of |RHS|
+    integer(i4), pointer, contiguous :: terms(:) => null()         !< (ndofel) number of terms
     real(dp) :: pnewdt = 0                !< smallest returned
     real(dp) :: energy_sum(8) = 0
     integer(i4) :: fault = fault_none     !< one of fault_*
@@ -148,7 +150,7 @@ contains
         call check(block, i_rhs, work%length(i_rhs))
         if (block%fault /= fault_none) return
         call add_residual(ndofel, work%memory(work%start(i_rhs)), block%equations(:, e), block%residual(:, 1))
-        call add_magnitude(ndofel, work%memory(work%start(i_rhs)), block%flux)
+        call add_magnitude(ndofel, work%memory(work%start(i_rhs)), block%floor, block%flux, block%terms)
         if (size(block%residual, 2) == 2) then
           call add_residual(ndofel, work%memory(work%start(i_rhs) + ndofel), block%equations(:, e), block%residual(:, 2))
         end if
@@ -371,12 +373,14 @@ contains
     end do
   end subroutine add_residual
 
-  !> y = y + |x|
-  subroutine add_magnitude(n, x, y)
+  !> Add |x| to the sums of magnitudes, and to their terms those above the floor.
+  subroutine add_magnitude(n, x, floor, y, terms)
     integer, intent(in) :: n
-    real(dp), intent(in) :: x(n)
+    real(dp), intent(in) :: x(n), floor(n)
     real(dp), intent(inout) :: y(n)
+    integer(i4), intent(inout) :: terms(n)
     y = y + abs(x)
+    terms = terms + merge(1_i4, 0_i4, abs(x) > floor)
   end subroutine add_magnitude
 
   !> Scatter AMATRX, or its symmetric part, into the values of the sparse matrix.

@@ -25,7 +25,7 @@ class Evaluation:
     residual    (n,) sum of RHS: external minus internal force
     data        (nnz,) CSR values of the matrix, None if not asked for; overwritten by the next pass that asks for it
     flux        (fields,) sum of |element nodal force| by field, as FIELD_NAMES orders them
-    flux_count  (fields,) number of terms in it
+    flux_count  (fields,) number of terms in it, those above the call's floor
     pnewdt      smallest PNEWDT an element returned
     energy      (8,) sum of ENERGY
     load        (n,) sum of column 2 of RHS, increments of the loads that elements apply; None unless NRHS = 2

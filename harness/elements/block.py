@@ -123,7 +123,7 @@ class Block:
         fields = np.array([field_of(dof) for _, dof in unknowns])
         # (unknowns, fields): sums entries of an element vector by field
         self._by_field = (fields[:, None] == np.arange(len(FIELD_NAMES))).astype(np.float64)
-        self._flux_count = (m * self._by_field.sum(axis=0)).astype(np.int64)
+        self._all_terms = np.full(n, -1.0)
 
     def bind(self, equations: NDArray[np.int32], scatter: NDArray[np.int32]) -> None:
         """Tell where the unknowns are.
@@ -183,6 +183,7 @@ class Block:
             motion.acceleration,
             self._loads(call.distributed),
             self._fields(call.predefined),
+            self._all_terms if call.flux_floor is None else self._by_field @ call.flux_floor,
             np.atleast_2d(residual),
             _NO_MATRIX if matrix is None else matrix,
         )
@@ -194,7 +195,8 @@ class Block:
         energy, damage = outcome.energy, 0.0
         if self._procedure.damages:
             damage, energy[_PLASTIC] = float(energy[_PLASTIC]), 0.0
-        return BlockReport(outcome.flux @ self._by_field, self._flux_count, outcome.pnewdt, energy, damage)
+        terms = (outcome.terms @ self._by_field).astype(np.int64)
+        return BlockReport(outcome.flux @ self._by_field, terms, outcome.pnewdt, energy, damage)
 
     def _loads(self, distributed: Distributed | None) -> LoadArrays:
         """Loads on the elements of the block, one row for each element."""

@@ -38,6 +38,7 @@ class Call:
 
     lflags       LFLAGS(1..5)
     step, increment  KSTEP, KINC
+    flux_floor   (fields,) element nodal force above which an entry is a term of the average flux; None: all entries are
     params       PARAMS: alpha, beta and gamma of a dynamic step
     step_time, total_time  at the end of the increment (Abaqus' manual leaves open which end TIME holds)
     """
@@ -52,6 +53,7 @@ class Call:
     params: tuple[float, float, float] = (0.0, 0.0, 0.0)
     distributed: Distributed | None = None
     predefined: Predefined | None = None
+    flux_floor: FloatArray | None = None
 
 
 @dataclass(frozen=True, slots=True)

@@ -104,6 +104,10 @@ class FluxHistory:
             return self
         return FluxHistory(self.initial, self.total + q, self.count + 1)
 
+    def floor(self, controls: FieldControls) -> float:
+        """Element nodal force that counts as zero in the next increment; -1 before any flux was seen in the step."""
+        return controls.eps * self._mean() if self.count else -1.0
+
     def next_step(self, controls: FieldControls) -> FluxHistory:
         """History at the start of the next step: q_0 where given, else the time average of this step."""
         return FluxHistory(controls.q_0 if controls.q_0 > 0.0 else self._mean())

@@ -75,6 +75,18 @@ class Checker:
             history = histories[number].next_step(chosen)
             self.fields.append(FieldChecker(int(number), chosen, unknowns, free, history))
 
+    @property
+    def flux_floor(self) -> FloatArray:
+        """(fields,) element nodal forces that are no terms of the average flux in the next increment.
+
+        From the second increment of a step on those are left out that count as zero beside the time average flux: in
+        printed iterations of a cube that is pulled along one axis, the average is that of the other entries alone.
+        """
+        floor = np.full(len(FIELD_NAMES), -1.0)
+        for checked in self.fields:
+            floor[checked.number] = checked.history.floor(checked.controls)
+        return floor
+
     def start(self, state: Iterate, *, extrapolated: bool) -> None:
         """Begin an attempt with the state before the first solve.
 

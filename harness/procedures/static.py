@@ -250,6 +250,7 @@ class StaticStep:
             period=step.procedure.period,
             distributed=distributed,
             predefined=predefined,
+            flux_floor=self._checker.flux_floor,
         )
 
     def _end(self, size: float) -> float:

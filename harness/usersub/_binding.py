@@ -62,6 +62,7 @@ class Outcome:
     array     name of the array of the fault
     index     entry of the array, from 1; below 1 or beyond its length for a write outside
     flux      (ndofel,) sum over the elements of |RHS|
+    terms     (ndofel,) entries of RHS above the floor
     """
 
     fault: Fault
@@ -69,6 +70,7 @@ class Outcome:
     array: str
     index: int
     flux: FloatArray
+    terms: Int32Array
     pnewdt: float
     energy: FloatArray
 
@@ -128,14 +130,15 @@ def evaluate(
     a: FloatArray,
     loads: LoadArrays,
     predef: FloatArray,
+    floor: FloatArray,
     residual: FloatArray,
     matrix: FloatArray,
 ) -> Outcome:
     """One pass over a block; options and clock as host_evaluate in fortran/host/entry.f90 names them.
 
-    predef is (m, nodes, fields, 2), residual (NRHS, n); its rows take the columns of RHS.
+    predef is (m, nodes, fields, 2), floor (ndofel,), residual (NRHS, n); its rows take the columns of RHS.
     """
-    flux, sums, status = _host.host_evaluate(
+    flux, terms, sums, status = _host.host_evaluate(
         address,
         options,
         lflags,
@@ -154,6 +157,7 @@ def evaluate(
         loads.kinds.T,
         loads.values.T,
         predef.T,
+        floor,
         arrays.svars.T,
         arrays.svars_trial.T,
         arrays.energy.T,
@@ -164,7 +168,7 @@ def evaluate(
         matrix,
     )
     fault, position, array, index = (int(k) for k in status)
-    return Outcome(Fault(fault), position - 1, ARRAYS[array - 1], index, flux, float(sums[0]), sums[1:])
+    return Outcome(Fault(fault), position - 1, ARRAYS[array - 1], index, flux, terms, float(sums[0]), sums[1:])
 
 
 def bare_loop(

@@ -81,7 +81,8 @@ def _records(root: Path, row: Row) -> Iterator[tuple[Model, Any]]:
     deck = root / row["deck"]
     model = read_deck(deck)
     with tempfile.TemporaryDirectory() as output:
-        library = usersub.load([root / name for name in row["sources"]], job="job", output_dir=Path(output), deck=deck)
+        sources = [root / name for name in row["sources"]] or None
+        library = usersub.load(sources, job="job", output_dir=Path(output), deck=deck)
         try:
             system = System(model.mesh, build_blocks(model, library, strict=False), model.equations)
             for record in run_steps(system, model, library):

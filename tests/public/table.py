@@ -57,8 +57,11 @@ def verdict(row: Row, outcome: Outcome) -> tuple[bool, str]:
     if "expected" not in row:
         return True, f"completed ({done})"
     assert outcome.figure is not None
+    if "status" in row:
+        agrees = outcome.figure >= row["expected"]
+        return agrees, f"{'agrees' if agrees else 'differs'} ({done})"
     deviation = abs(outcome.figure / row["expected"] - 1.0)
-    agrees = outcome.figure >= row["expected"] if "status" in row else deviation <= row["tolerance"]
+    agrees = deviation <= row["tolerance"]
     return agrees, f"{'agrees' if agrees else 'differs'}, {100 * deviation:.2g} % ({done})"
 
 

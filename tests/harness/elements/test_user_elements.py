@@ -52,6 +52,17 @@ def test_residual_matrix_and_sums(springs, call):
     assert report.pnewdt > 1e30
 
 
+@pytest.mark.parametrize(("floor", "terms"), [(None, 4), (-1.0, 4), (0.0, 4), (1.5, 2), (3.0, 0)])
+def test_small_forces_are_no_terms_of_the_average_flux(springs, call, floor, terms):
+    """Element forces 1, 1, 2, 2; the sum holds them all."""
+    block, matrix = springs
+    floors = None if floor is None else np.array([floor, 0, 0, 0, 0])
+    u = np.array([0.0, 0.1, 0.3])
+    report = block.evaluate(replace(call, flux_floor=floors), u, u, np.zeros(3), matrix.data)
+    assert report.flux[0] == pytest.approx(6)
+    assert report.flux_count.tolist() == [terms, 0, 0, 0, 0]
+
+
 def test_state_variables_start_from_the_committed_ones(springs, call):
     block, matrix = springs
     residual, u = np.zeros(3), np.array([0.0, 0.1, 0.3])

@@ -1,0 +1,76 @@
+# SPDX-FileCopyrightText: The uel-harness authors
+# SPDX-License-Identifier: BSD-3-Clause
+"""Which element forces are terms of the average flux, against what Abaqus prints of a cube pulled along one axis."""
+
+import pytest
+
+from harness.assembly import System
+from harness.deck import read_deck
+from harness.elements import build_blocks
+from harness.model.records import IterationDone
+from harness.model.steps import FieldControls
+from harness.procedures import run_steps
+from harness.procedures.acceptance import FluxHistory
+from harness.usersub import load
+
+DECK = """\
+*NODE
+1, 0., 0., 0.
+2, 1., 0., 0.
+3, 1., 1., 0.
+4, 0., 1., 0.
+5, 0., 0., 1.
+6, 1., 0., 1.
+7, 1., 1., 1.
+8, 0., 1., 1.
+*ELEMENT, TYPE=C3D8, ELSET=CUBE
+1, 1, 2, 3, 4, 5, 6, 7, 8
+*SOLID SECTION, ELSET=CUBE, MATERIAL=M
+*MATERIAL, NAME=M
+*ELASTIC
+4., 0.3
+*BOUNDARY
+1, 1, 3
+2, 2, 3
+4, 1
+4, 3
+3, 3
+5, 1, 2
+6, 2
+8, 1
+*STEP
+*STATIC
+0.25, 1., , 0.25
+*BOUNDARY
+5, 3, 3, 4.
+6, 3, 3, 4.
+7, 3, 3, 4.
+8, 3, 3, 4.
+*END STEP
+"""
+
+
+def test_zeros_are_terms_in_the_first_increment_alone(tmp_path):
+    """Forces of one, two, three, four in one of three directions.
+
+    Abaqus 2023 prints 175, 1050, 1575 and 2100 for such a cube: the second is six times
+    the first, the third nine times.
+    """
+    deck = tmp_path / "cube.inp"
+    deck.write_text(DECK)
+    model = read_deck(deck)
+    library = load(None, job="cube", output_dir=tmp_path)
+    system = System(model.mesh, build_blocks(model, library), model.equations)
+    records = list(run_steps(system, model, library))
+    library.close()
+    averages = [record.checks[0].average_flux for record in records if isinstance(record, IterationDone)]
+    assert averages == pytest.approx([175 / 525, 1050 / 525, 1575 / 525, 2100 / 525])
+
+
+def test_floor_is_the_zero_flux_criterion_times_the_time_average():
+    controls = FieldControls(eps=1e-3)
+    history = FluxHistory()
+    assert history.floor(controls) == -1.0
+    history = history.converged(2.0, controls).converged(4.0, controls)
+    assert history.floor(controls) == pytest.approx(3e-3)
+    assert history.next_step(controls).floor(controls) == -1.0
