@@ -162,15 +162,15 @@ class Crowd:
         return 0.3 * (move + turn * across).reshape(shape)
 
 
-def separations(rng, values):
-    """(copies, 2 ends, tau and n) of any mode mix, between far below the onset and beyond failure; a sixth closed."""
+def separations(rng, values, pure=1 / 6):
+    """(copies, 2 ends, tau and n), below the onset to beyond failure; of any mode mix, a part pure; a sixth closed."""
     strength = min(values["SIGMAMAX"], values["TAUMAX"])
     tail = max(1.0, values.get("SHAPEN", 2.0) / 2, values.get("SHAPET", 2.0) / 2)
     soft = 3.0 * tail * max(values["GIC"], values["GIIC"]) / strength
     alpha = max(values["ALPHAN"], values["ALPHAT"])
     stiff = min(0.1 * strength / alpha if alpha else soft, 1e-3 * soft)
     size = np.exp(rng.uniform(np.log(stiff), np.log(soft), (COPIES, 2)))
-    angle = rng.uniform(-np.pi / 2, np.pi / 2, (COPIES, 2)) * (rng.random((COPIES, 2)) > 1 / 6)
+    angle = rng.uniform(-np.pi / 2, np.pi / 2, (COPIES, 2)) * (rng.random((COPIES, 2)) > pure)
     closed = np.where(rng.random((COPIES, 2)) < 1 / 6, -1, 1)
     return size[..., None] * np.stack([np.sin(angle), closed * np.cos(angle)], axis=-1)
 
@@ -201,8 +201,9 @@ def check_tangents(tools, variant, kind, extra, data):
     stiffness = 0.0 if closure else max(values["ALPHAN"], values["ALPHAT"])
     stiffness += 0.0 if jtype in (2, 5) else 1e7
     stiffness += max(values.get("BETAN", 0.0), values.get("BETAT", 0.0))
-    for _ in range(INCREMENTS):
-        ends = separations(rng, values)
+    for increment in range(INCREMENTS):
+        # with a history, a state without sliding lies between two kinks that look alike from both sides
+        ends = separations(rng, values, 0.0 if increment else 1 / 6)
         sizes = np.linalg.norm(ends, axis=-1)
         noise = 0.1 * sizes.max(axis=1)[:, None, None] * rng.normal(size=(COPIES, crowd.nodes, 2))
         u = crowd.displacements(ends, noise)
