@@ -17,6 +17,7 @@ from typing import Final
 from harness.errors import CompileError
 from harness.usersub import linker
 from harness.usersub.headers import HEADERS
+from harness.usersub.mending import COMPARED_LOGICALS, compare_logicals
 
 SUFFIXES: Final = (".f", ".for", ".f90")
 
@@ -48,12 +49,12 @@ def build(files: Sequence[Path], include: Sequence[Path] = ()) -> Path:
             "gfortran is needed to compile it and is not installed (apt install gfortran, dnf install gcc-gfortran)",
         )
     folders = list(dict.fromkeys([*(f.resolve().parent for f in files), *(p.resolve() for p in include)]))
-    headers, texts = _scan(files, folders)
+    headers, texts, sources = _scan(files, folders)
     key = _key(compiler, texts)
     target = cache_folder() / f"{files[0].stem}-{key}.so"
     if not target.exists():
         with tempfile.TemporaryDirectory() as work:
-            _compile(compiler, files, folders, headers, Path(work), target)
+            _compile(compiler, files, folders, headers, sources, Path(work), target)
     return target
 
 
@@ -85,11 +86,13 @@ def _key(compiler: str, texts: Sequence[str]) -> str:
     return hashlib.sha256("\0".join(parts).encode()).hexdigest()[:16]
 
 
-def _scan(files: Sequence[Path], folders: Sequence[Path]) -> tuple[dict[str, str | Path], list[str]]:
+def _scan(
+    files: Sequence[Path], folders: Sequence[Path]
+) -> tuple[dict[str, str | Path], list[str], dict[str, list[Path]]]:
     """Follow INCLUDE lines.
 
     Returns the files to supply by the name that a line uses (Abaqus' headers; files whose name differs in case, as
-    they may where a source comes from Windows) and all texts that the result depends on.
+    they may where a source comes from Windows), all texts that the result depends on, and the files by bare name.
     """
     supply: dict[str, str | Path] = {}
     texts: list[str] = []
@@ -110,7 +113,10 @@ def _scan(files: Sequence[Path], folders: Sequence[Path]) -> tuple[dict[str, str
                 supply[name] = found
             elif header is not None:
                 supply[name] = header
-    return supply, texts
+    named: dict[str, list[Path]] = {}
+    for file in sorted(seen):
+        named.setdefault(file.name, []).append(file)
+    return supply, texts, named
 
 
 def _matches(name: str, folders: Sequence[Path]) -> Iterator[Path]:
@@ -127,6 +133,7 @@ def _compile(
     files: Sequence[Path],
     folders: Sequence[Path],
     supply: dict[str, str | Path],
+    sources: dict[str, list[Path]],
     work: Path,
     target: Path,
 ) -> None:
@@ -136,26 +143,66 @@ def _compile(
         path.parent.mkdir(parents=True, exist_ok=True)
         path.write_text(content if isinstance(content, str) else _read(content), encoding="latin-1")
     search = [f"-I{folder}" for folder in (*folders, headers)]
-    objects = []
+    objects: list[Path] = []
+    notes: list[str] = []
     for number, file in enumerate(files):
         form = FREE if is_free_form(file) else FIXED
         output = work / f"{number}.o"
-        _run([compiler, *FLAGS, *form, *search, f"-J{work}", str(file), "-o", str(output)], file)
+        command = [compiler, *FLAGS, *form, *search, f"-J{work}", "-o", str(output)]
+        notes += _compile_one(command, file, sources, work / f"mended{number}")
         objects.append(output)
     shared = work / target.name
     libraries = linker.lapack_flags(objects)
     _run([compiler, *linker.FLAGS, *map(str, objects), *libraries, "-o", str(shared)], files[0])
     # another process may write the same file: a rename replaces it in one step
+    notes_of(target).write_text("".join(f"{note}\n" for note in notes), encoding="utf-8")
     partial = target.with_suffix(f".{os.getpid()}")
     shutil.move(shared, partial)
     partial.replace(target)
 
 
-def _run(command: Sequence[str], file: Path) -> None:
+def notes_of(library: Path) -> Path:
+    """File beside a compiled library with what was changed to compile it, a line each."""
+    return library.with_suffix(".notes")
+
+
+def _compile_one(command: Sequence[str], file: Path, sources: dict[str, list[Path]], folder: Path) -> list[str]:
+    """Compile a file; what gfortran refuses of Abaqus' compiler is mended in copies in the folder. Returns what was."""
+    copies: dict[str, str] = {}
+    notes: list[str] = []
+    while True:
+        errors = _errors([*command, f"-I{folder}", str(folder / file.name if copies else file)])
+        if errors is None:
+            return notes
+        changed = False
+        for found in COMPARED_LOGICALS.finditer(errors):
+            name, line, operator = Path(found["file"]).name, int(found["line"]), found["operator"]
+            if len(sources.get(name, [])) != 1:
+                continue
+            text = copies.get(name) or _read(sources[name][0])
+            mended = compare_logicals(text, line, int(found["column"]), operator)
+            if mended is not None:
+                copies[name], changed = mended, True
+                notes.append(f"{name}, line {line}: logicals compared with {operator}, in the copy .eqv. or .neqv.")
+        if not changed:
+            raise CompileError(file, first_error(errors))
+        copies.setdefault(file.name, _read(file))
+        folder.mkdir(exist_ok=True)
+        for name, text in copies.items():
+            (folder / name).write_text(text, encoding="latin-1")
+
+
+def _errors(command: Sequence[str]) -> str | None:
+    """What the compiler says; None if it is content."""
     environment = os.environ | {"LC_ALL": "C"}
     result = subprocess.run(command, capture_output=True, text=True, errors="replace", env=environment, check=False)
-    if result.returncode:
-        raise CompileError(file, first_error(result.stderr))
+    return result.stderr if result.returncode else None
+
+
+def _run(command: Sequence[str], file: Path) -> None:
+    errors = _errors(command)
+    if errors is not None:
+        raise CompileError(file, first_error(errors))
 
 
 def first_error(output: str) -> str:

@@ -15,7 +15,7 @@ from harness.errors import CompileError, UelError
 from harness.model.records import PointVariables
 from harness.usersub import _binding, layout
 from harness.usersub.amalgam import path_of_kernels
-from harness.usersub.compiler import SUFFIXES, build
+from harness.usersub.compiler import SUFFIXES, build, notes_of
 from harness.usersub.linker import undefined_routine
 from harness.usersub.messages import Inbox, Message
 
@@ -87,7 +87,11 @@ def load(user: Path | Sequence[Path] | None, *, job: str, output_dir: Path, deck
     files = [] if user is None else [user] if isinstance(user, Path) else list(user)
     shared = _shared_library(files, () if deck is None else (deck.resolve().parent,))
     name = " ".join(str(f) for f in files) or "the project's kernels"
-    return Library(name, _open(shared, name), Inbox(job, output_dir))
+    library = Library(name, _open(shared, name), Inbox(job, output_dir))
+    notes = notes_of(shared)
+    for note in notes.read_text("utf-8").splitlines() if notes.exists() else ():
+        library.warn(f"an extension of Abaqus' compiler, written in standard Fortran in a copy: {note}")
+    return library
 
 
 def _shared_library(files: Sequence[Path], include: Sequence[Path]) -> Path:

@@ -68,6 +68,8 @@ def measure(folder: Path, row: Row) -> Outcome:
                 lines.append((record.attempt, record.iterations))
                 if "quantity" in row:
                     values.append((record.total_time, _evaluate(model, record.solution, row["quantity"])))
+                if outcome.increments == row.get("increments"):
+                    break
     except UelError as error:
         outcome.error = str(error).splitlines()[0]
     if values:

@@ -50,6 +50,8 @@ def run(folder: Path, row: Row) -> Outcome:
 
 def verdict(row: Row, outcome: Outcome) -> tuple[bool, str]:
     """Whether the row is as it should be, and what to say of it."""
+    if "refused" in row:
+        return row["refused"] in outcome.error, f"refused: {outcome.error}" if outcome.error else "not refused"
     if outcome.error:
         shown = outcome.error if len(outcome.error) < 300 else f"{outcome.error[:297]}..."
         return False, shown.replace("|", "\\|")

@@ -131,8 +131,10 @@ def test_first_error_with_its_line_and_column(load):
 
 
 def test_what_gfortran_refuses_is_shown(load):
-    with pytest.raises(CompileError, match=r"Logicals must be compared with .eqv. instead of .eq."):
-        load(database("      logical a, b\n      if (a .eq. b) i = 1\n"))
+    """.eqv. binds less than .and.: this comparison cannot be mended without a thought."""
+    body = "      logical a, b\n      a = .true.\n      b = .true.\n      if (a .eq. .true. .and. b) a = b\n"
+    with pytest.raises(CompileError, match=r"Logicals must be compared with .eqv. instead of .eq. \(user.f, line 8"):
+        load(database(body))
 
 
 def test_missing_include(load):
@@ -208,3 +210,19 @@ def test_automatic_arrays_are_on_the_stack(load, cache):
     symbols = subprocess.run(["nm", "-D", str(library)], capture_output=True, text=True, check=True).stdout
     assert "work_" in symbols
     assert "malloc" not in symbols
+
+
+def test_logicals_compared_with_eq_compile_in_a_copy(load, tmp_path):
+    """As Abaqus' compiler takes them; in an included file too; the user's files stay as they are."""
+    included = "      if (flag .eq. .true.) then\n" + note("equal") + "\n      end if\n"
+    (tmp_path / "part.inc").write_text(included)
+    body = "      logical flag\n      flag = .true.\n      include 'part.inc'\n"
+    text = database(body + "      if ((flag == .false.)) " + note("never").strip() + "\n")
+    library = load(text)
+    assert [m.text for m in library.messages()] == [
+        "an extension of Abaqus' compiler, written in standard Fortran in a copy: "
+        f"{file}: logicals compared with {operator}, in the copy .eqv. or .neqv."
+        for file, operator in (("part.inc, line 1", ".eq."), ("user.f, line 8", "=="))
+    ]
+    assert said(library) == ["equal"]
+    assert (tmp_path / "user.f").read_text() == text
