@@ -32,6 +32,12 @@ class DeckError(UelError):
         self.source = source
 
 
+def all_of(errors: Sequence[DeckError]) -> DeckError:
+    """One error that names the places of all of them."""
+    first = errors[0]
+    return DeckError(first.source, str(first).removeprefix(f"{first.source}: "), errors[1:])
+
+
 class CompileError(UelError):
     """The user's file does not compile or link; carries the compiler's line."""
 

@@ -97,6 +97,13 @@ class System:
         load = columns[1] if nrhs > 1 else None
         return Evaluation(columns[0], data, flux, count, pnewdt, energy, load, damage)
 
+    def artificial_mass(self, call: Call) -> FloatArray:
+        """(nnz,) CSR values of the mass of the built-in elements that have one, for unit density."""
+        data = np.zeros(len(self.indices))
+        for block in self.blocks:
+            block.artificial_mass(call, len(self), data)
+        return data
+
     def commit(self) -> None:
         """End of a converged increment: the state of the last normal pass becomes the committed one."""
         for block in self.blocks:

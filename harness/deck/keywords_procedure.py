@@ -49,7 +49,15 @@ PROCEDURE = (
         (
             Option("DIRECT", doc="fixed increments"),
             Option("RIKS", doc="the load factor is part of the solution; increments are arc lengths"),
-            *refused("ADIABATIC", "ALLSDTOL", "CONTINUE", "FACTOR", "FULLY PLASTIC", "LONG TERM", "STABILIZE"),
+            Option(
+                "STABILIZE",
+                Kind.REAL,
+                "viscous forces on the masses of built-in elements; fraction of energy that they dissipate at first",
+                bare="0.0002",
+            ),
+            Option("FACTOR", Kind.REAL, "damping factor in place of the fraction"),
+            Option("ALLSDTOL", Kind.REAL, "largest ratio of ALLSD to ALLSE (0.05; 0 with FACTOR: no limit)"),
+            *refused("ADIABATIC", "CONTINUE", "FULLY PLASTIC", "LONG TERM"),
         ),
         "initial increment, period (1), smallest increment, largest increment; with RIKS also the largest load "
         "proportionality factor, and a node, its dof and the displacement that ends the step",

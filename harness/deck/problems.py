@@ -8,7 +8,7 @@ import difflib
 from collections.abc import Iterable, Iterator
 from contextlib import contextmanager
 
-from harness.errors import DeckError, Source
+from harness.errors import DeckError, Source, all_of
 
 MOST_REPORTED = 50
 
@@ -44,13 +44,11 @@ class Problems:
     def check(self) -> None:
         """Raise one DeckError that names every place so far, if there is any."""
         errors = list(self._errors.values())
-        if len(errors) == 1:
-            raise errors[0]
         if errors:
             shown = errors[:MOST_REPORTED]
             if len(errors) > MOST_REPORTED:
                 shown.append(DeckError(errors[MOST_REPORTED].source, f"and {len(errors) - MOST_REPORTED} more errors"))
-            raise DeckError(shown[0].source, str(shown[0]).removeprefix(f"{shown[0].source}: "), shown[1:])
+            raise all_of(shown)
 
 
 def nearest(word: str, known: Iterable[str]) -> str:

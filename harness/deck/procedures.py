@@ -14,7 +14,7 @@ from dataclasses import replace
 from harness.deck.blocks import Block, Row
 from harness.deck.prescribed import Prescription
 from harness.deck.structure import Scope
-from harness.model.procedures import Dynamic, HeatTransfer, Integrator, Procedure, Riks, Static, Visco
+from harness.model.procedures import Dynamic, HeatTransfer, Integrator, Procedure, Riks, Stabilize, Static, Visco
 
 SMALLEST_FRACTION = 1e-5
 
@@ -78,7 +78,25 @@ def _read_static(block: Block, prescription: Prescription) -> Static:
     if row is not None:
         row.at_most(8 if along_path else 4)
     times = _read_times(block, direct=block.options.flag("DIRECT"), along_path=along_path)
-    return Static(*times, _read_riks(row, prescription) if along_path else None)
+    stabilize = _read_stabilize(block)
+    if along_path and stabilize is not None:
+        raise block.error("RIKS and STABILIZE exclude each other")
+    return Static(*times, _read_riks(row, prescription) if along_path else None, stabilize)
+
+
+def _read_stabilize(block: Block) -> Stabilize | None:
+    options = block.options
+    if not options.given("STABILIZE"):
+        extra = next((name for name in ("FACTOR", "ALLSDTOL") if options.given(name)), None)
+        if extra is not None:
+            raise block.error(f"{extra} needs STABILIZE")
+        return None
+    fraction, factor = options.real("STABILIZE", 0.0), options.real("FACTOR", 0.0)
+    # damping with a given factor is not adapted unless that is asked for
+    limit = options.real("ALLSDTOL", 0.0 if factor else Stabilize().limit)
+    if fraction <= 0 or min(factor, limit) < 0:
+        raise block.error("STABILIZE must be positive, FACTOR and ALLSDTOL not negative")
+    return Stabilize(fraction, factor, limit)
 
 
 def _read_riks(row: Row | None, prescription: Prescription) -> Riks:

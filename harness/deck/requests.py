@@ -17,7 +17,9 @@ from harness.deck.user_elements import LARGEST_DOF
 from harness.model.arrays import IntArray
 from harness.model.steps import ElementRequest, NodeRequest, OutputRequests
 
-PRESELECTED_ENERGIES = (*("ALLAE", "ALLCD", "ALLDMD", "ALLIE", "ALLKE", "ALLPD", "ALLSE", "ALLVD", "ALLWK", "ETOTAL"),)
+PRESELECTED_ENERGIES = (
+    *("ALLAE", "ALLCD", "ALLDMD", "ALLIE", "ALLKE", "ALLPD", "ALLSD", "ALLSE", "ALLVD", "ALLWK", "ETOTAL"),
+)
 PRESELECTED_NODAL = ("U", "RF", "CF")
 NEVER = 0
 _OUTPUT_TIMES = ("NUMBER INTERVAL", "TIME INTERVAL", "TIME POINTS")

@@ -43,7 +43,9 @@ class Where(StrEnum):
 
 @dataclass(frozen=True, slots=True)
 class Option:
-    """One option of a keyword line. `refused` are values Abaqus knows that would change the solution here."""
+    """One option of a keyword line. `refused` are values Abaqus knows that would change the solution here;
+    `bare` is the value where the line gives none.
+    """
 
     name: str
     kind: Kind = Kind.FLAG
@@ -53,6 +55,7 @@ class Option:
     choices: tuple[str, ...] = ()
     refused: tuple[str, ...] = ()
     support: Support = Support.READ
+    bare: str = ""
 
 
 @dataclass(frozen=True, slots=True)
@@ -167,6 +170,7 @@ def _read_value(keyword: Keyword, option: Option, value: str | None, source: Sou
             .replace("ON", "YES")
             .replace("OFF", "NO")
         )
+    value = value or option.bare
     if not value:
         raise DeckError(source, f"{place} needs a value")
     if option.kind is Kind.CHOICE:

@@ -22,6 +22,9 @@ from harness.usersub._binding import Fault, Guards, LoadArrays, Options
 NORMAL: Final = 1
 """LFLAGS(3) of a normal call."""
 
+MASS: Final = 4
+"""LFLAGS(3) of a call for the mass matrix."""
+
 _PLASTIC: Final = 3
 """Index of ENERGY(4)."""
 
@@ -36,6 +39,7 @@ class Procedure:
     history   values per point and points of the material history; (1, 1) without one
     statev    number of STATEV, which are the last values of the history
     uvarm     UVARM to call after each increment, None for none
+    density   place of the density in PROPS, from 0; -1 without one
     hidden    SVARS at the end that are no state of a point, which output does not see
     tensor    stress components of the material: 3 plane stress, 4 plane strain, 6 three-dimensional; 0 without one
     mcrd      coordinates per node
@@ -53,6 +57,7 @@ class Procedure:
     history: tuple[int, int] = (1, 1)
     statev: int = 0
     hidden: int = 0
+    density: int = -1
     uvarm: OutputVariables | None = None
     damages: bool = False
 
@@ -221,6 +226,21 @@ class Block:
             return np.zeros((*nodes.shape, 1, 2))
         values = np.stack([predefined.end, predefined.increment], axis=-1)[:, nodes]
         return np.ascontiguousarray(values.transpose(1, 2, 0, 3))
+
+    def artificial_mass(self, call: Call, unknowns: int, matrix: FloatArray) -> None:
+        """Add the mass matrix for unit density into matrix, where the elements have a density.
+
+        unknowns: of the system.
+        """
+        place = self._procedure.density
+        if place < 0:
+            return
+        given, self._arrays.props = self._arrays.props, self._arrays.props.copy()
+        self._arrays.props[place] = 1.0
+        zero = np.zeros(unknowns)
+        lflags = (*call.lflags[:2], MASS, *call.lflags[3:])
+        self.evaluate(replace(call, lflags=lflags), zero, zero, zero.copy(), matrix)
+        self._arrays.props = given
 
     def bare_loop(self, call: Call, u: FloatArray, du: FloatArray, residual: FloatArray) -> None:
         """Only call the elements, from a plain Fortran loop over the block: the limit of speed."""

@@ -13,7 +13,7 @@ from harness.elements.cohesive import COHESIVE, cohesive_procedure, cohesive_var
 from harness.elements.discrete import DISCRETE, discrete_procedure, discrete_unknowns, discrete_variables
 from harness.elements.materials import Tensor, define_material
 from harness.elements.solid import SOLIDS, history_of, solid_procedure, solid_variables
-from harness.errors import DeckError
+from harness.errors import DeckError, all_of
 from harness.model.mesh import ElementGroup
 from harness.model.model import Model
 from harness.model.properties import CohesiveSection, SolidSection, UserElement, UserProperty
@@ -29,29 +29,35 @@ TENSORS: Final = {
 
 
 def build_blocks(model: Model, library: Library, *, strict: bool = True) -> list[Block]:
-    """One block per group of the model, in the same order. Raises DeckError.
+    """One block per group of the model, in the same order. Raises DeckError that names all places.
 
     strict: a user element that writes outside an array is an error, else a warning.
     """
-    blocks = []
+    blocks: list[Block] = []
+    errors: dict[str, DeckError] = {}
     for group in model.groups:
-        if group.definition is not None:
-            blocks.append(_user_block(model, group, group.definition, library, strict=strict))
-        elif group.type in SOLIDS:
-            blocks.append(_solid_block(model, group, library))
-        elif group.type in COHESIVE:
-            blocks.append(_cohesive_block(model, group, library))
-        elif group.type in DISCRETE:
-            blocks.append(_discrete_block(model, group, library))
-        else:
-            types = [*SOLIDS, *COHESIVE, *DISCRETE]
-            known = ", ".join(types)
-            near = get_close_matches(group.type.upper(), types, n=1)
-            hint = f"; did you mean {near[0]}?" if near else ""
-            raise DeckError(group.source, f"element type {group.type} is not supported (built in are {known}){hint}")
+        try:
+            blocks.append(_block_of(model, group, library, strict=strict))
+        except DeckError as error:
+            errors.setdefault(str(error), error)
+    if errors:
+        raise all_of(list(errors.values()))
     for block, following in pairwise(blocks):
         following.first = block.first + len(block.group.labels)
     return blocks
+
+
+def _block_of(model: Model, group: ElementGroup, library: Library, *, strict: bool) -> Block:
+    if group.definition is not None:
+        return _user_block(model, group, group.definition, library, strict=strict)
+    for types, make in ((SOLIDS, _solid_block), (COHESIVE, _cohesive_block), (DISCRETE, _discrete_block)):
+        if group.type in types:
+            return make(model, group, library)
+    built_in = [*SOLIDS, *COHESIVE, *DISCRETE]
+    near = get_close_matches(group.type.upper(), built_in, n=1)
+    hint = f"; did you mean {near[0]}?" if near else ""
+    message = f"element type {group.type} is not supported (built in are {', '.join(built_in)}){hint}"
+    raise DeckError(group.source, message)
 
 
 def _user_block(model: Model, group: ElementGroup, definition: UserElement, library: Library, *, strict: bool) -> Block:

@@ -45,6 +45,7 @@ def discrete_procedure(model: Model, group: ElementGroup, unknowns: int) -> Proc
         mcrd=unknowns // 2 if kind <= 2 else 3,
         svars=_STATES[kind] + hidden,
         hidden=hidden,
+        density=2 if kind == 1 else -1,
         props=_properties(group, dynamic=dynamic),
         jprops=np.zeros(0, dtype=np.int64),
     )

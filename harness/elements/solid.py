@@ -78,6 +78,7 @@ def solid_procedure(model: Model, group: ElementGroup, section: SolidSection, li
         mcrd=kind.dimension,
         svars=kind.points * 2 * len(_COMPONENTS[kind.dimension]) + hidden,
         hidden=hidden,
+        density=1,
         props=np.array([section.thickness, material.density, _hourglass_stiffness(group, kind, section)]),
         jprops=np.array([kind.points]),
         material=define_material(material, section.orientation, kind.tensor, section.source, library),

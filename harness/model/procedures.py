@@ -50,8 +50,24 @@ class Procedure(ABC):
 
 
 @dataclass(frozen=True, slots=True)
+class Stabilize:
+    """*STATIC, STABILIZE: viscous forces, factor times the mass of built-in elements of unit density times velocity.
+
+    fraction  of the strain energy that the first increment would dissipate; sets the factor unless it is given
+    factor    0: not given
+    limit     ALLSDTOL: largest ratio of dissipated to strain energy before the factor is reduced; 0: no limit
+    """
+
+    fraction: float = 2e-4
+    factor: float = 0.0
+    limit: float = 0.05
+
+
+@dataclass(frozen=True, slots=True)
 class Static(Procedure):
     """*STATIC."""
+
+    stabilize: Stabilize | None = None
 
     @property
     def lflag(self) -> int:

@@ -12,13 +12,14 @@ from harness.assembly import DofMap, System
 from harness.elements import Call
 from harness.errors import ConvergenceError, SingularMatrixError
 from harness.model.model import Model
-from harness.model.procedures import Dynamic, HeatTransfer
+from harness.model.procedures import Dynamic, HeatTransfer, Static
 from harness.model.records import Noted, Record, StepStarted, Warned
 from harness.model.steps import Boundary, Load, Step
 from harness.procedures.dynamic import DynamicStep
 from harness.procedures.heat_transfer import HeatTransferStep
 from harness.procedures.loads import find_unknowns
 from harness.procedures.path import EnergyStep, RiksStep
+from harness.procedures.stabilized import StabilizedStep
 from harness.procedures.state import State
 from harness.procedures.static import MASS, StaticStep, UserRoutines
 
@@ -86,6 +87,9 @@ def run_steps(
                 running = RiksStep(system, model, step, state, solver, user)
             elif energy_control:
                 running = EnergyStep(system, model, step, state, solver, user)
+            elif isinstance(procedure, Static) and procedure.stabilize is not None:
+                given = procedure.stabilize
+                running = StabilizedStep(system, model, step, given, state, solver, user, fallback=fallback)
             else:
                 running = StaticStep(system, model, step, state, solver, user, fallback=fallback)
             yield from running.run()

@@ -31,6 +31,7 @@ class State:
     work       external work so far
     energy     (8,) sum of ENERGY
     damage     dissipated by the damage of built-in elements
+    stabilization  energy that *STATIC, STABILIZE has dissipated
     flux       flux history by field
     majoriser  matrix of the start of the analysis, for the fall-back
     """
@@ -51,6 +52,7 @@ class State:
     work: float = 0.0
     energy: FloatArray = field(default_factory=lambda: np.zeros(8))
     damage: float = 0.0
+    stabilization: float = 0.0
     flux: list[FluxHistory] = field(default_factory=lambda: [FluxHistory() for _ in FIELD_NAMES])
 
     @classmethod
@@ -103,8 +105,9 @@ class State:
             "ALLCD": creep,
             "ALLVD": viscous,
             "ALLAE": artificial,
+            "ALLSD": self.stabilization,
             "ALLKE": kinetic,
             "ALLIE": internal,
             "ALLWK": self.work,
-            "ETOTAL": kinetic + internal + viscous - self.work,
+            "ETOTAL": kinetic + internal + viscous + self.stabilization - self.work,
         }

@@ -39,6 +39,7 @@ class Increment:
     guess         (n,) extrapolated increment; None: from the start state
     prescribed    (n_p,) increment of each prescribed unknown
     load          (n,) external load at the end
+    damping       (nnz,) CSR values of a matrix whose product with the increment is a force too; None: there is none
     motion        velocities and accelerations at the end that go with an increment (n,); None: at rest
     """
 
@@ -48,6 +49,7 @@ class Increment:
     prescribed: FloatArray
     load: FloatArray
     motion: Callable[[FloatArray], Motion] | None = None
+    damping: FloatArray | None = None
 
 
 @dataclass(frozen=True, slots=True)
@@ -137,7 +139,14 @@ class Newton:
 
     def _pass(self, call: Call, given: Increment, increment: FloatArray, *, matrix: bool = True) -> Evaluation:
         motion = given.motion and given.motion(increment)
-        return self._system.evaluate(call, given.displacement + increment, increment, matrix=matrix, motion=motion)
+        evaluation = self._system.evaluate(
+            call, given.displacement + increment, increment, matrix=matrix, motion=motion
+        )
+        if given.damping is not None:
+            evaluation.residual[:] -= self._system.matrix(given.damping) @ increment
+            if evaluation.data is not None:
+                evaluation.data[:] += given.damping
+        return evaluation
 
     def _searched(self, given: Increment, before: Iterate, full: Iterate) -> Iterate:
         """The state at the scale that line search finds; the last pass is a normal one at that scale."""

@@ -116,3 +116,11 @@ def test_fields():
     """Abaqus: 1-3 forces, 4-7 moments, 8 pore pressure, 9 electrical, 11 and up temperature."""
     names = [FIELD_NAMES[field_of(dof)] for dof in (1, 3, 4, 6, 7, 8, 9, 11, 12, 30)]
     assert names == ["force"] * 2 + ["moment"] * 3 + ["pore", "electrical"] + ["temperature"] * 3
+
+
+def test_all_places_are_named_at_once(solid_group, load):
+    """One error for each section, not one after the other."""
+    groups = [solid_group(kind, np.array([[0, 1, 2]]), 1.0) for kind in ("S4R", "CPS4", "B21")]
+    mesh = Mesh(np.arange(1, 5), np.eye(4, 3), ("",) * 4)
+    with pytest.raises(DeckError, match=r"(?s)type S4R is not.*\n.*type CPS4 have 4 nodes.*\n.*type B21 is not"):
+        build_blocks(Model(Path("test.inp"), "", mesh, tuple(groups), ()), load(None))
