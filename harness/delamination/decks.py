@@ -8,12 +8,14 @@ import argparse
 import sys
 from collections.abc import Sequence
 from dataclasses import replace
+from functools import partial
 from pathlib import Path
 
 from harness.delamination import specimens as build
 from harness.delamination.blocks import Interface
 from harness.delamination.cook import cook_files
 from harness.delamination.materials import TABLE_2
+from harness.delamination.reproduce.cases import PROBLEMS, comparator_cases, paper_cases
 from harness.delamination.reproduce.patch_cases import inclined_cases
 from harness.delamination.steps import LINEAR, Increments
 
@@ -93,10 +95,16 @@ def patch_inclined() -> dict[str, str]:
     return {name: content for case in inclined_cases() for name, content in case.files().items()}
 
 
+def paper(problem: str) -> dict[str, str]:
+    """Runs of sections 4.2 to 4.4, as `uel reproduce` makes them: both layups, three stiffnesses, two meshes."""
+    cases = paper_cases(problem) + comparator_cases(problem)
+    return {name: content for case in cases for name, content in case.files().items()}
+
+
 def all_files() -> dict[Path, str]:
     """Every built file, by its path below abaqus_inputs."""
     problems = {"patch_horizontal": patch_horizontal, "dcb": dcb, "dcb_ref": dcb_ref, "quad_cook": cook_files}
-    problems |= {"patch_inclined": patch_inclined}
+    problems |= {"patch_inclined": patch_inclined} | {f"paper_{name}": partial(paper, name) for name in PROBLEMS}
     return {Path(folder, name): text for folder, problem in problems.items() for name, text in problem().items()}
 
 

@@ -141,7 +141,8 @@ def _tables(parts: Sequence[str], evidence: Evidence, folder: Path) -> list[Tabl
             name = study.title.split()[0].lower()
             picture = sensitivity.draw(study, evidence.runs, folder / f"sensitivity_{name}.png")
             head = ("specimen, element", study.parameter, *sensitivity.HEAD)
-            tables.append(Table(f"Sensitivity: {study.title.lower()}", study.advice, head, rows, picture))
+            text = f"{study.advice} {sensitivity.spread(study, evidence.runs)}"
+            tables.append(Table(f"Sensitivity: {study.title.lower()}", text, head, rows, picture))
     tables.append(_ends(evidence.runs))
     return tables
 

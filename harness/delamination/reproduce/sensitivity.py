@@ -52,6 +52,10 @@ def _bases(problem: str, methods: Sequence[tuple[str, str]], *, coarse: bool) ->
     }
 
 
+def _sized(case: Case, size: float) -> Case:
+    return case if size == case.element_size else replace(case, size=size)
+
+
 def studies(*, coarse: bool) -> list[Study]:
     """All parameters; with `coarse`, around the coarse meshes and without the finest one."""
     dcb, enf = (_bases(problem, METHODS, coarse=coarse) for problem in ("dcb", "enf"))
@@ -62,7 +66,7 @@ def studies(*, coarse: bool) -> list[Study]:
         Study(
             "Mesh",
             "length of the elements (mm)",
-            {label: [(f"{s:g}", replace(case, size=s)) for s in kept[case.problem]] for label, case in both.items()},
+            {label: [(f"{s:g}", _sized(case, s)) for s in kept[case.problem]] for label, case in both.items()},
             number=True,
             advice=ADVICE["mesh"],
         ),
@@ -135,14 +139,25 @@ def studies(*, coarse: bool) -> list[Study]:
 
 
 ADVICE = {
-    "mesh": "Five elements in the process zone are enough for the load: 0.25 mm in mode I, 1 mm in mode II.",
-    "increments": "100 increments; more change the load by less than the saw of single points that fail.",
-    "stiffness": "Consistent element: leave the stiffness out. Standard element: 1e6 N/mm³, by (25).",
-    "strength": "The strengths set the peak where the process zone is long (mode II), and hardly the load after it.",
-    "sampling": "The middle of the face.",
-    "integration": "Gauss for the stabilised elements; Newton-Cotes makes a stiff standard element smoother.",
-    "beta": "Leave beta at 0: equation (21).",
+    "mesh": "Take the largest elements whose peak load agrees with that of elements of half their length.",
+    "increments": "Take 100 increments, and more where the load falls in jumps of several points.",
+    "stiffness": "Consistent method: leave the stiffness out (inf). Standard method: the lowest at which the peak load "
+    "has settled; more only adds oscillation.",
+    "strength": "Measure the strengths, or give their effect on the peak load with the result.",
+    "sampling": "Take the middle of the face, which is the default.",
+    "integration": "Take Gauss points with the stabilised methods.",
+    "beta": "Leave beta out: equation (21).",
 }
+
+
+def spread(study: Study, runs: Runs) -> str:
+    """How far the peak loads of a parameter's values lie apart, by curve."""
+    parts = []
+    for label, pairs in study.variants.items():
+        peaks = [row(runs[case])[HEAD[0]] for _, case in pairs if not runs[case].entry.stopped]
+        if len(peaks) > 1:
+            parts.append(f"{label} {max(peaks) / min(peaks) - 1.0:.1%}")
+    return f"Peak loads differ by {'; '.join(parts)}." if parts else ""
 
 
 def row(run: Run) -> dict[str, float]:
