@@ -102,7 +102,9 @@ def cohesive_properties(section: CohesiveSection, dimension: int) -> tuple[list[
             codes[3] = _MIXED_MODES.index(evolution.mixed_mode)
             if evolution.type == "ENERGY" and section.thickness > 0:
                 _check_toughness(damage, evolution, moduli, onset, values, section.thickness, dimension)
-    reals = [section.thickness, section.width, *moduli, *onset, *values, power, viscosity, controls.degradation]
+    # the width has a meaning in the plane alone
+    width = section.width if dimension == 2 else 1.0
+    reals = [section.thickness, width, *moduli, *onset, *values, power, viscosity, controls.degradation]
     return reals, [int(controls.deletion), *codes]
 
 

@@ -53,7 +53,7 @@ class Layer:
         coordinates = np.zeros((len(nodes), 3))
         coordinates[:, :n] = nodes
         material = Material("M", SOURCE, Elastic(ElasticType.TRACTION, stiffness, SOURCE), damage=damage)
-        section = CohesiveSection("ALL", material, thickness, WIDTH if n == 2 else 1.0, controls, SOURCE)
+        section = CohesiveSection("ALL", material, thickness, WIDTH, controls, SOURCE)
         group = ElementGroup(element_type, np.array([101]), np.arange(len(nodes))[None], "", section, None, SOURCE)
         self.block, self.matrix = bound(group, coordinates, library)
         self.coordinates = coordinates[:, :n]
