@@ -63,7 +63,13 @@ MESH = (
         "Define elements by their nodes.",
         Where.MODEL,
         (
-            Option("TYPE", Kind.NAME, "element type", required=True),
+            Option(
+                "TYPE",
+                Kind.NAME,
+                "Un; or built in: CPS3, CPS4, CPS4R, CPS8, CPS8R, CPE3, CPE4, CPE4R, CPE8, CPE8R, C3D4, C3D8, C3D8R, "
+                "C3D20, C3D20R, COH2D4, COH3D8, T2D2, T3D2, SPRING1, SPRING2, SPRINGA, MASS",
+                required=True,
+            ),
             Option("ELSET", Kind.NAME, "set that takes the elements"),
             INPUT,
             *refused("FILE", "OFFSET", "SOLID ELEMENT NUMBERING"),

@@ -44,6 +44,11 @@ class Procedure(ABC):
         """LFLAGS(1), which tells user elements the procedure."""
 
     @property
+    def growth(self) -> str:
+        """Name of the control D_M that bounds the growth from one increment to the next."""
+        return "d_m"
+
+    @property
     def default_amplitude(self) -> str:
         """How loads vary where neither they nor *STEP name an amplitude: RAMP or STEP."""
         return "RAMP"
@@ -116,6 +121,11 @@ class Dynamic(Procedure):
     half_force: float = 0.0
 
     @property
+    def growth(self) -> str:
+        """That of dynamic steps."""
+        return "d_m_dyn"
+
+    @property
     def lflag(self) -> int:
         """11 automatic, 12 fixed increments."""
         return 12 if self.direct else 11
@@ -139,6 +149,11 @@ class HeatTransfer(Procedure):
     steady: bool = False
     largest_change: float = math.inf
     end_change: float = 0.0
+
+    @property
+    def growth(self) -> str:
+        """That of diffusion."""
+        return "d_m_diff"
 
     @property
     def lflag(self) -> int:

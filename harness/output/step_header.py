@@ -117,7 +117,7 @@ def completed(record: IncrementDone, period: float) -> str:
 def tolerances(step: Step, fields: Iterable[str]) -> str:
     """Everything that the convergence checks and the time incrementation of the step depend on."""
     blocks = [_field(FIELDS[name], controls_of(name, step.controls)) for name in fields]
-    blocks.append(_time(step.controls.time, direct=step.procedure.direct))
+    blocks.append(_time(step.controls.time, step.procedure))
     search = step.controls.line_search
     if search.n_ls:
         blocks.append(
@@ -169,11 +169,11 @@ def _field(words: FieldWords, controls: FieldControls) -> str:
     return f" CONVERGENCE TOLERANCE PARAMETERS FOR {words.flux}\n" + "".join(_row(*row) for row in rows)
 
 
-def _time(controls: TimeControls, *, direct: bool) -> str:
+def _time(controls: TimeControls, procedure: Procedure) -> str:
     first: list[tuple[str, float]] = [("FIRST EQUILIBRIUM ITERATION FOR CONSECUTIVE DIVERGENCE CHECK", controls.i_0)]
     alternate = ("EQUILIBRIUM ITERATION AFTER WHICH ALTERNATE RESIDUAL IS USED", controls.i_p)
     largest = ("MAXIMUM EQUILIBRIUM ITERATIONS ALLOWED", controls.i_c)
-    if direct:
+    if procedure.direct:
         return " ITERATION CONTROL PARAMETERS:\n" + "".join(_row(*row) for row in [*first, alternate, largest])
     rows = [
         *first,
@@ -188,7 +188,7 @@ def _time(controls: TimeControls, *, direct: bool) -> str:
         ("CUT-BACK FACTOR AFTER TOO MANY EQUILIBRIUM ITERATIONS", controls.d_b),
         ("CUT-BACK FACTOR AFTER PROBLEMS IN ELEMENT ASSEMBLY", controls.d_h),
         ("INCREASE FACTOR AFTER TWO INCREMENTS THAT CONVERGE QUICKLY", controls.d_d),
-        ("MAX. TIME INCREMENT INCREASE FACTOR ALLOWED", controls.d_m),
+        ("MAX. TIME INCREMENT INCREASE FACTOR ALLOWED", getattr(controls, procedure.growth)),
         ("MINIMUM TIME INCREMENT RATIO FOR EXTRAPOLATION TO OCCUR", controls.d_e),
     ]
     return " TIME INCREMENTATION CONTROL PARAMETERS:\n" + "".join(_row(*row) for row in rows)

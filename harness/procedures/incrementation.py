@@ -11,7 +11,7 @@ import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-from harness.model.procedures import Dynamic, HeatTransfer, Procedure
+from harness.model.procedures import Procedure
 from harness.model.steps import TimeControls
 
 DIVERGING = "THE SOLUTION APPEARS TO BE DIVERGING. CONVERGENCE IS JUDGED UNLIKELY."
@@ -96,13 +96,6 @@ def refused(pnewdt: float) -> Abandoned | None:
     return Abandoned(pnewdt, f"A USER ELEMENT REQUESTS A SMALLER TIME INCREMENT, PNEWDT = {pnewdt:.4g}")
 
 
-def largest_growth(procedure: Procedure, controls: TimeControls) -> float:
-    """D_M: the largest factor from one increment to the next."""
-    if isinstance(procedure, Dynamic):
-        return controls.d_m_dyn
-    return controls.d_m_diff if isinstance(procedure, HeatTransfer) else controls.d_m
-
-
 class IncrementControl:
     """Increment sizes of one step, automatic or direct.
 
@@ -115,7 +108,7 @@ class IncrementControl:
         self._size = procedure.initial if procedure.direct else min(procedure.initial, procedure.maximum)
         self._easy = 0
         self._measures: list[float] = []
-        self._most = largest_growth(procedure, controls)
+        self._most = float(getattr(controls, procedure.growth))
         self._whole: tuple[float, float] | None = None
         self.in_parts = False
         self.attempts = 0

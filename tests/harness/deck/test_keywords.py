@@ -4,6 +4,7 @@
 
 from harness.deck.abaqus_names import ABAQUS_KEYWORDS
 from harness.deck.keywords import KEYWORDS, MARKDOWN, markdown
+from harness.deck.user_elements import BUILT_IN_NODES
 
 
 def test_page_is_current() -> None:
@@ -18,3 +19,8 @@ def test_options_have_one_entry_each() -> None:
     for keyword in KEYWORDS.values():
         names = [option.name for option in keyword.options]
         assert len(names) == len(set(names)), keyword.name
+
+
+def test_page_names_all_built_in_elements() -> None:
+    doc = next(option.doc for option in KEYWORDS["ELEMENT"].options if option.name == "TYPE")
+    assert doc.partition("built in: ")[2].split(", ") == list(BUILT_IN_NODES)
