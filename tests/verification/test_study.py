@@ -255,6 +255,10 @@ def test_command_runs_what_is_missing(tmp_path: Path, capsys: pytest.CaptureFixt
     assert row["index_t"] == pytest.approx(1.0 + row["variation_t"] / 60.0)
     assert CASE.stiffness in (tmp_path / "study.csv").read_text()
     assert not list((tmp_path / "runs" / CASE.name).glob("*_vtu"))
+    # nothing is run for a table of what is there
+    assert main(["--output-dir", str(tmp_path), "--kept"]) == 0
+    lines = csv.DictReader((tmp_path / "study.csv").read_text().splitlines())
+    assert [line["specimen"] for line in lines] == [CASE.specimen]
     page = tmp_path / "pages.md"
     assert main([*words, "--page", str(page)]) == 0
     assert f"{CASE.name}:" not in capsys.readouterr().out

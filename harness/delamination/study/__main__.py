@@ -40,12 +40,15 @@ def main(arguments: Sequence[str] | None = None) -> int:
     parser.add_argument(
         "--page", type=Path, help="the table, and beside it the same as .csv (study.md in the output folder)"
     )
+    parser.add_argument("--kept", action="store_true", help="run nothing: a table of the rows that are kept already")
     parser.add_argument("--workers", type=int, default=os.cpu_count(), help="processes (one for each core)")
     options = parser.parse_args(arguments)
     console = Console()
     try:
         cases = select(all_cases(), options.only)
-        rows = _rows(cases, options.output_dir, options.workers, console)
+        store = row_store(options.output_dir)
+        kept = {case: row for case in cases if (row := store.get(case)) is not None}
+        rows = kept if options.kept else _rows(cases, options.output_dir, options.workers, console)
     except UelError as error:
         print(f"study: {error}", file=sys.stderr)
         return 2
