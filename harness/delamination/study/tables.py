@@ -17,7 +17,7 @@ from harness.delamination.study.digests import head, line, ratios, variations, v
 from harness.delamination.study.rows import Row
 
 SHOWN = 4
-"""Failures of a criterion that a terminal shows."""
+"""Failures of a criterion that are named; the rest is counted."""
 
 INTRODUCTION = """\
 <!-- SPDX-FileCopyrightText: The uel-harness authors -->
@@ -42,7 +42,8 @@ cutbacks. Perturbed: the interface nodes lie 3 % of an element's length up and d
   1e6 gives way to the bumps, and has an index below 1 without an error. A dash: the run ended at none of these moments.
   Where a structure snaps, a run may have snapped at a moment when its reference has not: the index is then no measure
   of oscillation.
-- **index of d**: total variation of the damage over its largest value; 1 where it falls steadily to 0.
+- **index of d**: total variation of the damage over its largest value; 1 where it falls steadily to 0, less where all
+  of the interface is damaged.
 """
 
 BUMPS = """
@@ -128,9 +129,14 @@ def _mean(row: Row) -> str:
 def _markdown_verdicts(verdicts: Sequence[Verdict]) -> list[str]:
     lines = head(["criterion", "rows", "holds"])
     for verdict in verdicts:
-        failed = "; ".join(verdict.failures)
+        failed = "; ".join(_named(verdict))
         lines.append(line([verdict.criterion, str(verdict.judged), "yes" if verdict.holds else f"no: {failed}"]))
     return lines
+
+
+def _named(verdict: Verdict) -> list[str]:
+    more = len(verdict.failures) - SHOWN
+    return [*verdict.failures[:SHOWN], *([f"and {more} more"] if more > 0 else [])]
 
 
 def verdict_table(verdicts: Sequence[Verdict]) -> Table:
@@ -138,7 +144,6 @@ def verdict_table(verdicts: Sequence[Verdict]) -> Table:
     table = Table("criterion", "rows", "holds")
     table.add_column("fails", overflow="fold")
     for verdict in verdicts:
-        more = len(verdict.failures) - SHOWN
-        failed = [*verdict.failures[:SHOWN], *([f"and {more} more"] if more > 0 else [])]
-        table.add_row(verdict.criterion, str(verdict.judged), "yes" if verdict.holds else "no", "\n".join(failed))
+        holds = "yes" if verdict.holds else "no"
+        table.add_row(verdict.criterion, str(verdict.judged), holds, "\n".join(_named(verdict)))
     return table

@@ -1,0 +1,49 @@
+# SPDX-FileCopyrightText: The uel-harness authors
+# SPDX-License-Identifier: BSD-3-Clause
+"""The table of the documentation, `fortran/study.md` with `study.csv`, is what the study gives."""
+
+import csv
+from pathlib import Path
+
+import pytest
+
+from harness.delamination.batch import run_deck
+from harness.delamination.study.cases import SOLUTIONS, Case, all_cases
+from harness.delamination.study.rows import measure
+
+PAGE = Path(__file__).parents[2] / "fortran" / "study.md"
+# regression: quick rows
+SAMPLE = (
+    Case("frmm", "0/0", "1e6", "standard", "structured", "fallback"),
+    Case("frmm", "0/0", "inf", "consistent", "perturbed", "fallback"),
+)
+
+
+def committed() -> dict[str, dict[str, str]]:
+    """Lines of the table by the name of their case."""
+    with PAGE.with_suffix(".csv").open(encoding="utf-8") as file:
+        lines = list(csv.DictReader(file))
+    names = ("specimen", "layup", "stiffness", "element", "mesh", "solution", "law")
+    return {Case(*(line[name] for name in names)).name: line for line in lines}
+
+
+@pytest.mark.parametrize("case", SAMPLE, ids=lambda case: case.name)
+def test_sample_of_the_table(case: Case, tmp_path: Path) -> None:
+    fallback, _ = SOLUTIONS[case.solution]
+    outcome = run_deck(case, tmp_path, fallback=fallback)
+    row = measure(case, outcome.result, outcome.stopped, outcome.seconds, []).to_json()
+    line = committed()[case.name]
+    assert line["stopped"] == row["stopped"] == ""
+    for name in ("increments", "cutbacks", "snaps"):
+        assert int(line[name]) == row[name]
+    # another compiler rounds otherwise, and one iteration more or less in an increment is converged as well
+    assert int(line["iterations"]) == pytest.approx(row["iterations"], rel=0.1)
+    for name in ("peak_load", "final_load", "raw_n", "raw_t", "peak_n", "peak_t", "damage_variation"):
+        assert float(line[name]) == pytest.approx(row[name], rel=2e-3), name
+
+
+def test_table_holds_what_is_judged() -> None:
+    names = set(committed())
+    assert names <= {case.name for case in all_cases()}
+    assert {case.name for case in all_cases() if (case.element, case.solution) == ("consistent", "fallback")} <= names
+    assert "Written by `python -m harness.delamination.study`" in PAGE.read_text(encoding="utf-8")
