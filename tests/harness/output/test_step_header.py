@@ -32,7 +32,7 @@ def head(given: Procedure) -> str:
             HeatTransfer(largest_change=5.0),
             [
                 "T R A N S I E N T   H E A T   T R A N S F E R",
-                "MAXIMUM TEMPERATURE CHANGE IN AN INCREMENT IS       5.00",
+                "MAXIMUM TEMPERATURE CHANGE IN AN INCREMENT IS         5.00",
                 "MAX. TIME INCREMENT INCREASE FACTOR ALLOWED                       2.000",
             ],
         ),
