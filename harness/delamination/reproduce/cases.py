@@ -15,7 +15,9 @@ from harness.delamination.patches import PLIES, stabilisation
 from harness.delamination.steps import Increments
 from harness.delamination.study.cases import BUMP, KINDS, STIFFNESSES, Kind
 
-FIELD_EVERY = 4
+PARTS = 25
+"""Profiles are written at the end of so many equal parts of the displacement: the same moments for all runs."""
+PRINT_EVERY = 10
 
 
 ENDS = {"dcb": {"0/0": 3.0, "0/90": 8.0}, "enf": {"0/0": 5.0, "0/90": 8.0}, "frmm": {"0/0": 5.0, "0/90": 6.0}}
@@ -26,14 +28,14 @@ QUICK_SIZES = {"dcb": 0.25, "enf": 0.5, "frmm": 0.25}
 """Length of the elements with --quick (mm)."""
 MOMENTS = {
     ("dcb", "0/0"): 1.8,
-    ("dcb", "0/90"): 5.0,
-    ("enf", "0/0"): 2.9,
-    ("enf", "0/90"): 5.0,
+    ("dcb", "0/90"): 5.12,
+    ("enf", "0/0"): 3.0,
+    ("enf", "0/90"): 5.12,
     ("frmm", "0/0"): 3.0,
-    ("frmm", "0/90"): 4.2,
+    ("frmm", "0/90"): 4.32,
 }
-"""Displacement at which the profiles are drawn (mm). The paper gives none; in its figure 9 the traction of the DCB
-[0/0] changes its sign at X1 = 44 mm, which is at 1.8 mm."""
+"""Displacement at which the profiles are drawn (mm), a multiple of 1/PARTS of the last one. The paper gives none; in
+its figure 9 the traction of the DCB [0/0] changes its sign at X1 = 44 mm, which is at 1.8 mm."""
 LAYUPS = tuple(PLIES)
 ELEMENTS = {
     "standard": Interface("U2", TABLE_2),
@@ -156,10 +158,12 @@ class Case:
         top, bottom = PLIES[self.layup]
         specimen = Specimen(mesh_name, mesh, interface, specimens.WIDTH, bottom, top)
         step = 1.0 / self.increments
-        increments = Increments(step, 1e-7, step, limit=20 * self.increments, residual=self.tolerance)
+        increments = Increments(
+            step, 1e-7, step, limit=20 * self.increments, residual=self.tolerance, field_parts=PARTS
+        )
         title = f"{self.kind.title.capitalize()}, [{self.layup}], {self.element} element, {self.stiffness} N/mm^3"
         return self.kind.deck(
-            title + ", perturbed mesh" * self.perturbed, specimen, self.displacement, increments, FIELD_EVERY
+            title + ", perturbed mesh" * self.perturbed, specimen, self.displacement, increments, PRINT_EVERY
         )
 
 

@@ -73,7 +73,7 @@ def draw_loads(runs: Runs, base: Case, path: Path) -> Path:
         built_in = replace(base, layup=layup, element="COH2D4", stiffness="1e6")
         if built_in in runs:
             run = runs[built_in]
-            curves.append(Curve("COH2D4 1e6", run.displacement[::2], run.load[::2], "points"))
+            curves.append(Curve("COH2D4 1e6", run.displacement[::5], run.load[::5], "points"))
         panels.append(Panel(f"[{layup}]", curves, "Displacement [mm]", "Load [N]"))
     return grid([panels], path)
 

@@ -304,7 +304,9 @@ def energy_error(evidence: Evidence, problem: str, element: str, stiffnesses: Se
     for stiffness in stiffnesses:
         history = evidence.run(problem, "0/0", element, stiffness).history
         work = history["ALLWK"][-1]
-        rest = work - history["ALLSE"][-1] - history["ALLPD"][-1] - history["ALLVD"][-1]
+        # ALLDMD and ALLCD are those of the built-in elements
+        spent = sum(history[name][-1] for name in ("ALLPD", "ALLVD", "ALLDMD", "ALLCD") if name in history)
+        rest = work - history["ALLSE"][-1] - spent
         found.append(abs(float(rest / work)))
     return max(found)
 

@@ -194,6 +194,6 @@ def draw(study: Study, runs: Runs, path: Path) -> Path:
                 for label, pairs in study.variants.items()
                 if pairs[0][1].problem == problem
             ]
-            panels.append(Panel(f"{problem.upper()} [0/0]", curves, study.parameter, name.capitalize()))
+            panels.append(Panel(f"{problem.upper()} [0/0]", curves, study.parameter, name[0].upper() + name[1:]))
         rows.append(panels)
     return grid(rows, path)
