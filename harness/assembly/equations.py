@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""*EQUATION: elimination of the first term of each, with chains resolved."""
+"""*EQUATION, and equations of other constraints: elimination of the first term of each, chains resolved."""
 
 from __future__ import annotations
 
@@ -36,7 +36,7 @@ def eliminate(
         if first in by_unknown:
             raise DeckError(
                 equation.source,
-                f"over-constrained: {_named(dofs, first)} is the first term of this *EQUATION and of the one at "
+                f"over-constrained: {_named(dofs, first)} is the first term of this constraint and of the one at "
                 f"{equations[by_unknown[first]].source}; it can be eliminated once only",
             )
         by_unknown[first] = row
@@ -68,7 +68,7 @@ def _check_free(dofs: DofMap, equation: Equation, unknown: int, held: set[int], 
         where = f" at {places[unknown]}" if unknown in places else ""
         raise DeckError(
             equation.source,
-            f"over-constrained: {_named(dofs, unknown)} is the first term of this *EQUATION, which is eliminated, and "
+            f"over-constrained: {_named(dofs, unknown)} is the first term of this constraint, which is eliminated, and "
             f"is prescribed{where}; prescribe another term or put it first",
         )
 
@@ -87,7 +87,7 @@ def _resolve(
         others = ", ".join(str(equations[k].source) for k in np.flatnonzero(label == label[row]).tolist() if k != row)
         raise DeckError(
             equations[row].source,
-            f"over-constrained: {_named(dofs, int(dependent[row]))} depends on itself through the *EQUATION "
+            f"over-constrained: {_named(dofs, int(dependent[row]))} depends on itself through the constraint "
             f"at {others}",
         )
     keep = np.ones(len(dofs))

@@ -131,11 +131,11 @@ def test_prescribed_twice_is_the_callers_mistake(springs) -> None:
         ),
         (
             [equation(7, (1, 1, 1.0), (2, 1, -1.0)), equation(8, (1, 1, 1.0), (3, 1, -1.0))],
-            r"job.inp:8: over-constrained: node 20, dof 1 .* of this \*EQUATION and of the one at job.inp:7",
+            r"job.inp:8: over-constrained: node 20, dof 1 .* of this constraint and of the one at job.inp:7",
         ),
         (
             [equation(7, (1, 1, 1.0), (2, 1, -1.0)), equation(8, (2, 1, 1.0), (1, 1, -2.0))],
-            r"job.inp:7: over-constrained: node 20, dof 1 depends on itself through the \*EQUATION at job.inp:8",
+            r"job.inp:7: over-constrained: node 20, dof 1 depends on itself through the constraint at job.inp:8",
         ),
         (
             [equation(7, (1, 1, 1.0), (2, 1, -1.0), (1, 1, -1.0))],
