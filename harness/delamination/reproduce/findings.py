@@ -111,10 +111,13 @@ def variation_gain(
 def damage_turns(
     evidence: Evidence, problem: str, layup: str, element: str, stiffness: str = "1e8", *, ever: bool = False
 ) -> float:
-    """Total variation of the damage over its largest value, less 1: what comes and goes again; `ever` as above."""
+    """Largest departure of the damage from a steady fall to 0: total variation over its largest value, less 1.
+
+    Without the sign: damage that turns back varies more, damage that nowhere falls to 0 varies less. `ever` as above.
+    """
     run = evidence.run(problem, layup, element, stiffness)
     profiles = at_tenths(run.profiles) if ever else [moment(run)]
-    return max(damage_variation(profile["DAMAGE"]) - 1.0 for profile in profiles)
+    return max(abs(damage_variation(profile["DAMAGE"]) - 1.0) for profile in profiles)
 
 
 def theory_distance(evidence: Evidence, problem: str, element: str, stiffnesses: Sequence[str] = ALL) -> float:
