@@ -24,6 +24,7 @@ CASES = [(v, k, e) for v, (_, closure) in VARIANTS.items() for k in LAWS for e i
 COPIES, INCREMENTS = 32, 4
 STATES = COPIES * INCREMENTS
 ELASTIC, DAMAGE, VISCOUS = 1, 3, 4
+QUAD = 1e5  # stiffness of the quads beside an interface over their size, in order of magnitude
 DTIME = 0.3
 
 # where the two edges of the interface are among the nodes: left, right, middle
@@ -268,8 +269,9 @@ class Balance:
         self.rigid = values["ALPHAN"] == 0
         self.kind = values["LAW"]
         self.work = np.zeros(COPIES)
-        # T = p - beta w is a difference of large numbers
-        self.rounded_traction = 2 * np.finfo(float).eps * np.array([values.get("BETAN", 0.0), values.get("BETAT", 0.0)])
+        # T = p - beta w is a difference of large numbers, and so is the stress of quads that move as a whole
+        betas = np.array([values.get("BETAN", 0.0), values.get("BETAT", 0.0)])
+        self.rounded_traction = 2 * np.finfo(float).eps * (betas + QUAD)
         self.rounding = np.zeros(COPIES)
         zero = np.zeros((COPIES, rule))
         self.old = dict.fromkeys(("SEPN", "SEPT", "WN", "WT", "TN", "TT", "DISSF", "DAMAGE", "MAXT"), zero)
@@ -283,7 +285,8 @@ class Balance:
         # a slip of nothing but rounding is none
         slips = abs(slid) > 1e-8 * (abs(state[tangential]) + abs(old[tangential]))
         friction = np.divide(rubbed, slid, out=np.zeros_like(slid), where=slips)
-        free = (not self.rubs) | (old["DAMAGE"] == 0) | (state["TN"] >= 0) | slips
+        pressed = state["TN"] < -1e-9 * abs(state["TT"])
+        free = (not self.rubs) | (old["DAMAGE"] == 0) | ~pressed | slips
         cohesive = np.where(free, state["TT"] - friction, self.cohesive)
         done = 0.5 * (old["TN"] + state["TN"]) * opened + 0.5 * (self.cohesive + cohesive) * slid + rubbed
         self.work = self.work + (done * self.area).sum(axis=1)
