@@ -320,7 +320,8 @@ class Block:
                 )
             case _:
                 message = f"{self._entry(outcome)} is NaN or infinite"
-        return KernelError(element, self.group.type, f"{message} (step {call.step}, increment {call.increment})")
+        place = f"step {call.step}, increment {call.increment}, iteration {call.iteration}"
+        return KernelError(element, self.group.type, f"{message} ({place})")
 
     def _warn(self, outcome: _binding.Outcome, nrhs: int, call: Call) -> None:
         """Report a write outside an array once; the run goes on, and the next pass looks which element it is."""

@@ -38,6 +38,7 @@ class Call:
 
     lflags       LFLAGS(1..5)
     step, increment  KSTEP, KINC
+    iteration    equilibrium iteration, for messages; 0 before the first solve
     flux_floor   (fields,) element nodal force above which an entry is a term of the average flux; None: all entries are
     params       PARAMS: alpha, beta and gamma of a dynamic step
     step_time, total_time  at the end of the increment (Abaqus' manual leaves open which end TIME holds)
@@ -54,6 +55,7 @@ class Call:
     distributed: Distributed | None = None
     predefined: Predefined | None = None
     flux_floor: FloatArray | None = None
+    iteration: int = 0
 
 
 @dataclass(frozen=True, slots=True)

@@ -118,7 +118,7 @@ class Newton:
     def _evaluate(
         self, call: Call, given: Increment, iteration: int, increment: FloatArray, correction: FloatArray
     ) -> Iterate:
-        evaluation = self._pass(call, given, increment)
+        evaluation = self._pass(replace(call, iteration=iteration), given, increment)
         residual = evaluation.residual + given.load
         reduced = self._constraints.reduce_vector(residual)
         return Iterate(iteration, increment, correction, residual, reduced, evaluation)

@@ -116,6 +116,7 @@ class PathFollower:
         correction: FloatArray,
         factor: float,
     ) -> PathIterate:
+        call = replace(call, iteration=iteration)
         evaluation = self._system.evaluate(call, given.displacement + increment, increment, nrhs=given.nrhs)
         residual = evaluation.residual + given.load + factor * given.load_rate
         reduced = self._constraints.reduce_vector(residual)

@@ -32,7 +32,7 @@ DECK = """\
 2, 1, 1, 1.
 *END STEP
 """
-PLACE = r"element 7 \(type U1\): stopped the analysis: {} \(step 1, increment 2\)"
+PLACE = r"element 7 \(type U1\): stopped the analysis: {} \(step 1, increment 2, iteration 0\)"
 
 
 @pytest.mark.parametrize(

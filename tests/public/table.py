@@ -13,6 +13,7 @@ import json
 import os
 import subprocess
 import sys
+from dataclasses import asdict
 from pathlib import Path
 
 from measure import Outcome, Row, missing, rows
@@ -82,13 +83,18 @@ def main() -> int:
     parser.add_argument("folder", type=Path)
     parser.add_argument("rows", nargs="*", help="names of rows (all)")
     parser.add_argument("-o", "--output", type=Path, help="file to write (print)")
+    parser.add_argument("--results", type=Path, help="JSON file of outcomes: rows in it are not run again")
     options = parser.parse_args()
     known = rows()
+    kept = json.loads(options.results.read_text("utf-8")) if options.results and options.results.exists() else {}
     text, good = HEAD, True
     for name in options.rows or known:
-        outcome = run(options.folder, known[name])
+        outcome = Outcome(**kept[name]) if name in kept else run(options.folder, known[name])
+        kept[name] = asdict(outcome)
+        if options.results:
+            options.results.write_text(json.dumps(kept, indent=1), encoding="utf-8")
         good &= verdict(known[name], outcome)[0]
-        text += line(known[name], outcome)
+        text += line(known[name], outcome).replace(f"{options.folder}/", "")
         print(name, *verdict(known[name], outcome), outcome.figure, file=sys.stderr)
     if options.output:
         options.output.write_text(text, encoding="utf-8")
