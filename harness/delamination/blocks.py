@@ -46,7 +46,7 @@ class Interface:
     @property
     def built_in(self) -> bool:
         """True for an element of Abaqus."""
-        return self.type == "COH2D4"
+        return self.type.startswith("COH")
 
     @property
     def nodes(self) -> int:

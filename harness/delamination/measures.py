@@ -17,13 +17,13 @@ from harness.output import Result
 
 
 def load(result: Result) -> FloatArray:
-    """Load of a double cantilever beam (N), positive in opening, by increment."""
-    return result.history["RF2[LOAD_TOP]"]
+    """Load of a specimen (N), positive the way it is loaded, by increment."""
+    return result.history["RF2[LOAD_TOP]"] if "RF2[LOAD_TOP]" in result.history else -result.history["RF2[MIDSPAN]"]
 
 
 def displacement(result: Result) -> FloatArray:
-    """Displacement of the upper arm's end (mm), by increment."""
-    return result.history["U2[LOAD_TOP]"]
+    """Displacement of the load (mm), by increment."""
+    return result.history["U2[LOAD_TOP]"] if "U2[LOAD_TOP]" in result.history else -result.history["U2[MIDSPAN]"]
 
 
 def dissipated(result: Result) -> FloatArray:
@@ -65,7 +65,7 @@ def final_load(result: Result) -> float:
 
 
 def final_displacement(result: Result) -> float:
-    """Displacement of the upper arm's end at the end (mm)."""
+    """Displacement of the load at the end (mm)."""
     return float(displacement(result)[-1])
 
 
@@ -154,6 +154,12 @@ def curve_distance(result: Result, other: Result) -> float:
     return float(np.max(np.abs(load(result)[after] - between)) / peak_load(other))
 
 
+def whole_curve_distance(result: Result, other: Result) -> float:
+    """Largest distance of two load curves, all of them, over the peak load; the other is interpolated."""
+    between = np.interp(displacement(result), displacement(other), load(other))
+    return float(np.max(np.abs(load(result) - between)) / peak_load(other))
+
+
 QUANTITIES: dict[str, Callable[[Result], float]] = {
     function.__name__: function
     for function in (
@@ -162,4 +168,6 @@ QUANTITIES: dict[str, Callable[[Result], float]] = {
         *(traction_mean, traction_deviation, traction_lowest, traction_highest, traction_variation, damage_variation),
     )
 }
-COMPARISONS: dict[str, Callable[[Result, Result], float]] = {"curve_distance": curve_distance}
+COMPARISONS: dict[str, Callable[[Result, Result], float]] = {
+    function.__name__: function for function in (curve_distance, whole_curve_distance)
+}
