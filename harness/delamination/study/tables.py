@@ -34,7 +34,8 @@ cutbacks. Perturbed: the interface nodes lie 3 % of an element's length up and d
 - **iterations**: those of attempts given up included; **per increment** without snaps, increments in which the load
   falls by more than 5 % of the peak load.
 - **dissipated**: energy that failed points have dissipated over their toughness, less 1. **balance**: work less stored
-  less dissipated energy, over work less stored energy.
+  less dissipated energy, over work less stored energy. Both are spoilt by a snap, whose jump is one step of the
+  trapezoidal rule.
 - **index** of t_n and t_tau: oscillation index over the bonded part and the process zone, the largest at the tenths of
   the displacement, against the tractions that really act, bumps included. **error index**: the same without
   cancelling. **raw**: against a smooth profile, so that on bumps real variation counts as oscillation.
