@@ -35,6 +35,7 @@ WEIGHTS = {2: {0: [1, 1], 1: [1, 1]}, 3: {0: [5 / 9, 8 / 9, 5 / 9], 1: [1 / 3, 4
 
 sampling = settings(deadline=None, database=None, phases=[Phase.generate], suppress_health_check=list(HealthCheck))
 cases = pytest.mark.parametrize(("variant", "kind", "extra"), CASES)
+Tools = namedtuple("Tools", "element interface library reference")
 # the amalgam has the same formulas
 one_library = pytest.mark.parametrize("library", ["library"], indirect=True)
 
@@ -348,9 +349,6 @@ def check_energies(tools, variant, kind, extra, data):
         assert "VISCOSITY" in values or not energy[:, VISCOUS].any()
         assert (state["DISSF"] >= rubbed - 1e-12 * largest[:, None]).all(), where
         assert (state["DAMAGE"] <= 1).all()
-
-
-Tools = namedtuple("Tools", "element interface library reference")
 
 
 @pytest.fixture
