@@ -13,19 +13,17 @@ import pytest
 from hypothesis import HealthCheck, Phase, assume, event, given, settings
 from hypothesis import strategies as st
 
-LAWS = {1: (), 2: ("ETA", "POWER"), 3: ("ETA", "POWER"), 4: ("SHAPE",)}
-PPR = 4
+LAWS, PPR = {1: (), 2: ("ETA", "POWER"), 3: ("ETA", "POWER"), 4: ("SHAPE",)}, 4
 # type and closure; what a law may have besides, each of which is a case of its own
 VARIANTS = {"U2": (2, 0), "U3": (3, 0), "U3 consistent": (3, 1), "U4": (4, 0), "U4 consistent": (4, 1)}
 VARIANTS |= {"U5": (5, 0), "U6": (6, 0), "U6 consistent": (6, 1)}
 EXTRAS = {0: ("plain", "viscous"), 1: ("plain", "viscous", "friction", "rigid", "rigid, viscous, friction")}
 CASES = [(v, k, e) for v, (_, closure) in VARIANTS.items() for k in LAWS for e in EXTRAS[closure]]
 
-COPIES, INCREMENTS = 32, 4
+COPIES, INCREMENTS, DTIME = 32, 4, 0.3
 STATES = COPIES * INCREMENTS
 ELASTIC, DAMAGE, VISCOUS = 1, 3, 4
 QUAD = 1e5  # stiffness of the quads beside an interface over their size, in order of magnitude
-DTIME = 0.3
 
 # where the two edges of the interface are among the nodes: left, right, middle
 EDGES = {2: ([0, 1], [3, 2]), 4: ([3, 2], [4, 5]), 5: ([0, 1, 4], [3, 2, 5]), 6: ([3, 2, 6], [8, 9, 12])}
