@@ -206,16 +206,18 @@ class LawElement:
         def miss(at: FloatArray) -> FloatArray:
             return self._traction(self._displacements(separation, at), dtime) - self._operator @ at
 
+        negligible = 1e-10 * self._strength
         for _ in range(MOST_ITERATIONS):
             residual = miss(gradient)
-            if np.abs(residual).max() <= 1e-10 * self._strength:
+            if np.abs(residual).max() <= negligible:
                 return gradient
             steps = np.linalg.solve(self._operator, 1e-6 * self._strength * np.eye(2)).T
             slopes = np.array([(miss(gradient + step) - residual) / (1e-6 * self._strength) for step in steps]).T
             left, sizes, right = np.linalg.svd(slopes)
-            free, rigid = sizes > 1e-6, right[sizes <= 1e-6]
-            stress = -right[free].T @ ((left.T @ residual)[free] / sizes[free])
-            # rigid up to the onset: no stress but that at the onset allows a separation
+            missed, free = left.T @ residual, sizes > 1e-6
+            stress = -right[free].T @ (missed[free] / sizes[free])
+            # rigid up to the onset: where there is to be a separation, no stress but that at the onset allows it
+            rigid = right[~free & (np.abs(missed) > negligible)]
             stress = stress + rigid.T @ (rigid @ (self._operator @ gradient + residual))
             gradient = gradient + np.linalg.solve(self._operator, stress)
         raise UelError(f"the quads find no equilibrium with the interface at a separation of {separation}")
