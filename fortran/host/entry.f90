@@ -6,7 +6,7 @@
 subroutine host_evaluate(address, options, lflags, clock, labels, jprops, equations, map, props, coords, u, du, v, a, &
                          counts, kinds, loads, predef, floor, svars, svars_trial, energy, energy_trial, history, &
                          history_trial, residual, matrix, flux, terms, sums, status, ndofel, nsvars, nprops, njprop, mcrd, &
-                         nnode, m, n, nrhs, nnz, values, points, most, nfield)
+                         nnode, m, n, nrhs, nnz, values, points, most, nfield, nrate, mload, mfield)
   use, intrinsic :: iso_c_binding, only: c_funptr, c_intptr_t
   use host_driver, only: block_t, run_block
   use host_kinds, only: dp, i4, i8
@@ -16,11 +16,13 @@ subroutine host_evaluate(address, options, lflags, clock, labels, jprops, equati
   integer(i4), intent(in) :: lflags(5)
   real(dp), intent(in) :: clock(7)            !< step time, total time, time increment, period, PARAMS
   integer(i4), intent(in) :: ndofel, nsvars, nprops, njprop, mcrd, nnode, m, n, nrhs, nnz, values, points, most, nfield
+  integer(i4), intent(in) :: nrate            !< n, or 1 where nothing moves
+  integer(i4), intent(in) :: mload, mfield    !< m, or 1 if all elements have the same loads, the same fields
   integer(i4), intent(in), target :: labels(m), jprops(njprop), equations(ndofel, m), map(ndofel, ndofel, m)
-  real(dp), intent(in), target :: props(nprops), coords(mcrd, nnode, m), u(n), du(n), v(n), a(n), svars(nsvars, m), &
+  real(dp), intent(in), target :: props(nprops), coords(mcrd, nnode, m), u(n), du(n), v(nrate), a(nrate), svars(nsvars, m), &
                                   energy(8, m), history(values, points, m)
-  integer(i4), intent(in), target :: counts(m), kinds(most, m)   !< distributed loads: how many, JDLTYP
-  real(dp), intent(in), target :: loads(2, most, m), predef(2, nfield, nnode, m)
+  integer(i4), intent(in), target :: counts(mload), kinds(most, mload)   !< distributed loads: how many, JDLTYP
+  real(dp), intent(in), target :: loads(2, most, mload), predef(2, nfield, nnode, mfield)
   real(dp), intent(inout), target :: svars_trial(nsvars, m), energy_trial(8, m), history_trial(values, points, m), &
                                      residual(n, nrhs), matrix(nnz)
   real(dp), intent(in), target :: floor(ndofel)

@@ -5,7 +5,7 @@ module host_driver
   use, intrinsic :: iso_c_binding, only: c_f_pointer, c_f_procpointer, c_funloc, c_funptr, c_loc, c_ptr
   use host_context, only: current
   use host_interfaces, only: uel_procedure, uelmat_procedure
-  use host_kinds, only: dp, i4, unset_bits
+  use host_kinds, only: dp, i4, i8, unset_bits
   use host_protect, only: calls, protect
   use host_workspace, only: all_finite, arm_guards, fill, find_damage, i_a, i_amatrx, i_coords, i_du, i_energy, i_predef, &
                             i_props, i_rhs, i_svars, i_u, i_v, lay_out, n_arrays, same_bits, workspace_t
@@ -43,7 +43,8 @@ module host_driver
     real(dp), pointer, contiguous :: props(:) => null()
     real(dp), pointer, contiguous :: coords(:, :, :) => null()     !< (mcrd, nnode, m)
     real(dp), pointer, contiguous :: u(:) => null(), du(:) => null()
-    real(dp), pointer, contiguous :: v(:) => null(), a(:) => null()   !< velocity and acceleration, zero unless dynamic
+    real(dp), pointer, contiguous :: v(:) => null(), a(:) => null()   !< velocity and acceleration; (1) where nothing moves
+    ! of the m elements, or of one that stands for all
     integer(i4), pointer, contiguous :: counts(:) => null()        !< (m) distributed loads
     integer(i4), pointer, contiguous :: kinds(:, :) => null()      !< (most, m) JDLTYP
     real(dp), pointer, contiguous :: loads(:, :, :) => null()      !< (2, most, m) magnitude at the end, increment
@@ -186,16 +187,21 @@ contains
     associate (x => work%memory, s => work%start)
       call gather(ndofel, block%equations(:, e), block%u, x(s(i_u)))
       call gather(ndofel, block%equations(:, e), block%du, x(s(i_du)))
-      call gather(ndofel, block%equations(:, e), block%v, x(s(i_v)))
-      call gather(ndofel, block%equations(:, e), block%a, x(s(i_a)))
+      if (size(block%v) < size(block%u)) then
+        call fill(ndofel, 0_i8, x(s(i_v)))
+        call fill(ndofel, 0_i8, x(s(i_a)))
+      else
+        call gather(ndofel, block%equations(:, e), block%v, x(s(i_v)))
+        call gather(ndofel, block%equations(:, e), block%a, x(s(i_a)))
+      end if
       call fill(work%length(i_rhs), unset_bits, x(s(i_rhs)))
       call fill(ndofel*ndofel, unset_bits, x(s(i_amatrx)))
       call copy(nsvars, block%svars(:, e), x(s(i_svars)))
       call copy(8, block%energy(:, e), x(s(i_energy)))
       call copy(nprops, block%props, x(s(i_props)))
       call copy(work%length(i_coords), block%coords(:, :, e), x(s(i_coords)))
-      call copy(work%length(i_predef), block%predef(:, :, :, e), x(s(i_predef)))
-      call invoke(block, e, x, s, ndofel, nsvars, nprops)
+      call copy(work%length(i_predef), block%predef(:, :, :, min(e, size(block%predef, 4))), x(s(i_predef)))
+      call invoke(block, min(e, size(block%counts)), x, s, ndofel, nsvars, nprops)
       if (keeps_state(block%lflags(3))) then
         call copy(nsvars, x(s(i_svars)), block%svars_trial(:, e))
         call copy(8, x(s(i_energy)), block%energy_trial(:, e))
@@ -212,15 +218,15 @@ contains
   end function keeps_state
 
   !> The call itself; scalars are copies, so that a user routine that changes them changes nothing else.
-  subroutine invoke(block, e, x, s, ndofel, nsvars, nprops)
+  subroutine invoke(block, row, x, s, ndofel, nsvars, nprops)
     type(block_t), intent(inout) :: block
-    integer, intent(in) :: e
+    integer, intent(in) :: row   !< of the element in the distributed loads
     real(dp), intent(inout) :: x(*)
     integer, intent(in) :: s(n_arrays)
     integer(i4), value :: ndofel, nsvars, nprops
     integer(i4) :: mlvarx, njprop, mcrd, nnode, nrhs, jtype, kstep, kinc, jelem, ndload, npredf, mdload, materiallib
-    integer(i4) :: jdltyp(max(block%counts(e), 1), 2), lflags(5), jprops(size(block%jprops))
-    real(dp) :: adlmag(max(block%counts(e), 1), 2), ddlmag(max(block%counts(e), 1), 2)
+    integer(i4) :: jdltyp(max(block%counts(row), 1), 2), lflags(5), jprops(size(block%jprops))
+    real(dp) :: adlmag(max(block%counts(row), 1), 2), ddlmag(max(block%counts(row), 1), 2)
     real(dp) :: time(2), dtime, params(3), pnewdt, period
     mlvarx = ndofel
     njprop = size(block%jprops, kind=i4)
@@ -231,15 +237,15 @@ contains
     kstep = block%kstep
     kinc = block%kinc
     jelem = current%element
-    ndload = block%counts(e)
+    ndload = block%counts(row)
     mdload = size(jdltyp, 1, kind=i4)
     ! the second column, of the other load case with NRHS = 2, is zero
     jdltyp = 0
     adlmag = 0
     ddlmag = 0
-    jdltyp(:ndload, 1) = block%kinds(:ndload, e)
-    adlmag(:ndload, 1) = block%loads(1, :ndload, e)
-    ddlmag(:ndload, 1) = block%loads(2, :ndload, e)
+    jdltyp(:ndload, 1) = block%kinds(:ndload, row)
+    adlmag(:ndload, 1) = block%loads(1, :ndload, row)
+    ddlmag(:ndload, 1) = block%loads(2, :ndload, row)
     npredf = size(block%predef, 2, kind=i4)
     lflags = block%lflags
     jprops = block%jprops

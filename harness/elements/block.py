@@ -29,6 +29,8 @@ _PLASTIC: Final = 3
 """Index of ENERGY(4)."""
 
 _NO_MATRIX = np.zeros(1)
+_AT_REST = Motion(np.zeros(1), np.zeros(1))
+_NO_LOADS = LoadArrays(np.zeros(1, np.int32), np.zeros((1, 1), np.int32), np.zeros((1, 1, 2)))
 
 
 @dataclass(frozen=True, slots=True)
@@ -129,6 +131,7 @@ class Block:
         # (unknowns, fields): sums entries of an element vector by field
         self._by_field = (fields[:, None] == np.arange(len(FIELD_NAMES))).astype(np.float64)
         self._all_terms = np.full(n, -1.0)
+        self._no_fields = np.zeros((1, group.nodes.shape[1], 1, 2))
 
     def bind(self, equations: NDArray[np.int32], scatter: NDArray[np.int32]) -> None:
         """Tell where the unknowns are.
@@ -175,7 +178,7 @@ class Block:
         ones; those returned are kept for `commit` where LFLAGS(3) is 1 or 6. Without `motion` V and A are zero.
         Raises KernelError.
         """
-        motion = motion or Motion(np.zeros_like(u), np.zeros_like(u))
+        motion = motion or _AT_REST
         outcome = _binding.evaluate(
             self._procedure.address,
             self._options(call, assemble=matrix is not None),
@@ -204,10 +207,10 @@ class Block:
         return BlockReport(outcome.flux @ self._by_field, terms, outcome.pnewdt, energy, damage)
 
     def _loads(self, distributed: Distributed | None) -> LoadArrays:
-        """Loads on the elements of the block, one row for each element."""
-        m = len(self.group.labels)
+        """Loads on the elements of the block, one row for each element, or one for all if there is none."""
         if distributed is None:
-            return LoadArrays(np.zeros(m, np.int32), np.zeros((m, 1), np.int32), np.zeros((m, 1, 2)))
+            return _NO_LOADS
+        m = len(self.group.labels)
         mine = (distributed.elements >= self.first) & (distributed.elements < self.first + m)
         row = distributed.elements[mine] - self.first
         counts = np.bincount(row, minlength=m)
@@ -220,11 +223,10 @@ class Block:
         return LoadArrays(counts.astype(np.int32), kinds, values)
 
     def _fields(self, predefined: Predefined | None) -> FloatArray:
-        """PREDEF of the elements, (m, nodes, fields, 2)."""
-        nodes = self.group.nodes
+        """PREDEF of the elements, (m, nodes, fields, 2), or (1, nodes, 1, 2) if there is none."""
         if predefined is None:
-            return np.zeros((*nodes.shape, 1, 2))
-        values = np.stack([predefined.end, predefined.increment], axis=-1)[:, nodes]
+            return self._no_fields
+        values = np.stack([predefined.end, predefined.increment], axis=-1)[:, self.group.nodes]
         return np.ascontiguousarray(values.transpose(1, 2, 0, 3))
 
     def artificial_mass(self, call: Call, unknowns: int, matrix: FloatArray) -> None:

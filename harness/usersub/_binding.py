@@ -95,7 +95,7 @@ class BlockArrays:
 
 @dataclass(frozen=True, slots=True)
 class LoadArrays:
-    """Distributed loads of the elements of a block, C order.
+    """Distributed loads of the elements of a block, C order; the elements are m, or one that stands for all.
 
     counts  (m,) number of loads on each element
     kinds   (m, most) JDLTYP
@@ -136,7 +136,8 @@ def evaluate(
 ) -> Outcome:
     """One pass over a block; options and clock as host_evaluate in fortran/host/entry.f90 names them.
 
-    predef is (m, nodes, fields, 2), floor (ndofel,), residual (NRHS, n); its rows take the columns of RHS.
+    v and a are (n,), or (1,) where nothing moves; predef is (m, nodes, fields, 2), or (1, nodes, fields, 2) if it is
+    the same for all elements; floor (ndofel,); residual (NRHS, n), whose rows take the columns of RHS.
     """
     flux, terms, sums, status = _host.host_evaluate(
         address,
