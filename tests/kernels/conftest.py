@@ -179,15 +179,21 @@ class Interface:
         "mixed": ((0.05, 0.03), (-0.002, -0.030)),
     }
 
+    axes = np.array([[0.3, 0.1], [-0.1, 0.3]]) / np.sqrt(0.1)  # tangent of the edge and its normal
+
     def displacements(self, nodes, left, right, seed):
         """(nodes, 2) displacements with the given separations (tau, n) at both ends, otherwise random."""
         rng = np.random.default_rng(seed)
         u = 1e-3 * rng.normal(size=(nodes, 2))
-        tau = (self.edge[1] - self.edge[0]) / np.linalg.norm(self.edge[1] - self.edge[0])
-        axes = np.array([tau, [-tau[1], tau[0]]])
         bottom, top = ([0, 1], [3, 2]) if nodes == 4 else ([3, 2], [4, 5])
         noise = 1 + 0.05 * rng.normal(size=(2, 2))
-        u[top] = u[bottom] + (np.array([left, right]) * noise) @ axes
+        u[top] = u[bottom] + (np.array([left, right]) * noise) @ self.axes
+        return u
+
+    def apart(self, *gap):
+        """(8, 2) displacements that part the quads of U4 by a gap (tau, n) without straining them."""
+        u = np.zeros((8, 2))
+        u[4:] = np.asarray(gap) @ self.axes
         return u
 
 

@@ -17,19 +17,11 @@ OPTIONS = {
     "gauss point": {"SAMPLING": 2},
     "plane strain": {"PLANE": 1},
 }
-EDGE = np.array([[0.3, 0.1], [-0.1, 0.3]]) / np.sqrt(0.1)  # tangent of the edge and its normal
 
 
 def rigid(alpha):
     """Properties of the consistent closure with a stiffness, 0 for an infinite one."""
     return {"ALPHAN": alpha, "ALPHAT": alpha, "CLOSURE": 1}
-
-
-def apart(*gap):
-    """Displacements that part the quads by a gap (tau, n) without straining them."""
-    u = np.zeros((8, 2))
-    u[4:] = np.asarray(gap) @ EDGE
-    return u
 
 
 def vectors(state, normal, tangential):
@@ -149,7 +141,7 @@ def test_law_is_recovered_and_its_area_is_the_fracture_energy(element, interface
     direction = np.array([np.sin(np.radians(degrees)), np.cos(np.radians(degrees))])
     w, traction = [np.zeros(2)], [np.zeros(2)]
     for gap in np.concatenate([np.geomspace(1e-6, 1e-3, 60), np.linspace(1e-3, 0.04, 600)]):
-        item.advance(apart(*(gap * direction)))
+        item.advance(interface.apart(*(gap * direction)))
         w.append(vectors(item.state, "WN", "WT")[0])
         traction.append(vectors(item.state, "TN", "TT")[0])
     w, traction = np.array(w), np.array(traction)
@@ -162,7 +154,7 @@ def test_law_is_recovered_and_its_area_is_the_fracture_energy(element, interface
     state = item.state
     np.testing.assert_allclose(state["DISSI"] / law["GIC"] + state["DISSII"] / law["GIIC"], 1, rtol=2e-3)
     np.testing.assert_array_equal(state["DAMAGE"], 1)
-    assert not item.evaluate(apart(*(0.04 * direction)))[0].any()
+    assert not item.evaluate(interface.apart(*(0.04 * direction)))[0].any()
 
 
 @pytest.mark.parametrize("alpha", STIFFNESSES)
@@ -170,7 +162,7 @@ def test_strength_is_reached_at_any_stiffness(element, interface, law, alpha):
     item = element(4, interface.eight, **rigid(alpha))
     peak = 0.0
     for gap in np.linspace(0, 0.004, 1001):
-        item.advance(apart(0.0, gap))
+        item.advance(interface.apart(0.0, gap))
         peak = max(peak, item.state["TN"].max())
     assert law["SIGMAMAX"] * (1 - 5e-3) < peak <= law["SIGMAMAX"] * (1 + 1e-12)
 
@@ -181,7 +173,7 @@ def test_damage_is_the_dissipated_fraction_in_mode_one(element, interface, law, 
     item = element(4, interface.eight, **rigid(alpha))
     onset = law["SIGMAMAX"] / alpha if alpha else 0.0
     for gap in np.linspace(0.0, 0.025, 601)[1:]:
-        item.advance(apart(0.0, gap))
+        item.advance(interface.apart(0.0, gap))
         np.testing.assert_allclose(item.state["DISSI"] / law["GIC"], item.state["DAMAGE"], atol=5e-3)
     assert item.state["WN"].min() > onset
 
@@ -246,10 +238,10 @@ def test_contact(element, interface, reference, ply, alpha):
 @pytest.mark.parametrize("alpha", [1.0e6, 0.0])
 def test_traction_is_continuous_where_it_closes(element, interface, alpha):
     item = element(4, interface.eight, **rigid(alpha), VISCOSITY=0.2)
-    item.advance(apart(0.005, 0.004), dtime=0.1)
+    item.advance(interface.apart(0.005, 0.004), dtime=0.1)
     gaps = np.linspace(0.002, -0.002, 401)
-    forces = np.array([item.evaluate(apart(0.005, gap), dtime=0.1)[0] for gap in gaps])
-    tangents = abs(item.evaluate(apart(0.005, -0.001), dtime=0.1)[1]).max()
+    forces = np.array([item.evaluate(interface.apart(0.005, gap), dtime=0.1)[0] for gap in gaps])
+    tangents = abs(item.evaluate(interface.apart(0.005, -0.001), dtime=0.1)[1]).max()
     assert abs(np.diff(forces, axis=0)).max() < 8 * tangents * 1e-5
 
 
@@ -261,7 +253,7 @@ def test_viscous_overstress(element, interface, reference, law, ply, alpha):
     slope = reference.softening_slopes(law)[1]
     before, damage = np.zeros((2, 2)), np.zeros(2)
     for gap, dtime in ((0.004, 0.1), (0.006, 0.05), (0.011, 0.2)):
-        u = apart(0.3 * gap, gap)
+        u = interface.apart(0.3 * gap, gap)
         item.advance(u, dtime=dtime)
         w, traction = vectors(item.state, "WN", "WT"), vectors(item.state, "TN", "TT")
         p, beta = trial(reference, interface, ply, u, {})
@@ -274,7 +266,7 @@ def test_viscous_overstress(element, interface, reference, law, ply, alpha):
     assert (item.state["DISSV"] > 0).all()
     assert (item.state["DMAX"] == damage).all()
     # no time, no damage
-    item.advance(apart(0.0, 0.02), dtime=0.0)
+    item.advance(interface.apart(0.0, 0.02), dtime=0.0)
     np.testing.assert_array_equal(item.state["DAMAGE"], damage)
 
 
@@ -289,7 +281,7 @@ def test_energies_sum_up_to_the_work_on_the_separation(element, interface, alpha
     work, before, traction = 0.0, np.zeros((2, 2)), np.zeros((2, 2))
     for gap in steps:
         viscous = item.state["DISSV"]
-        item.advance(apart(*gap), dtime=0.02)
+        item.advance(interface.apart(*gap), dtime=0.02)
         w, new = vectors(item.state, "WN", "WT"), vectors(item.state, "TN", "TT")
         overstress = (item.state["DISSV"] - viscous).sum()
         if viscosity == 0:
@@ -322,10 +314,10 @@ def test_consistency(element, interface, reference, law, ply, alpha, fraction):
     w = length * mode
     traction = reference.law_traction({**law, **values}, w) if length > 0 else 20.0 * mode
     # a stress with that traction, the strain it takes in two plies of the same direction
-    tensor = EDGE.T @ np.array([[35.0, traction[0]], [traction[0], traction[1]]]) @ EDGE
+    tensor = interface.axes.T @ np.array([[35.0, traction[0]], [traction[0], traction[1]]]) @ interface.axes
     e = np.linalg.solve(reference.elasticity(ply, 30.0, True), [tensor[0, 0], tensor[1, 1], tensor[0, 1]])
     u = (interface.eight - interface.edge[0]) @ np.array([[e[0], 0.0], [e[2], e[1]]])
-    u[4:] += w @ EDGE
+    u[4:] += w @ interface.axes
     for given in ({}, GIVEN, {"SAMPLING": 2}, {"SAMPLING": 1, "INTEGRATION": 1}):
         item = element(4, interface.eight, **values, **given)
         item.advance(u)

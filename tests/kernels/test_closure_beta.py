@@ -7,19 +7,10 @@ import pytest
 
 from harness.errors import KernelError
 
-EDGE = np.array([[0.3, 0.1], [-0.1, 0.3]]) / np.sqrt(0.1)  # tangent of the edge and its normal
-
 
 def rigid(alpha):
     """Properties of the consistent closure with a stiffness, 0 for an infinite one."""
     return {"ALPHAN": alpha, "ALPHAT": alpha, "CLOSURE": 1}
-
-
-def apart(*gap):
-    """Displacements that part the quads by a gap (tau, n) without straining them."""
-    u = np.zeros((8, 2))
-    u[4:] = np.asarray(gap) @ EDGE
-    return u
 
 
 @pytest.mark.parametrize("alpha", [2.0e4, 1.0e8, 0.0])
@@ -69,8 +60,8 @@ def test_one_solution_above_the_demanded_beta(element, interface, reference, law
         damage = []
         for gap in np.linspace(0, 0.04, 101)[1:]:
             once = element(4, interface.eight, **rigid(0.0), **beta)
-            once.advance(apart(*(gap * direction)))
-            loading.advance(apart(*(gap * direction)))
+            once.advance(interface.apart(*(gap * direction)))
+            loading.advance(interface.apart(*(gap * direction)))
             # in one increment or in many: the same
             np.testing.assert_allclose(once.state["DAMAGE"], loading.state["DAMAGE"], rtol=1e-9, atol=1e-12)
             damage.append(loading.state["DAMAGE"][0])
