@@ -1,25 +1,12 @@
 ! SPDX-FileCopyrightText: The uel-harness authors
 ! SPDX-License-Identifier: BSD-3-Clause
 !
-! A spring of stiffness 1 along x with a fault: a counter in a module goes into
+! A spring of stiffness 1 along x with a fault: a counter of its calls goes into
 ! the array that JPROPS(1) says: 0 none, 1 RHS, 2 AMATRX, 3 SVARS, 4 ENERGY,
 ! 5 PNEWDT, 7 column 2 of RHS; 6: the first call of all must be that of
 ! element 1.
-      module counter
+      include '../uel.inc'
       integer :: calls = 0
-      end module
-
-      subroutine uel(rhs,amatrx,svars,energy,ndofel,nrhs,nsvars,
-     &  props,nprops,coords,mcrd,nnode,u,du,v,a,jtype,time,dtime,
-     &  kstep,kinc,jelem,params,ndload,jdltyp,adlmag,predef,npredf,
-     &  lflags,mlvarx,ddlmag,mdload,pnewdt,jprops,njprop,period)
-      use counter, only: calls
-      include 'aba_param.inc'
-      dimension rhs(mlvarx,*),amatrx(ndofel,ndofel),props(*),
-     &  svars(*),energy(8),coords(mcrd,nnode),u(ndofel),
-     &  du(mlvarx,*),v(ndofel),a(ndofel),time(2),params(*),
-     &  jdltyp(mdload,*),adlmag(mdload,*),ddlmag(mdload,*),
-     &  predef(2,npredf,nnode),lflags(*),jprops(*)
       calls = calls + 1
       if (jprops(1) .eq. 6 .and. calls .eq. 1 .and. jelem .ne. 1)
      &  call xit

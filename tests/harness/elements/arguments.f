@@ -1,12 +1,7 @@
 ! SPDX-FileCopyrightText: The uel-harness authors
 ! SPDX-License-Identifier: BSD-3-Clause
 ! Tells what it is given: SVARS hold scalars, COORDS, U and DU, PREDEF; RHS is 1, 2, ... and AMATRX(i,j) is 10 i + j.
-      subroutine uel(rhs,amatrx,svars,energy,ndofel,nrhs,nsvars,props,nprops,coords,mcrd,nnode,u,du,v,a,jtype,time,dtime,kstep,
-     1 kinc,jelem,params,ndload,jdltyp,adlmag,predef,npredf,lflags,mlvarx,ddlmag,mdload,pnewdt,jprops,njprop,period)
-      include 'ABA_PARAM.INC'
-      dimension rhs(mlvarx,*),amatrx(ndofel,ndofel),props(*),svars(*),energy(8),coords(mcrd,nnode),u(ndofel),du(mlvarx,*),
-     1 v(ndofel),a(ndofel),time(2),params(*),jdltyp(mdload,*),adlmag(mdload,*),ddlmag(mdload,*),predef(2,npredf,nnode),
-     2 lflags(*),jprops(*)
+      include '../uel.inc'
       do j = 1, ndofel
         rhs(j,1) = j
         do i = 1, ndofel

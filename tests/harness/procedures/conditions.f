@@ -2,11 +2,7 @@
 ! SPDX-License-Identifier: BSD-3-Clause
 ! A spring of stiffness 1 that adds its load of type U2 to node 2 and keeps what it was given in SVARS: NDLOAD, MDLOAD,
 ! JDLTYP, ADLMAG and DDLMAG of up to three loads from 3, 6 and 9 on, NPREDF in 12, PREDEF of node 2 from 13 on.
-      subroutine uel(rhs,amatrx,svars,energy,ndofel,nrhs,nsvars,props,nprops,coords,mcrd,nnode,u,du,v,a,jtype,time,dtime,kstep,
-     1 kinc,jelem,params,ndload,jdltyp,adlmag,predef,npredf,lflags,mlvarx,ddlmag,mdload,pnewdt,jprops,njprop,period)
-      include 'aba_param.inc'
-      dimension rhs(mlvarx,*),amatrx(ndofel,ndofel),svars(*),u(ndofel),jdltyp(mdload,*),adlmag(mdload,*),ddlmag(mdload,*),
-     1 predef(2,npredf,nnode)
+      include '../uel.inc'
       rhs(1,1) = u(2) - u(1)
       rhs(2,1) = -rhs(1,1)
       amatrx(1,1) = 1

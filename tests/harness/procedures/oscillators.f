@@ -4,16 +4,7 @@
 ! A spring PROPS(1) with the mass PROPS(2) at each of its two nodes, one unknown (dof 1) each, for dynamic steps: the
 ! operator of Hilber, Hughes and Taylor with the forces of the last two increments in SVARS(1:4), and static steps.
 ! PROPS(3) is a cubic stiffness. JPROPS(1) = 1 prints each call.
-      subroutine uel(rhs,amatrx,svars,energy,ndofel,nrhs,nsvars,
-     &  props,nprops,coords,mcrd,nnode,u,du,v,a,jtype,time,dtime,
-     &  kstep,kinc,jelem,params,ndload,jdltyp,adlmag,predef,npredf,
-     &  lflags,mlvarx,ddlmag,mdload,pnewdt,jprops,njprop,period)
-      include 'aba_param.inc'
-      dimension rhs(mlvarx,*),amatrx(ndofel,ndofel),props(*),
-     &  svars(*),energy(8),coords(mcrd,nnode),u(ndofel),
-     &  du(mlvarx,*),v(ndofel),a(ndofel),time(2),params(*),
-     &  jdltyp(mdload,*),adlmag(mdload,*),ddlmag(mdload,*),
-     &  predef(2,npredf,nnode),lflags(*),jprops(*)
+      include '../uel.inc'
       dimension force(2), stiff(2,2)
       if (jprops(1) .eq. 1) write (7,'(a,7i4,9es24.16)') 'UEL',
      &  lflags(1:5), kstep, kinc, u(2), du(2,1), v(2), a(2), time(1),

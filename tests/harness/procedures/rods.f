@@ -3,16 +3,7 @@
 !
 ! A rod between two nodes with one temperature each (dof 11): conductance PROPS(1), heat capacity PROPS(2) at each node,
 ! backward Euler. The conductance grows by PROPS(3) per degree of the mean temperature. JPROPS(1) = 1 prints each call.
-      subroutine uel(rhs,amatrx,svars,energy,ndofel,nrhs,nsvars,
-     &  props,nprops,coords,mcrd,nnode,u,du,v,a,jtype,time,dtime,
-     &  kstep,kinc,jelem,params,ndload,jdltyp,adlmag,predef,npredf,
-     &  lflags,mlvarx,ddlmag,mdload,pnewdt,jprops,njprop,period)
-      include 'aba_param.inc'
-      dimension rhs(mlvarx,*),amatrx(ndofel,ndofel),props(*),
-     &  svars(*),energy(8),coords(mcrd,nnode),u(ndofel),
-     &  du(mlvarx,*),v(ndofel),a(ndofel),time(2),params(*),
-     &  jdltyp(mdload,*),adlmag(mdload,*),ddlmag(mdload,*),
-     &  predef(2,npredf,nnode),lflags(*),jprops(*)
+      include '../uel.inc'
       if (jprops(1) .eq. 1) write (7,'(a,7i4,3es24.16)') 'UEL',
      &  lflags(1:5), kstep, kinc, u(1:2), dtime
       g = props(1) + props(3)*(u(1) + u(2))/2

@@ -11,16 +11,7 @@
 !   U7  shallow truss, f = PROPS(1) d (d - PROPS(2)) (d - 2 PROPS(2)): snaps through
 !   U8  as U1, and says of a load PROPS(3) on its second node in column 2 of RHS
 ! JPROPS(1) = 1 prints each call to the message file, as UEXTERNALDB always does; 2 leaves column 2 of RHS alone.
-      subroutine uel(rhs,amatrx,svars,energy,ndofel,nrhs,nsvars,
-     &  props,nprops,coords,mcrd,nnode,u,du,v,a,jtype,time,dtime,
-     &  kstep,kinc,jelem,params,ndload,jdltyp,adlmag,predef,npredf,
-     &  lflags,mlvarx,ddlmag,mdload,pnewdt,jprops,njprop,period)
-      include 'aba_param.inc'
-      dimension rhs(mlvarx,*),amatrx(ndofel,ndofel),props(*),
-     &  svars(*),energy(8),coords(mcrd,nnode),u(ndofel),
-     &  du(mlvarx,*),v(ndofel),a(ndofel),time(2),params(*),
-     &  jdltyp(mdload,*),adlmag(mdload,*),ddlmag(mdload,*),
-     &  predef(2,npredf,nnode),lflags(*),jprops(*)
+      include '../uel.inc'
       if (jprops(1) .eq. 1) write (7,'(a,7i4,9es24.16)') 'UEL',
      &  lflags(1:5), kstep, kinc, u(1:2), du(1:2,1), time(1:2),
      &  dtime, svars(1), period

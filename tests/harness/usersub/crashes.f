@@ -1,10 +1,7 @@
 ! SPDX-FileCopyrightText: The uel-harness authors
 ! SPDX-License-Identifier: BSD-3-Clause
 ! A spring that ends the process, or does not end, in increment 2, in the way that JPROPS(1) says.
-      subroutine uel(rhs,amatrx,svars,energy,ndofel,nrhs,nsvars,props,nprops,coords,mcrd,nnode,u,du,v,a,jtype,time,dtime,kstep,
-     1 kinc,jelem,params,ndload,jdltyp,adlmag,predef,npredf,lflags,mlvarx,ddlmag,mdload,pnewdt,jprops,njprop,period)
-      include 'aba_param.inc'
-      dimension rhs(mlvarx,*),amatrx(ndofel,ndofel),props(*),svars(*),u(ndofel),jprops(*),lflags(*)
+      include '../uel.inc'
       rhs(1,1) = u(2) - u(1)
       rhs(2,1) = -rhs(1,1)
       amatrx(1,1) = 1
