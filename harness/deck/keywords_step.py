@@ -11,6 +11,12 @@ OP = Option("OP", Kind.CHOICE, "NEW removes what earlier steps prescribed", defa
 FREQUENCY = Option("FREQUENCY", Kind.INTEGER, "every k-th increment (1); 0 never")
 AMPLITUDE = Option("AMPLITUDE", Kind.NAME, "amplitude; without it that of *STEP, but displacements always ramp")
 
+_LOAD = (
+    OP,
+    Option("AMPLITUDE", Kind.NAME, "amplitude; without it that of *STEP"),
+    Option("INPUT", Kind.FILE, "file that holds the data lines"),
+)
+
 CONTROLS = (
     Keyword(
         "CONTROLS",
@@ -73,9 +79,7 @@ PRESCRIBED = (
         "Concentrated loads.",
         Where.STEP,
         (
-            OP,
-            Option("AMPLITUDE", Kind.NAME, "amplitude; without it that of *STEP"),
-            Option("INPUT", Kind.FILE, "file that holds the data lines"),
+            *_LOAD,
             *ignored("REGION TYPE"),
             *refused("CYCLIC MODE", "FOLLOWER", "IMAGINARY", "LOAD CASE", "REAL", "SUBMODEL"),
         ),
@@ -86,19 +90,11 @@ PRESCRIBED = (
         "Concentrated heat fluxes; with *CLOAD in the same step both take the same OP.",
         Where.STEP,
         (
-            OP,
-            Option("AMPLITUDE", Kind.NAME, "amplitude; without it that of *STEP"),
-            Option("INPUT", Kind.FILE, "file that holds the data lines"),
+            *_LOAD,
             *ignored("REGION TYPE"),
         ),
         "node or set, dof (11), value",
     ),
-)
-
-_FIELD = (
-    OP,
-    Option("AMPLITUDE", Kind.NAME, "amplitude; without it that of *STEP"),
-    Option("INPUT", Kind.FILE, "file that holds the data lines"),
 )
 
 DISTRIBUTED = (
@@ -107,9 +103,7 @@ DISTRIBUTED = (
         "Distributed loads on user elements.",
         Where.STEP,
         (
-            OP,
-            Option("AMPLITUDE", Kind.NAME, "amplitude; without it that of *STEP"),
-            Option("INPUT", Kind.FILE, "file that holds the data lines"),
+            *_LOAD,
             *refused(
                 *("CONSTANT RESULTANT", "CYCLIC MODE", "FOLLOWER", "IMAGINARY", "LOAD CASE", "ORIENTATION", "REAL"),
                 *("REF NODE", "REGION TYPE"),
@@ -121,14 +115,14 @@ DISTRIBUTED = (
         "TEMPERATURE",
         "Temperature as a predefined field.",
         Where.STEP,
-        (*_FIELD, *refused("ABSOLUTE EXTERIOR TOLERANCE", "BSTEP", "DRIVING ELSETS", "ESTEP", "FILE", "USER")),
+        (*_LOAD, *refused("ABSOLUTE EXTERIOR TOLERANCE", "BSTEP", "DRIVING ELSETS", "ESTEP", "FILE", "USER")),
         "node or set, temperature",
     ),
     Keyword(
         "FIELD",
         "Predefined field variable.",
         Where.STEP,
-        (Option("VARIABLE", Kind.INTEGER, "number of the field variable (1)"), *_FIELD, *refused("FILE", "USER")),
+        (Option("VARIABLE", Kind.INTEGER, "number of the field variable (1)"), *_LOAD, *refused("FILE", "USER")),
         "node or set, value",
     ),
 )
