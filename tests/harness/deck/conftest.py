@@ -8,9 +8,11 @@ from pathlib import Path
 import pytest
 
 from harness.deck import read_deck
+from harness.errors import DeckError
 from harness.model.model import Model
 
 Read = Callable[[str], Model]
+Refuse = Callable[[str, tuple[str, str, str]], None]
 
 
 @pytest.fixture
@@ -23,3 +25,17 @@ def read(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Read:
         return read_deck(Path("deck.inp"))
 
     return read_text
+
+
+@pytest.fixture
+def refuse(read: Read) -> Refuse:
+    """Read a deck with a mistake: (old text, new text, 'line: message'), the message as a regular expression."""
+
+    def read_mistake(deck: str, mistake: tuple[str, str, str]) -> None:
+        old, new, message = mistake
+        assert old in deck
+        line, text = message.split(": ", 1)
+        with pytest.raises(DeckError, match=rf"(?m)^deck\.inp:{line}: .*{text}"):
+            read(deck.replace(old, new, 1))
+
+    return read_mistake
