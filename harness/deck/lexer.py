@@ -167,6 +167,9 @@ class _Lexer:
         if resolved in stack:
             loop = " -> ".join(entry.name for entry in (*stack[stack.index(resolved) :], resolved))
             raise DeckError(source, f"include loop: {loop}")
+        if path.exists() and not (path.is_file() or path.is_dir()):
+            # reading a device or a pipe may never end
+            raise DeckError(source, f"cannot read {path}: not a file")
         self.read(_load(path, source), str(path), (*stack, resolved))
 
     def _find(self, name: str, including: Path) -> Path:

@@ -105,6 +105,11 @@ def test_file_name_that_no_system_takes(read: Read) -> None:
         read(FLAT + f"*INCLUDE, INPUT={'x' * 5000}\n")
 
 
+def test_include_of_a_device(read: Read) -> None:
+    with pytest.raises(DeckError, match=r"^deck.inp:65: cannot read /dev/zero: not a file$"):
+        read(FLAT + "*INCLUDE, INPUT=/dev/zero\n")
+
+
 def test_parameters_reach_included_files(read: Read) -> None:
     Path("nodes.inc").write_text(NODES.replace("2, 1., 0.", "2, <width>, 0."))
     model = read(FLAT.replace(NODES, "*INCLUDE, INPUT=nodes.inc\n"))

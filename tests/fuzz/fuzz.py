@@ -1,0 +1,177 @@
+# SPDX-FileCopyrightText: The uel-harness authors
+# SPDX-License-Identifier: BSD-3-Clause
+"""Damaged decks: `python tests/fuzz/fuzz.py [--count N] [--seed S] [--workers W] [FOLDER ...]`.
+
+Takes the decks of the folders (the project's own by default), damages each trial's deck, and has the harness read,
+check and build it, and try one increment of a small model. A traceback, an end of the process, more than 10 s, more
+than 1 GiB, or an error that names no place in the deck is a finding: its deck is kept in the folder --output, and the
+exit code is 1. `--case N` makes one trial again, in this process.
+"""
+
+from __future__ import annotations
+
+import argparse
+import faulthandler
+import multiprocessing
+import os
+import resource
+import shutil
+import sys
+import tempfile
+import time
+import warnings
+from collections import Counter
+from collections.abc import Iterable, Iterator
+from dataclasses import dataclass, field
+from multiprocessing.connection import Connection, wait
+from pathlib import Path
+
+# threads of the linear algebra would each reserve memory, and share the processors with the other workers
+os.environ.update(OPENBLAS_NUM_THREADS="1", OMP_NUM_THREADS="1", MKL_NUM_THREADS="1")
+
+import trial
+from corpus import Corpus
+
+ROOT = Path(__file__).parents[2]
+OWN_DECKS = (ROOT / "abaqus_inputs", ROOT / "tests")
+SECONDS = 10
+BYTES = 1 << 30
+TRIALS_OF_A_PROCESS = 500
+"""Each run keeps a library loaded."""
+GOOD = ("runs", "refused", "stopped")
+
+
+@dataclass
+class Worker:
+    """A process that makes the trials `numbers`, and the one it is at."""
+
+    process: multiprocessing.process.BaseProcess
+    connection: Connection
+    numbers: list[int]
+    trace: Path
+
+
+@dataclass
+class Findings:
+    """Outcomes by kind; the first trial of each kind is kept as files."""
+
+    corpus: Corpus
+    seed: int
+    folder: Path
+    kinds: Counter[str] = field(default_factory=Counter)
+
+    def add(self, number: int, kind: str, text: str) -> None:
+        """Count an outcome, and keep its deck if it is the first finding of its kind."""
+        self.kinds[kind] += 1
+        if kind in GOOD or self.kinds[kind] > 1:
+            return
+        deck, files = self.corpus.case(self.seed, number)
+        place = self.folder / f"{self.seed}-{number}"
+        for name, content in files.items():
+            (place / name).parent.mkdir(parents=True, exist_ok=True)
+            (place / name).write_bytes(content)
+        (place / "finding.txt").write_text(f"{deck.path}\n{kind}\n{text}", encoding="utf-8", errors="replace")
+        print(f"trial {number} of {deck.path}: {kind}; kept in {place}", flush=True)
+
+    @property
+    def found(self) -> int:
+        """Number of trials that are findings."""
+        return sum(count for kind, count in self.kinds.items() if kind not in GOOD)
+
+
+def work(corpus: Corpus, seed: int, numbers: Iterable[int], connection: Connection, trace: Path) -> None:
+    """Make trials and send (number, kind, text) of each; what ends this process is seen by the other side."""
+    warnings.simplefilter("ignore")
+    resource.setrlimit(resource.RLIMIT_DATA, (BYTES, BYTES))
+    resource.setrlimit(resource.RLIMIT_CORE, (0, 0))
+    os.dup2(os.open(os.devnull, os.O_RDONLY), 0)
+    with tempfile.TemporaryDirectory() as folder, trace.open("w") as log:
+        # what the Fortran library prints before it ends the process goes there as well
+        os.dup2(log.fileno(), 2)
+        for number in numbers:
+            log.truncate(0)
+            _, files = corpus.case(seed, number)
+            faulthandler.enable(log)
+            faulthandler.dump_traceback_later(SECONDS, exit=True, file=log)
+            outcome = trial.run(files, Path(folder) / str(number))
+            faulthandler.cancel_dump_traceback_later()
+            shutil.rmtree(Path(folder) / str(number), ignore_errors=True)
+            connection.send((number, *outcome))
+
+
+def start(corpus: Corpus, seed: int, numbers: list[int], traces: Path) -> Worker:
+    """A process for the first of these trials."""
+    receiving, sending = multiprocessing.Pipe(duplex=False)
+    trace = traces / f"{numbers[0]}.txt"
+    arguments = (corpus, seed, numbers[:TRIALS_OF_A_PROCESS], sending, trace)
+    process = multiprocessing.get_context("fork").Process(target=work, args=arguments)
+    process.start()
+    sending.close()
+    return Worker(process, receiving, numbers, trace)
+
+
+def trials(corpus: Corpus, seed: int, numbers: Iterable[int], workers: int) -> Iterator[tuple[int, str, str]]:
+    """(number, kind, text) of all trials, in the order in which they end."""
+    every = list(numbers)
+    shares = [every[first::workers] for first in range(workers)]
+    with tempfile.TemporaryDirectory() as traces:
+        running = [start(corpus, seed, share, Path(traces)) for share in shares if share]
+        while running:
+            ready = wait([worker.connection for worker in running])
+            for worker in [worker for worker in running if worker.connection in ready]:
+                try:
+                    yield worker.connection.recv()
+                    worker.numbers.pop(0)
+                    continue
+                except EOFError:
+                    worker.process.join()
+                running.remove(worker)
+                if worker.process.exitcode:
+                    yield worker.numbers.pop(0), *ended(worker)
+                worker.connection.close()
+                if worker.numbers:
+                    running.append(start(corpus, seed, worker.numbers, Path(traces)))
+
+
+def ended(worker: Worker) -> tuple[str, str]:
+    """Kind and text of a trial that has ended its process."""
+    text = worker.trace.read_text("utf-8", errors="replace")
+    frame = trial.OWN_FRAME.search(text)
+    where = f" at {':'.join(frame.groups())}" if frame else ""
+    return f"{'timeout' if 'Timeout' in text else f'exit code {worker.process.exitcode}'}{where}", text
+
+
+def main() -> int:
+    """Run the command."""
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("folders", nargs="*", type=Path, default=OWN_DECKS, metavar="FOLDER", help="with decks")
+    parser.add_argument("--count", type=int, default=1000, metavar="N", help="trials (1000)")
+    parser.add_argument("--first", type=int, default=0, metavar="N", help="number of the first one (0)")
+    parser.add_argument("--seed", type=int, default=1, metavar="S", help="of the damage (1)")
+    parser.add_argument("--workers", type=int, default=1, metavar="W", help="processes (1)")
+    parser.add_argument("--output", type=Path, default=Path("fuzz-findings"), metavar="DIR", help="(fuzz-findings)")
+    parser.add_argument("--case", type=int, metavar="N", help="make this one trial, and print what comes of it")
+    options = parser.parse_args()
+    corpus = Corpus(options.folders)
+    if not corpus.decks:
+        parser.error("no decks in these folders")
+    if options.case is not None:
+        deck, files = corpus.case(options.seed, options.case)
+        with tempfile.TemporaryDirectory() as folder:
+            print(deck.path, *trial.run(files, Path(folder)), sep="\n")
+        return 0
+    began = time.perf_counter()
+    findings = Findings(corpus, options.seed, options.output)
+    numbers = range(options.first, options.first + options.count)
+    for number, kind, text in trials(corpus, options.seed, numbers, options.workers):
+        findings.add(number, kind, text)
+    seconds = time.perf_counter() - began
+    largest = resource.getrusage(resource.RUSAGE_CHILDREN).ru_maxrss / 1024
+    print(f"{options.count} trials of {len(corpus.decks)} decks in {seconds:.0f} s, largest process {largest:.0f} MiB")
+    for kind, count in findings.kinds.most_common():
+        print(f"{count:8d} {kind}")
+    return int(findings.found > 0)
+
+
+if __name__ == "__main__":
+    sys.exit(main())

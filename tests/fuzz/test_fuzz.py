@@ -1,0 +1,66 @@
+# SPDX-FileCopyrightText: The uel-harness authors
+# SPDX-License-Identifier: BSD-3-Clause
+"""A short run of the fuzzer, and that it sees what it is there for."""
+
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+HERE = Path(__file__).parent
+DECK = HERE.parent / "harness" / "deck" / "flat.inp"
+BROKEN = """\
+import os, sys, time
+sys.path.insert(0, {folder!r})
+import fuzz, trial
+fuzz.SECONDS = 1
+
+def broken(files, folder):
+    number = int(folder.name)
+    if number == 1:
+        time.sleep(100)
+    if number == 2:
+        os.abort()
+    if number == 3:
+        os._exit(3)
+    try:
+        bytearray(fuzz.BYTES)
+    except MemoryError:
+        return "too much memory", ""
+    return "runs", ""
+
+trial.run = broken
+sys.exit(fuzz.main())
+"""
+
+
+def fuzz(*arguments):
+    command = [sys.executable, *map(str, arguments)]
+    return subprocess.run(command, capture_output=True, text=True, check=False, timeout=300)
+
+
+@pytest.mark.nan
+def test_damaged_decks_run_or_end_with_an_error_that_names_the_place(tmp_path):
+    result = fuzz(HERE / "fuzz.py", "--count", 150, "--seed", 20, "--output", tmp_path / "findings")
+    assert result.returncode == 0, result.stdout + result.stderr
+    assert "150 trials of" in result.stdout
+    assert not (tmp_path / "findings").exists()
+
+
+def test_findings_are_seen_and_kept(tmp_path):
+    """A process that ends is replaced, and the trials go on."""
+    script = tmp_path / "broken.py"
+    script.write_text(BROKEN.format(folder=str(HERE)))
+    result = fuzz(script, "--count", 5, "--output", tmp_path / "findings", DECK)
+    assert result.returncode == 1, result.stdout + result.stderr
+    for line in ("2 too much memory", "1 timeout", "1 exit code -6", "1 exit code 3"):
+        assert f"{line}\n" in result.stdout
+    kept = {path.name: {file.name for file in path.iterdir()} for path in (tmp_path / "findings").iterdir()}
+    assert kept == {f"1-{number}": {"deck.inp", "finding.txt"} for number in range(4)}
+
+
+def test_one_trial_is_made_again():
+    result = fuzz(HERE / "fuzz.py", "--case", 7, DECK)
+    assert result.returncode == 0, result.stderr
+    assert result.stdout.startswith(f"{DECK}\nrefused\n")

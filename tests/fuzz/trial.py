@@ -1,0 +1,61 @@
+# SPDX-FileCopyrightText: The uel-harness authors
+# SPDX-License-Identifier: BSD-3-Clause
+"""One damaged deck through the harness: read, check, build, and one attempt at an increment of a small model.
+
+A trial is good if the deck runs, or ends with an error that is the user's to mend and names its place. The kernels are
+the project's own, whatever the deck was written for. What a model does after its first attempt is not looked at: a
+deck that is still valid may be as long as it likes.
+"""
+
+from __future__ import annotations
+
+import re
+import traceback
+from collections.abc import Iterator, Mapping
+from pathlib import Path
+from typing import Any
+
+from corpus import DECK
+
+from harness import job
+from harness.assembly import System
+from harness.errors import DeckError, UelError
+from harness.model.records import AttemptAbandoned, IncrementDone, Record
+from harness.procedures import run_steps
+
+MOST_UNKNOWNS = 2000
+"""A model with more is read, checked and built, but not solved."""
+_PLACE = re.compile(r"[^:]+:\d+: \S")
+OWN_FRAME = re.compile(r'File ".*/(harness/\S+\.py)", line (\d+)')
+
+
+def first_attempt(system: System, *arguments: Any, **options: Any) -> Iterator[Record]:
+    """Records of a run until the first attempt at an increment is over."""
+    if len(system) <= MOST_UNKNOWNS:
+        for record in run_steps(system, *arguments, **options):
+            yield record
+            if isinstance(record, IncrementDone | AttemptAbandoned):
+                return
+
+
+def run(files: Mapping[str, bytes], folder: Path) -> tuple[str, str]:
+    """Kind of the outcome and its text: 'runs', 'refused' and 'stopped' are good, any other kind is a finding."""
+    for name, content in files.items():
+        path = folder / name
+        path.parent.mkdir(parents=True, exist_ok=True)
+        path.write_bytes(content)
+    job.run_steps = first_attempt
+    try:
+        job.run(folder / DECK, job="job", output_dir=folder / "output", call_limit=5.0)
+    except DeckError as error:
+        lines = str(error).splitlines()
+        vague = next((line for line in lines if not _PLACE.match(line)), None)
+        return ("refused", "") if vague is None else (f"no place: {vague[:80]}", str(error))
+    except UelError as error:
+        return ("stopped", "") if str(error).strip() else (f"no message: {type(error).__name__}", "")
+    except Exception as error:
+        text = traceback.format_exc()
+        frames = OWN_FRAME.findall(text)
+        where = ":".join(frames[-1]) if frames else "?"
+        return f"{type(error).__name__} at {where}", text
+    return "runs", ""
