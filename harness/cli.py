@@ -138,12 +138,15 @@ def add_reproduce(reproduce: argparse.ArgumentParser) -> None:
 
 def add_check(check: argparse.ArgumentParser) -> None:
     """Options of `uel check`."""
-    check.add_argument("deck", type=Path, metavar="DECK.inp")
+    check.epilog = "Exit code: 0 all passed, 1 a check failed, 2 nothing could be checked."
+    check.add_argument("files", nargs="+", type=Path, metavar="FILE", help="the deck (.inp), and user elements")
     check.add_argument("--user", type=Path, metavar="FILE", help="user elements, as for `uel run`; ours by default")
+    check.add_argument("--shuffle", action="store_true", help="only the check of the calling order, in detail")
     check.add_argument(
-        "--shuffle", action="store_true", required=True, help="call the elements in random order: the same results?"
+        "--skip", action="append", default=[], metavar="CHECK", help="leave out a check (may be repeated)"
     )
-    check.add_argument("--seed", type=positive, default=1, metavar="N", help="of the random orders (1)")
+    check.add_argument("--json", type=Path, metavar="FILE", help="write the findings for other programs")
+    check.add_argument("--seed", type=positive, default=1, metavar="N", help="of random orders and displacements (1)")
     check.add_argument("--increments", type=positive, default=3, metavar="K", help="of the deck that are run (3)")
     check.set_defaults(function=check_elements)
 
@@ -222,11 +225,9 @@ def explore_law(options: argparse.Namespace) -> int:
 
 def check_elements(options: argparse.Namespace) -> int:
     """`uel check`."""
-    from harness.check.shuffle import report, shuffle  # noqa: PLC0415
+    from harness.check.command import check  # noqa: PLC0415
 
-    outcome = shuffle(options.deck, options.user, seed=options.seed, increments=options.increments)
-    Console().print(report(outcome))
-    return int(not outcome.passed)
+    return check(options, Console())
 
 
 def reproduce_paper(options: argparse.Namespace) -> int:

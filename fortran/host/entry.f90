@@ -82,6 +82,15 @@ subroutine host_evaluate(address, options, lflags, clock, labels, jprops, equati
   status = [block%fault, block%position, block%array, block%index]
 end subroutine host_evaluate
 
+!> Exchange what the guards of each array (as host_workspace orders them) and, last, entries that are not set hold.
+subroutine host_exchange_marks(marks)
+  use host_driver, only: set_marks
+  use host_kinds, only: dp
+  implicit none (type, external)
+  real(dp), intent(inout) :: marks(12)
+  call set_marks(marks)
+end subroutine host_exchange_marks
+
 !> Oldest message of a user routine; level 0 if none is left.
 subroutine host_take_message(level, place, text)
   use host_kinds, only: i4

@@ -5,13 +5,13 @@ module host_driver
   use, intrinsic :: iso_c_binding, only: c_f_pointer, c_f_procpointer, c_funloc, c_funptr, c_loc, c_ptr
   use host_context, only: current
   use host_interfaces, only: uel_procedure, uelmat_procedure
-  use host_kinds, only: dp, i4, i8, unset_bits
+  use host_kinds, only: dp, i4, i8
   use host_protect, only: calls, protect
-  use host_workspace, only: all_finite, arm_guards, fill, find_damage, i_a, i_amatrx, i_coords, i_du, i_energy, i_predef, &
-                            i_props, i_rhs, i_svars, i_u, i_v, lay_out, n_arrays, same_bits, workspace_t
+  use host_workspace, only: all_finite, arm_guards, exchange_marks, fill, find_damage, i_a, i_amatrx, i_coords, i_du, &
+                            i_energy, i_predef, i_props, i_rhs, i_svars, i_u, i_v, lay_out, n_arrays, same_bits, workspace_t
   implicit none (type, external)
   private
-  public :: block_t, run_block
+  public :: block_t, run_block, set_marks
   public :: fault_none, fault_left, fault_outside, fault_unset, fault_not_finite
 
   integer(i4), parameter :: fault_none = 0        !< all went well
@@ -92,6 +92,12 @@ contains
     if (block%guards /= guards_stop) call notice(block, array, index)
     current%element = 0
   end subroutine run_block
+
+  !> Exchange what guards and entries that are not set hold, see exchange_marks.
+  subroutine set_marks(marks)
+    real(dp), intent(inout) :: marks(n_arrays + 1)
+    call exchange_marks(work, marks)
+  end subroutine set_marks
 
   !> Workspace and context of this block, guards whole. Column 2 of DU is zero throughout.
   subroutine prepare(block)
@@ -194,8 +200,8 @@ contains
         call gather(ndofel, block%equations(:, e), block%v, x(s(i_v)))
         call gather(ndofel, block%equations(:, e), block%a, x(s(i_a)))
       end if
-      call fill(work%length(i_rhs), unset_bits, x(s(i_rhs)))
-      call fill(ndofel*ndofel, unset_bits, x(s(i_amatrx)))
+      call fill(work%length(i_rhs), work%unset, x(s(i_rhs)))
+      call fill(ndofel*ndofel, work%unset, x(s(i_amatrx)))
       call copy(nsvars, block%svars(:, e), x(s(i_svars)))
       call copy(8, block%energy(:, e), x(s(i_energy)))
       call copy(nprops, block%props, x(s(i_props)))
@@ -279,7 +285,7 @@ contains
     if (all_finite(n, work%memory(s))) return
     do i = 1, n
       if (all_finite(1, work%memory(s + i - 1))) cycle
-      block%fault = merge(fault_unset, fault_not_finite, same_bits(work%memory(s + i - 1), unset_bits))
+      block%fault = merge(fault_unset, fault_not_finite, same_bits(work%memory(s + i - 1), work%unset))
       block%array = array
       block%index = i
       return

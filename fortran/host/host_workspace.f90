@@ -6,10 +6,10 @@
 !> driver go through the block again and look after each element, so detection costs next to nothing.
 module host_workspace
   use, intrinsic :: iso_c_binding, only: c_intptr_t, c_loc
-  use host_kinds, only: dp, guard_bits, i4, i8
+  use host_kinds, only: dp, guard_bits, i4, i8, unset_bits
   implicit none (type, external)
   private
-  public :: workspace_t, arrays, n_arrays, lay_out, arm_guards, find_damage, fill, same_bits, all_finite
+  public :: workspace_t, arrays, n_arrays, lay_out, exchange_marks, arm_guards, find_damage, fill, same_bits, all_finite
   public :: i_rhs, i_amatrx, i_svars, i_energy, i_props, i_coords, i_u, i_du, i_v, i_a, i_predef
 
   integer, parameter :: n_arrays = 11
@@ -29,6 +29,8 @@ module host_workspace
     integer :: length(n_arrays) = 0   !< entries of each array
     integer :: start(n_arrays) = 0    !< position of the first entry of each array
     integer :: behind(n_arrays) = 0   !< entries of its guard behind it
+    integer(i8) :: guard(n_arrays) = guard_bits   !< what the guards of each array hold
+    integer(i8) :: unset = unset_bits             !< what RHS and AMATRX hold before a call
   end type workspace_t
 
 contains
@@ -59,16 +61,29 @@ contains
     call arm_guards(work)
   end subroutine lay_out
 
-  !> Write the guards' pattern.
+  !> Exchange what the guards of each array hold, and as the last what entries hold that are not set.
+  subroutine exchange_marks(work, marks)
+    type(workspace_t), intent(inout) :: work
+    real(dp), intent(inout) :: marks(n_arrays + 1)
+    integer(i8) :: given(n_arrays + 1)
+    given = transfer(marks, given)
+    marks = transfer([work%guard, work%unset], marks)
+    work%guard = given(:n_arrays)
+    work%unset = given(n_arrays + 1)
+    if (allocated(work%memory)) call arm_guards(work)
+  end subroutine exchange_marks
+
+  !> Write the guards' patterns: what is not guard behind an array belongs to the one that follows.
   subroutine arm_guards(work)
     type(workspace_t), intent(inout) :: work
-    integer :: k, end_of_last
-    end_of_last = 0
+    integer :: k, free
+    free = 1
     do k = 1, n_arrays
-      call fill(work%start(k) - 1 - end_of_last, guard_bits, work%memory(end_of_last + 1))
-      end_of_last = work%start(k) + work%length(k) - 1
+      call fill(work%start(k) - free, work%guard(k), work%memory(free))
+      free = work%start(k) + work%length(k)
+      call fill(work%behind(k), work%guard(k), work%memory(free))
+      free = free + work%behind(k)
     end do
-    call fill(size(work%memory) - end_of_last, guard_bits, work%memory(end_of_last + 1))
   end subroutine arm_guards
 
   !> First array with a changed guard, and the index written, counted from the array's first entry (1);
@@ -78,11 +93,11 @@ contains
     integer, intent(out) :: array, index
     integer :: k, position
     do k = 1, n_arrays
-      position = first_difference(work%behind(k), guard_bits, work%memory(work%start(k) + work%length(k)))
+      position = first_difference(work%behind(k), work%guard(k), work%memory(work%start(k) + work%length(k)))
       array = k
       index = work%length(k) + position
       if (position > 0) return
-      position = first_difference(before, guard_bits, work%memory(work%start(k) - before))
+      position = first_difference(before, work%guard(k), work%memory(work%start(k) - before))
       index = position - before
       if (position > 0) return
     end do

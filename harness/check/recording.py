@@ -9,6 +9,7 @@ from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Final
 
 import numpy as np
 
@@ -16,13 +17,16 @@ from harness import usersub
 from harness.assembly import Evaluation, System
 from harness.deck import read_deck
 from harness.elements import Block, Call, Motion, build_blocks
-from harness.errors import ConvergenceError
+from harness.errors import ConvergenceError, KernelError, SingularMatrixError
 from harness.model.arrays import FloatArray, IntArray
 from harness.model.model import Model
 from harness.model.records import IncrementDone
 from harness.procedures import run_steps
 from harness.solver.threads import one_blas_thread
 from harness.usersub import Library
+
+NORMAL: Final = 1
+"""LFLAGS(3) of a normal call."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -35,6 +39,11 @@ class Pass:
     matrix: bool
     nrhs: int
     motion: Motion | None
+
+    @property
+    def normal(self) -> bool:
+        """RHS and AMATRX of an iteration are asked for."""
+        return self.call.lflags[2] == NORMAL and self.matrix
 
 
 @dataclass(frozen=True, slots=True)
@@ -66,6 +75,7 @@ class Recording:
     equations   (m, unknowns of an element) position in U of each element unknown, per group
     increments  that converged
     stopped     why the run ended before the increments asked for; '' if it did not
+    failure     error of an element that ended the run, None if none did
     """
 
     model: Model
@@ -74,6 +84,7 @@ class Recording:
     equations: tuple[IntArray, ...]
     increments: int
     stopped: str
+    failure: KernelError | None = None
 
 
 @contextmanager
@@ -87,16 +98,17 @@ def opened(model: Model, user: Path | None) -> Iterator[Library]:
             library.close()
 
 
-def record(deck: Path, user: Path | None, increments: int) -> Recording:
+def record(deck: Path, user: Path | None, increments: int, *, strict: bool = True) -> Recording:
     """Run the first increments of a deck in Abaqus' order.
 
-    A run that ends without convergence is recorded up to there. Raises the other errors of a run.
+    A run that ends without convergence is recorded up to there. Raises the other errors of a run; if not strict, only
+    those before the first pass is complete, and writes outside arrays are no errors.
     """
     model = read_deck(deck)
     events: list[Event] = []
-    done, stopped = 0, ""
+    done, stopped, failure = 0, "", None
     with opened(model, user) as library, one_blas_thread():
-        system = _RecordedSystem(model, build_blocks(model, library), events)
+        system = _RecordedSystem(model, build_blocks(model, library, strict=strict), events)
         try:
             for happened in run_steps(system, model, _RecordedRoutines(library, events)):
                 done += isinstance(happened, IncrementDone)
@@ -104,8 +116,12 @@ def record(deck: Path, user: Path | None, increments: int) -> Recording:
                     break
         except ConvergenceError as error:
             stopped = str(error)
+        except (KernelError, SingularMatrixError) as error:
+            if strict or not any(isinstance(event, Pass) and event.normal for event in events):
+                raise
+            stopped, failure = str(error), error if isinstance(error, KernelError) else None
         equations = tuple(system.dofs.equations_of(block).astype(np.int64) for block in system.blocks)
-    return Recording(model, user, tuple(events), equations, done, stopped)
+    return Recording(model, user, tuple(events), equations, done, stopped, failure)
 
 
 class _RecordedSystem(System):
@@ -126,7 +142,12 @@ class _RecordedSystem(System):
         motion: Motion | None = None,
     ) -> Evaluation:
         self._events.append(Pass(call, u.copy(), du.copy(), matrix, nrhs, motion))
-        return super().evaluate(call, u, du, matrix=matrix, nrhs=nrhs, motion=motion)
+        try:
+            return super().evaluate(call, u, du, matrix=matrix, nrhs=nrhs, motion=motion)
+        except KernelError:
+            # only complete passes can be made again
+            self._events.pop()
+            raise
 
     def commit(self) -> None:
         self._events.append(Commit())

@@ -81,14 +81,20 @@ class Shuffled:
 
 def shuffle(deck: Path, user: Path | None = None, *, seed: int = 1, increments: int = 3) -> Shuffled:
     """Replay the first increments of a deck in random orders. Raises UelError where it fails in Abaqus' order."""
-    recording = record(deck, user, increments)
-    ordered = [results for _, results in replay(recording, abaqus_order)]
+    return shuffle_recording(record(deck, user, increments), seed)
+
+
+def shuffle_recording(recording: Recording, seed: int, *, strict: bool = True) -> Shuffled:
+    """Replay a run in random orders; strict: an element that writes outside an array is refused."""
+    ordered = [results for _, results in replay(recording, abaqus_order, strict=strict)]
     verdicts: dict[str, TypeVerdict] = {}
     for group in recording.model.groups:
         verdicts.setdefault(group.type, TypeVerdict(group.type, 0)).elements += len(group.labels)
     for number in range(1, ORDERS + 1):
         random = np.random.default_rng([seed, number])
-        for expected, (elements, found) in zip(ordered, replay(recording, random.permutation), strict=True):
+        for expected, (elements, found) in zip(
+            ordered, replay(recording, random.permutation, strict=strict), strict=True
+        ):
             _compare(elements, expected, found, f"random order {number}", verdicts)
     return Shuffled(recording, seed, tuple(verdicts.values()))
 
@@ -130,11 +136,12 @@ def report(outcome: Shuffled) -> Group:
         table.add_row(kind.type, str(kind.elements), str(kind.calls), kind.verdict, Text(first))
     lines = [f"The run ended early: {recording.stopped}"] if recording.stopped else []
     lines += [str(kind.refusal) for kind in outcome.types if kind.refusal is not None]
-    lines += [_advice(kind, ours=recording.user is None) for kind in outcome.types if not kind.passed]
+    lines += [advice_on_order(kind, ours=recording.user is None) for kind in outcome.types if not kind.passed]
     return Group(table, *(Text(line) for line in lines))
 
 
-def _advice(kind: TypeVerdict, *, ours: bool) -> str:
+def advice_on_order(kind: TypeVerdict, *, ours: bool) -> str:
+    """What to change in an element that depends on the order; ours: it is one of the project's."""
     if kind.refusal is None:
         return (
             f"{kind.type}: something outlives a call and is not in SVARS: look for SAVE, COMMON, module variables, and "

@@ -143,8 +143,8 @@ class Block:
         # the driver walks AMATRX by columns
         self._arrays.map = np.ascontiguousarray(scatter.transpose(0, 2, 1) + 1, dtype=np.int32)
 
-    def split(self) -> list[Block]:
-        """Its elements, each in an unbound block of its own and in the initial state, for calls in any order."""
+    def split(self, *, strict: bool = True) -> list[Block]:
+        """Its elements, each in an unbound block of its own and in its committed state, for calls in any order."""
         group = self.group
         parts = [
             Block(
@@ -155,11 +155,15 @@ class Block:
                 self._library,
                 unsymmetric=self.unsymmetric,
                 variables=self.variables,
+                strict=strict,
             )
             for k in range(len(group.labels))
         ]
         for k, part in enumerate(parts):
             part.first = self.first + k
+            part._arrays.svars[0] = self._arrays.svars[k]
+            part._arrays.energy[0] = self._arrays.energy[k]
+            part._arrays.history[0] = self._arrays.history[k]
         return parts
 
     def evaluate(

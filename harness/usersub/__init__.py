@@ -10,6 +10,7 @@ himself.
 
 from harness.usersub._binding import limit_calls
 from harness.usersub.library import Library, load
+from harness.usersub.marks import ARRAYS, UNSET, marks
 from harness.usersub.messages import Message
 
-__all__ = ["Library", "Message", "limit_calls", "load"]
+__all__ = ["ARRAYS", "UNSET", "Library", "Message", "limit_calls", "load", "marks"]

@@ -172,6 +172,11 @@ def evaluate(
     return Outcome(Fault(fault), position - 1, ARRAYS[array - 1], index, flux, terms, float(sums[0]), sums[1:])
 
 
+def exchange_marks(marks: FloatArray) -> None:
+    """Exchange what the guards of each of ARRAYS hold and, last, what RHS and AMATRX hold before a call."""
+    _host.host_exchange_marks(marks)
+
+
 def bare_loop(
     address: int,
     options: Options,

@@ -1,0 +1,41 @@
+# SPDX-FileCopyrightText: The uel-harness authors
+# SPDX-License-Identifier: BSD-3-Clause
+"""One check a file; each takes a Subject and gives a Finding."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import Final
+
+from harness.check.checks import memory, order, own_run, repeat, rotation, symmetry, tangent, translation, zero_modes
+from harness.check.finding import Finding
+from harness.check.subject import Subject
+
+
+@dataclass(frozen=True, slots=True)
+class Check:
+    """A check: its name on the command line and in the table, and what does it.
+
+    calls  it calls elements, so it needs a state
+    """
+
+    name: str
+    function: Callable[[Subject], Finding]
+    calls: bool = True
+
+
+CHECKS: Final = (
+    Check("run", own_run.check, calls=False),
+    Check("filled", memory.check_filled),
+    Check("outside", memory.check_outside),
+    Check("undeclared", memory.check_undeclared),
+    Check("repeat", repeat.check),
+    Check("order", order.check, calls=False),
+    Check("tangent", tangent.check),
+    Check("symmetry", symmetry.check),
+    Check("translation", translation.check),
+    Check("rotation", rotation.check),
+    Check("zero-modes", zero_modes.check),
+)
+"""All checks, in the order of the table: what invalidates later ones comes first."""

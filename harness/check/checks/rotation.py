@@ -1,0 +1,86 @@
+# SPDX-FileCopyrightText: The uel-harness authors
+# SPDX-License-Identifier: BSD-3-Clause
+"""A rigid rotation adds no force, or turns the forces with it."""
+
+from __future__ import annotations
+
+from typing import Final
+
+import numpy as np
+
+from harness.check.checks.translation import relative
+from harness.check.finding import Finding, failed, not_applicable, passed
+from harness.check.motions import AT_REST, NO_BODY, Body, body_of
+from harness.check.state import State
+from harness.check.subject import Subject
+
+TOLERANCE: Final = 1e-6
+"""Of the sum of |stiffness| |motion|."""
+
+ANGLE: Final = np.pi / 6
+"""Of the finite rotation."""
+
+
+def check(subject: Subject) -> Finding:
+    """From the start of the analysis, with linear kinematics, or finite ones where the step has NLGEOM."""
+    states = [state for state in subject.states if not state.u.any()]
+    bodies = [body_of(subject, state) for state in states]
+    known = [(state, body) for state, body in zip(states, bodies, strict=True) if body is not None]
+    if not known:
+        return not_applicable(NO_BODY if states else AT_REST)
+    if known[0][1].dimensions == 1:
+        return not_applicable("one dimension")
+    small, finite = (max(measure(subject, *pair) for pair in known) for measure in (_linear, _turned))
+    return _judge(states[0], small, finite)
+
+
+def _judge(state: State, small: float, finite: float) -> Finding:
+    """Finding for the largest relative forces of small and of finite rotations."""
+    nlgeom = state.call.lflags[1] != 0
+    degrees = round(float(np.degrees(ANGLE)))
+    if finite <= TOLERANCE:
+        return passed(f"a rotation by {degrees} degrees turns the forces with it, to {finite:.1e}", finite, TOLERANCE)
+    if small <= TOLERANCE and not nlgeom:
+        return passed(f"linear kinematics, forces stay to {small:.1e}", small, TOLERANCE)
+    if small <= TOLERANCE:
+        message = (
+            f"{state}: the step has NLGEOM, and a rotation by {degrees} degrees makes forces of "
+            f"{100 * finite:.3g} % of "
+            "what the stiffness would make of it; the kinematics are linear"
+        )
+        advice = (
+            "The element has linear kinematics: run it without NLGEOM, or let it follow LFLAGS(2) = 1 with a strain "
+            "that rotations leave at zero (Green-Lagrange, a corotational frame)."
+        )
+        return failed(message, advice, figure=finite, limit=TOLERANCE)
+    figure = finite if nlgeom else min(small, finite)
+    message = (
+        f"{state}: a rigid rotation makes forces: {100 * small:.3g} % of what the stiffness would make of it "
+        f"for linear kinematics, {100 * finite:.3g} % for finite ones and {degrees} degrees"
+    )
+    advice = (
+        "Look at the strain-displacement matrix: shear takes both derivatives, du/dy + dv/dx, and the local frame has "
+        "to be "
+        "orthogonal; for a finite-strain element, look whether stress and strain refer to the same configuration. "
+        "Interface "
+        "elements with thickness, springs with a fixed direction, and axisymmetric elements fail here and are right."
+    )
+    return failed(message, advice, figure=figure, limit=TOLERANCE)
+
+
+def _linear(subject: Subject, state: State, body: Body) -> float:
+    """Largest relative force of the rotations without second-order terms."""
+    here, largest = state.evaluate(), 0.0
+    for motion in body.small_rotations():
+        change = np.abs(state.moved(ANGLE * motion).evaluate().rhs[0] - here.rhs[0])
+        largest = max(largest, relative(change, subject.stiffness(state), ANGLE * motion)[0])
+    return largest
+
+
+def _turned(subject: Subject, state: State, body: Body) -> float:
+    """Largest relative deviation of the forces from the turned ones, for finite rotations."""
+    here, largest = state.evaluate(), 0.0
+    for motion, turn in body.rotations(float(ANGLE)):
+        change = np.abs(state.moved(motion).evaluate().rhs[0] - turn @ here.rhs[0])
+        largest = max(largest, relative(change, subject.stiffness(state), motion)[0])
+    return largest

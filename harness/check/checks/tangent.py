@@ -1,0 +1,120 @@
+# SPDX-FileCopyrightText: The uel-harness authors
+# SPDX-License-Identifier: BSD-3-Clause
+"""AMATRX against differences of RHS."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Final
+
+import numpy as np
+
+from harness.check.differences import Differences
+from harness.check.finding import Finding, failed, not_applicable, passed
+from harness.check.subject import Subject
+from harness.model.arrays import FloatArray
+
+TOLERANCE: Final = 1e-5
+"""Of the largest entry for the same kinds of dof; less does not change the number of iterations."""
+
+ALIKE: Final = 1e-3
+"""Relative difference up to which a matrix is taken for another one, to say what is wrong with it."""
+
+SHOWN: Final = 6
+"""Entries that a message names."""
+
+
+@dataclass(frozen=True, slots=True)
+class _Worst:
+    """The state with the largest deviation: AMATRX, differences and (n, n) deviations over the scale of each entry."""
+
+    where: str
+    amatrx: FloatArray
+    found: Differences
+    deviation: FloatArray
+
+
+def check(subject: Subject) -> Finding:
+    """Every entry of AMATRX is -dRHS/dU, at all states where RHS has no kink."""
+    worst: _Worst | None = None
+    columns = 0
+    for state in subject.all_states:
+        amatrx = state.evaluate().amatrx
+        found = subject.differences(state)
+        columns += int(found.smooth.sum())
+        scale = block_scales(np.maximum(np.abs(amatrx), np.abs(found.matrix)), subject.dofs)
+        surplus = np.where(found.smooth, np.abs(amatrx - found.matrix) - 10.0 * found.error, 0.0)
+        deviation = np.maximum(surplus, 0.0) / scale
+        if worst is None or deviation.max() > worst.deviation.max():
+            worst = _Worst(str(state), amatrx, found, deviation)
+    if worst is None or not columns:
+        return not_applicable("RHS has a kink, or no value beside the run's, at every state that was tried")
+    figure = float(worst.deviation.max())
+    if figure <= TOLERANCE:
+        message = f"{columns} columns at {len(subject.all_states)} states agree, largest deviation {figure:.1e}"
+        return passed(message, figure, TOLERANCE)
+    wrong = np.argwhere(worst.deviation > TOLERANCE)
+    order = np.argsort(-worst.deviation[tuple(wrong.T)], kind="stable")
+    entries = tuple(f"AMATRX({row + 1},{column + 1})" for row, column in wrong[order].tolist())
+    row, column = wrong[order[0]].tolist()
+    more = f" and {len(entries) - SHOWN} more" if len(entries) > SHOWN else ""
+    message = (
+        f"{worst.where}: {entries[0]} is {worst.amatrx[row, column]:.6g}, differences of RHS give "
+        f"{worst.found.matrix[row, column]:.6g}; {len(entries)} of {worst.amatrx.size} entries are wrong by up to "
+        f"{100 * figure:.3g} % of the largest: {', '.join(entries[:SHOWN])}{more}"
+    )
+    return failed(message, _advice(worst, subject.dofs), figure=figure, limit=TOLERANCE, entries=entries)
+
+
+def kinds(dofs: np.ndarray) -> np.ndarray:
+    """(n,) of unknowns with the same unit: displacements 1, rotations 4, else the dof."""
+    return np.where(dofs <= 3, 1, np.where(dofs <= 6, 4, dofs))
+
+
+def block_scales(magnitude: FloatArray, dofs: np.ndarray) -> FloatArray:
+    """(n, n) largest entry among those of the same kinds of row and column; 1 where all are zero."""
+    kind = kinds(dofs)
+    scale = np.ones_like(magnitude)
+    for row in np.unique(kind):
+        for column in np.unique(kind):
+            block = np.ix_(kind == row, kind == column)
+            scale[block] = magnitude[block].max() or 1.0
+    return scale
+
+
+def _advice(worst: _Worst, dofs: np.ndarray) -> str:
+    smooth = worst.found.smooth
+    given, found = worst.amatrx[:, smooth], worst.found.matrix[:, smooth]
+    size = float(np.abs(found).max())
+    if size and np.abs(given + found).max() < ALIKE * size:
+        return "The sign is wrong: AMATRX is -dRHS/dU, and RHS is external minus internal force."
+    if not given.any():
+        return "AMATRX is zero: fill it with -dRHS/dU where LFLAGS(3) is 1."
+    if smooth.all() and np.abs(given.T - found).max() < ALIKE * size:
+        return "AMATRX is transposed: AMATRX(i,j) is -dRHS(i)/dU(j), row i belongs to the force."
+    factor = float((given * found).sum() / (found**2).sum()) if size else 1.0
+    if np.abs(given - factor * found).max() < ALIKE * abs(factor) * size:
+        return (
+            f"AMATRX is {factor:.6g} times what it has to be: look for a weight, thickness or Jacobian that only one "
+            "of "
+            "RHS and AMATRX has."
+        )
+    missing = _missing_coupling(given, found, dofs, dofs[smooth])
+    if missing:
+        return f"AMATRX holds nothing for {missing}: add the derivative of these forces by these unknowns."
+    return (
+        "Differentiate RHS again for these entries: terms from SVARS that change within the increment, from DU and "
+        "from "
+        "the derivative of the state are the usual ones to be missing. Newton's method needs the derivative of the RHS "
+        "that this call returns; an approximate AMATRX costs iterations and cutbacks, not accuracy."
+    )
+
+
+def _missing_coupling(given: FloatArray, found: FloatArray, rows: np.ndarray, columns: np.ndarray) -> str:
+    """Dofs between which AMATRX is zero and ought not to be, as the end of a sentence; '' if there are none."""
+    for force in np.unique(rows):
+        for unknown in np.unique(columns):
+            block = np.ix_(rows == force, columns == unknown)
+            if not given[block].any() and np.abs(found[block]).max() > ALIKE * np.abs(found).max():
+                return f"the forces at dof {force} and the unknowns at dof {unknown}"
+    return ""

@@ -1,0 +1,82 @@
+# SPDX-FileCopyrightText: The uel-harness authors
+# SPDX-License-Identifier: BSD-3-Clause
+"""Zero modes of AMATRX before anything has moved: rigid-body motions and no others."""
+
+from __future__ import annotations
+
+from typing import Final
+
+import numpy as np
+
+from harness.check.finding import Finding, failed, not_applicable, passed
+from harness.check.motions import AT_REST, NO_BODY, ROTATIONS, Body, body_of
+from harness.check.state import DYNAMIC, State
+from harness.check.subject import Subject
+from harness.model.arrays import FloatArray
+
+TOLERANCE: Final = 1e-9
+"""Of the largest eigenvalue: below, a mode costs nothing."""
+
+
+def check(subject: Subject) -> Finding:
+    """Eigenvalues of the symmetric part of AMATRX for the displacements, at rest."""
+    state = next((state for state in subject.states if not state.u.any()), None)
+    if state is None:
+        return not_applicable(AT_REST)
+    body = body_of(subject, state)
+    if body is None:
+        return not_applicable(NO_BODY)
+    if state.call.lflags[0] in DYNAMIC:
+        return not_applicable("AMATRX holds mass in a dynamic step")
+    chosen = body.displacement | np.isin(body.dofs, ROTATIONS)
+    amatrx = state.evaluate().amatrx[np.ix_(chosen, chosen)]
+    rigid = _rigid(body)[:, chosen]
+    resisted = _resisted(amatrx, rigid)
+    if resisted > TOLERANCE:
+        return failed(
+            f"{state}: AMATRX resists a rigid-body motion with {100 * resisted:.3g} % of its stiffness",
+            "Rows and columns of AMATRX have to sum up to zero over the nodes, for each direction. What the checks of "
+            "translation and rotation say of RHS holds for AMATRX too.",
+            figure=resisted,
+            limit=TOLERANCE,
+        )
+    return _judge(state, amatrx, int(np.linalg.matrix_rank(rigid)), interface=body.coincident)
+
+
+def _judge(state: State, amatrx: FloatArray, expected: int, *, interface: bool) -> Finding:
+    """Finding for a matrix (k, k) and the number of rigid-body motions; interface: nodes lie on each other."""
+    if not amatrx.any():
+        return not_applicable("AMATRX is zero at rest")
+    values = np.linalg.eigvalsh(0.5 * (amatrx + amatrx.T)) / np.abs(amatrx).max()
+    zero = int(np.count_nonzero(np.abs(values) < TOLERANCE))
+    if interface:
+        return not_applicable(f"nodes lie on each other (an interface): {zero} zero modes of {len(values)}")
+    if values[0] < -TOLERANCE:
+        return failed(
+            f"{state}: AMATRX has a negative eigenvalue at rest, {values[0]:.3g} of its largest entry",
+            "An element that is stable at rest has none: look at the sign of AMATRX (it is -dRHS/dU), at the Jacobian "
+            "(order of the nodes), and at the material's stiffness.",
+            figure=float(values[0]),
+            limit=-TOLERANCE,
+        )
+    if zero > expected:
+        return failed(
+            f"{state}: AMATRX has {zero} zero modes, rigid-body motions are {expected}",
+            f"{zero - expected} deformation(s) cost nothing (hourglass modes): take more integration points, or "
+            "stabilise the element. With reduced integration on purpose look whether neighbours suppress the mode.",
+            figure=float(zero),
+            limit=float(expected),
+        )
+    return passed(f"{zero} zero modes, the {expected} rigid-body motions", float(zero), float(expected))
+
+
+def _rigid(body: Body) -> FloatArray:
+    """(motions, n) translations and small rotations."""
+    translations = [body.size * body.translation(direction) for direction in range(body.dimensions)]
+    return np.array(translations + body.small_rotations())
+
+
+def _resisted(amatrx: FloatArray, rigid: FloatArray) -> float:
+    """Largest force of a rigid-body motion over what its parts would make."""
+    forces, costs = np.abs(amatrx @ rigid.T).max(axis=0), (np.abs(amatrx) @ np.abs(rigid.T)).max(axis=0)
+    return float(np.max(forces / np.where(costs > 0.0, costs, 1.0)))

@@ -1,0 +1,57 @@
+# SPDX-FileCopyrightText: The uel-harness authors
+# SPDX-License-Identifier: BSD-3-Clause
+"""What a check found."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from enum import StrEnum
+
+
+class Verdict(StrEnum):
+    """Outcome of a check."""
+
+    PASSED = "passed"
+    FAILED = "FAILED"
+    NOT_APPLICABLE = "not applicable"
+
+
+@dataclass(frozen=True, slots=True)
+class Finding:
+    """Outcome of one check for one element type.
+
+    message  what was found and how far it is off; for a failure with element, state and entries
+    figure   the number that was judged, its meaning is in the message; None where there is none
+    limit    of the figure
+    entries  of the element's arrays that are wrong, as 'AMATRX(1,2)'
+    advice   what to change; '' unless the check failed
+    """
+
+    verdict: Verdict
+    message: str
+    figure: float | None = None
+    limit: float | None = None
+    entries: tuple[str, ...] = ()
+    advice: str = ""
+
+
+def passed(message: str, figure: float | None = None, limit: float | None = None) -> Finding:
+    """All is well."""
+    return Finding(Verdict.PASSED, message, figure, limit)
+
+
+def not_applicable(reason: str) -> Finding:
+    """The check says nothing about this element."""
+    return Finding(Verdict.NOT_APPLICABLE, reason)
+
+
+def failed(
+    message: str,
+    advice: str,
+    *,
+    figure: float | None = None,
+    limit: float | None = None,
+    entries: tuple[str, ...] = (),
+) -> Finding:
+    """Something is wrong."""
+    return Finding(Verdict.FAILED, message, figure, limit, entries, advice)

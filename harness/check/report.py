@@ -1,0 +1,56 @@
+# SPDX-FileCopyrightText: The uel-harness authors
+# SPDX-License-Identifier: BSD-3-Clause
+"""The outcome of the checks as a table and as JSON."""
+
+from __future__ import annotations
+
+import json
+from dataclasses import asdict
+from typing import Final
+
+from rich.console import Group
+from rich.markup import escape
+from rich.table import Table
+from rich.text import Text
+
+from harness.check.examine import Examination, TypeReport
+from harness.check.finding import Verdict
+
+_STYLES: Final = {Verdict.PASSED: "green", Verdict.FAILED: "bold red", Verdict.NOT_APPLICABLE: "dim"}
+
+
+def table(outcome: Examination) -> Group:
+    """A table for each element type, then what to change."""
+    parts: list[Table | Text] = []
+    for report in outcome.types:
+        title = f"{outcome.deck.name}: {report.type}, elements: {report.elements}, states: {report.states}"
+        shown = Table("check", "verdict", "finding", title=escape(title), title_justify="left")
+        for name, finding in report.findings.items():
+            shown.add_row(name, Text(finding.verdict, _STYLES[finding.verdict]), Text(finding.message))
+        parts.append(shown)
+        parts += _advice(report)
+    if outcome.stopped:
+        parts.append(Text(f"The run of the deck ended early: {outcome.stopped}"))
+    return Group(*parts)
+
+
+def _advice(report: TypeReport) -> list[Text]:
+    return [
+        Text(f"{report.type} {name}: {finding.advice}")
+        for name, finding in report.findings.items()
+        if finding.verdict is Verdict.FAILED
+    ]
+
+
+def as_json(outcome: Examination) -> str:
+    """All findings, for other programs."""
+    data = {
+        "deck": str(outcome.deck),
+        "user": None if outcome.user is None else str(outcome.user),
+        "increments": outcome.increments,
+        "stopped": outcome.stopped,
+        "seed": outcome.seed,
+        "passed": outcome.passed,
+        "types": [asdict(report) for report in outcome.types],
+    }
+    return json.dumps(data, indent=2) + "\n"

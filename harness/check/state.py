@@ -1,0 +1,72 @@
+# SPDX-FileCopyrightText: The uel-harness authors
+# SPDX-License-Identifier: BSD-3-Clause
+"""Calls of one element that the checks change and make again."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from harness.check.recording import Pass
+from harness.check.single import Returned, Single
+from harness.elements import Call, Motion
+from harness.model.arrays import FloatArray
+
+DYNAMIC = 11, 12
+"""LFLAGS(1) of *DYNAMIC: V and A go with U."""
+
+
+@dataclass(frozen=True, slots=True)
+class State:
+    """The arguments of a call of one element, which is in its state at the start of the increment.
+
+    u, du, motion  (n,) of the element: estimate of the end of the increment, the increment, velocity and acceleration
+    origin         where the state comes from, for messages
+    """
+
+    single: Single
+    call: Call
+    u: FloatArray
+    du: FloatArray
+    motion: Motion
+    nrhs: int
+    origin: str
+
+    def __str__(self) -> str:
+        return f"element {self.single.name}, {self.origin}"
+
+    def evaluate(self, *, matrix: bool = True) -> Returned:
+        """Make the call. Raises KernelError."""
+        return self.single.evaluate(self.call, self.u, self.du, self.motion, matrix=matrix, nrhs=self.nrhs)
+
+    def moved(self, shift: FloatArray) -> State:
+        """The state with another end of the increment, U and DU + shift (n,); in dynamics V and A follow."""
+        rates = self._rates()
+        motion = Motion(self.motion.velocity + rates[0] * shift, self.motion.acceleration + rates[1] * shift)
+        return replace(self, u=self.u + shift, du=self.du + shift, motion=motion)
+
+    def carried(self, shift: FloatArray) -> State:
+        """The state of an element that was elsewhere all the time: U + shift (n,)."""
+        return replace(self, u=self.u + shift)
+
+    def strictly(self) -> State:
+        """The state of a copy for which a write outside an array is an error."""
+        return replace(self, single=self.single.twin(strict=True))
+
+    def _rates(self) -> tuple[float, float]:
+        """Derivatives of V and A by U."""
+        call = self.call
+        if call.lflags[0] not in DYNAMIC or not call.time_increment:
+            return 0.0, 0.0
+        _, beta, gamma = call.params
+        return gamma / (beta * call.time_increment), 1.0 / (beta * call.time_increment**2)
+
+
+def state_of(single: Single, made: Pass, equations: np.ndarray) -> State:
+    """A call of the run, with a copy of the element as it is now."""
+    call = made.call
+    n = len(equations)
+    motion = made.motion.at(equations) if made.motion else Motion(np.zeros(n), np.zeros(n))
+    origin = f"step {call.step}, increment {call.increment}, iteration {call.iteration}"
+    return State(single.twin(strict=False), call, made.u[equations], made.du[equations], motion, made.nrhs, origin)

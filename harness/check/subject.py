@@ -1,0 +1,156 @@
+# SPDX-FileCopyrightText: The uel-harness authors
+# SPDX-License-Identifier: BSD-3-Clause
+"""What is checked: the elements of one type, with states from the run of the deck and random ones."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from contextlib import closing, contextmanager
+from dataclasses import dataclass, field, replace
+from typing import Final
+
+import numpy as np
+
+from harness.check.differences import Differences, differences
+from harness.check.recording import Pass, Recording
+from harness.check.replay import Elements, abaqus_order, replay
+from harness.check.shuffle import TypeVerdict
+from harness.check.state import State, state_of
+from harness.errors import KernelError
+from harness.model.arrays import FloatArray
+from harness.model.mesh import ElementGroup
+from harness.model.properties import UserElement
+
+PASSES: Final = 5
+"""Passes of the run from which states are taken, the first and the last among them."""
+
+ELEMENTS: Final = 3
+"""Elements of a type whose states are taken."""
+
+
+@dataclass(frozen=True, slots=True)
+class Subject:
+    """A user element type of a deck.
+
+    recording   the run of the deck
+    elements    of this type in the model
+    states      from the run; the first ones are of the first pass, before anything has moved
+    random      the same with random displacements, as large as the deformations of the run
+    scales      (n,) what a displacement, rotation, temperature is in this run, for each unknown
+    order       what random orders of calling gave
+    """
+
+    type: str
+    recording: Recording
+    definition: UserElement
+    elements: int
+    states: tuple[State, ...]
+    random: tuple[State, ...]
+    scales: FloatArray
+    order: TypeVerdict
+    _differences: dict[int, Differences] = field(default_factory=dict)
+
+    def differences(self, state: State) -> Differences:
+        """Of RHS at one of the states. Raises KernelError."""
+        if id(state) not in self._differences:
+            self._differences[id(state)] = differences(state, self.scales)
+        return self._differences[id(state)]
+
+    def stiffness(self, state: State) -> FloatArray:
+        """(n, n) magnitudes: the larger of AMATRX and of the differences of RHS, so that either may be wrong."""
+        return np.maximum(np.abs(state.evaluate().amatrx), np.abs(self.differences(state).matrix))
+
+    @property
+    def all_states(self) -> tuple[State, ...]:
+        """From the run, then random ones."""
+        return self.states + self.random
+
+    @property
+    def local_nodes(self) -> np.ndarray:
+        """(n,) local node of each unknown, from 0."""
+        return np.array([node for node, _ in self.definition.dofs])
+
+    @property
+    def dofs(self) -> np.ndarray:
+        """(n,) dof of each unknown, as Abaqus numbers them."""
+        return np.array([dof for _, dof in self.definition.dofs])
+
+    def coordinates(self, state: State) -> FloatArray:
+        """(nodes, COORDINATES=) of the element of a state."""
+        nodes = state.single.block.group.nodes[0]
+        return self.recording.model.mesh.coordinates[nodes, : self.definition.coordinates]
+
+    @property
+    def advice_is_ours(self) -> bool:
+        """The element is one of the project's."""
+        return self.recording.user is None
+
+
+@contextmanager
+def subject_of(recording: Recording, kind: str, order: TypeVerdict, seed: int) -> Iterator[Subject]:
+    """A user element type of a recorded run, with user routines loaded that have just lived through the run.
+
+    States at which an element that needs calls of other elements cannot be called again are left out.
+    """
+    made = [event for event in recording.events if isinstance(event, Pass) and event.normal]
+    chosen = {id(made[k]) for k in np.unique(np.linspace(0, len(made) - 1, PASSES).astype(int))}
+    group = next(group for group in recording.model.groups if group.type == kind)
+    states: list[State] = []
+    with closing(replay(recording, abaqus_order, strict=False)) as passes:
+        for elements, results in passes:
+            if id(results.made) in chosen:
+                states += _states(elements, kind, results.made, made[-1])
+            if results.made is made[-1]:
+                break
+        states = [state for state in states if _returns(state)]
+        yield _subject(recording, group, tuple(states), order, seed)
+
+
+def _states(elements: Elements, kind: str, made: Pass, last: Pass) -> Iterator[State]:
+    """Of the most deformed element of a type and of others."""
+    positions = np.flatnonzero(elements.types == kind)
+    dofs = np.array([dof for _, dof in elements.singles[positions[0]].block.unknowns])
+    deformation = [deformations(last.u[elements.equations[position]], dofs).max() for position in positions]
+    most = positions[int(np.argmax(deformation))]
+    spread = positions[np.unique(np.linspace(0, len(positions) - 1, ELEMENTS - 1).astype(int))]
+    for position in dict.fromkeys([int(most), *spread.tolist()]):
+        yield state_of(elements.singles[position], made, elements.equations[position])
+
+
+def _returns(state: State) -> bool:
+    try:
+        state.evaluate()
+    except KernelError:
+        return False
+    return True
+
+
+def diagonal(coordinates: FloatArray) -> float:
+    """Of the box around nodes (nodes, dimensions); 1 where all are in one place."""
+    return float(np.linalg.norm(np.ptp(coordinates, axis=0))) or 1.0
+
+
+def deformations(u: FloatArray, dofs: np.ndarray) -> FloatArray:
+    """(n,) for each unknown how far the displacements of its dof differ from node to node."""
+    ranges = {dof: float(np.ptp(u[dofs == dof])) for dof in np.unique(dofs).tolist()}
+    return np.array([ranges[dof] for dof in dofs.tolist()])
+
+
+def _subject(
+    recording: Recording, group: ElementGroup, states: tuple[State, ...], order: TypeVerdict, seed: int
+) -> Subject:
+    assert group.definition is not None
+    definition = group.definition
+    dofs = np.array([dof for _, dof in definition.dofs])
+    scales = np.max([np.zeros(len(dofs)), *(deformations(state.u, dofs) for state in states)], axis=0)
+    size = diagonal(recording.model.mesh.coordinates[group.nodes[0]])
+    # where the run moves nothing: strains of 1e-4, or a thousandth of the unit of any other field
+    scales = np.where(scales > 0.0, scales, np.where(dofs <= 3, 1e-4 * size, 1e-3))
+    rng = np.random.default_rng(seed)
+    random = tuple(shaken for state in states if _returns(shaken := _shaken(state, scales, rng)))
+    return Subject(group.type, recording, definition, order.elements, states, random, scales, order)
+
+
+def _shaken(state: State, scales: FloatArray, rng: np.random.Generator) -> State:
+    shift = scales * rng.uniform(-0.5, 0.5, len(scales))
+    return replace(state.moved(shift), origin=f"random displacements added to {state.origin}")

@@ -1,0 +1,39 @@
+# SPDX-FileCopyrightText: The uel-harness authors
+# SPDX-License-Identifier: BSD-3-Clause
+"""What memory holds that a user element has not to look at: the guards around its arrays, RHS and AMATRX on entry."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from contextlib import contextmanager
+from typing import Final
+
+import numpy as np
+
+from harness.usersub import _binding
+
+UNSET: Final = "UNSET"
+"""Name of what RHS and AMATRX hold before each call."""
+
+ARRAYS: Final = _binding.ARRAYS
+"""Names of the arrays with guards."""
+
+
+@contextmanager
+def marks(values: Mapping[str, float]) -> Iterator[None]:
+    """Let guards of some arrays (by their names in ARRAYS), or UNSET, hold other values, and give back what they held.
+
+    A guard reports a write only where it changes the bits of the guard.
+    """
+    names = [*ARRAYS, UNSET]
+    # an exchange with anything tells what is there
+    held = np.zeros(len(names))
+    _binding.exchange_marks(held)
+    chosen = held.copy()
+    for name, value in values.items():
+        chosen[names.index(name)] = value
+    _binding.exchange_marks(chosen)
+    try:
+        yield
+    finally:
+        _binding.exchange_marks(held)

@@ -1,0 +1,91 @@
+! SPDX-FileCopyrightText: The uel-harness authors
+! SPDX-License-Identifier: BSD-3-Clause
+!
+! A linear quad in plane stress: PROPS Young's modulus, Poisson's ratio, thickness; SVARS three stresses of each of four
+! points. It is right with JPROPS(1) = 0, and has one of the usual mistakes with any other number.
+      module calls_so_far
+      integer :: calls = 0
+      end module
+
+      subroutine uel(rhs,amatrx,svars,energy,ndofel,nrhs,nsvars,props,nprops,coords,mcrd,nnode,u,du,v,a,jtype,time,dtime,kstep,
+     1 kinc,jelem,params,ndload,jdltyp,adlmag,predef,npredf,lflags,mlvarx,ddlmag,mdload,pnewdt,jprops,njprop,period)
+      use calls_so_far, only: calls
+      include 'ABA_PARAM.INC'
+      dimension rhs(mlvarx,*),amatrx(ndofel,ndofel),props(*),svars(*),energy(8),coords(mcrd,nnode),u(ndofel),du(mlvarx,*),
+     1 v(ndofel),a(ndofel),time(2),params(*),jdltyp(mdload,*),adlmag(mdload,*),ddlmag(mdload,*),predef(2,npredf,nnode),
+     2 lflags(*),jprops(*)
+      dimension b(3,8),c(3,3),dn(2,4),xj(2,2),xi(4),eta(4),stress(3)
+      data xi /-1,1,1,-1/, eta /-1,-1,1,1/
+      calls = calls + 1
+      mistake = jprops(1)
+      do i = 1, ndofel
+        rhs(i,1) = 0
+        do j = 1, ndofel
+          if (mistake /= 1) amatrx(i,j) = 0
+        end do
+      end do
+      energy(2) = 0
+      if (lflags(3) == 4) return
+      c = 0
+      c(1,1) = props(1)/(1 - props(2)**2)
+      c(2,2) = c(1,1)
+      c(1,2) = props(2)*c(1,1)
+      c(2,1) = c(1,2)
+      c(3,3) = props(1)/(2 + 2*props(2))
+      points = 4
+      g = 1/sqrt(3d0)
+      if (mistake == 2) then
+        points = 1
+        g = 0
+      end if
+      do k = 1, nint(points)
+        do n = 1, 4
+          dn(1,n) = xi(n)*(1 + eta(n)*eta(k)*g)/4
+          dn(2,n) = eta(n)*(1 + xi(n)*xi(k)*g)/4
+        end do
+        xj = matmul(dn, transpose(coords(1:2,:)))
+        det = xj(1,1)*xj(2,2) - xj(1,2)*xj(2,1)
+        w = det*props(3)*4/points
+        b = 0
+        do n = 1, 4
+          b(1,2*n-1) = (xj(2,2)*dn(1,n) - xj(1,2)*dn(2,n))/det
+          b(2,2*n) = (xj(1,1)*dn(2,n) - xj(2,1)*dn(1,n))/det
+          b(3,2*n-1) = b(2,2*n)
+          if (mistake /= 3) b(3,2*n) = b(1,2*n-1)
+        end do
+        stress = matmul(c, matmul(b, u))
+        rhs(1:8,1) = rhs(1:8,1) - w*matmul(transpose(b), stress)
+        amatrx = amatrx + w*matmul(transpose(b), matmul(c, b))
+        svars(3*k-2:3*k) = stress
+        energy(2) = energy(2) + 0.5d0*w*dot_product(stress, matmul(b, u))
+      end do
+      select case (mistake)
+      case (4)   ! sign of AMATRX
+        amatrx = -amatrx
+      case (5)   ! a factor in AMATRX alone
+        amatrx = 2*amatrx
+      case (6)   ! an entry of AMATRX forgotten
+        amatrx(3,3) = 0
+      case (7)   ! a force that is counted twice
+        rhs(1,1) = 2*rhs(1,1)
+        amatrx(1,:) = 2*amatrx(1,:)
+      case (8)   ! held to the ground
+        rhs(1,1) = rhs(1,1) - u(1)
+        amatrx(1,1) = amatrx(1,1) + 1
+      case (9)   ! more SVARS than declared
+        svars(nsvars+2) = 0
+      case (10)  ! a property that is not declared
+        if (props(4) > 0.5d0) rhs(1:8,1) = 1.5d0*rhs(1:8,1)
+      case (11)  ! what is left from other calls
+        svars(1) = calls
+      case (12)  ! NaN
+        if (kinc == 2) rhs(2,1) = sqrt(-1 - u(2)**2)
+      case (13)  ! transposed, where the matrix is not symmetric
+        rhs(1,1) = 2*rhs(1,1)
+        amatrx(:,1) = 2*amatrx(:,1)
+      case (14)  ! no forces in direction 2 from displacements in direction 1
+        amatrx(2:8:2,1:7:2) = 0
+      case (15)  ! AMATRX left at zero
+        amatrx = 0
+      end select
+      end
