@@ -257,6 +257,16 @@ subroutine host_solid_address(address)
   address = int(transfer(c_funloc(solid_uelmat), 1_c_intptr_t), i8)
 end subroutine host_solid_address
 
+!> Address of the built-in coupled temperature-displacement elements.
+subroutine host_coupled_address(address)
+  use, intrinsic :: iso_c_binding, only: c_funloc, c_intptr_t
+  use host_coupled, only: coupled_uelmat
+  use host_kinds, only: i8
+  implicit none (type, external)
+  integer(i8), intent(out) :: address
+  address = int(transfer(c_funloc(coupled_uelmat), 1_c_intptr_t), i8)
+end subroutine host_coupled_address
+
 !> Address of the built-in cohesive elements.
 subroutine host_cohesive_address(address)
   use, intrinsic :: iso_c_binding, only: c_funloc, c_intptr_t

@@ -29,7 +29,8 @@ _CONSTANTS = {
     ElasticType.TRACTION: 3,
 }
 MATERIAL_OPTIONS = (
-    *("ELASTIC", "PLASTIC", "DENSITY", "USER MATERIAL", "DEPVAR", "USER OUTPUT VARIABLES"),
+    *("ELASTIC", "PLASTIC", "DENSITY", "CONDUCTIVITY", "SPECIFIC HEAT"),
+    *("USER MATERIAL", "DEPVAR", "USER OUTPUT VARIABLES"),
     *DAMAGE_KEYWORDS,
 )
 SMALLEST_SINE = 1e-10
@@ -77,20 +78,25 @@ def _extend(material: Material, block: Block) -> Material:
         case "USER OUTPUT VARIABLES":
             extended = replace(material, output_variables=_read_count(block))
         case "DENSITY":
-            extended = replace(material, density=_read_density(block))
+            extended = replace(material, density=_read_constant(block, "density"))
+        case "CONDUCTIVITY":
+            extended = replace(material, conductivity=_read_constant(block, "conductivity"))
+        case "SPECIFIC HEAT":
+            extended = replace(material, specific_heat=_read_constant(block, "specific heat"))
         case _:
             extended = replace(material, damage=extend_damage(material.damage, block))
     return extended
 
 
-def _read_density(block: Block) -> float:
+def _read_constant(block: Block, what: str) -> float:
+    """The one number of a material option, which must be positive."""
     rows = list(block.rows())
     if len(rows) != 1 or len(rows[0]) != 1:
-        raise block.error("needs one data line with the density; a temperature is not supported")
-    density = rows[0].real(0, "density")
-    if density <= 0:
-        raise rows[0].error(f"density {density:g} must be positive")
-    return density
+        raise block.error(f"needs one data line with the {what}; a temperature is not supported")
+    value = rows[0].real(0, what)
+    if value <= 0:
+        raise rows[0].error(f"{what} {value:g} must be positive")
+    return value
 
 
 def _read_elastic(block: Block) -> Elastic:

@@ -9,6 +9,7 @@ from collections.abc import Iterable
 from harness.deck.blocks import Block
 from harness.deck.flatten import FlatMesh
 from harness.deck.problems import Problems
+from harness.deck.user_elements import LARGEST_DOF
 from harness.model.steps import InitialValue
 
 TEMPERATURE = 11
@@ -29,9 +30,9 @@ def field_number(block: Block) -> int:
 def read_initial_values(blocks: Iterable[Block], kind: str, flat: FlatMesh, problems: Problems) -> list[InitialValue]:
     """Entries of all *INITIAL CONDITIONS of a TYPE=: VELOCITY (node, dof, value), TEMPERATURE or FIELD (node, value).
 
-    The dof of a field is its number, VARIABLE=.
+    The dof of a field is its number, VARIABLE=. Further temperatures of a node are those of dofs 12 and up.
     """
-    found = []
+    found: list[InitialValue] = []
     for block in blocks:
         if block.name != "INITIAL CONDITIONS" or block.options.text("TYPE") != kind:
             continue
@@ -42,11 +43,13 @@ def read_initial_values(blocks: Iterable[Block], kind: str, flat: FlatMesh, prob
                     dof, value = row.integer(1, "dof"), row.real(2, "velocity", 0.0)
                     if not 1 <= dof <= 6:
                         raise row.error(f"dof {dof} has no velocity (1 to 6)")
+                    values = {dof: value}
                 elif kind == "FIELD":
                     row.at_most(2)
-                    dof, value = field_number(block), row.real(1, "value", 0.0)
+                    values = {field_number(block): row.real(1, "value", 0.0)}
                 else:
-                    row.at_most(2)
-                    dof, value = TEMPERATURE, row.real(1, "temperature", 0.0)
-                found.append(InitialValue(nodes, dof, value, row.source))
+                    row.at_most(1 + LARGEST_DOF - TEMPERATURE + 1)
+                    count = max(len(row) - 1, 1)
+                    values = {TEMPERATURE + k: row.real(1 + k, "temperature", 0.0) for k in range(count)}
+                found += [InitialValue(nodes, dof, value, row.source) for dof, value in values.items()]
     return found

@@ -12,6 +12,16 @@ _HEAT = (
     Option("STEADY STATE", doc="no storage of heat: time is a scale for loads"),
     Option("DELTMX", Kind.REAL, "largest change of temperature in an increment; without it increments are fixed"),
 )
+_STABILIZE = (
+    Option(
+        "STABILIZE",
+        Kind.REAL,
+        "viscous forces on the masses of built-in elements; fraction of energy that they dissipate at first",
+        bare="0.0002",
+    ),
+    Option("FACTOR", Kind.REAL, "damping factor in place of the fraction"),
+    Option("ALLSDTOL", Kind.REAL, "largest ratio of ALLSD to ALLSE (0.05; 0 with FACTOR: no limit)"),
+)
 
 PROCEDURE = (
     Keyword(
@@ -49,14 +59,7 @@ PROCEDURE = (
         (
             Option("DIRECT", doc="fixed increments"),
             Option("RIKS", doc="the load factor is part of the solution; increments are arc lengths"),
-            Option(
-                "STABILIZE",
-                Kind.REAL,
-                "viscous forces on the masses of built-in elements; fraction of energy that they dissipate at first",
-                bare="0.0002",
-            ),
-            Option("FACTOR", Kind.REAL, "damping factor in place of the fraction"),
-            Option("ALLSDTOL", Kind.REAL, "largest ratio of ALLSD to ALLSE (0.05; 0 with FACTOR: no limit)"),
+            *_STABILIZE,
             *refused("ADIABATIC", "CONTINUE", "FULLY PLASTIC", "LONG TERM"),
         ),
         "initial increment, period (1), smallest increment, largest increment; with RIKS also the largest load "
@@ -113,12 +116,14 @@ PROCEDURE = (
     ),
     Keyword(
         "COUPLED TEMPERATURE-DISPLACEMENT",
-        "Temperatures and displacements together, for user elements with dof 11 and up.",
+        "Temperatures and displacements together, for user elements with dof 11 and up, CPE4T, C3D8T and so on.",
         Where.STEP,
         (
             *_HEAT,
+            *_STABILIZE,
+            Option("CREEP", Kind.CHOICE, "no material here creeps: accepted and without effect", choices=("NONE",)),
             *ignored("CETOL"),
-            *refused("ALLSDTOL", "CONTINUE", "CREEP", "ELECTRICAL", "FACTOR", "STABILIZE"),
+            *refused("CONTINUE", "ELECTRICAL"),
         ),
         _TIMES,
     ),
@@ -162,6 +167,6 @@ INITIAL = (
             Option("VARIABLE", Kind.INTEGER, "number of the field variable (1)"),
             *refused("FILE", "GEOSTATIC", "USER", "REBAR", "SECTION POINTS", "UNBALANCED STRESS"),
         ),
-        "node or set, dof, velocity; or node or set, temperature or value of the field",
+        "node or set, dof, velocity; or node or set, temperatures of dofs 11, 12, ...; or node or set, value of field",
     ),
 )

@@ -81,7 +81,7 @@ def _read_static(block: Block, prescription: Prescription) -> Static:
     stabilize = _read_stabilize(block)
     if along_path and stabilize is not None:
         raise block.error("RIKS and STABILIZE exclude each other")
-    return Static(*times, _read_riks(row, prescription) if along_path else None, stabilize)
+    return Static(*times, _read_riks(row, prescription) if along_path else None, stabilize=stabilize)
 
 
 def _read_stabilize(block: Block) -> Stabilize | None:
@@ -165,6 +165,7 @@ def _read_heat_transfer(block: Block, _: Prescription) -> HeatTransfer:
         steady=steady,
         largest_change=largest_change or math.inf,
         end_change=end_change,
+        stabilize=_read_stabilize(block),
     )
 
 

@@ -15,10 +15,16 @@ from harness.model.mesh import ElementGroup
 from harness.model.properties import SpringSection, UserElement
 
 _PLANE_NODES = {"3": 3, "4": 4, "4R": 4, "8": 8, "8R": 8}
-COHESIVE_NODES = {"COH2D4": 4, "COH3D8": 8}
-BUILT_IN_NODES = {
+_SOLID_NODES = {
     **{f"{kind}{name}": nodes for kind in ("CPS", "CPE") for name, nodes in _PLANE_NODES.items()},
     **{"C3D4": 4, "C3D8": 8, "C3D8R": 8, "C3D20": 20, "C3D20R": 20},
+}
+_COUPLED_NODES = {f"{name}T": nodes for name, nodes in _SOLID_NODES.items()}
+"""Continuum elements with temperatures at their corners."""
+COHESIVE_NODES = {"COH2D4": 4, "COH3D8": 8}
+BUILT_IN_NODES = {
+    **_SOLID_NODES,
+    **_COUPLED_NODES,
     **COHESIVE_NODES,
     **{"T2D2": 2, "T3D2": 2, "SPRING1": 1, "SPRING2": 2, "SPRINGA": 2, "MASS": 1},
 }
@@ -56,7 +62,13 @@ def dofs_of(name: str, definition: UserElement | None) -> set[int]:
     """Dofs of an element type."""
     if definition is not None:
         return {dof for _, dof in definition.dofs}
-    return {1, 2} if name.startswith(("CPS", "CPE", "COH2D", "T2D")) else {1, 2, 3}
+    displacements = {1, 2} if name.startswith(("CPS", "CPE", "COH2D", "T2D")) else {1, 2, 3}
+    return displacements | {11} if name in _COUPLED_NODES else displacements
+
+
+def _corners(name: str) -> int:
+    """Corners of a built-in element, whose nodes come first."""
+    return min(BUILT_IN_NODES[name], 4 if name.startswith(("CPS", "CPE")) else 8)
 
 
 def dofs_by_node(count: int, groups: Sequence[ElementGroup]) -> list[set[int]]:
@@ -70,6 +82,8 @@ def dofs_by_node(count: int, groups: Sequence[ElementGroup]) -> list[set[int]]:
                 dofs = {group.section.dofs[local]}
             else:
                 dofs = dofs_of(group.type, None)
+                if local >= _corners(group.type):
+                    dofs -= {11}
             for node in group.nodes[:, local].tolist():
                 found[node] |= dofs
     return found

@@ -10,9 +10,10 @@ from typing import Final
 
 from harness.elements.block import Block, Procedure
 from harness.elements.cohesive import COHESIVE, cohesive_procedure, cohesive_variables
+from harness.elements.coupled import coupled_procedure, coupled_unknowns
 from harness.elements.discrete import DISCRETE, discrete_procedure, discrete_unknowns, discrete_variables
 from harness.elements.materials import Tensor, define_material
-from harness.elements.solid import SOLIDS, history_of, solid_procedure, solid_variables
+from harness.elements.solid import COUPLED, SOLIDS, history_of, solid_of, solid_procedure, solid_variables
 from harness.errors import DeckError, all_of
 from harness.model.mesh import ElementGroup
 from harness.model.model import Model
@@ -50,10 +51,10 @@ def build_blocks(model: Model, library: Library, *, strict: bool = True) -> list
 def _block_of(model: Model, group: ElementGroup, library: Library, *, strict: bool) -> Block:
     if group.definition is not None:
         return _user_block(model, group, group.definition, library, strict=strict)
-    for types, make in ((SOLIDS, _solid_block), (COHESIVE, _cohesive_block), (DISCRETE, _discrete_block)):
+    for types, make in ((SOLIDS | COUPLED, _solid_block), (COHESIVE, _cohesive_block), (DISCRETE, _discrete_block)):
         if group.type in types:
             return make(model, group, library)
-    built_in = [*SOLIDS, *COHESIVE, *DISCRETE]
+    built_in = [*SOLIDS, *COUPLED, *COHESIVE, *DISCRETE]
     near = get_close_matches(group.type.upper(), built_in, n=1)
     hint = f"; did you mean {near[0]}?" if near else ""
     message = f"element type {group.type} is not supported (built in are {', '.join(built_in)}){hint}"
@@ -102,15 +103,19 @@ MOST_POINTS: Final = 64
 
 
 def _solid_block(model: Model, group: ElementGroup, library: Library) -> Block:
-    section, kind = group.section, SOLIDS[group.type]
+    section, kind = group.section, solid_of(group)
     if not isinstance(section, SolidSection):
         raise DeckError(section.source, f"elements of type {group.type} take *SOLID SECTION")
     _check_nodes(group, kind.nodes)
-    procedure = solid_procedure(model, group, section, library)
+    if group.type in COUPLED:
+        procedure, unknowns = coupled_procedure(model, group, section, library), coupled_unknowns(group)
+    else:
+        procedure = solid_procedure(model, group, section, library)
+        unknowns = tuple((node, dof) for node in range(kind.nodes) for dof in range(1, kind.dimension + 1))
     return Block(
         group,
         model.mesh.coordinates,
-        tuple((node, dof) for node in range(kind.nodes) for dof in range(1, kind.dimension + 1)),
+        unknowns,
         procedure,
         library,
         # the elastic and the plastic tangent are symmetric

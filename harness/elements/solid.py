@@ -37,6 +37,11 @@ class Solid:
         return 3 if self.tensor is Tensor.SOLID else 2
 
     @property
+    def corners(self) -> int:
+        """Nodes that are no middle of an edge; they come first."""
+        return min(self.nodes, 4 if self.dimension == 2 else 8)
+
+    @property
     def hourglass_modes(self) -> int:
         """Patterns of displacement that its points do not feel."""
         if self.points > 1 or self.nodes != 2**self.dimension:
@@ -56,12 +61,20 @@ SOLIDS: Final = {
 }
 """Built-in continuum elements by their names."""
 
+COUPLED: Final = {f"{name}T": kind for name, kind in SOLIDS.items()}
+"""The same with temperatures at their corners."""
+
 _COMPONENTS: Final = {2: ("11", "22", "33", "12"), 3: ("11", "22", "33", "12", "13", "23")}
+
+
+def solid_of(group: ElementGroup) -> Solid:
+    """The type of a group of solids, with temperatures or without."""
+    return (SOLIDS | COUPLED)[group.type]
 
 
 def solid_procedure(model: Model, group: ElementGroup, section: SolidSection, library: Library) -> Procedure:
     """What the driver calls for a group of solids. Raises DeckError."""
-    kind, material = SOLIDS[group.type], section.material
+    kind, material = solid_of(group), section.material
     dynamic = next((step for step in model.steps if isinstance(step.procedure, Dynamic)), None)
     if dynamic is not None and not material.density:
         message = f"material {material.name} has no *DENSITY, which elements of type {group.type} need in *DYNAMIC"
@@ -91,7 +104,7 @@ def solid_procedure(model: Model, group: ElementGroup, section: SolidSection, li
 
 def solid_variables(group: ElementGroup, procedure: Procedure) -> PointVariables:
     """Meaning of the state variables of a group of solids."""
-    kind = SOLIDS[group.type]
+    kind = solid_of(group)
     names = tuple(f"{letter}{component}" for letter in "ES" for component in _COMPONENTS[kind.dimension])
     names = *names, *_numbered("SDV", procedure.statev)
     if procedure.uvarm is not None:

@@ -6,7 +6,7 @@ from __future__ import annotations
 
 import math
 from abc import ABC, abstractmethod
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from enum import StrEnum
 
 
@@ -25,6 +25,20 @@ class Riks:
 
 
 @dataclass(frozen=True, slots=True)
+class Stabilize:
+    """STABILIZE: viscous forces, factor times the mass of built-in elements of unit density times velocity.
+
+    fraction  of the strain energy that the first increment would dissipate; sets the factor unless it is given
+    factor    0: not given
+    limit     ALLSDTOL: largest ratio of dissipated to strain energy before the factor is reduced; 0: no limit
+    """
+
+    fraction: float = 2e-4
+    factor: float = 0.0
+    limit: float = 0.05
+
+
+@dataclass(frozen=True, slots=True)
 class Procedure(ABC):
     """Initial increment, period, smallest and largest increment of a step; direct = fixed increments.
 
@@ -37,6 +51,7 @@ class Procedure(ABC):
     maximum: float = 1.0
     direct: bool = False
     riks: Riks | None = None
+    stabilize: Stabilize | None = field(default=None, kw_only=True)
 
     @property
     @abstractmethod
@@ -55,24 +70,8 @@ class Procedure(ABC):
 
 
 @dataclass(frozen=True, slots=True)
-class Stabilize:
-    """*STATIC, STABILIZE: viscous forces, factor times the mass of built-in elements of unit density times velocity.
-
-    fraction  of the strain energy that the first increment would dissipate; sets the factor unless it is given
-    factor    0: not given
-    limit     ALLSDTOL: largest ratio of dissipated to strain energy before the factor is reduced; 0: no limit
-    """
-
-    fraction: float = 2e-4
-    factor: float = 0.0
-    limit: float = 0.05
-
-
-@dataclass(frozen=True, slots=True)
 class Static(Procedure):
     """*STATIC."""
-
-    stabilize: Stabilize | None = None
 
     @property
     def lflag(self) -> int:

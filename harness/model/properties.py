@@ -88,7 +88,7 @@ class Damage:
 
 @dataclass(frozen=True, slots=True)
 class Material:
-    """*MATERIAL; state_variables is *DEPVAR, output_variables *USER OUTPUT VARIABLES."""
+    """*MATERIAL; state_variables is *DEPVAR, output_variables *USER OUTPUT VARIABLES; conductivity 0: not given."""
 
     name: str
     source: Source
@@ -96,6 +96,8 @@ class Material:
     plastic: Plastic | None = None
     damage: Damage | None = None
     density: float = 0.0
+    conductivity: float = 0.0
+    specific_heat: float = 0.0
     user: UserMaterial | None = None
     state_variables: int = 0
     output_variables: int = 0

@@ -20,6 +20,9 @@ from harness.model.procedures import HeatTransfer
 from harness.model.steps import Load, Step
 from harness.procedures.loads import Loads, Variation
 
+FIRST_TEMPERATURE = 11
+"""The dof whose initial value is that of the predefined field too."""
+
 
 class _Slots:
     """Numbers of pairs (element or node, load type or field), as `Loads` asks for them."""
@@ -49,7 +52,8 @@ class Conditions:
         numbers = [entry.dof for step in model.steps for entry in step.fields]
         starts = list(model.initial_fields)
         if model.steps and not isinstance(model.steps[0].procedure, HeatTransfer):
-            starts += [replace(entry, dof=0) for entry in model.initial_temperatures]
+            temperatures = [entry for entry in model.initial_temperatures if entry.dof == FIRST_TEMPERATURE]
+            starts += [replace(entry, dof=0) for entry in temperatures]
         count = max([*numbers, *(start.dof for start in starts)], default=-1) + 1
         self._initial = np.zeros(count * len(model.mesh.labels))
         self._nodes = _Grid(len(model.mesh.labels), count)

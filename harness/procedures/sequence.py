@@ -12,11 +12,11 @@ from harness.assembly import DofMap, System
 from harness.elements import Call
 from harness.errors import ConvergenceError, SingularMatrixError
 from harness.model.model import Model
-from harness.model.procedures import Dynamic, HeatTransfer, Static
+from harness.model.procedures import Dynamic, HeatTransfer
 from harness.model.records import Noted, Record, StepStarted, Warned
 from harness.model.steps import Boundary, Load, Step
 from harness.procedures.dynamic import DynamicStep
-from harness.procedures.heat_transfer import HeatTransferStep
+from harness.procedures.heat_transfer import HeatTransferStep, StabilizedHeatTransferStep
 from harness.procedures.loads import find_unknowns
 from harness.procedures.path import EnergyStep, RiksStep
 from harness.procedures.stabilized import StabilizedStep
@@ -82,14 +82,14 @@ def run_steps(
             if isinstance(procedure, Dynamic):
                 running = DynamicStep(system, model, step, procedure, state, solver, user)
             elif isinstance(procedure, HeatTransfer):
-                running = HeatTransferStep(system, model, step, procedure, state, solver, user, fallback=fallback)
+                kind = StabilizedHeatTransferStep if procedure.stabilize else HeatTransferStep
+                running = kind(system, model, step, state, solver, user, fallback=fallback)
             elif procedure.riks:
                 running = RiksStep(system, model, step, state, solver, user)
             elif energy_control:
                 running = EnergyStep(system, model, step, state, solver, user)
-            elif isinstance(procedure, Static) and procedure.stabilize is not None:
-                given = procedure.stabilize
-                running = StabilizedStep(system, model, step, given, state, solver, user, fallback=fallback)
+            elif procedure.stabilize is not None:
+                running = StabilizedStep(system, model, step, state, solver, user, fallback=fallback)
             else:
                 running = StaticStep(system, model, step, state, solver, user, fallback=fallback)
             yield from running.run()

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""*STATIC, STABILIZE: viscous forces c M v on an artificial mass M of unit density, v the increment over its time.
+"""STABILIZE: viscous forces c M v on an artificial mass M of unit density, v the increment over its time.
 
 Abaqus Analysis User's Guide, "Automatic stabilization of unstable problems". What the guide leaves open: the first
 increment runs without damping, and c is such that it would have dissipated the given fraction of what its internal
@@ -17,7 +17,6 @@ import numpy as np
 
 from harness.assembly import System
 from harness.model.model import Model
-from harness.model.procedures import Stabilize
 from harness.model.records import IncrementDone, Noted, Record, Warned
 from harness.model.steps import Step
 from harness.procedures.state import State
@@ -35,7 +34,6 @@ class StabilizedStep(StaticStep):
         system: System,
         model: Model,
         step: Step,
-        given: Stabilize,
         state: State,
         solver: str,
         user: UserRoutines,
@@ -43,8 +41,9 @@ class StabilizedStep(StaticStep):
         fallback: bool = False,
     ) -> None:
         super().__init__(system, model, step, state, solver, user, fallback=fallback)
-        self._given_damping = given
-        self._factor = given.factor
+        assert step.procedure.stabilize is not None
+        self._given_damping = step.procedure.stabilize
+        self._factor = self._given_damping.factor
         self._mass = system.artificial_mass(self._call(1, 0.0, 0.0, self._start))
         self._force = np.zeros(len(system))
         self._notes: list[str] = []

@@ -264,6 +264,11 @@ def solid_address() -> int:
     return int(_host.host_solid_address())
 
 
+def coupled_address() -> int:
+    """Address of the built-in coupled temperature-displacement elements, called like UELMAT."""
+    return int(_host.host_coupled_address())
+
+
 def cohesive_address() -> int:
     """Address of the built-in cohesive elements, called like UEL."""
     return int(_host.host_cohesive_address())

@@ -30,6 +30,8 @@ from harness.procedures import run_steps
 
 MANIFEST = Path(__file__).with_name("manifest.toml")
 Row = dict[str, Any]
+ATTEMPTS = {"what": "attempts"}
+"""Quantity of a row that counts increments and cutbacks."""
 
 
 @dataclass
@@ -66,7 +68,7 @@ def measure(folder: Path, row: Row) -> Outcome:
             if isinstance(record, IncrementDone):
                 outcome.increments += 1
                 lines.append((record.attempt, record.iterations))
-                if "quantity" in row:
+                if "quantity" in row and row["quantity"] != ATTEMPTS:
                     values.append((record.total_time, _evaluate(model, record.solution, row["quantity"])))
                 if outcome.increments == row.get("increments"):
                     break
@@ -74,6 +76,8 @@ def measure(folder: Path, row: Row) -> Outcome:
         outcome.error = str(error).splitlines()[0]
     if values:
         outcome.figure = _pick(values, row["quantity"]["pick"])
+    if row.get("quantity") == ATTEMPTS and not outcome.error:
+        outcome.figure = outcome.increments + outcome.cutbacks
     if "status" in row and not outcome.error:
         outcome.figure = _agreement(lines, folder / row["folder"] / row["status"])
     return outcome

@@ -62,6 +62,11 @@ def test_plastic(read: Read) -> None:
         ("*PLASTIC\n10.\n11., 0.", r"deck.inp:32: \*PLASTIC: plastic strains must begin at zero and increase"),
         ("*PLASTIC\n0.", r"deck.inp:31: \*PLASTIC: yield stress 0 must be positive"),
         ("*PLASTIC\n10., 0., 20.", r"deck.inp:31: \*PLASTIC: more than yield stress and plastic strain"),
+        ("*CONDUCTIVITY\n1., 20.", r"deck.inp:30: \*CONDUCTIVITY: needs one data line with the conductivity; a temp"),
+        ("*CONDUCTIVITY\n0.", r"deck.inp:31: \*CONDUCTIVITY: conductivity 0 must be positive"),
+        ("*CONDUCTIVITY, TYPE=ORTHO\n1., 2., 3.", r"deck.inp:30: \*CONDUCTIVITY, TYPE=ORTHO is not supported"),
+        ("*SPECIFIC HEAT", r"deck.inp:30: \*SPECIFIC HEAT: needs one data line with the specific heat"),
+        ("*SPECIFIC HEAT\n-2.", r"deck.inp:31: \*SPECIFIC HEAT: specific heat -2 must be positive"),
         ("*PLASTIC, HARDENING=KINEMATIC\n10.", r"deck.inp:30: \*PLASTIC, HARDENING=KINEMATIC is not supported"),
         (
             "*USER MATERIAL, CONSTANTS=2\n1, 2, 3",

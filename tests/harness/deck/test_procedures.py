@@ -128,6 +128,11 @@ def test_initial_conditions(read):
     assert (flux.nodes.tolist(), flux.dof, flux.magnitude) == ([1], 11, 4.0)
 
 
+def test_initial_temperatures_of_further_dofs(read):
+    model = read(f"{HEAD}*INITIAL CONDITIONS, TYPE=TEMPERATURE\nALL, 1., 2., 3.\n*STEP\n*STATIC\n*END STEP\n")
+    assert [(entry.dof, entry.value) for entry in model.initial_temperatures] == [(11, 1.0), (12, 2.0), (13, 3.0)]
+
+
 @pytest.mark.parametrize(
     "lines, message",
     [

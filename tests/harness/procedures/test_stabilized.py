@@ -68,6 +68,17 @@ def test_given_factor(run):
     assert history["ETOTAL"] == pytest.approx(0.0, abs=1e-10)
 
 
+def test_a_step_with_temperatures_is_damped_alike(run):
+    deck = DECK.replace("*STATIC, DIRECT%s", "*COUPLED TEMPERATURE-DISPLACEMENT%s").replace(
+        "*STEP", "*STEP, AMPLITUDE=RAMP"
+    )
+    history, message = run(", STABILIZE, FACTOR=5., CREEP=NONE", deck)
+    assert history["U1[END]"] == pytest.approx(damped([5.0] * 10))
+    assert "THE DAMPING FACTOR IS 5" in message
+    history, _ = run(", STABILIZE", deck)
+    assert history["U1[END]"] == pytest.approx(damped([0.0] + [2e-4 * K / 2 * H / M] * 9))
+
+
 def test_factor_from_the_energy_of_the_first_increment(run):
     """u_1 = P_1/K, energy K u_1^2/2; c M u_1^2/h is 2e-4 of it. Nothing else is damped before."""
     history, _ = run(", STABILIZE")

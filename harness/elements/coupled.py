@@ -1,0 +1,47 @@
+# SPDX-FileCopyrightText: The uel-harness authors
+# SPDX-License-Identifier: BSD-3-Clause
+"""Built-in coupled temperature-displacement elements for the driver (fortran/host/host_coupled.f90)."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+
+from harness.elements.block import Procedure
+from harness.elements.solid import COUPLED, solid_procedure
+from harness.errors import DeckError
+from harness.model.mesh import ElementGroup
+from harness.model.model import Model
+from harness.model.procedures import HeatTransfer
+from harness.model.properties import SolidSection
+from harness.usersub import Library, _binding
+
+
+def coupled_unknowns(group: ElementGroup) -> tuple[tuple[int, int], ...]:
+    """(local node, dof) of each unknown: displacements of all nodes, then temperatures of the corners."""
+    kind = COUPLED[group.type]
+    displacements = tuple((node, dof) for node in range(kind.nodes) for dof in range(1, kind.dimension + 1))
+    return displacements + tuple((node, 11) for node in range(kind.corners))
+
+
+def coupled_procedure(model: Model, group: ElementGroup, section: SolidSection, library: Library) -> Procedure:
+    """What the driver calls for a group of solids with temperatures. Raises DeckError."""
+    material = section.material
+    transient = False
+    for step in model.steps:
+        procedure = step.procedure
+        if not (isinstance(procedure, HeatTransfer) and procedure.coupled):
+            message = f"elements of type {group.type} are supported in *COUPLED TEMPERATURE-DISPLACEMENT steps only"
+            raise DeckError(step.source, message)
+        transient = transient or not procedure.steady
+    needed = [("*CONDUCTIVITY", material.conductivity)]
+    if transient:
+        needed += [("*DENSITY", material.density), ("*SPECIFIC HEAT", material.specific_heat)]
+    for keyword, value in needed:
+        if not value:
+            message = f"material {material.name} has no {keyword}, which elements of type {group.type} need"
+            raise DeckError(material.source, message)
+    solid = solid_procedure(model, group, section, library)
+    thermal = [material.conductivity, material.specific_heat]
+    return replace(solid, address=_binding.coupled_address(), props=np.concatenate([solid.props, thermal]))
