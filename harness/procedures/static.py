@@ -24,6 +24,7 @@ from harness.model.records import (
     Record,
     SearchHelped,
     StepDone,
+    Warned,
 )
 from harness.model.steps import Step
 from harness.procedures.checks import Checker
@@ -32,6 +33,7 @@ from harness.procedures.incrementation import TOO_MANY_INCREMENTS, Abandoned, Ac
 from harness.procedures.limit import PASSED, LimitLoad
 from harness.procedures.loads import released_reactions
 from harness.procedures.state import State
+from harness.procedures.unheld import UNLOADED, UnheldSolver
 from harness.solver.descent import ITERATIONS, SINGULAR, Descent
 from harness.solver.linear import LinearSolver, choose
 from harness.solver.newton import Increment, Iterate, Newton
@@ -97,8 +99,10 @@ class StaticStep:
         self._choice = ""
         if constraints is None or state.solver is None or not constraints.matches(unknowns, model.equations):
             constraints = Constraints(system, unknowns, model.equations, state.boundaries.sources)
-            state.solver = _solver(solver, constraints)
-            self._choice = f"LINEAR SOLVER {state.solver.name.upper()}: {state.solver.reason}"
+            chosen = _solver(solver, constraints)
+            # the search has an answer of its own to a singular matrix
+            state.solver = chosen if fallback else UnheldSolver(chosen)
+            self._choice = f"LINEAR SOLVER {chosen.name.upper()}: {chosen.reason}"
             state.majoriser.use(system, constraints, partial(_solver, solver, constraints))
         state.constraints = constraints
         line_search = step.controls.line_search
@@ -112,6 +116,7 @@ class StaticStep:
         self._start = state.total_time
         self._time = 0.0
         self._increment = 0
+        self._warned = False
 
     @property
     def reached(self) -> tuple[tuple[float, float], float, int, int]:
@@ -161,6 +166,7 @@ class StaticStep:
                 abandoned = Abandoned(self._step.controls.time.d_f, SINGULAR)
                 break
             iteration = state.iteration
+            yield from self._unheld()
             abandoned = refused(state.evaluation.pnewdt)
             if abandoned is None and iteration == 0:
                 self._checker.start(state, extrapolated=extrapolated)
@@ -178,6 +184,13 @@ class StaticStep:
                     abandoned = self._give_up(iteration, checks)
         yield from self._abandon(abandoned, increment, iteration, size)
         return False, iteration
+
+    def _unheld(self) -> Iterator[Warned]:
+        """Say once in the step that a part of the model moves freely."""
+        solver = self._state.solver
+        if isinstance(solver, UnheldSolver) and solver.free is not None and not self._warned:
+            self._warned = True
+            yield Warned(UNLOADED.format(solver.free))
 
     def _accuracy(self, last: Iterate, size: float) -> Accuracy | None:
         """How accurate the integration over time is, None where nothing measures it."""

@@ -99,9 +99,16 @@ def _records(root: Path, row: Row) -> Iterator[tuple[Model, Any]]:
 
 
 def _evaluate(model: Model, solution: Solution, quantity: Row) -> float:
-    """Sum, smallest or largest of a nodal quantity of one dof over nodes; or the sum of an entry of ENERGY."""
+    """Sum, smallest or largest of a nodal quantity of one dof over nodes; a sum of ENERGY; or an SVARS."""
     if "energy" in quantity:
         return float(solution.energies[quantity["energy"]])
+    if "svars" in quantity:
+        (group, row), *_ = (
+            (k, row)
+            for k, group in enumerate(model.groups)
+            for row in np.flatnonzero(group.labels == quantity["element"])
+        )
+        return float(solution.elements[group].svars[row, quantity["svars"] - 1])
     if "nset" in quantity:
         nodes = model.nsets[quantity["nset"].upper()]
     elif "nodes" in quantity:

@@ -1,0 +1,67 @@
+# SPDX-FileCopyrightText: The uel-harness authors
+# SPDX-License-Identifier: BSD-3-Clause
+"""Models of which a part is not held, but on which no force acts in the direction it is free to move in.
+
+Abaqus warns of a numerical singularity and goes on. So does a step here: of all solutions, which differ by free
+motions, it takes one with small displacements. Where a force acts in a free direction there is none, and the step ends
+with the error of the linear solver.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+from scipy import sparse
+
+from harness.errors import SingularMatrixError
+from harness.model.arrays import FloatArray
+from harness.solver.linear import LinearSolver
+
+SHIFT = 1e-10
+"""Stiffness that stands in for what is missing, as a fraction of the largest entry of each row."""
+
+LOADED = 1e-6
+"""Part of a right-hand side that no solution balances above which the singular matrix is an error."""
+
+UNLOADED = "{}. NO FORCE ACTS ON WHAT MOVES FREELY: IT IS GIVEN SMALL DISPLACEMENTS"
+
+
+class UnheldSolver:
+    """A linear solver that bears singular matrices where the right-hand side has a solution all the same.
+
+    free  error of the last matrix, None if it is regular
+    """
+
+    def __init__(self, solver: LinearSolver) -> None:
+        self._solver = solver
+        self.free: SingularMatrixError | None = None
+        self._matrix = sparse.csr_array((0, 0))
+        self._diagonal = np.flatnonzero(solver.pattern.rows == solver.pattern.indices)
+
+    def factorise(self, data: FloatArray) -> None:
+        """Take the CSR values of the reduced matrix. Raises SingularMatrixError where nothing acts on an unknown."""
+        self.free = None
+        self._matrix = self._solver.pattern.matrix(data)
+        try:
+            self._solver.factorise(data)
+        except SingularMatrixError as error:
+            self._shift(error)
+
+    def solve(self, rhs: FloatArray) -> FloatArray:
+        """Solution for one right-hand side. Raises SingularMatrixError where it has none."""
+        try:
+            solution = self._solver.solve(rhs)
+        except SingularMatrixError as error:
+            # some solvers find out only now
+            self._shift(error)
+            solution = self._solver.solve(rhs)
+        if self.free is not None and np.linalg.norm(rhs - self._matrix @ solution) > LOADED * np.linalg.norm(rhs):
+            raise self.free
+        return solution
+
+    def _shift(self, error: SingularMatrixError) -> None:
+        if self.free is not None:
+            raise error
+        self.free = error
+        shifted = self._matrix.data.copy()
+        shifted[self._diagonal] += SHIFT * abs(self._matrix).max(axis=1).toarray().ravel()
+        self._solver.factorise(shifted)

@@ -1,0 +1,77 @@
+# SPDX-FileCopyrightText: The uel-harness authors
+# SPDX-License-Identifier: BSD-3-Clause
+"""Parts that nothing holds: they do no harm where no force acts on them, and end the run where one does."""
+
+import numpy as np
+import pytest
+
+import harness
+from harness.errors import SingularMatrixError
+
+YOUNG, PULL = 1000.0, 3.0
+# a unit square pinned in one corner, which may turn about it, in balance under forces in its corners
+SQUARE = f"""*NODE, NSET=ALL
+1, 0., 0.
+2, 1., 0.
+3, 1., 1.
+4, 0., 1.
+*ELEMENT, TYPE=CPS4, ELSET=BODY
+1, 1, 2, 3, 4
+*SOLID SECTION, ELSET=BODY, MATERIAL=M
+1.
+*MATERIAL, NAME=M
+*ELASTIC
+{YOUNG}
+"""
+BESIDE = """*NODE
+11, 5., 0.
+12, 6., 0.
+13, 6., 1.
+*ELEMENT, TYPE=CPS3, ELSET=BODY
+2, 11, 12, 13
+"""
+STEP = """*STEP
+*STATIC
+1., 1.
+*BOUNDARY
+1, 1, 2
+*CLOAD
+2, 1, {pull}
+3, 1, {pull}
+4, 1, -{pull}
+{more}*OUTPUT, HISTORY
+*NODE OUTPUT, NSET=ALL
+U
+*END STEP
+"""
+
+
+@pytest.fixture
+def run(tmp_path):
+    def run(deck, more=""):
+        (tmp_path / "free.inp").write_text(deck + STEP.format(pull=PULL, more=more))
+        history = harness.run(tmp_path / "free.inp", output_dir=tmp_path).history
+        return history, " ".join((tmp_path / "free.msg").read_text().split())
+
+    return run
+
+
+@pytest.mark.parametrize("deck", [SQUARE, SQUARE + BESIDE], ids=["free to turn", "and a part beside it"])
+def test_what_no_force_moves_does_no_harm(run, deck):
+    history, message = run(deck)
+    moved = np.array([[history[f"U{dof}[ALL:{node}]"][-1] for dof in (1, 2)] for node in (1, 2, 3, 4)])
+    # the stress of two forces on a unit side; nu = 0; the square may have turned
+    stretch, turn = 2 * PULL / YOUNG, moved[1, 1]
+    expected = np.array([[0, 0], [stretch, turn], [stretch - turn, turn], [-turn, 0]])
+    np.testing.assert_allclose(moved, expected, atol=1e-6 * stretch)
+    assert abs(turn) < stretch
+    assert "WARNING: SINGULAR SYSTEM MATRIX AT NODE" in message.upper()
+    assert "NO FORCE ACTS ON WHAT MOVES FREELY: IT IS GIVEN SMALL DISPLACEMENTS" in message
+
+
+@pytest.mark.parametrize("more", ["2, 2, 0.01\n", "13, 1, 0.01\n"], ids=["turned", "pushed"])
+def test_a_force_on_what_moves_freely_is_an_error(run, more):
+    with pytest.raises(
+        SingularMatrixError, match=r"free.inp:\d+: singular system matrix at node \d+, dof [12]: .* held"
+    ):
+        run(SQUARE + BESIDE, more)
