@@ -3,9 +3,9 @@
 """Damaged decks: `python tests/fuzz/fuzz.py [--count N] [--seed S] [--workers W] [FOLDER ...]`.
 
 Takes the decks of the folders (the project's own by default), damages each trial's deck, and has the harness read,
-check and build it, and try one increment of a small model. A traceback, an end of the process, more than 10 s, more
-than 1 GiB, or an error that names no place in the deck is a finding: its deck is kept in the folder --output, and the
-exit code is 1. `--case N` makes one trial again, in this process.
+check and build it, and try one increment of a small model. A traceback, an end of the process, more than 10 s of
+processor time, more than 1 GiB, or an error that names no place in the deck is a finding: its deck is kept in the
+folder --output, and the exit code is 1. `--case N` makes one trial again, in this process.
 """
 
 from __future__ import annotations
@@ -16,6 +16,7 @@ import multiprocessing
 import os
 import resource
 import shutil
+import signal
 import sys
 import tempfile
 import time
@@ -35,6 +36,9 @@ from corpus import Corpus
 ROOT = Path(__file__).parents[2]
 OWN_DECKS = (ROOT / "abaqus_inputs", ROOT / "tests")
 SECONDS = 10
+"""Of processor time, so that a busy machine makes no findings."""
+WAIT = 60
+"""Seconds after which a trial that waits for something is ended."""
 BYTES = 1 << 30
 TRIALS_OF_A_PROCESS = 500
 """Each run keeps a library loaded."""
@@ -88,13 +92,16 @@ def work(corpus: Corpus, seed: int, numbers: Iterable[int], connection: Connecti
     with tempfile.TemporaryDirectory() as folder, trace.open("w") as log:
         # what the Fortran library prints before it ends the process goes there as well
         os.dup2(log.fileno(), 2)
+        faulthandler.enable(log)
+        faulthandler.register(signal.SIGPROF, log, chain=True)
         for number in numbers:
             log.truncate(0)
             _, files = corpus.case(seed, number)
-            faulthandler.enable(log)
-            faulthandler.dump_traceback_later(SECONDS, exit=True, file=log)
+            signal.setitimer(signal.ITIMER_PROF, SECONDS)
+            faulthandler.dump_traceback_later(WAIT, exit=True, file=log)
             outcome = trial.run(files, Path(folder) / str(number))
             faulthandler.cancel_dump_traceback_later()
+            signal.setitimer(signal.ITIMER_PROF, 0)
             shutil.rmtree(Path(folder) / str(number), ignore_errors=True)
             connection.send((number, *outcome))
 
@@ -138,7 +145,8 @@ def ended(worker: Worker) -> tuple[str, str]:
     text = worker.trace.read_text("utf-8", errors="replace")
     frame = trial.OWN_FRAME.search(text)
     where = f" at {':'.join(frame.groups())}" if frame else ""
-    return f"{'timeout' if 'Timeout' in text else f'exit code {worker.process.exitcode}'}{where}", text
+    code = worker.process.exitcode
+    return f"{'timeout' if code == -signal.SIGPROF or 'Timeout' in text else f'exit code {code}'}{where}", text
 
 
 def main() -> int:
@@ -163,8 +171,10 @@ def main() -> int:
     began = time.perf_counter()
     findings = Findings(corpus, options.seed, options.output)
     numbers = range(options.first, options.first + options.count)
-    for number, kind, text in trials(corpus, options.seed, numbers, options.workers):
+    for done, (number, kind, text) in enumerate(trials(corpus, options.seed, numbers, options.workers), start=1):
         findings.add(number, kind, text)
+        if done % 1000 == 0:
+            print(f"{done} trials, {findings.found} findings, {time.perf_counter() - began:.0f} s", flush=True)
     seconds = time.perf_counter() - began
     largest = resource.getrusage(resource.RUSAGE_CHILDREN).ru_maxrss / 1024
     print(f"{options.count} trials of {len(corpus.decks)} decks in {seconds:.0f} s, largest process {largest:.0f} MiB")

@@ -14,10 +14,12 @@ BROKEN = """\
 import os, sys, time
 sys.path.insert(0, {folder!r})
 import fuzz, trial
-fuzz.SECONDS = 1
+fuzz.SECONDS = fuzz.WAIT = 1
 
 def broken(files, folder):
     number = int(folder.name)
+    if number == 0:
+        while True: pass
     if number == 1:
         time.sleep(100)
     if number == 2:
@@ -52,12 +54,12 @@ def test_findings_are_seen_and_kept(tmp_path):
     """A process that ends is replaced, and the trials go on."""
     script = tmp_path / "broken.py"
     script.write_text(BROKEN.format(folder=str(HERE)))
-    result = fuzz(script, "--count", 5, "--output", tmp_path / "findings", DECK)
+    result = fuzz(script, "--count", 6, "--output", tmp_path / "findings", DECK)
     assert result.returncode == 1, result.stdout + result.stderr
-    for line in ("2 too much memory", "1 timeout", "1 exit code -6", "1 exit code 3"):
+    for line in ("2 too much memory", "2 timeout", "1 exit code -6", "1 exit code 3"):
         assert f"{line}\n" in result.stdout
     kept = {path.name: {file.name for file in path.iterdir()} for path in (tmp_path / "findings").iterdir()}
-    assert kept == {f"1-{number}": {"deck.inp", "finding.txt"} for number in range(4)}
+    assert kept == {f"1-{number}": {"deck.inp", "finding.txt"} for number in (0, 2, 3, 4)}
 
 
 def test_one_trial_is_made_again():
