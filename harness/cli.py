@@ -64,7 +64,13 @@ def build_parser() -> argparse.ArgumentParser:
 
     run = commands.add_parser("run", help="run a deck", epilog="Abaqus' spelling works too: uel run job=NAME user=FILE")
     run.add_argument("deck", type=Path, metavar="DECK.inp")
-    run.add_argument("--user", type=Path, metavar="FILE", help="user elements (.f .for .f90 .F .so); ours by default")
+    run.add_argument(
+        "--user",
+        type=Path,
+        action="append",
+        metavar="FILE",
+        help="user routines (.f .for .f90 .c .cpp .so), once for each file, in the order of compiling; ours by default",
+    )
     run.add_argument("--job", metavar="NAME", help="name of the output files (the deck's name)")
     run.add_argument("--output-dir", type=Path, metavar="DIR", help="where they go (the current folder)")
     run.add_argument("--solver", default="auto", metavar="NAME", help="linear solver, see `uel solvers` (auto)")
@@ -160,22 +166,23 @@ def positive(text: str) -> int:
 
 def from_abaqus(parser: argparse.ArgumentParser, words: list[str]) -> list[str]:
     """Translate `job=NAME input=DECK user=FILE cpus=2` into this command's options."""
-    given, rest = {}, []
+    given: list[tuple[str, str]] = []
+    rest: list[str] = []
     for word in words:
         key, equals, value = word.partition("=")
         if word.startswith("-") or not (equals or key.lower() in ABAQUS_OPTIONS):
             rest.append(word)
         elif key.lower() in ABAQUS_OPTIONS:
-            given[key.lower()] = value
+            given.append((key.lower(), value))
         else:
             parser.error(f"unknown option '{key}='; known are {', '.join(f'{name}=' for name in ABAQUS_OPTIONS)}")
     if not given:
         return words
-    deck = given.pop("input", given.get("job", ""))
+    deck = dict(given).get("input", dict(given).get("job", ""))
     if deck:
         rest.append(deck if Path(deck).suffix else f"{deck}.inp")
-    for key, value in given.items():
-        if option := ABAQUS_OPTIONS[key]:
+    for key, value in given:
+        if (option := ABAQUS_OPTIONS[key]) and key != "input":
             rest += [option, value]
     return rest
 

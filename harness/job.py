@@ -5,6 +5,7 @@
 from __future__ import annotations
 
 import time
+from collections.abc import Sequence
 from pathlib import Path
 
 from harness import usersub
@@ -20,7 +21,7 @@ from harness.usersub import Library
 
 def run(
     deck: str | Path,
-    user: str | Path | None = None,
+    user: str | Path | Sequence[str | Path] | None = None,
     *,
     job: str | None = None,
     output_dir: str | Path | None = None,
@@ -37,7 +38,8 @@ def run(
     deck
         Abaqus input file.
     user
-        Fortran file with UEL, UELMAT, UEXTERNALDB, or a compiled library; None takes the project's own elements.
+        File with UEL, UELMAT, UEXTERNALDB in Fortran, C or C++, or several in the order of compiling, or a compiled
+        library; None takes the project's own elements.
     job
         Name of the output files; the deck's name without its ending by default.
     output_dir
@@ -72,7 +74,8 @@ def run(
     started = time.perf_counter()
     model = read_deck(deck)
     usersub.limit_calls(call_limit)
-    library = usersub.load(None if user is None else Path(user), job=job, output_dir=directory, deck=deck)
+    files = [user] if isinstance(user, str | Path) else user or ()
+    library = usersub.load([Path(file) for file in files], job=job, output_dir=directory, deck=deck)
     output = JobOutput(model, job, directory, quiet=quiet)
     try:
         system = System(model.mesh, build_blocks(model, library, strict=False), model.equations)

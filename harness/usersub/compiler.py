@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""Compile a user's Fortran as Abaqus does, once: results are kept by content in the user's cache folder."""
+"""Compile a user's files as Abaqus does, once: results are kept by content in the user's cache folder."""
 
 from __future__ import annotations
 
@@ -10,31 +10,17 @@ import re
 import shutil
 import subprocess
 import tempfile
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from pathlib import Path
-from typing import Final
 
 from harness.errors import CompileError
 from harness.usersub import linker
+from harness.usersub.diagnostics import first_error
 from harness.usersub.headers import HEADERS
+from harness.usersub.languages import FIXED, FORTRAN, FREE, LANGUAGES, is_free_form, language_of, linking
 from harness.usersub.mending import COMPARED_LOGICALS, compare_logicals
 
-SUFFIXES: Final = (".f", ".for", ".f90")
-
-FLAGS: Final = (
-    *("-c", "-O2", "-fPIC", "-ffp-contract=off", "-w", "-fdiagnostics-color=never"),
-    *("-cpp", "-std=legacy", "-fdec", "-fno-range-check", "-fno-realloc-lhs"),
-    # locals on the stack and not kept from call to call, as Abaqus' -auto has it, automatic arrays too: on the heap a
-    # write behind one ends the process later on
-    *("-frecursive", "-fstack-arrays"),
-)
-FIXED: Final = ("-ffixed-form", "-ffixed-line-length-132")
-FREE: Final = ("-ffree-form", "-ffree-line-length-none")
-
 _INCLUDE = re.compile(r"^\s*#?\s*include\s*['\"<]([^'\">]+)['\">]", re.IGNORECASE | re.MULTILINE)
-_FREEFORM = re.compile(r"^[!cC*](?:DIR|DEC)\$\s*FREEFORM", re.IGNORECASE | re.MULTILINE)
-_LOCATION = re.compile(r"^(?P<file>.+?):(?P<line>\d+):(?P<column>\d+):")
-_ERROR = re.compile(r"(?:Fatal )?Error: ")
 
 
 def build(files: Sequence[Path], include: Sequence[Path] = ()) -> Path:
@@ -42,19 +28,14 @@ def build(files: Sequence[Path], include: Sequence[Path] = ()) -> Path:
 
     Raises CompileError with the compiler's first error.
     """
-    compiler = shutil.which("gfortran")
-    if compiler is None:
-        raise CompileError(
-            files[0],
-            "gfortran is needed to compile it and is not installed (apt install gfortran, dnf install gcc-gfortran)",
-        )
+    compilers = {language_of(file): language_of(file).program(file) for file in files}
     folders = list(dict.fromkeys([*(f.resolve().parent for f in files), *(p.resolve() for p in include)]))
     headers, texts, sources = _scan(files, folders)
-    key = _key(compiler, texts)
+    key = _key(compilers.values(), texts)
     target = cache_folder() / f"{files[0].stem}-{key}.so"
     if not target.exists():
         with tempfile.TemporaryDirectory() as work:
-            _compile(compiler, files, folders, headers, sources, Path(work), target)
+            _compile(files, folders, headers, sources, Path(work), target)
     return target
 
 
@@ -71,18 +52,18 @@ def cache_folder() -> Path:
     return Path(tempfile.mkdtemp(prefix="uel-harness-"))
 
 
-def is_free_form(file: Path) -> bool:
-    """True for .f90, and for a file that an Intel directive declares to be in free form."""
-    return file.suffix.lower() == ".f90" or bool(_FREEFORM.search(_read(file)))
-
-
 def _read(file: Path) -> str:
     return file.read_text(encoding="latin-1")
 
 
-def _key(compiler: str, texts: Sequence[str]) -> str:
-    version = subprocess.run([compiler, "-dumpfullversion"], capture_output=True, text=True, check=False).stdout
-    parts = [version, *FLAGS, *FIXED, *FREE, *linker.FLAGS, *HEADERS.values(), *texts]
+def _key(compilers: Iterable[str], texts: Sequence[str]) -> str:
+    """Name of a result: what it depends on, hashed."""
+    versions = [
+        subprocess.run([compiler, "-dumpfullversion"], capture_output=True, text=True, check=False).stdout
+        for compiler in compilers
+    ]
+    flags = [*FIXED, *FREE, *linker.FLAGS, *(flag for language in LANGUAGES for flag in language.flags)]
+    parts = [*versions, *flags, *HEADERS.values(), *texts]
     return hashlib.sha256("\0".join(parts).encode()).hexdigest()[:16]
 
 
@@ -129,7 +110,6 @@ def _matches(name: str, folders: Sequence[Path]) -> Iterator[Path]:
 
 
 def _compile(
-    compiler: str,
     files: Sequence[Path],
     folders: Sequence[Path],
     supply: dict[str, str | Path],
@@ -146,14 +126,19 @@ def _compile(
     objects: list[Path] = []
     notes: list[str] = []
     for number, file in enumerate(files):
-        form = FREE if is_free_form(file) else FIXED
+        language = language_of(file)
         output = work / f"{number}.o"
-        command = [compiler, *FLAGS, *form, *search, f"-J{work}", "-o", str(output)]
+        command = [language.compiler, *language.flags, *search, "-o", str(output)]
+        if language is FORTRAN:
+            command += [*(FREE if is_free_form(file, _read(file)) else FIXED), f"-J{work}"]
         notes += _compile_one(command, file, sources, work / f"mended{number}")
         objects.append(output)
     shared = work / target.name
-    libraries = linker.lapack_flags(objects)
-    _run([compiler, *linker.FLAGS, *map(str, objects), *libraries, "-o", str(shared)], files[0])
+    language, libraries = linking([language_of(file) for file in files])
+    libraries += linker.lapack_flags(objects, language.compiler)
+    errors = _errors([language.compiler, *linker.FLAGS, *map(str, objects), *libraries, "-o", str(shared)])
+    if errors is not None:
+        raise CompileError(files[0], first_error(errors, {}))
     # another process may write the same file: a rename replaces it in one step
     notes_of(target).write_text("".join(f"{note}\n" for note in notes), encoding="utf-8")
     partial = target.with_suffix(f".{os.getpid()}")
@@ -185,7 +170,8 @@ def _compile_one(command: Sequence[str], file: Path, sources: dict[str, list[Pat
                 copies[name], changed = mended, True
                 notes.append(f"{name}, line {line}: logicals compared with {operator}, in the copy .eqv. or .neqv.")
         if not changed:
-            raise CompileError(file, first_error(errors))
+            texts = {name: _read(paths[0]) for name, paths in sources.items()}
+            raise CompileError(file, first_error(errors, texts))
         copies.setdefault(file.name, _read(file))
         folder.mkdir(exist_ok=True)
         for name, text in copies.items():
@@ -197,27 +183,3 @@ def _errors(command: Sequence[str]) -> str | None:
     environment = os.environ | {"LC_ALL": "C"}
     result = subprocess.run(command, capture_output=True, text=True, errors="replace", env=environment, check=False)
     return result.stderr if result.returncode else None
-
-
-def _run(command: Sequence[str], file: Path) -> None:
-    errors = _errors(command)
-    if errors is not None:
-        raise CompileError(file, first_error(errors))
-
-
-def first_error(output: str) -> str:
-    """The compiler's first error: sentence, place, and the source line with its column marked."""
-    place: re.Match[str] | None = None
-    context: list[str] = []
-    for line in output.splitlines():
-        found = _ERROR.match(line)
-        if found is None:
-            location = _LOCATION.match(line)
-            place, context = (location, []) if location else (place, [*context, line] if line.strip() else context)
-            continue
-        sentence = f"does not compile: {line[found.end() :].replace(' at (1)', '')}"
-        if place is None:
-            return sentence
-        where = f"{Path(place['file']).name}, line {place['line']}, column {place['column']}"
-        return "\n".join([f"{sentence} ({where})", *context])
-    return f"does not compile or link:\n{output.strip()}"

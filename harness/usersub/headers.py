@@ -59,6 +59,12 @@ _UTILITIES = """      interface
       end interface
 """
 
+_FOR_C = """#ifndef FOR_NAME
+/* name of a Fortran routine; the second argument is its name on other systems */
+#define FOR_NAME(name, ...) name##_
+#endif
+"""
+
 _GLOBAL_AND_LOCAL = _ARRAYS.format(local="") + _ARRAYS.format(local="Local")
 
 HEADERS: Final = {
@@ -66,5 +72,7 @@ HEADERS: Final = {
     "smaaspuserarrays.hdr": _GLOBAL_AND_LOCAL,
     "smaaspuserutilities.hdr": _UTILITIES,
     "smaaspusersubroutines.hdr": _GLOBAL_AND_LOCAL + _UTILITIES,
+    "aba_for_c.h": _FOR_C,
+    "omi_for_c.h": _FOR_C,
 }
-"""Text by lower-case name; valid in fixed and in free form."""
+"""Text by lower-case name; Fortran's is valid in fixed and in free form."""

@@ -15,7 +15,8 @@ from harness.errors import CompileError, UelError
 from harness.model.records import PointVariables
 from harness.usersub import _binding, layout
 from harness.usersub.amalgam import path_of_kernels
-from harness.usersub.compiler import SUFFIXES, build, notes_of
+from harness.usersub.compiler import build, notes_of
+from harness.usersub.languages import SUFFIXES
 from harness.usersub.linker import undefined_routine
 from harness.usersub.messages import Inbox, Message
 
@@ -79,7 +80,7 @@ class Library:
 
 
 def load(user: Path | Sequence[Path] | None, *, job: str, output_dir: Path, deck: Path | None = None) -> Library:
-    """Load user routines: Fortran files (compiled, or taken from the cache) or a shared library.
+    """Load user routines: files in Fortran, C or C++ (compiled, or taken from the cache) or a shared library.
 
     None gives the project's own kernels. INCLUDE lines are looked up in the folders of the sources and of the deck.
     Raises CompileError.

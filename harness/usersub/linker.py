@@ -24,8 +24,8 @@ _PREFIX: Final = "scipy_"
 """What scipy's OpenBLAS puts before each name."""
 
 
-def lapack_flags(objects: Sequence[Path]) -> list[str]:
-    """Flags that give the objects LAPACK and BLAS; they refer to it by its plain names.
+def lapack_flags(objects: Sequence[Path], compiler: str) -> list[str]:
+    """Flags with which this compiler gives the objects LAPACK and BLAS; they refer to it by its plain names.
 
     The libraries of the system are taken if they are found, else the OpenBLAS in scipy's wheel, whose names carry a
     prefix: the references in the objects are then renamed.
@@ -33,12 +33,12 @@ def lapack_flags(objects: Sequence[Path]) -> list[str]:
     wanted = {name for file in objects for name in _symbols("-u", file)}
     bundled = _bundled_openblas()
     if bundled is None:
-        return _system_lapack() if wanted & {f"{routine}_" for routine in _COMMON} else []
+        return _system_lapack(compiler) if wanted & {f"{routine}_" for routine in _COMMON} else []
     offered = {name.removeprefix(_PREFIX) for name in _symbols("-D", bundled) if name.startswith(_PREFIX)}
     needed = sorted(wanted & offered)
     if not needed:
         return []
-    if system := _system_lapack():
+    if system := _system_lapack(compiler):
         return system
     renames = [f"--redefine-sym={name}={_PREFIX}{name}" for name in needed]
     for file in objects:
@@ -62,9 +62,9 @@ _COMMON: Final = (
 """Routines that betray a use of LAPACK where no list of its names is at hand."""
 
 
-def _system_lapack() -> list[str]:
+def _system_lapack(compiler: str) -> list[str]:
     for flags in (["-llapack", "-lblas"], ["-lopenblas"]):
-        command = ["gfortran", "-shared", "-o", "/dev/null", *flags]
+        command = [compiler, "-shared", "-o", "/dev/null", *flags]
         if subprocess.run(command, capture_output=True, check=False).returncode == 0:
             return flags
     return []

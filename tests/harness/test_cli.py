@@ -17,6 +17,7 @@ from harness.output import Result
 
 DECKS = Path(__file__).parents[2] / "abaqus_inputs"
 SPRINGS = Path(__file__).parent / "procedures" / "springs.f"
+SPRING_IN_C = Path(__file__).parent / "usersub" / "spring.c"
 FLAT = DECKS / "patch_horizontal" / "flat_u2.inp"
 
 
@@ -101,6 +102,23 @@ def test_spelling_of_abaqus(tmp_path: Path) -> None:
     words = ["run", "job=pressed", f"input={FLAT}", "cpus=2", "interactive", "--quiet", f"--output-dir={tmp_path}"]
     assert main(words) == 0
     assert (tmp_path / "pressed.sta").exists()
+
+
+@pytest.mark.parametrize("option", [("--user", "{}"), ("user={}",)])
+def test_several_user_files(tmp_path: Path, option: tuple[str, ...]) -> None:
+    database = tmp_path / "database.f90"
+    database.write_text(
+        "subroutine uexternaldb(lop)\n  if (lop == 3) call stdb_abqerr(1, 'at the end', (/0/), (/0d0/), (/' '/))\nend\n"
+    )
+    deck = tmp_path / "pulled.inp"
+    deck.write_text(
+        "*NODE\n1, 0.\n2, 1.\n*USER ELEMENT, TYPE=U1, NODES=2, COORDINATES=1, PROPERTIES=1\n1\n"
+        "*ELEMENT, TYPE=U1, ELSET=ALL\n1, 1, 2\n*UEL PROPERTY, ELSET=ALL\n1.\n"
+        "*STEP\n*STATIC\n1., 1.\n*BOUNDARY\n1, 1\n2, 1, 1, 0.1\n*END STEP\n"
+    )
+    files = [word.format(file) for file in (SPRING_IN_C, database) for word in option]
+    assert main(["run", str(deck), *files, "--quiet", f"--output-dir={tmp_path}"]) == 0
+    assert "at the end" in (tmp_path / "pulled.msg").read_text()
 
 
 def test_unknown_option_of_abaqus(capsys: pytest.CaptureFixture[str]) -> None:

@@ -133,7 +133,7 @@ def test_first_error_with_its_line_and_column(load):
 def test_what_gfortran_refuses_is_shown(load):
     """.eqv. binds less than .and.: this comparison cannot be mended without a thought."""
     body = "      logical a, b\n      a = .true.\n      b = .true.\n      if (a .eq. .true. .and. b) a = b\n"
-    with pytest.raises(CompileError, match=r"Logicals must be compared with .eqv. instead of .eq. \(user.f, line 8"):
+    with pytest.raises(CompileError, match=r"Logicals must be .* \(user.f, line 8(?s:.*)Hint: Abaqus' compiler takes"):
         load(database(body))
 
 
@@ -153,8 +153,9 @@ def test_missing_file(tmp_path):
 
 
 def test_wrong_kind_of_file(load):
-    with pytest.raises(CompileError, match=r"user.c: not a file of user routines: expected .f, .for, .f90 or .so"):
-        load("int main;", "user.c")
+    expected = ".f, .for, .f90, .c, .cpp, .cc, .cxx or .so"
+    with pytest.raises(CompileError, match=rf"user.txt: not a file of user routines: expected {expected}"):
+        load("int main;", "user.txt")
 
 
 def test_shared_library_with_another_file(tmp_path):
@@ -170,12 +171,16 @@ def test_not_a_library(tmp_path):
         usersub.load(tmp_path / "a.so", job="job", output_dir=tmp_path)
 
 
-def test_missing_compiler(load, monkeypatch):
+@pytest.mark.parametrize(
+    ("name", "compiler", "package"),
+    [("user.f", "gfortran", "gfortran"), ("user.c", "gcc", "gcc"), ("user.cpp", "g[+]+", "g[+]+")],
+)
+def test_missing_compiler(load, monkeypatch, name, compiler, package):
     monkeypatch.setattr(shutil, "which", lambda name: None)
     with pytest.raises(
-        CompileError, match=r"gfortran is needed to compile it and is not installed \(apt install gfortran"
+        CompileError, match=rf"{compiler} is needed to compile it and is not installed \(apt install {package}"
     ):
-        load(database(note()))
+        load("", name)
 
 
 def test_cache_that_cannot_be_written(load, tmp_path, monkeypatch):
@@ -226,3 +231,42 @@ def test_logicals_compared_with_eq_compile_in_a_copy(load, tmp_path):
     ]
     assert said(library) == ["equal"]
     assert (tmp_path / "user.f").read_text() == text
+
+
+HINTS = {
+    "an Intel module": ("      use ifport\n      end\n", "user.f", "it belongs to Intel's compiler: use Fortran's own"),
+    "MKL as a module": (
+        "      use lapack95\n      end\n",
+        "user.f",
+        "it belongs to Intel's MKL: LAPACK and BLAS are linked",
+    ),
+    "MKL as an include": (
+        "      include 'mkl.fi'\n      end\n",
+        "user.f",
+        "it belongs to Intel's MKL: LAPACK and BLAS are",
+    ),
+    "a missing module": (
+        "      use tensors\n      end\n",
+        "user.f",
+        "no file before this one defines the module tensors",
+    ),
+    "integer for logical": (database("      if (lop) i = 1"), "user.f", "write the comparison out, such as i /= 0"),
+    "free form in .for": (
+        "subroutine uexternaldb(lop, &\n  lrestart)\ninteger :: lop\nlop = 1\nend subroutine\n",
+        "user.for",
+        "it looks like free form: call it .f90, or begin it with !DIR[$] FREEFORM",
+    ),
+}
+
+
+@pytest.mark.parametrize("case", HINTS)
+def test_hint(load, case):
+    text, name, hint = HINTS[case]
+    with pytest.raises(CompileError, match=rf"\({name}, line (?s:.*)\nHint: {hint}"):
+        load(text, name)
+
+
+def test_fixed_form_gets_no_hint_at_free_form(load):
+    with pytest.raises(CompileError) as caught:
+        load(database("      x = = 2"))
+    assert "Hint" not in str(caught.value)

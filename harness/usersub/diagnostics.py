@@ -1,0 +1,92 @@
+# SPDX-FileCopyrightText: The uel-harness authors
+# SPDX-License-Identifier: BSD-3-Clause
+"""The compiler's first error as a message, with what to do where the file counts on another compiler."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Final
+
+_LOCATION = re.compile(r"^(?P<file>.+?):(?P<line>\d+):(?P<column>\d+):")
+# gfortran puts the place on a line of its own, then the source, then this
+_ERROR = re.compile(r"(?:Fatal )?Error: ")
+# gcc and g++ begin with all of it, the source follows
+_C_ERROR = re.compile(r"^(?P<file>[^:\n]+):(?P<line>\d+):(?P<column>\d+): (?:fatal )?error: (?P<sentence>.*)$")
+_C_CONTEXT = re.compile(r"^ *\d* \| ")
+
+_HINTS: Final = (
+    (
+        r"Cannot open module file '(?:ifport|ifcore|iflport|ifposix|dflib|dfport)\.mod'",
+        "it belongs to Intel's compiler: use Fortran's own routines, or take Abaqus' STDB_ABQERR and XIT",
+    ),
+    (
+        r"module file '(?:lapack95|blas95|f95_precision|mkl\w*)\.mod'|included file '(?:mkl|lapack)\w*\.(?:fi|f90)'",
+        "it belongs to Intel's MKL: LAPACK and BLAS are linked here without it; call them by name, such as DGESV",
+    ),
+    (
+        r"IF clause at \(1\) requires a scalar LOGICAL|requires a scalar LOGICAL",
+        "write the comparison out, such as i /= 0",
+    ),
+    (
+        r"must be compared with \.n?eqv\.",
+        "Abaqus' compiler takes this; write .eqv. or .neqv., with parentheses around the comparison",
+    ),
+    (r"Cannot open module file '(?P<module>\w+)\.mod'", "no file before this one defines the module {module}"),
+)
+"""Errors that tell of another compiler or of a missing file, and what to do."""
+
+_TWICE: Final = re.compile(r"([\w.-]+):\([^)]*\): multiple definition of `(\w+)'; [^\n]*?([\w.-]+):\(")
+_OTHER_FORM: Final = (
+    r"Non-numeric character in statement label|Invalid character in name|Unclassifiable statement"
+    r"|Bad continuation line|Unexpected end of file|Expecting|Syntax error"
+)
+
+
+def first_error(output: str, texts: Mapping[str, str]) -> str:
+    """The compiler's first error: sentence, place, the source line with its column marked, and a hint.
+
+    texts: contents of the user's files by bare name, for the hint.
+    """
+    place: re.Match[str] | None = None
+    context: list[str] = []
+    lines = output.splitlines()
+    for number, line in enumerate(lines):
+        if found := _C_ERROR.match(line):
+            context = [text for text in lines[number + 1 : number + 3] if _C_CONTEXT.match(text)]
+            return _message(found["sentence"], found, context, texts)
+        if found := _ERROR.match(line):
+            return _message(line[found.end() :], place, context, texts)
+        location = _LOCATION.match(line)
+        place, context = (location, []) if location else (place, [*context, line] if line.strip() else context)
+    if twice := _TWICE.search(output):
+        return f"{twice[2].removesuffix('_').upper()} is defined twice, in {twice[3]} and in {twice[1]}"
+    return f"does not compile or link:\n{output.strip()}"
+
+
+def _message(sentence: str, place: re.Match[str] | None, context: list[str], texts: Mapping[str, str]) -> str:
+    head = f"does not compile: {sentence.replace(' at (1)', '')}"
+    if place is None:
+        return head
+    name = Path(place["file"]).name
+    hint = _hint(sentence, name, texts)
+    where = f"{name}, line {place['line']}, column {place['column']}"
+    return "\n".join([f"{head} ({where})", *context, *([f"Hint: {hint}."] if hint else [])])
+
+
+def _hint(sentence: str, name: str, texts: Mapping[str, str]) -> str:
+    for pattern, hint in _HINTS:
+        if found := re.search(pattern, sentence, re.IGNORECASE):
+            return hint.format(**found.groupdict())
+    text = texts.get(name, "")
+    if re.search(_OTHER_FORM, sentence) and not name.lower().endswith(".f90") and _looks_free(text):
+        return "it looks like free form: call it .f90, or begin it with !DIR$ FREEFORM"
+    return ""
+
+
+def _looks_free(text: str) -> bool:
+    """Whether most statements begin in the first five columns, where fixed form has labels only."""
+    lines = [line for line in text.splitlines() if line.strip() and line[0] not in "cC*!#dD"]
+    early = [line for line in lines if not line[:5].strip().isdigit() and line[:5].strip() and "\t" not in line[:6]]
+    return len(early) > len(lines) / 4

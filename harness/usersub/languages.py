@@ -1,0 +1,78 @@
+# SPDX-FileCopyrightText: The uel-harness authors
+# SPDX-License-Identifier: BSD-3-Clause
+"""Languages of user routines: which compiler takes a file, and with which flags."""
+
+from __future__ import annotations
+
+import re
+import shutil
+from collections.abc import Collection
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Final
+
+from harness.errors import CompileError
+
+
+@dataclass(frozen=True)
+class Language:
+    """A language: endings of its files in lower case, its compiler, flags, and how to get and to link it.
+
+    runtime  libraries that the objects need where another language's compiler links them
+    """
+
+    suffixes: tuple[str, ...]
+    compiler: str
+    flags: tuple[str, ...]
+    install: str
+    runtime: tuple[str, ...]
+
+    def program(self, file: Path) -> str:
+        """Path of the compiler; CompileError, with how to get it, where it is missing."""
+        found = shutil.which(self.compiler)
+        if found is None:
+            message = f"{self.compiler} is needed to compile it and is not installed ({self.install})"
+            raise CompileError(file, message)
+        return found
+
+
+_COMMON: Final = ("-c", "-O2", "-fPIC", "-ffp-contract=off", "-w", "-fdiagnostics-color=never")
+FORTRAN: Final = Language(
+    (".f", ".for", ".f90"),
+    "gfortran",
+    (
+        *_COMMON,
+        *("-cpp", "-std=legacy", "-fdec", "-fno-range-check", "-fno-realloc-lhs"),
+        # locals on the stack and not kept from call to call, as Abaqus' -auto has it, automatic arrays too: on the heap
+        # a write behind one ends the process later on
+        *("-frecursive", "-fstack-arrays"),
+    ),
+    "apt install gfortran, dnf install gcc-gfortran",
+    ("-lgfortran",),
+)
+C: Final = Language((".c",), "gcc", (*_COMMON, "-x", "c"), "apt install gcc, dnf install gcc", ())
+CPP: Final = Language(
+    (".cpp", ".cc", ".cxx"), "g++", (*_COMMON, "-x", "c++"), "apt install g++, dnf install gcc-c++", ("-lstdc++",)
+)
+LANGUAGES: Final = (FORTRAN, C, CPP)
+SUFFIXES: Final = tuple(suffix for language in LANGUAGES for suffix in language.suffixes)
+
+FIXED: Final = ("-ffixed-form", "-ffixed-line-length-132")
+FREE: Final = ("-ffree-form", "-ffree-line-length-none")
+_FREEFORM = re.compile(r"^[!cC*](?:DIR|DEC)\$\s*FREEFORM", re.IGNORECASE | re.MULTILINE)
+
+
+def language_of(file: Path) -> Language:
+    """Language of a file by its ending, which is one of SUFFIXES in any case."""
+    return next(language for language in LANGUAGES if file.suffix.lower() in language.suffixes)
+
+
+def linking(languages: Collection[Language]) -> tuple[Language, list[str]]:
+    """Language whose compiler links objects of these languages, and the libraries that the others need."""
+    used = [language for language in LANGUAGES if language in languages]
+    return used[0], [flag for language in used[1:] for flag in language.runtime]
+
+
+def is_free_form(file: Path, text: str) -> bool:
+    """True for .f90, and for a text that an Intel directive declares to be in free form."""
+    return file.suffix.lower() == ".f90" or bool(_FREEFORM.search(text))
