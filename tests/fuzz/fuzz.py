@@ -37,7 +37,7 @@ ROOT = Path(__file__).parents[2]
 OWN_DECKS = (ROOT / "abaqus_inputs", ROOT / "tests")
 SECONDS = 10
 """Of processor time, so that a busy machine makes no findings."""
-WAIT = 60
+WAIT = 180
 """Seconds after which a trial that waits for something is ended."""
 BYTES = 1 << 30
 TRIALS_OF_A_PROCESS = 500
@@ -83,8 +83,12 @@ class Findings:
         return sum(count for kind, count in self.kinds.items() if kind not in GOOD)
 
 
-def work(corpus: Corpus, seed: int, numbers: Iterable[int], connection: Connection, trace: Path) -> None:
+def work(
+    corpus: Corpus, seed: int, numbers: Iterable[int], connection: Connection, other_end: Connection, trace: Path
+) -> None:
     """Make trials and send (number, kind, text) of each; what ends this process is seen by the other side."""
+    # else sending to a parent that is no more would not fail
+    other_end.close()
     warnings.simplefilter("ignore")
     resource.setrlimit(resource.RLIMIT_DATA, (BYTES, BYTES))
     resource.setrlimit(resource.RLIMIT_CORE, (0, 0))
@@ -110,7 +114,7 @@ def start(corpus: Corpus, seed: int, numbers: list[int], traces: Path) -> Worker
     """A process for the first of these trials."""
     receiving, sending = multiprocessing.Pipe(duplex=False)
     trace = traces / f"{numbers[0]}.txt"
-    arguments = (corpus, seed, numbers[:TRIALS_OF_A_PROCESS], sending, trace)
+    arguments = (corpus, seed, numbers[:TRIALS_OF_A_PROCESS], sending, receiving, trace)
     process = multiprocessing.get_context("fork").Process(target=work, args=arguments)
     process.start()
     sending.close()
