@@ -26,9 +26,10 @@ class Interface:
     power      exponent of the power law, where `eta` is 0; 0: 1, the linear criterion
     newton_cotes  integration points at the nodes, in place of Gauss points
     secant     AMATRX without the derivative of the damage (TANGENT 1), equation (24)
+    blend      share of that matrix in AMATRX
 
     COH2D4 is built in: it has the law of `law` 1 or 2, integrates by Newton-Cotes, and takes no notice of beta,
-    sampling, consistent, newton_cotes and secant.
+    sampling, consistent, newton_cotes, secant and blend.
     """
 
     type: str
@@ -42,6 +43,7 @@ class Interface:
     power: float = 0.0
     newton_cotes: bool = False
     secant: bool = False
+    blend: float = 0.0
 
     @property
     def built_in(self) -> bool:
@@ -187,7 +189,7 @@ def interface_values(specimen: Specimen) -> dict[str, float]:
         "POWER": interface.power,
         "SHAPEN": 0.0,
         "SHAPET": 0.0,
-        "BLEND": 0.0,
+        "BLEND": interface.blend,
         "BETAN": interface.beta,
         "BETAT": interface.beta,
         "GAMMABOT": 0.0,

@@ -124,7 +124,7 @@ def write_csv(curves: Sequence[Curve], path: Path) -> None:
 
 def summary(curves: Sequence[Curve]) -> Table:
     """Largest tractions, work and dissipation of each curve."""
-    table = Table("curve", "largest TN", "largest TT", "work", "dissipated I", "dissipated II", "damage")
+    table = Table("curve", "max TN", "max TT", "work", "dissipated I", "dissipated II", "damage")
     for curve in curves:
         columns = curve.columns
         peaks = [float(np.abs(columns[name]).max()) for name in ("TN", "TT")]

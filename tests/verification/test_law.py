@@ -169,7 +169,7 @@ def test_command_writes_data_and_pictures(tmp_path, capsys):
     words = ["law", "TAUMAX=50", "--angles", "0", "90", "SIGMAMAX=20", "--increments", "50", "--surface", "GIC=0.3"]
     assert main([*words, "--job", "mine", "--output-dir", str(tmp_path / "new")]) == 0
     printed = capsys.readouterr().out
-    assert "largest TN" in printed and "mine_surface.png" in printed
+    assert "max TN" in printed and "mine_surface.png" in printed
     with (tmp_path / "new/mine.csv").open() as file:
         rows = list(csv.DictReader(file))
     assert len(rows) == 2 * 51

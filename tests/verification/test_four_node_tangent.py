@@ -1,0 +1,30 @@
+# SPDX-FileCopyrightText: The uel-harness authors
+# SPDX-License-Identifier: BSD-3-Clause
+"""The double cantilever beam of U3 without the derivative of the damage in AMATRX (TANGENT 1)."""
+
+import shutil
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import harness
+from harness.delamination.decks import FOLDER
+from harness.errors import ConvergenceError
+from harness.output import Result
+
+INTEGERS = "0., 1, 0, 0, 0, -5000, -4000, 0"
+
+
+@pytest.mark.long
+def test_it_converges_too_slowly(tmp_path: Path) -> None:
+    for path in (FOLDER / "dcb").glob("*.inp"):
+        shutil.copy(path, tmp_path)
+    deck = tmp_path / "dcb_u3_1e8.inp"
+    text = deck.read_text()
+    assert text.count(INTEGERS) == 1
+    deck.write_text(text.replace(INTEGERS, "0., 1, 0, 1, 0, -5000, -4000, 0"))
+    with pytest.raises(ConvergenceError, match="TOO MANY ATTEMPTS"):
+        harness.run(deck, output_dir=tmp_path)
+    # regression; the page of the decks says where it stops
+    assert np.max(Result(tmp_path / "dcb_u3_1e8").history["time"]) == pytest.approx(0.43, abs=0.05)
