@@ -84,6 +84,10 @@ def build_parser() -> argparse.ArgumentParser:
     run.add_argument("--quiet", action="store_true", help="no progress display")
     run.set_defaults(function=run_job)
 
+    new = commands.add_parser("new", help="begin a user element: kernel, deck, tests, CI")
+    new.add_argument("name", type=Path, metavar="NAME", help="of the element, and of the folder that is made")
+    new.set_defaults(function=begin_element)
+
     add_reproduce(
         commands.add_parser("reproduce", help="run the cases of the paper, draw its figures, check what it says")
     )
@@ -205,6 +209,16 @@ def run_job(options: argparse.Namespace) -> int:
     if not options.quiet:
         last = result.status[-1]
         print(f"{result.job}: completed, {len(result.status)} lines in .sta, total time {last.total_time:g}")
+    return 0
+
+
+def begin_element(options: argparse.Namespace) -> int:
+    """`uel new`."""
+    from harness.project import create  # noqa: PLC0415
+
+    for file in create(options.name):
+        print(file)
+    print(f"next: cd {options.name}; uel run {options.name.name}.inp --user {options.name.name}.for; pytest")
     return 0
 
 

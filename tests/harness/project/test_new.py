@@ -1,0 +1,72 @@
+# SPDX-FileCopyrightText: The uel-harness authors
+# SPDX-License-Identifier: BSD-3-Clause
+"""`uel new`: what it makes runs, is tested, and says nothing of the template."""
+
+import subprocess
+import sys
+
+import pytest
+
+from harness.cli import main
+
+NAMES = {
+    "beam_x.for",
+    "beam_x.inp",
+    "test_beam_x.py",
+    "requirements.txt",
+    "README.md",
+    ".gitignore",
+    ".github/workflows/test.yml",
+}
+
+
+@pytest.fixture
+def project(tmp_path, capsys):
+    folder = tmp_path / "beam_x"
+    assert main(["new", str(folder)]) == 0
+    assert "uel run beam_x.inp --user beam_x.for; pytest" in capsys.readouterr().out
+    return folder
+
+
+def test_files(project):
+    files = [path for path in project.rglob("*") if path.is_file()]
+    assert {str(path.relative_to(project)) for path in files} == NAMES
+    for path in files:
+        text = path.read_text()
+        assert "my_uel" not in text
+        assert "SPDX" not in text
+    assert max(map(len, (project / "beam_x.for").read_text().splitlines())) <= 72
+
+
+def test_its_tests_pass_and_its_deck_runs(project):
+    command = [sys.executable, "-m", "pytest", "-q", "-p", "no:cacheprovider"]
+    result = subprocess.run(command, cwd=project, capture_output=True, text=True, check=False)
+    assert result.returncode == 0, result.stdout + result.stderr
+    assert "2 passed" in result.stdout
+    command = [sys.executable, "-m", "harness.cli", "run", "beam_x.inp", "--user", "beam_x.for"]
+    result = subprocess.run(command, cwd=project, capture_output=True, text=True, check=False)
+    assert "beam_x: completed" in result.stdout, result.stderr
+
+
+def test_its_tests_can_fail(project):
+    """A wrong factor in forces and stiffness is seen by theory alone."""
+    kernel = project / "beam_x.for"
+    text = kernel.read_text()
+    assert text.count("volume = area*props(3)") == 1
+    kernel.write_text(text.replace("volume = area*props(3)", "volume = area"))
+    command = [sys.executable, "-m", "pytest", "-q", "-p", "no:cacheprovider"]
+    result = subprocess.run(command, cwd=project, capture_output=True, text=True, check=False)
+    assert "test_patch" in result.stdout
+    assert "1 failed, 1 passed" in result.stdout
+
+
+@pytest.mark.parametrize("name", ["1st", "a-b", "a b", ".", "é"])
+def test_name_that_is_none(tmp_path, monkeypatch, capsys, name):
+    monkeypatch.chdir(tmp_path)
+    assert main(["new", name]) == 1
+    assert "cannot be the name of an element: expected letters, digits and _" in capsys.readouterr().err
+
+
+def test_folder_that_exists(project, capsys):
+    assert main(["new", str(project)]) == 1
+    assert "beam_x exists already" in capsys.readouterr().err
