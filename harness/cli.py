@@ -139,7 +139,7 @@ def add_reproduce(reproduce: argparse.ArgumentParser) -> None:
     reproduce.add_argument(
         "cases", nargs="*", metavar="CASE", help="law, patch, dcb, enf, frmm, sensitivity (all of them)"
     )
-    reproduce.add_argument("--quick", action="store_true", help="coarser meshes")
+    reproduce.add_argument("--quick", action="store_true", help="coarser meshes, fewer increments")
     reproduce.add_argument(
         "--output-dir", type=Path, default=Path("reproduce"), metavar="DIR", help="where all goes (reproduce)"
     )

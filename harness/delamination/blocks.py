@@ -19,6 +19,7 @@ class Interface:
     type       'U2' standard, 'U3' stabilised with four nodes, 'U4' stabilised with eight nodes; 'COH2D4' Abaqus' own
     cohesive   parameters of the law
     beta       stabilisation parameter beta_n = beta_tau (N/mm^3); 0 computes it by equation (21)
+    weight     of the bulk stress below; 0 computes it by equation (22)
     viscosity  relaxation time of the damage, in step time
     sampling   of the bulk stress: 0 middle of the face, 1 face, 2 Gauss point
     consistent the law has a separation of its own (CLOSURE 1), in place of the damage at the displacement jump
@@ -29,12 +30,13 @@ class Interface:
     blend      share of that matrix in AMATRX
 
     COH2D4 is built in: it has the law of `law` 1 or 2, integrates by Newton-Cotes, and takes no notice of beta,
-    sampling, consistent, newton_cotes, secant and blend.
+    weight, sampling, consistent, newton_cotes, secant and blend.
     """
 
     type: str
     cohesive: Cohesive
     beta: float = 0.0
+    weight: float = 0.0
     viscosity: float = 0.0
     sampling: int = 0
     consistent: bool = False
@@ -192,7 +194,7 @@ def interface_values(specimen: Specimen) -> dict[str, float]:
         "BLEND": interface.blend,
         "BETAN": interface.beta,
         "BETAT": interface.beta,
-        "GAMMABOT": 0.0,
+        "GAMMABOT": interface.weight,
         "FRICTION": 0.0,
         "LAW": interface.law,
         "INTEGRATION": int(interface.newton_cotes),

@@ -5,7 +5,10 @@
 import io
 import math
 import re
+from dataclasses import replace
 from pathlib import Path
+from types import SimpleNamespace
+from typing import cast
 
 import numpy as np
 import pytest
@@ -16,9 +19,10 @@ from harness.delamination import theory
 from harness.delamination.beams import RIGID_ROOT, growth
 from harness.delamination.materials import PLY_0, PLY_90, TABLE_2
 from harness.delamination.patches import ANGLE, COLUMNS, inclined_mesh, stabilisation
-from harness.delamination.reproduce import command, findings, patch_cases, sensitivity
+from harness.delamination.reproduce import command, convergence, findings, parameters, patch_cases, sensitivity
 from harness.delamination.reproduce.cases import PROBLEMS, Case, paper_cases
 from harness.delamination.reproduce.claims import Claim, Number, Verdict, judge, read_claims
+from harness.delamination.reproduce.convergence import Steady
 from harness.delamination.reproduce.findings import Evidence, to_line
 from harness.delamination.reproduce.page import Content, Table, write_page
 from harness.delamination.reproduce.runs import Runs
@@ -42,8 +46,10 @@ def test_cases_are_there_once() -> None:
 
 @pytest.mark.parametrize("problem", PROBLEMS)
 def test_quick_decks_are_coarser(problem: str) -> None:
-    fine, coarse = (Case(problem, "0/90", "consistent", "inf", coarse=coarse).mesh() for coarse in (False, True))
-    assert np.diff(coarse.x).min() == pytest.approx(2.0 * np.diff(fine.x).min(), rel=1e-6)
+    fine, coarse = (Case(problem, "0/90", "consistent", "inf", coarse=coarse) for coarse in (False, True))
+    assert np.diff(coarse.mesh().x).min() == pytest.approx(4.0 / 3.0 * np.diff(fine.mesh().x).min(), rel=1e-4)
+    assert CRACK in coarse.mesh().x
+    assert 2 * coarse.increment_count == fine.increment_count
 
 
 def test_deck_of_a_variation() -> None:
@@ -59,6 +65,48 @@ def test_deck_of_a_variation() -> None:
     # (21) and (22) with |D| = E/(1 - nu) of the isotropic ply and, within 1 %, E11 of the other
     soft, stiff = height * (1.0 - PLY_90.nu12) / PLY_90.e1, height / PLY_0.e1
     assert float(given["BETAN"]) == pytest.approx(2.0 * 2.0 / (soft + stiff), rel=0.01)
+
+
+def test_rows_and_weight_of_a_deck() -> None:
+    case = Case("dcb", "0/90", "consistent_bk", "1e6", rows=8, weight=0.5)
+    assert case.name == "dcb_0_90_consistent_bk_1e6_rows8_weight0p5"
+    mesh, usual = case.mesh(), replace(case, rows=4).mesh()
+    assert mesh.rows == (8, 8)
+    assert mesh.lower[::2] == pytest.approx(usual.lower)
+    assert mesh.upper[::2] == pytest.approx(usual.upper)
+    text = case.files()[f"{case.name}.inp"].split("*UEL PROPERTY, ELSET=INTERFACE\n")[1]
+    values = text.split("*")[0].replace("\n", ",").split(",")
+    assert float(values[15]) == 0.5  # GAMMABOT, the 16th property
+
+
+def test_energies_explain_a_difference_of_loads() -> None:
+    # slender arms: P a^3 ~ displacement, P^2 a^2 ~ G, so that 1 % less energy is 3/4 % less load
+    built_in, ours = Steady(24.0, 1.0, 0.32), Steady(23.0, 0.99, 0.32)
+    assert convergence.expected(ours, built_in) == pytest.approx(-0.0075, abs=2e-5)
+    assert convergence.load_difference(ours, built_in) == pytest.approx(-1.0 / 24.0)
+
+
+def test_pairs_have_one_mesh() -> None:
+    for built_in, ours in convergence.pairs(coarse=False):
+        assert (built_in.element, ours.element) == ("COH2D4", "consistent_bk")
+        assert (built_in.element_size, built_in.rows) == (ours.element_size, ours.rows)
+
+
+def test_kink_ahead_of_the_front() -> None:
+    place = np.arange(30.0, 50.0, 0.5)
+    damage = np.where(place < 40.0, 1.0, 0.0)
+    smooth = {"X": place, "TT": np.exp(40.0 - place) * (place >= 40.0), "DAMAGE": damage}
+    rough = smooth | {"TT": smooth["TT"] + np.where(place == 42.0, 0.5, 0.0)}
+    # a kink within the failed part does not count
+    rough["TT"][3] += 5.0
+
+    def run(problem: str, layup: str, element: str, stiffness: str) -> SimpleNamespace:
+        assert (layup, stiffness) == ("0/0", "1e8")
+        profile = rough if element == "standard" else smooth
+        return SimpleNamespace(case=SimpleNamespace(problem=problem, layup=layup), at=lambda _: profile)
+
+    evidence = cast("Evidence", SimpleNamespace(run=run))
+    assert parameters.kink_distance(evidence, "enf", "TT") == pytest.approx(42.0 - 39.5)
 
 
 def test_stabilisation_of_the_horizontal_patch() -> None:

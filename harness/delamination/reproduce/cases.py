@@ -7,25 +7,32 @@ from __future__ import annotations
 import itertools
 from dataclasses import dataclass, replace
 
+import numpy as np
+
 from harness.delamination import specimens
 from harness.delamination.blocks import Interface, Specimen
 from harness.delamination.materials import TABLE_2, Cohesive
 from harness.delamination.mesh import TwoArmMesh
 from harness.delamination.patches import PLIES, stabilisation
+from harness.delamination.specimens import ARM_HEIGHT
 from harness.delamination.steps import Increments
 from harness.delamination.study.cases import BUMP, KINDS, STIFFNESSES, Kind
 
 PARTS = 25
 """Profiles are written at the end of so many equal parts of the displacement: the same moments for all runs."""
 PRINT_EVERY = 10
-
+ROWS = 4
+"""Rows of quads over the height of an arm in the paper's cases."""
 
 ENDS = {"dcb": {"0/0": 3.0, "0/90": 8.0}, "enf": {"0/0": 5.0, "0/90": 8.0}, "frmm": {"0/0": 5.0, "0/90": 6.0}}
 """Displacement at the end (mm), beyond the softening branch."""
 PROBLEMS = {name: KINDS[name]._replace(displacement=ends) for name, ends in ENDS.items()}
 """The specimens, on the meshes of the study."""
-QUICK_SIZES = {"dcb": 0.25, "enf": 0.5, "frmm": 0.25}
-"""Length of the elements with --quick (mm)."""
+QUICK_SIZES = {"dcb": 1.0 / 6.0, "enf": 1.0 / 3.0, "frmm": 1.0 / 6.0}
+"""Length of the elements with --quick (mm). Twice the full mesh's takes longer: with fewer elements in the process
+zone each failing point is a snap, and at the peak of the [0/90] end-notched flexure the search finds no end."""
+INCREMENTS = {False: 100, True: 50}
+"""Number of increments, if none is cut: full, and with --quick."""
 MOMENTS = {
     ("dcb", "0/0"): 1.8,
     ("dcb", "0/90"): 5.12,
@@ -61,9 +68,11 @@ class Case:
     perturbed     the interface nodes are moved
     coarse        the mesh of --quick
     size          length of the elements in place of the problem's (mm)
-    increments    number of increments, if none is cut
+    increments    number of increments, if none is cut, in place of that of INCREMENTS
+    rows          rows of quads over the height of an arm
     strength      factor of both strengths
     beta          factor of the stabilisation by equation (21)
+    weight        of the bulk stress below, in place of that of equation (22)
     sampling      of the bulk stress: 0 middle of the face, 1 face, 2 Gauss point
     newton_cotes  integration points at the nodes
     secant, tolerance  AMATRX by equation (24), and the residual R_n that is let pass
@@ -76,9 +85,11 @@ class Case:
     perturbed: bool = False
     coarse: bool = False
     size: float | None = None
-    increments: int = 100
+    increments: int | None = None
+    rows: int = ROWS
     strength: float = 1.0
     beta: float = 1.0
+    weight: float = 0.0
     sampling: int = 0
     newton_cotes: bool = False
     secant: bool = False
@@ -90,7 +101,9 @@ class Case:
         words = [self.problem, self.layup.replace("/", "_"), self.element, self.stiffness]
         words += ["perturbed"] * self.perturbed + ["coarse"] * self.coarse
         words += [f"size{self.size:g}"] if self.size is not None else []
-        numbers = {"inc": (self.increments, 100), "strength": (self.strength, 1.0), "beta": (self.beta, 1.0)}
+        words += [f"inc{self.increments}"] if self.increments is not None else []
+        numbers = {"rows": (self.rows, ROWS), "strength": (self.strength, 1.0), "beta": (self.beta, 1.0)}
+        numbers["weight"] = (self.weight, 0.0)
         words += [f"{word}{value:g}" for word, (value, usual) in numbers.items() if value != usual]
         words += [f"sampling{self.sampling}"] if self.sampling else []
         words += ["newtoncotes"] * self.newton_cotes + ["secant"] * self.secant
@@ -125,9 +138,16 @@ class Case:
         stiffness, factor = STIFFNESSES[self.stiffness], self.strength
         return Cohesive(stiffness, stiffness, factor * TABLE_2.strength_normal, factor * TABLE_2.strength_shear)
 
+    @property
+    def increment_count(self) -> int:
+        """Number of increments, if none is cut."""
+        return INCREMENTS[self.coarse] if self.increments is None else self.increments
+
     def mesh(self) -> TwoArmMesh:
         """The mesh."""
-        return self.kind.mesh(self.element_size, BUMP * self.element_size * self.perturbed)
+        mesh = self.kind.mesh(self.element_size, BUMP * self.element_size * self.perturbed)
+        heights = np.linspace(0.0, ARM_HEIGHT, self.rows + 1)
+        return replace(mesh, lower=heights, upper=ARM_HEIGHT + heights)
 
     def files(self) -> dict[str, str]:
         """Deck `NAME.inp` and the files that it includes."""
@@ -149,6 +169,7 @@ class Case:
             base,
             cohesive=self.law,
             beta=beta,
+            weight=self.weight,
             sampling=self.sampling,
             newton_cotes=base.newton_cotes or self.newton_cotes,
             secant=self.secant,
@@ -157,9 +178,9 @@ class Case:
     def _deck(self, mesh_name: str, mesh: TwoArmMesh, interface: Interface) -> str:
         top, bottom = PLIES[self.layup]
         specimen = Specimen(mesh_name, mesh, interface, specimens.WIDTH, bottom, top)
-        step = 1.0 / self.increments
+        step = 1.0 / self.increment_count
         increments = Increments(
-            step, 1e-7, step, limit=20 * self.increments, residual=self.tolerance, field_parts=PARTS
+            step, 1e-7, step, limit=20 * self.increment_count, residual=self.tolerance, field_parts=PARTS
         )
         title = f"{self.kind.title.capitalize()}, [{self.layup}], {self.element} element, {self.stiffness} N/mm^3"
         return self.kind.deck(

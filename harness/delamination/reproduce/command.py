@@ -14,7 +14,7 @@ from rich.table import Table as TerminalTable
 
 from harness.delamination.beams import BRANCH
 from harness.delamination.materials import PLY_0, TABLE_2
-from harness.delamination.reproduce import drawings, figures, findings, sensitivity
+from harness.delamination.reproduce import convergence, drawings, figures, findings, sensitivity
 from harness.delamination.reproduce.cases import ELEMENTS, PROBLEMS, Case, comparator_cases, paper_cases, secant_cases
 from harness.delamination.reproduce.claims import Verdict, judge, read_claims
 from harness.delamination.reproduce.findings import Evidence
@@ -82,14 +82,16 @@ def _cases(parts: Sequence[str], *, quick: bool) -> list[AnyCase]:
             cases += patch_cases()
         elif part in PROBLEMS:
             cases += paper_cases(part, coarse=quick) + comparator_cases(part, coarse=quick)
-            cases += secant_cases(coarse=quick) if part == "dcb" else []
-        elif part == "sensitivity":
+        if part == "dcb":
+            cases += secant_cases(coarse=quick)
+            cases += [case for pair in convergence.pairs(coarse=quick) for case in pair]
+        if part == "sensitivity":
             cases += [case for study in sensitivity.studies(coarse=quick) for case in study.cases()]
     return list({case.name: case for case in cases}.values())
 
 
 def _how(parts: Sequence[str], *, quick: bool) -> list[str]:
-    mesh = "the coarser meshes of --quick" if quick else "the full meshes"
+    mesh = "the coarser meshes and increments of --quick" if quick else "the full meshes"
     return [
         f"Made by uel reproduce ({', '.join(parts)}) on {mesh}. Every number below is computed from the runs.",
         "Elements: standard is U2, stabilised the paper's method in U4 (damage at the displacement jump), consistent "
@@ -131,6 +133,11 @@ def _tables(parts: Sequence[str], evidence: Evidence, folder: Path) -> list[Tabl
     problems = [part for part in parts if part in PROBLEMS]
     if problems:
         tables.append(_theory(problems, evidence))
+    if "dcb" in parts:
+        lines = convergence.rows(evidence.runs, coarse=evidence.coarse)
+        tables.append(
+            Table("Double cantilever beam [0/90]: ours and COH2D4", convergence.TEXT, convergence.HEAD, lines)
+        )
     if "sensitivity" in parts:
         for study in sensitivity.studies(coarse=evidence.coarse):
             rows = [

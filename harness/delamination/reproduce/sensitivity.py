@@ -9,7 +9,7 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 
 from harness.delamination.oscillation import raw_index
-from harness.delamination.reproduce.cases import Case
+from harness.delamination.reproduce.cases import QUICK_SIZES, Case
 from harness.delamination.reproduce.runs import Run, Runs
 from harness.delamination.study.cases import STIFFNESSES
 from harness.delamination.study.rows import STRENGTHS, at_tenths, damage_variation
@@ -56,24 +56,28 @@ def _sized(case: Case, size: float) -> Case:
     return case if size == case.element_size else replace(case, size=size)
 
 
+def _divided(case: Case, increments: int) -> Case:
+    return case if increments == case.increment_count else replace(case, increments=increments)
+
+
 def studies(*, coarse: bool) -> list[Study]:
-    """All parameters; with `coarse`, around the coarse meshes and without the finest one."""
+    """All parameters; with `coarse`, around the coarse meshes and without those of the full run."""
     dcb, enf = (_bases(problem, METHODS, coarse=coarse) for problem in ("dcb", "enf"))
     sizes = {"dcb": (0.5, 0.25, 0.125, 0.0625), "enf": (1.0, 0.5, 0.25, 0.125)}
-    kept = {name: values[:2] if coarse else values for name, values in sizes.items()}
+    kept = {name: (*values[:2], QUICK_SIZES[name]) if coarse else values for name, values in sizes.items()}
     both = dcb | enf
     return [
         Study(
             "Mesh",
             "length of the elements (mm)",
-            {label: [(f"{s:g}", _sized(case, s)) for s in kept[case.problem]] for label, case in both.items()},
+            {label: [(f"{s:.3g}", _sized(case, s)) for s in kept[case.problem]] for label, case in both.items()},
             number=True,
             advice=ADVICE["mesh"],
         ),
         Study(
             "Increments",
             "number of increments",
-            {label: [(str(n), replace(case, increments=n)) for n in (25, 50, 100, 200)] for label, case in dcb.items()},
+            {label: [(str(n), _divided(case, n)) for n in (25, 50, 100, 200)] for label, case in dcb.items()},
             number=True,
             advice=ADVICE["increments"],
         ),

@@ -1,0 +1,120 @@
+# SPDX-FileCopyrightText: The uel-harness authors
+# SPDX-License-Identifier: BSD-3-Clause
+"""Our element and the built-in one in the [0/90] double cantilever beam: how the mesh brings their loads together.
+
+The consistent law acts on a separation w of its own. What it leaves of the displacement jump g, Nitsche's gap
+g - w = (T - <sigma>)/beta, does work too: from bonding to failure -1/beta times the integral of T d<sigma>, per area.
+Where the mean stress of the first quads follows the traction the integral vanishes; where it lags, as over a process
+zone no longer than a few quads, the law dissipates more than the specimen gives, and the crack runs too early. The
+weights (22) of unlike plies take most of the stress from the softer side alone, so that the first-order errors of both
+sides do not cancel as between like plies. The gap shrinks as 1/beta, which by (21) is the height of the quads.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from harness.delamination.reproduce.cases import PROBLEMS, QUICK_SIZES, Case
+from harness.delamination.reproduce.runs import Run, Runs
+
+STRETCH = (4.0, 7.9)
+"""Displacements of steady growth (mm)."""
+GROWN = 40.0
+"""Points behind this place have failed in steady growth (mm)."""
+TEXT = (
+    "Consistent method with the criterion of Benzeggagh and Kenane, 1e6 N/mm³, in steady growth. Its load is "
+    "lower where its law dissipates more than the specimen gives. What is missing is the work of the gap (T - "
+    "<sigma>)/beta between the separation that the law sees and the displacement jump. Between unlike plies the "
+    "weights (22) take <sigma> from the first quads of the softer side, half a quad away from the interface; over "
+    "a process zone of a few quads it lags behind the traction T. The gap goes with 1/beta, and by (21) beta with "
+    "1 over the height of the quads: the difference falls with rows of quads, not with columns, with a larger "
+    "beta, and with equal weights. Last column: load ~ (energy release rate)^(3/4) at equal displacement, from "
+    "the energies alone."
+)
+HEAD = (
+    *("elements (mm)", "rows an arm", "factor of beta", "weights"),
+    *("COH2D4: mean load (N)", "ours: mean load (N)", "difference"),
+    *("energy given over dissipated, COH2D4", "ours", "dissipated at failed points (N/mm), COH2D4", "ours"),
+    "difference by these energies",
+)
+
+
+@dataclass(frozen=True, slots=True)
+class Steady:
+    """A run in steady growth.
+
+    load   mean over STRETCH (N)
+    share  energy that the specimen gives, work less stored energy, over what the interface dissipates
+    spent  energy dissipated at a failed point, the mean (N/mm)
+    """
+
+    load: float
+    share: float
+    spent: float
+
+
+def pairs(*, coarse: bool) -> list[tuple[Case, Case]]:
+    """COH2D4 and our element with its criterion, on equal meshes; ours with a larger beta and equal weights too."""
+    size = QUICK_SIZES["dcb"] if coarse else PROBLEMS["dcb"].size
+    meshes = [(size, 4), (size, 8)] if coarse else [(2.0 * size, 4), (size, 4), (size, 8), (size, 16)]
+    built_in = [_sized(Case("dcb", "0/90", "COH2D4", "1e6", coarse=coarse, rows=rows), s) for s, rows in meshes]
+    ours = [replace(case, element="consistent_bk") for case in built_in]
+    base = Case("dcb", "0/90", "COH2D4", "1e6", coarse=coarse)
+    element = replace(base, element="consistent_bk")
+    # beta is given with the weight, so that it stays that of (21) with the weights (22)
+    variants = [replace(element, beta=3.0), replace(element, beta=10.0), replace(element, beta=1.0001, weight=0.5)]
+    return [*zip(built_in, ours, strict=True), *((base, case) for case in variants)]
+
+
+def _sized(case: Case, size: float) -> Case:
+    return case if size == case.element_size else replace(case, size=size)
+
+
+def steady(run: Run) -> Steady:
+    """Loads and energies of a run."""
+    history = run.history
+    stretch = np.linspace(*STRETCH, 200)
+    given = history["ALLWK"] - history["ALLSE"]
+    # ALLDMD and ALLCD are those of the built-in elements
+    spent = np.sum([history[name] for name in ("ALLPD", "ALLVD", "ALLDMD", "ALLCD") if name in history], axis=0)
+    ends = [float(np.interp(STRETCH[k], run.displacement[1:], values)) for values in (given, spent) for k in (0, 1)]
+    profile = run.profiles[-1]
+    failed = (profile["DAMAGE"] >= 1.0) & (profile["X"] > GROWN)
+    return Steady(
+        load=float(np.interp(stretch, run.displacement, run.load).mean()),
+        share=(ends[1] - ends[0]) / (ends[3] - ends[2]),
+        spent=float((profile["DISSI"] + profile["DISSII"])[failed].mean()),
+    )
+
+
+def expected(ours: Steady, built_in: Steady) -> float:
+    """Relative difference of the loads that the energies explain.
+
+    At equal displacements the load of a slender specimen goes with the energy release rate to the power 3/4: with
+    displacement ~ P a^3 and G ~ P^2 a^2, P^4 ~ G^3/displacement^2.
+    """
+    return float((ours.share * ours.spent / (built_in.share * built_in.spent)) ** 0.75 - 1.0)
+
+
+def load_difference(ours: Steady, built_in: Steady) -> float:
+    """Relative difference of the mean loads in steady growth."""
+    return ours.load / built_in.load - 1.0
+
+
+def rows(runs: Runs, *, coarse: bool) -> list[list[str]]:
+    """Lines of the table."""
+    lines = []
+    for built_in, case in pairs(coarse=coarse):
+        one, other = steady(runs[built_in]), steady(runs[case])
+        lines.append(
+            [
+                *(f"{case.element_size:.4g}", str(case.rows), f"{case.beta:.3g}"),
+                "equal" if case.weight else "(22)",
+                *(f"{one.load:.2f}", f"{other.load:.2f}", f"{load_difference(other, one):+.2%}"),
+                *(f"{one.share:.4f}", f"{other.share:.4f}", f"{one.spent:.4f}", f"{other.spent:.4f}"),
+                f"{expected(other, one):+.2%}",
+            ]
+        )
+    return lines
