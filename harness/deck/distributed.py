@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""*DLOAD on user elements, *TEMPERATURE and *FIELD."""
+"""*DLOAD, *DSLOAD, *TEMPERATURE and *FIELD."""
 
 from __future__ import annotations
 
@@ -8,32 +8,95 @@ import re
 
 import numpy as np
 
-from harness.deck.blocks import Block
+from harness.deck.blocks import Block, Row
 from harness.deck.initial import field_number
 from harness.deck.prescribed import Prescription
-from harness.deck.table import unquote
-from harness.model.steps import DistributedLoad, Load
+from harness.deck.surfaces import face_nodes
+from harness.model.mesh import ElementGroup
+from harness.model.steps import DistributedLoad, ElementLoad, Load, LoadKind, LoadType
 
+Direction = tuple[float, float, float]
 _USER_LOAD = re.compile(r"U([1-9]\d{0,3})(NU)?")
+_NO_DIRECTION: Direction = (0.0, 0.0, 0.0)
+_BODY: dict[str, Direction] = {"BX": (1.0, 0.0, 0.0), "BY": (0.0, 1.0, 0.0), "BZ": (0.0, 0.0, 1.0)}
+_SURFACE = ("P", "TRVEC", "TRSHR")
 
 
-def read_distributed(block: Block, prescription: Prescription) -> list[DistributedLoad]:
-    """Entries of one *DLOAD."""
+def read_distributed(block: Block, prescription: Prescription) -> list[DistributedLoad | ElementLoad]:
+    """Entries of one *DLOAD, on user elements and on built-in ones."""
     amplitude = prescription.amplitude(block)
-    found = []
+    found: list[DistributedLoad | ElementLoad] = []
     for row in block.rows():
-        row.at_most(3)
+        label = row.name(1, "load type")
         elements = prescription.flat.elements(row.name(0, "element or element set"), row.source)
-        label = unquote(row.text(1, "load type"))
+        magnitude = row.real(2, "magnitude", 0.0)
         match = _USER_LOAD.fullmatch(label)
         if match is None:
-            raise row.error(f"load type {label} is not supported (supported: Un and UnNU, on user elements)")
+            kind, face, direction = _volume_load(row, label)
+            for group, positions in prescription.surfaces.by_group(elements):
+                _check_solid(row, label, group)
+                nodes = face_nodes(group, face, row.source, block.name) if face else ()
+                kept = LoadType(kind, nodes, direction, follows=kind is LoadKind.PRESSURE)
+                found.append(ElementLoad(positions, kept, magnitude, amplitude, row.source))
+            continue
+        row.at_most(3)
         built_in = prescription.built_in[elements]
         if built_in.any():
             raise row.error(f"load type {label} on elements that are not user elements ({np.count_nonzero(built_in)})")
-        kind = -int(match[1]) if match[2] else int(match[1])
-        found.append(DistributedLoad(elements, kind, row.real(2, "magnitude", 0.0), amplitude, row.source))
+        kind_number = -int(match[1]) if match[2] else int(match[1])
+        found.append(DistributedLoad(elements, kind_number, magnitude, amplitude, row.source))
     return found
+
+
+def _volume_load(row: Row, label: str) -> tuple[LoadKind, str, Direction]:
+    """Kind, face ('' for a volume) and direction of a load type of *DLOAD."""
+    row.at_most(6 if label == "GRAV" else 3)
+    if label == "GRAV":
+        return LoadKind.GRAVITY, "", _direction(row, label)
+    if label in _BODY:
+        return LoadKind.BODY, "", _BODY[label]
+    match = re.fullmatch(r"P(\d)", label)
+    if match is None:
+        supported = "Un and UnNU on user elements; Pn, BX, BY, BZ and GRAV on built-in continuum elements"
+        raise row.error(f"load type {label} is not supported (supported: {supported})")
+    return LoadKind.PRESSURE, f"S{match[1]}", _NO_DIRECTION
+
+
+def read_surface_loads(block: Block, prescription: Prescription) -> list[ElementLoad]:
+    """Entries of one *DSLOAD."""
+    amplitude = prescription.amplitude(block)
+    follower = block.options.flag("FOLLOWER") if block.options.given("FOLLOWER") else True
+    found = []
+    for row in block.rows():
+        label = row.name(1, "load type")
+        if label not in _SURFACE:
+            raise row.error(f"load type {label} is not supported (supported: {', '.join(_SURFACE)})")
+        kind = LoadKind(label)
+        row.at_most(3 if kind is LoadKind.PRESSURE else 6)
+        direction = _NO_DIRECTION if kind is LoadKind.PRESSURE else _direction(row, label)
+        magnitude = row.real(2, "magnitude", 0.0)
+        for elements, face, place in prescription.surfaces.faces(row.name(0, "surface"), row.source):
+            for group, positions in prescription.surfaces.by_group(elements):
+                _check_solid(row, label, group)
+                nodes = face_nodes(group, face, place, "SURFACE")
+                kept = LoadType(kind, nodes, direction, follows=follower or kind is LoadKind.PRESSURE)
+                found.append(ElementLoad(positions, kept, magnitude, amplitude, row.source))
+    return found
+
+
+def _direction(row: Row, label: str) -> Direction:
+    """Unit vector in entries 4 to 6."""
+    given = np.array([row.real(index, "component of the direction", 0.0) for index in (3, 4, 5)])
+    length = float(np.linalg.norm(given))
+    if length == 0.0:
+        raise row.error(f"{label} needs a direction, entries 4 to 6")
+    x, y, z = (given / length).tolist()
+    return x, y, z
+
+
+def _check_solid(row: Row, label: str, group: ElementGroup) -> None:
+    if group.definition is not None or not group.type.startswith(("CPS", "CPE", "C3D")):
+        raise row.error(f"load type {label} on elements of type {group.type}, which are no built-in continuum elements")
 
 
 def read_fields(block: Block, prescription: Prescription) -> list[Load]:

@@ -100,7 +100,7 @@ PRESCRIBED = (
 DISTRIBUTED = (
     Keyword(
         "DLOAD",
-        "Distributed loads on user elements.",
+        "Distributed loads on elements.",
         Where.STEP,
         (
             *_LOAD,
@@ -109,7 +109,20 @@ DISTRIBUTED = (
                 *("REF NODE", "REGION TYPE"),
             ),
         ),
-        "element or set, Un or UnNU, magnitude",
+        "element or set, Un or UnNU (user elements), Pn, BX, BY, BZ or GRAV (built-in continuum elements), magnitude; "
+        "GRAV: direction",
+    ),
+    Keyword(
+        "DSLOAD",
+        "Distributed loads on surfaces of built-in continuum elements, with NLGEOM those that do not turn with them. "
+        "As those of *DLOAD they are nodal forces, which CF in the output holds too.",
+        Where.STEP,
+        (
+            *_LOAD,
+            Option("FOLLOWER", Kind.SWITCH, "TRVEC and TRSHR turn with the surface (YES)"),
+            *refused("CONSTANT RESULTANT", "CYCLIC MODE", "IMAGINARY", "LOAD CASE", "ORIENTATION", "REAL", "REF NODE"),
+        ),
+        "surface, P, TRVEC or TRSHR, magnitude; TRVEC, TRSHR: direction",
     ),
     Keyword(
         "TEMPERATURE",

@@ -14,6 +14,7 @@ from harness.deck.blocks import Block, Row
 from harness.deck.catalogue import look_up
 from harness.deck.flatten import FlatMesh, Owner
 from harness.deck.problems import Problems, nearest
+from harness.deck.surfaces import Surfaces
 from harness.deck.table import unquote
 from harness.deck.user_elements import LARGEST_DOF
 from harness.errors import DeckError, Source
@@ -44,12 +45,14 @@ class Prescription:
     flat, amplitudes  names
     active_dofs       dofs that some element uses
     built_in          (elements,) whether each is a built-in one
+    surfaces          faces of elements, for loads
     """
 
     flat: FlatMesh
     amplitudes: Mapping[str, Amplitude]
     active_dofs: Collection[int]
     built_in: NDArray[np.bool_]
+    surfaces: Surfaces
 
     def read_boundary(self, block: Block, in_step: bool) -> list[Boundary]:
         """Entries of one *BOUNDARY, one for each dof."""

@@ -20,6 +20,7 @@ from harness.deck.problems import Problems
 from harness.deck.requests import RequestReader
 from harness.deck.steps import read_steps
 from harness.deck.structure import sort_blocks
+from harness.deck.surfaces import Surfaces
 from harness.deck.user_elements import dofs_of
 from harness.errors import DeckError, Source
 from harness.model.mesh import ElementGroup
@@ -43,7 +44,7 @@ def read_deck(path: Path) -> Model:
     if not structure.steps:
         raise DeckError(Source(str(path), 1), "the deck has no *STEP")
     built_in = np.concatenate([np.full(len(group.labels), group.definition is None) for group in groups])
-    prescription = Prescription(flat, amplitudes, _active_dofs(groups), built_in)
+    prescription = Prescription(flat, amplitudes, _active_dofs(groups), built_in, Surfaces(flat, groups))
     boundaries: list[Boundary] = []
     for block in structure.root:
         if block.name == "BOUNDARY":

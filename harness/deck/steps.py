@@ -10,14 +10,14 @@ from typing import TypeVar
 
 from harness.deck.blocks import Block
 from harness.deck.controls import ControlState
-from harness.deck.distributed import read_distributed, read_fields
+from harness.deck.distributed import read_distributed, read_fields, read_surface_loads
 from harness.deck.prescribed import Prescription
 from harness.deck.problems import Problems
 from harness.deck.procedures import read_procedure
 from harness.deck.requests import RequestReader
 from harness.deck.structure import Scope
 from harness.model.procedures import Dynamic, Procedure
-from harness.model.steps import Step
+from harness.model.steps import DistributedLoad, ElementLoad, Step
 
 MOST_INCREMENTS = 100
 Entry = TypeVar("Entry")
@@ -49,6 +49,9 @@ def read_steps(
         distributed, new_distributed = _read_entries(
             scope, ("DLOAD",), partial(read_distributed, prescription=prescription), problems
         )
+        surface_loads, new_surface_loads = _read_entries(
+            scope, ("DSLOAD",), partial(read_surface_loads, prescription=prescription), problems
+        )
         fields, new_fields = _read_entries(
             scope, ("TEMPERATURE", "FIELD"), partial(read_fields, prescription=prescription), problems
         )
@@ -74,15 +77,29 @@ def read_steps(
                     new_boundary=new_boundary,
                     loads=loads,
                     new_loads=new_loads,
-                    distributed=distributed,
+                    distributed=tuple(load for load in distributed if isinstance(load, DistributedLoad)),
                     new_distributed=new_distributed,
+                    element_loads=tuple(load for load in distributed if isinstance(load, ElementLoad)),
+                    surface_loads=surface_loads,
+                    new_surface_loads=new_surface_loads,
                     fields=fields,
                     new_fields=new_fields,
                     output=output,
                     notes=tuple(_notes(scope)),
                 )
             )
+    _check_followers(steps, problems)
     return tuple(steps)
+
+
+def _check_followers(steps: Sequence[Step], problems: Problems) -> None:
+    """Loads that turn with their faces need large displacements that the harness does not follow."""
+    nonlinear = next((step for step in steps if step.nlgeom), None)
+    if nonlinear is None:
+        return
+    for load in (load for step in steps for load in (*step.element_loads, *step.surface_loads) if load.type.follows):
+        message = f"load type {load.type.kind} turns with the surface, which is not supported with NLGEOM"
+        problems.add(load.source, f"{message} ({nonlinear.source}); TRVEC with FOLLOWER=NO does not turn")
 
 
 def _read_entries(

@@ -1,10 +1,10 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""*SURFACE: the nodes of a surface, for constraints. A surface is read when something uses it."""
+"""*SURFACE: the nodes of a surface for constraints, its faces for loads. A surface is read when something uses it."""
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 
 import numpy as np
 
@@ -49,8 +49,8 @@ class Surfaces:
                     name = block.options.text("NAME")
                     self._blocks[f"{owner.name}.{name}" if owner.name else name] = (owner.name, block)
 
-    def nodes(self, name: str, source: Source, owner: str = "") -> IntArray:
-        """Node indices of a surface, ascending; DeckError where there is none, or its faces are not known."""
+    def _find(self, name: str, source: Source, owner: str) -> tuple[str, Block]:
+        """Level and keyword of a surface. Raises DeckError."""
         local = name.split(".")
         candidates = [f"{owner}.{name}" if owner else name, ".".join(local[-2:]), local[-1]]
         key = next((candidate for candidate in candidates if candidate in self._blocks), None)
@@ -60,15 +60,37 @@ class Surfaces:
         kind = block.options.text("TYPE")
         if kind not in ("ELEMENT", "NODE"):
             raise DeckError(source, f"surface {name} ({block.source}) is of TYPE={kind}, which constraints cannot use")
+        return place, block
+
+    def nodes(self, name: str, source: Source, owner: str = "") -> IntArray:
+        """Node indices of a surface, ascending; DeckError where there is none, or its faces are not known."""
+        place, block = self._find(name, source, owner)
         parts = [np.zeros(0, dtype=np.int64)]
         for row in block.rows():
             what = row.name(0, "set")
-            if kind == "NODE":
+            if block.options.text("TYPE") == "NODE":
                 parts.append(self._flat.nodes(what, row.source, place))
             else:
                 elements = self._flat.elements(what, row.source, place)
                 parts += [self._face(element, row.name(1, "face"), row.source) for element in elements.tolist()]
         return np.unique(np.concatenate(parts))
+
+    def faces(self, name: str, source: Source) -> list[tuple[IntArray, str, Source]]:
+        """Elements (positions) and their face (S1, ...) of each line of a surface of elements. Raises DeckError."""
+        place, block = self._find(name, source, "")
+        if block.options.text("TYPE") != "ELEMENT":
+            raise DeckError(source, f"surface {name} ({block.source}) has no faces of elements")
+        found = []
+        for row in block.rows():
+            elements = self._flat.elements(row.name(0, "set"), row.source, place)
+            found.append((elements, row.name(1, "face"), row.source))
+        return found
+
+    def by_group(self, elements: IntArray) -> Iterator[tuple[ElementGroup, IntArray]]:
+        """Elements (positions in the model) group by group."""
+        groups = np.searchsorted(self._starts, elements, side="right") - 1
+        for k in np.unique(groups).tolist():
+            yield self._groups[k], elements[groups == k]
 
     def nodes_of(self, elements: IntArray) -> set[int]:
         """Nodes of elements, by their positions in the model."""
@@ -82,13 +104,17 @@ class Surfaces:
         """Nodes of a face of an element, by its position in the model."""
         k = int(np.searchsorted(self._starts, element, side="right")) - 1
         group = self._groups[k]
-        dimension = 3 if group.type.startswith("C3D") else 2
-        faces = {}
-        if group.definition is None:
-            faces = _FACES.get((dimension, group.nodes.shape[1]), {})
-        if face not in faces:
-            known = ", ".join(faces) or "none"
-            raise DeckError(source, f"*SURFACE: elements of type {group.type} have no face {face} (faces: {known})")
-        row = group.nodes[element - self._starts[k]]
-        chosen: IntArray = row[[node for node in faces[face] if node < len(row)]]
+        chosen: IntArray = group.nodes[element - self._starts[k]][list(face_nodes(group, face, source, "SURFACE"))]
         return chosen
+
+
+def face_nodes(group: ElementGroup, face: str, source: Source, keyword: str) -> tuple[int, ...]:
+    """Local nodes of a face of the elements of a group: corners, then middles of edges. Raises DeckError."""
+    count = group.nodes.shape[1]
+    faces = {}
+    if group.definition is None:
+        faces = _FACES.get((3 if group.type.startswith("C3D") else 2, count), {})
+    if face not in faces:
+        known = ", ".join(faces) or "none"
+        raise DeckError(source, f"*{keyword}: elements of type {group.type} have no face {face} (faces: {known})")
+    return tuple(node for node in faces[face] if node < count)

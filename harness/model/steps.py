@@ -5,6 +5,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field
+from enum import StrEnum
 
 from harness.errors import Source
 from harness.model.amplitude import Amplitude
@@ -118,6 +119,42 @@ class DistributedLoad:
     source: Source
 
 
+class LoadKind(StrEnum):
+    """What a distributed load on a built-in element is: a load on a face, or on a volume."""
+
+    PRESSURE = "P"
+    TRACTION = "TRVEC"
+    SHEAR = "TRSHR"
+    BODY = "B"
+    GRAVITY = "GRAV"
+
+
+@dataclass(frozen=True, slots=True)
+class LoadType:
+    """Type of a distributed load on built-in elements.
+
+    face       local nodes of the face; none: the volume
+    direction  unit vector; none for pressure
+    follows    the load turns with the face (FOLLOWER=)
+    """
+
+    kind: LoadKind
+    face: tuple[int, ...] = ()
+    direction: tuple[float, float, float] = (0.0, 0.0, 0.0)
+    follows: bool = False
+
+
+@dataclass(frozen=True, slots=True)
+class ElementLoad:
+    """One *DLOAD or *DSLOAD entry on built-in continuum elements of one type: their positions in the model."""
+
+    elements: IntArray
+    type: LoadType
+    magnitude: float
+    amplitude: Amplitude | None
+    source: Source
+
+
 @dataclass(frozen=True, slots=True)
 class InitialValue:
     """One *INITIAL CONDITIONS entry: nodes (indices), one dof, value."""
@@ -190,6 +227,9 @@ class Step:
     new_loads: bool = False
     distributed: tuple[DistributedLoad, ...] = ()
     new_distributed: bool = False
+    element_loads: tuple[ElementLoad, ...] = ()
+    surface_loads: tuple[ElementLoad, ...] = ()
+    new_surface_loads: bool = False
     fields: tuple[Load, ...] = ()
     new_fields: bool = False
     output: OutputRequests = field(default_factory=OutputRequests)

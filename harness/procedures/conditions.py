@@ -7,7 +7,6 @@ Both vary as *CLOAD does. A field that a step removes (OP=NEW) goes back to its 
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -18,27 +17,10 @@ from harness.model.arrays import IntArray
 from harness.model.model import Model
 from harness.model.procedures import HeatTransfer
 from harness.model.steps import Load, Step
-from harness.procedures.loads import Loads, Variation
+from harness.procedures.loads import Loads, Slots, Variation
 
 FIRST_TEMPERATURE = 11
 """The dof whose initial value is that of the predefined field too."""
-
-
-class _Slots:
-    """Numbers of pairs (element or node, load type or field), as `Loads` asks for them."""
-
-    def __init__(self, pairs: Sequence[tuple[IntArray, int]]) -> None:
-        columns = [np.zeros((2, 0), dtype=np.int64)]
-        columns += [np.stack([places, np.full(len(places), kind)]) for places, kind in pairs]
-        self.places, self.kinds = np.unique(np.concatenate(columns, axis=1), axis=1)
-        self._number = {pair: k for k, pair in enumerate(zip(self.places.tolist(), self.kinds.tolist(), strict=True))}
-
-    def __len__(self) -> int:
-        return len(self.places)
-
-    def find(self, places: IntArray | int, kind: IntArray | int) -> IntArray:
-        """Numbers of the pairs."""
-        return np.array([self._number[place, int(kind)] for place in np.atleast_1d(places).tolist()], dtype=np.int64)
 
 
 class Conditions:
@@ -46,7 +28,7 @@ class Conditions:
 
     def __init__(self, model: Model) -> None:
         entries = [entry for step in model.steps for entry in step.distributed]
-        self._slots = _Slots([(entry.elements, entry.kind) for entry in entries])
+        self._slots = Slots([(entry.elements, entry.kind) for entry in entries])
         self._loads = Loads(self._slots)
         self._active = np.zeros(len(self._slots), dtype=bool)
         numbers = [entry.dof for step in model.steps for entry in step.fields]

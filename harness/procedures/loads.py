@@ -240,6 +240,27 @@ class Loads:
         return self._previous
 
 
+class Slots:
+    """Numbers of pairs (element or node, load type or field), as `Loads` asks for them.
+
+    places, kinds  of each pair
+    """
+
+    def __init__(self, pairs: Sequence[tuple[IntArray, int]]) -> None:
+        """Elements or nodes with a kind, which may come several times."""
+        columns = [np.zeros((2, 0), dtype=np.int64)]
+        columns += [np.stack([places, np.full(len(places), kind)]) for places, kind in pairs]
+        self.places, self.kinds = np.unique(np.concatenate(columns, axis=1), axis=1)
+        self._number = {pair: k for k, pair in enumerate(zip(self.places.tolist(), self.kinds.tolist(), strict=True))}
+
+    def __len__(self) -> int:
+        return len(self.places)
+
+    def find(self, places: IntArray | int, kind: IntArray | int) -> IntArray:
+        """Numbers of the pairs."""
+        return np.array([self._number[place, int(kind)] for place in np.atleast_1d(places).tolist()], dtype=np.int64)
+
+
 def released_reactions(reaction: FloatArray, prescribed: IntArray, step: Step) -> Variation:
     """Reactions of degrees of freedom that the step releases: applied as loads that fade.
 

@@ -19,7 +19,7 @@ from harness.errors import DeckError
 from harness.model.arrays import FloatArray
 from harness.model.model import Model
 from harness.model.records import Noted, Record
-from harness.model.steps import Boundary, Load, Step
+from harness.model.steps import Boundary, ElementLoad, Load, Step
 from harness.procedures.incrementation import IncrementControl
 from harness.procedures.state import State
 from harness.procedures.static import Reached, StaticStep, UserRoutines
@@ -51,7 +51,8 @@ class PathStep(StaticStep):
     def __init__(self, system: System, model: Model, step: Step, state: State, solver: str, user: UserRoutines) -> None:
         """Raises DeckError where an amplitude governs what the step prescribes."""
         super().__init__(system, model, step, state, solver, user)
-        entries: tuple[Boundary | Load, ...] = (*step.boundaries, *step.loads)
+        entries: tuple[Boundary | Load | ElementLoad, ...]
+        entries = (*step.boundaries, *step.loads, *step.element_loads, *step.surface_loads)
         source = next((entry.source for entry in entries if entry.amplitude), step.source)
         if self._prescribed.curves or self._load.curves:
             raise DeckError(source, "an amplitude has no meaning in a step whose load factor is part of the solution")

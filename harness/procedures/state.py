@@ -16,7 +16,8 @@ from harness.model.model import Model
 from harness.model.records import Solution
 from harness.procedures.acceptance import FluxHistory
 from harness.procedures.conditions import Conditions
-from harness.procedures.loads import Boundaries, Loads, initial_values
+from harness.procedures.element_loads import AllLoads
+from harness.procedures.loads import Boundaries, initial_values
 from harness.solver.descent import Majoriser
 from harness.solver.newton import Factoriser, Iterate
 
@@ -41,7 +42,7 @@ class State:
     load: FloatArray
     external: FloatArray
     boundaries: Boundaries
-    loads: Loads
+    loads: AllLoads
     conditions: Conditions
     velocity: FloatArray
     acceleration: FloatArray
@@ -62,7 +63,8 @@ class State:
         boundaries = Boundaries(system.dofs, model.boundaries)
         velocity = initial_values(system.dofs, model.initial_velocities)
         temperature = initial_values(system.dofs, model.initial_temperatures)
-        return cls(temperature, zero, zero, zero, boundaries, Loads(system.dofs), Conditions(model), velocity, zero)
+        loads = AllLoads(system, model)
+        return cls(temperature, zero, zero, zero, boundaries, loads, Conditions(model), velocity, zero)
 
     def come_to_rest(self) -> None:
         """No velocities and accelerations: a step begins that has none."""

@@ -1,0 +1,112 @@
+# SPDX-FileCopyrightText: The uel-harness authors
+# SPDX-License-Identifier: BSD-3-Clause
+"""Consistent nodal forces of loads on faces and volumes of built-in continuum elements, in their initial shape."""
+
+from __future__ import annotations
+
+from itertools import product
+from typing import Final
+
+import numpy as np
+
+from harness.errors import DeckError
+from harness.model.arrays import FloatArray
+from harness.model.mesh import ElementGroup
+from harness.model.properties import SolidSection
+from harness.model.steps import ElementLoad, LoadKind
+
+SMALLEST_SINE: Final = 1e-10
+"""Sine of the angle between a direction and a face's normal below which the direction has no part in the face."""
+
+_LINE = ((-1,), (1,), (0,))
+_QUAD = ((-1, -1), (1, -1), (1, 1), (-1, 1), (0, -1), (1, 0), (0, 1), (-1, 0))
+_HEX = (
+    *((-1, -1, -1), (1, -1, -1), (1, 1, -1), (-1, 1, -1), (-1, -1, 1), (1, -1, 1), (1, 1, 1), (-1, 1, 1)),
+    *((0, -1, -1), (1, 0, -1), (0, 1, -1), (-1, 0, -1), (0, -1, 1), (1, 0, 1), (0, 1, 1), (-1, 0, 1)),
+    *((-1, -1, 0), (1, -1, 0), (1, 1, 0), (-1, 1, 0)),
+)
+_NODES: Final = {1: np.array(_LINE), 2: np.array(_QUAD), 3: np.array(_HEX)}
+"""Parent coordinates of the nodes, by dimension: corners, then the middles of the edges."""
+
+
+def unit_forces(group: ElementGroup, rows: FloatArray, load: ElementLoad, coordinates: FloatArray) -> FloatArray:
+    """Nodal forces (elements, nodes of the face or element, dimension) for a magnitude of one.
+
+    rows  elements of the group. Raises DeckError where the load makes no sense there.
+    """
+    section = group.section
+    assert isinstance(section, SolidSection)
+    dimension = 3 if group.type.startswith("C3D") else 2
+    local = list(load.type.face) or list(range(group.nodes.shape[1]))
+    nodes = group.nodes[rows]
+    x = coordinates[nodes[:, local], :dimension]
+    along = dimension - 1 if load.type.face else dimension
+    shapes, derivatives, weights = _rule(along, len(local))
+    # (elements, points, dimension, along) derivatives of the position
+    tangents = np.einsum("mkd,pka->mpda", x, derivatives)
+    scale = section.thickness if dimension == 2 else 1.0
+    if load.type.kind is LoadKind.GRAVITY:
+        if not section.material.density:
+            raise DeckError(load.source, f"GRAV needs *DENSITY, which material {section.material.name} does not have")
+        scale *= section.material.density
+    if not load.type.face:
+        force = np.linalg.det(tangents)[:, :, None] * np.array(load.type.direction)[:dimension]
+    else:
+        centre = coordinates[nodes, :dimension].mean(axis=1)
+        force = _traction(load, _outward(tangents, x.mean(axis=1) - centre))
+    forces: FloatArray = scale * np.einsum("p,pk,mpd->mkd", weights, shapes, force)
+    return forces
+
+
+def _traction(load: ElementLoad, area: FloatArray) -> FloatArray:
+    """Force per parent area of a load on a face, from the outward normal (..., dimension) times area."""
+    if load.type.kind is LoadKind.PRESSURE:
+        return -area
+    size = np.linalg.norm(area, axis=-1, keepdims=True)
+    direction = np.broadcast_to(np.array(load.type.direction)[: area.shape[-1]], area.shape)
+    if load.type.kind is LoadKind.SHEAR:
+        normal = area / size
+        direction = direction - (direction * normal).sum(axis=-1, keepdims=True) * normal
+        length = np.linalg.norm(direction, axis=-1, keepdims=True)
+        if (length < SMALLEST_SINE).any():
+            raise DeckError(load.source, "TRSHR: the direction is normal to the surface")
+        direction = direction / length
+    traction: FloatArray = size * direction
+    return traction
+
+
+def _outward(tangents: FloatArray, outside: FloatArray) -> FloatArray:
+    """Outward normal times area (..., dimension) of faces; outside: from elements' centres to those of faces."""
+    if tangents.shape[-1] == 1:
+        area = np.stack([tangents[..., 1, 0], -tangents[..., 0, 0]], axis=-1)
+    else:
+        area = np.cross(tangents[..., 0], tangents[..., 1])
+    outward: FloatArray = area * np.sign((area * outside[:, None, :]).sum(axis=-1, keepdims=True))
+    return outward
+
+
+def _rule(dimension: int, nodes: int) -> tuple[FloatArray, FloatArray, FloatArray]:
+    """Shape functions (points, nodes), derivatives (points, nodes, dimension), weights of a line, face or volume."""
+    if nodes == dimension + 1 and dimension > 1:
+        derivatives = np.vstack([-np.ones(dimension), np.eye(dimension)])
+        return np.full((1, nodes), 1.0 / nodes), derivatives[None], np.array([1.0 / (2 if dimension == 2 else 6)])
+    middle = nodes > 2**dimension
+    places, line = np.polynomial.legendre.leggauss(3 if middle else 2)
+    points = np.array(list(product(places, repeat=dimension)))
+    weights = np.array([np.prod(w) for w in product(line, repeat=dimension)])
+    shapes, derivatives = _serendipity(_NODES[dimension][:nodes], points, middle=middle)
+    return shapes, derivatives, weights
+
+
+def _serendipity(nodes: FloatArray, points: FloatArray, *, middle: bool) -> tuple[FloatArray, FloatArray]:
+    """Functions of the serendipity family: a product over the directions, times a sum in the corners if `middle`."""
+    x, a = points[:, None, :], nodes[None].astype(np.float64)
+    factor = np.where(a == 0, 1 - x**2, (1 + a * x) / 2)
+    slope = np.where(a == 0, -2 * x, a / 2)
+    corner = middle & (nodes != 0).all(axis=1)
+    total = np.where(corner, (a * x).sum(axis=-1) - (nodes.shape[1] - 1), 1.0)
+    derivatives = np.empty((len(points), *nodes.shape))
+    for k in range(nodes.shape[1]):
+        others = np.delete(factor, k, axis=-1).prod(axis=-1)
+        derivatives[..., k] = others * (slope[..., k] * total + np.where(corner, factor[..., k] * a[..., k], 0.0))
+    return factor.prod(axis=-1) * total, derivatives

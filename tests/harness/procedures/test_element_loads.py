@@ -1,0 +1,140 @@
+# SPDX-FileCopyrightText: The uel-harness authors
+# SPDX-License-Identifier: BSD-3-Clause
+"""Distributed loads on built-in elements: their resultants and moments over faces and volumes."""
+
+import numpy as np
+import pytest
+
+import harness
+from harness.errors import DeckError
+
+THICKNESS, DENSITY = 0.5, 3.0
+TYPES = {
+    # nodes of one element of edges 2, 1 (and 3), corners first; faces by the load type: outward normal and area
+    "CPE4": 4,
+    "CPS8R": 8,
+    "C3D8": 8,
+    "C3D20R": 20,
+}
+CORNERS = np.array([[0, 0, 0], [2, 0, 0], [2, 1, 0], [0, 1, 0], [0, 0, 3], [2, 0, 3], [2, 1, 3], [0, 1, 3.0]])
+EDGES = [*((0, 1), (1, 2), (2, 3), (3, 0)), *((4, 5), (5, 6), (6, 7), (7, 4)), *((0, 4), (1, 5), (2, 6), (3, 7))]
+PLANE_FACES = {1: ((0, -1), 2.0), 2: ((1, 0), 1.0), 3: ((0, 1), 2.0), 4: ((-1, 0), 1.0)}
+SPACE_FACES = {
+    **{1: ((0, 0, -1), 2.0), 2: ((0, 0, 1), 2.0), 3: ((0, -1, 0), 6.0)},
+    **{4: ((1, 0, 0), 3.0), 5: ((0, 1, 0), 6.0), 6: ((-1, 0, 0), 3.0)},
+}
+
+
+def nodes_of(element_type):
+    dimension = 3 if element_type.startswith("C3D") else 2
+    corners = CORNERS[: 2**dimension, :dimension]
+    middles = [corners[list(edge)].mean(axis=0) for edge in EDGES if max(edge) < len(corners)]
+    return np.vstack([corners, *middles])[: TYPES[element_type]]
+
+
+def deck(element_type, load, *, step="", options=""):
+    nodes = nodes_of(element_type)
+    lines = ["*NODE, NSET=ALL"]
+    lines += [", ".join([str(k), *map(repr, x.tolist())]) for k, x in enumerate(nodes, start=1)]
+    numbers = [str(k) for k in range(1, len(nodes) + 1)]
+    lines += [f"*ELEMENT, TYPE={element_type}, ELSET=BODY", ", ".join(["1", *numbers[:10]]) + "," * (len(nodes) > 10)]
+    lines += [", ".join(numbers[10:])] if len(nodes) > 10 else []
+    lines += ["*SURFACE, NAME=SIDE", "BODY, S2", "*SOLID SECTION, ELSET=BODY, MATERIAL=M", f"{THICKNESS}"]
+    lines += ["*MATERIAL, NAME=M", "*ELASTIC", "1000., 0.3", "*DENSITY", f"{DENSITY}"]
+    lines += [f"*STEP{options}", "*STATIC", "1., 1.", "*BOUNDARY", "ALL, 1, 3", load]
+    lines += ["*OUTPUT, HISTORY", "*NODE OUTPUT, NSET=ALL", "RF", "*END STEP", step, ""]
+    return "\n".join(line for line in lines if line) + "\n"
+
+
+@pytest.fixture
+def forces(tmp_path):
+    def forces(element_type, load, **options):
+        """Forces (nodes, dimension) of the load at the end: all displacements are held."""
+        (tmp_path / "load.inp").write_text(deck(element_type, load, **options))
+        history = harness.run(tmp_path / "load.inp", output_dir=tmp_path).history
+        nodes = nodes_of(element_type)
+        dofs, labels = range(1, nodes.shape[1] + 1), range(1, len(nodes) + 1)
+        return -np.array([[history[f"RF{dof}[ALL:{label}]"][-1] for dof in dofs] for label in labels])
+
+    return forces
+
+
+def check(element_type, found, traction, volume_or_area, centre):
+    """The forces have the resultant of a constant load, and its moments about all axes."""
+    nodes = nodes_of(element_type)
+    np.testing.assert_allclose(found.sum(axis=0), traction * volume_or_area, atol=1e-12)
+    np.testing.assert_allclose(nodes.T @ found, np.outer(centre, traction) * volume_or_area, atol=1e-12)
+
+
+@pytest.mark.parametrize("element_type", TYPES)
+def test_pressure_on_every_face(forces, element_type):
+    faces = SPACE_FACES if element_type.startswith("C3D") else PLANE_FACES
+    middle = nodes_of(element_type)[: 2 ** len(faces[1][0])].mean(axis=0)
+    for face, (outward, area) in faces.items():
+        normal = np.array(outward, dtype=float)
+        half = np.array([1.0, 0.5, 1.5])[: len(normal)]
+        scale = area * (THICKNESS if len(normal) == 2 else 1.0)
+        check(
+            element_type,
+            forces(element_type, f"*DLOAD\nBODY, P{face}, 4."),
+            -4.0 * normal,
+            scale,
+            middle + normal * half,
+        )
+
+
+@pytest.mark.parametrize("element_type", TYPES)
+def test_loads_of_the_volume(forces, element_type):
+    nodes = nodes_of(element_type)
+    dimension = nodes.shape[1]
+    volume, middle = (2 * THICKNESS if dimension == 2 else 6.0), nodes[: 2**dimension].mean(axis=0)
+    down = np.eye(dimension)[1] * -9.8
+    check(element_type, forces(element_type, "*DLOAD\nBODY, GRAV, 9.8, 0., -2."), DENSITY * down, volume, middle)
+    check(element_type, forces(element_type, "*DLOAD\nBODY, BX, 7."), np.eye(dimension)[0] * 7, volume, middle)
+
+
+def test_tractions_of_a_surface(forces):
+    """S2 is the side x = 2: a vector as it is, a shear traction its part in the surface at full size."""
+    side, area = np.array([2.0, 0.5]), THICKNESS
+    check("CPE4", forces("CPE4", "*DSLOAD\nSIDE, TRVEC, 5., 3., 4."), np.array([3.0, 4.0]), area, side)
+    check("CPE4", forces("CPE4", "*DSLOAD\nSIDE, TRSHR, 5., 3., -4."), np.array([0.0, -5.0]), area, side)
+    check("CPE4", forces("CPE4", "*DSLOAD\nSIDE, P, 5."), np.array([-5.0, 0.0]), area, side)
+
+
+def test_dead_tractions_with_large_displacements(forces):
+    load = "*DSLOAD, FOLLOWER=NO\nSIDE, TRVEC, 5., 1."
+    check("C3D8", forces("C3D8", load, options=", NLGEOM"), np.array([5.0, 0, 0]), 2.0, np.array([1.0, 0.5, 3.0]))
+
+
+def test_distributed_loads_go_on_until_they_are_replaced(forces):
+    """A second step replaces the pressure of *DLOAD by half of it, and drops the surface loads."""
+    step = "*STEP\n*STATIC\n1., 1.\n*DLOAD\nBODY, P2, 2.\n*DSLOAD, OP=NEW\n*END STEP"
+    load = "*DLOAD\nBODY, P2, 4.\n*DSLOAD\nSIDE, TRVEC, 9., 0., 1."
+    check("CPE4", forces("CPE4", load, step=step), np.array([-2.0, 0.0]), THICKNESS, np.array([2.0, 0.5]))
+
+
+def test_amplitude(forces):
+    load = "*AMPLITUDE, NAME=A\n0., 0., 1., 0.25\n*DLOAD, AMPLITUDE=A\nBODY, P2, 4."
+    check("CPE4", forces("CPE4", load), np.array([-1.0, 0.0]), THICKNESS, np.array([2.0, 0.5]))
+
+
+@pytest.mark.parametrize(
+    ("load", "options", "message"),
+    [
+        ("*DLOAD\nBODY, HP, 1.", "", r"load.inp:\d+: \*DLOAD: load type HP is not supported \(supported: Un and UnNU"),
+        ("*DLOAD\nBODY, P5, 1.", "", r"load.inp:\d+: \*DLOAD: elements of type CPE4 have no face S5"),
+        ("*DLOAD\nBODY, GRAV, 1.", "", r"\*DLOAD: GRAV needs a direction, entries 4 to 6"),
+        ("*DLOAD\nBODY, U1, 1.", "", r"load type U1 on elements that are not user elements \(1\)"),
+        ("*DLOAD\nBODY, P1, 1., 2.", "", "4 entries where at most 3 are read"),
+        ("*DSLOAD\nSIDE, HP, 1.", "", r"\*DSLOAD: load type HP is not supported \(supported: P, TRVEC, TRSHR\)"),
+        ("*DSLOAD\nSIDES, P, 1.", "", "unknown surface SIDES"),
+        ("*DSLOAD\nSIDE, TRSHR, 1., 1.", "", r"load.inp:\d+: TRSHR: the direction is normal to the surface"),
+        ("*DSLOAD\nSIDE, P, 1.", ", NLGEOM", r"load type P turns with the surface, which is not supported with NLGEOM"),
+        ("*DLOAD\nBODY, P1, 1.", ", NLGEOM", r"NLGEOM \(.*load.inp:\d+\); TRVEC with FOLLOWER=NO does not turn"),
+        ("*DSLOAD, CONSTANT RESULTANT=YES\nSIDE, P, 1.", "", "option CONSTANT RESULTANT is not supported"),
+    ],
+)
+def test_what_is_wrong_is_named(forces, monkeypatch, tmp_path, load, options, message):
+    monkeypatch.chdir(tmp_path)
+    with pytest.raises(DeckError, match=message):
+        forces("CPE4", load, options=options)
