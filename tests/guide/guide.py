@@ -1,0 +1,97 @@
+# SPDX-FileCopyrightText: The uel-harness authors
+# SPDX-License-Identifier: BSD-3-Clause
+"""Does what the guide says: `python tests/guide/guide.py` prints it with the outputs as they are, `--write` keeps them.
+
+Code blocks that name a file after their language are that file; `diff` blocks change it, `console` blocks are commands
+behind `$` with their output.
+"""
+
+from __future__ import annotations
+
+import argparse
+import contextlib
+import io
+import os
+import re
+import shlex
+import subprocess
+import sys
+import tempfile
+from pathlib import Path
+
+from harness.cli import main as uel
+
+GUIDE = Path(__file__).parents[2] / "harness" / "project" / "ten-minutes.md"
+COLUMNS = "110"
+_BLOCK = re.compile(r"^```(?P<language>\w+)(?: (?P<file>\S+))?\n(?P<body>.*?)^```$", re.MULTILINE | re.DOTALL)
+
+
+def replay(text: str) -> str:
+    """The guide with the outputs that its commands have, in the current folder, which is empty."""
+
+    def act(block: re.Match[str]) -> str:
+        language, file, body = block["language"], block["file"], block["body"]
+        if language == "console":
+            body = "".join(
+                f"$ {command}\n{_output(command)}" for command in re.findall(r"^\$ (.*)$", body, re.MULTILINE)
+            )
+            return f"```console\n{body}```"
+        if language == "diff":
+            Path(file).write_text(_changed(Path(file).read_text("utf-8"), body), encoding="utf-8")
+        elif file:
+            Path(file).write_text(body, encoding="utf-8")
+        return block[0]
+
+    return _BLOCK.sub(act, text)
+
+
+def _changed(text: str, diff: str) -> str:
+    """The text with the lines behind `-` replaced by those behind `+`; lines behind a blank stay, and say where."""
+    lines = diff.splitlines(keepends=True)
+    before = "".join(line[1:] for line in lines if line[0] != "+")
+    after = "".join(line[1:] for line in lines if line[0] != "-")
+    if text.count(before) != 1:
+        raise ValueError(f"these lines are there {text.count(before)} times:\n{before}")
+    return text.replace(before, after)
+
+
+def _output(command: str) -> str:
+    """What a command prints; `uel` runs in this process, which saves its start."""
+    first, _, rest = command.partition(" | ")
+    printed = _run_uel(first) if first.startswith("uel ") else _run_shell(first)
+    if rest:
+        printed = _run_shell(rest, printed)
+    return "".join(f"{line.rstrip()}\n" for line in printed.splitlines())
+
+
+def _run_uel(command: str) -> str:
+    stream = io.StringIO()
+    with contextlib.redirect_stdout(stream), contextlib.redirect_stderr(stream):
+        uel(shlex.split(command)[1:])
+    return stream.getvalue()
+
+
+def _run_shell(command: str, given: str = "") -> str:
+    result = subprocess.run(["bash", "-c", command], input=given, capture_output=True, text=True, check=False)
+    return result.stdout + result.stderr
+
+
+def main() -> int:
+    """Run the command."""
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("guide", type=Path, nargs="?", default=GUIDE)
+    parser.add_argument("--write", action="store_true", help="replace the outputs in the guide")
+    options = parser.parse_args()
+    os.environ["COLUMNS"] = COLUMNS
+    guide = options.guide.resolve()
+    with tempfile.TemporaryDirectory() as folder, contextlib.chdir(folder):
+        text = replay(guide.read_text("utf-8"))
+    if options.write:
+        guide.write_text(text, encoding="utf-8")
+    else:
+        print(text)
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
