@@ -23,6 +23,7 @@ from harness.output import Result
 from harness.output.plots import Curve, load_displacement, profiles
 
 DECKS = {"standard": "dcb_u2_1e8.inp", "stabilised": "dcb_u4_1e8.inp"}
+"""Stiffness 1e8 N/mm^3."""
 # the process zone and the compressed stretch ahead of it (mm): behind the front of the damage, and before it
 AROUND_FRONT = (2.0, 6.0)
 
@@ -31,11 +32,17 @@ def main(arguments: Sequence[str] | None = None) -> int:
     """Run the decks, write the figures, print the table; returns the exit code."""
     parser = argparse.ArgumentParser(description="Run a double cantilever beam, draw it, compare it with beam theory.")
     parser.add_argument("--output-dir", type=Path, default=Path("demo"), help="folder of all files written (demo)")
-    folder: Path = parser.parse_args(arguments).output_dir
+    known = sorted(path.name for path in (FOLDER / "dcb").glob("dcb_u*.inp"))
+    parser.add_argument("decks", nargs="*", metavar="DECK", help=f"of {', '.join(known)} (the two at 1e8)")
+    options = parser.parse_args(arguments)
+    for deck in options.decks:
+        if deck not in known:
+            parser.error(f"no deck {deck}; there are {', '.join(known)}")
+    folder: Path = options.output_dir
     console = Console()
     results = {}
-    for name, deck in DECKS.items():
-        console.print(f"{deck}: {name} cohesive elements, stiffness 1e8 N/mm^3, to 3 mm each arm")
+    for name, deck in ({Path(deck).stem: deck for deck in options.decks} or DECKS).items():
+        console.print(f"{deck}: {name}, to 3 mm each arm", highlight=False)
         results[name] = run(FOLDER / "dcb" / deck, output_dir=folder, quiet=not console.is_terminal)
     figures = [draw_load(results, folder / "dcb_load.png"), draw_traction(results, folder / "dcb_traction.png")]
     console.print(summary(results))

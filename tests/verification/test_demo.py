@@ -20,3 +20,9 @@ def test_demo(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     assert peaks is not None
     # beam theory with a sharp crack: the process zone takes a few per cent off
     assert [float(peak) for peak in peaks.groups()] == pytest.approx([52.32, 52.32], rel=0.04)
+
+
+def test_unknown_deck(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    with pytest.raises(SystemExit, match="2"):
+        demo.main(["--output-dir", str(tmp_path), "dcb_u7.inp"])
+    assert "no deck dcb_u7.inp; there are dcb_u2_1e6.inp, dcb_u2_1e8.inp" in capsys.readouterr().err
