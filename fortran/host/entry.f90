@@ -247,6 +247,31 @@ subroutine host_uvarm_pass(address, name, tensor, place, clock, labels, coords, 
   element = current%element
 end subroutine host_uvarm_pass
 
+!> Call SDVINI at all points of a block.
+subroutine host_sdvini_pass(address, solid, labels, coords, statev, left, element, mcrd, nnode, nstatv, points, m)
+  use, intrinsic :: iso_c_binding, only: c_intptr_t
+  use host_context, only: current
+  use host_kinds, only: dp, i4, i8
+  use host_sdvini, only: run_sdvini, sdvini_pass_t
+  implicit none (type, external)
+  integer(i8), intent(in) :: address
+  integer(i4), intent(in) :: solid            !< 1: built-in elements with integration points
+  integer(i4), intent(in) :: mcrd, nnode, nstatv, points, m
+  integer(i4), intent(in), target :: labels(m)
+  real(dp), intent(in), target :: coords(mcrd, nnode, m)
+  real(dp), intent(inout), target :: statev(nstatv, points, m)
+  integer(i4), intent(out) :: left            !< 1 if the routine ended the analysis
+  integer(i4), intent(out) :: element         !< of the last call
+  type(sdvini_pass_t) :: pass
+  pass%address = transfer(int(address, c_intptr_t), pass%address)
+  pass%solid = solid /= 0
+  pass%labels => labels
+  pass%coords => coords
+  pass%statev => statev
+  call run_sdvini(pass, left)
+  element = current%element
+end subroutine host_sdvini_pass
+
 !> Address of the built-in plane continuum elements.
 subroutine host_solid_address(address)
   use, intrinsic :: iso_c_binding, only: c_funloc, c_intptr_t

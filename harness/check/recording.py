@@ -158,6 +158,7 @@ class _RecordedRoutines:
     """User routines that a procedure calls, kept likewise."""
 
     def __init__(self, library: Library, events: list[Event]) -> None:
+        self.sdvini = library.sdvini
         self._library = library
         self._events = events
 

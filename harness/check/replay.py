@@ -15,6 +15,7 @@ from harness.check.single import Single, entry
 from harness.elements import build_blocks
 from harness.errors import KernelError
 from harness.model.arrays import FloatArray, IntArray
+from harness.procedures import set_initial_states
 from harness.usersub import Library
 
 Order = Callable[[int], IntArray]
@@ -106,6 +107,9 @@ def replay(
                     elements.commit()
                 case External(lop, lrestart, time, dtime, step, increment):
                     library.external_database(lop, lrestart, time, dtime, step, increment)
+                    if lop == 0:
+                        blocks = [single.block for single in elements.singles]
+                        set_initial_states(blocks, recording.model, library.sdvini)
                 case Pass():
                     results = _replay_pass(elements, event, order(len(elements)), refused)
                     # the next error is to be explained by its own message

@@ -5,12 +5,15 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
+from dataclasses import replace
+
+import numpy as np
 
 from harness.deck.blocks import Block
 from harness.deck.flatten import FlatMesh
 from harness.deck.problems import Problems
 from harness.deck.user_elements import LARGEST_DOF
-from harness.model.steps import InitialValue
+from harness.model.steps import InitialSolution, InitialValue
 
 TEMPERATURE = 11
 """First of the dofs that are temperatures."""
@@ -36,6 +39,8 @@ def read_initial_values(blocks: Iterable[Block], kind: str, flat: FlatMesh, prob
     for block in blocks:
         if block.name != "INITIAL CONDITIONS" or block.options.text("TYPE") != kind:
             continue
+        if block.options.flag("USER"):
+            problems.add(block.source, "*INITIAL CONDITIONS: USER is for TYPE=SOLUTION")
         for row in block.rows():
             with problems.gather():
                 nodes = flat.nodes(row.name(0, "node or node set"), row.source)
@@ -52,4 +57,38 @@ def read_initial_values(blocks: Iterable[Block], kind: str, flat: FlatMesh, prob
                     count = max(len(row) - 1, 1)
                     values = {TEMPERATURE + k: row.real(1 + k, "temperature", 0.0) for k in range(count)}
                 found += [InitialValue(nodes, dof, value, row.source) for dof, value in values.items()]
+    return found
+
+
+def read_initial_solutions(blocks: Iterable[Block], flat: FlatMesh, problems: Problems) -> list[InitialSolution]:
+    """Entries of all *INITIAL CONDITIONS, TYPE=SOLUTION: element or set and values, continued on lines of values."""
+    found: list[InitialSolution] = []
+    for block in blocks:
+        if block.name != "INITIAL CONDITIONS" or block.options.text("TYPE") != "SOLUTION":
+            continue
+        with problems.gather():
+            if block.options.flag("USER"):
+                found.append(InitialSolution(None, np.zeros(0), block.source))
+            else:
+                found += _read_solution(block, flat)
+    return found
+
+
+def _read_solution(block: Block, flat: FlatMesh) -> list[InitialSolution]:
+    """A line has a name and up to seven values; lines of eight more follow as long as each is full."""
+    found: list[InitialSolution] = []
+    values: list[float] = []
+    goes_on = False
+    for row in block.rows():
+        row.at_most(8)
+        if not goes_on:
+            elements = flat.elements(row.name(0, "element or element set"), row.source)
+            values = [row.real(k, "value", 0.0) for k in range(1, len(row))]
+            found.append(InitialSolution(elements, np.array(values), row.source))
+        else:
+            values += row.reals("value")
+            found[-1] = replace(found[-1], values=np.array(values))
+        goes_on = len(row) == 8
+    if not found:
+        raise block.error("needs data lines, or USER for SDVINI")
     return found

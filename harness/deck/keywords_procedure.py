@@ -156,17 +156,19 @@ INITIAL = (
                 Kind.CHOICE,
                 "what is given; TEMPERATURE is for dof 11 and a predefined field",
                 required=True,
-                choices=("VELOCITY", "TEMPERATURE", "FIELD"),
+                choices=("VELOCITY", "TEMPERATURE", "FIELD", "SOLUTION"),
                 refused=(
                     *("ACOUSTIC STATIC PRESSURE", "CONCENTRATION", "HARDENING", "PLASTIC STRAIN"),
-                    *("PORE PRESSURE", "RATIO", "REF COORDINATE", "ROTATING VELOCITY", "SATURATION", "SOLUTION"),
+                    *("PORE PRESSURE", "RATIO", "REF COORDINATE", "ROTATING VELOCITY", "SATURATION"),
                     *("SPECIFIC ENERGY", "STRESS", "UNBALANCED STRESS"),
                 ),
             ),
             Option("INPUT", Kind.FILE, "file that holds the data lines"),
             Option("VARIABLE", Kind.INTEGER, "number of the field variable (1)"),
-            *refused("FILE", "GEOSTATIC", "USER", "REBAR", "SECTION POINTS", "UNBALANCED STRESS"),
+            Option("USER", doc="state variables by SDVINI, with TYPE=SOLUTION"),
+            *refused("FILE", "GEOSTATIC", "REBAR", "SECTION POINTS", "UNBALANCED STRESS"),
         ),
-        "node or set, dof, velocity; or node or set, temperatures of dofs 11, 12, ...; or node or set, value of field",
+        "node or set, dof, velocity; or node or set, temperatures of dofs 11, 12, ...; or node or set, value of field; "
+        "or element or set, state variables",
     ),
 )

@@ -259,6 +259,42 @@ class Block:
         symmetric = int(not self.unsymmetric)
         return p.material, p.tensor, p.jtype, symmetric, int(assemble), call.step, call.increment, self._guards
 
+    def initialise(self, rows: IntArray, values: FloatArray) -> None:
+        """Initial state of elements of the block (rows): SVARS, or STATEV at each of their material points.
+
+        Raises ValueError where the elements do not have so many.
+        """
+        state = self._initial_state()
+        if len(values) > state.shape[2]:
+            raise ValueError(f"{len(values)} values, where elements of type {self.group.type} have {state.shape[2]}")
+        state[rows, :, : len(values)] = values
+        self._set_initial_state(state)
+
+    def call_sdvini(self, address: int) -> None:
+        """Let SDVINI set the initial state. Raises KernelError where it ends the analysis."""
+        state = self._initial_state()
+        if not state.shape[2]:
+            return
+        element = _binding.sdvini(address, self._arrays, state, solid=self.group.definition is None)
+        if element:
+            raise KernelError(element, self.group.type, f"SDVINI {self._library.stop_reason()}")
+        self._set_initial_state(state)
+
+    def _initial_state(self) -> FloatArray:
+        """Copy (m, points, values) of what *INITIAL CONDITIONS, TYPE=SOLUTION sets."""
+        if self.group.definition is not None:
+            return self._arrays.svars[:, None, :].copy()
+        history, statev = self._arrays.history, self._procedure.statev
+        return np.ascontiguousarray(history[:, :, history.shape[2] - statev :])
+
+    def _set_initial_state(self, state: FloatArray) -> None:
+        arrays, statev = self._arrays, self._procedure.statev
+        if self.group.definition is not None:
+            arrays.svars[:] = arrays.svars_trial[:] = state[:, 0, :]
+        else:
+            arrays.history[:, :, arrays.history.shape[2] - statev :] = state
+            arrays.history_trial[:] = arrays.history
+
     def commit(self) -> None:
         """End of a converged increment: the state of the last normal call becomes the committed one, then UVARM.
 

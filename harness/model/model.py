@@ -10,7 +10,7 @@ from pathlib import Path
 from harness.errors import Source
 from harness.model.arrays import IntArray
 from harness.model.mesh import ElementGroup, Mesh
-from harness.model.steps import Boundary, InitialValue, Step
+from harness.model.steps import Boundary, InitialSolution, InitialValue, Step
 
 
 @dataclass(frozen=True, slots=True)
@@ -31,6 +31,7 @@ class Model:
     initial_velocities    *INITIAL CONDITIONS, TYPE=VELOCITY
     initial_temperatures  TYPE=TEMPERATURE, for unknowns that are temperatures, and as a predefined field
     initial_fields        TYPE=FIELD; their dof is the number of the field
+    initial_solutions     TYPE=SOLUTION
     ignored    keywords that cannot change the solution, with their places: listed once in .dat
     warnings   places where the deck is odd but understood
     """
@@ -47,5 +48,6 @@ class Model:
     initial_velocities: tuple[InitialValue, ...] = ()
     initial_temperatures: tuple[InitialValue, ...] = ()
     initial_fields: tuple[InitialValue, ...] = ()
+    initial_solutions: tuple[InitialSolution, ...] = ()
     ignored: tuple[tuple[str, Source], ...] = ()
     warnings: tuple[str, ...] = ()

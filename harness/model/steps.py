@@ -9,7 +9,7 @@ from enum import StrEnum
 
 from harness.errors import Source
 from harness.model.amplitude import Amplitude
-from harness.model.arrays import IntArray
+from harness.model.arrays import FloatArray, IntArray
 from harness.model.procedures import Procedure
 
 
@@ -162,6 +162,18 @@ class InitialValue:
     nodes: IntArray
     dof: int
     value: float
+    source: Source
+
+
+@dataclass(frozen=True, slots=True)
+class InitialSolution:
+    """One *INITIAL CONDITIONS, TYPE=SOLUTION: elements (positions in the model) and their state variables.
+
+    elements  None: all of them, by SDVINI (USER)
+    """
+
+    elements: IntArray | None
+    values: FloatArray
     source: Source
 
 

@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Step procedures: generators of records, without output of their own."""
 
+from harness.procedures.initial_states import set_initial_states
 from harness.procedures.sequence import run_steps
 
-__all__ = ["run_steps"]
+__all__ = ["run_steps", "set_initial_states"]

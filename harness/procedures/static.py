@@ -45,7 +45,9 @@ NORMAL, MASS = 1, 4
 
 
 class UserRoutines(Protocol):
-    """The part of a loaded library that a procedure calls."""
+    """The part of a loaded library that a procedure calls; sdvini: address of SDVINI, None without it."""
+
+    sdvini: int | None
 
     def external_database(
         self, lop: int, lrestart: int, time: tuple[float, float], dtime: float, step: int, increment: int

@@ -259,6 +259,15 @@ def uvarm(
     return element if left else 0
 
 
+def sdvini(address: int, arrays: BlockArrays, statev: FloatArray, *, solid: bool) -> int:
+    """Call SDVINI at the points of a block; returns the element at which it ended the analysis, 0 if it did not.
+
+    statev (m, points, NSTATV), contiguous, is changed; solid: built-in elements with integration points.
+    """
+    left, element = _host.host_sdvini_pass(address, int(solid), arrays.labels, arrays.coords.T, statev.T)
+    return element if left else 0
+
+
 def solid_address() -> int:
     """Address of the built-in plane continuum elements, called like UELMAT."""
     return int(_host.host_solid_address())

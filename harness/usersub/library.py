@@ -31,7 +31,7 @@ ENTRY_POINTS: Final = (
 class Library:
     """User routines of a job, and the job's messages from them.
 
-    uel, uelmat, umat, uvarm, uexternaldb  addresses, None where the file does not have the routine
+    uel, uelmat, umat, uvarm, sdvini, uexternaldb  addresses, None where the file does not have the routine
     name                      the file as the user named it, for messages
     entry_points              names of all user routines found
     """
@@ -47,6 +47,7 @@ class Library:
         self.uexternaldb = addresses["UEXTERNALDB"]
         self.umat = addresses["UMAT"]
         self.uvarm = addresses["UVARM"]
+        self.sdvini = addresses["SDVINI"]
 
     def variables(self, jtype: int) -> PointVariables | None:
         """Meaning of the SVARS of an element type; None where the library does not hold the project's elements."""
