@@ -52,6 +52,8 @@ def main(arguments: Sequence[str] | None = None) -> int:
         print(f"uel: {error}", file=sys.stderr)
     except OSError as error:
         print(f"uel: {error.filename or ''}: {error.strerror or error}", file=sys.stderr)
+    except MemoryError:
+        print("uel: not enough memory for this model; the output written so far is readable", file=sys.stderr)
     except KeyboardInterrupt:
         print("uel: interrupted; the output written so far is readable", file=sys.stderr)
     return 1

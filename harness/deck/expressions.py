@@ -25,6 +25,7 @@ _FUNCTIONS: dict[str, Callable[..., float]] = {
 }
 _CONSTANTS: dict[str, Value] = {"pi": math.pi}
 _LONGEST = 2000
+_LARGEST_INTEGER = 2**63
 
 
 def assign(statement: str, parameters: Mapping[str, Value]) -> tuple[str, Value]:
@@ -68,7 +69,12 @@ def _evaluate(node: ast.expr, parameters: Mapping[str, Value]) -> Value:
         case ast.UnaryOp(op=ast.UAdd(), operand=operand):
             return _number(operand, parameters)
         case ast.BinOp(left=left, op=op, right=right):
-            return _binary(op, _number(left, parameters), _number(right, parameters))
+            value = _binary(op, _number(left, parameters), _number(right, parameters))
+            # integers without bound would double their digits with every x = x*x
+            value = float(value) if abs(value) > _LARGEST_INTEGER else value
+            if math.isinf(value):
+                raise ValueError(f"'{ast.unparse(node)}' is too large for a number")
+            return value
         case ast.Call(func=ast.Name(id=name), args=arguments, keywords=[]) if name in _FUNCTIONS:
             return _FUNCTIONS[name](*(_number(argument, parameters) for argument in arguments))
     raise ValueError(f"'{ast.unparse(node)}' is not arithmetic that *PARAMETER evaluates here")

@@ -9,7 +9,7 @@ from collections.abc import Callable
 import numpy as np
 
 from harness.deck.blocks import Block, Row
-from harness.deck.local_mesh import LARGEST_LABEL, MOST_GENERATED, ElementRun, LocalMesh, Members
+from harness.deck.local_mesh import LARGEST_LABEL, ElementRun, LocalMesh, Members
 from harness.deck.placement import read_placement
 from harness.errors import Source
 from harness.model.arrays import FloatArray, IntArray
@@ -35,8 +35,7 @@ def generate_nodes(mesh: LocalMesh, block: Block) -> None:
         if step == 0 or (last - first) % step or first == last:
             raise row.error(f"the increment {step} does not lead from node {first} to node {last}")
         count = abs(last - first) // step
-        if count > MOST_GENERATED:
-            raise row.error(f"{count} nodes are too many")
+        mesh.reserve(count, "nodes", row)
         fraction = np.arange(count + 1)[:, None] / count
         points = start + (end - start) * fraction
         points[-1] = end
@@ -52,8 +51,9 @@ def fill_nodes(mesh: LocalMesh, block: Block) -> None:
         intervals, step = row.integer(2, "number of intervals"), row.integer(3, "increment", 1)
         if len(first) != len(second) or not len(first):
             raise row.error(f"the sets hold {len(first)} and {len(second)} nodes")
-        if intervals < 1 or intervals * len(first) > MOST_GENERATED:
+        if intervals < 1:
             raise row.error(f"{intervals} intervals cannot be filled")
+        mesh.reserve((intervals - 1) * len(first), "nodes", row)
         start = np.array([mesh.point(label, row.source) for label in first.tolist()])
         end = np.array([mesh.point(label, row.source) for label in second.tolist()])
         name = block.options.text("NSET")
@@ -69,6 +69,7 @@ def copy_nodes(mesh: LocalMesh, block: Block) -> None:
     points = np.array([mesh.point(label, block.source) for label in old.tolist()]).reshape(-1, 3)
     row = Row(block.name, (), block.source)
     labels = old + options.integer("CHANGE NUMBER", 0)
+    mesh.reserve(len(labels), "nodes", row)
     _add_nodes(mesh, row, options.text("NEW SET"), labels, read_placement(block).move(points))
 
 
@@ -82,8 +83,9 @@ def generate_elements(mesh: LocalMesh, block: Block) -> None:
             count = row.integer(start, "number of elements", 1)
             node_step = row.integer(start + 1, "node increment", 1)
             step = row.integer(start + 2, "element increment", 1)
-            if count < 1 or count * len(labels) > MOST_GENERATED:
+            if count < 1:
                 raise row.error(f"{count} elements in one direction cannot be generated")
+            mesh.reserve((count - 1) * len(labels), "elements", row)
             labels = (labels[None, :] + np.arange(count)[:, None] * step).ravel()
             shifts = (shifts[None, :] + np.arange(count)[:, None] * node_step).ravel()
         if labels.min() < 1 or labels.max() > LARGEST_LABEL or np.any(nodes + shifts.min() < 1):

@@ -17,6 +17,8 @@ from harness.errors import DeckError, Source
 
 # other characters that some programs take for line ends; a message of ours is one line
 _BLANKS = dict.fromkeys(map(ord, "\v\f\x1c\x1d\x1e\x85\u2028\u2029"), " ")
+DEEPEST = 20
+MOST_INCLUDED = 2000
 _PARAMETER = re.compile(r"<\s*([A-Za-z_]\w*)\s*>")
 
 
@@ -68,6 +70,7 @@ class _Lexer:
         self._parameters: dict[str, Value] = {}
         self._open: Block | None = None
         self._discard = False
+        self._included = 0
 
     def read(self, lines: list[str], file: str, stack: tuple[Path, ...]) -> None:
         """Take all lines of one file."""
@@ -167,6 +170,11 @@ class _Lexer:
         if resolved in stack:
             loop = " -> ".join(entry.name for entry in (*stack[stack.index(resolved) :], resolved))
             raise DeckError(source, f"include loop: {loop}")
+        self._included += 1
+        if len(stack) > DEEPEST or self._included > MOST_INCLUDED:
+            # files that include each other several times are soon as many as there are atoms
+            limit = f"{MOST_INCLUDED} of them are" if len(stack) <= DEEPEST else f"{DEEPEST} within each other are"
+            raise DeckError(source, f"too many included files: {limit} read")
         if path.exists() and not (path.is_file() or path.is_dir()):
             # reading a device or a pipe may never end
             raise DeckError(source, f"cannot read {path}: not a file")

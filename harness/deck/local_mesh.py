@@ -9,7 +9,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from harness.deck.blocks import Block
+from harness.deck.blocks import Block, Row
 from harness.deck.numbers import integer_table, is_integer, read_integer, real_table
 from harness.deck.placement import IDENTITY, read_system
 from harness.deck.problems import nearest
@@ -19,7 +19,8 @@ from harness.errors import DeckError, Source
 from harness.model.arrays import FloatArray, IntArray
 
 LARGEST_LABEL = 999_999_999
-MOST_GENERATED = 10_000_000
+MOST_GENERATED = {"nodes": 1_000_000, "elements": 1_000_000, "numbers": 10_000_000}
+"""What the generating keywords of one scope may make in all: a typing error must not take all memory."""
 Point = tuple[float, float, float]
 
 
@@ -59,8 +60,15 @@ class LocalMesh:
         self.unsorted: set[str] = set()
         self.assembly = ""
         self.system = IDENTITY
+        self._generated = dict.fromkeys(MOST_GENERATED, 0)
         # index in the whole model of a node of an instance; set by the flattening before it reads the root
         self.find_instance_node: Callable[[str, int], int | None] = lambda instance, label: None
+
+    def reserve(self, count: int, what: str, row: Row) -> None:
+        """Count 'nodes', 'elements' or 'numbers' that a line is about to generate; DeckError where too many."""
+        self._generated[what] += count
+        if self._generated[what] > MOST_GENERATED[what]:
+            raise row.error(f"{count} {what} are too many: {MOST_GENERATED[what]} can be generated in all")
 
     def add_nodes(self, labels: IntArray, points: FloatArray, source: Callable[[int], Source]) -> None:
         """Add nodes; one that is there already must be in the same place."""
@@ -124,7 +132,7 @@ class LocalMesh:
         if instance and instance not in self.instances:
             raise block.error(f"unknown instance {instance}{nearest(instance, self.instances)}")
         if block.options.flag("GENERATE"):
-            ranges = [_generated(block, index) for index, line in enumerate(block.lines) if line.strip(", ")]
+            ranges = [self._range(block.row(index)) for index, line in enumerate(block.lines) if line.strip(", ")]
             self.add_to_set(sets, name, [Members(instance, labels, block.source) for labels in ranges])
         else:
             self.add_to_set(sets, name, self._listed(block, instance))
@@ -196,6 +204,16 @@ class LocalMesh:
                 if not row.blank(index):
                     found += self._member(block.name, unquote(row.fields[index]), instance, row.source)
         return found
+
+    def _range(self, row: Row) -> IntArray:
+        """Labels of one GENERATE line: first, last, increment (1)."""
+        first = row.integer(0, "first number")
+        last = row.integer(1, "last number", first)
+        step = row.integer(2, "increment", 1)
+        if step < 1 or last < first or first < 1:
+            raise row.error(f"cannot generate from {first} to {last} in steps of {step}")
+        self.reserve((last - first) // step + 1, "numbers", row)
+        return np.arange(first, last + 1, step, dtype=np.int64)
 
     def _member(self, kind: str, token: str, instance: str, source: Source) -> list[Members]:
         if is_integer(token):
@@ -280,16 +298,3 @@ def _read_nodes(block: Block) -> tuple[IntArray, FloatArray, Callable[[int], Sou
         row.at_most(7)
         points[index] = [row.real(column, f"coordinate {column}", 0.0) for column in (1, 2, 3)]
     return found, points, lambda index: rows[index].source
-
-
-def _generated(block: Block, index: int) -> IntArray:
-    """Labels of one GENERATE line: first, last, increment (1)."""
-    row = block.row(index)
-    first = row.integer(0, "first number")
-    last = row.integer(1, "last number", first)
-    step = row.integer(2, "increment", 1)
-    if step < 1 or last < first or first < 1:
-        raise row.error(f"cannot generate from {first} to {last} in steps of {step}")
-    if (last - first) // step > MOST_GENERATED:
-        raise row.error(f"{(last - first) // step} numbers are too many")
-    return np.arange(first, last + 1, step, dtype=np.int64)

@@ -153,6 +153,15 @@ def test_message_file_names_the_linear_solver(tmp_path: Path) -> None:
     assert "LINEAR SOLVER BAND: half bandwidth" in (tmp_path / "flat_u2.msg").read_text()
 
 
+def test_no_memory(monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]) -> None:
+    def exhausted(*_: object, **__: object) -> None:
+        raise MemoryError
+
+    monkeypatch.setattr("harness.job.run", exhausted)
+    assert main(["run", str(FLAT)]) == 1
+    assert "uel: not enough memory for this model" in capsys.readouterr().err
+
+
 def test_missing_deck(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     assert main(["run", str(tmp_path / "nothing.inp")]) == 1
     assert "nothing.inp" in capsys.readouterr().err

@@ -51,6 +51,11 @@ MISTAKES = {
     ),
     "parameter": ("<width>", "<with>", r"33: parameter <with> is not defined"),
     "expression": ("half = width/2", "half = open('x')", r"6: \*PARAMETER: 'open\('x'\)' is not arithmetic"),
+    "digits without end": (
+        "half = width/2",
+        "half = width" + "\nhalf = half*half" * 8,
+        r"14: \*PARAMETER: 'half \* half' is too large for a number",
+    ),
     "division by zero": ("half = width/2", "half = width/0", r"6: \*PARAMETER: 'half = width/0' cannot be evaluated"),
     "integer division": ("half = width/2", "half = 1/2", r"6: 1/2 of two integers depends on the release of Abaqus"),
     "no assignment": ("half = width/2", "half", r"6: 'half' is not of the form name = expression"),

@@ -105,6 +105,21 @@ def test_file_name_that_no_system_takes(read: Read) -> None:
         read(FLAT + f"*INCLUDE, INPUT={'x' * 5000}\n")
 
 
+def test_files_that_include_each_other_again_and_again(read: Read) -> None:
+    for level in range(9):
+        Path(f"{level}.inc").write_text(f"*INCLUDE, INPUT={level + 1}.inc\n" * 10)
+    Path("9.inc").write_text("** nothing\n")
+    with pytest.raises(DeckError, match=r"^\d.inc:\d+: too many included files: 2000 of them are read"):
+        read(FLAT + "*INCLUDE, INPUT=0.inc\n")
+
+
+def test_files_deep_within_each_other(read: Read) -> None:
+    for level in range(100):
+        Path(f"{level}.inc").write_text(f"*INCLUDE, INPUT={level + 1}.inc\n")
+    with pytest.raises(DeckError, match=r"^19.inc:1: too many included files: 20 within each other are read$"):
+        read(FLAT + "*INCLUDE, INPUT=0.inc\n")
+
+
 def test_include_of_a_device(read: Read) -> None:
     with pytest.raises(DeckError, match=r"^deck.inp:65: cannot read /dev/zero: not a file$"):
         read(FLAT + "*INCLUDE, INPUT=/dev/zero\n")

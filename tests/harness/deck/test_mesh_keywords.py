@@ -97,7 +97,17 @@ def test_ncopy(read: Read) -> None:
         ("*ELGEN\n7, 2\n", r"deck.inp:8: element 7 is not defined"),
         ("*ELGEN\n1, 0\n", r"deck.inp:8: \*ELGEN: 0 elements in one direction cannot be generated"),
         ("*ELGEN\n1, 3, 1, -1\n", r"deck.inp:8: \*ELGEN: generates element or node numbers outside 1 to"),
-        ("*NSET, NSET=C, GENERATE\n1, 2000000000, 1\n", r"deck.inp:8: \*NSET: 1999999999 numbers are too many"),
+        (
+            "*NSET, NSET=C, GENERATE\n1, 2000000000, 1\n",
+            r"deck.inp:8: \*NSET: 2000000000 numbers are too many: 10000000 can be generated in all",
+        ),
+        ("*NSET, NSET=C, GENERATE\n1, 6000000\n1, 6000000\n", r"deck.inp:9: \*NSET: 6000000 numbers are too many"),
+        (
+            "*NODE\n2000011, 9.\n*NGEN\n11, 2000011\n",
+            r"deck.inp:10: \*NGEN: 2000000 nodes are too many: 1000000 can be",
+        ),
+        ("*NFILL\nA, B, 2000000\n", r"deck.inp:8: \*NFILL: 1999999 nodes are too many: 1000000 can be"),
+        ("*ELGEN\n1, 2000001\n", r"deck.inp:8: \*ELGEN: 2000000 elements are too many: 1000000 can be"),
         ("*NCOPY, OLD SET=A, CHANGE NUMBER=5\n", r"deck.inp:7: \*NCOPY needs the option SHIFT"),
     ],
 )
