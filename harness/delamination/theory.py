@@ -119,6 +119,11 @@ def frmm_load(arms: Arms, crack: float, toughness_1: float, toughness_2: float) 
     return math.sqrt(arms.width * arms.bending_stiffness / (mode_1 + mode_2))
 
 
+def frmm_mode_ratio(arms: Arms, crack: float) -> float:
+    """G_I/G_II of a fixed-ratio mixed-mode specimen: 4/3 of plain beams, with the corrections above."""
+    return 4.0 / 3.0 * ((crack + arms.correction) / (crack + MODE_2_CORRECTION * arms.correction)) ** 2
+
+
 def enf_compliance(arms: Arms, crack: float, half_span: float) -> float:
     """Deflection at mid-span per load (mm/N) of an end-notched flexure specimen of span 2 L (mm).
 

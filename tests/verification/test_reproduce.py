@@ -86,8 +86,9 @@ def test_energies_explain_a_difference_of_loads() -> None:
     assert convergence.load_difference(ours, built_in) == pytest.approx(-1.0 / 24.0)
 
 
-def test_pairs_have_one_mesh() -> None:
-    for built_in, ours in convergence.pairs(coarse=False):
+@pytest.mark.parametrize("coarse", [True, False])
+def test_pairs_have_one_mesh(coarse: bool) -> None:
+    for built_in, ours in convergence.pairs(coarse=coarse):
         assert (built_in.element, ours.element) == ("COH2D4", "consistent_bk")
         assert (built_in.element_size, built_in.rows) == (ours.element_size, ours.rows)
 
@@ -107,6 +108,32 @@ def test_kink_ahead_of_the_front() -> None:
 
     evidence = cast("Evidence", SimpleNamespace(run=run))
     assert parameters.kink_distance(evidence, "enf", "TT") == pytest.approx(42.0 - 39.5)
+
+
+def test_mode_ratio_of_beams_and_of_a_process_zone() -> None:
+    # plain beams: 4/3
+    assert theory.frmm_mode_ratio(replace(ARMS, g12=1e12), CRACK) == pytest.approx(4.0 / 3.0, rel=1e-2)
+    loads = [theory.frmm_load(ARMS, CRACK, one, two) ** -2 for one, two in ((1.0, 1e12), (1e12, 1.0))]
+    assert theory.frmm_mode_ratio(ARMS, CRACK) == pytest.approx(loads[0] / loads[1])
+    # separations and tractions that fall and rise along a straight line: the areas below the law's curves
+    share = np.linspace(0.0, 1.0, 200)
+    columns = {"TN": 30.0 * share, "SEPN": 0.02 * (1.0 - share), "TT": -60.0 * share, "SEPT": -0.03 * (1.0 - share)}
+    profile = columns | {"X": 35.0 + share, "DAMAGE": 1.0 - share}
+    run = SimpleNamespace(case=SimpleNamespace(problem="frmm", layup="0/0"), at=lambda _: profile)
+    evidence = cast("Evidence", SimpleNamespace(run=lambda *_: run))
+    assert findings.mode_ratio(evidence, "standard") == pytest.approx(30.0 * 0.02 / (60.0 * 0.03))
+    assert findings.theory_mode_ratio(evidence, "standard") == pytest.approx(
+        theory.frmm_mode_ratio(ARMS, 35.0), rel=1e-3
+    )
+
+
+def test_damage_counts_near_the_tip() -> None:
+    place = np.arange(35.0, 100.0, 1.0)
+    damage = np.where(place < 45.0, 1.0, 0.0)
+    damage[-3] = 0.4
+    profile = {"X": place, "DAMAGE": damage}
+    assert findings.damage_near_tip(profile, "enf").max() == 1.0
+    assert findings.damage_near_tip(profile, "enf").size == np.count_nonzero(place <= 45.0 + 14.0)
 
 
 def test_stabilisation_of_the_horizontal_patch() -> None:

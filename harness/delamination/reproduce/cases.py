@@ -43,6 +43,8 @@ MOMENTS = {
 }
 """Displacement at which the profiles are drawn (mm), a multiple of 1/PARTS of the last one. The paper gives none; in
 its figure 9 the traction of the DCB [0/0] changes its sign at X1 = 44 mm, which is at 1.8 mm."""
+AROUND = {"dcb": (-6.0, 8.0), "enf": (-10.0, 14.0), "frmm": (-6.0, 14.0)}
+"""Stretch about the front of the damage that the profiles show (mm)."""
 LAYUPS = tuple(PLIES)
 ELEMENTS = {
     "standard": Interface("U2", TABLE_2),

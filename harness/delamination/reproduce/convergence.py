@@ -16,7 +16,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from harness.delamination.reproduce.cases import PROBLEMS, QUICK_SIZES, Case
+from harness.delamination.reproduce.cases import Case
 from harness.delamination.reproduce.runs import Run, Runs
 
 STRETCH = (4.0, 7.9)
@@ -56,16 +56,19 @@ class Steady:
 
 
 def pairs(*, coarse: bool) -> list[tuple[Case, Case]]:
-    """COH2D4 and our element with its criterion, on equal meshes; ours with a larger beta and equal weights too."""
-    size = QUICK_SIZES["dcb"] if coarse else PROBLEMS["dcb"].size
-    meshes = [(size, 4), (size, 8)] if coarse else [(2.0 * size, 4), (size, 4), (size, 8), (size, 16)]
-    built_in = [_sized(Case("dcb", "0/90", "COH2D4", "1e6", coarse=coarse, rows=rows), s) for s, rows in meshes]
-    ours = [replace(case, element="consistent_bk") for case in built_in]
+    """COH2D4 and our element with its criterion, on equal meshes; ours with a larger beta and equal weights too.
+
+    With `coarse`, on one mesh and with one beta.
+    """
     base = Case("dcb", "0/90", "COH2D4", "1e6", coarse=coarse)
-    element = replace(base, element="consistent_bk")
+    ours = replace(base, element="consistent_bk")
+    if coarse:
+        return [(base, ours), (base, replace(ours, beta=3.0))]
+    size = base.element_size
+    built_in = [_sized(replace(base, rows=rows), s) for s, rows in ((2.0 * size, 4), (size, 4), (size, 8), (size, 16))]
     # beta is given with the weight, so that it stays that of (21) with the weights (22)
-    variants = [replace(element, beta=3.0), replace(element, beta=10.0), replace(element, beta=1.0001, weight=0.5)]
-    return [*zip(built_in, ours, strict=True), *((base, case) for case in variants)]
+    variants = [replace(ours, beta=3.0), replace(ours, beta=10.0), replace(ours, beta=1.0001, weight=0.5)]
+    return [*((case, replace(case, element=ours.element)) for case in built_in), *((base, case) for case in variants)]
 
 
 def _sized(case: Case, size: float) -> Case:

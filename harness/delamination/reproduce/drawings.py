@@ -176,10 +176,10 @@ def draw_beam(deck: Path, path: Path, tip: tuple[float, float]) -> Path:
         for place, direction, size in drawing.moved:
             _arrow(whole, place, direction, 0.5 * height, f"$\\Delta$ = {size:g} mm")
         _measure(whole, (low[0], start[0]), start[1] - 0.16 * height, f"$a_0$ = {start[0]:g} mm")
-        _measure(whole, (low[0], high[0]), low[1] - 0.55 * height, f"L = {high[0] - low[0]:g} mm")
+        _measure(whole, (low[0], high[0]), low[1] - 0.85 * height, f"L = {high[0] - low[0]:g} mm")
         margin = 0.04 * (high[0] - low[0])
         whole.set(
-            xlim=(low[0] - margin, high[0] + 2.0 * margin), ylim=(low[1] - 1.15 * height, high[1] + 0.95 * height)
+            xlim=(low[0] - margin, high[0] + 2.0 * margin), ylim=(low[1] - 1.45 * height, high[1] + 0.95 * height)
         )
         whole.set_title(f"H = {height:g} mm; heights are not to scale")
         _plies(near, drawing, edges=True)

@@ -12,7 +12,7 @@ import numpy as np
 
 from harness.delamination.beams import RIGID_ROOT, growth
 from harness.delamination.law_report import Exploration, explore
-from harness.delamination.reproduce.cases import ELEMENTS, MOMENTS, Case
+from harness.delamination.reproduce.cases import AROUND, ELEMENTS, MOMENTS, Case
 from harness.delamination.reproduce.patch_cases import METHODS, PatchCase
 from harness.delamination.reproduce.runs import Profile, Runs
 from harness.output.plots import Curve, Panel, grid
@@ -20,8 +20,6 @@ from harness.output.plots import Curve, Panel, grid
 SHOWN = ("1e4", "1e6", "1e8")
 X = "$X_1$ [mm]"
 TRACTIONS = {"TN": "Normal traction [MPa]", "TT": "Tangential traction [MPa]", "DAMAGE": "Damage"}
-AROUND = {"dcb": (-6.0, 8.0), "enf": (-10.0, 14.0), "frmm": (-6.0, 14.0)}
-"""Stretch about the front of the damage that the profiles show (mm)."""
 CLOSE = {"dcb": (0.0, 4.0), "enf": (-4.0, 4.0), "frmm": (-3.0, 3.0)}
 """... and the zooms."""
 
@@ -73,7 +71,8 @@ def draw_loads(runs: Runs, base: Case, path: Path) -> Path:
         built_in = replace(base, layup=layup, element="COH2D4", stiffness="1e6")
         if built_in in runs:
             run = runs[built_in]
-            curves.append(Curve("COH2D4 1e6", run.displacement[::5], run.load[::5], "points"))
+            every = max(1, len(run.load) // 25)
+            curves.append(Curve("COH2D4 1e6", run.displacement[::every], run.load[::every], "points"))
         panels.append(Panel(f"[{layup}]", curves, "Displacement [mm]", "Load [N]"))
     return grid([panels], path)
 

@@ -17,9 +17,11 @@ import numpy as np
 from harness.delamination.beams import branch_deviation
 from harness.delamination.materials import TABLE_2
 from harness.delamination.oscillation import total_variation
-from harness.delamination.reproduce.cases import LAYUPS, MOMENTS, PROBLEMS, Case, secant_cases
+from harness.delamination.reproduce.cases import AROUND, LAYUPS, MOMENTS, PROBLEMS, Case, secant_cases
 from harness.delamination.reproduce.runs import Profile, Run, Runs
+from harness.delamination.specimens import ARMS
 from harness.delamination.study.rows import STRENGTHS, at_tenths, bonded_part, damage_variation
+from harness.delamination.theory import frmm_mode_ratio
 from harness.model.arrays import FloatArray
 
 ALL = ("1e4", "1e6", "1e8")
@@ -109,15 +111,30 @@ def variation_gain(
 
 
 def damage_turns(
-    evidence: Evidence, problem: str, layup: str, element: str, stiffness: str = "1e8", *, ever: bool = False
+    evidence: Evidence,
+    problem: str,
+    layup: str,
+    element: str,
+    stiffness: str = "1e8",
+    *,
+    ever: bool = False,
+    whole: bool = False,
 ) -> float:
     """Largest departure of the damage from a steady fall to 0: total variation over its largest value, less 1.
 
-    Without the sign: damage that turns back varies more, damage that nowhere falls to 0 varies less. `ever` as above.
+    Without the sign: damage that turns back varies more, damage that nowhere falls to 0 varies less. Up to as far ahead
+    of the failed part as the figures show, or along the `whole` interface. `ever` as above.
     """
     run = evidence.run(problem, layup, element, stiffness)
     profiles = at_tenths(run.profiles) if ever else [moment(run)]
-    return max(abs(damage_variation(profile["DAMAGE"]) - 1.0) for profile in profiles)
+    damages = [profile["DAMAGE"] if whole else damage_near_tip(profile, problem) for profile in profiles]
+    return max(abs(damage_variation(damage) - 1.0) for damage in damages)
+
+
+def damage_near_tip(profile: Profile, problem: str) -> FloatArray:
+    """Damage up to the end of the figures' stretch, counted from the first point that has not failed."""
+    tip = float(bonded_part(profile)["X"][0])
+    return profile["DAMAGE"][profile["X"] <= tip + AROUND[problem][1]]
 
 
 def theory_distance(evidence: Evidence, problem: str, element: str, stiffnesses: Sequence[str] = ALL) -> float:
@@ -315,10 +332,23 @@ def energy_error(evidence: Evidence, problem: str, element: str, stiffnesses: Se
 
 
 def mode_ratio(evidence: Evidence, element: str, stiffness: str = "1e6") -> float:
-    """G_I/G_II of the fixed-ratio specimen from the tractions: what failed points have dissipated in either mode."""
-    profile = evidence.run("frmm", "0/0", element, stiffness).at(3.0)
-    failed = profile["DAMAGE"] >= 1.0
-    return float(profile["DISSI"][failed].sum() / profile["DISSII"][failed].sum())
+    """G_I/G_II of the fixed-ratio specimen, [0/0], from the tractions, at the moment of the figures.
+
+    Both by Rice's integral around the process zone, minus the integral of traction times the slope of the separation
+    along the interface. What single points have dissipated scatters by a quarter, as the crack runs in small jumps.
+    """
+    profile = moment(evidence.run("frmm", "0/0", element, stiffness))
+    rates = []
+    for traction, separation in (("TN", np.maximum(profile["SEPN"], 0.0)), ("TT", profile["SEPT"])):
+        mean = 0.5 * (profile[traction][1:] + profile[traction][:-1])
+        rates.append(-float(np.sum(mean * np.diff(separation))))
+    return rates[0] / rates[1]
+
+
+def theory_mode_ratio(evidence: Evidence, element: str, stiffness: str = "1e6") -> float:
+    """G_I/G_II of the fixed-ratio specimen by corrected beam theory, for a crack up to the first bonded point."""
+    profile = moment(evidence.run("frmm", "0/0", element, stiffness))
+    return frmm_mode_ratio(ARMS, float(bonded_part(profile)["X"][0]))
 
 
 def toughness(evidence: Evidence, problem: str, element: str, stiffness: str = "1e6") -> float:
