@@ -52,6 +52,7 @@ class Elements:
     def __init__(self, recording: Recording, library: Library, *, strict: bool = True) -> None:
         self.singles: list[Single] = []
         self.equations: list[IntArray] = []
+        self.library = library
         blocks = build_blocks(recording.model, library, strict=strict)
         for block, equations in zip(blocks, recording.equations, strict=True):
             self.singles += [Single(part) for part in block.split(strict=strict)]

@@ -5,6 +5,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
+from typing import Any, Final
 
 import numpy as np
 
@@ -13,7 +14,7 @@ from harness.check.single import Returned, Single
 from harness.elements import Call, Motion
 from harness.model.arrays import FloatArray
 
-DYNAMIC = 11, 12
+DYNAMIC: Final = 11, 12
 """LFLAGS(1) of *DYNAMIC: V and A go with U."""
 
 
@@ -50,6 +51,29 @@ class State:
         """The state of an element that was elsewhere all the time: U + shift (n,)."""
         return replace(self, u=self.u + shift)
 
+    def part(self, share: float) -> State:
+        """The state at this share of the increment of displacements."""
+        return replace(self, u=self.u - (1.0 - share) * self.du, du=share * self.du)
+
+    def still(self) -> State:
+        """The state at the start of the increment, at rest and without loads on the element."""
+        zero = Motion(np.zeros(len(self.u)), np.zeros(len(self.u)))
+        return replace(self.part(0.0), motion=zero).called(distributed=None)
+
+    def called(self, **changes: Any) -> State:
+        """The state with other arguments that are common to all elements, fields of Call."""
+        return replace(self, call=replace(self.call, **changes))
+
+    def asked(self, request: int) -> State:
+        """The state with another LFLAGS(3)."""
+        lflags = self.call.lflags
+        return self.called(lflags=(*lflags[:2], request, *lflags[3:]))
+
+    @property
+    def dynamic(self) -> bool:
+        """V and A go with U."""
+        return self.call.lflags[0] in DYNAMIC
+
     def strictly(self) -> State:
         """The state of a copy for which a write outside an array is an error."""
         return replace(self, single=self.single.twin(strict=True))
@@ -57,7 +81,7 @@ class State:
     def _rates(self) -> tuple[float, float]:
         """Derivatives of V and A by U."""
         call = self.call
-        if call.lflags[0] not in DYNAMIC or not call.time_increment:
+        if not self.dynamic or not call.time_increment:
             return 0.0, 0.0
         _, beta, gamma = call.params
         return gamma / (beta * call.time_increment), 1.0 / (beta * call.time_increment**2)

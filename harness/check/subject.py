@@ -12,6 +12,7 @@ from typing import Final
 import numpy as np
 
 from harness.check.differences import Differences, differences
+from harness.check.patch import patches_of
 from harness.check.recording import Pass, Recording
 from harness.check.replay import Elements, abaqus_order, replay
 from harness.check.shuffle import TypeVerdict
@@ -20,12 +21,25 @@ from harness.errors import KernelError
 from harness.model.arrays import FloatArray
 from harness.model.mesh import ElementGroup
 from harness.model.properties import UserElement
+from harness.usersub import Library
 
 PASSES: Final = 5
 """Passes of the run from which states are taken, the first and the last among them."""
 
 ELEMENTS: Final = 3
 """Elements of a type whose states are taken."""
+
+
+PATCHES: Final = 3
+"""Nodes of the deck at which the patch test is made."""
+
+
+@dataclass(frozen=True, slots=True)
+class Patch:
+    """A node inside of elements of one type, with the states of these elements in the first pass."""
+
+    node: int
+    states: tuple[State, ...]
 
 
 @dataclass(frozen=True, slots=True)
@@ -38,6 +52,8 @@ class Subject:
     random      the same with random displacements, as large as the deformations of the run
     scales      (n,) what a displacement, rotation, temperature is in this run, for each unknown
     order       what random orders of calling gave
+    patches     for the patch test
+    library     the user routines
     """
 
     type: str
@@ -48,6 +64,8 @@ class Subject:
     random: tuple[State, ...]
     scales: FloatArray
     order: TypeVerdict
+    patches: tuple[Patch, ...]
+    library: Library
     _differences: dict[int, Differences] = field(default_factory=dict)
 
     def differences(self, state: State) -> Differences:
@@ -96,14 +114,30 @@ def subject_of(recording: Recording, kind: str, order: TypeVerdict, seed: int) -
     chosen = {id(made[k]) for k in np.unique(np.linspace(0, len(made) - 1, PASSES).astype(int))}
     group = next(group for group in recording.model.groups if group.type == kind)
     states: list[State] = []
+    patches: tuple[Patch, ...] = ()
     with closing(replay(recording, abaqus_order, strict=False)) as passes:
         for elements, results in passes:
+            if results.made is made[0]:
+                patches = _patches(recording, group, elements, made[0])
             if id(results.made) in chosen:
                 states += _states(elements, kind, results.made, made[-1])
             if results.made is made[-1]:
                 break
         states = [state for state in states if _returns(state)]
-        yield _subject(recording, group, tuple(states), order, seed)
+        yield _subject(recording, group, tuple(states), order, seed, patches, elements.library)
+
+
+def _patches(recording: Recording, group: ElementGroup, elements: Elements, made: Pass) -> tuple[Patch, ...]:
+    """Some of the nodes that lie inside of elements of the type."""
+    assert group.definition is not None
+    found = list(patches_of(recording.model, group.type, group.definition.coordinates))
+    if not found:
+        return ()
+    spread = np.unique(np.linspace(0, len(found) - 1, PATCHES).astype(int))
+    return tuple(
+        Patch(node, tuple(state_of(elements.singles[k], made, elements.equations[k]) for k in positions))
+        for node, positions in (found[k] for k in spread)
+    )
 
 
 def _states(elements: Elements, kind: str, made: Pass, last: Pass) -> Iterator[State]:
@@ -137,7 +171,13 @@ def deformations(u: FloatArray, dofs: np.ndarray) -> FloatArray:
 
 
 def _subject(
-    recording: Recording, group: ElementGroup, states: tuple[State, ...], order: TypeVerdict, seed: int
+    recording: Recording,
+    group: ElementGroup,
+    states: tuple[State, ...],
+    order: TypeVerdict,
+    seed: int,
+    patches: tuple[Patch, ...],
+    library: Library,
 ) -> Subject:
     assert group.definition is not None
     definition = group.definition
@@ -148,7 +188,7 @@ def _subject(
     scales = np.where(scales > 0.0, scales, np.where(dofs <= 3, 1e-4 * size, 1e-3))
     rng = np.random.default_rng(seed)
     random = tuple(shaken for state in states if _returns(shaken := _shaken(state, scales, rng)))
-    return Subject(group.type, recording, definition, order.elements, states, random, scales, order)
+    return Subject(group.type, recording, definition, order.elements, states, random, scales, order, patches, library)
 
 
 def _shaken(state: State, scales: FloatArray, rng: np.random.Generator) -> State:

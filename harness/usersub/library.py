@@ -33,11 +33,13 @@ class Library:
 
     uel, uelmat, umat, uvarm, sdvini, uexternaldb  addresses, None where the file does not have the routine
     name                      the file as the user named it, for messages
+    file                      the shared library
     entry_points              names of all user routines found
     """
 
-    def __init__(self, name: str, handle: ctypes.CDLL, inbox: Inbox) -> None:
+    def __init__(self, name: str, file: Path, handle: ctypes.CDLL, inbox: Inbox) -> None:
         self.name = name
+        self.file = file
         self._handle = handle  # keeps the library loaded
         self._inbox = inbox
         addresses = {entry: _address(handle, entry) for entry in ENTRY_POINTS}
@@ -89,7 +91,7 @@ def load(user: Path | Sequence[Path] | None, *, job: str, output_dir: Path, deck
     files = [] if user is None else [user] if isinstance(user, Path) else list(user)
     shared = _shared_library(files, () if deck is None else (deck.resolve().parent,))
     name = " ".join(str(f) for f in files) or "the project's kernels"
-    library = Library(name, _open(shared, name), Inbox(job, output_dir))
+    library = Library(name, shared, _open(shared, name), Inbox(job, output_dir))
     notes = notes_of(shared)
     for note in notes.read_text("utf-8").splitlines() if notes.exists() else ():
         library.warn(f"an extension of Abaqus' compiler, written in standard Fortran in a copy: {note}")

@@ -8,7 +8,25 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Final
 
-from harness.check.checks import memory, order, own_run, repeat, rotation, symmetry, tangent, translation, zero_modes
+from harness.check.checks import (
+    energy,
+    increments,
+    memory,
+    no_time,
+    order,
+    own_run,
+    patch_test,
+    pnewdt,
+    repeat,
+    requests,
+    rest,
+    rotation,
+    symmetry,
+    tangent,
+    threads,
+    translation,
+    zero_modes,
+)
 from harness.check.finding import Finding
 from harness.check.subject import Subject
 
@@ -32,10 +50,18 @@ CHECKS: Final = (
     Check("undeclared", memory.check_undeclared),
     Check("repeat", repeat.check),
     Check("order", order.check, calls=False),
+    Check("threads", threads.check),
+    Check("no-time", no_time.check),
+    Check("requests", requests.check),
+    Check("pnewdt", pnewdt.check),
     Check("tangent", tangent.check),
     Check("symmetry", symmetry.check),
     Check("translation", translation.check),
     Check("rotation", rotation.check),
     Check("zero-modes", zero_modes.check),
+    Check("rest", rest.check),
+    Check("patch", patch_test.check),
+    Check("energy", energy.check),
+    Check("increments", increments.check),
 )
 """All checks, in the order of the table: what invalidates later ones comes first."""

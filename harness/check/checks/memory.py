@@ -28,8 +28,7 @@ def check_filled(subject: Subject) -> Finding:
             except KernelError as error:
                 advice = (
                     "Set RHS and AMATRX to zero at the beginning of UEL (do i = 1, ndofel; rhs(i,1) = 0; ...), then "
-                    "add to "
-                    "them: Abaqus does not say what they hold on entry."
+                    "add to them: Abaqus does not say what they hold on entry."
                 )
                 return failed(str(error), advice)
     return passed(f"RHS and AMATRX are set at {len(subject.states)} states")
@@ -43,8 +42,7 @@ def check_outside(subject: Subject) -> Finding:
         except KernelError as error:
             advice = (
                 "In Abaqus this overwrites other data, and shows as wrong results or a segmentation fault elsewhere. "
-                "Compare "
-                "VARIABLES=, PROPERTIES= and the dofs of *USER ELEMENT with the largest indices that UEL uses."
+                "Compare VARIABLES=, PROPERTIES= and the dofs of *USER ELEMENT with the largest indices that UEL uses."
             )
             return failed(str(error), advice)
     return passed(f"nothing is written outside the arrays at {len(subject.states)} states")

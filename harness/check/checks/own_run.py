@@ -16,8 +16,7 @@ def check(subject: Subject) -> Finding:
         return passed(f"{recording.increments} increments of the deck")
     advice = (
         "Run the deck with `uel run` and look at the printed messages. NaN mostly comes from a division by zero or "
-        "the root "
-        "of a negative number at a state far from equilibrium: return PNEWDT < 1 there, and Abaqus tries a smaller "
-        "increment."
+        "the root of a negative number at a state far from equilibrium: return PNEWDT < 1 there, and Abaqus tries a "
+        "smaller increment."
     )
     return failed(str(failure), advice)

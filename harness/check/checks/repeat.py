@@ -26,9 +26,8 @@ def check(subject: Subject) -> Finding:
             advice = (
                 "Every iteration starts from the SVARS at the start of the increment, so what a call returns may "
                 "depend on its arguments alone. Look for SAVE, COMMON, module variables, local variables with an "
-                "initial value "
-                "in their declaration (which are saved) or without any value, and for sums over iterations; keep in "
-                "SVARS what an element has to remember."
+                "initial value in their declaration (which are saved) or without any value, and for sums over "
+                "iterations; keep in SVARS what an element has to remember."
             )
             return failed(message, advice)
     return passed(f"the same bits at {len(subject.states)} states, with other calls in between")

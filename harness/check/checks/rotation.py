@@ -44,9 +44,8 @@ def _judge(state: State, small: float, finite: float) -> Finding:
         return passed(f"linear kinematics, forces stay to {small:.1e}", small, TOLERANCE)
     if small <= TOLERANCE:
         message = (
-            f"{state}: the step has NLGEOM, and a rotation by {degrees} degrees makes forces of "
-            f"{100 * finite:.3g} % of "
-            "what the stiffness would make of it; the kinematics are linear"
+            f"{state}: the step has NLGEOM, and a rotation by {degrees} degrees makes forces of {100 * finite:.3g} % "
+            "of what the stiffness would make of it; the kinematics are linear"
         )
         advice = (
             "The element has linear kinematics: run it without NLGEOM, or let it follow LFLAGS(2) = 1 with a strain "
@@ -55,15 +54,14 @@ def _judge(state: State, small: float, finite: float) -> Finding:
         return failed(message, advice, figure=finite, limit=TOLERANCE)
     figure = finite if nlgeom else min(small, finite)
     message = (
-        f"{state}: a rigid rotation makes forces: {100 * small:.3g} % of what the stiffness would make of it "
-        f"for linear kinematics, {100 * finite:.3g} % for finite ones and {degrees} degrees"
+        f"{state}: a rigid rotation makes forces: {100 * small:.3g} % of what the stiffness would make of it for "
+        f"linear kinematics, {100 * finite:.3g} % for finite ones and {degrees} degrees"
     )
     advice = (
         "Look at the strain-displacement matrix: shear takes both derivatives, du/dy + dv/dx, and the local frame has "
-        "to be "
-        "orthogonal; for a finite-strain element, look whether stress and strain refer to the same configuration. "
-        "Interface "
-        "elements with thickness, springs with a fixed direction, and axisymmetric elements fail here and are right."
+        "to be orthogonal; for a finite-strain element, look whether stress and strain refer to the same "
+        "configuration. Interface elements with thickness, springs with a fixed direction, and axisymmetric elements "
+        "fail here and are right."
     )
     return failed(message, advice, figure=figure, limit=TOLERANCE)
 

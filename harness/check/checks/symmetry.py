@@ -39,7 +39,6 @@ def check(subject: Subject) -> Finding:
     place = subject.definition.source
     advice = (
         f"Give UNSYMM to *USER ELEMENT ({place}), or make AMATRX symmetric if it ought to be. Without UNSYMM Abaqus "
-        "solves "
-        "with the symmetric part alone, and the rest of AMATRX is lost."
+        "solves with the symmetric part alone, and the rest of AMATRX is lost."
     )
     return failed(message, advice, figure=figure, limit=TOLERANCE, entries=(entry,))

@@ -96,17 +96,15 @@ def _advice(worst: _Worst, dofs: np.ndarray) -> str:
     if np.abs(given - factor * found).max() < ALIKE * abs(factor) * size:
         return (
             f"AMATRX is {factor:.6g} times what it has to be: look for a weight, thickness or Jacobian that only one "
-            "of "
-            "RHS and AMATRX has."
+            "of RHS and AMATRX has."
         )
     missing = _missing_coupling(given, found, dofs, dofs[smooth])
     if missing:
         return f"AMATRX holds nothing for {missing}: add the derivative of these forces by these unknowns."
     return (
         "Differentiate RHS again for these entries: terms from SVARS that change within the increment, from DU and "
-        "from "
-        "the derivative of the state are the usual ones to be missing. Newton's method needs the derivative of the RHS "
-        "that this call returns; an approximate AMATRX costs iterations and cutbacks, not accuracy."
+        "from the derivative of the state are the usual ones to be missing. Newton's method needs the derivative of "
+        "the RHS that this call returns; an approximate AMATRX costs iterations and cutbacks, not accuracy."
     )
 
 

@@ -10,7 +10,7 @@ import numpy as np
 
 from harness.check.finding import Finding, failed, not_applicable, passed
 from harness.check.motions import NO_BODY, body_of
-from harness.check.state import DYNAMIC, State
+from harness.check.state import State
 from harness.check.subject import Subject
 from harness.model.arrays import FloatArray
 
@@ -31,18 +31,15 @@ def check(subject: Subject) -> Finding:
                 figure = ratio
                 message = (
                     f"{state}: RHS({row + 1}) changes by {100 * ratio:.3g} % of what the stiffness would make of it "
-                    "when the "
-                    f"element moves by {body.size:.4g} in direction {direction + 1}"
+                    f"when the element moves by {body.size:.4g} in direction {direction + 1}"
                 )
     if figure <= TOLERANCE:
         return passed(f"forces stay to {figure:.1e}", figure, TOLERANCE)
     advice = (
         "Internal forces have to depend on differences of displacements: look for a node, or a shape function, that "
-        "is left "
-        "out (the derivatives of the shape functions sum up to zero), and for U used where a difference belongs. "
-        "Elements "
-        "that are fixed to the ground (a foundation, a spring to a fixed point) or axisymmetric fail here and are "
-        "right."
+        "is left out (the derivatives of the shape functions sum up to zero), and for U used where a difference "
+        "belongs. Elements that are fixed to the ground (a foundation, a spring to a fixed point) or axisymmetric "
+        "fail here and are right."
     )
     return failed(message, advice, figure=figure, limit=TOLERANCE)
 
@@ -51,7 +48,7 @@ def _added(subject: Subject, state: State, motion: FloatArray) -> tuple[float, i
     """Largest force that a motion adds, over what the stiffness makes of its parts, and the row."""
     here = state.evaluate()
     # in dynamics an element that moves has inertia: then it was elsewhere all the time
-    moved = state.carried(motion) if state.call.lflags[0] in DYNAMIC else state.moved(motion)
+    moved = state.carried(motion) if state.dynamic else state.moved(motion)
     change = np.abs(moved.evaluate().rhs[0] - here.rhs[0])
     return relative(change, subject.stiffness(state), motion)
 

@@ -10,7 +10,7 @@ import numpy as np
 
 from harness.check.finding import Finding, failed, not_applicable, passed
 from harness.check.motions import AT_REST, NO_BODY, ROTATIONS, Body, body_of
-from harness.check.state import DYNAMIC, State
+from harness.check.state import State
 from harness.check.subject import Subject
 from harness.model.arrays import FloatArray
 
@@ -26,7 +26,7 @@ def check(subject: Subject) -> Finding:
     body = body_of(subject, state)
     if body is None:
         return not_applicable(NO_BODY)
-    if state.call.lflags[0] in DYNAMIC:
+    if state.dynamic:
         return not_applicable("AMATRX holds mass in a dynamic step")
     chosen = body.displacement | np.isin(body.dofs, ROTATIONS)
     amatrx = state.evaluate().amatrx[np.ix_(chosen, chosen)]

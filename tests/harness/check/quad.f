@@ -7,16 +7,9 @@
       integer :: calls = 0
       end module
 
-      subroutine uel(rhs,amatrx,svars,energy,ndofel,nrhs,nsvars,props,nprops,coords,mcrd,nnode,u,du,v,a,jtype,time,dtime,kstep,
-     1 kinc,jelem,params,ndload,jdltyp,adlmag,predef,npredf,lflags,mlvarx,ddlmag,mdload,pnewdt,jprops,njprop,period)
-      use calls_so_far, only: calls
-      include 'ABA_PARAM.INC'
-      dimension rhs(mlvarx,*),amatrx(ndofel,ndofel),props(*),svars(*),energy(8),coords(mcrd,nnode),u(ndofel),du(mlvarx,*),
-     1 v(ndofel),a(ndofel),time(2),params(*),jdltyp(mdload,*),adlmag(mdload,*),ddlmag(mdload,*),predef(2,npredf,nnode),
-     2 lflags(*),jprops(*)
+      include '../uel.inc'
       dimension b(3,8),c(3,3),dn(2,4),xj(2,2),xi(4),eta(4),stress(3)
       data xi /-1,1,1,-1/, eta /-1,-1,1,1/
-      calls = calls + 1
       mistake = jprops(1)
       do i = 1, ndofel
         rhs(i,1) = 0
@@ -25,6 +18,7 @@
         end do
       end do
       energy(2) = 0
+      start = svars(1)
       if (lflags(3) == 4) return
       c = 0
       c(1,1) = props(1)/(1 - props(2)**2)
@@ -46,6 +40,7 @@
         xj = matmul(dn, transpose(coords(1:2,:)))
         det = xj(1,1)*xj(2,2) - xj(1,2)*xj(2,1)
         w = det*props(3)*4/points
+        if (mistake == 20) w = props(3)/4
         b = 0
         do n = 1, 4
           b(1,2*n-1) = (xj(2,2)*dn(1,n) - xj(1,2)*dn(2,n))/det
@@ -57,7 +52,9 @@
         rhs(1:8,1) = rhs(1:8,1) - w*matmul(transpose(b), stress)
         amatrx = amatrx + w*matmul(transpose(b), matmul(c, b))
         svars(3*k-2:3*k) = stress
-        energy(2) = energy(2) + 0.5d0*w*dot_product(stress, matmul(b, u))
+        half = 0.5d0
+        if (mistake == 21) half = 1
+        energy(2) = energy(2) + half*w*dot_product(stress, matmul(b, u))
       end do
       select case (mistake)
       case (4)   ! sign of AMATRX
@@ -77,7 +74,7 @@
       case (10)  ! a property that is not declared
         if (props(4) > 0.5d0) rhs(1:8,1) = 1.5d0*rhs(1:8,1)
       case (11)  ! what is left from other calls
-        svars(1) = calls
+        call count_calls(svars)
       case (12)  ! NaN
         if (kinc == 2) rhs(2,1) = sqrt(-1 - u(2)**2)
       case (13)  ! transposed, where the matrix is not symmetric
@@ -87,5 +84,38 @@
         amatrx(2:8:2,1:7:2) = 0
       case (15)  ! AMATRX left at zero
         amatrx = 0
+      case (16)  ! a scratch variable that threads share
+        call keep_number(jelem)
+      case (17)  ! a rate without a look at DTIME
+        rhs(1,1) = rhs(1,1) + 0*du(1,1)/dtime
+      case (18)  ! the number of the increment
+        rhs(1,1) = rhs(1,1) + 0*log(real(kinc))
+      case (19)  ! a force at rest
+        rhs(1,1) = rhs(1,1) + 1
+      case (22)  ! something is added in every increment
+        svars(1) = start + 1
+        rhs(1:8,1) = (1 + 0.01d0*svars(1))*rhs(1:8,1)
+        amatrx = (1 + 0.01d0*svars(1))*amatrx
+      case (23)  ! smaller increments, whatever this one has done
+        pnewdt = 0.5d0
+      case (24)
+        pnewdt = -1
+      case (25)  ! Newton's corrections too large
+        amatrx = 0.4d0*amatrx
+      case (26)  ! and the residual alone is another one
+        amatrx = 0.4d0*amatrx
+        if (lflags(3) == 5) rhs(1,1) = 0.9d0*rhs(1,1)
       end select
+      end
+
+      subroutine count_calls(svars)
+      use calls_so_far, only: calls
+      double precision svars(*)
+      calls = calls + 1
+      svars(1) = calls
+      end
+
+      subroutine keep_number(number)
+      common /scratch/ last
+      last = number
       end

@@ -41,7 +41,30 @@ MISTAKES = [
     (13, "tangent", "14 of 64 entries", "AMATRX is transposed"),
     (14, "tangent", "16 of 64 entries", "holds nothing for the forces at dof 2 and the unknowns at dof 1"),
     (15, "tangent", "64 of 64 entries are wrong by up to 100 %", "AMATRX is zero: fill it"),
+    (11, "threads", "write the same memory: CALLS of module CALLS_SO_FAR", "Make them local, without initial value"),
+    (16, "threads", "element 1 and others write the same memory: COMMON /SCRATCH/", "Make them local"),
+    (
+        17,
+        "no-time",
+        r"called with DTIME = 0 and DU = 0: .* RHS\(1\) is NaN",
+        "Divide by DTIME only where it is above zero",
+    ),
+    (18, "no-time", r"called with KINC = 0 and DU = 0: .* RHS\(1\) is NaN", "do not take KINC for an index"),
+    (19, "rest", r"RHS\(1\) is 1 in size with U = 0, DU = 0 and no loads", "Forces at rest move the model"),
+    (20, "patch", r"node 5, .* the forces of its 4 elements do not balance for u\d = x\d", "Look at the Jacobian"),
+    (21, "energy", r"ENERGY\(1\) to \(7\) grow by (.*), the work of the forces is", "A factor of 2 is a forgotten 1/2"),
+    (22, "increments", "made in two, and by 6.9 % when it is made in 16 and not in 8", "a rate without DTIME"),
+    (23, "pnewdt", "PNEWDT is 0.5 with DU = 0", "Set PNEWDT < 1 only for what this increment has done"),
+    (24, "pnewdt", "PNEWDT is -1", "PNEWDT multiplies DTIME"),
 ]
+
+ALONE = [
+    *((1, "filled"), (5, "tangent"), (9, "outside"), (10, "undeclared"), (16, "threads"), (17, "no-time")),
+    *((18, "no-time"), (20, "patch"), (21, "energy"), (24, "pnewdt")),
+]
+"""Mistakes that only one check is for."""
+
+OSCILLATORS = Path(__file__).parents[1] / "procedures" / "oscillators.f"
 
 
 def findings(deck, user=QUAD, **options):
@@ -51,7 +74,7 @@ def findings(deck, user=QUAD, **options):
 
 def test_element_without_mistakes_passes_all_checks(patch):
     found = findings(patch())
-    assert {name: finding.message for name, finding in found.items() if finding.verdict != Verdict.PASSED} == {}
+    assert [name for name, finding in found.items() if finding.verdict != Verdict.PASSED] == ["requests"]
     assert list(found) == [check.name for check in CHECKS]
 
 
@@ -81,6 +104,68 @@ def test_unsymm_that_is_declared(patch):
     assert re.search("unsymmetric, as UNSYMM says: 34.3 %", symmetry.message)
     symmetry = findings(patch(0, ("VARIABLES=12", "VARIABLES=12, UNSYMM")))["symmetry"]
     assert re.search("UNSYMM is not needed at these states", symmetry.message)
+
+
+def test_residual_alone(patch):
+    """Corrections that are too large need the line search, which asks for the residual alone."""
+    search = "*CONTROLS, PARAMETERS=LINE SEARCH\n4\n*END STEP"
+    requests = findings(patch(25, ("*END STEP", search)))["requests"]
+    assert requests.message == "LFLAGS(3): residual only (5)"
+    requests = findings(patch(26, ("*END STEP", search)))["requests"]
+    assert requests.verdict is Verdict.FAILED
+    assert re.search(r"RHS\(1\) is .* with LFLAGS\(3\) = 5, .* with 1", requests.message)
+    assert re.search("asks for RHS alone", requests.advice)
+
+
+OSCILLATOR = """\
+*NODE
+1, 0.
+2, 1.
+3, 2.
+*USER ELEMENT, TYPE=U1, NODES=2, COORDINATES=1, PROPERTIES=3, I PROPERTIES=1, VARIABLES=4
+1
+*ELEMENT, TYPE=U1, ELSET=ALL
+1, 1, 2
+2, 2, 3
+*UEL PROPERTY, ELSET=ALL
+4., 0.25, 1.
+0
+*STEP
+*DYNAMIC
+0.1, 0.3
+*BOUNDARY
+1, 1
+*CLOAD
+3, 1, 1.
+*END STEP
+"""
+
+
+@pytest.mark.parametrize(
+    "requests, wrong, message, advice",
+    [
+        ("", "", None, None),
+        ("4", "amatrx = 0", r"AMATRX is zero with LFLAGS\(3\) = 4", "or the element has no inertia"),
+        ("6", "amatrx = 2*amatrx", r"AMATRX differs between LFLAGS\(3\) = 4 and 6 by 0.25", "Both ask for the mass"),
+        ("4 6", "amatrx = -amatrx", "the mass matrix has a negative eigenvalue, -1 of", "whether the stiffness is"),
+    ],
+)
+def test_mass_matrix(tmp_path, requests, wrong, message, advice):
+    """The oscillators of the dynamic tests, with another mass matrix in some requests."""
+    source = OSCILLATORS.read_text().replace("'../uel.inc'", f"'{OSCILLATORS.parents[1] / 'uel.inc'}'")
+    lines = "".join(f"      if (lflags(3) .eq. {number}) {wrong}\n" for number in requests.split())
+    user, deck = tmp_path / "oscillators.f", tmp_path / "oscillators.inp"
+    head, end, _ = source.rpartition("      end\n")
+    user.write_text(head + lines + end)
+    deck.write_text(OSCILLATOR)
+    found = findings(deck, user)
+    if message is None:
+        assert found["requests"].message == "LFLAGS(3): mass (4 and 6)"
+        assert not [name for name, finding in found.items() if finding.verdict is Verdict.FAILED]
+        return
+    assert found["requests"].verdict is Verdict.FAILED
+    assert re.search(message, found["requests"].message), found["requests"].message
+    assert re.search(advice, found["requests"].advice)
 
 
 def test_linear_kinematics_with_nlgeom(patch):

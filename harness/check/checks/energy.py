@@ -1,0 +1,93 @@
+# SPDX-FileCopyrightText: The uel-harness authors
+# SPDX-License-Identifier: BSD-3-Clause
+"""ENERGY against the work of the forces."""
+
+from __future__ import annotations
+
+from typing import Final
+
+import numpy as np
+
+from harness.check.checks.rest import MECHANICAL
+from harness.check.finding import Finding, failed, not_applicable, passed
+from harness.check.state import State
+from harness.check.subject import Subject
+
+SHARES: Final = 1.0, 0.1, 0.01, 0.001
+"""Of the increment: the work is that of the trapezoidal rule, which is right for small increments."""
+
+TOLERANCE: Final = 1e-2
+"""Of the work."""
+
+LEAST: Final = 1e-8
+"""Work below this part of sum |force| |displacement| is what rounding makes of it."""
+
+STORED: Final = slice(0, 7)
+"""Entries of ENERGY that add up to the internal energy; ENERGY(8) is the work of loads."""
+
+
+def check(subject: Subject) -> Finding:
+    """The sum of ENERGY(1) to ENERGY(7) grows by the work of the internal forces."""
+    reason = _reason_against(subject)
+    if reason:
+        return not_applicable(reason)
+    figure, message, judged = 0.0, "", 0
+    for state in subject.all_states:
+        pairs = [pair for share in SHARES if (pair := _stored_and_work(state, share)) is not None]
+        if not pairs:
+            continue
+        judged += 1
+        stored, work = min(pairs, key=_deviation)
+        if _deviation((stored, work)) > figure:
+            figure = _deviation((stored, work))
+            message = f"{state}: ENERGY(1) to (7) grow by {stored:.5g}, the work of the forces is {work:.5g}"
+    if not judged:
+        return not_applicable("no work is done at the states")
+    if figure <= TOLERANCE:
+        return passed(f"ENERGY grows by the work at {judged} states, to {100 * figure:.1e} %", figure, TOLERANCE)
+    advice = (
+        "ENERGY(2) is elastic strain energy (1/2 stress times strain, times volume), (3) to (6) take what creep, "
+        "plasticity, viscosity and stabilisation have dissipated since the start, in the increment added to the value "
+        "on entry. A factor of 2 is a forgotten 1/2. Forces that come from elsewhere (bulk elements beside an "
+        "interface) are not stored here."
+    )
+    return failed(message, advice, figure=figure, limit=TOLERANCE)
+
+
+def _reason_against(subject: Subject) -> str:
+    """Why work and ENERGY cannot be compared; '' if they can."""
+    states = subject.all_states
+    if (subject.dofs > MECHANICAL).any():
+        return "dofs that are no displacements or rotations"
+    if any(state.dynamic for state in states):
+        return "a dynamic step, in which RHS holds inertia"
+    if any(state.call.distributed is not None or state.call.predefined is not None for state in states):
+        return "distributed loads or predefined fields, whose work is not known"
+    if not any(state.evaluate().energy[STORED].any() for state in states):
+        return "ENERGY is not set"
+    if any(_depends_on_time(state) for state in states):
+        return "the forces depend on DTIME"
+    return ""
+
+
+def _depends_on_time(state: State) -> bool:
+    here = state.evaluate().rhs[0]
+    slower = state.called(time_increment=3.0 * state.call.time_increment).evaluate().rhs[0]
+    return bool(np.abs(slower - here).max() > 1e-9 * np.abs(here).max())
+
+
+def _stored_and_work(state: State, share: float) -> tuple[float, float] | None:
+    """Growth of the energy and work of the internal forces over a part of the increment; None where both are "
+    "nothing."""
+    start, end = state.part(0.0).evaluate(), state.part(share).evaluate()
+    forces, motion = -0.5 * (start.rhs[0] + end.rhs[0]), share * state.du
+    work = float(forces @ motion)
+    stored = float(end.energy[STORED].sum() - start.energy[STORED].sum())
+    rounding = 1e-10 * float(np.abs(start.energy[STORED]).sum())
+    if max(abs(work), abs(stored)) <= LEAST * float(np.abs(forces) @ np.abs(motion)) + rounding:
+        return None
+    return stored, work
+
+
+def _deviation(pair: tuple[float, float]) -> float:
+    return abs(pair[0] - pair[1]) / max(abs(pair[0]), abs(pair[1]))

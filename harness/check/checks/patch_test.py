@@ -1,0 +1,65 @@
+# SPDX-FileCopyrightText: The uel-harness authors
+# SPDX-License-Identifier: BSD-3-Clause
+"""Patch test: displacements that are linear in space leave no force at a node inside of the mesh."""
+
+from __future__ import annotations
+
+from typing import Final
+
+import numpy as np
+
+from harness.check.finding import Finding, failed, not_applicable, passed
+from harness.check.motions import NO_BODY, Body, body_of
+from harness.check.state import State
+from harness.check.subject import Subject
+from harness.model.arrays import FloatArray
+
+TOLERANCE: Final = 1e-8
+"""Of the forces that the single elements make there."""
+
+
+def check(subject: Subject) -> Finding:
+    """At nodes of the deck, from rest, with every displacement gradient as large as the strains of the run."""
+    if not subject.patches:
+        return not_applicable("no node of the deck lies inside of elements of the type, as in a patch of four quads")
+    if any(state.call.predefined is not None for patch in subject.patches for state in patch.states):
+        return not_applicable("predefined fields, which make forces of their own")
+    figure, message = 0.0, ""
+    for patch in subject.patches:
+        bodies = [body_of(subject, state) for state in patch.states]
+        if any(body is None or body.coincident for body in bodies):
+            return not_applicable(NO_BODY)
+        members = [(state, body) for state, body in zip(patch.states, bodies, strict=True) if body is not None]
+        first = members[0][1]
+        strain = float(subject.scales[first.displacement].max()) / first.size
+        for i, j in np.ndindex(first.dimensions, first.dimensions):
+            forces = [_forces(*member, patch.node, (i, j), strain) for member in members]
+            size = float(np.abs(forces).max()) or 1.0
+            ratio = float(np.abs(np.sum(forces, axis=0)).max()) / size
+            if ratio > figure:
+                figure = ratio
+                name = subject.recording.model.mesh.name(patch.node)
+                message = (
+                    f"node {name}, {patch.states[0].origin}: the forces of its {len(forces)} elements do not balance "
+                    f"for u{i + 1} = x{j + 1} times a constant, {100 * ratio:.3g} % is left"
+                )
+    if figure <= TOLERANCE:
+        return passed(f"forces balance at {len(subject.patches)} nodes, to {figure:.1e}", figure, TOLERANCE)
+    advice = (
+        "An element that does not pass does not converge to the solution. Look at the Jacobian (the elements are "
+        "distorted), at the weights and places of the integration points, and for incompatible modes at their "
+        "correction."
+    )
+    return failed(message, advice, figure=figure, limit=TOLERANCE)
+
+
+def _forces(state: State, body: Body, node: int, gradient: tuple[int, int], strain: float) -> FloatArray:
+    """Forces of an element at a node for a displacement gradient of this size alone."""
+    i, j = gradient
+    moved = body.displacement & (body.axis == i)
+    field = np.zeros(len(body.axis))
+    field[moved] = strain * body.points[body.local[moved], j]
+    still = state.still()
+    rhs = still.moved(field).evaluate().rhs[0] - still.evaluate().rhs[0]
+    mine = body.displacement & (state.single.block.group.nodes[0][body.local] == node)
+    return np.array([rhs[mine & (body.axis == direction)].sum() for direction in range(body.dimensions)])

@@ -1,0 +1,49 @@
+# SPDX-FileCopyrightText: The uel-harness authors
+# SPDX-License-Identifier: BSD-3-Clause
+"""No displacements, no loads, no fields: no forces."""
+
+from __future__ import annotations
+
+from typing import Final
+
+import numpy as np
+
+from harness.check.finding import Finding, failed, not_applicable, passed
+from harness.check.motions import AT_REST
+from harness.check.subject import Subject
+from harness.model.arrays import FloatArray
+
+TOLERANCE: Final = 1e-9
+"""Of the forces that the displacements of the run make."""
+
+MECHANICAL: Final = 6
+"""Largest dof whose reaction is a force or a moment."""
+
+
+def check(subject: Subject) -> Finding:
+    """RHS with U = 0 and DU = 0 before anything has happened."""
+    states = [state for state in subject.states if not state.u.any() and state.call.predefined is None]
+    mechanical = subject.dofs <= MECHANICAL
+    if not states or not mechanical.any():
+        return not_applicable(AT_REST if mechanical.any() else "no displacements or rotations among the dofs")
+    figure, message = 0.0, ""
+    for state in states:
+        forces = np.where(mechanical, np.abs(state.still().evaluate().rhs[0]), 0.0)
+        row = int(forces.argmax())
+        ratio = float(forces[row]) / _usual(subject.stiffness(state), subject.scales)
+        if ratio > figure:
+            figure = ratio
+            message = f"{state}: RHS({row + 1}) is {forces[row]:.4g} in size with U = 0, DU = 0 and no loads"
+    if figure <= TOLERANCE:
+        return passed(f"no forces without displacements, to {figure:.1e}", figure, TOLERANCE)
+    advice = (
+        "Forces at rest move the model before it is loaded. Look for initial values that are not in SVARS yet in the "
+        "first call (SVARS are zero then), and for body forces or stresses that are always on; stresses that are "
+        "meant to be there from the start are right."
+    )
+    return failed(message, advice, figure=figure, limit=TOLERANCE)
+
+
+def _usual(stiffness: FloatArray, scales: FloatArray) -> float:
+    """Largest force of the displacements of the run."""
+    return float((stiffness @ scales).max()) or 1.0
