@@ -151,8 +151,10 @@ def add_reproduce(reproduce: argparse.ArgumentParser) -> None:
 def add_check(check: argparse.ArgumentParser) -> None:
     """Options of `uel check`."""
     check.epilog = "Exit code: 0 all passed, 1 a check failed, 2 nothing could be checked."
-    check.add_argument("files", nargs="+", type=Path, metavar="FILE", help="the deck (.inp), and user elements")
-    check.add_argument("--user", type=Path, metavar="FILE", help="user elements, as for `uel run`; ours by default")
+    check.add_argument("files", nargs="+", type=Path, metavar="FILE", help="the deck (.inp), and user routines")
+    check.add_argument(
+        "--user", type=Path, action="append", default=[], metavar="FILE", help="as for `uel run`; ours by default"
+    )
     check.add_argument("--shuffle", action="store_true", help="only the check of the calling order, in detail")
     check.add_argument(
         "--skip", action="append", default=[], metavar="CHECK", help="leave out a check (may be repeated)"

@@ -43,12 +43,10 @@ def check(options: argparse.Namespace, console: Console) -> int:
     return int(not outcome.passed)
 
 
-def deck_and_user(files: list[Path], user: Path | None) -> tuple[Path, Path | None]:
-    """Which of the files is the deck and which the user's. Raises UelError."""
+def deck_and_user(files: list[Path], user: list[Path]) -> tuple[Path, list[Path]]:
+    """Which of the files is the deck and which are the user's. Raises UelError."""
     decks = [file for file in files if file.suffix.lower() == ".inp"]
-    others = [file for file in files if file not in decks] + ([user] if user else [])
+    others = [file for file in files if file not in decks] + user
     if len(decks) != 1:
         raise UelError(f"expected one deck (.inp), found {len(decks)}")
-    if len(others) > 1:
-        raise UelError(f"expected one file of user elements, found {', '.join(map(str, others))}")
-    return decks[0], others[0] if others else None
+    return decks[0], others

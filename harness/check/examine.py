@@ -4,7 +4,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection
+from collections.abc import Collection, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Final
@@ -39,7 +39,7 @@ class Examination:
     """
 
     deck: Path
-    user: Path | None
+    user: tuple[Path, ...]
     increments: int
     stopped: str
     seed: int
@@ -53,19 +53,20 @@ class Examination:
 
 
 def examine(
-    deck: Path, user: Path | None = None, *, seed: int = 1, increments: int = 3, skip: Collection[str] = ()
+    deck: Path, user: Path | Sequence[Path] = (), *, seed: int = 1, increments: int = 3, skip: Collection[str] = ()
 ) -> Examination:
     """Run the first increments of a deck and check every user element type in it.
 
     skip: names of checks that are left out. Raises UelError where nothing can be checked: the deck or the user's file
     is wrong, the first call of the elements fails, or the deck has no user elements.
     """
+    files = (user,) if isinstance(user, Path) else tuple(user)
     known = [check.name for check in CHECKS]
     for name in skip:
         if name not in known:
             raise UelError(f"no check is called '{name}'; there are {', '.join(known)}")
     with marks(LENIENT):
-        recording = record(deck, user, increments, strict=False)
+        recording = record(deck, files, increments, strict=False)
         users = {group.type for group in recording.model.groups if group.definition is not None}
         if not users:
             raise UelError(f"{deck}: no elements of a type defined by *USER ELEMENT, which are what is checked")
@@ -74,7 +75,7 @@ def examine(
             if order.type in users:
                 with subject_of(recording, order.type, order, seed) as subject:
                     types.append(_examine_type(subject, skip))
-    return Examination(deck, user, recording.increments, recording.stopped, seed, tuple(types))
+    return Examination(deck, files, recording.increments, recording.stopped, seed, tuple(types))
 
 
 def _examine_type(subject: Subject, skip: Collection[str]) -> TypeReport:

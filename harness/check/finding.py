@@ -12,7 +12,7 @@ class Verdict(StrEnum):
     """Outcome of a check."""
 
     PASSED = "passed"
-    FAILED = "FAILED"
+    FAILED = "failed"
     NOT_APPLICABLE = "not applicable"
 
 

@@ -70,7 +70,7 @@ Event = Pass | Commit | External
 class Recording:
     """A run of a deck, as the user routines saw it.
 
-    user        the user's file, None for the project's elements
+    user        the user's files, none for the project's elements
     events      in the order in which they happened
     equations   (m, unknowns of an element) position in U of each element unknown, per group
     increments  that converged
@@ -79,7 +79,7 @@ class Recording:
     """
 
     model: Model
-    user: Path | None
+    user: tuple[Path, ...]
     events: tuple[Event, ...]
     equations: tuple[IntArray, ...]
     increments: int
@@ -88,17 +88,17 @@ class Recording:
 
 
 @contextmanager
-def opened(model: Model, user: Path | None) -> Iterator[Library]:
+def opened(model: Model, user: Sequence[Path]) -> Iterator[Library]:
     """The user routines, freshly loaded; what they print goes to a folder that is removed."""
     with tempfile.TemporaryDirectory() as folder:
-        library = usersub.load(user, job=model.deck.stem, output_dir=Path(folder), deck=model.deck)
+        library = usersub.load(user or None, job=model.deck.stem, output_dir=Path(folder), deck=model.deck)
         try:
             yield library
         finally:
             library.close()
 
 
-def record(deck: Path, user: Path | None, increments: int, *, strict: bool = True) -> Recording:
+def record(deck: Path, user: Sequence[Path], increments: int, *, strict: bool = True) -> Recording:
     """Run the first increments of a deck in Abaqus' order.
 
     A run that ends without convergence is recorded up to there. Raises the other errors of a run; if not strict, only
@@ -121,7 +121,7 @@ def record(deck: Path, user: Path | None, increments: int, *, strict: bool = Tru
                 raise
             stopped, failure = str(error), error if isinstance(error, KernelError) else None
         equations = tuple(system.dofs.equations_of(block).astype(np.int64) for block in system.blocks)
-    return Recording(model, user, tuple(events), equations, done, stopped, failure)
+    return Recording(model, tuple(user), tuple(events), equations, done, stopped, failure)
 
 
 class _RecordedSystem(System):

@@ -26,12 +26,16 @@ def table(outcome: Examination) -> Group:
         title = f"{outcome.deck.name}: {report.type}, elements: {report.elements}, states: {report.states}"
         shown = Table("check", "verdict", "finding", title=escape(title), title_justify="left")
         for name, finding in report.findings.items():
-            shown.add_row(name, Text(finding.verdict, _STYLES[finding.verdict]), Text(finding.message))
+            shown.add_row(name, _cell(finding.verdict), Text(finding.message))
         parts.append(shown)
         parts += _advice(report)
     if outcome.stopped:
         parts.append(Text(f"The run of the deck ended early: {outcome.stopped}"))
     return Group(*parts)
+
+
+def _cell(verdict: Verdict) -> Text:
+    return Text(verdict.upper() if verdict is Verdict.FAILED else verdict, _STYLES[verdict])
 
 
 def _advice(report: TypeReport) -> list[Text]:
@@ -46,7 +50,7 @@ def as_json(outcome: Examination) -> str:
     """All findings, for other programs."""
     data = {
         "deck": str(outcome.deck),
-        "user": None if outcome.user is None else str(outcome.user),
+        "user": [str(file) for file in outcome.user],
         "increments": outcome.increments,
         "stopped": outcome.stopped,
         "seed": outcome.seed,

@@ -10,6 +10,7 @@ Two elements at the same time, as threads call them, are not tried.
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Final
@@ -79,7 +80,7 @@ class Shuffled:
         return all(kind.passed for kind in self.types)
 
 
-def shuffle(deck: Path, user: Path | None = None, *, seed: int = 1, increments: int = 3) -> Shuffled:
+def shuffle(deck: Path, user: Sequence[Path] = (), *, seed: int = 1, increments: int = 3) -> Shuffled:
     """Replay the first increments of a deck in random orders. Raises UelError where it fails in Abaqus' order."""
     return shuffle_recording(record(deck, user, increments), seed)
 
@@ -136,7 +137,7 @@ def report(outcome: Shuffled) -> Group:
         table.add_row(kind.type, str(kind.elements), str(kind.calls), kind.verdict, Text(first))
     lines = [f"The run ended early: {recording.stopped}"] if recording.stopped else []
     lines += [str(kind.refusal) for kind in outcome.types if kind.refusal is not None]
-    lines += [advice_on_order(kind, ours=recording.user is None) for kind in outcome.types if not kind.passed]
+    lines += [advice_on_order(kind, ours=not recording.user) for kind in outcome.types if not kind.passed]
     return Group(table, *(Text(line) for line in lines))
 
 

@@ -101,7 +101,7 @@ class Subject:
     @property
     def advice_is_ours(self) -> bool:
         """The element is one of the project's."""
-        return self.recording.user is None
+        return not self.recording.user
 
 
 @contextmanager

@@ -229,7 +229,6 @@ def test_run_that_ends_early_is_said(patch, capsys):
     [
         (["a.for"], r"expected one deck \(.inp\), found 0"),
         (["a.inp", "b.inp"], r"expected one deck \(.inp\), found 2"),
-        (["a.inp", "a.for", "--user", "b.for"], "expected one file of user elements, found a.for, b.for"),
         ([str(DECKS / "quad_cook" / "cook_cps4.inp")], "no elements of a type defined by .USER ELEMENT"),
     ],
 )

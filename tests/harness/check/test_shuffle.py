@@ -80,7 +80,7 @@ def test_four_node_element_is_refused(capsys):
     "array, entry", [(1, "RHS(2)"), (2, "AMATRX(1,2)"), (3, "SVARS(2)"), (4, "ENERGY(2)"), (5, "PNEWDT")]
 )
 def test_hidden_counter_is_found_in_every_array(chain, array, entry):
-    outcome = shuffle(chain(array), COUNTER, increments=1)
+    outcome = shuffle(chain(array), [COUNTER], increments=1)
     (springs,) = outcome.types
     assert not outcome.passed
     assert f"step 1, increment 1: {entry} is " in springs.first
@@ -93,7 +93,7 @@ def test_arc_length_method(chain, array, first):
     deck = chain(array)
     text = deck.read_text().replace("*STATIC, DIRECT\n0.5, 1.", "*STATIC, RIKS\n0.5, 1., , , 1.")
     deck.write_text(text.replace(f"{SPRINGS + 1}, 1, 1, 0.8", f"*CLOAD\n{SPRINGS + 1}, 1, 0.1"))
-    (springs,) = shuffle(deck, COUNTER).types
+    (springs,) = shuffle(deck, [COUNTER]).types
     assert springs.calls > 0
     assert springs.passed == (array == 0)
     assert first in springs.first
@@ -101,7 +101,7 @@ def test_arc_length_method(chain, array, first):
 
 def test_values_of_the_first_difference(chain):
     """The mass pass counts SPRINGS calls; element k is then the k-th one in Abaqus' order."""
-    (springs,) = shuffle(chain(3), COUNTER, increments=1).types
+    (springs,) = shuffle(chain(3), [COUNTER], increments=1).types
     found = re.fullmatch(r"element (\d+), .* is (\d+) in Abaqus' order, (\d+) in random order 1", springs.first)
     element, expected, other = map(int, found.groups())
     assert expected == SPRINGS + element
@@ -124,7 +124,7 @@ def test_user_element_that_ends_the_analysis(chain, capsys):
 
 
 def test_element_without_the_fault_passes(chain):
-    assert shuffle(chain(0), COUNTER).passed
+    assert shuffle(chain(0), [COUNTER]).passed
 
 
 def test_run_that_fails_to_converge_is_checked_up_to_there(chain, capsys):
@@ -150,7 +150,7 @@ def test_numbers_below_one(option, capsys):
 
 def test_replay_makes_the_calls_of_the_run():
     """The sum of what single elements return in a replay is what the system assembles from the same pass."""
-    recording = record(PATCH / "flat_u4.inp", None, 1)
+    recording = record(PATCH / "flat_u4.inp", (), 1)
     replayed = list(replay(recording, abaqus_order))
     assert [results.made for _, results in replayed] == [e for e in recording.events if isinstance(e, Pass)]
     elements, last = replayed[-1]
@@ -158,7 +158,7 @@ def test_replay_makes_the_calls_of_the_run():
     sums = np.zeros(last.made.u.size)
     for start, row in zip(elements.starts, numbers, strict=False):
         np.add.at(sums, row, last.values[start : start + len(row)])
-    with opened(recording.model, None) as library:
+    with opened(recording.model, ()) as library:
         system = System(recording.model.mesh, build_blocks(recording.model, library))
         assembled = system.evaluate(last.made.call, last.made.u, last.made.du)
     np.testing.assert_allclose(sums, assembled.residual, rtol=0, atol=1e-9 * np.abs(assembled.residual).max())
@@ -167,7 +167,7 @@ def test_replay_makes_the_calls_of_the_run():
 
 def test_replay_goes_on_from_the_committed_state(chain):
     """SVARS(1) adds up the elongations of the increments: 0.8 of the chain in the end, the same in every spring."""
-    *_, (elements, last) = replay(record(chain(0), COUNTER, 2), np.random.default_rng(1).permutation)
+    *_, (elements, last) = replay(record(chain(0), [COUNTER], 2), np.random.default_rng(1).permutation)
     first_of_svars = 2 + 4
     elongations = last.values[elements.starts[:-1] + first_of_svars]
     np.testing.assert_allclose(elongations, 0.8 / SPRINGS, rtol=1e-12)
