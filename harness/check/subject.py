@@ -5,7 +5,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from contextlib import closing, contextmanager
+from contextlib import closing, contextmanager, suppress
 from dataclasses import dataclass, field, replace
 from typing import Final
 
@@ -16,6 +16,7 @@ from harness.check.patch import patches_of
 from harness.check.recording import Pass, Recording
 from harness.check.replay import Elements, abaqus_order, replay
 from harness.check.shuffle import TypeVerdict
+from harness.check.single import Returned
 from harness.check.state import State, state_of
 from harness.errors import KernelError
 from harness.model.arrays import FloatArray
@@ -49,6 +50,7 @@ class Subject:
     recording   the run of the deck
     elements    of this type in the model
     states      from the run; the first ones are of the first pass, before anything has moved
+    returned    what they returned in the run
     random      the same with random displacements, as large as the deformations of the run
     scales      (n,) what a displacement, rotation, temperature is in this run, for each unknown
     order       what random orders of calling gave
@@ -61,6 +63,7 @@ class Subject:
     definition: UserElement
     elements: int
     states: tuple[State, ...]
+    returned: tuple[Returned, ...]
     random: tuple[State, ...]
     scales: FloatArray
     order: TypeVerdict
@@ -113,7 +116,7 @@ def subject_of(recording: Recording, kind: str, order: TypeVerdict, seed: int) -
     made = [event for event in recording.events if isinstance(event, Pass) and event.normal]
     chosen = {id(made[k]) for k in np.unique(np.linspace(0, len(made) - 1, PASSES).astype(int))}
     group = next(group for group in recording.model.groups if group.type == kind)
-    states: list[State] = []
+    states: list[tuple[State, Returned]] = []
     patches: tuple[Patch, ...] = ()
     with closing(replay(recording, abaqus_order, strict=False)) as passes:
         for elements, results in passes:
@@ -123,8 +126,8 @@ def subject_of(recording: Recording, kind: str, order: TypeVerdict, seed: int) -
                 states += _states(elements, kind, results.made, made[-1])
             if results.made is made[-1]:
                 break
-        states = [state for state in states if _returns(state)]
-        yield _subject(recording, group, tuple(states), order, seed, patches, elements.library)
+        states = [pair for pair in states if _returns(pair[0])]
+        yield _subject(recording, group, states, order, seed, patches, elements.library)
 
 
 def _patches(recording: Recording, group: ElementGroup, elements: Elements, made: Pass) -> tuple[Patch, ...]:
@@ -140,15 +143,17 @@ def _patches(recording: Recording, group: ElementGroup, elements: Elements, made
     )
 
 
-def _states(elements: Elements, kind: str, made: Pass, last: Pass) -> Iterator[State]:
-    """Of the most deformed element of a type and of others."""
+def _states(elements: Elements, kind: str, made: Pass, last: Pass) -> Iterator[tuple[State, Returned]]:
+    """Of the most deformed element of a type and of others, with what they return now."""
     positions = np.flatnonzero(elements.types == kind)
     dofs = np.array([dof for _, dof in elements.singles[positions[0]].block.unknowns])
     deformation = [deformations(last.u[elements.equations[position]], dofs).max() for position in positions]
     most = positions[int(np.argmax(deformation))]
     spread = positions[np.unique(np.linspace(0, len(positions) - 1, ELEMENTS - 1).astype(int))]
     for position in dict.fromkeys([int(most), *spread.tolist()]):
-        yield state_of(elements.singles[position], made, elements.equations[position])
+        state = state_of(elements.singles[position], made, elements.equations[position])
+        with suppress(KernelError):
+            yield state, state.evaluate()
 
 
 def _returns(state: State) -> bool:
@@ -173,7 +178,7 @@ def deformations(u: FloatArray, dofs: np.ndarray) -> FloatArray:
 def _subject(
     recording: Recording,
     group: ElementGroup,
-    states: tuple[State, ...],
+    called: list[tuple[State, Returned]],
     order: TypeVerdict,
     seed: int,
     patches: tuple[Patch, ...],
@@ -181,6 +186,7 @@ def _subject(
 ) -> Subject:
     assert group.definition is not None
     definition = group.definition
+    states, returned = tuple(state for state, _ in called), tuple(found for _, found in called)
     dofs = np.array([dof for _, dof in definition.dofs])
     scales = np.max([np.zeros(len(dofs)), *(deformations(state.u, dofs) for state in states)], axis=0)
     size = diagonal(recording.model.mesh.coordinates[group.nodes[0]])
@@ -188,7 +194,9 @@ def _subject(
     scales = np.where(scales > 0.0, scales, np.where(dofs <= 3, 1e-4 * size, 1e-3))
     rng = np.random.default_rng(seed)
     random = tuple(shaken for state in states if _returns(shaken := _shaken(state, scales, rng)))
-    return Subject(group.type, recording, definition, order.elements, states, random, scales, order, patches, library)
+    return Subject(
+        group.type, recording, definition, order.elements, states, returned, random, scales, order, patches, library
+    )
 
 
 def _shaken(state: State, scales: FloatArray, rng: np.random.Generator) -> State:

@@ -13,8 +13,7 @@ from harness.errors import KernelError
 def check(subject: Subject) -> Finding:
     """As in the iterations of an increment: other U in between, SVARS on entry always those of its start."""
     others = subject.states[0], subject.states[-1], *subject.random[:2]
-    for state in subject.states:
-        first = state.evaluate()
+    for state, first in zip(subject.states, subject.returned, strict=True):
         for between in others:
             try:
                 between.evaluate()
@@ -22,7 +21,7 @@ def check(subject: Subject) -> Finding:
                 continue
         difference = first_difference(first, state.evaluate())
         if difference:
-            message = f"{state}: the same call twice, with others in between, returns other values: {difference}"
+            message = f"{state}: the same call returns other values after others than in the run: {difference}"
             advice = (
                 "Every iteration starts from the SVARS at the start of the increment, so what a call returns may "
                 "depend on its arguments alone. Look for SAVE, COMMON, module variables, local variables with an "
@@ -30,4 +29,4 @@ def check(subject: Subject) -> Finding:
                 "iterations; keep in SVARS what an element has to remember."
             )
             return failed(message, advice)
-    return passed(f"the same bits at {len(subject.states)} states, with other calls in between")
+    return passed(f"the same bits as in the run at {len(subject.states)} states, after other calls")

@@ -4,15 +4,29 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+from contextlib import suppress
+from typing import Final
+
 import numpy as np
 
 from harness.check.finding import Finding, failed, not_applicable, passed
 from harness.check.state import State
 from harness.check.static_memory import Variable, variables_of
 from harness.check.subject import Subject
+from harness.errors import KernelError
+
+ROUNDS: Final = 8
+"""Calls of each element."""
+
+GROWTH: Final = 1.5
+"""Of the displacements from call to call."""
+
+WORD: Final = 4
+"""Bytes that are one value, or half of it."""
 
 Changes = dict[str, set[int]]
-"""Bytes that calls have changed, by variable."""
+"""Words that calls have changed, by variable."""
 
 
 def check(subject: Subject) -> Finding:
@@ -21,12 +35,12 @@ def check(subject: Subject) -> Finding:
     if variables is None:
         return not_applicable("the symbols of the library cannot be read")
     first = subject.states[0].single.name
-    mine = [state for state in subject.all_states if state.single.name == first]
-    theirs = [state for state in subject.all_states if state.single.name != first]
-    changed, others = _changes(variables, mine, theirs or mine)
+    mine = subject.states[0]
+    theirs = next((state for state in subject.states if state.single.name != first), None)
+    changed, others = _changes(variables, _growing(subject, mine, 1), _growing(subject, theirs or mine, 2))
     if not changed and not others:
         return passed("no variable that outlives a call is changed by one")
-    if not theirs:
+    if theirs is None:
         return not_applicable(f"calls change {', '.join(sorted(changed))}; there is no second element to compare with")
     common = sorted(name for name in changed if changed[name] & others.get(name, set()))
     if not common:
@@ -40,16 +54,24 @@ def check(subject: Subject) -> Finding:
     return failed(message, advice, entries=tuple(common))
 
 
-def _changes(variables: list[Variable], mine: list[State], theirs: list[State]) -> tuple[Changes, Changes]:
-    """What calls of either change after calls of the other."""
+def _growing(subject: Subject, state: State, seed: int) -> Iterator[State]:
+    """Ever larger random displacements: what keeps the largest value of all calls changes too."""
+    rng = np.random.default_rng(seed)
+    for number in range(ROUNDS):
+        yield state.moved(GROWTH**number * subject.scales * rng.uniform(-1.0, 1.0, len(subject.scales)))
+
+
+def _changes(variables: list[Variable], mine: Iterator[State], theirs: Iterator[State]) -> tuple[Changes, Changes]:
+    """What calls of either change, made in turn."""
     changed: tuple[Changes, Changes] = {}, {}
     before = [variable.bytes() for variable in variables]
-    for k in range(max(len(mine), len(theirs))):
-        for side, states in enumerate((mine, theirs)):
-            states[k % len(states)].evaluate()
+    for pair in zip(mine, theirs, strict=True):
+        for side, state in enumerate(pair):
+            with suppress(KernelError):
+                state.evaluate()
             after = [variable.bytes() for variable in variables]
             for variable, old, new in zip(variables, before, after, strict=True):
-                if places := np.flatnonzero(old != new).tolist():
+                if places := (np.flatnonzero(old != new) // WORD).tolist():
                     changed[side].setdefault(variable.name, set()).update(places)
             before = after
     return changed
