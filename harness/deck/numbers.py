@@ -4,7 +4,6 @@
 
 from __future__ import annotations
 
-import math
 import re
 
 import numpy as np
@@ -17,16 +16,20 @@ _INTEGER = re.compile(r"[+-]?\d+(?:\.0*)?", re.ASCII)
 # float() and int() read these too: 1_000, nan, inf, and digits of other scripts
 _NOT_PLAIN = re.compile(r"[_a-df-zA-DF-Z]|[^\x00-\x7f]")
 LARGEST_INTEGER = 2**31 - 1
+LARGEST, SMALLEST = 1e100, 1e-100
+"""Sizes of real numbers: their cubes are numbers as well, and so are the reciprocals."""
 
 
 def read_real(text: str) -> float:
-    """A real number; ValueError where the text is none or is too large."""
+    """A real number; ValueError where the text is none, or too large or too small to compute with."""
     match = _REAL.fullmatch(text)
     if match is None:
         raise ValueError(f"'{text}' is not a number")
     value = float(f"{match[1]}e{match[2] or 0}")
-    if math.isinf(value):
-        raise ValueError(f"'{text}' is too large")
+    if abs(value) > LARGEST:
+        raise ValueError(f"'{text}' is too large: numbers up to {LARGEST:g} are read")
+    if 0.0 < abs(value) < SMALLEST:
+        raise ValueError(f"'{text}' is too small: numbers from {SMALLEST:g} on, and 0, are read")
     return value
 
 
@@ -54,7 +57,11 @@ def real_table(lines: list[str]) -> FloatArray | None:
         table = np.array(list(map(float, tokens)))
     except ValueError:
         return None
-    return table.reshape(len(lines), -1) if np.isfinite(table).all() else None
+    sizes = np.abs(table)
+    # a number that is out of bounds is named when the lines are read one by one
+    if not (sizes <= LARGEST).all() or ((sizes < SMALLEST) & (sizes > 0.0)).any():
+        return None
+    return table.reshape(len(lines), -1)
 
 
 def integer_table(lines: list[str]) -> IntArray | None:

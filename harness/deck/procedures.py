@@ -17,8 +17,6 @@ from harness.deck.structure import Scope
 from harness.model.procedures import Dynamic, HeatTransfer, Integrator, Procedure, Riks, Stabilize, Static, Visco
 
 SMALLEST_FRACTION = 1e-5
-SHORTEST = 1e-100
-"""Time whose square is still a number."""
 
 _HHT = {"HHT-TF": -0.05, "HHT-MD": -0.41421}
 _INTEGRATORS = {"TRANSIENT FIDELITY": "HHT-TF", "MODERATE DISSIPATION": "HHT-MD", "QUASI-STATIC": "BWE"}
@@ -58,8 +56,6 @@ def _read_times(block: Block, *, largest: float = 1.0, direct: bool = False, alo
         entries = [row.real(index, name, 0.0) for index, name in enumerate(names)]
         if min(entries) < 0:
             raise row.error("increments and period must not be negative")
-        if any(0 < entry < SHORTEST for entry in entries[:2]):
-            raise row.error(f"increment and period must not be shorter than {SHORTEST:g}")
     period = entries[1] or 1.0
     initial = entries[0] or period * (1.0 if direct else min(largest, 1.0))
     if initial > period:

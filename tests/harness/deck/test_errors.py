@@ -77,6 +77,16 @@ MISTAKES = {
     "nodes": ("NODES=4", "NODES=0", r"7: NODES=0: expected a number from 1"),
     "tensor alone": ("INTEGRATION=4, ", "", r"7: INTEGRATION and TENSOR are given together or not at all"),
     "non-numeric coordinate": ("3, 1., 1.\n", "3, 1., one\n", r"14: \*NODE: coordinate 2: 'one' is not a number"),
+    "large coordinate": (
+        "3, 1., 1.\n",
+        "3, 1., 1e101\n",
+        r"14: .* '1e101' is too large: numbers up to 1e\+100 are read",
+    ),
+    "small coordinate": (
+        "3, 1., 1.\n",
+        "3, 1., 1d-320\n",
+        r"14: .* '1d-320' is too small: numbers from 1e-100 on, and 0",
+    ),
     "infinite coordinate": ("3, 1., 1.\n", "3, 1., 1e999\n", r"14: \*NODE: coordinate 2: '1e999' is too large"),
     "nan": ("3, 1., 1.\n", "3, 1., nan\n", r"14: \*NODE: coordinate 2: 'nan' is not a number"),
     "node number": ("3, 1., 1.\n", "3.5, 1., 1.\n", r"14: '3.5' is not an integer"),
