@@ -195,6 +195,5 @@ def _user_address(group: ElementGroup, section: UserProperty, library: Library) 
     if address is not None:
         return address
     reason = "" if section.material is None else f", because *UEL PROPERTY for {section.elset} names a material"
-    found = ", ".join(library.entry_points) or "no user routine"
     where = library.name or "this job"
-    raise DeckError(group.source, f"elements of type {group.type} need {entry}{reason}; {where} has {found}")
+    raise DeckError(group.source, f"elements of type {group.type} need {entry}{reason}; {where} has {library.contents}")

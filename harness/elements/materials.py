@@ -92,8 +92,7 @@ def _define_user_material(
     material: Material, given: UserMaterial, orientation: Orientation | None, tensor: Tensor, library: Library
 ) -> int:
     if library.umat is None:
-        found = ", ".join(library.entry_points) or "no user routine"
-        message = f"material {material.name} needs UMAT; {library.name} has {found}"
+        message = f"material {material.name} needs UMAT; {library.name} has {library.contents}"
         raise DeckError(given.source, f"*USER MATERIAL: {message}")
     if orientation is not None:
         raise DeckError(orientation.source, f"*ORIENTATION is not supported for *USER MATERIAL ({material.name})")

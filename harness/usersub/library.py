@@ -16,7 +16,7 @@ from harness.model.records import PointVariables
 from harness.usersub import _binding, layout
 from harness.usersub.amalgam import path_of_kernels
 from harness.usersub.compiler import build, notes_of
-from harness.usersub.languages import SUFFIXES
+from harness.usersub.languages import CPP, SUFFIXES, C
 from harness.usersub.linker import undefined_routine
 from harness.usersub.messages import Inbox, Message
 
@@ -63,6 +63,15 @@ class Library:
             return
         if not _binding.external_database(self.uexternaldb, lop, lrestart, time, dtime, step, increment):
             raise UelError(f"{self.name}: UEXTERNALDB (LOP={lop}) {self.stop_reason()}")
+
+    @property
+    def contents(self) -> str:
+        """Names of its user routines, or that it has none, for messages."""
+        if self.entry_points:
+            return ", ".join(self.entry_points)
+        if any(self.name.lower().endswith(suffix) for suffix in (*C.suffixes, *CPP.suffixes)):
+            return 'no user routine (in C its name is uel_ or FOR_NAME(uel), in C++ it is extern "C" as well)'
+        return "no user routine"
 
     def stop_reason(self) -> str:
         """Why a user routine ended the analysis, as the end of a sentence."""

@@ -8,7 +8,7 @@ from pathlib import Path
 import pytest
 
 from harness import usersub
-from harness.errors import CompileError
+from harness.errors import CompileError, DeckError
 from harness.job import run
 
 HERE = Path(__file__).parent
@@ -116,16 +116,29 @@ def test_unresolved_routine(load):
         load("void mystery_(int);\nvoid uexternaldb_(void) { mystery_(1); }\n", "user.c")
 
 
-@pytest.mark.parametrize("name", ["spring.c", "spring.cpp"])
-def test_element_runs(tmp_path, name):
+@pytest.fixture
+def deck(tmp_path):
     """A spring of stiffness 5, pulled by 0.1."""
-    deck = tmp_path / "pulled.inp"
-    deck.write_text(
+    path = tmp_path / "pulled.inp"
+    path.write_text(
         "*NODE\n1, 0.\n2, 1.\n*NSET, NSET=END\n2\n*USER ELEMENT, TYPE=U1, NODES=2, COORDINATES=1, PROPERTIES=1\n1\n"
         "*ELEMENT, TYPE=U1, ELSET=ALL\n1, 1, 2\n*UEL PROPERTY, ELSET=ALL\n5.\n*STEP\n*STATIC\n1., 1.\n"
         "*BOUNDARY\n1, 1\n2, 1, 1, 0.1\n*OUTPUT, HISTORY\n*NODE OUTPUT, NSET=END\nRF1\n*END STEP\n"
     )
+    return path
+
+
+@pytest.mark.parametrize("name", ["spring.c", "spring.cpp"])
+def test_element_runs(tmp_path, deck, name):
     file = tmp_path / name
     file.write_text((HERE / "spring.c").read_text())
     result = run(deck, file, output_dir=tmp_path)
     assert result.history["RF1[END]"][-1] == pytest.approx(0.5)
+
+
+@pytest.mark.parametrize("name", ["user.c", "user.cpp"])
+def test_name_without_underscore(tmp_path, deck, name):
+    file = tmp_path / name
+    file.write_text("void uel(double *rhs) {}\n")
+    with pytest.raises(DeckError, match=rf"need UEL; .*{name} has no user routine \(in C its name is uel_ or FOR_NAME"):
+        run(deck, file, output_dir=tmp_path)
