@@ -190,6 +190,18 @@ subroutine host_define_material(stiffness, compliance, thickness, axes, constant
   number = define(material)
 end subroutine host_define_material
 
+!> Give a material thermal expansion.
+subroutine host_set_expansion(number, expansion)
+  use host_kinds, only: dp, i4
+  use host_materials, only: find_material, material_t
+  implicit none (type, external)
+  integer(i4), intent(in) :: number
+  real(dp), intent(in) :: expansion           !< strain per change of temperature
+  type(material_t), pointer :: material
+  material => find_material(number)
+  material%expansion = expansion
+end subroutine host_set_expansion
+
 !> Make a material of UMAT known; returns the number that stands for it.
 subroutine host_define_user_material(umat, name, ntens, constants, count, number, n)
   use, intrinsic :: iso_c_binding, only: c_intptr_t

@@ -16,6 +16,7 @@ module host_context
     real(dp) :: time(2) = 0       !< step and total time at the start of the increment
     real(dp) :: dtime = 0
     real(dp) :: place(3) = 0      !< coordinates of the material point
+    real(dp), allocatable :: fields(:, :)   !< (fields, 2) temperature and fields of the point: at the start, increments
     real(dp) :: length = 0        !< characteristic length of the element
     real(dp) :: pnewdt = 0        !< smallest that a user material has returned in this call
     integer(i4) :: tensor = 0     !< components of stress: 3, 4 or 6; 0 without a material

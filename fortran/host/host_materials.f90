@@ -26,6 +26,7 @@ module host_materials
     logical :: turned = .false.                    !< axes are not the global ones
     real(dp), allocatable :: yield(:, :)           !< (k, 2) yield stress, plastic strain; absent: elastic
     real(dp) :: young = 0, poisson = 0             !< of a plastic material, which is isotropic
+    real(dp) :: expansion = 0                      !< thermal strain per change of temperature
     type(user_material_t), allocatable :: user     !< of UMAT; then nothing above counts but ntens
   end type material_t
 

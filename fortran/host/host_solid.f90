@@ -12,6 +12,8 @@
 !> middle of the increment (Jaumann rate; Hughes and Winget). The tangent leaves out the change of the volume and of the
 !> middle of the increment.
 !>
+!> The last of the predefined fields is the initial temperature; thermal strain is that of *EXPANSION since then.
+!>
 !> SVARS hold, for each point, E11 E22 E33 E12 S11 S22 S33 S12, in space with 13 and 23 after 12, in the directions of
 !> *ORIENTATION where the section has one, as Abaqus prints them; then hourglass displacements; in dynamic analyses then
 !> the forces of the last two increments.
@@ -22,7 +24,7 @@ module host_solid
   use host_kinematics, only: average_volume_strain, gradients, mean_gradients, point_position, rotated, rotation_of, &
                              strain_matrix
   use host_materials, only: elastic_energy, find_material, material_t, stress_update, thickness_strain
-  use host_shape, only: hourglass_shapes
+  use host_shape, only: hourglass_shapes, rule_of, rule_t
   implicit none (type, external)
   private
   public :: solid_uelmat
@@ -57,8 +59,8 @@ contains
     rhs(1:n*nrhs) = 0
     amatrx(1:n*n) = 0
     if (lflags(3) /= 3 .and. lflags(3) /= 4) then
-      call integrate(dim, nodes, points, modes, lflags(2) /= 0, material, props(1), props(3), coords, u, du, rhs, amatrx, svars, &
-                     svars(points*values_of_point(dim) + 1), energy)
+      call integrate(dim, nodes, points, modes, lflags(2) /= 0, material, props(1), props(3), coords, int(npredf), predef, u, &
+                     du, rhs, amatrx, svars, svars(points*values_of_point(dim) + 1), energy)
     end if
     call respond(n, lflags, params, dtime, v, a, mass, old, rhs, amatrx, energy(1))
     if (nsvars >= last) svars(first:last) = reshape(old, [2*n])
@@ -78,17 +80,17 @@ contains
   end function hourglass_modes
 
   !> Force, tangent, state and energies.
-  subroutine integrate(dim, nodes, points, modes, finite, material, thickness, hourglass, x, u, du, force, stiffness, svars, &
-                       hourglass_state, energy)
-    integer, intent(in) :: dim, nodes, points, modes
+  subroutine integrate(dim, nodes, points, modes, finite, material, thickness, hourglass, x, fields, predef, u, du, force, &
+                       stiffness, svars, hourglass_state, energy)
+    integer, intent(in) :: dim, nodes, points, modes, fields
     logical, intent(in) :: finite
     type(material_t), intent(in) :: material
-    real(dp), intent(in) :: thickness, hourglass, x(dim, nodes), u(dim, nodes), du(dim, nodes)
+    real(dp), intent(in) :: thickness, hourglass, x(dim, nodes), predef(2, fields, nodes), u(dim, nodes), du(dim, nodes)
     real(dp), intent(inout) :: force(dim*nodes), stiffness(dim*nodes, dim*nodes), svars(values_of_point(dim), points)
     real(dp), intent(inout) :: hourglass_state(dim, modes), energy(8)
     real(dp) :: now(dim, nodes), g(nodes, dim, points), b(dim*nodes, 3*(dim - 1), points), volume(points)
     real(dp) :: g_mid(nodes, dim, points), b_mid(dim*nodes, 3*(dim - 1), points), volume_mid(points), weight, elastic, work
-    real(dp) :: strain(3*(dim - 1)), stress(3*(dim - 1)), modulus(3*(dim - 1), 3*(dim - 1))
+    real(dp) :: strain(3*(dim - 1)), stress(3*(dim - 1)), modulus(3*(dim - 1), 3*(dim - 1)), thermal(2)
     logical :: averaged
     integer :: p
     ! full integration of elements with straight edges locks where volume is kept, but not in plane stress
@@ -102,8 +104,13 @@ contains
     ! a line across the element, half of it where there are nodes in the middle of the edges
     if (allocated(material%user)) current%length = sum(volume)**(1.0_dp/dim)/merge(2, 1, nodes > 2**dim)
     current%finite = finite
+    thermal = 0
     do p = 1, points
-      if (allocated(material%user)) current%place = point_position(points, p, now)
+      if (allocated(material%user)) then
+        current%place = point_position(points, p, now)
+        call interpolate(dim, nodes, points, p, fields, predef)
+      end if
+      if (abs(material%expansion) > 0) thermal = thermal_strain(dim, nodes, points, p, fields, material%expansion, predef)
       if (finite) then
         current%rotation = rotation_of(gradient_of(dim, nodes, du, g_mid(:, :, p)))
         call find_strain(dim*nodes, 3*(dim - 1), b_mid(:, :, p), du, strain)
@@ -112,7 +119,7 @@ contains
         call find_strain(dim*nodes, 3*(dim - 1), b(:, :, p), u, strain)
       end if
       weight = volume(p)*merge(thickness, 1.0_dp, dim == 2)
-      call point_update(dim, material, int(p, i4), weight, finite, strain, svars(:, p), stress, modulus, elastic, work)
+      call point_update(dim, material, int(p, i4), weight, finite, strain, thermal, svars(:, p), stress, modulus, elastic, work)
       if (finite .and. material%ntens == 3) weight = weight*exp(svars(3, p))
       if (finite) call add_geometric(dim, nodes, g(:, :, p), stress, weight, modulus, stiffness)
       if (dim == 2) then
@@ -121,6 +128,7 @@ contains
         call add_space_point(3*nodes, b(:, :, p), weight*stress, weight*modulus, force, stiffness)
       end if
     end do
+    if (allocated(current%fields)) deallocate (current%fields)
     energy(2) = elastic
     energy(4) = work - elastic
     if (modes > 0) then
@@ -128,6 +136,33 @@ contains
                   hourglass_state, force, stiffness, energy(6))
     end if
   end subroutine integrate
+
+  !> Temperature and field variables of a point, for UMAT.
+  subroutine interpolate(dim, nodes, points, point, fields, predef)
+    integer, intent(in) :: dim, nodes, points, point, fields
+    real(dp), intent(in) :: predef(2, fields, nodes)
+    type(rule_t), pointer :: rule
+    integer :: k
+    rule => rule_of(dim, nodes, points)
+    if (allocated(current%fields)) deallocate (current%fields)
+    allocate (current%fields(fields - 1, 2))
+    do k = 1, fields - 1
+      current%fields(k, 2) = dot_product(predef(2, k, :), rule%n(:, point))
+      current%fields(k, 1) = dot_product(predef(1, k, :), rule%n(:, point)) - current%fields(k, 2)
+    end do
+  end subroutine interpolate
+
+  !> Thermal strain at the start and at the end of the increment.
+  function thermal_strain(dim, nodes, points, point, fields, expansion, predef) result(strain)
+    integer, intent(in) :: dim, nodes, points, point, fields
+    real(dp), intent(in) :: expansion, predef(2, fields, nodes)
+    real(dp) :: strain(2), change(nodes)
+    type(rule_t), pointer :: rule
+    rule => rule_of(dim, nodes, points)
+    change = predef(1, 1, :) - predef(1, fields, :)
+    strain(2) = expansion*dot_product(change, rule%n(:, point))
+    strain(1) = strain(2) - expansion*dot_product(predef(2, 1, :), rule%n(:, point))
+  end function thermal_strain
 
   pure subroutine find_strain(n, m, b, u, strain)
     integer, intent(in) :: n, m
@@ -204,17 +239,17 @@ contains
   end function determinant
 
   !> Stress and tangent of a point (11, 22, 12 in the plane); its state and its part of the energies. strain is the total
-  !> one in small displacements, that of the increment in large ones.
-  subroutine point_update(dim, material, point, volume, finite, strain, state, stress, modulus, elastic, work)
+  !> one in small displacements, that of the increment in large ones; thermal: at the start and end of the increment.
+  subroutine point_update(dim, material, point, volume, finite, strain, thermal, state, stress, modulus, elastic, work)
     integer, intent(in) :: dim
     type(material_t), intent(in) :: material
     integer(i4), intent(in) :: point
     logical, intent(in) :: finite
-    real(dp), intent(in) :: volume, strain(3*(dim - 1))
+    real(dp), intent(in) :: volume, strain(3*(dim - 1)), thermal(2)
     real(dp), intent(inout) :: state(values_of_point(dim)), elastic, work
     real(dp), intent(out) :: stress(3*(dim - 1)), modulus(3*(dim - 1), 3*(dim - 1))
     integer, parameter :: plane(3) = [1, 2, 4], space(6) = [1, 2, 3, 4, 5, 6]
-    integer :: j, k, n, m, of_material(6), of_state(6)
+    integer :: j, k, n, m, of_material(6), of_state(6), direct
     real(dp) :: total(material%ntens), t(material%ntens), tangent(material%ntens, material%ntens)
     real(dp) :: e_old(values_of_point(dim)/2), t_old(values_of_point(dim)/2), e_new(values_of_point(dim)/2), &
                 t_new(values_of_point(dim)/2)
@@ -236,7 +271,10 @@ contains
       total(of_material(k)) = strain(k)
       if (finite) total(of_material(k)) = e_old(of_state(k)) + strain(k)
     end do
+    direct = merge(2, 3, material%ntens == 3)
+    if (abs(material%expansion) > 0) total(:direct) = total(:direct) - thermal(2)
     call stress_update(material, point, total, t, tangent, valid)
+    if (abs(material%expansion) > 0) total(:direct) = total(:direct) + thermal(2)
     e_new = 0
     t_new = 0
     do k = 1, m
@@ -248,7 +286,7 @@ contains
       end do
     end do
     elastic = elastic + volume*elastic_energy(material, point, t)
-    if (material%ntens == 3) e_new(3) = thickness_strain(material, point, t)
+    if (material%ntens == 3) e_new(3) = thickness_strain(material, point, t) + thermal(2)
     if (material%ntens == 4) t_new(3) = t(3)
     if (material%turned) then
       e_new = rotated(n, e_new, material%axes, 2.0_dp)
@@ -256,6 +294,7 @@ contains
     end if
     ! trapezoidal rule, exact where the response is linear
     work = work + volume*0.5_dp*dot_product(t_new + t_old, e_new - e_old)
+    if (abs(material%expansion) > 0) work = work - volume*0.5_dp*sum(t_new(:3) + t_old(:3))*(thermal(2) - thermal(1))
     state(:n) = e_new
     state(n + 1:) = t_new
   end subroutine point_update

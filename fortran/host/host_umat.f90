@@ -43,6 +43,12 @@ contains
     direct_components = merge(2_i4, 3_i4, ntens == 3)
   end function direct_components
 
+  !> Number of field variables besides temperature.
+  pure integer function field_variables()
+    field_variables = 0
+    if (allocated(current%fields)) field_variables = size(current%fields, 1) - 1
+  end function field_variables
+
   !> Stress and tangent at the end of the increment; the history goes from old to new.
   subroutine call_umat(material, ntens, point, strain, old, stress, tangent, new)
     type(user_material_t), intent(in) :: material
@@ -54,7 +60,8 @@ contains
     real(dp), intent(inout) :: new(:)
     procedure(umat_procedure), pointer :: umat
     real(dp) :: stran(ntens), dstran(ntens), time(2), dtime, ddsddt(ntens), drplde(ntens), constants(size(material%constants))
-    real(dp) :: rpl, drpldt, temp, dtemp, predef(1), dpred(1), coords(3), drot(3, 3), dfgrd0(3, 3), dfgrd1(3, 3), celent, pnewdt
+    real(dp) :: rpl, drpldt, temp, dtemp, coords(3), drot(3, 3), dfgrd0(3, 3), dfgrd1(3, 3), celent, pnewdt
+    real(dp) :: predef(max(field_variables(), 1)), dpred(max(field_variables(), 1))
     real(dp), parameter :: identity(3, 3) = reshape([1, 0, 0, 0, 1, 0, 0, 0, 1], [3, 3])
     integer(i4) :: ndi, nshr, components, nstatv, nprops, noel, npt, layer, kspt, jstep(4), kinc
     character(len=80) :: cmname
@@ -85,6 +92,12 @@ contains
     dtemp = 0
     predef = 0
     dpred = 0
+    if (allocated(current%fields)) then
+      temp = current%fields(1, 1)
+      dtemp = current%fields(1, 2)
+      predef(:field_variables()) = current%fields(2:, 1)
+      dpred(:field_variables()) = current%fields(2:, 2)
+    end if
     coords = current%place
     celent = current%length
     pnewdt = current%pnewdt

@@ -29,7 +29,7 @@ _CONSTANTS = {
     ElasticType.TRACTION: 3,
 }
 MATERIAL_OPTIONS = (
-    *("ELASTIC", "PLASTIC", "DENSITY", "CONDUCTIVITY", "SPECIFIC HEAT"),
+    *("ELASTIC", "PLASTIC", "DENSITY", "CONDUCTIVITY", "SPECIFIC HEAT", "EXPANSION"),
     *("USER MATERIAL", "DEPVAR", "USER OUTPUT VARIABLES"),
     *DAMAGE_KEYWORDS,
 )
@@ -81,6 +81,8 @@ def _extend(material: Material, block: Block) -> Material:
             extended = replace(material, density=_read_constant(block, "density"))
         case "CONDUCTIVITY":
             extended = replace(material, conductivity=_read_constant(block, "conductivity"))
+        case "EXPANSION":
+            extended = replace(material, expansion=_read_constant(block, "expansion coefficient", positive=False))
         case "SPECIFIC HEAT":
             extended = replace(material, specific_heat=_read_constant(block, "specific heat"))
         case _:
@@ -88,13 +90,13 @@ def _extend(material: Material, block: Block) -> Material:
     return extended
 
 
-def _read_constant(block: Block, what: str) -> float:
-    """The one number of a material option, which must be positive."""
+def _read_constant(block: Block, what: str, *, positive: bool = True) -> float:
+    """The one number of a material option."""
     rows = list(block.rows())
     if len(rows) != 1 or len(rows[0]) != 1:
         raise block.error(f"needs one data line with the {what}; a temperature is not supported")
     value = rows[0].real(0, what)
-    if value <= 0:
+    if positive and value <= 0:
         raise rows[0].error(f"{what} {value:g} must be positive")
     return value
 

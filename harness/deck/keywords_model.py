@@ -277,6 +277,17 @@ PROPERTIES = (
         ),
         "conductivity",
     ),
+    Keyword(
+        "EXPANSION",
+        "Thermal expansion from the initial temperature on (*INITIAL CONDITIONS, *TEMPERATURE), of continuum elements "
+        "without temperatures of their own.",
+        Where.MODEL,
+        (
+            Option("TYPE", Kind.CHOICE, "symmetry", choices=("ISO",), refused=("ORTHO", "ANISO")),
+            *refused("DEPENDENCIES", "FIELD", "PORE FLUID", "USER", "ZERO"),
+        ),
+        "expansion coefficient",
+    ),
     Keyword("SPECIFIC HEAT", "Specific heat.", Where.MODEL, refused("DEPENDENCIES", "PORE FLUID"), "specific heat"),
     Keyword(
         "ORIENTATION",

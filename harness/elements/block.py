@@ -131,7 +131,7 @@ class Block:
         # (unknowns, fields): sums entries of an element vector by field
         self._by_field = (fields[:, None] == np.arange(len(FIELD_NAMES))).astype(np.float64)
         self._all_terms = np.full(n, -1.0)
-        self._no_fields = np.zeros((1, group.nodes.shape[1], 1, 2))
+        self._no_fields = np.zeros((1, group.nodes.shape[1], 1 if group.definition else 2, 2))
 
     def bind(self, equations: NDArray[np.int32], scatter: NDArray[np.int32]) -> None:
         """Tell where the unknowns are.
@@ -227,10 +227,16 @@ class Block:
         return LoadArrays(counts.astype(np.int32), kinds, values)
 
     def _fields(self, predefined: Predefined | None) -> FloatArray:
-        """PREDEF of the elements, (m, nodes, fields, 2), or (1, nodes, 1, 2) if there is none."""
+        """PREDEF of the elements, (m, nodes, fields, 2), or (1, nodes, fields, 2) if there is none.
+
+        That of built-in elements ends with the initial temperature.
+        """
         if predefined is None:
             return self._no_fields
-        values = np.stack([predefined.end, predefined.increment], axis=-1)[:, self.group.nodes]
+        end, increment = predefined.end, predefined.increment
+        if self.group.definition is None:
+            end, increment = np.vstack([end, predefined.initial]), np.vstack([increment, np.zeros_like(increment[0])])
+        values = np.stack([end, increment], axis=-1)[:, self.group.nodes]
         return np.ascontiguousarray(values.transpose(1, 2, 0, 3))
 
     def artificial_mass(self, call: Call, unknowns: int, matrix: FloatArray) -> None:
@@ -260,40 +266,34 @@ class Block:
         return p.material, p.tensor, p.jtype, symmetric, int(assemble), call.step, call.increment, self._guards
 
     def initialise(self, rows: IntArray, values: FloatArray) -> None:
-        """Initial state of elements of the block (rows): SVARS, or STATEV at each of their material points.
-
-        Raises ValueError where the elements do not have so many.
-        """
+        """Initial SVARS of elements (rows of the block), or STATEV of their points. Raises ValueError if too many."""
         state = self._initial_state()
         if len(values) > state.shape[2]:
             raise ValueError(f"{len(values)} values, where elements of type {self.group.type} have {state.shape[2]}")
         state[rows, :, : len(values)] = values
-        self._set_initial_state(state)
+        self._begin(state)
 
     def call_sdvini(self, address: int) -> None:
         """Let SDVINI set the initial state. Raises KernelError where it ends the analysis."""
-        state = self._initial_state()
-        if not state.shape[2]:
-            return
-        element = _binding.sdvini(address, self._arrays, state, solid=self.group.definition is None)
+        state = np.ascontiguousarray(self._initial_state())
+        element = (
+            _binding.sdvini(address, self._arrays, state, solid=self.group.definition is None) if state.size else 0
+        )
         if element:
             raise KernelError(element, self.group.type, f"SDVINI {self._library.stop_reason()}")
-        self._set_initial_state(state)
+        self._begin(state)
 
     def _initial_state(self) -> FloatArray:
-        """Copy (m, points, values) of what *INITIAL CONDITIONS, TYPE=SOLUTION sets."""
+        """What *INITIAL CONDITIONS, TYPE=SOLUTION sets (m, points, values), a view of the committed state."""
         if self.group.definition is not None:
-            return self._arrays.svars[:, None, :].copy()
-        history, statev = self._arrays.history, self._procedure.statev
-        return np.ascontiguousarray(history[:, :, history.shape[2] - statev :])
+            return self._arrays.svars[:, None, :]
+        history = self._arrays.history
+        return history[:, :, history.shape[2] - self._procedure.statev :]
 
-    def _set_initial_state(self, state: FloatArray) -> None:
-        arrays, statev = self._arrays, self._procedure.statev
-        if self.group.definition is not None:
-            arrays.svars[:] = arrays.svars_trial[:] = state[:, 0, :]
-        else:
-            arrays.history[:, :, arrays.history.shape[2] - statev :] = state
-            arrays.history_trial[:] = arrays.history
+    def _begin(self, state: FloatArray) -> None:
+        """Make it the committed and the trial state."""
+        self._initial_state()[:] = state
+        self._arrays.svars_trial[:], self._arrays.history_trial[:] = self._arrays.svars, self._arrays.history
 
     def commit(self) -> None:
         """End of a converged increment: the state of the last normal call becomes the committed one, then UVARM.

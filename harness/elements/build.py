@@ -49,6 +49,10 @@ def build_blocks(model: Model, library: Library, *, strict: bool = True) -> list
 
 
 def _block_of(model: Model, group: ElementGroup, library: Library, *, strict: bool) -> Block:
+    material = getattr(group.section, "material", None)
+    if material is not None and material.expansion and group.type not in SOLIDS:
+        message = f"*EXPANSION (material {material.name}) is not supported for elements of type {group.type}"
+        raise DeckError(group.section.source, message)
     if group.definition is not None:
         return _user_block(model, group, group.definition, library, strict=strict)
     for types, make in ((SOLIDS | COUPLED, _solid_block), (COHESIVE, _cohesive_block), (DISCRETE, _discrete_block)):

@@ -26,10 +26,14 @@ class Distributed:
 
 @dataclass(frozen=True, slots=True)
 class Predefined:
-    """Predefined fields (fields, nodes) at the end of the increment and their change; temperature is the first."""
+    """Predefined fields (fields, nodes) at the end of the increment and their change; temperature is the first.
+
+    initial  (nodes,) temperature at the start of the analysis
+    """
 
     end: FloatArray
     increment: FloatArray
+    initial: FloatArray
 
 
 @dataclass(frozen=True, slots=True)

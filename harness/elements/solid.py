@@ -83,6 +83,10 @@ def solid_procedure(model: Model, group: ElementGroup, section: SolidSection, li
     if nonlinear is not None and section.orientation is not None:
         message = f"*ORIENTATION is not supported for elements of type {group.type} with NLGEOM ({nonlinear.source})"
         raise DeckError(section.source, message)
+    hourglass = _hourglass_stiffness(group, kind, section)
+    number = define_material(material, section.orientation, kind.tensor, section.source, library)
+    if material.expansion:
+        _binding.set_expansion(number, material.expansion)
     unknowns = kind.dimension * kind.nodes
     hidden = kind.dimension * kind.hourglass_modes + (2 * unknowns if dynamic is not None else 0)
     return Procedure(
@@ -92,9 +96,9 @@ def solid_procedure(model: Model, group: ElementGroup, section: SolidSection, li
         svars=kind.points * 2 * len(_COMPONENTS[kind.dimension]) + hidden,
         hidden=hidden,
         density=1,
-        props=np.array([section.thickness, material.density, _hourglass_stiffness(group, kind, section)]),
+        props=np.array([section.thickness, material.density, hourglass]),
         jprops=np.array([kind.points]),
-        material=define_material(material, section.orientation, kind.tensor, section.source, library),
+        material=number,
         tensor=int(kind.tensor),
         history=history_of(material, kind.points),
         statev=material.state_variables if material.user is not None else 0,

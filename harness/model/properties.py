@@ -98,6 +98,7 @@ class Material:
     density: float = 0.0
     conductivity: float = 0.0
     specific_heat: float = 0.0
+    expansion: float = 0.0
     user: UserMaterial | None = None
     state_variables: int = 0
     output_variables: int = 0

@@ -13,7 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from harness.elements import Distributed, Predefined
-from harness.model.arrays import IntArray
+from harness.model.arrays import FloatArray, IntArray
 from harness.model.model import Model
 from harness.model.procedures import HeatTransfer
 from harness.model.steps import Load, Step
@@ -57,6 +57,8 @@ class Conditions:
             self._loads.take(loads, step.new_distributed, step, total_time),
             self._fields.take(step.fields, step.new_fields, step, total_time),
             self._nodes,
+            # temperature is the first field
+            self._initial[: self._nodes.nodes],
         )
 
 
@@ -84,6 +86,7 @@ class StepConditions:
     loads: Variation
     fields: Variation
     grid: _Grid
+    initial: FloatArray
 
     def at(self, start: tuple[float, float], end: tuple[float, float]) -> tuple[Distributed | None, Predefined | None]:
         """What is in force in an increment between these step and total times."""
@@ -97,5 +100,5 @@ class StepConditions:
         if len(self.grid):
             shape = self.grid.fields, self.grid.nodes
             values, before = self.fields.at(*end), self.fields.at(*start)
-            predefined = Predefined(values.reshape(shape), (values - before).reshape(shape))
+            predefined = Predefined(values.reshape(shape), (values - before).reshape(shape), self.initial)
         return distributed, predefined

@@ -230,6 +230,11 @@ def define_material(
     return int(_host.host_define_material(stiffness.T, compliance.T, thickness, axes, constants, table.T))
 
 
+def set_expansion(number: int, expansion: float) -> None:
+    """Give a material of the host's library thermal expansion, strain per change of temperature."""
+    _host.host_set_expansion(number, expansion)
+
+
 def define_user_material(umat: int, name: str, ntens: int, constants: FloatArray) -> int:
     """Add a material of UMAT, whose address is given, to the host's library."""
     return int(_host.host_define_user_material(umat, name, ntens, np.append(constants, 0.0), len(constants)))
