@@ -158,7 +158,8 @@ class _RecordedRoutines:
     """User routines that a procedure calls, kept likewise."""
 
     def __init__(self, library: Library, events: list[Event]) -> None:
-        self.sdvini = library.sdvini
+        self.sdvini, self.disp = library.sdvini, library.disp
+        self.displacements = library.displacements
         self._library = library
         self._events = events
 

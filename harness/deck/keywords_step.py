@@ -65,10 +65,11 @@ PRESCRIBED = (
                 refused=("ACCELERATION",),
             ),
             Option("INPUT", Kind.FILE, "file that holds the data lines"),
+            Option("USER", doc="DISP gives the values"),
             *ignored("REGION TYPE"),
             *refused(
                 *("BASE NAME", "FIXED", "LOAD CASE", "PHANTOM", "REAL", "IMAGINARY", "SCALE", "STEP", "SUBMODEL"),
-                *("BLOCKING", "TIMESCALE", "USER"),
+                *("BLOCKING", "TIMESCALE"),
             ),
         ),
         "node or set, first dof, last dof, value; or node or set, XSYMM, YSYMM, ZSYMM, XASYMM, YASYMM, ZASYMM, "

@@ -57,7 +57,11 @@ class Prescription:
     def read_boundary(self, block: Block, in_step: bool) -> list[Boundary]:
         """Entries of one *BOUNDARY, one for each dof."""
         amplitude = self.amplitude(block)
-        velocity = block.options.text("TYPE") == "VELOCITY"
+        velocity, user = block.options.text("TYPE") == "VELOCITY", block.options.flag("USER")
+        if user and not in_step:
+            raise block.error("USER before the first *STEP, where only zero can be prescribed")
+        if user and velocity:
+            raise block.error("USER is supported for displacements, not for TYPE=VELOCITY")
         found = []
         for row in block.rows():
             nodes = self.flat.nodes(row.name(0, "node or node set"), row.source)
@@ -66,7 +70,7 @@ class Prescription:
             row.at_most(4)
             if magnitude and not in_step:
                 raise row.error(f"value {magnitude:g} before the first *STEP, where only zero can be prescribed")
-            found += [Boundary(nodes, dof, magnitude, amplitude, row.source, velocity) for dof in dofs]
+            found += [Boundary(nodes, dof, magnitude, amplitude, row.source, velocity, user) for dof in dofs]
         return found
 
     def read_loads(self, block: Block) -> list[Load]:

@@ -86,7 +86,7 @@ class Controls:
 class Boundary:
     """One *BOUNDARY entry: nodes (indices), one dof, magnitude, amplitude (None: the step's default).
 
-    With `velocity` (TYPE=VELOCITY) it is the rate of the dof that is prescribed.
+    With `velocity` (TYPE=VELOCITY) it is the rate of the dof that is prescribed; with `user` DISP has the last word.
     """
 
     nodes: IntArray
@@ -95,6 +95,7 @@ class Boundary:
     amplitude: Amplitude | None
     source: Source
     velocity: bool = False
+    user: bool = False
 
 
 @dataclass(frozen=True, slots=True)

@@ -138,6 +138,7 @@ class Boundaries:
         self._curves: tuple[Curve, ...] = ()
         self._courses: tuple[Course, ...] = ()
         self._period = 1.0
+        self._by_user = np.zeros(len(dofs), dtype=bool)
         self.sources: dict[int, Source] = {}
         for entry in model_data:
             self._activate(entry)
@@ -146,6 +147,11 @@ class Boundaries:
     def unknowns(self) -> IntArray:
         """Prescribed unknowns of the current step, ascending."""
         return np.flatnonzero(self._active)
+
+    @property
+    def by_user(self) -> IntArray:
+        """Those that DISP gives."""
+        return np.flatnonzero(self._active & self._by_user)
 
     def start_step(self, step: Step, displacement: FloatArray, total_time: float = 0.0) -> Variation:
         """Take over a step's entries; displacement (n,) and total time are those at the end of the previous step."""
@@ -181,6 +187,7 @@ class Boundaries:
     def _activate(self, entry: Boundary) -> IntArray:
         unknowns, _ = find_unknowns(self._dofs, entry)
         self._active[unknowns] = True
+        self._by_user[unknowns] = entry.user
         self.sources.update(dict.fromkeys(unknowns.tolist(), entry.source))
         return unknowns
 

@@ -9,9 +9,12 @@ from dataclasses import dataclass
 from functools import partial
 from typing import Protocol
 
+import numpy as np
+from numpy.typing import NDArray
+
 from harness.assembly import Constraints, System
 from harness.elements import Call
-from harness.errors import ConvergenceError, SingularMatrixError
+from harness.errors import ConvergenceError, DeckError, SingularMatrixError
 from harness.model.arrays import FloatArray
 from harness.model.model import Model
 from harness.model.records import (
@@ -45,14 +48,26 @@ NORMAL, MASS = 1, 4
 
 
 class UserRoutines(Protocol):
-    """The part of a loaded library that a procedure calls; sdvini: address of SDVINI, None without it."""
+    """The part of a loaded library that a procedure calls; sdvini, disp: addresses, None without the routine."""
 
     sdvini: int | None
+    disp: int | None
 
     def external_database(
         self, lop: int, lrestart: int, time: tuple[float, float], dtime: float, step: int, increment: int
     ) -> None:
         """Call UEXTERNALDB if there is one."""
+
+    def displacements(
+        self,
+        step: int,
+        increment: int,
+        time: tuple[float, float],
+        places: NDArray[np.int32],
+        coords: FloatArray,
+        values: FloatArray,
+    ) -> FloatArray:
+        """Values that DISP makes of those given at nodes and dofs (places)."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -96,6 +111,9 @@ class StaticStep:
         self._load = state.loads.start_step(step, state.total_time)
         self._conditions = state.conditions.start_step(step, state.total_time)
         unknowns = state.boundaries.unknowns
+        if len(state.boundaries.by_user) and user.disp is None:
+            source = state.boundaries.sources[int(state.boundaries.by_user[0])]
+            raise DeckError(source, "*BOUNDARY, USER needs DISP, which the job does not have")
         self._released = released_reactions(state.reaction, unknowns, step)
         constraints = state.constraints
         self._choice = ""
@@ -247,9 +265,21 @@ class StaticStep:
             call=self._call(increment, size, end, total),
             displacement=state.displacement,
             guess=self._extrapolation.guess(size),
-            prescribed=(self._prescribed.at(end, total) - state.displacement)[unknowns],
+            prescribed=(self._prescribed_at(increment, end, total) - state.displacement)[unknowns],
             load=self._load.at(end, total) + self._released.at(end, total),
         )
+
+    def _prescribed_at(self, increment: int, step_time: float, total_time: float) -> FloatArray:
+        """Prescribed values (n,), those of DISP among them."""
+        values, by_user = self._prescribed.at(step_time, total_time), self._state.boundaries.by_user
+        if len(by_user):
+            dofs = self._system.dofs
+            nodes = dofs.node[by_user]
+            places = np.stack([dofs.mesh.labels[nodes], dofs.dof[by_user]], axis=1).astype(np.int32)
+            times, coords = (step_time, total_time), dofs.mesh.coordinates[nodes]
+            made = self._user.displacements(self._step.number, increment, times, places, coords, values[by_user])
+            values[by_user] = made
+        return values
 
     def _call(self, increment: int, size: float, step_time: float, total_time: float) -> Call:
         """Arguments of the passes of an increment that ends at these times."""

@@ -273,6 +273,23 @@ def sdvini(address: int, arrays: BlockArrays, statev: FloatArray, *, solid: bool
     return element if left else 0
 
 
+def disp(
+    address: int,
+    place: tuple[int, int],
+    time: tuple[float, float],
+    places: NDArray[np.int32],
+    coords: FloatArray,
+    values: FloatArray,
+) -> int:
+    """Call DISP for values that are prescribed; returns the number, from 1, at which it ended the analysis, else 0.
+
+    place is step and increment, time that at its end; places (n, 2) node number and dof, coords (n, 3); values (n,) by
+    magnitude and amplitude become those of DISP.
+    """
+    left, last = _host.host_disp_pass(address, place, time, places.T, coords.T, values)
+    return last if left else 0
+
+
 def solid_address() -> int:
     """Address of the built-in plane continuum elements, called like UELMAT."""
     return int(_host.host_solid_address())

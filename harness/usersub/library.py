@@ -11,7 +11,11 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import Final
 
+import numpy as np
+from numpy.typing import NDArray
+
 from harness.errors import CompileError, UelError
+from harness.model.arrays import FloatArray
 from harness.model.records import PointVariables
 from harness.usersub import _binding, layout
 from harness.usersub.amalgam import path_of_kernels
@@ -31,7 +35,7 @@ ENTRY_POINTS: Final = (
 class Library:
     """User routines of a job, and the job's messages from them.
 
-    uel, uelmat, umat, uvarm, sdvini, uexternaldb  addresses, None where the file does not have the routine
+    uel, uelmat, umat, uvarm, sdvini, disp, uexternaldb  addresses, None where the file does not have the routine
     name                      the file as the user named it, for messages
     file                      the shared library
     entry_points              names of all user routines found
@@ -50,6 +54,7 @@ class Library:
         self.umat = addresses["UMAT"]
         self.uvarm = addresses["UVARM"]
         self.sdvini = addresses["SDVINI"]
+        self.disp = addresses["DISP"]
 
     def variables(self, jtype: int) -> PointVariables | None:
         """Meaning of the SVARS of an element type; None where the library does not hold the project's elements."""
@@ -72,6 +77,24 @@ class Library:
         if any(self.name.lower().endswith(suffix) for suffix in (*C.suffixes, *CPP.suffixes)):
             return 'no user routine (in C its name is uel_ or FOR_NAME(uel), in C++ it is extern "C" as well)'
         return "no user routine"
+
+    def displacements(
+        self,
+        step: int,
+        increment: int,
+        time: tuple[float, float],
+        places: NDArray[np.int32],
+        coords: FloatArray,
+        values: FloatArray,
+    ) -> FloatArray:
+        """Values that DISP makes of those given; time at the end, places (n, 2) node number and dof."""
+        assert self.disp is not None
+        made = np.array(values)
+        failed = _binding.disp(self.disp, (step, increment), time, places, np.ascontiguousarray(coords), made)
+        if failed:
+            node, dof = places[failed - 1].tolist()
+            raise UelError(f"{self.name}: DISP {self.stop_reason()} (node {node}, dof {dof}, step {step})")
+        return made
 
     def stop_reason(self) -> str:
         """Why a user routine ended the analysis, as the end of a sentence."""
