@@ -186,6 +186,12 @@ def methods_distance(evidence: Evidence, problem: str, layups: Sequence[str] = (
     )
 
 
+def methods_peak_difference(evidence: Evidence, problem: str, layup: str, element: str) -> float:
+    """Relative difference of an element's peak load at 1e6 from the standard method's, with its sign."""
+    peaks = [evidence.run(problem, layup, name, "1e6").peak[0] for name in (element, "standard")]
+    return peaks[0] / peaks[1] - 1.0
+
+
 def comparator_distance(
     evidence: Evidence, problem: str, layup: str, element: str, stiffness: str = "1e6", last: float = np.inf
 ) -> float:
@@ -260,16 +266,19 @@ def peak_traction_ratio(
     return max(found)
 
 
-def local_error(evidence: Evidence, problem: str, element: str, traction: str) -> float:
-    """Largest distance of a traction on the perturbed mesh from the consistent method's on the structured one.
+def local_error(evidence: Evidence, problem: str, element: str, traction: str, *, ever: bool = False) -> float:
+    """Largest distance of a traction from the consistent method's over the strength, ahead of the process zone.
 
-    Over the strength, at the moment of the figures, from the front of the damage on.
+    Both on the perturbed mesh, whose bumps cause variation that is real. `ever` as above.
     """
-    rough = moment(evidence.run(problem, "0/0", element, "1e8", perturbed=True))
-    smooth = moment(evidence.run(problem, "0/0", "consistent", "1e8"))
-    bonded = (rough["DAMAGE"] < 0.5) & (rough["X"] > float(smooth["X"][smooth["DAMAGE"] > 0.0].max(initial=0.0)))
-    rest = rough[traction] - np.interp(rough["X"], smooth["X"], smooth[traction])
-    return float(np.abs(rest[bonded]).max()) / STRENGTHS[traction]
+    found = []
+    pairs = (evidence.run(problem, "0/0", name, "1e8", perturbed=True) for name in (element, "consistent"))
+    for rough, smooth in zip(*(at_tenths(run.profiles) if ever else [moment(run)] for run in pairs), strict=False):
+        start = float(smooth["X"][smooth["DAMAGE"] > 0.0].max(initial=0.0))
+        bonded = (rough["DAMAGE"] < 0.5) & (rough["X"] > start)
+        rest = rough[traction] - np.interp(rough["X"], smooth["X"], smooth[traction])
+        found.append(float(np.abs(rest[bonded]).max(initial=0.0)) / STRENGTHS[traction])
+    return max(found)
 
 
 def closed_stretch(smooth: Profile) -> tuple[float, float]:
@@ -363,6 +372,7 @@ MEASURES: dict[str, Callable[..., float]] = {
     function.__name__: function
     for function in (
         *(variation, smallest_variation, variation_gain, damage_turns, theory_distance, theory_mean, methods_distance),
+        methods_peak_difference,
         *(
             profile_distance,
             oscillation_place,

@@ -61,10 +61,12 @@ def _divided(case: Case, increments: int) -> Case:
 
 
 def studies(*, coarse: bool) -> list[Study]:
-    """All parameters; with `coarse`, around the coarse meshes and without those of the full run."""
+    """All parameters; with `coarse`, around the coarse meshes and with fewer values."""
     dcb, enf = (_bases(problem, METHODS, coarse=coarse) for problem in ("dcb", "enf"))
     sizes = {"dcb": (0.5, 0.25, 0.125, 0.0625), "enf": (1.0, 0.5, 0.25, 0.125)}
-    kept = {name: (*values[:2], QUICK_SIZES[name]) if coarse else values for name, values in sizes.items()}
+    kept = {name: (values[1], QUICK_SIZES[name]) if coarse else values for name, values in sizes.items()}
+    divisions = (25, 50, 100) if coarse else (25, 50, 100, 200)
+    factors = (0.1, 1.0, 10.0) if coarse else (0.1, 0.3, 1.0, 3.0, 10.0)
     both = dcb | enf
     return [
         Study(
@@ -77,7 +79,7 @@ def studies(*, coarse: bool) -> list[Study]:
         Study(
             "Increments",
             "number of increments",
-            {label: [(str(n), _divided(case, n)) for n in (25, 50, 100, 200)] for label, case in dcb.items()},
+            {label: [(str(n), _divided(case, n)) for n in divisions] for label, case in dcb.items()},
             number=True,
             advice=ADVICE["increments"],
         ),
@@ -132,7 +134,7 @@ def studies(*, coarse: bool) -> list[Study]:
             "Stabilisation",
             "factor of beta by (21)",
             {
-                label: [(f"{f:g}", replace(case, beta=f)) for f in (0.1, 0.3, 1.0, 3.0, 10.0)]
+                label: [(f"{f:g}", replace(case, beta=f)) for f in factors]
                 for label, case in both.items()
                 if "standard" not in label
             },
