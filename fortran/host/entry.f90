@@ -311,6 +311,34 @@ subroutine host_disp_pass(address, place, time, places, coords, values, left, la
   last = pass%last
 end subroutine host_disp_pass
 
+!> Call DLOAD at all points of nonuniform distributed loads.
+subroutine host_dload_pass(address, place, time, places, coords, values, left, element, n)
+  use, intrinsic :: iso_c_binding, only: c_intptr_t
+  use host_context, only: current
+  use host_dload, only: dload_pass_t, run_dload
+  use host_kinds, only: dp, i4, i8
+  implicit none (type, external)
+  integer(i8), intent(in) :: address
+  integer(i4), intent(in) :: place(2)         !< step, increment
+  real(dp), intent(in) :: time(2)             !< step and total time at the end of the increment
+  integer(i4), intent(in) :: n
+  integer(i4), intent(in), target :: places(3, n)   !< element number, point, JLTYP
+  real(dp), intent(in), target :: coords(3, n)
+  real(dp), intent(inout), target :: values(n)
+  integer(i4), intent(out) :: left            !< 1 if the routine ended the analysis
+  integer(i4), intent(out) :: element         !< of the last call
+  type(dload_pass_t) :: pass
+  pass%address = transfer(int(address, c_intptr_t), pass%address)
+  pass%kstep = place(1)
+  pass%kinc = place(2)
+  pass%time = time
+  pass%places => places
+  pass%coords => coords
+  pass%values => values
+  call run_dload(pass, left)
+  element = current%element
+end subroutine host_dload_pass
+
 !> Address of the built-in plane continuum elements.
 subroutine host_solid_address(address)
   use, intrinsic :: iso_c_binding, only: c_funloc, c_intptr_t

@@ -160,6 +160,7 @@ class _RecordedRoutines:
     def __init__(self, library: Library, events: list[Event]) -> None:
         self.sdvini, self.disp = library.sdvini, library.disp
         self.displacements = library.displacements
+        self.dload, self.distributed_loads = library.dload, library.distributed_loads
         self._library = library
         self._events = events
 

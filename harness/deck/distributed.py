@@ -17,6 +17,7 @@ from harness.model.steps import DistributedLoad, ElementLoad, Load, LoadKind, Lo
 
 Direction = tuple[float, float, float]
 _USER_LOAD = re.compile(r"U([1-9]\d{0,3})(NU)?")
+_BY_DLOAD = re.compile(r"(P\d|B[XYZ])NU")
 _NO_DIRECTION: Direction = (0.0, 0.0, 0.0)
 _BODY: dict[str, Direction] = {"BX": (1.0, 0.0, 0.0), "BY": (0.0, 1.0, 0.0), "BZ": (0.0, 0.0, 1.0)}
 _SURFACE = ("P", "TRVEC", "TRSHR")
@@ -32,11 +33,13 @@ def read_distributed(block: Block, prescription: Prescription) -> list[Distribut
         magnitude = row.real(2, "magnitude", 0.0)
         match = _USER_LOAD.fullmatch(label)
         if match is None:
-            kind, face, direction = _volume_load(row, label)
+            by_user = _BY_DLOAD.fullmatch(label) is not None
+            kind, face, direction = _volume_load(row, label.removesuffix("NU") if by_user else label)
+            jltyp = _jltyp(face, direction) if by_user else 0
             for group, positions in prescription.surfaces.by_group(elements):
                 _check_solid(row, label, group)
                 nodes = face_nodes(group, face, row.source, block.name) if face else ()
-                kept = LoadType(kind, nodes, direction, follows=kind is LoadKind.PRESSURE)
+                kept = LoadType(kind, nodes, direction, follows=kind is LoadKind.PRESSURE, jltyp=jltyp)
                 found.append(ElementLoad(positions, kept, magnitude, amplitude, row.source))
             continue
         row.at_most(3)
@@ -48,6 +51,11 @@ def read_distributed(block: Block, prescription: Prescription) -> list[Distribut
     return found
 
 
+def _jltyp(face: str, direction: Direction) -> int:
+    """JLTYP of a nonuniform load: 20 + n for face n, 1 to 3 for the directions (User Subroutines Guide, DLOAD)."""
+    return 20 + int(face[1:]) if face else 1 + direction.index(1.0)
+
+
 def _volume_load(row: Row, label: str) -> tuple[LoadKind, str, Direction]:
     """Kind, face ('' for a volume) and direction of a load type of *DLOAD."""
     row.at_most(6 if label == "GRAV" else 3)
@@ -57,7 +65,7 @@ def _volume_load(row: Row, label: str) -> tuple[LoadKind, str, Direction]:
         return LoadKind.BODY, "", _BODY[label]
     match = re.fullmatch(r"P(\d)", label)
     if match is None:
-        supported = "Un and UnNU on user elements; Pn, BX, BY, BZ and GRAV on built-in continuum elements"
+        supported = "Un and UnNU on user elements; Pn, BX, BY, BZ, those with NU, and GRAV on built-in solids"
         raise row.error(f"load type {label} is not supported (supported: {supported})")
     return LoadKind.PRESSURE, f"S{match[1]}", _NO_DIRECTION
 

@@ -10,7 +10,7 @@ from typing import Final
 import numpy as np
 
 from harness.errors import DeckError
-from harness.model.arrays import FloatArray
+from harness.model.arrays import FloatArray, IntArray
 from harness.model.mesh import ElementGroup
 from harness.model.properties import SolidSection
 from harness.model.steps import ElementLoad, LoadKind
@@ -29,10 +29,13 @@ _NODES: Final = {1: np.array(_LINE), 2: np.array(_QUAD), 3: np.array(_HEX)}
 """Parent coordinates of the nodes, by dimension: corners, then the middles of the edges."""
 
 
-def unit_forces(group: ElementGroup, rows: FloatArray, load: ElementLoad, coordinates: FloatArray) -> FloatArray:
-    """Nodal forces (elements, nodes of the face or element, dimension) for a magnitude of one.
+def unit_forces(
+    group: ElementGroup, rows: IntArray, load: ElementLoad, coordinates: FloatArray
+) -> tuple[FloatArray, FloatArray]:
+    """Nodal forces (elements, points, nodes of the face or element, dimension) for magnitudes of one at each point.
 
-    rows  elements of the group. Raises DeckError where the load makes no sense there.
+    rows are elements of the group. Returns the coordinates of the points (elements, points, 3) too. Raises DeckError
+    where the load makes no sense there.
     """
     section = group.section
     assert isinstance(section, SolidSection)
@@ -54,8 +57,8 @@ def unit_forces(group: ElementGroup, rows: FloatArray, load: ElementLoad, coordi
     else:
         centre = coordinates[nodes, :dimension].mean(axis=1)
         force = _traction(load, _outward(tangents, x.mean(axis=1) - centre))
-    forces: FloatArray = scale * np.einsum("p,pk,mpd->mkd", weights, shapes, force)
-    return forces
+    forces = scale * np.einsum("p,pk,mpd->mpkd", weights, shapes, force)
+    return forces, np.einsum("pk,mkd->mpd", shapes, coordinates[nodes[:, local]])
 
 
 def _traction(load: ElementLoad, area: FloatArray) -> FloatArray:
@@ -92,7 +95,8 @@ def _rule(dimension: int, nodes: int) -> tuple[FloatArray, FloatArray, FloatArra
         return np.full((1, nodes), 1.0 / nodes), derivatives[None], np.array([1.0 / (2 if dimension == 2 else 6)])
     middle = nodes > 2**dimension
     places, line = np.polynomial.legendre.leggauss(3 if middle else 2)
-    points = np.array(list(product(places, repeat=dimension)))
+    # counted along the first direction first
+    points = np.array(list(product(places, repeat=dimension)))[:, ::-1]
     weights = np.array([np.prod(w) for w in product(line, repeat=dimension)])
     shapes, derivatives = _serendipity(_NODES[dimension][:nodes], points, middle=middle)
     return shapes, derivatives, weights

@@ -137,12 +137,14 @@ class LoadType:
     face       local nodes of the face; none: the volume
     direction  unit vector; none for pressure
     follows    the load turns with the face (FOLLOWER=)
+    jltyp      JLTYP of a load whose magnitude at each point is that of DLOAD; 0: that of the deck
     """
 
     kind: LoadKind
     face: tuple[int, ...] = ()
     direction: tuple[float, float, float] = (0.0, 0.0, 0.0)
     follows: bool = False
+    jltyp: int = 0
 
 
 @dataclass(frozen=True, slots=True)

@@ -3,43 +3,86 @@
 """All loads of a step: concentrated ones, and distributed ones on built-in elements as nodal forces.
 
 Magnitudes of distributed loads vary as those of *CLOAD do, for each element and type of load; *DLOAD and *DSLOAD have
-an OP= of their own.
+an OP= of their own. Those of nonuniform loads are what DLOAD makes of them at each point of the face or volume.
 """
 
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
+from typing import Protocol
 
 import numpy as np
+from numpy.typing import NDArray
 from scipy import sparse
 
 from harness.assembly import System
 from harness.elements.load_vectors import unit_forces
-from harness.model.arrays import FloatArray
+from harness.errors import DeckError
+from harness.model.arrays import FloatArray, IntArray
 from harness.model.model import Model
 from harness.model.steps import ElementLoad, Load, Step
 from harness.procedures.loads import Curve, Loads, Slots, Variation
 
 
-@dataclass(frozen=True, slots=True)
-class StepLoads:
-    """Loads of one step: nodal ones, and nodal forces (n, magnitudes) per magnitude of distributed ones."""
+class LoadRoutines(Protocol):
+    """The part of a loaded library that gives loads; dload: address of DLOAD, None without it."""
 
+    dload: int | None
+
+    def distributed_loads(
+        self,
+        step: int,
+        increment: int,
+        time: tuple[float, float],
+        places: NDArray[np.int32],
+        coords: FloatArray,
+        values: FloatArray,
+    ) -> FloatArray:
+        """Magnitudes that DLOAD makes of those given, at points (element number, point, JLTYP)."""
+
+
+@dataclass(slots=True)
+class StepLoads:
+    """Loads of one step; `increment` is that for which they are asked."""
+
+    step: int
     concentrated: Variation
-    distributed: tuple[tuple[sparse.csr_array, Variation], ...]
+    distributed: tuple[_StepElementLoads, ...]
+    user: LoadRoutines
+    increment: int = 0
 
     @property
     def curves(self) -> tuple[Curve, ...]:
         """What varies along an amplitude."""
-        return (*self.concentrated.curves, *(curve for _, varying in self.distributed for curve in varying.curves))
+        return (*self.concentrated.curves, *(curve for load in self.distributed for curve in load.magnitudes.curves))
+
+    @property
+    def by_user(self) -> bool:
+        """Whether DLOAD gives some of them."""
+        return any(len(load.by_user) for load in self.distributed)
 
     def at(self, step_time: float, total_time: float) -> FloatArray:
         """Loads (n,) at a time."""
         values = self.concentrated.at(step_time, total_time)
-        for forces, varying in self.distributed:
-            values = values + forces @ varying.at(step_time, total_time)
+        for load in self.distributed:
+            magnitudes = load.magnitudes.at(step_time, total_time)[load.points.slot]
+            if len(load.by_user):
+                places, coords = load.points.places[load.by_user], load.points.coords[load.by_user]
+                times, given = (step_time, total_time), magnitudes[load.by_user]
+                made = self.user.distributed_loads(self.step, self.increment, times, places, coords, given)
+                magnitudes[load.by_user] = made
+            values = values + load.points.forces @ magnitudes
         return values
+
+
+@dataclass(frozen=True, slots=True)
+class _StepElementLoads:
+    """Distributed loads of one step; by_user: points whose magnitude is that of DLOAD."""
+
+    points: _Points
+    magnitudes: Variation
+    by_user: IntArray
 
 
 class AllLoads:
@@ -51,15 +94,32 @@ class AllLoads:
         self._elements = _ElementLoads(system, [load for step in model.steps for load in step.element_loads])
         self._surfaces = _ElementLoads(system, [load for step in model.steps for load in step.surface_loads])
 
-    def start_step(self, step: Step, total_time: float) -> StepLoads:
-        """Take over a step's loads; total_time is that at the end of the previous step."""
+    def start_step(self, step: Step, total_time: float, user: LoadRoutines) -> StepLoads:
+        """Take over a step's loads; total_time is that at the end of the previous step. Raises DeckError."""
+        for entry in step.element_loads:
+            if entry.type.jltyp and user.dload is None:
+                raise DeckError(entry.source, "*DLOAD: nonuniform loads need DLOAD, which the job does not have")
         distributed = (
             self._elements.start_step(step.element_loads, step.new_distributed, step, total_time),
             self._surfaces.start_step(step.surface_loads, step.new_surface_loads, step, total_time),
         )
-        return StepLoads(
-            self._concentrated.start_step(step, total_time), tuple(load for load in distributed if load is not None)
-        )
+        found = tuple(load for load in distributed if load is not None)
+        return StepLoads(step.number, self._concentrated.start_step(step, total_time), found, user)
+
+
+@dataclass(slots=True)
+class _Points:
+    """Points of faces and volumes that loads act on.
+
+    forces  (n, points) nodal forces for magnitudes of one
+    slot    (points,) number of the magnitude, jltyp (points,) as LoadType has it
+    places  (points, 3) element number, point, JLTYP; coords (points, 3)
+    """
+
+    forces: sparse.csr_array
+    slot: IntArray = field(default_factory=lambda: np.zeros(0, dtype=np.int64))
+    places: NDArray[np.int32] = field(default_factory=lambda: np.zeros((0, 3), dtype=np.int32))
+    coords: FloatArray = field(default_factory=lambda: np.zeros((0, 3)))
 
 
 class _ElementLoads:
@@ -69,35 +129,53 @@ class _ElementLoads:
         self._types = list(dict.fromkeys(entry.type for entry in entries))
         self._slots = Slots([(entry.elements, self._types.index(entry.type)) for entry in entries])
         self._loads = Loads(self._slots)
-        self._forces = sparse.csr_array((len(system), len(self._slots)))
+        self._active = np.zeros(len(self._slots), dtype=bool)
+        parts: list[_Points] = []
         for entry in {entry.type: entry for entry in entries}.values():
-            self._forces = self._forces + self._unit_forces(system, entry)
+            parts += self._points_of(system, entry)
+        self._points = _Points(sparse.csr_array((len(system), 0)))
+        if parts:
+            self._points = _Points(
+                sparse.csr_array(sparse.hstack([part.forces for part in parts], format="csr")),
+                np.concatenate([part.slot for part in parts]),
+                np.concatenate([part.places for part in parts]),
+                np.concatenate([part.coords for part in parts]),
+            )
 
     def start_step(
         self, entries: Sequence[ElementLoad], new: bool, step: Step, total_time: float
-    ) -> tuple[sparse.csr_array, Variation] | None:
-        """Nodal forces per magnitude and the course of the magnitudes; None without any."""
+    ) -> _StepElementLoads | None:
+        """Those of a step; None where the model has none."""
         if not len(self._slots):
             return None
+        if new:
+            self._active[:] = False
+        for entry in entries:
+            self._active[self._slots.find(entry.elements, self._types.index(entry.type))] = True
         loads = [Load(e.elements, self._types.index(e.type), e.magnitude, e.amplitude, e.source) for e in entries]
-        return self._forces, self._loads.take(loads, new, step, total_time)
+        by_user = np.flatnonzero((self._points.places[:, 2] > 0) & self._active[self._points.slot])
+        return _StepElementLoads(self._points, self._loads.take(loads, new, step, total_time), by_user)
 
-    def _unit_forces(self, system: System, entry: ElementLoad) -> sparse.csr_array:
-        """(n, magnitudes) of the elements that have loads of the entry's type."""
-        kind = self._types.index(entry.type)
-        chosen = np.flatnonzero(self._slots.kinds == kind)
-        found = sparse.csr_array((len(system), len(self._slots)))
+    def _points_of(self, system: System, entry: ElementLoad) -> list[_Points]:
+        """Points of the elements that have loads of the entry's type, block by block."""
+        chosen = np.flatnonzero(self._slots.kinds == self._types.index(entry.type))
+        found = []
         for block in system.blocks:
             mine = chosen[(self._slots.places[chosen] >= block.first)]
             mine = mine[self._slots.places[mine] < block.first + len(block.group.labels)]
             if not len(mine):
                 continue
             rows = self._slots.places[mine] - block.first
-            forces = unit_forces(block.group, rows, entry, system.dofs.mesh.coordinates)
+            forces, coords = unit_forces(block.group, rows, entry, system.dofs.mesh.coordinates)
+            elements, points, _, dimension = forces.shape
             local = list(entry.type.face) or list(range(block.group.nodes.shape[1]))
             nodes = block.group.nodes[rows][:, local]
-            unknowns = system.dofs.find(nodes[:, :, None], np.arange(1, forces.shape[2] + 1))
-            columns = np.broadcast_to(mine[:, None, None], unknowns.shape)
-            shape = found.shape
-            found = found + sparse.csr_array((forces.ravel(), (unknowns.ravel(), columns.ravel())), shape=shape)
+            unknowns = system.dofs.find(nodes[:, None, :, None], np.arange(1, dimension + 1))
+            columns = np.arange(elements * points).reshape(elements, points, 1, 1)
+            where = np.broadcast_to(unknowns, forces.shape).ravel(), np.broadcast_to(columns, forces.shape).ravel()
+            matrix = sparse.csr_array((forces.ravel(), where), shape=(len(system), elements * points))
+            labels = np.repeat(block.group.labels[rows], points)
+            numbers = np.tile(np.arange(1, points + 1), elements)
+            places = np.stack([labels, numbers, np.full(len(labels), entry.type.jltyp)], axis=1).astype(np.int32)
+            found.append(_Points(matrix, np.repeat(mine, points), places, coords.reshape(-1, 3)))
         return found

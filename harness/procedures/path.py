@@ -56,8 +56,8 @@ class PathStep(StaticStep):
         source = next((entry.source for entry in entries if entry.amplitude), step.source)
         if self._prescribed.curves or self._load.curves:
             raise DeckError(source, "an amplitude has no meaning in a step whose load factor is part of the solution")
-        if len(state.boundaries.by_user):
-            raise DeckError(step.source, "*BOUNDARY, USER has no meaning in a step whose load factor is unknown")
+        if len(state.boundaries.by_user) or self._load.by_user:
+            raise DeckError(step.source, "DISP and DLOAD have no meaning in a step whose load factor is unknown")
         assert state.constraints is not None and state.solver is not None
         self._control = IncrementControl(replace(step.procedure, period=math.inf), step.controls.time)
         self._follower = PathFollower(system, state.constraints, state.solver)

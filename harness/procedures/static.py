@@ -31,6 +31,7 @@ from harness.model.records import (
 )
 from harness.model.steps import Step
 from harness.procedures.checks import Checker
+from harness.procedures.element_loads import LoadRoutines
 from harness.procedures.extrapolation import Extrapolation
 from harness.procedures.incrementation import TOO_MANY_INCREMENTS, Abandoned, Accuracy, IncrementControl, refused
 from harness.procedures.limit import PASSED, LimitLoad
@@ -47,7 +48,7 @@ NORMAL, MASS = 1, 4
 """LFLAGS(3): a normal call, and the mass matrix alone."""
 
 
-class UserRoutines(Protocol):
+class UserRoutines(LoadRoutines, Protocol):
     """The part of a loaded library that a procedure calls; sdvini, disp: addresses, None without the routine."""
 
     sdvini: int | None
@@ -108,7 +109,7 @@ class StaticStep:
         self._user = user
         self._control = IncrementControl(step.procedure, step.controls.time)
         self._prescribed = state.boundaries.start_step(step, state.displacement, state.total_time)
-        self._load = state.loads.start_step(step, state.total_time)
+        self._load = state.loads.start_step(step, state.total_time, user)
         self._conditions = state.conditions.start_step(step, state.total_time)
         unknowns = state.boundaries.unknowns
         if len(state.boundaries.by_user) and user.disp is None:
@@ -261,6 +262,7 @@ class StaticStep:
         end = self._end(size)
         total = self._start + end
         unknowns = state.boundaries.unknowns
+        self._load.increment = increment
         return Increment(
             call=self._call(increment, size, end, total),
             displacement=state.displacement,

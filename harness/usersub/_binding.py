@@ -290,6 +290,22 @@ def disp(
     return last if left else 0
 
 
+def dload(
+    address: int,
+    place: tuple[int, int],
+    time: tuple[float, float],
+    places: NDArray[np.int32],
+    coords: FloatArray,
+    values: FloatArray,
+) -> int:
+    """Call DLOAD at points of distributed loads; returns the element at which it ended the analysis, else 0.
+
+    As disp; places (n, 3) element number, point and JLTYP.
+    """
+    left, element = _host.host_dload_pass(address, place, time, places.T, coords.T, values)
+    return element if left else 0
+
+
 def solid_address() -> int:
     """Address of the built-in plane continuum elements, called like UELMAT."""
     return int(_host.host_solid_address())

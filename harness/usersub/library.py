@@ -35,7 +35,7 @@ ENTRY_POINTS: Final = (
 class Library:
     """User routines of a job, and the job's messages from them.
 
-    uel, uelmat, umat, uvarm, sdvini, disp, uexternaldb  addresses, None where the file does not have the routine
+    uel, uelmat, umat, uvarm, sdvini, disp, dload, uexternaldb  addresses, None where the file does not have the routine
     name                      the file as the user named it, for messages
     file                      the shared library
     entry_points              names of all user routines found
@@ -55,6 +55,7 @@ class Library:
         self.uvarm = addresses["UVARM"]
         self.sdvini = addresses["SDVINI"]
         self.disp = addresses["DISP"]
+        self.dload = addresses["DLOAD"]
 
     def variables(self, jtype: int) -> PointVariables | None:
         """Meaning of the SVARS of an element type; None where the library does not hold the project's elements."""
@@ -94,6 +95,23 @@ class Library:
         if failed:
             node, dof = places[failed - 1].tolist()
             raise UelError(f"{self.name}: DISP {self.stop_reason()} (node {node}, dof {dof}, step {step})")
+        return made
+
+    def distributed_loads(
+        self,
+        step: int,
+        increment: int,
+        time: tuple[float, float],
+        places: NDArray[np.int32],
+        coords: FloatArray,
+        values: FloatArray,
+    ) -> FloatArray:
+        """Magnitudes that DLOAD makes of those given; places (n, 3) element number, point and JLTYP."""
+        assert self.dload is not None
+        made = np.array(values)
+        element = _binding.dload(self.dload, (step, increment), time, places, np.ascontiguousarray(coords), made)
+        if element:
+            raise UelError(f"{self.name}: DLOAD {self.stop_reason()} (element {element}, step {step})")
         return made
 
     def stop_reason(self) -> str:

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 import harness
-from harness.errors import DeckError
+from harness.errors import DeckError, UelError
 
 THICKNESS, DENSITY = 0.5, 3.0
 TYPES = {
@@ -23,6 +23,15 @@ SPACE_FACES = {
     **{1: ((0, 0, -1), 2.0), 2: ((0, 0, 1), 2.0), 3: ((0, -1, 0), 6.0)},
     **{4: ((1, 0, 0), 3.0), 5: ((0, 1, 0), 6.0), 6: ((-1, 0, 0), 3.0)},
 }
+
+DLOAD = """      SUBROUTINE DLOAD(F,KSTEP,KINC,TIME,NOEL,NPT,LAYER,KSPT,
+     1     COORDS,JLTYP,SNAME)
+      INCLUDE 'ABA_PARAM.INC'
+      CHARACTER*80 SNAME
+      DIMENSION TIME(2),COORDS(3)
+%s
+      END
+"""
 
 
 def nodes_of(element_type):
@@ -48,10 +57,13 @@ def deck(element_type, load, *, step="", options=""):
 
 @pytest.fixture
 def forces(tmp_path):
-    def forces(element_type, load, **options):
+    def forces(element_type, load, *, user=None, **options):
         """Forces (nodes, dimension) of the load at the end: all displacements are held."""
         (tmp_path / "load.inp").write_text(deck(element_type, load, **options))
-        history = harness.run(tmp_path / "load.inp", output_dir=tmp_path).history
+        if user is not None:
+            (tmp_path / "dload.f").write_text(DLOAD.replace("%s", user))
+        routines = tmp_path / "dload.f" if user is not None else None
+        history = harness.run(tmp_path / "load.inp", routines, output_dir=tmp_path).history
         nodes = nodes_of(element_type)
         dofs, labels = range(1, nodes.shape[1] + 1), range(1, len(nodes) + 1)
         return -np.array([[history[f"RF{dof}[ALL:{label}]"][-1] for dof in dofs] for label in labels])
@@ -118,10 +130,50 @@ def test_amplitude(forces):
     check("CPE4", forces("CPE4", load), np.array([-1.0, 0.0]), THICKNESS, np.array([2.0, 0.5]))
 
 
+@pytest.mark.parametrize("element_type", TYPES)
+def test_pressure_of_dload_over_a_face(forces, element_type):
+    """F = 2 y on the side x = 2: resultant of the pressure -2 y over 0 < y < 1, and its moment, exactly."""
+    height = 3.0 if element_type.startswith("C3D") else THICKNESS
+    face = 4 if element_type.startswith("C3D") else 2
+    found = forces(element_type, f"*DLOAD\nBODY, P{face}NU", user="      F = 2*COORDS(2)")
+    nodes = nodes_of(element_type)
+    np.testing.assert_allclose(found.sum(axis=0)[:2], [-height, 0.0], atol=1e-12)
+    np.testing.assert_allclose(nodes[:, 1] @ found[:, 0], -2 / 3 * height, rtol=1e-12)
+    assert found[nodes[:, 0] < 2] == pytest.approx(0.0, abs=1e-12)
+
+
+def test_body_force_of_dload(forces):
+    """F = x in direction 2 over 0 < x < 2, added to the magnitude of the deck, which ramps to 4."""
+    found = forces("CPE4", "*DLOAD\nBODY, BYNU, 4.", user="      F = F + COORDS(1)")
+    np.testing.assert_allclose(found.sum(axis=0), [0.0, (4 * 2 + 2) * THICKNESS], atol=1e-12)
+
+
+def test_arguments_of_dload(forces):
+    """Element 1, points 1 and 2 of a face, JLTYP 22, step 2, increment 1, at its end; removed by OP=NEW in step 3."""
+    step = "*STEP\n*STATIC\n1., 1.\n*END STEP\n"
+    user = (
+        "      F = 0\n      IF (NOEL.EQ.1 .AND. JLTYP.EQ.22) F = NPT + 10*KINC\n"
+        "     1  + 100*KSTEP + 1000*TIME(1) + 10000*TIME(2)"
+    )
+    found = forces("CPE4", "*DLOAD\nBODY, P2NU", user=user, step=step)
+    mean = 1.5 + 10 + 200 + 1000 + 20000
+    np.testing.assert_allclose(found.sum(axis=0), [-mean * THICKNESS, 0.0], rtol=1e-12, atol=1e-9)
+    gone = forces("CPE4", "*DLOAD\nBODY, P2NU", user=user, step=step.replace("1., 1.\n", "1., 1.\n*DLOAD, OP=NEW\n"))
+    assert gone == pytest.approx(0.0)
+
+
+def test_dload_may_end_the_analysis(forces):
+    with pytest.raises(UelError, match=r"DLOAD stopped the analysis.* \(element 1, step 1\)"):
+        forces("CPE4", "*DLOAD\nBODY, P2NU", user="      CALL XIT")
+
+
 @pytest.mark.parametrize(
     ("load", "options", "message"),
     [
         ("*DLOAD\nBODY, HP, 1.", "", r"load.inp:\d+: \*DLOAD: load type HP is not supported \(supported: Un and UnNU"),
+        ("*DLOAD\nBODY, P2NU", "", r"load.inp:\d+: \*DLOAD: nonuniform loads need DLOAD, which the job does not have"),
+        ("*DLOAD\nBODY, GRAVNU, 1.", "", "load type GRAVNU is not supported"),
+        ("*DLOAD\nBODY, P2NU", ", NLGEOM", "load type P turns with the surface"),
         ("*DLOAD\nBODY, P5, 1.", "", r"load.inp:\d+: \*DLOAD: elements of type CPE4 have no face S5"),
         ("*DLOAD\nBODY, GRAV, 1.", "", r"\*DLOAD: GRAV needs a direction, entries 4 to 6"),
         ("*DLOAD\nBODY, U1, 1.", "", r"load type U1 on elements that are not user elements \(1\)"),

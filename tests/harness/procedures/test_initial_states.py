@@ -108,7 +108,7 @@ def test_values_go_on_in_the_next_line(tmp_path):
 
 def test_checks_begin_with_the_same_states(tmp_path):
     """The calls made again return what they returned in the run."""
-    recording = record(deck(tmp_path, BY_SDVINI), USER, 1)
+    recording = record(deck(tmp_path, BY_SDVINI), [USER], 1)
     *_, (elements, results) = replay(recording, abaqus_order)
     svars = results.values[elements.starts[1] :][2 + 4 : 2 + 4 + 2]
     assert svars.tolist() == [400.0, 21.0]
