@@ -18,7 +18,7 @@ from harness.usersub import linker
 from harness.usersub.diagnostics import first_error
 from harness.usersub.headers import HEADERS
 from harness.usersub.languages import FIXED, FORTRAN, FREE, LANGUAGES, is_free_form, language_of, linking
-from harness.usersub.mending import COMPARED_LOGICALS, compare_logicals
+from harness.usersub.mending import repairs
 
 _INCLUDE = re.compile(r"^\s*#?\s*include\s*['\"<]([^'\">]+)['\">]", re.IGNORECASE | re.MULTILINE)
 
@@ -160,15 +160,13 @@ def _compile_one(command: Sequence[str], file: Path, sources: dict[str, list[Pat
         if errors is None:
             return notes
         changed = False
-        for found in COMPARED_LOGICALS.finditer(errors):
-            name, line, operator = Path(found["file"]).name, int(found["line"]), found["operator"]
-            if len(sources.get(name, [])) != 1:
+        for repair in repairs(errors):
+            if len(sources.get(repair.file, [])) != 1:
                 continue
-            text = copies.get(name) or _read(sources[name][0])
-            mended = compare_logicals(text, line, int(found["column"]), operator)
+            mended = repair.apply(copies.get(repair.file) or _read(sources[repair.file][0]))
             if mended is not None:
-                copies[name], changed = mended, True
-                notes.append(f"{name}, line {line}: logicals compared with {operator}, in the copy .eqv. or .neqv.")
+                copies[repair.file], changed = mended, True
+                notes.append(f"{repair.file}, line {repair.line}: {repair.note}")
         if not changed:
             texts = {name: _read(paths[0]) for name, paths in sources.items()}
             raise CompileError(file, first_error(errors, texts))

@@ -44,6 +44,9 @@ _OTHER_FORM: Final = (
 )
 
 
+_FIXED_CONTINUATION: Final = re.compile(r"^ {5}[1-9&+]", re.MULTILINE)
+
+
 def first_error(output: str, texts: Mapping[str, str]) -> str:
     """The compiler's first error: sentence, place, the source line with its column marked, and a hint.
 
@@ -79,9 +82,12 @@ def _hint(sentence: str, name: str, texts: Mapping[str, str]) -> str:
     for pattern, hint in _HINTS:
         if found := re.search(pattern, sentence, re.IGNORECASE):
             return hint.format(**found.groupdict())
-    text = texts.get(name, "")
-    if re.search(_OTHER_FORM, sentence) and not name.lower().endswith(".f90") and _looks_free(text):
-        return "it looks like free form: call it .f90, or begin it with !DIR$ FREEFORM"
+    text, free = texts.get(name, ""), name.lower().endswith(".f90")
+    if re.search(_OTHER_FORM, sentence):
+        if not free and _looks_free(text):
+            return "it looks like free form: call it .f90, or begin it with !DIR$ FREEFORM"
+        if free and _FIXED_CONTINUATION.search(text):
+            return "it looks like fixed form: call it .for"
     return ""
 
 

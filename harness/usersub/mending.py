@@ -8,16 +8,60 @@ Only what has one meaning is changed, at the places that the compiler names; the
 from __future__ import annotations
 
 import re
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass
+from functools import partial
+from pathlib import Path
 from typing import Final
 
-COMPARED_LOGICALS: Final = re.compile(
+_COMPARED_LOGICALS: Final = re.compile(
     r"^(?P<file>[^\n]+?):(?P<line>\d+):(?P<column>\d+):\n(?:(?!.*Error:).*\n)*?"
     r"Error: Logicals at \(1\) must be compared with \.(?:n?eqv)\. instead of (?P<operator>\S+)$",
+    re.MULTILINE,
+)
+_IMPORTED_TWICE: Final = re.compile(
+    r"^(?P<file>[^\n]+?):(?P<line>\d+):\d+:\n(?:(?!.*Error:).*\n)*?"
+    r"Error: '(?P<name>\w+)' of module '(?P<module>\w+)', imported at \(1\), "
+    r"is also the name of the current program unit$",
     re.MULTILINE,
 )
 _SPELLINGS: Final = {".eq.": (".eq.", "=="), "==": (".eq.", "=="), ".ne.": (".ne.", "/="), "/=": (".ne.", "/=")}
 _STANDARD: Final = {".eq.": ".eqv.", "==": ".eqv.", ".ne.": ".neqv.", "/=": ".neqv."}
 _WEAKER: Final = re.compile(r"\.(and|or|eqv|neqv)\.", re.IGNORECASE)
+
+
+@dataclass(frozen=True)
+class Repair:
+    """Bare name of a file, line from 1, the change of its text (None where it stays), and a note of what is changed."""
+
+    file: str
+    line: int
+    apply: Callable[[str], str | None]
+    note: str
+
+
+def repairs(errors: str) -> Iterator[Repair]:
+    """Repairs of what gfortran refuses in a file, by what it says of it."""
+    for found in _COMPARED_LOGICALS.finditer(errors):
+        line, operator = int(found["line"]), found["operator"]
+        change = partial(compare_logicals, line=line, column=int(found["column"]), operator=operator)
+        note = f"logicals compared with {operator}, in the copy .eqv. or .neqv."
+        yield Repair(Path(found["file"]).name, line, change, note)
+    for found in _IMPORTED_TWICE.finditer(errors):
+        line, name, module = int(found["line"]), found["name"], found["module"]
+        change = partial(rename_import, line=line, module=module, name=name)
+        note = f"{name} of module {module} has the name of the program unit that uses it, and another one in the copy"
+        yield Repair(Path(found["file"]).name, line, change, note)
+
+
+def rename_import(text: str, line: int, module: str, name: str) -> str | None:
+    """The text in which a plain `use module` gives what has this name another one, so that the unit's own stays."""
+    lines = text.splitlines(keepends=True)
+    row = lines[line - 1].rstrip() if 1 <= line <= len(lines) else ""
+    if re.fullmatch(rf"\s*use\s+{module}", row, re.IGNORECASE) is None:
+        return None
+    lines[line - 1] = f"{row}, of_{module} => {name}\n"
+    return "".join(lines)
 
 
 def compare_logicals(text: str, line: int, column: int, operator: str) -> str | None:

@@ -233,6 +233,19 @@ def test_logicals_compared_with_eq_compile_in_a_copy(load, tmp_path):
     assert (tmp_path / "user.f").read_text() == text
 
 
+def test_name_that_is_imported_and_defined_compiles_in_a_copy(load):
+    """As Abaqus' compiler takes it: in the routine its own name is meant."""
+    modules = "      module one\n      contains\n      subroutine twice(i)\n      i = 2*i\n"
+    modules += "      end subroutine\n      end module\n"
+    modules += "      module two\n      contains\n      recursive subroutine twice(i)\n      use one\n"
+    modules += "      i = i + 1\n      if (i .lt. 9) call twice(i)\n      end subroutine\n      end module\n"
+    text = database("      i = 6\n      call twice(i)\n" + note("%I", "i"))
+    library = load(modules + text.replace("include", "use two\n      include", 1))
+    (message,) = library.messages()
+    assert "user.f, line 10: twice of module one has the name of the program unit that uses it" in message.text
+    assert said(library) == ["9"]
+
+
 HINTS = {
     "an Intel module": ("      use ifport\n      end\n", "user.f", "it belongs to Intel's compiler: use Fortran's own"),
     "MKL as a module": (
@@ -251,6 +264,11 @@ HINTS = {
         "no file before this one defines the module tensors",
     ),
     "integer for logical": (database("      if (lop) i = 1"), "user.f", "write the comparison out, such as i /= 0"),
+    "fixed form in .f90": (
+        "      subroutine uexternaldb(lop,\n     1 lrestart)\n      end\n",
+        "user.f90",
+        "it looks like fixed form: call it .for",
+    ),
     "free form in .for": (
         "subroutine uexternaldb(lop, &\n  lrestart)\ninteger :: lop\nlop = 1\nend subroutine\n",
         "user.for",
