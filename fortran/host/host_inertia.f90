@@ -31,6 +31,7 @@ contains
     logical :: lumped
     lumped = nodes <= 2**dim
     points = merge(1, merge(2, 3, lumped)**dim, nodes == dim + 1)
+    if (dim == 2 .and. nodes == 6) points = 6
     rule => rule_of(dim, nodes, points)
     at_nodes = 0
     do p = 1, points

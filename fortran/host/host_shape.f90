@@ -1,7 +1,7 @@
 ! SPDX-FileCopyrightText: The uel-harness authors
 ! SPDX-License-Identifier: BSD-3-Clause
-!> Shape functions and integration points of the built-in continuum elements: triangles of 3 nodes, quadrilaterals of 4
-!> and 8, tetrahedra of 4, hexahedra of 8 and 20, numbered as in Abaqus.
+!> Shape functions and integration points of the built-in continuum elements: triangles of 3 and 6 nodes, quadrilaterals
+!> of 4 and 8, tetrahedra of 4, hexahedra of 8 and 20, numbered as in Abaqus.
 module host_shape
   use host_kinds, only: dp
   implicit none (type, external)
@@ -63,6 +63,10 @@ contains
       weight = merge(0.5_dp, 1.0_dp/6, dim == 2)
       return
     end if
+    if (dim == 2 .and. nodes == 6) then
+      call triangle_point(points, point, parent, weight)
+      return
+    end if
     along = nint(real(points, dp)**(1.0_dp/dim))
     rest = point - 1
     weight = 1
@@ -82,6 +86,39 @@ contains
     end do
   end subroutine integration_point
 
+  !> A point of a triangle: of three, exact for polynomials of degree 2, or of six for those of degree 4 (D.A. Dunavant,
+  !> Int. J. for Numerical Methods in Engineering 21 (1985) 1129).
+  pure subroutine triangle_point(points, point, parent, weight)
+    integer, intent(in) :: points, point
+    real(dp), intent(out) :: parent(2), weight
+    real(dp), parameter :: near(3) = [1.0_dp/6, 0.445948490915965_dp, 0.091576213509771_dp]
+    real(dp), parameter :: area(3) = [1.0_dp/3, 0.223381589678011_dp, 0.109951743655322_dp]
+    integer :: kind
+    kind = 1
+    if (points == 6) kind = merge(2, 3, point <= 3)
+    weight = 0.5_dp*area(kind)
+    parent = near(kind)
+    if (mod(point, 3) == 2) parent(1) = 1 - 2*near(kind)
+    if (mod(point, 3) == 0) parent(2) = 1 - 2*near(kind)
+  end subroutine triangle_point
+
+  !> Quadratic functions of a triangle: corners, then the middles of the edges.
+  pure subroutine triangle_functions(parent, n, dn)
+    real(dp), intent(in) :: parent(2)
+    real(dp), intent(out) :: n(6), dn(6, 2)
+    real(dp), parameter :: slope(3, 2) = reshape([-1.0_dp, 1.0_dp, 0.0_dp, -1.0_dp, 0.0_dp, 1.0_dp], [3, 2])
+    real(dp) :: area(3)
+    integer :: k, next
+    area = [1 - sum(parent), parent]
+    do k = 1, 3
+      next = mod(k, 3) + 1
+      n(k) = area(k)*(2*area(k) - 1)
+      dn(k, :) = (4*area(k) - 1)*slope(k, :)
+      n(3 + k) = 4*area(k)*area(next)
+      dn(3 + k, :) = 4*(area(k)*slope(next, :) + area(next)*slope(k, :))
+    end do
+  end subroutine triangle_functions
+
   !> Shape functions and their derivatives by the parent coordinates.
   pure subroutine shape_functions(dim, nodes, parent, n, dn)
     integer, intent(in) :: dim, nodes
@@ -95,6 +132,8 @@ contains
       do k = 1, dim
         dn(k + 1, k) = 1
       end do
+    else if (dim == 2 .and. nodes == 6) then
+      call triangle_functions(parent, n, dn)
     else
       do k = 1, nodes
         call node_function(dim, node_at(dim, k), nodes > 2**dim, parent, n(k), dn(k, :))

@@ -1,7 +1,7 @@
 ! SPDX-FileCopyrightText: The uel-harness authors
 ! SPDX-License-Identifier: BSD-3-Clause
-!> Built-in continuum elements CPS3, CPS4, CPS4R, CPS8 and CPS8R, CPE likewise, C3D4, C3D8, C3D8R, C3D20 and C3D20R, as
-!> a procedure with the arguments of UELMAT.
+!> Built-in continuum elements CPS3, CPS4, CPS4R, CPS6, CPS8 and CPS8R, CPE likewise, C3D4, C3D8, C3D8R, C3D20 and
+!> C3D20R, as a procedure with the arguments of UELMAT.
 !>
 !> JPROPS(1) is the number of integration points. CPE4 and C3D8 replace the volume strain of the points by its mean over
 !> the element, as Abaqus does. Elements of one point have the uniform strain, and with four or eight nodes hourglass

@@ -14,12 +14,12 @@ from harness.errors import DeckError, Source
 from harness.model.mesh import ElementGroup
 from harness.model.properties import SpringSection, UserElement
 
-_PLANE_NODES = {"3": 3, "4": 4, "4R": 4, "8": 8, "8R": 8}
+_PLANE_NODES = {"3": 3, "4": 4, "4R": 4, "6": 6, "8": 8, "8R": 8}
 _SOLID_NODES = {
     **{f"{kind}{name}": nodes for kind in ("CPS", "CPE") for name, nodes in _PLANE_NODES.items()},
     **{"C3D4": 4, "C3D8": 8, "C3D8R": 8, "C3D20": 20, "C3D20R": 20},
 }
-_COUPLED_NODES = {f"{name}T": nodes for name, nodes in _SOLID_NODES.items()}
+_COUPLED_NODES = {f"{name}T": nodes for name, nodes in _SOLID_NODES.items() if nodes != 6}
 """Continuum elements with temperatures at their corners."""
 COHESIVE_NODES = {"COH2D4": 4, "COH3D8": 8}
 BUILT_IN_NODES = {

@@ -93,6 +93,8 @@ def _rule(dimension: int, nodes: int) -> tuple[FloatArray, FloatArray, FloatArra
     if nodes == dimension + 1 and dimension > 1:
         derivatives = np.vstack([-np.ones(dimension), np.eye(dimension)])
         return np.full((1, nodes), 1.0 / nodes), derivatives[None], np.array([1.0 / (2 if dimension == 2 else 6)])
+    if dimension == 2 and nodes == 6:
+        return _triangle()
     middle = nodes > 2**dimension
     places, line = np.polynomial.legendre.leggauss(3 if middle else 2)
     # counted along the first direction first
@@ -100,6 +102,17 @@ def _rule(dimension: int, nodes: int) -> tuple[FloatArray, FloatArray, FloatArra
     weights = np.array([np.prod(w) for w in product(line, repeat=dimension)])
     shapes, derivatives = _serendipity(_NODES[dimension][:nodes], points, middle=middle)
     return shapes, derivatives, weights
+
+
+def _triangle() -> tuple[FloatArray, FloatArray, FloatArray]:
+    """Quadratic functions at three points, for which their integrals are exact."""
+    slope = np.array([[-1.0, -1.0], [1.0, 0.0], [0.0, 1.0]])
+    area = np.full((3, 3), 1 / 6) + np.eye(3) / 2
+    following = np.roll(area, -1, axis=1)
+    shapes = np.hstack([area * (2 * area - 1), 4 * area * following])
+    corners = (4 * area - 1)[:, :, None] * slope
+    middles = 4 * (area[:, :, None] * np.roll(slope, -1, axis=0) + following[:, :, None] * slope)
+    return shapes, np.concatenate([corners, middles], axis=1), np.full(3, 1 / 6)
 
 
 def _serendipity(nodes: FloatArray, points: FloatArray, *, middle: bool) -> tuple[FloatArray, FloatArray]:

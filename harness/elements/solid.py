@@ -49,7 +49,7 @@ class Solid:
         return 1 if self.dimension == 2 else 4
 
 
-_PLANE = {"3": (3, 1), "4": (4, 4), "4R": (4, 1), "8": (8, 9), "8R": (8, 4)}
+_PLANE = {"3": (3, 1), "4": (4, 4), "4R": (4, 1), "6": (6, 3), "8": (8, 9), "8R": (8, 4)}
 SOLIDS: Final = {
     **{f"CPS{name}": Solid(*counts, Tensor.PLANE_STRESS) for name, counts in _PLANE.items()},
     **{f"CPE{name}": Solid(*counts, Tensor.PLANE_STRAIN) for name, counts in _PLANE.items()},
@@ -61,7 +61,7 @@ SOLIDS: Final = {
 }
 """Built-in continuum elements by their names."""
 
-COUPLED: Final = {f"{name}T": kind for name, kind in SOLIDS.items()}
+COUPLED: Final = {f"{name}T": kind for name, kind in SOLIDS.items() if kind.nodes != 6}
 """The same with temperatures at their corners."""
 
 _COMPONENTS: Final = {2: ("11", "22", "33", "12"), 3: ("11", "22", "33", "12", "13", "23")}

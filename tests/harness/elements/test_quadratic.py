@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""Built-in eight-node quads: polynomials and modes without energy; and a stack of them with U5 or U6 in between."""
+"""Quadratic elements: polynomials and modes without energy; and a stack of quads with U5 or U6 in between."""
 
 import meshio
 import numpy as np
@@ -74,6 +74,47 @@ def test_quadratic_displacements(quad, call, element_type):
     assert len(points) == n * n
     assert report.energy[1] == pytest.approx(work, rel=1e-12)
     np.testing.assert_allclose(matrix @ u, -residual, atol=1e-13)
+
+
+TRIANGLE = with_middles(np.array([[0.0, 0.0], [1.0, 0.2], [0.3, 0.9]]))
+
+
+@pytest.mark.parametrize("element_type", ["CPS6", "CPE6"])
+def test_quadratic_displacements_of_a_triangle(solid_group, bound, load, call, element_type):
+    """Strain at the three points of u = (x y, x^2 - y^2); rank; masses and forces by theory."""
+    group = solid_group(element_type, np.arange(6)[None], 2.0)
+    block, matrix = bound(group, np.column_stack([TRIANGLE, np.zeros(6)]), load(None))
+    x, y = TRIANGLE.T
+    u = 1e-3 * np.column_stack([x * y, x**2 - y**2]).ravel()
+    residual = np.zeros(12)
+    report = block.evaluate(call, u, u, residual, matrix.data)
+    block.commit()
+    points = block.state(0).svars.reshape(3, 8)
+    work = 0.0
+    for values, (g, h) in zip(points, [(1 / 6, 1 / 6), (2 / 3, 1 / 6), (1 / 6, 2 / 3)], strict=True):
+        px, py = g * np.array([1.0, 0.2]) + h * np.array([0.3, 0.9])
+        strain = 1e-3 * np.array([py, -2 * py, px + 2 * px])
+        np.testing.assert_allclose(values[[0, 1, 3]], strain, rtol=1e-12, atol=1e-17)
+        if element_type == "CPS6":
+            np.testing.assert_allclose(values[[4, 5, 7]], PLANE_STRESS @ strain, rtol=1e-12, atol=1e-14)
+        # a third of the volume: thickness 2, area (1.0 x 0.9 - 0.2 x 0.3)/2
+        work += 0.5 * 2.0 * 0.42 / 3 * strain @ values[[4, 5, 7]]
+    assert report.energy[1] == pytest.approx(work, rel=1e-12)
+    np.testing.assert_allclose(matrix @ u, -residual, atol=1e-13)
+    # three points of three strains: no mode without energy but the rigid ones
+    assert np.linalg.matrix_rank(matrix.toarray(), tol=1e-9 * abs(matrix.toarray()).max()) == 9
+
+
+def test_mass_of_a_triangle(solid_group, bound, load, call):
+    """Consistent mass, thickness x density x area/180 times the integers of theory (O.C. Zienkiewicz, R.L. Taylor)."""
+    group = solid_group("CPS6", np.arange(6)[None], 2.0)
+    block, matrix = bound(group, np.column_stack([TRIANGLE, np.zeros(6)]), load(None))
+    block.artificial_mass(call, 12, matrix.data)
+    a = np.array([[6, -1, -1], [-1, 6, -1], [-1, -1, 6]])
+    b = np.array([[0, -4, 0], [0, 0, -4], [-4, 0, 0]])
+    c = np.array([[32, 16, 16], [16, 32, 16], [16, 16, 32]])
+    expected = 2.0 * 0.42 / 180 * np.block([[a, b], [b.T, c]])
+    np.testing.assert_allclose(matrix.toarray()[::2, ::2], expected, rtol=1e-9, atol=1e-12)
 
 
 @pytest.mark.parametrize(("element_type", "rank"), [("CPS8", 13), ("CPS8R", 12), ("CPE8", 13), ("CPE8R", 12)])

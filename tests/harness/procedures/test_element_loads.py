@@ -105,6 +105,43 @@ def test_loads_of_the_volume(forces, element_type):
     check(element_type, forces(element_type, "*DLOAD\nBODY, BX, 7."), np.eye(dimension)[0] * 7, volume, middle)
 
 
+TRIANGLE = """*NODE, NSET=ALL
+1, 0., 0.
+2, 2., 0.
+3, 2., 1.
+4, 1., 0.
+5, 2., 0.5
+6, 1., 0.5
+*ELEMENT, TYPE=CPE6, ELSET=BODY
+1, 1, 2, 3, 4, 5, 6
+*SOLID SECTION, ELSET=BODY, MATERIAL=M
+0.5
+*MATERIAL, NAME=M
+*ELASTIC
+1000., 0.3
+*STEP
+*STATIC
+*BOUNDARY
+ALL, 1, 2
+*DLOAD
+BODY, {load}
+*OUTPUT, HISTORY
+*NODE OUTPUT, NSET=ALL
+RF
+*END STEP
+"""
+
+
+@pytest.mark.parametrize(("load", "force"), [("P2, 6.", [0, -0.5, -0.5, 0, -2, 0]), ("BX, 6.", [0, 0, 0, 1, 1, 1])])
+def test_loads_of_a_quadratic_triangle(tmp_path, load, force):
+    """Of a side 1/6, 1/6 and 2/3 go to its ends and middle; of the area a third to the middle of each side."""
+    (tmp_path / "triangle.inp").write_text(TRIANGLE.format(load=load))
+    history = harness.run(tmp_path / "triangle.inp", output_dir=tmp_path).history
+    found = [-history[f"RF1[ALL:{label}]"][-1] for label in range(1, 7)]
+    # the nodes' order in the side of P2 is 2, 3, middle 5
+    assert found == pytest.approx(force, abs=1e-12)
+
+
 def test_tractions_of_a_surface(forces):
     """S2 is the side x = 2: a vector as it is, a shear traction its part in the surface at full size."""
     side, area = np.array([2.0, 0.5]), THICKNESS
