@@ -62,6 +62,9 @@ def measure(folder: Path, row: Row) -> Outcome:
     lines: list[tuple[int, int]] = []
     values: list[tuple[float, float]] = []
     try:
+        if row.get("only") == "read":
+            outcome.figure = sum(len(group.labels) for group in read_deck(folder / row["folder"] / row["deck"]).groups)
+            return outcome
         for model, record in _records(folder / row["folder"], row):
             if isinstance(record, AttemptAbandoned):
                 outcome.cutbacks += 1
