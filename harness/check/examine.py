@@ -85,7 +85,7 @@ def _examine_type(subject: Subject, skip: Collection[str]) -> TypeReport:
 
 def _run(check: Check, subject: Subject) -> Finding:
     if check.calls and not subject.states:
-        return not_applicable("no element of the type returns from a call by itself: it needs those of other elements")
+        return not_applicable(f"no call of an element by itself returns: {subject.refusal}")
     try:
         return check.function(subject)
     except KernelError as error:

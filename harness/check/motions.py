@@ -100,7 +100,7 @@ def body_of(subject: Subject, state: State) -> Body | None:
     dimensions = points.shape[1]
     displacement = dofs <= dimensions
     counts = [len(np.unique(local[dofs == direction + 1])) for direction in range(dimensions)]
-    if dimensions > 3 or min(counts, default=0) < 2 or len(set(counts)) > 1:
+    if not 1 <= dimensions <= 3 or min(counts, default=0) < 2 or len(set(counts)) > 1:
         return None
     return Body(points, displacement, local, np.where(displacement, dofs - 1, -1), dofs)
 

@@ -28,19 +28,18 @@ CORNERS: Final = {(2, 3): 3, (2, 4): 4, (2, 6): 3, (2, 8): 4, (2, 9): 4, (3, 4):
 def patches_of(model: Model, kind: str, dimensions: int) -> Iterator[tuple[int, list[int]]]:
     """Corner nodes around which all edges or faces are shared by two elements of a type with the same properties.
 
-    Yields the node and the positions of its elements in the model.
+    Elements of other types on the same nodes, for plotting, do not count. Yields the node and the positions of its
+    elements in the model.
     """
     shared: Counter[tuple[object, frozenset[int]]] = Counter()
     around: dict[int, list[int]] = {}
     faces: dict[int, list[tuple[object, frozenset[int]]]] = {}
-    foreign: set[int] = set()
     position = -1
     for group in model.groups:
         corners = CORNERS.get((dimensions, group.nodes.shape[1]))
         for nodes in group.nodes.tolist():
             position += 1
             if group.type != kind or corners is None:
-                foreign.update(nodes)
                 continue
             for local in FACES[dimensions, corners]:
                 face = id(group.section), frozenset(nodes[k] for k in local)
@@ -50,5 +49,5 @@ def patches_of(model: Model, kind: str, dimensions: int) -> Iterator[tuple[int, 
             for node in nodes[:corners]:
                 around.setdefault(node, []).append(position)
     for node, positions in around.items():
-        if node not in foreign and all(shared[face] == 2 for face in faces[node]):
+        if all(shared[face] == 2 for face in faces[node]):
             yield node, positions

@@ -56,6 +56,7 @@ class Subject:
     order       what random orders of calling gave
     patches     for the patch test
     library     the user routines
+    refusal     why no element returns from a call by itself; '' where one does
     """
 
     type: str
@@ -69,6 +70,7 @@ class Subject:
     order: TypeVerdict
     patches: tuple[Patch, ...]
     library: Library
+    refusal: str
     _differences: dict[int, Differences] = field(default_factory=dict)
 
     def differences(self, state: State) -> Differences:
@@ -117,17 +119,21 @@ def subject_of(recording: Recording, kind: str, order: TypeVerdict, seed: int) -
     chosen = {id(made[k]) for k in np.unique(np.linspace(0, len(made) - 1, PASSES).astype(int))}
     group = next(group for group in recording.model.groups if group.type == kind)
     states: list[tuple[State, Returned]] = []
+    refusals: list[str] = []
     patches: tuple[Patch, ...] = ()
     with closing(replay(recording, abaqus_order, strict=False)) as passes:
         for elements, results in passes:
             if results.made is made[0]:
                 patches = _patches(recording, group, elements, made[0])
+            refusals += [str(results.refusals[k]) for k in results.refusals if elements.types[k] == kind]
             if id(results.made) in chosen:
                 states += _states(elements, kind, results.made, made[-1])
             if results.made is made[-1]:
                 break
-        states = [pair for pair in states if _returns(pair[0])]
-        yield _subject(recording, group, states, order, seed, patches, elements.library)
+        errors = [_error_of(state) for state, _ in states]
+        refusal = "" if not all(errors) else [*refusals, *errors, "it is not called in the run"][0]
+        states = [pair for pair, error in zip(states, errors, strict=True) if not error]
+        yield _subject(recording, group, states, order, seed, patches, elements.library, refusal)
 
 
 def _patches(recording: Recording, group: ElementGroup, elements: Elements, made: Pass) -> tuple[Patch, ...]:
@@ -156,12 +162,13 @@ def _states(elements: Elements, kind: str, made: Pass, last: Pass) -> Iterator[t
             yield state, state.evaluate()
 
 
-def _returns(state: State) -> bool:
+def _error_of(state: State) -> str:
+    """Why a call ends the analysis; '' where it returns."""
     try:
         state.evaluate()
-    except KernelError:
-        return False
-    return True
+    except KernelError as error:
+        return str(error)
+    return ""
 
 
 def diagonal(coordinates: FloatArray) -> float:
@@ -183,6 +190,7 @@ def _subject(
     seed: int,
     patches: tuple[Patch, ...],
     library: Library,
+    refusal: str,
 ) -> Subject:
     assert group.definition is not None
     definition = group.definition
@@ -193,9 +201,20 @@ def _subject(
     # where the run moves nothing: strains of 1e-4, or a thousandth of the unit of any other field
     scales = np.where(scales > 0.0, scales, np.where(dofs <= 3, 1e-4 * size, 1e-3))
     rng = np.random.default_rng(seed)
-    random = tuple(shaken for state in states if _returns(shaken := _shaken(state, scales, rng)))
+    random = tuple(shaken for state in states if not _error_of(shaken := _shaken(state, scales, rng)))
     return Subject(
-        group.type, recording, definition, order.elements, states, returned, random, scales, order, patches, library
+        group.type,
+        recording,
+        definition,
+        order.elements,
+        states,
+        returned,
+        random,
+        scales,
+        order,
+        patches,
+        library,
+        refusal,
     )
 
 

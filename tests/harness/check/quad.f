@@ -105,6 +105,11 @@
       case (26)  ! and the residual alone is another one
         amatrx = 0.4d0*amatrx
         if (lflags(3) == 5) rhs(1,1) = 0.9d0*rhs(1,1)
+      case (28)  ! no more calls than the 20 of the run
+        call count_calls(svars)
+        if (svars(1) > 20) call xit
+      case (27)  ! a material that breaks
+        if (maxval(abs(svars(1:12))) > 100) call xit
       end select
       end
 

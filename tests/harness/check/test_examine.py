@@ -20,7 +20,12 @@ DECKS = Path(__file__).parents[3] / "abaqus_inputs"
 MISTAKES = [
     (1, "filled", r"AMATRX\(1,1\) was not filled, or was added to", "Set RHS and AMATRX to zero"),
     (2, "zero-modes", "AMATRX has 5 zero modes, rigid-body motions are 3", r"2 deformation\(s\) cost nothing"),
-    (3, "rotation", "a rigid rotation makes forces: 25.2 % .* for linear kinematics", "shear takes both derivatives"),
+    (
+        3,
+        "rotation",
+        "a small rigid rotation makes forces of 25.2 % .* its terms",
+        "shear takes both derivatives",
+    ),
     (4, "tangent", r"AMATRX\(7,7\) is -1169.75, differences of RHS give 1169.75; 64 of 64", "The sign is wrong"),
     (4, "zero-modes", "negative eigenvalue at rest", "look at the sign of AMATRX"),
     (5, "tangent", "64 of 64 entries are wrong by up to 50 %", "AMATRX is 2 times what it has to be"),
@@ -173,6 +178,28 @@ def test_linear_kinematics_with_nlgeom(patch):
     assert rotation.verdict is Verdict.FAILED
     assert re.search("the step has NLGEOM, and a rotation by 30 degrees makes forces", rotation.message)
     assert re.search("run it without NLGEOM, or let it follow LFLAGS", rotation.advice)
+
+
+def test_rotation_that_the_material_does_not_bear(patch):
+    """30 degrees are a compression of 13 % to linear kinematics."""
+    assert findings(patch(27))["rotation"].message.startswith("linear kinematics, forces stay to ")
+    rotation = findings(patch(27, ("*STEP", "*STEP, NLGEOM=YES")))["rotation"]
+    assert re.search("a rotation by 30 degrees ends the analysis; the kinematics are linear", rotation.message)
+    assert rotation.figure is None
+
+
+def test_patch_under_elements_for_plotting(patch):
+    overlay = (
+        "*ELEMENT, TYPE=CPS4, ELSET=SHOWN\n11, 1, 2, 5, 4\n12, 2, 3, 6, 5\n"
+        "*SOLID SECTION, ELSET=SHOWN, MATERIAL=SOFT\n1.\n*MATERIAL, NAME=SOFT\n*ELASTIC\n1e-9, 0.\n*STEP"
+    )
+    assert findings(patch(0, ("*STEP", overlay)))["patch"].message.startswith("forces balance at 1 nodes")
+
+
+def test_element_that_never_returns_by_itself(patch):
+    tangent = findings(patch(28))["tangent"]
+    assert tangent.verdict is Verdict.NOT_APPLICABLE
+    assert re.search(r"no call of an element by itself returns: element \d .*: stopped the analysis", tangent.message)
 
 
 @pytest.mark.parametrize("name", ["perturbed_u2", "perturbed_u4"])
