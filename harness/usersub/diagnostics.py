@@ -25,25 +25,21 @@ _HINTS: Final = (
         r"module file '(?:lapack95|blas95|f95_precision|mkl\w*)\.mod'|included file '(?:mkl|lapack)\w*\.(?:fi|f90)'",
         "it belongs to Intel's MKL: LAPACK and BLAS are linked here without it; call them by name, such as DGESV",
     ),
-    (
-        r"IF clause at \(1\) requires a scalar LOGICAL|requires a scalar LOGICAL",
-        "write the comparison out, such as i /= 0",
-    ),
+    (r"requires a scalar LOGICAL", "write the comparison out, such as i /= 0"),
     (
         r"must be compared with \.n?eqv\.",
         "Abaqus' compiler takes this; write .eqv. or .neqv., with parentheses around the comparison",
     ),
-    (r"Cannot open module file '(?P<module>\w+)\.mod'", "no file before this one defines the module {module}"),
 )
-"""Errors that tell of another compiler or of a missing file, and what to do."""
+"""Errors that tell of another compiler, and what to do."""
+
+_NO_MODULE: Final = re.compile(r"Cannot open module file '(\w+)\.mod'")
 
 _TWICE: Final = re.compile(r"([\w.-]+):\([^)]*\): multiple definition of `(\w+)'; [^\n]*?([\w.-]+):\(")
 _OTHER_FORM: Final = (
     r"Non-numeric character in statement label|Invalid character in name|Unclassifiable statement"
     r"|Bad continuation line|Unexpected end of file|Expecting|Syntax error"
 )
-
-
 _FIXED_CONTINUATION: Final = re.compile(r"^ {5}[1-9&+]", re.MULTILINE)
 
 
@@ -80,8 +76,10 @@ def _message(sentence: str, place: re.Match[str] | None, context: list[str], tex
 
 def _hint(sentence: str, name: str, texts: Mapping[str, str]) -> str:
     for pattern, hint in _HINTS:
-        if found := re.search(pattern, sentence, re.IGNORECASE):
-            return hint.format(**found.groupdict())
+        if re.search(pattern, sentence, re.IGNORECASE):
+            return hint
+    if found := _NO_MODULE.search(sentence):
+        return _missing_module(found[1], name, texts)
     text, free = texts.get(name, ""), name.lower().endswith(".f90")
     if re.search(_OTHER_FORM, sentence):
         if not free and _looks_free(text):
@@ -89,6 +87,17 @@ def _hint(sentence: str, name: str, texts: Mapping[str, str]) -> str:
         if free and _FIXED_CONTINUATION.search(text):
             return "it looks like fixed form: call it .for"
     return ""
+
+
+def _missing_module(module: str, name: str, texts: Mapping[str, str]) -> str:
+    """Where a module is that a file uses and that is not compiled yet."""
+    definition = re.compile(rf"^\s*module\s+{module}\s*(?:!.*)?$", re.IGNORECASE | re.MULTILINE)
+    files = [file for file, text in texts.items() if definition.search(text)]
+    if not files:
+        return f"no file here defines the module {module}: give the one that does before this one"
+    if name in files:
+        return f"the module {module} stands further down: move it to the top of the file"
+    return f"{files[0]} defines the module {module}: give it before {name}"
 
 
 def _looks_free(text: str) -> bool:

@@ -261,7 +261,12 @@ HINTS = {
     "a missing module": (
         "      use tensors\n      end\n",
         "user.f",
-        "no file before this one defines the module tensors",
+        "no file here defines the module tensors: give the one",
+    ),
+    "a module further down": (
+        "      subroutine uel\n      use tensors\n      end\n      module tensors\n      end\n",
+        "user.f",
+        "the module tensors stands further down: move it to the top",
     ),
     "integer for logical": (database("      if (lop) i = 1"), "user.f", "write the comparison out, such as i /= 0"),
     "fixed form in .f90": (
@@ -288,3 +293,11 @@ def test_fixed_form_gets_no_hint_at_free_form(load):
     with pytest.raises(CompileError) as caught:
         load(database("      x = = 2"))
     assert "Hint" not in str(caught.value)
+
+
+def test_hint_at_the_order_of_files(tmp_path):
+    (tmp_path / "a.f").write_text("      subroutine uel\n      use tensors\n      end\n")
+    (tmp_path / "b.f90").write_text("module tensors ! second order\nend module\n")
+    files = [tmp_path / "a.f", tmp_path / "b.f90"]
+    with pytest.raises(CompileError, match=r"Hint: b.f90 defines the module tensors: give it before a.f\."):
+        usersub.load(files, job="job", output_dir=tmp_path)
