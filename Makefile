@@ -40,10 +40,13 @@ $(INSTALLED): pyproject.toml meson.build .ci/toolchain
 demo: $(INSTALLED)
 	$(RUN) $(BIN)/python -m harness.delamination.demo --output-dir demo
 
+# the first import builds what has changed; several test processes at once would get in each other's way
 test: $(INSTALLED)
+	$(RUN) $(BIN)/python -c 'import harness'
 	$(RUN) $(BIN)/pytest -m '$(SELECT)' $(PYTEST_ARGS)
 
 test-all: $(INSTALLED)
+	$(RUN) $(BIN)/python -c 'import harness'
 	$(RUN) $(BIN)/pytest $(PYTEST_ARGS)
 
 test-debug:

@@ -274,7 +274,7 @@ class Balance:
         self.rounding = np.zeros(COPIES)
         zero = np.zeros((COPIES, rule))
         self.old = dict.fromkeys(("SEPN", "SEPT", "WN", "WT", "TN", "TT", "DISSF", "DAMAGE", "MAXT"), zero)
-        self.cohesive = zero
+        self.cohesive = self.doubt = zero
 
     def advance(self, state, names):
         """Work up to now; elements whose share of law and friction in T_tau is not known."""
@@ -287,13 +287,19 @@ class Balance:
         pressed = state["TN"] < -1e-9 * abs(state["TT"])
         free = (not self.rubs) | (old["DAMAGE"] == 0) | ~pressed | slips
         cohesive = np.where(free, state["TT"] - friction, self.cohesive)
+        # a short slip says little of its friction, whose error a long one after it multiplies
+        spread = state["DISSF"] + abs(friction) * (abs(state[tangential]) + abs(old[tangential]))
+        error = np.divide(4 * np.finfo(float).eps * spread, abs(slid), out=np.zeros_like(slid), where=slips)
+        doubt = np.where(free, error, self.doubt)
         done = 0.5 * (old["TN"] + state["TN"]) * opened + 0.5 * (self.cohesive + cohesive) * slid + rubbed
         self.work = self.work + (done * self.area).sum(axis=1)
         separation = np.stack([abs(state[normal]).max(axis=1), abs(state[tangential]).max(axis=1)], axis=1)
         self.rounding += separation**2 @ self.rounded_traction * self.area.sum()
+        self.rounding += 0.5 * ((self.doubt + doubt) * abs(slid) * self.area).sum(axis=1)
         # a rigid point that rubs at rest: what the law holds of T_tau is not in its state
         unknown = self.rigid & (self.kind == PPR) & (old["MAXT"] == 0) & (old["DAMAGE"] > 0)
-        self.cohesive, self.old = cohesive, {name: state[name].copy() for name in old}
+        self.cohesive, self.doubt = cohesive, doubt
+        self.old = {name: state[name].copy() for name in old}
         return unknown.any(axis=1)
 
 
