@@ -6,6 +6,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
+from functools import cache
 from pathlib import Path
 
 from harness.delamination.oscillation import raw_index
@@ -172,6 +173,7 @@ def spread(study: Study, runs: Runs) -> str:
     return f"Peak loads differ by {'; '.join(parts)}." if parts else ""
 
 
+@cache
 def row(run: Run) -> dict[str, float]:
     """Numbers of a run: those of HEAD but the last."""
     kind = run.case.kind
