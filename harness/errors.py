@@ -7,6 +7,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Final
 
 
 @dataclass(frozen=True, slots=True)
@@ -28,8 +29,17 @@ class DeckError(UelError):
     """The input deck is wrong or asks for something unsupported; begins with file:line, one line per place."""
 
     def __init__(self, source: Source, message: str, others: Sequence[DeckError] = ()) -> None:
-        super().__init__("\n".join([f"{source}: {message}", *map(str, others)]))
+        super().__init__("\n".join([f"{source}: {_shown(message)}", *map(str, others)]))
         self.source = source
+
+
+_LONGEST: Final = 1000
+
+
+def _shown(message: str) -> str:
+    """A message that quotes a deck: what a terminal does not show, or obeys, is spelt, and a long line cut out."""
+    text = "".join(c if c.isprintable() or c == "\n" else ascii(c)[1:-1] for c in message)
+    return text if len(text) <= _LONGEST else f"{text[: _LONGEST // 2]} ... {text[-_LONGEST // 2 :]}"
 
 
 def all_of(errors: Sequence[DeckError]) -> DeckError:

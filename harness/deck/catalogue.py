@@ -123,6 +123,8 @@ def _read_elastic(block: Block) -> Elastic:
 
 def _read_user_material(block: Block) -> UserMaterial:
     count = block.options.integer("CONSTANTS", 0)
+    if not 0 <= count <= MOST_VARIABLES:
+        raise block.error(f"CONSTANTS={count} is not a number of constants (0 to {MOST_VARIABLES})")
     values = [value for row in block.rows() for value in row.reals("constant")]
     if len(values) > count:
         message = f"{len(values)} values where CONSTANTS={count} announces {count}; dependence on temperature is not "

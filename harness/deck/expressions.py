@@ -43,6 +43,8 @@ def assign(statement: str, parameters: Mapping[str, Value]) -> tuple[str, Value]
         raise ValueError(f"'{statement.strip()}' is not of the form name = expression")
     try:
         return target.id, _evaluate(tree.body[0].value, parameters)
+    except OverflowError:
+        raise ValueError(f"'{statement.strip()}' cannot be evaluated: a number is too large") from None
     except (ArithmeticError, TypeError, RecursionError) as error:
         raise ValueError(f"'{statement.strip()}' cannot be evaluated: {error}") from None
 

@@ -165,7 +165,9 @@ class _Lexer:
         try:
             path = self._find(name, stack[-1])
             resolved = path.resolve()
-        except (OSError, ValueError, RuntimeError) as error:
+        except OSError as error:
+            raise DeckError(source, f"cannot read {name}: {error.strerror or type(error).__name__}") from None
+        except (ValueError, RuntimeError) as error:
             raise DeckError(source, f"cannot read {name}: {error}") from None
         if resolved in stack:
             loop = " -> ".join(entry.name for entry in (*stack[stack.index(resolved) :], resolved))

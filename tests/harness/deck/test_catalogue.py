@@ -76,6 +76,7 @@ def test_plastic(read: Read) -> None:
             "*USER MATERIAL, CONSTANTS=1, TYPE=THERMAL\n1",
             r"deck.inp:30: \*USER MATERIAL, TYPE=THERMAL is not supported",
         ),
+        ("*USER MATERIAL, CONSTANTS=999999999\n1", r"deck.inp:30: .* CONSTANTS=999999999 is not a number of constants"),
         ("*DEPVAR\n-1", r"deck.inp:31: \*DEPVAR: -1 is not a number of variables"),
         ("*USER OUTPUT VARIABLES", r"deck.inp:30: \*USER OUTPUT VARIABLES: needs a data line"),
     ],

@@ -51,6 +51,17 @@ MISTAKES = {
     ),
     "parameter": ("<width>", "<with>", r"33: parameter <with> is not defined"),
     "expression": ("half = width/2", "half = open('x')", r"6: \*PARAMETER: 'open\('x'\)' is not arithmetic"),
+    "power": (
+        "half = width/2",
+        "half = 10.**400",
+        r"6: .* 'half = 10.\*\*400' cannot be evaluated: a number is too large",
+    ),
+    "what is not seen": ("3, 1., 1.\n", "3, 1., 1\x1b[31m\xa02\n", r"14: .* '1\\x1b\[31m\\xa02' is not a number"),
+    "a long word": (
+        "3, 1., 1.\n",
+        f"3, 1., {'x' * 9999}\n",
+        r"14: .* coordinate 2: 'x{400,} \.\.\. x{400,}' is not a number",
+    ),
     "digits without end": (
         "half = width/2",
         "half = width" + "\nhalf = half*half" * 8,
