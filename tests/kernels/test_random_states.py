@@ -2,8 +2,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Random properties, states and paths of every law in every interface element: AMATRX, and the balance of energies.
 
-hypothesis draws the properties, a crowd of like elements takes states of its own. The quick run takes some hundred
-states of each case, the long one 10,000.
+hypothesis draws the properties, a crowd of like elements takes its own states: some hundred of each case, or 10,000.
 """
 
 from collections import namedtuple
@@ -24,7 +23,6 @@ COPIES, INCREMENTS, DTIME = 32, 4, 0.3
 STATES = COPIES * INCREMENTS
 ELASTIC, DAMAGE, VISCOUS = 1, 3, 4
 QUAD = 1e5  # stiffness of the quads beside an interface over their size, in order of magnitude
-
 # where the two edges of the interface are among the nodes: left, right, middle
 EDGES = {2: ([0, 1], [3, 2]), 4: ([3, 2], [4, 5]), 5: ([0, 1, 4], [3, 2, 5]), 6: ([3, 2, 6], [8, 9, 12])}
 SIX = [3, 2, 9, 8, 6, 12]  # nodes of U5 among those of U6
@@ -34,8 +32,7 @@ WEIGHTS = {2: {0: [1, 1], 1: [1, 1]}, 3: {0: [5 / 9, 8 / 9, 5 / 9], 1: [1 / 3, 4
 sampling = settings(deadline=None, database=None, phases=[Phase.generate], suppress_health_check=list(HealthCheck))
 cases = pytest.mark.parametrize(("variant", "kind", "extra"), CASES)
 Tools = namedtuple("Tools", "element interface library reference")
-# the amalgam has the same formulas
-one_library = pytest.mark.parametrize("library", ["library"], indirect=True)
+one_library = pytest.mark.parametrize("library", ["library"], indirect=True)  # the amalgam has the same formulas
 
 
 def positive(low, high):
@@ -298,8 +295,7 @@ class Balance:
         self.rounding += 0.5 * ((self.doubt + doubt) * abs(slid) * self.area).sum(axis=1)
         # a rigid point that rubs at rest: what the law holds of T_tau is not in its state
         unknown = self.rigid & (self.kind == PPR) & (old["MAXT"] == 0) & (old["DAMAGE"] > 0)
-        self.cohesive, self.doubt = cohesive, doubt
-        self.old = {name: state[name].copy() for name in old}
+        self.cohesive, self.doubt, self.old = cohesive, doubt, {name: state[name].copy() for name in old}
         return unknown.any(axis=1)
 
 
