@@ -116,7 +116,12 @@ def split_fields(line: str) -> list[str]:
     """Fields between commas, stripped; commas within quotes do not separate."""
     if '"' not in line:
         return [part.strip() for part in line.split(",")]
-    return [part.strip() for part in re.findall(r'(?:^|,)((?:[^,"]|"[^"]*"|")*)', line)]
+    fields = [""]
+    for number, piece in enumerate(re.split(r'("[^"]*")', line)):
+        first, *others = [piece] if number % 2 else piece.split(",")
+        fields[-1] += first
+        fields += others
+    return [field.strip() for field in fields]
 
 
 def unquote(name: str) -> str:

@@ -12,6 +12,7 @@ from numpy.testing import assert_allclose, assert_array_equal
 
 from harness.deck.expressions import Value, assign
 from harness.deck.numbers import read_integer, read_real
+from harness.deck.table import split_fields
 from harness.errors import DeckError
 from harness.model.amplitude import Amplitude
 from harness.model.model import Model
@@ -272,3 +273,9 @@ def test_no_reals(text: str) -> None:
 def test_no_integers(text: str) -> None:
     with pytest.raises(ValueError, match=r"is not an integer|is too large"):
         read_integer(text)
+
+
+def test_fields_with_quotes() -> None:
+    """Commas within quotes do not separate; a line of quotes alone takes no more memory than its length."""
+    assert split_fields('a, "b, c" d,"e","f') == ["a", '"b, c" d', '"e"', '"f']
+    assert split_fields('"' * 100_001 + ",x") == ['"' * 100_001, "x"]
