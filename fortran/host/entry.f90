@@ -284,22 +284,22 @@ subroutine host_sdvini_pass(address, solid, labels, coords, statev, left, elemen
   element = current%element
 end subroutine host_sdvini_pass
 
-!> Call DISP for all values of *BOUNDARY, USER.
-subroutine host_disp_pass(address, place, time, places, coords, values, left, last, n)
+!> Call DISP (2 rows of places) or DLOAD (3) at all places.
+subroutine host_value_pass(address, place, time, places, coords, values, left, last, rows, n)
   use, intrinsic :: iso_c_binding, only: c_intptr_t
-  use host_disp, only: disp_pass_t, run_disp
   use host_kinds, only: dp, i4, i8
+  use host_values, only: run_values, value_pass_t
   implicit none (type, external)
   integer(i8), intent(in) :: address
   integer(i4), intent(in) :: place(2)         !< step, increment
   real(dp), intent(in) :: time(2)             !< step and total time at the end of the increment
-  integer(i4), intent(in) :: n
-  integer(i4), intent(in), target :: places(2, n)   !< node number, dof
+  integer(i4), intent(in) :: rows, n
+  integer(i4), intent(in), target :: places(rows, n)   !< node number, dof; or element number, point, JLTYP
   real(dp), intent(in), target :: coords(3, n)
   real(dp), intent(inout), target :: values(n)
   integer(i4), intent(out) :: left            !< 1 if the routine ended the analysis
-  integer(i4), intent(out) :: last            !< value of the last call
-  type(disp_pass_t) :: pass
+  integer(i4), intent(out) :: last            !< place of the last call
+  type(value_pass_t) :: pass
   pass%address = transfer(int(address, c_intptr_t), pass%address)
   pass%kstep = place(1)
   pass%kinc = place(2)
@@ -307,37 +307,9 @@ subroutine host_disp_pass(address, place, time, places, coords, values, left, la
   pass%places => places
   pass%coords => coords
   pass%values => values
-  call run_disp(pass, left)
+  call run_values(pass, left)
   last = pass%last
-end subroutine host_disp_pass
-
-!> Call DLOAD at all points of nonuniform distributed loads.
-subroutine host_dload_pass(address, place, time, places, coords, values, left, element, n)
-  use, intrinsic :: iso_c_binding, only: c_intptr_t
-  use host_context, only: current
-  use host_dload, only: dload_pass_t, run_dload
-  use host_kinds, only: dp, i4, i8
-  implicit none (type, external)
-  integer(i8), intent(in) :: address
-  integer(i4), intent(in) :: place(2)         !< step, increment
-  real(dp), intent(in) :: time(2)             !< step and total time at the end of the increment
-  integer(i4), intent(in) :: n
-  integer(i4), intent(in), target :: places(3, n)   !< element number, point, JLTYP
-  real(dp), intent(in), target :: coords(3, n)
-  real(dp), intent(inout), target :: values(n)
-  integer(i4), intent(out) :: left            !< 1 if the routine ended the analysis
-  integer(i4), intent(out) :: element         !< of the last call
-  type(dload_pass_t) :: pass
-  pass%address = transfer(int(address, c_intptr_t), pass%address)
-  pass%kstep = place(1)
-  pass%kinc = place(2)
-  pass%time = time
-  pass%places => places
-  pass%coords => coords
-  pass%values => values
-  call run_dload(pass, left)
-  element = current%element
-end subroutine host_dload_pass
+end subroutine host_value_pass
 
 !> Address of the built-in plane continuum elements.
 subroutine host_solid_address(address)

@@ -12,6 +12,7 @@
 !> transfer analysis).
 module host_coupled
   use host_kinds, only: dp, i4
+  use host_kinematics, only: cofactors
   use host_shape, only: rule_of, rule_t
   use host_solid, only: solid_uelmat
   implicit none (type, external)
@@ -114,19 +115,10 @@ contains
     integer, intent(in) :: n
     real(dp), intent(in) :: matrix(n, n)
     real(dp), intent(out) :: inverse(n, n), determinant
-    integer :: i, k, i1, i2, k1, k2
     if (n == 2) then
       inverse = reshape([matrix(2, 2), -matrix(2, 1), -matrix(1, 2), matrix(1, 1)], [2, 2])
     else
-      do k = 1, 3
-        do i = 1, 3
-          i1 = mod(i, 3) + 1
-          i2 = mod(i + 1, 3) + 1
-          k1 = mod(k, 3) + 1
-          k2 = mod(k + 1, 3) + 1
-          inverse(k, i) = matrix(i1, k1)*matrix(i2, k2) - matrix(i1, k2)*matrix(i2, k1)
-        end do
-      end do
+      inverse = transpose(cofactors(matrix))
     end if
     determinant = dot_product(matrix(1, :), inverse(:, 1))
     inverse = inverse/determinant

@@ -8,7 +8,7 @@ module host_kinematics
   use host_shape, only: rule_of, rule_t
   implicit none (type, external)
   private
-  public :: gradients, mean_gradients, strain_matrix, average_volume_strain, point_position, rotation_of, rotated
+  public :: cofactors, gradients, mean_gradients, strain_matrix, average_volume_strain, point_position, rotation_of, rotated
 
 contains
 
@@ -61,13 +61,25 @@ contains
     real(dp), intent(in) :: x(3, nodes), dn(nodes, 3)
     real(dp), intent(out) :: g(nodes, 3), determinant
     real(dp) :: j(3, 3), c(3, 3)
-    integer :: i, k, i1, i2, k1, k2
+    integer :: i, k
     j = 0
     do i = 1, 3
       do k = 1, nodes
         j(:, i) = j(:, i) + x(:, k)*dn(k, i)
       end do
     end do
+    c = cofactors(j)
+    determinant = dot_product(j(:, 1), c(:, 1))
+    do i = 1, 3
+      g(:, i) = (dn(:, 1)*c(i, 1) + dn(:, 2)*c(i, 2) + dn(:, 3)*c(i, 3))/determinant
+    end do
+  end subroutine space_gradients
+
+  !> Cofactors of a matrix: the inverse is their transpose over the determinant.
+  pure function cofactors(j) result(c)
+    real(dp), intent(in) :: j(3, 3)
+    real(dp) :: c(3, 3)
+    integer :: i, k, i1, i2, k1, k2
     do k = 1, 3
       do i = 1, 3
         i1 = mod(i, 3) + 1
@@ -77,11 +89,7 @@ contains
         c(i, k) = j(i1, k1)*j(i2, k2) - j(i1, k2)*j(i2, k1)
       end do
     end do
-    determinant = dot_product(j(:, 1), c(:, 1))
-    do i = 1, 3
-      g(:, i) = (dn(:, 1)*c(i, 1) + dn(:, 2)*c(i, 2) + dn(:, 3)*c(i, 3))/determinant
-    end do
-  end subroutine space_gradients
+  end function cofactors
 
   !> Mean of the gradients over the volume of a four- or eight-node element, and the volume: the uniform strain of
   !> D.P. Flanagan, T. Belytschko, Int. J. for Numerical Methods in Engineering 17 (1981) 679.

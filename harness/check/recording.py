@@ -158,9 +158,8 @@ class _RecordedRoutines:
     """User routines that a procedure calls, kept likewise."""
 
     def __init__(self, library: Library, events: list[Event]) -> None:
-        self.sdvini, self.disp = library.sdvini, library.disp
-        self.displacements = library.displacements
-        self.dload, self.distributed_loads = library.dload, library.distributed_loads
+        self.sdvini, self.disp, self.dload = library.sdvini, library.disp, library.dload
+        self.user_values = library.user_values
         self._library = library
         self._events = events
 

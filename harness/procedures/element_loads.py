@@ -10,7 +10,6 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, field
-from typing import Protocol
 
 import numpy as np
 from numpy.typing import NDArray
@@ -22,24 +21,8 @@ from harness.errors import DeckError
 from harness.model.arrays import FloatArray, IntArray
 from harness.model.model import Model
 from harness.model.steps import ElementLoad, Load, Step
+from harness.model.user_values import GivesValues, UserValues
 from harness.procedures.loads import Curve, Loads, Slots, Variation
-
-
-class LoadRoutines(Protocol):
-    """The part of a loaded library that gives loads; dload: address of DLOAD, None without it."""
-
-    dload: int | None
-
-    def distributed_loads(
-        self,
-        step: int,
-        increment: int,
-        time: tuple[float, float],
-        places: NDArray[np.int32],
-        coords: FloatArray,
-        values: FloatArray,
-    ) -> FloatArray:
-        """Magnitudes that DLOAD makes of those given, at points (element number, point, JLTYP)."""
 
 
 @dataclass(slots=True)
@@ -49,7 +32,7 @@ class StepLoads:
     step: int
     concentrated: Variation
     distributed: tuple[_StepElementLoads, ...]
-    user: LoadRoutines
+    user: GivesValues
     increment: int = 0
 
     @property
@@ -69,9 +52,9 @@ class StepLoads:
             magnitudes = load.magnitudes.at(step_time, total_time)[load.points.slot]
             if len(load.by_user):
                 places, coords = load.points.places[load.by_user], load.points.coords[load.by_user]
-                times, given = (step_time, total_time), magnitudes[load.by_user]
-                made = self.user.distributed_loads(self.step, self.increment, times, places, coords, given)
-                magnitudes[load.by_user] = made
+                time, given = (step_time, total_time), magnitudes[load.by_user]
+                asked = UserValues("DLOAD", self.step, self.increment, time, places, coords, given)
+                magnitudes[load.by_user] = self.user.user_values(asked)
             values = values + load.points.forces @ magnitudes
         return values
 
@@ -94,7 +77,7 @@ class AllLoads:
         self._elements = _ElementLoads(system, [load for step in model.steps for load in step.element_loads])
         self._surfaces = _ElementLoads(system, [load for step in model.steps for load in step.surface_loads])
 
-    def start_step(self, step: Step, total_time: float, user: LoadRoutines) -> StepLoads:
+    def start_step(self, step: Step, total_time: float, user: GivesValues) -> StepLoads:
         """Take over a step's loads; total_time is that at the end of the previous step. Raises DeckError."""
         for entry in step.element_loads:
             if entry.type.jltyp and user.dload is None:

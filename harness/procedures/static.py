@@ -10,7 +10,6 @@ from functools import partial
 from typing import Protocol
 
 import numpy as np
-from numpy.typing import NDArray
 
 from harness.assembly import Constraints, System
 from harness.elements import Call
@@ -30,8 +29,8 @@ from harness.model.records import (
     Warned,
 )
 from harness.model.steps import Step
+from harness.model.user_values import GivesValues, UserValues
 from harness.procedures.checks import Checker
-from harness.procedures.element_loads import LoadRoutines
 from harness.procedures.extrapolation import Extrapolation
 from harness.procedures.incrementation import TOO_MANY_INCREMENTS, Abandoned, Accuracy, IncrementControl, refused
 from harness.procedures.limit import PASSED, LimitLoad
@@ -48,27 +47,15 @@ NORMAL, MASS = 1, 4
 """LFLAGS(3): a normal call, and the mass matrix alone."""
 
 
-class UserRoutines(LoadRoutines, Protocol):
-    """The part of a loaded library that a procedure calls; sdvini, disp: addresses, None without the routine."""
+class UserRoutines(GivesValues, Protocol):
+    """The part of a loaded library that a procedure calls; sdvini: its address, None without the routine."""
 
     sdvini: int | None
-    disp: int | None
 
     def external_database(
         self, lop: int, lrestart: int, time: tuple[float, float], dtime: float, step: int, increment: int
     ) -> None:
         """Call UEXTERNALDB if there is one."""
-
-    def displacements(
-        self,
-        step: int,
-        increment: int,
-        time: tuple[float, float],
-        places: NDArray[np.int32],
-        coords: FloatArray,
-        values: FloatArray,
-    ) -> FloatArray:
-        """Values that DISP makes of those given at nodes and dofs (places)."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -278,9 +265,9 @@ class StaticStep:
             dofs = self._system.dofs
             nodes = dofs.node[by_user]
             places = np.stack([dofs.mesh.labels[nodes], dofs.dof[by_user]], axis=1).astype(np.int32)
-            times, coords = (step_time, total_time), dofs.mesh.coordinates[nodes]
-            made = self._user.displacements(self._step.number, increment, times, places, coords, values[by_user])
-            values[by_user] = made
+            time, coords = (step_time, total_time), dofs.mesh.coordinates[nodes]
+            asked = UserValues("DISP", self._step.number, increment, time, places, coords, values[by_user])
+            values[by_user] = self._user.user_values(asked)
         return values
 
     def _call(self, increment: int, size: float, step_time: float, total_time: float) -> Call:

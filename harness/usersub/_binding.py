@@ -17,6 +17,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from harness.model.arrays import FloatArray
+from harness.model.user_values import UserValues
 
 _flags = sys.getdlopenflags()
 sys.setdlopenflags(_flags | os.RTLD_GLOBAL)
@@ -273,37 +274,15 @@ def sdvini(address: int, arrays: BlockArrays, statev: FloatArray, *, solid: bool
     return element if left else 0
 
 
-def disp(
-    address: int,
-    place: tuple[int, int],
-    time: tuple[float, float],
-    places: NDArray[np.int32],
-    coords: FloatArray,
-    values: FloatArray,
-) -> int:
-    """Call DISP for values that are prescribed; returns the number, from 1, at which it ended the analysis, else 0.
+def user_values(address: int, asked: UserValues, values: FloatArray) -> int:
+    """Call DISP or DLOAD at all places; returns the number of the place, from 1, where it ended the analysis, else 0.
 
-    place is step and increment, time that at its end; places (n, 2) node number and dof, coords (n, 3); values (n,) by
-    magnitude and amplitude become those of DISP.
+    values (n,) are those given, and become those of the routine.
     """
-    left, last = _host.host_disp_pass(address, place, time, places.T, coords.T, values)
+    moment = (asked.step, asked.increment), asked.time
+    coords = np.ascontiguousarray(asked.coords)
+    left, last = _host.host_value_pass(address, *moment, asked.places.T, coords.T, values)
     return last if left else 0
-
-
-def dload(
-    address: int,
-    place: tuple[int, int],
-    time: tuple[float, float],
-    places: NDArray[np.int32],
-    coords: FloatArray,
-    values: FloatArray,
-) -> int:
-    """Call DLOAD at points of distributed loads; returns the element at which it ended the analysis, else 0.
-
-    As disp; places (n, 3) element number, point and JLTYP.
-    """
-    left, element = _host.host_dload_pass(address, place, time, places.T, coords.T, values)
-    return element if left else 0
 
 
 def solid_address() -> int:

@@ -12,11 +12,11 @@ from pathlib import Path
 from typing import Final
 
 import numpy as np
-from numpy.typing import NDArray
 
 from harness.errors import CompileError, UelError
 from harness.model.arrays import FloatArray
 from harness.model.records import PointVariables
+from harness.model.user_values import UserValues
 from harness.usersub import _binding, layout
 from harness.usersub.amalgam import path_of_kernels
 from harness.usersub.compiler import build, notes_of
@@ -79,39 +79,16 @@ class Library:
             return 'no user routine (in C its name is uel_ or FOR_NAME(uel), in C++ it is extern "C" as well)'
         return "no user routine"
 
-    def displacements(
-        self,
-        step: int,
-        increment: int,
-        time: tuple[float, float],
-        places: NDArray[np.int32],
-        coords: FloatArray,
-        values: FloatArray,
-    ) -> FloatArray:
-        """Values that DISP makes of those given; time at the end, places (n, 2) node number and dof."""
-        assert self.disp is not None
-        made = np.array(values)
-        failed = _binding.disp(self.disp, (step, increment), time, places, np.ascontiguousarray(coords), made)
+    def user_values(self, asked: UserValues) -> FloatArray:
+        """Values (n,) that DISP or DLOAD makes of those given. Raises UelError where it ends the analysis."""
+        address = self.disp if asked.routine == "DISP" else self.dload
+        assert address is not None
+        made = np.array(asked.given)
+        failed = _binding.user_values(address, asked, made)
         if failed:
-            node, dof = places[failed - 1].tolist()
-            raise UelError(f"{self.name}: DISP {self.stop_reason()} (node {node}, dof {dof}, step {step})")
-        return made
-
-    def distributed_loads(
-        self,
-        step: int,
-        increment: int,
-        time: tuple[float, float],
-        places: NDArray[np.int32],
-        coords: FloatArray,
-        values: FloatArray,
-    ) -> FloatArray:
-        """Magnitudes that DLOAD makes of those given; places (n, 3) element number, point and JLTYP."""
-        assert self.dload is not None
-        made = np.array(values)
-        element = _binding.dload(self.dload, (step, increment), time, places, np.ascontiguousarray(coords), made)
-        if element:
-            raise UelError(f"{self.name}: DLOAD {self.stop_reason()} (element {element}, step {step})")
+            first, second = asked.places[failed - 1, :2].tolist()
+            place = f"node {first}, dof {second}" if asked.routine == "DISP" else f"element {first}"
+            raise UelError(f"{self.name}: {asked.routine} {self.stop_reason()} ({place}, step {asked.step})")
         return made
 
     def stop_reason(self) -> str:

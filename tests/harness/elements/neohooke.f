@@ -3,16 +3,8 @@
 !
 ! Neo-Hookean solid from DFGRD1: J sigma = PROPS(1) (F F^T - 1) + PROPS(2) ln(J) 1; STATEV(1:9) = DROT, for DDSDDE the
 ! moduli at F = 1.
-      subroutine umat(stress,statev,ddsdde,sse,spd,scd,rpl,ddsddt,
-     &  drplde,drpldt,stran,dstran,time,dtime,temp,dtemp,predef,dpred,
-     &  cmname,ndi,nshr,ntens,nstatv,props,nprops,coords,drot,pnewdt,
-     &  celent,dfgrd0,dfgrd1,noel,npt,layer,kspt,jstep,kinc)
-      include 'aba_param.inc'
-      character*80 cmname
-      dimension stress(ntens),statev(nstatv),ddsdde(ntens,ntens),
-     &  ddsddt(ntens),drplde(ntens),stran(ntens),dstran(ntens),
-     &  time(2),predef(1),dpred(1),props(nprops),coords(3),drot(3,3),
-     &  dfgrd0(3,3),dfgrd1(3,3),jstep(4), b(3,3)
+      include '../umat.inc'
+      dimension b(3,3)
       b = matmul(dfgrd1, transpose(dfgrd1))
       det = dfgrd1(3,3)*(dfgrd1(1,1)*dfgrd1(2,2)
      &  - dfgrd1(1,2)*dfgrd1(2,1))

@@ -2,16 +2,7 @@ C     SPDX-FileCopyrightText: The uel-harness authors
 C     SPDX-License-Identifier: BSD-3-Clause
 C     UMAT: isotropic elasticity, PROPS E, nu, option. STATEV: arguments it was given, to be looked at. UVARM: S22 from
 C     GETVRM, its place, STATEV(1) from GETVRM, and what UMAT left in COMMON.
-      subroutine umat(stress,statev,ddsdde,sse,spd,scd,rpl,ddsddt,
-     1 drplde,drpldt,stran,dstran,time,dtime,temp,dtemp,predef,dpred,
-     2 cmname,ndi,nshr,ntens,nstatv,props,nprops,coords,drot,pnewdt,
-     3 celent,dfgrd0,dfgrd1,noel,npt,layer,kspt,jstep,kinc)
-      include 'aba_param.inc'
-      character*80 cmname
-      dimension stress(ntens),statev(nstatv),ddsdde(ntens,ntens),
-     1 ddsddt(ntens),drplde(ntens),stran(ntens),dstran(ntens),time(2),
-     2 predef(1),dpred(1),props(nprops),coords(3),drot(3,3),
-     3 dfgrd0(3,3),dfgrd1(3,3),jstep(4)
+      include '../umat.inc'
       common /shared/ seen
       e = props(1)
       p = props(2)

@@ -2,6 +2,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """*EXPANSION: free bodies expand without stress, held ones have the stress of theory; temperatures in UMAT."""
 
+from pathlib import Path
+
 import numpy as np
 import pytest
 
@@ -11,25 +13,7 @@ from harness.errors import DeckError
 YOUNG, NU, ALPHA, WARMER = 1000.0, 0.25, 2e-5, 50.0
 CUBE = np.array([[x, y, z] for z in (0.0, 1.0) for x, y in ((0, 0), (1.2, 0), (1, 1), (0, 1))])
 ELASTIC = f"*ELASTIC\n{YOUNG}, {NU}"
-UMAT = """      SUBROUTINE UMAT(STRESS,STATEV,DDSDDE,SSE,SPD,SCD,RPL,DDSDDT,
-     1     DRPLDE,DRPLDT,STRAN,DSTRAN,TIME,DTIME,TEMP,DTEMP,PREDEF,
-     2     DPRED,CMNAME,NDI,NSHR,NTENS,NSTATV,PROPS,NPROPS,COORDS,DROT,
-     3     PNEWDT,CELENT,DFGRD0,DFGRD1,NOEL,NPT,LAYER,KSPT,JSTEP,KINC)
-      INCLUDE 'ABA_PARAM.INC'
-      CHARACTER*80 CMNAME
-      DIMENSION STRESS(NTENS),STATEV(NSTATV),DDSDDE(NTENS,NTENS),
-     1     DDSDDT(NTENS),DRPLDE(NTENS),STRAN(NTENS),DSTRAN(NTENS),
-     2     TIME(2),PREDEF(*),DPRED(*),PROPS(NPROPS),COORDS(3),DROT(3,3),
-     3     DFGRD0(3,3),DFGRD1(3,3),JSTEP(4)
-      DDSDDE = 0
-      DO K = 1, NTENS
-        DDSDDE(K,K) = 1000
-      END DO
-      STRESS = 1000*(STRAN + DSTRAN)
-      STATEV(1:4) = (/TEMP, DTEMP, PREDEF(1), DPRED(1)/)
-      STATEV(5) = STRAN(1) + DSTRAN(1)
-      END
-"""
+UMAT = Path(__file__).with_name("thermal.f")
 
 
 def deck(element_type, held, *, material=ELASTIC, options="", more="", temperature="*TEMPERATURE\nALL, 70.\n"):
@@ -55,9 +39,7 @@ def deck(element_type, held, *, material=ELASTIC, options="", more="", temperatu
 def run(tmp_path):
     def run(text, user=None):
         (tmp_path / "warm.inp").write_text(text)
-        if user:
-            (tmp_path / "user.f").write_text(user)
-        return harness.run(tmp_path / "warm.inp", tmp_path / "user.f" if user else None, output_dir=tmp_path)
+        return harness.run(tmp_path / "warm.inp", user, output_dir=tmp_path)
 
     return run
 

@@ -133,7 +133,8 @@ def test_what_is_wrong_is_named(run, conditions, message):
 
 def test_sdvini_is_needed(run, tmp_path):
     user = tmp_path / "uel.f"
-    user.write_text(USER.read_text().split("      SUBROUTINE SDVINI")[0])
+    text = USER.read_text().split("      SUBROUTINE SDVINI")[0]
+    user.write_text(text.replace("'../", f"'{USER.parents[1]}/"))
     with pytest.raises(DeckError, match=r"initial.inp:\d+: \*INITIAL CONDITIONS, USER needs SDVINI"):
         run(BY_SDVINI, user=user)
 
