@@ -58,7 +58,6 @@ class System:
         for block, equation_numbers, positions in zip(self.blocks, numbers, scatter, strict=True):
             block.bind(equation_numbers, positions)
         self._data = np.zeros(len(self.indices))
-        self._rest = Motion(np.zeros(len(self)), np.zeros(len(self)))
 
     def __len__(self) -> int:
         return len(self.dofs)
@@ -86,7 +85,6 @@ class System:
         flux, count = np.zeros(len(FIELD_NAMES)), np.zeros(len(FIELD_NAMES), dtype=np.int64)
         energy, damage = np.zeros(8), 0.0
         pnewdt = np.inf
-        motion = motion or self._rest
         for block in self.blocks:
             report = block.evaluate(call, u, du, columns if nrhs > 1 else columns[0], data, motion)
             flux += report.flux

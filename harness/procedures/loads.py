@@ -255,17 +255,22 @@ class Slots:
 
     def __init__(self, pairs: Sequence[tuple[IntArray, int]]) -> None:
         """Elements or nodes with a kind, which may come several times."""
-        columns = [np.zeros((2, 0), dtype=np.int64)]
-        columns += [np.stack([places, np.full(len(places), kind)]) for places, kind in pairs]
-        self.places, self.kinds = np.unique(np.concatenate(columns, axis=1), axis=1)
-        self._number = {pair: k for k, pair in enumerate(zip(self.places.tolist(), self.kinds.tolist(), strict=True))}
+        # JDLTYP of a nonuniform load is negative
+        self._least = min((kind for _, kind in pairs), default=0)
+        self._kinds = 1 + max((kind for _, kind in pairs), default=0) - self._least
+        keys = [np.zeros(0, dtype=np.int64), *(self._keys(places, kind) for places, kind in pairs)]
+        self._sorted = np.unique(np.concatenate(keys))
+        self.places, self.kinds = self._sorted // self._kinds, self._sorted % self._kinds + self._least
 
     def __len__(self) -> int:
-        return len(self.places)
+        return len(self._sorted)
+
+    def _keys(self, places: IntArray | int, kind: IntArray | int) -> IntArray:
+        return np.atleast_1d(places).astype(np.int64) * self._kinds + int(kind) - self._least
 
     def find(self, places: IntArray | int, kind: IntArray | int) -> IntArray:
-        """Numbers of the pairs."""
-        return np.array([self._number[place, int(kind)] for place in np.atleast_1d(places).tolist()], dtype=np.int64)
+        """Numbers of the pairs, which have to be among those given."""
+        return np.searchsorted(self._sorted, self._keys(places, kind))
 
 
 def released_reactions(reaction: FloatArray, prescribed: IntArray, step: Step) -> Variation:
