@@ -311,6 +311,45 @@ subroutine host_value_pass(address, place, time, places, coords, values, left, l
   last = pass%last
 end subroutine host_value_pass
 
+!> Call UAMP for an amplitude.
+subroutine host_uamp_call(address, name, clock, props, svars, info, sensors, names, counts, value, define, left, nprop, nsvar, &
+                          nsensor)
+  use, intrinsic :: iso_c_binding, only: c_intptr_t
+  use host_kinds, only: dp, i4, i8
+  use host_uamp, only: run_uamp, uamp_call_t
+  implicit none (type, external)
+  integer(i8), intent(in) :: address
+  character(len=80), intent(in) :: name
+  real(dp), intent(in) :: clock(4)            !< step and total time at the end of the increment, its length, the old value
+  integer(i4), intent(in) :: nprop, nsvar, nsensor
+  real(dp), intent(in), target :: props(nprop), sensors(nsensor)
+  real(dp), intent(inout), target :: svars(nsvar)
+  integer(i4), intent(in) :: info(5)          !< lFlagsInfo, increment
+  character(len=80), intent(in), target :: names(nsensor)
+  integer(i4), intent(in) :: counts(3)        !< nProps, nSvars, nSensor: the arrays may be longer
+  real(dp), intent(inout) :: value
+  integer(i4), intent(out) :: define(6)       !< lFlagsDefine
+  integer(i4), intent(out) :: left            !< 1 if the routine ended the analysis
+  type(uamp_call_t) :: arguments
+  arguments%address = transfer(int(address, c_intptr_t), arguments%address)
+  arguments%name = name
+  arguments%time = clock(:2)
+  arguments%dtime = clock(3)
+  arguments%old = clock(4)
+  arguments%info = info(:4)
+  arguments%value = value
+  arguments%nprops = counts(1)
+  arguments%nsvars = counts(2)
+  arguments%nsensor = counts(3)
+  arguments%props => props
+  arguments%svars => svars
+  arguments%sensors => sensors
+  arguments%names => names
+  call run_uamp(arguments, info(5), left)
+  value = arguments%value
+  define = arguments%define
+end subroutine host_uamp_call
+
 !> Address of the built-in plane continuum elements.
 subroutine host_solid_address(address)
   use, intrinsic :: iso_c_binding, only: c_funloc, c_intptr_t

@@ -158,8 +158,8 @@ class _RecordedRoutines:
     """User routines that a procedure calls, kept likewise."""
 
     def __init__(self, library: Library, events: list[Event]) -> None:
-        self.sdvini, self.disp, self.dload = library.sdvini, library.disp, library.dload
-        self.user_values = library.user_values
+        self.sdvini, self.disp, self.dload, self.uamp = library.sdvini, library.disp, library.dload, library.uamp
+        self.user_values, self.user_amplitude = library.user_values, library.user_amplitude
         self._library = library
         self._events = events
 

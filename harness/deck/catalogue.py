@@ -15,8 +15,9 @@ import numpy as np
 from harness.deck.blocks import Block
 from harness.deck.damage import DAMAGE_KEYWORDS, extend_damage
 from harness.deck.problems import Problems, nearest
+from harness.deck.user_elements import MOST_VALUES, read_count
 from harness.errors import DeckError, Source
-from harness.model.amplitude import Amplitude, AmplitudeType
+from harness.model.amplitude import Amplitude, AmplitudeType, UserAmplitude
 from harness.model.arrays import FloatArray
 from harness.model.properties import Elastic, ElasticType, Material, Orientation, Plastic, UserMaterial
 
@@ -211,12 +212,26 @@ def read_amplitudes(blocks: list[Block], problems: Problems) -> dict[str, Amplit
 def _read_amplitude(block: Block, name: str) -> Amplitude:
     options = block.options
     kind = AmplitudeType(options.text("DEFINITION"))
+    total, absolute = options.text("TIME") == "TOTAL TIME", options.text("VALUE") == "ABSOLUTE"
+    if kind is AmplitudeType.USER:
+        properties, variables = _read_user(block)
+        return UserAmplitude(name, kind, properties, block.source, total, absolute, variables)
+    if options.given("PROPERTIES") or options.given("VARIABLES"):
+        raise block.error("PROPERTIES and VARIABLES are for DEFINITION=USER")
     readers = {AmplitudeType.PERIODIC: _read_periodic, AmplitudeType.DECAY: _read_decay}
     data = readers.get(kind, _read_pairs)(block)
     if kind is AmplitudeType.SMOOTH_STEP and len(data) < 2:
         raise block.error("SMOOTH STEP needs two points at least")
-    total = options.text("TIME") == "TOTAL TIME"
-    return Amplitude(name, kind, data, block.source, total, options.text("VALUE") == "ABSOLUTE")
+    return Amplitude(name, kind, data, block.source, total, absolute)
+
+
+def _read_user(block: Block) -> tuple[FloatArray, int]:
+    """Properties for UAMP, and the number of its state variables."""
+    count = read_count(block, "PROPERTIES", 0, 0, MOST_VALUES)
+    values = [value for row in block.rows() for value in row.reals("property")]
+    if len(values) != count:
+        raise block.error(f"PROPERTIES={count}, and the data lines hold {len(values)}")
+    return np.array(values), read_count(block, "VARIABLES", 1, 1, MOST_VALUES)
 
 
 def _read_pairs(block: Block) -> FloatArray:

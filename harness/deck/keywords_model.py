@@ -324,10 +324,10 @@ PROPERTIES = (
                 Kind.CHOICE,
                 "kind of curve",
                 default="TABULAR",
-                choices=("TABULAR", "SMOOTH STEP", "PERIODIC", "DECAY"),
+                choices=("TABULAR", "SMOOTH STEP", "PERIODIC", "DECAY", "USER"),
                 refused=(
                     *("ACTUATOR", "BUBBLE", "EQUALLY SPACED", "FILM", "MODULATED", "PSD DEFINITION", "RAMP"),
-                    *("SOLUTION DEPENDENT", "SPECTRUM", "USER"),
+                    *("SOLUTION DEPENDENT", "SPECTRUM"),
                 ),
             ),
             Option(
@@ -340,12 +340,12 @@ PROPERTIES = (
             ),
             Option("VALUE", Kind.CHOICE, "what the values are", default="RELATIVE", choices=("RELATIVE", "ABSOLUTE")),
             Option("INPUT", Kind.FILE, "file that holds the data lines"),
-            *refused(
-                "BEGIN", "FIXED INTERVAL", "SMOOTH", "PROPERTIES", "VARIABLES", "SHIFTX", "SHIFTY", "SCALEX", "SCALEY"
-            ),
+            Option("PROPERTIES", Kind.INTEGER, "number of properties that UAMP gets (0), with DEFINITION=USER"),
+            Option("VARIABLES", Kind.INTEGER, "number of state variables of UAMP (1), with DEFINITION=USER"),
+            *refused("BEGIN", "FIXED INTERVAL", "SMOOTH", "SHIFTX", "SHIFTY", "SCALEX", "SCALEY"),
         ),
         "TABULAR, SMOOTH STEP: time, value pairs; PERIODIC: number of terms, omega, t0, A0; A1, B1, A2, B2 and so on; "
-        "DECAY: A0, A, t0, td",
+        "DECAY: A0, A, t0, td; USER: properties",
     ),
 )
 

@@ -158,7 +158,9 @@ OUTPUT = (
             Option("TIME MARKS", Kind.SWITCH, "whether increments end at the output times", default="YES"),
             Option("VARIABLE", Kind.CHOICE, "default variables", choices=("ALL", "PRESELECT")),
             Option("TIME POINTS", Kind.NAME, "output times"),
-            *ignored("DIAGNOSTICS", "FILTER", "MODE LIST", "NAME", "SENSOR"),
+            Option("SENSOR", doc="UAMP reads the variable, which is one component of one node, by NAME"),
+            Option("NAME", Kind.NAME, "of a sensor"),
+            *ignored("DIAGNOSTICS", "FILTER", "MODE LIST"),
         ),
     ),
     Keyword(

@@ -15,6 +15,7 @@ from harness.deck.problems import Problems
 from harness.deck.table import compact
 from harness.deck.user_elements import LARGEST_DOF
 from harness.model.arrays import IntArray
+from harness.model.nodal import COMPONENTS
 from harness.model.steps import ElementRequest, NodeRequest, OutputRequests
 
 PRESELECTED_ENERGIES = (
@@ -31,6 +32,7 @@ class _Open:
 
     history: bool
     frequency: int
+    sensor: str = ""
 
 
 class RequestReader:
@@ -74,7 +76,10 @@ class RequestReader:
             self._problems.warn(block.source, message)
         self._drop({"NEW": {"FIELD", "HISTORY"}, "REPLACE": kinds}.get(options.text("OP"), set()))
         frequency = _frequency(block)
-        self._open = _Open("HISTORY" in kinds, frequency)
+        sensor = options.text("NAME") if options.flag("SENSOR") else ""
+        if options.flag("SENSOR") and (not sensor or kinds != {"HISTORY"}):
+            raise block.error("SENSOR needs HISTORY and NAME=")
+        self._open = _Open("HISTORY" in kinds, frequency, sensor)
         now = self._requests
         if frequency == NEVER:
             return
@@ -112,7 +117,10 @@ class RequestReader:
         output = self._history(block)
         variables = _listed(block) or PRESELECTED_NODAL
         if output is not None:
-            request = NodeRequest(block.options.text("NSET"), nodes, variables, output.frequency)
+            if output.sensor and (len(nodes) != 1 or len(variables) != 1 or variables[0] not in COMPONENTS):
+                raise block.error(f"sensor {output.sensor} is one component, such as U2, of one node")
+            name = block.options.text("NSET")
+            request = NodeRequest(name, nodes, variables, output.frequency, sensor=output.sensor)
             self._requests = replace(self._requests, history_nodes=(*self._requests.history_nodes, request))
 
     def _energy_output(self, block: Block) -> None:

@@ -112,23 +112,24 @@ def read_user_element(block: Block) -> UserElement:
         raise block.error(f"TYPE={name}: expected Un with n from 1 to 9999")
     if options.given("INTEGRATION") != options.given("TENSOR"):
         raise block.error("INTEGRATION and TENSOR are given together or not at all")
-    nodes = _count(block, "NODES", 0, 1, MOST_NODES)
+    nodes = read_count(block, "NODES", 0, 1, MOST_NODES)
     return UserElement(
         number=int(match[1]),
         nodes=nodes,
         dofs=_read_dofs(block, nodes),
         source=block.source,
-        coordinates=_count(block, "COORDINATES", 1, 1, 3),
-        properties=_count(block, "PROPERTIES", 0, 0, MOST_VALUES),
-        integer_properties=_count(block, "I PROPERTIES", 0, 0, MOST_VALUES),
-        variables=_count(block, "VARIABLES", 1, 1, MOST_VALUES),
+        coordinates=read_count(block, "COORDINATES", 1, 1, 3),
+        properties=read_count(block, "PROPERTIES", 0, 0, MOST_VALUES),
+        integer_properties=read_count(block, "I PROPERTIES", 0, 0, MOST_VALUES),
+        variables=read_count(block, "VARIABLES", 1, 1, MOST_VALUES),
         unsymmetric=options.flag("UNSYMM"),
-        integration=_count(block, "INTEGRATION", 0, 0, MOST_VALUES),
+        integration=read_count(block, "INTEGRATION", 0, 0, MOST_VALUES),
         tensor=options.text("TENSOR"),
     )
 
 
-def _count(block: Block, name: str, default: int, least: int, most: int) -> int:
+def read_count(block: Block, name: str, default: int, least: int, most: int) -> int:
+    """A number that an option gives. Raises DeckError where it is out of bounds."""
     value = block.options.integer(name, default)
     if not least <= value <= most:
         raise block.error(f"{name}={value}: expected a number from {least} to {most}")

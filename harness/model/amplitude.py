@@ -4,7 +4,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from enum import StrEnum
 
 import numpy as np
@@ -20,6 +20,7 @@ class AmplitudeType(StrEnum):
     SMOOTH_STEP = "SMOOTH STEP"
     PERIODIC = "PERIODIC"
     DECAY = "DECAY"
+    USER = "USER"
 
 
 @dataclass(frozen=True, slots=True)
@@ -55,6 +56,10 @@ class Amplitude:
         # quintic with zero slope and curvature at both ends (Abaqus Analysis User's Guide, Amplitude curves)
         return float(values[k] + (values[k + 1] - values[k]) * xi**3 * (10 - 15 * xi + 6 * xi**2))
 
+    def corners(self, begin: float) -> FloatArray:
+        """Step times (k,) of the corners of a table, in a step that begins at a total time."""
+        return self.data[:, 0] - (begin if self.total_time else 0.0)
+
     def _periodic(self, time: float) -> float:
         omega, start = self.data[0]
         mean = self.data[1, 0]
@@ -63,3 +68,25 @@ class Amplitude:
         n = np.arange(1, len(self.data) - 1)
         phase = n * omega * (time - start)
         return float(mean + self.data[2:, 0] @ np.cos(phase) + self.data[2:, 1] @ np.sin(phase))
+
+
+@dataclass(frozen=True, slots=True)
+class UserAmplitude(Amplitude):
+    """An amplitude that UAMP gives: a table over total time that grows with the analysis.
+
+    data       (n,) properties (PROPERTIES=)
+    variables  number of its state variables (VARIABLES=)
+    table      total times and values so far; the last is that of the increment that is tried
+    """
+
+    variables: int = 1
+    table: list[tuple[float, float]] = field(default_factory=list)
+
+    def value(self, step_time: float, total_time: float) -> float:
+        """Factor at a time: linear between the ends of increments; 0 before UAMP is called."""
+        times, values = np.array(self.table or [(0.0, 0.0)]).T
+        return float(np.interp(total_time, times, values))
+
+    def corners(self, begin: float) -> FloatArray:
+        """Step times (k,) at which increments ended."""
+        return np.array([time for time, _ in self.table]) - begin

@@ -182,13 +182,17 @@ class InitialSolution:
 
 @dataclass(frozen=True, slots=True)
 class NodeRequest:
-    """*NODE OUTPUT (history) or *NODE PRINT: variables as Abaqus names them (U, U2, RF2, CF1, ...)."""
+    """*NODE OUTPUT (history) or *NODE PRINT: variables as Abaqus names them (U, U2, RF2, CF1, ...).
+
+    sensor  name by which UAMP reads it: one component of one node; '' for none
+    """
 
     nset: str
     nodes: IntArray
     variables: tuple[str, ...]
     frequency: int = 1
     totals: bool = False
+    sensor: str = ""
 
 
 @dataclass(frozen=True, slots=True)
@@ -249,3 +253,11 @@ class Step:
     new_fields: bool = False
     output: OutputRequests = field(default_factory=OutputRequests)
     notes: tuple[str, ...] = ()
+
+    @property
+    def amplitudes(self) -> tuple[Amplitude, ...]:
+        """Amplitudes that its values, loads and fields name."""
+        entries: tuple[Boundary | Load | DistributedLoad | ElementLoad, ...]
+        entries = (*self.boundaries, *self.loads, *self.fields)
+        entries += (*self.distributed, *self.element_loads, *self.surface_loads)
+        return tuple(entry.amplitude for entry in entries if entry.amplitude is not None)

@@ -33,11 +33,48 @@ class UserValues:
     given: FloatArray
 
 
+@dataclass(frozen=True, slots=True)
+class AskedAmplitude:
+    """What UAMP is asked for: the value of an amplitude at the end of an increment.
+
+    old         value at the end of the last increment
+    time        step and total time
+    size        of the increment; 0 in the call at the start of a step (`increment` is 0 then)
+    cutbacks    of this increment so far
+    state       (k,) its state variables at the start of the increment
+    sensors     values at the end of the last increment by name
+    """
+
+    name: str
+    old: float
+    step: int
+    increment: int
+    time: tuple[float, float]
+    size: float
+    cutbacks: int
+    properties: FloatArray
+    state: FloatArray
+    sensors: dict[str, float]
+
+
+@dataclass(frozen=True, slots=True)
+class GivenAmplitude:
+    """What UAMP makes of it: the value, the state variables, and whether the step ends with this increment."""
+
+    value: float
+    state: FloatArray
+    concludes: bool
+
+
 class GivesValues(Protocol):
-    """The part of a loaded library that gives values; disp, dload: addresses, None without the routine."""
+    """The part of a loaded library that gives values; disp, dload, uamp: addresses, None without the routine."""
 
     disp: int | None
     dload: int | None
+    uamp: int | None
 
     def user_values(self, asked: UserValues) -> FloatArray:
         """Values (n,) that the routine makes of those given."""
+
+    def user_amplitude(self, asked: AskedAmplitude) -> GivenAmplitude:
+        """What UAMP gives."""

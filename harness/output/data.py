@@ -8,11 +8,11 @@ from datetime import datetime
 from pathlib import Path
 
 from harness.model.model import Model
+from harness.model.nodal import NodalIndex
 from harness.model.properties import UserElement
 from harness.model.records import IncrementDone, StepStarted
 from harness.model.steps import ElementRequest, NodeRequest
 from harness.output.formats import TextFile, program
-from harness.output.nodal import NodalIndex
 from harness.output.schedule import Schedule
 from harness.output.step_header import completed, procedure
 from harness.output.tables import element_tables, missing_variables, node_tables

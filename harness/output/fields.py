@@ -20,9 +20,9 @@ import numpy as np
 from harness.errors import UelError
 from harness.model.arrays import FloatArray, IntArray
 from harness.model.model import Model
+from harness.model.nodal import NodalIndex
 from harness.model.records import IncrementDone, Solution
 from harness.output.cells import Cells, cell_values, cells_of, is_solid
-from harness.output.nodal import NodalIndex
 from harness.output.schedule import Schedule
 
 _ENTRY = re.compile(r'<DataSet timestep="([^"]+)" part="0" file="([^"]*step(\d+)_increment(\d+)\.vtu)"/>')

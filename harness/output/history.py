@@ -17,10 +17,10 @@ import numpy as np
 
 from harness.model.arrays import FloatArray, IntArray
 from harness.model.model import Model
+from harness.model.nodal import NodalIndex
 from harness.model.records import IncrementDone, Solution
 from harness.model.steps import NodeRequest
 from harness.output.formats import TextFile
-from harness.output.nodal import NodalIndex
 from harness.output.schedule import Schedule
 
 FIXED = ("step", "increment", "time")

@@ -14,10 +14,10 @@ import numpy as np
 from harness.model.arrays import FloatArray, IntArray
 from harness.model.mesh import ElementGroup, Mesh
 from harness.model.model import Model
+from harness.model.nodal import NodalIndex
 from harness.model.records import ElementState, Solution
 from harness.model.steps import ElementRequest, NodeRequest
 from harness.output.formats import general
-from harness.output.nodal import NodalIndex
 from harness.output.points import point_values
 
 COLUMNS = 9  # of a table of Abaqus

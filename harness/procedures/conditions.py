@@ -61,6 +61,11 @@ class Conditions:
             self._initial[: self._nodes.nodes],
         )
 
+    def conclude(self, step_time: float) -> None:
+        """The step ends before its period."""
+        self._loads.conclude(step_time)
+        self._fields.conclude(step_time)
+
 
 @dataclass(frozen=True, slots=True)
 class _Grid:

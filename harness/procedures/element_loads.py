@@ -89,6 +89,11 @@ class AllLoads:
         found = tuple(load for load in distributed if load is not None)
         return StepLoads(step.number, self._concentrated.start_step(step, total_time), found, user)
 
+    def conclude(self, step_time: float) -> None:
+        """The step ends before its period."""
+        for loads in (self._concentrated, self._elements.loads, self._surfaces.loads):
+            loads.conclude(step_time)
+
 
 @dataclass(slots=True)
 class _Points:
@@ -106,12 +111,15 @@ class _Points:
 
 
 class _ElementLoads:
-    """Distributed loads on built-in elements; a magnitude for each element and type of load."""
+    """Distributed loads on built-in elements.
+
+    loads  a magnitude for each element and type of load
+    """
 
     def __init__(self, system: System, entries: Sequence[ElementLoad]) -> None:
         self._types = list(dict.fromkeys(entry.type for entry in entries))
         self._slots = Slots([(entry.elements, self._types.index(entry.type)) for entry in entries])
-        self._loads = Loads(self._slots)
+        self.loads = Loads(self._slots)
         self._active = np.zeros(len(self._slots), dtype=bool)
         parts: list[_Points] = []
         for entry in {entry.type: entry for entry in entries}.values():
@@ -137,7 +145,7 @@ class _ElementLoads:
             self._active[self._slots.find(entry.elements, self._types.index(entry.type))] = True
         loads = [Load(e.elements, self._types.index(e.type), e.magnitude, e.amplitude, e.source) for e in entries]
         by_user = np.flatnonzero((self._points.places[:, 2] > 0) & self._active[self._points.slot])
-        return _StepElementLoads(self._points, self._loads.take(loads, new, step, total_time), by_user)
+        return _StepElementLoads(self._points, self.loads.take(loads, new, step, total_time), by_user)
 
     def _points_of(self, system: System, entry: ElementLoad) -> list[_Points]:
         """Points of the elements that have loads of the entry's type, block by block."""

@@ -16,7 +16,7 @@ Abaqus Analysis User's Guide, "Prescribed conditions: overview", "Amplitude curv
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Protocol
 
 import numpy as np
@@ -85,7 +85,7 @@ class Course:
 
     def _sampled(self, amplitude: Amplitude, step_time: float) -> tuple[FloatArray, FloatArray]:
         """Points that hold the corners of a table, for which the trapezoidal rule is exact, and many between."""
-        corners = amplitude.data[:, 0] - (self.begin if amplitude.total_time else 0.0)
+        corners = amplitude.corners(self.begin)
         times = np.union1d(np.linspace(0.0, step_time, SAMPLES), corners[(corners > 0) & (corners < step_time)])
         return times, np.array([amplitude.value(time, self.begin + time) for time in times.tolist()])
 
@@ -184,6 +184,10 @@ class Boundaries:
         self._period = step.procedure.period
         return Variation(base, slope, self._period, self._curves, self._courses)
 
+    def conclude(self, step_time: float) -> None:
+        """The step ends before its period."""
+        self._period = step_time
+
     def _activate(self, entry: Boundary) -> IntArray:
         unknowns, _ = find_unknowns(self._dofs, entry)
         self._active[unknowns] = True
@@ -245,6 +249,11 @@ class Loads:
             start = target
         self._previous = Variation(start, target - start, step.procedure.period, tuple(curves))
         return self._previous
+
+    def conclude(self, step_time: float) -> None:
+        """The step ends before its period: what it reached stays."""
+        slope = self._previous.slope * (step_time / self._previous.period)
+        self._previous = replace(self._previous, slope=slope, period=step_time)
 
 
 class Slots:

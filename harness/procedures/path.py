@@ -54,7 +54,7 @@ class PathStep(StaticStep):
         entries: tuple[Boundary | Load | ElementLoad, ...]
         entries = (*step.boundaries, *step.loads, *step.element_loads, *step.surface_loads)
         source = next((entry.source for entry in entries if entry.amplitude), step.source)
-        if self._prescribed.curves or self._load.curves:
+        if self._prescribed.curves or self._load.curves or self._amplitudes.courses:
             raise DeckError(source, "an amplitude has no meaning in a step whose load factor is part of the solution")
         if len(state.boundaries.by_user) or self._load.by_user:
             raise DeckError(step.source, "DISP and DLOAD have no meaning in a step whose load factor is unknown")

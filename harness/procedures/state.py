@@ -18,6 +18,7 @@ from harness.procedures.acceptance import FluxHistory
 from harness.procedures.conditions import Conditions
 from harness.procedures.element_loads import AllLoads
 from harness.procedures.loads import Boundaries, initial_values
+from harness.procedures.user_amplitudes import UserAmplitudes
 from harness.solver.descent import Majoriser
 from harness.solver.newton import Factoriser, Iterate
 
@@ -44,6 +45,7 @@ class State:
     boundaries: Boundaries
     loads: AllLoads
     conditions: Conditions
+    amplitudes: UserAmplitudes
     velocity: FloatArray
     acceleration: FloatArray
     constraints: Constraints | None = None
@@ -64,7 +66,8 @@ class State:
         velocity = initial_values(system.dofs, model.initial_velocities)
         temperature = initial_values(system.dofs, model.initial_temperatures)
         loads = AllLoads(system, model)
-        return cls(temperature, zero, zero, zero, boundaries, loads, Conditions(model), velocity, zero)
+        given = boundaries, loads, Conditions(model), UserAmplitudes(model)
+        return cls(temperature, zero, zero, zero, *given, velocity, zero)
 
     def come_to_rest(self) -> None:
         """No velocities and accelerations: a step begins that has none."""

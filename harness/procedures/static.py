@@ -98,6 +98,7 @@ class StaticStep:
         self._prescribed = state.boundaries.start_step(step, state.displacement, state.total_time)
         self._load = state.loads.start_step(step, state.total_time, user)
         self._conditions = state.conditions.start_step(step, state.total_time)
+        self._amplitudes = state.amplitudes.start_step(step, system.dofs, state, user)
         unknowns = state.boundaries.unknowns
         if len(state.boundaries.by_user) and user.disp is None:
             source = state.boundaries.sources[int(state.boundaries.by_user[0])]
@@ -138,7 +139,7 @@ class StaticStep:
 
     def _finished(self) -> bool:
         """Whether the step is complete."""
-        return self._control.finished(self._time)
+        return self._control.finished(self._time) or self._amplitudes.concluded
 
     def run(self) -> Iterator[Record]:
         """Records of the step. Raises ConvergenceError, KernelError, SingularMatrixError."""
@@ -154,6 +155,9 @@ class StaticStep:
                 converged, spent = yield from self._attempt(self._increment)
                 cutbacks += not converged
                 iterations += spent
+        if self._amplitudes.concluded:
+            for given in (self._state.boundaries, self._state.loads, self._state.conditions):
+                given.conclude(self._time)
         self._state.flux = self._checker.histories(self._state.flux)
         yield StepDone(self._step.number, self._increment, cutbacks, iterations)
 
@@ -163,6 +167,8 @@ class StaticStep:
         times = self._times
         yield AttemptStarted(number, increment, self._control.attempts, *times, size)
         self._user.external_database(1, 0, times, size, number, increment)
+        end = self._end(size)
+        self._amplitudes.attempt(increment, (end, self._start + end), size, self._control.attempts - 1)
         iterates, extrapolated = self._begin(increment, size)
         iteration, abandoned = 0, None
         while abandoned is None:
@@ -307,6 +313,7 @@ class StaticStep:
         self._limit.converged(self._state.external, -last.evaluation.residual, last.increment, size)
         self._state.accept(last, reached.load, reached.released)
         self._checker.converged()
+        self._amplitudes.converged()
         self._control.converged(last.iteration, last.evaluation.pnewdt, searched=self._helped, accuracy=accuracy)
         self._state.total_time = reached.total_time
         times = reached.step_time, reached.total_time
@@ -319,7 +326,7 @@ class StaticStep:
             *times,
             reached.size,
             self._state.solution(self._system),
-            self._control.following(self._time),
+            0.0 if self._amplitudes.concluded else self._control.following(self._time),
             reached.load_factor,
         )
 

@@ -17,7 +17,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from harness.model.arrays import FloatArray
-from harness.model.user_values import UserValues
+from harness.model.user_values import AskedAmplitude, UserValues
 
 _flags = sys.getdlopenflags()
 sys.setdlopenflags(_flags | os.RTLD_GLOBAL)
@@ -283,6 +283,21 @@ def user_values(address: int, asked: UserValues, values: FloatArray) -> int:
     coords = np.ascontiguousarray(asked.coords)
     left, last = _host.host_value_pass(address, *moment, asked.places.T, coords.T, values)
     return last if left else 0
+
+
+def user_amplitude(address: int, asked: AskedAmplitude) -> tuple[float, FloatArray, NDArray[np.int32], bool]:
+    """Call UAMP: the value (NaN where it sets none), the state, lFlagsDefine, and whether it ended the analysis."""
+    clock = (*asked.time, asked.size, asked.old)
+    info = (int(not asked.increment), int(asked.increment > 0), asked.cutbacks, asked.step, asked.increment)
+    counts = len(asked.properties), len(asked.state), len(asked.sensors)
+    # an array has an entry more than UAMP is told of, since none may be empty
+    properties, state = np.append(asked.properties, 0.0), np.append(asked.state, 0.0)
+    sensors = np.array([*asked.sensors.values(), 0.0])
+    names = np.array([name.ljust(80) for name in (*asked.sensors, "")], dtype="S80")
+    value, define, left = _host.host_uamp_call(
+        address, asked.name, clock, properties, state, info, sensors, names, counts, np.nan
+    )
+    return float(value), state[: len(asked.state)], define, bool(left)
 
 
 def solid_address() -> int:

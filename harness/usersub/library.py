@@ -16,7 +16,7 @@ import numpy as np
 from harness.errors import CompileError, UelError
 from harness.model.arrays import FloatArray
 from harness.model.records import PointVariables
-from harness.model.user_values import UserValues
+from harness.model.user_values import AskedAmplitude, GivenAmplitude, UserValues
 from harness.usersub import _binding, layout
 from harness.usersub.amalgam import path_of_kernels
 from harness.usersub.compiler import build, notes_of
@@ -31,11 +31,14 @@ ENTRY_POINTS: Final = (
 )
 """Names by which Abaqus calls user routines; looked up in a user's file to say what it holds."""
 
+_STOP_ANALYSIS, _CONCLUDE_STEP = 4, 5
+"""Places in lFlagsDefine of UAMP."""
+
 
 class Library:
     """User routines of a job, and the job's messages from them.
 
-    uel, uelmat, umat, uvarm, sdvini, disp, dload, uexternaldb  addresses, None where the file does not have the routine
+    uel, uelmat, umat, uvarm, sdvini, disp, dload, uamp, uexternaldb  addresses, None without the routine
     name                      the file as the user named it, for messages
     file                      the shared library
     entry_points              names of all user routines found
@@ -56,6 +59,7 @@ class Library:
         self.sdvini = addresses["SDVINI"]
         self.disp = addresses["DISP"]
         self.dload = addresses["DLOAD"]
+        self.uamp = addresses["UAMP"]
 
     def variables(self, jtype: int) -> PointVariables | None:
         """Meaning of the SVARS of an element type; None where the library does not hold the project's elements."""
@@ -90,6 +94,19 @@ class Library:
             place = f"node {first}, dof {second}" if asked.routine == "DISP" else f"element {first}"
             raise UelError(f"{self.name}: {asked.routine} {self.stop_reason()} ({place}, step {asked.step})")
         return made
+
+    def user_amplitude(self, asked: AskedAmplitude) -> GivenAmplitude:
+        """What UAMP gives. Raises UelError where it ends the analysis or gives no number."""
+        assert self.uamp is not None
+        value, state, define, left = _binding.user_amplitude(self.uamp, asked)
+        place = f"amplitude {asked.name}, step {asked.step}, increment {asked.increment}"
+        if left:
+            raise UelError(f"{self.name}: UAMP {self.stop_reason()} ({place})")
+        if define[_STOP_ANALYSIS]:
+            raise UelError(f"{self.name}: UAMP stopped the analysis by lFlagsDefine(5) ({place})")
+        if not np.isfinite(value):
+            raise UelError(f"{self.name}: UAMP does not set AmpValueNew, or sets it to no number ({place})")
+        return GivenAmplitude(value, state, bool(define[_CONCLUDE_STEP]))
 
     def stop_reason(self) -> str:
         """Why a user routine ended the analysis, as the end of a sentence."""

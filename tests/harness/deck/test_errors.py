@@ -180,7 +180,7 @@ MISTAKES = {
     "stray elastic": ("*MATERIAL, NAME=PLY\n", "", r"29: \*ELASTIC: does not follow \*MATERIAL"),
     "amplitude times": ("0., 0., 1., 1.\n", "0., 0., 0., 1.\n", r"38: \*AMPLITUDE: times must increase"),
     "amplitude pairs": ("0., 0., 1., 1.\n", "0., 0., 1.\n", r"38: \*AMPLITUDE: expected pairs of time and value"),
-    "amplitude kind": ("NAME=GROW", "NAME=GROW, DEFINITION=USER", r"37: DEFINITION=USER is not supported"),
+    "amplitude kind": ("NAME=GROW", "NAME=GROW, DEFINITION=SPECTRUM", r"37: DEFINITION=SPECTRUM is not supported"),
     "load of a list": ("3, 1, 5.\n", "3, 1, five\n", r"49: \*CLOAD: value: 'five' is not a number"),
     "integer property": ("3, -4\n", "3, -4.5\n", r"36: integer property -4.5 is not an integer"),
     "real property": ("<half>, 1.E6", "<half>, 1.E6e", r"35: \*UEL PROPERTY: property 2: '1.E6e' is not a number"),

@@ -12,11 +12,11 @@ import pytest
 from harness.errors import Source
 from harness.model.mesh import Mesh
 from harness.model.model import Model
+from harness.model.nodal import NodalIndex
 from harness.model.properties import UserElement
 from harness.model.records import IncrementDone, Record, Solution, StepStarted
 from harness.model.steps import ElementRequest, NodeRequest
 from harness.output.data import DataFile
-from harness.output.nodal import NodalIndex
 from harness.output.tables import element_tables, node_tables
 
 Records = Callable[..., Iterator[Record]]

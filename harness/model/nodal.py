@@ -27,7 +27,8 @@ for _dof in range(11, LARGEST_DOF + 1):
     _NAMES["reaction"][_dof] = f"RFL{_dof}"
     _NAMES["load"][_dof] = f"CFL{_dof}"
 
-_COMPONENTS = {name: (quantity, dof) for quantity, names in _NAMES.items() for dof, name in names.items()}
+COMPONENTS = {name: (quantity, dof) for quantity, names in _NAMES.items() for dof, name in names.items()}
+"""Array of `Solution` and dof of each component."""
 _GROUPS = {
     "U": ("displacement", range(1, 8)),
     "UT": ("displacement", range(1, 4)),
@@ -80,8 +81,8 @@ class NodalIndex:
         present = np.flatnonzero((self._position[nodes] >= 0).any(axis=0))
         found: dict[str, Component] = {}
         for variable in variables:
-            if variable in _COMPONENTS:
-                quantity, dof = _COMPONENTS[variable]
+            if variable in COMPONENTS:
+                quantity, dof = COMPONENTS[variable]
                 dofs: Iterable[int] = (dof,)
             elif variable in _GROUPS:
                 quantity, dofs = _GROUPS[variable]
