@@ -33,7 +33,7 @@ ABAQUS_OPTIONS = {
 def main(arguments: Sequence[str] | None = None) -> int:
     """Run the command; returns the exit code: 0 on success, 1 on a failed job, 2 on wrong usage.
 
-    Without arguments it is those of the command line, and `uel run` runs in a process of its own.
+    Without arguments it is those of the command line, and `uel run` and `uel check` work in a process of their own.
     """
     parser = build_parser()
     words = list(sys.argv[1:] if arguments is None else arguments)
@@ -44,7 +44,9 @@ def main(arguments: Sequence[str] | None = None) -> int:
         words[1:] = sorted(words[1:], key=lambda word: word.startswith("-") or "=" not in word)
     options = parser.parse_args(words)
     try:
-        if arguments is None and options.function is run_job and not options.same_process:
+        # in this process where a program calls, or a debugger
+        options.apart = arguments is None and not getattr(options, "same_process", True)
+        if options.apart and options.function is run_job:
             stem = (options.output_dir or Path()) / (options.job or options.deck.stem)
             return isolation.supervise(words, stem)
         return int(options.function(options))
@@ -79,10 +81,7 @@ def build_parser() -> argparse.ArgumentParser:
     help_ = run.add_mutually_exclusive_group()
     help_.add_argument("--fallback", action="store_true", help="search downhill where Newton's method fails")
     help_.add_argument("--control", choices=("load", "energy"), default="load", help="energy: trace snap-backs (load)")
-    run.add_argument(
-        "--call-limit", type=float, default=60.0, metavar="SECONDS", help="time for one call of a user routine (60)"
-    )
-    run.add_argument(isolation.SAME_PROCESS, action="store_true", help="for debuggers: no process of its own")
+    add_isolation(run)
     run.add_argument("--quiet", action="store_true", help="no progress display")
     run.set_defaults(function=run_job)
 
@@ -162,7 +161,16 @@ def add_check(check: argparse.ArgumentParser) -> None:
     check.add_argument("--json", type=Path, metavar="FILE", help="write the findings for other programs")
     check.add_argument("--seed", type=positive, default=1, metavar="N", help="of random orders and displacements (1)")
     check.add_argument("--increments", type=positive, default=3, metavar="K", help="of the deck that are run (3)")
+    add_isolation(check)
     check.set_defaults(function=check_elements)
+
+
+def add_isolation(command: argparse.ArgumentParser) -> None:
+    """Options of commands that call user code."""
+    command.add_argument(
+        "--call-limit", type=float, default=60.0, metavar="SECONDS", help="time for one call of a user routine (60)"
+    )
+    command.add_argument(isolation.SAME_PROCESS, action="store_true", help="for debuggers: no process of its own")
 
 
 def positive(text: str) -> int:
@@ -252,7 +260,7 @@ def check_elements(options: argparse.Namespace) -> int:
     """`uel check`."""
     from harness.check.command import check  # noqa: PLC0415
 
-    return check(options, Console())
+    return check(options, Console(), apart=options.apart)
 
 
 def reproduce_paper(options: argparse.Namespace) -> int:

@@ -56,13 +56,21 @@ class CompileError(UelError):
         self.file = file
 
 
-class KernelError(UelError):
-    """A user or built-in element failed: it stopped the analysis, wrote outside its arrays, or returned NaN."""
+class ElementError(UelError):
+    """A user or built-in element failed."""
 
     def __init__(self, element: int, element_type: str, message: str) -> None:
         super().__init__(f"element {element} (type {element_type}): {message}")
         self.element = element
         self.element_type = element_type
+
+
+class KernelError(ElementError):
+    """It stopped the analysis, wrote outside its arrays, or returned NaN; a call of another state may go well."""
+
+
+class CallLimitError(ElementError):
+    """A call did not return within the time that a call may take."""
 
 
 class SingularMatrixError(UelError):

@@ -10,12 +10,12 @@ import subprocess
 import sys
 from collections.abc import Sequence
 from pathlib import Path
-from typing import Final
+from typing import IO, Final
 
 from harness.output.broken import close_broken
 
 SAME_PROCESS: Final = "--same-process"
-"""Option of `uel run` for the process that runs."""
+"""Option of `uel run` and `uel check` for the process that runs."""
 
 _ENDED = 2
 """Exit code with which the Fortran library ends a process; usage errors, which have it too, were found before."""
@@ -32,8 +32,22 @@ def supervise(words: Sequence[str], stem: Path) -> int:
 
     stem is the folder and name of the job. A run that ends without closing its files gets them closed here.
     """
+    code = run_apart(["harness.cli", *words, SAME_PROCESS])
+    if code in (0, 1):
+        return code
+    reason = f"the run was {describe_end(code)}"
+    close_broken(stem, reason)
+    print(f"uel: {reason}; the output written so far is readable", file=sys.stderr)
+    return 1
+
+
+def run_apart(command: Sequence[str], errors: IO[str] | None = None) -> int:
+    """Run a Python module with arguments in a process that user code may end; returns its exit code, -n for signal n.
+
+    errors: where its messages go, by default to those of this process.
+    """
     _take_all_stack()
-    process = subprocess.Popen([sys.executable, "-m", "harness.cli", *words, SAME_PROCESS])
+    process = subprocess.Popen([sys.executable, "-m", *command], stderr=errors)
     code = None
     while code is None:
         try:
@@ -41,23 +55,19 @@ def supervise(words: Sequence[str], stem: Path) -> int:
         except KeyboardInterrupt:
             # the process gets the signal as well, and ends by itself
             continue
-    if code in (0, 1):
-        return code
-    reason = _reason(code)
-    close_broken(stem, reason)
-    print(f"uel: {reason}; the output written so far is readable", file=sys.stderr)
-    return 1
+    return code
 
 
-def _reason(code: int) -> str:
+def describe_end(code: int) -> str:
+    """Why a process ended, by its exit code: the end of a sentence."""
     if code >= 0:
         who = " by the Fortran library, in an input or output statement of a user routine" if code == _ENDED else ""
-        return f"the run was ended{who} (exit code {code})"
+        return f"ended{who} (exit code {code})"
     try:
         found = signal.Signals(-code)
     except ValueError:
-        return f"the run was ended by signal {-code}"
-    return f"the run was ended by {found.name}: {_REASONS.get(found, signal.strsignal(found))}"
+        return f"ended by signal {-code}"
+    return f"ended by {found.name}: {_REASONS.get(found, signal.strsignal(found))}"
 
 
 def _take_all_stack() -> None:

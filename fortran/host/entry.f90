@@ -12,7 +12,8 @@ subroutine host_evaluate(address, options, lflags, clock, labels, jprops, equati
   use host_kinds, only: dp, i4, i8
   implicit none (type, external)
   integer(i8), intent(in) :: address          !< of UEL or UELMAT
-  integer(i4), intent(in) :: options(8)       !< material, tensor, jtype, symmetric, want_matrix, kstep, kinc, guards
+  !> material, tensor, jtype, symmetric, want_matrix, kstep, kinc, guards, iteration
+  integer(i4), intent(in) :: options(9)
   integer(i4), intent(in) :: lflags(5)
   real(dp), intent(in) :: clock(7)            !< step time, total time, time increment, period, PARAMS
   integer(i4), intent(in) :: ndofel, nsvars, nprops, njprop, mcrd, nnode, m, n, nrhs, nnz, values, points, most, nfield
@@ -42,6 +43,7 @@ subroutine host_evaluate(address, options, lflags, clock, labels, jprops, equati
   block%kstep = options(6)
   block%kinc = options(7)
   block%guards = options(8)
+  block%iteration = options(9)
   block%lflags = lflags
   block%time = clock(1:2)
   block%dtime = clock(3)

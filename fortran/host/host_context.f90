@@ -12,6 +12,7 @@ module host_context
     integer(i4) :: element = 0    !< element number, 0 outside an element loop
     integer(i4) :: step = 0
     integer(i4) :: increment = 0
+    integer(i4) :: iteration = 0  !< 0 before the first solution, and outside an element loop
     integer(i4) :: point = 0      !< material point, from 1
     real(dp) :: time(2) = 0       !< step and total time at the start of the increment
     real(dp) :: dtime = 0

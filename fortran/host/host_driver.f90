@@ -12,13 +12,14 @@ module host_driver
   implicit none (type, external)
   private
   public :: block_t, run_block, set_marks
-  public :: fault_none, fault_left, fault_outside, fault_unset, fault_not_finite
+  public :: fault_none, fault_left, fault_outside, fault_unset, fault_not_finite, fault_endless
 
   integer(i4), parameter :: fault_none = 0        !< all went well
   integer(i4), parameter :: fault_left = 1        !< the user routine ended the analysis
   integer(i4), parameter :: fault_outside = 2     !< a write outside an array
   integer(i4), parameter :: fault_unset = 3       !< an entry was not set
   integer(i4), parameter :: fault_not_finite = 4  !< an entry is NaN or infinite
+  integer(i4), parameter :: fault_endless = 5     !< a call did not return in its time
 
   integer(i4), parameter :: guards_stop = 0       !< a write outside an array ends the pass; the element is searched for
   integer(i4), parameter :: guards_notice = 1     !< it is noticed after the pass
@@ -33,7 +34,7 @@ module host_driver
     integer(i4) :: guards = guards_stop  !< one of guards_*
     logical :: want_matrix = .false.     !< check and assemble AMATRX
     logical :: want_residual = .false.   !< check and assemble RHS
-    integer(i4) :: material = 0, tensor = 0, jtype = 0, kstep = 0, kinc = 0
+    integer(i4) :: material = 0, tensor = 0, jtype = 0, kstep = 0, kinc = 0, iteration = 0
     integer(i4) :: lflags(5) = 0
     real(dp) :: time(2) = 0, dtime = 0, period = 0
     real(dp) :: params(3) = 0             !< PARAMS: alpha, beta, gamma of a dynamic step
@@ -86,11 +87,18 @@ contains
       call c_f_procpointer(block%address, block%uel)
     end if
     call prepare(block)
-    if (protect(c_funloc(loop), c_loc(block)) /= 0) block%fault = fault_left
+    select case (protect(c_funloc(loop), c_loc(block)))
+    case (0)
+    case (2)
+      block%fault = fault_endless
+    case default
+      block%fault = fault_left
+    end select
     call find_damage(work, array, index)
     if (array > 0 .and. block%guards == guards_stop) call diagnose(block, array, index)
     if (block%guards /= guards_stop) call notice(block, array, index)
     current%element = 0
+    current%iteration = 0
   end subroutine run_block
 
   !> Exchange what guards and entries that are not set hold, see exchange_marks.
@@ -121,6 +129,7 @@ contains
     end if
     current%step = block%kstep
     current%increment = block%kinc
+    current%iteration = block%iteration
     current%tensor = block%tensor
     current%finite = .false.
     current%routine = merge('UELMAT', 'UEL   ', block%with_material)

@@ -59,10 +59,12 @@ contains
     call add_message(-3_i4, 'in '//trim(current%routine)//': '//transfer(text(:length), repeat(' ', length)))
   end subroutine fault
 
-  !> Element, step and increment of the running call, for C.
-  subroutine get_place(place) bind(c, name='uel_host_place')
-    integer(c_int32_t), intent(out) :: place(3)
-    place = [current%element, current%step, current%increment]
+  !> Routine, which is filled up with blanks, element, step, increment and iteration of the running call, for C.
+  subroutine get_place(routine, place) bind(c, name='uel_host_place')
+    character(kind=c_char), intent(out) :: routine(len(current%routine))
+    integer(c_int32_t), intent(out) :: place(4)
+    routine = transfer(current%routine, routine)
+    place = [current%element, current%step, current%increment, current%iteration]
   end subroutine get_place
 
   !> Oldest message not yet taken; level 0 when there is none.

@@ -11,7 +11,7 @@ module host_protect
   integer(c_int64_t), bind(c, name='uel_host_calls') :: calls = 0
 
   interface
-    !> Run routine(context); 1 if it was left through escape, else 0.
+    !> Run routine(context); 0 if it returned, 1 if it was left through escape or a signal, 2 if a call did not return.
     function protect(routine, context) bind(c, name='uel_host_protect') result(left)
       import :: c_funptr, c_int, c_ptr
       type(c_funptr), value :: routine

@@ -22,7 +22,7 @@
 
 // host_messages.f90
 void uel_host_fault(const char *text);
-void uel_host_place(int32_t place[3]);
+void uel_host_place(char routine[16], int32_t place[4]);
 
 // Calls that the driver has made; the clock sees by it whether one is still the same.
 extern int64_t uel_host_calls;
@@ -68,11 +68,12 @@ static const char *describe(int signal)
 
 static void say_place(const char *what)
 {
-    int32_t place[3];
-    char text[256];
-    uel_host_place(place);
-    const int length = snprintf(text, sizeof text, "uel: in a call for element %d, step %d, increment %d: %s\n",
-                                (int)place[0], (int)place[1], (int)place[2], what);
+    int32_t place[4];
+    char text[256], routine[17] = "";
+    uel_host_place(routine, place);
+    const int length =
+        snprintf(text, sizeof text, "uel: in %.*s for element %d, step %d, increment %d, iteration %d: %s\n",
+                 (int)strcspn(routine, " "), routine, (int)place[0], (int)place[1], (int)place[2], (int)place[3], what);
     const ssize_t written = write(STDERR_FILENO, text, (size_t)length);
     (void)written;
 }
@@ -170,7 +171,8 @@ static void at_exit(void)
 
 void uel_host_limit(double seconds) { limit = seconds; }
 
-// Runs routine(context); 1 if it was left, with a message in the queue unless by XIT, else 0.
+// Runs routine(context); 0 if it returned, 1 if it was left, with a message in the queue unless by XIT, 2 if that was
+// because a call did not return.
 int uel_host_protect(void (*routine)(void *), void *context)
 {
     char here;
@@ -181,7 +183,7 @@ int uel_host_protect(void (*routine)(void *), void *context)
         leave();
         if (reason)
             uel_host_fault(describe(reason));
-        return 1;
+        return reason == SIGALRM ? 2 : 1;
     }
     if (!registered)
         registered = atexit(at_exit) == 0;

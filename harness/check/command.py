@@ -6,12 +6,15 @@ from __future__ import annotations
 
 import argparse
 import sys
+from functools import partial
 from pathlib import Path
 from typing import Final
 
-from rich.console import Console
+from rich.console import Console, Group
 
+from harness.check.apart import call_apart, examine_apart
 from harness.check.examine import examine
+from harness.check.progress import Progress, Running, untold
 from harness.check.report import as_json, table
 from harness.check.shuffle import report, shuffle
 from harness.errors import UelError
@@ -20,20 +23,24 @@ from harness.usersub import limit_calls
 UNCHECKED: Final = 2
 """Exit code where nothing could be checked."""
 
-CALL_LIMIT: Final = 60.0
-"""Seconds that a call of a user routine may take."""
 
+def check(options: argparse.Namespace, console: Console, *, apart: bool) -> int:
+    """Run the checks and print what they found; returns the exit code: 0 all passed, 1 a check failed, 2 neither.
 
-def check(options: argparse.Namespace, console: Console) -> int:
-    """Run the checks and print what they found; returns the exit code: 0 all passed, 1 a check failed, 2 neither."""
-    limit_calls(CALL_LIMIT)
+    apart: in a process of its own, which user code may end.
+    """
     try:
         deck, user = deck_and_user(options.files, options.user)
+        how = {"seed": options.seed, "increments": options.increments}
+        limit = options.call_limit
+        limit_calls(limit)
         if options.shuffle:
-            shuffled = shuffle(deck, user, seed=options.seed, increments=options.increments)
-            console.print(report(shuffled))
-            return int(not shuffled.passed)
-        outcome = examine(deck, user, seed=options.seed, increments=options.increments, skip=options.skip)
+            tell = partial(call_apart, tell_order, call_limit=limit) if apart else tell_order
+            passed, told = tell(deck, user, **how)
+            console.print(told)
+            return int(not passed)
+        look = partial(examine_apart, call_limit=limit) if apart else examine
+        outcome = look(deck, user, **how, skip=options.skip)
     except UelError as error:
         print(f"uel: {error}", file=sys.stderr)
         return UNCHECKED
@@ -41,6 +48,15 @@ def check(options: argparse.Namespace, console: Console) -> int:
     if options.json:
         options.json.write_text(as_json(outcome), encoding="utf-8")
     return int(not outcome.passed)
+
+
+def tell_order(
+    deck: Path, user: list[Path], *, seed: int, increments: int, progress: Progress = untold
+) -> tuple[bool, Group]:
+    """Make the check of the order alone; returns whether all passed, and the report. Raises UelError."""
+    progress(Running("calls of all elements in random orders"), None)
+    shuffled = shuffle(deck, user, seed=seed, increments=increments)
+    return shuffled.passed, report(shuffled)
 
 
 def deck_and_user(files: list[Path], user: list[Path]) -> tuple[Path, list[Path]]:

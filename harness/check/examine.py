@@ -5,30 +5,36 @@
 from __future__ import annotations
 
 from collections.abc import Collection, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Final
 
 from harness.check.checks import CHECKS, Check
 from harness.check.finding import Finding, Verdict, failed, not_applicable
-from harness.check.recording import record
-from harness.check.shuffle import shuffle_recording
+from harness.check.progress import Progress, Running, untold
+from harness.check.recording import Recording, record
+from harness.check.shuffle import TypeVerdict, shuffle_recording
 from harness.check.subject import Subject, subject_of
-from harness.errors import KernelError, UelError
+from harness.errors import CallLimitError, KernelError, UelError
 from harness.usersub import ARRAYS, UNSET, marks
 
 LENIENT: Final = {UNSET: 0.0, **dict.fromkeys(ARRAYS, 1e-300)}
 """Entries not set are zero, and guards as good as zero, so that one mistake does not hide all others."""
 
+ENDLESS: Final = (
+    "A call did not return in its time (--call-limit): look for a loop that ends only where something converges, give "
+    "it a largest number of iterations, and return PNEWDT < 1 where that is not enough."
+)
 
-@dataclass(frozen=True, slots=True)
+
+@dataclass(slots=True)
 class TypeReport:
-    """Findings on one element type, by the name of the check; states: how many were tried."""
+    """Findings on one element type, by the name of the check, as far as they are made; states: how many were tried."""
 
     type: str
     elements: int
-    states: int
-    findings: dict[str, Finding]
+    states: int = 0
+    findings: dict[str, Finding] = field(default_factory=dict)
 
 
 @dataclass(frozen=True, slots=True)
@@ -43,7 +49,7 @@ class Examination:
     increments: int
     stopped: str
     seed: int
-    types: tuple[TypeReport, ...]
+    types: list[TypeReport]
 
     @property
     def passed(self) -> bool:
@@ -53,34 +59,61 @@ class Examination:
 
 
 def examine(
-    deck: Path, user: Path | Sequence[Path] = (), *, seed: int = 1, increments: int = 3, skip: Collection[str] = ()
+    deck: Path,
+    user: Path | Sequence[Path] = (),
+    *,
+    seed: int = 1,
+    increments: int = 3,
+    skip: Collection[str] = (),
+    progress: Progress = untold,
 ) -> Examination:
     """Run the first increments of a deck and check every user element type in it.
 
-    skip: names of checks that are left out. Raises UelError where nothing can be checked: the deck or the user's file
-    is wrong, the first call of the elements fails, or the deck has no user elements.
+    skip: names of checks that are left out. progress: is told what begins, with what has been found until then.
+    Raises UelError where nothing can be checked: the deck or the user's file is wrong, the first call of the elements
+    fails, or the deck has no user elements.
     """
     files = (user,) if isinstance(user, Path) else tuple(user)
     known = [check.name for check in CHECKS]
     for name in skip:
         if name not in known:
             raise UelError(f"no check is called '{name}'; there are {', '.join(known)}")
+    checks = [check for check in CHECKS if check.name not in skip]
     with marks(LENIENT):
+        progress(Running("the run of the deck"), None)
         recording = record(deck, files, increments, strict=False)
         users = {group.type for group in recording.model.groups if group.definition is not None}
         if not users:
             raise UelError(f"{deck}: no elements of a type defined by *USER ELEMENT, which are what is checked")
-        types = []
-        for order in shuffle_recording(recording, seed, strict=False).types:
-            if order.type in users:
-                with subject_of(recording, order.type, order, seed) as subject:
-                    types.append(_examine_type(subject, skip))
-    return Examination(deck, files, recording.increments, recording.stopped, seed, tuple(types))
+        progress(Running("calls of all elements in random orders"), None)
+        orders = [order for order in shuffle_recording(recording, seed, strict=False).types if order.type in users]
+        types: list[TypeReport] = []
+        outcome = Examination(deck, files, recording.increments, recording.stopped, seed, types)
+        for order in orders:
+            types.append(TypeReport(order.type, order.elements))
+            _examine_type(recording, order, checks, outcome, progress)
+    return outcome
 
 
-def _examine_type(subject: Subject, skip: Collection[str]) -> TypeReport:
-    findings = {check.name: _run(check, subject) for check in CHECKS if check.name not in skip}
-    return TypeReport(subject.type, subject.elements, len(subject.all_states), findings)
+def _examine_type(
+    recording: Recording, order: TypeVerdict, checks: Sequence[Check], outcome: Examination, progress: Progress
+) -> None:
+    """Fill the last report. A call that does not return is waited for once: the checks behind it are not made."""
+    report = outcome.types[-1]
+    running = CHECKS[0].name
+    progress(Running(f"calls of {order.type} at states of the run and random ones", running), outcome)
+    try:
+        with subject_of(recording, order.type, order, outcome.seed) as subject:
+            report.states = len(subject.all_states)
+            for check in checks:
+                running = check.name
+                progress(Running(f"the check '{running}' of {order.type}", running), outcome)
+                report.findings[running] = _run(check, subject)
+    except CallLimitError as error:
+        report.findings[running] = failed(str(error), ENDLESS)
+        for check in checks:
+            missed = not_applicable(f"not made, since a call did not return in '{running}'")
+            report.findings.setdefault(check.name, missed)
 
 
 def _run(check: Check, subject: Subject) -> Finding:

@@ -9,13 +9,10 @@ from pathlib import Path
 
 import pytest
 
-from harness.check.examine import TypeReport, examine
+from harness.check.apart import CALL_LIMIT, examine_apart
+from harness.check.examine import TypeReport
 from harness.check.finding import Finding, Verdict
 from harness.errors import UelError
-from harness.usersub import limit_calls
-
-CALL_LIMIT = 60.0
-"""Seconds that a call of a user routine may take."""
 
 
 class CheckFailedError(Exception):
@@ -28,6 +25,8 @@ def pytest_addoption(parser: pytest.Parser) -> None:
     group.addoption("--deck", action="append", default=[], metavar="DECK.inp", help="check the user elements of a deck")
     group.addoption("--uel", action="append", default=[], metavar="FILE", help="user routines of --deck")
     group.addoption("--uel-increments", type=int, default=3, metavar="K", help="increments of --deck that are run (3)")
+    limit = "time for one call of a user routine (60)"
+    group.addoption("--uel-call-limit", type=float, default=CALL_LIMIT, metavar="SECONDS", help=limit)
 
 
 def pytest_configure(config: pytest.Config) -> None:
@@ -53,10 +52,10 @@ class UelDeck(pytest.File):
     def collect(self) -> Iterator[pytest.Item]:
         """Run the checks: which element types there are only the deck knows."""
         config = self.config
-        limit_calls(CALL_LIMIT)
         try:
             users = [Path(user) for user in config.getoption("--uel")]
-            outcome = examine(self.path, users, increments=config.getoption("--uel-increments"))
+            limit = config.getoption("--uel-call-limit")
+            outcome = examine_apart(self.path, users, increments=config.getoption("--uel-increments"), call_limit=limit)
         except UelError as error:
             raise self.CollectError(str(error)) from None
         for report in outcome.types:

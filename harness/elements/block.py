@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from harness.elements.call import BlockReport, Call, Distributed, Motion, Predefined
 from harness.elements.fields import FIELD_NAMES, field_of
-from harness.errors import KernelError
+from harness.errors import CallLimitError, ElementError, KernelError
 from harness.model.arrays import FloatArray, IntArray
 from harness.model.mesh import ElementGroup
 from harness.model.records import ElementState, PointVariables
@@ -180,7 +180,7 @@ class Block:
         residual is (n,), or (2, n) for a pass with NRHS = 2: its rows take the columns of RHS.
         RHS is left out where LFLAGS(3) asks for a matrix alone (2, 3, 4). SVARS on entry are always the committed
         ones; those returned are kept for `commit` where LFLAGS(3) is 1 or 6. Without `motion` V and A are zero.
-        Raises KernelError.
+        Raises KernelError, CallLimitError.
         """
         motion = motion or _AT_REST
         outcome = _binding.evaluate(
@@ -261,9 +261,8 @@ class Block:
         _binding.bare_loop(self._procedure.address, options, call.lflags, clock, self._arrays, u, du, residual)
 
     def _options(self, call: Call, *, assemble: bool) -> Options:
-        p = self._procedure
-        symmetric = int(not self.unsymmetric)
-        return p.material, p.tensor, p.jtype, symmetric, int(assemble), call.step, call.increment, self._guards
+        p, flags = self._procedure, (int(not self.unsymmetric), int(assemble))
+        return p.material, p.tensor, p.jtype, *flags, call.step, call.increment, self._guards, call.iteration
 
     def initialise(self, rows: IntArray, values: FloatArray) -> None:
         """Initial SVARS of elements (rows of the block), or STATEV of their points. Raises ValueError if too many."""
@@ -348,10 +347,10 @@ class Block:
         if element:
             raise KernelError(element, self.group.type, f"UVARM {self._library.stop_reason()}")
 
-    def _error(self, outcome: _binding.Outcome, nrhs: int, call: Call) -> KernelError:
+    def _error(self, outcome: _binding.Outcome, nrhs: int, call: Call) -> ElementError:
         element = int(self.group.labels[outcome.position]) if outcome.position >= 0 else 0
         match outcome.fault:
-            case Fault.LEFT:
+            case Fault.LEFT | Fault.ENDLESS:
                 message = self._library.stop_reason()
             case Fault.OUTSIDE:
                 message = self._outside(outcome, nrhs)
@@ -363,7 +362,8 @@ class Block:
             case _:
                 message = f"{self._entry(outcome)} is NaN or infinite"
         place = f"step {call.step}, increment {call.increment}, iteration {call.iteration}"
-        return KernelError(element, self.group.type, f"{message} ({place})")
+        error = CallLimitError if outcome.fault is Fault.ENDLESS else KernelError
+        return error(element, self.group.type, f"{message} ({place})")
 
     def _warn(self, outcome: _binding.Outcome, nrhs: int, call: Call) -> None:
         """Report a write outside an array once; the run goes on, and the next pass looks which element it is."""

@@ -32,7 +32,7 @@ ARRAYS: Final = ("RHS", "AMATRX", "SVARS", "ENERGY", "PROPS", "COORDS", "U", "DU
 """Guarded arrays, in the order of fortran/host/host_workspace.f90."""
 
 
-Options = tuple[int, int, int, int, int, int, int, int]
+Options = tuple[int, int, int, int, int, int, int, int, int]
 """As host_evaluate in fortran/host/entry.f90 names them."""
 
 
@@ -53,6 +53,7 @@ class Fault(IntEnum):
     OUTSIDE = 2
     UNSET = 3
     NOT_FINITE = 4
+    ENDLESS = 5
 
 
 @dataclass(frozen=True, slots=True)

@@ -32,6 +32,7 @@ DECK = """\
 2, 1, 1, 1.
 *END STEP
 """
+WHERE = "in UEL for element 7, step 1, increment 2, iteration 0"
 PLACE = r"element 7 \(type U1\): stopped the analysis: {} \(step 1, increment 2, iteration 0\)"
 
 
@@ -42,8 +43,8 @@ PLACE = r"element 7 \(type U1\): stopped the analysis: {} \(step 1, increment 2,
         pytest.param(2, PLACE.format("in UEL: segmentation fault: the stack is full.*"), marks=pytest.mark.long),
         pytest.param(3, PLACE.format("in UEL: division of an integer by zero"), marks=pytest.mark.long),
         (4, PLACE.format("in UEL: the call does not return, see the time limit for one call")),
-        (5, r"in a call for element 7, step 1, increment 2: abort.*\nuel: the run was ended by SIGABRT: abort, mostly"),
-        (6, r"in a call for element 7, step 1, increment 2: the process ends\nuel: the run was ended by the Fortran"),
+        (5, WHERE + r": abort.*\nuel: the run was ended by SIGABRT: abort, mostly"),
+        (6, WHERE + r": the process ends\nuel: the run was ended by the Fortran"),
         pytest.param(7, PLACE.format("STOP 'enough'"), marks=pytest.mark.long),
     ],
 )

@@ -110,6 +110,20 @@
         if (svars(1) > 20) call xit
       case (27)  ! a material that breaks
         if (maxval(abs(svars(1:12))) > 100) call xit
+      case (29)  ! a file that is not there, at U that are not those of the run
+        if (abs(u(2) - u(4)) > 0.4d0) open (unit=99,
+     &    file='no-such-folder/no-such-file', status='old')
+      case (30)  ! iterations that do not converge
+        k = 0
+        do while (abs(u(2) - u(4)) > 0.4d0 .and. k >= 0)
+          k = mod(k + 1, 1000)
+        end do
+        svars(1) = svars(1) + k
+      case (31)  ! memory that is damaged
+        if (kinc == 0) call abort
+      case (32)  ! the first call of all
+        open (unit=99, file='no-such-folder/no-such-file',
+     &    status='old')
       end select
       end
 

@@ -1,0 +1,86 @@
+# SPDX-FileCopyrightText: The uel-harness authors
+# SPDX-License-Identifier: BSD-3-Clause
+"""The checks in a process of their own: where user code ends it, what was found until then is kept.
+
+The process (worker.py) writes what it has found so far to a file before each part of its work, so that it loses nothing
+but the check that was running.
+"""
+
+from __future__ import annotations
+
+import pickle
+import re
+import sys
+import tempfile
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any, Final, TypeVar
+
+from harness.check.examine import Examination, examine
+from harness.check.finding import failed
+from harness.check.progress import Running, Snapshot
+from harness.check.worker import INTERRUPTED
+from harness.errors import UelError
+from harness.isolation import describe_end, run_apart
+
+CALL_LIMIT: Final = 60.0
+"""Seconds that a call of a user routine may take."""
+
+ADVICE: Final = (
+    "The element ended the process, as it would end that of Abaqus. The Fortran library does so at an input or output "
+    "statement that fails (a file that is not there), the system where memory is damaged: look at the check 'outside'. "
+    "With --skip the checks behind this one are made."
+)
+
+_PLACE: Final = re.compile(r"^uel: (in .*)$", re.MULTILINE)
+
+T = TypeVar("T")
+
+
+class EndedError(UelError):
+    """User code ended the process; snapshot has what was found until then, reason says why as a sentence."""
+
+    def __init__(self, reason: str, snapshot: Snapshot) -> None:
+        super().__init__(reason)
+        self.reason = reason
+        self.snapshot = snapshot
+
+
+def examine_apart(deck: Path, user: list[Path], *, call_limit: float = CALL_LIMIT, **options: Any) -> Examination:
+    """As `examine`; where user code ends the process, with what was found before, and a failure of the check that ran.
+
+    call_limit: seconds that one call of a user routine may take. Raises UelError, also where no check had begun.
+    """
+    try:
+        return call_apart(examine, deck, user, call_limit=call_limit, **options)
+    except EndedError as end:
+        running, outcome = end.snapshot.running, end.snapshot.outcome
+        if running is None or not running.check:
+            raise
+        examination: Examination = outcome
+        examination.types[-1].findings[running.check] = failed(end.reason, ADVICE)
+        return examination
+
+
+def call_apart(function: Callable[..., T], *arguments: Any, call_limit: float = CALL_LIMIT, **options: Any) -> T:
+    """What a function returns in a process of its own; it takes `progress`. Raises UelError, and EndedError."""
+    with tempfile.TemporaryDirectory() as folder:
+        file, messages = Path(folder) / "snapshot", Path(folder) / "messages"
+        task = Path(folder) / "task"
+        task.write_bytes(pickle.dumps((function, arguments, options, call_limit)))
+        with messages.open("w", encoding="utf-8") as stream:
+            code = run_apart(["harness.check.worker", str(task), str(file)], stream)
+        said = messages.read_text("utf-8", errors="replace")
+        snapshot = pickle.loads(file.read_bytes()) if file.exists() else Snapshot(Running("its start"))
+    if snapshot.running is None and not code:
+        sys.stderr.write(said)
+        if snapshot.error:
+            raise UelError(snapshot.error)
+        result: T = snapshot.outcome
+        return result
+    places = _PLACE.findall(said)
+    # the place is part of the reason, the rest is the user's own
+    sys.stderr.write(_PLACE.sub("", said).lstrip("\n"))
+    why = "interrupted" if code == INTERRUPTED else describe_end(code)
+    place = f"; {places[-1]}" if places else ""
+    raise EndedError(f"the process was {why} during {snapshot.running}{place}", snapshot)

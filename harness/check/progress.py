@@ -1,0 +1,45 @@
+# SPDX-FileCopyrightText: The uel-harness authors
+# SPDX-License-Identifier: BSD-3-Clause
+"""What is being checked at the moment, for messages about its end."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import Any
+
+
+@dataclass(frozen=True, slots=True)
+class Running:
+    """A part of the work: what it is as the end of a sentence, and the check that fails where it ends the process.
+
+    check is '' before the first element type is looked at.
+    """
+
+    what: str
+    check: str = ""
+
+    def __str__(self) -> str:
+        return self.what
+
+
+Progress = Callable[[Running, Any], None]
+"""Is told what begins, and what has been found until then."""
+
+
+def untold(running: Running, outcome: Any) -> None:
+    """Nobody wants to know."""
+
+
+@dataclass(frozen=True, slots=True)
+class Snapshot:
+    """What a process has come to.
+
+    running   what it was doing; None at its end
+    outcome   result, or what had been found until then
+    error     message of the UelError that ended the work; '' if none did
+    """
+
+    running: Running | None
+    outcome: Any = None
+    error: str = ""

@@ -1,0 +1,132 @@
+# SPDX-FileCopyrightText: The uel-harness authors
+# SPDX-License-Identifier: BSD-3-Clause
+"""User code that ends the process of the checks, or does not end: what was found is kept, and the reason is said."""
+
+import json
+import re
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+from harness.check.apart import call_apart, examine_apart
+from harness.check.examine import examine
+from harness.check.finding import Verdict
+from harness.check.progress import Running
+from harness.errors import UelError
+from harness.usersub import limit_calls
+
+QUAD = Path(__file__).parent / "quad.f"
+
+
+def uel_check(deck, *words):
+    """Exit code, output and messages of the command."""
+    command = [sys.executable, "-m", "harness.cli", "check", str(QUAD), deck.name, *words]
+    result = subprocess.run(command, cwd=deck.parent, capture_output=True, text=True, check=False)
+    assert "Traceback" not in result.stderr
+    return result.returncode, " ".join(result.stdout.split()), result.stderr
+
+
+def test_outcome_is_that_of_the_same_process(patch):
+    assert examine_apart(patch(5), [QUAD]) == examine(patch(5), [QUAD])
+
+
+@pytest.mark.parametrize(
+    "mistake, check, message",
+    [
+        (
+            29,
+            "rotation",
+            r"ended by the Fortran library, in an input .* 'rotation' of U1; in UEL for element 1, step 1, ",
+        ),
+        (
+            31,
+            "no-time",
+            "ended by SIGABRT: .* 'no-time' of U1; in UEL for element 1, step 1, increment 0, iteration 0: ",
+        ),
+    ],
+)
+def test_findings_before_the_end_are_kept(patch, mistake, check, message):
+    deck = patch(mistake)
+    code, printed, said = uel_check(deck, "--json", "findings.json")
+    assert code == 1
+    (report,) = json.loads((deck.parent / "findings.json").read_text())["types"]
+    *before, last = report["findings"]
+    assert last == check
+    assert "filled" in before
+    assert {report["findings"][name]["verdict"] for name in before} <= {"passed", "not applicable"}
+    assert re.search(message, report["findings"][check]["message"])
+    assert f"U1 {check}: The element ended the process" in printed
+    assert "uel: in" not in said
+
+
+def test_check_that_ends_the_process_is_left_out(patch):
+    code, printed, _ = uel_check(patch(31), "--skip", "no-time", "--increments", "1")
+    assert code == 0
+    assert "increments" in printed
+
+
+def test_call_that_does_not_return(patch):
+    deck = patch(30)
+    code, printed, _ = uel_check(deck, "--call-limit", "1", "--json", "findings.json")
+    assert code == 1
+    (report,) = json.loads((deck.parent / "findings.json").read_text())["types"]
+    place = "the call does not return, see the time limit for one call (step 1, increment 1, iteration 0)"
+    assert report["findings"]["rotation"]["message"] == f"element 1 (type U1): stopped the analysis: in UEL: {place}"
+    assert report["findings"]["energy"]["message"] == "not made, since a call did not return in 'rotation'"
+    assert "U1 rotation: A call did not return in its time (--call-limit): look for a loop" in printed
+
+
+@pytest.mark.parametrize(
+    "words, what", [([], "the run of the deck"), (["--shuffle"], "calls of all elements in random orders")]
+)
+def test_nothing_was_found_before_the_end(patch, words, what):
+    code, printed, said = uel_check(patch(32), *words)
+    assert (code, printed) == (2, "")
+    assert re.search(rf"uel: the process was ended by the Fortran library.* during {what}; in UEL for element 1", said)
+    assert "no-such-file" in said
+
+
+def test_order_alone(patch):
+    code, printed, _ = uel_check(patch(11), "--shuffle", "--increments", "1")
+    assert code == 1
+    assert "something outlives a call" in printed
+
+
+def interrupted(*, progress):
+    progress(Running("a test"), None)
+    raise KeyboardInterrupt
+
+
+def quit_quietly(*, progress):
+    progress(Running("a test"), None)
+    sys.exit(0)
+
+
+@pytest.mark.parametrize(
+    "function, message",
+    [
+        (interrupted, "the process was interrupted during a test"),
+        (quit_quietly, r"the process was ended \(exit code 0\) during a test"),
+    ],
+)
+def test_other_ends(function, message, monkeypatch):
+    monkeypatch.setenv("PYTHONPATH", str(Path(__file__).parent))
+    with pytest.raises(UelError, match=message):
+        call_apart(function)
+
+
+def test_error_without_a_place(tmp_path):
+    with pytest.raises(UelError, match=r"none\.inp"):
+        examine_apart(tmp_path / "none.inp", [])
+
+
+def test_endless_call_in_the_same_process(patch):
+    limit_calls(1.0)
+    try:
+        (report,) = examine(patch(30), QUAD, skip=["patch"]).types
+    finally:
+        limit_calls(0.0)
+    assert report.findings["rotation"].verdict is Verdict.FAILED
+    assert report.findings["increments"].verdict is Verdict.NOT_APPLICABLE
