@@ -1,11 +1,11 @@
 ! SPDX-FileCopyrightText: The uel-harness authors
 ! SPDX-License-Identifier: BSD-3-Clause
-!> Fortran view of protect.c and sma_arrays.c.
+!> Fortran view of protect.c, sma_arrays.c and inputs.c.
 module host_protect
-  use, intrinsic :: iso_c_binding, only: c_double, c_funptr, c_int, c_int64_t, c_ptr
+  use, intrinsic :: iso_c_binding, only: c_double, c_funptr, c_int, c_int32_t, c_int64_t, c_ptr
   implicit none (type, external)
   private
-  public :: protect, escape, clear_arrays, calls, limit_calls
+  public :: protect, escape, clear_arrays, calls, limit_calls, watch, take_changes
 
   !> Calls of user routines so far: by it the clock sees whether one is still the same.
   integer(c_int64_t), bind(c, name='uel_host_calls') :: calls = 0
@@ -32,5 +32,20 @@ module host_protect
     !> Drop the arrays of SMAIntArrayCreate and its like.
     subroutine clear_arrays() bind(c, name='uel_host_clear_arrays')
     end subroutine clear_arrays
+
+    !> Address of a routine that calls UEL, or UELMAT, at an address and notes which inputs it changes.
+    function watch(address, with_material) bind(c, name='uel_host_watch') result(watched)
+      import :: c_int32_t, c_int64_t
+      integer(c_int64_t), value :: address
+      integer(c_int32_t), value :: with_material   !< 0 for UEL
+      integer(c_int64_t) :: watched
+    end function watch
+
+    !> First entry of each argument that was changed since the last look (0: none), and its values before and after.
+    subroutine take_changes(entries, values) bind(c, name='uel_host_take_changes')
+      import :: c_double, c_int32_t
+      integer(c_int32_t), intent(out) :: entries(37)
+      real(c_double), intent(out) :: values(2, 37)
+    end subroutine take_changes
   end interface
 end module host_protect

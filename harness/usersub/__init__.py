@@ -9,8 +9,9 @@ himself.
 """
 
 from harness.usersub._binding import limit_calls
+from harness.usersub.inputs import Change, watched_inputs
 from harness.usersub.library import Library, load
 from harness.usersub.marks import ARRAYS, UNSET, marks
 from harness.usersub.messages import Message
 
-__all__ = ["ARRAYS", "UNSET", "Library", "Message", "limit_calls", "load", "marks"]
+__all__ = ["ARRAYS", "UNSET", "Change", "Library", "Message", "limit_calls", "load", "marks", "watched_inputs"]

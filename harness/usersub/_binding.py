@@ -36,6 +36,9 @@ Options = tuple[int, int, int, int, int, int, int, int, int]
 """As host_evaluate in fortran/host/entry.f90 names them."""
 
 
+_watching = False
+
+
 class Guards(IntEnum):
     """What a write outside an array does to a pass (fortran/host/host_driver.f90)."""
 
@@ -142,7 +145,7 @@ def evaluate(
     the same for all elements; floor (ndofel,); residual (NRHS, n), whose rows take the columns of RHS.
     """
     flux, terms, sums, status = _host.host_evaluate(
-        address,
+        _host.host_watch(address, options[0]) if _watching else address,
         options,
         lflags,
         clock,
@@ -177,6 +180,18 @@ def evaluate(
 def exchange_marks(marks: FloatArray) -> None:
     """Exchange what the guards of each of ARRAYS hold and, last, what RHS and AMATRX hold before a call."""
     _host.host_exchange_marks(marks)
+
+
+def watch_inputs(on: bool) -> None:
+    """From now on `evaluate` notes which inputs the elements change, or does not."""
+    global _watching  # noqa: PLW0603
+    _watching = on
+
+
+def take_changes() -> tuple[Int32Array, FloatArray]:
+    """First entry (37,) of each argument that was changed since the last look (0: none), and values (37, 2)."""
+    entries, values = _host.host_take_changes()
+    return entries, values.T
 
 
 def bare_loop(

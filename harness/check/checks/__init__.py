@@ -11,6 +11,7 @@ from typing import Final
 from harness.check.checks import (
     energy,
     increments,
+    inputs,
     memory,
     no_time,
     order,
@@ -48,6 +49,7 @@ CHECKS: Final = (
     Check("filled", memory.check_filled),
     Check("outside", memory.check_outside),
     Check("undeclared", memory.check_undeclared),
+    Check("inputs", inputs.check),
     Check("repeat", repeat.check),
     Check("order", order.check, calls=False),
     Check("threads", threads.check),

@@ -110,6 +110,11 @@
         if (svars(1) > 20) call xit
       case (27)  ! a material that breaks
         if (maxval(abs(svars(1:12))) > 100) call xit
+      case (33)  ! a step that is cut in the caller's variable
+        dtime = dtime/2
+      case (34)  ! positions that are added up in place
+        coords(1,2) = coords(1,2) + u(3)
+        props(2) = 0
       case (29)  ! a file that is not there, at U that are not those of the run
         if (abs(u(2) - u(4)) > 0.4d0) open (unit=99,
      &    file='no-such-folder/no-such-file', status='old')

@@ -46,6 +46,8 @@ MISTAKES = [
     (22, "increments", "made in two, and by 6.9 % when it is made in 16 and not in 8", "a rate without DTIME"),
     (23, "pnewdt", "PNEWDT is 0.5 with DU = 0", "Set PNEWDT < 1 only for what this increment has done"),
     (24, "pnewdt", "PNEWDT is -1", "PNEWDT multiplies DTIME"),
+    (33, "inputs", "element 1, .*: DTIME is 0.5 before the call and 0.25 after it$", "passes DTIME in for information"),
+    (34, "inputs", "entry 2 of PROPS is 0.3 before the call and 0 after it; so are COORDS", "change the copy"),
 ]
 
 NAN = {1, 10, 12, 17, 18}
@@ -53,7 +55,7 @@ NAN = {1, 10, 12, 17, 18}
 
 ALONE = [
     *((1, "filled"), (5, "tangent"), (9, "outside"), (10, "undeclared"), (16, "threads"), (17, "no-time")),
-    *((18, "no-time"), (20, "patch"), (21, "energy"), (24, "pnewdt")),
+    *((18, "no-time"), (20, "patch"), (21, "energy"), (24, "pnewdt"), (33, "inputs")),
 ]
 """Mistakes that only one check is for."""
 
