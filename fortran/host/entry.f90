@@ -225,6 +225,44 @@ subroutine host_set_expansion(number, expansion)
   material%expansion = expansion
 end subroutine host_set_expansion
 
+!> Let the elastic constants of a material depend on temperature and field variables.
+subroutine host_set_dependence(number, constants, turn, table, rows, columns)
+  use host_kinds, only: dp, i4
+  use host_materials, only: find_material, material_t
+  implicit none (type, external)
+  integer(i4), intent(in) :: number, constants, rows, columns
+  real(dp), intent(in) :: turn(6, 6)          !< stress components in global axes to those of the material
+  real(dp), intent(in) :: table(columns, rows)   !< as dependence_t has it
+  type(material_t), pointer :: material
+  material => find_material(number)
+  allocate (material%dependence)
+  material%dependence%constants = constants
+  material%dependence%turn = turn
+  material%dependence%table = table
+  material%variables = max(material%variables, columns - constants - 1)
+end subroutine host_set_dependence
+
+!> Let USDFLD give the field variables of a material.
+subroutine host_set_user_field(number, address, names, statev, axes)
+  use, intrinsic :: iso_c_binding, only: c_intptr_t
+  use host_kinds, only: dp, i4, i8
+  use host_materials, only: find_material, material_t
+  implicit none (type, external)
+  integer(i4), intent(in) :: number, statev
+  integer(i8), intent(in) :: address
+  character(len=80), intent(in) :: names(2)   !< of the material and its orientation
+  real(dp), intent(in) :: axes(3, 3)          !< rows: material directions
+  type(material_t), pointer :: material
+  material => find_material(number)
+  allocate (material%user_field)
+  material%user_field%address = transfer(int(address, c_intptr_t), material%user_field%address)
+  material%user_field%material = names(1)
+  material%user_field%orientation = names(2)
+  material%user_field%statev = statev
+  material%axes = axes
+  material%variables = max(material%variables, 1)
+end subroutine host_set_user_field
+
 !> Make a material of UMAT known; returns the number that stands for it.
 subroutine host_define_user_material(umat, name, ntens, constants, count, number, n)
   use, intrinsic :: iso_c_binding, only: c_intptr_t
@@ -247,7 +285,7 @@ subroutine host_define_user_material(umat, name, ntens, constants, count, number
 end subroutine host_define_user_material
 
 !> Call UVARM at all material points of a block of built-in elements.
-subroutine host_uvarm_pass(address, name, tensor, place, clock, labels, coords, svars, history, uvar, left, element, mcrd, nnode, &
+subroutine host_uvarm_pass(address, name, counts, place, clock, labels, coords, svars, history, uvar, left, element, mcrd, nnode, &
                            variables, points, values, nuvarm, m)
   use, intrinsic :: iso_c_binding, only: c_intptr_t
   use host_context, only: current
@@ -256,7 +294,7 @@ subroutine host_uvarm_pass(address, name, tensor, place, clock, labels, coords, 
   implicit none (type, external)
   integer(i8), intent(in) :: address
   character(len=80), intent(in) :: name       !< of the material
-  integer(i4), intent(in) :: tensor           !< stress components
+  integer(i4), intent(in) :: counts(2)        !< stress components, STATEV
   integer(i4), intent(in) :: place(2)         !< step, increment
   real(dp), intent(in) :: clock(3)            !< step time, total time at the start of the increment, time increment
   integer(i4), intent(in) :: mcrd, nnode, variables, points, values, nuvarm, m
@@ -268,7 +306,8 @@ subroutine host_uvarm_pass(address, name, tensor, place, clock, labels, coords, 
   type(uvarm_pass_t) :: pass
   pass%address = transfer(int(address, c_intptr_t), pass%address)
   pass%material = name
-  pass%tensor = tensor
+  pass%tensor = counts(1)
+  pass%statev = counts(2)
   pass%kstep = place(1)
   pass%kinc = place(2)
   pass%time = clock(:2)

@@ -26,7 +26,8 @@ module host_context
     real(dp) :: deformation(3, 3, 2) = 0   !< deformation gradients at its start and end, for UMAT
     real(dp), pointer, contiguous :: history(:, :) => null()        !< (values, npt) committed material history
     real(dp), pointer, contiguous :: history_trial(:, :) => null()  !< (values, npt) of this call
-    real(dp), pointer, contiguous :: values(:) => null()            !< strain, then stress of the point, while UVARM runs
+    real(dp), pointer, contiguous :: values(:) => null()            !< strain, then stress of the point, for GETVRM
+    integer :: statev = 0         !< number of STATEV, the last values of the history, for GETVRM
   end type call_context
 
   type(call_context), save :: current

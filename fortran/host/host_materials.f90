@@ -6,13 +6,16 @@
 !> (11, 22, 33, 12, 13, 23); shear strains are engineering strains.
 module host_materials
   use host_context, only: current
+  use host_dependence, only: dependence_t, elastic_matrices
   use host_kinds, only: dp, i4
   use host_kinematics, only: rotated
   use host_mises, only: mises_plane_stress, mises_solid
   use host_umat, only: call_umat, strain_energy, user_material_t
+  use host_usdfld, only: user_field_t
   implicit none (type, external)
   private
-  public :: material_t, define, find_material, stress_update, elastic_energy, thickness_strain, history_values
+  public :: material_t, define, find_material, stress_update, elastic_energy, thickness_strain, history_values, &
+            has_fields, set_constants
 
   !> Values of the history of a point of a plastic material: plastic strain (6), equivalent plastic strain.
   integer, parameter :: history_values = 7
@@ -28,6 +31,9 @@ module host_materials
     real(dp) :: young = 0, poisson = 0             !< of a plastic material, which is isotropic
     real(dp) :: expansion = 0                      !< thermal strain per change of temperature
     type(user_material_t), allocatable :: user     !< of UMAT; then nothing above counts but ntens
+    integer :: variables = 0                       !< field variables, at least
+    type(dependence_t), allocatable :: dependence  !< constants above are those of the point that set_constants was called for
+    type(user_field_t), allocatable :: user_field  !< of USDFLD
   end type material_t
 
   type(material_t), allocatable, save, target :: library(:)
@@ -51,6 +57,24 @@ contains
     if (.not. allocated(library)) return
     if (number >= 1 .and. number <= size(library)) material => library(number)
   end function find_material
+
+  !> Whether it takes temperature and field variables.
+  pure logical function has_fields(material)
+    type(material_t), intent(in) :: material
+    has_fields = allocated(material%user) .or. allocated(material%dependence) .or. allocated(material%user_field)
+  end function has_fields
+
+  !> Elastic constants where temperature and field variables are those of current%fields at the end of the increment.
+  subroutine set_constants(material)
+    type(material_t), intent(inout) :: material
+    real(dp) :: constants(material%dependence%constants)
+    integer :: n
+    n = material%ntens
+    call elastic_matrices(material%dependence, n, current%fields(:, 1) + current%fields(:, 2), material%stiffness(:n, :n), &
+                          material%compliance(:n, :n), material%thickness, constants)
+    material%young = constants(1)
+    material%poisson = constants(2)
+  end subroutine set_constants
 
   !> Stress and tangent at the end of the increment; the history of the point goes from committed to trial.
   !> valid is false if the point has no place in the history.
@@ -79,6 +103,7 @@ contains
     if (valid) valid = point >= 1 .and. point <= size(current%history, 2)
     if (.not. valid) return
     if (allocated(material%user)) then
+      if (.not. allocated(material%user_field)) current%history_trial(:, point) = current%history(:, point)
       call call_umat(material%user, n, point, strain, current%history(:, point), stress, tangent, current%history_trial(:, point))
       return
     end if

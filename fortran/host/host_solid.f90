@@ -23,8 +23,9 @@ module host_solid
   use host_kinds, only: dp, i4
   use host_kinematics, only: average_volume_strain, gradients, mean_gradients, point_position, rotated, rotation_of, &
                              strain_matrix
-  use host_materials, only: elastic_energy, find_material, material_t, stress_update, thickness_strain
+  use host_materials, only: elastic_energy, find_material, has_fields, material_t, set_constants, stress_update, thickness_strain
   use host_shape, only: hourglass_shapes, rule_of, rule_t
+  use host_usdfld, only: call_usdfld
   implicit none (type, external)
   private
   public :: solid_uelmat
@@ -84,7 +85,7 @@ contains
                        stiffness, svars, hourglass_state, energy)
     integer, intent(in) :: dim, nodes, points, modes, fields
     logical, intent(in) :: finite
-    type(material_t), intent(in) :: material
+    type(material_t), intent(inout) :: material
     real(dp), intent(in) :: thickness, hourglass, x(dim, nodes), predef(2, fields, nodes), u(dim, nodes), du(dim, nodes)
     real(dp), intent(inout) :: force(dim*nodes), stiffness(dim*nodes, dim*nodes), svars(values_of_point(dim), points)
     real(dp), intent(inout) :: hourglass_state(dim, modes), energy(8)
@@ -102,14 +103,18 @@ contains
     elastic = 0
     work = energy(2) + energy(4)
     ! a line across the element, half of it where there are nodes in the middle of the edges
-    if (allocated(material%user)) current%length = sum(volume)**(1.0_dp/dim)/merge(2, 1, nodes > 2**dim)
+    if (has_fields(material)) current%length = sum(volume)**(1.0_dp/dim)/merge(2, 1, nodes > 2**dim)
     current%finite = finite
     thermal = 0
     do p = 1, points
-      if (allocated(material%user)) then
+      if (has_fields(material)) then
         current%place = point_position(points, p, now)
-        call interpolate(dim, nodes, points, p, fields, predef)
+        call interpolate(dim, nodes, points, p, fields, predef, material%variables)
       end if
+      if (allocated(material%user_field)) then
+        call call_usdfld(material%user_field, material%ntens, int(p, i4), material%axes, svars(:, p))
+      end if
+      if (allocated(material%dependence)) call set_constants(material)
       if (abs(material%expansion) > 0) thermal = thermal_strain(dim, nodes, points, p, fields, material%expansion, predef)
       if (finite) then
         current%rotation = rotation_of(gradient_of(dim, nodes, du, g_mid(:, :, p)))
@@ -137,15 +142,15 @@ contains
     end if
   end subroutine integrate
 
-  !> Temperature and field variables of a point, for UMAT.
-  subroutine interpolate(dim, nodes, points, point, fields, predef)
-    integer, intent(in) :: dim, nodes, points, point, fields
+  !> Temperature and field variables of a point; of the latter as many as the material has, at least.
+  subroutine interpolate(dim, nodes, points, point, fields, predef, least)
+    integer, intent(in) :: dim, nodes, points, point, fields, least
     real(dp), intent(in) :: predef(2, fields, nodes)
     type(rule_t), pointer :: rule
     integer :: k
     rule => rule_of(dim, nodes, points)
     if (allocated(current%fields)) deallocate (current%fields)
-    allocate (current%fields(fields - 1, 2))
+    allocate (current%fields(max(fields - 1, least + 1), 2), source=0.0_dp)
     do k = 1, fields - 1
       current%fields(k, 2) = dot_product(predef(2, k, :), rule%n(:, point))
       current%fields(k, 1) = dot_product(predef(1, k, :), rule%n(:, point)) - current%fields(k, 2)

@@ -49,7 +49,7 @@ contains
     if (allocated(current%fields)) field_variables = size(current%fields, 1) - 1
   end function field_variables
 
-  !> Stress and tangent at the end of the increment; the history goes from old to new.
+  !> Stress and tangent at the end of the increment; the history goes from old to new, where STATEV are those to begin with.
   subroutine call_umat(material, ntens, point, strain, old, stress, tangent, new)
     type(user_material_t), intent(in) :: material
     integer, intent(in) :: ntens
@@ -67,7 +67,6 @@ contains
     character(len=80) :: cmname
     character(len=len(current%routine)) :: routine
     call c_f_procpointer(material%umat, umat)
-    new = old
     stran = old(:ntens)
     stress = old(7:6 + ntens)
     drot = identity

@@ -26,7 +26,7 @@ module host_uvarm
   type :: uvarm_pass_t
     type(c_funptr) :: address
     character(len=80) :: material = ' '
-    integer(i4) :: tensor = 0, kstep = 0, kinc = 0
+    integer(i4) :: tensor = 0, statev = 0, kstep = 0, kinc = 0
     real(dp) :: time(2) = 0, dtime = 0    !< start of the increment
     integer(i4), pointer, contiguous :: labels(:) => null()
     real(dp), pointer, contiguous :: coords(:, :, :) => null()     !< (mcrd, nnode, m)
@@ -46,6 +46,7 @@ contains
     current%increment = pass%kinc
     current%time = pass%time
     current%dtime = pass%dtime
+    current%statev = pass%statev
     left = int(protect(c_funloc(all_points), c_loc(pass)), i4)
     nullify (current%values, current%history)
     if (left == 0) current%element = 0
@@ -104,12 +105,11 @@ contains
   end subroutine call_uvarm
 end module host_uvarm
 
-!> Values of the material point for which UVARM is running: S, E and LE (direct components, then shear) and SDV;
+!> Values of the material point for which UVARM or USDFLD is running: S, E and LE (direct components, then shear) and SDV;
 !> jrcd = 1 for a variable that the point does not have.
 subroutine getvrm(var, array, jarray, flgray, jrcd, jmac, jmatyp, matlayo, laccfla)
   use host_context, only: current
   use host_kinds, only: dp, i4
-  use host_umat, only: head
   implicit none (type, external)
   character(len=*), intent(in) :: var
   real(dp), intent(inout) :: array(15)
@@ -117,7 +117,7 @@ subroutine getvrm(var, array, jarray, flgray, jrcd, jmac, jmatyp, matlayo, laccf
   character(len=3), intent(inout) :: flgray(15)
   integer(i4), intent(out) :: jrcd
   integer(i4), intent(in) :: jmac(*), jmatyp(*), matlayo, laccfla
-  integer :: n
+  integer :: n, first
   jrcd = 1
   if (.not. associated(current%values)) return
   array = 0
@@ -132,9 +132,10 @@ subroutine getvrm(var, array, jarray, flgray, jrcd, jmac, jmatyp, matlayo, laccf
     array(:n) = current%values(n + 1:)
     jrcd = 0
   case ('SDV')
-    n = min(size(current%history, 1) - head, 15)
+    n = min(current%statev, 15)
     if (n < 1) return
-    array(:n) = current%history(head + 1:head + n, current%point)
+    first = size(current%history, 1) - current%statev
+    array(:n) = current%history(first + 1:first + n, current%point)
     jrcd = 0
   case default
     jrcd = 1

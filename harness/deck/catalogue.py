@@ -12,7 +12,7 @@ from typing import TypeVar
 
 import numpy as np
 
-from harness.deck.blocks import Block
+from harness.deck.blocks import Block, Row
 from harness.deck.damage import DAMAGE_KEYWORDS, extend_damage
 from harness.deck.problems import Problems, nearest
 from harness.deck.user_elements import MOST_VALUES, read_count
@@ -31,9 +31,13 @@ _CONSTANTS = {
 }
 MATERIAL_OPTIONS = (
     *("ELASTIC", "PLASTIC", "DENSITY", "CONDUCTIVITY", "SPECIFIC HEAT", "EXPANSION"),
-    *("USER MATERIAL", "DEPVAR", "USER OUTPUT VARIABLES"),
+    *("USER MATERIAL", "DEPVAR", "USER OUTPUT VARIABLES", "USER DEFINED FIELD"),
     *DAMAGE_KEYWORDS,
 )
+DEPENDENT = (ElasticType.ISOTROPIC, ElasticType.LAMINA, ElasticType.ENGINEERING_CONSTANTS)
+"""Those whose constants may depend on temperature and fields."""
+PER_LINE = 8
+MOST_FIELDS = 1000
 SMALLEST_SINE = 1e-10
 MOST_VARIABLES = 1_000_000
 Entry = TypeVar("Entry")
@@ -74,6 +78,8 @@ def _extend(material: Material, block: Block) -> Material:
             extended = replace(material, plastic=_read_plastic(block))
         case "USER MATERIAL":
             extended = replace(material, user=_read_user_material(block))
+        case "USER DEFINED FIELD":
+            extended = replace(material, user_field=block.source)
         case "DEPVAR":
             extended = replace(material, state_variables=_read_count(block))
         case "USER OUTPUT VARIABLES":
@@ -108,18 +114,49 @@ def _read_elastic(block: Block) -> Elastic:
     rows = list(block.rows())
     if not rows:
         raise block.error("needs a data line")
+    fields = read_count(block, "DEPENDENCIES", 0, 0, MOST_FIELDS)
     values = [value for row in rows for value in row.reals("elastic constant")]
-    if len(values) > count:
-        message = f"{len(values)} values where {kind.value} takes {count}; dependence on temperature is not supported"
-        raise rows[0].error(message)
+    if fields or len(values) > count:
+        table = _read_dependence(block, kind, count, fields)
+        # one row is no dependence
+        return Elastic(kind, tuple(table[0, :count].tolist()), block.source, table if len(table) > 1 else None)
     # trailing constants may be left out: Poisson's ratio, the transverse shear moduli of a lamina, Ett in the plane
     needed = {ElasticType.ISOTROPIC: 1, ElasticType.LAMINA: 4, ElasticType.TRACTION: 2}.get(kind, count)
     if len(values) < needed:
         raise rows[0].error(f"{len(values)} values where {kind.value} takes {count}")
     values += [0.0] * (count - len(values))
-    if kind is ElasticType.ISOTROPIC and not (values[0] > 0 and -1 < values[1] <= 0.5):
-        raise rows[0].error(f"E = {values[0]:g}, nu = {values[1]:g}: expected E > 0 and -1 < nu <= 0.5")
+    if kind is ElasticType.ISOTROPIC:
+        _check_isotropic(rows[0], *values)
     return Elastic(kind, tuple(values), block.source)
+
+
+def _check_isotropic(row: Row, young: float, poisson: float) -> None:
+    if not (young > 0 and -1 < poisson <= 0.5):
+        raise row.error(f"E = {young:g}, nu = {poisson:g}: expected E > 0 and -1 < nu <= 0.5")
+
+
+def _read_dependence(block: Block, kind: ElasticType, count: int, fields: int) -> FloatArray:
+    """Rows of constants, temperature and fields; each takes as many lines as eight to a line need."""
+    if kind not in DEPENDENT:
+        names = ", ".join(sorted(DEPENDENT))
+        raise block.error(f"dependence on temperature and fields is supported for {names}, not for {kind.value}")
+    rows, width = list(block.rows()), count + 1 + fields
+    lines = math.ceil(width / PER_LINE)
+    if len(rows) % lines:
+        raise block.error(f"{width} values take {lines} lines, found {len(rows)}")
+    table: list[list[float]] = []
+    for first in range(0, len(rows), lines):
+        values: list[float] = []
+        for number, row in enumerate(rows[first : first + lines]):
+            here = min(PER_LINE, width - PER_LINE * number)
+            row.at_most(here)
+            values += row.reals("elastic constant") + [0.0] * (here - len(row))
+        if kind is ElasticType.ISOTROPIC:
+            _check_isotropic(rows[first], *values[:count])
+        if any(values[count:] == earlier[count:] for earlier in table):
+            raise rows[first].error("the temperature and fields of an earlier line")
+        table.append(values)
+    return np.array(table)
 
 
 def _read_user_material(block: Block) -> UserMaterial:

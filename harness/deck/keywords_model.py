@@ -218,10 +218,12 @@ PROPERTIES = (
                 choices=("ISOTROPIC", "ENGINEERING CONSTANTS", "LAMINA", "ORTHOTROPIC", "ANISOTROPIC", "TRACTION"),
                 refused=("COUPLED TRACTION", "SHEAR", "SHORT FIBER", "BILAMINA"),
             ),
+            Option("DEPENDENCIES", Kind.INTEGER, "number of field variables"),
             *ignored("MODULI"),
-            *refused("DEPENDENCIES", "COMPRESSION FACTOR"),
+            *refused("COMPRESSION FACTOR"),
         ),
-        "constants in the order of the type",
+        "constants in the order of the type; those of continuum elements may depend on temperature and fields, "
+        "which follow, eight values to a line",
     ),
     Keyword(
         "PLASTIC",
@@ -259,6 +261,7 @@ PROPERTIES = (
         (*ignored("DELETE"),),
         "number of variables; then number, name, description of variables, which are not read",
     ),
+    Keyword("USER DEFINED FIELD", "USDFLD gives the field variables of continuum elements.", Where.MODEL),
     Keyword(
         "USER OUTPUT VARIABLES",
         "Number of variables that UVARM gives at a material point.",

@@ -337,7 +337,7 @@ class Block:
         element = _binding.uvarm(
             given.address,
             given.material,
-            self._procedure.tensor,
+            (self._procedure.tensor, self._procedure.statev),
             place,
             start,
             self._arrays,

@@ -12,7 +12,7 @@ from harness.elements.block import Block, Procedure
 from harness.elements.cohesive import COHESIVE, cohesive_procedure, cohesive_variables
 from harness.elements.coupled import coupled_procedure, coupled_unknowns
 from harness.elements.discrete import DISCRETE, discrete_procedure, discrete_unknowns, discrete_variables
-from harness.elements.materials import Tensor, define_material
+from harness.elements.materials import Tensor, define_material, refuse_fields
 from harness.elements.solid import COUPLED, SOLIDS, history_of, solid_of, solid_procedure, solid_variables
 from harness.errors import DeckError, all_of
 from harness.model.mesh import ElementGroup
@@ -75,6 +75,7 @@ def _user_block(model: Model, group: ElementGroup, definition: UserElement, libr
     mcrd = max(definition.coordinates, *(dof for _, dof in definition.dofs if dof <= 3), 1)
     material, tensor, history = 0, 0, (1, 1)
     if section.material is not None:
+        refuse_fields(section.material, "user elements")
         tensor = _tensor(definition, section)
         material = define_material(section.material, section.orientation, tensor, section.source, library)
         history = history_of(section.material, definition.integration or MOST_POINTS)

@@ -9,6 +9,7 @@ from typing import Final
 import numpy as np
 
 from harness.elements.block import Procedure
+from harness.elements.materials import refuse_fields
 from harness.errors import DeckError
 from harness.model.mesh import ElementGroup
 from harness.model.model import Model
@@ -81,6 +82,7 @@ def cohesive_properties(section: CohesiveSection, dimension: int) -> tuple[list[
     """
     material, controls = section.material, section.controls
     elastic, damage = material.elastic, material.damage
+    refuse_fields(material, "cohesive elements")
     assert elastic is not None
     moduli = _directions(elastic.constants, dimension)
     if min(moduli) <= 0:

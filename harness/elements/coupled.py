@@ -9,6 +9,7 @@ from dataclasses import replace
 import numpy as np
 
 from harness.elements.block import Procedure
+from harness.elements.materials import refuse_fields
 from harness.elements.solid import COUPLED, solid_procedure
 from harness.errors import DeckError
 from harness.model.mesh import ElementGroup
@@ -28,6 +29,7 @@ def coupled_unknowns(group: ElementGroup) -> tuple[tuple[int, int], ...]:
 def coupled_procedure(model: Model, group: ElementGroup, section: SolidSection, library: Library) -> Procedure:
     """What the driver calls for a group of solids with temperatures. Raises DeckError."""
     material = section.material
+    refuse_fields(material, f"elements of type {group.type}")
     transient = False
     for step in model.steps:
         procedure = step.procedure

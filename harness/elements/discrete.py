@@ -9,6 +9,7 @@ from typing import Final
 import numpy as np
 
 from harness.elements.block import Procedure
+from harness.elements.materials import refuse_fields
 from harness.errors import DeckError
 from harness.model.mesh import ElementGroup
 from harness.model.model import Model
@@ -67,6 +68,7 @@ def _properties(group: ElementGroup, *, dynamic: bool) -> np.ndarray:
     if not isinstance(section, SolidSection):
         raise DeckError(section.source, f"elements of type {group.type} take *SOLID SECTION")
     material = section.material
+    refuse_fields(material, f"elements of type {group.type}")
     if material.elastic is None or material.elastic.type is not ElasticType.ISOTROPIC:
         message = f"elements of type {group.type} need *ELASTIC, TYPE=ISOTROPIC (material {material.name})"
         raise DeckError(section.source, message)

@@ -47,8 +47,45 @@ _COUNTS: Final = {
 def history_values(material: Material) -> int:
     """Values of the history of a point; 1 for a material without one."""
     if material.user is not None:
-        return USER_HISTORY_VALUES + material.state_variables
-    return 1 if material.plastic is None else HISTORY_VALUES
+        return USER_HISTORY_VALUES + state_variables(material)
+    return (1 if material.plastic is None else HISTORY_VALUES) + state_variables(material)
+
+
+def state_variables(material: Material) -> int:
+    """STATEV of a point; none without a routine that has them."""
+    return material.state_variables if material.user or material.user_field else 0
+
+
+def refuse_fields(material: Material, elements: str) -> None:
+    """Raise DeckError where a material of these elements takes field variables that they do not have."""
+    if material.user_field is not None:
+        raise DeckError(material.user_field, f"*USER DEFINED FIELD is not supported for {elements}")
+    if material.elastic is not None and material.elastic.table is not None:
+        message = f"*ELASTIC: dependence on temperature and fields is not supported for {elements}"
+        raise DeckError(material.elastic.source, message)
+
+
+def define_fields(
+    number: int, material: Material, orientation: Orientation | None, tensor: Tensor, library: Library
+) -> None:
+    """Tell the host what of a material depends on temperature and fields, and of USDFLD. Raises DeckError."""
+    axes, name = (np.eye(3), "") if orientation is None else (orientation.axes, orientation.name)
+    elastic = material.elastic
+    if elastic is not None and elastic.table is not None:
+        count = _COUNTS[elastic.type]
+        rows = [_engineering(elastic, tuple(row[:count]), tensor) for row in elastic.table.tolist()]
+        for row in rows:
+            _check_definite(elastic, _compliance_of(row))
+        if elastic.type is ElasticType.ISOTROPIC:
+            # the shear modulus is not linear in both constants
+            rows = [(row[0], row[3]) for row in rows]
+        table = np.hstack([np.array(rows), elastic.table[:, count:]])
+        _binding.set_dependence(number, len(rows[0]), _turn(axes), table)
+    if material.user_field is not None:
+        if library.usdfld is None:
+            message = f"material {material.name} needs USDFLD; {library.name} has {library.contents}"
+            raise DeckError(material.user_field, f"*USER DEFINED FIELD: {message}")
+        _binding.set_user_field(number, library.usdfld, (material.name, name), state_variables(material), axes)
 
 
 def define_material(
@@ -119,6 +156,13 @@ def _compliance(elastic: Elastic, tensor: Tensor) -> FloatArray:
         stiffness = _orthotropic(c) if elastic.type is ElasticType.ORTHOTROPIC else _anisotropic(c)
         _check_definite(elastic, stiffness)
         return _inverse(stiffness)
+    compliance = _compliance_of(_engineering(elastic, c, tensor))
+    _check_definite(elastic, compliance)
+    return compliance
+
+
+def _engineering(elastic: Elastic, c: tuple[float, ...], tensor: Tensor) -> tuple[float, ...]:
+    """E1, E2, E3, nu12, nu13, nu23, G12, G13, G23 of other constants."""
     moduli: tuple[float, ...]
     ratios: tuple[float, ...]
     shear: tuple[float, ...]
@@ -129,17 +173,22 @@ def _compliance(elastic: Elastic, tensor: Tensor) -> FloatArray:
         # plane stress does not see the third direction; any value serves
         moduli, ratios, shear = (e1, e2, e2), (nu12, 0.0, 0.0), (g12, g13 or g12, g23 or g12)
     elif elastic.type is ElasticType.ISOTROPIC:
-        young, nu = _isotropic_constants(elastic)
+        young, *rest = c
+        nu = rest[0] if rest else 0.0
         _check_isotropic(elastic, young, nu)
         moduli, ratios, shear = (young,) * 3, (nu,) * 3, (young / (2 * (1 + nu)),) * 3
     else:
         moduli, ratios, shear = c[0:3], c[3:6], c[6:9]
     if min(*moduli, *shear) <= 0:
         raise DeckError(elastic.source, f"*ELASTIC, TYPE={elastic.type}: moduli must be positive, found {min(c):g}")
+    return (*moduli, *ratios, *shear)
+
+
+def _compliance_of(engineering: tuple[float, ...]) -> FloatArray:
+    moduli, ratios, shear = engineering[:3], engineering[3:6], engineering[6:]
     compliance = np.diag(1 / np.array([*moduli, *shear]))
     for (i, j), nu in zip(((0, 1), (0, 2), (1, 2)), ratios, strict=True):
         compliance[i, j] = compliance[j, i] = -nu / moduli[i]
-    _check_definite(elastic, compliance)
     return compliance
 
 
@@ -179,9 +228,15 @@ def _anisotropic(c: tuple[float, ...]) -> FloatArray:
 
 def _rotated(compliance: FloatArray, axes: FloatArray) -> FloatArray:
     """Compliance in global axes. Local stress = T global stress, so S_global = T^T S_local T."""
+    t = _turn(axes)
+    rotated: FloatArray = t.T @ compliance @ t
+    return rotated
+
+
+def _turn(axes: FloatArray) -> FloatArray:
+    """(6, 6) components of a stress in global axes to those in the axes of the material."""
     t = np.zeros((6, 6))
     for row, (i, j) in enumerate(_PAIRS):
         for column, (k, m) in enumerate(_PAIRS):
             t[row, column] = axes[i, k] * axes[j, m] + (axes[i, m] * axes[j, k] if k != m else 0.0)
-    rotated: FloatArray = t.T @ compliance @ t
-    return rotated
+    return t

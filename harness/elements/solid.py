@@ -10,7 +10,14 @@ from typing import Final
 import numpy as np
 
 from harness.elements.block import OutputVariables, Procedure
-from harness.elements.materials import Tensor, define_material, history_values, shear_modulus
+from harness.elements.materials import (
+    Tensor,
+    define_fields,
+    define_material,
+    history_values,
+    shear_modulus,
+    state_variables,
+)
 from harness.errors import DeckError
 from harness.model.mesh import ElementGroup
 from harness.model.model import Model
@@ -85,6 +92,7 @@ def solid_procedure(model: Model, group: ElementGroup, section: SolidSection, li
         raise DeckError(section.source, message)
     hourglass = _hourglass_stiffness(group, kind, section)
     number = define_material(material, section.orientation, kind.tensor, section.source, library)
+    define_fields(number, material, section.orientation, kind.tensor, library)
     if material.expansion:
         _binding.set_expansion(number, material.expansion)
     unknowns = kind.dimension * kind.nodes
@@ -101,7 +109,7 @@ def solid_procedure(model: Model, group: ElementGroup, section: SolidSection, li
         material=number,
         tensor=int(kind.tensor),
         history=history_of(material, kind.points),
-        statev=material.state_variables if material.user is not None else 0,
+        statev=state_variables(material),
         uvarm=_output_variables(material, kind.points, library),
     )
 

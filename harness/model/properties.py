@@ -26,11 +26,15 @@ class ElasticType(StrEnum):
 
 @dataclass(frozen=True, slots=True)
 class Elastic:
-    """*ELASTIC: constants in the order of the Abaqus data line of its type (E, nu; E1, E2, E3, nu12, ...)."""
+    """*ELASTIC: constants in the order of the Abaqus data line of its type (E, nu; E1, E2, E3, nu12, ...).
+
+    table  (k, constants, temperature and fields) where they depend on these; `constants` are those of the first row
+    """
 
     type: ElasticType
     constants: tuple[float, ...]
     source: Source
+    table: FloatArray | None = None
 
 
 @dataclass(frozen=True, slots=True)
@@ -88,7 +92,10 @@ class Damage:
 
 @dataclass(frozen=True, slots=True)
 class Material:
-    """*MATERIAL; state_variables is *DEPVAR, output_variables *USER OUTPUT VARIABLES; conductivity 0: not given."""
+    """*MATERIAL; state_variables is *DEPVAR, output_variables *USER OUTPUT VARIABLES; conductivity 0: not given.
+
+    user_field  place of *USER DEFINED FIELD, None without it
+    """
 
     name: str
     source: Source
@@ -100,6 +107,7 @@ class Material:
     specific_heat: float = 0.0
     expansion: float = 0.0
     user: UserMaterial | None = None
+    user_field: Source | None = None
     state_variables: int = 0
     output_variables: int = 0
 

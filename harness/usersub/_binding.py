@@ -252,6 +252,20 @@ def set_expansion(number: int, expansion: float) -> None:
     _host.host_set_expansion(number, expansion)
 
 
+def set_dependence(number: int, constants: int, turn: FloatArray, table: FloatArray) -> None:
+    """Let the elastic constants of a material depend on temperature and field variables.
+
+    table (k, constants + variables); turn (6, 6) stress components in global axes to those of the material.
+    """
+    _host.host_set_dependence(number, constants, turn, table.T)
+
+
+def set_user_field(number: int, address: int, names: tuple[str, str], statev: int, axes: FloatArray) -> None:
+    """Let USDFLD give the field variables of a material; names: of the material and its orientation."""
+    padded = np.array([name.ljust(80) for name in names], dtype="S80")
+    _host.host_set_user_field(number, address, padded, statev, axes)
+
+
 def define_user_material(umat: int, name: str, ntens: int, constants: FloatArray) -> int:
     """Add a material of UMAT, whose address is given, to the host's library."""
     return int(_host.host_define_user_material(umat, name, ntens, np.append(constants, 0.0), len(constants)))
@@ -260,7 +274,7 @@ def define_user_material(umat: int, name: str, ntens: int, constants: FloatArray
 def uvarm(
     address: int,
     name: str,
-    tensor: int,
+    counts: tuple[int, int],
     place: tuple[int, int],
     clock: tuple[float, float, float],
     arrays: BlockArrays,
@@ -269,14 +283,14 @@ def uvarm(
 ) -> int:
     """Call UVARM at the points of a block; returns the element at which it ended the analysis, 0 if it did not.
 
-    place is step and increment, clock the times at the start and the time increment; the last `hidden` SVARS are of no
-    point; uvar (m, points, NUVARM).
+    counts is stress components and NSTATV, place step and increment, clock the times at the start and the time
+    increment; the last `hidden` SVARS are of no point; uvar (m, points, NUVARM).
     """
     m, points, _ = uvar.shape
     svars = np.ascontiguousarray(arrays.svars[:, : arrays.svars.shape[1] - hidden]).reshape(m, points, -1)
     history = arrays.history if arrays.history.shape[1] == points else np.zeros((m, points, 1))
     left, element = _host.host_uvarm_pass(
-        address, name, tensor, place, clock, arrays.labels, arrays.coords.T, svars.T, history.T, uvar.T
+        address, name, counts, place, clock, arrays.labels, arrays.coords.T, svars.T, history.T, uvar.T
     )
     return element if left else 0
 

@@ -38,7 +38,7 @@ _STOP_ANALYSIS, _CONCLUDE_STEP = 4, 5
 class Library:
     """User routines of a job, and the job's messages from them.
 
-    uel, uelmat, umat, uvarm, sdvini, disp, dload, uamp, uexternaldb  addresses, None without the routine
+    uel, uelmat, umat, uvarm, sdvini, disp, dload, uamp, usdfld, uexternaldb  addresses, None without the routine
     name                      the file as the user named it, for messages
     file                      the shared library
     entry_points              names of all user routines found
@@ -60,6 +60,7 @@ class Library:
         self.disp = addresses["DISP"]
         self.dload = addresses["DLOAD"]
         self.uamp = addresses["UAMP"]
+        self.usdfld = addresses["USDFLD"]
 
     def variables(self, jtype: int) -> PointVariables | None:
         """Meaning of the SVARS of an element type; None where the library does not hold the project's elements."""

@@ -171,11 +171,7 @@ MISTAKES = {
     "monitored node": ("NODE=7, DOF=2", "NODE=TOP, DOF=2", r"62: set TOP holds 2 nodes where one is monitored"),
     "monitored dof": ("NODE=7, DOF=2", "NODE=7, DOF=77", r"62: 77 is not a dof"),
     "request without output": ("*OUTPUT, FIELD, FREQUENCY=5\n", "", r"50: \*NODE OUTPUT: does not follow \*OUTPUT"),
-    "elastic constants": (
-        "70000., 0.3",
-        "70000., 0.3, 20.",
-        r"31: 3 values where ISOTROPIC takes 2; dependence on temp",
-    ),
+    "elastic constants": ("70000., 0.3", "70000., 0.3, 20., 1.", r"31: 4 entries where at most 3 are read"),
     "modulus": ("70000., 0.3", "-70000., 0.3", r"31: E = -70000, nu = 0.3: expected E > 0"),
     "stray elastic": ("*MATERIAL, NAME=PLY\n", "", r"29: \*ELASTIC: does not follow \*MATERIAL"),
     "amplitude times": ("0., 0., 1., 1.\n", "0., 0., 0., 1.\n", r"38: \*AMPLITUDE: times must increase"),

@@ -1,0 +1,111 @@
+! SPDX-FileCopyrightText: The uel-harness authors
+! SPDX-License-Identifier: BSD-3-Clause
+!> Elastic constants that depend on temperature and field variables (*ELASTIC, DEPENDENCIES=).
+!>
+!> Between the values of the table they are linear in each variable, beyond them constant (Abaqus Analysis User's Guide,
+!> Material data definition).
+module host_dependence
+  use host_kinds, only: dp
+  implicit none (type, external)
+  private
+  public :: dependence_t, elastic_matrices
+
+  type :: dependence_t
+    integer :: constants = 0              !< 2: Young's modulus and Poisson's ratio; 9: engineering constants
+    real(dp), allocatable :: table(:, :)  !< (constants and variables, k): temperature is the first of the variables
+    real(dp) :: turn(6, 6) = 0            !< stress components in global axes to those in the axes of the material
+  end type dependence_t
+
+contains
+
+  !> Stiffness and compliance in global axes; thickness: strain 33 per stress in plane stress.
+  subroutine elastic_matrices(dependence, ntens, variables, stiffness, compliance, thickness, constants)
+    type(dependence_t), intent(in) :: dependence
+    integer, intent(in) :: ntens                      !< 3, 4 or 6
+    real(dp), intent(in) :: variables(:)              !< temperature and fields; more than the table has are left out
+    real(dp), intent(out) :: stiffness(ntens, ntens), compliance(ntens, ntens), thickness(3)
+    real(dp), intent(out) :: constants(dependence%constants)
+    real(dp) :: full(6, 6)
+    integer, parameter :: plane(4) = [1, 2, 4, 3]
+    call interpolate(dependence%constants, size(dependence%table, 1) - dependence%constants, dependence%table, variables, constants)
+    full = matmul(transpose(dependence%turn), matmul(compliance_of(constants), dependence%turn))
+    thickness = full(3, plane(:3))
+    if (ntens == 3) then
+      compliance = full(plane(:3), plane(:3))
+      stiffness = inverse(3, compliance)
+    else
+      full = inverse(6, full)
+      stiffness = full(:ntens, :ntens)
+      compliance = inverse(ntens, stiffness)
+    end if
+  end subroutine elastic_matrices
+
+  !> Constants where the variables have these values, the last variable first.
+  recursive subroutine interpolate(constants, variables, table, at, values)
+    integer, intent(in) :: constants, variables
+    real(dp), intent(in) :: table(:, :), at(:)
+    real(dp), intent(out) :: values(constants)
+    real(dp) :: x(size(table, 2)), below, above, upper(constants)
+    integer :: k
+    integer :: rows(size(table, 2))
+    if (variables == 0) then
+      values = table(:constants, 1)
+      return
+    end if
+    x = table(constants + variables, :)
+    rows = [(k, k=1, size(rows))]
+    below = minval(x)
+    if (any(x <= at(variables))) below = maxval(x, x <= at(variables))
+    above = maxval(x)
+    if (any(x >= at(variables))) above = minval(x, x >= at(variables))
+    call interpolate(constants, variables - 1, table(:, pack(rows, abs(x - below) <= 0)), at, values)
+    if (above <= below) return
+    call interpolate(constants, variables - 1, table(:, pack(rows, abs(x - above) <= 0)), at, upper)
+    values = values + (at(variables) - below)/(above - below)*(upper - values)
+  end subroutine interpolate
+
+  !> Compliance (11, 22, 33, 12, 13, 23) of E and nu, or of E1, E2, E3, nu12, nu13, nu23, G12, G13, G23.
+  pure function compliance_of(constants) result(s)
+    real(dp), intent(in) :: constants(:)
+    real(dp) :: s(6, 6), c(9)
+    integer :: k
+    if (size(constants) == 2) then
+      c = constants(1)
+      c(4:6) = constants(2)
+      c(7:9) = constants(1)/(2*(1 + constants(2)))
+    else
+      c = constants
+    end if
+    s = 0
+    do k = 1, 3
+      s(k, k) = 1/c(k)
+      s(k + 3, k + 3) = 1/c(k + 6)
+    end do
+    s(1, 2) = -c(4)/c(1)
+    s(1, 3) = -c(5)/c(1)
+    s(2, 3) = -c(6)/c(2)
+    s(2, 1) = s(1, 2)
+    s(3, 1) = s(1, 3)
+    s(3, 2) = s(2, 3)
+  end function compliance_of
+
+  !> Inverse of a positive definite matrix.
+  pure function inverse(n, matrix) result(a)
+    integer, intent(in) :: n
+    real(dp), intent(in) :: matrix(n, n)
+    real(dp) :: a(n, n), pivot
+    integer :: i, k
+    a = matrix
+    do k = 1, n
+      pivot = a(k, k)
+      a(k, k) = 1
+      a(k, :) = a(k, :)/pivot
+      do i = 1, n
+        if (i == k) cycle
+        pivot = a(i, k)
+        a(i, k) = 0
+        a(i, :) = a(i, :) - pivot*a(k, :)
+      end do
+    end do
+  end function inverse
+end module host_dependence

@@ -1,0 +1,94 @@
+! SPDX-FileCopyrightText: The uel-harness authors
+! SPDX-License-Identifier: BSD-3-Clause
+!> USDFLD (User Subroutines Guide): field variables of a material point of built-in elements, from what GETVRM gives of
+!> the start of the increment, in each call of the element.
+module host_usdfld
+  use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
+  use, intrinsic :: iso_c_binding, only: c_f_procpointer, c_funptr
+  use host_context, only: current
+  use host_kinds, only: dp, i4
+  use host_messages, only: add_message
+  use host_protect, only: escape
+  use host_umat, only: direct_components
+  implicit none (type, external)
+  private
+  public :: user_field_t, call_usdfld
+
+  type :: user_field_t
+    type(c_funptr) :: address
+    character(len=80) :: material = ' ', orientation = ' '
+    integer :: statev = 0                !< number of STATEV, the last values of the history
+  end type user_field_t
+
+  abstract interface
+    subroutine usdfld_procedure(field, statev, pnewdt, direct, t, celent, time, dtime, cmname, orname, nfield, nstatv, noel, &
+                                npt, layer, kspt, kstep, kinc, ndi, nshr, coord, jmac, jmatyp, matlayo, laccfla)
+      import :: dp, i4
+      real(dp) :: field(*), statev(*), pnewdt, direct(*), t(*), celent, time(*), dtime, coord(*)
+      character(len=80) :: cmname, orname
+      integer(i4) :: nfield, nstatv, noel, npt, layer, kspt, kstep, kinc, ndi, nshr, jmac(*), jmatyp(*), matlayo, laccfla
+    end subroutine usdfld_procedure
+  end interface
+
+contains
+
+  !> Set the fields of current%fields, and STATEV of the point in current%history_trial.
+  subroutine call_usdfld(user, ntens, point, axes, values)
+    type(user_field_t), intent(in) :: user
+    integer, intent(in) :: ntens
+    integer(i4), intent(in) :: point                  !< from 1
+    real(dp), intent(in) :: axes(3, 3)                !< rows: directions of the material
+    real(dp), intent(in), target :: values(:)         !< strain and stress at the start of the increment
+    procedure(usdfld_procedure), pointer :: usdfld
+    real(dp) :: field(size(current%fields, 1) - 1), statev(max(user%statev, 1)), direct(3, 3), t(3, 3), time(2), dtime, pnewdt, &
+                celent, coord(3)
+    character(len=80) :: cmname, orname
+    character(len=len(current%routine)) :: routine
+    integer(i4) :: nfield, nstatv, noel, npt, layer, kspt, kstep, kinc, ndi, nshr, jmac(1), jmatyp(1), matlayo, laccfla
+    integer :: first
+    call c_f_procpointer(user%address, usdfld)
+    field = current%fields(2:, 1) + current%fields(2:, 2)
+    first = size(current%history, 1) - user%statev + 1
+    statev = 0
+    statev(:user%statev) = current%history(first:, min(int(point), size(current%history, 2)))
+    direct = transpose(axes)
+    t = direct
+    time = current%time
+    dtime = current%dtime
+    pnewdt = current%pnewdt
+    celent = current%length
+    coord = current%place
+    cmname = user%material
+    orname = user%orientation
+    nfield = size(field, kind=i4)
+    nstatv = int(user%statev, i4)
+    noel = current%element
+    npt = point
+    layer = 1
+    kspt = 1
+    kstep = current%step
+    kinc = current%increment
+    ndi = direct_components(ntens)
+    nshr = int(ntens, i4) - ndi
+    jmac = 0
+    jmatyp = 0
+    matlayo = 0
+    laccfla = 0
+    routine = current%routine
+    current%routine = 'USDFLD'
+    current%point = point
+    current%statev = user%statev
+    current%values => values
+    call usdfld(field, statev, pnewdt, direct, t, celent, time, dtime, cmname, orname, nfield, nstatv, noel, npt, layer, kspt, &
+                kstep, kinc, ndi, nshr, coord, jmac, jmatyp, matlayo, laccfla)
+    nullify (current%values)
+    if (.not. all(ieee_is_finite(field))) then
+      call add_message(-3_i4, 'USDFLD sets a field variable to no number')
+      call escape()
+    end if
+    current%routine = routine
+    current%pnewdt = min(current%pnewdt, pnewdt)
+    current%fields(2:, 2) = field - current%fields(2:, 1)
+    if (user%statev > 0) current%history_trial(first:, point) = statev
+  end subroutine call_usdfld
+end module host_usdfld

@@ -1,0 +1,252 @@
+# SPDX-FileCopyrightText: The uel-harness authors
+# SPDX-License-Identifier: BSD-3-Clause
+"""*USER DEFINED FIELD by USDFLD and *ELASTIC, DEPENDENCIES=: one element of unit size is stretched to 0.04.
+
+In four increments, and sheared in its plane too where a deck says so.
+"""
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import harness
+from harness.errors import DeckError, UelError
+
+SQUARE = "1, 0., 0.\n2, 1., 0.\n3, 1., 1.\n4, 0., 1."
+CUBE = SQUARE.replace(".\n", "., 0.\n") + ", 0.\n5, 0., 0., 1.\n6, 1., 0., 1.\n7, 1., 1., 1.\n8, 0., 1., 1."
+DECK = """*NODE, NSET=ALL
+{nodes}
+*ELEMENT, TYPE={type}, ELSET=E
+7, {connectivity}
+*ORIENTATION, NAME=TURNED
+0.8, 0.6, 0., -0.6, 0.8, 0.
+*SOLID SECTION, ELSET=E, MATERIAL=STUFF{orientation}
+*MATERIAL, NAME=STUFF
+{material}
+*BOUNDARY
+1, 1, 3
+4, 1
+{initial}
+*STEP
+*STATIC, DIRECT
+0.25, 1.
+*BOUNDARY
+2, 1, 1, 0.04
+3, 1, 1, 0.04
+{step}
+*END STEP
+"""
+FIELD = "*ELASTIC, DEPENDENCIES=1\n1000., 0., , 0.\n500., 0., , 1.\n*USER DEFINED FIELD\n*DEPVAR\n2"
+USDFLD = """      SUBROUTINE USDFLD(FIELD,STATEV,PNEWDT,DIRECT,T,CELENT,TIME,DTIME,
+     1 CMNAME,ORNAME,NFIELD,NSTATV,NOEL,NPT,LAYER,KSPT,KSTEP,KINC,
+     2 NDI,NSHR,COORD,JMAC,JMATYP,MATLAYO,LACCFLA)
+      INCLUDE 'ABA_PARAM.INC'
+      CHARACTER*80 CMNAME,ORNAME
+      CHARACTER*3 FLGRAY(15)
+      DIMENSION FIELD(NFIELD),STATEV(NSTATV),DIRECT(3,3),T(3,3),TIME(2)
+      DIMENSION ARRAY(15),JARRAY(15),JMAC(*),JMATYP(*),COORD(*)
+%s
+      END
+"""
+UMAT = f"""      INCLUDE '{Path(__file__).parents[1] / "umat.inc"}'
+      STATEV(2) = 10*STATEV(1) + PREDEF(1) + DPRED(1)
+      DDSDDE = 0
+      DO K = 1, NTENS
+        DDSDDE(K,K) = PROPS(1)
+      END DO
+      STRESS = STRESS + PROPS(1)*DSTRAN
+      END
+"""
+STRAINS = np.array([0.01, 0.02, 0.03, 0.04])
+
+
+@pytest.fixture
+def run(tmp_path):
+    def run(material, body="", *, type="CPS4", orientation="", initial="", step="", user=USDFLD):
+        solid = type.startswith("C3D")
+        text = DECK.format(
+            nodes=CUBE if solid else SQUARE,
+            type=type,
+            connectivity=", ".join(map(str, range(1, 9 if solid else 5))),
+            material=material,
+            orientation=orientation,
+            initial=initial,
+            step=step,
+        )
+        (tmp_path / "field.inp").write_text(text)
+        (tmp_path / "usdfld.f").write_text(user.replace("%s", "\n".join(f"      {line}" for line in body.split("\n"))))
+        return harness.run(tmp_path / "field.inp", tmp_path / "usdfld.f", output_dir=tmp_path)
+
+    return run
+
+
+def along(result, name):
+    """A field variable of the element in each increment."""
+    return np.array([float(result.field(name, increment=k)[0]) for k in range(1, len(STRAINS) + 1)])
+
+
+@pytest.mark.parametrize(
+    ("field", "moduli"),
+    [
+        ("TIME(1)+DTIME", [875, 750, 625, 500]),
+        ("2*KINC-3", [1000, 500, 500, 500]),  # constant beyond the table
+    ],
+)
+def test_constants_are_those_of_the_field(run, field, moduli):
+    np.testing.assert_allclose(along(run(FIELD, f"FIELD(1) = {field}"), "S11"), moduli * STRAINS)
+
+
+@pytest.mark.parametrize(("name", "scale"), [("E", 10.0), ("S", 0.01)])
+def test_getvrm_gives_the_start_of_the_increment(run, name, scale):
+    """Field = scale x strain, or stress, of the increment before; modulus = 1000 - 500 field."""
+    getvrm = f"CALL GETVRM('{name}',ARRAY,JARRAY,FLGRAY,JRCD,JMAC,JMATYP,MATLAYO,LACCFLA)"
+    result = run(FIELD, f"{getvrm}\nFIELD(1) = {scale}*ARRAY(1)\nIF (JRCD .NE. 0) CALL XIT")
+    expected, last = [], 0.0
+    for strain in STRAINS:
+        expected.append((1000 - 500 * min(scale * last, 1)) * strain)
+        last = strain if name == "E" else expected[-1]
+    np.testing.assert_allclose(along(result, "S11"), expected)
+
+
+def test_state_variables_are_kept_once_an_increment(run):
+    body = "CALL GETVRM('SDV',ARRAY,JARRAY,FLGRAY,JRCD,JMAC,JMATYP,MATLAYO,LACCFLA)\nSTATEV(2) = ARRAY(1)"
+    result = run(FIELD, body + "\nSTATEV(1) = STATEV(1) + 1\nFIELD(1) = 0.5*MOD(STATEV(1),2.D0)")
+    np.testing.assert_allclose(along(result, "SDV1"), [1, 2, 3, 4])
+    np.testing.assert_allclose(along(result, "SDV2"), [0, 1, 2, 3])
+    np.testing.assert_allclose(along(result, "S11"), [750, 1000, 750, 1000] * STRAINS)
+
+
+@pytest.mark.parametrize(
+    ("expression", "expected"),
+    [
+        ("TIME(1) + 10*TIME(2) + 100*DTIME", [25, 27.75, 30.5, 33.25]),
+        ("NFIELD + 10*NSTATV + 100*NOEL + 1000*KSTEP + 10000*KINC", [11721, 21721, 31721, 41721]),
+        ("NDI + 10*NSHR + 100*LAYER + 1000*KSPT", [1112] * 4),
+        # the mean over the four points
+        ("NPT + 10*COORD(1) + 100*COORD(2) + 1000*CELENT", [1057.5] * 4),
+        ("DIRECT(1,1) + 10*DIRECT(2,1) + 100*DIRECT(1,2) + 1000*T(3,3)", [1000 + 0.8 + 6 - 60] * 4),
+        ("ICHAR(CMNAME(1:1)) + 1000*ICHAR(ORNAME(1:1))", [84083] * 4),
+    ],
+)
+def test_arguments(run, expression, expected):
+    result = run(FIELD, f"STATEV(1) = {expression}", orientation=", ORIENTATION=TURNED")
+    np.testing.assert_allclose(along(result, "SDV1"), expected)
+
+
+def test_umat_gets_field_and_state(run):
+    material = "*USER MATERIAL, CONSTANTS=1\n100.\n*DEPVAR\n2\n*USER DEFINED FIELD"
+    result = run(material, "FIELD(1) = 0.5*KINC\nSTATEV(1) = STATEV(1) + 1", user=USDFLD + UMAT)
+    np.testing.assert_allclose(along(result, "SDV1"), [1, 2, 3, 4])
+    np.testing.assert_allclose(along(result, "SDV2"), [10.5, 21, 31.5, 42])
+    np.testing.assert_allclose(along(result, "S11"), 100 * STRAINS)
+
+
+@pytest.mark.parametrize(
+    ("type", "dependent", "constant"),
+    [
+        ("CPE4", "\n100., 0.1, , 0.\n300., 0., , 1.", "\n250., 0.025"),
+        ("CPS4", "\n100., 0.1, , 0.\n300., 0.3, , 1.", "\n250., 0.25"),
+        (
+            "CPS4",
+            ", TYPE=LAMINA\n9e3, 300., 0.2, 100., 100., 80., , 0.\n5e3, 700., 0.4, 300., 100., 80., , 1.",
+            ", TYPE=LAMINA\n6e3, 600., 0.35, 250., 100., 80.",
+        ),
+        (
+            "C3D8",
+            ", TYPE=ENGINEERING CONSTANTS\n9e3, 800., 500., 0.2, 0.1, 0.3, 90., 80.\n70., , 0.\n"
+            "5e3, 400., 700., 0.4, 0.3, 0.1, 50., 40.\n30., , 1.",
+            ", TYPE=ENGINEERING CONSTANTS\n6e3, 500., 650., 0.35, 0.25, 0.15, 60., 50.\n40.",
+        ),
+    ],
+)
+def test_each_type_is_that_with_the_constants_between(run, type, dependent, constant):
+    """At a field of 0.75, in turned axes and with shear."""
+    more = {
+        "type": type,
+        "orientation": ", ORIENTATION=TURNED",
+        "step": "*BOUNDARY\n3, 2, 2, 0.03" + "\n2, 3\n4, 3" * (type == "C3D8"),
+    }
+    head, data = dependent.split("\n", 1)
+    found = run(f"*ELASTIC{head}, DEPENDENCIES=1\n{data}\n*USER DEFINED FIELD", "FIELD(1) = 0.75", **more)
+    names = ["S11", "S22", "S33", "S12", "E33"]
+    values = [found.field(name) for name in names]
+    energy = found.history["ALLSE"][-1]
+    expected = run(f"*ELASTIC{constant}", **more)
+    for name, value in zip(names, values, strict=True):
+        np.testing.assert_allclose(value, expected.field(name), rtol=1e-9, atol=1e-12, err_msg=name)
+    assert energy == pytest.approx(expected.history["ALLSE"][-1], rel=1e-9)
+
+
+def test_a_table_of_temperature_and_two_fields(run):
+    """E = 100 + T + 10 f1 + 100 f2 on a grid: linear in each between its values."""
+    rows = [f"{100 + t + 10 * f + 100 * g}, 0., {t}, {f}, {g}" for g in (0, 1) for f in (0, 2) for t in (0, 40)]
+    table = "*ELASTIC, DEPENDENCIES=2\n" + "\n".join(rows)
+    fields = "*TEMPERATURE\nALL, 40.\n*FIELD, VARIABLE=1\nALL, 2.\n*FIELD, VARIABLE=2\nALL, 0.5"
+    part = np.array([0.25, 0.5, 0.75, 1.0])
+    np.testing.assert_allclose(along(run(table, step=fields), "S11"), (100 + part * (40 + 20 + 50)) * STRAINS)
+
+
+def test_plasticity_with_a_modulus_of_temperature(run):
+    table = "*ELASTIC\n1000., 0., 0.\n600., 0., 80.\n*PLASTIC\n20., 0."
+    part = np.array([0.25, 0.5, 0.75, 1.0])
+    expected = np.minimum((1000 - 400 * part) * STRAINS, 20.0)
+    # Newton's method leaves a residual of this size
+    np.testing.assert_allclose(along(run(table, step="*TEMPERATURE\nALL, 80."), "S11"), expected, rtol=5e-3)
+
+
+def test_pnewdt_below_one_abandons_the_attempt(run):
+    with pytest.raises(UelError, match="FIXED TIME INCREMENT IS TOO LARGE"):
+        run(FIELD, "IF (KINC .EQ. 2) PNEWDT = 0.5")
+
+
+@pytest.mark.parametrize(
+    ("body", "message"),
+    [
+        ("IF (KINC .EQ. 2) CALL XIT", r"element 7 \(type CPS4\): stopped the analysis \(XIT\).* \(step 1, increment 2"),
+        ("FIELD(1) = SQRT(-1.D0*KINC)", "USDFLD sets a field variable to no number"),
+    ],
+)
+def test_ends_of_the_analysis(run, body, message):
+    with pytest.raises(UelError, match=message):
+        run(FIELD, body)
+
+
+@pytest.mark.parametrize(
+    ("material", "message"),
+    [
+        (
+            "*ELASTIC, DEPENDENCIES=1\n9., 0., , 0.\n8., 0., , 0.",
+            r"field.inp:14: \*ELASTIC: the temperature and fields of",
+        ),
+        ("*ELASTIC, DEPENDENCIES=1\n9., 0., , 0., 1.", r"field.inp:13: \*ELASTIC: 5 entries where at most 4 are read"),
+        ("*ELASTIC\n9., 0., 0.\n-9., 0., 1.", r"field.inp:14: \*ELASTIC: E = -9, nu = 0: expected E > 0"),
+        ("*ELASTIC, DEPENDENCIES=7\n9., 0., , 0.", r"field.inp:12: \*ELASTIC: 10 values take 2 lines, found 1"),
+        ("*ELASTIC, DEPENDENCIES=-1\n9., 0.", r"DEPENDENCIES=-1: expected a number from 0"),
+        (
+            "*ELASTIC, TYPE=ORTHOTROPIC, DEPENDENCIES=1\n9., 0.",
+            r"dependence on temperature and fields is supported for ENGINEERING CONSTANTS, ISOTROPIC, LAMINA, not",
+        ),
+        (
+            "*ELASTIC, TYPE=LAMINA, DEPENDENCIES=1\n9., 9., 0., 9., 9., 9., , 0.\n9., 9., 4., 9., 9., 9., , 1.",
+            r"field.inp:12: \*ELASTIC, TYPE=LAMINA: the stiffness is not positive definite",
+        ),
+    ],
+)
+def test_what_is_wrong_in_a_table_is_named(run, material, message):
+    with pytest.raises(DeckError, match=message):
+        run(material)
+
+
+def test_it_needs_usdfld(run):
+    message = r"field.inp:15: \*USER DEFINED FIELD: material STUFF needs USDFLD; .* has no user routine"
+    with pytest.raises(DeckError, match=message):
+        run(FIELD, user="      SUBROUTINE OTHER\n      END\n")
+
+
+@pytest.mark.parametrize("option", ["*USER DEFINED FIELD", "*ELASTIC\n1000., 0., 0.\n600., 0., 80."])
+def test_elements_without_fields_refuse_them(run, monkeypatch, option):
+    truss = DECK.replace("7, {connectivity}", "7, 1, 2").replace("4, 1\n", "2, 2\n").replace("3, 1, 1, 0.04\n", "")
+    monkeypatch.setattr(f"{__name__}.DECK", truss)
+    with pytest.raises(DeckError, match=r"field.inp:1[24]: \*.* not supported for elements of type T2D2"):
+        run("*ELASTIC\n1000.\n" + option, type="T2D2")
