@@ -4,7 +4,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Sequence
+from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Final
@@ -108,7 +108,7 @@ def _examine_type(
             for check in checks:
                 running = check.name
                 progress(Running(f"the check '{running}' of {order.type}", running), outcome)
-                report.findings[running] = _run(check, subject)
+                report.findings[running] = _run(check, subject, report.findings)
     except CallLimitError as error:
         report.findings[running] = failed(str(error), ENDLESS)
         for check in checks:
@@ -116,7 +116,10 @@ def _examine_type(
             report.findings.setdefault(check.name, missed)
 
 
-def _run(check: Check, subject: Subject) -> Finding:
+def _run(check: Check, subject: Subject, before: Mapping[str, Finding]) -> Finding:
+    explained = before.get(check.unless)
+    if explained is not None and explained.verdict is Verdict.FAILED:
+        return not_applicable(f"nothing to be learnt from it while '{check.unless}' fails")
     if check.calls and not subject.states:
         return not_applicable(f"no call of an element by itself returns: {subject.refusal}")
     try:

@@ -4,7 +4,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Final
 
 import numpy as np
@@ -19,6 +19,9 @@ PLANES: Final = {2: ((0, 1),), 3: ((1, 2), (2, 0), (0, 1))}
 ROTATIONS: Final = (4, 5, 6)
 """Dofs of rotations."""
 
+ALIKE: Final = 1e-6
+"""Forces below this part of what each displacement alone would make cancel."""
+
 
 @dataclass(frozen=True, slots=True)
 class Body:
@@ -27,14 +30,14 @@ class Body:
     points        (nodes, dimensions) coordinates
     displacement  (n,) True where an unknown is a displacement
     local, axis   (n,) local node of each unknown, and its direction from 0 (of displacements)
-    dofs          (n,) as Abaqus numbers them
+    turning       (rotations, n) what unknowns that are no displacements are in unit rotations: 1 for rotations
     """
 
     points: FloatArray
     displacement: np.ndarray
     local: np.ndarray
     axis: np.ndarray
-    dofs: np.ndarray
+    turning: FloatArray
 
     @property
     def dimensions(self) -> int:
@@ -61,11 +64,10 @@ class Body:
         arms = self.points - self.points.mean(axis=0)
         found = []
         for number, (i, j) in enumerate(PLANES.get(self.dimensions, ())):
-            motion = np.zeros(len(self.axis))
+            motion = self.turning[number].copy()
             here_i, here_j = (self.displacement & (self.axis == k) for k in (i, j))
             motion[here_i] = -arms[self.local[here_i], j]
             motion[here_j] = arms[self.local[here_j], i]
-            motion[self.dofs == self._rotation_dof(number)] = 1.0
             found.append(motion)
         return found
 
@@ -77,9 +79,8 @@ class Body:
             turn = np.eye(self.dimensions)
             turn[[i, i, j, j], [i, j, i, j]] = np.cos(angle), -np.sin(angle), np.sin(angle), np.cos(angle)
             moved = arms @ turn.T - arms
-            motion = np.zeros(len(self.axis))
+            motion = angle * self.turning[number]
             motion[self.displacement] = moved[self.local[self.displacement], self.axis[self.displacement]]
-            motion[self.dofs == self._rotation_dof(number)] = angle
             same_node = self.local[:, None] == self.local[None, :]
             both = self.displacement[:, None] & self.displacement[None, :] & same_node
             axes = np.where(self.displacement, self.axis, 0)
@@ -87,10 +88,6 @@ class Body:
             forces[~self.displacement, ~self.displacement] = 1.0
             found.append((motion, forces))
         return found
-
-    def _rotation_dof(self, number: int) -> int:
-        """Dof of the rotation in a plane of PLANES; the only one in two dimensions is that about the third axis."""
-        return ROTATIONS[number if self.dimensions == 3 else 2]
 
 
 def body_of(subject: Subject, state: State) -> Body | None:
@@ -102,7 +99,32 @@ def body_of(subject: Subject, state: State) -> Body | None:
     counts = [len(np.unique(local[dofs == direction + 1])) for direction in range(dimensions)]
     if not 1 <= dimensions <= 3 or min(counts, default=0) < 2 or len(set(counts)) > 1:
         return None
-    return Body(points, displacement, local, np.where(displacement, dofs - 1, -1), dofs)
+    # the only rotation in two dimensions is that about the third axis
+    rotations = ROTATIONS if dimensions == 3 else ROTATIONS[2:]
+    turning = np.array([np.where(dofs == dof, 1.0, 0.0) for dof in rotations[: len(PLANES.get(dimensions, ()))]])
+    body = Body(points, displacement, local, np.where(displacement, dofs - 1, -1), turning)
+    return body if dimensions != 2 else _with_own_rotations(subject, body)
+
+
+def _with_own_rotations(subject: Subject, body: Body) -> Body:
+    """A body in the plane whose nodes turn too, by a dof of the author's choice (as in Cosserat continua).
+
+    That dof is one whose uniform value takes the forces away that a rotation of the displacements makes at rest.
+    """
+    rest = subject.states[0]
+    others = np.unique(subject.dofs[~body.displacement & ~body.turning.any(axis=0)])
+    if rest.u.any() or not len(others):
+        return body
+    stiffness, (motion,) = subject.differences(rest).matrix, body.small_rotations()
+    limit = ALIKE * float((np.abs(stiffness) @ np.abs(motion)).max())
+    forces = stiffness @ motion
+    for dof in others if np.abs(forces).max() > limit else ():
+        uniform = np.where(subject.dofs == dof, 1.0, 0.0)
+        answer = stiffness @ uniform
+        share = -float(forces @ answer) / max(float(answer @ answer), 1e-300)
+        if np.abs(forces + share * answer).max() <= limit:
+            return replace(body, turning=body.turning + share * uniform)
+    return body
 
 
 NO_BODY: Final = "fewer than two nodes with displacements in all directions of COORDINATES="

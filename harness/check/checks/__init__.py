@@ -36,12 +36,14 @@ from harness.check.subject import Subject
 class Check:
     """A check: its name on the command line and in the table, and what does it.
 
-    calls  it calls elements, so it needs a state
+    calls   it calls elements, so it needs a state
+    unless  of another check, whose failure explains one of this check too; '' for none
     """
 
     name: str
     function: Callable[[Subject], Finding]
     calls: bool = True
+    unless: str = ""
 
 
 CHECKS: Final = (
@@ -59,8 +61,8 @@ CHECKS: Final = (
     Check("tangent", tangent.check),
     Check("symmetry", symmetry.check),
     Check("translation", translation.check),
-    Check("rotation", rotation.check),
-    Check("zero-modes", zero_modes.check),
+    Check("rotation", rotation.check, unless="translation"),
+    Check("zero-modes", zero_modes.check, unless="translation"),
     Check("rest", rest.check),
     Check("patch", patch_test.check),
     Check("energy", energy.check),

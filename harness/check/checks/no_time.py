@@ -25,8 +25,9 @@ def check(subject: Subject) -> Finding:
                 called.evaluate()
             except KernelError as error:
                 advice = (
-                    f"Abaqus calls UEL with {name} before the first increment and throws the results away. Divide by "
-                    "DTIME only where it is above zero, and do not take KINC for an index."
+                    f"Abaqus calls UEL with {name} before the first increment and throws the results away: they are "
+                    "harmless unless floating-point errors stop the run, or something of them outlives the call. "
+                    "Divide by DTIME only where it is above zero, and do not take KINC for an index."
                 )
                 return failed(f"called with {name} and DU = 0: {error}", advice)
     return passed(f"calls with KINC = 0 and with DTIME = 0 return, at {len(subject.states)} states")

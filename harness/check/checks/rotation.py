@@ -18,6 +18,9 @@ from harness.errors import KernelError
 TOLERANCE: Final = 1e-6
 """Of the sum of |stiffness| |motion|."""
 
+TINY: Final = 1e-7
+"""Angle of a rotation whose terms of second order are below the tolerance."""
+
 ANGLE: Final = np.pi / 6
 """Of the finite rotation."""
 
@@ -31,12 +34,12 @@ def check(subject: Subject) -> Finding:
         return not_applicable(NO_BODY if states else AT_REST)
     if known[0][1].dimensions == 1:
         return not_applicable("one dimension")
-    small, finite = (max(measure(subject, *pair) for pair in known) for measure in (_linear, _turned))
-    return _judge(states[0], small, finite)
+    first, small = (max(_linear(subject, *pair, angle) for pair in known) for angle in (TINY, None))
+    return _judge(states[0], first, small, max(_turned(subject, *pair) for pair in known))
 
 
-def _judge(state: State, small: float, finite: float) -> Finding:
-    """Finding for the largest relative forces of small and of finite rotations."""
+def _judge(state: State, first: float, small: float, finite: float) -> Finding:
+    """Finding for the largest relative forces of infinitesimal, of small and of finite rotations."""
     nlgeom = state.call.lflags[1] != 0
     degrees = round(float(np.degrees(ANGLE)))
     if finite <= TOLERANCE:
@@ -53,8 +56,19 @@ def _judge(state: State, small: float, finite: float) -> Finding:
             "that rotations leave at zero (Green-Lagrange, a corotational frame)."
         )
         return failed(message, advice, figure=finite if np.isfinite(finite) else None, limit=TOLERANCE)
+    if first <= TOLERANCE:
+        message = (
+            f"{state}: a rotation by {degrees} degrees in one increment {_says(finite)}, an infinitesimal one makes "
+            "none"
+        )
+        advice = (
+            "The strain is right for small increments of rotation alone. Take one that no rotation changes "
+            "(Green-Lagrange, logarithmic by the polar decomposition); a rate of deformation is integrated with the "
+            "gradient at the middle of the increment, and stresses are turned (Hughes and Winget, ROTSIG)."
+        )
+        return failed(message, advice, figure=finite if np.isfinite(finite) else None, limit=TOLERANCE)
     message = (
-        f"{state}: a small rigid rotation {_says(small)}, and one by {degrees} degrees, with its terms of second "
+        f"{state}: a small rigid rotation {_says(first)}, and one by {degrees} degrees, with its terms of second "
         f"order, {_says(finite)}"
     )
     advice = (
@@ -63,7 +77,7 @@ def _judge(state: State, small: float, finite: float) -> Finding:
         "configuration. Interface elements with thickness, springs with a fixed direction, and axisymmetric elements "
         "fail here and are right."
     )
-    return failed(message, advice, figure=min(small, finite), limit=TOLERANCE)
+    return failed(message, advice, figure=min(first, finite), limit=TOLERANCE)
 
 
 def _says(share: float) -> str:
@@ -73,11 +87,10 @@ def _says(share: float) -> str:
     return f"makes forces of {100 * share:.3g} % of what the stiffness would make of it"
 
 
-def _linear(subject: Subject, state: State, body: Body) -> float:
-    """Largest relative force of the rotations without second-order terms."""
+def _linear(subject: Subject, state: State, body: Body, angle: float | None) -> float:
+    """Largest relative force of the rotations without second-order terms, by default as large as the run's strains."""
     here, largest = state.evaluate(), 0.0
-    # linear kinematics are so at any angle; at that of the run the figure of others says something
-    angle = float(subject.scales[body.displacement].max()) / body.size
+    angle = angle or float(subject.scales[body.displacement].max()) / body.size
     for motion in body.small_rotations():
         change = np.abs(state.moved(angle * motion).evaluate().rhs[0] - here.rhs[0])
         largest = max(largest, relative(change, subject.stiffness(state), angle * motion)[0])

@@ -4,6 +4,7 @@
 
 from __future__ import annotations
 
+from itertools import product
 from typing import Final
 
 import numpy as np
@@ -19,19 +20,20 @@ TOLERANCE: Final = 1e-8
 
 
 def check(subject: Subject) -> Finding:
-    """RHS stays when the element moves by its own size in any direction."""
+    """RHS stays when the element moves in any direction, by its own size and by as much as it deforms in the run."""
     figure, message = 0.0, ""
     for state in subject.all_states:
         body = body_of(subject, state)
         if body is None:
             return not_applicable(NO_BODY)
-        for direction in range(body.dimensions):
-            ratio, row = _added(subject, state, body.size * body.translation(direction))
+        deformation = float(subject.scales[body.displacement].max())
+        for direction, distance in product(range(body.dimensions), (body.size, deformation)):
+            ratio, row, change = _added(subject, state, distance * body.translation(direction))
             if ratio > figure:
                 figure = ratio
                 message = (
-                    f"{state}: RHS({row + 1}) changes by {100 * ratio:.3g} % of what the stiffness would make of it "
-                    f"when the element moves by {body.size:.4g} in direction {direction + 1}"
+                    f"{state}: RHS({row + 1}) changes by {change:.4g}, {100 * ratio:.3g} % of what the stiffness would "
+                    f"make of it, when the element moves by {distance:.4g} in direction {direction + 1}"
                 )
     if figure <= TOLERANCE:
         return passed(f"forces stay to {figure:.1e}", figure, TOLERANCE)
@@ -44,13 +46,14 @@ def check(subject: Subject) -> Finding:
     return failed(message, advice, figure=figure, limit=TOLERANCE)
 
 
-def _added(subject: Subject, state: State, motion: FloatArray) -> tuple[float, int]:
-    """Largest force that a motion adds, over what the stiffness makes of its parts, and the row."""
+def _added(subject: Subject, state: State, motion: FloatArray) -> tuple[float, int, float]:
+    """Largest force that a motion adds, over what the stiffness makes of its parts, the row, and the force."""
     here = state.evaluate()
     # in dynamics an element that moves has inertia: then it was elsewhere all the time
     moved = state.carried(motion) if state.dynamic else state.moved(motion)
-    change = np.abs(moved.evaluate().rhs[0] - here.rhs[0])
-    return relative(change, subject.stiffness(state), motion)
+    change = moved.evaluate().rhs[0] - here.rhs[0]
+    ratio, row = relative(np.abs(change), subject.stiffness(state), motion)
+    return ratio, row, float(change[row])
 
 
 def relative(change: FloatArray, stiffness: FloatArray, motion: FloatArray) -> tuple[float, int]:

@@ -9,7 +9,7 @@ from typing import Final
 import numpy as np
 
 from harness.check.finding import Finding, failed, not_applicable, passed
-from harness.check.motions import AT_REST, NO_BODY, ROTATIONS, Body, body_of
+from harness.check.motions import AT_REST, NO_BODY, Body, body_of
 from harness.check.state import State
 from harness.check.subject import Subject
 from harness.model.arrays import FloatArray
@@ -28,7 +28,7 @@ def check(subject: Subject) -> Finding:
         return not_applicable(NO_BODY)
     if state.dynamic:
         return not_applicable("AMATRX holds mass in a dynamic step")
-    chosen = body.displacement | np.isin(body.dofs, ROTATIONS)
+    chosen = body.displacement | body.turning.any(axis=0)
     amatrx = state.evaluate().amatrx[np.ix_(chosen, chosen)]
     rigid = _rigid(body)[:, chosen]
     resisted = _resisted(amatrx, rigid)

@@ -49,6 +49,8 @@
           if (mistake /= 3) b(3,2*n) = b(1,2*n-1)
         end do
         stress = matmul(c, matmul(b, u))
+        if (mistake == 35) stress = stress
+     &    + c(:,1)*dot_product(b(1,1:7:2), u(2:8:2))**2/2
         rhs(1:8,1) = rhs(1:8,1) - w*matmul(transpose(b), stress)
         amatrx = amatrx + w*matmul(transpose(b), matmul(c, b))
         svars(3*k-2:3*k) = stress
