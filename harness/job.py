@@ -78,7 +78,7 @@ def run(
     library = usersub.load([Path(file) for file in files], job=job, output_dir=directory, deck=deck)
     output = JobOutput(model, job, directory, quiet=quiet)
     try:
-        system = System(model.mesh, build_blocks(model, library, strict=False), model.equations)
+        system = System(model.mesh, build_blocks(model, library, strict=False, zeros=True), model.equations)
         with one_blas_thread():
             for record in run_steps(system, model, library, solver, fallback=fallback, energy_control=energy_control):
                 _pass_on(library, output)

@@ -10,7 +10,7 @@ subroutine host_bare_loop(address, options, lflags, clock, labels, jprops, equat
   use host_kinds, only: dp, i4, i8
   implicit none (type, external)
   integer(i8), intent(in) :: address
-  integer(i4), intent(in) :: options(9)       !< as in host_evaluate
+  integer(i4), intent(in) :: options(10)      !< as in host_evaluate
   integer(i4), intent(in) :: ndofel, nsvars, nprops, njprop, mcrd, nnode, m, n
   integer(i4), intent(in) :: equations(ndofel, m)
   integer(i4), intent(inout) :: lflags(5), labels(m), jprops(njprop)

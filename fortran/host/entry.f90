@@ -12,8 +12,8 @@ subroutine host_evaluate(address, options, lflags, clock, labels, jprops, equati
   use host_kinds, only: dp, i4, i8
   implicit none (type, external)
   integer(i8), intent(in) :: address          !< of UEL or UELMAT
-  !> material, tensor, jtype, symmetric, want_matrix, kstep, kinc, guards, iteration
-  integer(i4), intent(in) :: options(9)
+  !> material, tensor, jtype, symmetric, want_matrix, kstep, kinc, guards, entries, iteration
+  integer(i4), intent(in) :: options(10)
   integer(i4), intent(in) :: lflags(5)
   real(dp), intent(in) :: clock(7)            !< step time, total time, time increment, period, PARAMS
   integer(i4), intent(in) :: ndofel, nsvars, nprops, njprop, mcrd, nnode, m, n, nrhs, nnz, values, points, most, nfield
@@ -43,7 +43,8 @@ subroutine host_evaluate(address, options, lflags, clock, labels, jprops, equati
   block%kstep = options(6)
   block%kinc = options(7)
   block%guards = options(8)
-  block%iteration = options(9)
+  block%entries = options(9)
+  block%iteration = options(10)
   block%lflags = lflags
   block%time = clock(1:2)
   block%dtime = clock(3)

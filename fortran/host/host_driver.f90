@@ -26,12 +26,17 @@ module host_driver
   integer(i4), parameter :: guards_search = 2     !< it is looked for after each element
   integer(i4), parameter :: guards_ignore = 3     !< it is of no interest
 
+  integer(i4), parameter :: entries_stop = 0      !< an entry of RHS or AMATRX that is not set ends the pass
+  integer(i4), parameter :: entries_notice = 1    !< from the first one on, and after the pass, RHS and AMATRX are zero on entry
+  integer(i4), parameter :: entries_zero = 2      !< RHS and AMATRX are zero on entry
+
   !> One pass over a block: what is called, with what, and where the results go. Arrays belong to the caller.
   type :: block_t
     type(c_funptr) :: address
     logical :: with_material = .false.   !< call with UELMAT's 37 arguments
     logical :: symmetric = .false.       !< assemble (A + A^T)/2
     integer(i4) :: guards = guards_stop  !< one of guards_*
+    integer(i4) :: entries = entries_stop  !< one of entries_*
     logical :: want_matrix = .false.     !< check and assemble AMATRX
     logical :: want_residual = .false.   !< check and assemble RHS
     integer(i4) :: material = 0, tensor = 0, jtype = 0, kstep = 0, kinc = 0, iteration = 0
@@ -62,8 +67,9 @@ module host_driver
     real(dp) :: energy_sum(8) = 0
     integer(i4) :: fault = fault_none     !< one of fault_*
     integer(i4) :: position = 0           !< element of the fault, from 1; 0 if it is not known
-    integer(i4) :: culprit = 0            !< first element that wrote outside an array, with guards_search
+    integer(i4) :: culprit(3) = 0         !< first element that wrote outside an array, array and entry, with guards_search
     integer(i4) :: array = 0, index = 0   !< array (number in host_workspace) and entry of the fault
+    integer(i4) :: unset(3) = 0           !< element, array and entry after which entries_notice became entries_zero
     procedure(uel_procedure), pointer, nopass :: uel => null()
     procedure(uelmat_procedure), pointer, nopass :: uelmat => null()
   end type block_t
@@ -97,6 +103,7 @@ contains
     call find_damage(work, array, index)
     if (array > 0 .and. block%guards == guards_stop) call diagnose(block, array, index)
     if (block%guards /= guards_stop) call notice(block, array, index)
+    if (block%fault == fault_none .and. block%unset(1) > 0) call report(block, fault_unset, block%unset)
     current%element = 0
     current%iteration = 0
   end subroutine run_block
@@ -154,17 +161,15 @@ contains
     do e = 1, size(block%labels)
       block%position = e
       call call_element(block, e)
-      if (block%guards == guards_search .and. block%culprit == 0) then
+      if (block%guards == guards_search .and. block%culprit(1) == 0) then
         call find_damage(work, array, index)
-        if (array > 0) then
-          block%culprit = e
-          block%array = array
-          block%index = index
-        end if
+        if (array > 0) block%culprit = int([e, array, index], i4)
       end if
+      call check_results(block)
+      if (block%fault == fault_unset .and. block%entries == entries_notice) call repeat_on_zeros(block, e)
+      if (block%fault /= fault_none) return
+      if (keeps_state(block%lflags(3))) call add(8, work%memory(work%start(i_energy)), block%energy_sum)
       if (block%want_residual) then
-        call check(block, i_rhs, work%length(i_rhs))
-        if (block%fault /= fault_none) return
         call add_residual(ndofel, work%memory(work%start(i_rhs)), block%equations(:, e), block%residual(:, 1))
         call add_magnitude(ndofel, work%memory(work%start(i_rhs)), block%floor, block%flux, block%terms)
         if (size(block%residual, 2) == 2) then
@@ -172,18 +177,35 @@ contains
         end if
       end if
       if (block%want_matrix) then
-        call check(block, i_amatrx, ndofel*ndofel)
-        if (block%fault /= fault_none) return
         call add_matrix(ndofel, work%memory(work%start(i_amatrx)), block%map(:, :, e), block%symmetric, block%matrix)
       end if
     end do
   end subroutine all_elements
+
+  !> Set the fault if an entry of RHS or AMATRX of the running element is not a number, as far as they are looked at.
+  subroutine check_results(block)
+    type(block_t), intent(inout) :: block
+    if (block%want_residual) call check(block, i_rhs, work%length(i_rhs))
+    if (block%want_matrix .and. block%fault == fault_none) call check(block, i_amatrx, work%length(i_amatrx))
+  end subroutine check_results
+
+  !> Call an element that has not set an entry again, and those after it, with RHS and AMATRX zero on entry.
+  subroutine repeat_on_zeros(block, e)
+    type(block_t), intent(inout) :: block
+    integer, intent(in) :: e
+    block%unset = [int(e, i4), block%array, block%index]
+    block%entries = entries_zero
+    block%fault = fault_none
+    call call_element(block, e)
+    call check_results(block)
+  end subroutine repeat_on_zeros
 
   !> Gather the arguments of an element, call it, and keep its trial state.
   subroutine call_element(block, e)
     type(block_t), intent(inout) :: block
     integer, intent(in) :: e
     integer(i4) :: ndofel, nsvars, nprops
+    integer(i8) :: on_entry
     ndofel = int(work%length(i_u), i4)
     nsvars = int(work%length(i_svars), i4)
     nprops = int(work%length(i_props), i4)
@@ -209,8 +231,9 @@ contains
         call gather(ndofel, block%equations(:, e), block%v, x(s(i_v)))
         call gather(ndofel, block%equations(:, e), block%a, x(s(i_a)))
       end if
-      call fill(work%length(i_rhs), work%unset, x(s(i_rhs)))
-      call fill(ndofel*ndofel, work%unset, x(s(i_amatrx)))
+      on_entry = merge(0_i8, work%unset, block%entries == entries_zero)
+      call fill(work%length(i_rhs), on_entry, x(s(i_rhs)))
+      call fill(ndofel*ndofel, on_entry, x(s(i_amatrx)))
       call copy(nsvars, block%svars(:, e), x(s(i_svars)))
       call copy(8, block%energy(:, e), x(s(i_energy)))
       call copy(nprops, block%props, x(s(i_props)))
@@ -220,7 +243,6 @@ contains
       if (keeps_state(block%lflags(3))) then
         call copy(nsvars, x(s(i_svars)), block%svars_trial(:, e))
         call copy(8, x(s(i_energy)), block%energy_trial(:, e))
-        call add(8, x(s(i_energy)), block%energy_sum)
       end if
     end associate
   end subroutine call_element
@@ -327,11 +349,20 @@ contains
       block%position = 0
       block%array = array
       block%index = index
-    else if (block%guards == guards_search .and. block%culprit > 0) then
-      block%fault = fault_outside
-      block%position = block%culprit
+    else if (block%guards == guards_search .and. block%culprit(1) > 0) then
+      call report(block, fault_outside, block%culprit)
     end if
   end subroutine notice
+
+  !> Report what the pass has taken notice of: element, array and entry.
+  subroutine report(block, fault, place)
+    type(block_t), intent(inout) :: block
+    integer(i4), intent(in) :: fault, place(3)
+    block%fault = fault
+    block%position = place(1)
+    block%array = place(2)
+    block%index = place(3)
+  end subroutine report
 
   !> Second run over the block.
   subroutine search(context) bind(c)

@@ -11,13 +11,14 @@ import numpy as np
 from numpy.typing import NDArray
 
 from harness.elements.call import BlockReport, Call, Distributed, Motion, Predefined
+from harness.elements.faults import write_outside, wrong_entry
 from harness.elements.fields import FIELD_NAMES, field_of
 from harness.errors import CallLimitError, ElementError, KernelError
 from harness.model.arrays import FloatArray, IntArray
 from harness.model.mesh import ElementGroup
 from harness.model.records import ElementState, PointVariables
 from harness.usersub import Library, _binding
-from harness.usersub._binding import Fault, Guards, LoadArrays, Options
+from harness.usersub._binding import Entries, Fault, Guards, LoadArrays, Options
 
 NORMAL: Final = 1
 """LFLAGS(3) of a normal call."""
@@ -81,6 +82,7 @@ class Block:
     unsymmetric  False: (A + A^T)/2 is assembled
     first        position of the first element in the model
     strict       a write outside an array is an error, else a warning
+    zeros        an entry of RHS or AMATRX that is not set is a warning, and zero from then on, else an error
     variables    meaning of the state's SVARS, None where unknown; those of a point of a built-in element go on with
                  STATEV and UVAR
     """
@@ -96,6 +98,7 @@ class Block:
         unsymmetric: bool,
         variables: PointVariables | None,
         strict: bool = True,
+        zeros: bool = False,
     ) -> None:
         self.group = group
         self.unknowns = unknowns
@@ -106,6 +109,7 @@ class Block:
         self._library = library
         self.first = 0
         self._guards = Guards.STOP if strict else Guards.NOTICE
+        self._entries = Entries.NOTICE if zeros else Entries.STOP
         self._noticed: _binding.Outcome | None = None
         m, n = len(group.labels), len(unknowns)
         svars = np.zeros((m, procedure.svars))
@@ -200,7 +204,11 @@ class Block:
             _NO_MATRIX if matrix is None else matrix,
         )
         self._last = call
-        if self._guards is not Guards.STOP and outcome.fault in (Fault.NONE, Fault.OUTSIDE):
+        if outcome.fault is Fault.UNSET and self._entries is not Entries.STOP:
+            self._entries = Entries.ZERO
+            error = self._error(outcome, residual.ndim, call)
+            self._library.warn(f"{error}; the run goes on with zeros there before each call")
+        elif self._guards is not Guards.STOP and outcome.fault in (Fault.NONE, Fault.OUTSIDE):
             self._warn(outcome, residual.ndim, call)
         elif outcome.fault is not Fault.NONE:
             raise self._error(outcome, residual.ndim, call)
@@ -261,8 +269,9 @@ class Block:
         _binding.bare_loop(self._procedure.address, options, call.lflags, clock, self._arrays, u, du, residual)
 
     def _options(self, call: Call, *, assemble: bool) -> Options:
-        p, flags = self._procedure, (int(not self.unsymmetric), int(assemble))
-        return p.material, p.tensor, p.jtype, *flags, call.step, call.increment, self._guards, call.iteration
+        p, guards = self._procedure, (self._guards, self._entries)
+        flags = int(not self.unsymmetric), int(assemble)
+        return p.material, p.tensor, p.jtype, *flags, call.step, call.increment, *guards, call.iteration
 
     def initialise(self, rows: IntArray, values: FloatArray) -> None:
         """Initial SVARS of elements (rows of the block), or STATEV of their points. Raises ValueError if too many."""
@@ -354,13 +363,8 @@ class Block:
                 message = self._library.stop_reason()
             case Fault.OUTSIDE:
                 message = self._outside(outcome, nrhs)
-            case Fault.UNSET:
-                message = (
-                    f"{self._entry(outcome)} was not filled, or was added to without being set first "
-                    "(RHS and AMATRX are not zero on entry)"
-                )
             case _:
-                message = f"{self._entry(outcome)} is NaN or infinite"
+                message = wrong_entry(outcome, len(self.unknowns))
         place = f"step {call.step}, increment {call.increment}, iteration {call.iteration}"
         error = CallLimitError if outcome.fault is Fault.ENDLESS else KernelError
         return error(element, self.group.type, f"{message} ({place})")
@@ -375,25 +379,11 @@ class Block:
         elif outcome.fault is Fault.OUTSIDE:
             self._guards, self._noticed = Guards.SEARCH, outcome
 
-    def _entry(self, outcome: _binding.Outcome) -> str:
-        column, row = divmod(outcome.index - 1, len(self.unknowns))
-        if outcome.array == "RHS" and not column:
-            return f"RHS({outcome.index})"
-        return f"{outcome.array}({row + 1},{column + 1})"
-
     def _outside(self, outcome: _binding.Outcome, nrhs: int) -> str:
-        n = len(self.unknowns)
-        columns = str(n) if nrhs == 1 else f"{n * nrhs} ({n} x NRHS = {nrhs})"
         sizes = {
-            "RHS": columns,
-            "DU": columns,
             "SVARS": f"{self._procedure.svars} (VARIABLES=)",
-            "ENERGY": "8",
-            "AMATRX": f"{n * n} ({n} x {n})",
             "PROPS": f"{len(self._procedure.props)} (PROPERTIES=)",
             "COORDS": str(self._procedure.mcrd * self.group.nodes.shape[1]),
             "PREDEF": str(2 * self.group.nodes.shape[1]),
         }
-        size = sizes.get(outcome.array, str(n))
-        unknown = "" if outcome.position >= 0 else "; the element is not known, because a repeated pass did not do it"
-        return f"writes outside {outcome.array}: entry {outcome.index} of {size}{unknown}"
+        return write_outside(outcome, len(self.unknowns), nrhs, sizes)

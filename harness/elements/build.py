@@ -29,16 +29,17 @@ TENSORS: Final = {
 """TENSOR= of *USER ELEMENT; TWOD has the components of plane strain."""
 
 
-def build_blocks(model: Model, library: Library, *, strict: bool = True) -> list[Block]:
+def build_blocks(model: Model, library: Library, *, strict: bool = True, zeros: bool = False) -> list[Block]:
     """One block per group of the model, in the same order. Raises DeckError that names all places.
 
-    strict: a user element that writes outside an array is an error, else a warning.
+    strict: a user element that writes outside an array is an error, else a warning; zeros: one that leaves an entry of
+    RHS or AMATRX unset is a warning, and the entry zero, else an error.
     """
     blocks: list[Block] = []
     errors: dict[str, DeckError] = {}
     for group in model.groups:
         try:
-            blocks.append(_block_of(model, group, library, strict=strict))
+            blocks.append(_block_of(model, group, library, strict=strict, zeros=zeros))
         except DeckError as error:
             errors.setdefault(str(error), error)
     if errors:
@@ -48,13 +49,13 @@ def build_blocks(model: Model, library: Library, *, strict: bool = True) -> list
     return blocks
 
 
-def _block_of(model: Model, group: ElementGroup, library: Library, *, strict: bool) -> Block:
+def _block_of(model: Model, group: ElementGroup, library: Library, *, strict: bool, zeros: bool) -> Block:
     material = getattr(group.section, "material", None)
     if material is not None and material.expansion and group.type not in SOLIDS:
         message = f"*EXPANSION (material {material.name}) is not supported for elements of type {group.type}"
         raise DeckError(group.section.source, message)
     if group.definition is not None:
-        return _user_block(model, group, group.definition, library, strict=strict)
+        return _user_block(model, group, group.definition, library, strict=strict, zeros=zeros)
     for types, make in ((SOLIDS | COUPLED, _solid_block), (COHESIVE, _cohesive_block), (DISCRETE, _discrete_block)):
         if group.type in types:
             return make(model, group, library)
@@ -65,7 +66,9 @@ def _block_of(model: Model, group: ElementGroup, library: Library, *, strict: bo
     raise DeckError(group.source, message)
 
 
-def _user_block(model: Model, group: ElementGroup, definition: UserElement, library: Library, *, strict: bool) -> Block:
+def _user_block(
+    model: Model, group: ElementGroup, definition: UserElement, library: Library, *, strict: bool, zeros: bool
+) -> Block:
     section = group.section
     if not isinstance(section, UserProperty):
         raise DeckError(section.source, f"user elements ({group.type}) take *UEL PROPERTY")
@@ -100,6 +103,7 @@ def _user_block(model: Model, group: ElementGroup, definition: UserElement, libr
         unsymmetric=definition.unsymmetric,
         variables=variables,
         strict=strict,
+        zeros=zeros,
     )
 
 

@@ -9,6 +9,8 @@ with the error of the linear solver.
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+
 import numpy as np
 from scipy import sparse
 
@@ -35,12 +37,14 @@ class UnheldSolver:
         self._solver = solver
         self.free: SingularMatrixError | None = None
         self._matrix = sparse.csr_array((0, 0))
+        self._stand_ins: Iterator[FloatArray] = iter(())
         self._diagonal = np.flatnonzero(solver.pattern.rows == solver.pattern.indices)
 
     def factorise(self, data: FloatArray) -> None:
-        """Take the CSR values of the reduced matrix. Raises SingularMatrixError where nothing acts on an unknown."""
+        """Take the CSR values of the reduced matrix. Raises SingularMatrixError where nothing acts on any unknown."""
         self.free = None
         self._matrix = self._solver.pattern.matrix(data)
+        self._stand_ins = self._stiffnesses()
         try:
             self._solver.factorise(data)
         except SingularMatrixError as error:
@@ -48,20 +52,33 @@ class UnheldSolver:
 
     def solve(self, rhs: FloatArray) -> FloatArray:
         """Solution for one right-hand side. Raises SingularMatrixError where it has none."""
-        try:
-            solution = self._solver.solve(rhs)
-        except SingularMatrixError as error:
-            # some solvers find out only now
-            self._shift(error)
-            solution = self._solver.solve(rhs)
+        while True:
+            try:
+                solution = self._solver.solve(rhs)
+                break
+            except SingularMatrixError as error:
+                # some solvers find out only now
+                self._shift(error)
         if self.free is not None and np.linalg.norm(rhs - self._matrix @ solution) > LOADED * np.linalg.norm(rhs):
             raise self.free
         return solution
 
     def _shift(self, error: SingularMatrixError) -> None:
-        if self.free is not None:
-            raise error
-        self.free = error
-        shifted = self._matrix.data.copy()
-        shifted[self._diagonal] += SHIFT * abs(self._matrix).max(axis=1).toarray().ravel()
-        self._solver.factorise(shifted)
+        """Factorise with the first stiffness that makes the matrix regular."""
+        self.free = self.free or error
+        for stiffness in self._stand_ins:
+            shifted = self._matrix.data.copy()
+            shifted[self._diagonal] += stiffness
+            try:
+                return self._solver.factorise(shifted)
+            except SingularMatrixError:
+                continue
+        raise error
+
+    def _stiffnesses(self) -> Iterator[FloatArray]:
+        """What stands in: first only for unknowns without any stiffness, where its size is of no account."""
+        largest = abs(self._matrix).max(axis=1).toarray().ravel()
+        empty = np.where(largest > 0.0, 0.0, largest.max(initial=0.0))
+        if empty.any():
+            yield empty
+        yield empty + SHIFT * largest

@@ -32,7 +32,7 @@ ARRAYS: Final = ("RHS", "AMATRX", "SVARS", "ENERGY", "PROPS", "COORDS", "U", "DU
 """Guarded arrays, in the order of fortran/host/host_workspace.f90."""
 
 
-Options = tuple[int, int, int, int, int, int, int, int, int]
+Options = tuple[int, int, int, int, int, int, int, int, int, int]
 """As host_evaluate in fortran/host/entry.f90 names them."""
 
 
@@ -46,6 +46,14 @@ class Guards(IntEnum):
     NOTICE = 1
     SEARCH = 2
     IGNORE = 3
+
+
+class Entries(IntEnum):
+    """What an entry of RHS or AMATRX that is not set does to a pass (fortran/host/host_driver.f90)."""
+
+    STOP = 0
+    NOTICE = 1
+    ZERO = 2
 
 
 class Fault(IntEnum):

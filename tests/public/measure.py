@@ -36,12 +36,16 @@ ATTEMPTS = {"what": "attempts"}
 
 @dataclass
 class Outcome:
-    """What came of a row: increments and cutbacks done, the figure (None without one), and the error ('' if none)."""
+    """What came of a row: increments and cutbacks done, the figure (None without one), and the error ('' if none).
+
+    expected is the figure of the row's reference run, None for a row without one.
+    """
 
     increments: int = 0
     cutbacks: int = 0
     figure: float | None = None
     error: str = ""
+    expected: float | None = None
 
 
 def rows() -> dict[str, Row]:
@@ -57,7 +61,18 @@ def missing(folder: Path, row: Row) -> list[str]:
 
 
 def measure(folder: Path, row: Row) -> Outcome:
-    """Run a row and evaluate its quantity after every increment."""
+    """Run a row, and its reference: the same quantity of another deck, or of the same one with built-in elements."""
+    outcome = _run(folder, row)
+    if "reference" in row and not outcome.error:
+        other = {key: value for key, value in row.items() if key != "reference"} | row["reference"]
+        reference = _run(folder, other)
+        outcome.expected = reference.figure
+        outcome.error = f"reference: {reference.error}" if reference.error else ""
+    return outcome
+
+
+def _run(folder: Path, row: Row) -> Outcome:
+    """Run a deck and evaluate the quantity after every increment."""
     outcome = Outcome()
     lines: list[tuple[int, int]] = []
     values: list[tuple[float, float]] = []
@@ -88,17 +103,31 @@ def measure(folder: Path, row: Row) -> Outcome:
 
 def _records(root: Path, row: Row) -> Iterator[tuple[Model, Any]]:
     deck = root / row["deck"]
-    model = read_deck(deck)
     with tempfile.TemporaryDirectory() as output:
+        if "replace" in row:
+            deck = _replaced(deck, row["replace"], Path(output))
+        model = read_deck(deck)
         sources = [root / name for name in row["sources"]] or None
         library = usersub.load(sources, job="job", output_dir=Path(output), deck=deck)
         try:
-            system = System(model.mesh, build_blocks(model, library, strict=False), model.equations)
+            system = System(model.mesh, build_blocks(model, library, strict=False, zeros=True), model.equations)
             for record in run_steps(system, model, library):
                 library.messages()
                 yield model, record
         finally:
             library.close()
+
+
+def _replaced(deck: Path, pairs: list[tuple[str, str]], folder: Path) -> Path:
+    """Copy of a deck in which each text, which it has, gives way to another."""
+    text = deck.read_text("utf-8").replace("\r\n", "\n")
+    for old, new in pairs:
+        if old not in text:
+            raise UelError(f"{deck} has no {old!r} to replace")
+        text = text.replace(old, new)
+    copy = folder / deck.name
+    copy.write_text(text, encoding="utf-8")
+    return copy
 
 
 def _evaluate(model: Model, solution: Solution, quantity: Row) -> float:

@@ -235,3 +235,21 @@ def test_a_job_goes_on_after_a_write_outside_an_array(tmp_path):
     assert text.count("writes outside SVARS: entry 5 of 2 (VARIABLES=)") == 1
     assert "***WARNING: element 102 (type U1): writes outside SVARS" in text
     assert "writes outside" not in results[0].file(".msg").read_text()
+
+
+@pytest.mark.nan
+def test_a_job_goes_on_where_entries_are_not_set(tmp_path):
+    """RHS and AMATRX are zero on entry then, as mostly in Abaqus; it is reported once, the results are the same."""
+    results = {}
+    for option in (0, 1):
+        deck = tmp_path / f"adds{option}.inp"
+        deck.write_text(OUTSIDE.format(option=option))
+        results[option] = harness.run(deck, HERE / "adds.f", output_dir=tmp_path)
+    np.testing.assert_array_equal(results[1].field("U"), results[0].field("U"))
+    np.testing.assert_array_equal(results[1].history["ALLSE"], results[0].history["ALLSE"])
+    text = " ".join(results[1].file(".msg").read_text().split())
+    assert text.count("was not filled") == 1
+    warning = "***WARNING: element 101 (type U1): RHS(1) was not filled, or was added to without being set first"
+    assert warning in text
+    assert "; the run goes on with zeros there before each call" in text
+    assert "was not filled" not in results[0].file(".msg").read_text()

@@ -30,6 +30,31 @@ BESIDE = """*NODE
 *ELEMENT, TYPE=CPS3, ELSET=BODY
 2, 11, 12, 13
 """
+# a horizontal bar, which has no stiffness across
+BAR = f"""*NODE, NSET=ALL
+1, 0., 0.
+2, 2., 0.
+*ELEMENT, TYPE=T2D2, ELSET=BAR
+1, 1, 2
+*SOLID SECTION, ELSET=BAR, MATERIAL=M
+1.
+*MATERIAL, NAME=M
+*ELASTIC
+{YOUNG}
+"""
+ALONG = """*STEP
+*STATIC
+1., 1.
+*BOUNDARY
+1, 1, 2
+*CLOAD
+2, 1, {pull}
+2, 2, {across}
+*OUTPUT, HISTORY
+*NODE OUTPUT, NSET=ALL
+U
+*END STEP
+"""
 STEP = """*STEP
 *STATIC
 1., 1.
@@ -75,3 +100,18 @@ def test_a_force_on_what_moves_freely_is_an_error(run, more):
         SingularMatrixError, match=r"free.inp:\d+: singular system matrix at node \d+, dof [12]: .* held"
     ):
         run(SQUARE + BESIDE, more)
+
+
+def test_an_unknown_without_any_stiffness_stays(tmp_path):
+    """Its displacement is exactly zero, and the others are those of the bar: F L/(E A)."""
+    (tmp_path / "bar.inp").write_text(BAR + ALONG.format(pull=PULL, across=0.0))
+    history = harness.run(tmp_path / "bar.inp", output_dir=tmp_path).history
+    assert history["U2[ALL:2]"][-1] == 0.0
+    np.testing.assert_allclose(history["U1[ALL:2]"][-1], PULL * 2.0 / YOUNG, rtol=1e-14)
+    assert "NO FORCE ACTS ON WHAT MOVES FREELY" in " ".join((tmp_path / "bar.msg").read_text().split())
+
+
+def test_a_force_on_an_unknown_without_any_stiffness_is_an_error(tmp_path):
+    (tmp_path / "bar.inp").write_text(BAR + ALONG.format(pull=PULL, across=1.0))
+    with pytest.raises(SingularMatrixError, match=r"bar.inp:\d+: singular system matrix at node 2, dof 2: .* held"):
+        harness.run(tmp_path / "bar.inp", output_dir=tmp_path)

@@ -1,0 +1,28 @@
+# SPDX-FileCopyrightText: The uel-harness authors
+# SPDX-License-Identifier: BSD-3-Clause
+"""Sentences for what a user element does wrong with its arrays."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+from harness.usersub._binding import Fault, Outcome
+
+
+def wrong_entry(outcome: Outcome, n: int) -> str:
+    """An entry of RHS or AMATRX that was not set, or is not a number; n: unknowns of the element."""
+    column, row = divmod(outcome.index - 1, n)
+    entry = f"RHS({outcome.index})"
+    if outcome.array != "RHS" or column:
+        entry = f"{outcome.array}({row + 1},{column + 1})"
+    if outcome.fault is Fault.UNSET:
+        return f"{entry} was not filled, or was added to without being set first (RHS and AMATRX are not zero on entry)"
+    return f"{entry} is NaN or infinite"
+
+
+def write_outside(outcome: Outcome, n: int, nrhs: int, sizes: Mapping[str, str]) -> str:
+    """A write outside an array; sizes: of the arrays that do not follow from n, the unknowns, and NRHS."""
+    columns = str(n) if nrhs == 1 else f"{n * nrhs} ({n} x NRHS = {nrhs})"
+    known = {"RHS": columns, "DU": columns, "ENERGY": "8", "AMATRX": f"{n * n} ({n} x {n})", **sizes}
+    unknown = "" if outcome.position >= 0 else "; the element is not known, because a repeated pass did not do it"
+    return f"writes outside {outcome.array}: entry {outcome.index} of {known.get(outcome.array, str(n))}{unknown}"
