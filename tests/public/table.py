@@ -25,7 +25,9 @@ HEAD = """\
 Codes that others wrote for Abaqus, with their decks, run by this harness as they are. Their files are not part of this
 repository; `python tests/public/table.py FOLDER -o harness/usersub/public-uels.md` writes this page from a folder of
 checkouts, by [the manifest](../../tests/public/manifest.toml). Grade of the expected value: **T** theory, **A** real
-Abaqus, **M** the stored result of another code, **Q** an independent small-strain host (plausibility only).
+Abaqus, **M** the stored result of another code, **B** this harness' built-in element of the same formulation in place
+of the user's, run beside it (it shows that both are driven alike), **Q** an independent small-strain host
+(plausibility only).
 
 | code | deck | quantity | our figure | expected | grade | verdict |
 |---|---|---|---|---|---|---|
@@ -59,13 +61,14 @@ def verdict(row: Row, outcome: Outcome) -> tuple[bool, str]:
     if row.get("only") == "read":
         return True, "read"
     done = f"{outcome.increments} increments, {outcome.cutbacks} cutbacks"
-    if "expected" not in row:
+    expected = row.get("expected", outcome.expected)
+    if expected is None:
         return True, f"completed ({done})"
     assert outcome.figure is not None
     if "status" in row:
         agrees = outcome.figure >= row["expected"]
         return agrees, f"{'agrees' if agrees else 'differs'} ({done})"
-    deviation = abs(outcome.figure / row["expected"] - 1.0)
+    deviation = abs(outcome.figure / expected - 1.0)
     agrees = deviation <= row["tolerance"]
     return agrees, f"{'agrees' if agrees else 'differs'}, {100 * deviation:.2g} % ({done})"
 
@@ -73,7 +76,8 @@ def verdict(row: Row, outcome: Outcome) -> tuple[bool, str]:
 def line(row: Row, outcome: Outcome) -> str:
     """Row of the table."""
     figure = "" if outcome.figure is None else f"{outcome.figure:.5g}"
-    expected = f"{row['expected']:.5g}" if "expected" in row else ""
+    value = row.get("expected", outcome.expected)
+    expected = "" if value is None else f"{value:.5g}"
     deck = row["deck"].rpartition("/")[2]
     entries = row["code"], deck, row.get("text", "runs to the end"), figure, expected, row.get("grade", "")
     return f"| {' | '.join(entries)} | {verdict(row, outcome)[1]} |\n"
