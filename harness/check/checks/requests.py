@@ -4,49 +4,69 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+from dataclasses import replace
 from typing import Final
 
 import numpy as np
 
-from harness.check.finding import Finding, failed, not_applicable, passed
+from harness.check.finding import Finding, Verdict, failed, not_applicable, passed
 from harness.check.recording import Pass
-from harness.check.state import State
+from harness.check.state import DYNAMIC, State
 from harness.check.subject import Subject
+from harness.elements import Motion
+from harness.model.arrays import FloatArray
 from harness.usersub import UNSET, marks
 
+STIFFNESS: Final = 2
 MASS: Final = 4
 RESIDUAL: Final = 5
 INITIAL: Final = 6
 """Mass and residual, for the accelerations at the start of a dynamic step."""
 
+FREQUENCY: Final = 41
+"""LFLAGS(1) of *FREQUENCY."""
+
 TOLERANCE: Final = 1e-9
 """Of the largest entry."""
 
+LINEAR: Final = 1e-6
+"""Of the largest entry: differences by accelerations, and of half increments."""
+
 
 def check(subject: Subject) -> Finding:
-    """Residual only as in a normal call; mass symmetric, positive, and the same however it is asked for."""
-    passes = [event for event in subject.recording.events if isinstance(event, Pass)]
-    asked = {event.call.lflags[2] for event in passes}
-    done: list[str] = []
-    static = [state for state in subject.all_states if not state.dynamic]
-    if RESIDUAL in asked and static:
-        finding = _residual(static)
-        if finding is not None:
-            return finding
-        done.append("residual only (5)")
-    dynamic = [state for state in subject.states if state.dynamic]
-    if dynamic:
-        finding = _mass(dynamic[0])
-        if finding is not None:
-            return finding
-        done.append("mass (4 and 6)")
-    if not done:
+    """Each request that the deck makes is answered by what a normal call says too."""
+    findings = list(_findings(subject))
+    wrong = next((finding for finding in findings if finding.verdict is Verdict.FAILED), None)
+    if wrong is not None:
+        return wrong
+    if not findings:
         return not_applicable("the procedures of the deck use calls with LFLAGS(3) = 1 alone")
-    return passed(f"LFLAGS(3): {', '.join(done)}")
+    return passed(f"LFLAGS(3): {', '.join(finding.message for finding in findings)}")
 
 
-def _residual(states: list[State]) -> Finding | None:
-    """A finding where the residual alone is wrong; that of a dynamic step is another one, of half an increment."""
+def _findings(subject: Subject) -> Iterator[Finding]:
+    asked = {event.call.lflags[:3]: event.call.lflags for event in subject.recording.events if isinstance(event, Pass)}
+    requests = {(lflags[0], lflags[2]) for lflags in asked}
+    moving = [state for state in subject.states if state.dynamic]
+    static = [state for state in subject.all_states if not state.dynamic]
+    if static and any(request == RESIDUAL and kind not in DYNAMIC for kind, request in requests):
+        yield _residual(static)
+    if moving:
+        yield _mass(subject, moving[0])
+        if any((kind, RESIDUAL) in requests for kind in DYNAMIC):
+            yield _half_increment(subject, moving[0])
+    # perturbations start from the last state of the steps before
+    base = [state.part(0.0) for state in subject.states if not state.dynamic][-1:]
+    for (kind, _, request), lflags in asked.items():
+        if base and request == STIFFNESS:
+            yield _stiffness(base[0], lflags)
+        if base and request == MASS and kind == FREQUENCY:
+            yield _mass_alone(base[0], lflags)
+
+
+def _residual(states: list[State]) -> Finding:
+    """The residual alone in a static step."""
     for state in states:
         normal = state.evaluate().rhs[0]
         with marks({UNSET: float("nan")}):
@@ -59,23 +79,93 @@ def _residual(states: list[State]) -> Finding | None:
                 "With LFLAGS(3) = 5 Abaqus asks for RHS alone, in a static step (line search) the same as with 1.",
                 figure=float(deviation[row]),
             )
-    return None
+    return passed("residual only (5)")
 
 
-def _mass(state: State) -> Finding | None:
+def _half_increment(subject: Subject, state: State) -> Finding:
+    """The residual at half an increment of a dynamic step: by U and A it changes as that of a normal call does.
+
+    Both hold -M A + (1 + alpha) G(U); terms of earlier increments differ, and are the same before and after a change.
+    """
+    alone = state.asked(RESIDUAL)
+    # no rigid-body motion
+    uneven = np.linspace(-1.0, 1.0, len(subject.scales))
+    shift, accelerations = uneven * subject.scales, uneven * _accelerations(subject, state)
+    for name, changed in (
+        ("U", lambda one: replace(one, u=one.u + shift, du=one.du + shift)),
+        ("A", lambda one: _accelerated(one, accelerations)),
+    ):
+        normal = changed(state).evaluate().rhs[0] - state.evaluate().rhs[0]
+        with marks({UNSET: float("nan")}):
+            half = changed(alone).evaluate(matrix=False).rhs[0] - alone.evaluate(matrix=False).rhs[0]
+        row = int(np.abs(half - normal).argmax())
+        if abs(half[row] - normal[row]) > LINEAR * max(float(np.abs(normal).max()), 1e-300):
+            return failed(
+                f"{state}: when {name} changes, RHS({row + 1}) changes by {half[row]:.6g} with LFLAGS(3) = 5, by "
+                f"{normal[row]:.6g} with 1",
+                "In *DYNAMIC, LFLAGS(3) = 5 asks for the residual at half the increment, -M A + (1 + alpha) G less "
+                "alpha/2 times the sum of G at the start of this increment and of the one before; PARAMS(1) is alpha. "
+                "By it Abaqus chooses the next increment (HAFTOL, HALFINC SCALE FACTOR).",
+                figure=float(abs(half[row] - normal[row])),
+            )
+    return passed("half-increment residual (5)")
+
+
+def _mass(subject: Subject, state: State) -> Finding:
+    """The mass matrix of a dynamic step: that by which RHS falls with accelerations, however it is asked for."""
     with marks({UNSET: float("nan")}):
         mass = state.asked(MASS).evaluate().amatrx
         initial = state.asked(INITIAL).evaluate().amatrx
-    size = float(np.abs(mass).max())
-    if not size:
+    heaviest = max(float(np.abs(mass).max()), float(np.abs(initial).max()))
+    inertia = _inertia(subject, state, heaviest)
+    size = float(np.abs(inertia).max())
+    if not heaviest and not size:
+        return passed("no mass (4 and 6)")
+    if not mass.any():
         return failed(
             f"{state}: AMATRX is zero with LFLAGS(3) = 4",
             "Return the mass matrix with LFLAGS(3) = 4 and 6, or the element has no inertia in *DYNAMIC.",
         )
-    if np.abs(mass - initial).max() > TOLERANCE * size:
+    if np.abs(mass - initial).max() > TOLERANCE * np.abs(mass).max():
         return failed(
             f"{state}: AMATRX differs between LFLAGS(3) = 4 and 6 by {np.abs(mass - initial).max():.4g}",
             "Both ask for the mass matrix; 6 asks for the residual as well, for the accelerations at the start.",
+        )
+    row, column = np.unravel_index(int(np.abs(mass - inertia).argmax()), mass.shape)
+    deviation = float(abs(mass[row, column] - inertia[row, column]))
+    wrong = _indefinite(state, mass)
+    if wrong is None and deviation > LINEAR * max(size, float(np.abs(mass).max())):
+        return failed(
+            f"{state}: AMATRX({row + 1},{column + 1}) is {mass[row, column]:.6g} with LFLAGS(3) = 4; by "
+            f"A({column + 1}) RHS({row + 1}) of a normal call falls by {inertia[row, column]:.6g}",
+            "In *DYNAMIC, RHS of a normal call holds -M A, with the mass matrix M that LFLAGS(3) = 4 and 6 return.",
+            figure=deviation,
+        )
+    return wrong or passed("mass (4 and 6)")
+
+
+def _mass_alone(state: State, lflags: tuple[int, int, int, int, int]) -> Finding:
+    """The mass matrix for eigenfrequencies."""
+    with marks({UNSET: float("nan")}):
+        mass = state.called(lflags=lflags).evaluate().amatrx
+    if not mass.any():
+        return passed("no mass (4)")
+    if np.abs(mass - state.evaluate().amatrx).max() <= TOLERANCE * np.abs(mass).max():
+        return failed(
+            f"{state}: AMATRX with LFLAGS(3) = 4 is that with 1, the stiffness",
+            "Look at LFLAGS(3) at the beginning of UEL: with 4 AMATRX is the mass matrix, or zero without mass.",
+        )
+    return _indefinite(state, mass) or passed("mass (4)")
+
+
+def _indefinite(state: State, mass: FloatArray) -> Finding | None:
+    """A finding where a mass matrix is not symmetric, or has negative eigenvalues."""
+    size = float(np.abs(mass).max())
+    if np.abs(mass - mass.T).max() > TOLERANCE * size:
+        return failed(
+            f"{state}: the mass matrix is not symmetric, by {np.abs(mass - mass.T).max():.4g}",
+            "Inertia has a potential: M(i,j) is the integral of density times shape functions i and j.",
+            figure=float(np.abs(mass - mass.T).max()),
         )
     smallest = float(np.linalg.eigvalsh(0.5 * (mass + mass.T))[0]) / size
     if smallest < -TOLERANCE:
@@ -86,3 +176,38 @@ def _mass(state: State) -> Finding | None:
             limit=-TOLERANCE,
         )
     return None
+
+
+def _stiffness(state: State, lflags: tuple[int, int, int, int, int]) -> Finding:
+    """The stiffness alone, for a perturbation of the state that the steps before have left."""
+    normal = state.evaluate().amatrx
+    with marks({UNSET: float("nan")}):
+        alone = state.called(lflags=lflags).evaluate().amatrx
+    row, column = np.unravel_index(int(np.abs(alone - normal).argmax()), alone.shape)
+    deviation = float(abs(alone[row, column] - normal[row, column]))
+    if deviation > TOLERANCE * max(float(np.abs(normal).max()), 1e-300):
+        entry = f"AMATRX({row + 1},{column + 1})"
+        return failed(
+            f"{state}: {entry} is {alone[row, column]:.6g} with LFLAGS(3) = 2, {normal[row, column]:.6g} with 1",
+            "With LFLAGS(3) = 2 Abaqus asks for the stiffness alone, the AMATRX of a static call with DU = 0.",
+            figure=deviation,
+        )
+    return passed("stiffness only (2)")
+
+
+def _accelerations(subject: Subject, state: State) -> FloatArray:
+    """(n,) accelerations of the displacements of the run within an increment."""
+    return subject.scales / max(state.call.time_increment, 1e-300) ** 2
+
+
+def _accelerated(state: State, shift: FloatArray) -> State:
+    """With other accelerations, and nothing else."""
+    return replace(state, motion=Motion(state.motion.velocity, state.motion.acceleration + shift))
+
+
+def _inertia(subject: Subject, state: State, heaviest: float) -> FloatArray:
+    """(n, n) -dRHS/dA, in which RHS is linear; heaviest: mass by which the change of RHS is above its rounding."""
+    here = state.evaluate().rhs[0]
+    steps = np.maximum(_accelerations(subject, state), float(np.abs(here).max()) / heaviest if heaviest else 0.0)
+    columns = [(here - _accelerated(state, step).evaluate().rhs[0]) / step.sum() for step in np.diag(steps)]
+    return np.array(columns).T

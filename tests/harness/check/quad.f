@@ -19,7 +19,8 @@
       end do
       energy(2) = 0
       start = svars(1)
-      if (lflags(3) == 4) return
+      if (lflags(3) == 4 .and. mistake /= 37) return
+      if (lflags(3) == 2 .and. mistake == 36) return
       c = 0
       c(1,1) = props(1)/(1 - props(2)**2)
       c(2,2) = c(1,1)
