@@ -47,7 +47,8 @@ PROCEDURE = (
                 choices=("RAMP", "STEP"),
             ),
             *ignored("CONVERT SDI", "SOLVER"),
-            *refused("DSA", "PERTURBATION", "SUBDIVIDE"),
+            Option("PERTURBATION", doc="a linear step about the last state, for *FREQUENCY, which is one always"),
+            *refused("DSA", "SUBDIVIDE"),
         ),
         "title",
     ),
@@ -75,6 +76,29 @@ PROCEDURE = (
             *refused("CREEP", "FACTOR", "STABILIZE", "ALLSDTOL", "CONTINUE"),
         ),
         _TIMES,
+    ),
+    Keyword(
+        "FREQUENCY",
+        "Natural frequencies about the state at the end of the last general step.",
+        Where.STEP,
+        (
+            Option(
+                "EIGENSOLVER", Kind.CHOICE, "how", default="LANCZOS", choices=("LANCZOS",), refused=("SUBSPACE", "AMS")
+            ),
+            Option(
+                "NORMALIZATION",
+                Kind.CHOICE,
+                "of the shapes: largest displacement, or generalized mass, of one",
+                default="DISPLACEMENT",
+                choices=("DISPLACEMENT", "MASS"),
+            ),
+            *ignored("ACOUSTIC COUPLING", "NUMBER INTERVAL", "SIM"),
+            *refused(
+                *("BIAS", "DAMPING PROJECTION", "NSET", "PROPERTY EVALUATION", "RESIDUAL MODES", "USER BOUNDARY"),
+                *("INTERNAL MODES", "TOL"),
+            ),
+        ),
+        "number of eigenvalues, lowest and highest frequency (cycles per time)",
     ),
     Keyword(
         "DYNAMIC",

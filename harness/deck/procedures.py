@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""The procedure of a step: *STATIC, *VISCO, *DYNAMIC, *HEAT TRANSFER, *COUPLED TEMPERATURE-DISPLACEMENT.
+"""The procedure of a step: *STATIC, *VISCO, *DYNAMIC, *FREQUENCY, *HEAT TRANSFER, *COUPLED TEMPERATURE-DISPLACEMENT.
 
 Defaults are those of the Abaqus Keywords Guide; zero or blank stands for the default everywhere.
 """
@@ -14,7 +14,18 @@ from dataclasses import replace
 from harness.deck.blocks import Block, Row
 from harness.deck.prescribed import Prescription
 from harness.deck.structure import Scope
-from harness.model.procedures import Dynamic, HeatTransfer, Integrator, Procedure, Riks, Stabilize, Static, Visco
+from harness.model.procedures import (
+    PERTURBATION_TIME,
+    Dynamic,
+    Frequency,
+    HeatTransfer,
+    Integrator,
+    Procedure,
+    Riks,
+    Stabilize,
+    Static,
+    Visco,
+)
 
 SMALLEST_FRACTION = 1e-5
 
@@ -169,10 +180,29 @@ def _read_heat_transfer(block: Block, _: Prescription) -> HeatTransfer:
     )
 
 
+def _read_frequency(block: Block, _: Prescription) -> Frequency:
+    row = _only_row(block)
+    number, lowest, highest = 0, -math.inf, math.inf
+    if row is not None:
+        number = row.integer(0, "number of eigenvalues", 0)
+        lowest = row.real(1, "lowest frequency", lowest)
+        highest = row.real(2, "highest frequency", highest)
+        if any(not row.blank(index) for index in range(3, len(row))):
+            raise row.error("a shift point and sizes of blocks are not supported")
+    if number < 0 or not (number or math.isfinite(highest)):
+        raise block.error("needs a number of eigenvalues, or a highest frequency")
+    if lowest >= highest:
+        raise block.error(f"the lowest frequency {lowest:g} is not below the highest, {highest:g}")
+    no_time = PERTURBATION_TIME, PERTURBATION_TIME, PERTURBATION_TIME, PERTURBATION_TIME, True
+    by_mass = block.options.text("NORMALIZATION") == "MASS"
+    return Frequency(*no_time, number=number, lowest=lowest, highest=highest, by_mass=by_mass)
+
+
 _READERS: dict[str, Callable[[Block, Prescription], Procedure]] = {
     "STATIC": _read_static,
     "VISCO": _read_visco,
     "DYNAMIC": _read_dynamic,
+    "FREQUENCY": _read_frequency,
     "HEAT TRANSFER": _read_heat_transfer,
     "COUPLED TEMPERATURE-DISPLACEMENT": _read_heat_transfer,
 }

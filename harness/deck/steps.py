@@ -5,6 +5,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
+from dataclasses import replace
 from functools import partial
 from typing import TypeVar
 
@@ -16,7 +17,8 @@ from harness.deck.problems import Problems
 from harness.deck.procedures import read_procedure
 from harness.deck.requests import RequestReader
 from harness.deck.structure import Scope
-from harness.model.procedures import Dynamic, Procedure
+from harness.model.procedures import Dynamic, Frequency, Procedure
+from harness.model.records import MODAL
 from harness.model.steps import DistributedLoad, ElementLoad, Step
 
 MOST_INCREMENTS = 100
@@ -57,6 +59,10 @@ def read_steps(
         )
         with problems.gather():
             procedure = read_procedure(scope, prescription)
+            if isinstance(procedure, Frequency):
+                output = replace(output, history_energies=MODAL)
+            elif options.flag("PERTURBATION"):
+                raise scope.head.error("PERTURBATION is supported with *FREQUENCY only")
             increments = options.integer("INC", MOST_INCREMENTS)
             if increments < 1:
                 raise scope.head.error(f"INC={increments} must be positive")

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""Procedures of a step: *STATIC, *VISCO, *DYNAMIC, *HEAT TRANSFER and *COUPLED TEMPERATURE-DISPLACEMENT."""
+"""Procedures of a step: *STATIC, *VISCO, *DYNAMIC, *FREQUENCY, *HEAT TRANSFER and *COUPLED TEMPERATURE-DISPLACEMENT."""
 
 from __future__ import annotations
 
@@ -133,6 +133,30 @@ class Dynamic(Procedure):
     def default_amplitude(self) -> str:
         """Loads are there at once, but ramp where the step looks for a static state."""
         return "RAMP" if self.integrator is Integrator.BACKWARD_EULER else "STEP"
+
+
+PERTURBATION_TIME = 1e-36
+"""Period of a perturbation step, in which no time passes."""
+
+
+@dataclass(frozen=True, slots=True)
+class Frequency(Procedure):
+    """*FREQUENCY.
+
+    number           of eigenvalues; 0: all up to `highest`
+    lowest, highest  frequencies of interest, cycles per time
+    by_mass          shapes have unit generalized mass; the largest displacement is one otherwise
+    """
+
+    number: int = 0
+    lowest: float = -math.inf
+    highest: float = math.inf
+    by_mass: bool = False
+
+    @property
+    def lflag(self) -> int:
+        """41."""
+        return 41
 
 
 @dataclass(frozen=True, slots=True)

@@ -6,6 +6,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field
 from enum import StrEnum
+from typing import Final
 
 import numpy as np
 
@@ -108,6 +109,26 @@ class IncrementDone:
 
 
 @dataclass(frozen=True, slots=True)
+class ModesFound:
+    """Eigenvalues (k,) of a step, their frequencies in cycles per time, and generalized masses."""
+
+    step: int
+    total_time: float
+    eigenvalues: FloatArray
+    frequencies: FloatArray
+    masses: FloatArray
+
+
+@dataclass(frozen=True, slots=True)
+class ModeShape(IncrementDone):
+    """One mode: `increment` is its number, its frequency stands for the times, the displacement is its shape."""
+
+
+MODAL: Final = ("EIGVAL", "EIGFREQ", "GM")
+"""Whole-model variables of a mode: eigenvalue, frequency in cycles per time, generalized mass."""
+
+
+@dataclass(frozen=True, slots=True)
 class StepStarted:
     """A step begins."""
 
@@ -160,6 +181,7 @@ Record = (
     | AttemptAbandoned
     | SearchHelped
     | IncrementDone
+    | ModesFound
     | StepDone
     | Warned
     | Noted

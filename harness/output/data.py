@@ -4,13 +4,14 @@
 
 from __future__ import annotations
 
+import math
 from datetime import datetime
 from pathlib import Path
 
 from harness.model.model import Model
 from harness.model.nodal import NodalIndex
 from harness.model.properties import UserElement
-from harness.model.records import IncrementDone, StepStarted
+from harness.model.records import IncrementDone, ModesFound, StepStarted
 from harness.model.steps import ElementRequest, NodeRequest
 from harness.output.formats import TextFile, program
 from harness.output.schedule import Schedule
@@ -73,6 +74,19 @@ class DataFile:
             text += f"\n\n                             E L E M E N T   O U T P U T\n{elements}"
         if nodes:
             text += f"\n\n                                N O D E   O U T P U T\n{nodes}"
+        self._file.write(text)
+
+    def modes(self, record: ModesFound) -> None:
+        """Table of eigenvalues."""
+        text = (
+            "\n\n                              E I G E N V A L U E    O U T P U T\n\n"
+            " MODE NO      EIGENVALUE              FREQUENCY               GENERALIZED MASS\n"
+            "                             (RAD/TIME)   (CYCLES/TIME)\n\n"
+        )
+        for number, values in enumerate(zip(record.eigenvalues, record.frequencies, record.masses, strict=True), 1):
+            value, frequency, mass = (float(value) for value in values)
+            rate = 2 * math.pi * frequency
+            text += f"{number:8d}   {value:13.5g}   {rate:13.5g}   {frequency:13.5g}   {mass:13.5g}\n"
         self._file.write(text)
 
     def _missing(self, record: IncrementDone, index: NodalIndex) -> None:

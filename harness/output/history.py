@@ -4,7 +4,8 @@
 
 Columns are step, increment, time (total time), `LPF` where the load factor is part of the solution, then what *NODE
 OUTPUT and *ENERGY OUTPUT of the steps ask for, in order: `U2[LOAD]` for a set of one node, `RF2[LOAD:17]` for each node
-of a larger set, `ALLSE` for an energy of the whole model. A column that a step does not ask for is empty there.
+of a larger set, `ALLSE` for an energy of the whole model. A mode of *FREQUENCY has a row, with its frequency for time.
+A column that a step does not ask for is empty there.
 """
 
 from __future__ import annotations
@@ -18,7 +19,7 @@ import numpy as np
 from harness.model.arrays import FloatArray, IntArray
 from harness.model.model import Model
 from harness.model.nodal import NodalIndex
-from harness.model.records import IncrementDone, Solution
+from harness.model.records import MODAL, IncrementDone, Solution
 from harness.model.steps import NodeRequest
 from harness.output.formats import TextFile
 from harness.output.schedule import Schedule
@@ -67,7 +68,7 @@ class HistoryFile:
             for request in step.output.history_nodes:
                 columns += self._nodal(request, index)
             for name in step.output.history_energies:
-                if name in solution.energies:
+                if name in solution.energies or name in MODAL:
                     columns.append(_Column(name, None, 0))
                 else:
                     self.unavailable.append(f"{name} of step {step.number}")

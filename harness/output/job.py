@@ -19,6 +19,8 @@ from harness.model.records import (
     AttemptStarted,
     IncrementDone,
     IterationDone,
+    ModesFound,
+    ModeShape,
     Noted,
     Record,
     SearchHelped,
@@ -78,6 +80,10 @@ class JobOutput:
                 self._abandoned(record)
             case SearchHelped():
                 self._message.helped(record)
+            case ModesFound():
+                self._modes(record)
+            case ModeShape():
+                self._requested(record, last=True)
             case IncrementDone():
                 self._increment(record)
             case StepDone():
@@ -123,6 +129,11 @@ class JobOutput:
                 riks=self._model.steps[record.step - 1].procedure.riks is not None,
             )
         )
+
+    def _modes(self, record: ModesFound) -> None:
+        self._data.modes(record)
+        size = self._model.steps[record.step - 1].procedure.period
+        self._status.write(StatusRow(record.step, 1, 1, False, 1, record.total_time, size, size))
 
     def _increment(self, record: IncrementDone) -> None:
         procedure = self._model.steps[record.step - 1].procedure

@@ -7,8 +7,8 @@ from __future__ import annotations
 import math
 from collections.abc import Iterable
 
-from harness.model.procedures import Dynamic, HeatTransfer, Integrator, Procedure, Visco
-from harness.model.records import IncrementDone
+from harness.model.procedures import Dynamic, Frequency, HeatTransfer, Integrator, Procedure, Visco
+from harness.model.records import IncrementDone, ModeShape
 from harness.model.steps import Controls, FieldControls, Step, TimeControls
 from harness.output.formats import general
 from harness.output.wording import FIELDS, FieldWords
@@ -39,7 +39,9 @@ def procedure(step: Step) -> str:
         f"          {step.title}".rstrip(),
         "",
     ]
-    if static.riks is not None:
+    if isinstance(static, Frequency):
+        lines += _frequency(static)
+    elif static.riks is not None:
         lines += _riks(static)
     elif static.direct:
         lines += [
@@ -61,6 +63,8 @@ def procedure(step: Step) -> str:
 def _title(given: Procedure) -> str:
     if isinstance(given, Dynamic):
         return "DYNAMIC ANALYSIS"
+    if isinstance(given, Frequency):
+        return "CALCULATION OF EIGENVALUES FOR NATURAL FREQUENCIES"
     if isinstance(given, HeatTransfer):
         kind = "STEADY STATE" if given.steady else "TRANSIENT"
         return f"{kind} COUPLED TEMPERATURE-DISPLACEMENT" if given.coupled else f"{kind} HEAT TRANSFER"
@@ -82,6 +86,16 @@ def _accuracy(given: Procedure) -> list[str]:
     return [f"          {words:<51}{general(value)}" for words, value in rows]
 
 
+def _frequency(given: Frequency) -> list[str]:
+    lines = [f"          NUMBER OF EIGENVALUES                              {given.number or 'ALL':>10}"]
+    if math.isfinite(given.highest):
+        lines.append(f"          HIGHEST FREQUENCY OF INTEREST (CYCLES/TIME)        {general(given.highest)}")
+    if math.isfinite(given.lowest):
+        lines.append(f"          LOWEST FREQUENCY OF INTEREST (CYCLES/TIME)         {general(given.lowest)}")
+    normalized = "UNIT GENERALIZED MASS" if given.by_mass else "UNIT MAXIMUM DISPLACEMENT"
+    return [*lines, f"          EIGENVECTORS ARE NORMALIZED TO {normalized}"]
+
+
 def _riks(static: Procedure) -> list[str]:
     lines = [
         f"     {'FIXED' if static.direct else 'AUTOMATIC'} ARC LENGTH CONTROL (RIKS METHOD) WITH -",
@@ -100,6 +114,8 @@ def _riks(static: Procedure) -> list[str]:
 
 def completed(record: IncrementDone, period: float) -> str:
     """How far an increment has come, in time or along a path."""
+    if isinstance(record, ModeShape):
+        return f" MODE{record.increment:6d},  FREQUENCY (CYCLES/TIME){general(record.step_time)}\n"
     if record.load_factor is None:
         fraction = record.step_time / period
         return (
@@ -116,6 +132,8 @@ def completed(record: IncrementDone, period: float) -> str:
 
 def tolerances(step: Step, fields: Iterable[str]) -> str:
     """Everything that the convergence checks and the time incrementation of the step depend on."""
+    if isinstance(step.procedure, Frequency):
+        return ""
     blocks = [_field(FIELDS[name], controls_of(name, step.controls)) for name in fields]
     blocks.append(_time(step.controls.time, step.procedure))
     search = step.controls.line_search

@@ -61,6 +61,13 @@ class Conditions:
             self._initial[: self._nodes.nodes],
         )
 
+    def initial(self) -> Predefined | None:
+        """Fields before the first step; None where the model has none."""
+        if not len(self._nodes):
+            return None
+        values = self._initial.reshape(self._nodes.fields, self._nodes.nodes)
+        return Predefined(values, np.zeros_like(values), self._initial[: self._nodes.nodes])
+
     def conclude(self, step_time: float) -> None:
         """The step ends before its period."""
         self._loads.conclude(step_time)

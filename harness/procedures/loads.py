@@ -184,6 +184,13 @@ class Boundaries:
         self._period = step.procedure.period
         return Variation(base, slope, self._period, self._curves, self._courses)
 
+    def in_perturbation(self, step: Step) -> IntArray:
+        """Prescribed unknowns of a perturbation step, ascending; nothing of it goes on into the next step."""
+        active = np.zeros_like(self._active) if step.new_boundary else self._active.copy()
+        for entry in step.boundaries:
+            active[find_unknowns(self._dofs, entry)[0]] = True
+        return np.flatnonzero(active)
+
     def conclude(self, step_time: float) -> None:
         """The step ends before its period."""
         self._period = step_time

@@ -12,10 +12,11 @@ from harness.assembly import DofMap, System
 from harness.elements import Call
 from harness.errors import ConvergenceError, SingularMatrixError
 from harness.model.model import Model
-from harness.model.procedures import Dynamic, HeatTransfer
+from harness.model.procedures import Dynamic, Frequency, HeatTransfer
 from harness.model.records import Noted, Record, StepStarted, Warned
 from harness.model.steps import Boundary, Load, Step
 from harness.procedures.dynamic import DynamicStep
+from harness.procedures.frequency import FrequencyStep
 from harness.procedures.heat_transfer import HeatTransferStep, StabilizedHeatTransferStep
 from harness.procedures.initial_states import set_initial_states
 from harness.procedures.loads import find_unknowns
@@ -74,26 +75,12 @@ def run_steps(
             yield from _unused(system.dofs, "*BOUNDARY", step.boundaries)
             yield from _unused(system.dofs, "*CLOAD", step.loads)
             user.external_database(5, 0, (0.0, state.total_time), 0.0, step.number, 0)
-            running: StaticStep
             if step is model.steps[0]:
                 _mass_pass(system, step)
             yield from map(Noted, step.notes)
-            procedure = step.procedure
-            if not isinstance(procedure, Dynamic):
+            if not isinstance(step.procedure, Dynamic | Frequency):
                 state.come_to_rest()
-            if isinstance(procedure, Dynamic):
-                running = DynamicStep(system, model, step, procedure, state, solver, user)
-            elif isinstance(procedure, HeatTransfer):
-                kind = StabilizedHeatTransferStep if procedure.stabilize else HeatTransferStep
-                running = kind(system, model, step, state, solver, user, fallback=fallback)
-            elif procedure.riks:
-                running = RiksStep(system, model, step, state, solver, user)
-            elif energy_control:
-                running = EnergyStep(system, model, step, state, solver, user)
-            elif procedure.stabilize is not None:
-                running = StabilizedStep(system, model, step, state, solver, user, fallback=fallback)
-            else:
-                running = StaticStep(system, model, step, state, solver, user, fallback=fallback)
+            running = _start(system, model, step, state, solver, user, fallback=fallback, energy_control=energy_control)
             yield from running.run()
             user.external_database(6, 0, *running.reached)
     except ConvergenceError:
@@ -103,6 +90,34 @@ def run_steps(
         raise error.in_step(step.source) from None
     if model.steps:
         user.external_database(3, 0, *running.reached)
+
+
+def _start(
+    system: System,
+    model: Model,
+    step: Step,
+    state: State,
+    solver: str,
+    user: UserRoutines,
+    *,
+    fallback: bool,
+    energy_control: bool,
+) -> StaticStep | FrequencyStep:
+    """What runs a step. Raises DeckError."""
+    procedure = step.procedure
+    if isinstance(procedure, Dynamic):
+        return DynamicStep(system, model, step, procedure, state, solver, user)
+    if isinstance(procedure, Frequency):
+        return FrequencyStep(system, model, step, procedure, state, solver, user)
+    if procedure.riks:
+        return RiksStep(system, model, step, state, solver, user)
+    if energy_control and not isinstance(procedure, HeatTransfer):
+        return EnergyStep(system, model, step, state, solver, user)
+    plain, stabilized = StaticStep, StabilizedStep
+    if isinstance(procedure, HeatTransfer):
+        plain, stabilized = HeatTransferStep, StabilizedHeatTransferStep
+    kind = plain if procedure.stabilize is None else stabilized
+    return kind(system, model, step, state, solver, user, fallback=fallback)
 
 
 def _mass_pass(system: System, step: Step) -> None:

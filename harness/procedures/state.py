@@ -10,7 +10,7 @@ from typing import Self
 import numpy as np
 
 from harness.assembly import Constraints, System
-from harness.elements import FIELD_NAMES
+from harness.elements import FIELD_NAMES, Predefined
 from harness.model.arrays import FloatArray
 from harness.model.model import Model
 from harness.model.records import Solution
@@ -35,6 +35,7 @@ class State:
     damage     dissipated by the damage of built-in elements
     stabilization  energy that *STATIC, STABILIZE has dissipated
     flux       flux history by field
+    predefined predefined fields, which do not change
     majoriser  matrix of the start of the analysis, for the fall-back
     """
 
@@ -55,6 +56,7 @@ class State:
     work: float = 0.0
     energy: FloatArray = field(default_factory=lambda: np.zeros(8))
     damage: float = 0.0
+    predefined: Predefined | None = None
     stabilization: float = 0.0
     flux: list[FluxHistory] = field(default_factory=lambda: [FluxHistory() for _ in FIELD_NAMES])
 
@@ -66,8 +68,9 @@ class State:
         velocity = initial_values(system.dofs, model.initial_velocities)
         temperature = initial_values(system.dofs, model.initial_temperatures)
         loads = AllLoads(system, model)
-        given = boundaries, loads, Conditions(model), UserAmplitudes(model)
-        return cls(temperature, zero, zero, zero, *given, velocity, zero)
+        conditions = Conditions(model)
+        given = boundaries, loads, conditions, UserAmplitudes(model)
+        return cls(temperature, zero, zero, zero, *given, velocity, zero, predefined=conditions.initial())
 
     def come_to_rest(self) -> None:
         """No velocities and accelerations: a step begins that has none."""

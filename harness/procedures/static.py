@@ -108,11 +108,11 @@ class StaticStep:
         self._choice = ""
         if constraints is None or state.solver is None or not constraints.matches(unknowns, model.equations):
             constraints = Constraints(system, unknowns, model.equations, state.boundaries.sources)
-            chosen = _solver(solver, constraints)
+            chosen = choose_solver(solver, constraints)
             # the search has an answer of its own to a singular matrix
             state.solver = chosen if fallback else UnheldSolver(chosen)
             self._choice = f"LINEAR SOLVER {chosen.name.upper()}: {chosen.reason}"
-            state.majoriser.use(system, constraints, partial(_solver, solver, constraints))
+            state.majoriser.use(system, constraints, partial(choose_solver, solver, constraints))
         state.constraints = constraints
         line_search = step.controls.line_search
         self._descent: Descent | None = None
@@ -316,6 +316,7 @@ class StaticStep:
         self._amplitudes.converged()
         self._control.converged(last.iteration, last.evaluation.pnewdt, searched=self._helped, accuracy=accuracy)
         self._state.total_time = reached.total_time
+        self._state.predefined = self._conditions.at(self._times, self._times)[1]
         times = reached.step_time, reached.total_time
         self._user.external_database(2, 0, times, size, number, increment)
         return IncrementDone(
@@ -340,7 +341,8 @@ class StaticStep:
             raise ConvergenceError(f"{error} (step {number}, increment {increment}, attempt {attempt})")
 
 
-def _solver(name: str, constraints: Constraints) -> LinearSolver:
+def choose_solver(name: str, constraints: Constraints) -> LinearSolver:
+    """Linear solver for the matrices of free unknowns; name as `harness.solver.linear.choose` takes it."""
     return choose(
         name,
         constraints.reduced_indptr,

@@ -1,0 +1,186 @@
+# SPDX-FileCopyrightText: The uel-harness authors
+# SPDX-License-Identifier: BSD-3-Clause
+"""*FREQUENCY: a pair of masses and springs, bars, a beam that is pulled; frequencies from vibration theory."""
+
+import numpy as np
+import pytest
+
+import harness
+from harness.errors import DeckError
+
+PAIR = """*NODE, NSET=ALL
+1, 0.
+2, 1.
+3, 2.
+*ELEMENT, TYPE=SPRINGA, ELSET=S
+1, 1, 2
+2, 2, 3
+*SPRING, ELSET=S
+
+8.
+*ELEMENT, TYPE=MASS, ELSET=M
+3, 2
+4, 3
+*MASS, ELSET=M
+2.
+*BOUNDARY
+ALL, 2, 3
+1, 1
+"""
+STEP = """*STEP{options}
+*FREQUENCY{how}
+{number}
+{more}
+*OUTPUT, FIELD
+*OUTPUT, HISTORY, OP=ADD
+*NODE OUTPUT, NSET=ALL
+U1
+*END STEP
+"""
+CYCLES = 2 * np.pi
+# of k/m (2, -1; -1, 1): S. Timoshenko, Vibration Problems in Engineering, two masses in a row
+SQUARES = 4.0 * (3 + np.array([-1, 1]) * np.sqrt(5)) / 2
+
+
+def bar(elements, *, more=""):
+    """A bar of length 1, E = 4, density 1, held at both ends or as `more` says: wave speed 2."""
+    nodes = "".join(f"{k + 1}, {k / elements}, 0.\n" for k in range(elements + 1))
+    trusses = "".join(f"{k}, {k}, {k + 1}\n" for k in range(1, elements + 1))
+    return (
+        f"*NODE, NSET=ALL\n{nodes}*ELEMENT, TYPE=T2D2, ELSET=BAR\n{trusses}*SOLID SECTION, ELSET=BAR, MATERIAL=M\n1.\n"
+        f"*MATERIAL, NAME=M\n*ELASTIC\n4.\n*DENSITY\n1.\n*BOUNDARY\nALL, 2\n{more}"
+    )
+
+
+@pytest.fixture
+def run(tmp_path):
+    def run(model, number, *, how="", options="", more="", before="", after="", user=None):
+        step = STEP.format(number=number, how=how, options=options, more=more)
+        (tmp_path / "modes.inp").write_text(model + before + step + after)
+        routines = None
+        if user:
+            routines = tmp_path / "uel.f"
+            routines.write_text(user)
+        return harness.run(tmp_path / "modes.inp", routines, output_dir=tmp_path)
+
+    return run
+
+
+@pytest.mark.parametrize("options", ["", ", PERTURBATION"])
+def test_two_masses(run, options):
+    history = run(PAIR, "2", options=options).history
+    np.testing.assert_allclose(history["EIGVAL"], SQUARES)
+    np.testing.assert_allclose(history["EIGFREQ"], np.sqrt(SQUARES) / CYCLES)
+    # shapes with a largest displacement of one
+    shapes = np.array([history["U1[ALL:2]"], history["U1[ALL:3]"]]).T
+    golden = (np.sqrt(5) - 1) / 2
+    np.testing.assert_allclose(shapes, [[golden, 1], [1, -golden]])
+    np.testing.assert_allclose(history["GM"], 2 * (1 + golden**2))
+
+
+def test_normalized_by_mass(run):
+    history = run(PAIR, "2", how=", NORMALIZATION=MASS").history
+    np.testing.assert_allclose(history["GM"], 1)
+    masses = 2 * (history["U1[ALL:2]"] ** 2 + history["U1[ALL:3]"] ** 2)
+    np.testing.assert_allclose(masses, 1)
+
+
+@pytest.mark.parametrize(("number", "found"), [(", , 0.3", [0]), ("5, 0.3", [1]), ("1", [0]), ("7", [0, 1])])
+def test_number_and_range(run, number, found):
+    np.testing.assert_allclose(run(PAIR, number).history["EIGVAL"], SQUARES[found])
+
+
+@pytest.mark.parametrize("elements", [20, 400])
+def test_a_bar_between_walls(run, elements):
+    """Lumped masses: omega = 2 n c sin(k pi / 2 n), the discrete chain; by all eigenvalues and by the nearest ones."""
+    model = bar(elements, more=f"1, 1\n{elements + 1}, 1\n")
+    k = np.arange(1, 6)
+    expected = 2 * elements * 2.0 * np.sin(k * np.pi / (2 * elements)) / CYCLES
+    np.testing.assert_allclose(run(model, "5").history["EIGFREQ"], expected, rtol=1e-9)
+
+
+@pytest.mark.parametrize("elements", [20, 400])
+def test_a_free_bar_moves_as_a_whole(run, elements):
+    history = run(bar(elements), "3").history
+    k = np.arange(3)
+    expected = 2 * elements * 2.0 * np.sin(k * np.pi / (2 * elements)) / CYCLES
+    np.testing.assert_allclose(history["EIGFREQ"], expected, rtol=1e-7, atol=1e-4)
+
+
+def test_equations_tie_modes(run):
+    """Both masses move together: 4 masses units on one spring."""
+    model = PAIR.replace("*BOUNDARY", "*EQUATION\n2\n3, 1, 1., 2, 1, -1.\n*BOUNDARY")
+    np.testing.assert_allclose(run(model, "1").history["EIGVAL"], 8 / 4)
+
+
+def test_about_the_base_state(run):
+    """A string under the tension T: omega^2 = 2 T / (L m) for one mass between two lengths L; nothing of it goes on."""
+    string = PAIR.replace("4, 3\n", "")
+    pull = "*STEP, NLGEOM\n*STATIC\n*BOUNDARY\n2, 1, 1, 0.25\n3, 1, 1, 0.5\n*END STEP\n"
+    free = "*BOUNDARY, OP=NEW\nALL, 3\nALL, 1\n1, 2\n3, 2"
+    stay = "*STEP\n*STATIC\n*OUTPUT, HISTORY\n*NODE OUTPUT, NSET=ALL\nU1, U2\n*END STEP\n"
+    history = run(string, "1", before=pull, more=free, after=stay).history
+    tension, length = 8 * 0.25, 1.25
+    assert history["EIGVAL"][-2] == pytest.approx(2 * tension / (length * 2))
+    assert history["time"][-1] == pytest.approx(2)
+    assert history["U1[ALL:3]"][-1] == pytest.approx(0.5)
+    assert history["U2[ALL:2]"][-1] == 0
+
+
+USER_ELEMENT = """*NODE, NSET=ALL
+1, 0.
+*USER ELEMENT, TYPE=U1, NODES=1, COORDINATES=1, VARIABLES=1
+1
+*ELEMENT, TYPE=U1, ELSET=E
+1, 1
+*UEL PROPERTY, ELSET=E
+"""
+UEL = """      SUBROUTINE UEL(RHS,AMATRX,SVARS,ENERGY,NDOFEL,NRHS,NSVARS,
+     1 PROPS,NPROPS,COORDS,MCRD,NNODE,U,DU,V,A,JTYPE,TIME,DTIME,KSTEP,
+     2 KINC,JELEM,PARAMS,NDLOAD,JDLTYP,ADLMAG,PREDEF,NPREDF,LFLAGS,
+     3 MLVARX,DDLMAG,MDLOAD,PNEWDT,JPROPS,NJPROP,PERIOD)
+      INCLUDE 'ABA_PARAM.INC'
+      DIMENSION RHS(MLVARX,*),AMATRX(NDOFEL,NDOFEL),LFLAGS(*),U(*)
+      WRITE(7,'(A,5I4)') 'FLAGS', LFLAGS(1:5)
+      AMATRX = 0
+      RHS(1,1) = -9*U(1)
+      IF (LFLAGS(3) .EQ. 2 .AND. LFLAGS(4) .EQ. 1) AMATRX = 9
+      IF (LFLAGS(3) .EQ. 4) AMATRX = 4
+      END
+"""
+
+
+def test_user_elements_are_asked_for_stiffness_and_mass(run):
+    result = run(USER_ELEMENT, "1", user=UEL)
+    np.testing.assert_allclose(result.history["EIGVAL"], 9 / 4)
+    lines = result.file(".msg").read_text().splitlines()
+    flags = [line.split()[1:] for line in lines if line.startswith("FLAGS")]
+    assert flags[-2:] == [["41", "0", "2", "1", "0"], ["41", "0", "4", "1", "0"]]
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "message"),
+    [
+        ("*MASS, ELSET=M\n2.", "*MASS, ELSET=M\n0.", r"modes.inp:\d+: \*MASS|no element has mass"),
+        ("*FREQUENCY\n2", "*FREQUENCY\n2, , , 4.", "a shift point and sizes of blocks are not supported"),
+        ("*FREQUENCY\n2", "*FREQUENCY\n", r"\*FREQUENCY: needs a number of eigenvalues, or a highest frequency"),
+        ("*FREQUENCY\n2", "*FREQUENCY\n2, 5., 4.", "the lowest frequency 5 is not below the highest, 4"),
+        ("*FREQUENCY\n2", "*FREQUENCY, EIGENSOLVER=AMS\n2", "EIGENSOLVER=AMS is not supported"),
+        ("*STEP\n*FREQUENCY\n2", "*STEP, PERTURBATION\n*STATIC", "PERTURBATION is supported with .FREQUENCY only"),
+        ("8.", "-8.", "finds no eigenvalues: the base state is far from stable"),
+    ],
+)
+def test_what_is_wrong_is_named(run, monkeypatch, old, new, message):
+    monkeypatch.setattr(f"{__name__}.STEP", STEP.format(options="", how="", number=2, more="").replace(old, new))
+    with pytest.raises(DeckError, match=message):
+        run(PAIR.replace(old, new), "2")
+
+
+def test_what_is_written(run):
+    result = run(PAIR, "2", more="*NODE PRINT\nU1")
+    assert [(row.step, row.increment, row.iterations) for row in result.status] == [(1, 1, 1)]
+    np.testing.assert_allclose(result.field("U", increment=2)[:, 0], [0, 1, -(np.sqrt(5) - 1) / 2], rtol=1e-6)
+    data = result.file(".dat").read_text()
+    assert "       1          1.5279          1.2361         0.19673          2.7639\n" in data
+    assert " MODE     2,  FREQUENCY (CYCLES/TIME)  0.515" in data
+    assert "NATURAL   F R E Q U E N C I E S" in data.replace("N A T U R A L", "NATURAL")
