@@ -28,7 +28,7 @@ def check(subject: Subject) -> Finding:
     if not changes:
         return passed(f"no argument that is passed in is changed at {len(subject.states)} states")
     first, *others = changes
-    more = f"; so are {', '.join(others)}" if others else ""
+    more = f"; changed are also {', '.join(others)}" if others else ""
     advice = (
         f"Abaqus passes {', '.join(changes)} in for information, and others use the same memory. Copy it into a local "
         "variable and change the copy. Where UEL assigns nothing to it, look at the routines that it is handed on to, "

@@ -11,6 +11,7 @@ import numpy as np
 
 from harness.check.differences import Differences
 from harness.check.finding import Finding, failed, not_applicable, passed
+from harness.check.state import State
 from harness.check.subject import Subject
 from harness.model.arrays import FloatArray
 
@@ -28,7 +29,7 @@ SHOWN: Final = 6
 class _Worst:
     """The state with the largest deviation: AMATRX, differences and (n, n) deviations over the scale of each entry."""
 
-    where: str
+    state: State
     amatrx: FloatArray
     found: Differences
     deviation: FloatArray
@@ -46,7 +47,7 @@ def check(subject: Subject) -> Finding:
         surplus = np.where(found.smooth, np.abs(amatrx - found.matrix) - 10.0 * found.error, 0.0)
         deviation = np.maximum(surplus, 0.0) / scale
         if worst is None or deviation.max() > worst.deviation.max():
-            worst = _Worst(str(state), amatrx, found, deviation)
+            worst = _Worst(state, amatrx, found, deviation)
     if worst is None or not columns:
         return not_applicable("RHS has a kink, or no value beside the run's, at every state that was tried")
     figure = float(worst.deviation.max())
@@ -59,11 +60,11 @@ def check(subject: Subject) -> Finding:
     row, column = wrong[order[0]].tolist()
     more = f" and {len(entries) - SHOWN} more" if len(entries) > SHOWN else ""
     message = (
-        f"{worst.where}: {entries[0]} is {worst.amatrx[row, column]:.6g}, differences of RHS give "
+        f"{worst.state}: {entries[0]} is {worst.amatrx[row, column]:.6g}, differences of RHS give "
         f"{worst.found.matrix[row, column]:.6g}; {len(entries)} of {worst.amatrx.size} entries are wrong by up to "
         f"{100 * figure:.3g} % of the largest: {', '.join(entries[:SHOWN])}{more}"
     )
-    return failed(message, _advice(worst, subject.dofs), figure=figure, limit=TOLERANCE, entries=entries)
+    return failed(message, _advice(worst, subject), figure=figure, limit=TOLERANCE, entries=entries)
 
 
 def kinds(dofs: np.ndarray) -> np.ndarray:
@@ -82,7 +83,7 @@ def block_scales(magnitude: FloatArray, dofs: np.ndarray) -> FloatArray:
     return scale
 
 
-def _advice(worst: _Worst, dofs: np.ndarray) -> str:
+def _advice(worst: _Worst, subject: Subject) -> str:
     smooth = worst.found.smooth
     given, found = worst.amatrx[:, smooth], worst.found.matrix[:, smooth]
     size = float(np.abs(found).max())
@@ -91,7 +92,7 @@ def _advice(worst: _Worst, dofs: np.ndarray) -> str:
     if np.abs(given + found).max() < limit:
         return "The sign is wrong: AMATRX is -dRHS/dU, and RHS is external minus internal force."
     if not given.any():
-        return "AMATRX is zero: fill it with -dRHS/dU where LFLAGS(3) is 1."
+        return _advice_on_zero(worst.state, subject)
     if smooth.all() and np.abs(given.T - found).max() < limit:
         return "AMATRX is transposed: AMATRX(i,j) is -dRHS(i)/dU(j), row i belongs to the force."
     factor = float((given * found).sum() / max(float((found**2).sum()), 1e-300))
@@ -100,13 +101,22 @@ def _advice(worst: _Worst, dofs: np.ndarray) -> str:
             f"AMATRX is {factor:.6g} times what it has to be: look for a weight, thickness or Jacobian that only one "
             "of RHS and AMATRX has."
         )
-    missing = _missing_coupling(given, found, dofs, dofs[smooth])
+    missing = _missing_coupling(given, found, subject.dofs, subject.dofs[smooth])
     if missing:
         return f"AMATRX holds nothing for {missing}: add the derivative of these forces by these unknowns."
     return (
         "Differentiate RHS again for these entries: terms from SVARS that change within the increment, from DU and "
         "from the derivative of the state are the usual ones to be missing. Newton's method needs the derivative of "
         "the RHS that this call returns; an approximate AMATRX costs iterations and cutbacks, not accuracy."
+    )
+
+
+def _advice_on_zero(state: State, subject: Subject) -> str:
+    if state.u.any() or not any(other.evaluate().amatrx.any() for other in subject.all_states):
+        return "AMATRX is zero: fill it with -dRHS/dU where LFLAGS(3) is 1."
+    return (
+        "AMATRX is zero where U is, and not elsewhere: look for a test for U = 0 by which UEL returns. The first calls "
+        "of an analysis are made with U = 0, and their AMATRX is used."
     )
 
 

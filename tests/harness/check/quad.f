@@ -5,6 +5,7 @@
 ! points. It is right with JPROPS(1) = 0, and has one of the usual mistakes with any other number.
       module calls_so_far
       integer :: calls = 0
+      double precision :: largest(4) = 0
       end module
 
       include '../uel.inc'
@@ -118,6 +119,14 @@
       case (34)  ! positions that are added up in place
         coords(1,2) = coords(1,2) + u(3)
         props(2) = 0
+      case (38)  ! the largest stress of all iterations, by element
+        call keep_largest(svars(1), jelem, damage)
+        rhs(1:8,1) = (1 - damage)*rhs(1:8,1)
+        amatrx = (1 - damage)*amatrx
+      case (39)  ! a state variable that is not declared
+        rhs(1:8,1) = (1 + 0*svars(nsvars+1))*rhs(1:8,1)
+      case (40)  ! nothing is to be done where U is zero
+        if (all(u == 0)) amatrx = 0
       case (29)  ! a file that is not there, at U that are not those of the run
         if (abs(u(2) - u(4)) > 0.4d0) open (unit=99,
      &    file='no-such-folder/no-such-file', status='old')
@@ -140,6 +149,13 @@
       double precision svars(*)
       calls = calls + 1
       svars(1) = calls
+      end
+
+      subroutine keep_largest(stress, number, damage)
+      use calls_so_far, only: largest
+      double precision stress,damage
+      largest(number) = max(largest(number), abs(stress))
+      damage = largest(number)/(largest(number) + 1000)
       end
 
       subroutine keep_number(number)

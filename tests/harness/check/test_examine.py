@@ -53,16 +53,24 @@ MISTAKES = [
     (22, "increments", "made in two, and by 6.9 % when it is made in 16 and not in 8", "a rate without DTIME"),
     (23, "pnewdt", "PNEWDT is 0.5 with DU = 0", "Set PNEWDT < 1 only for what this increment has done"),
     (24, "pnewdt", "PNEWDT is -1", "PNEWDT multiplies DTIME"),
+    (38, "repeat", r"the same call returns other .*: AMATRX\(1,1\) is", "for sums over iterations"),
+    (39, "undeclared", r"outside SVARS changes the result: .* is NaN", r"has VARIABLES=12 \(.*patch.inp:11\)"),
+    (40, "tangent", r"iteration 0: AMATRX\(\d,\d\) is 0, differences", r"zero where U is, .* a test for U = 0"),
     (33, "inputs", "element 1, .*: DTIME is 0.5 before the call and 0.25 after it$", "passes DTIME in for information"),
-    (34, "inputs", "entry 2 of PROPS is 0.3 before the call and 0 after it; so are COORDS", "change the copy"),
+    (
+        34,
+        "inputs",
+        "entry 2 of PROPS is 0.3 before the call and 0 after it; changed are also COORDS",
+        "change the copy",
+    ),
 ]
 
-NAN = {1, 10, 12, 17, 18}
+NAN = {1, 10, 12, 17, 18, 39}
 """Mistakes that make NaN, or calculate with it."""
 
 ALONE = [
     *((1, "filled"), (5, "tangent"), (9, "outside"), (10, "undeclared"), (16, "threads"), (17, "no-time")),
-    *((18, "no-time"), (20, "patch"), (21, "energy"), (24, "pnewdt"), (33, "inputs")),
+    *((18, "no-time"), (20, "patch"), (21, "energy"), (24, "pnewdt"), (33, "inputs"), (39, "undeclared")),
 ]
 """Mistakes that only one check is for."""
 
@@ -262,6 +270,38 @@ BEAM = """\
 2, 1, 3, 0.01
 *END STEP
 """
+
+
+BAR = """\
+*NODE
+1, 0., 0., 0.
+2, 1., 2., 2.
+*USER ELEMENT, TYPE=U1, NODES=2, COORDINATES=3, I PROPERTIES=1
+1, 2, 3
+*ELEMENT, TYPE=U1, ELSET=ALL
+1, 1, 2
+*UEL PROPERTY, ELSET=ALL
+{mistake}
+*STEP, NLGEOM
+*STATIC, DIRECT
+1., 1.
+*BOUNDARY
+1, 1, 3
+2, 1, 3, 0.3
+*END STEP
+"""
+
+
+def test_bar_in_space(tmp_path):
+    deck, user = tmp_path / "bar.inp", Path(__file__).parent / "bar.f"
+    deck.write_text(BAR.format(mistake=0))
+    found = findings(deck, user)
+    assert not [name for name, finding in found.items() if finding.verdict is Verdict.FAILED]
+    assert found["rotation"].message.startswith("a rotation by 30 degrees turns the forces with it")
+    assert found["zero-modes"].message == "5 zero modes, the 5 rigid-body motions"
+    deck.write_text(BAR.format(mistake=1))
+    found = findings(deck, user)
+    assert {name for name, finding in found.items() if finding.verdict is Verdict.FAILED} == {"rotation", "zero-modes"}
 
 
 def test_rotation_as_a_dof_of_the_authors_choice(tmp_path):
