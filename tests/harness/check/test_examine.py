@@ -4,7 +4,6 @@
 
 import json
 import re
-from dataclasses import replace
 from pathlib import Path
 
 import pytest
@@ -12,7 +11,6 @@ import pytest
 from harness.check.checks import CHECKS
 from harness.check.examine import examine
 from harness.check.finding import Verdict
-from harness.check.recording import Pass, record
 from harness.cli import main
 from harness.errors import UelError
 
@@ -74,8 +72,6 @@ ALONE = [
 ]
 """Mistakes that only one check is for."""
 
-OSCILLATORS = Path(__file__).parents[1] / "procedures" / "oscillators.f"
-
 
 def findings(deck, user=QUAD, **options):
     (report,) = examine(deck, user, **options).types
@@ -117,202 +113,6 @@ def test_unsymm_that_is_declared(patch):
     assert re.search("unsymmetric, as UNSYMM says: 34.3 %", symmetry.message)
     symmetry = findings(patch(0, ("VARIABLES=12", "VARIABLES=12, UNSYMM")))["symmetry"]
     assert re.search("UNSYMM is not needed at these states", symmetry.message)
-
-
-def test_residual_alone(patch):
-    """Corrections that are too large need the line search, which asks for the residual alone."""
-    search = "*CONTROLS, PARAMETERS=LINE SEARCH\n4\n*END STEP"
-    requests = findings(patch(25, ("*END STEP", search)))["requests"]
-    assert requests.message == "LFLAGS(3): residual only (5)"
-    requests = findings(patch(26, ("*END STEP", search)))["requests"]
-    assert requests.verdict is Verdict.FAILED
-    assert re.search(r"RHS\(1\) is .* with LFLAGS\(3\) = 5, .* with 1", requests.message)
-    assert re.search("asks for RHS alone", requests.advice)
-
-
-OSCILLATOR = """\
-*NODE
-1, 0.
-2, 1.
-3, 2.
-*USER ELEMENT, TYPE=U1, NODES=2, COORDINATES=1, PROPERTIES=3, I PROPERTIES=1, VARIABLES=4
-1
-*ELEMENT, TYPE=U1, ELSET=ALL
-1, 1, 2
-2, 2, 3
-*UEL PROPERTY, ELSET=ALL
-4., 0.25, 1.
-0
-*STEP
-*DYNAMIC
-0.1, 0.3
-*BOUNDARY
-1, 1
-*CLOAD
-3, 1, 1.
-*END STEP
-"""
-
-
-@pytest.mark.parametrize(
-    "requests, wrong, message, advice",
-    [
-        ("", "", None, None),
-        ("4", "amatrx = 0", r"AMATRX is zero with LFLAGS\(3\) = 4", "or the element has no inertia"),
-        ("6", "amatrx = 2*amatrx", r"AMATRX differs between LFLAGS\(3\) = 4 and 6 by 0.25", "Both ask for the mass"),
-        ("4 6", "amatrx = -amatrx", "the mass matrix has a negative eigenvalue, -1 of", "whether the stiffness is"),
-        ("4 6", "amatrx(1,2) = 0.1d0", "the mass matrix is not symmetric, by 0.1", "Inertia has a potential"),
-        (
-            *("1", "rhs(1,1) = rhs(1,1) + 0.1d0*a(1)"),
-            r"AMATRX\(1,1\) is 0.25 with LFLAGS\(3\) = 4; by A\(1\) RHS\(1\) of a normal call falls by 0.15",
-            "holds -M A, with the mass matrix M",
-        ),
-        (
-            *("5", "rhs(1:2,1) = rhs(1:2,1)/2"),
-            r"when U changes, RHS\(1\) changes by \S+ with LFLAGS\(3\) = 5, by \S+ with 1",
-            "asks for the residual at half the increment",
-        ),
-        (
-            *("5", "rhs(1:2,1) = rhs(1:2,1) + props(2)*a(1:2)"),
-            r"when A changes, RHS\(\d\) changes by 0 with LFLAGS\(3\) = 5",
-            "By it Abaqus chooses the next increment",
-        ),
-    ],
-)
-def test_mass_matrix(tmp_path, requests, wrong, message, advice):
-    """The oscillators of the dynamic tests, with another mass matrix in some requests."""
-    source = OSCILLATORS.read_text().replace("'../uel.inc'", f"'{OSCILLATORS.parents[1] / 'uel.inc'}'")
-    lines = "".join(f"      if (lflags(3) .eq. {number}) {wrong}\n" for number in requests.split())
-    user, deck = tmp_path / "oscillators.f", tmp_path / "oscillators.inp"
-    head, end, _ = source.rpartition("      end\n")
-    user.write_text(head + lines + end)
-    deck.write_text(OSCILLATOR)
-    found = findings(deck, user)
-    if message is None:
-        assert found["requests"].message == "LFLAGS(3): mass (4 and 6), half-increment residual (5)"
-        assert not [name for name, finding in found.items() if finding.verdict is Verdict.FAILED]
-        return
-    assert found["requests"].verdict is Verdict.FAILED
-    assert re.search(message, found["requests"].message), found["requests"].message
-    assert re.search(advice, found["requests"].advice)
-
-
-def test_element_without_mass(tmp_path):
-    deck = tmp_path / "oscillators.inp"
-    deck.write_text(OSCILLATOR.replace("4., 0.25, 1.", "4., 0., 1."))
-    assert findings(deck, OSCILLATORS)["requests"].message.startswith("LFLAGS(3): no mass (4 and 6), half")
-
-
-@pytest.mark.parametrize(
-    "mistake, message, advice",
-    [
-        (0, "LFLAGS(3): stiffness only (2), no mass (4)", None),
-        (36, r"AMATRX\(\d,\d\) is 0 with LFLAGS\(3\) = 2, \S+ with 1", "asks for the stiffness alone"),
-        (37, r"AMATRX with LFLAGS\(3\) = 4 is that with 1, the stiffness", r"Look at LFLAGS\(3\) at the beginning"),
-    ],
-)
-def test_requests_for_eigenfrequencies(patch, monkeypatch, mistake, message, advice):
-    """The calls that *FREQUENCY makes, behind those of a static step."""
-
-    def recorded(*arguments, **options):
-        recording = record(*arguments, **options)
-        last = [event for event in recording.events if isinstance(event, Pass)][-1]
-        calls = [replace(last.call, lflags=(41, 0, request, 1, 0)) for request in (2, 4)]
-        return replace(recording, events=(*recording.events, *(replace(last, call=call) for call in calls)))
-
-    monkeypatch.setattr("harness.check.examine.record", recorded)
-    requests = findings(patch(mistake))["requests"]
-    if advice is None:
-        assert requests.message == message
-    else:
-        assert requests.verdict is Verdict.FAILED
-        assert re.search(message, requests.message)
-        assert re.search(advice, requests.advice)
-
-
-def test_linear_kinematics_with_nlgeom(patch):
-    rotation = findings(patch(0, ("*STEP", "*STEP, NLGEOM=YES")))["rotation"]
-    assert rotation.verdict is Verdict.FAILED
-    assert re.search("the step has NLGEOM, and a rotation by 30 degrees makes forces", rotation.message)
-    assert re.search("run it without NLGEOM, or let it follow LFLAGS", rotation.advice)
-
-
-def test_rotation_that_the_material_does_not_bear(patch):
-    """30 degrees are a compression of 13 % to linear kinematics."""
-    assert findings(patch(27))["rotation"].message.startswith("linear kinematics, forces stay to ")
-    rotation = findings(patch(27, ("*STEP", "*STEP, NLGEOM=YES")))["rotation"]
-    assert re.search("a rotation by 30 degrees ends the analysis; the kinematics are linear", rotation.message)
-    assert rotation.figure is None
-
-
-def test_rotation_that_is_right_to_the_first_order(patch):
-    for nlgeom in ("YES", "NO"):
-        rotation = findings(patch(35, ("*STEP", f"*STEP, NLGEOM={nlgeom}")))["rotation"]
-        assert re.search("by 30 degrees in one increment makes .* an infinitesimal one makes none", rotation.message)
-        assert re.search(r"Take one that no rotation changes \(Green-Lagrange", rotation.advice)
-
-
-BEAM = """\
-*NODE
-1, 0., 0.
-2, 2., 0.
-*USER ELEMENT, TYPE=U1, NODES=2, COORDINATES=2, I PROPERTIES=1
-1, 2, 3
-*ELEMENT, TYPE=U1, ELSET=ALL
-1, 1, 2
-*UEL PROPERTY, ELSET=ALL
-{factor}
-*STEP
-*STATIC, DIRECT
-1., 1.
-*BOUNDARY
-1, 1, 3
-2, 1, 3, 0.01
-*END STEP
-"""
-
-
-BAR = """\
-*NODE
-1, 0., 0., 0.
-2, 1., 2., 2.
-*USER ELEMENT, TYPE=U1, NODES=2, COORDINATES=3, I PROPERTIES=1
-1, 2, 3
-*ELEMENT, TYPE=U1, ELSET=ALL
-1, 1, 2
-*UEL PROPERTY, ELSET=ALL
-{mistake}
-*STEP, NLGEOM
-*STATIC, DIRECT
-1., 1.
-*BOUNDARY
-1, 1, 3
-2, 1, 3, 0.3
-*END STEP
-"""
-
-
-def test_bar_in_space(tmp_path):
-    deck, user = tmp_path / "bar.inp", Path(__file__).parent / "bar.f"
-    deck.write_text(BAR.format(mistake=0))
-    found = findings(deck, user)
-    assert not [name for name, finding in found.items() if finding.verdict is Verdict.FAILED]
-    assert found["rotation"].message.startswith("a rotation by 30 degrees turns the forces with it")
-    assert found["zero-modes"].message == "5 zero modes, the 5 rigid-body motions"
-    deck.write_text(BAR.format(mistake=1))
-    found = findings(deck, user)
-    assert {name for name, finding in found.items() if finding.verdict is Verdict.FAILED} == {"rotation", "zero-modes"}
-
-
-def test_rotation_as_a_dof_of_the_authors_choice(tmp_path):
-    deck, user = tmp_path / "beam.inp", Path(__file__).parent / "turning_beam.f"
-    deck.write_text(BEAM.format(factor=1))
-    found = findings(deck, user)
-    assert found["rotation"].message.startswith("linear kinematics, forces stay to")
-    assert found["zero-modes"].message == "3 zero modes, the 3 rigid-body motions"
-    deck.write_text(BEAM.format(factor=0))
-    found = findings(deck, user)
-    assert re.search("a small rigid rotation makes forces of", found["rotation"].message)
 
 
 def test_failure_that_another_one_explains(patch):

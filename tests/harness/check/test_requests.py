@@ -1,0 +1,132 @@
+# SPDX-FileCopyrightText: The uel-harness authors
+# SPDX-License-Identifier: BSD-3-Clause
+"""What LFLAGS(3) asks for: residuals, mass matrices, the stiffness alone."""
+
+import re
+from dataclasses import replace
+from pathlib import Path
+
+import pytest
+
+from harness.check.examine import examine
+from harness.check.finding import Verdict
+from harness.check.recording import Pass, record
+
+QUAD = Path(__file__).parent / "quad.f"
+OSCILLATORS = Path(__file__).parents[1] / "procedures" / "oscillators.f"
+
+
+def findings(deck, user=QUAD, **options):
+    (report,) = examine(deck, user, **options).types
+    return report.findings
+
+
+def test_residual_alone(patch):
+    """Corrections that are too large need the line search, which asks for the residual alone."""
+    search = "*CONTROLS, PARAMETERS=LINE SEARCH\n4\n*END STEP"
+    requests = findings(patch(25, ("*END STEP", search)))["requests"]
+    assert requests.message == "LFLAGS(3): residual only (5)"
+    requests = findings(patch(26, ("*END STEP", search)))["requests"]
+    assert requests.verdict is Verdict.FAILED
+    assert re.search(r"RHS\(1\) is .* with LFLAGS\(3\) = 5, .* with 1", requests.message)
+    assert re.search("asks for RHS alone", requests.advice)
+
+
+OSCILLATOR = """\
+*NODE
+1, 0.
+2, 1.
+3, 2.
+*USER ELEMENT, TYPE=U1, NODES=2, COORDINATES=1, PROPERTIES=3, I PROPERTIES=1, VARIABLES=4
+1
+*ELEMENT, TYPE=U1, ELSET=ALL
+1, 1, 2
+2, 2, 3
+*UEL PROPERTY, ELSET=ALL
+4., 0.25, 1.
+0
+*STEP
+*DYNAMIC
+0.1, 0.3
+*BOUNDARY
+1, 1
+*CLOAD
+3, 1, 1.
+*END STEP
+"""
+
+
+@pytest.mark.parametrize(
+    "requests, wrong, message, advice",
+    [
+        ("", "", None, None),
+        ("4", "amatrx = 0", r"AMATRX is zero with LFLAGS\(3\) = 4", "or the element has no inertia"),
+        ("6", "amatrx = 2*amatrx", r"AMATRX differs between LFLAGS\(3\) = 4 and 6 by 0.25", "Both ask for the mass"),
+        ("4 6", "amatrx = -amatrx", "the mass matrix has a negative eigenvalue, -1 of", "whether the stiffness is"),
+        ("4 6", "amatrx(1,2) = 0.1d0", "the mass matrix is not symmetric, by 0.1", "Inertia has a potential"),
+        (
+            *("1", "rhs(1,1) = rhs(1,1) + 0.1d0*a(1)"),
+            r"AMATRX\(1,1\) is 0.25 with LFLAGS\(3\) = 4; by A\(1\) RHS\(1\) of a normal call falls by 0.15",
+            "holds -M A, with the mass matrix M",
+        ),
+        (
+            *("5", "rhs(1:2,1) = rhs(1:2,1)/2"),
+            r"when U changes, RHS\(1\) changes by \S+ with LFLAGS\(3\) = 5, by \S+ with 1",
+            "asks for the residual at half the increment",
+        ),
+        (
+            *("5", "rhs(1:2,1) = rhs(1:2,1) + props(2)*a(1:2)"),
+            r"when A changes, RHS\(\d\) changes by 0 with LFLAGS\(3\) = 5",
+            "By it Abaqus chooses the next increment",
+        ),
+    ],
+)
+def test_mass_matrix(tmp_path, requests, wrong, message, advice):
+    """The oscillators of the dynamic tests, with another mass matrix in some requests."""
+    source = OSCILLATORS.read_text().replace("'../uel.inc'", f"'{OSCILLATORS.parents[1] / 'uel.inc'}'")
+    lines = "".join(f"      if (lflags(3) .eq. {number}) {wrong}\n" for number in requests.split())
+    user, deck = tmp_path / "oscillators.f", tmp_path / "oscillators.inp"
+    head, end, _ = source.rpartition("      end\n")
+    user.write_text(head + lines + end)
+    deck.write_text(OSCILLATOR)
+    found = findings(deck, user)
+    if message is None:
+        assert found["requests"].message == "LFLAGS(3): mass (4 and 6), half-increment residual (5)"
+        assert not [name for name, finding in found.items() if finding.verdict is Verdict.FAILED]
+        return
+    assert found["requests"].verdict is Verdict.FAILED
+    assert re.search(message, found["requests"].message), found["requests"].message
+    assert re.search(advice, found["requests"].advice)
+
+
+def test_element_without_mass(tmp_path):
+    deck = tmp_path / "oscillators.inp"
+    deck.write_text(OSCILLATOR.replace("4., 0.25, 1.", "4., 0., 1."))
+    assert findings(deck, OSCILLATORS)["requests"].message.startswith("LFLAGS(3): no mass (4 and 6), half")
+
+
+@pytest.mark.parametrize(
+    "mistake, message, advice",
+    [
+        (0, "LFLAGS(3): stiffness only (2), no mass (4)", None),
+        (36, r"AMATRX\(\d,\d\) is 0 with LFLAGS\(3\) = 2, \S+ with 1", "asks for the stiffness alone"),
+        (37, r"AMATRX with LFLAGS\(3\) = 4 is that with 1, the stiffness", r"Look at LFLAGS\(3\) at the beginning"),
+    ],
+)
+def test_requests_for_eigenfrequencies(patch, monkeypatch, mistake, message, advice):
+    """The calls that *FREQUENCY makes, behind those of a static step."""
+
+    def recorded(*arguments, **options):
+        recording = record(*arguments, **options)
+        last = [event for event in recording.events if isinstance(event, Pass)][-1]
+        calls = [replace(last.call, lflags=(41, 0, request, 1, 0)) for request in (2, 4)]
+        return replace(recording, events=(*recording.events, *(replace(last, call=call) for call in calls)))
+
+    monkeypatch.setattr("harness.check.examine.record", recorded)
+    requests = findings(patch(mistake))["requests"]
+    if advice is None:
+        assert requests.message == message
+    else:
+        assert requests.verdict is Verdict.FAILED
+        assert re.search(message, requests.message)
+        assert re.search(advice, requests.advice)
