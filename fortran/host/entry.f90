@@ -115,6 +115,16 @@ subroutine host_take_changes(entries, values)
   call take_changes(entries, values)
 end subroutine host_take_changes
 
+!> From now on (on /= 0) watched calls find this number where their local variables are, or do not.
+subroutine host_fill_stack(on, number)
+  use host_kinds, only: dp, i4
+  use host_protect, only: fill_stack
+  implicit none (type, external)
+  integer(i4), intent(in) :: on
+  real(dp), intent(in) :: number
+  call fill_stack(on, number)
+end subroutine host_fill_stack
+
 !> Oldest message of a user routine; level 0 if none is left.
 subroutine host_take_message(level, place, text)
   use host_kinds, only: i4

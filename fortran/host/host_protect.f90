@@ -1,11 +1,11 @@
 ! SPDX-FileCopyrightText: The uel-harness authors
 ! SPDX-License-Identifier: BSD-3-Clause
-!> Fortran view of protect.c, sma_arrays.c and inputs.c.
+!> Fortran view of protect.c, sma_arrays.c, inputs.c and stack.c.
 module host_protect
   use, intrinsic :: iso_c_binding, only: c_double, c_funptr, c_int, c_int32_t, c_int64_t, c_ptr
   implicit none (type, external)
   private
-  public :: protect, escape, clear_arrays, calls, limit_calls, watch, take_changes
+  public :: protect, escape, clear_arrays, calls, limit_calls, watch, take_changes, fill_stack
 
   !> Calls of user routines so far: by it the clock sees whether one is still the same.
   integer(c_int64_t), bind(c, name='uel_host_calls') :: calls = 0
@@ -47,5 +47,12 @@ module host_protect
       integer(c_int32_t), intent(out) :: entries(37)
       real(c_double), intent(out) :: values(2, 37)
     end subroutine take_changes
+
+    !> From now on (on /= 0) a watched call finds this number where its local variables are, or does not.
+    subroutine fill_stack(on, number) bind(c, name='uel_host_fill_stack')
+      import :: c_double, c_int32_t
+      integer(c_int32_t), value :: on
+      real(c_double), value :: number
+    end subroutine fill_stack
   end interface
 end module host_protect

@@ -8,6 +8,9 @@
 #include <stdlib.h>
 #include <string.h>
 
+// stack.c
+void uel_host_scribble(void);
+
 enum {
     RHS, AMATRX, SVARS, ENERGY, NDOFEL, NRHS, NSVARS, PROPS, NPROPS, COORDS, MCRD, NNODE, U, DU, V, A, JTYPE, TIME, DTIME,
     KSTEP, KINC, JELEM, PARAMS, NDLOAD, JDLTYP, ADLMAG, PREDEF, NPREDF, LFLAGS, MLVARX, DDLMAG, MDLOAD, PNEWDT, JPROPS,
@@ -119,6 +122,7 @@ static void watched_uel(PARAMETERS)
     void *const given[] = {GIVEN};
     size_t length[ARGUMENTS];
     keep(given, MATERIALLIB, length);
+    uel_host_scribble();
     uel(GIVEN);
     compare(given, MATERIALLIB, length);
 }
@@ -128,6 +132,7 @@ static void watched_uelmat(PARAMETERS, void *a36)
     void *const given[] = {GIVEN, a36};
     size_t length[ARGUMENTS];
     keep(given, ARGUMENTS, length);
+    uel_host_scribble();
     uelmat(GIVEN, a36);
     compare(given, ARGUMENTS, length);
 }

@@ -9,9 +9,20 @@ himself.
 """
 
 from harness.usersub._binding import limit_calls
-from harness.usersub.inputs import Change, watched_inputs
+from harness.usersub.inputs import Change, local_variables, watched_inputs
 from harness.usersub.library import Library, load
 from harness.usersub.marks import ARRAYS, UNSET, marks
 from harness.usersub.messages import Message
 
-__all__ = ["ARRAYS", "UNSET", "Change", "Library", "Message", "limit_calls", "load", "marks", "watched_inputs"]
+__all__ = [
+    "ARRAYS",
+    "UNSET",
+    "Change",
+    "Library",
+    "Message",
+    "limit_calls",
+    "load",
+    "local_variables",
+    "marks",
+    "watched_inputs",
+]

@@ -202,6 +202,11 @@ def take_changes() -> tuple[Int32Array, FloatArray]:
     return entries, values.T
 
 
+def fill_stack(number: float | None) -> None:
+    """From now on watched calls of elements find a number where their local variables are; None: whatever is there."""
+    _host.host_fill_stack(int(number is not None), number or 0.0)
+
+
 def bare_loop(
     address: int,
     options: Options,

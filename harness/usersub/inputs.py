@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""Arguments of user elements that Abaqus passes in only, and what elements change of them."""
+"""Calls of user elements that are watched: what they change of their inputs, and what their local variables hold."""
 
 from __future__ import annotations
 
@@ -46,3 +46,14 @@ def watched_inputs() -> Iterator[Callable[[], list[Change]]]:
         yield changes
     finally:
         _binding.watch_inputs(False)
+
+
+@contextmanager
+def local_variables(number: float) -> Iterator[None]:
+    """Let local variables of elements that are given no value hold a number, as far as they are on the stack."""
+    with watched_inputs():
+        _binding.fill_stack(number)
+        try:
+            yield
+        finally:
+            _binding.fill_stack(None)

@@ -20,6 +20,7 @@
       end do
       energy(2) = 0
       start = svars(1)
+      if (mistake == 41) call weigh(factor, nnode)
       if (lflags(3) == 4 .and. mistake /= 37) return
       if (lflags(3) == 2 .and. mistake == 36) return
       c = 0
@@ -127,6 +128,8 @@
         rhs(1:8,1) = (1 + 0*svars(nsvars+1))*rhs(1:8,1)
       case (40)  ! nothing is to be done where U is zero
         if (all(u == 0)) amatrx = 0
+      case (41)  ! a local variable without a value
+        rhs(1:8,1) = factor*rhs(1:8,1)
       case (29)  ! a file that is not there, at U that are not those of the run
         if (abs(u(2) - u(4)) > 0.4d0) open (unit=99,
      &    file='no-such-folder/no-such-file', status='old')
@@ -156,6 +159,12 @@
       double precision stress,damage
       largest(number) = max(largest(number), abs(stress))
       damage = largest(number)/(largest(number) + 1000)
+      end
+
+      subroutine weigh(factor, nnode)
+      double precision factor,weight(9)
+      weight(1:2*nnode) = 1
+      factor = weight(nnode) + 1d-9*weight(2*nnode+1)
       end
 
       subroutine keep_number(number)

@@ -1,0 +1,40 @@
+# SPDX-FileCopyrightText: The uel-harness authors
+# SPDX-License-Identifier: BSD-3-Clause
+"""Local variables that are used before they have a value."""
+
+from __future__ import annotations
+
+from typing import Final
+
+from harness.check.finding import Finding, failed, not_applicable, passed
+from harness.check.single import first_difference
+from harness.check.subject import Subject
+from harness.errors import KernelError
+from harness.usersub import local_variables
+
+NUMBERS: Final = float("nan"), 7.3, -2.9e5
+"""What they hold in turn; 0 is what they happen to hold most often."""
+
+
+def check(subject: Subject) -> Finding:
+    """What the memory of local variables held before a call has no effect."""
+    for state in subject.states:
+        with local_variables(0.0):
+            expected = state.evaluate()
+            if first_difference(expected, state.evaluate()):
+                return not_applicable("the same call returns other values anyway")
+        for number in NUMBERS:
+            with local_variables(number):
+                try:
+                    difference = first_difference(expected, state.evaluate())
+                except KernelError as error:
+                    difference = str(error)
+            if difference:
+                message = f"{state}: what is left in the memory of local variables changes the result: {difference}"
+                advice = (
+                    "A local variable is used before it has a value, and then holds whatever an earlier call has left: "
+                    "results differ from machine to machine and from run to run. IMPLICIT NONE finds misspelt names; "
+                    "gfortran -Wall -O2 names most of the others."
+                )
+                return failed(message, advice)
+    return passed(f"what is left in memory has no effect at {len(subject.states)} states")
