@@ -16,7 +16,7 @@ from harness.delamination.blocks import Interface
 from harness.delamination.comparator import comparator_files
 from harness.delamination.cook import cook_files
 from harness.delamination.materials import TABLE_2
-from harness.delamination.reproduce.cases import PROBLEMS, comparator_cases, paper_cases
+from harness.delamination.reproduce.cases import PROBLEMS, comparator_cases, longer_cases, paper_cases
 from harness.delamination.reproduce.patch_cases import inclined_cases
 from harness.delamination.steps import LINEAR, Increments
 
@@ -98,7 +98,7 @@ def patch_inclined() -> dict[str, str]:
 
 def paper(problem: str) -> dict[str, str]:
     """Runs of sections 4.2 to 4.4, as `uel reproduce` makes them: both layups, three stiffnesses, two meshes."""
-    cases = paper_cases(problem) + comparator_cases(problem)
+    cases = paper_cases(problem) + comparator_cases(problem) + (longer_cases() if problem == "frmm" else [])
     return {name: content for case in cases for name, content in case.files().items()}
 
 

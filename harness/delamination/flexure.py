@@ -28,13 +28,16 @@ def enf_mesh(size: float = 0.25, bump: float = 0.0) -> TwoArmMesh:
     return two_arms(x, ARM_HEIGHT, 4, CRACK, bump)
 
 
-def frmm_mesh(size: float = 0.125, bump: float = 0.0) -> TwoArmMesh:
-    """Columns of `size` (mm) from ahead of the crack's tip to the clamp, up to 0.5 mm before."""
-    start = CRACK - 1.5
+def frmm_mesh(size: float = 0.125, bump: float = 0.0, crack: float = CRACK) -> TwoArmMesh:
+    """Columns of `size` (mm) from ahead of the crack's tip to the clamp, up to 0.5 mm before.
+
+    The specimen is as many times longer than the paper's as its `crack` (mm).
+    """
+    start, length = crack - 1.5, FRMM_LENGTH * crack / CRACK
     left = graded_columns(start, 0.0, size, 1.15, 0.5)[::-1]
-    fine = np.linspace(start, FRMM_LENGTH, round((FRMM_LENGTH - start) / size) + 1)
+    fine = np.linspace(start, length, round((length - start) / size) + 1)
     x = np.round(np.concatenate([left[:-1], fine]), 6)
-    return two_arms(x, ARM_HEIGHT, 4, CRACK, bump)
+    return two_arms(x, ARM_HEIGHT, 4, crack, bump)
 
 
 def enf_deck(title: str, specimen: Specimen, deflection: float, increments: Increments, field_every: int) -> str:

@@ -21,6 +21,8 @@ from harness.model.arrays import FloatArray, IntArray
 
 ANGLE = 140.4
 COLUMNS, ROWS = 13, 18
+COLLINEAR = 12
+"""Decimals of the coordinates (mm) that leave the nodes of the inclined interface on one line."""
 BETAS = {"0/0": 5.0e6, "0/90": 3.0e5}
 """Stabilisation of the paper by layup (N/mm^3)."""
 PLIES = {"0/0": (PLY_0, PLY_0), "0/90": (PLY_0, PLY_90)}
@@ -31,10 +33,12 @@ PLIES = {"0/0": (PLY_0, PLY_0), "0/90": (PLY_0, PLY_90)}
 class SlantedMesh(TwoArmMesh):
     """Two arms whose common line of nodes is inclined about the middle of its length.
 
-    slope  of the interface; `lower` and `upper` are the ordinates at mid-length, `bumps` vertical shifts
+    slope     of the interface; `lower` and `upper` are the ordinates at mid-length, `bumps` vertical shifts
+    decimals  of the coordinates that are kept
     """
 
     slope: float
+    decimals: int
 
     def nodes(self) -> tuple[IntArray, FloatArray]:
         """Labels (n,) and coordinates (n, 2) of all nodes."""
@@ -45,11 +49,11 @@ class SlantedMesh(TwoArmMesh):
         heights = [base + share * (interface - base) for share in share_below]
         heights += [interface + share * (crown - interface) for share in share_above]
         labels = np.concatenate([self.line(number) for number in range(1, len(heights) + 1)])
-        # a node's place is written with twelve digits; exact enough to be collinear
-        return labels, np.concatenate([np.column_stack([self.x, height]) for height in heights])
+        places = np.concatenate([np.column_stack([self.x, height]) for height in heights])
+        return labels, np.round(places, self.decimals)
 
 
-def inclined_mesh(bump: float = 0.0) -> SlantedMesh:
+def inclined_mesh(bump: float = 0.0, decimals: int = COLLINEAR) -> SlantedMesh:
     """13 x 18 quads on a square of 1 mm.
 
     Parameters
@@ -57,12 +61,14 @@ def inclined_mesh(bump: float = 0.0) -> SlantedMesh:
     bump
         Distance of the interface nodes from the straight line over the length of an element, to both sides in turns.
         Nodes move along their columns, so that the edges of the square stay straight.
+    decimals
+        Of the coordinates (mm) that are kept.
     """
     inclination = math.radians(ANGLE - 180.0)
     size = 1.0 / COLUMNS / math.cos(inclination)
     flat = two_arms(np.linspace(0.0, 1.0, COLUMNS + 1), 0.5, ROWS // 2, 0.0, bump * size / math.cos(inclination))
     values = {field.name: getattr(flat, field.name) for field in fields(flat)}
-    return SlantedMesh(**values, slope=math.tan(inclination))
+    return SlantedMesh(**values, slope=math.tan(inclination), decimals=decimals)
 
 
 def inclined_specimen(name: str, mesh: TwoArmMesh, layup: str, interface: Interface) -> Specimen:

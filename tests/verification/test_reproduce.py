@@ -18,12 +18,13 @@ from harness import cli
 from harness.delamination import theory
 from harness.delamination.beams import RIGID_ROOT, growth
 from harness.delamination.materials import PLY_0, PLY_90, TABLE_2
-from harness.delamination.patches import ANGLE, COLUMNS, inclined_mesh, stabilisation
-from harness.delamination.reproduce import command, convergence, findings, parameters, patch_cases, sensitivity
-from harness.delamination.reproduce.cases import PROBLEMS, Case, paper_cases
+from harness.delamination.patches import ANGLE, COLLINEAR, COLUMNS, inclined_mesh, stabilisation
+from harness.delamination.reproduce import command, convergence, curves, findings, parameters, patch_cases, sensitivity
+from harness.delamination.reproduce.cases import LONGER, PROBLEMS, Case, longer_cases, paper_cases
 from harness.delamination.reproduce.claims import Claim, Number, Verdict, judge, read_claims
 from harness.delamination.reproduce.convergence import Steady
-from harness.delamination.reproduce.findings import Evidence, to_line
+from harness.delamination.reproduce.curves import to_line
+from harness.delamination.reproduce.findings import Evidence
 from harness.delamination.reproduce.page import Content, Table, write_page
 from harness.delamination.reproduce.runs import Runs
 from harness.delamination.specimens import ARMS, CRACK
@@ -129,6 +130,17 @@ def test_mode_ratio_of_beams_and_of_a_process_zone() -> None:
     )
 
 
+def test_longer_specimens_come_near_plain_beams() -> None:
+    short, *longer = (PROBLEMS["frmm"].mesh(0.5, 0.0), *(case.mesh() for case in longer_cases()))
+    for case, mesh in zip(longer_cases(), longer, strict=True):
+        crack = LONGER[case.problem]
+        # every length of the specimen but its height grows alike
+        assert mesh.x[-1] / crack == pytest.approx(short.x[-1] / CRACK)
+        assert crack in mesh.x
+        assert mesh.upper[-1] == short.upper[-1]
+        assert theory.frmm_mode_ratio(ARMS, crack) < 1.05 * 4.0 / 3.0 < theory.frmm_mode_ratio(ARMS, CRACK)
+
+
 def test_damage_counts_near_the_tip() -> None:
     place = np.arange(35.0, 100.0, 1.0)
     damage = np.where(place < 45.0, 1.0, 0.0)
@@ -141,6 +153,12 @@ def test_damage_counts_near_the_tip() -> None:
 def test_stabilisation_of_the_horizontal_patch() -> None:
     # formulation of the 10 x 10 patch, [0/0], by an independent code: 1.21e6 N/mm^3
     assert stabilisation(PLY_0, PLY_0, (0.01, 0.01), 0.1) == pytest.approx(1.21e6, rel=2e-3)
+
+
+def test_coordinates_in_single_precision_leave_the_line() -> None:
+    exact, rounded = (inclined_mesh(decimals=decimals).nodes()[1] for decimals in (COLLINEAR, patch_cases.PRINTED))
+    off = np.abs(rounded - exact).max()
+    assert 0.0 < off <= 0.5 * 10.0**-patch_cases.PRINTED
 
 
 def test_inclined_interface() -> None:
@@ -198,7 +216,7 @@ def test_claims_are_well_formed() -> None:
     [
         ('quote = "a"\n', "", "bad: expected cases, figure, id, measure, number, quote, section, and at_least"),
         ("at_most = 1\n", "", "bad: expected .* and at_least or at_most"),
-        ('measure = "isotropy"', 'measure = "beauty"', "bad: no measure 'beauty'; there are closed_error"),
+        ('measure = "isotropy"', 'measure = "beauty"', "bad: no measure 'beauty'; there are asymmetry"),
         ('quote = "a"', 'quote = "a"\nmood = 1', "bad: expected"),
     ],
 )
@@ -267,7 +285,7 @@ def test_command_runs_once_and_decides(tmp_path: Path, monkeypatch: pytest.Monke
 
 def test_missing_runs_are_named() -> None:
     with pytest.raises(UelError, match="enf_0_0_standard_1e6: this case was not run"):
-        findings.energy_error(Evidence(Runs({}, Path()), coarse=False), "enf", "standard", ["1e6"])
+        curves.energy_error(Evidence(Runs({}, Path()), coarse=False), "enf", "standard", ["1e6"])
 
 
 def test_unknown_case_is_named(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:

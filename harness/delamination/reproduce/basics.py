@@ -1,20 +1,16 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""Numbers that decide on the paper's statements: patch tests, parameters and the law. See findings.py."""
+"""Numbers that decide on the paper's statements: patch tests and parameters. See findings.py."""
 
 from __future__ import annotations
 
-import tempfile
 from collections.abc import Callable, Sequence
 from dataclasses import replace
-from pathlib import Path
 
 import numpy as np
 
-from harness import usersub
-from harness.delamination import law
-from harness.delamination.materials import PLY_0, PLY_90, TABLE_2
-from harness.delamination.patches import BETAS, PLIES, inclined_mesh, stabilisation
+from harness.delamination.materials import PLY_0, PLY_90
+from harness.delamination.patches import BETAS, COLLINEAR, PLIES, inclined_mesh, stabilisation
 from harness.delamination.reproduce.findings import Evidence
 from harness.delamination.reproduce.patch_cases import STIFF, PatchCase
 from harness.model.arrays import FloatArray
@@ -29,18 +25,26 @@ def swing(traction: FloatArray) -> float:
     return float(np.std(traction) / abs(np.mean(traction)))
 
 
-def patch_swing(evidence: Evidence, shape: str, layups: Sequence[str], element: str, *, moved: bool) -> float:
+def patch_swing(
+    evidence: Evidence, shape: str, layups: Sequence[str], element: str, *, moved: bool, decimals: int = COLLINEAR
+) -> float:
     """Standard deviation of the normal traction over its mean; the largest of the layups."""
-    return max(swing(evidence.runs.patch(PatchCase(shape, layup, element, moved)).traction) for layup in layups)
+    cases = (PatchCase(shape, layup, element, moved, decimals) for layup in layups)
+    return max(swing(evidence.runs.patch(case).traction) for case in cases)
 
 
-def patch_gain(evidence: Evidence, shape: str, layups: Sequence[str]) -> float:
-    """Standard deviation of the stabilised method's traction on moved nodes over the standard one's; the largest."""
-    return max(
-        float(np.std(evidence.runs.patch(PatchCase(shape, layup, "stabilised", moved=True)).traction))
-        / float(np.std(evidence.runs.patch(PatchCase(shape, layup, "standard", moved=True)).traction))
-        for layup in layups
-    )
+def patch_gain(
+    evidence: Evidence, shape: str, layups: Sequence[str], *, moved: bool = True, decimals: int = COLLINEAR
+) -> float:
+    """Standard deviation of the stabilised method's traction over the standard one's; the largest of the layups."""
+    found = []
+    for layup in layups:
+        spread = [
+            float(np.std(evidence.runs.patch(PatchCase(shape, layup, element, moved, decimals)).traction))
+            for element in ("stabilised", "standard")
+        ]
+        found.append(spread[0] / spread[1])
+    return max(found)
 
 
 def patch_slip(evidence: Evidence) -> float:
@@ -118,39 +122,10 @@ def isotropy(_: Evidence) -> float:
     return PLY_90.g12 / (PLY_90.e1 / (2.0 * (1.0 + PLY_90.nu12)))
 
 
-def law_area(_: Evidence, angle: float) -> float:
-    """Area under the law's curve over the toughness of (11) along a straight path, angle 0 opening, 90 sliding."""
-    return float(_law_curve(angle)["WORK"][-1]) / _toughness(angle)
-
-
-def law_strength(_: Evidence, angle: float) -> float:
-    """Left side of the quadratic criterion (10) at the largest traction: 1."""
-    curve = _law_curve(angle)
-    normal, shear = curve["TN"] / TABLE_2.strength_normal, curve["TT"] / TABLE_2.strength_shear
-    return float(np.sqrt(np.max(normal**2 + shear**2)))
-
-
-def _law_curve(angle: float) -> dict[str, FloatArray]:
-    library = usersub.load(None, job="law", output_dir=Path(tempfile.gettempdir()))
-    try:
-        values = law.standard_properties()
-        reach = law.reach_of(library, values, angle)
-        path = law.opening(angle, reach, 4000)
-        return law.drive(law.LawElement(library, law.STANDARD, values), "", path, 1.0).columns
-    finally:
-        library.close()
-
-
-def _toughness(angle: float) -> float:
-    """G_I + G_II at failure by (11), for stiffnesses that are equal: the direction fixes G_I/G_II."""
-    share = np.sin(np.radians(angle)) ** 2
-    return float(1.0 / ((1.0 - share) / TABLE_2.toughness_1 + share / TABLE_2.toughness_2))
-
-
 MEASURES: dict[str, Callable[..., float]] = {
     function.__name__: function
     for function in (
         *(patch_swing, patch_gain, patch_slip, flat_swing, flat_onset, flat_onset_single, identity_with_standard),
-        *(horizontal_beta, inclined_beta, turon_stiffness, modulus_contrast, isotropy, law_area, law_strength),
+        *(horizontal_beta, inclined_beta, turon_stiffness, modulus_contrast, isotropy),
     )
 }

@@ -6,15 +6,16 @@ from __future__ import annotations
 
 import itertools
 from dataclasses import dataclass, replace
+from functools import partial
 
 import numpy as np
 
-from harness.delamination import specimens
+from harness.delamination import flexure, specimens
 from harness.delamination.blocks import Interface, Specimen
 from harness.delamination.materials import TABLE_2, Cohesive
 from harness.delamination.mesh import TwoArmMesh
 from harness.delamination.patches import PLIES, stabilisation
-from harness.delamination.specimens import ARM_HEIGHT
+from harness.delamination.specimens import ARM_HEIGHT, ARMS, CRACK
 from harness.delamination.steps import Increments
 from harness.delamination.study.cases import BUMP, KINDS, STIFFNESSES, Kind
 
@@ -28,7 +29,20 @@ ENDS = {"dcb": {"0/0": 3.0, "0/90": 8.0}, "enf": {"0/0": 5.0, "0/90": 8.0}, "frm
 """Displacement at the end (mm), beyond the softening branch."""
 PROBLEMS = {name: KINDS[name]._replace(displacement=ends) for name, ends in ENDS.items()}
 """The specimens, on the meshes of the study."""
-QUICK_SIZES = {"dcb": 1.0 / 6.0, "enf": 1.0 / 3.0, "frmm": 1.0 / 6.0}
+
+
+def _longer(crack: float) -> Kind:
+    """The fixed-ratio specimen with a longer crack, displaced as much as the crack's growth takes by beam theory."""
+    base = PROBLEMS["frmm"]
+    reach = ((crack + ARMS.correction) / (CRACK + ARMS.correction)) ** 2
+    ends = {layup: end * reach for layup, end in base.displacement.items()}
+    return base._replace(displacement=ends, mesh=partial(flexure.frmm_mesh, crack=crack))
+
+
+LONGER = {"frmm70": 70.0, "frmm140": 140.0}
+"""Length of the crack (mm) of fixed-ratio specimens beside the paper's, whose short arms are not plain beams."""
+_SPECIMENS = PROBLEMS | {name: _longer(crack) for name, crack in LONGER.items()}
+QUICK_SIZES = {"dcb": 1.0 / 6.0, "enf": 1.0 / 3.0, "frmm": 1.0 / 6.0} | dict.fromkeys(LONGER, 1.0 / 6.0)
 """Length of the elements with --quick (mm). Twice the full mesh's takes longer: with fewer elements in the process
 zone each failing point is a snap, and at the peak of the [0/90] end-notched flexure the search finds no end."""
 INCREMENTS = {False: 100, True: 50}
@@ -40,11 +54,14 @@ MOMENTS = {
     ("enf", "0/90"): 5.12,
     ("frmm", "0/0"): 3.0,
     ("frmm", "0/90"): 4.32,
-}
+} | {(name, "0/0"): 0.6 * kind.displacement["0/0"] for name, kind in _SPECIMENS.items() if name in LONGER}
 """Displacement at which the profiles are drawn (mm), a multiple of 1/PARTS of the last one. The paper gives none; in
 its figure 9 the traction of the DCB [0/0] changes its sign at X1 = 44 mm, which is at 1.8 mm."""
 AROUND = {"dcb": (-6.0, 8.0), "enf": (-10.0, 14.0), "frmm": (-6.0, 14.0)}
 """Stretch about the front of the damage that the profiles show (mm)."""
+SECANT_INCREMENTS = 500
+SECANT_TOLERANCE = 0.5
+"""R_n a hundred times Abaqus' default."""
 LAYUPS = tuple(PLIES)
 ELEMENTS = {
     "standard": Interface("U2", TABLE_2),
@@ -66,7 +83,7 @@ COMPARATORS = {
 class Case:
     """One run.
 
-    problem, layup, element, stiffness   keys of PROBLEMS, LAYUPS, ELEMENTS or COMPARATORS, STIFFNESSES
+    problem, layup, element, stiffness   keys of PROBLEMS or LONGER, LAYUPS, ELEMENTS or COMPARATORS, STIFFNESSES
     perturbed     the interface nodes are moved
     coarse        the mesh of --quick
     size          length of the elements in place of the problem's (mm)
@@ -115,7 +132,7 @@ class Case:
     @property
     def kind(self) -> Kind:
         """The specimen."""
-        return PROBLEMS[self.problem]
+        return _SPECIMENS[self.problem]
 
     @property
     def fallback(self) -> bool:
@@ -212,7 +229,23 @@ def comparator_cases(problem: str, *, coarse: bool = False) -> list[Case]:
     return [*cases, Case(problem, "0/0", "COH2D4", "1e4", coarse=coarse)]
 
 
+def longer_cases(*, coarse: bool = False) -> list[Case]:
+    """Fixed-ratio specimens with longer cracks, whose mode ratio comes near to that of plain beams.
+
+    With `coarse`, the shorter one alone.
+    """
+    cases = [Case(problem, "0/0", "consistent", "1e6", coarse=coarse) for problem in LONGER]
+    return cases[:1] if coarse else cases
+
+
 def secant_cases(*, coarse: bool = False) -> list[Case]:
-    """The paper's way to a solution, section 3.2: secant, small increments; the default residual, and a hundredfold."""
-    base = Case("dcb", "0/0", "stabilised", "1e6", coarse=coarse, secant=True, increments=500)
-    return [base, replace(base, tolerance=0.5)]
+    """The paper's way to a solution, section 3.2: secant, small increments; the default residual, and a hundredfold.
+
+    With the latter as many increments as the other runs have, too.
+    """
+    bases = [
+        Case("dcb", "0/0", "stabilised", stiffness, coarse=coarse, secant=True, increments=SECANT_INCREMENTS)
+        for stiffness in ("1e6", "1e8")
+    ]
+    relaxed = [replace(base, tolerance=SECANT_TOLERANCE) for base in bases]
+    return [*bases, *relaxed, *(replace(case, increments=None) for case in relaxed)]

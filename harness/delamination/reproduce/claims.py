@@ -7,7 +7,7 @@ A claim has
 id, section, figure   figure is empty where the paper shows none
 quote                 a few words of the paper
 number                what our number is
-measure, arguments    function of `findings`, `basics` or `parameters`
+measure, arguments    function of `findings`, `curves`, `basics`, `foundations` or `parameters`
 at_least, at_most     what the number has to be, one of them or both
 cases                 part of the command that runs what the number needs: 'law', 'patch', 'dcb', 'enf', 'frmm', ...
 also                  further numbers that are shown, each with number, measure and arguments
@@ -21,11 +21,11 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
-from harness.delamination.reproduce import basics, findings, parameters
+from harness.delamination.reproduce import basics, curves, findings, foundations, parameters
 from harness.delamination.reproduce.findings import Evidence
 
 FILE = Path(__file__).with_name("claims.toml")
-MEASURES = findings.MEASURES | basics.MEASURES | parameters.MEASURES
+MEASURES = findings.MEASURES | curves.MEASURES | basics.MEASURES | foundations.MEASURES | parameters.MEASURES
 REQUIRED = {"id", "section", "figure", "quote", "number", "measure", "cases"}
 OPTIONAL = {"arguments", "at_least", "at_most", "also", "why"}
 

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""Our element and the built-in one in the [0/90] double cantilever beam: how the mesh brings their loads together.
+"""Our element and the built-in one in the [0/90] specimens: how the mesh brings their loads together.
 
 The consistent law acts on a separation w of its own. What it leaves of the displacement jump g, Nitsche's gap
 g - w = (T - <sigma>)/beta, does work too: from bonding to failure -1/beta times the integral of T d<sigma>, per area.
@@ -17,8 +17,20 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from harness.delamination.reproduce.cases import Case
+from harness.delamination.reproduce.curves import curve_distance
 from harness.delamination.reproduce.runs import Run, Runs
 
+MESHES = ((4, 1.0), (8, 1.0), (8, 3.0))
+"""Rows of quads over the height of an arm and factor of beta, of the curves that are compared."""
+CURVES_TEXT = (
+    "Consistent method with the criterion of Benzeggagh and Kenane, 1e6 N/mm³, over the whole load curve, snaps "
+    "included, and up to 98 % of the displacement at the peak. Distances are over the peak load. Finer quads and a "
+    "larger beta make the gap smaller that Nitsche's method leaves between unlike plies."
+)
+CURVES_HEAD = (
+    *("specimen", "rows an arm", "factor of beta", "COH2D4: peak load (N)", "ours: peak load (N)", "difference"),
+    *("largest distance of the curves", "before the peak"),
+)
 STRETCH = (4.0, 7.9)
 """Displacements of steady growth (mm)."""
 GROWN = 40.0
@@ -53,6 +65,30 @@ class Steady:
     load: float
     share: float
     spent: float
+
+
+def curves(problem: str, *, coarse: bool) -> list[tuple[Case, Case]]:
+    """COH2D4 and our element with its criterion on finer quads and with a larger beta; with `coarse`, on one mesh."""
+    base = Case(problem, "0/90", "COH2D4", "1e6", coarse=coarse)
+    built_in = [(replace(base, rows=rows), factor) for rows, factor in (MESHES[:1] if coarse else MESHES)]
+    return [(case, replace(case, element="consistent_bk", beta=factor)) for case, factor in built_in]
+
+
+def curve_rows(runs: Runs, problem: str, *, coarse: bool) -> list[list[str]]:
+    """Lines of the table of the curves."""
+    lines = []
+    for built_in, case in curves(problem, coarse=coarse):
+        one, other = runs[built_in], runs[case]
+        peaks = one.peak[0], other.peak[0]
+        before = 0.98 * min(one.peak[1], other.peak[1])
+        lines.append(
+            [
+                *(problem.upper(), str(case.rows), f"{case.beta:g}"),
+                *(f"{peaks[0]:.2f}", f"{peaks[1]:.2f}", f"{peaks[1] / peaks[0] - 1.0:+.2%}"),
+                *(f"{curve_distance(other, one, last):.2%}" for last in (np.inf, before)),
+            ]
+        )
+    return lines
 
 
 def pairs(*, coarse: bool) -> list[tuple[Case, Case]]:

@@ -12,8 +12,9 @@ import numpy as np
 
 from harness.delamination.beams import RIGID_ROOT, growth
 from harness.delamination.law_report import Exploration, explore
+from harness.delamination.patches import COLLINEAR, PLIES
 from harness.delamination.reproduce.cases import AROUND, ELEMENTS, MOMENTS, Case
-from harness.delamination.reproduce.patch_cases import METHODS, PatchCase
+from harness.delamination.reproduce.patch_cases import METHODS, NODES, PatchCase
 from harness.delamination.reproduce.runs import Profile, Runs
 from harness.output.plots import Curve, Panel, grid
 
@@ -39,25 +40,25 @@ def draw_law(folder: Path) -> Path:
 
 def draw_horizontal_patch(runs: Runs, folder: Path) -> Path:
     """Figure 4: normal traction along a straight and a perturbed horizontal interface."""
-    rows = [[_patch_panel(runs, "horizontal", "0/0", moved) for moved in (False, True)]]
-    rows[0][0] = replace(rows[0][0], y_range=(-1500.0, -500.0))
-    rows[0][1] = replace(rows[0][1], y_range=(-1500.0, -500.0))
-    return grid(rows, folder / "figure_04.png")
+    cases = [PatchCase("horizontal", "0/0", "standard", moved) for moved in (False, True)]
+    return grid(
+        [[replace(_patch_panel(runs, case), y_range=(-1500.0, -500.0)) for case in cases]], folder / "figure_04.png"
+    )
 
 
 def draw_inclined_patch(runs: Runs, folder: Path) -> Path:
-    """Figure 6: normal traction along the inclined interface, on straight and on moved nodes."""
-    rows = [[_patch_panel(runs, "inclined", layup, moved) for layup in ("0/0", "0/90")] for moved in (False, True)]
+    """Figure 6: normal traction along the inclined interface, on straight, rounded and moved nodes."""
+    rows = [[_patch_panel(runs, PatchCase("inclined", p, "standard", *nodes)) for p in PLIES] for nodes in NODES]
     return grid(rows, folder / "figure_06.png", share_y=True)
 
 
-def _patch_panel(runs: Runs, shape: str, layup: str, moved: bool) -> Panel:
+def _patch_panel(runs: Runs, case: PatchCase) -> Panel:
     curves = []
     for element in METHODS:
-        run = runs.patch(PatchCase(shape, layup, element, moved))
+        run = runs.patch(replace(case, element=element))
         curves.append(Curve(element, run.profile["X"], run.traction, "marked"))
-    nodes = "perturbed interface" if moved else "straight interface"
-    return Panel(f"[{layup}], {nodes}", curves, X, TRACTIONS["TN"])
+    straight = "straight interface" if case.decimals == COLLINEAR else f"coordinates to {case.decimals} decimals"
+    return Panel(f"[{case.layup}], {'perturbed interface' if case.moved else straight}", curves, X, TRACTIONS["TN"])
 
 
 def draw_loads(runs: Runs, base: Case, path: Path) -> Path:

@@ -18,7 +18,7 @@ CAPTIONS = {
     "3": "Horizontal patch: boundary conditions and meshes.",
     "4": "Normal traction along the horizontal interface.",
     "5": "Inclined patch: boundary conditions and meshes. Nodes move by 3 % of an element off the line.",
-    "6": "Normal traction along the inclined interface, on straight and on moved nodes.",
+    "6": "Normal traction along the inclined interface, on straight, rounded and moved nodes.",
     "7": "Double cantilever beam.",
     "8": "Double cantilever beam: load over the displacement of each arm; stiffnesses in N/mm³.",
     "9": "Double cantilever beam [0/0]: normal traction and damage.",

@@ -9,7 +9,7 @@ from dataclasses import dataclass, replace
 from harness.delamination import specimens
 from harness.delamination.blocks import Interface
 from harness.delamination.mesh import TwoArmMesh
-from harness.delamination.patches import BETAS, PLIES, inclined_mesh, inclined_specimen
+from harness.delamination.patches import BETAS, COLLINEAR, PLIES, inclined_mesh, inclined_specimen
 from harness.delamination.steps import Increments
 
 # Sliding is soft and never gets near its strength. With the consistent closure beta has to exceed the softening slope,
@@ -17,6 +17,8 @@ from harness.delamination.steps import Increments
 LAW = replace(specimens.PATCH_LAW, toughness_2=1.0e6)
 MOVED = -0.03
 """Distance of the moved nodes from the straight line over the length of an element, to both sides in turns."""
+PRINTED = 7
+"""Decimals of coordinates in single precision, as mesh generators write them: off the line by up to 5e-8 mm."""
 DISPLACEMENT = -0.1
 # one increment if it converges; where slip over bumps opens and closes points, smaller ones
 INCREMENTS = Increments(initial=1.0, smallest=1e-6, largest=1.0, limit=500)
@@ -31,27 +33,36 @@ class PatchCase:
     layup    '0/0' or '0/90'
     element  'standard', 'stabilised', 'consistent'
     moved    the interface nodes are moved by 3 % of an element
+    decimals  of the coordinates of an inclined interface's nodes
     normal, shear  stiffnesses of the interface (N/mm^3)
     beta     stabilisation (N/mm^3): None takes the paper's, 0 that of equation (21)
+    slide    the bottom edge may contract sideways, so that the stress is uniform
     """
 
     shape: str
     layup: str
     element: str
     moved: bool
+    decimals: int = COLLINEAR
     normal: float = LAW.stiffness_normal
     shear: float = LAW.stiffness_shear
     beta: float | None = None
+    slide: bool = False
 
     @property
     def name(self) -> str:
         """Name of the deck."""
-        words = [self.shape, self.layup.replace("/", "_"), self.element, "moved" if self.moved else "straight"]
+        words = [self.shape, self.layup.replace("/", "_"), self.element, self._nodes]
         if (self.normal, self.shear) != (LAW.stiffness_normal, LAW.stiffness_shear):
             words.append(f"{self.normal:.0e}_{self.shear:.0e}".replace("+", ""))
         if self.beta is not None:
             words.append(f"beta{self.beta:.0e}".replace("+", "") if self.beta else "beta21")
-        return "_".join(words)
+        return "_".join(words + ["free"] * self.slide)
+
+    @property
+    def _nodes(self) -> str:
+        straight = "straight" if self.decimals == COLLINEAR else f"decimals{self.decimals}"
+        return "moved" if self.moved else straight
 
     @property
     def fallback(self) -> bool:
@@ -61,12 +72,12 @@ class PatchCase:
     def mesh(self) -> TwoArmMesh:
         """The mesh."""
         if self.shape == "inclined":
-            return inclined_mesh(MOVED * self.moved)
+            return inclined_mesh(MOVED * self.moved, self.decimals)
         return specimens.patch_mesh(specimens.PATCH_BUMP * self.moved)
 
     def files(self) -> dict[str, str]:
         """Deck `NAME.inp` and the files that it includes."""
-        mesh, mesh_name = self.mesh(), "moved" if self.moved else "straight"
+        mesh, mesh_name = self.mesh(), self._nodes
         kind, consistent = METHODS[self.element]
         paper = BETAS[self.layup] if self.shape == "inclined" else specimens.PATCH_BETA
         beta = 0.0 if kind == "U2" else paper if self.beta is None else self.beta
@@ -77,7 +88,7 @@ class PatchCase:
         interface = Interface(kind, law, beta=beta, consistent=consistent)
         specimen = inclined_specimen(mesh_name, mesh, self.layup, interface)
         title = f"Patch test, {self.shape} interface, [{self.layup}], {self.element} element" + ", moved" * self.moved
-        deck = specimens.patch_deck(title, specimen, DISPLACEMENT, INCREMENTS, slide=False)
+        deck = specimens.patch_deck(title, specimen, DISPLACEMENT, INCREMENTS, slide=self.slide)
         nodes = 8 if kind == "U4" else 4
         return specimens.mesh_files(mesh_name, mesh, (nodes,)) | {f"{self.name}.inp": deck}
 
@@ -86,13 +97,25 @@ STIFF = tuple(10.0**exponent for exponent in range(6, 19))
 """Equal stiffnesses in both directions at which the flat patch is run (N/mm^3)."""
 
 
+def uniform_cases() -> list[PatchCase]:
+    """The flat patch under uniform stress, stabilised, from soft to nearly rigid."""
+    return [
+        PatchCase("horizontal", "0/0", "stabilised", False, normal=a, shear=a, slide=True)
+        for a in (1e4, 1e6, 1e8, 1e10)
+    ]
+
+
+NODES = ((False, COLLINEAR), (False, PRINTED), (True, COLLINEAR))
+"""How the nodes of the inclined interface lie: `moved` and `decimals`."""
+
+
 def inclined_cases() -> list[PatchCase]:
-    """Figure 6 with beta of the paper, on straight and on moved nodes, and with beta by (21)."""
+    """Figure 6 with beta of the paper, on straight, rounded and moved nodes, and with beta by (21)."""
     cases = [
-        PatchCase("inclined", layup, element, moved)
+        PatchCase("inclined", layup, element, moved, decimals)
         for layup in PLIES
         for element in METHODS
-        for moved in (False, True)
+        for moved, decimals in NODES
     ]
     return cases + [PatchCase("inclined", layup, "stabilised", True, beta=0.0) for layup in PLIES]
 
@@ -101,5 +124,6 @@ def patch_cases() -> list[PatchCase]:
     """All patch tests of the paper."""
     horizontal = [PatchCase("horizontal", "0/0", element, moved) for element in METHODS for moved in (False, True)]
     horizontal += [PatchCase("horizontal", "0/0", "stabilised", True, beta=beta) for beta in (0.0, 3.0e8, 3.0e12)]
-    flat = [PatchCase("horizontal", "0/0", element, False, a, a) for element in METHODS for a in STIFF]
-    return [*horizontal, *inclined_cases(), *flat]
+    horizontal.append(PatchCase("horizontal", "0/0", "standard", True, shear=LAW.stiffness_normal))
+    flat = [PatchCase("horizontal", "0/0", element, False, normal=a, shear=a) for element in METHODS for a in STIFF]
+    return [*horizontal, *inclined_cases(), *flat, *uniform_cases()]

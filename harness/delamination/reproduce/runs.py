@@ -15,7 +15,7 @@ from rich.console import Console
 from harness.delamination.batch import Store, complete, run_deck
 from harness.delamination.reproduce.cases import Case
 from harness.delamination.reproduce.patch_cases import PatchCase
-from harness.delamination.study.rows import at_tenths, bonded_part
+from harness.delamination.study.rows import bonded_part
 from harness.errors import UelError
 from harness.model.arrays import FloatArray
 from harness.output import Result
@@ -115,8 +115,8 @@ class Run:
 
     @cached_property
     def bonded(self) -> list[Profile]:
-        """Process zone and bonded part at every tenth of the displacement."""
-        return [bonded_part(profile) for profile in at_tenths(self.profiles)]
+        """Process zone and bonded part at every moment."""
+        return [bonded_part(profile) for profile in self.profiles]
 
 
 class PatchRun:

@@ -13,7 +13,7 @@ from harness.delamination.oscillation import raw_index
 from harness.delamination.reproduce.cases import QUICK_SIZES, Case
 from harness.delamination.reproduce.runs import Run, Runs
 from harness.delamination.study.cases import STIFFNESSES
-from harness.delamination.study.rows import STRENGTHS, at_tenths, damage_variation
+from harness.delamination.study.rows import STRENGTHS, damage_variation
 from harness.output.plots import Curve, Panel, grid
 
 CONSISTENT = ("consistent", "inf")
@@ -178,7 +178,7 @@ def row(run: Run) -> dict[str, float]:
     """Numbers of a run: those of HEAD but the last."""
     kind = run.case.kind
     index = max(raw_index(profile[name], STRENGTHS[name]) for profile in run.bonded for name in kind.modes)
-    turns = max(damage_variation(profile["DAMAGE"]) for profile in at_tenths(run.profiles)) - 1.0
+    turns = max(damage_variation(profile["DAMAGE"]) for profile in run.profiles) - 1.0
     values = (run.peak[0], float(run.load[-1]), index, turns, run.entry.iterations, run.entry.cutbacks)
     return dict(zip(HEAD, values, strict=False))
 
