@@ -248,7 +248,10 @@ def read_amplitudes(blocks: list[Block], problems: Problems) -> dict[str, Amplit
 
 def _read_amplitude(block: Block, name: str) -> Amplitude:
     options = block.options
-    kind = AmplitudeType(options.text("DEFINITION"))
+    spaced = options.text("DEFINITION") == "EQUALLY SPACED"
+    if not spaced and (options.given("FIXED INTERVAL") or options.given("BEGIN")):
+        raise block.error("FIXED INTERVAL and BEGIN are for DEFINITION=EQUALLY SPACED")
+    kind = AmplitudeType.TABULAR if spaced else AmplitudeType(options.text("DEFINITION"))
     total, absolute = options.text("TIME") == "TOTAL TIME", options.text("VALUE") == "ABSOLUTE"
     if kind is AmplitudeType.USER:
         properties, variables = _read_user(block)
@@ -256,7 +259,7 @@ def _read_amplitude(block: Block, name: str) -> Amplitude:
     if options.given("PROPERTIES") or options.given("VARIABLES"):
         raise block.error("PROPERTIES and VARIABLES are for DEFINITION=USER")
     readers = {AmplitudeType.PERIODIC: _read_periodic, AmplitudeType.DECAY: _read_decay}
-    data = readers.get(kind, _read_pairs)(block)
+    data = _read_spaced(block) if spaced else readers.get(kind, _read_pairs)(block)
     if kind is AmplitudeType.SMOOTH_STEP and len(data) < 2:
         raise block.error("SMOOTH STEP needs two points at least")
     return Amplitude(name, kind, data, block.source, total, absolute)
@@ -284,6 +287,17 @@ def _read_pairs(block: Block) -> FloatArray:
     if not values:
         raise block.error("needs a data line")
     return np.array(values).reshape(-1, 2)
+
+
+def _read_spaced(block: Block) -> FloatArray:
+    """Times and values of a curve with values at equal intervals."""
+    interval, begin = block.options.real("FIXED INTERVAL", 0.0), block.options.real("BEGIN", 0.0)
+    if interval <= 0:
+        raise block.error("DEFINITION=EQUALLY SPACED needs a positive FIXED INTERVAL")
+    values = [value for row in block.rows() for value in row.reals("value")]
+    if not values:
+        raise block.error("needs a data line")
+    return np.column_stack([begin + interval * np.arange(len(values)), values])
 
 
 def _read_decay(block: Block) -> FloatArray:

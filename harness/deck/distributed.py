@@ -58,15 +58,15 @@ def _jltyp(face: str, direction: Direction) -> int:
 
 def _volume_load(row: Row, label: str) -> tuple[LoadKind, str, Direction]:
     """Kind, face ('' for a volume) and direction of a load type of *DLOAD."""
+    match = re.fullmatch(r"P(\d)", label)
+    if match is None and label != "GRAV" and label not in _BODY:
+        supported = "Un and UnNU on user elements; Pn, BX, BY, BZ, those with NU, and GRAV on built-in solids"
+        raise row.error(f"load type {label} is not supported (supported: {supported})")
     row.at_most(6 if label == "GRAV" else 3)
     if label == "GRAV":
         return LoadKind.GRAVITY, "", _direction(row, label)
-    if label in _BODY:
-        return LoadKind.BODY, "", _BODY[label]
-    match = re.fullmatch(r"P(\d)", label)
     if match is None:
-        supported = "Un and UnNU on user elements; Pn, BX, BY, BZ, those with NU, and GRAV on built-in solids"
-        raise row.error(f"load type {label} is not supported (supported: {supported})")
+        return LoadKind.BODY, "", _BODY[label]
     return LoadKind.PRESSURE, f"S{match[1]}", _NO_DIRECTION
 
 

@@ -327,9 +327,9 @@ PROPERTIES = (
                 Kind.CHOICE,
                 "kind of curve",
                 default="TABULAR",
-                choices=("TABULAR", "SMOOTH STEP", "PERIODIC", "DECAY", "USER"),
+                choices=("TABULAR", "EQUALLY SPACED", "SMOOTH STEP", "PERIODIC", "DECAY", "USER"),
                 refused=(
-                    *("ACTUATOR", "BUBBLE", "EQUALLY SPACED", "FILM", "MODULATED", "PSD DEFINITION", "RAMP"),
+                    *("ACTUATOR", "BUBBLE", "FILM", "MODULATED", "PSD DEFINITION", "RAMP"),
                     *("SOLUTION DEPENDENT", "SPECTRUM"),
                 ),
             ),
@@ -345,10 +345,12 @@ PROPERTIES = (
             Option("INPUT", Kind.FILE, "file that holds the data lines"),
             Option("PROPERTIES", Kind.INTEGER, "number of properties that UAMP gets (0), with DEFINITION=USER"),
             Option("VARIABLES", Kind.INTEGER, "number of state variables of UAMP (1), with DEFINITION=USER"),
-            *refused("BEGIN", "FIXED INTERVAL", "SMOOTH", "SHIFTX", "SHIFTY", "SCALEX", "SCALEY"),
+            Option("FIXED INTERVAL", Kind.REAL, "time between values, with DEFINITION=EQUALLY SPACED"),
+            Option("BEGIN", Kind.REAL, "time of the first value (0), with DEFINITION=EQUALLY SPACED"),
+            *refused("SMOOTH", "SHIFTX", "SHIFTY", "SCALEX", "SCALEY"),
         ),
         "TABULAR, SMOOTH STEP: time, value pairs; PERIODIC: number of terms, omega, t0, A0; A1, B1, A2, B2 and so on; "
-        "DECAY: A0, A, t0, td; USER: properties",
+        "DECAY: A0, A, t0, td; EQUALLY SPACED: values; USER: properties",
     ),
 )
 

@@ -21,6 +21,15 @@ _STABILIZE = (
     ),
     Option("FACTOR", Kind.REAL, "damping factor in place of the fraction"),
     Option("ALLSDTOL", Kind.REAL, "largest ratio of ALLSD to ALLSE (0.05; 0 with FACTOR: no limit)"),
+    Option(
+        "CONTINUE",
+        Kind.CHOICE,
+        "factors of the step before",
+        default="NO",
+        choices=("NO",),
+        refused=("YES",),
+        bare="YES",
+    ),
 )
 
 PROCEDURE = (
@@ -61,7 +70,7 @@ PROCEDURE = (
             Option("DIRECT", doc="fixed increments"),
             Option("RIKS", doc="the load factor is part of the solution; increments are arc lengths"),
             *_STABILIZE,
-            *refused("ADIABATIC", "CONTINUE", "FULLY PLASTIC", "LONG TERM"),
+            *refused("ADIABATIC", "FULLY PLASTIC", "LONG TERM"),
         ),
         "initial increment, period (1), smallest increment, largest increment; with RIKS also the largest load "
         "proportionality factor, and a node, its dof and the displacement that ends the step",
@@ -147,7 +156,7 @@ PROCEDURE = (
             *_STABILIZE,
             Option("CREEP", Kind.CHOICE, "no material here creeps: accepted and without effect", choices=("NONE",)),
             *ignored("CETOL"),
-            *refused("CONTINUE", "ELECTRICAL"),
+            *refused("ELECTRICAL"),
         ),
         _TIMES,
     ),

@@ -66,9 +66,10 @@ PRESCRIBED = (
             ),
             Option("INPUT", Kind.FILE, "file that holds the data lines"),
             Option("USER", doc="DISP gives the values"),
+            Option("FIXED", doc="values stay what they are at the start of the step"),
             *ignored("REGION TYPE"),
             *refused(
-                *("BASE NAME", "FIXED", "LOAD CASE", "PHANTOM", "REAL", "IMAGINARY", "SCALE", "STEP", "SUBMODEL"),
+                *("BASE NAME", "LOAD CASE", "PHANTOM", "REAL", "IMAGINARY", "SCALE", "STEP", "SUBMODEL"),
                 *("BLOCKING", "TIMESCALE"),
             ),
         ),

@@ -60,6 +60,9 @@ class Prescription:
         velocity, user = block.options.text("TYPE") == "VELOCITY", block.options.flag("USER")
         if user and not in_step:
             raise block.error("USER before the first *STEP, where only zero can be prescribed")
+        fixed = block.options.flag("FIXED")
+        if fixed and (not in_step or velocity or user or amplitude is not None):
+            raise block.error("FIXED holds what a step begins with, and excludes AMPLITUDE, TYPE=VELOCITY and USER")
         if user and velocity:
             raise block.error("USER is supported for displacements, not for TYPE=VELOCITY")
         found = []
@@ -70,7 +73,8 @@ class Prescription:
             row.at_most(4)
             if magnitude and not in_step:
                 raise row.error(f"value {magnitude:g} before the first *STEP, where only zero can be prescribed")
-            found += [Boundary(nodes, dof, magnitude, amplitude, row.source, velocity, user) for dof in dofs]
+            given = magnitude, amplitude, row.source, velocity, user, fixed
+            found += [Boundary(nodes, dof, *given) for dof in dofs]
         return found
 
     def read_loads(self, block: Block) -> list[Load]:

@@ -86,7 +86,8 @@ class Controls:
 class Boundary:
     """One *BOUNDARY entry: nodes (indices), one dof, magnitude, amplitude (None: the step's default).
 
-    With `velocity` (TYPE=VELOCITY) it is the rate of the dof that is prescribed; with `user` DISP has the last word.
+    With `velocity` (TYPE=VELOCITY) it is the rate of the dof that is prescribed; with `user` DISP has the last word;
+    with `fixed` it is the value at the start of the step.
     """
 
     nodes: IntArray
@@ -96,6 +97,7 @@ class Boundary:
     source: Source
     velocity: bool = False
     user: bool = False
+    fixed: bool = False
 
 
 @dataclass(frozen=True, slots=True)

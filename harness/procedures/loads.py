@@ -8,6 +8,7 @@ Abaqus Analysis User's Guide, "Prescribed conditions: overview", "Amplitude curv
   AMPLITUDE= of *STEP says; prescribed displacements and rotations always ramp;
 - with an amplitude it is the magnitude times the curve, or the curve itself (VALUE=ABSOLUTE);
 - in later steps that do not give it anew it stays at the end value, or goes on along a curve in total time;
+- FIXED holds a value where it is at the start of the step;
 - TYPE=VELOCITY prescribes the rate, by default constant over the step, and goes on in later steps;
 - OP=NEW removes what is not given anew: a load, and the reaction of a released degree of freedom, fade over the step
   (RAMP) or vanish at once (STEP).
@@ -171,6 +172,8 @@ class Boundaries:
                 # the default is always a velocity that is there at once
                 start = displacement[unknowns]
                 courses.append(Course(unknowns, entry.magnitude, entry.amplitude, start, total_time))
+            elif entry.fixed:
+                base[unknowns] = displacement[unknowns]
             elif entry.amplitude is not None:
                 curves.append(Curve(unknowns, entry.magnitude, entry.amplitude))
             elif step.amplitude == "RAMP" or entry.dof <= _LAST_ROTATION:

@@ -158,9 +158,17 @@ def test_decay(read: Read) -> None:
     assert_allclose([curve.value(time, 0.0) for time in (0.4, 0.5, 0.7)], [2.0, 5.0, 2 + 3 * math.exp(-2)])
 
 
+def test_equally_spaced(read: Read) -> None:
+    curve = amplitude(read, ", DEFINITION=EQUALLY SPACED, FIXED INTERVAL=0.5, BEGIN=1.", "4., 6.\n0.")
+    assert [curve.value(time, 0.0) for time in (0.5, 1.0, 1.25, 2.0, 3.0)] == [4.0, 4.0, 5.0, 0.0, 0.0]
+
+
 @pytest.mark.parametrize(
     ("options", "data", "message"),
     [
+        (", DEFINITION=EQUALLY SPACED", "1., 2.", r"deck.inp:37: \*AMPLITUDE: DEFINITION=EQUALLY SPACED needs a posi"),
+        (", DEFINITION=EQUALLY, FIXED INTERVAL=1.", "** nothing", r"deck.inp:37: \*AMPLITUDE: needs a data line"),
+        (", BEGIN=1.", "0., 0.", r"deck.inp:37: \*AMPLITUDE: FIXED INTERVAL and BEGIN are for DEFINITION=EQUALLY SP"),
         (", DEFINITION=DECAY", "1., 2., 3.", r"deck.inp:38: \*AMPLITUDE: decay time td = 0 must be positive"),
         (", DEFINITION=DECAY", "** nothing", r"deck.inp:37: \*AMPLITUDE: needs a data line"),
         ("", "** nothing", r"deck.inp:37: \*AMPLITUDE: needs a data line"),

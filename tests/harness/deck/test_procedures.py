@@ -7,7 +7,7 @@ import math
 import pytest
 
 from harness.errors import DeckError
-from harness.model.procedures import Dynamic, HeatTransfer, Integrator, Visco
+from harness.model.procedures import Dynamic, HeatTransfer, Integrator, Stabilize, Static, Visco
 
 HEAD = """*NODE, NSET=ALL
 1, 0., 0.
@@ -31,6 +31,11 @@ def step(read):
 @pytest.mark.parametrize(
     "lines, expected, amplitude",
     [
+        (
+            "*STATIC, STABILIZE=1e-4, ALLSDTOL=0.1, CONTINUE=NO\n0.1, 2.",
+            Static(0.1, 2.0, 2e-5, 2.0, stabilize=Stabilize(1e-4, 0.0, 0.1)),
+            "RAMP",
+        ),
         ("*VISCO\n0.1, 2.", Visco(0.1, 2.0, 2e-5, 2.0), "STEP"),
         ("*DYNAMIC\n0.01, 2.", Dynamic(0.01, 2.0, 2e-5, 0.02, half_increment=1e4), "STEP"),
         ("*DYNAMIC, NOHAF, DIRECT\n0.01, 2.", Dynamic(0.01, 2.0, 0.01, 0.01, True), "STEP"),
@@ -89,6 +94,8 @@ def test_amplitude_of_the_step_goes_before_that_of_the_procedure(step):
 @pytest.mark.parametrize(
     "lines, message",
     [
+        ("*STATIC, STABILIZE, CONTINUE=YES", r"\*STATIC, CONTINUE=YES is not supported"),
+        ("*STATIC\n*BOUNDARY, FIXED, TYPE=VELOCITY\n1, 1", r"\*BOUNDARY: FIXED holds what a step begins with, and"),
         ("*DYNAMIC, ALPHA=-0.6\n0.01, 1.", r":10: \*DYNAMIC: ALPHA=-0.6 is outside -0.5 to 0"),
         ("*DYNAMIC, BETA=0.\n0.01, 1.", r"BETA=0 must be positive and GAMMA=0.55 at least 0.5"),
         ("*DYNAMIC, TIME INTEGRATOR=BWE, ALPHA=-0.1\n0.01, 1.", "ALPHA, BETA and GAMMA are of the integrators HHT"),

@@ -209,6 +209,7 @@ def test_dload_may_end_the_analysis(forces):
     [
         ("*DLOAD\nBODY, HP, 1.", "", r"load.inp:\d+: \*DLOAD: load type HP is not supported \(supported: Un and UnNU"),
         ("*DLOAD\nBODY, P2NU", "", r"load.inp:\d+: \*DLOAD: nonuniform loads need DLOAD, which the job does not have"),
+        ("*DLOAD\nBODY, CENTRIF, 1., 0., 0., 0., 1.", "", "load type CENTRIF is not supported"),
         ("*DLOAD\nBODY, GRAVNU, 1.", "", "load type GRAVNU is not supported"),
         ("*DLOAD\nBODY, P2NU", ", NLGEOM", "load type P turns with the surface"),
         ("*DLOAD\nBODY, P5, 1.", "", r"load.inp:\d+: \*DLOAD: elements of type CPE4 have no face S5"),

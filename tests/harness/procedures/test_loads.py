@@ -59,6 +59,13 @@ def test_a_displacement_ramps_from_where_it_is():
     assert history(variation, 1) == pytest.approx([3.0, 5.0, 7.0])
 
 
+def test_a_fixed_value_stays_what_it_is():
+    variation = Boundaries(Dofs(), ()).start_step(
+        step(boundaries=(boundary(1, 7.0, fixed=True),)), np.array([0.0, 3.0, 0.0, 0.0])
+    )
+    assert history(variation, 1) == [3.0, 3.0, 3.0]
+
+
 @pytest.mark.parametrize(("dof", "values"), [(1, [0.0, 2.0, 4.0]), (11, [4.0, 4.0, 4.0])])
 def test_amplitude_step_is_for_all_but_displacements(dof, values):
     """*BOUNDARY of the keyword manual: displacement and rotation components always ramp."""

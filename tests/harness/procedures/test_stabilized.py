@@ -106,7 +106,7 @@ def test_without_masses_it_says_so(run):
         (", FACTOR=1.", r":17: \*STATIC: FACTOR needs STABILIZE"),
         (", STABILIZE=-1.", "STABILIZE must be positive, FACTOR and ALLSDTOL not negative"),
         (", STABILIZE, RIKS", "RIKS and STABILIZE exclude each other"),
-        (", STABILIZE, CONTINUE=YES", "option CONTINUE is not supported"),
+        (", STABILIZE, CONTINUE=YES", "CONTINUE=YES is not supported"),
     ],
 )
 def test_options_that_are_wrong(run, options, message):
