@@ -111,9 +111,9 @@ def _with_own_rotations(subject: Subject, body: Body) -> Body:
 
     That dof is one whose uniform value takes the forces away that a rotation of the displacements makes at rest.
     """
-    rest = subject.states[0]
+    rest = next(iter(subject.resting), None)
     others = np.unique(subject.dofs[~body.displacement & ~body.turning.any(axis=0)])
-    if rest.u.any() or not len(others):
+    if rest is None or not len(others):
         return body
     stiffness, (motion,) = subject.differences(rest).matrix, body.small_rotations()
     limit = ALIKE * float((np.abs(stiffness) @ np.abs(motion)).max())

@@ -89,6 +89,11 @@ class Subject:
         return self.states + self.random
 
     @property
+    def resting(self) -> list[State]:
+        """States of the first pass of the run, before anything has happened, in which nothing is displaced."""
+        return [state for state in self.states if state.call is self.states[0].call and not state.u.any()]
+
+    @property
     def local_nodes(self) -> np.ndarray:
         """(n,) local node of each unknown, from 0."""
         return np.array([node for node, _ in self.definition.dofs])

@@ -22,7 +22,7 @@ MECHANICAL: Final = 6
 
 def check(subject: Subject) -> Finding:
     """RHS with U = 0 and DU = 0 before anything has happened."""
-    states = [state for state in subject.states if not state.u.any() and state.call.predefined is None]
+    states = [state for state in subject.resting if state.call.predefined is None]
     mechanical = subject.dofs <= MECHANICAL
     if not states or not mechanical.any():
         return not_applicable(AT_REST if mechanical.any() else "no displacements or rotations among the dofs")

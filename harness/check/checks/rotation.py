@@ -27,7 +27,7 @@ ANGLE: Final = np.pi / 6
 
 def check(subject: Subject) -> Finding:
     """From the start of the analysis, with linear kinematics, or finite ones where the step has NLGEOM."""
-    states = [state for state in subject.states if not state.u.any()]
+    states = subject.resting
     bodies = [body_of(subject, state) for state in states]
     known = [(state, body) for state, body in zip(states, bodies, strict=True) if body is not None]
     if not known:
@@ -72,10 +72,10 @@ def _judge(state: State, first: float, small: float, finite: float) -> Finding:
         f"order, {_says(finite)}"
     )
     advice = (
-        "Look at the strain-displacement matrix: shear takes both derivatives, du/dy + dv/dx, and the local frame has "
-        "to be orthogonal; for a finite-strain element, look whether stress and strain refer to the same "
-        "configuration. Interface elements with thickness, springs with a fixed direction, and axisymmetric elements "
-        "fail here and are right."
+        "Look at the strain-displacement matrix: shear takes both derivatives, du/dy + dv/dx, the shape functions add "
+        "up to one, rotations of nodes are those of the displacements, and a local frame is orthogonal; for a "
+        "finite-strain element, see that stress and strain refer to the same configuration. Interface elements with "
+        "thickness, springs with a fixed direction, and axisymmetric elements fail here and are right."
     )
     return failed(message, advice, figure=min(first, finite), limit=TOLERANCE)
 

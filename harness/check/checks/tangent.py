@@ -105,10 +105,23 @@ def _advice(worst: _Worst, subject: Subject) -> str:
     if missing:
         return f"AMATRX holds nothing for {missing}: add the derivative of these forces by these unknowns."
     return (
-        "Differentiate RHS again for these entries: terms from SVARS that change within the increment, from DU and "
-        "from the derivative of the state are the usual ones to be missing. Newton's method needs the derivative of "
-        "the RHS that this call returns; an approximate AMATRX costs iterations and cutbacks, not accuracy."
+        f"{_concerned(worst, subject.dofs)}Differentiate RHS again for these entries: terms from SVARS that change "
+        "within the increment, from DU and from the derivative of the state are the usual ones to be missing. Newton's "
+        "method needs the derivative of the RHS that this call returns; an approximate AMATRX costs iterations and "
+        "cutbacks, not accuracy."
     )
+
+
+def _concerned(worst: _Worst, dofs: np.ndarray) -> str:
+    """Which dofs the wrong entries belong to, as a sentence; '' where these are all, or too many to say."""
+    kind = kinds(dofs)
+    rows, columns = np.nonzero(worst.deviation > TOLERANCE)
+    pairs = sorted(set(zip(kind[rows].tolist(), kind[columns].tolist(), strict=True)))
+    if len(pairs) == len(np.unique(kind)) ** 2 or len(pairs) > SHOWN // 2:
+        return ""
+    names = {1: "displacements", 4: "rotations"}
+    of = [f"of {names.get(row, f'dof {row}')} by {names.get(column, f'dof {column}')}" for row, column in pairs]
+    return f"All are derivatives of RHS {' and '.join(of)}. "
 
 
 def _advice_on_zero(state: State, subject: Subject) -> str:

@@ -20,7 +20,7 @@ TOLERANCE: Final = 1e-9
 
 def check(subject: Subject) -> Finding:
     """Eigenvalues of the symmetric part of AMATRX for the displacements, at rest."""
-    state = next((state for state in subject.states if not state.u.any()), None)
+    state = next(iter(subject.resting), None)
     if state is None:
         return not_applicable(AT_REST)
     body = body_of(subject, state)

@@ -109,6 +109,38 @@ def test_wrong_entries_are_listed(patch):
     assert finding.figure > finding.limit
 
 
+COUPLED = """\
+*NODE
+1, 0.
+*USER ELEMENT, TYPE=U1, NODES=1, UNSYMM
+1, 11
+*ELEMENT, TYPE=U1, ELSET=ALL
+1, 1
+*UEL PROPERTY, ELSET=ALL
+*STEP
+*STATIC, DIRECT
+1., 1.
+*CLOAD
+1, 1, 1.
+*END STEP
+"""
+HALF = """\
+      include '{folder}/uel.inc'
+      rhs(1:2,1) = (/ -u(1) + 3*u(2), -2*u(2) /)
+      amatrx = reshape((/ 1d0, 0d0, -1.5d0, 2d0 /), (/ 2, 2 /))
+      end
+"""
+
+
+def test_dofs_of_wrong_entries(tmp_path):
+    deck, user = tmp_path / "coupled.inp", tmp_path / "coupled.f"
+    deck.write_text(COUPLED)
+    user.write_text(HALF.format(folder=QUAD.parents[1]))
+    tangent = findings(deck, user)["tangent"]
+    assert tangent.entries == ("AMATRX(1,2)",)
+    assert tangent.advice.startswith("All are derivatives of RHS of displacements by dof 11. Differentiate RHS again")
+
+
 def test_unsymm_that_is_declared(patch):
     symmetry = findings(patch(7, ("VARIABLES=12", "VARIABLES=12, UNSYMM")))["symmetry"]
     assert re.search("unsymmetric, as UNSYMM says: 34.3 %", symmetry.message)
