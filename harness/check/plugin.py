@@ -30,12 +30,13 @@ def pytest_addoption(parser: pytest.Parser) -> None:
 
 
 def pytest_configure(config: pytest.Config) -> None:
-    """Collect the decks; they come after the files named on the command line, and without any they come alone."""
+    """Collect the decks; they come after files named on the command line or in testpaths, and without any alone."""
     decks = config.getoption("--deck")
     if config.getoption("--uel") and not decks:
         raise pytest.UsageError("--uel needs the deck of the elements: --deck job.inp")
     if decks:
-        named = config.args if config.args_source is pytest.Config.ArgsSource.ARGS else []
+        sources = pytest.Config.ArgsSource
+        named = config.args if config.args_source in (sources.ARGS, sources.TESTPATHS) else []
         config.args = [*named, *decks]
 
 
