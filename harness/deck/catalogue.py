@@ -164,6 +164,9 @@ def _read_user_material(block: Block) -> UserMaterial:
     if not 0 <= count <= MOST_VARIABLES:
         raise block.error(f"CONSTANTS={count} is not a number of constants (0 to {MOST_VARIABLES})")
     values = [value for row in block.rows() for value in row.reals("constant")]
+    if len(values) == count + 1:
+        # a temperature behind the only set of constants is no dependence
+        values.pop()
     if len(values) > count:
         message = f"{len(values)} values where CONSTANTS={count} announces {count}; dependence on temperature is not "
         raise block.error(message + "supported")

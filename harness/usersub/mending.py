@@ -25,6 +25,17 @@ _IMPORTED_TWICE: Final = re.compile(
     r"is also the name of the current program unit$",
     re.MULTILINE,
 )
+_REAL_BOUND: Final = re.compile(
+    r"^(?P<file>[^\n]+?):(?P<line>\d+):\d+:\n(?:(?!.*Error:).*\n)*?"
+    r"Error: (?:Expecting a scalar INTEGER expression at \(1\), found REAL|"
+    r"Expression at \(1\) must be of INTEGER type, found REAL|"
+    r"Bad array specification for an explicitly shaped array at \(1\))$",
+    re.MULTILINE,
+)
+_REAL_CONSTANTS: Final = re.compile(
+    r"^\s*(?:real|double\s*precision)[^!\n]*\bparameter\b[^!\n]*::(.*)$", re.IGNORECASE | re.MULTILINE
+)
+_BOUND: Final = re.compile(r"(?<=[(,:])[a-z]\w*(?=[),:])", re.IGNORECASE)
 _SPELLINGS: Final = {".eq.": (".eq.", "=="), "==": (".eq.", "=="), ".ne.": (".ne.", "/="), "/=": (".ne.", "/=")}
 _STANDARD: Final = {".eq.": ".eqv.", "==": ".eqv.", ".ne.": ".neqv.", "/=": ".neqv."}
 _WEAKER: Final = re.compile(r"\.(and|or|eqv|neqv)\.", re.IGNORECASE)
@@ -52,6 +63,26 @@ def repairs(errors: str) -> Iterator[Repair]:
         change = partial(rename_import, line=line, module=module, name=name)
         note = f"{name} of module {module} has the name of the program unit that uses it, and another one in the copy"
         yield Repair(Path(found["file"]).name, line, change, note)
+    for found in _REAL_BOUND.finditer(errors):
+        line = int(found["line"])
+        change = partial(whole_bound, line=line)
+        yield Repair(Path(found["file"]).name, line, change, "a real number as an array bound, in the copy int() of it")
+
+
+def whole_bound(text: str, line: int) -> str | None:
+    """The text in which the real constants that are array bounds in a declaration are made integers; None without one.
+
+    Only names declared as real PARAMETER are taken, which stand alone between parentheses, commas and colons.
+    """
+    lines = text.splitlines(keepends=True)
+    if not 1 <= line <= len(lines):
+        return None
+    reals = {name.lower() for found in _REAL_CONSTANTS.finditer(text) for name in re.findall(r"(\w+)\s*=", found[1])}
+    row = _BOUND.sub(lambda bound: f"int({bound[0]})" if bound[0].lower() in reals else bound[0], lines[line - 1])
+    if row == lines[line - 1]:
+        return None
+    lines[line - 1] = row
+    return "".join(lines)
 
 
 def rename_import(text: str, line: int, module: str, name: str) -> str | None:

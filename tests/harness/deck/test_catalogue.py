@@ -70,8 +70,8 @@ def test_plastic(read: Read) -> None:
         ("*SPECIFIC HEAT\n-2.", r"deck.inp:31: \*SPECIFIC HEAT: specific heat -2 must be positive"),
         ("*PLASTIC, HARDENING=KINEMATIC\n10.", r"deck.inp:30: \*PLASTIC, HARDENING=KINEMATIC is not supported"),
         (
-            "*USER MATERIAL, CONSTANTS=2\n1, 2, 3",
-            r"deck.inp:30: \*USER MATERIAL: 3 values where CONSTANTS=2 announces 2",
+            "*USER MATERIAL, CONSTANTS=2\n1, 2, 3, 4",
+            r"deck.inp:30: \*USER MATERIAL: 4 values where CONSTANTS=2 announces 2",
         ),
         (
             "*USER MATERIAL, CONSTANTS=1, TYPE=THERMAL\n1",
@@ -85,6 +85,13 @@ def test_plastic(read: Read) -> None:
 def test_wrong_material(read: Read, lines: str, message: str) -> None:
     with pytest.raises(DeckError, match=message):
         material(read, lines)
+
+
+@pytest.mark.parametrize(("lines", "constants"), [("CONSTANTS=2\n1., 2., 20.", [1.0, 2.0]), ("CONSTANTS=0\n0.,", [])])
+def test_temperature_behind_the_only_constants(read: Read, lines: str, constants: list[float]) -> None:
+    found = material(read, f"*USER MATERIAL, {lines}")
+    assert found.user is not None
+    np.testing.assert_array_equal(found.user.constants, constants)
 
 
 def test_user_material(read: Read) -> None:

@@ -233,6 +233,24 @@ def test_logicals_compared_with_eq_compile_in_a_copy(load, tmp_path):
     assert (tmp_path / "user.f").read_text() == text
 
 
+def test_real_array_bound_compiles_in_a_copy(load):
+    """As Abaqus' compiler takes it, which makes an integer of it; other names on the line stay."""
+    body = "      call work(2)\n      end\n      subroutine work(n)\n      real*8, parameter :: most=2, tiny=1d-9\n"
+    library = load(database(body + "      real*8 a(n,most), b(n)\n      a = tiny\n" + note("bound")))
+    assert [m.text for m in library.messages()] == [
+        "an extension of Abaqus' compiler, written in standard Fortran in a copy: "
+        "user.f, line 9: a real number as an array bound, in the copy int() of it"
+    ]
+    assert said(library) == ["bound"]
+
+
+def test_real_array_bound_that_is_no_constant_is_shown(load):
+    body = "      real*8 x\n      call work(x)\n      end\n"
+    body += "      subroutine work(x)\n      real*8 x\n      real*8 a(x)\n"
+    with pytest.raises(CompileError, match=r"must be of INTEGER type, found REAL \(user.f, line 10"):
+        load(database(body + "      a(1) = 0"))
+
+
 def test_name_that_is_imported_and_defined_compiles_in_a_copy(load):
     """As Abaqus' compiler takes it: in the routine its own name is meant."""
     modules = "      module one\n      contains\n      subroutine twice(i)\n      i = 2*i\n"
