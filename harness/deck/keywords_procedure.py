@@ -56,7 +56,7 @@ PROCEDURE = (
                 choices=("RAMP", "STEP"),
             ),
             *ignored("CONVERT SDI", "SOLVER"),
-            Option("PERTURBATION", doc="a linear step about the last state, for *FREQUENCY, which is one always"),
+            Option("PERTURBATION", doc="a linear step about the last state: *STATIC, and *FREQUENCY always"),
             *refused("DSA", "SUBDIVIDE"),
         ),
         "title",

@@ -24,6 +24,7 @@ from harness.model.procedures import (
     Riks,
     Stabilize,
     Static,
+    StaticPerturbation,
     Visco,
 )
 
@@ -37,6 +38,8 @@ _LARGEST = {"TRANSIENT FIDELITY": 0.01, "MODERATE DISSIPATION": 0.1, "QUASI-STAT
 Times = tuple[float, float, float, float, bool]
 """The first entries of `Procedure`."""
 
+_NO_TIME: Times = PERTURBATION_TIME, PERTURBATION_TIME, PERTURBATION_TIME, PERTURBATION_TIME, True
+
 HALF_INCREMENT_FACTOR = 1e4
 """HALFINC SCALE FACTOR of a model without contact."""
 
@@ -48,7 +51,17 @@ def read_procedure(scope: Scope, prescription: Prescription) -> Procedure:
         raise scope.head.error("the step has no procedure such as *STATIC")
     if len(blocks) > 1:
         raise blocks[1].error(f"the step has a procedure already, at {blocks[0].source}")
+    if scope.head.options.flag("PERTURBATION") and blocks[0].name != "FREQUENCY":
+        return _read_perturbation(blocks[0])
     return _READERS[blocks[0].name](blocks[0], prescription)
+
+
+def _read_perturbation(block: Block) -> StaticPerturbation:
+    if block.name != "STATIC":
+        raise block.error("is no procedure of a step with PERTURBATION, which are *STATIC and *FREQUENCY")
+    if any(block.options.given(name) for name in ("DIRECT", "RIKS", "STABILIZE")):
+        raise block.error("DIRECT, RIKS and STABILIZE have no meaning in a step with PERTURBATION")
+    return StaticPerturbation(*_NO_TIME)
 
 
 def _only_row(block: Block) -> Row | None:
@@ -193,9 +206,8 @@ def _read_frequency(block: Block, _: Prescription) -> Frequency:
         raise block.error("needs a number of eigenvalues, or a highest frequency")
     if lowest >= highest:
         raise block.error(f"the lowest frequency {lowest:g} is not below the highest, {highest:g}")
-    no_time = PERTURBATION_TIME, PERTURBATION_TIME, PERTURBATION_TIME, PERTURBATION_TIME, True
     by_mass = block.options.text("NORMALIZATION") == "MASS"
-    return Frequency(*no_time, number=number, lowest=lowest, highest=highest, by_mass=by_mass)
+    return Frequency(*_NO_TIME, number=number, lowest=lowest, highest=highest, by_mass=by_mass)
 
 
 _READERS: dict[str, Callable[[Block, Prescription], Procedure]] = {

@@ -16,11 +16,9 @@ from harness.deck.table import compact
 from harness.deck.user_elements import LARGEST_DOF
 from harness.model.arrays import IntArray
 from harness.model.nodal import COMPONENTS
+from harness.model.records import ENERGIES
 from harness.model.steps import ElementRequest, NodeRequest, OutputRequests
 
-PRESELECTED_ENERGIES = (
-    *("ALLAE", "ALLCD", "ALLDMD", "ALLIE", "ALLKE", "ALLPD", "ALLSD", "ALLSE", "ALLVD", "ALLWK", "ETOTAL"),
-)
 PRESELECTED_NODAL = ("U", "RF", "CF")
 NEVER = 0
 _OUTPUT_TIMES = ("NUMBER INTERVAL", "TIME INTERVAL", "TIME POINTS")
@@ -41,7 +39,7 @@ class RequestReader:
     def __init__(self, flat: FlatMesh, problems: Problems) -> None:
         self._flat = flat
         self._problems = problems
-        self._requests = OutputRequests(history_energies=PRESELECTED_ENERGIES)
+        self._requests = OutputRequests(history_energies=ENERGIES)
         self._open: _Open | None = None
         self._dropped: set[str] = set()
         self._readers: dict[str, Callable[[Block], None]] = {
@@ -91,7 +89,7 @@ class RequestReader:
             self._requests = replace(self._requests, field_frequency=smallest)
         if "HISTORY" in kinds:
             smallest = min(now.history_frequency, frequency) if now.history_nodes or now.history_energies else frequency
-            energies = PRESELECTED_ENERGIES if options.given("VARIABLE") else now.history_energies
+            energies = ENERGIES if options.given("VARIABLE") else now.history_energies
             self._requests = replace(self._requests, history_frequency=smallest, history_energies=energies)
 
     def _drop(self, kinds: set[str]) -> None:
@@ -126,7 +124,7 @@ class RequestReader:
     def _energy_output(self, block: Block) -> None:
         if self._history(block) is None:
             return
-        names = _listed(block) or PRESELECTED_ENERGIES
+        names = _listed(block) or ENERGIES
         energies = tuple(dict.fromkeys((*self._requests.history_energies, *names)))
         self._requests = replace(self._requests, history_energies=energies)
 

@@ -17,7 +17,7 @@ from harness.deck.problems import Problems
 from harness.deck.procedures import read_procedure
 from harness.deck.requests import RequestReader
 from harness.deck.structure import Scope
-from harness.model.procedures import Dynamic, Frequency, Procedure
+from harness.model.procedures import Dynamic, Frequency, Procedure, StaticPerturbation
 from harness.model.records import MODAL
 from harness.model.steps import DistributedLoad, ElementLoad, Step
 
@@ -61,8 +61,8 @@ def read_steps(
             procedure = read_procedure(scope, prescription)
             if isinstance(procedure, Frequency):
                 output = replace(output, history_energies=MODAL)
-            elif options.flag("PERTURBATION"):
-                raise scope.head.error("PERTURBATION is supported with *FREQUENCY only")
+            elif isinstance(procedure, StaticPerturbation):
+                output = replace(output, history_energies=("ALLSE", "ALLWK"))
             increments = options.integer("INC", MOST_INCREMENTS)
             if increments < 1:
                 raise scope.head.error(f"INC={increments} must be positive")
@@ -95,7 +95,25 @@ def read_steps(
                 )
             )
     _check_followers(steps, problems)
+    for step in steps:
+        if isinstance(step.procedure, StaticPerturbation):
+            _check_perturbation(step, problems)
     return tuple(steps)
+
+
+def _check_perturbation(step: Step, problems: Problems) -> None:
+    """What has no meaning in a linear step, or is not supported there."""
+    for what, entries in (("predefined fields", step.fields), ("distributed loads on user elements", step.distributed)):
+        for entry in entries:
+            problems.add(entry.source, f"{what} are not supported in a step with PERTURBATION")
+    for boundary in step.boundaries:
+        if boundary.velocity or boundary.user:
+            problems.add(boundary.source, "TYPE=VELOCITY and USER have no meaning in a step with PERTURBATION")
+    for load in (*step.element_loads, *step.surface_loads):
+        if load.type.jltyp:
+            problems.add(load.source, "loads by DLOAD are not supported in a step with PERTURBATION")
+    for source in step.varying:
+        problems.add(source, "an amplitude has no meaning in a step with PERTURBATION")
 
 
 def _check_followers(steps: Sequence[Step], problems: Problems) -> None:

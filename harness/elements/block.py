@@ -137,6 +137,12 @@ class Block:
         self._all_terms = np.full(n, -1.0)
         self._no_fields = np.zeros((1, group.nodes.shape[1], 1 if group.definition else 2, 2))
 
+    @property
+    def elastic(self) -> bool:
+        """Whether it is of built-in elements whose state is linear in the displacements where these are small."""
+        procedure = self._procedure
+        return self.group.definition is None and procedure.material > 0 and procedure.history[0] == 1
+
     def bind(self, equations: NDArray[np.int32], scatter: NDArray[np.int32]) -> None:
         """Tell where the unknowns are.
 

@@ -140,6 +140,16 @@ PERTURBATION_TIME = 1e-36
 
 
 @dataclass(frozen=True, slots=True)
+class StaticPerturbation(Procedure):
+    """*STATIC in a step with PERTURBATION."""
+
+    @property
+    def lflag(self) -> int:
+        """1."""
+        return 1
+
+
+@dataclass(frozen=True, slots=True)
 class Frequency(Procedure):
     """*FREQUENCY.
 

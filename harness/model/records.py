@@ -124,6 +124,11 @@ class ModeShape(IncrementDone):
     """One mode: `increment` is its number, its frequency stands for the times, the displacement is its shape."""
 
 
+ENERGIES: Final = (
+    *("ALLAE", "ALLCD", "ALLDMD", "ALLIE", "ALLKE", "ALLPD", "ALLSD", "ALLSE", "ALLVD", "ALLWK", "ETOTAL"),
+)
+"""Energies of the whole model that a general step has."""
+
 MODAL: Final = ("EIGVAL", "EIGFREQ", "GM")
 """Whole-model variables of a mode: eigenvalue, frequency in cycles per time, generalized mass."""
 

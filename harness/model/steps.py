@@ -259,7 +259,15 @@ class Step:
     @property
     def amplitudes(self) -> tuple[Amplitude, ...]:
         """Amplitudes that its values, loads and fields name."""
-        entries: tuple[Boundary | Load | DistributedLoad | ElementLoad, ...]
-        entries = (*self.boundaries, *self.loads, *self.fields)
-        entries += (*self.distributed, *self.element_loads, *self.surface_loads)
-        return tuple(entry.amplitude for entry in entries if entry.amplitude is not None)
+        return tuple(entry.amplitude for entry in self._entries if entry.amplitude is not None)
+
+    @property
+    def varying(self) -> tuple[Source, ...]:
+        """Places of those that name an amplitude."""
+        return tuple(entry.source for entry in self._entries if entry.amplitude is not None)
+
+    @property
+    def _entries(self) -> tuple[Boundary | Load | DistributedLoad | ElementLoad, ...]:
+        found: list[Boundary | Load | DistributedLoad | ElementLoad] = [*self.boundaries, *self.loads, *self.fields]
+        found += [*self.distributed, *self.element_loads, *self.surface_loads]
+        return tuple(found)

@@ -19,7 +19,7 @@ import numpy as np
 from harness.model.arrays import FloatArray, IntArray
 from harness.model.model import Model
 from harness.model.nodal import NodalIndex
-from harness.model.records import MODAL, IncrementDone, Solution
+from harness.model.records import ENERGIES, MODAL, IncrementDone, Solution
 from harness.model.steps import NodeRequest
 from harness.output.formats import TextFile
 from harness.output.schedule import Schedule
@@ -68,7 +68,7 @@ class HistoryFile:
             for request in step.output.history_nodes:
                 columns += self._nodal(request, index)
             for name in step.output.history_energies:
-                if name in solution.energies or name in MODAL:
+                if name in ENERGIES or name in MODAL:
                     columns.append(_Column(name, None, 0))
                 else:
                     self.unavailable.append(f"{name} of step {step.number}")

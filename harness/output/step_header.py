@@ -7,7 +7,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterable
 
-from harness.model.procedures import Dynamic, Frequency, HeatTransfer, Integrator, Procedure, Visco
+from harness.model.procedures import Dynamic, Frequency, HeatTransfer, Integrator, Procedure, StaticPerturbation, Visco
 from harness.model.records import IncrementDone, ModeShape
 from harness.model.steps import Controls, FieldControls, Step, TimeControls
 from harness.output.formats import general
@@ -41,6 +41,8 @@ def procedure(step: Step) -> str:
     ]
     if isinstance(static, Frequency):
         lines += _frequency(static)
+    elif isinstance(static, StaticPerturbation):
+        lines += ["          A LINEAR PERTURBATION ABOUT THE BASE STATE"]
     elif static.riks is not None:
         lines += _riks(static)
     elif static.direct:
@@ -132,7 +134,7 @@ def completed(record: IncrementDone, period: float) -> str:
 
 def tolerances(step: Step, fields: Iterable[str]) -> str:
     """Everything that the convergence checks and the time incrementation of the step depend on."""
-    if isinstance(step.procedure, Frequency):
+    if isinstance(step.procedure, Frequency | StaticPerturbation):
         return ""
     blocks = [_field(FIELDS[name], controls_of(name, step.controls)) for name in fields]
     blocks.append(_time(step.controls.time, step.procedure))

@@ -89,6 +89,11 @@ class AllLoads:
         found = tuple(load for load in distributed if load is not None)
         return StepLoads(step.number, self._concentrated.start_step(step, total_time), found, user)
 
+    def in_perturbation(self, step: Step) -> FloatArray:
+        """Forces (n,) of a perturbation step, of which nothing goes on into the next one."""
+        forces = self._concentrated.in_perturbation(step.loads)
+        return forces + self._elements.unlasting(step.element_loads) + self._surfaces.unlasting(step.surface_loads)
+
     def conclude(self, step_time: float) -> None:
         """The step ends before its period."""
         for loads in (self._concentrated, self._elements.loads, self._surfaces.loads):
@@ -143,9 +148,17 @@ class _ElementLoads:
             self._active[:] = False
         for entry in entries:
             self._active[self._slots.find(entry.elements, self._types.index(entry.type))] = True
-        loads = [Load(e.elements, self._types.index(e.type), e.magnitude, e.amplitude, e.source) for e in entries]
+        loads = self._as_loads(entries)
         by_user = np.flatnonzero((self._points.places[:, 2] > 0) & self._active[self._points.slot])
         return _StepElementLoads(self._points, self.loads.take(loads, new, step, total_time), by_user)
+
+    def unlasting(self, entries: Sequence[ElementLoad]) -> FloatArray:
+        """Forces (n,) of entries of a perturbation step."""
+        magnitudes = self.loads.in_perturbation(self._as_loads(entries))
+        return np.asarray(self._points.forces @ magnitudes[self._points.slot])
+
+    def _as_loads(self, entries: Sequence[ElementLoad]) -> list[Load]:
+        return [Load(e.elements, self._types.index(e.type), e.magnitude, e.amplitude, e.source) for e in entries]
 
     def _points_of(self, system: System, entry: ElementLoad) -> list[_Points]:
         """Points of the elements that have loads of the entry's type, block by block."""

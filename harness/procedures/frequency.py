@@ -2,28 +2,27 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """*FREQUENCY: natural frequencies about the state at the end of the last general step.
 
-Elements are asked for the stiffness (LFLAGS(3) = 2) and the mass (4) alone, LFLAGS(1) = 41 and LFLAGS(4) = 1, with U of
-the base state; loads and prescribed values of the step are not there. Nothing of the step goes on into the next one.
+Elements are asked for the stiffness (LFLAGS(3) = 2) and the mass (4) alone, with LFLAGS(1) = 41; loads and prescribed
+values of the step are not there.
 """
 
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
 
 import numpy as np
 from scipy import sparse
 
-from harness.assembly import Constraints, System
-from harness.elements import Call
+from harness.assembly import System
 from harness.errors import DeckError
 from harness.model.arrays import FloatArray
 from harness.model.model import Model
 from harness.model.procedures import Frequency
-from harness.model.records import AttemptStarted, ModesFound, ModeShape, Noted, Record, Solution, StepDone
+from harness.model.records import ModesFound, ModeShape, Record
 from harness.model.steps import Step
+from harness.procedures.perturbation import PerturbationStep
 from harness.procedures.state import State
-from harness.procedures.static import MASS, UserRoutines, choose_solver
+from harness.procedures.static import MASS, UserRoutines
 from harness.solver.eigen import Pair, UnstableError, lowest_eigenvalues
 
 STIFFNESS = 2
@@ -35,7 +34,7 @@ FIRST = 10
 _LAST_DISPLACEMENT = 3
 
 
-class FrequencyStep:
+class FrequencyStep(PerturbationStep):
     """One step of natural frequencies."""
 
     def __init__(
@@ -48,41 +47,23 @@ class FrequencyStep:
         solver: str,
         user: UserRoutines,
     ) -> None:
-        self._system = system
-        self._step = step
+        super().__init__(system, model, step, state, solver, user)
         self._procedure = procedure
-        self._state = state
-        self._user = user
-        unknowns = state.boundaries.in_perturbation(step)
-        self._constraints = Constraints(system, unknowns, model.equations, state.boundaries.sources)
-        self._solver = choose_solver(solver, self._constraints)
 
-    @property
-    def reached(self) -> tuple[tuple[float, float], float, int, int]:
-        """As that of a static step; no time passes."""
-        return (0.0, self._state.total_time), 0.0, self._step.number, 1
-
-    def run(self) -> Iterator[Record]:
-        """The modes, lowest first. Raises KernelError, SingularMatrixError, DeckError."""
-        step, procedure, total = self._step, self._procedure, self._state.total_time
-        yield Noted(f"LINEAR SOLVER {self._solver.name.upper()}: {self._solver.reason}")
-        yield AttemptStarted(step.number, 1, 1, 0.0, total, procedure.period)
-        self._user.external_database(1, 0, (0.0, total), procedure.period, step.number, 1)
+    def _solve(self) -> list[Record]:
+        """The modes, lowest first."""
+        step, procedure = self._step, self._procedure
         values, vectors = self._modes()
-        rate = np.sign(values) * np.sqrt(np.abs(values))
-        frequency = rate / (2 * math.pi)
+        frequency = np.sign(values) * np.sqrt(np.abs(values)) / (2 * math.pi)
         inside = (frequency >= procedure.lowest) & (frequency <= procedure.highest)
         values, frequency, vectors = values[inside], frequency[inside], vectors[:, inside]
         shapes, masses = self._scaled(vectors)
-        self._user.external_database(2, 0, (0.0, total), procedure.period, step.number, 1)
-        yield ModesFound(step.number, total, values, frequency, masses)
+        records: list[Record] = [ModesFound(step.number, self._state.total_time, values, frequency, masses)]
         for mode, shape in enumerate(shapes):
-            size = procedure.period
-            measures = {"EIGVAL": float(values[mode]), "EIGFREQ": float(frequency[mode]), "GM": float(masses[mode])}
-            solution = self._solution(shape, measures)
-            at = float(frequency[mode])
-            yield ModeShape(step.number, mode + 1, 1, 0, at, at, size, solution)
-        yield StepDone(step.number, 1, 0, 1)
+            at, size = float(frequency[mode]), procedure.period
+            measures = {"EIGVAL": float(values[mode]), "EIGFREQ": at, "GM": float(masses[mode])}
+            records.append(ModeShape(step.number, mode + 1, 1, 0, at, at, size, self._solution(shape, measures)))
+        return records
 
     def _modes(self) -> tuple[FloatArray, FloatArray]:
         """Eigenvalues, and vectors (n, k) of all unknowns: as many as asked for, or more than the frequencies hold."""
@@ -106,19 +87,7 @@ class FrequencyStep:
 
     def _matrix(self, request: int) -> FloatArray:
         """CSR values of the symmetric part of a matrix of the free unknowns."""
-        step, state = self._step, self._state
-        period = self._procedure.period
-        call = Call(
-            lflags=(self._procedure.lflag, int(step.nlgeom), request, 1, 0),
-            step=step.number,
-            increment=1,
-            step_time=0.0,
-            total_time=state.total_time,
-            time_increment=period,
-            period=period,
-            predefined=state.predefined,
-        )
-        evaluation = self._system.evaluate(call, state.displacement, np.zeros_like(state.displacement))
+        evaluation = self._pass(request)
         assert evaluation.data is not None
         constraints, data = self._constraints, self._constraints.reduce(evaluation.data)
         # a matrix whose entries are their own positions, transposed
@@ -135,17 +104,3 @@ class FrequencyStep:
             largest = measured[np.argmax(np.abs(measured))]
             factors[mode] = np.sign(largest) if self._procedure.by_mass else 1.0 / largest
         return (vectors * factors).T, factors**2
-
-    def _solution(self, shape: FloatArray, measures: dict[str, float]) -> Solution:
-        dofs, zero = self._system.dofs, np.zeros_like(shape)
-        return Solution(
-            node=dofs.node,
-            dof=dofs.dof,
-            displacement=shape,
-            reaction=zero,
-            load=zero,
-            velocity=zero,
-            acceleration=zero,
-            energies=measures,
-            elements=(),
-        )

@@ -194,6 +194,13 @@ class Boundaries:
             active[find_unknowns(self._dofs, entry)[0]] = True
         return np.flatnonzero(active)
 
+    def perturbations(self, step: Step) -> FloatArray:
+        """Prescribed changes (n,) of a perturbation step."""
+        values = np.zeros(len(self._dofs))
+        for entry in step.boundaries:
+            values[find_unknowns(self._dofs, entry)[0]] = 0.0 if entry.fixed else entry.magnitude
+        return values
+
     def conclude(self, step_time: float) -> None:
         """The step ends before its period."""
         self._period = step_time
@@ -259,6 +266,13 @@ class Loads:
             start = target
         self._previous = Variation(start, target - start, step.procedure.period, tuple(curves))
         return self._previous
+
+    def in_perturbation(self, entries: Sequence[Load]) -> FloatArray:
+        """Values (n,) of a perturbation step, of which nothing goes on into the next one."""
+        values = np.zeros(len(self._dofs))
+        for entry in entries:
+            np.add.at(values, find_unknowns(self._dofs, entry)[0], entry.magnitude)
+        return values
 
     def conclude(self, step_time: float) -> None:
         """The step ends before its period: what it reached stays."""

@@ -12,7 +12,7 @@ from harness.assembly import DofMap, System
 from harness.elements import Call
 from harness.errors import ConvergenceError, SingularMatrixError
 from harness.model.model import Model
-from harness.model.procedures import Dynamic, Frequency, HeatTransfer
+from harness.model.procedures import Dynamic, Frequency, HeatTransfer, StaticPerturbation
 from harness.model.records import Noted, Record, StepStarted, Warned
 from harness.model.steps import Boundary, Load, Step
 from harness.procedures.dynamic import DynamicStep
@@ -21,6 +21,7 @@ from harness.procedures.heat_transfer import HeatTransferStep, StabilizedHeatTra
 from harness.procedures.initial_states import set_initial_states
 from harness.procedures.loads import find_unknowns
 from harness.procedures.path import EnergyStep, RiksStep
+from harness.procedures.perturbation import PerturbationStep
 from harness.procedures.stabilized import StabilizedStep
 from harness.procedures.state import State
 from harness.procedures.static import MASS, StaticStep, UserRoutines
@@ -78,7 +79,7 @@ def run_steps(
             if step is model.steps[0]:
                 _mass_pass(system, step)
             yield from map(Noted, step.notes)
-            if not isinstance(step.procedure, Dynamic | Frequency):
+            if not isinstance(step.procedure, Dynamic | Frequency | StaticPerturbation):
                 state.come_to_rest()
             running = _start(system, model, step, state, solver, user, fallback=fallback, energy_control=energy_control)
             yield from running.run()
@@ -102,13 +103,15 @@ def _start(
     *,
     fallback: bool,
     energy_control: bool,
-) -> StaticStep | FrequencyStep:
+) -> StaticStep | PerturbationStep:
     """What runs a step. Raises DeckError."""
     procedure = step.procedure
     if isinstance(procedure, Dynamic):
         return DynamicStep(system, model, step, procedure, state, solver, user)
     if isinstance(procedure, Frequency):
         return FrequencyStep(system, model, step, procedure, state, solver, user)
+    if isinstance(procedure, StaticPerturbation):
+        return PerturbationStep(system, model, step, state, solver, user)
     if procedure.riks:
         return RiksStep(system, model, step, state, solver, user)
     if energy_control and not isinstance(procedure, HeatTransfer):

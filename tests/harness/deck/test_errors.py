@@ -37,7 +37,7 @@ MISTAKES = {
         "*ELASTIC, TYPE=SHEAR",
         r"30: \*ELASTIC, TYPE=SHEAR is not supported \(supported: ISO",
     ),
-    "perturbation": ("INC=500", "PERTURBATION", r"41: \*STEP: PERTURBATION is supported with \*FREQUENCY only"),
+    "subdivided step": ("INC=500", "SUBDIVIDE", r"41: \*STEP: option SUBDIVIDE is not supported"),
     "stabilize": ("*STATIC", "*STATIC, LONG TERM", r"43: \*STATIC: option LONG TERM is not supported"),
     "coordinate system": (
         "*NODE, NSET=ALL",

@@ -1,0 +1,121 @@
+# SPDX-FileCopyrightText: The uel-harness authors
+# SPDX-License-Identifier: BSD-3-Clause
+"""Linear steps about the state at the end of the last general step (Abaqus Analysis User's Guide, "General and linear
+perturbation procedures"), and *STATIC among them.
+
+Elements get LFLAGS(4) = 1, and in U the base state. No time passes, and nothing of the step goes on into the next one.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import replace
+
+import numpy as np
+
+from harness.assembly import Constraints, Evaluation, System
+from harness.elements import Call
+from harness.model.arrays import FloatArray
+from harness.model.model import Model
+from harness.model.records import AttemptStarted, ElementState, IncrementDone, Noted, Record, Solution, StepDone
+from harness.model.steps import Step
+from harness.procedures.state import State
+from harness.procedures.static import NORMAL, UserRoutines, choose_solver
+
+OUTPUT = 100
+"""LFLAGS(3) of a call for what a perturbation changes: DU is the perturbation."""
+
+
+class PerturbationStep:
+    """One linear step; what it does is that of a subclass."""
+
+    def __init__(self, system: System, model: Model, step: Step, state: State, solver: str, user: UserRoutines) -> None:
+        self._system = system
+        self._step = step
+        self._state = state
+        self._user = user
+        unknowns = state.boundaries.in_perturbation(step)
+        self._constraints = Constraints(system, unknowns, model.equations, state.boundaries.sources)
+        self._solver = choose_solver(solver, self._constraints)
+
+    @property
+    def reached(self) -> tuple[tuple[float, float], float, int, int]:
+        """As that of a general step."""
+        return (0.0, self._state.total_time), 0.0, self._step.number, 1
+
+    def run(self) -> Iterator[Record]:
+        """Records of the step. Raises KernelError, SingularMatrixError, DeckError."""
+        step, total, size = self._step, self._state.total_time, self._step.procedure.period
+        yield Noted(f"LINEAR SOLVER {self._solver.name.upper()}: {self._solver.reason}")
+        yield AttemptStarted(step.number, 1, 1, 0.0, total, size)
+        self._user.external_database(1, 0, (0.0, total), size, step.number, 1)
+        records = self._solve()
+        self._user.external_database(2, 0, (0.0, total), size, step.number, 1)
+        yield from records
+        yield StepDone(step.number, 1, 0, 1)
+
+    def _solve(self) -> list[Record]:
+        """What the step finds: the response to its loads and prescribed values."""
+        evaluation = self._pass(NORMAL)
+        assert evaluation.data is not None
+        constraints, step = self._constraints, self._step
+        load = self._state.loads.in_perturbation(step)
+        prescribed = self._state.boundaries.perturbations(step)[constraints.prescribed]
+        stiffness = self._system.matrix(evaluation.data)
+        missing = load - constraints.prescribed_residual(evaluation.data, prescribed)
+        self._solver.factorise(constraints.reduce(evaluation.data))
+        change = constraints.expand(self._solver.solve(constraints.reduce_vector(missing)), prescribed)
+        internal = stiffness @ change
+        self._pass(OUTPUT, change)
+        work = 0.5 * float(change @ internal)
+        solution = self._solution(change, {"ALLSE": work, "ALLWK": work})
+        reaction = constraints.reactions(load - internal)
+        found = replace(solution, reaction=reaction, load=load, elements=self._elements(change))
+        period = step.procedure.period
+        return [IncrementDone(step.number, 1, 1, 1, period, self._state.total_time, period, found)]
+
+    def _pass(self, request: int, change: FloatArray | None = None) -> Evaluation:
+        """A pass over the elements in the base state, for the matrix too unless a perturbation is given."""
+        at = self._state.displacement
+        du = np.zeros_like(at) if change is None else change
+        return self._system.evaluate(self._call(request), at, du, matrix=change is None)
+
+    def _call(self, request: int) -> Call:
+        step, period = self._step, self._step.procedure.period
+        return Call(
+            lflags=(step.procedure.lflag, int(step.nlgeom), request, 1, 0),
+            step=step.number,
+            increment=1,
+            step_time=0.0,
+            total_time=self._state.total_time,
+            time_increment=period,
+            period=period,
+            predefined=self._state.predefined,
+        )
+
+    def _solution(self, change: FloatArray, measures: dict[str, float]) -> Solution:
+        dofs, zero = self._system.dofs, np.zeros_like(change)
+        return Solution(
+            node=dofs.node,
+            dof=dofs.dof,
+            displacement=change,
+            reaction=zero,
+            load=zero,
+            velocity=zero,
+            acceleration=zero,
+            energies=measures,
+        )
+
+    def _elements(self, change: FloatArray) -> tuple[ElementState, ...]:
+        """Change of strain and stress of elastic built-in elements in small displacements; others are left out."""
+        if self._step.nlgeom:
+            return ()
+        call = self._call(NORMAL)
+        end, scratch = self._state.displacement + change, np.zeros_like(change)
+        found = []
+        for k, block in enumerate(self._system.blocks):
+            if block.elastic:
+                block.evaluate(call, end, change, scratch, None)
+                trial, base = block.trial(k), block.state(k)
+                found.append(replace(trial, svars=trial.svars - base.svars, energy=trial.energy - base.energy))
+        return tuple(found)

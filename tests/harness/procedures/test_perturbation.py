@@ -1,0 +1,148 @@
+# SPDX-FileCopyrightText: The uel-harness authors
+# SPDX-License-Identifier: BSD-3-Clause
+"""*STATIC in a step with PERTURBATION: a user spring that stiffens, f = 2 u + u^3, and a square."""
+
+import numpy as np
+import pytest
+
+import harness
+from harness.errors import DeckError
+
+SPRING = """*NODE, NSET=ALL
+1, 0.
+2, 1.
+*USER ELEMENT, TYPE=U1, NODES=2, COORDINATES=1, VARIABLES=1
+1
+*ELEMENT, TYPE=U1, ELSET=E
+1, 1, 2
+*UEL PROPERTY, ELSET=E
+*BOUNDARY
+1, 1
+"""
+UEL = """      SUBROUTINE UEL(RHS,AMATRX,SVARS,ENERGY,NDOFEL,NRHS,NSVARS,
+     1 PROPS,NPROPS,COORDS,MCRD,NNODE,U,DU,V,A,JTYPE,TIME,DTIME,KSTEP,
+     2 KINC,JELEM,PARAMS,NDLOAD,JDLTYP,ADLMAG,PREDEF,NPREDF,LFLAGS,
+     3 MLVARX,DDLMAG,MDLOAD,PNEWDT,JPROPS,NJPROP,PERIOD)
+      INCLUDE 'ABA_PARAM.INC'
+      DIMENSION RHS(MLVARX,*),AMATRX(NDOFEL,NDOFEL),LFLAGS(*),U(*),
+     1 DU(MLVARX,*),SVARS(*)
+      IF (LFLAGS(4) .EQ. 1) THEN
+        WRITE(7,'(A,5I4,2F8.4)') 'FLAGS', LFLAGS(1:5), U(2), DU(2,1)
+      END IF
+      E = U(2) - U(1)
+      S = 2 + 3*E**2
+      AMATRX = -S
+      AMATRX(1,1) = S
+      AMATRX(2,2) = S
+      F = 2*E + E**3
+      IF (LFLAGS(4) .EQ. 1) F = S*(DU(2,1) - DU(1,1))
+      RHS(1,1) = F
+      RHS(2,1) = -F
+      SVARS(1) = E
+      END
+"""
+CLOSE = 1e-4
+"""Where Newton's method stops in the general steps."""
+
+PULL = "*STEP, INC=50\n*STATIC\n1., 1.\n*CLOAD\n2, 1, 3.\n{}*END STEP\n"
+LINEAR = "*STEP{}, PERTURBATION\n*STATIC\n{}\n*END STEP\n"
+OUTPUT = "*OUTPUT, HISTORY\n*NODE OUTPUT, NSET=ALL\nU, RF, CF\n"
+
+
+@pytest.fixture
+def run(tmp_path):
+    def run(*parts, user=UEL):
+        (tmp_path / "linear.inp").write_text("".join(parts))
+        (tmp_path / "spring.f").write_text(user)
+        return harness.run(tmp_path / "linear.inp", tmp_path / "spring.f", output_dir=tmp_path)
+
+    return run
+
+
+def test_about_a_base_state(run):
+    """f = 3 at u = 1, where the stiffness is 5; the next general step goes on from there to f = 12 at u = 2."""
+    more = PULL.format("").replace("2, 1, 3.", "2, 1, 12.")
+    result = run(SPRING, PULL.format(OUTPUT), LINEAR.format("", "*CLOAD\n2, 1, 0.5"), more)
+    history = result.history
+    rows = [np.flatnonzero(history["step"] == number)[-1] for number in (1, 2, 3)]
+    np.testing.assert_allclose(history["U1[ALL:2]"][rows], [1, 0.1, 2], rtol=CLOSE)
+    np.testing.assert_allclose(history["CF1[ALL:2]"][rows], [3, 0.5, 12])
+    np.testing.assert_allclose(history["RF1[ALL:1]"][rows], [-3, -0.5, -12], rtol=1e-2)
+    np.testing.assert_allclose(history["time"][rows], [1, 1, 2])
+    assert history["ALLSE"][rows[1]] == pytest.approx(0.5 * 0.5 * 0.1, rel=CLOSE)
+    assert [(row.step, row.increment, row.iterations) for row in result.status if row.step == 2] == [(2, 1, 1)]
+    lines = result.file(".msg").read_text().splitlines()
+    flags = [line.split()[1:] for line in lines if line.startswith("FLAGS")]
+    assert flags == [["1", "0", "1", "1", "0", "1.0000", "0.0000"], ["1", "0", "100", "1", "0", "1.0000", "0.1000"]]
+
+
+def test_prescribed_values_are_changes(run):
+    history = run(SPRING, PULL.format(OUTPUT), LINEAR.format("", "*BOUNDARY\n2, 1, 1, 0.2")).history
+    assert history["U1[ALL:2]"][-1] == pytest.approx(0.2)
+    assert history["RF1[ALL:2]"][-1] == pytest.approx(5 * 0.2, rel=CLOSE)
+
+
+SQUARE = """*NODE, NSET=ALL
+1, 0., 0.
+2, 1., 0.
+3, 1., 1.
+4, 0., 1.
+*ELEMENT, TYPE=CPS4, ELSET=BODY
+1, 1, 2, 3, 4
+*SURFACE, NAME=SIDE
+BODY, S2
+*SOLID SECTION, ELSET=BODY, MATERIAL=M
+2.
+*MATERIAL, NAME=M
+*ELASTIC
+1000., 0.25
+*BOUNDARY
+1, 1, 2
+4, 1
+"""
+FIELD = "*OUTPUT, FIELD\n" + OUTPUT.replace("HISTORY", "HISTORY, OP=ADD")
+
+
+def test_stresses_are_changes(run):
+    """After 3 in the general step 7 along and 5 across in the first, the linear one."""
+    pull = "*STEP\n*STATIC\n*DSLOAD\nSIDE, TRVEC, 3., 1.\n*END STEP\n"
+    linear = LINEAR.format("", "*DSLOAD\nSIDE, TRVEC, 7., 1.\n*DLOAD\nBODY, P3, -5.\n" + FIELD)
+    for before in ("", pull):
+        result = run(SQUARE, before, linear)
+        np.testing.assert_allclose(result.field("S11"), 7, rtol=1e-9)
+        np.testing.assert_allclose(result.field("S22"), 5, rtol=1e-9)
+        np.testing.assert_allclose(result.field("E11"), (7 - 0.25 * 5) / 1000, rtol=1e-9)
+        # thickness 2
+        assert result.history["RF1[ALL:1]"][-1] + result.history["RF1[ALL:4]"][-1] == pytest.approx(-2 * 7)
+
+
+def test_energies_of_general_steps_after_it_are_there(run):
+    history = run(SPRING, LINEAR.format("", "*CLOAD\n2, 1, 0.5"), PULL.format("")).history
+    assert history["ALLWK"][-1] > 0 and np.isfinite(history["ETOTAL"][-1])
+
+
+@pytest.mark.parametrize(
+    ("step", "message"),
+    [
+        ("*STEP, PERTURBATION\n*DYNAMIC\n0.1, 1.", r":12: \*DYNAMIC: is no procedure of a step with PERTURBATION"),
+        ("*STEP, PERTURBATION\n*STATIC, RIKS", r":12: \*STATIC: DIRECT, RIKS and STABILIZE have no meaning in a step"),
+        (
+            "*STEP, PERTURBATION\n*STATIC\n*DLOAD\nE, U1, 1.",
+            ":14: distributed loads on user elements are not supported",
+        ),
+        ("*STEP, PERTURBATION\n*STATIC\n*TEMPERATURE\nALL, 1.", ":14: predefined fields are not supported in a step"),
+        ("*STEP, PERTURBATION\n*STATIC\n*BOUNDARY, TYPE=VELOCITY\n2, 1, 1, 1.", ":14: TYPE=VELOCITY and USER have no"),
+        (
+            "*STEP, PERTURBATION\n*STATIC\n*CLOAD, AMPLITUDE=A\n2, 1, 1.\n*AMPLITUDE, NAME=A\n0., 1.",
+            ":14: an amplitude has no meaning in a step with PERTURBATION",
+        ),
+    ],
+)
+def test_what_has_no_meaning_is_named(run, step, message):
+    with pytest.raises(DeckError, match=message):
+        run(SPRING, step, "\n*END STEP\n")
+
+
+def test_loads_of_dload_are_named(run):
+    with pytest.raises(DeckError, match=r"linear.inp:\d+: loads by DLOAD are not supported in a step with PERT"):
+        run(SQUARE, LINEAR.format("", "*DLOAD\nBODY, P2NU"))
