@@ -5,6 +5,7 @@
 import os
 import subprocess
 import sys
+import tomllib
 from pathlib import Path
 
 import pytest
@@ -12,7 +13,8 @@ import pytest
 HERE = Path(__file__).parent
 sys.path.insert(0, str(HERE))
 
-import measure  # noqa: E402 (a script beside this file)
+import check_table  # noqa: E402 (scripts beside this file)
+import measure  # noqa: E402
 
 FOLDER = os.environ.get("UEL_PUBLIC", "")
 
@@ -44,3 +46,30 @@ def test_manifest_is_well_formed():
 def test_files_that_are_not_there_are_named():
     name, row = next(iter(measure.rows().items()))
     assert measure.missing(HERE, row) == [row["deck"], *row["sources"]], name
+
+
+def test_rows_that_are_checked():
+    """One for each pair of sources and deck, with user elements; causes belong to them."""
+    chosen = check_table.chosen()
+    pairs = {(row["folder"], *row["sources"], row["deck"]) for row in measure.rows().values() if row["sources"]}
+    assert 0 < len(chosen) <= len(pairs)
+    assert not any("refused" in row for row in chosen.values())
+    assert set(tomllib.loads(check_table.CAUSES.read_text())) <= set(chosen)
+
+
+ROW = {"code": "a code", "folder": "check", "sources": ["quad.f"], "deck": "patch.inp"}
+
+
+def test_row_of_the_table_of_checks(tmp_path):
+    """A deck of this repository in place of a public one."""
+    folder = HERE.parent / "harness"
+    assert check_table.check(folder, ROW, 60)["error"] == "not in the folder: patch.inp"
+    assert check_table.lines(ROW, {"error": "a | b"}, "why") == "| a code | patch.inp | | | a \\| b | why |\n"
+    row = ROW | {"sources": [], "deck": "flat_u3.inp", "folder": "abaqus_inputs/patch_horizontal"}
+    found = check_table.check(HERE.parents[1], row, 120)
+    bulk, interface = check_table.lines(row, found, "why").splitlines()
+    assert bulk.startswith("| a code | flat_u3.inp | U1 | ")
+    assert bulk.endswith(" |  |  |")
+    assert "| **order**: element " in interface
+    assert interface.endswith(" | why |")
+    assert "not finished after 0.01 s" in check_table.check(HERE.parents[1], row, 0.01)["error"]
