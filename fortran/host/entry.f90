@@ -125,6 +125,15 @@ subroutine host_fill_stack(on, number)
   call fill_stack(on, number)
 end subroutine host_fill_stack
 
+!> What lies behind JPROPS in watched calls from now on.
+subroutine host_fill_beyond(number)
+  use host_kinds, only: i4
+  use host_protect, only: fill_beyond
+  implicit none (type, external)
+  integer(i4), intent(in) :: number
+  call fill_beyond(number)
+end subroutine host_fill_beyond
+
 !> Oldest message of a user routine; level 0 if none is left.
 subroutine host_take_message(level, place, text)
   use host_kinds, only: i4

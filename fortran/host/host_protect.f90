@@ -5,7 +5,8 @@ module host_protect
   use, intrinsic :: iso_c_binding, only: c_double, c_funptr, c_int, c_int32_t, c_int64_t, c_ptr
   implicit none (type, external)
   private
-  public :: protect, escape, clear_arrays, calls, limit_calls, watch, take_changes, fill_stack
+  public :: protect, escape, clear_arrays, calls, limit_calls, watch, take_changes, fill_stack, &
+            fill_beyond
 
   !> Calls of user routines so far: by it the clock sees whether one is still the same.
   integer(c_int64_t), bind(c, name='uel_host_calls') :: calls = 0
@@ -47,6 +48,12 @@ module host_protect
       integer(c_int32_t), intent(out) :: entries(37)
       real(c_double), intent(out) :: values(2, 37)
     end subroutine take_changes
+
+    !> What lies behind JPROPS in watched calls from now on.
+    subroutine fill_beyond(number) bind(c, name='uel_host_beyond')
+      import :: c_int32_t
+      integer(c_int32_t), value :: number
+    end subroutine fill_beyond
 
     !> From now on (on /= 0) a watched call finds this number where its local variables are, or does not.
     subroutine fill_stack(on, number) bind(c, name='uel_host_fill_stack')

@@ -3,6 +3,7 @@
 //
 // Finds what a user element changes of the arguments that Abaqus passes in only: a routine with the arguments of UEL that
 // calls the real one between a copy and a comparison. The driver calls it in place of the real one while a check asks for it.
+// JPROPS, which is no array of the driver's workspace, is passed with room behind it, which holds what a check asks for.
 
 #include <stdint.h>
 #include <stdlib.h>
@@ -30,6 +31,10 @@ static uelmat_t *uelmat;
 static unsigned char *copies;   // of all inputs, one behind the other, with room for doubles
 static int32_t changed[ARGUMENTS];
 static double values[ARGUMENTS][2];
+static int32_t *jprops;
+static int32_t beyond;          // what lies behind JPROPS
+
+enum { ROOM = 100 };            // integers behind JPROPS
 
 static int is_real(int argument)
 {
@@ -108,6 +113,15 @@ static void compare(void *const *given, int count, const size_t *length)
             }
 }
 
+static void *with_room(const int32_t *given, const int32_t *length)
+{
+    jprops = realloc(jprops, (size_t)(*length + ROOM) * sizeof *jprops);
+    memcpy(jprops, given, (size_t)*length * sizeof *jprops);
+    for (int k = *length; k < *length + ROOM; k++)
+        jprops[k] = beyond;
+    return jprops;
+}
+
 #define PARAMETERS                                                                                                       \
     void *a0, void *a1, void *a2, void *a3, void *a4, void *a5, void *a6, void *a7, void *a8, void *a9, void *a10,       \
         void *a11, void *a12, void *a13, void *a14, void *a15, void *a16, void *a17, void *a18, void *a19, void *a20,    \
@@ -119,6 +133,7 @@ static void compare(void *const *given, int count, const size_t *length)
 
 static void watched_uel(PARAMETERS)
 {
+    a33 = with_room(a33, a34);
     void *const given[] = {GIVEN};
     size_t length[ARGUMENTS];
     keep(given, MATERIALLIB, length);
@@ -129,6 +144,7 @@ static void watched_uel(PARAMETERS)
 
 static void watched_uelmat(PARAMETERS, void *a36)
 {
+    a33 = with_room(a33, a34);
     void *const given[] = {GIVEN, a36};
     size_t length[ARGUMENTS];
     keep(given, ARGUMENTS, length);
@@ -147,6 +163,8 @@ int64_t uel_host_watch(int64_t address, int32_t with_material)
     uel = (uel_t *)(intptr_t)address;
     return (int64_t)(intptr_t)watched_uel;
 }
+
+void uel_host_beyond(int32_t number) { beyond = number; }
 
 // Entry of each argument that was changed, from 1 (0: none), with its value before and after; forgets them.
 void uel_host_take_changes(int32_t entry[ARGUMENTS], double value[ARGUMENTS][2])

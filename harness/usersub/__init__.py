@@ -9,7 +9,7 @@ himself.
 """
 
 from harness.usersub._binding import limit_calls
-from harness.usersub.inputs import Change, local_variables, watched_inputs
+from harness.usersub.inputs import Change, beyond_jprops, local_variables, watched_inputs
 from harness.usersub.library import Library, load
 from harness.usersub.marks import ARRAYS, UNSET, marks
 from harness.usersub.messages import Message
@@ -20,6 +20,7 @@ __all__ = [
     "Change",
     "Library",
     "Message",
+    "beyond_jprops",
     "limit_calls",
     "load",
     "local_variables",

@@ -190,10 +190,11 @@ def exchange_marks(marks: FloatArray) -> None:
     _host.host_exchange_marks(marks)
 
 
-def watch_inputs(on: bool) -> None:
-    """From now on `evaluate` notes which inputs the elements change, or does not."""
-    global _watching  # noqa: PLW0603
-    _watching = on
+def watch_inputs(on: bool) -> bool:
+    """From now on `evaluate` notes which inputs the elements change, or does not; returns whether it did before."""
+    global _watching
+    before, _watching = _watching, on
+    return before
 
 
 def take_changes() -> tuple[Int32Array, FloatArray]:
@@ -205,6 +206,11 @@ def take_changes() -> tuple[Int32Array, FloatArray]:
 def fill_stack(number: float | None) -> None:
     """From now on watched calls of elements find a number where their local variables are; None: whatever is there."""
     _host.host_fill_stack(int(number is not None), number or 0.0)
+
+
+def fill_beyond(number: int) -> None:
+    """What lies behind JPROPS in watched calls from now on."""
+    _host.host_fill_beyond(number)
 
 
 def bare_loop(

@@ -41,11 +41,22 @@ def watched_inputs() -> Iterator[Callable[[], list[Change]]]:
         return [Change(NAMES[k], int(entries[k]), *map(float, values[k])) for k in np.flatnonzero(entries).tolist()]
 
     changes()
-    _binding.watch_inputs(True)
+    before = _binding.watch_inputs(True)
     try:
         yield changes
     finally:
-        _binding.watch_inputs(False)
+        _binding.watch_inputs(before)
+
+
+@contextmanager
+def beyond_jprops(number: int) -> Iterator[None]:
+    """Let a number lie behind the last entry of JPROPS."""
+    with watched_inputs():
+        _binding.fill_beyond(number)
+        try:
+            yield
+        finally:
+            _binding.fill_beyond(0)
 
 
 @contextmanager

@@ -4,19 +4,24 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+from contextlib import AbstractContextManager
 from typing import Final
 
 from harness.check.finding import Finding, failed, not_applicable, passed
 from harness.check.single import first_difference
 from harness.check.subject import Subject
 from harness.errors import KernelError
-from harness.usersub import UNSET, marks
+from harness.usersub import UNSET, beyond_jprops, marks
 
 READ: Final = "PROPS", "SVARS", "ENERGY", "COORDS", "U", "DU", "V", "A", "PREDEF"
 """Arrays beyond which an element might read."""
 
 POISONS: Final = float("nan"), 7.3, -2.9e5
 """What is put there."""
+
+INTEGERS: Final = 1, 7, -290000
+"""What is put behind JPROPS, where there is 0 else."""
 
 
 def check_filled(subject: Subject) -> Finding:
@@ -51,27 +56,36 @@ def check_outside(subject: Subject) -> Finding:
 def check_undeclared(subject: Subject) -> Finding:
     """What lies beyond the declared ends of an array has no effect."""
     for state in subject.states:
-        expected = state.evaluate()
-        if first_difference(expected, state.evaluate()):
-            return not_applicable("the same call returns other values anyway")
-        for array in READ:
-            for poison in POISONS:
-                with marks({array: poison}):
+        with beyond_jprops(0):
+            expected = state.evaluate()
+            if first_difference(expected, state.evaluate()):
+                return not_applicable("the same call returns other values anyway")
+            for array, poisoned in _poisons():
+                with poisoned:
                     try:
                         difference = first_difference(expected, state.evaluate())
                     except KernelError as error:
                         difference = str(error)
                 if difference:
-                    return _reads(
-                        subject, f"{state}: what lies outside {array} changes the result: {difference}", array
-                    )
+                    message = f"{state}: what lies outside {array} changes the result: {difference}"
+                    return _reads(subject, message, array)
     return passed(f"nothing outside the arrays has an effect at {len(subject.states)} states")
+
+
+def _poisons() -> Iterator[tuple[str, AbstractContextManager[None]]]:
+    """Arrays, with what lies around them."""
+    for array in READ:
+        for poison in POISONS:
+            yield array, marks({array: poison})
+    for number in INTEGERS:
+        yield "JPROPS", beyond_jprops(number)
 
 
 def _reads(subject: Subject, message: str, array: str) -> Finding:
     definition = subject.definition
     declared = {
         "PROPS": f"*USER ELEMENT has PROPERTIES={definition.properties}",
+        "JPROPS": f"*USER ELEMENT has I PROPERTIES={definition.integer_properties}",
         "SVARS": f"*USER ELEMENT has VARIABLES={definition.variables}",
         "COORDS": f"*USER ELEMENT has COORDINATES={definition.coordinates} and NODES={definition.nodes}",
     }.get(array, f"the element has {len(definition.dofs)} unknowns")

@@ -130,6 +130,8 @@
         if (all(u == 0)) amatrx = 0
       case (41)  ! a local variable without a value
         rhs(1:8,1) = factor*rhs(1:8,1)
+      case (42)  ! an integer property that is not declared
+        if (jprops(njprop+1) == 1) rhs(1:8,1) = 1.5d0*rhs(1:8,1)
       case (29)  ! a file that is not there, at U that are not those of the run
         if (abs(u(2) - u(4)) > 0.4d0) open (unit=99,
      &    file='no-such-folder/no-such-file', status='old')
