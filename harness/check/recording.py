@@ -42,8 +42,8 @@ class Pass:
 
     @property
     def normal(self) -> bool:
-        """RHS and AMATRX of an iteration are asked for."""
-        return self.call.lflags[2] == NORMAL and self.matrix
+        """RHS and AMATRX of an iteration of a general step are asked for; in a linear one RHS is a change."""
+        return self.call.lflags[2] == NORMAL and not self.call.lflags[3] and self.matrix
 
 
 @dataclass(frozen=True, slots=True)

@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 import harness
+from harness.check.recording import Pass, record
 from harness.errors import DeckError
 
 SPRING = """*NODE, NSET=ALL
@@ -80,6 +81,16 @@ def test_prescribed_values_are_changes(run):
     history = run(SPRING, PULL.format(OUTPUT), LINEAR.format("", "*BOUNDARY\n2, 1, 1, 0.2")).history
     assert history["U1[ALL:2]"][-1] == pytest.approx(0.2)
     assert history["RF1[ALL:2]"][-1] == pytest.approx(5 * 0.2, rel=CLOSE)
+
+
+def test_checks_are_made_at_states_of_general_steps(run, tmp_path):
+    """In the linear step RHS is none of U, and AMATRX not its derivative."""
+    run(SPRING, PULL.format(OUTPUT), LINEAR.format("", "*CLOAD\n2, 1, 0.5"))
+    recording = record(tmp_path / "linear.inp", [tmp_path / "spring.f"], 2)
+    passes = [event for event in recording.events if isinstance(event, Pass)]
+    assert recording.increments == 2
+    assert {event.call.step for event in passes} == {1, 2}
+    assert {event.call.step for event in passes if event.normal} == {1}
 
 
 SQUARE = """*NODE, NSET=ALL
