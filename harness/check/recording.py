@@ -7,7 +7,7 @@ from __future__ import annotations
 import tempfile
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Final
 
@@ -27,6 +27,9 @@ from harness.usersub import Library
 
 NORMAL: Final = 1
 """LFLAGS(3) of a normal call."""
+
+STATIC: Final = 1
+"""LFLAGS(1) of *STATIC."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -121,7 +124,16 @@ def record(deck: Path, user: Sequence[Path], increments: int, *, strict: bool = 
                 raise
             stopped, failure = str(error), error if isinstance(error, KernelError) else None
         equations = tuple(system.dofs.equations_of(block).astype(np.int64) for block in system.blocks)
+    if not any(isinstance(event, Pass) and event.normal for event in events):
+        events.append(_general(events))
     return Recording(model, tuple(user), tuple(events), equations, done, stopped, failure)
+
+
+def _general(events: Sequence[Event]) -> Pass:
+    """A static call in the state of the last one of all, for decks whose steps are linear perturbations."""
+    last = [event for event in events if isinstance(event, Pass)][-1]
+    call = replace(last.call, lflags=(STATIC, last.call.lflags[1], NORMAL, 0, 0))
+    return replace(last, call=call, matrix=True, du=np.zeros_like(last.du), nrhs=1)
 
 
 class _RecordedSystem(System):

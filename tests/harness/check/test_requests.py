@@ -99,6 +99,15 @@ def test_mass_matrix(tmp_path, requests, wrong, message, advice):
     assert re.search(advice, found["requests"].advice)
 
 
+def test_deck_of_linear_steps_alone(patch):
+    """Its elements are called as in a static step too."""
+    found = findings(patch(0, ("*STEP", "*STEP, PERTURBATION"), ("*STATIC, DIRECT\n0.5, 1.", "*STATIC")))
+    assert not [name for name, finding in found.items() if finding.verdict is Verdict.FAILED]
+    assert found["tangent"].verdict is Verdict.PASSED
+    found = findings(patch(5, ("*STEP", "*STEP, PERTURBATION"), ("*STATIC, DIRECT\n0.5, 1.", "*STATIC")))
+    assert found["tangent"].verdict is Verdict.FAILED
+
+
 def test_element_without_mass(tmp_path):
     deck = tmp_path / "oscillators.inp"
     deck.write_text(OSCILLATOR.replace("4., 0.25, 1.", "4., 0., 1."))
