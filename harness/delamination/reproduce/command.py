@@ -12,12 +12,8 @@ from pathlib import Path
 from rich.console import Console
 from rich.table import Table as TerminalTable
 
-from harness.delamination.beams import BRANCH
-from harness.delamination.materials import PLY_0, TABLE_2
-from harness.delamination.reproduce import convergence, curves, drawings, figures, findings, sensitivity
+from harness.delamination.reproduce import convergence, drawings, figures, sensitivity
 from harness.delamination.reproduce.cases import (
-    ELEMENTS,
-    LONGER,
     PROBLEMS,
     Case,
     comparator_cases,
@@ -27,10 +23,10 @@ from harness.delamination.reproduce.cases import (
 )
 from harness.delamination.reproduce.claims import Verdict, judge, read_claims
 from harness.delamination.reproduce.findings import Evidence
-from harness.delamination.reproduce.page import Content, Table, number, write_page
+from harness.delamination.reproduce.page import Content, number, write_page
 from harness.delamination.reproduce.patch_cases import PatchCase, patch_cases
 from harness.delamination.reproduce.runs import AnyCase, Runs, run_cases
-from harness.delamination.specimens import CRACK
+from harness.delamination.reproduce.tables import all_tables
 from harness.errors import UelError
 
 PARTS = ("law", "patch", *PROBLEMS, "sensitivity")
@@ -76,7 +72,7 @@ def reproduce(
         _how(chosen, quick=quick),
         _figures(chosen, runs, place, quick=quick),
         verdicts,
-        _tables(chosen, evidence, place),
+        all_tables(chosen, evidence, place),
     )
     page = write_page(content, place / "index.html")
     _write_csv(verdicts, place / "claims.csv")
@@ -139,116 +135,6 @@ def _figures(parts: Sequence[str], runs: Runs, folder: Path, *, quick: bool) -> 
             cross = Case(problem, "0/90", "stabilised", "1e8", coarse=quick)
             drawn["1"] = drawings.draw_domain(runs.deck(cross), folder / "figure_01.png")
     return drawn
-
-
-def _tables(parts: Sequence[str], evidence: Evidence, folder: Path) -> list[Table]:
-    tables = [_parameters()]
-    problems = [part for part in parts if part in PROBLEMS]
-    if problems:
-        tables.append(_theory(problems, evidence))
-        lines = [
-            line for part in problems for line in convergence.curve_rows(evidence.runs, part, coarse=evidence.coarse)
-        ]
-        tables.append(Table("[0/90]: ours and COH2D4", convergence.CURVES_TEXT, convergence.CURVES_HEAD, lines))
-    if "frmm" in parts:
-        tables.append(_mode_ratios(evidence))
-    if "dcb" in parts:
-        lines = convergence.rows(evidence.runs, coarse=evidence.coarse)
-        tables.append(
-            Table("Double cantilever beam [0/90]: ours and COH2D4", convergence.TEXT, convergence.HEAD, lines)
-        )
-    if "sensitivity" in parts:
-        for study in sensitivity.studies(coarse=evidence.coarse):
-            rows = [
-                [label, value, *sensitivity.cells(evidence.runs[case])]
-                for label, pairs in study.variants.items()
-                for value, case in pairs
-            ]
-            name = study.title.split()[0].lower()
-            picture = sensitivity.draw(study, evidence.runs, folder / f"sensitivity_{name}.png")
-            head = ("specimen, element", study.parameter, *sensitivity.HEAD)
-            text = f"{study.advice} {sensitivity.spread(study, evidence.runs)}"
-            tables.append(Table(f"Sensitivity: {study.title.lower()}", text, head, rows, picture))
-    tables.append(_ends(evidence.runs))
-    return tables
-
-
-def _parameters() -> Table:
-    rows = [
-        ["E11, E22 = E33", f"{PLY_0.e1:g}, {PLY_0.e2:g} N/mm²"],
-        ["G12 = G13, G23", f"{PLY_0.g12:g}, {PLY_0.g23:g} N/mm²"],
-        ["nu12 = nu13, nu23", "0.3, 0.51"],
-        ["alpha_n, alpha_tau", "1e4, 1e6, 1e8 N/mm³"],
-        ["G_Ic, G_IIc", f"{TABLE_2.toughness_1:g}, {TABLE_2.toughness_2:g} N/mm"],
-        ["sigma_max, tau_max", f"{TABLE_2.strength_normal:g}, {TABLE_2.strength_shear:g} N/mm²"],
-    ]
-    return Table("Tables 1 and 2: HTA/6376C", "As the decks have them.", ("parameter", "value"), rows)
-
-
-def _theory(problems: Sequence[str], evidence: Evidence) -> Table:
-    head = (
-        *("specimen", "element", "largest distance from corrected beam theory", "mean distance", "energy missing"),
-        *("toughness of failed points", "G_I/G_II from the tractions", "by corrected beam theory"),
-    )
-    rows = []
-    for problem in problems:
-        for element in ELEMENTS:
-            ratios = ["", ""]
-            if problem == "frmm":
-                measures = (findings.mode_ratio, findings.theory_mode_ratio)
-                ratios = [number(measure(evidence, element)) for measure in measures]
-            shares = (
-                curves.theory_distance(evidence, problem, element),
-                curves.theory_mean(evidence, problem, element),
-                curves.energy_error(evidence, problem, element),
-            )
-            spent = findings.toughness(evidence, problem, element)
-            rows.append([problem.upper(), element, *(f"{share:.2%}" for share in shares), number(spent), *ratios])
-    text = (
-        "[0/0], worst of 1e4, 1e6, 1e8 N/mm³; toughness and ratio at 1e6. Growth branch: where a sharp crack would be "
-        + ", ".join(f"{low:g} to {high:g} mm ({name.upper()})" for name, (low, high) in BRANCH.items())
-        + " long. Energy missing: work less stored less dissipated, over the work. G_I/G_II by Rice's integral "
-        "around the process zone; that of beams is 4/3 without corrections of their ends."
-    )
-    return Table("Theory", text, head, rows)
-
-
-def _mode_ratios(evidence: Evidence) -> Table:
-    head = ("initial crack (mm)", "crack (mm)", "G_I/G_II from the tractions", "off corrected beam theory", "off 4/3")
-    rows = []
-    for case in (Case("frmm", "0/0", "consistent", "1e6"), *longer_cases(coarse=evidence.coarse)):
-        measures = (findings.crack_length, findings.mode_ratio, findings.theory_mode_ratio)
-        length, ratio, theory = (measure(evidence, case.element, problem=case.problem) for measure in measures)
-        start = LONGER.get(case.problem, CRACK)
-        rows.append(
-            [
-                f"{start:g}",
-                f"{length:.1f}",
-                f"{ratio:.3f}",
-                f"{ratio / theory - 1.0:+.1%}",
-                f"{ratio * 0.75 - 1.0:+.1%}",
-            ]
-        )
-    text = (
-        "[0/0], consistent method at 1e6 N/mm³, the paper's specimen and longer ones of the same height. 4/3 is the "
-        "ratio of plain beams. Arms of 1.55 mm turn at the crack's end, in mode I more than in mode II, which counts "
-        "for the less the longer the crack."
-    )
-    return Table("Mode ratio of the fixed-ratio specimen", text, head, rows)
-
-
-def _ends(runs: Runs) -> Table:
-    head = ("run", "increments", "iterations", "cutbacks", "seconds", "end")
-    rows = [
-        [
-            case.name,
-            *(str(count) for count in (entry.increments, entry.iterations, entry.cutbacks)),
-            f"{entry.seconds:.1f}",
-            entry.stopped or "finished",
-        ]
-        for case, entry in runs.entries().items()
-    ]
-    return Table("Runs", "Iterations include those of attempts given up.", head, rows)
 
 
 def _write_csv(verdicts: Sequence[Verdict], path: Path) -> None:

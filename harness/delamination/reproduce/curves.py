@@ -122,16 +122,17 @@ def iterations_ratio(evidence: Evidence) -> float:
 
 
 def energy_error(evidence: Evidence, problem: str, element: str, stiffnesses: Sequence[str] = ALL) -> float:
-    """External work less stored and dissipated energy at the end, over the external work, [0/0]."""
-    found = []
-    for stiffness in stiffnesses:
-        history = evidence.run(problem, "0/0", element, stiffness).history
-        work = history["ALLWK"][-1]
-        # ALLDMD and ALLCD are those of the built-in elements
-        spent = sum(history[name][-1] for name in ("ALLPD", "ALLVD", "ALLDMD", "ALLCD") if name in history)
-        rest = work - history["ALLSE"][-1] - spent
-        found.append(abs(float(rest / work)))
-    return max(found)
+    """Largest `missing_energy` at the stiffnesses, without its sign, [0/0]."""
+    return max(abs(missing_energy(evidence.run(problem, "0/0", element, stiffness))) for stiffness in stiffnesses)
+
+
+def missing_energy(run: Run) -> float:
+    """External work less stored and dissipated energy at the end, over the external work."""
+    history = run.history
+    work = history["ALLWK"][-1]
+    # ALLDMD and ALLCD are those of the built-in elements
+    spent = sum(history[name][-1] for name in ("ALLPD", "ALLVD", "ALLDMD", "ALLCD") if name in history)
+    return float((work - history["ALLSE"][-1] - spent) / work)
 
 
 MEASURES: dict[str, Callable[..., float]] = {
