@@ -305,15 +305,16 @@ subroutine host_define_user_material(umat, name, ntens, constants, count, number
 end subroutine host_define_user_material
 
 !> Call UVARM at all material points of a block of built-in elements.
-subroutine host_uvarm_pass(address, name, counts, place, clock, labels, coords, svars, history, uvar, left, element, mcrd, nnode, &
-                           variables, points, values, nuvarm, m)
+subroutine host_uvarm_pass(address, names, axes, counts, place, clock, labels, coords, svars, history, uvar, left, element, &
+                           mcrd, nnode, variables, points, values, nuvarm, m)
   use, intrinsic :: iso_c_binding, only: c_intptr_t
   use host_context, only: current
   use host_kinds, only: dp, i4, i8
   use host_uvarm, only: run_uvarm, uvarm_pass_t
   implicit none (type, external)
   integer(i8), intent(in) :: address
-  character(len=80), intent(in) :: name       !< of the material
+  character(len=80), intent(in) :: names(2)   !< of the material and its orientation
+  real(dp), intent(in) :: axes(3, 3)          !< rows: material directions
   integer(i4), intent(in) :: counts(2)        !< stress components, STATEV
   integer(i4), intent(in) :: place(2)         !< step, increment
   real(dp), intent(in) :: clock(3)            !< step time, total time at the start of the increment, time increment
@@ -325,7 +326,9 @@ subroutine host_uvarm_pass(address, name, counts, place, clock, labels, coords, 
   integer(i4), intent(out) :: element         !< of the last call
   type(uvarm_pass_t) :: pass
   pass%address = transfer(int(address, c_intptr_t), pass%address)
-  pass%material = name
+  pass%material = names(1)
+  pass%orientation = names(2)
+  pass%axes = axes
   pass%tensor = counts(1)
   pass%statev = counts(2)
   pass%kstep = place(1)

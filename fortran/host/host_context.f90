@@ -27,6 +27,7 @@ module host_context
     real(dp), pointer, contiguous :: history(:, :) => null()        !< (values, npt) committed material history
     real(dp), pointer, contiguous :: history_trial(:, :) => null()  !< (values, npt) of this call
     real(dp), pointer, contiguous :: values(:) => null()            !< strain, then stress of the point, for GETVRM
+    real(dp) :: axes(3, 3) = 0    !< rows: directions of those values
     integer :: statev = 0         !< number of STATEV, the last values of the history, for GETVRM
   end type call_context
 

@@ -79,6 +79,7 @@ contains
     current%point = point
     current%statev = user%statev
     current%values => values
+    current%axes = axes
     call usdfld(field, statev, pnewdt, direct, t, celent, time, dtime, cmname, orname, nfield, nstatv, noel, npt, layer, kspt, &
                 kstep, kinc, ndi, nshr, coord, jmac, jmatyp, matlayo, laccfla)
     nullify (current%values)

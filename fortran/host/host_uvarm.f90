@@ -1,6 +1,6 @@
 ! SPDX-FileCopyrightText: The uel-harness authors
 ! SPDX-License-Identifier: BSD-3-Clause
-!> UVARM at every material point of a block of built-in elements, at the end of an increment, and GETVRM within it.
+!> UVARM at every material point of a block of built-in elements, at the end of an increment.
 module host_uvarm
   use, intrinsic :: iso_c_binding, only: c_f_pointer, c_f_procpointer, c_funloc, c_funptr, c_loc, c_ptr
   use host_context, only: current
@@ -25,7 +25,8 @@ module host_uvarm
   !> One pass over a block. Arrays belong to the caller.
   type :: uvarm_pass_t
     type(c_funptr) :: address
-    character(len=80) :: material = ' '
+    character(len=80) :: material = ' ', orientation = ' '
+    real(dp) :: axes(3, 3) = 0            !< rows: directions of the material
     integer(i4) :: tensor = 0, statev = 0, kstep = 0, kinc = 0
     real(dp) :: time(2) = 0, dtime = 0    !< start of the increment
     integer(i4), pointer, contiguous :: labels(:) => null()
@@ -47,6 +48,7 @@ contains
     current%time = pass%time
     current%dtime = pass%dtime
     current%statev = pass%statev
+    current%axes = pass%axes
     left = int(protect(c_funloc(all_points), c_loc(pass)), i4)
     nullify (current%values, current%history)
     if (left == 0) current%element = 0
@@ -76,17 +78,16 @@ contains
     real(dp), intent(inout) :: uvar(:)
     procedure(uvarm_procedure), pointer :: uvarm
     real(dp) :: direct(3, 3), t(3, 3), time(2), dtime, coord(3)
-    real(dp), parameter :: identity(3, 3) = reshape([1, 0, 0, 0, 1, 0, 0, 0, 1], [3, 3])
     integer(i4) :: nuvarm, noel, npt, layer, kspt, kstep, kinc, ndi, nshr, jmac(1), jmatyp(1), matlayo, laccfla
     character(len=80) :: cmname, orname
     call c_f_procpointer(pass%address, uvarm)
-    direct = identity
-    t = identity
+    direct = transpose(pass%axes)
+    t = direct
     time = pass%time
     dtime = pass%dtime
     coord = point_position(size(pass%uvar, 2), int(point), x)
     cmname = pass%material
-    orname = ' '
+    orname = pass%orientation
     nuvarm = size(uvar, kind=i4)
     noel = current%element
     npt = point
@@ -104,40 +105,3 @@ contains
                jmatyp, matlayo, laccfla)
   end subroutine call_uvarm
 end module host_uvarm
-
-!> Values of the material point for which UVARM or USDFLD is running: S, E and LE (direct components, then shear) and SDV;
-!> jrcd = 1 for a variable that the point does not have.
-subroutine getvrm(var, array, jarray, flgray, jrcd, jmac, jmatyp, matlayo, laccfla)
-  use host_context, only: current
-  use host_kinds, only: dp, i4
-  implicit none (type, external)
-  character(len=*), intent(in) :: var
-  real(dp), intent(inout) :: array(15)
-  integer(i4), intent(inout) :: jarray(15)
-  character(len=3), intent(inout) :: flgray(15)
-  integer(i4), intent(out) :: jrcd
-  integer(i4), intent(in) :: jmac(*), jmatyp(*), matlayo, laccfla
-  integer :: n, first
-  jrcd = 1
-  if (.not. associated(current%values)) return
-  array = 0
-  jarray = 0
-  flgray = 'YES'
-  n = size(current%values)/2
-  select case (var)
-  case ('E', 'LE')
-    array(:n) = current%values(:n)
-    jrcd = 0
-  case ('S')
-    array(:n) = current%values(n + 1:)
-    jrcd = 0
-  case ('SDV')
-    n = min(current%statev, 15)
-    if (n < 1) return
-    first = size(current%history, 1) - current%statev
-    array(:n) = current%history(first + 1:first + n, current%point)
-    jrcd = 0
-  case default
-    jrcd = 1
-  end select
-end subroutine getvrm

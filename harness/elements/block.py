@@ -67,10 +67,14 @@ class Procedure:
 
 @dataclass(frozen=True, slots=True)
 class OutputVariables:
-    """*USER OUTPUT VARIABLES of a material: the address of UVARM, the material's name, points and variables of each."""
+    """*USER OUTPUT VARIABLES of a material: the address of UVARM, points and variables of each.
+
+    names  of the material and its orientation; axes (3, 3), rows are its directions
+    """
 
     address: int
-    material: str
+    names: tuple[str, str]
+    axes: FloatArray
     points: int
     count: int
 
@@ -351,7 +355,8 @@ class Block:
         place = call.step, call.increment
         element = _binding.uvarm(
             given.address,
-            given.material,
+            given.names,
+            given.axes,
             (self._procedure.tensor, self._procedure.statev),
             place,
             start,

@@ -65,11 +65,16 @@ def refuse_fields(material: Material, elements: str) -> None:
         raise DeckError(material.elastic.source, message)
 
 
+def directions(orientation: Orientation | None) -> tuple[FloatArray, str]:
+    """Axes (3, 3), whose rows are the directions of a material, and the name of the orientation."""
+    return (np.eye(3), "") if orientation is None else (orientation.axes, orientation.name)
+
+
 def define_fields(
     number: int, material: Material, orientation: Orientation | None, tensor: Tensor, library: Library
 ) -> None:
     """Tell the host what of a material depends on temperature and fields, and of USDFLD. Raises DeckError."""
-    axes, name = (np.eye(3), "") if orientation is None else (orientation.axes, orientation.name)
+    axes, name = directions(orientation)
     elastic = material.elastic
     if elastic is not None and elastic.table is not None:
         count = _COUNTS[elastic.type]

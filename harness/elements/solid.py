@@ -14,6 +14,7 @@ from harness.elements.materials import (
     Tensor,
     define_fields,
     define_material,
+    directions,
     history_values,
     shear_modulus,
     state_variables,
@@ -110,7 +111,7 @@ def solid_procedure(model: Model, group: ElementGroup, section: SolidSection, li
         tensor=int(kind.tensor),
         history=history_of(material, kind.points),
         statev=state_variables(material),
-        uvarm=_output_variables(material, kind.points, library),
+        uvarm=_output_variables(section, kind.points, library),
     )
 
 
@@ -142,11 +143,13 @@ def _hourglass_stiffness(group: ElementGroup, kind: Solid, section: SolidSection
     return HOURGLASS_FRACTION * shear_modulus(section.material.elastic, kind.tensor)
 
 
-def _output_variables(material: Material, points: int, library: Library) -> OutputVariables | None:
+def _output_variables(section: SolidSection, points: int, library: Library) -> OutputVariables | None:
     """UVARM of a material; None where the job has none, which leaves out the variables alone."""
+    material = section.material
     if not material.output_variables or library.uvarm is None:
         return None
-    return OutputVariables(library.uvarm, material.name, points, material.output_variables)
+    axes, name = directions(section.orientation)
+    return OutputVariables(library.uvarm, (material.name, name), axes, points, material.output_variables)
 
 
 def _numbered(name: str, count: int) -> tuple[str, ...]:

@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import os
 import sys
+from collections.abc import Sequence
 from dataclasses import dataclass
 from enum import IntEnum
 from typing import Final
@@ -281,8 +282,7 @@ def set_dependence(number: int, constants: int, turn: FloatArray, table: FloatAr
 
 def set_user_field(number: int, address: int, names: tuple[str, str], statev: int, axes: FloatArray) -> None:
     """Let USDFLD give the field variables of a material; names: of the material and its orientation."""
-    padded = np.array([name.ljust(80) for name in names], dtype="S80")
-    _host.host_set_user_field(number, address, padded, statev, axes)
+    _host.host_set_user_field(number, address, _padded(names), statev, axes)
 
 
 def define_user_material(umat: int, name: str, ntens: int, constants: FloatArray) -> int:
@@ -292,7 +292,8 @@ def define_user_material(umat: int, name: str, ntens: int, constants: FloatArray
 
 def uvarm(
     address: int,
-    name: str,
+    names: tuple[str, str],
+    axes: FloatArray,
     counts: tuple[int, int],
     place: tuple[int, int],
     clock: tuple[float, float, float],
@@ -302,14 +303,15 @@ def uvarm(
 ) -> int:
     """Call UVARM at the points of a block; returns the element at which it ended the analysis, 0 if it did not.
 
-    counts is stress components and NSTATV, place step and increment, clock the times at the start and the time
-    increment; the last `hidden` SVARS are of no point; uvar (m, points, NUVARM).
+    names are of the material and its orientation, axes its directions in rows, counts the stress components and
+    NSTATV, place step and increment, clock the times at the start and the time increment; the last `hidden` SVARS are
+    of no point; uvar (m, points, NUVARM).
     """
     m, points, _ = uvar.shape
     svars = np.ascontiguousarray(arrays.svars[:, : arrays.svars.shape[1] - hidden]).reshape(m, points, -1)
     history = arrays.history if arrays.history.shape[1] == points else np.zeros((m, points, 1))
     left, element = _host.host_uvarm_pass(
-        address, name, counts, place, clock, arrays.labels, arrays.coords.T, svars.T, history.T, uvar.T
+        address, _padded(names), axes, counts, place, clock, arrays.labels, arrays.coords.T, svars.T, history.T, uvar.T
     )
     return element if left else 0
 
@@ -341,12 +343,15 @@ def user_amplitude(address: int, asked: AskedAmplitude) -> tuple[float, FloatArr
     counts = len(asked.properties), len(asked.state), len(asked.sensors)
     # an array has an entry more than UAMP is told of, since none may be empty
     properties, state = np.append(asked.properties, 0.0), np.append(asked.state, 0.0)
-    sensors = np.array([*asked.sensors.values(), 0.0])
-    names = np.array([name.ljust(80) for name in (*asked.sensors, "")], dtype="S80")
-    value, define, left = _host.host_uamp_call(
-        address, asked.name, clock, properties, state, info, sensors, names, counts, np.nan
-    )
+    sensors = np.array([*asked.sensors.values(), 0.0]), _padded((*asked.sensors, ""))
+    given = asked.name, clock, properties, state, info, *sensors, counts
+    value, define, left = _host.host_uamp_call(address, *given, np.nan)
     return float(value), state[: len(asked.state)], define, bool(left)
+
+
+def _padded(names: Sequence[str]) -> NDArray[np.bytes_]:
+    """As CHARACTER*80."""
+    return np.array([name.ljust(80) for name in names], dtype="S80")
 
 
 def solid_address() -> int:

@@ -49,6 +49,17 @@ USDFLD = """      SUBROUTINE USDFLD(FIELD,STATEV,PNEWDT,DIRECT,T,CELENT,TIME,DTI
 %s
       END
 """
+UVARM = """      SUBROUTINE UVARM(UVAR,DIRECT,T,TIME,DTIME,CMNAME,ORNAME,NUVARM,
+     1 NOEL,NPT,LAYER,KSPT,KSTEP,KINC,NDI,NSHR,COORD,JMAC,JMATYP,
+     2 MATLAYO,LACCFLA)
+      INCLUDE 'ABA_PARAM.INC'
+      CHARACTER*80 CMNAME,ORNAME
+      CHARACTER*3 FLGRAY(15)
+      DIMENSION UVAR(NUVARM),DIRECT(3,3),ARRAY(15),JARRAY(15)
+      IF (ORNAME .NE. 'TURNED') CALL XIT
+%s
+      END
+"""
 UMAT = f"""      INCLUDE '{Path(__file__).parents[1] / "umat.inc"}'
       STATEV(2) = 10*STATEV(1) + PREDEF(1) + DPRED(1)
       DDSDDE = 0
@@ -107,6 +118,27 @@ def test_getvrm_gives_the_start_of_the_increment(run, name, scale):
         expected.append((1000 - 500 * min(scale * last, 1)) * strain)
         last = strain if name == "E" else expected[-1]
     np.testing.assert_allclose(along(result, "S11"), expected)
+
+
+@pytest.mark.parametrize(
+    ("name", "expected"),
+    [
+        # uniaxial stress s: Mises and Tresca s, pressure -s/3, third invariant s
+        ("SINV", [1, 1, -1 / 3, 1]),
+        # plastic strain p along the axis, and -p/2 across; in axes turned by the angle of 3, 4, 5
+        ("PE", [0.64 - 0.18, 0.36 - 0.32, -0.5, 2 * -0.48 * 1.5, 0, 0, 1]),
+    ],
+)
+def test_invariants_and_plastic_strains(run, name, expected):
+    """In UVARM of the last increment: a strain of 0.04 with a yield stress of 20, constant, and a modulus of 1000."""
+    elastic = "*ELASTIC\n1000., 0.\n*PLASTIC\n20., 0.\n*USER OUTPUT VARIABLES\n9"
+    getvrm = f"CALL GETVRM('{name}',ARRAY,JARRAY,FLGRAY,JRCD,JMAC,JMATYP,MATLAYO,LACCFLA)"
+    body = f"{getvrm}\nUVAR(1:7) = ARRAY(1:7)\nUVAR(8) = JRCD\nUVAR(9) = DIRECT(2,1)"
+    result = run(elastic, body, user=UVARM, orientation=", ORIENTATION=TURNED")
+    found = np.array([result.field(f"UVARM{k}")[0] for k in range(1, 10)])
+    scale = 20 if name == "SINV" else 0.02
+    np.testing.assert_allclose(found[: len(expected)], scale * np.array(expected), rtol=5e-3, atol=1e-3 * scale)
+    np.testing.assert_allclose(found[7:], [0, 0.6])
 
 
 def test_state_variables_are_kept_once_an_increment(run):
