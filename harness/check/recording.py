@@ -17,7 +17,7 @@ from harness import usersub
 from harness.assembly import Evaluation, System
 from harness.deck import read_deck
 from harness.elements import Block, Call, Motion, build_blocks
-from harness.errors import ConvergenceError, KernelError, SingularMatrixError
+from harness.errors import ConvergenceError, ElementError, KernelError, UelError
 from harness.model.arrays import FloatArray, IntArray
 from harness.model.model import Model
 from harness.model.records import IncrementDone
@@ -87,7 +87,7 @@ class Recording:
     equations: tuple[IntArray, ...]
     increments: int
     stopped: str
-    failure: KernelError | None = None
+    failure: ElementError | None = None
 
 
 @contextmanager
@@ -119,10 +119,10 @@ def record(deck: Path, user: Sequence[Path], increments: int, *, strict: bool = 
                     break
         except ConvergenceError as error:
             stopped = str(error)
-        except (KernelError, SingularMatrixError) as error:
+        except UelError as error:
             if strict or not any(isinstance(event, Pass) and event.normal for event in events):
                 raise
-            stopped, failure = str(error), error if isinstance(error, KernelError) else None
+            stopped, failure = str(error), error if isinstance(error, ElementError) else None
         equations = tuple(system.dofs.equations_of(block).astype(np.int64) for block in system.blocks)
     if not any(isinstance(event, Pass) and event.normal for event in events):
         events.append(_general(events))

@@ -99,6 +99,33 @@ def test_mass_matrix(tmp_path, requests, wrong, message, advice):
     assert re.search(advice, found["requests"].advice)
 
 
+FREQUENCIES = """\
+*STEP
+*FREQUENCY
+1
+*END STEP
+"""
+
+
+@pytest.mark.parametrize(
+    "line, message",
+    [
+        ("if (lflags(3) .eq. 2) amatrx = stiff", r"LFLAGS\(3\): stiffness only \(2\), mass \(4\)$"),
+        ("", r"AMATRX\(\d,\d\) is 0 with LFLAGS\(3\) = 2, \S+ with 1"),
+    ],
+)
+def test_frequencies(tmp_path, line, message):
+    """A static step and natural frequencies; without a stiffness these end the run, not the checks."""
+    source = OSCILLATORS.read_text().replace("'../uel.inc'", f"'{OSCILLATORS.parents[1] / 'uel.inc'}'")
+    head, end, _ = source.rpartition("      end\n")
+    user, deck = tmp_path / "oscillators.f", tmp_path / "oscillators.inp"
+    user.write_text(f"{head}      {line}\n{end}")
+    deck.write_text(OSCILLATOR.replace("*DYNAMIC\n0.1, 0.3", "*STATIC, DIRECT\n1., 1.") + FREQUENCIES)
+    requests = findings(deck, user)["requests"]
+    assert re.search(message, requests.message), requests.message
+    assert requests.verdict is (Verdict.PASSED if line else Verdict.FAILED)
+
+
 def test_deck_of_linear_steps_alone(patch):
     """Its elements are called as in a static step too."""
     found = findings(patch(0, ("*STEP", "*STEP, PERTURBATION"), ("*STATIC, DIRECT\n0.5, 1.", "*STATIC")))
