@@ -20,7 +20,7 @@ from harness.delamination.reproduce.cases import Case
 from harness.delamination.reproduce.curves import curve_distance
 from harness.delamination.reproduce.runs import Run, Runs
 
-MESHES = ((4, 1.0), (8, 1.0), (8, 3.0))
+MESHES = ((4, 1.0), (4, 10.0), (8, 1.0), (8, 3.0))
 """Rows of quads over the height of an arm and factor of beta, of the curves that are compared."""
 CURVES_TEXT = (
     "Consistent method with the criterion of Benzeggagh and Kenane, 1e6 N/mm³, over the whole load curve, snaps "
