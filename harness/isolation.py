@@ -4,6 +4,7 @@
 
 from __future__ import annotations
 
+import ctypes
 import resource
 import signal
 import subprocess
@@ -16,6 +17,10 @@ from harness.output.broken import close_broken
 
 SAME_PROCESS: Final = "--same-process"
 """Option of `uel run` and `uel check` for the process that runs."""
+
+_PRCTL = getattr(ctypes.CDLL(None), "prctl", None)
+_PR_SET_PDEATHSIG = 1
+"""Linux: a signal for a process whose parent has ended."""
 
 _ENDED = 2
 """Exit code with which the Fortran library ends a process; usage errors, which have it too, were found before."""
@@ -47,7 +52,11 @@ def run_apart(command: Sequence[str], errors: IO[str] | None = None) -> int:
     errors: where its messages go, by default to those of this process.
     """
     _take_all_stack()
-    process = subprocess.Popen([sys.executable, "-m", *command], stderr=errors)
+    process = subprocess.Popen(
+        [sys.executable, "-m", *command],
+        stderr=errors,
+        preexec_fn=_end_with_parent,  # noqa: PLW1509 (takes no lock: one call of the system)
+    )
     code = None
     while code is None:
         try:
@@ -56,6 +65,12 @@ def run_apart(command: Sequence[str], errors: IO[str] | None = None) -> int:
             # the process gets the signal as well, and ends by itself
             continue
     return code
+
+
+def _end_with_parent() -> None:
+    """Whoever kills this process wants no other one to go on."""
+    if _PRCTL is not None:
+        _PRCTL(_PR_SET_PDEATHSIG, signal.SIGTERM)
 
 
 def describe_end(code: int) -> str:
