@@ -75,7 +75,8 @@ def run(
     model = read_deck(deck)
     usersub.limit_calls(call_limit)
     files = [user] if isinstance(user, str | Path) else user or ()
-    library = usersub.load([Path(file) for file in files], job=job, output_dir=directory, deck=deck)
+    sources = [Path(file) for file in files]
+    library = usersub.load(sources, job=job, output_dir=directory, deck=deck, zero_locals=True)
     output = JobOutput(model, job, directory, quiet=quiet)
     try:
         system = System(model.mesh, build_blocks(model, library, strict=False, zeros=True), model.equations)

@@ -17,25 +17,27 @@ from harness.errors import CompileError
 from harness.usersub import linker
 from harness.usersub.diagnostics import first_error
 from harness.usersub.headers import HEADERS
-from harness.usersub.languages import FIXED, FORTRAN, FREE, LANGUAGES, is_free_form, language_of, linking
+from harness.usersub.languages import FIXED, FORTRAN, FREE, LANGUAGES, ZERO_LOCALS, is_free_form, language_of, linking
 from harness.usersub.mending import repairs
 
 _INCLUDE = re.compile(r"^\s*#?\s*include\s*['\"<]([^'\">]+)['\">]", re.IGNORECASE | re.MULTILINE)
 
 
-def build(files: Sequence[Path], include: Sequence[Path] = ()) -> Path:
+def build(files: Sequence[Path], include: Sequence[Path] = (), *, zero_locals: bool = False) -> Path:
     """Shared library of the files, compiled in their order; include: folders besides the sources' own.
 
-    Raises CompileError with the compiler's first error.
+    zero_locals: local variables of Fortran that are given no value are zero. Raises CompileError with the compiler's
+    first error.
     """
     compilers = {language_of(file): language_of(file).program(file) for file in files}
     folders = list(dict.fromkeys([*(f.resolve().parent for f in files), *(p.resolve() for p in include)]))
     headers, texts, sources = _scan(files, folders)
-    key = _key(compilers.values(), texts)
+    flags = (ZERO_LOCALS,) if zero_locals else ()
+    key = _key(compilers.values(), [*flags, *texts])
     target = cache_folder() / f"{files[0].stem}-{key}.so"
     if not target.exists():
         with tempfile.TemporaryDirectory() as work:
-            _compile(files, folders, headers, sources, Path(work), target)
+            _compile(files, folders, headers, sources, Path(work), target, flags)
     return target
 
 
@@ -116,6 +118,7 @@ def _compile(
     sources: dict[str, list[Path]],
     work: Path,
     target: Path,
+    flags: Sequence[str],
 ) -> None:
     headers = work / "include"
     for name, content in supply.items():
@@ -130,7 +133,7 @@ def _compile(
         output = work / f"{number}.o"
         command = [language.compiler, *language.flags, *search, "-o", str(output)]
         if language is FORTRAN:
-            command += [*(FREE if is_free_form(file, _read(file)) else FIXED), f"-J{work}"]
+            command += [*(FREE if is_free_form(file, _read(file)) else FIXED), *flags, f"-J{work}"]
         notes += _compile_one(command, file, sources, work / f"mended{number}")
         objects.append(output)
     shared = work / target.name

@@ -50,6 +50,8 @@ FORTRAN: Final = Language(
     "apt install gfortran, dnf install gcc-gfortran",
     ("-lgfortran",),
 )
+ZERO_LOCALS: Final = "-finit-local-zero"
+"""Flag of gfortran with which local variables that are given no value are zero, not what an earlier call has left."""
 C: Final = Language((".c",), "gcc", (*_COMMON, "-x", "c"), "apt install gcc, dnf install gcc", ())
 CPP: Final = Language(
     (".cpp", ".cc", ".cxx"), "g++", (*_COMMON, "-x", "c++"), "apt install g++, dnf install gcc-c++", ("-lstdc++",)

@@ -127,14 +127,22 @@ class Library:
         self._inbox.close()
 
 
-def load(user: Path | Sequence[Path] | None, *, job: str, output_dir: Path, deck: Path | None = None) -> Library:
+def load(
+    user: Path | Sequence[Path] | None,
+    *,
+    job: str,
+    output_dir: Path,
+    deck: Path | None = None,
+    zero_locals: bool = False,
+) -> Library:
     """Load user routines: files in Fortran, C or C++ (compiled, or taken from the cache) or a shared library.
 
     None gives the project's own kernels. INCLUDE lines are looked up in the folders of the sources and of the deck.
-    Raises CompileError.
+    zero_locals: local variables of Fortran that are given no value are zero, as many public user elements take them to
+    be; a check wants to see that they are not. Raises CompileError.
     """
     files = [] if user is None else [user] if isinstance(user, Path) else list(user)
-    shared = _shared_library(files, () if deck is None else (deck.resolve().parent,))
+    shared = _shared_library(files, () if deck is None else (deck.resolve().parent,), zero_locals=zero_locals)
     name = " ".join(str(f) for f in files) or "the project's kernels"
     library = Library(name, shared, _open(shared, name), Inbox(job, output_dir))
     notes = notes_of(shared)
@@ -143,7 +151,7 @@ def load(user: Path | Sequence[Path] | None, *, job: str, output_dir: Path, deck
     return library
 
 
-def _shared_library(files: Sequence[Path], include: Sequence[Path]) -> Path:
+def _shared_library(files: Sequence[Path], include: Sequence[Path], *, zero_locals: bool) -> Path:
     if not files:
         return path_of_kernels()
     for file in files:
@@ -155,7 +163,7 @@ def _shared_library(files: Sequence[Path], include: Sequence[Path]) -> Path:
         if len(files) > 1:
             raise CompileError(files[0], "a shared library cannot be combined with other files")
         return files[0]
-    return build(files, include)
+    return build(files, include, zero_locals=zero_locals)
 
 
 def _open(shared: Path, name: str) -> ctypes.CDLL:

@@ -108,7 +108,7 @@ def _records(root: Path, row: Row) -> Iterator[tuple[Model, Any]]:
             deck = _replaced(deck, row["replace"], Path(output))
         model = read_deck(deck)
         sources = [root / name for name in row["sources"]] or None
-        library = usersub.load(sources, job="job", output_dir=Path(output), deck=deck)
+        library = usersub.load(sources, job="job", output_dir=Path(output), deck=deck, zero_locals=True)
         try:
             system = System(model.mesh, build_blocks(model, library, strict=False, zeros=True), model.equations)
             for record in run_steps(system, model, library):

@@ -253,3 +253,11 @@ def test_a_job_goes_on_where_entries_are_not_set(tmp_path):
     assert warning in text
     assert "; the run goes on with zeros there before each call" in text
     assert "was not filled" not in results[0].file(".msg").read_text()
+
+
+def test_local_variables_without_a_value_are_zero_in_a_job(tmp_path):
+    """A chain of two springs of stiffness 1: the middle goes half as far as the end."""
+    deck = tmp_path / "forgets.inp"
+    deck.write_text(OUTSIDE.format(option=0))
+    result = harness.run(deck, HERE / "forgets.f", output_dir=tmp_path)
+    np.testing.assert_allclose(result.field("U")[:, 0], [0.0, 0.5, 1.0], rtol=1e-14)
