@@ -32,17 +32,19 @@ ADVICE: Final = (
     "With --skip the checks behind this one are made."
 )
 
+INTERRUPTION: Final = "The checks behind this one were not made."
+
 _PLACE: Final = re.compile(r"^uel: (in .*)$", re.MULTILINE)
 
 T = TypeVar("T")
 
 
 class EndedError(UelError):
-    """User code ended the process; snapshot has what was found until then, reason says why as a sentence."""
+    """User code ended the process, with an exit code; snapshot has what was found until then."""
 
-    def __init__(self, reason: str, snapshot: Snapshot) -> None:
+    def __init__(self, reason: str, code: int, snapshot: Snapshot) -> None:
         super().__init__(reason)
-        self.reason = reason
+        self.code = code
         self.snapshot = snapshot
 
 
@@ -58,7 +60,8 @@ def examine_apart(deck: Path, user: list[Path], *, call_limit: float = CALL_LIMI
         if running is None or not running.check:
             raise
         examination: Examination = outcome
-        examination.types[-1].findings[running.check] = failed(end.reason, ADVICE)
+        advice = INTERRUPTION if end.code == INTERRUPTED else ADVICE
+        examination.types[-1].findings[running.check] = failed(str(end), advice)
         return examination
 
 
@@ -83,4 +86,4 @@ def call_apart(function: Callable[..., T], *arguments: Any, call_limit: float = 
     sys.stderr.write(_PLACE.sub("", said).lstrip("\n"))
     why = "interrupted" if code == INTERRUPTED else describe_end(code)
     place = f"; {places[-1]}" if places else ""
-    raise EndedError(f"the process was {why} during {snapshot.running}{place}", snapshot)
+    raise EndedError(f"the process was {why} during {snapshot.running}{place}", code, snapshot)

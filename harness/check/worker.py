@@ -35,6 +35,10 @@ def _work(task: Path, file: Path) -> int:
         keep(Snapshot(None, function(*arguments, progress=progress, **options)))
     except UelError as error:
         keep(Snapshot(None, error=str(error)))
+    except OSError as error:
+        keep(Snapshot(None, error=f"{error.filename or ''}: {error.strerror or error}"))
+    except MemoryError:
+        keep(Snapshot(None, error="not enough memory for this model"))
     except KeyboardInterrupt:
         return INTERRUPTED
     return 0

@@ -10,10 +10,12 @@ from pathlib import Path
 
 import pytest
 
-from harness.check.apart import call_apart, examine_apart
+from harness.check.apart import EndedError, call_apart, examine_apart
+from harness.check.checks import CHECKS
 from harness.check.examine import examine
 from harness.check.finding import Verdict
-from harness.check.progress import Running
+from harness.check.progress import Running, Snapshot
+from harness.check.worker import INTERRUPTED
 from harness.errors import UelError
 from harness.usersub import limit_calls
 
@@ -115,6 +117,45 @@ def test_other_ends(function, message, monkeypatch):
     monkeypatch.setenv("PYTHONPATH", str(Path(__file__).parent))
     with pytest.raises(UelError, match=message):
         call_apart(function)
+
+
+def full(*, progress):
+    progress(Running("a test"), None)
+    raise MemoryError
+
+
+def unreadable(*, progress):
+    progress(Running("a test"), None)
+    Path("no-such-folder/file").read_text()
+
+
+@pytest.mark.parametrize(
+    "function, message",
+    [
+        (full, "^not enough memory for this model$"),
+        (unreadable, "^no-such-folder/file: No such file or directory$"),
+    ],
+)
+def test_errors_of_the_system(function, message, monkeypatch):
+    monkeypatch.setenv("PYTHONPATH", str(Path(__file__).parent))
+    with pytest.raises(UelError, match=message):
+        call_apart(function)
+
+
+def test_interruption_keeps_findings(patch, monkeypatch):
+    """As if it came while the second check ran."""
+    examination = examine(patch(), QUAD, skip=[check.name for check in CHECKS[2:]])
+    checks = examination.types[0].findings
+    del checks["filled"]
+
+    def interrupt(*_, **__):
+        raise EndedError("interrupted", INTERRUPTED, Snapshot(Running("a check", "filled"), examination))
+
+    monkeypatch.setattr("harness.check.apart.call_apart", interrupt)
+    found = examine_apart(patch(), [QUAD])
+    assert found.types[0].findings["run"].verdict is Verdict.PASSED
+    assert found.types[0].findings["filled"].advice == "The checks behind this one were not made."
+    assert not found.passed
 
 
 def test_error_without_a_place(tmp_path):
