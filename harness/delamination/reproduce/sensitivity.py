@@ -9,18 +9,20 @@ from dataclasses import dataclass, replace
 from functools import cache
 from pathlib import Path
 
-from harness.delamination.oscillation import raw_index
+from harness.delamination.oscillation import total_variation
 from harness.delamination.reproduce.cases import QUICK_SIZES, Case
 from harness.delamination.reproduce.runs import Run, Runs
 from harness.delamination.study.cases import STIFFNESSES
-from harness.delamination.study.rows import STRENGTHS, damage_variation
+from harness.delamination.study.rows import damage_variation
 from harness.output.plots import Curve, Panel, grid
 
 CONSISTENT = ("consistent", "inf")
 METHODS = (("standard", "1e6"), ("stabilised", "1e8"), CONSISTENT)
 """Element and stiffness of the rows: the standard one at the stiffness that the paper would choose."""
+VARIATION = "variation of the traction (MPa)"
+"""Total variation of the loading mode's traction, process zone and bonded part, the largest of all moments."""
 HEAD = (
-    *("peak load (N)", "load at the end (N)", "oscillation index", "damage that turns back"),
+    *("peak load (N)", "load at the end (N)", VARIATION, "damage that turns back"),
     *("iterations", "cutbacks", "end"),
 )
 
@@ -158,7 +160,8 @@ ADVICE = {
     "has settled; more only adds oscillation.",
     "strength": "Measure the strengths, or give their effect on the peak load with the result.",
     "sampling": "Take the middle of the face, which is the default.",
-    "integration": "Take Gauss points with the stabilised methods.",
+    "integration": "Standard method: Newton-Cotes points leave out the kinks where a point fails. Stabilised methods: "
+    "either; Gauss points are the default.",
     "beta": "Leave beta out: equation (21).",
 }
 
@@ -177,27 +180,27 @@ def spread(study: Study, runs: Runs) -> str:
 def row(run: Run) -> dict[str, float]:
     """Numbers of a run: those of HEAD but the last."""
     kind = run.case.kind
-    index = max(raw_index(profile[name], STRENGTHS[name]) for profile in run.bonded for name in kind.modes)
+    varies = max(total_variation(profile[name]) for profile in run.bonded for name in kind.modes)
     turns = max(damage_variation(profile["DAMAGE"]) for profile in run.profiles) - 1.0
-    values = (run.peak[0], float(run.load[-1]), index, turns, run.entry.iterations, run.entry.cutbacks)
+    values = (run.peak[0], float(run.load[-1]), varies, turns, run.entry.iterations, run.entry.cutbacks)
     return dict(zip(HEAD, values, strict=False))
 
 
 def cells(run: Run) -> list[str]:
     """A line of the table."""
-    peak, last, index, turns, iterations, cutbacks = row(run).values()
+    peak, last, varies, turns, iterations, cutbacks = row(run).values()
     reached = run.displacement[-1] / run.case.displacement
     end = "finished" if not run.entry.stopped else f"stopped at {reached:.0%}"
     counts = f"{iterations:.0f}", f"{cutbacks:.0f}"
-    return [f"{peak:.2f}", f"{last:.2f}", f"{index:.3f}", f"{max(turns, 0.0):.4f}", *counts, end]
+    return [f"{peak:.2f}", f"{last:.2f}", f"{varies:.1f}", f"{max(turns, 0.0):.4f}", *counts, end]
 
 
 def draw(study: Study, runs: Runs, path: Path) -> Path:
-    """Peak load and oscillation index over the parameter: a row of panels for each specimen."""
+    """Peak load and variation of the traction over the parameter: a row of panels for each specimen."""
     rows = []
     for problem in dict.fromkeys(case.problem for case in study.cases()):
         panels = []
-        for name in ("peak load (N)", "oscillation index"):
+        for name in ("peak load (N)", VARIATION):
             curves = [
                 Curve(
                     label.split(", ")[1],
