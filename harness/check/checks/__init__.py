@@ -55,7 +55,7 @@ CHECKS: Final = (
     Check("inputs", inputs.check),
     Check("locals", local_variables.check),
     Check("repeat", repeat.check),
-    Check("order", order.check, calls=False),
+    Check("order", order.check, calls=False, unless="locals"),
     Check("threads", threads.check),
     Check("no-time", no_time.check),
     Check("requests", requests.check),
