@@ -63,6 +63,7 @@ def test_findings_before_the_end_are_kept(patch, mistake, check, message):
     assert "uel: in" not in said
 
 
+@pytest.mark.long
 def test_check_that_ends_the_process_is_left_out(patch):
     code, printed, _ = uel_check(patch(31), "--skip", "no-time", "--increments", "1")
     assert code == 0
@@ -81,7 +82,11 @@ def test_call_that_does_not_return(patch):
 
 
 @pytest.mark.parametrize(
-    "words, what", [([], "the run of the deck"), (["--shuffle"], "calls of all elements in random orders")]
+    "words, what",
+    [
+        ([], "the run of the deck"),
+        pytest.param(["--shuffle"], "calls of all elements in random orders", marks=pytest.mark.long),
+    ],
 )
 def test_nothing_was_found_before_the_end(patch, words, what):
     code, printed, said = uel_check(patch(32), *words)
@@ -90,6 +95,7 @@ def test_nothing_was_found_before_the_end(patch, words, what):
     assert "no-such-file" in said
 
 
+@pytest.mark.long
 def test_order_alone(patch):
     code, printed, _ = uel_check(patch(11), "--shuffle", "--increments", "1")
     assert code == 1
@@ -110,7 +116,7 @@ def quit_quietly(*, progress):
     "function, message",
     [
         (interrupted, "the process was interrupted during a test"),
-        (quit_quietly, r"the process was ended \(exit code 0\) during a test"),
+        pytest.param(quit_quietly, r"the process was ended \(exit code 0\) during a test", marks=pytest.mark.long),
     ],
 )
 def test_other_ends(function, message, monkeypatch):
@@ -133,7 +139,7 @@ def unreadable(*, progress):
     "function, message",
     [
         (full, "^not enough memory for this model$"),
-        (unreadable, "^no-such-folder/file: No such file or directory$"),
+        pytest.param(unreadable, "^no-such-folder/file: No such file or directory$", marks=pytest.mark.long),
     ],
 )
 def test_errors_of_the_system(function, message, monkeypatch):
