@@ -11,13 +11,13 @@ from dataclasses import replace
 import numpy as np
 
 from harness.delamination.beams import branch_deviation
-from harness.delamination.reproduce.cases import LAYUPS, PROBLEMS, secant_cases
-from harness.delamination.reproduce.findings import ALL, Evidence
+from harness.delamination.reproduce.cases import LAYUPS, PROBLEMS, SHOWN, secant_cases
+from harness.delamination.reproduce.findings import Evidence
 from harness.delamination.reproduce.runs import Run
 from harness.model.arrays import FloatArray
 
 
-def theory_distance(evidence: Evidence, problem: str, element: str, stiffnesses: Sequence[str] = ALL) -> float:
+def theory_distance(evidence: Evidence, problem: str, element: str, stiffnesses: Sequence[str] = SHOWN) -> float:
     """Largest distance from corrected beam theory on the growth branch, relative.
 
     The branch lies between the lengths of a sharp crack that `beams.BRANCH` gives.
@@ -25,7 +25,7 @@ def theory_distance(evidence: Evidence, problem: str, element: str, stiffnesses:
     return max(abs(value) for value in _branch(evidence, problem, element, stiffnesses))
 
 
-def theory_mean(evidence: Evidence, problem: str, element: str, stiffnesses: Sequence[str] = ALL) -> float:
+def theory_mean(evidence: Evidence, problem: str, element: str, stiffnesses: Sequence[str] = SHOWN) -> float:
     """Mean distance from corrected beam theory on the growth branch, relative, the largest over the stiffnesses."""
     return max(float(np.mean(np.abs(_branch(evidence, problem, element, [stiffness])))) for stiffness in stiffnesses)
 
@@ -62,7 +62,7 @@ def methods_distance(evidence: Evidence, problem: str, layups: Sequence[str] = (
     return max(
         curve_distance(evidence.run(problem, layup, "stabilised", s), evidence.run(problem, layup, "standard", s))
         for layup in layups
-        for s in ALL
+        for s in SHOWN
     )
 
 
@@ -115,13 +115,13 @@ def smallest_increment(evidence: Evidence, *, secant: bool) -> float:
 def iterations_ratio(evidence: Evidence) -> float:
     """Iterations of the stabilised method over those of the standard one, all specimens, layups and stiffnesses."""
     totals = {"stabilised": 0, "standard": 0}
-    for problem, layup, stiffness in itertools.product(PROBLEMS, LAYUPS, ALL):
+    for problem, layup, stiffness in itertools.product(PROBLEMS, LAYUPS, SHOWN):
         for element in totals:
             totals[element] += evidence.run(problem, layup, element, stiffness).entry.iterations
     return totals["stabilised"] / totals["standard"]
 
 
-def energy_error(evidence: Evidence, problem: str, element: str, stiffnesses: Sequence[str] = ALL) -> float:
+def energy_error(evidence: Evidence, problem: str, element: str, stiffnesses: Sequence[str] = SHOWN) -> float:
     """Largest `missing_energy` at the stiffnesses, without its sign, [0/0]."""
     return max(abs(missing_energy(evidence.run(problem, "0/0", element, stiffness))) for stiffness in stiffnesses)
 

@@ -13,12 +13,11 @@ import numpy as np
 from harness.delamination.beams import RIGID_ROOT, growth
 from harness.delamination.law_report import Exploration, explore
 from harness.delamination.patches import COLLINEAR, PLIES
-from harness.delamination.reproduce.cases import AROUND, ELEMENTS, MOMENTS, Case
+from harness.delamination.reproduce.cases import AROUND, ELEMENTS, MOMENTS, SHOWN, Case
 from harness.delamination.reproduce.patch_cases import METHODS, NODES, PatchCase
 from harness.delamination.reproduce.runs import Profile, Runs
 from harness.output.plots import Curve, Panel, grid
 
-SHOWN = ("1e4", "1e6", "1e8")
 X = "$X_1$ [mm]"
 TRACTIONS = {"TN": "Normal traction [MPa]", "TT": "Tangential traction [MPa]", "DAMAGE": "Damage"}
 CLOSE = {"dcb": (0.0, 4.0), "enf": (-4.0, 4.0), "frmm": (-3.0, 3.0)}

@@ -23,8 +23,6 @@ from harness.delamination.study.rows import STRENGTHS, bonded_part, damage_varia
 from harness.delamination.theory import frmm_mode_ratio
 from harness.model.arrays import FloatArray
 
-ALL = ("1e4", "1e6", "1e8")
-
 
 @dataclass(frozen=True, slots=True)
 class Evidence:
