@@ -42,11 +42,19 @@ def build_blocks(model: Model, library: Library, *, strict: bool = True, zeros: 
             blocks.append(_block_of(model, group, library, strict=strict, zeros=zeros))
         except DeckError as error:
             errors.setdefault(str(error), error)
+        except MemoryError:
+            raise _too_large(group) from None
     if errors:
         raise all_of(list(errors.values()))
     for block, following in pairwise(blocks):
         following.first = block.first + len(block.group.labels)
     return blocks
+
+
+def _too_large(group: ElementGroup) -> DeckError:
+    given = group.definition
+    source, cause = (given.source, f" (VARIABLES={given.variables})") if given else (group.source, "")
+    return DeckError(source, f"there is not enough memory for {len(group.labels)} elements of type {group.type}{cause}")
 
 
 def _block_of(model: Model, group: ElementGroup, library: Library, *, strict: bool, zeros: bool) -> Block:

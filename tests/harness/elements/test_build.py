@@ -30,6 +30,14 @@ def build(load):
     return build
 
 
+def test_elements_beyond_the_memory(build, user_group):
+    group = user_group(NODES, SPRING, properties=(1.0,))
+    group = replace(group, definition=replace(group.definition, variables=10**14, source=Source("test.inp", 5)))
+    message = r"test.inp:5: there is not enough memory for 1 elements of type U1 \(VARIABLES=100000000000000\)"
+    with pytest.raises(DeckError, match=message):
+        build(group)
+
+
 def test_number_of_properties(build, user_group):
     group = user_group(NODES, SPRING, properties=(1.0, 2.0))
     group = replace(group, definition=replace(group.definition, properties=3, source=Source("test.inp", 5)))
