@@ -247,7 +247,9 @@ def explore_law(options: argparse.Namespace) -> int:
     """`uel law`."""
     from harness.delamination.law_report import Exploration, explore, path_points, summary  # noqa: PLC0415
 
-    asked = {name: value for name, value in vars(options).items() if name not in ("function", "element", "path")}
+    asked = {
+        name: value for name, value in vars(options).items() if name not in ("function", "apart", "element", "path")
+    }
     path = None if options.path is None else path_points(options.path)
     element = None if options.element is None else int(options.element[1:])
     curves, files = explore(Exploration(**asked, path=path, element=element))
