@@ -2,6 +2,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """*FREQUENCY: a pair of masses and springs, bars, a beam that is pulled; frequencies from vibration theory."""
 
+from pathlib import Path
+
 import numpy as np
 import pytest
 
@@ -135,12 +137,7 @@ USER_ELEMENT = """*NODE, NSET=ALL
 1, 1
 *UEL PROPERTY, ELSET=E
 """
-UEL = """      SUBROUTINE UEL(RHS,AMATRX,SVARS,ENERGY,NDOFEL,NRHS,NSVARS,
-     1 PROPS,NPROPS,COORDS,MCRD,NNODE,U,DU,V,A,JTYPE,TIME,DTIME,KSTEP,
-     2 KINC,JELEM,PARAMS,NDLOAD,JDLTYP,ADLMAG,PREDEF,NPREDF,LFLAGS,
-     3 MLVARX,DDLMAG,MDLOAD,PNEWDT,JPROPS,NJPROP,PERIOD)
-      INCLUDE 'ABA_PARAM.INC'
-      DIMENSION RHS(MLVARX,*),AMATRX(NDOFEL,NDOFEL),LFLAGS(*),U(*)
+UEL = f"""      INCLUDE '{Path(__file__).parents[1] / "uel.inc"}'
       WRITE(7,'(A,5I4)') 'FLAGS', LFLAGS(1:5)
       AMATRX = 0
       RHS(1,1) = -9*U(1)

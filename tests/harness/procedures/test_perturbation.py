@@ -2,6 +2,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """*STATIC in a step with PERTURBATION: a user spring that stiffens, f = 2 u + u^3, and a square."""
 
+from pathlib import Path
+
 import numpy as np
 import pytest
 
@@ -20,13 +22,7 @@ SPRING = """*NODE, NSET=ALL
 *BOUNDARY
 1, 1
 """
-UEL = """      SUBROUTINE UEL(RHS,AMATRX,SVARS,ENERGY,NDOFEL,NRHS,NSVARS,
-     1 PROPS,NPROPS,COORDS,MCRD,NNODE,U,DU,V,A,JTYPE,TIME,DTIME,KSTEP,
-     2 KINC,JELEM,PARAMS,NDLOAD,JDLTYP,ADLMAG,PREDEF,NPREDF,LFLAGS,
-     3 MLVARX,DDLMAG,MDLOAD,PNEWDT,JPROPS,NJPROP,PERIOD)
-      INCLUDE 'ABA_PARAM.INC'
-      DIMENSION RHS(MLVARX,*),AMATRX(NDOFEL,NDOFEL),LFLAGS(*),U(*),
-     1 DU(MLVARX,*),SVARS(*)
+UEL = f"""      INCLUDE '{Path(__file__).parents[1] / "uel.inc"}'
       IF (LFLAGS(4) .EQ. 1) THEN
         WRITE(7,'(A,5I4,2F8.4)') 'FLAGS', LFLAGS(1:5), U(2), DU(2,1)
       END IF
