@@ -3,7 +3,6 @@
 !> USDFLD (User Subroutines Guide): field variables of a material point of built-in elements, from what GETVRM gives of
 !> the start of the increment, in each call of the element.
 module host_usdfld
-  use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
   use, intrinsic :: iso_c_binding, only: c_f_procpointer, c_funptr
   use host_context, only: current
   use host_kinds, only: dp, i4
@@ -83,7 +82,7 @@ contains
     call usdfld(field, statev, pnewdt, direct, t, celent, time, dtime, cmname, orname, nfield, nstatv, noel, npt, layer, kspt, &
                 kstep, kinc, ndi, nshr, coord, jmac, jmatyp, matlayo, laccfla)
     nullify (current%values)
-    if (.not. all(ieee_is_finite(field))) then
+    if (.not. all(abs(field) <= huge(field))) then
       call add_message(-3_i4, 'USDFLD sets a field variable to no number')
       call escape()
     end if
