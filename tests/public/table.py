@@ -26,8 +26,9 @@ Codes that others wrote for Abaqus, with their decks, run by this harness as the
 repository; `python tests/public/table.py FOLDER -o harness/usersub/public-uels.md` writes this page from a folder of
 checkouts, by [the manifest](../../tests/public/manifest.toml). Grade of the expected value: **T** theory, **A** real
 Abaqus, **M** the stored result of another code, **B** this harness' built-in element of the same formulation in place
-of the user's, run beside it (it shows that both are driven alike), **Q** an independent small-strain host
-(plausibility only).
+of the user's, run beside it (it shows that both are driven alike), **Q** an independent quick host: for small strains
+(plausibility only), or [kirigami.py](../../tests/public/kirigami.py), which takes the element's energy density and
+nothing else of it.
 
 | code | deck | quantity | our figure | expected | grade | verdict |
 |---|---|---|---|---|---|---|
