@@ -4,9 +4,12 @@
 
 import numpy as np
 import pytest
+from scipy import sparse
 
 import harness
 from harness.errors import SingularMatrixError
+from harness.procedures.unheld import UnheldSolver
+from harness.solver.linear import choose
 
 YOUNG, PULL = 1000.0, 3.0
 # a unit square pinned in one corner, which may turn about it, in balance under forces in its corners
@@ -115,3 +118,15 @@ def test_a_force_on_an_unknown_without_any_stiffness_is_an_error(tmp_path):
     (tmp_path / "bar.inp").write_text(BAR + ALONG.format(pull=PULL, across=1.0))
     with pytest.raises(SingularMatrixError, match=r"bar.inp:\d+: singular system matrix at node 2, dof 2: .* held"):
         harness.run(tmp_path / "bar.inp", output_dir=tmp_path)
+
+
+def test_a_soft_part_beside_what_moves_freely():
+    """Two springs in a row, the one that is held a million times softer, beside a spring with two free ends."""
+    soft = 1e-6
+    matrix = sparse.csr_array([[1 + soft, -1, 0, 0], [-1, 1, 0, 0], [0, 0, 1, -1], [0, 0, -1, 1]])
+    solver = UnheldSolver(choose("superlu", matrix.indptr, matrix.indices))
+    solver.factorise(matrix.data)
+    found = solver.solve(np.array([0.0, 3.0, 0.0, 0.0]))
+    np.testing.assert_allclose(found, [3.0 / soft, 3.0 / soft + 3.0, 0.0, 0.0], rtol=1e-6)
+    with pytest.raises(SingularMatrixError, match="singular system matrix"):
+        solver.solve(np.array([0.0, 3.0, 1e-3, 1e-3]))
