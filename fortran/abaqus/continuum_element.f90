@@ -8,8 +8,8 @@ module abaqus_continuum_element
   use core_status, only: status_type, inside_out
   use materials_linear_elasticity, only: plane_strain
   use materials_spectral_norm, only: spectral_norm
-  use elements_quad4, only: quad4_area, quad4_strain, quad4_add_point, face_point, &
-    face_nodes, gauss_of_face, face_places
+  use elements_quad4, only: quad4_area, quad4_strain, quad4_add_force, quad4_add_stiffness, &
+    face_point, face_nodes, gauss_of_face, face_places
   use abaqus_bulk_exchange, only: bulk_record, store_bulk
   use abaqus_check, only: refuse
   use abaqus_report, only: fatal
@@ -33,8 +33,8 @@ contains
   !>
   !> ENERGY(2) grows by the work of the stress, by the trapezoidal rule: the strain energy of an elastic material, to
   !> which the work of any inelastic strain is added, as the material does not tell them apart.
-  subroutine evaluate_continuum(jelem, props, jprops, coordinates, u, predef, npredf, materiallib, svars, energy, &
-    residual, tangent, good)
+  subroutine evaluate_continuum(jelem, props, jprops, coordinates, u, predef, npredf, materiallib, with_tangent, &
+    svars, energy, residual, tangent, good)
     integer, intent(in) :: jelem
     real(dp), intent(in) :: props(*)
     integer, intent(in) :: jprops(*)
@@ -42,8 +42,9 @@ contains
     integer, intent(in) :: npredf
     real(dp), intent(in) :: predef(2, npredf, 4)   !< end value and increment at the nodes
     integer, intent(in) :: materiallib(*)          !< handle of the host, passed through
+    logical, intent(in) :: with_tangent
     real(dp), intent(inout) :: svars(32), energy(8)
-    real(dp), intent(out) :: residual(8), tangent(8, 8)
+    real(dp), intent(out) :: residual(8), tangent(8, 8)   !< tangent: zero without
     logical, intent(out) :: good
     type(gauss_state) :: state
     type(status_type) :: status
@@ -76,8 +77,10 @@ contains
         field_change, materiallib, state%strain(:, k), svars(first + 1:first + 8), state%stress(:, k), &
         state%stiffness(:, :, k), work, good)
       if (.not. good) return
-      call quad4_add_point(state%gradient(:, :, k), state%volume(k), state%stress(:, k), state%stiffness(:, :, k), &
-        residual, tangent)
+      call quad4_add_force(state%gradient(:, :, k), state%volume(k), state%stress(:, k), residual)
+      if (with_tangent) then
+        call quad4_add_stiffness(state%gradient(:, :, k), state%volume(k), state%stiffness(:, :, k), tangent)
+      end if
     end do
     energy(2) = energy(2) + work
     if (jprops(j_face) /= 0) call share(jelem, jprops(j_face), coordinates, u, area, props(p_thickness), state)

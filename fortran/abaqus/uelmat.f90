@@ -20,7 +20,7 @@ subroutine uelmat(rhs, amatrx, svars, energy, ndofel, nrhs, nsvars, props, nprop
   real(dp), intent(in) :: params(*), adlmag(mdload, *), predef(2, npredf, nnode), ddlmag(mdload, *), period
   integer, intent(in) :: materiallib(*)
   real(dp) :: residual(8), tangent(8, 8), state(32), energies(8)
-  logical :: good
+  logical :: with_tangent, good
 
   rhs(1:ndofel, 1:nrhs) = 0.0_dp
   amatrx = 0.0_dp
@@ -36,11 +36,13 @@ subroutine uelmat(rhs, amatrx, svars, energy, ndofel, nrhs, nsvars, props, nprop
 
   state = svars(1:32)
   energies = energy
-  call evaluate_continuum(jelem, props, jprops, coords(1:2, 1:4), u, predef, npredf, materiallib, state, energies, &
-    residual, tangent, good)
+  ! the residual alone, or with the mass
+  with_tangent = lflags(3) /= 5 .and. lflags(3) /= 6
+  call evaluate_continuum(jelem, props, jprops, coords(1:2, 1:4), u, predef, npredf, materiallib, with_tangent, state, &
+    energies, residual, tangent, good)
   if (.not. good) return
   if (lflags(3) /= 2) rhs(1:8, 1) = residual
-  if (lflags(3) /= 5 .and. lflags(3) /= 6) amatrx(1:8, 1:8) = tangent
+  if (with_tangent) amatrx(1:8, 1:8) = tangent
   if (lflags(3) == 1 .or. lflags(3) == 100) then
     svars(1:32) = state
     energy = energies

@@ -13,7 +13,7 @@ module elements_face_eigenvalue
   use core_shape_functions, only: quad_gradient
   use core_status, only: status_type, ok, inside_out
   use core_symmetric, only: lower_factor, largest_eigenvalue
-  use elements_quad4, only: face_nodes, face_point, quad4_add_point
+  use elements_quad4, only: face_nodes, face_point, quad4_add_stiffness
   implicit none(type, external)
   private
   public :: quad4_face_eigenvalue, face_eigenvalue
@@ -27,20 +27,19 @@ contains
     real(dp), intent(in) :: stiffness(3, 3)     !< D, stress
     real(dp), intent(out) :: lambda             !< stress/length
     type(status_type), intent(out) :: status    !< inside_out with the Jacobian
-    real(dp) :: gradient(2, 4), jacobian, energy(8, 8), traction(4, 8), frame(2, 2), length, s(2), unused(8)
+    real(dp) :: gradient(2, 4), jacobian, energy(8, 8), traction(4, 8), frame(2, 2), length, s(2)
     real(dp) :: by_strain(2, 3)
     integer :: k, a
 
     lambda = 0.0_dp
     energy = 0.0_dp
-    unused = 0.0_dp
     do k = 1, 4
       call quad_gradient(coordinates, quad_points(:, k), gradient, jacobian)
       if (.not. jacobian > 0.0_dp) then
         status = status_type(inside_out, 0, jacobian, 0.0_dp)
         return
       end if
-      call quad4_add_point(gradient, jacobian, [0.0_dp, 0.0_dp, 0.0_dp], stiffness, unused, energy)
+      call quad4_add_stiffness(gradient, jacobian, stiffness, energy)
     end do
     call line_frame(coordinates(:, face_nodes(1, face)), coordinates(:, face_nodes(2, face)), frame, length)
     by_strain = sqrt(0.5_dp*length)*matmul(traction_operator(frame), stiffness)

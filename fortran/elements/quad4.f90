@@ -9,7 +9,7 @@ module elements_quad4
   use core_quadrature, only: gauss_abscissa
   implicit none(type, external)
   private
-  public :: quad4_area, quad4_strain, quad4_add_point, face_point
+  public :: quad4_area, quad4_strain, quad4_add_force, quad4_add_stiffness, face_point
   public :: face_nodes, gauss_of_face, face_places
 
   !> First and second node of each face.
@@ -47,13 +47,28 @@ contains
     strain(3) = dot_product(gradient(2, :), along_x) + dot_product(gradient(1, :), along_y)
   end function quad4_strain
 
-  !> Adds what a point contributes to the residual (minus the internal force) and to the tangent.
-  pure subroutine quad4_add_point(gradient, weight, stress, stiffness, residual, tangent)
+  !> Subtracts the internal force of a point from the residual.
+  pure subroutine quad4_add_force(gradient, weight, stress, residual)
     real(dp), intent(in) :: gradient(2, 4)    !< shape function derivatives, 1/length
     real(dp), intent(in) :: weight            !< volume of the point
     real(dp), intent(in) :: stress(3)         !< s11, s22, s12
-    real(dp), intent(in) :: stiffness(3, 3)   !< d(stress)/d(e11, e22, 2 e12); need not be symmetric
     real(dp), intent(inout) :: residual(8)
+    real(dp) :: gx, gy
+    integer :: a
+
+    do a = 1, 4
+      gx = weight*gradient(1, a)
+      gy = weight*gradient(2, a)
+      residual(2*a - 1) = residual(2*a - 1) - gx*stress(1) - gy*stress(3)
+      residual(2*a) = residual(2*a) - gy*stress(2) - gx*stress(3)
+    end do
+  end subroutine quad4_add_force
+
+  !> Adds the stiffness of a point to the tangent.
+  pure subroutine quad4_add_stiffness(gradient, weight, stiffness, tangent)
+    real(dp), intent(in) :: gradient(2, 4)    !< shape function derivatives, 1/length
+    real(dp), intent(in) :: weight            !< volume of the point
+    real(dp), intent(in) :: stiffness(3, 3)   !< d(stress)/d(e11, e22, 2 e12); need not be symmetric
     real(dp), intent(inout) :: tangent(8, 8)
     real(dp) :: by_u(3), by_v(3), gx(4), gy(4)
     integer :: a, b
@@ -69,10 +84,8 @@ contains
         tangent(2*a - 1, 2*b) = tangent(2*a - 1, 2*b) + gx(a)*by_v(1) + gy(a)*by_v(3)
         tangent(2*a, 2*b) = tangent(2*a, 2*b) + gy(a)*by_v(2) + gx(a)*by_v(3)
       end do
-      residual(2*b - 1) = residual(2*b - 1) - gx(b)*stress(1) - gy(b)*stress(3)
-      residual(2*b) = residual(2*b) - gy(b)*stress(2) - gx(b)*stress(3)
     end do
-  end subroutine quad4_add_point
+  end subroutine quad4_add_stiffness
 
   !> Parent coordinates (xi, eta) of a place on a face.
   pure function face_point(face, t) result(point)
