@@ -9,7 +9,7 @@ DAMAGE, ... A variable that one element type lacks is empty there.
 
 from __future__ import annotations
 
-import csv
+import io
 from pathlib import Path
 
 import numpy as np
@@ -77,7 +77,7 @@ class InterfaceFile:
 def read_profiles(path: Path) -> list[dict[str, FloatArray]]:
     """All profiles that were written, each by column as `read_interface` gives it; raises UelError without a file."""
     names, blocks = _read_blocks(path)
-    return [dict(zip(names, np.array(rows).T, strict=True)) for rows in blocks.values()]
+    return [dict(zip(names, rows.T.copy(), strict=True)) for rows in blocks.values()]
 
 
 def read_interface(path: Path, step: int | None = None, increment: int = -1) -> dict[str, FloatArray]:
@@ -104,20 +104,23 @@ def read_interface(path: Path, step: int | None = None, increment: int = -1) -> 
     if not known:
         where = f"step {step}, " if step is not None else ""
         raise UelError(f"{path}: no interface profile of {where}increment {increment}")
-    values = np.array(blocks[known[-1]])
+    values = blocks[known[-1]]
     return {name: values[:, k].copy() for k, name in enumerate(names)}
 
 
-def _read_blocks(path: Path) -> tuple[list[str], dict[tuple[int, int], list[list[float]]]]:
+def _read_blocks(path: Path) -> tuple[list[str], dict[tuple[int, int], FloatArray]]:
     """Rows by step and increment. A last block that a killed run left unfinished is left out."""
     if not path.exists():
         raise UelError(f"{path}: no such file; it is written only if the model has interface elements of the project")
-    lines = [line for line in path.read_text("utf-8").splitlines(keepends=True) if line.endswith("\n")]
-    names, *rows = csv.reader(lines)
-    blocks: dict[tuple[int, int], list[list[float]]] = {}
-    for row in rows:
-        block = blocks.setdefault((int(row[0]), int(row[1])), [])
-        block.append([float(cell) if cell else np.nan for cell in row])
+    head, *lines = [line for line in path.read_text("utf-8").splitlines(keepends=True) if line.endswith("\n")]
+    names = head.rstrip().split(",")
+    if not lines:
+        return names, {}
+    # an empty cell is no number for loadtxt
+    cells = "".join(lines).replace(",\n", ",nan\n").replace(",,", ",nan,").replace(",,", ",nan,")
+    table = np.loadtxt(io.StringIO(cells), delimiter=",", ndmin=2)
+    starts = 1 + np.flatnonzero(np.diff(table[:, :2], axis=0).any(axis=1))
+    blocks = {(int(rows[0, 0]), int(rows[0, 1])): rows for rows in np.split(table, starts)}
     places = list(blocks)
     if len(places) > 1 and len(blocks[places[-1]]) < len(blocks[places[0]]):
         del blocks[places[-1]]
