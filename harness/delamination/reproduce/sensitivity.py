@@ -70,18 +70,19 @@ def _divided(case: Case, increments: int) -> Case:
 
 
 def studies(*, coarse: bool) -> list[Study]:
-    """All parameters; with `coarse`, around the coarse meshes and with fewer values."""
+    """All parameters; with `coarse`, around the coarse meshes, with fewer values, most in one specimen."""
     dcb, enf = (_bases(problem, METHODS, coarse=coarse) for problem in ("dcb", "enf"))
     sizes = {"dcb": (0.5, 0.25, 0.125, 0.0625), "enf": (1.0, 0.5, 0.25, 0.125)}
-    kept = {name: (values[1], QUICK_SIZES[name]) if coarse else values for name, values in sizes.items()}
-    divisions = (25, 50, 100) if coarse else (25, 50, 100, 200)
+    kept = sizes | ({"dcb": (sizes["dcb"][1], QUICK_SIZES["dcb"])} if coarse else {})
+    divisions = (25, 50) if coarse else (25, 50, 100, 200)
     factors = (0.1, 1.0, 10.0) if coarse else (0.1, 0.3, 1.0, 3.0, 10.0)
     both = dcb | enf
+    shown = dcb if coarse else both
     return [
         Study(
             "Mesh",
             "length of the elements (mm)",
-            {label: [(f"{s:.3g}", _sized(case, s)) for s in kept[case.problem]] for label, case in both.items()},
+            {label: [(f"{s:.3g}", _sized(case, s)) for s in kept[case.problem]] for label, case in shown.items()},
             number=True,
             advice=ADVICE["mesh"],
         ),
@@ -123,7 +124,7 @@ def studies(*, coarse: bool) -> list[Study]:
             "sampling",
             {
                 label: [(name, replace(case, sampling=k)) for k, name in enumerate(("middle", "face", "Gauss point"))]
-                for label, case in both.items()
+                for label, case in shown.items()
                 if "standard" not in label
             },
             number=False,
@@ -134,7 +135,7 @@ def studies(*, coarse: bool) -> list[Study]:
             "rule",
             {
                 label: [(name, replace(case, newton_cotes=k)) for k, name in ((False, "Gauss"), (True, "Newton-Cotes"))]
-                for label, case in (both | _bases("dcb", [("standard", "1e8")], coarse=coarse)).items()
+                for label, case in (shown | _bases("dcb", [("standard", "1e8")], coarse=coarse)).items()
             },
             number=False,
             advice=ADVICE["integration"],
@@ -144,7 +145,7 @@ def studies(*, coarse: bool) -> list[Study]:
             "factor of beta by (21)",
             {
                 label: [(f"{f:g}", replace(case, beta=f)) for f in factors]
-                for label, case in both.items()
+                for label, case in shown.items()
                 if "standard" not in label
             },
             number=True,
