@@ -159,6 +159,7 @@ def add_check(check: argparse.ArgumentParser) -> None:
         "--skip", action="append", default=[], metavar="CHECK", help="leave out a check (may be repeated)"
     )
     check.add_argument("--json", type=Path, metavar="FILE", help="write the findings for other programs")
+    check.add_argument("--quiet", action="store_true", help="no progress display")
     check.add_argument("--seed", type=positive, default=1, metavar="N", help="of random orders and displacements (1)")
     check.add_argument("--increments", type=positive, default=3, metavar="K", help="of the deck that are run (3)")
     add_isolation(check)

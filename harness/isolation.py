@@ -9,7 +9,7 @@ import resource
 import signal
 import subprocess
 import sys
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import IO, Final
 
@@ -24,6 +24,9 @@ _PR_SET_PDEATHSIG = 1
 
 _ENDED = 2
 """Exit code with which the Fortran library ends a process; usage errors, which have it too, were found before."""
+
+_GLANCE: Final = 0.2
+"""Seconds between two calls of `meanwhile`."""
 
 _REASONS: Final = {
     signal.SIGKILL: "killed, by a user or by the system for lack of memory",
@@ -46,10 +49,12 @@ def supervise(words: Sequence[str], stem: Path) -> int:
     return 1
 
 
-def run_apart(command: Sequence[str], errors: IO[str] | None = None) -> int:
+def run_apart(
+    command: Sequence[str], errors: IO[str] | None = None, meanwhile: Callable[[], None] | None = None
+) -> int:
     """Run a Python module with arguments in a process that user code may end; returns its exit code, -n for signal n.
 
-    errors: where its messages go, by default to those of this process.
+    errors: where its messages go, by default to those of this process. meanwhile: is called now and then.
     """
     _take_all_stack()
     process = subprocess.Popen(
@@ -60,7 +65,10 @@ def run_apart(command: Sequence[str], errors: IO[str] | None = None) -> int:
     code = None
     while code is None:
         try:
-            code = process.wait()
+            code = process.wait(_GLANCE if meanwhile else None)
+        except subprocess.TimeoutExpired:
+            assert meanwhile is not None
+            meanwhile()
         except KeyboardInterrupt:
             # the process gets the signal as well, and ends by itself
             continue

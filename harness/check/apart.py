@@ -48,13 +48,19 @@ class EndedError(UelError):
         self.snapshot = snapshot
 
 
-def examine_apart(deck: Path, user: list[Path], *, call_limit: float = CALL_LIMIT, **options: Any) -> Examination:
+Tell = Callable[[str], None]
+"""Is told now and then what is being done."""
+
+
+def examine_apart(
+    deck: Path, user: list[Path], *, call_limit: float = CALL_LIMIT, tell: Tell | None = None, **options: Any
+) -> Examination:
     """As `examine`; where user code ends the process, with what was found before, and a failure of the check that ran.
 
     call_limit: seconds that one call of a user routine may take. Raises UelError, also where no check had begun.
     """
     try:
-        return call_apart(examine, deck, user, call_limit=call_limit, **options)
+        return call_apart(examine, deck, user, call_limit=call_limit, tell=tell, **options)
     except EndedError as end:
         running, outcome = end.snapshot.running, end.snapshot.outcome
         if running is None or not running.check:
@@ -65,16 +71,28 @@ def examine_apart(deck: Path, user: list[Path], *, call_limit: float = CALL_LIMI
         return examination
 
 
-def call_apart(function: Callable[..., T], *arguments: Any, call_limit: float = CALL_LIMIT, **options: Any) -> T:
+def call_apart(
+    function: Callable[..., T],
+    *arguments: Any,
+    call_limit: float = CALL_LIMIT,
+    tell: Tell | None = None,
+    **options: Any,
+) -> T:
     """What a function returns in a process of its own; it takes `progress`. Raises UelError, and EndedError."""
     with tempfile.TemporaryDirectory() as folder:
         file, messages = Path(folder) / "snapshot", Path(folder) / "messages"
         task = Path(folder) / "task"
         task.write_bytes(pickle.dumps((function, arguments, options, call_limit)))
+
+        def meanwhile() -> None:
+            running = _snapshot(file).running
+            if tell is not None and running is not None:
+                tell(str(running))
+
         with messages.open("w", encoding="utf-8") as stream:
-            code = run_apart(["harness.check.worker", str(task), str(file)], stream)
+            code = run_apart(["harness.check.worker", str(task), str(file)], stream, meanwhile if tell else None)
         said = messages.read_text("utf-8", errors="replace")
-        snapshot = pickle.loads(file.read_bytes()) if file.exists() else Snapshot(Running("its start"))
+        snapshot = _snapshot(file)
     if snapshot.running is None and not code:
         sys.stderr.write(said)
         if snapshot.error:
@@ -87,3 +105,11 @@ def call_apart(function: Callable[..., T], *arguments: Any, call_limit: float = 
     why = "interrupted" if code == INTERRUPTED else describe_end(code)
     place = f"; {places[-1]}" if places else ""
     raise EndedError(f"the process was {why} during {snapshot.running}{place}", code, snapshot)
+
+
+def _snapshot(file: Path) -> Snapshot:
+    """What the process has come to."""
+    if not file.exists():
+        return Snapshot(Running("its start"))
+    snapshot: Snapshot = pickle.loads(file.read_bytes())
+    return snapshot

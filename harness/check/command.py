@@ -6,13 +6,15 @@ from __future__ import annotations
 
 import argparse
 import sys
+from collections.abc import Iterator
+from contextlib import contextmanager
 from functools import partial
 from pathlib import Path
 from typing import Final
 
 from rich.console import Console, Group
 
-from harness.check.apart import call_apart, examine_apart
+from harness.check.apart import Tell, call_apart, examine_apart
 from harness.check.examine import examine
 from harness.check.progress import Progress, Running, untold
 from harness.check.report import as_json, table
@@ -27,27 +29,38 @@ UNCHECKED: Final = 2
 def check(options: argparse.Namespace, console: Console, *, apart: bool) -> int:
     """Run the checks and print what they found; returns the exit code: 0 all passed, 1 a check failed, 2 neither.
 
-    apart: in a process of its own, which user code may end.
+    apart: in a process of its own, which user code may end; what it does is shown on a terminal.
     """
     try:
         deck, user = deck_and_user(options.files, options.user)
         how = {"seed": options.seed, "increments": options.increments}
         limit = options.call_limit
         limit_calls(limit)
-        if options.shuffle:
-            tell = partial(call_apart, tell_order, call_limit=limit) if apart else tell_order
-            passed, told = tell(deck, user, **how)
-            console.print(told)
-            return int(not passed)
-        look = partial(examine_apart, call_limit=limit) if apart else examine
-        outcome = look(deck, user, **how, skip=options.skip)
+        with display(shown=apart and not options.quiet) as tell:
+            if options.shuffle:
+                look_at_order = partial(call_apart, tell_order, call_limit=limit, tell=tell) if apart else tell_order
+                passed, told = look_at_order(deck, user, **how)
+            else:
+                look = partial(examine_apart, call_limit=limit, tell=tell) if apart else examine
+                outcome = look(deck, user, **how, skip=options.skip)
+                passed, told = outcome.passed, table(outcome)
     except UelError as error:
         print(f"uel: {error}", file=sys.stderr)
         return UNCHECKED
-    console.print(table(outcome))
-    if options.json:
+    console.print(told)
+    if options.json and not options.shuffle:
         options.json.write_text(as_json(outcome), encoding="utf-8")
-    return int(not outcome.passed)
+    return int(not passed)
+
+
+@contextmanager
+def display(*, shown: bool, console: Console | None = None) -> Iterator[Tell | None]:
+    """What shows on a terminal what is being done; None where nothing is to be shown."""
+    if not shown:
+        yield None
+        return
+    with (console or Console(stderr=True)).status("checking") as status:
+        yield lambda what: status.update(f"checking: {what}")
 
 
 def tell_order(

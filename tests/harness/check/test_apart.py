@@ -2,16 +2,20 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """User code that ends the process of the checks, or does not end: what was found is kept, and the reason is said."""
 
+import io
 import json
 import re
 import subprocess
 import sys
+import time
 from pathlib import Path
 
 import pytest
+from rich.console import Console
 
 from harness.check.apart import EndedError, call_apart, examine_apart
 from harness.check.checks import CHECKS
+from harness.check.command import display
 from harness.check.examine import examine
 from harness.check.finding import Verdict
 from harness.check.progress import Running, Snapshot
@@ -123,6 +127,30 @@ def test_other_ends(function, message, monkeypatch):
     monkeypatch.setenv("PYTHONPATH", str(Path(__file__).parent))
     with pytest.raises(UelError, match=message):
         call_apart(function)
+
+
+def slow(*, progress):
+    progress(Running("a long check"), None)
+    time.sleep(1.5)
+
+
+def test_tells_what_is_done(monkeypatch):
+    monkeypatch.setenv("PYTHONPATH", str(Path(__file__).parent))
+    told = []
+    call_apart(slow, tell=told.append)
+    assert told[-1] == "a long check"
+
+
+def test_display_on_a_terminal():
+    terminal, file = (Console(file=io.StringIO(), force_terminal=kind, width=80) for kind in (True, False))
+    for console in (terminal, file):
+        with display(shown=True, console=console) as tell:
+            tell("the check 'rotation' of U1")
+            time.sleep(0.3)
+    assert "checking: the check 'rotation' of U1" in terminal.file.getvalue()
+    assert file.file.getvalue() == ""
+    with display(shown=False, console=terminal) as tell:
+        assert tell is None
 
 
 def full(*, progress):
