@@ -2,8 +2,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Random properties, states and paths of every law in every interface element: AMATRX, and the balance of energies.
 
-hypothesis draws the properties, a crowd of like elements takes its own states: some hundred of each case, the same in
-every run, or 10,000 others.
+hypothesis draws the properties, a crowd of like elements its states: hundreds, the same in every run, or 10,000 others.
 """
 
 from collections import namedtuple
@@ -81,9 +80,7 @@ def betas(draw, reference, values):
     spread, size = draw(st.sampled_from([1.0, 0.4, 2.5])), draw(positive(1.1, 1e4))
     if values["LAW"] == PPR:
         pairs = (("SIGMAMAX", "GIC", "ALPHAN", "SHAPEN"), ("TAUMAX", "GIIC", "ALPHAT", "SHAPET"))
-        slopes = [
-            reference.ppr_slope(values[s], values[g], values[alpha], values.get(a, 2.0)) for s, g, alpha, a in pairs
-        ]
+        slopes = [reference.ppr_slope(*(values.get(name, 2.0) for name in names)) for names in pairs]
         coupling = values["SIGMAMAX"] * values["TAUMAX"] / min(values["GIC"], values["GIIC"])
         found = [size * (slopes[0] + coupling * spread), size * (slopes[1] + coupling / spread)]
     else:
@@ -282,7 +279,9 @@ class Balance:
         # a slip of nothing but rounding is none
         slips = abs(slid) > 1e-8 * (abs(state[tangential]) + abs(old[tangential]))
         friction = np.divide(rubbed, slid, out=np.zeros_like(slid), where=slips)
-        pressed = state["TN"] < -1e-9 * abs(state["TT"])
+        # closing ends at a normal traction of nothing but rounding, of either sign
+        reach = np.abs([state[normal], old[normal], state[tangential], old[tangential]]).sum(axis=0)
+        pressed = state["TN"] < -1e-9 * abs(state["TT"]) - self.rounded_traction[0] * reach
         free = (not self.rubs) | (old["DAMAGE"] == 0) | ~pressed | slips
         cohesive = np.where(free, state["TT"] - friction, self.cohesive)
         # a short slip says little of its friction, whose error a long one after it multiplies
