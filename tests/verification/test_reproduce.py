@@ -247,6 +247,17 @@ def test_limits_decide() -> None:
     verdict = judge(claim(11.0, 12.0), Evidence(Runs({}, Path()), coarse=False))
     assert verdict.reproduced
     assert verdict.value == pytest.approx(1.2e5 / 1.05e4)
+    assert [text for text, _ in verdict.also] == ["a ratio"]
+
+
+def test_numbers_of_the_full_meshes() -> None:
+    number = Number("costly", "modulus_contrast", {}, full=True)
+    costly = replace(claim(11.0, 12.0), also=(number,))
+    found = [judge(costly, Evidence(Runs({}, Path()), coarse=coarse)).also for coarse in (True, False)]
+    assert [len(also) for also in found] == [0, 1]
+    assert {number.text for claim in read_claims() for number in claim.also if number.full} == {
+        "with the same criterion and points: standard method"
+    }
 
 
 def test_page_is_one_file(tmp_path: Path) -> None:

@@ -224,14 +224,11 @@ def paper_cases(problem: str, *, coarse: bool = False) -> list[Case]:
 def comparator_cases(problem: str, *, coarse: bool = False) -> list[Case]:
     """Runs with the built-in element and with its criterion; the built-in one also at the softest stiffness.
 
-    With `coarse`, its criterion alone where the modes are mixed by the layup: [0/90].
+    With `coarse`, its criterion in the consistent element alone, and where the layup mixes the modes.
     """
-    cases = [
-        Case(problem, layup, element, "1e6", coarse=coarse)
-        for layup in LAYUPS
-        for element in COMPARATORS
-        if not coarse or element == "COH2D4" or layup == "0/90"
-    ]
+    few = (("0/0", "COH2D4"), ("0/90", "COH2D4"), ("0/90", "consistent_bk"))
+    pairs = few if coarse else itertools.product(LAYUPS, COMPARATORS)
+    cases = [Case(problem, layup, element, "1e6", coarse=coarse) for layup, element in pairs]
     return [*cases, Case(problem, "0/0", "COH2D4", "1e4", coarse=coarse)]
 
 

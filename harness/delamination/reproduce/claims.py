@@ -10,7 +10,7 @@ number                what our number is
 measure, arguments    function of `findings`, `curves`, `basics`, `foundations` or `parameters`
 at_least, at_most     what the number has to be, one of them or both
 cases                 part of the command that runs what the number needs: 'law', 'patch', 'dcb', 'enf', 'frmm', ...
-also                  further numbers that are shown, each with number, measure and arguments
+also                  further numbers that are shown, each with number, measure, arguments; with `full` not in --quick
 why                   what is to be said about it; needed where the statement is not reproduced
 """
 
@@ -32,11 +32,12 @@ OPTIONAL = {"arguments", "at_least", "at_most", "also", "why"}
 
 @dataclass(frozen=True, slots=True)
 class Number:
-    """A number: what it is, and how it is measured."""
+    """A number: what it is, and how it is measured; full: on the full meshes alone."""
 
     text: str
     measure: str
     arguments: Mapping[str, object]
+    full: bool = False
 
     def of(self, evidence: Evidence) -> float:
         """Its value."""
@@ -124,9 +125,10 @@ def _number(entry: Mapping[str, object], place: str) -> Number:
     if measure not in MEASURES:
         raise ValueError(f"{place}: no measure '{measure}'; there are {', '.join(sorted(MEASURES))}")
     assert isinstance(arguments, Mapping)
-    return Number(str(entry["number"]), measure, arguments)
+    return Number(str(entry["number"]), measure, arguments, bool(entry.get("full", False)))
 
 
 def judge(claim: Claim, evidence: Evidence) -> Verdict:
     """Our numbers for a claim."""
-    return Verdict(claim, claim.number.of(evidence), tuple((number.text, number.of(evidence)) for number in claim.also))
+    also = [number for number in claim.also if not (number.full and evidence.coarse)]
+    return Verdict(claim, claim.number.of(evidence), tuple((number.text, number.of(evidence)) for number in also))
