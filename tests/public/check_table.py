@@ -92,7 +92,7 @@ def main() -> int:
     parser.add_argument("-o", "--output", type=Path, help="file to write (print)")
     parser.add_argument("--results", type=Path, help="JSON file of findings: rows in it are not checked again")
     parser.add_argument("--seconds", type=float, default=120.0, help="time for one deck (120)")
-    options = parser.parse_args()
+    options = parser.parse_intermixed_args()
     known, causes = chosen(), tomllib.loads(CAUSES.read_text("utf-8"))
     kept = json.loads(options.results.read_text("utf-8")) if options.results and options.results.exists() else {}
     text = HEAD

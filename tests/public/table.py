@@ -91,7 +91,7 @@ def main() -> int:
     parser.add_argument("rows", nargs="*", help="names of rows (all)")
     parser.add_argument("-o", "--output", type=Path, help="file to write (print)")
     parser.add_argument("--results", type=Path, help="JSON file of outcomes: rows in it are not run again")
-    options = parser.parse_args()
+    options = parser.parse_intermixed_args()
     known = rows()
     kept = json.loads(options.results.read_text("utf-8")) if options.results and options.results.exists() else {}
     text, good = HEAD, True

@@ -15,6 +15,7 @@ sys.path.insert(0, str(HERE))
 
 import check_table  # noqa: E402 (scripts beside this file)
 import measure  # noqa: E402
+import table  # noqa: E402
 
 FOLDER = os.environ.get("UEL_PUBLIC", "")
 
@@ -46,6 +47,15 @@ def test_manifest_is_well_formed():
 def test_files_that_are_not_there_are_named():
     name, row = next(iter(measure.rows().items()))
     assert measure.missing(HERE, row) == [row["deck"], *row["sources"]], name
+
+
+def test_rows_may_stand_behind_options(tmp_path, monkeypatch):
+    name, row = next(iter(measure.rows().items()))
+    monkeypatch.setattr(sys, "argv", ["table.py", str(tmp_path), "-o", str(tmp_path / "page.md"), name])
+    assert table.main() == 1
+    page = (tmp_path / "page.md").read_text()
+    assert page.splitlines()[-1].startswith(f"| {row['code']} | ")
+    assert f"not in the folder: {row['deck']}" in page
 
 
 def test_rows_that_are_checked():
