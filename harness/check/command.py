@@ -59,8 +59,8 @@ def display(*, shown: bool, console: Console | None = None) -> Iterator[Tell | N
     if not shown:
         yield None
         return
-    with (console or Console(stderr=True)).status("checking") as status:
-        yield lambda what: status.update(f"checking: {what}")
+    with (console or Console(stderr=True)).status("uel check") as status:
+        yield lambda what: status.update(f"uel check: {what}")
 
 
 def tell_order(

@@ -147,7 +147,7 @@ def test_display_on_a_terminal():
         with display(shown=True, console=console) as tell:
             tell("the check 'rotation' of U1")
             time.sleep(0.3)
-    assert "checking: the check 'rotation' of U1" in terminal.file.getvalue()
+    assert "uel check: the check 'rotation' of U1" in terminal.file.getvalue()
     assert file.file.getvalue() == ""
     with display(shown=False, console=terminal) as tell:
         assert tell is None
