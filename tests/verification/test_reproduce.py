@@ -218,6 +218,7 @@ def test_claims_are_well_formed() -> None:
         ("at_most = 1\n", "", "bad: expected .* and at_least or at_most"),
         ('measure = "isotropy"', 'measure = "beauty"', "bad: no measure 'beauty'; there are asymmetry"),
         ('quote = "a"', 'quote = "a"\nmood = 1', "bad: expected"),
+        ("cases = []", "cases = []\nalso = [{ ful = true }]", "bad: also: expected arguments, full, measure, number"),
     ],
 )
 def test_bad_claims_are_refused(tmp_path: Path, old: str, new: str, message: str) -> None:

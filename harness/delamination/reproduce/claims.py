@@ -28,6 +28,7 @@ FILE = Path(__file__).with_name("claims.toml")
 MEASURES = findings.MEASURES | curves.MEASURES | basics.MEASURES | foundations.MEASURES | parameters.MEASURES
 REQUIRED = {"id", "section", "figure", "quote", "number", "measure", "cases"}
 OPTIONAL = {"arguments", "at_least", "at_most", "also", "why"}
+ALSO = {"number", "measure", "arguments", "full"}
 
 
 @dataclass(frozen=True, slots=True)
@@ -108,6 +109,8 @@ def _claim(entry: Mapping[str, object], place: str) -> Claim:
     low, high = (None if entry.get(name) is None else float(str(entry[name])) for name in ("at_least", "at_most"))
     also, cases = entry.get("also", []), entry["cases"]
     assert isinstance(also, Sequence)
+    if any(set(other) - ALSO for other in also):
+        raise ValueError(f"{place}: also: expected {', '.join(sorted(ALSO))}")
     assert isinstance(cases, Sequence)
     return Claim(
         **texts,
