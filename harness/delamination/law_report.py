@@ -42,6 +42,7 @@ class Exploration:
     surface     draw both tractions over both separations too
     increments  of a curve, or of each straight line of a path
     duration    of a curve in step time, for VISCOSITY
+    units       of length and traction, for the axes; '' where they are not known
     """
 
     properties: Sequence[str] = ()
@@ -58,6 +59,7 @@ class Exploration:
     duration: float = 1.0
     job: str = "law"
     output_dir: Path = Path()
+    units: tuple[str, str] = ("", "")
 
 
 def explore(asked: Exploration) -> tuple[list[Curve], list[Path]]:
@@ -90,12 +92,12 @@ def explore(asked: Exploration) -> tuple[list[Curve], list[Path]]:
             curves = [curve("path", law.along(asked.path, asked.increments))]
         files = [asked.output_dir / f"{asked.job}.csv", asked.output_dir / f"{asked.job}.png"]
         write_csv(curves, files[0])
-        draw_curves(curves, files[1])
+        draw_curves(curves, files[1], asked.units)
         if asked.surface:
             angles = np.linspace(0.0, 90.0, SURFACE_ANGLES)
             sheets = [curve("", law.opening(angle, reach(angle), SURFACE_SIZES)) for angle in angles]
             files.append(asked.output_dir / f"{asked.job}_surface.png")
-            draw_surface(sheets, files[-1])
+            draw_surface(sheets, files[-1], asked.units)
     finally:
         library.close()
     return curves, files
@@ -139,7 +141,11 @@ def _shown(values: list[float]) -> list[str]:
     return [f"{value if abs(value) > 1e-9 * largest else 0.0:.5g}" for value in values]
 
 
-def draw_curves(curves: Sequence[Curve], path: Path) -> None:
+def _with_unit(words: str, unit: str) -> str:
+    return f"{words} [{unit}]" if unit else words
+
+
+def draw_curves(curves: Sequence[Curve], path: Path, units: tuple[str, str]) -> None:
     """Normal traction over opening and tangential traction over sliding."""
     with mpl.rc_context(STYLE):
         figure = Figure(figsize=(7.0, 3.2), layout="constrained")
@@ -149,8 +155,8 @@ def draw_curves(curves: Sequence[Curve], path: Path) -> None:
             for number, curve in enumerate(curves):
                 colour = COLOURS[number % len(COLOURS)]
                 axis.plot(curve.columns[f"SEP{name}"], curve.columns[f"T{name}"], color=colour, label=curve.label)
-            axis.set_xlabel(words[0])
-            axis.set_ylabel(f"{words[1]} traction")
+            axis.set_xlabel(_with_unit(words[0], units[0]))
+            axis.set_ylabel(_with_unit(f"{words[1]} traction", units[1]))
             axis.ticklabel_format(axis="x", scilimits=(-2, 3), useMathText=True)
             axis.axhline(0.0, color="0.6", linewidth=0.6, zorder=1)
         if len(curves) > 1:
@@ -160,7 +166,7 @@ def draw_curves(curves: Sequence[Curve], path: Path) -> None:
         figure.savefig(path, dpi=200)
 
 
-def draw_surface(curves: Sequence[Curve], path: Path) -> None:
+def draw_surface(curves: Sequence[Curve], path: Path, units: tuple[str, str]) -> None:
     """Both tractions over opening and sliding, from curves of equally many increments, one per angle."""
     grids = {name: np.array([curve.columns[name] for curve in curves]) for name in ("SEPN", "SEPT", "TN", "TT")}
     with mpl.rc_context(STYLE | {"axes.grid": False}):
@@ -178,10 +184,12 @@ def draw_surface(curves: Sequence[Curve], path: Path) -> None:
                 edgecolor="k",
                 linewidth=0.1,
             )
-            axis.set_xlabel("Opening")
-            axis.set_ylabel("Sliding")
-            axis.set_title(f"{word} traction")
+            axis.set_xlabel(_with_unit("Opening", units[0]))
+            axis.set_ylabel(_with_unit("Sliding", units[0]))
+            axis.set_title(_with_unit(f"{word} traction", units[1]))
             axis.view_init(elev=28, azim=35)
+            # room for the labels with their units
+            axis.set_box_aspect(None, zoom=0.9)
             axis.locator_params(nbins=4, axis="x")
             axis.locator_params(nbins=4, axis="y")
         figure.savefig(path, dpi=200)

@@ -32,7 +32,8 @@ def front(profile: Profile) -> float:
 
 def draw_law(folder: Path) -> Path:
     """Figure 2: both tractions over both separations, at the softest of the stiffnesses, where the rise shows."""
-    asked = Exploration(["ALPHAN=1e4", "ALPHAT=1e4"], surface=True, job="figure_02", output_dir=folder)
+    properties = ["ALPHAN=1e4", "ALPHAT=1e4"]
+    asked = Exploration(properties, surface=True, job="figure_02", output_dir=folder, units=("mm", "MPa"))
     _, files = explore(asked)
     return files[-1]
 
