@@ -13,7 +13,7 @@ subroutine host_bare_loop(address, options, lflags, clock, labels, jprops, equat
   integer(i4), intent(in) :: options(10)      !< as in host_evaluate
   integer(i4), intent(in) :: ndofel, nsvars, nprops, njprop, mcrd, nnode, m, n
   integer(i4), intent(in) :: equations(ndofel, m)
-  integer(i4), intent(inout) :: lflags(5), labels(m), jprops(njprop)
+  integer(i4), intent(inout) :: lflags(7), labels(m), jprops(njprop)
   real(dp), intent(inout) :: clock(4), props(nprops), coords(mcrd, nnode, m)
   real(dp), intent(in) :: u(n), du(n), svars(nsvars, m), energy(8, m)
   real(dp), intent(inout) :: svars_trial(nsvars, m), energy_trial(8, m), residual(n), amatrx(ndofel, ndofel)

@@ -14,7 +14,7 @@ subroutine host_evaluate(address, options, lflags, clock, labels, jprops, equati
   integer(i8), intent(in) :: address          !< of UEL or UELMAT
   !> material, tensor, jtype, symmetric, want_matrix, kstep, kinc, guards, entries, iteration
   integer(i4), intent(in) :: options(10)
-  integer(i4), intent(in) :: lflags(5)
+  integer(i4), intent(in) :: lflags(7)
   real(dp), intent(in) :: clock(7)            !< step time, total time, time increment, period, PARAMS
   integer(i4), intent(in) :: ndofel, nsvars, nprops, njprop, mcrd, nnode, m, n, nrhs, nnz, values, points, most, nfield
   integer(i4), intent(in) :: nrate            !< n, or 1 where nothing moves

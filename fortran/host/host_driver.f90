@@ -40,7 +40,7 @@ module host_driver
     logical :: want_matrix = .false.     !< check and assemble AMATRX
     logical :: want_residual = .false.   !< check and assemble RHS
     integer(i4) :: material = 0, tensor = 0, jtype = 0, kstep = 0, kinc = 0, iteration = 0
-    integer(i4) :: lflags(5) = 0
+    integer(i4) :: lflags(7) = 0
     real(dp) :: time(2) = 0, dtime = 0, period = 0
     real(dp) :: params(3) = 0             !< PARAMS: alpha, beta, gamma of a dynamic step
     integer(i4), pointer, contiguous :: labels(:) => null(), jprops(:) => null()
@@ -262,7 +262,7 @@ contains
     integer, intent(in) :: s(n_arrays)
     integer(i4), value :: ndofel, nsvars, nprops
     integer(i4) :: mlvarx, njprop, mcrd, nnode, nrhs, jtype, kstep, kinc, jelem, ndload, npredf, mdload, materiallib
-    integer(i4) :: jdltyp(max(block%counts(row), 1), 2), lflags(5), jprops(size(block%jprops))
+    integer(i4) :: jdltyp(max(block%counts(row), 1), 2), lflags(7), jprops(size(block%jprops))
     real(dp) :: adlmag(max(block%counts(row), 1), 2), ddlmag(max(block%counts(row), 1), 2)
     real(dp) :: time(2), dtime, params(3), pnewdt, period
     mlvarx = ndofel

@@ -70,7 +70,7 @@ static size_t entries(int argument, void *const *given)
     case PREDEF:
         return 2 * COUNT(NPREDF) * COUNT(NNODE);
     case LFLAGS:
-        return 5;
+        return 7;
     case JPROPS:
         return COUNT(NJPROP);
     default:

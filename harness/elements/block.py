@@ -200,7 +200,7 @@ class Block:
         outcome = _binding.evaluate(
             self._procedure.address,
             self._options(call, assemble=matrix is not None),
-            call.lflags,
+            call.flags,
             (call.step_time, call.total_time, call.time_increment, call.period, *call.params),
             self._arrays,
             u,
@@ -276,7 +276,7 @@ class Block:
         """Only call the elements, from a plain Fortran loop over the block: the limit of speed."""
         clock = (call.step_time, call.total_time, call.time_increment, call.period)
         options = self._options(call, assemble=False)
-        _binding.bare_loop(self._procedure.address, options, call.lflags, clock, self._arrays, u, du, residual)
+        _binding.bare_loop(self._procedure.address, options, call.flags, clock, self._arrays, u, du, residual)
 
     def _options(self, call: Call, *, assemble: bool) -> Options:
         p, guards = self._procedure, (self._guards, self._entries)

@@ -41,6 +41,7 @@ class Call:
     """Arguments common to all elements in one pass.
 
     lflags       LFLAGS(1..5)
+    damping      LFLAGS(7), where LFLAGS(3) asks for a damping matrix: 1 the viscous, 2 the structural one
     step, increment  KSTEP, KINC
     iteration    equilibrium iteration, for messages; 0 before the first solve
     flux_floor   (fields,) element nodal force above which an entry is a term of the average flux; None: all entries are
@@ -60,6 +61,12 @@ class Call:
     predefined: Predefined | None = None
     flux_floor: FloatArray | None = None
     iteration: int = 0
+    damping: int = 0
+
+    @property
+    def flags(self) -> tuple[int, ...]:
+        """LFLAGS(1..7)."""
+        return (*self.lflags, 0, self.damping)
 
 
 @dataclass(frozen=True, slots=True)

@@ -135,7 +135,7 @@ class RawMessage:
 def evaluate(
     address: int,
     options: Options,
-    lflags: tuple[int, int, int, int, int],
+    lflags: tuple[int, ...],
     clock: tuple[float, ...],
     arrays: BlockArrays,
     u: FloatArray,
@@ -148,7 +148,7 @@ def evaluate(
     residual: FloatArray,
     matrix: FloatArray,
 ) -> Outcome:
-    """One pass over a block; options and clock as host_evaluate in fortran/host/entry.f90 names them.
+    """One pass over a block; lflags is LFLAGS(1..7), options and clock are those of host_evaluate in entry.f90.
 
     v and a are (n,), or (1,) where nothing moves; predef is (m, nodes, fields, 2), or (1, nodes, fields, 2) if it is
     the same for all elements; floor (ndofel,); residual (NRHS, n), whose rows take the columns of RHS.
@@ -217,7 +217,7 @@ def fill_beyond(number: int) -> None:
 def bare_loop(
     address: int,
     options: Options,
-    lflags: tuple[int, int, int, int, int],
+    lflags: tuple[int, ...],
     clock: tuple[float, float, float, float],
     arrays: BlockArrays,
     u: FloatArray,
