@@ -207,6 +207,7 @@ def from_abaqus(parser: argparse.ArgumentParser, words: list[str]) -> list[str]:
 def run_job(options: argparse.Namespace) -> int:
     """`uel run`."""
     from harness.job import run  # noqa: PLC0415 (keeps the other commands quick)
+    from harness.model.procedures import PERTURBATION_TIME  # noqa: PLC0415
 
     result = run(
         options.deck,
@@ -221,7 +222,9 @@ def run_job(options: argparse.Namespace) -> int:
     )
     if not options.quiet:
         last = result.status[-1]
-        print(f"{result.job}: completed, {len(result.status)} lines in .sta, total time {last.total_time:g}")
+        # a linear step takes no time, and may have a frequency in its place
+        ending = f", total time {last.total_time:g}" if last.time_increment > PERTURBATION_TIME else ""
+        print(f"{result.job}: completed, {len(result.status)} lines in .sta{ending}")
     return 0
 
 

@@ -13,7 +13,7 @@ from scipy import sparse
 
 from harness.assembly.dofs import DofMap
 from harness.elements import FIELD_NAMES, Block, Call, Motion
-from harness.model.arrays import FloatArray, IntArray
+from harness.model.arrays import ComplexArray, FloatArray, IntArray
 from harness.model.mesh import Mesh
 from harness.model.model import Equation
 
@@ -107,7 +107,7 @@ class System:
         for block in self.blocks:
             block.commit()
 
-    def matrix(self, data: FloatArray) -> sparse.csr_array:
+    def matrix(self, data: FloatArray | ComplexArray) -> sparse.csr_array:
         """(n, n) matrix with the given CSR values, not copied."""
         return sparse.csr_array((data, self.indices, self.indptr), shape=(len(self), len(self)))
 

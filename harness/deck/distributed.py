@@ -25,7 +25,7 @@ _SURFACE = ("P", "TRVEC", "TRSHR")
 
 def read_distributed(block: Block, prescription: Prescription) -> list[DistributedLoad | ElementLoad]:
     """Entries of one *DLOAD, on user elements and on built-in ones."""
-    amplitude = prescription.amplitude(block)
+    amplitude, imaginary = prescription.amplitude(block), block.options.flag("IMAGINARY")
     found: list[DistributedLoad | ElementLoad] = []
     for row in block.rows():
         label = row.name(1, "load type")
@@ -40,7 +40,7 @@ def read_distributed(block: Block, prescription: Prescription) -> list[Distribut
                 _check_solid(row, label, group)
                 nodes = face_nodes(group, face, row.source, block.name) if face else ()
                 kept = LoadType(kind, nodes, direction, follows=kind is LoadKind.PRESSURE, jltyp=jltyp)
-                found.append(ElementLoad(positions, kept, magnitude, amplitude, row.source))
+                found.append(ElementLoad(positions, kept, magnitude, amplitude, row.source, imaginary))
             continue
         row.at_most(3)
         built_in = prescription.built_in[elements]
@@ -72,7 +72,7 @@ def _volume_load(row: Row, label: str) -> tuple[LoadKind, str, Direction]:
 
 def read_surface_loads(block: Block, prescription: Prescription) -> list[ElementLoad]:
     """Entries of one *DSLOAD."""
-    amplitude = prescription.amplitude(block)
+    amplitude, imaginary = prescription.amplitude(block), block.options.flag("IMAGINARY")
     follower = block.options.flag("FOLLOWER") if block.options.given("FOLLOWER") else True
     found = []
     for row in block.rows():
@@ -88,7 +88,7 @@ def read_surface_loads(block: Block, prescription: Prescription) -> list[Element
                 _check_solid(row, label, group)
                 nodes = face_nodes(group, face, place, "SURFACE")
                 kept = LoadType(kind, nodes, direction, follows=follower or kind is LoadKind.PRESSURE)
-                found.append(ElementLoad(positions, kept, magnitude, amplitude, row.source))
+                found.append(ElementLoad(positions, kept, magnitude, amplitude, row.source, imaginary))
     return found
 
 

@@ -11,6 +11,11 @@ OP = Option("OP", Kind.CHOICE, "NEW removes what earlier steps prescribed", defa
 FREQUENCY = Option("FREQUENCY", Kind.INTEGER, "every k-th increment (1); 0 never")
 AMPLITUDE = Option("AMPLITUDE", Kind.NAME, "amplitude; without it that of *STEP, but displacements always ramp")
 
+HARMONIC = (
+    Option("REAL", doc="real part of what is harmonic, in *STEADY STATE DYNAMICS; so is what says neither"),
+    Option("IMAGINARY", doc="imaginary part of what is harmonic, in *STEADY STATE DYNAMICS"),
+)
+
 _LOAD = (
     OP,
     Option("AMPLITUDE", Kind.NAME, "amplitude; without it that of *STEP"),
@@ -67,10 +72,10 @@ PRESCRIBED = (
             Option("INPUT", Kind.FILE, "file that holds the data lines"),
             Option("USER", doc="DISP gives the values"),
             Option("FIXED", doc="values stay what they are at the start of the step"),
+            *HARMONIC,
             *ignored("REGION TYPE"),
             *refused(
-                *("BASE NAME", "LOAD CASE", "PHANTOM", "REAL", "IMAGINARY", "SCALE", "STEP", "SUBMODEL"),
-                *("BLOCKING", "TIMESCALE"),
+                *("BASE NAME", "LOAD CASE", "PHANTOM", "SCALE", "STEP", "SUBMODEL", "BLOCKING", "TIMESCALE"),
             ),
         ),
         "node or set, first dof, last dof, value; or node or set, XSYMM, YSYMM, ZSYMM, XASYMM, YASYMM, ZASYMM, "
@@ -82,8 +87,9 @@ PRESCRIBED = (
         Where.STEP,
         (
             *_LOAD,
+            *HARMONIC,
             *ignored("REGION TYPE"),
-            *refused("CYCLIC MODE", "FOLLOWER", "IMAGINARY", "LOAD CASE", "REAL", "SUBMODEL"),
+            *refused("CYCLIC MODE", "FOLLOWER", "LOAD CASE", "SUBMODEL"),
         ),
         "node or set, dof, value",
     ),
@@ -106,9 +112,10 @@ DISTRIBUTED = (
         Where.STEP,
         (
             *_LOAD,
+            *HARMONIC,
             *refused(
-                *("CONSTANT RESULTANT", "CYCLIC MODE", "FOLLOWER", "IMAGINARY", "LOAD CASE", "ORIENTATION", "REAL"),
-                *("REF NODE", "REGION TYPE"),
+                *("CONSTANT RESULTANT", "CYCLIC MODE", "FOLLOWER", "LOAD CASE", "ORIENTATION", "REF NODE"),
+                "REGION TYPE",
             ),
         ),
         "element or set, Un or UnNU (user elements), Pn, BX, BY, BZ or GRAV (built-in continuum elements; with NU, "
@@ -122,7 +129,8 @@ DISTRIBUTED = (
         (
             *_LOAD,
             Option("FOLLOWER", Kind.SWITCH, "TRVEC and TRSHR turn with the surface (YES)"),
-            *refused("CONSTANT RESULTANT", "CYCLIC MODE", "IMAGINARY", "LOAD CASE", "ORIENTATION", "REAL", "REF NODE"),
+            *HARMONIC,
+            *refused("CONSTANT RESULTANT", "CYCLIC MODE", "LOAD CASE", "ORIENTATION", "REF NODE"),
         ),
         "surface, P, TRVEC or TRSHR, magnitude; TRVEC, TRSHR: direction",
     ),

@@ -73,7 +73,7 @@ class Prescription:
             row.at_most(4)
             if magnitude and not in_step:
                 raise row.error(f"value {magnitude:g} before the first *STEP, where only zero can be prescribed")
-            given = magnitude, amplitude, row.source, velocity, user, fixed
+            given = magnitude, amplitude, row.source, velocity, user, fixed, block.options.flag("IMAGINARY")
             found += [Boundary(nodes, dof, *given) for dof in dofs]
         return found
 
@@ -85,7 +85,8 @@ class Prescription:
             row.at_most(3)
             nodes = self.flat.nodes(row.name(0, "node or node set"), row.source)
             dof = 11 if block.name == "CFLUX" and row.blank(1) else _dof(row, 1)
-            found.append(Load(nodes, dof, row.real(2, "value", 0.0), amplitude, row.source))
+            imaginary = block.options.flag("IMAGINARY")
+            found.append(Load(nodes, dof, row.real(2, "value", 0.0), amplitude, row.source, imaginary))
         return found
 
     def amplitude(self, block: Block) -> Amplitude | None:

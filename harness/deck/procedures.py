@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""The procedure of a step: *STATIC, *VISCO, *DYNAMIC, *FREQUENCY, *HEAT TRANSFER, *COUPLED TEMPERATURE-DISPLACEMENT.
+"""The procedure of a step: *STATIC, *DYNAMIC, *FREQUENCY, *STEADY STATE DYNAMICS, *HEAT TRANSFER and so on.
 
 Defaults are those of the Abaqus Keywords Guide; zero or blank stands for the default everywhere.
 """
@@ -11,11 +11,12 @@ import math
 from collections.abc import Callable
 from dataclasses import replace
 
+import numpy as np
+
 from harness.deck.blocks import Block, Row
 from harness.deck.prescribed import Prescription
 from harness.deck.structure import Scope
 from harness.model.procedures import (
-    PERTURBATION_TIME,
     Dynamic,
     Frequency,
     HeatTransfer,
@@ -25,6 +26,7 @@ from harness.model.procedures import (
     Stabilize,
     Static,
     StaticPerturbation,
+    SteadyState,
     Visco,
 )
 
@@ -38,7 +40,11 @@ _LARGEST = {"TRANSIENT FIDELITY": 0.01, "MODERATE DISSIPATION": 0.1, "QUASI-STAT
 Times = tuple[float, float, float, float, bool]
 """The first entries of `Procedure`."""
 
-_NO_TIME: Times = PERTURBATION_TIME, PERTURBATION_TIME, PERTURBATION_TIME, PERTURBATION_TIME, True
+_ALWAYS_LINEAR = "FREQUENCY", "STEADY STATE DYNAMICS"
+"""Procedures of steps that are linear perturbations, whether these say so or not."""
+
+_POINTS, _MOST_POINTS = 20, 100_000
+"""Frequencies of a range: where their number is not given, and how many there can be."""
 
 HALF_INCREMENT_FACTOR = 1e4
 """HALFINC SCALE FACTOR of a model without contact."""
@@ -51,17 +57,17 @@ def read_procedure(scope: Scope, prescription: Prescription) -> Procedure:
         raise scope.head.error("the step has no procedure such as *STATIC")
     if len(blocks) > 1:
         raise blocks[1].error(f"the step has a procedure already, at {blocks[0].source}")
-    if scope.head.options.flag("PERTURBATION") and blocks[0].name != "FREQUENCY":
+    if scope.head.options.flag("PERTURBATION") and blocks[0].name not in _ALWAYS_LINEAR:
         return _read_perturbation(blocks[0])
     return _READERS[blocks[0].name](blocks[0], prescription)
 
 
 def _read_perturbation(block: Block) -> StaticPerturbation:
     if block.name != "STATIC":
-        raise block.error("is no procedure of a step with PERTURBATION, which are *STATIC and *FREQUENCY")
+        raise block.error("is no procedure of a step with PERTURBATION: *STATIC, *FREQUENCY, *STEADY STATE DYNAMICS")
     if any(block.options.given(name) for name in ("DIRECT", "RIKS", "STABILIZE")):
         raise block.error("DIRECT, RIKS and STABILIZE have no meaning in a step with PERTURBATION")
-    return StaticPerturbation(*_NO_TIME)
+    return StaticPerturbation()
 
 
 def _only_row(block: Block) -> Row | None:
@@ -207,7 +213,37 @@ def _read_frequency(block: Block, _: Prescription) -> Frequency:
     if lowest >= highest:
         raise block.error(f"the lowest frequency {lowest:g} is not below the highest, {highest:g}")
     by_mass = block.options.text("NORMALIZATION") == "MASS"
-    return Frequency(*_NO_TIME, number=number, lowest=lowest, highest=highest, by_mass=by_mass)
+    return Frequency(number=number, lowest=lowest, highest=highest, by_mass=by_mass)
+
+
+def _read_steady_state(block: Block, _: Prescription) -> SteadyState:
+    logarithmic = block.options.text("FREQUENCY SCALE") == "LOGARITHMIC"
+    frequencies = [frequency for row in block.rows() for frequency in _read_range(row, logarithmic=logarithmic)]
+    if not frequencies:
+        raise block.error("needs a data line with a frequency, or the limits of a range of frequencies")
+    return SteadyState(frequencies=tuple(frequencies), undamped=block.options.flag("REAL ONLY"))
+
+
+def _read_range(row: Row, *, logarithmic: bool) -> list[float]:
+    """Frequencies of a data line, closer to the ends of the range the larger the bias parameter."""
+    row.at_most(4)
+    lowest, highest = row.real(0, "lower limit of the frequency range"), row.real(1, "upper limit", 0.0)
+    number, bias = row.integer(2, "number of points", _POINTS), row.real(3, "bias parameter", 1.0) or 1.0
+    if lowest < 0 or (lowest == 0 and logarithmic and highest):
+        raise row.error(f"frequency {lowest:g} must be positive (from 0 on with FREQUENCY SCALE=LINEAR)")
+    if not highest:
+        return [lowest]
+    if highest <= lowest:
+        raise row.error(f"the upper limit {highest:g} is not above the lower one, {lowest:g}")
+    if bias < 0:
+        raise row.error(f"bias parameter {bias:g} must be positive")
+    if number > _MOST_POINTS:
+        raise row.error(f"number of points {number} is above {_MOST_POINTS}")
+    # Abaqus Analysis User's Guide, "Direct-solution steady-state dynamic analysis", the bias parameter
+    place = np.linspace(-1.0, 1.0, number if number > 1 else _POINTS)
+    place = 0.5 + 0.5 * np.sign(place) * np.abs(place) ** (1.0 / bias)
+    inside = lowest * (highest / lowest) ** place if logarithmic else lowest + (highest - lowest) * place
+    return [lowest, *inside[1:-1].tolist(), highest]
 
 
 _READERS: dict[str, Callable[[Block, Prescription], Procedure]] = {
@@ -215,6 +251,7 @@ _READERS: dict[str, Callable[[Block, Prescription], Procedure]] = {
     "VISCO": _read_visco,
     "DYNAMIC": _read_dynamic,
     "FREQUENCY": _read_frequency,
+    "STEADY STATE DYNAMICS": _read_steady_state,
     "HEAT TRANSFER": _read_heat_transfer,
     "COUPLED TEMPERATURE-DISPLACEMENT": _read_heat_transfer,
 }

@@ -18,7 +18,7 @@ from harness.deck.lexer import read_blocks
 from harness.deck.prescribed import Prescription, read_equations
 from harness.deck.problems import Problems
 from harness.deck.requests import RequestReader
-from harness.deck.steps import read_steps
+from harness.deck.steps import check_parts, read_steps
 from harness.deck.structure import sort_blocks
 from harness.deck.surfaces import Surfaces
 from harness.deck.user_elements import dofs_of
@@ -46,6 +46,7 @@ def read_deck(path: Path) -> Model:
     built_in = np.concatenate([np.full(len(group.labels), group.definition is None) for group in groups])
     prescription = Prescription(flat, amplitudes, _active_dofs(groups), built_in, Surfaces(flat, groups))
     boundaries: list[Boundary] = []
+    check_parts(structure.root, problems, harmonic=False)
     for block in structure.root:
         if block.name == "BOUNDARY":
             with problems.gather():

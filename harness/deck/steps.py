@@ -17,7 +17,8 @@ from harness.deck.problems import Problems
 from harness.deck.procedures import read_procedure
 from harness.deck.requests import RequestReader
 from harness.deck.structure import Scope
-from harness.model.procedures import Dynamic, Frequency, Procedure, StaticPerturbation
+from harness.model.amplitude import UserAmplitude
+from harness.model.procedures import Dynamic, Frequency, Procedure, StaticPerturbation, SteadyState
 from harness.model.records import MODAL
 from harness.model.steps import DistributedLoad, ElementLoad, Step
 
@@ -63,6 +64,9 @@ def read_steps(
                 output = replace(output, history_energies=MODAL)
             elif isinstance(procedure, StaticPerturbation):
                 output = replace(output, history_energies=("ALLSE", "ALLWK"))
+            elif isinstance(procedure, SteadyState):
+                output = replace(output, history_energies=())
+            check_parts(scope.blocks, problems, harmonic=isinstance(procedure, SteadyState))
             increments = options.integer("INC", MOST_INCREMENTS)
             if increments < 1:
                 raise scope.head.error(f"INC={increments} must be positive")
@@ -96,7 +100,7 @@ def read_steps(
             )
     _check_followers(steps, problems)
     for step in steps:
-        if isinstance(step.procedure, StaticPerturbation):
+        if isinstance(step.procedure, StaticPerturbation | SteadyState):
             _check_perturbation(step, problems)
     return tuple(steps)
 
@@ -105,15 +109,29 @@ def _check_perturbation(step: Step, problems: Problems) -> None:
     """What has no meaning in a linear step, or is not supported there."""
     for what, entries in (("predefined fields", step.fields), ("distributed loads on user elements", step.distributed)):
         for entry in entries:
-            problems.add(entry.source, f"{what} are not supported in a step with PERTURBATION")
+            problems.add(entry.source, f"{what} are not supported in a linear perturbation")
     for boundary in step.boundaries:
         if boundary.velocity or boundary.user:
-            problems.add(boundary.source, "TYPE=VELOCITY and USER have no meaning in a step with PERTURBATION")
+            problems.add(boundary.source, "TYPE=VELOCITY and USER have no meaning in a linear perturbation")
     for load in (*step.element_loads, *step.surface_loads):
         if load.type.jltyp:
-            problems.add(load.source, "loads by DLOAD are not supported in a step with PERTURBATION")
+            problems.add(load.source, "loads by DLOAD are not supported in a linear perturbation")
+    if isinstance(step.procedure, SteadyState):
+        if any(isinstance(amplitude, UserAmplitude) for amplitude in step.amplitudes):
+            problems.add(step.source, "an amplitude is one over frequency here, which UAMP cannot give")
+        return
     for source in step.varying:
         problems.add(source, "an amplitude has no meaning in a step with PERTURBATION")
+
+
+def check_parts(blocks: list[Block], problems: Problems, *, harmonic: bool) -> None:
+    """REAL and IMAGINARY are parts of what is harmonic, and exclude each other."""
+    for block in blocks:
+        real, imaginary = block.options.flag("REAL"), block.options.flag("IMAGINARY")
+        if (real or imaginary) and not harmonic:
+            problems.add(block.source, f"*{block.name}: REAL and IMAGINARY are for *STEADY STATE DYNAMICS")
+        elif real and imaginary:
+            problems.add(block.source, f"*{block.name}: REAL and IMAGINARY exclude each other")
 
 
 def _check_followers(steps: Sequence[Step], problems: Problems) -> None:

@@ -1,6 +1,9 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""Nodal variables by their Abaqus names: which component of which array of the solution they are."""
+"""Nodal variables by their Abaqus names: which component of which array of the solution they are.
+
+A harmonic response has amplitudes, and phase angles in degrees by the same names after a P: U1 and PU1.
+"""
 
 from __future__ import annotations
 
@@ -11,6 +14,8 @@ import numpy as np
 
 from harness.model.arrays import FloatArray, IntArray
 from harness.model.records import Solution
+
+PHASE = "P"
 
 LARGEST_DOF = 30
 
@@ -52,16 +57,24 @@ _GROUPS = {
 
 @dataclass(frozen=True, slots=True)
 class Component:
-    """One nodal component: its name, the array of `Solution` it is in, and its degree of freedom."""
+    """One nodal component: its name, the array of `Solution` it is in, and its degree of freedom.
+
+    phase  the phase angle is meant
+    """
 
     name: str
     quantity: str
     dof: int
+    phase: bool = False
 
-    def values(self, solution: Solution) -> FloatArray:
-        """The array of the solution that holds this component."""
-        array: FloatArray = getattr(solution, self.quantity)
-        return array
+    def values(self, solution: Solution, positions: IntArray | slice = slice(None)) -> FloatArray:
+        """Values at some unknowns; of a harmonic response amplitudes, or phase angles in degrees from -180 to 180."""
+        values: FloatArray = getattr(solution, self.quantity)[positions]
+        if solution.imaginary is None:
+            return values
+        harmonic = values + 1j * getattr(solution.imaginary, self.quantity)[positions]
+        part: FloatArray = np.angle(harmonic, deg=True) if self.phase else np.abs(harmonic)
+        return part
 
 
 class NodalIndex:
@@ -76,20 +89,30 @@ class NodalIndex:
         found: IntArray = self._position[nodes, dof]
         return found
 
-    def components(self, variables: Iterable[str], nodes: IntArray) -> list[Component]:
-        """Components of the variables asked for that any of the nodes has, in order and without repetition."""
+    def components(self, variables: Iterable[str], nodes: IntArray, *, harmonic: bool = False) -> list[Component]:
+        """Components of the variables asked for that any of the nodes has, in order and without repetition.
+
+        Where the response is harmonic there are phase angles too.
+        """
         present = np.flatnonzero((self._position[nodes] >= 0).any(axis=0))
         found: dict[str, Component] = {}
         for variable in variables:
-            if variable in COMPONENTS:
-                quantity, dof = COMPONENTS[variable]
-                dofs: Iterable[int] = (dof,)
-            elif variable in _GROUPS:
-                quantity, dofs = _GROUPS[variable]
-            else:
-                continue
+            phase = harmonic and not _known(variable) and variable.startswith(PHASE)
+            quantity, dofs = _meant(variable.removeprefix(PHASE) if phase else variable)
             for dof in dofs:
                 if dof in present:
-                    name = _NAMES[quantity][dof]
-                    found.setdefault(name, Component(name, quantity, dof))
+                    name = PHASE * phase + _NAMES[quantity][dof]
+                    found.setdefault(name, Component(name, quantity, dof, phase))
         return list(found.values())
+
+
+def _known(variable: str) -> bool:
+    return variable in COMPONENTS or variable in _GROUPS
+
+
+def _meant(variable: str) -> tuple[str, Iterable[int]]:
+    """Array of `Solution` and dofs of a variable; no dofs of one that is not known."""
+    if variable in COMPONENTS:
+        quantity, dof = COMPONENTS[variable]
+        return quantity, (dof,)
+    return _GROUPS.get(variable, ("", ()))

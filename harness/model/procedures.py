@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""Procedures of a step: *STATIC, *VISCO, *DYNAMIC, *FREQUENCY, *HEAT TRANSFER and *COUPLED TEMPERATURE-DISPLACEMENT."""
+"""Procedures of a step: what *STATIC, *DYNAMIC, *FREQUENCY, *HEAT TRANSFER and so on say."""
 
 from __future__ import annotations
 
@@ -140,7 +140,18 @@ PERTURBATION_TIME = 1e-36
 
 
 @dataclass(frozen=True, slots=True)
-class StaticPerturbation(Procedure):
+class LinearPerturbation(Procedure):
+    """A linear step about the state at the end of the last general one, in which no time passes."""
+
+    initial: float = PERTURBATION_TIME
+    period: float = PERTURBATION_TIME
+    minimum: float = PERTURBATION_TIME
+    maximum: float = PERTURBATION_TIME
+    direct: bool = True
+
+
+@dataclass(frozen=True, slots=True)
+class StaticPerturbation(LinearPerturbation):
     """*STATIC in a step with PERTURBATION."""
 
     @property
@@ -150,7 +161,7 @@ class StaticPerturbation(Procedure):
 
 
 @dataclass(frozen=True, slots=True)
-class Frequency(Procedure):
+class Frequency(LinearPerturbation):
     """*FREQUENCY.
 
     number           of eigenvalues; 0: all up to `highest`
@@ -167,6 +178,23 @@ class Frequency(Procedure):
     def lflag(self) -> int:
         """41."""
         return 41
+
+
+@dataclass(frozen=True, slots=True)
+class SteadyState(LinearPerturbation):
+    """*STEADY STATE DYNAMICS, DIRECT: the response to harmonic loads.
+
+    frequencies  cycles per time, in the order in which they are run through
+    undamped     REAL ONLY: damping is left out
+    """
+
+    frequencies: tuple[float, ...] = ()
+    undamped: bool = False
+
+    @property
+    def lflag(self) -> int:
+        """95."""
+        return 95
 
 
 @dataclass(frozen=True, slots=True)

@@ -124,6 +124,11 @@ class ModeShape(IncrementDone):
     """One mode: `increment` is its number, its frequency stands for the times, the displacement is its shape."""
 
 
+@dataclass(frozen=True, slots=True)
+class HarmonicResponse(IncrementDone):
+    """The response at one frequency, which stands for the times; the solution has an imaginary part."""
+
+
 ENERGIES: Final = (
     *("ALLAE", "ALLCD", "ALLDMD", "ALLIE", "ALLKE", "ALLPD", "ALLSD", "ALLSE", "ALLVD", "ALLWK", "ETOTAL"),
 )
@@ -242,6 +247,7 @@ class Solution:
     velocity, acceleration  (n,) V and A
     energies          whole model, by Abaqus name: ALLSE, ALLPD, ALLDMD, ALLCD, ALLVD, ALLAE, ALLKE, ALLIE, ALLWK,
                       ETOTAL
+    imaginary         the imaginary part of a harmonic response, of which this is the real one
     """
 
     node: IntArray
@@ -253,3 +259,4 @@ class Solution:
     elements: tuple[ElementState, ...] = ()
     velocity: FloatArray = field(default_factory=lambda: np.zeros(0))
     acceleration: FloatArray = field(default_factory=lambda: np.zeros(0))
+    imaginary: Solution | None = None

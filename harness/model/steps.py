@@ -87,7 +87,7 @@ class Boundary:
     """One *BOUNDARY entry: nodes (indices), one dof, magnitude, amplitude (None: the step's default).
 
     With `velocity` (TYPE=VELOCITY) it is the rate of the dof that is prescribed; with `user` DISP has the last word;
-    with `fixed` it is the value at the start of the step.
+    with `fixed` it is the value at the start of the step. `imaginary`: the imaginary part, of a harmonic one.
     """
 
     nodes: IntArray
@@ -98,17 +98,22 @@ class Boundary:
     velocity: bool = False
     user: bool = False
     fixed: bool = False
+    imaginary: bool = False
 
 
 @dataclass(frozen=True, slots=True)
 class Load:
-    """One *CLOAD entry: nodes (indices), one dof, reference magnitude, amplitude (None: the step's default)."""
+    """One *CLOAD entry: nodes (indices), one dof, reference magnitude, amplitude (None: the step's default).
+
+    imaginary  it is the imaginary part of a harmonic load
+    """
 
     nodes: IntArray
     dof: int
     magnitude: float
     amplitude: Amplitude | None
     source: Source
+    imaginary: bool = False
 
 
 @dataclass(frozen=True, slots=True)
@@ -151,13 +156,17 @@ class LoadType:
 
 @dataclass(frozen=True, slots=True)
 class ElementLoad:
-    """One *DLOAD or *DSLOAD entry on built-in continuum elements of one type: their positions in the model."""
+    """One *DLOAD or *DSLOAD entry on built-in continuum elements of one type: their positions in the model.
+
+    imaginary  it is the imaginary part of a harmonic load
+    """
 
     elements: IntArray
     type: LoadType
     magnitude: float
     amplitude: Amplitude | None
     source: Source
+    imaginary: bool = False
 
 
 @dataclass(frozen=True, slots=True)

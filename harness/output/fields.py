@@ -4,7 +4,8 @@
 
 Point data: U and RF (three components), NODE (label), and one array for each other dof there is (UR1, NT11, ...).
 Cell data: ELEMENT (label) and the variables that our elements keep, as means over the integration points of the cell.
-Continuum and interface are in one file. NaN stands where a cell does not have a variable.
+Continuum and interface are in one file. NaN stands where a cell does not have a variable. Of a harmonic response these
+are the real parts; the imaginary ones are arrays of the same names that end with _imaginary.
 """
 
 from __future__ import annotations
@@ -13,6 +14,7 @@ import re
 import shutil
 from dataclasses import dataclass
 from pathlib import Path
+from typing import TypeVar
 
 import meshio
 import numpy as np
@@ -25,6 +27,7 @@ from harness.model.records import IncrementDone, Solution
 from harness.output.cells import Cells, cell_values, cells_of, is_solid
 from harness.output.schedule import Schedule
 
+Values = TypeVar("Values")
 _ENTRY = re.compile(r'<DataSet timestep="([^"]+)" part="0" file="([^"]*step(\d+)_increment(\d+)\.vtu)"/>')
 
 
@@ -96,9 +99,22 @@ class FieldFiles:
         return meshio.Mesh(
             mesh.coordinates,
             [(cells.type, cells.nodes) for cells in self._cells],
-            point_data={array.name: array.values(solution) for array in self._nodal} | {"NODE": mesh.labels},
-            cell_data=cell_values(solution.elements, self._cells) | {"ELEMENT": labels},
+            point_data=self._point_values(solution) | {"NODE": mesh.labels},
+            cell_data=self._cell_values(solution) | {"ELEMENT": labels},
         )
+
+    def _point_values(self, solution: Solution) -> dict[str, FloatArray]:
+        values = {array.name: array.values(solution) for array in self._nodal}
+        return values | (_imaginary(self._point_values(solution.imaginary)) if solution.imaginary else {})
+
+    def _cell_values(self, solution: Solution) -> dict[str, list[FloatArray]]:
+        values = cell_values(solution.elements, self._cells)
+        return values | (_imaginary(self._cell_values(solution.imaginary)) if solution.imaginary else {})
+
+
+def _imaginary(values: dict[str, Values]) -> dict[str, Values]:
+    """Imaginary parts by the names of their arrays."""
+    return {f"{name}_imaginary": value for name, value in values.items()}
 
 
 class _PointArray:

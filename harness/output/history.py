@@ -5,7 +5,8 @@
 Columns are step, increment, time (total time), `LPF` where the load factor is part of the solution, then what *NODE
 OUTPUT and *ENERGY OUTPUT of the steps ask for, in order: `U2[LOAD]` for a set of one node, `RF2[LOAD:17]` for each node
 of a larger set, `ALLSE` for an energy of the whole model. A mode of *FREQUENCY has a row, with its frequency for time.
-A column that a step does not ask for is empty there.
+A frequency of *STEADY STATE DYNAMICS has one too, with amplitudes and, in further columns `PU2[LOAD]`, phase angles in
+degrees. A column that a step does not ask for is empty there.
 """
 
 from __future__ import annotations
@@ -18,7 +19,8 @@ import numpy as np
 
 from harness.model.arrays import FloatArray, IntArray
 from harness.model.model import Model
-from harness.model.nodal import NodalIndex
+from harness.model.nodal import PHASE, Component, NodalIndex
+from harness.model.procedures import SteadyState
 from harness.model.records import ENERGIES, MODAL, IncrementDone, Solution
 from harness.model.steps import NodeRequest
 from harness.output.formats import TextFile
@@ -66,10 +68,10 @@ class HistoryFile:
         for step in self._model.steps:
             columns: list[_Column] = []
             for request in step.output.history_nodes:
-                columns += self._nodal(request, index)
+                columns += self._nodal(request, index, harmonic=isinstance(step.procedure, SteadyState))
             for name in step.output.history_energies:
                 if name in ENERGIES or name in MODAL:
-                    columns.append(_Column(name, None, 0))
+                    columns.append(_Column(name))
                 else:
                     self.unavailable.append(f"{name} of step {step.number}")
             chosen: dict[str, _Column] = {column.name: column for column in columns}
@@ -83,13 +85,16 @@ class HistoryFile:
         csv.writer(buffer, lineterminator="\n").writerow([*fixed, *(column.name for column in self._columns)])
         self._file.write(buffer.getvalue())
 
-    def _nodal(self, request: NodeRequest, index: NodalIndex) -> list[_Column]:
-        components = index.components(request.variables, request.nodes)
+    def _nodal(self, request: NodeRequest, index: NodalIndex, *, harmonic: bool) -> list[_Column]:
+        names = request.variables
+        if harmonic:
+            names = tuple(name for variable in names for name in (variable, PHASE + variable))
+        components = index.components(names, request.nodes, harmonic=harmonic)
         for variable in request.variables:
-            if not index.components((variable,), request.nodes):
+            if not index.components((variable,), request.nodes, harmonic=harmonic):
                 self.unavailable.append(f"{variable} of {request.nset or 'all nodes'}")
         return [
-            _Column(f"{component.name}[{where}]", component.quantity, int(position))
+            _Column(f"{component.name}[{where}]", component, np.array([position]))
             for component in components
             for where, position in zip(
                 _places(self._model, request.nset, request.nodes), index.find(request.nodes, component.dof), strict=True
@@ -99,17 +104,17 @@ class HistoryFile:
 
 
 class _Column:
-    """One value of a row: position in an array of the solution, or an energy where there is no array."""
+    """One value of a row: of a nodal component at its position, or an energy where there is none."""
 
-    def __init__(self, name: str, quantity: str | None, position: int) -> None:
+    def __init__(self, name: str, component: Component | None = None, position: IntArray | None = None) -> None:
         self.name = name
-        self._quantity = quantity
+        self._component = component
         self._position = position
 
     def value(self, solution: Solution) -> float:
-        if self._quantity is None:
+        if self._component is None or self._position is None:
             return float(solution.energies[self.name])
-        return float(getattr(solution, self._quantity)[self._position])
+        return float(self._component.values(solution, self._position)[0])
 
 
 def _places(model: Model, nset: str, nodes: IntArray) -> list[str]:

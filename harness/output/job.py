@@ -17,6 +17,7 @@ from harness.model.model import Model
 from harness.model.records import (
     AttemptAbandoned,
     AttemptStarted,
+    HarmonicResponse,
     IncrementDone,
     IterationDone,
     ModesFound,
@@ -137,8 +138,9 @@ class JobOutput:
 
     def _increment(self, record: IncrementDone) -> None:
         procedure = self._model.steps[record.step - 1].procedure
-        # the end of a path is known only when its step is done
-        last = procedure.riks is None and record.step_time >= procedure.period * (1.0 - 1e-9)
+        # the end of a path, or of a row of frequencies, is known only when its step is done
+        timeless = procedure.riks is not None or isinstance(record, HarmonicResponse)
+        last = not timeless and record.step_time >= procedure.period * (1.0 - 1e-9)
         self._requested(record, last=last)
         self._pending = record
         self._message.increment(record)

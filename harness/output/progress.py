@@ -8,6 +8,7 @@ from rich.console import Console
 from rich.progress import BarColumn, Progress, TaskID, TextColumn, TimeElapsedColumn
 
 from harness.model.model import Model
+from harness.model.procedures import Frequency, LinearPerturbation, Procedure, SteadyState
 from harness.model.records import (
     AttemptAbandoned,
     AttemptStarted,
@@ -35,7 +36,7 @@ class ProgressDisplay:
         self._progress = Progress(
             TextColumn("Step {task.fields[step]}"),
             BarColumn(bar_width=10),
-            TextColumn("time {task.completed:.4g}/{task.total:.4g}"),
+            TextColumn("{task.fields[what]} {task.completed:.4g}/{task.total:.4g}"),
             TextColumn("inc {task.fields[increment]} iter {task.fields[iteration]}"),
             TextColumn("r/tol {task.fields[ratio]}"),
             TextColumn("cutbacks {task.fields[cutbacks]}"),
@@ -52,9 +53,9 @@ class ProgressDisplay:
         if isinstance(record, StepStarted):
             self._step = record.step
             self._cutbacks = 0
-            period = self._model.steps[record.step - 1].procedure.period
+            what, total = _extent(self._model.steps[record.step - 1].procedure)
             self._task = self._progress.add_task(
-                "", total=period, step=record.step, increment=1, iteration=0, ratio="-", cutbacks=0
+                "", total=total, what=what, step=record.step, increment=1, iteration=0, ratio="-", cutbacks=0
             )
         if self._task is None:
             return
@@ -66,7 +67,8 @@ class ProgressDisplay:
             self._cutbacks += 1
             self._progress.update(self._task, cutbacks=self._cutbacks)
         elif isinstance(record, IncrementDone):
-            self._progress.update(self._task, completed=record.step_time)
+            linear = isinstance(self._model.steps[record.step - 1].procedure, LinearPerturbation)
+            self._progress.update(self._task, completed=record.increment if linear else record.step_time)
 
     def close(self) -> None:
         """Leave the last state on the terminal."""
@@ -82,3 +84,12 @@ class ProgressDisplay:
             if check.time_average_flux > 0.0
         ]
         return f"{max(ratios):.1e}" if ratios else "-"
+
+
+def _extent(procedure: Procedure) -> tuple[str, float]:
+    """What a step runs through, and how far: time, modes, or frequencies of a harmonic response."""
+    if isinstance(procedure, SteadyState):
+        return "frequency", len(procedure.frequencies)
+    if isinstance(procedure, Frequency):
+        return "mode", procedure.number or 1
+    return ("increment", 1) if isinstance(procedure, LinearPerturbation) else ("time", procedure.period)

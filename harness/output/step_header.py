@@ -7,8 +7,17 @@ from __future__ import annotations
 import math
 from collections.abc import Iterable
 
-from harness.model.procedures import Dynamic, Frequency, HeatTransfer, Integrator, Procedure, StaticPerturbation, Visco
-from harness.model.records import IncrementDone, ModeShape
+from harness.model.procedures import (
+    Dynamic,
+    Frequency,
+    HeatTransfer,
+    Integrator,
+    LinearPerturbation,
+    Procedure,
+    SteadyState,
+    Visco,
+)
+from harness.model.records import HarmonicResponse, IncrementDone, ModeShape
 from harness.model.steps import Controls, FieldControls, Step, TimeControls
 from harness.output.formats import general
 from harness.output.wording import FIELDS, FieldWords
@@ -41,7 +50,9 @@ def procedure(step: Step) -> str:
     ]
     if isinstance(static, Frequency):
         lines += _frequency(static)
-    elif isinstance(static, StaticPerturbation):
+    elif isinstance(static, SteadyState):
+        lines += _steady_state(static)
+    elif isinstance(static, LinearPerturbation):
         lines += ["          A LINEAR PERTURBATION ABOUT THE BASE STATE"]
     elif static.riks is not None:
         lines += _riks(static)
@@ -67,6 +78,8 @@ def _title(given: Procedure) -> str:
         return "DYNAMIC ANALYSIS"
     if isinstance(given, Frequency):
         return "CALCULATION OF EIGENVALUES FOR NATURAL FREQUENCIES"
+    if isinstance(given, SteadyState):
+        return "DIRECT SOLUTION STEADY STATE DYNAMIC ANALYSIS"
     if isinstance(given, HeatTransfer):
         kind = "STEADY STATE" if given.steady else "TRANSIENT"
         return f"{kind} COUPLED TEMPERATURE-DISPLACEMENT" if given.coupled else f"{kind} HEAT TRANSFER"
@@ -98,6 +111,15 @@ def _frequency(given: Frequency) -> list[str]:
     return [*lines, f"          EIGENVECTORS ARE NORMALIZED TO {normalized}"]
 
 
+def _steady_state(given: SteadyState) -> list[str]:
+    lines = [
+        f"          NUMBER OF FREQUENCIES                              {len(given.frequencies):>10}",
+        f"          LOWEST FREQUENCY (CYCLES/TIME)                     {general(min(given.frequencies))}",
+        f"          HIGHEST FREQUENCY (CYCLES/TIME)                    {general(max(given.frequencies))}",
+    ]
+    return [*lines, "          DAMPING IS LEFT OUT"] if given.undamped else lines
+
+
 def _riks(static: Procedure) -> list[str]:
     lines = [
         f"     {'FIXED' if static.direct else 'AUTOMATIC'} ARC LENGTH CONTROL (RIKS METHOD) WITH -",
@@ -118,6 +140,8 @@ def completed(record: IncrementDone, period: float) -> str:
     """How far an increment has come, in time or along a path."""
     if isinstance(record, ModeShape):
         return f" MODE{record.increment:6d},  FREQUENCY (CYCLES/TIME){general(record.step_time)}\n"
+    if isinstance(record, HarmonicResponse):
+        return f" FREQUENCY (CYCLES/TIME){general(record.step_time)}\n"
     if record.load_factor is None:
         fraction = record.step_time / period
         return (
@@ -134,7 +158,7 @@ def completed(record: IncrementDone, period: float) -> str:
 
 def tolerances(step: Step, fields: Iterable[str]) -> str:
     """Everything that the convergence checks and the time incrementation of the step depend on."""
-    if isinstance(step.procedure, Frequency | StaticPerturbation):
+    if isinstance(step.procedure, LinearPerturbation):
         return ""
     blocks = [_field(FIELDS[name], controls_of(name, step.controls)) for name in fields]
     blocks.append(_time(step.controls.time, step.procedure))

@@ -59,7 +59,7 @@ class _Table:
 
 def node_tables(request: NodeRequest, model: Model, solution: Solution, index: NodalIndex) -> str:
     """Tables of one *NODE PRINT request; of each variable the components that the nodes have."""
-    components = index.components(request.variables, request.nodes)
+    components = index.components(request.variables, request.nodes, harmonic=solution.imaginary is not None)
     title = "   THE FOLLOWING TABLE IS PRINTED FOR " + (
         f"NODES BELONGING TO NODE SET {request.nset}" if request.nset else "ALL NODES"
     )
@@ -101,7 +101,8 @@ def missing_variables(
 ) -> list[str]:
     """Variables of a request that none of its nodes or elements has."""
     if isinstance(request, NodeRequest):
-        return [name for name in request.variables if not index.components((name,), request.nodes)]
+        harmonic = solution.imaginary is not None
+        return [name for name in request.variables if not index.components((name,), request.nodes, harmonic=harmonic)]
     chosen = _chosen(request, model, solution)
     return [
         name

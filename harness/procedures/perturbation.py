@@ -8,7 +8,7 @@ Elements get LFLAGS(4) = 1, and in U the base state. No time passes, and nothing
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from dataclasses import replace
 
 import numpy as np
@@ -21,6 +21,7 @@ from harness.model.records import AttemptStarted, ElementState, IncrementDone, N
 from harness.model.steps import Step
 from harness.procedures.state import State
 from harness.procedures.static import NORMAL, UserRoutines, choose_solver
+from harness.solver.linear import LinearSolver
 
 OUTPUT = 100
 """LFLAGS(3) of a call for what a perturbation changes: DU is the perturbation."""
@@ -36,23 +37,36 @@ class PerturbationStep:
         self._user = user
         unknowns = state.boundaries.in_perturbation(step)
         self._constraints = Constraints(system, unknowns, model.equations, state.boundaries.sources)
-        self._solver = choose_solver(solver, self._constraints)
+        self._solver = self._choose_solver(solver)
+        self._increment = 1
 
     @property
     def reached(self) -> tuple[tuple[float, float], float, int, int]:
         """As that of a general step."""
-        return (0.0, self._state.total_time), 0.0, self._step.number, 1
+        return (0.0, self._state.total_time), 0.0, self._step.number, self._increment
 
     def run(self) -> Iterator[Record]:
         """Records of the step. Raises KernelError, SingularMatrixError, DeckError."""
-        step, total, size = self._step, self._state.total_time, self._step.procedure.period
         yield Noted(f"LINEAR SOLVER {self._solver.name.upper()}: {self._solver.reason}")
-        yield AttemptStarted(step.number, 1, 1, 0.0, total, size)
-        self._user.external_database(1, 0, (0.0, total), size, step.number, 1)
-        records = self._solve()
-        self._user.external_database(2, 0, (0.0, total), size, step.number, 1)
+        yield from self._increments()
+        yield StepDone(self._step.number, self._increment, 0, self._increment)
+
+    def _choose_solver(self, name: str) -> LinearSolver:
+        """Linear solver of the step."""
+        return choose_solver(name, self._constraints)
+
+    def _increments(self) -> Iterator[Record]:
+        """Records of all increments."""
+        yield from self._increment_by(self._solve)
+
+    def _increment_by(self, solve: Callable[[], list[Record]]) -> Iterator[Record]:
+        """Records of the increment that is next, which `solve` finds."""
+        step, total, size = self._step, self._state.total_time, self._step.procedure.period
+        yield AttemptStarted(step.number, self._increment, 1, 0.0, total, size)
+        self._user.external_database(1, 0, (0.0, total), size, step.number, self._increment)
+        records = solve()
+        self._user.external_database(2, 0, (0.0, total), size, step.number, self._increment)
         yield from records
-        yield StepDone(step.number, 1, 0, 1)
 
     def _solve(self) -> list[Record]:
         """What the step finds: the response to its loads and prescribed values."""
@@ -85,7 +99,7 @@ class PerturbationStep:
         return Call(
             lflags=(step.procedure.lflag, int(step.nlgeom), request, 1, 0),
             step=step.number,
-            increment=1,
+            increment=self._increment,
             step_time=0.0,
             total_time=self._state.total_time,
             time_increment=period,

@@ -12,7 +12,7 @@ from harness.assembly import DofMap, System
 from harness.elements import Call
 from harness.errors import ConvergenceError, SingularMatrixError
 from harness.model.model import Model
-from harness.model.procedures import Dynamic, Frequency, HeatTransfer, StaticPerturbation
+from harness.model.procedures import Dynamic, Frequency, HeatTransfer, LinearPerturbation, SteadyState
 from harness.model.records import Noted, Record, StepStarted, Warned
 from harness.model.steps import Boundary, Load, Step
 from harness.procedures.dynamic import DynamicStep
@@ -25,6 +25,7 @@ from harness.procedures.perturbation import PerturbationStep
 from harness.procedures.stabilized import StabilizedStep
 from harness.procedures.state import State
 from harness.procedures.static import MASS, StaticStep, UserRoutines
+from harness.procedures.steady_state import SteadyStateStep
 
 
 def run_steps(
@@ -79,7 +80,7 @@ def run_steps(
             if step is model.steps[0]:
                 _mass_pass(system, step)
             yield from map(Noted, step.notes)
-            if not isinstance(step.procedure, Dynamic | Frequency | StaticPerturbation):
+            if not isinstance(step.procedure, Dynamic | LinearPerturbation):
                 state.come_to_rest()
             running = _start(system, model, step, state, solver, user, fallback=fallback, energy_control=energy_control)
             yield from running.run()
@@ -108,10 +109,8 @@ def _start(
     procedure = step.procedure
     if isinstance(procedure, Dynamic):
         return DynamicStep(system, model, step, procedure, state, solver, user)
-    if isinstance(procedure, Frequency):
-        return FrequencyStep(system, model, step, procedure, state, solver, user)
-    if isinstance(procedure, StaticPerturbation):
-        return PerturbationStep(system, model, step, state, solver, user)
+    if isinstance(procedure, LinearPerturbation):
+        return _start_linear(system, model, step, state, solver, user)
     if procedure.riks:
         return RiksStep(system, model, step, state, solver, user)
     if energy_control and not isinstance(procedure, HeatTransfer):
@@ -121,6 +120,17 @@ def _start(
         plain, stabilized = HeatTransferStep, StabilizedHeatTransferStep
     kind = plain if procedure.stabilize is None else stabilized
     return kind(system, model, step, state, solver, user, fallback=fallback)
+
+
+def _start_linear(
+    system: System, model: Model, step: Step, state: State, solver: str, user: UserRoutines
+) -> PerturbationStep:
+    procedure = step.procedure
+    if isinstance(procedure, Frequency):
+        return FrequencyStep(system, model, step, procedure, state, solver, user)
+    if isinstance(procedure, SteadyState):
+        return SteadyStateStep(system, model, step, procedure, state, solver, user)
+    return PerturbationStep(system, model, step, state, solver, user)
 
 
 def _mass_pass(system: System, step: Step) -> None:

@@ -58,7 +58,11 @@ def test_calls_of_a_step(tmp_path, step, code, requests, linear):
         dof=11 if "HEAT" in step else 1,
         options=", PERTURBATION" if "PERTURBATION" in step else "",
         procedure=procedure,
-        data="1" if "FREQUENCY" in step else "" if "PERTURBATION" in step else "1., 1.",
+        data="1"
+        if step in ("`*FREQUENCY`", "`*STEADY STATE DYNAMICS, DIRECT`")
+        else ""
+        if "PERTURBATION" in step
+        else "1., 1.",
     )
     (tmp_path / "calls.inp").write_text(deck)
     (tmp_path / "calls.f").write_text(UEL)

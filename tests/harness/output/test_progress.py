@@ -3,12 +3,15 @@
 
 import io
 from collections.abc import Callable, Iterator
+from dataclasses import replace
 
+import numpy as np
 import pytest
 from rich.console import Console
 
 from harness.model.model import Model
-from harness.model.records import AttemptAbandoned, Record
+from harness.model.procedures import Frequency, Procedure, StaticPerturbation, SteadyState
+from harness.model.records import AttemptAbandoned, IncrementDone, Record, Solution, StepStarted
 from harness.output.progress import ProgressDisplay
 
 Records = Callable[..., Iterator[Record]]
@@ -32,6 +35,21 @@ def test_a_terminal_shows_the_state_of_the_step(model: Model, records: Records) 
     assert "inc 4 iter 2" in text
     assert "r/tol 2.4e+04" in text
     assert "cutbacks 1" in text
+
+
+@pytest.mark.parametrize(
+    ("procedure", "ends", "expected"),
+    [
+        (SteadyState(frequencies=(5.0, 9.0, 2.0)), (5.0, 9.0), "frequency 2/3"),
+        (Frequency(number=4), (0.3,), "mode 1/4"),
+        (StaticPerturbation(), (1e-36,), "increment 1/1"),
+    ],
+)
+def test_linear_steps_take_no_time(model: Model, procedure: Procedure, ends: tuple[float, ...], expected: str) -> None:
+    linear = replace(model, steps=(replace(model.steps[0], procedure=procedure),))
+    solution = Solution(*(np.zeros(0, dtype=np.int64),) * 2, *(np.zeros(0),) * 3)
+    records: list[Record] = [IncrementDone(1, k, 1, 1, end, end, 1e-36, solution) for k, end in enumerate(ends, 1)]
+    assert expected in shown(linear, iter([StepStarted(1), *records]), quiet=False, terminal=True)
 
 
 @pytest.mark.parametrize(("quiet", "terminal"), [(True, True), (False, False), (True, False)])

@@ -137,7 +137,7 @@ def test_energies_of_general_steps_after_it_are_there(run):
             "*STEP, PERTURBATION\n*STATIC\n*DLOAD\nE, U1, 1.",
             ":14: distributed loads on user elements are not supported",
         ),
-        ("*STEP, PERTURBATION\n*STATIC\n*TEMPERATURE\nALL, 1.", ":14: predefined fields are not supported in a step"),
+        ("*STEP, PERTURBATION\n*STATIC\n*TEMPERATURE\nALL, 1.", ":14: predefined fields are not supported in a linear"),
         ("*STEP, PERTURBATION\n*STATIC\n*BOUNDARY, TYPE=VELOCITY\n2, 1, 1, 1.", ":14: TYPE=VELOCITY and USER have no"),
         (
             "*STEP, PERTURBATION\n*STATIC\n*CLOAD, AMPLITUDE=A\n2, 1, 1.\n*AMPLITUDE, NAME=A\n0., 1.",
@@ -151,5 +151,5 @@ def test_what_has_no_meaning_is_named(run, step, message):
 
 
 def test_loads_of_dload_are_named(run):
-    with pytest.raises(DeckError, match=r"linear.inp:\d+: loads by DLOAD are not supported in a step with PERT"):
+    with pytest.raises(DeckError, match=r"linear.inp:\d+: loads by DLOAD are not supported in a linear pert"):
         run(SQUARE, LINEAR.format("", "*DLOAD\nBODY, P2NU"))
