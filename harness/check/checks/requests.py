@@ -10,6 +10,7 @@ from typing import Final
 
 import numpy as np
 
+from harness.check.checks.damping import check_damping
 from harness.check.finding import Finding, Verdict, failed, not_applicable, passed
 from harness.check.recording import Pass
 from harness.check.state import DYNAMIC, State
@@ -19,13 +20,14 @@ from harness.model.arrays import FloatArray
 from harness.usersub import UNSET, marks
 
 STIFFNESS: Final = 2
+DAMPING: Final = 3
 MASS: Final = 4
 RESIDUAL: Final = 5
 INITIAL: Final = 6
 """Mass and residual, for the accelerations at the start of a dynamic step."""
 
-FREQUENCY: Final = 41
-"""LFLAGS(1) of *FREQUENCY."""
+FREQUENCY, STEADY_STATE = 41, 95
+"""LFLAGS(1) of *FREQUENCY and *STEADY STATE DYNAMICS."""
 
 TOLERANCE: Final = 1e-9
 """Of the largest entry."""
@@ -61,8 +63,10 @@ def _findings(subject: Subject) -> Iterator[Finding]:
     for (kind, _, request), lflags in asked.items():
         if base and request == STIFFNESS:
             yield _stiffness(base[0], lflags)
-        if base and request == MASS and kind == FREQUENCY:
+        if base and request == MASS and kind in (FREQUENCY, STEADY_STATE):
             yield _mass_alone(base[0], lflags)
+        if base and request == DAMPING:
+            yield check_damping(subject, base[0], moving[0] if moving else None, lflags)
 
 
 def _residual(states: list[State]) -> Finding:
@@ -145,7 +149,7 @@ def _mass(subject: Subject, state: State) -> Finding:
 
 
 def _mass_alone(state: State, lflags: tuple[int, int, int, int, int]) -> Finding:
-    """The mass matrix for eigenfrequencies."""
+    """The mass matrix for eigenfrequencies and harmonic responses."""
     with marks({UNSET: float("nan")}):
         mass = state.called(lflags=lflags).evaluate().amatrx
     if not mass.any():

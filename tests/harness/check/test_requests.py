@@ -166,3 +166,87 @@ def test_requests_for_eigenfrequencies(patch, monkeypatch, mistake, message, adv
         assert requests.verdict is Verdict.FAILED
         assert re.search(message, requests.message)
         assert re.search(advice, requests.advice)
+
+
+HARMONIC = """\
+*STEP
+*STEADY STATE DYNAMICS, DIRECT
+0.2
+*CLOAD
+3, 1, 1.
+*END STEP
+"""
+DAMPER = """\
+      if (lflags(3) .eq. 2) amatrx = stiff
+      if (lflags(3) .eq. 3) then
+        amatrx = 0
+        if (lflags(7) .eq. 1) amatrx = stiff/8
+        if (lflags(7) .eq. 2) amatrx = stiff/16
+      end if
+"""
+
+
+@pytest.mark.parametrize(
+    "wrong, message, advice",
+    [
+        ("", r"LFLAGS\(3\): stiffness only \(2\), mass \(4\), damping \(3\)$", None),
+        ("amatrx = 0", r"LFLAGS\(3\): stiffness only \(2\), mass \(4\), no damping \(3\)$", None),
+        (
+            *(
+                "if (lflags(7) .eq. 2) amatrx = stiff",
+                r"LFLAGS\(3\) = 3 and LFLAGS\(7\) = 2 is that with .* the stiffness",
+            ),
+            r"Look at LFLAGS\(3\) at the beginning",
+        ),
+        (
+            *("amatrx = stiff/8", r"AMATRX with LFLAGS\(3\) = 3 is the same for LFLAGS\(7\) = 1 and 2"),
+            "return zero for the one that the element does not have",
+        ),
+        (
+            *("if (lflags(7) .eq. 2) amatrx = -amatrx", "the structural damping matrix has no positive eigenvalue"),
+            "Look at its sign",
+        ),
+    ],
+)
+def test_damping_of_harmonic_responses(tmp_path, wrong, message, advice):
+    user, deck = tmp_path / "oscillators.f", tmp_path / "oscillators.inp"
+    user.write_text(_damped(wrong))
+    deck.write_text(OSCILLATOR.replace("*DYNAMIC\n0.1, 0.3", "*STATIC, DIRECT\n1., 1.") + HARMONIC)
+    requests = findings(deck, user)["requests"]
+    assert requests.verdict is (Verdict.FAILED if advice else Verdict.PASSED)
+    assert re.search(message, requests.message), requests.message
+    assert advice is None or re.search(advice, requests.advice)
+
+
+@pytest.mark.parametrize(
+    "factor, message",
+    [
+        (
+            "0.5d0",
+            r"LFLAGS\(3\): mass \(4 and 6\), half-increment residual \(5\), stiffness only \(2\), mass \(4\), damping",
+        ),
+        ("0.6d0", r"AMATRX\(1,1\) is 0.5 with LFLAGS\(3\) = 3 and LFLAGS\(7\) = 1; by V\(1\) G\(1\) .* falls by 0.6$"),
+    ],
+)
+def test_damping_against_dynamics(tmp_path, factor, message):
+    """Viscous forces in *DYNAMIC, 0.5 times the velocity by which the spring of 4 grows, and their matrix."""
+    lines = _damped("").replace("      force = (/", f"      f = f + {factor}*(v(2) - v(1))\n      force = (/")
+    rate = f"1 + {factor}*params(3)/(4*params(2)*dtime)"
+    user, deck = tmp_path / "oscillators.f", tmp_path / "oscillators.inp"
+    user.write_text(lines.replace("amatrx = (1 + params(1))*stiff", f"amatrx = (1 + params(1))*stiff*({rate})"))
+    static = "*STEP\n*STATIC, DIRECT\n1., 1.\n*END STEP\n"
+    dynamic = OSCILLATOR.replace("4., 0.25, 1.", "4., 0.25, 0.").replace(
+        "*DYNAMIC\n0.1, 0.3", "*DYNAMIC, DIRECT\n0.1, 0.1"
+    )
+    deck.write_text(dynamic + static + HARMONIC)
+    requests = findings(deck, user)["requests"]
+    assert re.search(message, requests.message), requests.message
+    assert requests.verdict is (Verdict.PASSED if factor == "0.5d0" else Verdict.FAILED)
+
+
+def _damped(wrong):
+    """Oscillators with damping, a line of which is wrong."""
+    source = OSCILLATORS.read_text().replace("'../uel.inc'", f"'{OSCILLATORS.parents[1] / 'uel.inc'}'")
+    head, end, _ = source.rpartition("      end\n")
+    line = f"      if (lflags(3) .eq. 3) then\n        {wrong}\n      end if\n" if wrong else ""
+    return f"{head}{DAMPER}{line}{end}"

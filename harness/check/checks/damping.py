@@ -1,0 +1,95 @@
+# SPDX-FileCopyrightText: The uel-harness authors
+# SPDX-License-Identifier: BSD-3-Clause
+"""Damping matrices, which *STEADY STATE DYNAMICS asks for with LFLAGS(3) = 3: part of `requests`."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from typing import Final
+
+import numpy as np
+
+from harness.check.finding import Finding, failed, passed
+from harness.check.state import State
+from harness.check.subject import Subject
+from harness.elements import Motion
+from harness.model.arrays import FloatArray
+from harness.usersub import UNSET, marks
+
+VISCOUS, STRUCTURAL = 1, 2
+"""LFLAGS(7)."""
+
+TOLERANCE: Final = 1e-9
+"""Of the largest entry."""
+
+SLOPE: Final = 1e-6
+"""Of the largest entry: central differences by velocities."""
+
+
+def check_damping(
+    subject: Subject, state: State, moving: State | None, lflags: tuple[int, int, int, int, int]
+) -> Finding:
+    """The damping matrices in the base state; in a state of *DYNAMIC, if there is one, against velocities."""
+    stiffness = state.evaluate().amatrx
+    viscous, structural = (_matrix(state, lflags, kind) for kind in (VISCOUS, STRUCTURAL))
+    for kind, matrix in ((VISCOUS, viscous), (STRUCTURAL, structural)):
+        if matrix.any() and _agree(matrix, stiffness):
+            return failed(
+                f"{state}: AMATRX with LFLAGS(3) = 3 and LFLAGS(7) = {kind} is that with LFLAGS(3) = 1, the stiffness",
+                "Look at LFLAGS(3) at the beginning of UEL: with 3 AMATRX is damping, or zero where there is none.",
+            )
+    if viscous.any() and _agree(viscous, structural):
+        return failed(
+            f"{state}: AMATRX with LFLAGS(3) = 3 is the same for LFLAGS(7) = 1 and 2",
+            "Abaqus asks for the viscous (LFLAGS(7) = 1) and the structural damping matrix (2) and takes both: return "
+            "zero for the one that the element does not have.",
+        )
+    for name, matrix in (("viscous", viscous), ("structural", structural)):
+        values = np.linalg.eigvalsh(0.5 * (matrix + matrix.T))
+        size = float(np.abs(matrix).max())
+        if size and values[-1] <= TOLERANCE * size:
+            return failed(
+                f"{state}: the {name} damping matrix has no positive eigenvalue",
+                "Look at its sign: AMATRX is minus the derivative of the force on the nodes by their velocities.",
+            )
+    wrong = _against_velocities(subject, moving, lflags) if moving is not None else None
+    return wrong or passed("damping (3)" if viscous.any() or structural.any() else "no damping (3)")
+
+
+def _against_velocities(subject: Subject, state: State, lflags: tuple[int, int, int, int, int]) -> Finding | None:
+    """A finding where the viscous matrix is not what RHS of a dynamic call loses with V, over 1 + alpha."""
+    viscous = _matrix(state, lflags, VISCOUS)
+    slope = _slope(subject, state) / (1.0 + state.call.params[0])
+    row, column = np.unravel_index(int(np.abs(viscous - slope).argmax()), slope.shape)
+    deviation = float(abs(viscous[row, column] - slope[row, column]))
+    if deviation <= SLOPE * max(float(np.abs(slope).max()), float(np.abs(viscous).max()), 1e-300):
+        return None
+    return failed(
+        f"{state}: AMATRX({row + 1},{column + 1}) is {viscous[row, column]:.6g} with LFLAGS(3) = 3 and LFLAGS(7) = 1; "
+        f"by V({column + 1}) G({row + 1}) of a call of *DYNAMIC falls by {slope[row, column]:.6g}",
+        "RHS of *DYNAMIC is -M A + (1 + alpha) G less alpha times the G before; the viscous damping matrix is -dG/dV.",
+        figure=deviation,
+    )
+
+
+def _matrix(state: State, lflags: tuple[int, int, int, int, int], kind: int) -> FloatArray:
+    with marks({UNSET: float("nan")}):
+        return state.called(lflags=lflags, damping=kind).evaluate().amatrx
+
+
+def _agree(one: FloatArray, other: FloatArray) -> bool:
+    return bool(np.abs(one - other).max() <= TOLERANCE * np.abs(one).max())
+
+
+def _slope(subject: Subject, state: State) -> FloatArray:
+    """(n, n) -dRHS/dV."""
+    steps = subject.scales / max(state.call.time_increment, 1e-300)
+    columns = [(_sped(state, -step) - _sped(state, step)) / (2 * step.sum()) for step in np.diag(steps)]
+    return np.array(columns).T
+
+
+def _sped(state: State, shift: FloatArray) -> FloatArray:
+    """RHS with other velocities, and nothing else."""
+    motion = Motion(state.motion.velocity + shift, state.motion.acceleration)
+    column: FloatArray = replace(state, motion=motion).evaluate(matrix=False).rhs[0]
+    return column
