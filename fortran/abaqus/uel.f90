@@ -3,8 +3,9 @@
 !> Entry point of Abaqus/Standard for the interface elements U2 to U6.
 !>
 !> Everything is declared, so that ABA_PARAM.INC and its implicit typing are not needed. RHS and AMATRX are filled
-!> entirely, whatever they hold on entry. SVARS and ENERGY change only in calls whose values are kept, LFLAGS(3) = 1
-!> and 100.
+!> entirely, whatever they hold on entry. SVARS and ENERGY change only in calls whose values are kept, LFLAGS(3) = 1 of
+!> a general step. In a linear one (LFLAGS(4) = 1) RHS is what a perturbation changes: nothing without loads of the
+!> elements, and -AMATRX DU once it is known (LFLAGS(3) = 100).
 subroutine uel(rhs, amatrx, svars, energy, ndofel, nrhs, nsvars, props, nprops, coords, mcrd, nnode, u, du, v, a, &
   jtype, time, dtime, kstep, kinc, jelem, params, ndload, jdltyp, adlmag, predef, npredf, lflags, mlvarx, ddlmag, &
   mdload, pnewdt, jprops, njprop, period)
@@ -44,13 +45,17 @@ subroutine uel(rhs, amatrx, svars, energy, ndofel, nrhs, nsvars, props, nprops, 
   state(1:n) = svars(1:n)
   call evaluate_interface(jtype, jelem, props, jprops, coords, u, dtime, state, energies, residual, tangent, good)
   if (.not. good) return
-  if (lflags(3) /= 2) rhs(1:ndofel, 1) = residual(1:ndofel)
   if (lflags(3) /= 5 .and. lflags(3) /= 6) then
     do j = 1, ndofel
       amatrx(:, j) = tangent((j - 1)*ndofel + 1:j*ndofel)
     end do
   end if
-  if (lflags(3) == 1 .or. lflags(3) == 100) then
+  if (lflags(4) == 1) then
+    if (lflags(3) == 100) rhs(1:ndofel, 1) = -matmul(amatrx, du(1:ndofel, 1))
+    return
+  end if
+  if (lflags(3) /= 2) rhs(1:ndofel, 1) = residual(1:ndofel)
+  if (lflags(3) == 1) then
     svars(1:n) = state(1:n)
     energy = energies
   end if

@@ -3,8 +3,9 @@
 !> Entry point of Abaqus/Standard for the continuum quad U1.
 !>
 !> Everything is declared, so that ABA_PARAM.INC and its implicit typing are not needed. RHS and AMATRX are filled
-!> entirely, whatever they hold on entry. SVARS and ENERGY change only in calls whose values are kept, LFLAGS(3) = 1
-!> and 100.
+!> entirely, whatever they hold on entry. SVARS and ENERGY change only in calls whose values are kept, LFLAGS(3) = 1 of
+!> a general step. In a linear one (LFLAGS(4) = 1) RHS is what a perturbation changes: nothing without loads of the
+!> elements, and -AMATRX DU once it is known (LFLAGS(3) = 100).
 subroutine uelmat(rhs, amatrx, svars, energy, ndofel, nrhs, nsvars, props, nprops, coords, mcrd, nnode, u, du, v, a, &
   jtype, time, dtime, kstep, kinc, jelem, params, ndload, jdltyp, adlmag, predef, npredf, lflags, mlvarx, ddlmag, &
   mdload, pnewdt, jprops, njprop, period, materiallib)
@@ -41,9 +42,13 @@ subroutine uelmat(rhs, amatrx, svars, energy, ndofel, nrhs, nsvars, props, nprop
   call evaluate_continuum(jelem, props, jprops, coords(1:2, 1:4), u, predef, npredf, materiallib, with_tangent, state, &
     energies, residual, tangent, good)
   if (.not. good) return
-  if (lflags(3) /= 2) rhs(1:8, 1) = residual
   if (with_tangent) amatrx(1:8, 1:8) = tangent
-  if (lflags(3) == 1 .or. lflags(3) == 100) then
+  if (lflags(4) == 1) then
+    if (lflags(3) == 100) rhs(1:8, 1) = -matmul(amatrx, du(1:8, 1))
+    return
+  end if
+  if (lflags(3) /= 2) rhs(1:8, 1) = residual
+  if (lflags(3) == 1) then
     svars(1:32) = state
     energy = energies
   end if

@@ -75,7 +75,8 @@ class System:
         """Call every element once, block by block in the calling order of Abaqus.
 
         u (n,) is the estimate of the end of the increment and du (n,) the increment, both including prescribed values.
-        nrhs is NRHS: 1, or 2 for the arc length method. Without `motion` the model is at rest.
+        nrhs is NRHS: 1, or 2 for the arc length method. Without `motion` the model is at rest. In a linear step RHS is
+        what the loads on user elements do; those on built-in ones come from elsewhere.
         Raises KernelError where an element fails.
         """
         columns = np.zeros((nrhs, len(self.dofs)))
@@ -86,7 +87,8 @@ class System:
         energy, damage = np.zeros(8), 0.0
         pnewdt = np.inf
         for block in self.blocks:
-            report = block.evaluate(call, u, du, columns if nrhs > 1 else columns[0], data, motion)
+            kept = columns if block.group.definition or not call.lflags[3] else np.zeros_like(columns)
+            report = block.evaluate(call, u, du, kept if nrhs > 1 else kept[0], data, motion)
             flux += report.flux
             count += report.flux_count
             energy += report.energy

@@ -107,9 +107,8 @@ def read_steps(
 
 def _check_perturbation(step: Step, problems: Problems) -> None:
     """What has no meaning in a linear step, or is not supported there."""
-    for what, entries in (("predefined fields", step.fields), ("distributed loads on user elements", step.distributed)):
-        for entry in entries:
-            problems.add(entry.source, f"{what} are not supported in a linear perturbation")
+    for field in step.fields:
+        problems.add(field.source, "predefined fields are not supported in a linear perturbation")
     for boundary in step.boundaries:
         if boundary.velocity or boundary.user:
             problems.add(boundary.source, "TYPE=VELOCITY and USER have no meaning in a linear perturbation")
@@ -117,6 +116,8 @@ def _check_perturbation(step: Step, problems: Problems) -> None:
         if load.type.jltyp:
             problems.add(load.source, "loads by DLOAD are not supported in a linear perturbation")
     if isinstance(step.procedure, SteadyState):
+        for given in step.distributed:
+            problems.add(given.source, "harmonic loads on user elements are not supported")
         if any(isinstance(amplitude, UserAmplitude) for amplitude in step.amplitudes):
             problems.add(step.source, "an amplitude is one over frequency here, which UAMP cannot give")
         return

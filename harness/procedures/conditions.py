@@ -49,17 +49,24 @@ class Conditions:
             self._active[:] = False
         for entry in step.distributed:
             self._active[self._slots.find(entry.elements, entry.kind)] = True
-        loads = [Load(e.elements, e.kind, e.magnitude, e.amplitude, e.source) for e in step.distributed]
         return StepConditions(
             self._slots.places[self._active],
             self._slots.kinds[self._active],
             np.flatnonzero(self._active),
-            self._loads.take(loads, step.new_distributed, step, total_time),
+            self._loads.take(_as_loads(step), step.new_distributed, step, total_time),
             self._fields.take(step.fields, step.new_fields, step, total_time),
             self._nodes,
             # temperature is the first field
             self._initial[: self._nodes.nodes],
         )
+
+    def in_perturbation(self, step: Step, total_time: float) -> Distributed | None:
+        """Loads of the base state, with what a perturbation step adds for increments; nothing of it goes on."""
+        active = self._active.copy()
+        for entry in step.distributed:
+            active[self._slots.find(entry.elements, entry.kind)] = True
+        base, added = self._loads.reached(total_time), self._loads.in_perturbation(_as_loads(step))
+        return _distributed(self._slots.places[active], self._slots.kinds[active], base[active], added[active])
 
     def initial(self) -> Predefined | None:
         """Fields before the first step; None where the model has none."""
@@ -102,15 +109,24 @@ class StepConditions:
 
     def at(self, start: tuple[float, float], end: tuple[float, float]) -> tuple[Distributed | None, Predefined | None]:
         """What is in force in an increment between these step and total times."""
-        distributed = predefined = None
-        if len(self.slots):
-            values, before = self.loads.at(*end)[self.slots], self.loads.at(*start)[self.slots]
-            given = self.kinds > 0  # UEL itself gives those of type UnNU
-            distributed = Distributed(
-                self.elements, self.kinds, np.where(given, values, 0.0), np.where(given, values - before, 0.0)
-            )
+        predefined = None
+        values, before = self.loads.at(*end)[self.slots], self.loads.at(*start)[self.slots]
+        distributed = _distributed(self.elements, self.kinds, values, values - before)
         if len(self.grid):
             shape = self.grid.fields, self.grid.nodes
             values, before = self.fields.at(*end), self.fields.at(*start)
             predefined = Predefined(values.reshape(shape), (values - before).reshape(shape), self.initial)
         return distributed, predefined
+
+
+def _as_loads(step: Step) -> list[Load]:
+    """Distributed loads, as `Loads` takes them."""
+    return [Load(e.elements, e.kind, e.magnitude, e.amplitude, e.source) for e in step.distributed]
+
+
+def _distributed(elements: IntArray, kinds: IntArray, end: FloatArray, increment: FloatArray) -> Distributed | None:
+    """What elements are told of their loads; None where there are none."""
+    if not len(elements):
+        return None
+    given = kinds > 0  # UEL itself gives those of type UnNU
+    return Distributed(elements, kinds, np.where(given, end, 0.0), np.where(given, increment, 0.0))

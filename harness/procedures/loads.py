@@ -240,7 +240,7 @@ class Loads:
 
     def take(self, entries: Sequence[Load], new: bool, step: Step, total_time: float) -> Variation:
         """Take over entries of a step; new: those of earlier steps are removed."""
-        reached = self._previous.at(self._previous.period, total_time)
+        reached = self.reached(total_time)
         given = [(entry, find_unknowns(self._dofs, entry)[0]) for entry in entries]
         anew = np.concatenate([np.zeros(0, dtype=np.int64), *(unknowns for _, unknowns in given)])
         curves: list[Curve] = []
@@ -266,6 +266,10 @@ class Loads:
             start = target
         self._previous = Variation(start, target - start, step.procedure.period, tuple(curves))
         return self._previous
+
+    def reached(self, total_time: float) -> FloatArray:
+        """Values (n,) at the end of the last general step."""
+        return self._previous.at(self._previous.period, total_time)
 
     def in_perturbation(self, entries: Sequence[Load]) -> FloatArray:
         """Values (n,) of a perturbation step, of which nothing goes on into the next one."""

@@ -17,11 +17,28 @@ from harness.assembly import Constraints, Evaluation, System
 from harness.elements import Call
 from harness.model.arrays import FloatArray
 from harness.model.model import Model
-from harness.model.records import AttemptStarted, ElementState, IncrementDone, Noted, Record, Solution, StepDone
+from harness.model.records import (
+    AttemptStarted,
+    ElementState,
+    IncrementDone,
+    Noted,
+    Record,
+    Solution,
+    StepDone,
+    Warned,
+)
 from harness.model.steps import Step
 from harness.procedures.state import State
 from harness.procedures.static import NORMAL, UserRoutines, choose_solver
 from harness.solver.linear import LinearSolver
+
+BASE_FORCES = (
+    "USER ELEMENTS RETURN FORCES OF THE BASE STATE IN RHS OF A LINEAR STEP (LFLAGS(4) = 1), WHERE ABAQUS ASKS FOR WHAT "
+    "THE LOADS OF THE STEP ADD. THEY ACT AS LOADS OF THE STEP; SEE uel check."
+)
+
+ROUNDING = 1e-8
+"""Of the average force of the elements."""
 
 OUTPUT = 100
 """LFLAGS(3) of a call for what a perturbation changes: DU is the perturbation."""
@@ -76,17 +93,25 @@ class PerturbationStep:
         load = self._state.loads.in_perturbation(step)
         prescribed = self._state.boundaries.perturbations(step)[constraints.prescribed]
         stiffness = self._system.matrix(evaluation.data)
-        missing = load - constraints.prescribed_residual(evaluation.data, prescribed)
+        external = load + evaluation.residual
+        missing = external - constraints.prescribed_residual(evaluation.data, prescribed)
         self._solver.factorise(constraints.reduce(evaluation.data))
         change = constraints.expand(self._solver.solve(constraints.reduce_vector(missing)), prescribed)
         internal = stiffness @ change
         self._pass(OUTPUT, change)
         work = 0.5 * float(change @ internal)
         solution = self._solution(change, {"ALLSE": work, "ALLWK": work})
-        reaction = constraints.reactions(load - internal)
+        reaction = constraints.reactions(external - internal)
         found = replace(solution, reaction=reaction, load=load, elements=self._elements(change))
         period = step.procedure.period
-        return [IncrementDone(step.number, 1, 1, 1, period, self._state.total_time, period, found)]
+        done = IncrementDone(step.number, 1, 1, 1, period, self._state.total_time, period, found)
+        return [Warned(BASE_FORCES), done] if self._unloaded(evaluation) else [done]
+
+    def _unloaded(self, evaluation: Evaluation) -> bool:
+        """User elements return forces in a step that has no loads on them."""
+        count = max(int(evaluation.flux_count.sum()), 1)
+        largest = float(np.abs(evaluation.residual).max(initial=0.0))
+        return not self._step.distributed and largest > ROUNDING * float(evaluation.flux.sum()) / count
 
     def _pass(self, request: int, change: FloatArray | None = None) -> Evaluation:
         """A pass over the elements in the base state, for the matrix too unless a perturbation is given."""
@@ -104,6 +129,7 @@ class PerturbationStep:
             total_time=self._state.total_time,
             time_increment=period,
             period=period,
+            distributed=self._state.conditions.in_perturbation(step, self._state.total_time),
             predefined=self._state.predefined,
         )
 

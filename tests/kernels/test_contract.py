@@ -39,6 +39,20 @@ def test_requests(case):
         np.testing.assert_array_equal(found[0], residual, err_msg=f"LFLAGS(3) = {request}")
 
 
+def test_linear_steps(case):
+    """RHS is what a perturbation changes; the state stays that of the base."""
+    item, u = case
+    before = item.block.state(0)
+    tangent = item.evaluate(u)[1]
+    change = np.linspace(-1e-3, 1e-3, u.size)
+    for request, residual in ((1, 0 * change), (100, -tangent @ change)):
+        found = item.evaluate(u, du=change, request=request, flags=(1, 0, 1, 0))
+        np.testing.assert_array_equal(found[1], tangent)
+        np.testing.assert_allclose(found[0], residual, rtol=1e-12, atol=1e-12 * np.abs(residual).max())
+    item.block.commit()
+    np.testing.assert_array_equal(item.block.state(0).svars, before.svars)
+
+
 @pytest.mark.parametrize("procedure", [1, 2, 11, 12, 21, 41, 61, 71, 91])
 def test_no_inertia_whatever_the_procedure(case, procedure):
     item, u = case

@@ -11,6 +11,7 @@ from typing import Final
 import numpy as np
 
 from harness.check.checks.damping import check_damping
+from harness.check.checks.perturbation import NORMAL, OUTPUT, check_perturbation
 from harness.check.finding import Finding, Verdict, failed, not_applicable, passed
 from harness.check.recording import Pass
 from harness.check.state import DYNAMIC, State
@@ -48,7 +49,7 @@ def check(subject: Subject) -> Finding:
 
 
 def _findings(subject: Subject) -> Iterator[Finding]:
-    asked = {event.call.lflags[:3]: event.call.lflags for event in subject.recording.events if isinstance(event, Pass)}
+    asked = {event.call.lflags[:4]: event.call.lflags for event in subject.recording.events if isinstance(event, Pass)}
     requests = {(lflags[0], lflags[2]) for lflags in asked}
     moving = [state for state in subject.states if state.dynamic]
     static = [state for state in subject.all_states if not state.dynamic]
@@ -60,7 +61,9 @@ def _findings(subject: Subject) -> Iterator[Finding]:
             yield _half_increment(subject, moving[0])
     # perturbations start from the last state of the steps before
     base = [state.part(0.0) for state in subject.states if not state.dynamic][-1:]
-    for (kind, _, request), lflags in asked.items():
+    for (kind, _, request, linear), lflags in asked.items():
+        if linear and request in (NORMAL, OUTPUT):
+            yield check_perturbation(subject, static, lflags)
         if base and request == STIFFNESS:
             yield _stiffness(base[0], lflags)
         if base and request == MASS and kind in (FREQUENCY, STEADY_STATE):

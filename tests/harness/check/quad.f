@@ -147,6 +147,12 @@
         open (unit=99, file='no-such-folder/no-such-file',
      &    status='old')
       end select
+!     a linear step: no loads, and forces of what it changes
+      if (lflags(4) == 1 .and. mistake /= 43) then
+        rhs(1:8,1) = 0
+        if (lflags(3) == 100 .and. mistake /= 44) rhs(1:8,1) =
+     &    -matmul(amatrx, du(1:8,1))
+      end if
       end
 
       subroutine count_calls(svars)

@@ -131,8 +131,25 @@ def test_deck_of_linear_steps_alone(patch):
     found = findings(patch(0, ("*STEP", "*STEP, PERTURBATION"), ("*STATIC, DIRECT\n0.5, 1.", "*STATIC")))
     assert not [name for name, finding in found.items() if finding.verdict is Verdict.FAILED]
     assert found["tangent"].verdict is Verdict.PASSED
+    assert found["requests"].message == "LFLAGS(3): linear step (1), linear step (100)"
     found = findings(patch(5, ("*STEP", "*STEP, PERTURBATION"), ("*STATIC, DIRECT\n0.5, 1.", "*STATIC")))
     assert found["tangent"].verdict is Verdict.FAILED
+
+
+@pytest.mark.parametrize(
+    ("mistake", "message"),
+    [
+        (43, r"RHS\(\d\) is \S+ with LFLAGS\(3\) = 1 and LFLAGS\(4\) = 1, not -?0$"),
+        (44, r"RHS\(\d\) is 0 with LFLAGS\(3\) = 100 and LFLAGS\(4\) = 1, not \S+$"),
+    ],
+)
+def test_forces_of_a_linear_step(patch, mistake, message):
+    """Those of the base state, as in a general step; and none where the change is known."""
+    linear = "*END STEP\n*STEP, PERTURBATION\n*STATIC\n*CLOAD\n9, 1, 1.\n*END STEP"
+    requests = findings(patch(mistake, ("*END STEP", linear)))["requests"]
+    assert requests.verdict is Verdict.FAILED
+    assert re.search(message, requests.message), requests.message
+    assert re.search("Abaqus would take them for loads", requests.advice)
 
 
 def test_element_without_mass(tmp_path):

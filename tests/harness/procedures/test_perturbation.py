@@ -73,6 +73,34 @@ def test_about_a_base_state(run):
     assert flags == [["1", "0", "1", "1", "0", "1.0000", "0.0000"], ["1", "0", "100", "1", "0", "1.0000", "0.1000"]]
 
 
+def test_loads_on_user_elements(run):
+    """U1 pulls node 2 by 3 in the base state (ADLMAG) and by 0.5 more in the linear step (DDLMAG), where S = 5."""
+    user = UEL.replace(
+        "      SVARS(1) = E\n",
+        "      PULL = ADLMAG(1,1)\n"
+        "      IF (LFLAGS(4) .EQ. 1) PULL = DDLMAG(1,1)\n"
+        "      IF (LFLAGS(4) .EQ. 1) WRITE(7,'(A,2F8.4)') 'LOAD', ADLMAG(1,1), DDLMAG(1,1)\n"
+        "      RHS(2,1) = RHS(2,1) + PULL\n      SVARS(1) = E\n",
+    )
+    pull = PULL.format(OUTPUT).replace("*CLOAD\n2, 1, 3.", "*DLOAD\nE, U1, 3.")
+    result = run(SPRING, pull, LINEAR.format("", "*DLOAD\nE, U1, 0.5"), pull, user=user)
+    history = result.history
+    rows = [np.flatnonzero(history["step"] == number)[-1] for number in (1, 2, 3)]
+    np.testing.assert_allclose(history["U1[ALL:2]"][rows], [1, 0.1, 1], rtol=CLOSE)
+    np.testing.assert_allclose(history["RF1[ALL:1]"][rows], [-3, -0.5, -3], rtol=1e-2)
+    lines = result.file(".msg").read_text().splitlines()
+    assert {tuple(line.split()[1:]) for line in lines if line.startswith("LOAD")} == {("3.0000", "0.5000")}
+
+
+def test_forces_of_the_base_state_are_taken_for_loads(run):
+    """An element that does not look at LFLAGS(4) returns -3 at node 2, which acts beside the load of 0.5: a warning."""
+    user = UEL.replace("IF (LFLAGS(4) .EQ. 1) F = S*(DU(2,1) - DU(1,1))", "CONTINUE")
+    result = run(SPRING, PULL.format(OUTPUT), LINEAR.format("", "*CLOAD\n2, 1, 0.5"), user=user)
+    assert result.history["U1[ALL:2]"][-1] == pytest.approx((0.5 - 3) / 5, rel=CLOSE)
+    message = " ".join(result.file(".msg").read_text().split())
+    assert "***WARNING: USER ELEMENTS RETURN FORCES OF THE BASE STATE IN RHS OF A LINEAR STEP" in message
+
+
 def test_prescribed_values_are_changes(run):
     history = run(SPRING, PULL.format(OUTPUT), LINEAR.format("", "*BOUNDARY\n2, 1, 1, 0.2")).history
     assert history["U1[ALL:2]"][-1] == pytest.approx(0.2)
@@ -133,10 +161,6 @@ def test_energies_of_general_steps_after_it_are_there(run):
     [
         ("*STEP, PERTURBATION\n*DYNAMIC\n0.1, 1.", r":12: \*DYNAMIC: is no procedure of a step with PERTURBATION"),
         ("*STEP, PERTURBATION\n*STATIC, RIKS", r":12: \*STATIC: DIRECT, RIKS and STABILIZE have no meaning in a step"),
-        (
-            "*STEP, PERTURBATION\n*STATIC\n*DLOAD\nE, U1, 1.",
-            ":14: distributed loads on user elements are not supported",
-        ),
         ("*STEP, PERTURBATION\n*STATIC\n*TEMPERATURE\nALL, 1.", ":14: predefined fields are not supported in a linear"),
         ("*STEP, PERTURBATION\n*STATIC\n*BOUNDARY, TYPE=VELOCITY\n2, 1, 1, 1.", ":14: TYPE=VELOCITY and USER have no"),
         (

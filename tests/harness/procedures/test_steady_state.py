@@ -298,7 +298,7 @@ def test_resonance_without_damping(run):
         ("*CLOAD, IMAGINARY", "*CLOAD, IMAGINARY, REAL", r"\*CLOAD: REAL and IMAGINARY exclude each other"),
         ("*STEADY STATE DYNAMICS, DIRECT\n0.1, 0.5, 5", "*STATIC", r"\*CLOAD: REAL and IMAGINARY are for \*STEADY"),
         ("*BOUNDARY\n1, 1\n", "*BOUNDARY, REAL\n1, 1\n", r"\*BOUNDARY: REAL and IMAGINARY are for \*STEADY STATE"),
-        ("*CLOAD\n", "*DLOAD\nE, U1, 1.\n*CLOAD\n", "distributed loads on user elements are not supported in a linear"),
+        ("*CLOAD\n", "*DLOAD\nE, U1, 1.\n*CLOAD\n", "harmonic loads on user elements are not supported"),
         ("*CLOAD\n", "*BOUNDARY, TYPE=VELOCITY\n1, 1, 1, 1.\n*CLOAD\n", "have no meaning in a linear perturbation"),
         (
             *("*CLOAD\n", "*CLOAD, AMPLITUDE=A\n"),

@@ -1,0 +1,47 @@
+# SPDX-FileCopyrightText: The uel-harness authors
+# SPDX-License-Identifier: BSD-3-Clause
+"""What RHS is in a linear step, *STATIC with PERTURBATION: part of `requests`."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from typing import Final
+
+import numpy as np
+
+from harness.check.finding import Finding, failed, passed
+from harness.check.state import State
+from harness.check.subject import Subject
+
+NORMAL, OUTPUT = 1, 100
+"""LFLAGS(3): for the solution, and for output once it is known."""
+
+TOLERANCE: Final = 1e-6
+"""Of the largest force."""
+
+ADVICE: Final = (
+    "In a linear step (LFLAGS(4) = 1) U is the base state. RHS is what the loads of the step on the element add "
+    "(DDLMAG), zero without; with LFLAGS(3) = 100 it is that less AMATRX times DU, the change by then. The forces "
+    "of the base state are none of it: Abaqus would take them for loads."
+)
+
+
+def check_perturbation(subject: Subject, states: list[State], lflags: tuple[int, int, int, int, int]) -> Finding:
+    """RHS without loads on the element, at each of the states as a base state."""
+    known = lflags[2] == OUTPUT
+    change = (subject.scales if known else 0.0) * np.linspace(-1.0, 1.0, len(subject.scales))
+    for state in states:
+        still = replace(state, du=np.zeros_like(state.u)).called(distributed=None)
+        forces = still.evaluate()
+        linear = replace(still.called(lflags=lflags), du=change)
+        found, expected = linear.evaluate().rhs[0], -forces.amatrx @ change
+        row = int(np.abs(found - expected).argmax())
+        deviation = float(abs(found[row] - expected[row]))
+        if deviation > TOLERANCE * max(float(np.abs(forces.rhs[0]).max()), float(np.abs(expected).max()), 1e-300):
+            return failed(
+                f"{state}: RHS({row + 1}) is {found[row]:.6g} with LFLAGS(3) = {lflags[2]} and LFLAGS(4) = 1, not "
+                f"{expected[row]:.6g}",
+                ADVICE,
+                figure=deviation,
+            )
+    return passed(f"linear step ({lflags[2]})")
