@@ -1,7 +1,7 @@
 ! SPDX-FileCopyrightText: The uel-harness authors
 ! SPDX-License-Identifier: BSD-3-Clause
-!> Built-in coupled temperature-displacement elements (CPE4T, C3D8T, ...), as a procedure with the arguments of UELMAT: a
-!> continuum element (host_solid), and heat conduction with temperatures at its corners.
+!> Built-in coupled temperature-displacement elements (CPE4T, CAX4T, C3D8T, ...), as a procedure with the arguments of
+!> UELMAT: a continuum element (host_solid), and heat conduction with temperatures at its corners.
 !>
 !> The unknowns are the displacements of all nodes, then the temperatures of the corners. PROPS go on with conductivity and
 !> specific heat. Without thermal expansion the two parts see each other through the change of shape alone, which the
@@ -13,7 +13,7 @@
 module host_coupled
   use host_kinds, only: dp, i4
   use host_kinematics, only: cofactors
-  use host_shape, only: rule_of, rule_t
+  use host_shape, only: radius_of, rule_of, rule_t
   use host_solid, only: solid_uelmat
   implicit none (type, external)
   private
@@ -43,29 +43,32 @@ contains
     if (lflags(3) == 3 .or. lflags(3) == 4) return
     now = coords
     if (lflags(2) /= 0) now = now + reshape(u(:n), [int(mcrd), int(nnode)])
-    associate (t => u(n + 1:), dt => du(n + 1:), thickness => merge(props(1), 1.0_dp, mcrd == 2))
-      call conduct(int(mcrd), int(nnode), size(t), int(jprops(1)), thickness*props(4), now, t, rhs(n + 1:), amatrx(n + 1:, n + 1:))
-      if (lflags(1) /= steady_state .and. dtime > 0) then
-        call store(int(mcrd), int(nnode), size(t), int(jprops(1)), thickness*props(2)*props(5)/dtime, coords, dt, rhs(n + 1:), &
+    associate (t => u(n + 1:), dt => du(n + 1:), thickness => merge(props(1), 1.0_dp, mcrd == 2), axisymmetric => jprops(2) > mcrd)
+      call conduct(int(mcrd), int(nnode), size(t), int(jprops(1)), axisymmetric, thickness*props(4), now, t, rhs(n + 1:), &
                    amatrx(n + 1:, n + 1:))
+      if (lflags(1) /= steady_state .and. dtime > 0) then
+        call store(int(mcrd), int(nnode), size(t), int(jprops(1)), axisymmetric, thickness*props(2)*props(5)/dtime, coords, dt, &
+                   rhs(n + 1:), amatrx(n + 1:, n + 1:))
       end if
     end associate
   end subroutine coupled_uelmat
 
   !> Heat that flows into the corners by conduction, and its tangent.
-  subroutine conduct(dim, nodes, corners, points, conductivity, x, t, heat, tangent)
+  subroutine conduct(dim, nodes, corners, points, axisymmetric, conductivity, x, t, heat, tangent)
     integer, intent(in) :: dim, nodes, corners, points
-    real(dp), intent(in) :: conductivity   !< times thickness
+    logical, intent(in) :: axisymmetric
+    real(dp), intent(in) :: conductivity   !< times thickness or 2 pi
     real(dp), intent(in) :: x(dim, nodes), t(corners)
     real(dp), intent(inout) :: heat(corners), tangent(corners, corners)
     real(dp) :: g(corners, dim), matrix(corners, corners), inverse(dim, dim), determinant
     type(rule_t), pointer :: geometry, field
     integer :: p
-    call rules(dim, nodes, corners, points, geometry, field)
+    call rules(dim, nodes, corners, points, axisymmetric, geometry, field)
     matrix = 0
     do p = 1, field%points
       call invert(dim, matmul(x, geometry%dn(:, :, p)), inverse, determinant)
       g = matmul(field%dn(:, :, p), inverse)
+      determinant = determinant*radius_of(geometry, p, axisymmetric, x)
       matrix = matrix + conductivity*field%weight(p)*determinant*matmul(g, transpose(g))
     end do
     heat = heat - matmul(matrix, t)
@@ -73,19 +76,20 @@ contains
   end subroutine conduct
 
   !> Heat that the corners take to become warmer, and its tangent.
-  subroutine store(dim, nodes, corners, points, capacity, x, dt, heat, tangent)
+  subroutine store(dim, nodes, corners, points, axisymmetric, capacity, x, dt, heat, tangent)
     integer, intent(in) :: dim, nodes, corners, points
-    real(dp), intent(in) :: capacity   !< per volume, times thickness, over the time increment
+    logical, intent(in) :: axisymmetric
+    real(dp), intent(in) :: capacity   !< per volume, times thickness or 2 pi, over the time increment
     real(dp), intent(in) :: x(dim, nodes), dt(corners)
     real(dp), intent(inout) :: heat(corners), tangent(corners, corners)
     real(dp) :: matrix(corners, corners), inverse(dim, dim), determinant, weight
     type(rule_t), pointer :: geometry, field
     integer :: k, p
-    call rules(dim, nodes, corners, points, geometry, field)
+    call rules(dim, nodes, corners, points, axisymmetric, geometry, field)
     matrix = 0
     do p = 1, field%points
       call invert(dim, matmul(x, geometry%dn(:, :, p)), inverse, determinant)
-      weight = capacity*field%weight(p)*determinant
+      weight = capacity*field%weight(p)*determinant*radius_of(geometry, p, axisymmetric, x)
       do k = 1, corners
         if (nodes == corners) then
           matrix(k, k) = matrix(k, k) + weight*field%n(k, p)
@@ -99,13 +103,16 @@ contains
   end subroutine store
 
   !> Integration points with the functions of the shape and of the temperature. One point would not feel all temperatures
-  !> of a quadrilateral or hexahedron: these have two in each direction at least.
-  subroutine rules(dim, nodes, corners, points, geometry, field)
+  !> of a quadrilateral or hexahedron: these have two in each direction at least. Nor would it tell the corners of a
+  !> triangle about an axis apart, which have different radii.
+  subroutine rules(dim, nodes, corners, points, axisymmetric, geometry, field)
     integer, intent(in) :: dim, nodes, corners, points
+    logical, intent(in) :: axisymmetric
     type(rule_t), pointer, intent(out) :: geometry, field
     integer :: count
     count = points
     if (corners == 2**dim) count = max(points, 2**dim)
+    if (axisymmetric .and. nodes == 3) count = 3
     geometry => rule_of(dim, nodes, count)
     field => rule_of(dim, corners, count)
   end subroutine rules

@@ -6,7 +6,7 @@
 !> as state, as in the example of UEL in the Abaqus User Subroutines Guide.
 module host_inertia
   use host_kinds, only: dp, i4
-  use host_shape, only: rule_of, rule_t
+  use host_shape, only: radius_of, rule_of, rule_t
   implicit none (type, external)
   private
   public :: is_dynamic, mass_matrix, respond
@@ -21,9 +21,11 @@ contains
 
   !> Mass matrix: lumped in elements with straight edges, consistent in those with middle nodes, as in Abaqus, and
   !> always fully integrated.
-  subroutine mass_matrix(dim, nodes, density, x, mass)
+  subroutine mass_matrix(dim, nodes, axisymmetric, density, x, mass)
     integer, intent(in) :: dim, nodes
-    real(dp), intent(in) :: density, x(dim, nodes)     !< density per volume, or per area where dim is 2
+    logical, intent(in) :: axisymmetric
+    real(dp), intent(in) :: density    !< per volume; in the plane per area; in axisymmetric elements times 2 pi
+    real(dp), intent(in) :: x(dim, nodes)
     real(dp), intent(out) :: mass(dim*nodes, dim*nodes)
     type(rule_t), pointer :: rule
     real(dp) :: weight, at_nodes(nodes, nodes)
@@ -32,10 +34,11 @@ contains
     lumped = nodes <= 2**dim
     points = merge(1, merge(2, 3, lumped)**dim, nodes == dim + 1)
     if (dim == 2 .and. nodes == 6) points = 6
+    if (axisymmetric .and. nodes == 3) points = 3
     rule => rule_of(dim, nodes, points)
     at_nodes = 0
     do p = 1, points
-      weight = density*rule%weight(p)*determinant(dim, matmul(x, rule%dn(:, :, p)))
+      weight = density*rule%weight(p)*determinant(dim, matmul(x, rule%dn(:, :, p)))*radius_of(rule, p, axisymmetric, x)
       do k = 1, nodes
         if (lumped) then
           at_nodes(k, k) = at_nodes(k, k) + weight*rule%n(k, p)

@@ -1,37 +1,47 @@
 ! SPDX-FileCopyrightText: The uel-harness authors
 ! SPDX-License-Identifier: BSD-3-Clause
 !> Gradients, strains and rotations at the points of the built-in continuum elements.
+!>
+!> `direct` is the number of direct strains: 2 in the plane; 3 in space, and in axisymmetric elements, which have the hoop
+!> strain u_r/r beside those of the plane: direction 1 is the radius, 2 the axis. Their volumes are per angle.
 module host_kinematics
   use host_kinds, only: dp, i4
   use host_messages, only: add_message
   use host_protect, only: escape
-  use host_shape, only: rule_of, rule_t
+  use host_shape, only: radius_of, rule_of, rule_t
   implicit none (type, external)
   private
   public :: cofactors, gradients, mean_gradients, strain_matrix, average_volume_strain, point_position, rotation_of, rotated
 
 contains
 
-  !> Derivatives of the shape functions by the coordinates in a point, and its volume. Leaves the analysis where the
-  !> element is inside out.
-  subroutine gradients(dim, nodes, points, point, x, g, volume)
-    integer, intent(in) :: dim, nodes, points, point
+  !> Derivatives of the shape functions by the coordinates in a point, where the element is axisymmetric also the
+  !> functions over the radius; and the volume of the point. Leaves the analysis where the element is inside out.
+  subroutine gradients(dim, direct, nodes, points, point, x, g, volume)
+    integer, intent(in) :: dim, direct, nodes, points, point
     real(dp), intent(in) :: x(dim, nodes)
-    real(dp), intent(out) :: g(nodes, dim), volume
+    real(dp), intent(out) :: g(nodes, direct), volume
     type(rule_t), pointer :: rule
-    real(dp) :: determinant
+    real(dp) :: determinant, radius
     character(len=160) :: text
     rule => rule_of(dim, nodes, points)
+    radius = radius_of(rule, point, direct > dim, x)
     if (dim == 2) then
-      call plane_gradients(nodes, x, rule%dn(:, :, point), g, determinant)
+      call plane_gradients(nodes, x, rule%dn(:, :, point), g(:, :2), determinant)
+      if (direct > dim) g(:, 3) = rule%n(:, point)/radius
     else
       call space_gradients(nodes, x, rule%dn(:, :, point), g, determinant)
     end if
-    volume = rule%weight(point)*determinant
-    if (determinant > 0) return
-    write (text, '(a,i0,a,es10.2,a)') 'the element is inside out at its integration point ', point, &
-      ' (Jacobian', determinant, '); its nodes must run counter-clockwise'
-    if (dim == 3) text = trim(text)//' as seen from its other side'
+    volume = rule%weight(point)*determinant*radius
+    if (determinant > 0 .and. radius > 0) return
+    if (determinant > 0) then
+      write (text, '(a,i0,a,es10.2,a)') 'the integration point ', point, ' of the element is at the radius', radius, &
+        '; it must not cross the axis'
+    else
+      write (text, '(a,i0,a,es10.2,a)') 'the element is inside out at its integration point ', point, &
+        ' (Jacobian', determinant, '); its nodes must run counter-clockwise'
+      if (dim == 3) text = trim(text)//' as seen from its other side'
+    end if
     call add_message(-3_i4, trim(text))
     call escape()
   end subroutine gradients
@@ -93,55 +103,58 @@ contains
 
   !> Mean of the gradients over the volume of a four- or eight-node element, and the volume: the uniform strain of
   !> D.P. Flanagan, T. Belytschko, Int. J. for Numerical Methods in Engineering 17 (1981) 679.
-  subroutine mean_gradients(dim, x, g, volume)
-    integer, intent(in) :: dim
+  subroutine mean_gradients(dim, direct, x, g, volume)
+    integer, intent(in) :: dim, direct
     real(dp), intent(in) :: x(dim, 2**dim)
-    real(dp), intent(out) :: g(2**dim, dim), volume
-    real(dp) :: part(2**dim, dim), weight
+    real(dp), intent(out) :: g(2**dim, direct), volume
+    real(dp) :: part(2**dim, direct), weight
     integer :: point
     g = 0
     volume = 0
     do point = 1, 2**dim
-      call gradients(dim, 2**dim, 2**dim, point, x, part, weight)
+      call gradients(dim, direct, 2**dim, 2**dim, point, x, part, weight)
       g = g + weight*part
       volume = volume + weight
     end do
     g = g/volume
   end subroutine mean_gradients
 
-  !> Strains by displacements, transposed: 11, 22, 12 in the plane; 11, 22, 33, 12, 13, 23 in space (engineering shear).
-  pure subroutine strain_matrix(dim, nodes, g, b)
-    integer, intent(in) :: dim, nodes
-    real(dp), intent(in) :: g(nodes, dim)
-    real(dp), intent(out) :: b(dim, nodes, 3*(dim - 1))
+  !> Strains by displacements, transposed: 11, 22, 12 in the plane; 11, 22, 33, 12 in axisymmetric elements; 11, 22, 33,
+  !> 12, 13, 23 in space (engineering shear).
+  pure subroutine strain_matrix(dim, direct, nodes, g, b)
+    integer, intent(in) :: dim, direct, nodes
+    real(dp), intent(in) :: g(nodes, direct)
+    real(dp), intent(out) :: b(dim, nodes, direct + 2*dim - 3)
     integer, parameter :: first(3) = [1, 1, 2], second(3) = [2, 3, 3]
     integer :: i
     b = 0
     do i = 1, dim
       b(i, :, i) = g(:, i)
     end do
+    if (direct > dim) b(1, :, direct) = g(:, direct)
     do i = 1, 2*dim - 3
-      b(first(i), :, dim + i) = g(:, second(i))
-      b(second(i), :, dim + i) = g(:, first(i))
+      b(first(i), :, direct + i) = g(:, second(i))
+      b(second(i), :, direct + i) = g(:, first(i))
     end do
   end subroutine strain_matrix
 
   !> Replace the volume strain of each point by its mean over the element, with equal parts of the difference in each
-  !> direction (Abaqus Theory Guide, Solid isoparametric quadrilaterals and hexahedra).
-  pure subroutine average_volume_strain(dim, n, points, volume, b)
-    integer, intent(in) :: dim, n, points
+  !> direction (Abaqus Theory Guide, Solid isoparametric quadrilaterals and hexahedra). There are three of them in
+  !> axisymmetric elements (S.A. Chester, C.V. Di Leo, L. Anand, Int. J. of Solids and Structures 52 (2015) 1).
+  pure subroutine average_volume_strain(direct, n, strains, points, volume, b)
+    integer, intent(in) :: direct, n, strains, points
     real(dp), intent(in) :: volume(points)
-    real(dp), intent(inout) :: b(n, 3*(dim - 1), points)
+    real(dp), intent(inout) :: b(n, strains, points)
     real(dp) :: mean(n), change(n)
     integer :: i, p
     mean = 0
     do p = 1, points
-      mean = mean + volume(p)*sum(b(:, :dim, p), dim=2)
+      mean = mean + volume(p)*sum(b(:, :direct, p), dim=2)
     end do
     mean = mean/sum(volume)
     do p = 1, points
-      change = (mean - sum(b(:, :dim, p), dim=2))/dim
-      do i = 1, dim
+      change = (mean - sum(b(:, :direct, p), dim=2))/direct
+      do i = 1, direct
         b(:, i, p) = b(:, i, p) + change
       end do
     end do

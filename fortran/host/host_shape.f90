@@ -6,7 +6,7 @@ module host_shape
   use host_kinds, only: dp
   implicit none (type, external)
   private
-  public :: rule_t, rule_of, hourglass_shapes
+  public :: rule_t, rule_of, radius_of, hourglass_shapes
 
   !> Parent coordinates of the nodes: corners, then the middles of the edges.
   integer, parameter :: quad(2, 8) = reshape([-1, -1, 1, -1, 1, 1, -1, 1, 0, -1, 1, 0, 0, 1, -1, 0], [2, 8])
@@ -52,18 +52,28 @@ contains
     end do
   end function rule_of
 
+  !> Distance of a point from the axis (direction 2) where the element is axisymmetric, else 1.
+  pure real(dp) function radius_of(rule, point, axisymmetric, x)
+    type(rule_t), intent(in) :: rule
+    integer, intent(in) :: point
+    logical, intent(in) :: axisymmetric
+    real(dp), intent(in) :: x(rule%dim, rule%nodes)
+    radius_of = 1
+    if (axisymmetric) radius_of = dot_product(x(1, :), rule%n(:, point))
+  end function radius_of
+
   !> Parent coordinates and weight of a point.
   pure subroutine integration_point(dim, nodes, points, point, parent, weight)
     integer, intent(in) :: dim, nodes, points, point
     real(dp), intent(out) :: parent(dim), weight
     real(dp), parameter :: two = 1/sqrt(3.0_dp), three = sqrt(0.6_dp), middle = 8.0_dp/9, outer = 5.0_dp/9
     integer :: i, k, rest, along
-    if (nodes == dim + 1) then
+    if (nodes == dim + 1 .and. points == 1) then
       parent = 1.0_dp/nodes
       weight = merge(0.5_dp, 1.0_dp/6, dim == 2)
       return
     end if
-    if (dim == 2 .and. nodes == 6) then
+    if (dim == 2 .and. (nodes == 3 .or. nodes == 6)) then
       call triangle_point(points, point, parent, weight)
       return
     end if

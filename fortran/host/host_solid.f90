@@ -1,12 +1,13 @@
 ! SPDX-FileCopyrightText: The uel-harness authors
 ! SPDX-License-Identifier: BSD-3-Clause
-!> Built-in continuum elements CPS3, CPS4, CPS4R, CPS6, CPS8 and CPS8R, CPE likewise, C3D4, C3D8, C3D8R, C3D20 and
-!> C3D20R, as a procedure with the arguments of UELMAT.
+!> Built-in continuum elements CPS3, CPS4, CPS4R, CPS6, CPS8 and CPS8R, CPE and CAX (axisymmetric) likewise, C3D4, C3D8,
+!> C3D8R, C3D20 and C3D20R, as a procedure with the arguments of UELMAT.
 !>
-!> JPROPS(1) is the number of integration points. CPE4 and C3D8 replace the volume strain of the points by its mean over
-!> the element, as Abaqus does. Elements of one point have the uniform strain, and with four or eight nodes hourglass
-!> stiffness: PROPS(3) times volume, sum of the squared gradients of the shape functions, and hourglass displacement.
-!> PROPS(1) is the thickness, PROPS(2) the density.
+!> JPROPS(1) is the number of integration points, JPROPS(2) that of direct strains (host_kinematics). CPE4, CAX4 and C3D8
+!> replace the volume strain of the points by its mean over the element, as Abaqus does. Elements of one point have the
+!> uniform strain, and with four or eight nodes hourglass stiffness: PROPS(3) times volume, sum of the squared gradients
+!> of the shape functions in the plane or in space, and hourglass displacement. PROPS(1) is the thickness, of axisymmetric
+!> elements the angle 2 pi; PROPS(2) is the density.
 !>
 !> Large displacements: Cauchy stress, turned and extended increment by increment with the strain and the rotation at the
 !> middle of the increment (Jaumann rate; Hughes and Winget). The tangent leaves out the change of the volume and of the
@@ -24,7 +25,7 @@ module host_solid
   use host_kinematics, only: average_volume_strain, gradients, mean_gradients, point_position, rotated, rotation_of, &
                              strain_matrix
   use host_materials, only: elastic_energy, find_material, has_fields, material_t, set_constants, stress_update, thickness_strain
-  use host_shape, only: hourglass_shapes, rule_of, rule_t
+  use host_shape, only: hourglass_shapes, radius_of, rule_of, rule_t
   use host_usdfld, only: call_usdfld
   implicit none (type, external)
   private
@@ -43,10 +44,11 @@ contains
                 params(*), adlmag(*), predef(*), ddlmag(*), pnewdt, period
     type(material_t), pointer :: material
     real(dp) :: mass(ndofel, ndofel), old(ndofel, 2)
-    integer :: dim, nodes, points, modes, first, last, n
+    integer :: dim, direct, nodes, points, modes, first, last, n
     dim = mcrd
     nodes = nnode
     points = jprops(1)
+    direct = jprops(2)
     n = ndofel
     modes = hourglass_modes(dim, nodes, points)
     material => find_material(materiallib)
@@ -55,13 +57,13 @@ contains
     old = 0
     if (nsvars >= last) old = reshape(svars(first:last), [n, 2])
     if (any(lflags(3) == [4, 6]) .or. is_dynamic(lflags(1))) then
-      call mass_matrix(dim, nodes, props(2)*merge(props(1), 1.0_dp, dim == 2), coords, mass)
+      call mass_matrix(dim, nodes, direct > dim, props(2)*merge(props(1), 1.0_dp, dim == 2), coords, mass)
     end if
     rhs(1:n*nrhs) = 0
     amatrx(1:n*n) = 0
     if (lflags(3) /= 3 .and. lflags(3) /= 4) then
-      call integrate(dim, nodes, points, modes, lflags(2) /= 0, material, props(1), props(3), coords, int(npredf), predef, u, &
-                     du, rhs, amatrx, svars, svars(points*values_of_point(dim) + 1), energy)
+      call integrate(dim, direct, direct + 2*dim - 3, nodes, points, modes, lflags(2) /= 0, material, props(1), props(3), &
+                     coords, int(npredf), predef, u, du, rhs, amatrx, svars, svars(points*values_of_point(dim) + 1), energy)
     end if
     call respond(n, lflags, params, dtime, v, a, mass, old, rhs, amatrx, energy(1))
     if (nsvars >= last) svars(first:last) = reshape(old, [2*n])
@@ -81,29 +83,28 @@ contains
   end function hourglass_modes
 
   !> Force, tangent, state and energies.
-  subroutine integrate(dim, nodes, points, modes, finite, material, thickness, hourglass, x, fields, predef, u, du, force, &
-                       stiffness, svars, hourglass_state, energy)
-    integer, intent(in) :: dim, nodes, points, modes, fields
+  subroutine integrate(dim, direct, strains, nodes, points, modes, finite, material, thickness, hourglass, x, fields, predef, &
+                       u, du, force, stiffness, svars, hourglass_state, energy)
+    integer, intent(in) :: dim, direct, strains, nodes, points, modes, fields
     logical, intent(in) :: finite
     type(material_t), intent(inout) :: material
     real(dp), intent(in) :: thickness, hourglass, x(dim, nodes), predef(2, fields, nodes), u(dim, nodes), du(dim, nodes)
     real(dp), intent(inout) :: force(dim*nodes), stiffness(dim*nodes, dim*nodes), svars(values_of_point(dim), points)
     real(dp), intent(inout) :: hourglass_state(dim, modes), energy(8)
-    real(dp) :: now(dim, nodes), g(nodes, dim, points), b(dim*nodes, 3*(dim - 1), points), volume(points)
-    real(dp) :: g_mid(nodes, dim, points), b_mid(dim*nodes, 3*(dim - 1), points), volume_mid(points), weight, elastic, work
-    real(dp) :: strain(3*(dim - 1)), stress(3*(dim - 1)), modulus(3*(dim - 1), 3*(dim - 1)), thermal(2)
+    real(dp) :: now(dim, nodes), g(nodes, direct, points), b(dim*nodes, strains, points), volume(points)
+    real(dp) :: g_mid(nodes, direct, points), b_mid(dim*nodes, strains, points), volume_mid(points), weight, elastic, work
+    real(dp) :: strain(strains), stress(strains), modulus(strains, strains), thermal(2)
     logical :: averaged
     integer :: p
     ! full integration of elements with straight edges locks where volume is kept, but not in plane stress
     averaged = points > 1 .and. nodes == 2**dim .and. material%ntens /= 3
     now = x
     if (finite) now = x + u
-    call all_gradients(dim, nodes, points, averaged, now, g, b, volume)
-    if (finite) call all_gradients(dim, nodes, points, averaged, now - 0.5_dp*du, g_mid, b_mid, volume_mid)
+    call all_gradients(dim, direct, strains, nodes, points, averaged, now, g, b, volume)
+    if (finite) call all_gradients(dim, direct, strains, nodes, points, averaged, now - 0.5_dp*du, g_mid, b_mid, volume_mid)
     elastic = 0
     work = energy(2) + energy(4)
-    ! a line across the element, half of it where there are nodes in the middle of the edges
-    if (has_fields(material)) current%length = sum(volume)**(1.0_dp/dim)/merge(2, 1, nodes > 2**dim)
+    if (has_fields(material)) current%length = size_of(dim, direct, nodes, points, now, volume)
     current%finite = finite
     thermal = 0
     do p = 1, points
@@ -117,30 +118,46 @@ contains
       if (allocated(material%dependence)) call set_constants(material)
       if (abs(material%expansion) > 0) thermal = thermal_strain(dim, nodes, points, p, fields, material%expansion, predef)
       if (finite) then
-        current%rotation = rotation_of(gradient_of(dim, nodes, du, g_mid(:, :, p)))
-        call find_strain(dim*nodes, 3*(dim - 1), b_mid(:, :, p), du, strain)
-        if (allocated(material%user)) call set_deformation(dim, nodes, points, p, averaged, x, u, du)
+        current%rotation = rotation_of(gradient_of(dim, direct, nodes, du, g_mid(:, :, p)))
+        call find_strain(dim*nodes, strains, b_mid(:, :, p), du, strain)
+        if (allocated(material%user)) call set_deformation(dim, direct, nodes, points, p, averaged, x, u, du)
       else
-        call find_strain(dim*nodes, 3*(dim - 1), b(:, :, p), u, strain)
+        call find_strain(dim*nodes, strains, b(:, :, p), u, strain)
       end if
       weight = volume(p)*merge(thickness, 1.0_dp, dim == 2)
-      call point_update(dim, material, int(p, i4), weight, finite, strain, thermal, svars(:, p), stress, modulus, elastic, work)
+      call point_update(dim, strains, material, int(p, i4), weight, finite, strain, thermal, svars(:, p), stress, modulus, &
+                        elastic, work)
       if (finite .and. material%ntens == 3) weight = weight*exp(svars(3, p))
-      if (finite) call add_geometric(dim, nodes, g(:, :, p), stress, weight, modulus, stiffness)
-      if (dim == 2) then
+      if (finite) call add_geometric(dim, direct, strains, nodes, g(:, :, p), stress, weight, modulus, stiffness)
+      select case (strains)
+      case (3)
         call add_plane_point(2*nodes, b(:, :, p), weight*stress, weight*modulus, force, stiffness)
-      else
+      case (4)
+        call add_axisymmetric_point(2*nodes, b(:, :, p), weight*stress, weight*modulus, force, stiffness)
+      case default
         call add_space_point(3*nodes, b(:, :, p), weight*stress, weight*modulus, force, stiffness)
-      end if
+      end select
     end do
     if (allocated(current%fields)) deallocate (current%fields)
     energy(2) = elastic
     energy(4) = work - elastic
     if (modes > 0) then
-      call resist(dim, nodes, modes, hourglass*volume(1)*merge(thickness, 1.0_dp, dim == 2), finite, now, u, du, g(:, :, 1), &
+      call resist(dim, nodes, modes, hourglass*volume(1)*merge(thickness, 1.0_dp, dim == 2), finite, now, u, du, g(:, :dim, 1), &
                   hourglass_state, force, stiffness, energy(6))
     end if
   end subroutine integrate
+
+  !> A line across the element in its plane or in space, half of it where there are nodes in the middle of the edges.
+  function size_of(dim, direct, nodes, points, x, volume) result(length)
+    integer, intent(in) :: dim, direct, nodes, points
+    real(dp), intent(in) :: x(dim, nodes), volume(points)
+    real(dp) :: length
+    type(rule_t), pointer :: rule
+    integer :: p
+    rule => rule_of(dim, nodes, points)
+    length = sum([(volume(p)/radius_of(rule, p, direct > dim, x), p=1, points)])**(1.0_dp/dim)
+    if (nodes > 2**dim) length = length/2
+  end function size_of
 
   !> Temperature and field variables of a point; of the latter as many as the material has, at least.
   subroutine interpolate(dim, nodes, points, point, fields, predef, least)
@@ -180,50 +197,51 @@ contains
   end subroutine find_strain
 
   !> Gradients, strain matrices and volumes of all points.
-  subroutine all_gradients(dim, nodes, points, averaged, x, g, b, volume)
-    integer, intent(in) :: dim, nodes, points
+  subroutine all_gradients(dim, direct, strains, nodes, points, averaged, x, g, b, volume)
+    integer, intent(in) :: dim, direct, strains, nodes, points
     logical, intent(in) :: averaged
     real(dp), intent(in) :: x(dim, nodes)
-    real(dp), intent(out) :: g(nodes, dim, points), b(dim*nodes, 3*(dim - 1), points), volume(points)
+    real(dp), intent(out) :: g(nodes, direct, points), b(dim*nodes, strains, points), volume(points)
     integer :: p
     do p = 1, points
       if (points == 1 .and. nodes == 2**dim) then
-        call mean_gradients(dim, x, g(:, :, p), volume(p))
+        call mean_gradients(dim, direct, x, g(:, :, p), volume(p))
       else
-        call gradients(dim, nodes, points, p, x, g(:, :, p), volume(p))
+        call gradients(dim, direct, nodes, points, p, x, g(:, :, p), volume(p))
       end if
-      call strain_matrix(dim, nodes, g(:, :, p), b(:, :, p))
+      call strain_matrix(dim, direct, nodes, g(:, :, p), b(:, :, p))
     end do
-    if (averaged) call average_volume_strain(dim, dim*nodes, points, volume, b)
+    if (averaged) call average_volume_strain(direct, dim*nodes, strains, points, volume, b)
   end subroutine all_gradients
 
   !> Gradient (3, 3) of displacements.
-  pure function gradient_of(dim, nodes, u, g) result(gradient)
-    integer, intent(in) :: dim, nodes
-    real(dp), intent(in) :: u(dim, nodes), g(nodes, dim)
+  pure function gradient_of(dim, direct, nodes, u, g) result(gradient)
+    integer, intent(in) :: dim, direct, nodes
+    real(dp), intent(in) :: u(dim, nodes), g(nodes, direct)
     real(dp) :: gradient(3, 3)
     gradient = 0
-    gradient(:dim, :dim) = matmul(u, g)
+    gradient(:dim, :dim) = matmul(u, g(:, :dim))
+    if (direct > dim) gradient(3, 3) = dot_product(u(1, :), g(:, 3))
   end function gradient_of
 
   !> Deformation gradients at both ends of the increment, for UMAT; with the mean change of volume where it is averaged.
-  subroutine set_deformation(dim, nodes, points, point, averaged, x, u, du)
-    integer, intent(in) :: dim, nodes, points, point
+  subroutine set_deformation(dim, direct, nodes, points, point, averaged, x, u, du)
+    integer, intent(in) :: dim, direct, nodes, points, point
     logical, intent(in) :: averaged
     real(dp), intent(in) :: x(dim, nodes), u(dim, nodes), du(dim, nodes)
-    real(dp) :: g(nodes, dim), volume, f(3, 3, 2), total, swept(2)
+    real(dp) :: g(nodes, direct), volume, f(3, 3, 2), total, swept(2)
     integer :: p, k
     total = 0
     swept = 0
     do p = 1, points
       if (.not. (averaged .or. p == point)) cycle
       if (points == 1 .and. nodes == 2**dim) then
-        call mean_gradients(dim, x, g, volume)
+        call mean_gradients(dim, direct, x, g, volume)
       else
-        call gradients(dim, nodes, points, p, x, g, volume)
+        call gradients(dim, direct, nodes, points, p, x, g, volume)
       end if
-      f(:, :, 1) = identity + gradient_of(dim, nodes, u - du, g)
-      f(:, :, 2) = identity + gradient_of(dim, nodes, u, g)
+      f(:, :, 1) = identity + gradient_of(dim, direct, nodes, u - du, g)
+      f(:, :, 2) = identity + gradient_of(dim, direct, nodes, u, g)
       total = total + volume
       do k = 1, 2
         swept(k) = swept(k) + volume*determinant(f(:, :, k))
@@ -233,7 +251,7 @@ contains
     if (.not. averaged) return
     do k = 1, 2
       f(:, :, k) = current%deformation(:, :, k)
-      current%deformation(:dim, :dim, k) = f(:dim, :dim, k)*(swept(k)/total/determinant(f(:, :, k)))**(1.0_dp/dim)
+      current%deformation(:direct, :direct, k) = f(:direct, :direct, k)*(swept(k)/total/determinant(f(:, :, k)))**(1.0_dp/direct)
     end do
   end subroutine set_deformation
 
@@ -245,24 +263,23 @@ contains
 
   !> Stress and tangent of a point (11, 22, 12 in the plane); its state and its part of the energies. strain is the total
   !> one in small displacements, that of the increment in large ones; thermal: at the start and end of the increment.
-  subroutine point_update(dim, material, point, volume, finite, strain, thermal, state, stress, modulus, elastic, work)
-    integer, intent(in) :: dim
+  subroutine point_update(dim, m, material, point, volume, finite, strain, thermal, state, stress, modulus, elastic, work)
+    integer, intent(in) :: dim, m     !< m: number of strains
     type(material_t), intent(in) :: material
     integer(i4), intent(in) :: point
     logical, intent(in) :: finite
-    real(dp), intent(in) :: volume, strain(3*(dim - 1)), thermal(2)
+    real(dp), intent(in) :: volume, strain(m), thermal(2)
     real(dp), intent(inout) :: state(values_of_point(dim)), elastic, work
-    real(dp), intent(out) :: stress(3*(dim - 1)), modulus(3*(dim - 1), 3*(dim - 1))
+    real(dp), intent(out) :: stress(m), modulus(m, m)
     integer, parameter :: plane(3) = [1, 2, 4], space(6) = [1, 2, 3, 4, 5, 6]
-    integer :: j, k, n, m, of_material(6), of_state(6), direct
+    integer :: j, k, n, of_material(6), of_state(6), direct
     real(dp) :: total(material%ntens), t(material%ntens), tangent(material%ntens, material%ntens)
     real(dp) :: e_old(values_of_point(dim)/2), t_old(values_of_point(dim)/2), e_new(values_of_point(dim)/2), &
                 t_new(values_of_point(dim)/2)
     logical :: valid
     n = values_of_point(dim)/2
-    m = 3*(dim - 1)
     of_state = space
-    if (dim == 2) of_state(:3) = plane
+    if (m == 3) of_state(:3) = plane
     of_material = of_state
     if (material%ntens == 3) of_material(3) = 3
     e_old = state(:n)
@@ -305,7 +322,7 @@ contains
   end subroutine point_update
 
   !> Force and tangent of a point in the plane; its volume is in stress and modulus. Sizes that are known here make this
-  !> and the next, which are most of the work, quick.
+  !> and the next two, which are most of the work, quick.
   pure subroutine add_plane_point(n, b, stress, modulus, force, stiffness)
     integer, intent(in) :: n
     real(dp), intent(in) :: b(n, 3), stress(3), modulus(3, 3)
@@ -320,6 +337,22 @@ contains
       end do
     end do
   end subroutine add_plane_point
+
+  !> The same in an axisymmetric element.
+  pure subroutine add_axisymmetric_point(n, b, stress, modulus, force, stiffness)
+    integer, intent(in) :: n
+    real(dp), intent(in) :: b(n, 4), stress(4), modulus(4, 4)
+    real(dp), intent(inout) :: force(n), stiffness(n, n)
+    real(dp) :: db(4)
+    integer :: i, j
+    do j = 1, n
+      force(j) = force(j) + b(j, 1)*stress(1) + b(j, 2)*stress(2) + b(j, 3)*stress(3) + b(j, 4)*stress(4)
+      db = modulus(:, 1)*b(j, 1) + modulus(:, 2)*b(j, 2) + modulus(:, 3)*b(j, 3) + modulus(:, 4)*b(j, 4)
+      do i = 1, n
+        stiffness(i, j) = stiffness(i, j) + b(i, 1)*db(1) + b(i, 2)*db(2) + b(i, 3)*db(3) + b(i, 4)*db(4)
+      end do
+    end do
+  end subroutine add_axisymmetric_point
 
   !> The same in space.
   pure subroutine add_space_point(n, b, stress, modulus, force, stiffness)
@@ -343,34 +376,37 @@ contains
 
   !> Change of the force where a stress that turns with the material keeps its size: sigma : (grad dv^T grad du) to the
   !> stiffness, - 2 sigma : (dD dD) to the modulus.
-  pure subroutine add_geometric(dim, nodes, g, stress, volume, modulus, stiffness)
-    integer, intent(in) :: dim, nodes
-    real(dp), intent(in) :: g(nodes, dim), stress(3*(dim - 1)), volume
-    real(dp), intent(inout) :: modulus(3*(dim - 1), 3*(dim - 1)), stiffness(dim*nodes, dim*nodes)
+  pure subroutine add_geometric(dim, direct, m, nodes, g, stress, volume, modulus, stiffness)
+    integer, intent(in) :: dim, direct, m, nodes      !< m: number of strains
+    real(dp), intent(in) :: g(nodes, direct), stress(m), volume
+    real(dp), intent(inout) :: modulus(m, m), stiffness(dim*nodes, dim*nodes)
     integer, parameter :: first(3) = [1, 1, 2], second(3) = [2, 3, 3]
-    real(dp) :: full(dim, dim), basis(dim, dim, 3*(dim - 1)), between(nodes, nodes)
-    integer :: i, j, m
-    m = 3*(dim - 1)
+    real(dp) :: full(direct, direct), basis(direct, direct, m), between(nodes, nodes)
+    integer :: i, j
     basis = 0
     full = 0
-    do i = 1, dim
+    do i = 1, direct
       basis(i, i, i) = 1
       full(i, i) = stress(i)
     end do
-    do i = dim + 1, m
-      basis(first(i - dim), second(i - dim), i) = 0.5_dp
-      basis(second(i - dim), first(i - dim), i) = 0.5_dp
-      full(first(i - dim), second(i - dim)) = stress(i)
-      full(second(i - dim), first(i - dim)) = stress(i)
+    do i = direct + 1, m
+      basis(first(i - direct), second(i - direct), i) = 0.5_dp
+      basis(second(i - direct), first(i - direct), i) = 0.5_dp
+      full(first(i - direct), second(i - direct)) = stress(i)
+      full(second(i - direct), first(i - direct)) = stress(i)
     end do
     do j = 1, m
       do i = 1, m
         modulus(i, j) = modulus(i, j) - 2*sum(transpose(basis(:, :, i))*matmul(full, basis(:, :, j)))
       end do
     end do
-    between = volume*matmul(g, matmul(full, transpose(g)))
+    between = volume*matmul(g(:, :dim), matmul(full(:dim, :dim), transpose(g(:, :dim))))
     do i = 1, dim
       stiffness(i::dim, i::dim) = stiffness(i::dim, i::dim) + between
+    end do
+    if (direct == dim) return
+    do i = 1, nodes
+      stiffness(1::2, 2*i - 1) = stiffness(1::2, 2*i - 1) + volume*full(3, 3)*g(i, 3)*g(:, 3)
     end do
   end subroutine add_geometric
 

@@ -17,9 +17,16 @@ from harness.model.steps import DistributedLoad, ElementLoad, Load, LoadKind, Lo
 
 Direction = tuple[float, float, float]
 _USER_LOAD = re.compile(r"U([1-9]\d{0,3})(NU)?")
-_BY_DLOAD = re.compile(r"(P\d|B[XYZ])NU")
+_BY_DLOAD = re.compile(r"(P\d|B[XYZR])NU")
 _NO_DIRECTION: Direction = (0.0, 0.0, 0.0)
-_BODY: dict[str, Direction] = {"BX": (1.0, 0.0, 0.0), "BY": (0.0, 1.0, 0.0), "BZ": (0.0, 0.0, 1.0)}
+_PLANE_BODY: dict[str, Direction] = {"BX": (1.0, 0.0, 0.0), "BY": (0.0, 1.0, 0.0)}
+_BODY: dict[str, dict[str, Direction]] = {
+    "CPS": _PLANE_BODY,
+    "CPE": _PLANE_BODY,
+    "CAX": {"BR": (1.0, 0.0, 0.0), "BZ": (0.0, 1.0, 0.0)},
+    "C3D": _PLANE_BODY | {"BZ": (0.0, 0.0, 1.0)},
+}
+"""Directions of body forces by the beginnings of the names of continuum elements."""
 _SURFACE = ("P", "TRVEC", "TRSHR")
 
 
@@ -34,10 +41,13 @@ def read_distributed(block: Block, prescription: Prescription) -> list[Distribut
         match = _USER_LOAD.fullmatch(label)
         if match is None:
             by_user = _BY_DLOAD.fullmatch(label) is not None
-            kind, face, direction = _volume_load(row, label.removesuffix("NU") if by_user else label)
-            jltyp = _jltyp(face, direction) if by_user else 0
+            given = label.removesuffix("NU") if by_user else label
+            kind, face, direction = _volume_load(row, given)
             for group, positions in prescription.surfaces.by_group(elements):
                 _check_solid(row, label, group)
+                if kind is LoadKind.BODY:
+                    direction = _body_direction(row, given, group)
+                jltyp = _jltyp(face, direction) if by_user else 0
                 nodes = face_nodes(group, face, row.source, block.name) if face else ()
                 kept = LoadType(kind, nodes, direction, follows=kind is LoadKind.PRESSURE, jltyp=jltyp)
                 found.append(ElementLoad(positions, kept, magnitude, amplitude, row.source, imaginary))
@@ -57,17 +67,24 @@ def _jltyp(face: str, direction: Direction) -> int:
 
 
 def _volume_load(row: Row, label: str) -> tuple[LoadKind, str, Direction]:
-    """Kind, face ('' for a volume) and direction of a load type of *DLOAD."""
+    """Kind, face ('' for a volume) and direction of a load type of *DLOAD; body forces have it by element."""
     match = re.fullmatch(r"P(\d)", label)
-    if match is None and label != "GRAV" and label not in _BODY:
-        supported = "Un and UnNU on user elements; Pn, BX, BY, BZ, those with NU, and GRAV on built-in solids"
+    if match is None and label != "GRAV" and not any(label in body for body in _BODY.values()):
+        supported = "Un and UnNU on user elements; Pn, BX, BY, BZ, BR, those with NU, and GRAV on built-in solids"
         raise row.error(f"load type {label} is not supported (supported: {supported})")
     row.at_most(6 if label == "GRAV" else 3)
     if label == "GRAV":
         return LoadKind.GRAVITY, "", _direction(row, label)
     if match is None:
-        return LoadKind.BODY, "", _BODY[label]
+        return LoadKind.BODY, "", _NO_DIRECTION
     return LoadKind.PRESSURE, f"S{match[1]}", _NO_DIRECTION
+
+
+def _body_direction(row: Row, label: str, group: ElementGroup) -> Direction:
+    known = _BODY[group.type[:3]]
+    if label not in known:
+        raise row.error(f"load type {label} on elements of type {group.type}, whose body forces are {', '.join(known)}")
+    return known[label]
 
 
 def read_surface_loads(block: Block, prescription: Prescription) -> list[ElementLoad]:
@@ -103,7 +120,7 @@ def _direction(row: Row, label: str) -> Direction:
 
 
 def _check_solid(row: Row, label: str, group: ElementGroup) -> None:
-    if group.definition is not None or not group.type.startswith(("CPS", "CPE", "C3D")):
+    if group.definition is not None or not group.type.startswith(tuple(_BODY)):
         raise row.error(f"load type {label} on elements of type {group.type}, which are no built-in continuum elements")
 
 

@@ -118,8 +118,8 @@ DISTRIBUTED = (
                 "REGION TYPE",
             ),
         ),
-        "element or set, Un or UnNU (user elements), Pn, BX, BY, BZ or GRAV (built-in continuum elements; with NU, "
-        "as in P2NU, by DLOAD), magnitude; GRAV: direction",
+        "element or set, Un or UnNU (user elements), Pn, BX, BY, BZ, BR (CAX) or GRAV (built-in continuum elements; "
+        "with NU, as in P2NU, by DLOAD), magnitude; GRAV: direction",
     ),
     Keyword(
         "DSLOAD",

@@ -14,9 +14,11 @@ from harness.errors import DeckError, Source
 from harness.model.mesh import ElementGroup
 from harness.model.properties import SpringSection, UserElement
 
+PLANE = ("CPS", "CPE", "CAX")
+"""Beginnings of the names of continuum elements that lie in a plane, CAX around direction 2."""
 _PLANE_NODES = {"3": 3, "4": 4, "4R": 4, "6": 6, "8": 8, "8R": 8}
 _SOLID_NODES = {
-    **{f"{kind}{name}": nodes for kind in ("CPS", "CPE") for name, nodes in _PLANE_NODES.items()},
+    **{f"{kind}{name}": nodes for kind in PLANE for name, nodes in _PLANE_NODES.items()},
     **{"C3D4": 4, "C3D8": 8, "C3D8R": 8, "C3D20": 20, "C3D20R": 20},
 }
 _COUPLED_NODES = {f"{name}T": nodes for name, nodes in _SOLID_NODES.items() if nodes != 6}
@@ -62,13 +64,13 @@ def dofs_of(name: str, definition: UserElement | None) -> set[int]:
     """Dofs of an element type."""
     if definition is not None:
         return {dof for _, dof in definition.dofs}
-    displacements = {1, 2} if name.startswith(("CPS", "CPE", "COH2D", "T2D")) else {1, 2, 3}
+    displacements = {1, 2} if name.startswith((*PLANE, "COH2D", "T2D")) else {1, 2, 3}
     return displacements | {11} if name in _COUPLED_NODES else displacements
 
 
 def _corners(name: str) -> int:
     """Corners of a built-in element, whose nodes come first."""
-    return min(BUILT_IN_NODES[name], 4 if name.startswith(("CPS", "CPE")) else 8)
+    return min(BUILT_IN_NODES[name], 4 if name.startswith(PLANE) else 8)
 
 
 def dofs_by_node(count: int, groups: Sequence[ElementGroup]) -> list[set[int]]:

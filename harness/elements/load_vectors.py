@@ -9,6 +9,7 @@ from typing import Final
 
 import numpy as np
 
+from harness.elements.solid import section_depth, solid_of
 from harness.errors import DeckError
 from harness.model.arrays import FloatArray, IntArray
 from harness.model.mesh import ElementGroup
@@ -39,15 +40,16 @@ def unit_forces(
     """
     section = group.section
     assert isinstance(section, SolidSection)
-    dimension = 3 if group.type.startswith("C3D") else 2
+    kind = solid_of(group)
+    dimension = kind.dimension
     local = list(load.type.face) or list(range(group.nodes.shape[1]))
     nodes = group.nodes[rows]
     x = coordinates[nodes[:, local], :dimension]
     along = dimension - 1 if load.type.face else dimension
-    shapes, derivatives, weights = _rule(along, len(local))
+    shapes, derivatives, weights = _rule(along, len(local), axisymmetric=kind.axisymmetric)
     # (elements, points, dimension, along) derivatives of the position
     tangents = np.einsum("mkd,pka->mpda", x, derivatives)
-    scale = section.thickness if dimension == 2 else 1.0
+    scale = section_depth(group, section) if dimension == 2 else 1.0
     if load.type.kind is LoadKind.GRAVITY:
         if not section.material.density:
             raise DeckError(load.source, f"GRAV needs *DENSITY, which material {section.material.name} does not have")
@@ -57,8 +59,10 @@ def unit_forces(
     else:
         centre = coordinates[nodes, :dimension].mean(axis=1)
         force = _traction(load, _outward(tangents, x.mean(axis=1) - centre))
-    forces = scale * np.einsum("p,pk,mpd->mpkd", weights, shapes, force)
-    return forces, np.einsum("pk,mkd->mpd", shapes, coordinates[nodes[:, local]])
+    places = np.einsum("pk,mkd->mpd", shapes, coordinates[nodes[:, local]])
+    if kind.axisymmetric:
+        force = places[:, :, :1] * force
+    return scale * np.einsum("p,pk,mpd->mpkd", weights, shapes, force), places
 
 
 def _traction(load: ElementLoad, area: FloatArray) -> FloatArray:
@@ -88,13 +92,16 @@ def _outward(tangents: FloatArray, outside: FloatArray) -> FloatArray:
     return outward
 
 
-def _rule(dimension: int, nodes: int) -> tuple[FloatArray, FloatArray, FloatArray]:
-    """Shape functions (points, nodes), derivatives (points, nodes, dimension), weights of a line, face or volume."""
+def _rule(dimension: int, nodes: int, *, axisymmetric: bool) -> tuple[FloatArray, FloatArray, FloatArray]:
+    """Shape functions (points, nodes), derivatives (points, nodes, dimension), weights of a line, face or volume.
+
+    Axisymmetric triangles of 3 nodes have points for a force that varies as the radius does.
+    """
+    if dimension == 2 and (nodes == 6 or (nodes == 3 and axisymmetric)):
+        return _triangle(nodes)
     if nodes == dimension + 1 and dimension > 1:
         derivatives = np.vstack([-np.ones(dimension), np.eye(dimension)])
         return np.full((1, nodes), 1.0 / nodes), derivatives[None], np.array([1.0 / (2 if dimension == 2 else 6)])
-    if dimension == 2 and nodes == 6:
-        return _triangle()
     middle = nodes > 2**dimension
     places, line = np.polynomial.legendre.leggauss(3 if middle else 2)
     # counted along the first direction first
@@ -104,15 +111,18 @@ def _rule(dimension: int, nodes: int) -> tuple[FloatArray, FloatArray, FloatArra
     return shapes, derivatives, weights
 
 
-def _triangle() -> tuple[FloatArray, FloatArray, FloatArray]:
-    """Quadratic functions at three points, for which their integrals are exact."""
+def _triangle(nodes: int) -> tuple[FloatArray, FloatArray, FloatArray]:
+    """Linear or quadratic functions at three points, for which integrals of quadratic ones are exact."""
     slope = np.array([[-1.0, -1.0], [1.0, 0.0], [0.0, 1.0]])
     area = np.full((3, 3), 1 / 6) + np.eye(3) / 2
+    weights = np.full(3, 1 / 6)
+    if nodes == 3:
+        return area, np.tile(slope, (3, 1, 1)), weights
     following = np.roll(area, -1, axis=1)
     shapes = np.hstack([area * (2 * area - 1), 4 * area * following])
     corners = (4 * area - 1)[:, :, None] * slope
     middles = 4 * (area[:, :, None] * np.roll(slope, -1, axis=0) + following[:, :, None] * slope)
-    return shapes, np.concatenate([corners, middles], axis=1), np.full(3, 1 / 6)
+    return shapes, np.concatenate([corners, middles], axis=1), weights
 
 
 def _serendipity(nodes: FloatArray, points: FloatArray, *, middle: bool) -> tuple[FloatArray, FloatArray]:

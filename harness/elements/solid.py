@@ -30,19 +30,31 @@ from harness.usersub import Library, _binding
 HOURGLASS_FRACTION: Final = 0.005
 """Hourglass stiffness over the shear modulus (Abaqus Analysis User's Guide, Section controls)."""
 
+SMALLEST_RADIUS: Final = 1e-9
+"""Radius, over the largest one of a group, below which a node is on the axis."""
+
 
 @dataclass(frozen=True, slots=True)
 class Solid:
-    """A built-in element type: nodes, integration points, state of stress."""
+    """A built-in element type: nodes, integration points, state of stress.
+
+    axisymmetric elements have the stresses of plane strain, 33 around the axis; direction 1 is the radius.
+    """
 
     nodes: int
     points: int
     tensor: Tensor
+    axisymmetric: bool = False
 
     @property
     def dimension(self) -> int:
         """2 or 3."""
         return 3 if self.tensor is Tensor.SOLID else 2
+
+    @property
+    def direct(self) -> int:
+        """Direct strains by the displacements: 2 in the plane, 3 in space and where there is one around the axis."""
+        return 3 if self.axisymmetric else self.dimension
 
     @property
     def corners(self) -> int:
@@ -61,6 +73,7 @@ _PLANE = {"3": (3, 1), "4": (4, 4), "4R": (4, 1), "6": (6, 3), "8": (8, 9), "8R"
 SOLIDS: Final = {
     **{f"CPS{name}": Solid(*counts, Tensor.PLANE_STRESS) for name, counts in _PLANE.items()},
     **{f"CPE{name}": Solid(*counts, Tensor.PLANE_STRAIN) for name, counts in _PLANE.items()},
+    **{f"CAX{name}": Solid(*counts, Tensor.PLANE_STRAIN, axisymmetric=True) for name, counts in _PLANE.items()},
     "C3D4": Solid(4, 1, Tensor.SOLID),
     "C3D8": Solid(8, 8, Tensor.SOLID),
     "C3D8R": Solid(8, 1, Tensor.SOLID),
@@ -80,9 +93,16 @@ def solid_of(group: ElementGroup) -> Solid:
     return (SOLIDS | COUPLED)[group.type]
 
 
+def section_depth(group: ElementGroup, section: SolidSection) -> float:
+    """What makes a volume of an area: the thickness, in axisymmetric elements 2 pi, which goes with the radius."""
+    return 2 * np.pi if solid_of(group).axisymmetric else section.thickness
+
+
 def solid_procedure(model: Model, group: ElementGroup, section: SolidSection, library: Library) -> Procedure:
     """What the driver calls for a group of solids. Raises DeckError."""
     kind, material = solid_of(group), section.material
+    if kind.axisymmetric:
+        _check_radii(model, group)
     dynamic = next((step for step in model.steps if isinstance(step.procedure, Dynamic)), None)
     if dynamic is not None and not material.density:
         message = f"material {material.name} has no *DENSITY, which elements of type {group.type} need in *DYNAMIC"
@@ -105,8 +125,8 @@ def solid_procedure(model: Model, group: ElementGroup, section: SolidSection, li
         svars=kind.points * 2 * len(_COMPONENTS[kind.dimension]) + hidden,
         hidden=hidden,
         density=1,
-        props=np.array([section.thickness, material.density, hourglass]),
-        jprops=np.array([kind.points]),
+        props=np.array([section_depth(group, section), material.density, hourglass]),
+        jprops=np.array([kind.points, kind.direct]),
         material=number,
         tensor=int(kind.tensor),
         history=history_of(material, kind.points),
@@ -124,6 +144,19 @@ def solid_variables(group: ElementGroup, procedure: Procedure) -> PointVariables
         names = *names, *_numbered("UVARM", procedure.uvarm.count)
     outline = tuple(range(kind.nodes)) if kind.dimension == 2 else ()
     return PointVariables("continuum", names, kind.points, outline=outline)
+
+
+def _check_radii(model: Model, group: ElementGroup) -> None:
+    """Nodes of axisymmetric elements are on one side of the axis, or within rounding on it."""
+    radii = model.mesh.coordinates[group.nodes, 0]
+    wrong = np.argwhere(radii < -SMALLEST_RADIUS * abs(radii).max(initial=0.0))
+    if len(wrong):
+        row, column = wrong[0]
+        label = model.mesh.labels[group.nodes[row, column]]
+        message = (
+            f"element {group.labels[row]} (type {group.type}): node {label} is at the radius {radii[row, column]:g}"
+        )
+        raise DeckError(group.source, f"{message}; coordinate 1 of axisymmetric elements must not be negative")
 
 
 def history_of(material: Material, points: int) -> tuple[int, int]:

@@ -8,7 +8,7 @@ from itertools import pairwise
 import numpy as np
 import pytest
 
-from harness.errors import Source
+from harness.errors import KernelError, Source
 from harness.model.mesh import ElementGroup
 from harness.model.properties import Elastic, ElasticType, Material, Plastic, SolidSection, UserMaterial
 
@@ -16,7 +16,10 @@ SOURCE = Source("test.inp", 1)
 E = 1000.0
 SQUARE = np.array([[0.0, 0, 0], [1, 0, 0], [1.2, 0.9, 0], [0.1, 1, 0]])
 CUBE = np.array([[0.0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0], [0, 0, 1], [1, 0, 1], [1, 1, 1], [0, 1, 1]])
+EIGHT = np.vstack([SQUARE, (SQUARE + np.roll(SQUARE, -1, axis=0)) / 2])
 NODES = {"CPS3": SQUARE[:3], "CPE3": SQUARE[:3], "C3D4": CUBE[[0, 1, 3, 4]], "C3D8": CUBE, "C3D8R": CUBE}
+NODES |= {"CAX3": SQUARE[:3], "CAX8": EIGHT, "CAX8R": EIGHT}
+AXISYMMETRIC = ["CAX3", "CAX4", "CAX4R", "CAX8", "CAX8R"]
 TYPES = ["CPS3", "CPS4", "CPS4R", "CPE3", "CPE4", "CPE4R", "C3D4", "C3D8", "C3D8R"]
 
 
@@ -114,18 +117,47 @@ def test_stretch_in_increments(element, element_type):
     assert -(forces * rate).sum() == pytest.approx(E * strain * volume, rel=1e-10)
 
 
-@pytest.mark.parametrize("element_type", ["CPE3", "CPE4", "CPE4R", "C3D4", "C3D8", "C3D8R"])
+@pytest.mark.parametrize("element_type", AXISYMMETRIC)
+@pytest.mark.parametrize("direction", [0, 1])
+def test_stretch_of_axisymmetric_elements(element, element_type, direction):
+    """As above along the radius, which stretches the circumference as well, or along the axis."""
+    solid = element(element_type, nu=0.0)
+    stretches, strain = np.linspace(1, 1.5, 6), 0.0
+    for before, after in pairwise(stretches):
+        forces, _ = solid.move(np.diag([after, 1, 1] if direction == 0 else [1, after, 1]))
+        strain += 2 * (after - before) / (after + before)
+    assert strain == pytest.approx(np.log(1.5), rel=2e-3)
+    points = solid.values()
+    expected = [strain, 0, strain] if direction == 0 else [0, strain, 0]
+    np.testing.assert_allclose(points[:, :3], np.tile(expected, (len(points), 1)), rtol=1e-12, atol=1e-15)
+    np.testing.assert_allclose(points[:, 4:7], E * points[:, :3], rtol=1e-12, atol=1e-12)
+    now = solid.nodes[:, :2] + solid.u.reshape(-1, 2)
+    # of the cross-section about the axis, by the sides of its polygon (P. Guldin)
+    r, z = now[: 3 if len(now) == 3 else 4].T
+    following, above = np.roll(r, -1), np.roll(z, -1)
+    volume = np.pi / 3 * ((r * above - following * z) * (r + following)).sum()
+    rate = now * np.eye(2)[direction]
+    work = E * strain * (2 if direction == 0 else 1) * volume
+    assert -(forces * rate).sum() == pytest.approx(work, rel=1e-10)
+
+
+@pytest.mark.parametrize("element_type", ["CPE3", "CPE4", "CPE4R", "C3D4", "C3D8", "C3D8R", *AXISYMMETRIC])
 def test_tangent_at_the_start_of_an_increment(element, element_type):
-    """Along x -> A x the differences of the forces are the tangent's and what it leaves out, forces times tr A."""
+    """Along x -> A x the differences of the forces are the tangent's and what it leaves out, forces times tr A, where
+    the stress is uniform; about an axis for A without A12, whose strain is not, and with A11 around the axis."""
     solid = element(element_type)
-    solid.move(np.array([[1.05, 0.1, 0], [0.02, 0.98, 0], [0, 0, 1.0]]))
+    about = element_type in AXISYMMETRIC
+    solid.move(np.array([[1.05, 0.0 if about else 0.1, 0], [0.02, 0.98, 0], [0, 0, 1.0]]))
     forces, _ = solid.evaluate(solid.u)
     tangent = solid.matrix.toarray()
     now, step = solid.nodes[:, : solid.dimension] + solid.u.reshape(-1, solid.dimension), 1e-6
     for a in np.eye(solid.dimension**2).reshape(-1, solid.dimension, solid.dimension):
+        if about and a[0, 1]:
+            continue
+        trace = np.trace(a) + about * a[0, 0]
         d = (now @ a.T).ravel()
         slope = (solid.evaluate(solid.u - step * d)[0] - solid.evaluate(solid.u + step * d)[0]) / (2 * step)
-        np.testing.assert_allclose(slope, tangent @ d - forces * np.trace(a), atol=1e-6 * abs(tangent).max())
+        np.testing.assert_allclose(slope, tangent @ d - forces * trace, atol=1e-6 * abs(tangent).max())
 
 
 def test_plastic_strain_turns_with_the_body(element):
@@ -142,22 +174,49 @@ def test_plastic_strain_turns_with_the_body(element):
     np.testing.assert_allclose(b[[7, 6, 8]], a[[6, 7, 8]], rtol=1e-9)
 
 
-@pytest.mark.parametrize("element_type", ["CPE4", "CPE3"])
-def test_user_material_gets_deformation_gradient_and_rotation(element, element_type):
-    """Simple shear 0.4, then a turn: J sigma = mu (F F^T - 1) + lambda ln J."""
+def user_element(element, element_type):
+    """An element of the compressible neo-Hookean material of neohooke.f, with its constants."""
     mu, lame = 3.0, 5.0
     material = Material("M", SOURCE, user=UserMaterial(np.array([mu, lame]), False, SOURCE), state_variables=9)
     nodes = NODES.get(element_type, SQUARE)
-    section = SolidSection("ALL", material, None, 1.0, SOURCE)
+    section = SolidSection("ALL", material, None, 1.0, SOURCE, hourglass=1.0)
     group = ElementGroup(element_type, np.array([1]), np.arange(len(nodes))[None], "", section, None, SOURCE)
-    solid = element(element_type, group=group, user="neohooke.f")
+    return element(element_type, group=group, user="neohooke.f"), mu, lame
+
+
+def neo_hookean(f, mu, lame):
+    det = np.linalg.det(f)
+    return (mu * (f @ f.T - np.eye(3)) + lame * np.log(det) * np.eye(3)) / det
+
+
+@pytest.mark.parametrize("element_type", AXISYMMETRIC)
+def test_user_material_gets_the_stretch_around_the_axis(element, element_type):
+    """F33 = r/R; sheared along the axis as well."""
+    solid, mu, lame = user_element(element, element_type)
+    solid.move(np.array([[1.1, 0, 0], [0, 1, 0], [0, 0, 1]]))
+    f = np.array([[1.2, 0, 0], [0.3, 0.9, 0], [0, 0, 1.2]])
+    solid.move(f)
+    stress = neo_hookean(f, mu, lame)
+    for point in solid.values():
+        np.testing.assert_allclose(point[4:8], stress[[0, 1, 2, 0], [0, 1, 2, 1]], rtol=1e-12)
+
+
+def test_an_axisymmetric_element_must_not_cross_the_axis(element):
+    solid = element("CAX3")
+    with pytest.raises(KernelError, match=r"integration point 1 of the element is at the radius .*must not cross"):
+        solid.evaluate(np.tile([-2.0, 0.0], 3))
+
+
+@pytest.mark.parametrize("element_type", ["CPE4", "CPE3"])
+def test_user_material_gets_deformation_gradient_and_rotation(element, element_type):
+    """Simple shear 0.4, then a turn: J sigma = mu (F F^T - 1) + lambda ln J."""
+    solid, mu, lame = user_element(element, element_type)
     shear = np.array([[1.1, 0.4, 0], [0, 1, 0], [0, 0, 1]])
     solid.move(shear)
     rotation = turn(0.3)
     solid.move(rotation @ shear)
     f = rotation @ shear
-    det = np.linalg.det(f)
-    stress = (mu * (f @ f.T - np.eye(3)) + lame * np.log(det) * np.eye(3)) / det
+    stress = neo_hookean(f, mu, lame)
     point = solid.values()[0]
     np.testing.assert_allclose(point[4:8], stress[[0, 1, 2, 0], [0, 1, 2, 1]], rtol=1e-12)
     np.testing.assert_allclose(point[8:17].reshape(3, 3).T, rotation, atol=1e-12)

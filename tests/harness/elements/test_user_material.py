@@ -52,19 +52,20 @@ def run(tmp_path):
     return run
 
 
-@pytest.mark.parametrize("type", ["CPE4", "CPS4"])
+@pytest.mark.parametrize("type", ["CPE4", "CPS4", "CAX4"])
 def test_umat_does_what_the_elastic_material_does(run, type):
     """The same constants: the same stresses and energies, and as many iterations."""
     built_in, user = run("*ELASTIC\n1000., 0.3", type=type), run(USER.format(0), type=type)
-    for name in ("S11", "S22", "S12", "E22", "U"):
+    for name in ("S11", "S22", "S33", "S12", "E22", "U"):
         np.testing.assert_allclose(user.field(name), built_in.field(name), rtol=1e-9, atol=1e-9)
     assert [line.total_iterations for line in user.status] == [line.total_iterations for line in built_in.status]
     assert user.history["ALLSE"][-1] == pytest.approx(built_in.history["ALLSE"][-1], rel=1e-9)
 
 
-def test_what_umat_is_given(run):
+@pytest.mark.parametrize("type", ["CPE4", "CAX4"])
+def test_what_umat_is_given(run, type):
     """At the end of four increments; means over the four points of elements that are 3 by 2 and 1 by 2."""
-    result = run(USER.format(0))
+    result = run(USER.format(0), type=type)
     expected = {
         "SDV1": [4, 4],  # increments, not iterations
         "SDV2": [0.75, 0.75],  # TIME is that of the start
