@@ -1,6 +1,6 @@
 ! SPDX-FileCopyrightText: The uel-harness authors
 ! SPDX-License-Identifier: BSD-3-Clause
-!> Built-in trusses, springs and masses, as a procedure with the arguments of UEL. JTYPE tells which:
+!> Built-in trusses, springs, masses and pressures, as a procedure with the arguments of UEL. JTYPE tells which:
 !>
 !> 1  T2D2, T3D2: PROPS hold area, Young's modulus, density, then yield stress and plastic strain in turn; SVARS strain,
 !>    stress, plastic strain, equivalent plastic strain. With NLGEOM the strain is the logarithm of the stretch and the
@@ -8,19 +8,22 @@
 !> 2  SPRINGA: PROPS hold force and elongation in turn, ascending; SVARS elongation, force.
 !> 3  SPRING1, SPRING2: the same between the first unknown and the second, or the ground; SVARS as SPRINGA.
 !> 4  MASS: PROPS(1).
+!> 5  pressure on a face of a continuum element: PROPS(1) thickness or 2 pi, JPROPS as in add_pressure: 1 about an axis,
+!>    outward. The loads of the call are pressures, with NLGEOM on the present face; ENERGY(8) is their work.
 !>
-!> In dynamic analyses SVARS go on with the forces of the last two increments.
+!> In dynamic analyses SVARS go on with the forces of the last two increments, those of pressures always.
 module host_discrete
   use host_inertia, only: respond
   use host_kinds, only: dp, i4
   use host_messages, only: add_message
   use host_mises, only: radial_return, yield_stress
+  use host_pressure, only: add_pressure
   use host_protect, only: escape
   implicit none (type, external)
   private
   public :: discrete_uel
 
-  integer(i4), parameter :: truss = 1, axial_spring = 2, spring = 3
+  integer(i4), parameter :: truss = 1, axial_spring = 2, spring = 3, mass_point = 4, face = 5
 
 contains
 
@@ -35,11 +38,12 @@ contains
     integer :: i, n, states
     n = ndofel
     states = merge(4, 2, jtype == truss)
+    if (jtype == face) states = 0
     rhs(1:n*nrhs) = 0
     amatrx(1:n*n) = 0
     mass = 0
     do i = 1, n
-      if (jtype > spring) mass(i, i) = props(1)
+      if (jtype == mass_point) mass(i, i) = props(1)
       if (jtype == truss) mass(i, i) = 0.5_dp*props(1)*props(3)*initial_length(int(mcrd), coords)
     end do
     old = 0
@@ -50,12 +54,30 @@ contains
         call bar(int(mcrd), jtype, lflags(2) /= 0, int(nprops), props, coords, u, svars, rhs, amatrx, energy)
       case (spring)
         call dof_spring(n, int(nprops), props, u, svars, rhs, amatrx, energy)
+      case (face)
+        call press(int(mcrd), int(nnode), lflags(2) /= 0, jprops(1) /= 0, int(jprops(2)), props(1), sum(adlmag(1:ndload)), coords, &
+                   u, rhs, amatrx)
+        energy(8) = -0.5_dp*dot_product(rhs(1:n) + old(:, 1), du(1:n))
       case default   ! a mass has no force of its own
       end select
     end if
     call respond(n, lflags, params, dtime, v, a, mass, old, rhs, amatrx, energy(1))
     if (nsvars >= states + 2*n) svars(states + 1:states + 2*n) = reshape(old, [2*n])
   end subroutine discrete_uel
+
+  !> Force and stiffness of a pressure: in small displacements on the initial face.
+  subroutine press(dim, nodes, finite, axisymmetric, outward, depth, pressure, x, u, force, stiffness)
+    integer, intent(in) :: dim, nodes, outward
+    logical, intent(in) :: finite, axisymmetric
+    real(dp), intent(in) :: depth, pressure, x(dim*nodes), u(dim*nodes)
+    real(dp), intent(inout) :: force(dim*nodes), stiffness(dim*nodes, dim*nodes)
+    if (finite) then
+      call add_pressure(dim, nodes, axisymmetric, outward, depth, pressure, x + u, force, stiffness)
+    else
+      call add_pressure(dim, nodes, axisymmetric, outward, depth, pressure, x, force, stiffness)
+      stiffness = 0
+    end if
+  end subroutine press
 
   pure real(dp) function initial_length(dim, x)
     integer, intent(in) :: dim

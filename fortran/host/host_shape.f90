@@ -1,7 +1,7 @@
 ! SPDX-FileCopyrightText: The uel-harness authors
 ! SPDX-License-Identifier: BSD-3-Clause
-!> Shape functions and integration points of the built-in continuum elements: triangles of 3 and 6 nodes, quadrilaterals
-!> of 4 and 8, tetrahedra of 4, hexahedra of 8 and 20, numbered as in Abaqus.
+!> Shape functions and integration points of the built-in continuum elements and their faces: lines of 2 and 3 nodes,
+!> triangles of 3 and 6, quadrilaterals of 4 and 8, tetrahedra of 4, hexahedra of 8 and 20, numbered as in Abaqus.
 module host_shape
   use host_kinds, only: dp
   implicit none (type, external)
@@ -9,6 +9,7 @@ module host_shape
   public :: rule_t, rule_of, radius_of, hourglass_shapes
 
   !> Parent coordinates of the nodes: corners, then the middles of the edges.
+  integer, parameter :: line(3) = [-1, 1, 0]
   integer, parameter :: quad(2, 8) = reshape([-1, -1, 1, -1, 1, 1, -1, 1, 0, -1, 1, 0, 0, 1, -1, 0], [2, 8])
   integer, parameter :: hex(3, 20) = reshape([ &
     -1, -1, -1, 1, -1, -1, 1, 1, -1, -1, 1, -1, -1, -1, 1, 1, -1, 1, 1, 1, 1, -1, 1, 1, &
@@ -57,7 +58,7 @@ contains
     type(rule_t), intent(in) :: rule
     integer, intent(in) :: point
     logical, intent(in) :: axisymmetric
-    real(dp), intent(in) :: x(rule%dim, rule%nodes)
+    real(dp), intent(in) :: x(:, :)     !< (dimension, nodes)
     radius_of = 1
     if (axisymmetric) radius_of = dot_product(x(1, :), rule%n(:, point))
   end function radius_of
@@ -135,7 +136,7 @@ contains
     real(dp), intent(in) :: parent(dim)
     real(dp), intent(out) :: n(nodes), dn(nodes, dim)
     integer :: k
-    if (nodes == dim + 1) then
+    if (nodes == dim + 1 .and. dim > 1) then
       n = [1 - sum(parent), parent]
       dn = 0
       dn(1, :) = -1
@@ -154,11 +155,14 @@ contains
   pure function node_at(dim, k) result(place)
     integer, intent(in) :: dim, k
     integer :: place(dim)
-    if (dim == 2) then
+    select case (dim)
+    case (1)
+      place = line(k)
+    case (2)
       place = quad(:, k)
-    else
+    case default
       place = hex(:, k)
-    end if
+    end select
   end function node_at
 
   !> One function: a product over the directions, times a sum where there are middle nodes (serendipity family).

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from scipy import sparse
 
 from harness.assembly.dofs import DofMap
-from harness.elements import FIELD_NAMES, Block, Call, Motion
+from harness.elements import FIELD_NAMES, Block, Call, Motion, PressureBlock
 from harness.model.arrays import ComplexArray, FloatArray, IntArray
 from harness.model.mesh import Mesh
 from harness.model.model import Equation
@@ -45,17 +45,20 @@ class Evaluation:
 class System:
     """All blocks of a model on one numbering of unknowns.
 
+    blocks   of its elements
+    pressures  faces under pressure, which are called where there are distributed loads and are no elements otherwise
     dofs     what each unknown is
     indptr   (n + 1,) row starts of the matrix, int32
     indices  (nnz,) columns, ascending in each row, int32; every diagonal entry is there and the pattern is symmetric
     """
 
     def __init__(self, mesh: Mesh, blocks: Sequence[Block], equations: Sequence[Equation] = ()) -> None:
-        self.blocks = tuple(blocks)
+        self.blocks = tuple(block for block in blocks if not isinstance(block, PressureBlock))
+        self.pressures = tuple(block for block in blocks if isinstance(block, PressureBlock))
         self.dofs = DofMap.build(mesh, self.blocks, equations)
-        numbers = [self.dofs.equations_of(block) for block in self.blocks]
+        numbers = [self.dofs.equations_of(block) for block in blocks]
         self.indptr, self.indices, scatter = build_pattern(len(self.dofs), numbers)
-        for block, equation_numbers, positions in zip(self.blocks, numbers, scatter, strict=True):
+        for block, equation_numbers, positions in zip(blocks, numbers, scatter, strict=True):
             block.bind(equation_numbers, positions)
         self._data = np.zeros(len(self.indices))
 
@@ -94,6 +97,8 @@ class System:
             energy += report.energy
             damage += report.damage
             pnewdt = min(pnewdt, report.pnewdt)
+        for face in self.pressures if call.distributed is not None else ():
+            energy += face.evaluate(call, u, du, columns[0], data, motion).energy
         load = columns[1] if nrhs > 1 else None
         return Evaluation(columns[0], data, flux, count, pnewdt, energy, load, damage)
 
@@ -106,7 +111,7 @@ class System:
 
     def commit(self) -> None:
         """End of a converged increment: the state of the last normal pass becomes the committed one."""
-        for block in self.blocks:
+        for block in (*self.blocks, *self.pressures):
             block.commit()
 
     def matrix(self, data: FloatArray | ComplexArray) -> sparse.csr_array:

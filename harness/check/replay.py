@@ -53,7 +53,8 @@ class Elements:
         self.singles: list[Single] = []
         self.equations: list[IntArray] = []
         self.library = library
-        blocks = build_blocks(recording.model, library, strict=strict)
+        # faces under pressure, which come behind, are no elements
+        blocks = build_blocks(recording.model, library, strict=strict)[: len(recording.equations)]
         for block, equations in zip(blocks, recording.equations, strict=True):
             self.singles += [Single(part) for part in block.split(strict=strict)]
             self.equations += list(equations)

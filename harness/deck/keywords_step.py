@@ -123,8 +123,9 @@ DISTRIBUTED = (
     ),
     Keyword(
         "DSLOAD",
-        "Distributed loads on surfaces of built-in continuum elements, with NLGEOM those that do not turn with them. "
-        "As those of *DLOAD they are nodal forces, which CF in the output holds too.",
+        "Distributed loads on surfaces of built-in continuum elements; with NLGEOM tractions that turn with them are "
+        "refused. As those of *DLOAD they are nodal forces, which CF in the output holds too, but for pressures with "
+        "NLGEOM, which act on the present surface.",
         Where.STEP,
         (
             *_LOAD,

@@ -18,9 +18,9 @@ from harness.deck.procedures import read_procedure
 from harness.deck.requests import RequestReader
 from harness.deck.structure import Scope
 from harness.model.amplitude import UserAmplitude
-from harness.model.procedures import Dynamic, Frequency, Procedure, StaticPerturbation, SteadyState
+from harness.model.procedures import Dynamic, Frequency, LinearPerturbation, Procedure, StaticPerturbation, SteadyState
 from harness.model.records import MODAL
-from harness.model.steps import DistributedLoad, ElementLoad, Step
+from harness.model.steps import DistributedLoad, ElementLoad, LoadKind, Step
 
 MOST_INCREMENTS = 100
 Entry = TypeVar("Entry")
@@ -136,13 +136,18 @@ def check_parts(blocks: list[Block], problems: Problems, *, harmonic: bool) -> N
 
 
 def _check_followers(steps: Sequence[Step], problems: Problems) -> None:
-    """Loads that turn with their faces need large displacements that the harness does not follow."""
+    """Of loads that turn with their faces in large displacements pressures do, as long as there is no perturbation."""
     nonlinear = next((step for step in steps if step.nlgeom), None)
     if nonlinear is None:
         return
+    linear = next((step for step in steps if isinstance(step.procedure, LinearPerturbation)), None)
     for load in (load for step in steps for load in (*step.element_loads, *step.surface_loads) if load.type.follows):
         message = f"load type {load.type.kind} turns with the surface, which is not supported with NLGEOM"
-        problems.add(load.source, f"{message} ({nonlinear.source}); TRVEC with FOLLOWER=NO does not turn")
+        if load.type.kind is not LoadKind.PRESSURE or load.type.jltyp:
+            hint = "TRVEC with FOLLOWER=NO does not turn, and P with a magnitude in the deck is supported"
+            problems.add(load.source, f"{message} ({nonlinear.source}); {hint}")
+        elif linear is not None:
+            problems.add(load.source, f"{message} ({nonlinear.source}) beside a perturbation step ({linear.source})")
 
 
 def _read_entries(

@@ -6,6 +6,7 @@ from harness.elements.block import Block
 from harness.elements.build import build_blocks
 from harness.elements.call import BlockReport, Call, Distributed, Motion, Predefined
 from harness.elements.fields import FIELD_NAMES, field_of
+from harness.elements.pressure import PressureBlock
 
 __all__ = [
     "FIELD_NAMES",
@@ -15,6 +16,7 @@ __all__ = [
     "Distributed",
     "Motion",
     "Predefined",
+    "PressureBlock",
     "build_blocks",
     "field_of",
 ]

@@ -13,6 +13,7 @@ from harness.elements.cohesive import COHESIVE, cohesive_procedure, cohesive_var
 from harness.elements.coupled import coupled_procedure, coupled_unknowns
 from harness.elements.discrete import DISCRETE, discrete_procedure, discrete_unknowns, discrete_variables
 from harness.elements.materials import Tensor, define_material, refuse_fields
+from harness.elements.pressure import pressure_blocks
 from harness.elements.solid import COUPLED, SOLIDS, history_of, solid_of, solid_procedure, solid_variables
 from harness.errors import DeckError, all_of
 from harness.model.mesh import ElementGroup
@@ -30,7 +31,7 @@ TENSORS: Final = {
 
 
 def build_blocks(model: Model, library: Library, *, strict: bool = True, zeros: bool = False) -> list[Block]:
-    """One block per group of the model, in the same order. Raises DeckError that names all places.
+    """One block per group of the model, in the same order, then those of faces. Raises DeckError that names all places.
 
     strict: a user element that writes outside an array is an error, else a warning; zeros: one that leaves an entry of
     RHS or AMATRX unset is a warning, and the entry zero, else an error.
@@ -46,6 +47,7 @@ def build_blocks(model: Model, library: Library, *, strict: bool = True, zeros: 
             raise _too_large(group) from None
     if errors:
         raise all_of(list(errors.values()))
+    blocks += pressure_blocks(model, library)
     for block, following in pairwise(blocks):
         following.first = block.first + len(block.group.labels)
     return blocks

@@ -11,10 +11,10 @@ from harness.model.arrays import FloatArray, IntArray
 
 @dataclass(frozen=True, slots=True)
 class Distributed:
-    """Distributed loads on user elements that are active.
+    """Distributed loads on user elements that are active, and pressures on faces.
 
-    elements   (k,) positions in the model, ascending
-    kinds      (k,) n of type Un, -n of type UnNU
+    elements   (k,) positions in the model, ascending; faces come after the elements
+    kinds      (k,) n of type Un, -n of type UnNU, 1 of faces
     end, increment  (k,) magnitude at the end of the increment and its change; 0 for UnNU
     """
 

@@ -65,6 +65,16 @@ def unit_forces(
     return scale * np.einsum("p,pk,mpd->mpkd", weights, shapes, force), places
 
 
+def outward_sign(group: ElementGroup, row: int, face: tuple[int, ...], coordinates: FloatArray) -> int:
+    """1 where the normal of the order of a face's nodes, to the right of an edge, points out of an element, else -1."""
+    dimension = solid_of(group).dimension
+    nodes = group.nodes[row]
+    x = coordinates[nodes[list(face)], :dimension]
+    _, derivatives, _ = _rule(dimension - 1, len(face), axisymmetric=False)
+    area = _normal(np.einsum("kd,pka->pda", x, derivatives)).sum(axis=0)
+    return 1 if area @ (x.mean(axis=0) - coordinates[nodes, :dimension].mean(axis=0)) > 0 else -1
+
+
 def _traction(load: ElementLoad, area: FloatArray) -> FloatArray:
     """Force per parent area of a load on a face, from the outward normal (..., dimension) times area."""
     if load.type.kind is LoadKind.PRESSURE:
@@ -84,12 +94,16 @@ def _traction(load: ElementLoad, area: FloatArray) -> FloatArray:
 
 def _outward(tangents: FloatArray, outside: FloatArray) -> FloatArray:
     """Outward normal times area (..., dimension) of faces; outside: from elements' centres to those of faces."""
-    if tangents.shape[-1] == 1:
-        area = np.stack([tangents[..., 1, 0], -tangents[..., 0, 0]], axis=-1)
-    else:
-        area = np.cross(tangents[..., 0], tangents[..., 1])
+    area = _normal(tangents)
     outward: FloatArray = area * np.sign((area * outside[:, None, :]).sum(axis=-1, keepdims=True))
     return outward
+
+
+def _normal(tangents: FloatArray) -> FloatArray:
+    """Normal times area (..., dimension) of faces, from the derivatives of the position."""
+    if tangents.shape[-1] == 1:
+        return np.stack([tangents[..., 1, 0], -tangents[..., 0, 0]], axis=-1)
+    return np.asarray(np.cross(tangents[..., 0], tangents[..., 1]))
 
 
 def _rule(dimension: int, nodes: int, *, axisymmetric: bool) -> tuple[FloatArray, FloatArray, FloatArray]:

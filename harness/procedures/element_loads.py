@@ -2,6 +2,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """All loads of a step: concentrated ones, and distributed ones on built-in elements as nodal forces.
 
+Pressures in a model with NLGEOM are no nodal forces: the faces that they act on are called in each iteration.
+
 Magnitudes of distributed loads vary as those of *CLOAD do, for each element and type of load; *DLOAD and *DSLOAD have
 an OP= of their own. Those of nonuniform loads are what DLOAD makes of them at each point of the face or volume.
 """
@@ -16,6 +18,7 @@ from numpy.typing import NDArray
 from scipy import sparse
 
 from harness.assembly import System
+from harness.elements import Distributed
 from harness.elements.load_vectors import unit_forces
 from harness.errors import DeckError
 from harness.model.arrays import FloatArray, IntArray
@@ -41,6 +44,11 @@ class StepLoads:
         return (*self.concentrated.curves, *(curve for load in self.distributed for curve in load.magnitudes.curves))
 
     @property
+    def turning(self) -> bool:
+        """Whether there are faces under pressure."""
+        return any(len(load.faces) for load in self.distributed)
+
+    @property
     def by_user(self) -> bool:
         """Whether DLOAD gives some of them."""
         return any(len(load.by_user) for load in self.distributed)
@@ -58,14 +66,40 @@ class StepLoads:
             values = values + load.points.forces @ magnitudes
         return values
 
+    def with_pressures(
+        self, others: Distributed | None, start: tuple[float, float], end: tuple[float, float]
+    ) -> Distributed | None:
+        """The pressures on faces in an increment between these step and total times, after loads on elements."""
+        if not self.turning:
+            return others
+        places = np.concatenate([load.faces for load in self.distributed])
+        after = np.concatenate([load.magnitudes.at(*end)[load.slots] for load in self.distributed])
+        before = np.concatenate([load.magnitudes.at(*start)[load.slots] for load in self.distributed])
+        order = np.argsort(places)
+        found = Distributed(places[order], np.ones_like(places), after[order], (after - before)[order])
+        if others is None:
+            return found
+        return Distributed(
+            np.concatenate([others.elements, found.elements]),
+            np.concatenate([others.kinds, found.kinds]),
+            np.concatenate([others.end, found.end]),
+            np.concatenate([others.increment, found.increment]),
+        )
+
 
 @dataclass(frozen=True, slots=True)
 class _StepElementLoads:
-    """Distributed loads of one step; by_user: points whose magnitude is that of DLOAD."""
+    """Distributed loads of one step.
+
+    by_user       points whose magnitude is that of DLOAD
+    faces, slots  positions of faces among the elements, behind those of the model, and numbers of their magnitudes
+    """
 
     points: _Points
     magnitudes: Variation
     by_user: IntArray
+    faces: IntArray
+    slots: IntArray
 
 
 class AllLoads:
@@ -74,8 +108,10 @@ class AllLoads:
     def __init__(self, system: System, model: Model) -> None:
         """Integrate the nodal forces of distributed loads once. Raises DeckError."""
         self._concentrated = Loads(system.dofs)
-        self._elements = _ElementLoads(system, [load for step in model.steps for load in step.element_loads])
-        self._surfaces = _ElementLoads(system, [load for step in model.steps for load in step.surface_loads])
+        on_elements = [load for step in model.steps for load in step.element_loads]
+        on_surfaces = [load for step in model.steps for load in step.surface_loads]
+        self._elements = _ElementLoads(system, on_elements, surface=False)
+        self._surfaces = _ElementLoads(system, on_surfaces, surface=True)
 
     def start_step(self, step: Step, total_time: float, user: GivesValues) -> StepLoads:
         """Take over a step's loads; total_time is that at the end of the previous step. Raises DeckError."""
@@ -121,14 +157,21 @@ class _ElementLoads:
     loads  a magnitude for each element and type of load
     """
 
-    def __init__(self, system: System, entries: Sequence[ElementLoad]) -> None:
+    def __init__(self, system: System, entries: Sequence[ElementLoad], *, surface: bool) -> None:
         self._types = list(dict.fromkeys(entry.type for entry in entries))
         self._slots = Slots([(entry.elements, self._types.index(entry.type)) for entry in entries])
         self.loads = Loads(self._slots)
         self._active = np.zeros(len(self._slots), dtype=bool)
         parts: list[_Points] = []
+        faces = [block for block in system.pressures if block.surface == surface]
+        turning = {block.load for block in faces}
         for entry in {entry.type: entry for entry in entries}.values():
-            parts += self._points_of(system, entry)
+            if entry.type not in turning:
+                parts += self._points_of(system, entry)
+        none = np.zeros(0, dtype=np.int64)
+        self._faces = np.concatenate([none, *(block.first + np.arange(len(block.elements)) for block in faces)])
+        slots = [self._slots.find(block.elements, self._types.index(block.load)) for block in faces]
+        self._face_slots = np.concatenate([none, *slots])
         self._points = _Points(sparse.csr_array((len(system), 0)))
         if parts:
             self._points = _Points(
@@ -150,7 +193,8 @@ class _ElementLoads:
             self._active[self._slots.find(entry.elements, self._types.index(entry.type))] = True
         loads = self._as_loads(entries)
         by_user = np.flatnonzero((self._points.places[:, 2] > 0) & self._active[self._points.slot])
-        return _StepElementLoads(self._points, self.loads.take(loads, new, step, total_time), by_user)
+        varying = self.loads.take(loads, new, step, total_time)
+        return _StepElementLoads(self._points, varying, by_user, self._faces, self._face_slots)
 
     def unlasting(self, entries: Sequence[ElementLoad]) -> FloatArray:
         """Forces (n,) of entries of a perturbation step."""

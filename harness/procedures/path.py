@@ -56,6 +56,11 @@ class PathStep(StaticStep):
         source = next((entry.source for entry in entries if entry.amplitude), step.source)
         if self._prescribed.curves or self._load.curves or self._amplitudes.courses:
             raise DeckError(source, "an amplitude has no meaning in a step whose load factor is part of the solution")
+        if self._load.turning:
+            message = (
+                "pressures that turn with the surface (NLGEOM) are not supported in a step whose load factor is unknown"
+            )
+            raise DeckError(step.source, message)
         if len(state.boundaries.by_user) or self._load.by_user:
             raise DeckError(step.source, "DISP and DLOAD have no meaning in a step whose load factor is unknown")
         assert state.constraints is not None and state.solver is not None

@@ -279,7 +279,8 @@ class StaticStep:
     def _call(self, increment: int, size: float, step_time: float, total_time: float) -> Call:
         """Arguments of the passes of an increment that ends at these times."""
         step = self._step
-        distributed, predefined = self._conditions.at(self._times, (step_time, total_time))
+        end = step_time, total_time
+        distributed, predefined = self._conditions.at(self._times, end)
         return Call(
             lflags=(step.procedure.lflag, int(step.nlgeom), NORMAL, 0, 0),
             step=step.number,
@@ -288,7 +289,7 @@ class StaticStep:
             total_time=total_time,
             time_increment=size,
             period=step.procedure.period,
-            distributed=distributed,
+            distributed=self._load.with_pressures(distributed, self._times, end),
             predefined=predefined,
             flux_floor=self._checker.flux_floor,
         )

@@ -48,6 +48,18 @@ def test_elements_that_depend_on_no_order(name):
     assert (quads.calls, interface.calls) == (passes * 100 * ORDERS, passes * 10 * ORDERS)
 
 
+def test_pressures_on_faces_are_no_elements(tmp_path):
+    deck = tmp_path / "pressed.inp"
+    deck.write_text(
+        "*NODE\n1, 0., 0.\n2, 1., 0.\n3, 1., 1.\n4, 0., 1.\n*ELEMENT, TYPE=CPE4, ELSET=BODY\n1, 1, 2, 3, 4\n"
+        "*SOLID SECTION, ELSET=BODY, MATERIAL=M\n1.\n*MATERIAL, NAME=M\n*ELASTIC\n1000., 0.3\n"
+        "*STEP, NLGEOM\n*STATIC\n1., 1.\n*BOUNDARY\n1, 1, 2\n4, 1\n*DLOAD\nBODY, P2, 5.\n*END STEP\n"
+    )
+    outcome = shuffle(deck, increments=1)
+    assert outcome.passed
+    assert len(outcome.types) == 1
+
+
 @pytest.mark.long
 @pytest.mark.parametrize("element", ["u2", "u4"])
 def test_double_cantilever_beam(element):

@@ -1,0 +1,87 @@
+! SPDX-FileCopyrightText: The uel-harness authors
+! SPDX-License-Identifier: BSD-3-Clause
+!> Pressure on a face of a continuum element that turns and grows with the face.
+module host_pressure
+  use host_kinds, only: dp
+  use host_shape, only: radius_of, rule_of, rule_t
+  implicit none (type, external)
+  private
+  public :: add_pressure
+
+contains
+
+  !> Add the force that holds a pressure, and its change with the displacements. Nodes are corners, then middles of edges;
+  !> outward is 1 where the normal of their order (to the right of an edge) points out of the element, else -1.
+  subroutine add_pressure(dim, nodes, axisymmetric, outward, depth, pressure, x, force, stiffness)
+    integer, intent(in) :: dim, nodes, outward
+    logical, intent(in) :: axisymmetric
+    real(dp), intent(in) :: depth        !< thickness, or 2 pi; 1 in space
+    real(dp), intent(in) :: pressure, x(dim, nodes)
+    real(dp), intent(inout) :: force(dim, nodes), stiffness(dim, nodes, dim, nodes)
+    type(rule_t), pointer :: rule
+    real(dp) :: along(dim, dim - 1), change(dim, dim), radius, weight
+    integer :: i, j, k, p
+    rule => rule_of(dim - 1, nodes, points_of(dim, nodes))
+    do p = 1, rule%points
+      along = matmul(x, rule%dn(:, :, p))
+      radius = radius_of(rule, p, axisymmetric, x)
+      weight = outward*depth*pressure*rule%weight(p)
+      associate (n => rule%n(:, p), dn => rule%dn(:, :, p), normal => area_of(dim, along))
+        do k = 1, nodes
+          force(:, k) = force(:, k) + weight*radius*n(k)*normal
+        end do
+        do j = 1, nodes
+          do i = 1, dim
+            change(:, i) = radius*area_change(dim, along, i, dn(j, :))
+          end do
+          if (axisymmetric) change(:, 1) = change(:, 1) + n(j)*normal
+          do k = 1, nodes
+            stiffness(:, k, :, j) = stiffness(:, k, :, j) + weight*n(k)*change
+          end do
+        end do
+      end associate
+    end do
+  end subroutine add_pressure
+
+  !> Integration points of a face: a line of 2 or 3 nodes, a triangle of 3, a quadrilateral of 4 or 8.
+  pure integer function points_of(dim, nodes)
+    integer, intent(in) :: dim, nodes
+    if (dim == 2) then
+      points_of = nodes
+    else
+      points_of = merge(1, merge(4, 9, nodes == 4), nodes == 3)
+    end if
+  end function points_of
+
+  !> Normal times area per parent area, from the derivatives of the position.
+  pure function area_of(dim, along) result(area)
+    integer, intent(in) :: dim
+    real(dp), intent(in) :: along(dim, dim - 1)
+    real(dp) :: area(dim)
+    if (dim == 2) then
+      area = [along(2, 1), -along(1, 1)]
+    else
+      area = cross(along(:, 1), along(:, 2))
+    end if
+  end function area_of
+
+  !> Its change where a node moves in direction i, whose function has the slopes dn.
+  pure function area_change(dim, along, i, dn) result(change)
+    integer, intent(in) :: dim, i
+    real(dp), intent(in) :: along(dim, dim - 1), dn(dim - 1)
+    real(dp) :: change(dim), unit(dim)
+    unit = 0
+    unit(i) = 1
+    if (dim == 2) then
+      change = [unit(2), -unit(1)]*dn(1)
+    else
+      change = cross(unit, along(:, 2))*dn(1) + cross(along(:, 1), unit)*dn(2)
+    end if
+  end function area_change
+
+  pure function cross(a, b) result(c)
+    real(dp), intent(in) :: a(3), b(3)
+    real(dp) :: c(3)
+    c = [a(2)*b(3) - a(3)*b(2), a(3)*b(1) - a(1)*b(3), a(1)*b(2) - a(2)*b(1)]
+  end function cross
+end module host_pressure

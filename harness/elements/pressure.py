@@ -1,0 +1,83 @@
+# SPDX-FileCopyrightText: The uel-harness authors
+# SPDX-License-Identifier: BSD-3-Clause
+"""Pressures on faces of built-in continuum elements with NLGEOM: they act on the present face, in each iteration.
+
+A block of faces is called as elements are, with its pressures as distributed loads (fortran/host/host_pressure.f90).
+"""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+
+from harness.elements.block import Block, Procedure
+from harness.elements.load_vectors import outward_sign
+from harness.elements.solid import section_depth, solid_of
+from harness.model.arrays import FloatArray, IntArray
+from harness.model.mesh import ElementGroup
+from harness.model.model import Model
+from harness.model.properties import SolidSection
+from harness.model.steps import LoadType
+from harness.usersub import Library, _binding
+
+FACE = 5
+"""JTYPE of a face in fortran/host/host_discrete.f90."""
+
+
+class PressureBlock(Block):
+    """Faces of elements of one group that pressures of one type may act on.
+
+    elements  (m,) their positions in the model
+    load      the type of the load
+    surface   the loads are those of *DSLOAD, else of *DLOAD
+    """
+
+    def __init__(
+        self,
+        parent: ElementGroup,
+        rows: IntArray,
+        load: LoadType,
+        coordinates: FloatArray,
+        library: Library,
+        *,
+        elements: IntArray,
+        surface: bool,
+    ) -> None:
+        section = parent.section
+        assert isinstance(section, SolidSection)
+        kind, nodes = solid_of(parent), parent.nodes[rows][:, list(load.face)]
+        unknowns = tuple((node, dof) for node in range(nodes.shape[1]) for dof in range(1, kind.dimension + 1))
+        procedure = Procedure(
+            address=_binding.discrete_address(),
+            jtype=FACE,
+            mcrd=kind.dimension,
+            svars=2 * len(unknowns),
+            props=np.array([section_depth(parent, section) if kind.dimension == 2 else 1.0]),
+            jprops=np.array([kind.axisymmetric, outward_sign(parent, int(rows[0]), load.face, coordinates)]),
+        )
+        group = replace(parent, labels=parent.labels[rows], nodes=nodes)
+        super().__init__(group, coordinates, unknowns, procedure, library, unsymmetric=True, variables=None)
+        self.elements, self.load, self.surface = elements, load, surface
+
+
+def pressure_blocks(model: Model, library: Library) -> list[PressureBlock]:
+    """Blocks of all faces under pressure; none in a model without NLGEOM."""
+    found: list[PressureBlock] = []
+    if not any(step.nlgeom for step in model.steps):
+        return found
+    starts = np.cumsum([0, *(len(group.labels) for group in model.groups)])
+    for surface in (False, True):
+        under: dict[LoadType, list[IntArray]] = {}
+        for step in model.steps:
+            for entry in step.surface_loads if surface else step.element_loads:
+                if entry.type.follows:
+                    under.setdefault(entry.type, []).append(entry.elements)
+        for load, parts in under.items():
+            elements = np.unique(np.concatenate(parts))
+            for group, start, end in zip(model.groups, starts, starts[1:], strict=False):
+                mine = elements[(elements >= start) & (elements < end)]
+                if len(mine):
+                    rows, given = mine - start, model.mesh.coordinates
+                    found.append(PressureBlock(group, rows, load, given, library, elements=mine, surface=surface))
+    return found

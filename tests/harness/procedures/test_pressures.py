@@ -1,0 +1,197 @@
+# SPDX-FileCopyrightText: The uel-harness authors
+# SPDX-License-Identifier: BSD-3-Clause
+"""Pressures with NLGEOM: they act on the present faces, with their stiffness, and do work."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+import harness
+from harness import usersub
+from harness.assembly import System
+from harness.deck import read_deck
+from harness.elements import Call, Distributed, build_blocks
+from harness.errors import DeckError
+
+YOUNG, NU, DENSITY = 1000.0, 0.25, 2.0
+SQUARE = np.array([[0.0, 0], [1, 0], [1, 1], [0, 1]])
+CUBE = np.array([[x, y, z] for z in (0.0, 1.0) for x, y in ((0, 0), (1, 0), (1, 1), (0, 1))])
+SIDES = [[0, 1], [1, 2], [2, 3], [3, 0]]
+EDGES = [*SIDES, [4, 5], [5, 6], [6, 7], [7, 4], [0, 4], [1, 5], [2, 6], [3, 7]]
+NODES = {
+    "CPS4": SQUARE,
+    "CPE4": SQUARE,
+    "CPE3": SQUARE[:3],
+    "CAX4": SQUARE,
+    "CPE8R": np.vstack([SQUARE, SQUARE[SIDES].mean(axis=1)]),
+    "CAX8": np.vstack([SQUARE, SQUARE[SIDES].mean(axis=1)]),
+    "C3D4": CUBE[[0, 1, 3, 4]],
+    "C3D8": CUBE,
+    "C3D20R": np.vstack([CUBE, CUBE[EDGES].mean(axis=1)]),
+}
+FACES = {name: 6 if name.startswith("C3D") else 4 for name in NODES} | {"C3D4": 4, "CPE3": 3}
+THICKNESS = 0.5
+
+
+def deck(element_type, steps, *, nodes=None):
+    nodes = NODES[element_type] if nodes is None else nodes
+    numbers = [str(k) for k in range(1, len(nodes) + 1)]
+    lines = ["*NODE, NSET=ALL", *(", ".join([k, *map(repr, x.tolist())]) for k, x in zip(numbers, nodes, strict=True))]
+    lines += [f"*ELEMENT, TYPE={element_type}, ELSET=BODY", ", ".join(["1", *numbers[:10]]) + "," * (len(nodes) > 10)]
+    lines += [", ".join(numbers[10:])] if len(nodes) > 10 else []
+    lines += ["*SURFACE, NAME=SIDE", "BODY, S2", "*SOLID SECTION, ELSET=BODY, MATERIAL=M", f"{THICKNESS}"]
+    lines += ["*MATERIAL, NAME=M", "*ELASTIC", f"{YOUNG}, {NU}", "*DENSITY", f"{DENSITY}"]
+    output = "*OUTPUT, HISTORY\n*NODE OUTPUT, NSET=ALL\nU, RF\n*ENERGY OUTPUT\n*END STEP"
+    return "\n".join([*lines, *(f"{step}\n{output}" for step in steps), ""])
+
+
+def static(body, *, options=", NLGEOM", procedure="*STATIC, DIRECT\n0.1, 1."):
+    return f"*STEP{options}\n{procedure}\n{body}"
+
+
+def all_faces(element_type, pressure):
+    return "*DLOAD\n" + "\n".join(f"BODY, P{k + 1}, {pressure}" for k in range(FACES[element_type]))
+
+
+@pytest.fixture
+def run(tmp_path):
+    def run(text):
+        folder = tmp_path / str(len(list(tmp_path.iterdir())))
+        folder.mkdir()
+        (folder / "press.inp").write_text(text)
+        return harness.run(folder / "press.inp", output_dir=folder)
+
+    return run
+
+
+def nodal(result, name, nodes):
+    """(nodes, dimension) of a vector at the end."""
+    labels, dofs = range(1, len(nodes) + 1), range(1, nodes.shape[1] + 1)
+    return np.array([[result.history[f"{name}{dof}[ALL:{label}]"][-1] for dof in dofs] for label in labels])
+
+
+@pytest.mark.parametrize("element_type", NODES)
+def test_stiffness_of_pressures(tmp_path, element_type):
+    """What pressures on all faces add to the matrix, against differences of what they add to the residual."""
+    (tmp_path / "press.inp").write_text(deck(element_type, [static(all_faces(element_type, 1.0))]))
+    model = read_deck(tmp_path / "press.inp")
+    library = usersub.load(None, job="job", output_dir=tmp_path)
+    system = System(model.mesh, build_blocks(model, library), model.equations)
+    faces = np.array([block.first for block in system.pressures])
+    pressures = np.linspace(3, 5, len(faces))
+    call = Call((1, 1, 1, 0, 0), step=1, increment=1, step_time=1.0, total_time=1.0, time_increment=1.0, period=1.0)
+    loaded = replace(call, distributed=Distributed(faces, np.ones_like(faces), pressures, pressures))
+    rng = np.random.default_rng(1)
+    u = 0.1 * rng.normal(size=len(system))
+
+    def parts(u):
+        free = system.evaluate(call, u, u)
+        plain = system.matrix(free.data.copy()).toarray()
+        full = system.evaluate(loaded, u, u)
+        return full.residual - free.residual, system.matrix(full.data).toarray() - plain
+
+    _, stiffness = parts(u)
+    step = 1e-5
+    for d in rng.normal(size=(4, u.size)):
+        slope = (parts(u - step * d)[0] - parts(u + step * d)[0]) / (2 * step)
+        np.testing.assert_allclose(slope, stiffness @ d, atol=1e-7 * abs(stiffness).max())
+    assert abs(stiffness).max() > 0.1
+    library.close()
+
+
+@pytest.mark.parametrize("element_type", ["CPE4", "CPE8R", "CAX4", "CAX8", "C3D8", "C3D20R"])
+def test_compression_from_all_sides(run, element_type):
+    """The stress is minus the pressure, whatever the shape has become: in each increment
+    2 (l_1 - l_0)/(l_1 + l_0) = -(1 - 2 nu) p/E, in plane strain 1 + nu times that; the work is the integral of p dV."""
+    pressure, plane = 300.0, element_type.startswith("CPE")
+    held = "*BOUNDARY\n1, 1, 3\n4, 1\n2, 2, 3\n"
+    if NODES[element_type].shape[1] == 3:
+        held = "*BOUNDARY\n1, 1, 3\n4, 1\n4, 3\n2, 2, 3\n"
+    accurate = "*CONTROLS, PARAMETERS=FIELD\n1e-7, 1.\n"
+    result = run(deck(element_type, [static(accurate + held + all_faces(element_type, pressure))]))
+    strain = (1 + NU if plane else 1) * (1 - 2 * NU) * pressure / YOUNG
+    stretch = ((1 - strain / 20) / (1 + strain / 20)) ** 10
+    nodes = NODES[element_type]
+    np.testing.assert_allclose(nodal(result, "U", nodes), (stretch - 1) * nodes, atol=1e-7)
+    volume = {"CPE": THICKNESS, "CAX": np.pi, "C3D": 1.0}[element_type[:3]]
+    # V = exp(-rate t), p in proportion to t
+    rate = (2 if plane else 3) * strain
+    work = pressure * volume * ((1 - np.exp(-rate)) / rate - np.exp(-rate))
+    assert result.history["ALLWK"][-1] == pytest.approx(work, rel=2e-3)
+
+
+def test_pressure_turns_with_its_face(run):
+    """A held square turned by 90 degrees: pressure times thickness on the side that then looks up."""
+    held = "*BOUNDARY\n1, 1, 2\n2, 1, 1, -1.\n2, 2, 2, 1.\n3, 1, 1, -2.\n4, 1, 1, -1.\n4, 2, 2, -1.\n3, 2, 2, 0.\n"
+    turned = run(deck("CPE4", [static(held + "*DSLOAD\nSIDE, P, 4.")]))
+    free = run(deck("CPE4", [static(held)]))
+    difference = nodal(turned, "RF", SQUARE) - nodal(free, "RF", SQUARE)
+    np.testing.assert_allclose(difference, 4 * THICKNESS / 2 * np.array([[0, 0], [0, 1], [0, 1], [0, 0]]), atol=1e-9)
+
+
+def test_pressure_on_a_ring_that_grows(run):
+    """All nodes to 1.5 of the radius: p on the present circumference, as far as it is not held twice."""
+    nodes = SQUARE + np.array([1.0, 0.0])
+    held = "*BOUNDARY\nALL, 2\n" + "".join(f"{k}, 1, 1, {0.5 * x}\n" for k, (x, _) in enumerate(nodes, start=1))
+    found = [
+        nodal(run(deck("CAX4", [static(held + load)], nodes=nodes)), "RF", nodes)[:, 0].sum()
+        for load in ("*DLOAD\nBODY, P4, 4.", "")
+    ]
+    assert found[1] - found[0] == pytest.approx(4 * 2 * np.pi * 1.5 * 1.0)
+
+
+def test_pressure_goes_on_from_a_linear_step(run):
+    """On the initial face without NLGEOM, the same but for the square of the strain; removed in the last step."""
+    held = "*BOUNDARY\n1, 1, 2\n4, 1\n"
+    linear = static(held + "*DLOAD\nBODY, P2, -4.", options="")
+    last = static("*DLOAD, OP=NEW")
+    one = run(deck("CPS4", [linear]))
+    ends = [
+        nodal(run(deck("CPS4", steps)), "U", SQUARE) for steps in ([linear, static("")], [linear, static(""), last])
+    ]
+    np.testing.assert_allclose(nodal(one, "U", SQUARE)[1], [4 / YOUNG, 0], atol=1e-12)
+    assert ends[0][1, 0] == pytest.approx(4 / YOUNG, abs=2 * (4 / YOUNG) ** 2)
+    np.testing.assert_allclose(ends[1], 0, atol=2 * (4 / YOUNG) ** 2)
+
+
+def test_dynamic_pressure_is_a_dead_traction_where_nothing_turns(run):
+    procedure = "*DYNAMIC, DIRECT\n0.01, 0.1"
+    held = "*BOUNDARY\nALL, 2\n"
+    loads = "*DLOAD\nBODY, P4, 4.", "*SURFACE, NAME=LEFT\nBODY, S4\n*DSLOAD, FOLLOWER=NO\nLEFT, TRVEC, 4., 1."
+    texts = [
+        deck("CPE4", [static(held + load, procedure=procedure)]) for load in (loads[0], loads[1].split("\n", 2)[2])
+    ]
+    texts[1] = texts[1].replace("*SURFACE, NAME=SIDE\nBODY, S2", "*SURFACE, NAME=LEFT\nBODY, S4")
+    found = [run(text).history["U1[ALL:1]"] for text in texts]
+    np.testing.assert_allclose(found[0], found[1], rtol=1e-6)
+    # the middle of the mass: p t^2/(2 density)
+    ends = [nodal(run(text), "U", SQUARE)[:, 0].mean() for text in texts]
+    np.testing.assert_allclose(ends, 4 * 0.1**2 / (2 * DENSITY), rtol=1e-6)
+
+
+@pytest.mark.parametrize(
+    ("steps", "message"),
+    [
+        ([static("*DLOAD\nBODY, P2NU")], "load type P turns with the surface, which is not supported with NLGEOM"),
+        (
+            [static("*DSLOAD\nSIDE, TRSHR, 1., 0., 1.")],
+            r"load type TRSHR turns.*NLGEOM \(.*press.inp:\d+\); TRVEC with",
+        ),
+        (
+            [static("*DLOAD\nBODY, P2, 1."), "*STEP\n*FREQUENCY\n1"],
+            r"load type P turns .* beside a perturbation step \(.*press.inp:\d+\)",
+        ),
+        (
+            [
+                static(
+                    "*BOUNDARY\nBODY, 1\n*DLOAD\nBODY, P2, 1.".replace("BODY, 1", "ALL, 1"), procedure="*STATIC, RIKS"
+                )
+            ],
+            r"pressures that turn with the surface \(NLGEOM\) are not supported in a step whose load factor is unknown",
+        ),
+    ],
+)
+def test_what_is_not_followed_is_refused(run, steps, message):
+    with pytest.raises(DeckError, match=message):
+        run(deck("CPE4", steps))
