@@ -6,6 +6,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from scipy.integrate import quad
 
 import harness
 from harness.elements.solid import COUPLED, SOLIDS
@@ -109,6 +110,30 @@ def test_incompressible_cylinder_does_not_lock(run):
     text = deck("CAX4", mesh, f"*BOUNDARY\nALL, 2\n*DLOAD\n1, P4, {PRESSURE}", material=f"*ELASTIC\n{YOUNG}, 0.4999")
     exact = 1.4999 * PRESSURE / (YOUNG * 3) * (2e-4 * nodes[:, 0] + 4 / nodes[:, 0])
     np.testing.assert_allclose(column(run(text), "U1", len(nodes)), exact, rtol=2e-3)
+
+
+@pytest.mark.parametrize(("element_type", "counts", "error"), [("CAX4", (4, 8), 1.5e-3), ("CAX8R", (4,), 1e-4)])
+def test_tube_that_is_blown_up(run, element_type, counts, error):
+    """R.S. Rivlin, Phil. Trans. A 242 (1949) 173: r^2 = R^2 + c in an incompressible tube, so that p is the integral of
+    mu ((r/R)^2 - (R/r)^2)/r dr, and r that of the start plus 0.3 on the inside; bulk modulus 1e4 mu."""
+    growth = 1.3**2 - INNER**2
+
+    def slope(start):
+        square = start**2 + growth
+        return (square / start**2 - start**2 / square) * start / square
+
+    pressure, _ = quad(slope, INNER, OUTER)
+    material = "*USER MATERIAL, CONSTANTS=2\n1., 1e4\n*DEPVAR\n9"
+    errors = []
+    for count in counts:
+        step = f"*CONTROLS, PARAMETERS=FIELD\n1e-6, 1.\n*BOUNDARY\nALL, 2\n*DLOAD\n1, P4, {pressure!r}"
+        mesh = strip(element_type, count, 1.0 / count)
+        text = deck(
+            element_type, mesh, step, material=material, options=", NLGEOM", procedure="*STATIC, DIRECT\n0.1, 1."
+        )
+        errors.append(abs(column(run(text, UMAT.with_name("neohooke.f")), "U1", 1)[0] / 0.3 - 1))
+    assert errors[-1] < error
+    assert len(errors) == 1 or errors[0] / errors[1] > 3.5
 
 
 @pytest.mark.parametrize("element_type", TYPES)
