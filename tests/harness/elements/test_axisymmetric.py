@@ -12,7 +12,7 @@ import pytest
 
 from harness.elements.solid import HOURGLASS_FRACTION, SOLIDS
 from harness.errors import DeckError, Source
-from harness.model.properties import Elastic, ElasticType, Plastic
+from harness.model.properties import Elastic, ElasticType, Orientation, Plastic
 
 E, NU, DENSITY = 1000.0, 0.3, 3.0
 TYPES = [name for name in SOLIDS if name.startswith("CAX")]
@@ -108,6 +108,24 @@ def test_only_the_translation_along_the_axis_is_free(ring, call, element_type):
     k = matrix.toarray()
     np.testing.assert_allclose(k, k.T, atol=1e-12 * abs(k).max())
     assert np.linalg.matrix_rank(k, tol=1e-9 * abs(k).max()) == len(k) - 1
+
+
+@pytest.mark.parametrize("element_type", TYPES)
+def test_orientation_has_direction_3_around_the_axis(ring, call, element_type):
+    """Fibres along the axis, which is direction 1; without contraction each stress is its modulus times its strain."""
+    source, moduli = Source("test.inp", 1), np.array([2000.0, 500.0, 800.0])
+    ply = Elastic(ElasticType.ENGINEERING_CONSTANTS, (*moduli, 0.0, 0.0, 0.0, 300.0, 300.0, 300.0), source)
+    axes = np.array([[0.0, 1, 0], [-1, 0, 0], [0, 0, 1]])
+    mesh, turned = patch_of(element_type), Orientation("TURNED", axes, source)
+    nodes, block, matrix = ring(element_type, mesh, inner=2.0, elastic=ply, orientation=turned)
+    a, b = 0.01, -0.004
+    _, report = evaluate(block, matrix, call, (nodes * [a, b]).ravel())
+    block.commit()
+    strain = np.array([b, a, a])
+    points = block.state(0).svars.reshape(-1, 8)
+    expected = [*strain, 0, *(moduli * strain), 0]
+    np.testing.assert_allclose(points, np.tile(expected, (len(points), 1)), rtol=1e-12, atol=1e-12)
+    assert report.energy[1] == pytest.approx(0.5 * moduli @ strain**2 * volume(2.0), rel=1e-12)
 
 
 @pytest.mark.parametrize("element_type", TYPES)
