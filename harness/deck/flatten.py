@@ -69,10 +69,10 @@ class FlatMesh:
         definitions_of = {name: _definitions(blocks, definitions, problems) for name, blocks in blocks_of.items()}
         problems.check()
         for name, scope in structure.instances.items():
-            self._add_owner(name, blocks_of[name], LocalMesh(definitions_of[name]))
+            self._add_owner(name, blocks_of[name], LocalMesh(definitions_of[name], problems.warn))
             with problems.gather():
                 self._owners[name].placement = read_placement(scope.head)
-        root = LocalMesh(definitions, {name: owner.mesh for name, owner in self._owners.items()})
+        root = LocalMesh(definitions, problems.warn, {name: owner.mesh for name, owner in self._owners.items()})
         root.assembly = structure.assembly.name if structure.assembly else ""
         root.find_instance_node = self._instance_node
         self._add_owner(ROOT, structure.root, root)

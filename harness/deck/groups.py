@@ -33,7 +33,7 @@ class _Elements:
         self._nodes: list[list[IntArray]] = []
         rows: list[int] = []
         for owner in flat.owners:
-            for run in owner.mesh.runs:
+            for run in (run for run in owner.mesh.runs if len(run.labels)):
                 with problems.gather():
                     nodes = _node_indices(owner, run)
                     if run.type not in self.types:

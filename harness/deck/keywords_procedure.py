@@ -20,7 +20,7 @@ _STABILIZE = (
         bare="0.0002",
     ),
     Option("FACTOR", Kind.REAL, "damping factor in place of the fraction"),
-    Option("ALLSDTOL", Kind.REAL, "largest ratio of ALLSD to ALLSE (0.05; 0 with FACTOR: no limit)"),
+    Option("ALLSDTOL", Kind.REAL, "largest ratio of ALLSD to ALLSE (0.05; 0 with FACTOR: no limit)", bare="0.05"),
     Option(
         "CONTINUE",
         Kind.CHOICE,

@@ -45,11 +45,31 @@ class ElementRun:
     nodes: IntArray
     source: Callable[[int], Source]
 
+    def at(self, rows: IntArray) -> ElementRun:
+        """Some of the elements."""
+        places = rows.tolist()
+        return ElementRun(self.type, self.labels[rows], self.nodes[rows], lambda index: self.source(places[index]))
+
+
+def _rows(run: ElementRun) -> Iterable[tuple[int, list[int]]]:
+    """Label and nodes of each element."""
+    return zip(run.labels.tolist(), run.nodes.tolist(), strict=True)
+
 
 class LocalMesh:
-    """What *NODE, *ELEMENT, *NSET, *ELSET and the generating keywords define in one scope."""
+    """What *NODE, *ELEMENT, *NSET, *ELSET and the generating keywords define in one scope.
 
-    def __init__(self, definitions: Definitions, instances: Mapping[str, LocalMesh] | None = None) -> None:
+    A node or element that is defined more than once is as the last definition says (Abaqus Analysis User's Guide, "Node
+    definition", "Element definition"), with a warning where an earlier one says otherwise.
+    """
+
+    def __init__(
+        self,
+        definitions: Definitions,
+        warn: Callable[[Source, str], None],
+        instances: Mapping[str, LocalMesh] | None = None,
+    ) -> None:
+        self._warn = warn
         self.definitions = definitions
         self.instances = instances or {}
         self.nodes: dict[int, Point] = {}
@@ -71,27 +91,40 @@ class LocalMesh:
             raise row.error(f"{count} {what} are too many: {MOST_GENERATED[what]} can be generated in all")
 
     def add_nodes(self, labels: IntArray, points: FloatArray, source: Callable[[int], Source]) -> None:
-        """Add nodes; one that is there already must be in the same place."""
+        """Add nodes."""
         new = dict(zip(labels.tolist(), map(tuple, points.tolist()), strict=True))
         if len(new) < len(labels) or not self.nodes.keys().isdisjoint(new):
             seen = dict(self.nodes)
             for index, (label, point) in enumerate(zip(labels.tolist(), points.tolist(), strict=True)):
-                if seen.setdefault(label, tuple(point)) != tuple(point):
-                    raise DeckError(source(index), f"node {label} is defined twice, with different coordinates")
+                if seen.get(label, tuple(point)) != tuple(point):
+                    self._warn(source(index), f"node {label} is defined again, elsewhere than before, and is here")
+                seen[label] = tuple(point)
         self.nodes.update(new)
 
     def add_elements(self, run: ElementRun) -> None:
-        """Add elements; their numbers must be new."""
+        """Add elements."""
         labels = run.labels.tolist()
-        new = dict.fromkeys(labels, len(self.runs))
-        if len(new) < len(labels) or not self.run_of.keys().isdisjoint(new):
-            seen = set(self.run_of)
-            for index, label in enumerate(labels):
-                if label in seen:
-                    raise DeckError(run.source(index), f"element {label} is defined twice")
-                seen.add(label)
-        self.run_of.update(new)
+        last = {label: index for index, label in enumerate(labels)}
+        again = last.keys() & self.run_of.keys()
+        if again or len(last) < len(labels):
+            known: dict[int, tuple[ElementType, list[int]]] = {}
+            for k in {self.run_of[label] for label in again}:
+                earlier = self.runs[k]
+                known |= {label: (earlier.type, nodes) for label, nodes in _rows(earlier) if label in again}
+                self.runs[k] = earlier.at(np.flatnonzero(~np.isin(earlier.labels, run.labels)))
+            self._tell_changes(run, known)
+            run = run.at(np.array(sorted(last.values())))
+        self.run_of.update(dict.fromkeys(last, len(self.runs)))
         self.runs.append(run)
+
+    def _tell_changes(self, run: ElementRun, known: dict[int, tuple[ElementType, list[int]]]) -> None:
+        """Warn of elements that are not as an earlier definition says; known: type and nodes by these."""
+        for index, (label, nodes) in enumerate(_rows(run)):
+            if known.setdefault(label, (run.type, nodes)) != (run.type, nodes):
+                self._warn(
+                    run.source(index), f"element {label} is defined again, otherwise than before, and is this one"
+                )
+            known[label] = run.type, nodes
 
     def add_to_set(self, sets: dict[str, list[Members]], name: str, members: Iterable[Members]) -> None:
         """Extend a set; a set without a name takes nothing."""

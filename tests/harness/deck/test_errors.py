@@ -102,8 +102,6 @@ MISTAKES = {
     "nan": ("3, 1., 1.\n", "3, 1., nan\n", r"14: \*NODE: coordinate 2: 'nan' is not a number"),
     "node number": ("3, 1., 1.\n", "3.5, 1., 1.\n", r"14: '3.5' is not an integer"),
     "negative node number": ("3, 1., 1.\n", "-3, 1., 1.\n", r"14: -3 is not a node or element number"),
-    "node twice": ("4, 0., 1.\n", "3, 0., 1.\n", r"15: node 3 is defined twice, with different coordinates"),
-    "element twice": ("2, 5, 6, 7, 8", "1, 5, 6, 7, 8", r"22: element 1 is defined twice"),
     "missing node": ("1, 1, 2, 3, 4", "1, 1, 2, 3, 9", r"21: element 1 uses node 9, which is not defined"),
     "too few nodes": ("1, 1, 2, 3, 4", "1, 1, 2, 3", r"21: element 1 lists 3 nodes where U1 has 4"),
     "too many nodes": ("1, 1, 2, 3, 4", "1, 1, 2, 3, 4, 5", r"21: element 1 lists 5 nodes where U1 has 4"),

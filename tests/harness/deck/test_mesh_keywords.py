@@ -218,3 +218,39 @@ def test_long_properties(read: Read) -> None:
     section = read(text).groups[1].section
     assert_array_equal(section.values, [1, 2, 3, 4, 5, 6, 7, 8, 9, 0])  # type: ignore[union-attr]
     assert_array_equal(section.integers, [11, 12, 13])  # type: ignore[union-attr]
+
+
+REDEFINED = """\
+*NODE
+1, 0., 0.
+2, 1., 0.
+3, 1., 1.
+4, 0., 1.
+5, 2., 0.
+6, 2., 1.
+{nodes}*ELEMENT, TYPE=CPS4, ELSET=EALL
+1, 1, 2, 3, 4
+2, 2, 5, 6, 3
+{elements}"""
+
+
+def test_the_last_definition_counts(read: Read) -> None:
+    """Node 6 elsewhere, element 2 as a triangle, then with its nodes in another order: the last one."""
+    again = "*ELEMENT, TYPE=CPS3, ELSET=EALL\n2, 2, 5, 6\n3, 2, 6, 3\n*ELEMENT, TYPE=CPS3, ELSET=EALL\n2, 5, 6, 2\n"
+    model = read(REDEFINED.format(nodes="*NODE\n6, 2., 1.5\n", elements=again) + END)
+    assert_allclose(model.mesh.coordinates[5], [2, 1.5, 0])
+    quads, triangles = sorted(model.groups, key=lambda group: group.type, reverse=True)
+    assert_array_equal(quads.labels, [1])
+    assert dict(zip(triangles.labels.tolist(), triangles.nodes.tolist(), strict=True)) == {2: [4, 5, 1], 3: [1, 5, 2]}
+    assert [warning.partition(".inp")[2] for warning in model.warnings] == [
+        ":9: node 6 is defined again, elsewhere than before, and is here",
+        ":14: element 2 is defined again, otherwise than before, and is this one",
+        ":17: element 2 is defined again, otherwise than before, and is this one",
+    ]
+
+
+def test_the_same_twice_is_said_by_nobody(read: Read) -> None:
+    model = read(REDEFINED.format(nodes="*NODE\n6, 2., 1.\n", elements="2, 2, 5, 6, 3\n") + END)
+    (quads,) = model.groups
+    assert_array_equal(quads.labels, [1, 2])
+    assert not model.warnings

@@ -36,6 +36,11 @@ def step(read):
             Static(0.1, 2.0, 2e-5, 2.0, stabilize=Stabilize(1e-4, 0.0, 0.1)),
             "RAMP",
         ),
+        (
+            "*STATIC, STABILIZE, FACTOR=3., ALLSDTOL\n0.1, 2.",
+            Static(0.1, 2.0, 2e-5, 2.0, stabilize=Stabilize(2e-4, 3.0, 0.05)),
+            "RAMP",
+        ),
         ("*VISCO\n0.1, 2.", Visco(0.1, 2.0, 2e-5, 2.0), "STEP"),
         ("*DYNAMIC\n0.01, 2.", Dynamic(0.01, 2.0, 2e-5, 0.02, half_increment=1e4), "STEP"),
         ("*DYNAMIC, NOHAF, DIRECT\n0.01, 2.", Dynamic(0.01, 2.0, 0.01, 0.01, True), "STEP"),
