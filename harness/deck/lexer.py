@@ -19,6 +19,7 @@ from harness.errors import DeckError, Source
 _BLANKS = dict.fromkeys(map(ord, "\v\f\x1c\x1d\x1e\x85\u2028\u2029"), " ")
 DEEPEST = 20
 MOST_INCLUDED = 2000
+_COMMENT = re.compile(r"(?<=[\s,])\*\*")
 _PARAMETER = re.compile(r"<\s*([A-Za-z_]\w*)\s*>")
 
 
@@ -70,6 +71,7 @@ class _Lexer:
         self._parameters: dict[str, Value] = {}
         self._open: Block | None = None
         self._discard = False
+        self._commented = False
         self._included = 0
 
     def read(self, lines: list[str], file: str, stack: tuple[Path, ...]) -> None:
@@ -115,10 +117,22 @@ class _Lexer:
                 self._problems.add(Source(file, number), "data before the first keyword")
                 self._discard = True
             return
-        if "<" in line and self._open.keyword.name not in ("HEADING", "PARAMETER"):
-            with self._problems.gather():
-                line = self._substitute(line, Source(file, number))
+        if self._open.keyword.name not in ("HEADING", "PARAMETER"):
+            line = self._uncommented(line, Source(file, number))
+            if "<" in line:
+                with self._problems.gather():
+                    line = self._substitute(line, Source(file, number))
         self._open.append(line, file, number)
+
+    def _uncommented(self, line: str, source: Source) -> str:
+        """A data line without a comment at its end, which Abaqus takes too."""
+        comment = _COMMENT.search(line) if "**" in line else None
+        if comment is None:
+            return line
+        if not self._commented:
+            self._problems.warn(source, "what follows ** in a data line is taken for a comment, here and further on")
+        self._commented = True
+        return line[: comment.start()].rstrip()
 
     def _substitute(self, line: str, source: Source) -> str:
         def value(match: re.Match[str]) -> str:

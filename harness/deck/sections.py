@@ -154,11 +154,15 @@ def _user_property(
     if len(entries) != wanted:
         announced = f"PROPERTIES={reals}" + (f", I PROPERTIES={integers}" if integers else "")
         message = f"{len(entries)} values where U{definition.number} takes {wanted} ({announced})"
-        if len(entries) > wanted or len(rows) != math.ceil(wanted / ENTRIES):
+        if len(entries) > wanted:
+            problems.warn(block.source, f"*{block.name}: {message}; those that are left are not passed to it")
+        elif len(rows) == math.ceil(wanted / ENTRIES):
+            # a line has eight entries, those left out are zero
+            problems.warn(block.source, f"*{block.name}: {message}; the others are zero")
+            entries = [(row, index) for row in rows for index in range(ENTRIES)]
+        else:
             raise block.error(message)
-        # a line has eight entries, those left out are zero
-        problems.warn(block.source, f"*{block.name}: {message}; the others are zero")
-        entries = [(row, index) for row in rows for index in range(ENTRIES)][:wanted]
+        entries = entries[:wanted]
     values = [row.real(index, f"property {index + 1}", 0.0) for row, index in entries[:reals]]
     whole = []
     for row, index in entries[reals:]:

@@ -129,11 +129,6 @@ MISTAKES = {
         "MATERIAL=PLY\n",
         r"32: 0 values where U1 takes 1 \(PROPERTIES=1\)",
     ),
-    "too many properties": (
-        "MATERIAL=PLY\n<width>",
-        "MATERIAL=PLY\n1,2",
-        r"32: 2 values where U1 takes 1 \(PROPERTIES=1\)",
-    ),
     "section keyword": (
         "*ELEMENT, TYPE=U2, ELSET=INTERFACE",
         "*ELEMENT, TYPE=CPS4, ELSET=INTERFACE",

@@ -75,6 +75,29 @@ def test_properties_left_out_at_the_end_of_a_line_are_zero(read: Read) -> None:
     assert any("2 values where U2 takes 5" in warning and "are zero" in warning for warning in model.warnings)
 
 
+def test_properties_beyond_those_of_the_type_are_left_out(read: Read) -> None:
+    model = read(FLAT.replace("3, -4\n", "3, -4, 5\n"))
+    section = next(group.section for group in model.groups if group.type == "U2")
+    assert isinstance(section, UserProperty)
+    assert_array_equal(section.integers, [3, -4])
+    assert any("6 values where U2 takes 5" in warning and "not passed to it" in warning for warning in model.warnings)
+
+
+def test_comment_at_the_end_of_data_lines(read: Read) -> None:
+    """What follows ** is left out, with one warning; in an expression of *PARAMETER it is a power."""
+    plain = read(FLAT)
+    text = FLAT.replace("half = width/2", "half = width **2/40")
+    text = text.replace("3, -4\n", "3, -4,   **layers, angle\n").replace("1, 2, 3, 4\n", "1, 2, 3, 4 **first\n")
+    model = read(text)
+    for group, other in zip(model.groups, plain.groups, strict=True):
+        assert_array_equal(group.nodes, other.nodes)
+        assert isinstance(group.section, UserProperty) and isinstance(other.section, UserProperty)
+        assert_array_equal(group.section.values, other.section.values)
+        assert_array_equal(group.section.integers, other.section.integers)
+    assert sum("taken for a comment" in warning for warning in model.warnings) == 1
+    assert len(model.warnings) == len(plain.warnings) + 1
+
+
 def test_ncopy(read: Read) -> None:
     """The translation comes before the rotation, here by 90 degrees about z."""
     text = "*NODE, NSET=OLD\n1, 1., 0.\n2, 2., 0.\n3, 2., 1.\n"
