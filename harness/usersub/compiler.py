@@ -33,7 +33,8 @@ def build(files: Sequence[Path], include: Sequence[Path] = (), *, zero_locals: b
     folders = list(dict.fromkeys([*(f.resolve().parent for f in files), *(p.resolve() for p in include)]))
     headers, texts, sources = _scan(files, folders)
     flags = (ZERO_LOCALS,) if zero_locals else ()
-    key = _key(compilers.values(), [*flags, *texts])
+    forms = [str(is_free_form(file, _read(file))) for file in files]
+    key = _key(compilers.values(), [*flags, *forms, *texts])
     target = cache_folder() / f"{files[0].stem}-{key}.so"
     if not target.exists():
         with tempfile.TemporaryDirectory() as work:

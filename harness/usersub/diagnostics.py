@@ -40,6 +40,9 @@ _OTHER_FORM: Final = (
     r"Non-numeric character in statement label|Invalid character in name|Unclassifiable statement"
     r"|Bad continuation line|Unexpected end of file|Expecting|Syntax error"
 )
+_FREE_STATEMENT: Final = re.compile(
+    r"^ {0,4}(?:module|subroutine|function|program|end|use|implicit|integer|real)\b", re.IGNORECASE | re.MULTILINE
+)
 _FIXED_CONTINUATION: Final = re.compile(r"^ {5}[1-9&+]", re.MULTILINE)
 
 
@@ -101,7 +104,9 @@ def _missing_module(module: str, name: str, texts: Mapping[str, str]) -> str:
 
 
 def _looks_free(text: str) -> bool:
-    """Whether most statements begin in the first five columns, where fixed form has labels only."""
+    """Whether many statements begin in the first five columns, where fixed form has labels only, or units do."""
+    if len(_FREE_STATEMENT.findall(text)) > 1:
+        return True
     lines = [line for line in text.splitlines() if line.strip() and line[0] not in "cC*!#dD"]
     early = [line for line in lines if not line[:5].strip().isdigit() and line[:5].strip() and "\t" not in line[:6]]
     return len(early) > len(lines) / 4

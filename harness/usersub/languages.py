@@ -62,6 +62,10 @@ SUFFIXES: Final = tuple(suffix for language in LANGUAGES for suffix in language.
 FIXED: Final = ("-ffixed-form", "-ffixed-line-length-132")
 FREE: Final = ("-ffree-form", "-ffree-line-length-none")
 _FREEFORM = re.compile(r"^[!cC*](?:DIR|DEC)\$\s*FREEFORM", re.IGNORECASE | re.MULTILINE)
+_ENVIRONMENT: Final = "abaqus_v6.env"
+_ENVIRONMENT_FREE = re.compile(
+    r"^[ \t]*compile_fortran\s*=(?:(?!^\s*\w+\s*=).)*?[\s'\"][-/]free\b", re.DOTALL | re.MULTILINE
+)
 
 
 def language_of(file: Path) -> Language:
@@ -76,5 +80,14 @@ def linking(languages: Collection[Language]) -> tuple[Language, list[str]]:
 
 
 def is_free_form(file: Path, text: str) -> bool:
-    """True for .f90, and for a text that an Intel directive declares to be in free form."""
-    return file.suffix.lower() == ".f90" or bool(_FREEFORM.search(text))
+    """True for .f90, for a text that an Intel directive declares to be in free form, and by Abaqus' environment file.
+
+    That is the one beside the file, where its compile_fortran has the option -free.
+    """
+    if file.suffix.lower() == ".f90" or _FREEFORM.search(text):
+        return True
+    environment = file.resolve().parent / _ENVIRONMENT
+    if not environment.is_file():
+        return False
+    lines = environment.read_text(encoding="latin-1").splitlines()
+    return bool(_ENVIRONMENT_FREE.search("\n".join(line.partition("#")[0] for line in lines)))

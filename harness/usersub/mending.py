@@ -32,6 +32,12 @@ _REAL_BOUND: Final = re.compile(
     r"Bad array specification for an explicitly shaped array at \(1\))$",
     re.MULTILINE,
 )
+_OWN_RESULT: Final = re.compile(
+    r"^(?P<file>[^\n]+?):(?P<line>\d+):\d+:\n(?:(?!.*Error:).*\n)*?"
+    r"Error: '(?P<name>\w+)' at \(1\) is the name of a recursive function and so refers to the result variable\.",
+    re.MULTILINE,
+)
+_END_OF_FUNCTION: Final = re.compile(r"^\s*end\s*(?:function\b.*)?(?:!.*)?$", re.IGNORECASE)
 _REAL_CONSTANTS: Final = re.compile(
     r"^\s*(?:real|double\s*precision)[^!\n]*\bparameter\b[^!\n]*::(.*)$", re.IGNORECASE | re.MULTILINE
 )
@@ -67,6 +73,29 @@ def repairs(errors: str) -> Iterator[Repair]:
         line = int(found["line"])
         change = partial(whole_bound, line=line)
         yield Repair(Path(found["file"]).name, line, change, "a real number as an array bound, in the copy int() of it")
+    for found in _OWN_RESULT.finditer(errors):
+        line, name = int(found["line"]), found["name"]
+        note = f"the function {name} calls itself and has no RESULT, which it has in the copy"
+        yield Repair(Path(found["file"]).name, line, partial(name_result, line=line, name=name), note)
+
+
+def name_result(text: str, line: int, name: str) -> str | None:
+    """The text in which a function that calls itself in a line has RESULT; None where its head is not one plain line.
+
+    Within the function its name means a call where arguments follow, and the result elsewhere.
+    """
+    lines = text.splitlines(keepends=True)
+    head = re.compile(rf"^(?!\s*end)[^!'\"]*\bfunction\s+{name}\s*\([^()]*\)(?=\s*(?:!.*)?$)", re.IGNORECASE)
+    first = next((number for number in range(min(line, len(lines)) - 1, -1, -1) if head.match(lines[number])), None)
+    result = f"{name}_result"
+    if first is None or result in text:
+        return None
+    lines[first] = head.sub(lambda found: f"{found[0]} result({result})", lines[first])
+    for number in range(first + 1, len(lines)):
+        if _END_OF_FUNCTION.match(lines[number].rstrip()):
+            return "".join(lines)
+        lines[number] = re.sub(rf"\b{name}\b(?!\s*\()", result, lines[number], flags=re.IGNORECASE)
+    return None
 
 
 def whole_bound(text: str, line: int) -> str | None:

@@ -56,6 +56,27 @@ def test_free_form_by_name(load):
     assert said(load(text, "user.f90")) == ["free"]
 
 
+@pytest.mark.parametrize(
+    ("environment", "free"),
+    [
+        ("ask_delete=OFF\ncompile_fortran = ['ifort', '-c',\n  '-free', '%P']\n", True),
+        ("compile_fortran = 'ifort /c /free %P'\n", True),
+        ("compile_fortran = ['ifort', '-c', '%P'] # without -free\n# compile_fortran='ifort -free'\n", False),
+        ("compile_fortran = ['ifort', '-c', '%P']\nlink_sl = ['ld', '-free']\n", False),
+    ],
+)
+def test_free_form_by_environment_file(load, tmp_path, environment, free):
+    """abaqus_v6.env beside the file has the user's options of the compiler; a library is kept for either form."""
+    text = "module one\nend module\nsubroutine uexternaldb(lop)\nuse one\n"
+    text += "call stdb_abqerr(1, 'free', (/0/), (/0d0/), (/' '/))\nend\n"
+    (tmp_path / "abaqus_v6.env").write_text(environment)
+    if free:
+        assert said(load(text)) == ["free"]
+        (tmp_path / "abaqus_v6.env").unlink()
+    with pytest.raises(CompileError, match="it looks like free form"):
+        load(text)
+
+
 @pytest.mark.parametrize("name", ["ABA_PARAM.INC", "aba_param.inc", "Aba_Param.Inc"])
 def test_aba_param_in_any_case(load, name):
     text = database("      a = 1.5\n      iwhole = 2*a\n" + note("%I", "iwhole")).replace("aba_param.inc", name)
@@ -262,6 +283,22 @@ def test_name_that_is_imported_and_defined_compiles_in_a_copy(load):
     (message,) = library.messages()
     assert "user.f, line 10: twice of module one has the name of the program unit that uses it" in message.text
     assert said(library) == ["9"]
+
+
+def test_function_that_calls_itself_without_a_result_compiles_in_a_copy(load):
+    """As Abaqus' compiler takes it: with arguments its name is a call."""
+    function = "      recursive integer function kfac(n) ! factorial\n      if (n .lt. 2) then\n      kfac = 1\n"
+    function += "      else\n      kfac = n\n      kfac = kfac*kfac (n - 1)\n      end if\n      end function kfac\n"
+    library = load(database("      i = kfac(5)\n" + note("%I", "i")) + function)
+    (message,) = library.messages()
+    assert "user.f, line 13: the function kfac calls itself and has no RESULT" in message.text
+    assert said(library) == ["120"]
+
+
+def test_function_that_calls_itself_with_a_long_head_is_shown(load):
+    function = "      recursive integer function kfac(\n     1 n)\n      kfac = n*kfac(n - 1)\n      end\n"
+    with pytest.raises(CompileError, match=r"Use an explicit RESULT variable .*\(user.f, line 9"):
+        load(database("      i = kfac(5)") + function)
 
 
 HINTS = {
