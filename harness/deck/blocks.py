@@ -8,6 +8,7 @@ import bisect
 from collections.abc import Iterator
 from dataclasses import dataclass, field
 
+from harness.deck.abaqus_names import ABAQUS_KEYWORDS
 from harness.deck.numbers import read_integer, read_real
 from harness.deck.table import Keyword, Options, split_fields, unquote
 from harness.errors import DeckError, Source
@@ -66,8 +67,10 @@ class Row:
             raise self.error(f"{len(self.fields)} entries where at most {count} are read")
 
     def error(self, message: str) -> DeckError:
-        """An error at this line."""
-        return DeckError(self.source, f"*{self.keyword}: {message}")
+        """An error at this line; one that looks like a keyword line may have lost its asterisk."""
+        first = unquote(self.fields[0]) if self.fields else ""
+        hint = f"; is the * of *{first} missing?" if first in ABAQUS_KEYWORDS else ""
+        return DeckError(self.source, f"*{self.keyword}: {message}{hint}")
 
 
 @dataclass(slots=True)

@@ -19,8 +19,11 @@ _ABAQUS = {compact(name): name for name in ABAQUS_KEYWORDS}
 
 
 def find_keyword(name: str, source: Source) -> Keyword:
-    """Keyword of this name; DeckError says whether Abaqus has it."""
+    """Keyword of this name, or the only one of Abaqus that begins like this; DeckError says whether Abaqus has it."""
     wanted = compact(name)
+    begins = [full for full in _ABAQUS if full.startswith(wanted)] if wanted not in _ABAQUS else []
+    if len(begins) == 1:
+        wanted = begins[0]
     if wanted in KEYWORDS:
         return KEYWORDS[wanted]
     if wanted in _ABAQUS:

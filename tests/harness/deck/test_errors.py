@@ -147,6 +147,11 @@ MISTAKES = {
     "missing dof": ("TOP, 1\n", "TOP\n", r"47: \*BOUNDARY: dof is missing"),
     "too many entries": ("3, 1, 5.\n", "3, 1, 5., 6.\n", r"49: 4 entries where at most 3 are read"),
     "acceleration": ("AMPLITUDE=GROW", "TYPE=ACCELERATION", r"45: \*BOUNDARY, TYPE=ACCELERATION is not supported"),
+    "keyword without its asterisk": (
+        "*BOUNDARY, AMPLITUDE=GROW\n",
+        "Boundary, AMPLITUDE=GROW\n",
+        r"45: \*STATIC: a second data line, where one is read; is the \* of \*BOUNDARY missing\?",
+    ),
     "no procedure": ("*STATIC\n0.1, 1., 1.E-8, 0.25\n", "", r"41: \*STEP: the step has no procedure such as \*STATIC"),
     "increment too large": ("0.1, 1., 1.E-8, 0.25", "2., 1.", r"44: initial increment 2 exceeds the period 1"),
     "increment out of range": (

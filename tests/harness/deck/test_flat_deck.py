@@ -110,6 +110,7 @@ def test_what_is_ignored_is_listed(model: Model) -> None:
         pytest.param(lambda text: text.upper(), id="upper case"),
         pytest.param(lambda text: text.replace("\n*", "\n  *"), id="blanks before keywords"),
         pytest.param(lambda text: text.replace("USER ELEMENT", "USERELEMENT"), id="no blanks in keywords"),
+        pytest.param(lambda text: text.replace("*BOUNDARY", "*BOUND"), id="beginning of a keyword"),
         pytest.param(lambda text: text.replace("\n*NODE,", "\n\n\n*NODE,"), id="blank lines"),
         pytest.param(lambda text: text.replace("TYPE=U2", "TYPE = U2 "), id="blanks around ="),
         pytest.param(lambda text: text.replace("., 0.\n", "., 0.,\n"), id="trailing commas of nodes"),
