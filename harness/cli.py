@@ -51,7 +51,8 @@ def main(arguments: Sequence[str] | None = None) -> int:
             return isolation.supervise(words, stem)
         return int(options.function(options))
     except UelError as error:
-        print(f"uel: {error}", file=sys.stderr)
+        for text in (error, *getattr(error, "__notes__", ())):
+            print(f"uel: {text}", file=sys.stderr)
     except OSError as error:
         print(f"uel: {error.filename or ''}: {error.strerror or error}", file=sys.stderr)
     except MemoryError:
@@ -224,7 +225,8 @@ def run_job(options: argparse.Namespace) -> int:
         last = result.status[-1]
         # a linear step takes no time, and may have a frequency in its place
         ending = f", total time {last.total_time:g}" if last.time_increment > PERTURBATION_TIME else ""
-        print(f"{result.job}: completed, {len(result.status)} lines in .sta{ending}")
+        warned = f", warnings in .dat and .msg: {len(result.warnings)}" if result.warnings else ""
+        print(f"{result.job}: completed, {len(result.status)} lines in .sta{ending}{warned}")
     return 0
 
 

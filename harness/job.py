@@ -7,6 +7,7 @@ from __future__ import annotations
 import time
 from collections.abc import Sequence
 from pathlib import Path
+from typing import Final
 
 from harness import usersub
 from harness.assembly import System
@@ -17,6 +18,9 @@ from harness.output import JobOutput, Result
 from harness.procedures import run_steps
 from harness.solver.threads import one_blas_thread
 from harness.usersub import Library
+
+MOST_REPEATED: Final = 3
+"""Warnings that an error brings along."""
 
 
 def run(
@@ -65,7 +69,7 @@ def run(
     ------
     UelError
         DeckError, CompileError, KernelError, SingularMatrixError or ConvergenceError; what was written until then
-        stays readable.
+        stays readable. Its notes are the first warnings before it.
     """
     deck = Path(deck)
     job = job or deck.stem
@@ -88,6 +92,10 @@ def run(
     except UelError as error:
         _pass_on(library, output)
         output.close(error)
+        for warning in output.warnings[:MOST_REPEATED]:
+            error.add_note(f"earlier warning: {warning}")
+        if len(output.warnings) > MOST_REPEATED:
+            error.add_note(f"and {len(output.warnings) - MOST_REPEATED} more warnings in {job}.dat and {job}.msg")
         raise
     except BaseException:
         output.close(UelError("the run was interrupted"))
@@ -95,7 +103,7 @@ def run(
     finally:
         library.close()
     output.close(None)
-    return Result(directory / job, seconds=time.perf_counter() - started)
+    return Result(directory / job, seconds=time.perf_counter() - started, warnings=output.warnings)
 
 
 def _pass_on(library: Library, output: JobOutput) -> None:

@@ -42,6 +42,7 @@ class Examination:
     """Outcome of all checks.
 
     increments  of the deck that were run; stopped says why these are fewer than asked for
+    warnings    about the deck
     """
 
     deck: Path
@@ -50,6 +51,7 @@ class Examination:
     stopped: str
     seed: int
     types: list[TypeReport]
+    warnings: tuple[str, ...] = ()
 
     @property
     def passed(self) -> bool:
@@ -88,7 +90,8 @@ def examine(
         progress(Running("calls of all elements in random orders"), None)
         orders = [order for order in shuffle_recording(recording, seed, strict=False).types if order.type in users]
         types: list[TypeReport] = []
-        outcome = Examination(deck, files, recording.increments, recording.stopped, seed, types)
+        warnings = recording.model.warnings
+        outcome = Examination(deck, files, recording.increments, recording.stopped, seed, types, warnings)
         for order in orders:
             types.append(TypeReport(order.type, order.elements))
             _examine_type(recording, order, checks, outcome, progress)

@@ -20,7 +20,7 @@ _STYLES: Final = {Verdict.PASSED: "green", Verdict.FAILED: "bold red", Verdict.N
 
 
 def table(outcome: Examination) -> Group:
-    """A table for each element type, then what to change."""
+    """A table for each element type and what to change, how the run of the deck ended, warnings about the deck."""
     parts: list[Table | Text] = []
     for report in outcome.types:
         title = f"{outcome.deck.name}: {report.type}, elements: {report.elements}, states: {report.states}"
@@ -31,6 +31,7 @@ def table(outcome: Examination) -> Group:
         parts += _advice(report)
     if outcome.stopped:
         parts.append(Text(f"The run of the deck ended early: {outcome.stopped}"))
+    parts += [Text(f"Warning: {warning}") for warning in outcome.warnings]
     return Group(*parts)
 
 
@@ -53,6 +54,7 @@ def as_json(outcome: Examination) -> str:
         "user": [str(file) for file in outcome.user],
         "increments": outcome.increments,
         "stopped": outcome.stopped,
+        "warnings": outcome.warnings,
         "seed": outcome.seed,
         "passed": outcome.passed,
         "types": [asdict(report) for report in outcome.types],

@@ -16,7 +16,10 @@ def wrong_entry(outcome: Outcome, n: int) -> str:
     if outcome.array != "RHS" or column:
         entry = f"{outcome.array}({row + 1},{column + 1})"
     if outcome.fault is Fault.UNSET:
-        return f"{entry} was not filled, or was added to without being set first (RHS and AMATRX are not zero on entry)"
+        half = outcome.array == "RHS" and outcome.index == n // 2 + 1 and n > 3
+        hint = "; half of it is set, as where it is declared REAL, of four bytes, in place of REAL*8" if half else ""
+        why = "was not filled, or was added to without being set first (RHS and AMATRX are not zero on entry)"
+        return f"{entry} {why}{hint}"
     return f"{entry} is NaN or infinite"
 
 

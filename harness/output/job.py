@@ -53,11 +53,17 @@ class JobOutput:
         Their folder, which exists.
     quiet
         No progress display.
+
+    Attributes
+    ----------
+    warnings
+        About the deck, then about the user routines and of them.
     """
 
     def __init__(self, model: Model, job: str, directory: Path, *, quiet: bool = False) -> None:
         stem = Path(directory) / job
         self._model = model
+        self.warnings = list(model.warnings)
         self._pending: IncrementDone | None = None
         self._status = StatusFile(stem.with_name(f"{job}.sta"))
         self._message = MessageFile(stem.with_name(f"{job}.msg"), model)
@@ -99,6 +105,8 @@ class JobOutput:
     def user_text(self, file: str, kind: str, text: str) -> None:
         """Text of a user routine: `file` '.msg' or '.dat', `kind` 'print', 'note', 'warning' or 'error'."""
         target = self._data if file == ".dat" else self._message
+        if kind == "warning":
+            self.warnings.append(text)
         if kind == "print":
             target.text(text)
         else:

@@ -4,6 +4,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from functools import cached_property
 from pathlib import Path
 
@@ -27,11 +28,14 @@ class Result:
         Folder and name of the job: the files are stem.sta, stem_history.csv and so on.
     seconds
         Wall-clock time of the run, where it is known.
+    warnings
+        About the deck and the user routines, of a run just made.
     """
 
-    def __init__(self, stem: Path | str, *, seconds: float | None = None) -> None:
+    def __init__(self, stem: Path | str, *, seconds: float | None = None, warnings: Sequence[str] = ()) -> None:
         self._stem = Path(stem)
         self.seconds = seconds
+        self.warnings = tuple(warnings)
         if not self.file(".sta").exists():
             raise UelError(f"{self.file('.sta')}: no such job")
 

@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """The command: exit codes, messages without tracebacks, Abaqus' spelling, and what a killed run leaves."""
 
+import re
 import signal
 import subprocess
 import sys
@@ -96,6 +97,56 @@ def snapping(folder: Path, static: str) -> Path:
 def test_quiet_prints_nothing(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     assert main(["run", str(FLAT), "--output-dir", str(tmp_path), "--quiet"]) == 0
     assert capsys.readouterr() == ("", "")
+
+
+HALF_SET = """\
+      include '{folder}/uel.inc'
+      real zero(4)
+      zero = 0.
+      call clear(rhs, zero)
+      amatrx = 0d0
+      amatrx(1,1) = 1d0
+      amatrx(2,2) = 1d0
+      end
+      subroutine clear(r, z)
+      real r(4), z(4)
+      r = z
+      end
+"""
+HALF_SET_DECK = """\
+*NODE
+1, 0.
+2, 1.
+*USER ELEMENT, TYPE=U1, NODES=2, COORDINATES=1, VARIABLES=2
+1, 2
+*ELEMENT, TYPE=U1, ELSET=ALL
+1, 1, 2
+*UEL PROPERTY, ELSET=ALL
+1.
+*STEP
+*STATIC, DIRECT
+1., 1.
+*BOUNDARY
+1, 1, 2
+2, 1, {last}
+*END STEP
+"""
+
+
+def test_warnings_are_told_at_the_end(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    """With what the run ends by: a deck with a property too much, an element with REAL for REAL*8."""
+    deck, user = tmp_path / "half.inp", tmp_path / "half.f"
+    user.write_text(HALF_SET.format(folder=Path(__file__).parent))
+    words = ["run", str(deck), "--user", str(user), "--output-dir", str(tmp_path)]
+    deck.write_text(HALF_SET_DECK.format(last=2))
+    assert main(words) == 0
+    assert capsys.readouterr().out.endswith("total time 1, warnings in .dat and .msg: 2\n")
+    deck.write_text(HALF_SET_DECK.format(last=1))
+    assert main(words) == 1
+    first, second, third = capsys.readouterr().err.splitlines()
+    assert "singular system matrix at node 2, dof 2" in first
+    assert re.fullmatch(r"uel: earlier warning: .*half.inp:8: .* 1 values where U1 takes 0 .*", second)
+    assert re.match("uel: earlier warning: element 1 .type U1.: RHS.3. was not filled, .*REAL, of four bytes", third)
 
 
 def test_spelling_of_abaqus(tmp_path: Path) -> None:

@@ -231,6 +231,14 @@ def test_nothing_can_be_checked(words, message, capsys):
     assert re.search(message, capsys.readouterr().err)
 
 
+def test_warnings_about_the_deck(patch, tmp_path, capsys):
+    deck = patch(0, ("1000., 0.3, 2.\n0\n", "1000., 0.3, 2.\n0, 1.\n"))
+    assert main(["check", str(QUAD), str(deck), "--json", str(tmp_path / "found.json")]) == 0
+    assert "Warning: " in capsys.readouterr().out
+    (warning,) = json.loads((tmp_path / "found.json").read_text())["warnings"]
+    assert re.search(r"patch.inp:18: .UEL PROPERTY: 5 values where U1 takes 4 .* not passed to it", warning)
+
+
 @pytest.mark.nan
 def test_element_that_fails_in_its_first_call(patch, capsys):
     assert main(["check", str(QUAD), str(patch(0, ("1000., 0.3, 2.", "1000., 1., 2.")))]) == 2
