@@ -12,7 +12,7 @@ from typing import Final
 from harness.check.checks import CHECKS, Check
 from harness.check.finding import Finding, Verdict, failed, not_applicable
 from harness.check.progress import Progress, Running, untold
-from harness.check.recording import Recording, record
+from harness.check.recording import Recording, record_leniently
 from harness.check.shuffle import TypeVerdict, shuffle_recording
 from harness.check.subject import Subject, subject_of
 from harness.errors import CallLimitError, KernelError, UelError
@@ -83,7 +83,7 @@ def examine(
     checks = [check for check in CHECKS if check.name not in skip]
     with marks(LENIENT):
         progress(Running("the run of the deck"), None)
-        recording = record(deck, files, increments, strict=False)
+        recording = record_leniently(deck, files, increments)
         users = {group.type for group in recording.model.groups if group.definition is not None}
         if not users:
             raise UelError(f"{deck}: no elements of a type defined by *USER ELEMENT, which are what is checked")

@@ -6,7 +6,7 @@ from __future__ import annotations
 
 import tempfile
 from collections.abc import Iterator, Sequence
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Final
@@ -79,6 +79,8 @@ class Recording:
     increments  that converged
     stopped     why the run ended before the increments asked for; '' if it did not
     failure     error of an element that ended the run, None if none did
+    unset       error with which a run ends in which local variables without a value hold what earlier calls have left;
+                '' where it does not. Where it does, they are zero in this run and in all further calls.
     """
 
     model: Model
@@ -88,20 +90,43 @@ class Recording:
     increments: int
     stopped: str
     failure: ElementError | None = None
+    unset: str = ""
 
 
 @contextmanager
-def opened(model: Model, user: Sequence[Path]) -> Iterator[Library]:
+def opened(model: Model, user: Sequence[Path], *, zero_locals: bool = False) -> Iterator[Library]:
     """The user routines, freshly loaded; what they print goes to a folder that is removed."""
     with tempfile.TemporaryDirectory() as folder:
-        library = usersub.load(user or None, job=model.deck.stem, output_dir=Path(folder), deck=model.deck)
+        job, output_dir = model.deck.stem, Path(folder)
+        library = usersub.load(user or None, job=job, output_dir=output_dir, deck=model.deck, zero_locals=zero_locals)
         try:
             yield library
         finally:
             library.close()
 
 
-def record(deck: Path, user: Sequence[Path], increments: int, *, strict: bool = True) -> Recording:
+def record_leniently(deck: Path, user: Sequence[Path], increments: int) -> Recording:
+    """As `record`, not strict; once more with zero in local variables without a value, where only that gets through."""
+    recording, error = None, None
+    try:
+        recording = record(deck, user, increments, strict=False)
+        error = recording.failure
+    except KernelError as raised:
+        error = raised
+    if isinstance(error, KernelError) and user:
+        with suppress(UelError):
+            again = record(deck, user, increments, strict=False, zero_locals=True)
+            if again.failure is None:
+                return replace(again, unset=str(error))
+    if recording is None:
+        assert error is not None
+        raise error
+    return recording
+
+
+def record(
+    deck: Path, user: Sequence[Path], increments: int, *, strict: bool = True, zero_locals: bool = False
+) -> Recording:
     """Run the first increments of a deck in Abaqus' order.
 
     A run that ends without convergence is recorded up to there. Raises the other errors of a run; if not strict, only
@@ -110,7 +135,7 @@ def record(deck: Path, user: Sequence[Path], increments: int, *, strict: bool = 
     model = read_deck(deck)
     events: list[Event] = []
     done, stopped, failure = 0, "", None
-    with opened(model, user) as library, one_blas_thread():
+    with opened(model, user, zero_locals=zero_locals) as library, one_blas_thread():
         system = _RecordedSystem(model, build_blocks(model, library, strict=strict), events)
         try:
             for happened in run_steps(system, model, _RecordedRoutines(library, events)):

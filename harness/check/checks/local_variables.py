@@ -16,8 +16,20 @@ NUMBERS: Final = float("nan"), 7.3, -2.9e5
 """What they hold in turn; 0 is what they happen to hold most often."""
 
 
+ADVICE: Final = (
+    "A local variable is used before it has a value, and then holds whatever an earlier call has left: "
+    "results differ from machine to machine and from run to run. IMPLICIT NONE finds misspelt names; "
+    "gfortran -Wall -O2 names most of the others."
+)
+
+
 def check(subject: Subject) -> Finding:
     """What the memory of local variables held before a call has no effect."""
+    if error := subject.recording.unset:
+        message = (
+            f"the deck runs only where local variables without a value are zero, as in the other checks; else {error}"
+        )
+        return failed(message, ADVICE)
     for state in subject.states:
         with local_variables(0.0):
             expected = state.evaluate()
@@ -31,10 +43,5 @@ def check(subject: Subject) -> Finding:
                     difference = str(error)
             if difference:
                 message = f"{state}: what is left in the memory of local variables changes the result: {difference}"
-                advice = (
-                    "A local variable is used before it has a value, and then holds whatever an earlier call has left: "
-                    "results differ from machine to machine and from run to run. IMPLICIT NONE finds misspelt names; "
-                    "gfortran -Wall -O2 names most of the others."
-                )
-                return failed(message, advice)
+                return failed(message, ADVICE)
     return passed(f"what is left in memory has no effect at {len(subject.states)} states")

@@ -133,6 +133,48 @@ HALF = """\
 """
 
 
+NAN_LEFT = """\
+      include '{folder}/uel.inc'
+      call leave_nan
+      call weigh(factor)
+      rhs(1,1) = -(1 + factor)*u(1)
+      amatrx = 1 + factor
+      end
+"""
+WEIGH = """\
+      subroutine weigh(factor)
+      double precision factor,weight(9)
+      call look_at(weight)
+      factor = 1d-9*weight(9)
+      end
+"""
+LEAVE_NAN = """\
+void leave_nan_(void)
+{
+  volatile double left[400];
+  for (int i = 0; i < 400; i++) left[i] = __builtin_nan("");
+}
+void look_at_(double *weight) { weight[0] = 1; }
+"""
+
+
+@pytest.mark.nan
+def test_local_variable_without_a_value_that_ends_the_run(tmp_path):
+    """With zero in it all other checks are made. Files of their own keep the frames of the routines apart."""
+    deck, user = tmp_path / "coupled.inp", [tmp_path / "uel.f", tmp_path / "weigh.f", tmp_path / "leave.c"]
+    deck.write_text(COUPLED.replace(", UNSYMM\n1, 11", "\n1"))
+    for file, text in zip(user, (NAN_LEFT.format(folder=QUAD.parents[1]), WEIGH, LEAVE_NAN), strict=True):
+        file.write_text(text)
+    found = findings(deck, user)
+    passing = [name for name, finding in found.items() if finding.verdict is Verdict.PASSED]
+    assert {"run", "filled", "repeat", "tangent"} < set(passing)
+    assert found["locals"].verdict is Verdict.FAILED
+    assert re.search(
+        r"runs only where local variables .* are zero, .*; else element 1 .*RHS.1. is NaN", found["locals"].message
+    )
+    assert "-Wall -O2 names most" in found["locals"].advice
+
+
 def test_dofs_of_wrong_entries(tmp_path):
     deck, user = tmp_path / "coupled.inp", tmp_path / "coupled.f"
     deck.write_text(COUPLED)
