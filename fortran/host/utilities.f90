@@ -10,6 +10,13 @@ subroutine xit()
   call escape()
 end subroutine xit
 
+!> Not documented; public user elements call it as they would XIT.
+subroutine xexit()
+  use host_protect, only: escape
+  implicit none (type, external)
+  call escape()
+end subroutine xexit
+
 !> Send a message: lop 1 information, -1 warning, -2 error, -3 fatal error, which ends the analysis.
 subroutine stdb_abqerr(lop, string, intv, realv, charv)
   use host_kinds, only: dp, i4

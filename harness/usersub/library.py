@@ -143,12 +143,18 @@ def load(
     """
     files = [] if user is None else [user] if isinstance(user, Path) else list(user)
     shared = _shared_library(files, () if deck is None else (deck.resolve().parent,), zero_locals=zero_locals)
-    name = " ".join(str(f) for f in files) or "the project's kernels"
+    name = _name_of(files)
     library = Library(name, shared, _open(shared, name), Inbox(job, output_dir))
     notes = notes_of(shared)
     for note in notes.read_text("utf-8").splitlines() if notes.exists() else ():
         library.warn(f"an extension of Abaqus' compiler, written in standard Fortran in a copy: {note}")
     return library
+
+
+def _name_of(files: Sequence[Path]) -> str:
+    """User files as they are named in messages."""
+    others = f" and {len(files) - 1} more" if len(files) > 1 else ""
+    return f"{files[0]}{others}" if files else "the project's kernels"
 
 
 def _shared_library(files: Sequence[Path], include: Sequence[Path], *, zero_locals: bool) -> Path:

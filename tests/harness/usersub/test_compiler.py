@@ -168,6 +168,13 @@ def test_unresolved_routine(load):
         load(database("      call mystery(1)"))
 
 
+def test_unresolved_routine_of_several_files(tmp_path):
+    (tmp_path / "a.f").write_text(database("      call nowhere"))
+    (tmp_path / "b.f").write_text("      subroutine somewhere\n      end\n")
+    with pytest.raises(CompileError, match=r"a.f and 1 more: refers to NOWHERE, which neither"):
+        usersub.load([tmp_path / "a.f", tmp_path / "b.f"], job="job", output_dir=tmp_path)
+
+
 def test_missing_file(tmp_path):
     with pytest.raises(CompileError, match=r"none\.f: no such file"):
         usersub.load(tmp_path / "none.f", job="job", output_dir=tmp_path)

@@ -234,6 +234,7 @@ def test_external_database_arguments(load):
     "statement, reason",
     [
         ("call xit", r"stopped the analysis \(XIT\) without a message"),
+        ("call xexit", r"stopped the analysis \(XIT\) without a message"),
         ("call stdb_abqerr(-3,'no license to %S',0,0.d0,'delamin.')", "stopped the analysis: no license to delamin."),
         ("stop", "stopped the analysis: STOP"),
         ("error stop 'broken'", "stopped the analysis: ERROR STOP 'broken'"),
