@@ -280,7 +280,7 @@ class Block:
 
     def _options(self, call: Call, *, assemble: bool) -> Options:
         p, guards = self._procedure, (self._guards, self._entries)
-        flags = int(not self.unsymmetric), int(assemble)
+        flags = int(not (self.unsymmetric or (call.unsymmetric and self.group.definition))), int(assemble)
         return p.material, p.tensor, p.jtype, *flags, call.step, call.increment, *guards, call.iteration
 
     def initialise(self, rows: IntArray, values: FloatArray) -> None:

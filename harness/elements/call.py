@@ -5,8 +5,12 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import Final
 
 from harness.model.arrays import FloatArray, IntArray
+
+COUPLED_TEMPERATURE: Final = (71, 72, 73)
+"""LFLAGS(1) of *COUPLED TEMPERATURE-DISPLACEMENT: steady, transient, with fixed increments."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -67,6 +71,15 @@ class Call:
     def flags(self) -> tuple[int, ...]:
         """LFLAGS(1..7)."""
         return (*self.lflags, 0, self.damping)
+
+    @property
+    def unsymmetric(self) -> bool:
+        """Whether AMATRX of UEL counts as it is, UNSYMM or not: in coupled temperature-displacement steps.
+
+        Abaqus 2023 says in their message file that it uses unsymmetric storage, and a public element without UNSYMM
+        there meets its residuals in one iteration, which it does not with (A + A^T)/2.
+        """
+        return self.lflags[0] in COUPLED_TEMPERATURE
 
 
 @dataclass(frozen=True, slots=True)

@@ -175,7 +175,7 @@ def tolerances(step: Step, fields: Iterable[str]) -> str:
     options = [f"     THE MAXIMUM NUMBER OF INCREMENTS IN THIS STEP IS{step.increments:24d}\n"]
     if step.nlgeom:
         options.append("          LARGE DISPLACEMENT THEORY WILL BE USED\n")
-    if step.unsymmetric:
+    if step.unsymmetric or (isinstance(step.procedure, HeatTransfer) and step.procedure.coupled):
         options.append("          UNSYMMETRIC MATRIX STORAGE AND SOLUTION WILL BE USED\n")
     kind = (
         "EXTRAPOLATION WILL NOT" if step.extrapolation in ("NO", "NONE") else f"{step.extrapolation} EXTRAPOLATION WILL"

@@ -273,6 +273,19 @@ def test_nothing_can_be_checked(words, message, capsys):
     assert re.search(message, capsys.readouterr().err)
 
 
+def test_unsymmetric_matrix_in_a_coupled_step(tmp_path):
+    """There Abaqus takes AMATRX as it is."""
+    deck, user = tmp_path / "coupled.inp", tmp_path / "coupled.f"
+    user.write_text(HALF.format(folder=QUAD.parents[1]).replace("-1.5d0", "-3d0"))
+    text = COUPLED.replace(", UNSYMM", "")
+    deck.write_text(text)
+    assert findings(deck, user)["symmetry"].verdict is Verdict.FAILED
+    deck.write_text(text.replace("*STATIC, DIRECT", "*COUPLED TEMPERATURE-DISPLACEMENT, STEADY STATE"))
+    symmetry = findings(deck, user)["symmetry"]
+    assert symmetry.verdict is Verdict.PASSED
+    assert re.search("which coupled temperature steps take as it is: 100 %", symmetry.message)
+
+
 def test_warnings_about_the_deck(patch, tmp_path, capsys):
     deck = patch(0, ("1000., 0.3, 2.\n0\n", "1000., 0.3, 2.\n0, 1.\n"))
     assert main(["check", str(QUAD), str(deck), "--json", str(tmp_path / "found.json")]) == 0

@@ -2,9 +2,12 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Heat transfer through rods: conductance G, heat capacity C at each of their ends."""
 
+from pathlib import Path
+
 import numpy as np
 import pytest
 
+from harness.job import run
 from harness.model.procedures import HeatTransfer, Visco
 from harness.model.records import Verdict
 from harness.procedures.heat_transfer import CHANGES_TOO_FAST
@@ -119,3 +122,41 @@ def test_temperature_dependent_conductance_converges_quadratically(bench, conduc
 def test_elements_are_told_the_procedure(bench, conduct, procedure, flag):
     result = conduct(bench.step(static=procedure, boundaries=(bench.fix(0, dof=11),)), log=True)
     assert {line[1] for line in result.printed if line[0] == "UEL"} == {str(flag)}
+
+
+COUPLED_SPRING = """\
+*NODE
+1, 0.
+*USER ELEMENT, TYPE=U1, NODES=1
+1, 11
+*ELEMENT, TYPE=U1, ELSET=ALL
+1, 1
+*UEL PROPERTY, ELSET=ALL
+*STEP, INC=1
+{procedure}
+1., 1.
+*CLOAD
+1, 1, 1.
+*CFLUX
+1, 11, 1.
+*END STEP
+"""
+THERMAL_FORCE = """\
+      include '{folder}/uel.inc'
+      rhs(1:2,1) = (/ -u(1) + u(2), -2*u(2) /)
+      amatrx = reshape((/ 1d0, 0d0, -1d0, 2d0 /), (/ 2, 2 /))
+      end
+"""
+
+
+@pytest.mark.parametrize(
+    "procedure, linear", [("*COUPLED TEMPERATURE-DISPLACEMENT, STEADY STATE", True), ("*STATIC", False)]
+)
+def test_coupled_steps_take_unsymmetric_matrices_as_they_are(tmp_path, procedure, linear):
+    """Abaqus 2023 does so, and says so in its message file; elsewhere UNSYMM is needed for it."""
+    deck, user = tmp_path / "spring.inp", tmp_path / "spring.f"
+    deck.write_text(COUPLED_SPRING.format(procedure=procedure))
+    user.write_text(THERMAL_FORCE.format(folder=Path(__file__).parents[1]))
+    result = run(deck, user, output_dir=tmp_path)
+    assert (result.status[-1].iterations == 1) is linear
+    assert ("UNSYMMETRIC MATRIX STORAGE" in result.file(".msg").read_text()) is linear
