@@ -104,12 +104,22 @@ def _scan(
 
 
 def _matches(name: str, folders: Sequence[Path]) -> Iterator[Path]:
-    """Files of that name, whatever its case."""
+    """Files of that name, which may have folders in it; whatever its case."""
     for folder in folders:
         if (folder / name).is_file():
             yield folder / name
+    parts = [part for part in name.lower().replace("\\", "/").split("/") if part not in ("", ".")]
     for folder in folders:
-        yield from (p for p in sorted(folder.iterdir()) if p.name.lower() == name.lower() and p.is_file())
+        found = [folder]
+        for part in parts:
+            within = [entry for entry in found if entry.is_dir()]
+            found = [entry / ".." for entry in within] if part == ".." else [p for e in within for p in _named(e, part)]
+        yield from (entry for entry in found if entry.is_file())
+
+
+def _named(folder: Path, name: str) -> list[Path]:
+    """What a folder holds of that name, given in lower case."""
+    return [entry for entry in sorted(folder.iterdir()) if entry.name.lower() == name]
 
 
 def _compile(
@@ -140,7 +150,7 @@ def _compile(
     shared = work / target.name
     language, libraries = linking([language_of(file) for file in files])
     libraries += linker.lapack_flags(objects, language.compiler)
-    errors = _errors([language.compiler, *linker.FLAGS, *map(str, objects), *libraries, "-o", str(shared)])
+    errors = _errors([language.compiler, *linker.FLAGS, *map(str, objects), *libraries, "-o", str(shared)], work)
     if errors is not None:
         raise CompileError(files[0], first_error(errors, {}))
     # another process may write the same file: a rename replaces it in one step
@@ -156,11 +166,15 @@ def notes_of(library: Path) -> Path:
 
 
 def _compile_one(command: Sequence[str], file: Path, sources: dict[str, list[Path]], folder: Path) -> list[str]:
-    """Compile a file; what gfortran refuses of Abaqus' compiler is mended in copies in the folder. Returns what was."""
+    """Compile a file; what gfortran refuses of Abaqus' compiler is mended in copies in the folder. Returns what was.
+
+    The compiler runs beside the folder: it takes module files of the current folder before those just made.
+    """
     copies: dict[str, str] = {}
     notes: list[str] = []
     while True:
-        errors = _errors([*command, f"-I{folder}", str(folder / file.name if copies else file)])
+        source = folder / file.name if copies else file.resolve()
+        errors = _errors([*command, f"-I{folder}", str(source)], folder.parent)
         if errors is None:
             return notes
         changed = False
@@ -180,8 +194,15 @@ def _compile_one(command: Sequence[str], file: Path, sources: dict[str, list[Pat
             (folder / name).write_text(text, encoding="latin-1")
 
 
-def _errors(command: Sequence[str]) -> str | None:
-    """What the compiler says; None if it is content."""
-    environment = os.environ | {"LC_ALL": "C"}
-    result = subprocess.run(command, capture_output=True, text=True, errors="replace", env=environment, check=False)
+def _errors(command: Sequence[str], folder: Path) -> str | None:
+    """What the compiler says, run in a folder; None if it is content."""
+    result = subprocess.run(
+        command,
+        cwd=folder,
+        capture_output=True,
+        text=True,
+        errors="replace",
+        env=os.environ | {"LC_ALL": "C"},
+        check=False,
+    )
     return result.stderr if result.returncode else None

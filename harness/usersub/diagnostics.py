@@ -25,6 +25,15 @@ _HINTS: Final = (
         r"module file '(?:lapack95|blas95|f95_precision|mkl\w*)\.mod'|included file '(?:mkl|lapack)\w*\.(?:fi|f90)'",
         "it belongs to Intel's MKL: LAPACK and BLAS are linked here without it; call them by name, such as DGESV",
     ),
+    (
+        r"included file 'vaba_param",
+        "it belongs to Abaqus/Explicit, whose VUEL, VUMAT and other routines are not called here",
+    ),
+    (r"\.(?:h|hpp|hh|hxx): No such file|/\w+: No such file", "name its folder in the environment variable CPATH"),
+    (
+        r"Return type mismatch of function",
+        "it is not declared where it is called, and takes its type from its first letter: declare it there",
+    ),
     (r"requires a scalar LOGICAL", "write the comparison out, such as i /= 0"),
     (
         r"must be compared with \.n?eqv\.",

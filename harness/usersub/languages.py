@@ -61,10 +61,10 @@ SUFFIXES: Final = tuple(suffix for language in LANGUAGES for suffix in language.
 
 FIXED: Final = ("-ffixed-form", "-ffixed-line-length-132")
 FREE: Final = ("-ffree-form", "-ffree-line-length-none")
-_FREEFORM = re.compile(r"^[!cC*](?:DIR|DEC)\$\s*FREEFORM", re.IGNORECASE | re.MULTILINE)
+_FREEFORM = re.compile(r"^(?:[cC*]|[ \t]*!)(?:DIR|DEC)\$\s*FREEFORM", re.IGNORECASE | re.MULTILINE)
 _ENVIRONMENT: Final = "abaqus_v6.env"
 _ENVIRONMENT_FREE = re.compile(
-    r"^[ \t]*compile_fortran\s*=(?:(?!^\s*\w+\s*=).)*?[\s'\"][-/]free\b", re.DOTALL | re.MULTILINE
+    r"^[ \t]*compile_fortran\s*=(?:(?!^\s*\w+\s*=).)*?[\s'\"](?:[-/]free|-ffree-form)\b", re.DOTALL | re.MULTILINE
 )
 
 

@@ -45,7 +45,7 @@ def test_preprocessor_runs(load):
     assert said(load(text)) == ["5"]
 
 
-@pytest.mark.parametrize("directive", ["!DIR$ FREEFORM", "!DEC$ FREEFORM", "!dir$ freeform"])
+@pytest.mark.parametrize("directive", ["!DIR$ FREEFORM", "!DEC$ FREEFORM", "!dir$ freeform", "  !DEC$ FREEFORM"])
 def test_free_form_by_directive(load, directive):
     text = f"{directive}\nsubroutine uexternaldb(lop)\ncall stdb_abqerr(1, &\n'free', (/0/), (/0d0/), (/' '/))\nend\n"
     assert said(load(text, "user.for")) == ["free"]
@@ -61,6 +61,7 @@ def test_free_form_by_name(load):
     [
         ("ask_delete=OFF\ncompile_fortran = ['ifort', '-c',\n  '-free', '%P']\n", True),
         ("compile_fortran = 'ifort /c /free %P'\n", True),
+        ("fortCmd = 'gfortran'\ncompile_fortran = (fortCmd + ' -c -ffree-form ' +\n  '-I%I')\n", True),
         ("compile_fortran = ['ifort', '-c', '%P'] # without -free\n# compile_fortran='ifort -free'\n", False),
         ("compile_fortran = ['ifort', '-c', '%P']\nlink_sl = ['ld', '-free']\n", False),
     ],
@@ -89,6 +90,23 @@ def test_includes_are_found_beside_the_source_and_beside_the_deck(load, tmp_path
     (tmp_path / "deck" / "Two.inc").write_text("      i = i + 2\n")
     text = database("      INCLUDE 'one.inc'\n" + note("%I", "i"))
     assert said(load(text, deck=tmp_path / "deck" / "job.inp")) == ["3"]
+
+
+def test_includes_in_folders_of_another_case(load, tmp_path):
+    """As on Windows, with its separators too."""
+    (tmp_path / "Parts").mkdir()
+    (tmp_path / "Parts" / "One.inc").write_text("      i = 1\n")
+    (tmp_path / "two.inc").write_text("      i = i + 2\n")
+    body = "      include 'parts/one.INC'\n      include './parts/../TWO.inc'\n"
+    assert said(load(database(body + note("%I", "i")))) == ["3"]
+
+
+def test_module_files_of_the_current_folder_are_not_taken(load, tmp_path, monkeypatch):
+    """They are there where a user has compiled the file before."""
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "one.mod").write_text("of another compiler")
+    text = "      module one\n      integer :: i = 7\n      end module\n" + database(note("%I", "i"))
+    assert said(load(text.replace("include", "use one\n      include", 1))) == ["7"]
 
 
 def test_saved_data_last_for_a_job(load):
@@ -319,6 +337,21 @@ HINTS = {
         "      include 'mkl.fi'\n      end\n",
         "user.f",
         "it belongs to Intel's MKL: LAPACK and BLAS are",
+    ),
+    "Abaqus/Explicit": (
+        "      subroutine vuel\n      include 'vaba_param.inc'\n      end\n",
+        "user.f",
+        "it belongs to Abaqus/Explicit, whose VUEL, VUMAT and other routines",
+    ),
+    "a function that is not declared": (
+        database("      a = mean(3d0)") + "      real*8 function mean(x)\n      real*8 x\n      mean = x\n      end\n",
+        "user.f",
+        "it is not declared where it is called, and takes its type from its first letter",
+    ),
+    "a header of C++": (
+        "#include <nowhere/Dense>\n",
+        "user.cpp",
+        "name its folder in the environment variable CPATH",
     ),
     "a missing module": (
         "      use tensors\n      end\n",
