@@ -37,6 +37,12 @@ _OWN_RESULT: Final = re.compile(
     r"Error: '(?P<name>\w+)' at \(1\) is the name of a recursive function and so refers to the result variable\.",
     re.MULTILINE,
 )
+_MIXED_SIGN: Final = re.compile(
+    r"^(?P<file>[^\n]+?):(?P<line>\d+):(?P<column>\d+):\n(?:(?!.*Error:).*\n)*?"
+    r"Error: 'b' argument of 'sign' intrinsic at \(1\) must be the same type and kind as 'a'$",
+    re.MULTILINE,
+)
+_SIGN: Final = re.compile(r"\bsign\s*\(", re.IGNORECASE)
 _END_OF_FUNCTION: Final = re.compile(r"^\s*end\s*(?:function\b.*)?(?:!.*)?$", re.IGNORECASE)
 _REAL_CONSTANTS: Final = re.compile(
     r"^\s*(?:real|double\s*precision)[^!\n]*\bparameter\b[^!\n]*::(.*)$", re.IGNORECASE | re.MULTILINE
@@ -77,6 +83,33 @@ def repairs(errors: str) -> Iterator[Repair]:
         line, name = int(found["line"]), found["name"]
         note = f"the function {name} calls itself and has no RESULT, which it has in the copy"
         yield Repair(Path(found["file"]).name, line, partial(name_result, line=line, name=name), note)
+    for found in _MIXED_SIGN.finditer(errors):
+        line = int(found["line"])
+        change = partial(sign_of_one_kind, line=line, column=int(found["column"]))
+        yield Repair(Path(found["file"]).name, line, change, "SIGN of two kinds of numbers, in the copy of one")
+
+
+def sign_of_one_kind(text: str, line: int, column: int) -> str | None:
+    """The text in which the second argument of SIGN, around a column, from 1, is of the kind of the first one.
+
+    None where the call is not in one line. Only the sign of the second argument counts.
+    """
+    lines = text.splitlines(keepends=True)
+    row = lines[line - 1] if 1 <= line <= len(lines) else ""
+    for call in reversed(list(_SIGN.finditer(row, 0, column))):
+        end = _unmatched(row, range(call.end(), len(row)), ")", "(")
+        if end is None or end < column - 1:
+            continue
+        comma = next((k for k in range(call.end(), end) if row[k] == "," and _balanced(row[call.end() : k])), None)
+        if comma is None:
+            return None
+        lines[line - 1] = f"{row[: comma + 1]}real({row[comma + 1 : end]}, kind({row[call.end() : comma]})){row[end:]}"
+        return "".join(lines)
+    return None
+
+
+def _balanced(text: str) -> bool:
+    return text.count("(") == text.count(")")
 
 
 def name_result(text: str, line: int, name: str) -> str | None:

@@ -320,6 +320,21 @@ def test_function_that_calls_itself_without_a_result_compiles_in_a_copy(load):
     assert said(library) == ["120"]
 
 
+def test_sign_of_two_kinds_compiles_in_a_copy(load):
+    """As Abaqus' compiler takes it."""
+    body = "      x = -2d0\n      i = nint(sign(1.0, x*max(x,1d0))) + 4*nint(sign (sqrt(4.0),-x))\n"
+    library = load(database(body + note("%I", "i")))
+    notes = [m.text for m in library.messages()]
+    assert len(notes) == 2
+    assert all("user.f, line 6: SIGN of two kinds of numbers, in the copy of one" in text for text in notes)
+    assert said(library) == ["7"]
+
+
+def test_sign_of_two_kinds_over_two_lines_is_shown(load):
+    with pytest.raises(CompileError, match=r"must be the same type and kind as 'a' \(user.f, line 7"):
+        load(database("      x = -2d0\n      y = sign(1.0,\n     1 x)"))
+
+
 def test_function_that_calls_itself_with_a_long_head_is_shown(load):
     function = "      recursive integer function kfac(\n     1 n)\n      kfac = n*kfac(n - 1)\n      end\n"
     with pytest.raises(CompileError, match=r"Use an explicit RESULT variable .*\(user.f, line 9"):
