@@ -69,6 +69,10 @@ class KernelError(ElementError):
     """It stopped the analysis, wrote outside its arrays, or returned NaN; a call of another state may go well."""
 
 
+class NotFiniteError(KernelError):
+    """It returned NaN, or infinity."""
+
+
 class CallLimitError(ElementError):
     """A call did not return within the time that a call may take."""
 

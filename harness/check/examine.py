@@ -16,9 +16,9 @@ from harness.check.recording import Recording, record_leniently
 from harness.check.shuffle import TypeVerdict, shuffle_recording
 from harness.check.subject import Subject, subject_of
 from harness.errors import CallLimitError, KernelError, UelError
-from harness.usersub import ARRAYS, UNSET, marks
+from harness.usersub import ARRAYS, AS_GOOD_AS_ZERO, UNSET, marks
 
-LENIENT: Final = {UNSET: 0.0, **dict.fromkeys(ARRAYS, 1e-300)}
+LENIENT: Final = {UNSET: 0.0, **dict.fromkeys(ARRAYS, AS_GOOD_AS_ZERO)}
 """Entries not set are zero, and guards as good as zero, so that one mistake does not hide all others."""
 
 ENDLESS: Final = (

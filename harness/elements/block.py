@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 from harness.elements.call import BlockReport, Call, Distributed, Motion, Predefined
 from harness.elements.faults import write_outside, wrong_entry
 from harness.elements.fields import FIELD_NAMES, field_of
-from harness.errors import CallLimitError, ElementError, KernelError
+from harness.errors import CallLimitError, ElementError, KernelError, NotFiniteError
 from harness.model.arrays import FloatArray, IntArray
 from harness.model.mesh import ElementGroup
 from harness.model.records import ElementState, PointVariables
@@ -377,7 +377,7 @@ class Block:
             case _:
                 message = wrong_entry(outcome, len(self.unknowns))
         place = f"step {call.step}, increment {call.increment}, iteration {call.iteration}"
-        error = CallLimitError if outcome.fault is Fault.ENDLESS else KernelError
+        error = {Fault.ENDLESS: CallLimitError, Fault.NOT_FINITE: NotFiniteError}.get(outcome.fault, KernelError)
         return error(element, self.group.type, f"{message} ({place})")
 
     def _warn(self, outcome: _binding.Outcome, nrhs: int, call: Call) -> None:

@@ -11,11 +11,12 @@ himself.
 from harness.usersub._binding import limit_calls
 from harness.usersub.inputs import Change, beyond_jprops, local_variables, watched_inputs
 from harness.usersub.library import Library, load
-from harness.usersub.marks import ARRAYS, UNSET, marks
+from harness.usersub.marks import ARRAYS, AS_GOOD_AS_ZERO, UNSET, marks, set_marks
 from harness.usersub.messages import Message
 
 __all__ = [
     "ARRAYS",
+    "AS_GOOD_AS_ZERO",
     "UNSET",
     "Change",
     "Library",
@@ -25,5 +26,6 @@ __all__ = [
     "load",
     "local_variables",
     "marks",
+    "set_marks",
     "watched_inputs",
 ]

@@ -19,6 +19,19 @@ ARRAYS: Final = _binding.ARRAYS
 """Names of the arrays with guards."""
 
 
+AS_GOOD_AS_ZERO: Final = 1e-300
+"""What a guard holds where reading it is forgiven; a zero that is written there is still noticed."""
+
+
+def set_marks(values: Mapping[str, float]) -> None:
+    """Let guards hold other values until the `marks` around the call ends."""
+    held = np.zeros(len(ARRAYS) + 1)
+    _binding.exchange_marks(held)
+    for name, value in values.items():
+        held[[*ARRAYS, UNSET].index(name)] = value
+    _binding.exchange_marks(held)
+
+
 @contextmanager
 def marks(values: Mapping[str, float]) -> Iterator[None]:
     """Let guards of some arrays (by their names in ARRAYS), or UNSET, hold other values, and give back what they held.

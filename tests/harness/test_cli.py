@@ -149,6 +149,35 @@ def test_warnings_are_told_at_the_end(tmp_path: Path, capsys: pytest.CaptureFixt
     assert re.match("uel: earlier warning: element 1 .type U1.: RHS.3. was not filled, .*REAL, of four bytes", third)
 
 
+READS_OUTSIDE = """\
+      include '{folder}/uel.inc'
+      amatrx = 0d0
+      do i = 1, ndofel
+        rhs(i,1) = -u(i)*(1 + svars(3)){more}
+        amatrx(i,i) = 1d0
+      end do
+      end
+"""
+
+
+@pytest.mark.nan
+def test_run_goes_on_where_an_element_reads_outside_its_arrays(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """With zeros there, and a warning that names the array; NaN of the element's own ends the run."""
+    deck, user = tmp_path / "beyond.inp", tmp_path / "beyond.f"
+    deck.write_text(HALF_SET_DECK.format(last=2).replace("ALL\n1.\n", "ALL\n"))
+    words = ["run", str(deck), "--user", str(user), "--output-dir", str(tmp_path)]
+    user.write_text(READS_OUTSIDE.format(folder=Path(__file__).parent, more=""))
+    for _ in range(2):
+        assert main(words) == 0
+        assert "RHS(1) is NaN or infinite" in " ".join((tmp_path / "beyond.msg").read_text().split())
+        assert "it reads outside SVARS, see uel check" in " ".join((tmp_path / "beyond.msg").read_text().split())
+    user.write_text(READS_OUTSIDE.format(folder=Path(__file__).parent, more=" + sqrt(-1d0 - u(i)**2)"))
+    assert main(words) == 1
+    assert re.fullmatch(r"uel: element 1 .*: RHS\(1\) is NaN or infinite \(.*\)\n", capsys.readouterr().err)
+
+
 def test_spelling_of_abaqus(tmp_path: Path) -> None:
     words = ["run", "job=pressed", f"input={FLAT}", "cpus=2", "interactive", "--quiet", f"--output-dir={tmp_path}"]
     assert main(words) == 0

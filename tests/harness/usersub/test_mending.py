@@ -1,0 +1,108 @@
+# SPDX-FileCopyrightText: The uel-harness authors
+# SPDX-License-Identifier: BSD-3-Clause
+"""What Abaqus' compiler takes and gfortran does not compiles in a copy, where it has one meaning."""
+
+import pytest
+
+from harness.errors import CompileError
+
+DATABASE = """
+      subroutine uexternaldb(lop,lrestart,time,dtime,kstep,kinc)
+      include 'aba_param.inc'
+      dimension time(2)
+{body}
+      end
+"""
+NOTE = """      call stdb_abqerr({lop},'{text}',(/{integer}/),(/0.d0/),(/'        '/))"""
+
+
+def said(library):
+    """What UEXTERNALDB sends in one call."""
+    library.external_database(0, 0, (0.0, 0.0), 0.0, 0, 0)
+    return [m.text for m in library.messages()]
+
+
+def database(body):
+    return DATABASE.format(body=body)
+
+
+def note(text="here", integer="0"):
+    return NOTE.format(lop=1, text=text, integer=integer)
+
+
+def test_logicals_compared_with_eq_compile_in_a_copy(load, tmp_path):
+    """As Abaqus' compiler takes them; in an included file too; the user's files stay as they are."""
+    included = "      if (flag .eq. .true.) then\n" + note("equal") + "\n      end if\n"
+    (tmp_path / "part.inc").write_text(included)
+    body = "      logical flag\n      flag = .true.\n      include 'part.inc'\n"
+    text = database(body + "      if ((flag == .false.)) " + note("never").strip() + "\n")
+    library = load(text)
+    assert [m.text for m in library.messages()] == [
+        "an extension of Abaqus' compiler, written in standard Fortran in a copy: "
+        f"{file}: logicals compared with {operator}, in the copy .eqv. or .neqv."
+        for file, operator in (("part.inc, line 1", ".eq."), ("user.f, line 8", "=="))
+    ]
+    assert said(library) == ["equal"]
+    assert (tmp_path / "user.f").read_text() == text
+
+
+def test_real_array_bound_compiles_in_a_copy(load):
+    """As Abaqus' compiler takes it, which makes an integer of it; other names on the line stay."""
+    body = "      call work(2)\n      end\n      subroutine work(n)\n      real*8, parameter :: most=2, tiny=1d-9\n"
+    library = load(database(body + "      real*8 a(n,most), b(n)\n      a = tiny\n" + note("bound")))
+    assert [m.text for m in library.messages()] == [
+        "an extension of Abaqus' compiler, written in standard Fortran in a copy: "
+        "user.f, line 9: a real number as an array bound, in the copy int() of it"
+    ]
+    assert said(library) == ["bound"]
+
+
+def test_real_array_bound_that_is_no_constant_is_shown(load):
+    body = "      real*8 x\n      call work(x)\n      end\n"
+    body += "      subroutine work(x)\n      real*8 x\n      real*8 a(x)\n"
+    with pytest.raises(CompileError, match=r"must be of INTEGER type, found REAL \(user.f, line 10"):
+        load(database(body + "      a(1) = 0"))
+
+
+def test_name_that_is_imported_and_defined_compiles_in_a_copy(load):
+    """As Abaqus' compiler takes it: in the routine its own name is meant."""
+    modules = "      module one\n      contains\n      subroutine twice(i)\n      i = 2*i\n"
+    modules += "      end subroutine\n      end module\n"
+    modules += "      module two\n      contains\n      recursive subroutine twice(i)\n      use one\n"
+    modules += "      i = i + 1\n      if (i .lt. 9) call twice(i)\n      end subroutine\n      end module\n"
+    text = database("      i = 6\n      call twice(i)\n" + note("%I", "i"))
+    library = load(modules + text.replace("include", "use two\n      include", 1))
+    (message,) = library.messages()
+    assert "user.f, line 10: twice of module one has the name of the program unit that uses it" in message.text
+    assert said(library) == ["9"]
+
+
+def test_function_that_calls_itself_without_a_result_compiles_in_a_copy(load):
+    """As Abaqus' compiler takes it: with arguments its name is a call."""
+    function = "      recursive integer function kfac(n) ! factorial\n      if (n .lt. 2) then\n      kfac = 1\n"
+    function += "      else\n      kfac = n\n      kfac = kfac*kfac (n - 1)\n      end if\n      end function kfac\n"
+    library = load(database("      i = kfac(5)\n" + note("%I", "i")) + function)
+    (message,) = library.messages()
+    assert "user.f, line 13: the function kfac calls itself and has no RESULT" in message.text
+    assert said(library) == ["120"]
+
+
+def test_sign_of_two_kinds_compiles_in_a_copy(load):
+    """As Abaqus' compiler takes it."""
+    body = "      x = -2d0\n      i = nint(sign(1.0, x*max(x,1d0))) + 4*nint(sign (sqrt(4.0),-x))\n"
+    library = load(database(body + note("%I", "i")))
+    notes = [m.text for m in library.messages()]
+    assert len(notes) == 2
+    assert all("user.f, line 6: SIGN of two kinds of numbers, in the copy of one" in text for text in notes)
+    assert said(library) == ["7"]
+
+
+def test_sign_of_two_kinds_over_two_lines_is_shown(load):
+    with pytest.raises(CompileError, match=r"must be the same type and kind as 'a' \(user.f, line 7"):
+        load(database("      x = -2d0\n      y = sign(1.0,\n     1 x)"))
+
+
+def test_function_that_calls_itself_with_a_long_head_is_shown(load):
+    function = "      recursive integer function kfac(\n     1 n)\n      kfac = n*kfac(n - 1)\n      end\n"
+    with pytest.raises(CompileError, match=r"Use an explicit RESULT variable .*\(user.f, line 9"):
+        load(database("      i = kfac(5)") + function)
