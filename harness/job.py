@@ -6,21 +6,17 @@ from __future__ import annotations
 
 import time
 from collections.abc import Sequence
-from contextlib import suppress
 from pathlib import Path
-from typing import Any, Final
+from typing import Final
 
 from harness import usersub
-from harness.assembly import Evaluation, System
+from harness.assembly import ForgivingSystem
 from harness.deck import read_deck
-from harness.elements import Call, build_blocks
-from harness.errors import NotFiniteError, UelError
-from harness.model.arrays import FloatArray
-from harness.model.model import Model
+from harness.errors import UelError
 from harness.output import JobOutput, Result
 from harness.procedures import run_steps
 from harness.solver.threads import one_blas_thread
-from harness.usersub import ARRAYS, AS_GOOD_AS_ZERO, Library, marks, set_marks
+from harness.usersub import Library, marks
 
 MOST_REPEATED: Final = 3
 """Warnings that an error brings along."""
@@ -86,7 +82,7 @@ def run(
     library = usersub.load(sources, job=job, output_dir=directory, deck=deck, zero_locals=True)
     output = JobOutput(model, job, directory, quiet=quiet)
     try:
-        system = _ForgivingSystem(model, library)
+        system = ForgivingSystem(model, library)
         with one_blas_thread(), marks({}):
             for record in run_steps(system, model, library, solver, fallback=fallback, energy_control=energy_control):
                 _pass_on(library, output)
@@ -107,37 +103,6 @@ def run(
         library.close()
     output.close(None)
     return Result(directory / job, seconds=time.perf_counter() - started, warnings=output.warnings)
-
-
-class _ForgivingSystem(System):
-    """A system whose elements may read outside their arrays: where that makes NaN, zeros lie there from then on."""
-
-    def __init__(self, model: Model, library: Library) -> None:
-        super().__init__(model.mesh, build_blocks(model, library, strict=False, zeros=True), model.equations)
-        self._library = library
-        self._forgiven = False
-
-    def evaluate(self, call: Call, u: FloatArray, du: FloatArray, **options: Any) -> Evaluation:
-        """As that of a system; what elements read outside is a warning, once."""
-        try:
-            return super().evaluate(call, u, du, **options)
-        except NotFiniteError as error:
-            culprits = () if self._forgiven else self._read_outside(call, u, du, options)
-            if not culprits:
-                raise
-            self._forgiven = True
-            where = " or ".join(culprits) if len(culprits) < len(ARRAYS) else "its arrays"
-            self._library.warn(f"{error}: it reads outside {where}, see uel check; the run goes on with zeros there")
-        set_marks(dict.fromkeys(ARRAYS, AS_GOOD_AS_ZERO))
-        return super().evaluate(call, u, du, **options)
-
-    def _read_outside(self, call: Call, u: FloatArray, du: FloatArray, options: dict[str, Any]) -> tuple[str, ...]:
-        """The array outside which a zero in place of NaN lets the pass through; all of them where several do."""
-        for names in (*((name,) for name in ARRAYS), ARRAYS):
-            with marks(dict.fromkeys(names, AS_GOOD_AS_ZERO)), suppress(NotFiniteError):
-                super().evaluate(call, u, du, **options)
-                return names
-        return ()
 
 
 def _pass_on(library: Library, output: JobOutput) -> None:

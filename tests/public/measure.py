@@ -19,14 +19,14 @@ from typing import Any
 import numpy as np
 
 from harness import usersub
-from harness.assembly import System
+from harness.assembly import ForgivingSystem
 from harness.deck import read_deck
-from harness.elements import build_blocks
 from harness.errors import UelError
 from harness.model.model import Model
 from harness.model.records import AttemptAbandoned, IncrementDone, Solution
 from harness.output.status import read_status
 from harness.procedures import run_steps
+from harness.usersub import marks
 
 MANIFEST = Path(__file__).with_name("manifest.toml")
 Row = dict[str, Any]
@@ -110,10 +110,10 @@ def _records(root: Path, row: Row) -> Iterator[tuple[Model, Any]]:
         sources = [root / name for name in row["sources"]] or None
         library = usersub.load(sources, job="job", output_dir=Path(output), deck=deck, zero_locals=True)
         try:
-            system = System(model.mesh, build_blocks(model, library, strict=False, zeros=True), model.equations)
-            for record in run_steps(system, model, library):
-                library.messages()
-                yield model, record
+            with marks({}):
+                for record in run_steps(ForgivingSystem(model, library), model, library):
+                    library.messages()
+                    yield model, record
         finally:
             library.close()
 

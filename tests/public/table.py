@@ -13,6 +13,7 @@ import json
 import os
 import subprocess
 import sys
+import tempfile
 from dataclasses import asdict
 from pathlib import Path
 
@@ -40,11 +41,15 @@ def run(folder: Path, row: Row) -> Outcome:
     absent = missing(folder, row)
     if absent:
         return Outcome(error=f"not in the folder: {absent[0]}")
-    command = [sys.executable, str(MEASURE), str(folder), row["name"]]
+    command = [sys.executable, str(MEASURE), str(folder.resolve()), row["name"]]
     environment = os.environ | {"OMP_NUM_THREADS": "1"}
     limit = float(row.get("seconds", 300))
     try:
-        done = subprocess.run(command, capture_output=True, text=True, env=environment, timeout=limit, check=False)
+        # user routines may write into the current folder
+        with tempfile.TemporaryDirectory() as scratch:
+            done = subprocess.run(
+                command, cwd=scratch, capture_output=True, text=True, env=environment, timeout=limit, check=False
+            )
     except subprocess.TimeoutExpired:
         return Outcome(error=f"not finished after {limit:g} s")
     if done.returncode:
