@@ -76,6 +76,25 @@ def solver_for(name: str, matrix, coordinates=None, **options):
     return choose(name, *pattern, coordinates=coordinates, **options)
 
 
+def test_multipliers_do_not_fill_the_factors():
+    """Lagrange multipliers, whose diagonal is next to zero, in every second unknown of a bonded beam."""
+    matrix, _ = clamped(40, 6)
+    n, m = matrix.shape[0], matrix.shape[0] // 2
+    links = sparse.csr_array(
+        (np.tile([1.0, -1.0], m), np.repeat(np.arange(m), 2), np.arange(0, 2 * m + 1, 2)), shape=(m, n)
+    )
+    links.indices[1::2] = np.arange(m) + m
+    saddle = sparse.csr_array(sparse.block_array([[matrix, links.T], [links, 1e-10 * sparse.eye_array(m)]]))
+    saddle.sort_indices()
+    rhs = np.random.default_rng(3).standard_normal(n + m)
+    solver = solver_for("superlu", saddle)
+    for _ in range(2):
+        solver.factorise(saddle.data)
+        solution = solver.solve(rhs)
+        assert np.abs(saddle @ solution - rhs).max() < 1e-10 * (abs(saddle) @ np.abs(solution)).max()
+    assert solver._lu.L.nnz + solver._lu.U.nnz < 10 * saddle.nnz
+
+
 @pytest.mark.parametrize("name", INSTALLED)
 def test_solution_equals_dense_one_and_analysis_is_kept(name) -> None:
     matrix, coordinates = clamped(12, 2)
