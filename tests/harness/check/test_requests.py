@@ -175,7 +175,7 @@ def test_requests_for_eigenfrequencies(patch, monkeypatch, mistake, message, adv
         calls = [replace(last.call, lflags=(41, 0, request, 1, 0)) for request in (2, 4)]
         return replace(recording, events=(*recording.events, *(replace(last, call=call) for call in calls)))
 
-    monkeypatch.setattr("harness.check.examine.record", recorded)
+    monkeypatch.setattr("harness.check.recording.record", recorded)
     requests = findings(patch(mistake))["requests"]
     if advice is None:
         assert requests.message == message
