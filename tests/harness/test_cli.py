@@ -133,6 +133,7 @@ HALF_SET_DECK = """\
 """
 
 
+@pytest.mark.nan
 def test_warnings_are_told_at_the_end(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     """With what the run ends by: a deck with a property too much, an element with REAL for REAL*8."""
     deck, user = tmp_path / "half.inp", tmp_path / "half.f"

@@ -29,6 +29,9 @@ AMATRX can be meant, and an axisymmetric element resists translation. [What each
 | code | deck | type | passed | failed | cause, where it was looked for |
 |---|---|---|---|---|---|
 """
+UNCHECKED = "no elements of a type defined by *USER ELEMENT"
+"""Of rows with a user material alone, which are left out."""
+
 CAUSES = Path(__file__).with_name("causes.toml")
 
 
@@ -44,13 +47,14 @@ def check(folder: Path, row: Row, seconds: float) -> dict[str, Any]:
     absent = missing(folder, row)
     if absent:
         return {"error": f"not in the folder: {absent[0]}"}
-    root = folder / row["folder"]
+    root = folder.resolve() / row["folder"]
     with tempfile.TemporaryDirectory() as output:
         file = Path(output) / "findings.json"
         files = [str(root / name) for name in [*row["sources"], row["deck"]]]
         command = [sys.executable, "-m", "harness.cli", "check", *files, "--json", str(file)]
         try:
-            done = subprocess.run(command, capture_output=True, text=True, timeout=seconds, check=False)
+            # user routines may write into the current folder
+            done = subprocess.run(command, cwd=output, capture_output=True, text=True, timeout=seconds, check=False)
         except subprocess.TimeoutExpired:
             return {"error": f"not finished after {seconds:g} s"}
         if not file.exists():
@@ -101,7 +105,9 @@ def main() -> int:
             kept[name] = check(options.folder, known[name], options.seconds)
         if options.results:
             options.results.write_text(json.dumps(kept, indent=1), encoding="utf-8")
-        row = lines(known[name], kept[name], causes.get(name, "")).replace(f"{options.folder}/", "")
+        if UNCHECKED in kept[name].get("error", ""):
+            continue
+        row = lines(known[name], kept[name], causes.get(name, "")).replace(f"{options.folder.resolve()}/", "")
         print(name, row, file=sys.stderr)
         text += row
     if options.output:
