@@ -17,7 +17,7 @@ from harness import usersub
 from harness.assembly import Evaluation, System
 from harness.deck import read_deck
 from harness.elements import Block, Call, Motion, build_blocks
-from harness.errors import ConvergenceError, ElementError, KernelError, UelError
+from harness.errors import ConvergenceError, ElementError, KernelError, NotFiniteError, UelError
 from harness.model.arrays import FloatArray, IntArray
 from harness.model.model import Model
 from harness.model.records import IncrementDone
@@ -106,14 +106,14 @@ def opened(model: Model, user: Sequence[Path], *, zero_locals: bool = False) -> 
 
 
 def record_leniently(deck: Path, user: Sequence[Path], increments: int) -> Recording:
-    """As `record`, not strict; once more with zero in local variables without a value, where only that gets through."""
+    """As `record`, not strict; once more with zero in local variables without a value, where else these make NaN."""
     recording, error = None, None
     try:
         recording = record(deck, user, increments, strict=False)
         error = recording.failure
     except KernelError as raised:
         error = raised
-    if isinstance(error, KernelError) and user:
+    if isinstance(error, NotFiniteError) and user:
         with suppress(UelError):
             again = record(deck, user, increments, strict=False, zero_locals=True)
             if again.failure is None:
