@@ -6,6 +6,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from vibrating import PAIR, bar
 
 import harness
 from harness.deck import read_deck
@@ -115,21 +116,11 @@ def test_loads_over_frequency(run):
     np.testing.assert_allclose(harmonic(history, "U1[ALL:2]"), load / stiffness(history))
 
 
-def bar(elements, more=""):
-    """A bar of length 1, E = 4, density 1, area 1: wave speed 2."""
-    nodes = "".join(f"{k + 1}, {k / elements}, 0.\n" for k in range(elements + 1))
-    trusses = "".join(f"{k}, {k}, {k + 1}\n" for k in range(1, elements + 1))
-    return (
-        f"*NODE, NSET=ALL\n{nodes}*ELEMENT, TYPE=T2D2, ELSET=BAR\n{trusses}*SOLID SECTION, ELSET=BAR, MATERIAL=M\n1.\n"
-        f"*MATERIAL, NAME=M\n*ELASTIC\n4.\n*DENSITY\n1.\n*BOUNDARY\nALL, 2\n1, 1\n{more}"
-    )
-
-
 @pytest.mark.parametrize("more", ["", "*EQUATION\n2\n{tip}, 1, 1., {pulled}, 1, -1.\n"])
 def test_a_bar_that_is_pulled_at_its_end(run, more):
     """Lumped masses: u_j = F h sin(j t) / (EA cos(n t) sin t), w = 2 c / h sin(t/2); a node tied to the end takes F."""
     n, pulled = 40, 40
-    model = bar(n)
+    model = bar(n, more="1, 1\n")
     if more:
         # the node behind the bar has no element of its own
         pulled = n + 2
@@ -150,24 +141,7 @@ def test_a_bar_that_is_pulled_at_its_end(run, more):
     np.testing.assert_allclose(harmonic(history, "RF1[ALL:1]"), -scale * 4 / h * np.sin(angle), rtol=1e-9, atol=1e-9)
 
 
-STRING = """*NODE, NSET=ALL
-1, 0.
-2, 1.
-3, 2.
-*ELEMENT, TYPE=SPRINGA, ELSET=S
-1, 1, 2
-2, 2, 3
-*SPRING, ELSET=S
-
-8.
-*ELEMENT, TYPE=MASS, ELSET=M
-3, 2
-*MASS, ELSET=M
-2.
-*BOUNDARY
-ALL, 2, 3
-1, 1
-"""
+STRING = PAIR.replace("4, 3\n", "")
 
 
 def test_about_the_base_state(run):

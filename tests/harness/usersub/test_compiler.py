@@ -6,32 +6,10 @@ import shutil
 import subprocess
 
 import pytest
+from user_database import database, note, said
 
 from harness import usersub
 from harness.errors import CompileError
-
-DATABASE = """
-      subroutine uexternaldb(lop,lrestart,time,dtime,kstep,kinc)
-      include 'aba_param.inc'
-      dimension time(2)
-{body}
-      end
-"""
-NOTE = """      call stdb_abqerr({lop},'{text}',(/{integer}/),(/0.d0/),(/'        '/))"""
-
-
-def said(library):
-    """What UEXTERNALDB sends in one call."""
-    library.external_database(0, 0, (0.0, 0.0), 0.0, 0, 0)
-    return [m.text for m in library.messages()]
-
-
-def database(body):
-    return DATABASE.format(body=body)
-
-
-def note(text="here", integer="0"):
-    return NOTE.format(lop=1, text=text, integer=integer)
 
 
 def test_fixed_form_has_132_columns(load):

@@ -3,31 +3,9 @@
 """What Abaqus' compiler takes and gfortran does not compiles in a copy, where it has one meaning."""
 
 import pytest
+from user_database import database, note, said
 
 from harness.errors import CompileError
-
-DATABASE = """
-      subroutine uexternaldb(lop,lrestart,time,dtime,kstep,kinc)
-      include 'aba_param.inc'
-      dimension time(2)
-{body}
-      end
-"""
-NOTE = """      call stdb_abqerr({lop},'{text}',(/{integer}/),(/0.d0/),(/'        '/))"""
-
-
-def said(library):
-    """What UEXTERNALDB sends in one call."""
-    library.external_database(0, 0, (0.0, 0.0), 0.0, 0, 0)
-    return [m.text for m in library.messages()]
-
-
-def database(body):
-    return DATABASE.format(body=body)
-
-
-def note(text="here", integer="0"):
-    return NOTE.format(lop=1, text=text, integer=integer)
 
 
 def test_logicals_compared_with_eq_compile_in_a_copy(load, tmp_path):
