@@ -17,6 +17,7 @@ module host_cohesive
   use host_kinds, only: dp, i4
   use host_messages, only: add_message
   use host_protect, only: escape
+  use host_tensors, only: cross
   use host_traction_separation, only: cohesive_law, cohesive_point, fine, n_law_integers, n_law_reals, read_law, &
                                       update_point
   implicit none (type, external)
@@ -165,12 +166,6 @@ contains
     end if
     if (.not. area > 0) call stop_with('the area of the mid-surface is', area, point)
   end subroutine measure
-
-  pure function cross(a, b) result(c)
-    real(dp), intent(in) :: a(3), b(3)
-    real(dp) :: c(3)
-    c = [a(2)*b(3) - a(3)*b(2), a(3)*b(1) - a(1)*b(3), a(1)*b(2) - a(2)*b(1)]
-  end function cross
 
   !> End the analysis with a message.
   subroutine stop_with(what, value, point)

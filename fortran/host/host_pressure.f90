@@ -4,6 +4,7 @@
 module host_pressure
   use host_kinds, only: dp
   use host_shape, only: radius_of, rule_of, rule_t
+  use host_tensors, only: cross
   implicit none (type, external)
   private
   public :: add_pressure
@@ -78,10 +79,4 @@ contains
       change = cross(unit, along(:, 2))*dn(1) + cross(along(:, 1), unit)*dn(2)
     end if
   end function area_change
-
-  pure function cross(a, b) result(c)
-    real(dp), intent(in) :: a(3), b(3)
-    real(dp) :: c(3)
-    c = [a(2)*b(3) - a(3)*b(2), a(3)*b(1) - a(1)*b(3), a(1)*b(2) - a(2)*b(1)]
-  end function cross
 end module host_pressure

@@ -6,7 +6,7 @@ module host_tensors
   use host_kinds, only: dp, i4
   implicit none (type, external)
   private
-  public :: to_matrix, to_components, eigen
+  public :: to_matrix, to_components, eigen, cross
 
 contains
 
@@ -77,6 +77,13 @@ contains
     real(dp) :: matrix(3, 3)
     matrix = reshape([1, 0, 0, 0, 1, 0, 0, 0, 1], [3, 3])
   end function identity
+
+  !> Vector product.
+  pure function cross(a, b) result(c)
+    real(dp), intent(in) :: a(3), b(3)
+    real(dp) :: c(3)
+    c = [a(2)*b(3) - a(3)*b(2), a(3)*b(1) - a(1)*b(3), a(1)*b(2) - a(2)*b(1)]
+  end function cross
 end module host_tensors
 
 !> sprime = R s R^T.

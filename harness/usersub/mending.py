@@ -14,34 +14,29 @@ from functools import partial
 from pathlib import Path
 from typing import Final
 
-_COMPARED_LOGICALS: Final = re.compile(
-    r"^(?P<file>[^\n]+?):(?P<line>\d+):(?P<column>\d+):\n(?:(?!.*Error:).*\n)*?"
-    r"Error: Logicals at \(1\) must be compared with \.(?:n?eqv)\. instead of (?P<operator>\S+)$",
-    re.MULTILINE,
+
+def _error(message: str) -> re.Pattern[str]:
+    """What gfortran writes of an error: the place, the lines that it shows, the message."""
+    place = r"^(?P<file>[^\n]+?):(?P<line>\d+):(?P<column>\d+):\n(?:(?!.*Error:).*\n)*?"
+    return re.compile(f"{place}Error: {message}", re.MULTILINE)
+
+
+_COMPARED_LOGICALS: Final = _error(
+    r"Logicals at \(1\) must be compared with \.(?:n?eqv)\. instead of (?P<operator>\S+)$"
 )
-_IMPORTED_TWICE: Final = re.compile(
-    r"^(?P<file>[^\n]+?):(?P<line>\d+):\d+:\n(?:(?!.*Error:).*\n)*?"
-    r"Error: '(?P<name>\w+)' of module '(?P<module>\w+)', imported at \(1\), "
-    r"is also the name of the current program unit$",
-    re.MULTILINE,
+_IMPORTED_TWICE: Final = _error(
+    r"'(?P<name>\w+)' of module '(?P<module>\w+)', imported at \(1\), "
+    r"is also the name of the current program unit$"
 )
-_REAL_BOUND: Final = re.compile(
-    r"^(?P<file>[^\n]+?):(?P<line>\d+):\d+:\n(?:(?!.*Error:).*\n)*?"
-    r"Error: (?:Expecting a scalar INTEGER expression at \(1\), found REAL|"
+_REAL_BOUND: Final = _error(
+    r"(?:Expecting a scalar INTEGER expression at \(1\), found REAL|"
     r"Expression at \(1\) must be of INTEGER type, found REAL|"
-    r"Bad array specification for an explicitly shaped array at \(1\))$",
-    re.MULTILINE,
+    r"Bad array specification for an explicitly shaped array at \(1\))$"
 )
-_OWN_RESULT: Final = re.compile(
-    r"^(?P<file>[^\n]+?):(?P<line>\d+):\d+:\n(?:(?!.*Error:).*\n)*?"
-    r"Error: '(?P<name>\w+)' at \(1\) is the name of a recursive function and so refers to the result variable\.",
-    re.MULTILINE,
+_OWN_RESULT: Final = _error(
+    r"'(?P<name>\w+)' at \(1\) is the name of a recursive function and so refers to the result variable\."
 )
-_MIXED_SIGN: Final = re.compile(
-    r"^(?P<file>[^\n]+?):(?P<line>\d+):(?P<column>\d+):\n(?:(?!.*Error:).*\n)*?"
-    r"Error: 'b' argument of 'sign' intrinsic at \(1\) must be the same type and kind as 'a'$",
-    re.MULTILINE,
-)
+_MIXED_SIGN: Final = _error(r"'b' argument of 'sign' intrinsic at \(1\) must be the same type and kind as 'a'$")
 _SIGN: Final = re.compile(r"\bsign\s*\(", re.IGNORECASE)
 _END_OF_FUNCTION: Final = re.compile(r"^\s*end\s*(?:function\b.*)?(?:!.*)?$", re.IGNORECASE)
 _REAL_CONSTANTS: Final = re.compile(
