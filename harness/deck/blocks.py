@@ -5,8 +5,9 @@
 from __future__ import annotations
 
 import bisect
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass, field
+from typing import Final
 
 from harness.deck.abaqus_names import ABAQUS_KEYWORDS
 from harness.deck.numbers import read_integer, read_real
@@ -73,6 +74,10 @@ class Row:
         return DeckError(self.source, f"*{self.keyword}: {message}{hint}")
 
 
+PER_LINE: Final = 8
+"""Values of a data line, where a keyword takes any number of them."""
+
+
 @dataclass(slots=True)
 class Block:
     """One keyword with its options and data lines, comments left out; line numbers are kept beside."""
@@ -122,6 +127,24 @@ class Block:
     def rows(self) -> Iterator[Row]:
         """Data lines that hold something."""
         return (self.row(index) for index, line in enumerate(self.lines) if line.strip(", \t"))
+
+    def entries(self, warn: Callable[[Source, str], None]) -> list[tuple[Row, int]]:
+        """Row and position in it of values that stand eight to a line: each line but the last counts eight.
+
+        warn: is told of a line that has fewer and is not the last, whose other entries are zero, and of one with more,
+        which are all taken.
+        """
+        rows = list(self.rows())
+        places: list[tuple[Row, int]] = []
+        for row in rows:
+            count = len(row) if row is rows[-1] else max(PER_LINE, len(row))
+            if len(row) < count:
+                left_out = f"values {len(places) + len(row) + 1} to {len(places) + count}"
+                warn(row.source, f"*{self.name}: a line has eight values; those left out here, {left_out}, are zero")
+            elif count > PER_LINE:
+                warn(row.source, f"*{self.name}: a line has eight values; the {count} of this one are all taken")
+            places += [(row, index) for index in range(count)]
+        return places
 
     def all_rows(self) -> Iterator[Row]:
         """Data lines, blank ones too, where a blank line stands for defaults."""

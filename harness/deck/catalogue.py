@@ -12,7 +12,7 @@ from typing import TypeVar
 
 import numpy as np
 
-from harness.deck.blocks import Block, Row
+from harness.deck.blocks import PER_LINE, Block, Row
 from harness.deck.damage import DAMAGE_KEYWORDS, extend_damage
 from harness.deck.problems import Problems, nearest
 from harness.deck.user_elements import MOST_VALUES, read_count
@@ -36,7 +36,6 @@ MATERIAL_OPTIONS = (
 )
 DEPENDENT = (ElasticType.ISOTROPIC, ElasticType.LAMINA, ElasticType.ENGINEERING_CONSTANTS)
 """Those whose constants may depend on temperature and fields."""
-PER_LINE = 8
 MOST_FIELDS = 1000
 SMALLEST_SINE = 1e-10
 MOST_VARIABLES = 1_000_000
@@ -64,20 +63,20 @@ def read_materials(blocks: list[Block], problems: Problems) -> dict[str, Materia
             elif block.name in MATERIAL_OPTIONS:
                 if current is None:
                     raise block.error("does not follow *MATERIAL")
-                materials[current] = _extend(materials[current], block)
+                materials[current] = _extend(materials[current], block, problems)
             else:
                 current = None
     return materials
 
 
-def _extend(material: Material, block: Block) -> Material:
+def _extend(material: Material, block: Block, problems: Problems) -> Material:
     match block.name:
         case "ELASTIC":
             extended = replace(material, elastic=_read_elastic(block))
         case "PLASTIC":
             extended = replace(material, plastic=_read_plastic(block))
         case "USER MATERIAL":
-            extended = replace(material, user=_read_user_material(block))
+            extended = replace(material, user=_read_user_material(block, problems))
         case "USER DEFINED FIELD":
             extended = replace(material, user_field=block.source)
         case "DEPVAR":
@@ -159,11 +158,11 @@ def _read_dependence(block: Block, kind: ElasticType, count: int, fields: int) -
     return np.array(table)
 
 
-def _read_user_material(block: Block) -> UserMaterial:
+def _read_user_material(block: Block, problems: Problems) -> UserMaterial:
     count = block.options.integer("CONSTANTS", 0)
     if not 0 <= count <= MOST_VARIABLES:
         raise block.error(f"CONSTANTS={count} is not a number of constants (0 to {MOST_VARIABLES})")
-    values = [value for row in block.rows() for value in row.reals("constant")]
+    values = [row.real(index, "constant", 0.0) for row, index in block.entries(problems.warn)]
     if len(values) == count + 1:
         # a temperature behind the only set of constants is no dependence
         values.pop()

@@ -185,7 +185,7 @@ PROPERTIES = (
             Option("ORIENTATION", Kind.NAME, "orientation of the material"),
             *refused("ALPHA", "BETA"),
         ),
-        "real properties, then integer properties",
+        "real properties, then integer properties, eight to a line; what a line leaves out is zero",
     ),
     Keyword(
         "SOLID SECTION",
@@ -254,7 +254,7 @@ PROPERTIES = (
             Option("TYPE", Kind.CHOICE, "what the user routine gives", choices=("MECHANICAL",), refused=("THERMAL",)),
             *refused("HYBRID FORMULATION"),
         ),
-        "constants",
+        "constants, eight to a line; what a line leaves out is zero",
     ),
     Keyword(
         "DEPVAR",

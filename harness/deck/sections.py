@@ -10,7 +10,7 @@ from itertools import pairwise
 
 import numpy as np
 
-from harness.deck.blocks import Block, Row
+from harness.deck.blocks import PER_LINE, Block, Row
 from harness.deck.catalogue import look_up
 from harness.deck.numbers import LARGEST_INTEGER
 from harness.deck.problems import Problems
@@ -29,9 +29,6 @@ from harness.model.properties import (
     UserElement,
     UserProperty,
 )
-
-ENTRIES = 8
-"""Entries of a data line."""
 
 SECTION_KEYWORDS = {"SOLID SECTION", "COHESIVE SECTION", "UEL PROPERTY", "SPRING", "MASS"}
 
@@ -147,21 +144,19 @@ def _user_property(
     orientation: Orientation | None,
     problems: Problems,
 ) -> UserProperty:
-    rows = list(block.rows())
-    entries = [(row, index) for row in rows for index in range(len(row))]
+    entries = block.entries(problems.warn)
     reals, integers = definition.properties, definition.integer_properties
     wanted = reals + integers
     if len(entries) != wanted:
         announced = f"PROPERTIES={reals}" + (f", I PROPERTIES={integers}" if integers else "")
         message = f"{len(entries)} values where U{definition.number} takes {wanted} ({announced})"
-        if len(entries) > wanted:
-            problems.warn(block.source, f"*{block.name}: {message}; those that are left are not passed to it")
-        elif len(rows) == math.ceil(wanted / ENTRIES):
-            # a line has eight entries, those left out are zero
-            problems.warn(block.source, f"*{block.name}: {message}; the others are zero")
-            entries = [(row, index) for row in rows for index in range(ENTRIES)]
-        else:
-            raise block.error(message)
+        lines, needed = math.ceil(len(entries) / PER_LINE), math.ceil(wanted / PER_LINE)
+        if lines != needed:
+            raise block.error(f"{message}; a line has eight values" if lines > needed else message)
+        left = "those that are left are not passed to it" if len(entries) > wanted else "the others are zero"
+        problems.warn(block.source, f"*{block.name}: {message}; {left}")
+        if entries:
+            entries += [(entries[-1][0], index) for index in range(entries[-1][1] + 1, PER_LINE)]
         entries = entries[:wanted]
     values = [row.real(index, f"property {index + 1}", 0.0) for row, index in entries[:reals]]
     whole = []

@@ -103,6 +103,13 @@ def test_user_material(read: Read) -> None:
     assert_array_equal(found.user.constants, [1, 2, 0])
 
 
+def test_constants_stand_eight_to_a_line(read: Read) -> None:
+    """As Abaqus reads them: the second line begins with the ninth constant, whatever the first one leaves out."""
+    found = material(read, "*USER MATERIAL, CONSTANTS=9\n100., 2., 3.,\n4.,")
+    assert found.user is not None
+    assert_array_equal(found.user.constants, [100, 2, 3, 0, 0, 0, 0, 0, 4])
+
+
 def orientation(read: Read, lines: str) -> Orientation:
     text = FLAT.replace("*MATERIAL", f"*ORIENTATION, NAME=O\n{lines}\n*MATERIAL").replace("=PLY\n<", "=PLY, ORI=O\n<")
     section = read(text).groups[0].section

@@ -177,7 +177,7 @@ MISTAKES = {
     "amplitude kind": ("NAME=GROW", "NAME=GROW, DEFINITION=SPECTRUM", r"37: DEFINITION=SPECTRUM is not supported"),
     "load of a list": ("3, 1, 5.\n", "3, 1, five\n", r"49: \*CLOAD: value: 'five' is not a number"),
     "integer property": ("3, -4\n", "3, -4.5\n", r"36: integer property -4.5 is not an integer"),
-    "real property": ("<half>, 1.E6", "<half>, 1.E6e", r"35: \*UEL PROPERTY: property 2: '1.E6e' is not a number"),
+    "real property": ("<half>, 1.E6", "<half>, 1.E6e", r"36: \*UEL PROPERTY: property 2: '1.E6e' is not a number"),
 }
 
 

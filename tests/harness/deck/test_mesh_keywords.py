@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Sets, generated nodes and elements, and element sections."""
 
+import re
 from collections.abc import Callable
 from pathlib import Path
 
@@ -67,7 +68,7 @@ def test_system(read: Read) -> None:
 
 
 def test_properties_left_out_at_the_end_of_a_line_are_zero(read: Read) -> None:
-    model = read(FLAT.replace("<half>, 1.E6, 1.D-3\n3, -4\n", "<half>, 1.E6\n"))
+    model = read(FLAT.replace("<half>, 1.E6, 1.D-3, 3, -4\n", "<half>, 1.E6\n"))
     section = next(group.section for group in model.groups if group.type == "U2")
     assert isinstance(section, UserProperty)
     assert_array_equal(section.values, [10.0, 1e6, 0.0])
@@ -81,6 +82,34 @@ def test_properties_beyond_those_of_the_type_are_left_out(read: Read) -> None:
     assert isinstance(section, UserProperty)
     assert_array_equal(section.integers, [3, -4])
     assert any("6 values where U2 takes 5" in warning and "not passed to it" in warning for warning in model.warnings)
+
+
+def test_a_line_has_eight_properties(read: Read) -> None:
+    """The manual's form of the data lines: what a line leaves out is zero, and the next line begins with the ninth."""
+    text = FLAT.replace("Properties=3, I Properties=2", "Properties=9, I Properties=2")
+    assert text != FLAT
+    model = read(text.replace("<half>, 1.E6, 1.D-3, 3, -4\n", "<half>, 1.E6, 1.D-3,\n5., 3, -4\n"))
+    section = next(group.section for group in model.groups if group.type == "U2")
+    assert isinstance(section, UserProperty)
+    assert_array_equal(section.values, [10.0, 1e6, 1e-3, 0, 0, 0, 0, 0, 5.0])
+    assert_array_equal(section.integers, [3, -4])
+    (warning,) = (warning for warning in model.warnings if "eight" in warning)
+    assert re.search(r"deck.inp:36: \*UEL PROPERTY: a line has eight values; .* values 4 to 8, are zero$", warning)
+
+
+def test_more_than_eight_properties_in_a_line(read: Read) -> None:
+    text = FLAT.replace("Properties=3, I Properties=2", "Properties=7, I Properties=2")
+    model = read(text.replace("1.D-3, 3, -4\n", "1.D-3, 4., 5., 6., 7., 3, -4\n"))
+    section = next(group.section for group in model.groups if group.type == "U2")
+    assert isinstance(section, UserProperty)
+    assert_array_equal(section.values, [10.0, 1e6, 1e-3, 4, 5, 6, 7])
+    assert any("the 9 of this one are all taken" in warning for warning in model.warnings)
+
+
+def test_properties_one_to_a_line(read: Read) -> None:
+    """The second line begins with the ninth property, which the element does not have."""
+    with pytest.raises(DeckError, match=r"33 values where U2 takes 5 \(.*\); a line has eight values"):
+        read(FLAT.replace("<half>, 1.E6, 1.D-3, 3, -4\n", "<half>\n1.E6\n1.D-3\n3\n-4\n"))
 
 
 def test_comment_at_the_end_of_data_lines(read: Read) -> None:
@@ -237,7 +266,7 @@ def test_wrong_dof_lines(read: Read, lines: str, message: str) -> None:
 def test_long_properties(read: Read) -> None:
     """Reals first, integers right after them, eight values a line; an empty entry is zero."""
     text = FLAT.replace("Properties=3, I Properties=2", "Properties=10, I Properties=3")
-    text = text.replace("<half>, 1.E6, 1.D-3\n3, -4\n", "1,2,3,4,5,6,7,8\n9., , 11, 12, 13\n")
+    text = text.replace("<half>, 1.E6, 1.D-3, 3, -4\n", "1,2,3,4,5,6,7,8\n9., , 11, 12, 13\n")
     section = read(text).groups[1].section
     assert_array_equal(section.values, [1, 2, 3, 4, 5, 6, 7, 8, 9, 0])  # type: ignore[union-attr]
     assert_array_equal(section.integers, [11, 12, 13])  # type: ignore[union-attr]
