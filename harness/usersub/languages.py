@@ -42,7 +42,7 @@ FORTRAN: Final = Language(
     "gfortran",
     (
         *_COMMON,
-        *("-cpp", "-std=legacy", "-fdec", "-fno-range-check", "-fno-realloc-lhs"),
+        *("-cpp", "-std=legacy", "-fdec", "-fno-range-check"),
         # locals on the stack and not kept from call to call, as Abaqus' -auto has it, automatic arrays too: on the heap
         # a write behind one ends the process later on
         *("-frecursive", "-fstack-arrays"),

@@ -96,10 +96,12 @@ def test_saved_data_last_for_a_job(load):
     assert said(load(text)) == ["1", "10"]
 
 
-def test_assignment_does_not_reallocate(load):
-    """Abaqus compiles with -assume norealloc_lhs: the shape stays."""
-    body = "      integer, allocatable :: k(:)\n      allocate(k(3))\n      k = (/1, 2/)\n" + note("%I", "size(k)")
-    assert said(load(database(body))) == ["3"]
+def test_assignment_gives_an_allocatable_its_shape(load):
+    """As the Fortran standard has it: a string and arrays that have no memory, or another shape."""
+    declared = "      character(len=:), allocatable :: s\n      integer, allocatable :: ids(:), k(:)\n"
+    body = declared + "      s = 'C3D8'\n      ids = [(i, i = 1, 5)]\n      allocate(k(3))\n      k = [1, 2]\n"
+    notes = [note("%I", value) for value in ("len(s)", "sum(ids)", "size(k)")]
+    assert said(load(database(body + "\n".join(notes)))) == ["4", "15", "2"]
 
 
 def test_compiled_once(load, cache, tmp_path):
