@@ -94,9 +94,10 @@ def _scan(
             header = HEADERS.get(name.replace("\\", "/").rpartition("/")[2].lower())
             if found is not None:
                 pending.append(found)
-                supply[name] = found
-            elif header is not None:
-                supply[name] = header
+            # an absolute name is where it says or nowhere, and what is there belongs to the user
+            given = None if Path(name).is_absolute() else found or header
+            if given is not None:
+                supply[name] = given
     named: dict[str, list[Path]] = {}
     for file in sorted(seen):
         named.setdefault(file.name, []).append(file)
@@ -131,7 +132,10 @@ def _compile(
     target: Path,
     flags: Sequence[str],
 ) -> None:
-    headers = work / "include"
+    # deep enough for names that go upwards to stay within
+    upwards = max((name.count("..") for name in supply), default=0)
+    headers = work.joinpath("include", *["below"] * upwards)
+    headers.mkdir(parents=True)
     for name, content in supply.items():
         path = headers / name
         path.parent.mkdir(parents=True, exist_ok=True)

@@ -79,6 +79,29 @@ def test_includes_in_folders_of_another_case(load, tmp_path):
     assert said(load(database(body + note("%I", "i")))) == ["3"]
 
 
+@pytest.mark.parametrize("name", ["{folder}/one.inc", "../../../one.inc", "../../../ONE.inc"])
+def test_includes_are_left_as_they_are(load, tmp_path, monkeypatch, name):
+    """Nothing is written outside the folder of the compilation: a run beside this one may read them."""
+    (tmp_path / "one.inc").write_bytes(b"      i = 1\r\n")
+    scratch = tmp_path / "scratch" / "folder"
+    for folder in (tmp_path / "a" / "b" / "c", scratch):
+        folder.mkdir(parents=True)
+    monkeypatch.setattr("tempfile.tempdir", str(scratch))
+    before = (tmp_path / "one.inc").stat().st_mtime_ns
+    text = database(f"      include '{name.format(folder=tmp_path)}'\n" + note("%I", "i"))
+    assert said(load(text, "a/b/c/user.f")) == ["1"]
+    assert (tmp_path / "one.inc").read_bytes() == b"      i = 1\r\n"
+    assert (tmp_path / "one.inc").stat().st_mtime_ns == before
+    assert list(scratch.parent.iterdir()) == [scratch]
+
+
+def test_absolute_name_of_a_header_is_not_made(load, tmp_path):
+    name = tmp_path / "abaqus" / "aba_param.inc"
+    with pytest.raises(CompileError, match=r"Cannot open included file '\S+/abaqus/aba_param.inc'"):
+        load(database(note()).replace("aba_param.inc", str(name)))
+    assert not name.parent.exists()
+
+
 def test_module_files_of_the_current_folder_are_not_taken(load, tmp_path, monkeypatch):
     """They are there where a user has compiled the file before."""
     monkeypatch.chdir(tmp_path)
