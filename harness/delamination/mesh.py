@@ -156,8 +156,10 @@ def graded_columns(start: float, end: float, size: float, ratio: float, largest:
     # drop the last column where the stretched ones then stay closer to their sizes
     if len(sizes) > 1 and sum(sizes) - length > 0.5 * sizes[-1]:
         sizes.pop()
-    edges = np.concatenate([[0.0], np.cumsum(sizes)]) * length / sum(sizes)
-    return np.asarray(start + np.sign(end - start) * edges)
+    edges = start + np.concatenate([[0.0], np.cumsum(sizes)]) * ((end - start) / sum(sizes))
+    # exactly there, which the sum is on some processors only
+    edges[-1] = end
+    return edges
 
 
 def crack_columns(length: float, fine: tuple[float, float], size: float, ratio: float, largest: float) -> FloatArray:
@@ -167,6 +169,5 @@ def crack_columns(length: float, fine: tuple[float, float], size: float, ratio: 
     left = graded_columns(begin, 0.0, size, ratio, largest)[::-1]
     right = graded_columns(end, length, size, ratio, 2.0 * largest)
     edges = np.concatenate([left[:-1], middle, right[1:]])
-    edges[[0, -1]] = 0.0, length
     # a node's place is written with six decimals; rounded here, the deck and the builder agree
     return np.round(edges, 6)
