@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 #
 # make demo   install what is missing, build, run a double cantilever beam, draw it, compare it with beam theory
-# make test   the same set-up, then the quick test suite
+# make test   the same set-up, then the quick test suite on all cores
 # make help   the rest
 
 PYTHON ?= python3
@@ -10,11 +10,19 @@ VENV ?= .venv
 MESON_ARGS ?= -Dbuildtype=release
 PYTEST_ARGS ?=
 SELECT ?= not long
+# processes of tests; 0: all tests in the one of pytest
+WORKERS ?= auto
+# a number: tests come in a random order, hypothesis takes other examples; the same number, the same run
+SEED ?=
 
 BIN := $(VENV)/bin
 INSTALLED := $(VENV)/.installed
 # the build backend and the tools it calls are found through PATH
 RUN := PATH="$(CURDIR)/$(BIN):$$PATH"
+# the processes share the cores: one thread of linear algebra each
+PYTEST = $(RUN) OPENBLAS_NUM_THREADS=1 OMP_NUM_THREADS=1 MKL_NUM_THREADS=1 $(BIN)/pytest \
+	-n $(WORKERS) --maxprocesses 16 --dist worksteal \
+	$(if $(SEED),-p randomly --randomly-seed=$(SEED) --hypothesis-profile=other --hypothesis-seed=$(SEED))
 
 .DEFAULT_GOAL := help
 .PHONY: help demo test test-all test-debug bench lint decks clean
@@ -43,14 +51,14 @@ demo: $(INSTALLED)
 # the first import builds what has changed; several test processes at once would get in each other's way
 test: $(INSTALLED)
 	$(RUN) $(BIN)/python -c 'import harness'
-	$(RUN) $(BIN)/pytest -m '$(SELECT)' $(PYTEST_ARGS)
+	$(PYTEST) -m '$(SELECT)' $(PYTEST_ARGS)
 
 test-all: $(INSTALLED)
 	$(RUN) $(BIN)/python -c 'import harness'
-	$(RUN) $(BIN)/pytest $(PYTEST_ARGS)
+	$(PYTEST) $(PYTEST_ARGS)
 
 test-debug:
-	$(MAKE) test VENV=.venv-debug MESON_ARGS='-Dbuildtype=debug' SELECT='not long and not nan'
+	@$(MAKE) --no-print-directory test VENV=.venv-debug MESON_ARGS='-Dbuildtype=debug' SELECT='not long and not nan'
 
 bench: $(INSTALLED)
 	$(RUN) $(BIN)/python tests/benchmarks/bench.py

@@ -1,0 +1,48 @@
+# SPDX-FileCopyrightText: The uel-harness authors
+# SPDX-License-Identifier: BSD-3-Clause
+"""Run a command as on another machine: `.venv/bin/python tests/machine.py --processor Nehalem --cores 1 make test`.
+
+The processor decides which kernels OpenBLAS takes, which loops numpy, and which functions glibc has for exp, sin and
+pow: sums come in another order, and products with or without fused additions.
+"""
+
+import argparse
+import os
+import sys
+
+import numpy as np
+
+WITHOUT_AVX2 = ("Prescott", "Nehalem", "Sandybridge")
+WITHOUT_AVX512 = (*WITHOUT_AVX2, "Haswell")
+PROCESSORS = ("this", *WITHOUT_AVX512)
+
+
+def environment(processor: str) -> dict[str, str]:
+    """Variables with which OpenBLAS, numpy and glibc calculate as on a processor, by OpenBLAS' name of it."""
+    if processor == "this":
+        return {}
+    simd = np.show_config(mode="dicts")["SIMD Extensions"]
+    beyond = [name for name in simd["found"] if processor in WITHOUT_AVX2 or name.startswith(("X86_V4", "AVX512"))]
+    missing = ["AVX512F", *(("AVX2", "FMA") if processor in WITHOUT_AVX2 else ())]
+    return {
+        "OPENBLAS_CORETYPE": processor,
+        "NPY_DISABLE_CPU_FEATURES": " ".join(beyond),
+        "GLIBC_TUNABLES": "glibc.cpu.hwcaps=" + ",".join(f"-{name}" for name in missing),
+    }
+
+
+def main() -> None:
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("--processor", choices=PROCESSORS, default="this", help="what to calculate as (%(default)s)")
+    parser.add_argument("--cores", type=int, help="how many of the cores to use (all)")
+    parser.add_argument("command", nargs=argparse.REMAINDER)
+    options = parser.parse_args()
+    if not options.command:
+        parser.error("no command")
+    os.sched_setaffinity(0, sorted(os.sched_getaffinity(0))[: options.cores])
+    os.environ.update(environment(options.processor))
+    os.execvp(options.command[0], options.command)
+
+
+if __name__ == "__main__":
+    sys.exit(main())
