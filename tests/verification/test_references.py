@@ -1,14 +1,17 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""Every deck of abaqus_inputs against the values of its reference.toml."""
+"""Every deck of abaqus_inputs against the values of its reference.toml and the tables of its page."""
 
+import re
 import tempfile
+from collections.abc import Callable
 from functools import cache
 from itertools import groupby
 from pathlib import Path
 
 import pytest
 
+from harness.delamination import measures
 from harness.delamination.decks import FOLDER
 from harness.delamination.references import Reference, read_references
 from harness.job import run
@@ -52,7 +55,88 @@ def test_reference_values(references: list[Reference], runner) -> None:
                 f"{reference.quantity}: {measured:.7g} {reference.unit}, expected {reference.value:.7g} "
                 f"+- {reference.tolerance:.2g} ({reference.kind}: {reference.source})"
             )
+    if references[0].against is None:
+        wrong += differences(references[0].deck, runner(references[0].deck))
     assert not wrong, "\n".join(wrong)
+
+
+# What a column of a page's table holds, and how far another processor, compiler or BLAS may be from it in proportion,
+# or in units of the figure. All iterate to Abaqus' tolerance of the residual, 5e-3, and go on from there. Where a point
+# fails, that decides whether an attempt is given up, and one that is given up makes several increments of one.
+Column = tuple[Callable[[Result], float], float, float]
+PEAK: Column = (measures.peak_load, 2e-3, 0.0)
+END: Column = (measures.final_load, 5e-3, 0.0)
+COUNTS: tuple[Column, ...] = ((measures.increments, 0.05, 0.0), (measures.cutbacks, 0.0, 4.0))
+ENERGY: Column = (measures.energy_error, 0.1, 1e-3)
+COLUMNS: dict[str, tuple[Column, ...]] = {
+    "peak (N)": (PEAK,),
+    "peak (N) at (mm)": (
+        PEAK,
+        (lambda result: measures.displacement(result)[measures.load(result).argmax()], 0.02, 0.0),
+    ),
+    "at 3 mm (N)": (END,),
+    "at the end (N)": (END,),
+    "load at 4.4 mm (N)": (END,),
+    "off beam theory after the peak": ((measures.theory_deviation, 0.1, 1e-3),),
+    "dissipated / (G_Ic width growth)": ((measures.dissipation_ratio, 5e-3, 0.0),),
+    "dissipated by damage (N mm)": ((lambda result: measures.dissipated(result)[-1], 5e-3, 0.0),),
+    "dissipated (N mm)": ((lambda result: measures.dissipated(result)[-1], 5e-3, 0.0),),
+    "work - stored - dissipated": (ENERGY,),
+    "total variation of t_n (MPa)": ((measures.traction_variation, 0.02, 0.0),),
+    "increments, given up": COUNTS,
+    "iterations": ((measures.iterations, 0.1, 0.0),),
+}
+
+
+def tables(page: str) -> list[tuple[str, dict[str, str]]]:
+    """Rows of tables whose first column names decks: each deck with the cells by the names of their columns."""
+    found, header = [], []
+    for line in page.splitlines():
+        cells = [cell.strip() for cell in line.strip("|").split("|")] if line.startswith("|") else []
+        if not cells:
+            header = []
+        elif not header:
+            header = cells
+        elif header[0] == "deck":
+            for deck in re.findall(r"`(\w+\.inp)`", cells[0]):
+                found.append((deck, dict(zip(header[1:], cells[1:], strict=True))))
+    return found
+
+
+def differences(deck: Path, result: Result) -> list[str]:
+    """What the page of a deck says otherwise than a run of it; '74 to 84' holds what several processors give."""
+    wrong = []
+    for name, cells in tables((deck.parent / "README.md").read_text(encoding="utf-8")):
+        for column in cells.keys() & COLUMNS.keys() if name == deck.name else ():
+            share = 0.01 if "%" in cells[column] else 1.0
+            parts = re.split(r", | at ", cells[column])
+            for part, (measure, relative, absolute) in zip(parts, COLUMNS[column], strict=True):
+                texts = re.findall(r"-?\d+\.?\d*", part)
+                digit = share * 10.0 ** -len(texts[0].partition(".")[2])
+                printed = [share * float(text) for text in texts]
+                scatter = 0.5 * digit + max(relative * abs(printed[-1]), absolute)
+                measured = measure(result)
+                if not printed[0] - scatter <= measured <= printed[-1] + scatter:
+                    wrong.append(f"README.md: {column}: {cells[column]}, measured: {measured:.7g}")
+    return wrong
+
+
+def test_page_that_says_something_else(tmp_path: Path, runner) -> None:
+    deck = FOLDER / "cohesive" / "coh2d4_bk.inp"
+    page = (deck.parent / "README.md").read_text(encoding="utf-8")
+    assert differences(deck, runner(deck)) == []
+    (tmp_path / "README.md").write_text(page.replace("| 0.11135 |", "| 0.11235 |"))
+    (message,) = differences(tmp_path / deck.name, runner(deck))
+    assert re.match(r"README.md: dissipated by damage \(N mm\): 0.11235, measured: 0.1113", message)
+
+
+def test_columns_of_pages_are_known() -> None:
+    """Texts beside the figures: a formula, the place of a stress; beam theory on the growth branch: `uel reproduce`."""
+    known = {*COLUMNS, "formula", "bulk stress of", "off beam theory"}
+    pages = [path.read_text(encoding="utf-8") for path in FOLDER.glob("*/README.md")]
+    rows = [cells for page in pages for _, cells in tables(page)]
+    assert len(rows) > 100
+    assert {column for cells in rows for column in cells} - known <= {"mean", "standard deviation", "lowest", "highest"}
 
 
 @pytest.mark.parametrize("folder", sorted({path.parent for path in FOLDER.rglob("*.inp")}), ids=lambda path: path.name)

@@ -3,6 +3,7 @@
 """The table of the documentation, `fortran/study.md` with `study.csv`, is what the study gives."""
 
 import csv
+from dataclasses import fields
 from pathlib import Path
 
 import pytest
@@ -11,7 +12,9 @@ from harness.delamination.batch import run_deck
 from harness.delamination.measures import peak_load
 from harness.delamination.study.blend import Beam, described
 from harness.delamination.study.cases import SOLUTIONS, Case, all_cases
-from harness.delamination.study.rows import measure
+from harness.delamination.study.criteria import check
+from harness.delamination.study.rows import Row, measure
+from harness.delamination.study.tables import csv_table, markdown_tables
 
 PAGE = Path(__file__).parents[2] / "fortran" / "study.md"
 # regression: quick rows
@@ -56,4 +59,15 @@ def test_a_share_of_the_secant_matrix_carries_newtons_method_past_a_snap(tmp_pat
 
 def test_table_holds_every_row() -> None:
     assert list(committed()) == [case.name for case in all_cases()]
-    assert "Written by `python -m harness.delamination.study`" in PAGE.read_text(encoding="utf-8")
+
+
+def test_page_says_what_the_rows_say() -> None:
+    """The text of the page follows from the rows, its verdicts and digests too: no run is made, on no processor."""
+    lines = committed()
+    kinds = {"str": str, "int": int, "float": float}
+    rows = {
+        case: Row(**{field.name: kinds[str(field.type)](lines[case.name][field.name]) for field in fields(Row)})
+        for case in all_cases()
+    }
+    assert csv_table(rows) == PAGE.with_suffix(".csv").read_text(encoding="utf-8")
+    assert markdown_tables(rows, check(rows)) == PAGE.read_text(encoding="utf-8")
