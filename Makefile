@@ -10,9 +10,12 @@ VENV ?= .venv
 MESON_ARGS ?= -Dbuildtype=release
 PYTEST_ARGS ?=
 SELECT ?= not long
-# processes of tests; 0: all tests in the one of pytest
+# processes that share the tests
 WORKERS ?= auto
-# a number: tests come in a random order, hypothesis takes other examples; the same number, the same run
+# what tests/machine.py makes of the processor and how many cores it takes; WORKERS=0 for all tests in one process
+PROCESSOR ?= this
+CORES ?= all
+# a number: tests come in a random order, and hypothesis takes other examples; with WORKERS=0 the same run each time
 SEED ?=
 
 BIN := $(VENV)/bin
@@ -20,17 +23,19 @@ INSTALLED := $(VENV)/.installed
 # the build backend and the tools it calls are found through PATH
 RUN := PATH="$(CURDIR)/$(BIN):$$PATH"
 # the processes share the cores: one thread of linear algebra each
-PYTEST = $(RUN) OPENBLAS_NUM_THREADS=1 OMP_NUM_THREADS=1 MKL_NUM_THREADS=1 $(BIN)/pytest \
+PYTEST = $(RUN) OPENBLAS_NUM_THREADS=1 OMP_NUM_THREADS=1 MKL_NUM_THREADS=1 \
+	$(BIN)/python tests/machine.py --processor $(PROCESSOR) --cores $(CORES) $(BIN)/pytest \
 	-n $(WORKERS) --maxprocesses 16 --dist worksteal \
 	$(if $(SEED),-p randomly --randomly-seed=$(SEED) --hypothesis-profile=other --hypothesis-seed=$(SEED))
 
 .DEFAULT_GOAL := help
-.PHONY: help demo test test-all test-debug bench lint decks clean
+.PHONY: help demo test test-all test-debug test-matrix bench lint decks clean
 
 help:
 	@sed -n 's/^# make/make/p' $(firstword $(MAKEFILE_LIST))
 	@echo 'make test-all    the quick tests and the long ones'
 	@echo 'make test-debug  the quick tests on kernels with run-time checks'
+	@echo 'make test-matrix both, on clean clones, as on several machines: tests/matrix.py'
 	@echo 'make bench       speed ratios, measured in one run'
 	@echo 'make lint        what CI checks before the tests'
 	@echo 'make decks       write the decks of abaqus_inputs again'
@@ -59,6 +64,9 @@ test-all: $(INSTALLED)
 
 test-debug:
 	@$(MAKE) --no-print-directory test VENV=.venv-debug MESON_ARGS='-Dbuildtype=debug' SELECT='not long and not nan'
+
+test-matrix:
+	$(PYTHON) tests/matrix.py
 
 bench: $(INSTALLED)
 	$(RUN) $(BIN)/python tests/benchmarks/bench.py

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""Run a command as on another machine: `.venv/bin/python tests/machine.py --processor Nehalem --cores 1 make test`.
+"""Run a command as on another machine: `make test PROCESSOR=Nehalem CORES=1`.
 
 The processor decides which kernels OpenBLAS takes, which loops numpy, and which functions glibc has for exp, sin and
 pow: sums come in another order, and products with or without fused additions.
@@ -34,12 +34,13 @@ def environment(processor: str) -> dict[str, str]:
 def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--processor", choices=PROCESSORS, default="this", help="what to calculate as (%(default)s)")
-    parser.add_argument("--cores", type=int, help="how many of the cores to use (all)")
+    parser.add_argument("--cores", default="all", help="how many of the cores to use (%(default)s)")
     parser.add_argument("command", nargs=argparse.REMAINDER)
     options = parser.parse_args()
     if not options.command:
         parser.error("no command")
-    os.sched_setaffinity(0, sorted(os.sched_getaffinity(0))[: options.cores])
+    if options.cores != "all":
+        os.sched_setaffinity(0, sorted(os.sched_getaffinity(0))[: int(options.cores)])
     os.environ.update(environment(options.processor))
     os.execvp(options.command[0], options.command)
 
