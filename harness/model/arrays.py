@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""Array types used in signatures."""
+"""Array types used in signatures, and the choice among equal entries."""
 
 import numpy as np
 from numpy.typing import NDArray
@@ -8,3 +8,17 @@ from numpy.typing import NDArray
 IntArray = NDArray[np.int64]
 FloatArray = NDArray[np.float64]
 ComplexArray = NDArray[np.complex128]
+
+_EQUAL = 1e-6
+"""Entries that differ by this part of the largest magnitude are equal: rounding, which depends on the processor."""
+
+
+def first_largest(values: FloatArray) -> IntArray:
+    """Index of the largest entry along the first axis; of equal ones, the first, on every processor.
+
+    An entry that is no finite number counts as the largest.
+    """
+    finite = np.isfinite(values)
+    with np.errstate(invalid="ignore"):
+        near = values >= values.max(axis=0) - _EQUAL * np.abs(values).max(axis=0)
+    return np.asarray(np.argmax(np.where(finite.all(axis=0), near, ~finite), axis=0))

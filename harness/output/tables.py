@@ -11,7 +11,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from harness.model.arrays import FloatArray, IntArray
+from harness.model.arrays import FloatArray, IntArray, first_largest
 from harness.model.mesh import ElementGroup, Mesh
 from harness.model.model import Model
 from harness.model.nodal import NodalIndex
@@ -46,8 +46,8 @@ class _Table:
             if any(values):
                 text += line + _row(values) + "\n"
         for name, best in (
-            ("MAXIMUM", np.argmax(self.values, axis=0)),
-            ("MINIMUM", np.argmin(self.values, axis=0)),
+            ("MAXIMUM", first_largest(self.values)),
+            ("MINIMUM", first_largest(-self.values)),
         ):
             extremes = np.take_along_axis(self.values, best[None, :], axis=0)[0]
             text += f"\n{f' {name}':<{self.indent}}{_row(extremes.tolist())}\n"

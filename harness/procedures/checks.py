@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 
 from harness.assembly import Constraints, DofMap
 from harness.elements import FIELD_NAMES
-from harness.model.arrays import FloatArray, IntArray
+from harness.model.arrays import FloatArray, IntArray, first_largest
 from harness.model.records import FieldCheck, Largest, Verdict
 from harness.model.steps import Controls, FieldControls
 from harness.procedures.acceptance import Check, FluxHistory, estimated_correction, judge
@@ -172,7 +172,7 @@ class Checker:
         chosen = vector[positions]
         if not len(chosen):
             return Largest(0.0, -1, 0)
-        k = int(np.argmax(np.abs(chosen)))
+        k = int(first_largest(np.abs(chosen)))
         position = k if isinstance(positions, slice) else int(positions[k])
         unknown = position if unknowns is None else int(unknowns[position])
         return Largest(float(chosen[k]), int(self._dofs.node[unknown]), int(self._dofs.dof[unknown]))

@@ -15,7 +15,7 @@ from scipy import sparse
 
 from harness.assembly import System
 from harness.errors import DeckError
-from harness.model.arrays import FloatArray
+from harness.model.arrays import FloatArray, first_largest
 from harness.model.model import Model
 from harness.model.procedures import Frequency
 from harness.model.records import ModesFound, ModeShape, Record
@@ -101,6 +101,6 @@ class FrequencyStep(PerturbationStep):
         factors = np.ones(vectors.shape[1])
         for mode, vector in enumerate(vectors.T):
             measured = vector[displacements] if np.any(vector[displacements]) else vector
-            largest = measured[np.argmax(np.abs(measured))]
+            largest = measured[first_largest(np.abs(measured))]
             factors[mode] = np.sign(largest) if self._procedure.by_mass else 1.0 / largest
         return (vectors * factors).T, factors**2

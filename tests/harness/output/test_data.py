@@ -54,6 +54,15 @@ def test_a_table_of_nodes(model: Model) -> None:
     ]
 
 
+@pytest.mark.parametrize("rounding", [1 - 1e-14, 1, 1 + 1e-14])
+def test_first_of_equal_extremes_is_named(model: Model, rounding: float) -> None:
+    displacement = np.array([0.0, 1.0, -2.0, 1.0 * rounding, -2.0 * rounding])
+    solution = Solution(np.arange(5), np.ones(5, dtype=int), displacement, np.zeros(5), np.zeros(5))
+    text = node_tables(NodeRequest("", np.arange(5), ("U1",)), model, solution, NodalIndex(8, solution))
+    labels = [line.split()[-1] for line in lines(text) if line.startswith(" AT NODE")]
+    assert labels == [str(model.mesh.labels[1]), str(model.mesh.labels[2])]
+
+
 def test_totals_where_asked_for(model: Model, records: Records) -> None:
     done = next(record for record in records(model, times=(1.0,)) if isinstance(record, IncrementDone))
     request = NodeRequest("BASE", np.array([0, 1]), ("RF2",), totals=True)

@@ -25,15 +25,18 @@ DOFS = SimpleNamespace(
 CONSTRAINTS = SimpleNamespace(free=np.array([1, 2, 3]))
 
 
+MADE_UP = Evaluation(
+    np.zeros(4), None, np.array([12.0, 0.0, 0.0, 0.0, 8.0]), np.array([4, 0, 0, 0, 2]), 1e36, np.zeros(8)
+)
+
+
 def checker(controls=None):
     return Checker(DOFS, CONSTRAINTS, controls or Controls(), [FluxHistory()] * 5)
 
 
 def iterate(iteration, reduced, increment=(1.0, -2.0, -3.0, 1.0), correction=(0.0, 0.1, 0.2, -0.3)):
-    flux = np.array([12.0, 0.0, 0.0, 0.0, 8.0])
-    evaluation = Evaluation(np.zeros(4), None, flux, np.array([4, 0, 0, 0, 2]), 1e36, np.zeros(8))
     return Iterate(
-        iteration, np.array(increment), np.array(correction), np.zeros(4), np.array(reduced, dtype=float), evaluation
+        iteration, np.array(increment), np.array(correction), np.zeros(4), np.array(reduced, dtype=float), MADE_UP
     )
 
 
@@ -48,6 +51,18 @@ def test_largest_entries_are_found_by_field():
     assert temperature.increment == Largest(-2.0, 0, 11)
     assert force.correction == Largest(0.2, 1, 1)
     assert temperature.correction == Largest(-0.3, 1, 11)
+
+
+def test_first_of_equal_entries_is_named_on_every_processor():
+    """A symmetric model: which side rounding makes larger is not for a user to see."""
+    dofs = SimpleNamespace(node=np.arange(3), dof=np.ones(3, dtype=int), field=np.zeros(3, dtype=int))
+    under_test = Checker(dofs, SimpleNamespace(free=np.arange(3)), Controls(), [FluxHistory()] * 5)
+    values = np.array([0.5, -7.0, 7.0 + 1e-14])
+    for turn in (values, values * [1, 1 + 1e-14, 1 - 1e-14]):
+        under_test.start(Iterate(0, turn, turn, turn, turn, MADE_UP), extrapolated=False)
+        (force,) = under_test.check(Iterate(1, turn, turn, turn, turn, MADE_UP))
+        assert {force.residual.node, force.increment.node, force.correction.node} == {1}
+        assert force.residual.value == pytest.approx(-7.0, rel=1e-12)
 
 
 def test_average_flux_is_the_mean_over_element_dofs_of_the_field():

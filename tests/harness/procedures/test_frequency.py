@@ -52,6 +52,21 @@ def test_two_masses(run, options):
     np.testing.assert_allclose(history["GM"], 2 * (1 + golden**2))
 
 
+@pytest.mark.parametrize("how", ["", ", NORMALIZATION=MASS"])
+@pytest.mark.parametrize("masses", ["2., 2.", "2., 2.000000001", "2.000000001, 2."])
+def test_sign_of_an_antisymmetric_shape(run, masses, how):
+    """Two masses between walls: the first moves forwards, whatever rounding, here a mass, makes of its size."""
+    between = PAIR.replace("3, 2.\n", "3, 2.\n4, 3.\n").replace("2, 2, 3\n", "2, 2, 3\n5, 3, 4\n")
+    first, second = masses.split(", ")
+    model = between.replace(
+        "4, 3\n*MASS, ELSET=M\n2.",
+        f"*MASS, ELSET=M\n{first}\n*ELEMENT, TYPE=MASS, ELSET=N\n4, 3\n*MASS, ELSET=N\n{second}",
+    )
+    history = run(model + "4, 1\n", "2", how=how).history
+    size = 1.0 if not how else 0.5
+    np.testing.assert_allclose([history["U1[ALL:2]"], history["U1[ALL:3]"]], [[size, size], [size, -size]], rtol=1e-6)
+
+
 def test_normalized_by_mass(run):
     history = run(PAIR, "2", how=", NORMALIZATION=MASS").history
     np.testing.assert_allclose(history["GM"], 1)
