@@ -21,8 +21,10 @@ def environment(processor: str) -> dict[str, str]:
     """Variables with which OpenBLAS, numpy and glibc calculate as on a processor, by OpenBLAS' name of it."""
     if processor == "this":
         return {}
-    simd = np.show_config(mode="dicts")["SIMD Extensions"]
-    beyond = [name for name in simd["found"] if processor in WITHOUT_AVX2 or name.startswith(("X86_V4", "AVX512"))]
+    found = np.show_config(mode="dicts")["SIMD Extensions"].get("found", [])
+    # on a machine that is made older already too
+    beyond = os.environ.get("NPY_DISABLE_CPU_FEATURES", "").split()
+    beyond += [name for name in found if processor in WITHOUT_AVX2 or name.startswith(("X86_V4", "AVX512"))]
     missing = ["AVX512F", *(("AVX2", "FMA") if processor in WITHOUT_AVX2 else ())]
     return {
         "OPENBLAS_CORETYPE": processor,
