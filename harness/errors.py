@@ -38,7 +38,9 @@ _LONGEST: Final = 1000
 
 def _shown(message: str) -> str:
     """A message that quotes a deck: what a terminal does not show, or obeys, is spelt, and a long line cut out."""
-    text = "".join(c if c.isprintable() or c == "\n" else ascii(c)[1:-1] for c in message)
+    text = message
+    if not message.isprintable():
+        text = "".join(c if c.isprintable() or c == "\n" else ascii(c)[1:-1] for c in message)
     return text if len(text) <= _LONGEST else f"{text[: _LONGEST // 2]} ... {text[-_LONGEST // 2 :]}"
 
 

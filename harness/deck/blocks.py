@@ -95,13 +95,13 @@ class Block:
         """Keyword name."""
         return self.keyword.name
 
-    def append(self, line: str, file: str, number: int) -> None:
-        """Add a data line."""
+    def extend(self, lines: list[str], file: str, first: int) -> None:
+        """Add data lines of a file that follow each other, the first with this number."""
         if not self._files or self._files[-1] != file:
             self._files.append(file)
             self._starts.append(len(self.lines))
-        self.lines.append(line)
-        self._numbers.append(number)
+        self.lines += lines
+        self._numbers += range(first, first + len(lines))
 
     def trim(self) -> None:
         """Drop blank lines at the end."""

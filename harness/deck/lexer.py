@@ -4,6 +4,8 @@
 
 from __future__ import annotations
 
+import bisect
+import codecs
 import re
 from dataclasses import dataclass
 from pathlib import Path
@@ -14,9 +16,11 @@ from harness.deck.keywords import find_keyword
 from harness.deck.problems import Problems
 from harness.deck.table import Keyword, Options, compact, read_options, split_fields
 from harness.errors import DeckError, Source
+from harness.files import read_whole
 
 # other characters that some programs take for line ends; a message of ours is one line
 _BLANKS = dict.fromkeys(map(ord, "\v\f\x1c\x1d\x1e\x85\u2028\u2029"), " ")
+_UTF16 = (codecs.BOM_UTF16_LE, codecs.BOM_UTF16_BE)
 DEEPEST = 20
 MOST_INCLUDED = 2000
 _COMMENT = re.compile(r"(?<=[\s,])\*\*")
@@ -28,7 +32,7 @@ def read_blocks(deck: Path, problems: Problems) -> list[Block]:
     lexer = _Lexer(deck, problems)
     start = Source(str(deck), 1)
     lines = _load(deck, start)
-    if not any(line.strip() and not line.lstrip().startswith("**") for line in lines):
+    if not any(line and not line.startswith("**") for line in lines):
         raise DeckError(start, "the deck is empty")
     lexer.read(lines, str(deck), (deck.resolve(),))
     lexer.close()
@@ -36,21 +40,24 @@ def read_blocks(deck: Path, problems: Problems) -> list[Block]:
 
 
 def _load(path: Path, source: Source) -> list[str]:
-    """Lines of a text file in UTF-8 or Latin-1, with any kind of line end."""
+    """Lines of a text file in UTF-8 or Latin-1, with any kind of line end; without the blanks around each."""
     try:
-        raw = path.read_bytes()
+        raw = read_whole(path)
     except OSError as error:
         reason = error.strerror or type(error).__name__
         raise DeckError(source, f"cannot read {path}: {reason}") from None
     except ValueError as error:
         raise DeckError(source, f"cannot read {path}: {error}") from None
+    if raw.startswith(_UTF16):
+        raise DeckError(source, f"{path} is a text in UTF-16, which Abaqus does not read: save it in UTF-8")
     if b"\0" in raw:
         raise DeckError(source, f"{path} is a binary file, not a deck")
     try:
         text = raw.decode("utf-8-sig")
     except UnicodeDecodeError:
         text = raw.decode("latin-1")
-    return text.replace("\r\n", "\n").replace("\r", "\n").translate(_BLANKS).split("\n")
+    lines = text.replace("\r\n", "\n").replace("\r", "\n").translate(_BLANKS).split("\n")
+    return [line.strip() for line in lines]
 
 
 @dataclass(slots=True)
@@ -76,13 +83,18 @@ class _Lexer:
 
     def read(self, lines: list[str], file: str, stack: tuple[Path, ...]) -> None:
         """Take all lines of one file."""
+        stars = [index for index, line in enumerate(lines) if line.startswith("*")]
+        stars.append(len(lines))
         number = 0
         while number < len(lines):
-            line = lines[number].strip()
-            number += 1
+            line = lines[number]
             if not line.startswith("*"):
-                self._data(line, file, number)
-            elif not line.startswith("**"):
+                stop = stars[bisect.bisect_left(stars, number)]
+                self._data(lines[number:stop], file, number + 1)
+                number = stop
+                continue
+            number += 1
+            if not line.startswith("**"):
                 self.close()
                 header = _Header(line, Source(file, number))
                 number = self._continue(header, lines, number)
@@ -111,18 +123,27 @@ class _Lexer:
             raise DeckError(source, f"*PARAMETER: {error}") from None
         self._parameters[name] = value
 
-    def _data(self, line: str, file: str, number: int) -> None:
+    def _data(self, lines: list[str], file: str, first: int) -> None:
+        """Take data lines that follow each other, the first with this number."""
         if self._open is None:
-            if line and not self._discard:
-                self._problems.add(Source(file, number), "data before the first keyword")
+            place = next((index for index, line in enumerate(lines) if line), None)
+            if place is not None and not self._discard:
+                self._problems.add(Source(file, first + place), "data before the first keyword")
                 self._discard = True
             return
         if self._open.keyword.name not in ("HEADING", "PARAMETER"):
-            line = self._uncommented(line, Source(file, number))
-            if "<" in line:
-                with self._problems.gather():
-                    line = self._substitute(line, Source(file, number))
-        self._open.append(line, file, number)
+            text = "\n".join(lines)
+            if "<" in text or "**" in text:
+                lines = [self._plain(line, Source(file, number)) for number, line in enumerate(lines, start=first)]
+        self._open.extend(lines, file, first)
+
+    def _plain(self, line: str, source: Source) -> str:
+        """A data line without a comment at its end, and with the values of parameters."""
+        line = self._uncommented(line, source)
+        if "<" in line:
+            with self._problems.gather():
+                return self._substitute(line, source)
+        return line
 
     def _uncommented(self, line: str, source: Source) -> str:
         """A data line without a comment at its end, which Abaqus takes too."""
@@ -147,9 +168,9 @@ class _Lexer:
         """Join the lines that continue a keyword line; returns the number of lines taken."""
         while header.text.endswith(",") and number < len(lines):
             ahead = number
-            while ahead < len(lines) - 1 and lines[ahead].lstrip().startswith("**"):
+            while ahead < len(lines) - 1 and lines[ahead].startswith("**"):
                 ahead += 1
-            line = lines[ahead].strip()
+            line = lines[ahead]
             if not _continues(header.text, line):
                 break
             header.text += line
@@ -191,9 +212,6 @@ class _Lexer:
             # files that include each other several times are soon as many as there are atoms
             limit = f"{MOST_INCLUDED} of them are" if len(stack) <= DEEPEST else f"{DEEPEST} within each other are"
             raise DeckError(source, f"too many included files: {limit} read")
-        if path.exists() and not (path.is_file() or path.is_dir()):
-            # reading a device or a pipe may never end
-            raise DeckError(source, f"cannot read {path}: not a file")
         self.read(_load(path, source), str(path), (*stack, resolved))
 
     def _find(self, name: str, including: Path) -> Path:

@@ -7,6 +7,7 @@ from __future__ import annotations
 import re
 from dataclasses import dataclass
 from enum import StrEnum
+from functools import lru_cache
 
 from harness.deck.numbers import read_integer, read_real
 from harness.deck.problems import nearest
@@ -107,9 +108,10 @@ class Options:
         return read_integer(self.values[name]) if name in self.values else default
 
 
+@lru_cache(4096)
 def compact(word: str) -> str:
     """Spelling in which words are compared: upper case, without blanks."""
-    return re.sub(r"\s+", "", word).upper()
+    return "".join(word.split()).upper()
 
 
 def split_fields(line: str) -> list[str]:
@@ -126,7 +128,7 @@ def split_fields(line: str) -> list[str]:
 
 def unquote(name: str) -> str:
     """A name without its quotes, in upper case and with single blanks: names are compared like this."""
-    return re.sub(r"\s+", " ", name.replace('"', "").strip()).upper()
+    return " ".join(name.replace('"', "").split()).upper()
 
 
 def read_options(keyword: Keyword, fields: list[str], source: Source) -> Options:

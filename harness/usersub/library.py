@@ -162,7 +162,7 @@ def _shared_library(files: Sequence[Path], include: Sequence[Path], *, zero_loca
         return path_of_kernels()
     for file in files:
         if not file.is_file():
-            raise CompileError(file, "no such file")
+            raise CompileError(file, "not a file" if file.exists() else "no such file")
         if file.suffix.lower() not in (*SUFFIXES, ".so"):
             raise CompileError(file, f"not a file of user routines: expected {', '.join(SUFFIXES)} or .so")
     if any(file.suffix.lower() == ".so" for file in files):

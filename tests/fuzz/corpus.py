@@ -7,6 +7,7 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
+from itertools import accumulate
 from pathlib import Path, PurePath
 from random import Random
 
@@ -18,6 +19,8 @@ _INPUT = re.compile(r"INPUT\s*=\s*\"?([^\",\s]+)", re.IGNORECASE)
 _STEP = re.compile(r"^\*\s*STEP\b", re.IGNORECASE | re.MULTILINE)
 _USUAL_SIZE = 5000
 """Characters; a deck is drawn the less often, the larger it is, since each trial of it takes longer."""
+SHARE_OF_RUNS = 0.1
+"""Of the trials; the other decks are only read, which takes a tenth of the time."""
 
 
 @dataclass(frozen=True)
@@ -30,7 +33,16 @@ class Deck:
     @property
     def weight(self) -> float:
         """How often the deck is drawn."""
-        return 1.0 / (1.0 + sum(map(len, self.files.values())) / _USUAL_SIZE)
+        return (1.0 + sum(map(len, self.files.values())) / _USUAL_SIZE) ** -2
+
+
+@dataclass(frozen=True)
+class Case:
+    """Files of a damaged deck by their names, the deck from which they come, and whether it is run beyond reading."""
+
+    path: Path
+    files: dict[str, bytes]
+    runs: bool
 
 
 class Corpus:
@@ -39,18 +51,14 @@ class Corpus:
     def __init__(self, folders: Sequence[Path]) -> None:
         paths = sorted({path for folder in folders for path in _deck_files(folder)})
         self.decks = [Deck(path, dict(_files(path))) for path in paths]
-        self._weights = [deck.weight for deck in self.decks]
+        self._weights = list(accumulate(deck.weight for deck in self.decks))
         self._lines = [deck.files[DECK].split("\n") for deck in self.decks]
 
-    def case(self, seed: int, number: int) -> tuple[Deck, dict[str, bytes]]:
-        """A deck and its files, one of them damaged; the same for the same seed and number."""
+    def case(self, seed: int, number: int) -> Case:
+        """One trial; the same for the same seed and number."""
         random = Random(f"{seed}/{number}")
-        (deck,) = random.choices(self.decks, self._weights)
-        included = [name for name in deck.files if name != DECK]
-        damaged = random.choice(included) if included and random.random() < 0.2 else DECK
-        files = {name: text.encode() for name, text in deck.files.items()}
-        files[damaged] = mutate(random, deck.files[damaged], self._lines)
-        return deck, files
+        (deck,) = random.choices(self.decks, cum_weights=self._weights)
+        return Case(deck.path, mutate(random, deck.files, DECK, self._lines), random.random() < SHARE_OF_RUNS)
 
 
 def _deck_files(folder: Path) -> Iterator[Path]:

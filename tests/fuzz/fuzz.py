@@ -2,10 +2,11 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Damaged decks: `python tests/fuzz/fuzz.py [--count N] [--seed S] [--workers W] [FOLDER ...]`.
 
-Takes the decks of the folders (the project's own by default), damages each trial's deck, and has the harness read,
-check and build it, and try one increment of a small model. A traceback, an end of the process, more than 10 s of
-processor time, more than 1 GiB, or an error that names no place in the deck is a finding: its deck is kept in the
-folder --output, and the exit code is 1. `--case N` makes one trial again, in this process.
+Takes the decks of the folders (the project's own by default), damages each trial's deck, and has the harness read it;
+one in ten it checks and builds as well, and tries one increment of a small model. A traceback, an end of the process,
+more than 10 s of processor time, more than 1 GiB, or an error that names no place in the deck is a finding: its deck is
+kept in the folder --output, and the exit code is 1. `--case N` makes one trial again, in this process; `--first N` goes
+on where an earlier campaign ended. A trial is the same for the same seed and number as long as the decks are.
 """
 
 from __future__ import annotations
@@ -42,7 +43,7 @@ WAIT = 180
 BYTES = 1 << 30
 TRIALS_OF_A_PROCESS = 500
 """Each run keeps a library loaded."""
-GOOD = ("runs", "refused", "stopped")
+GOOD = ("runs", "reads", "refused", "stopped")
 
 
 @dataclass
@@ -69,13 +70,13 @@ class Findings:
         self.kinds[kind] += 1
         if kind in GOOD or self.kinds[kind] > 1:
             return
-        deck, files = self.corpus.case(self.seed, number)
+        case = self.corpus.case(self.seed, number)
         place = self.folder / f"{self.seed}-{number}"
-        for name, content in files.items():
+        for name, content in case.files.items():
             (place / name).parent.mkdir(parents=True, exist_ok=True)
             (place / name).write_bytes(content)
-        (place / "finding.txt").write_text(f"{deck.path}\n{kind}\n{text}", encoding="utf-8", errors="replace")
-        print(f"trial {number} of {deck.path}: {kind}; kept in {place}", flush=True)
+        (place / "finding.txt").write_text(f"{case.path}\n{kind}\n{text}", encoding="utf-8", errors="replace")
+        print(f"trial {number} of {case.path}: {kind}; kept in {place}", flush=True)
 
     @property
     def found(self) -> int:
@@ -100,10 +101,10 @@ def work(
         faulthandler.register(signal.SIGPROF, log, chain=True)
         for number in numbers:
             log.truncate(0)
-            _, files = corpus.case(seed, number)
+            case = corpus.case(seed, number)
             signal.setitimer(signal.ITIMER_PROF, SECONDS)
             faulthandler.dump_traceback_later(WAIT, exit=True, file=log)
-            outcome = trial.run(files, Path(folder) / str(number))
+            outcome = trial.run(case, Path(folder) / str(number))
             faulthandler.cancel_dump_traceback_later()
             signal.setitimer(signal.ITIMER_PROF, 0)
             shutil.rmtree(Path(folder) / str(number), ignore_errors=True)
@@ -168,9 +169,9 @@ def main() -> int:
     if not corpus.decks:
         parser.error("no decks in these folders")
     if options.case is not None:
-        deck, files = corpus.case(options.seed, options.case)
+        case = corpus.case(options.seed, options.case)
         with tempfile.TemporaryDirectory() as folder:
-            print(deck.path, *trial.run(files, Path(folder)), sep="\n")
+            print(case.path, *trial.run(case, Path(folder)), sep="\n")
         return 0
     began = time.perf_counter()
     findings = Findings(corpus, options.seed, options.output)

@@ -35,9 +35,45 @@ TEXTS = (
     "<a>",
     "**",
 )
-FILES = ("deck.inp", ".", "..", "/", "/dev/zero", "/dev/stdin", "nowhere.inp", "", "~", "x" * 300, "a\0b")
+ODD_FILES = ("pipe", "socket", "loop", "nowhere", "folder")
+"""What is no file: a trial finds these beside its deck."""
+FILES = (
+    *("deck.inp", ".", "..", "/", "/dev/zero", "/dev/stdin", "nowhere.inp", "", "~", "x" * 300, "a\0b", *ODD_FILES),
+    *("/dev/random", "/dev/full", "/dev/null", "/dev/tty", "/proc/kmsg", "/proc/kcore", "/proc/self/mem", "/dev/fd/0"),
+    *("/proc/self/fd/0", "/proc/self/cwd/deck.inp", "folder/../deck.inp", "part.inc", "part.inc/x", "%00", "C:\\a.inp"),
+)
+EXPRESSIONS = (
+    *("1/0", "9**9**9", "9**9**9**9", "10.**400", "-x", "'a'*9", "'a'*9999999", "(" * 300, "x", "1e400", "sqrt(-1.)"),
+    *(
+        "1 if 1 else 2",
+        "int(1e400)",
+        "pow(0.,-1.)",
+        "pow(9,9e9)",
+        "10**64*10**64",
+        "min()",
+        "floor(1e999)",
+        "atan2(1.)",
+    ),
+    *("2.5", "3", "9" * 1500, "-" * 1500 + "1", "+".join(["x"] * 700), "x*x*x*x*x*x", "1<<99999999", "[0]*999999999"),
+    *("'%999999999d' % 1", "f'{1:999999999}'", "{}", "lambda: 1", "x.y", "x[0]", "(1).__class__", "'<y>'", "1e5**64"),
+    *(
+        "abs(" * 90 + "1" + ")" * 90,
+        "9**9**x",
+        "int('9'*4000)",
+        "max(1,2,)",
+        "1j",
+        "~5",
+        "not x",
+        "x = 2",
+        "pi",
+        "PI*2",
+    ),
+    *("__import__('os')", "exp(709)*exp(709)", "0.**-1", "-8.**(1./3)", "9**64**64", "2**-64", "1//0.", "5 % 0", "x@x"),
+)
 _NUMBER = re.compile(r"(?<![\w.])[-+]?\d+\.?\d*(?:[EeDd][-+]?\d+)?")
 _NAME = re.compile(r"[A-Za-z_][\w-]{2,}")
+
+ALL_KEYWORDS = tuple(KEYWORDS.values())
 
 Lines = list[str]
 Mutation = Callable[[Random, Lines, Sequence[Lines]], None]
@@ -174,15 +210,15 @@ def damage_keyword(random: Random, lines: Lines, corpus: Sequence[Lines]) -> Non
         case "value":
             fields[place] = f"{fields[place].split('=')[0]}={random.choice(WORDS + NUMBERS)}"
         case "other":
-            fields[0] = f"*{random.choice(list(KEYWORDS.values())).name}"
+            fields[0] = f"*{random.choice(ALL_KEYWORDS).name}"
         case "option":
-            fields.append(_option(random, random.choice(list(KEYWORDS.values()))))
+            fields.append(_option(random, random.choice(ALL_KEYWORDS)))
     lines[index] = ",".join(fields)
 
 
 def any_keyword(random: Random, lines: Lines, corpus: Sequence[Lines]) -> None:
     """A keyword that the reader knows, with some of its options and data lines of any kind."""
-    keyword = random.choice(list(KEYWORDS.values()))
+    keyword = random.choice(ALL_KEYWORDS)
     options = [option for option in keyword.options if option.required or random.random() < 0.3]
     head = ", ".join([f"*{keyword.name}", *(_option(random, keyword, option.name) for option in options)])
     words = [*_NAME.findall(random.choice(lines)), *("1", "2", "3", "1."), *random.sample(NUMBERS + WORDS, 3)]
@@ -236,33 +272,91 @@ def tabs(random: Random, lines: Lines, corpus: Sequence[Lines]) -> None:
 
 def parameter(random: Random, lines: Lines, corpus: Sequence[Lines]) -> None:
     """A parameter with an odd expression in place of a number."""
-    expressions = ("1/0", "9**9**9", "10.**400", "-x", "'a'*9", "(" * 300, "x", "1e400", "sqrt(-1.)", "1 if 1 else 2")
-    expressions += ("int(1e400)", "pow(0.,-1.)", "10**64*10**64", "min()", "floor(1e999)", "atan2(1.)", "2.5", "3")
-    lines[0:0] = ["*PARAMETER", f"x = {random.choice(expressions)}"]
+    statements = [f"x = {random.choice(EXPRESSIONS)}" for _ in range(random.choice((1, 1, 2, 60)))]
+    lines[0:0] = ["*PARAMETER", *statements]
     candidates = _data_lines(lines)
     index = random.choice(candidates)
     lines[index] = _NUMBER.sub("<x>", lines[index], count=1)
+
+
+def continue_line(random: Random, lines: Lines, corpus: Sequence[Lines]) -> None:
+    """A line goes on in the next one, or seems to."""
+    index = random.randrange(len(lines))
+    commas = [place for place, character in enumerate(lines[index]) if character == ","]
+    if commas:
+        cut = random.choice(commas) + random.randint(0, 1)
+        between = random.choice(((), (), (), ("",), ("** between",), (",",), ("*",)))
+        lines[index : index + 1] = [lines[index][:cut], *between, lines[index][cut:]]
+
+
+def join_lines(random: Random, lines: Lines, corpus: Sequence[Lines]) -> None:
+    """A line end is lost."""
+    index = random.randrange(len(lines))
+    lines[index : index + 2] = ["".join(lines[index : index + 2])]
+
+
+def relabel(random: Random, lines: Lines, corpus: Sequence[Lines]) -> None:
+    """A number of a node or element is another one wherever it stands, up to what does not fit 32 bits."""
+    candidates = [index for index in _data_lines(lines) if lines[index].lstrip()[:1].isdigit()]
+    if not candidates:
+        return
+    old = lines[random.choice(candidates)].split(",")[0].strip()
+    near = random.choice((10**9, 2**31, 2**32, 2**53, 2**63, 10**7))
+    new = random.choice((str(near + random.randint(-2, 2)), f"{old}e0", f"{old}.", f"+{old}", f"0{old}", f"{old}.5"))
+    pattern = re.compile(rf"(?<![\w.+-]){re.escape(old)}(?![\w.])")
+    for index in candidates:
+        lines[index] = pattern.sub(new, lines[index])
 
 
 LINE_MUTATIONS: tuple[Mutation, ...] = (
     *(drop_line, double_line, swap_lines, drop_block, double_block, move_block, empty_block, foreign_block),
     *(change_number, change_number, change_number, change_field, change_field, rename, rename, damage_keyword),
     *(damage_keyword, any_keyword, any_keyword, any_keyword, include, long_line, odd_text, tabs, parameter),
+    *(continue_line, join_lines, relabel),
 )
+ENCODINGS = ("utf-8",) * 12 + ("utf-8-sig", "utf-16", "utf-16-le", "utf-16-be", "latin-1", "cp1252", "utf-32")
 
 
-def mutate(random: Random, text: str, corpus: Sequence[Lines]) -> bytes:
-    """A deck with one to four kinds of damage, as bytes; some are cut off, or have other line ends."""
-    lines = text.split("\n")
-    for _ in range(random.choice((1, 1, 1, 2, 2, 3, 4))):
-        random.choice(LINE_MUTATIONS)(random, lines, corpus)
-        lines = lines or [""]
-    end = random.choice(("\n",) * 12 + ("\r\n", "\r", "\n\n"))
-    encoding = random.choice(("utf-8",) * 12 + ("utf-8-sig", "utf-16", "latin-1"))
-    raw = end.join(lines).encode(encoding, "replace")
+def grow_tree(random: Random, files: dict[str, Lines]) -> None:
+    """Move runs of lines into files of their own, which the run's place includes; some trees close on themselves."""
+    for number in range(random.choice((1, 1, 2, 3, 6))):
+        lines = files[random.choice(list(files))]
+        start = random.randint(0, len(lines))
+        stop = random.choice((start, len(lines), random.randint(start, len(lines))))
+        name = random.choice((f"part{number}.inc", f"sub/part{number}.inc", f"sub/a b{number}.inc", f"é{number}.inc"))
+        head = random.choice(("*INCLUDE, INPUT={}", "*include,input={}", '*INCLUDE, INPUT="{}"', "*INCLUDE,\nINPUT={}"))
+        heads = [head.format(name)] * random.choice((1, 1, 1, 2))
+        files[name] = lines[start:stop]
+        lines[start:stop] = [line for text in heads for line in text.split("\n")]
+    if random.random() < 0.2:
+        one, other = (random.choice(list(files)) for _ in range(2))
+        files[one].insert(random.randint(0, len(files[one])), f"*INCLUDE, INPUT={other}")
+
+
+def encode(random: Random, lines: Lines) -> bytes:
+    """The bytes of a file: some are cut off, or have other line ends, encodings, or marks of them in odd places."""
+    end = random.choice(("\n",) * 12 + ("\r\n", "\r", "\n\n", "\n\r"))
+    raw = end.join(lines).encode(random.choice(ENCODINGS), "replace")
     if random.random() < 0.05:
         raw = raw[: random.randint(0, len(raw))]
     if random.random() < 0.03 and raw:
         place = random.randrange(len(raw))
         raw = raw[:place] + random.randbytes(random.randint(1, 8)) + raw[place + 1 :]
+    if random.random() < 0.03:
+        raw = random.choice((b"\xef\xbb\xbf", b"\xff\xfe", b"\xfe\xff", b"\xef\xbb", b"\xef\xbb\xbf" * 2)) + raw
     return raw
+
+
+def mutate(random: Random, files: dict[str, str], deck: str, corpus: Sequence[Lines]) -> dict[str, bytes]:
+    """The files of a deck, one of them with one to four kinds of damage, some spread over more files."""
+    included = [name for name in files if name != deck]
+    damaged = random.choice(included) if included and random.random() < 0.2 else deck
+    lines = files[damaged].split("\n")
+    for _ in range(random.choice((1, 1, 1, 2, 2, 3, 4))):
+        random.choice(LINE_MUTATIONS)(random, lines, corpus)
+        lines = lines or [""]
+    tree = {damaged: lines}
+    if random.random() < 0.1:
+        grow_tree(random, tree)
+    whole = {name: text.encode() for name, text in files.items()}
+    return whole | {name: encode(random, part) for name, part in tree.items()}

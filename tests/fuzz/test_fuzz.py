@@ -16,7 +16,7 @@ sys.path.insert(0, {folder!r})
 import fuzz, trial
 fuzz.SECONDS = fuzz.WAIT = 1
 
-def broken(files, folder):
+def broken(case, folder):
     number = int(folder.name)
     if number == 0:
         while True: pass
@@ -60,7 +60,8 @@ def test_findings_are_seen_and_kept(tmp_path):
     for line in ("2 too much memory", "2 timeout", "1 exit code -6", "1 exit code 3"):
         assert f"{line}\n" in result.stdout
     kept = {path.name: {file.name for file in path.iterdir()} for path in (tmp_path / "findings").iterdir()}
-    assert kept == {f"1-{number}": {"deck.inp", "finding.txt"} for number in (0, 2, 3, 4)}
+    assert kept.keys() == {f"1-{number}" for number in (0, 2, 3, 4)}
+    assert all({"deck.inp", "finding.txt"} <= files for files in kept.values())
 
 
 def test_one_trial_is_made_again():

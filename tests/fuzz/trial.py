@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""One damaged deck through the harness: read, check, build, and one attempt at an increment of a small model.
+"""One damaged deck through the harness: read, and some of them build, with one attempt at an increment if small.
 
 A trial is good if the deck runs, or ends with an error that is the user's to mend and names its place. The kernels are
 the project's own, whatever the deck was written for. What a model does after its first attempt is not looked at: a
@@ -9,16 +9,20 @@ deck that is still valid may be as long as it likes.
 
 from __future__ import annotations
 
+import os
 import re
+import stat
 import traceback
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
-from corpus import DECK
+from corpus import DECK, Case
+from mutations import ODD_FILES
 
 from harness import job
 from harness.assembly import System
+from harness.deck import read_deck
 from harness.errors import DeckError, UelError
 from harness.model.records import AttemptAbandoned, IncrementDone, Record
 from harness.procedures import run_steps
@@ -38,14 +42,27 @@ def first_attempt(system: System, *arguments: Any, **options: Any) -> Iterator[R
                 return
 
 
-def run(files: Mapping[str, bytes], folder: Path) -> tuple[str, str]:
-    """Kind of the outcome and its text: 'runs', 'refused' and 'stopped' are good, any other kind is a finding."""
-    for name, content in files.items():
+def make_odd_files(folder: Path) -> None:
+    """What ODD_FILES names."""
+    os.mkfifo(folder / "pipe")
+    os.mknod(folder / "socket", stat.S_IFSOCK | 0o600)
+    (folder / "loop").symlink_to("loop")
+    (folder / "folder").mkdir()
+
+
+def run(case: Case, folder: Path) -> tuple[str, str]:
+    """Kind of the outcome and its text: 'runs', 'reads', 'refused' and 'stopped' are good, any other is a finding."""
+    for name, content in case.files.items():
         path = folder / name
         path.parent.mkdir(parents=True, exist_ok=True)
         path.write_bytes(content)
+    if any(name.encode() in content for content in case.files.values() for name in ODD_FILES):
+        make_odd_files(folder)
     job.run_steps = first_attempt
     try:
+        if not case.runs:
+            read_deck(folder / DECK)
+            return "reads", ""
         job.run(folder / DECK, job="job", output_dir=folder / "output", call_limit=5.0)
     except DeckError as error:
         lines = str(error).splitlines()

@@ -2,6 +2,9 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Files that cannot be read, and decks of several files."""
 
+import os
+import subprocess
+import sys
 from collections.abc import Callable
 from pathlib import Path
 
@@ -118,6 +121,38 @@ def test_files_deep_within_each_other(read: Read) -> None:
         Path(f"{level}.inc").write_text(f"*INCLUDE, INPUT={level + 1}.inc\n")
     with pytest.raises(DeckError, match=r"^19.inc:1: too many included files: 20 within each other are read$"):
         read(FLAT + "*INCLUDE, INPUT=0.inc\n")
+
+
+@pytest.mark.parametrize("name", ["/proc/self/status", "/proc/self/mem", "pipe"])
+def test_include_of_what_only_looks_like_a_file(read: Read, name: str) -> None:
+    """Reading it may wait for ever, as that of the kernel's messages does, or take all memory."""
+    os.mkfifo("pipe")
+    Path("link").symlink_to(name)
+    with pytest.raises(DeckError, match=r"^deck.inp:65: cannot read link: not a file$"):
+        read(FLAT + "*INCLUDE, INPUT=link\n")
+
+
+@pytest.mark.parametrize(("command", "name"), [("run", "pipe.inp"), ("check", "pipe.inp"), ("run", "/dev/zero")])
+def test_deck_that_is_no_file(tmp_path: Path, command: str, name: str) -> None:
+    os.mkfifo(tmp_path / "pipe.inp")
+    words = [sys.executable, "-m", "harness.cli", command, name, *(["--quiet"] if command == "run" else [])]
+    result = subprocess.run(words, cwd=tmp_path, capture_output=True, text=True, timeout=120, check=False)
+    assert result.returncode in (1, 2)
+    assert f"uel: {name}:1: cannot read {name}: not a file" in result.stderr
+
+
+def test_loop_of_links(read: Read) -> None:
+    Path("loop").symlink_to("loop")
+    with pytest.raises(DeckError, match=r"^deck.inp:65: cannot read loop: (Too many levels of symbolic links|.*loop)"):
+        read(FLAT + "*INCLUDE, INPUT=loop\n")
+
+
+@pytest.mark.parametrize("encoding", ["utf-16", "utf-16-be"])
+def test_utf16(read: Read, encoding: str) -> None:
+    mark = "" if encoding == "utf-16" else "\ufeff"
+    Path("nodes.inc").write_bytes((mark + NODES).encode(encoding))
+    with pytest.raises(DeckError, match=r"^deck.inp:12: nodes.inc is a text in UTF-16, which .*: save it in UTF-8"):
+        read(FLAT.replace(NODES, "*INCLUDE, INPUT=nodes.inc\n"))
 
 
 def test_include_of_a_device(read: Read) -> None:

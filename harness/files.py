@@ -1,0 +1,37 @@
+# SPDX-FileCopyrightText: The uel-harness authors
+# SPDX-License-Identifier: BSD-3-Clause
+"""Files that a user names: read whole, or refused at once where reading might wait, or have no end."""
+
+from __future__ import annotations
+
+import errno
+import os
+import stat
+from pathlib import Path
+from typing import Final
+
+_MADE_BY_THE_KERNEL: Final = ("/proc/", "/sys/")
+"""Folders whose entries look like files: some wait for events, some are as large as the memory."""
+
+
+def read_whole(path: Path) -> bytes:
+    """Content of a file.
+
+    Raises OSError with a sentence in strerror where there is none, or where it is a folder, a pipe, a device, or a
+    window into the kernel; ValueError where no file can have this name.
+    """
+    _check(path.stat().st_mode)
+    if os.path.realpath(path).startswith(_MADE_BY_THE_KERNEL):
+        raise OSError(errno.EINVAL, "not a file")
+    # does not wait for the other end of a pipe that has come in its place
+    descriptor = os.open(path, os.O_RDONLY | os.O_NONBLOCK)
+    with os.fdopen(descriptor, "rb") as file:
+        _check(os.fstat(descriptor).st_mode)
+        return file.read()
+
+
+def _check(mode: int) -> None:
+    if stat.S_ISDIR(mode):
+        raise IsADirectoryError(errno.EISDIR, os.strerror(errno.EISDIR))
+    if not stat.S_ISREG(mode):
+        raise OSError(errno.EINVAL, "not a file")
