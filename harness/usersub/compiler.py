@@ -1,72 +1,84 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""Compile a user's files as Abaqus does, once: results are kept by content in the user's cache folder."""
+"""Compile a user's files as Abaqus does, once: results are kept in the user's cache folder."""
 
 from __future__ import annotations
 
 import hashlib
 import os
+import platform
 import re
-import shutil
 import subprocess
 import tempfile
+import time
 from collections.abc import Iterable, Iterator, Sequence
 from pathlib import Path
+from typing import Final
 
 from harness.errors import CompileError
-from harness.usersub import linker
+from harness.files import read_whole
+from harness.usersub import cache, linker, mending
+from harness.usersub.cache import Built
 from harness.usersub.diagnostics import first_error
 from harness.usersub.headers import HEADERS
 from harness.usersub.languages import FIXED, FORTRAN, FREE, LANGUAGES, ZERO_LOCALS, is_free_form, language_of, linking
 from harness.usersub.mending import repairs
 
+_SEARCH_VARIABLES: Final = (
+    *("CPATH", "C_INCLUDE_PATH", "CPLUS_INCLUDE_PATH", "LIBRARY_PATH", "COMPILER_PATH", "GCC_EXEC_PREFIX"),
+)
+"""What changes where compilers look for files."""
 _INCLUDE = re.compile(r"^\s*#?\s*include\s*['\"<]([^'\">]+)['\">]", re.IGNORECASE | re.MULTILINE)
 
 
-def build(files: Sequence[Path], include: Sequence[Path] = (), *, zero_locals: bool = False) -> Path:
+def build(files: Sequence[Path], include: Sequence[Path] = (), *, zero_locals: bool = False) -> Built:
     """Shared library of the files, compiled in their order; include: folders besides the sources' own.
 
     zero_locals: local variables of Fortran that are given no value are zero. Raises CompileError with the compiler's
     first error.
     """
+    began = time.time()
     compilers = {language_of(file): language_of(file).program(file) for file in files}
     folders = list(dict.fromkeys([*(f.resolve().parent for f in files), *(p.resolve() for p in include)]))
     headers, texts, sources = _scan(files, folders)
     flags = (ZERO_LOCALS,) if zero_locals else ()
     forms = [str(is_free_form(file, _read(file))) for file in files]
-    key = _key(compilers.values(), [*flags, *forms, *texts])
-    target = cache_folder() / f"{files[0].stem}-{key}.so"
-    if not target.exists():
-        with tempfile.TemporaryDirectory() as work:
-            _compile(files, folders, headers, sources, Path(work), target, flags)
-    return target
-
-
-def cache_folder() -> Path:
-    """Folder of compiled user files, private to the user."""
-    base = os.environ.get("XDG_CACHE_HOME")
-    folder = (Path(base) if base else Path.home() / ".cache") / "uel-harness"
-    try:
-        folder.mkdir(parents=True, exist_ok=True)
-        if os.access(folder, os.W_OK):
-            return folder
-    except OSError:
-        pass
-    return Path(tempfile.mkdtemp(prefix="uel-harness-"))
+    name = f"{files[0].stem}-{_key(compilers.values(), [*flags, *forms, *texts])}"
+    found = cache.find(name, folders)
+    if found is not None:
+        return found
+    with tempfile.TemporaryDirectory() as folder:
+        work = Path(folder)
+        library, notes = _compile(files, folders, headers, sources, work, flags)
+        read = {Path(name) for rule in work.glob("*.d") for name in cache.dependencies(_read(rule))}
+        # copies in the compiler's folder stand for files that are known
+        read = {file for file in read if not (work / file).is_relative_to(work)}
+        if any(file.stat().st_mtime > began for file in read):
+            # nobody knows what the compiler has seen of a file that was changed meanwhile
+            return cache.keep_for_now(name, library, notes)
+        known = {file.resolve() for paths in sources.values() for file in paths}
+        return cache.keep(name, library, notes, [file for file in read if file.resolve() not in known], folders)
 
 
 def _read(file: Path) -> str:
-    return file.read_text(encoding="latin-1")
+    try:
+        text = read_whole(file).decode("latin-1")
+    except OSError as error:
+        raise CompileError(file, f"cannot be read: {error.strerror}") from None
+    return text.replace("\r\n", "\n").replace("\r", "\n")
 
 
 def _key(compilers: Iterable[str], texts: Sequence[str]) -> str:
-    """Name of a result: what it depends on, hashed."""
+    """What a result depends on as far as it is known before compiling, hashed."""
     versions = [
         subprocess.run([compiler, "-dumpfullversion"], capture_output=True, text=True, check=False).stdout
         for compiler in compilers
     ]
     flags = [*FIXED, *FREE, *linker.FLAGS, *(flag for language in LANGUAGES for flag in language.flags)]
-    parts = [*versions, *flags, *HEADERS.values(), *texts]
+    found_through = [f"{name}={os.environ.get(name)}" for name in _SEARCH_VARIABLES]
+    repairs_text = _read(Path(mending.__file__))
+    machine = [platform.machine(), linker.bundled_lapack(), *found_through]
+    parts = [*versions, *flags, *machine, repairs_text, *HEADERS.values(), *texts]
     return hashlib.sha256("\0".join(parts).encode()).hexdigest()[:16]
 
 
@@ -91,6 +103,8 @@ def _scan(
         texts += [file.name, text]
         for name in _INCLUDE.findall(text):
             found = next(_matches(name, [file.resolve().parent, *folders]), None)
+            if found is None:
+                _refuse_devices(file, name, [file.resolve().parent, *folders])
             header = HEADERS.get(name.replace("\\", "/").rpartition("/")[2].lower())
             if found is not None:
                 pending.append(found)
@@ -102,6 +116,13 @@ def _scan(
     for file in sorted(seen):
         named.setdefault(file.name, []).append(file)
     return supply, texts, named
+
+
+def _refuse_devices(file: Path, name: str, folders: Sequence[Path]) -> None:
+    """The compiler would wait for a pipe, and never come to the end of some devices."""
+    for folder in folders:
+        if (folder / name).exists() and not (folder / name).is_dir():
+            raise CompileError(file, f"includes {name}, which is not a file")
 
 
 def _matches(name: str, folders: Sequence[Path]) -> Iterator[Path]:
@@ -129,9 +150,9 @@ def _compile(
     supply: dict[str, str | Path],
     sources: dict[str, list[Path]],
     work: Path,
-    target: Path,
     flags: Sequence[str],
-) -> None:
+) -> tuple[Path, list[str]]:
+    """Library in the folder work, and what was changed to compile it; beside it the compilers list what they read."""
     # deep enough for names that go upwards to stay within
     upwards = max((name.count("..") for name in supply), default=0)
     headers = work.joinpath("include", *["below"] * upwards)
@@ -146,27 +167,18 @@ def _compile(
     for number, file in enumerate(files):
         language = language_of(file)
         output = work / f"{number}.o"
-        command = [language.compiler, *language.flags, *search, "-o", str(output)]
+        command = [language.compiler, *language.flags, *search, "-o", str(output), "-MD", "-MF", f"{number}.d"]
         if language is FORTRAN:
             command += [*(FREE if is_free_form(file, _read(file)) else FIXED), *flags, f"-J{work}"]
         notes += _compile_one(command, file, sources, work / f"mended{number}")
         objects.append(output)
-    shared = work / target.name
+    library = work / "user.so"
     language, libraries = linking([language_of(file) for file in files])
     libraries += linker.lapack_flags(objects, language.compiler)
-    errors = _errors([language.compiler, *linker.FLAGS, *map(str, objects), *libraries, "-o", str(shared)], work)
+    errors = _errors([language.compiler, *linker.FLAGS, *map(str, objects), *libraries, "-o", str(library)], work)
     if errors is not None:
         raise CompileError(files[0], first_error(errors, {}))
-    # another process may write the same file: a rename replaces it in one step
-    notes_of(target).write_text("".join(f"{note}\n" for note in notes), encoding="utf-8")
-    partial = target.with_suffix(f".{os.getpid()}")
-    shutil.move(shared, partial)
-    partial.replace(target)
-
-
-def notes_of(library: Path) -> Path:
-    """File beside a compiled library with what was changed to compile it, a line each."""
-    return library.with_suffix(".notes")
+    return library, notes
 
 
 def _compile_one(command: Sequence[str], file: Path, sources: dict[str, list[Path]], folder: Path) -> list[str]:

@@ -19,7 +19,8 @@ from harness.model.records import PointVariables
 from harness.model.user_values import AskedAmplitude, GivenAmplitude, UserValues
 from harness.usersub import _binding, layout
 from harness.usersub.amalgam import path_of_kernels
-from harness.usersub.compiler import build, notes_of
+from harness.usersub.cache import Built
+from harness.usersub.compiler import build
 from harness.usersub.languages import CPP, SUFFIXES, C
 from harness.usersub.linker import undefined_routine
 from harness.usersub.messages import Inbox, Message
@@ -142,11 +143,10 @@ def load(
     be; a check wants to see that they are not. Raises CompileError.
     """
     files = [] if user is None else [user] if isinstance(user, Path) else list(user)
-    shared = _shared_library(files, () if deck is None else (deck.resolve().parent,), zero_locals=zero_locals)
+    built = _shared_library(files, () if deck is None else (deck.resolve().parent,), zero_locals=zero_locals)
     name = _name_of(files)
-    library = Library(name, shared, _open(shared, name), Inbox(job, output_dir))
-    notes = notes_of(shared)
-    for note in notes.read_text("utf-8").splitlines() if notes.exists() else ():
+    library = Library(name, built.library, _open(built.library, name), Inbox(job, output_dir))
+    for note in built.notes:
         library.warn(f"an extension of Abaqus' compiler, written in standard Fortran in a copy: {note}")
     return library
 
@@ -157,9 +157,9 @@ def _name_of(files: Sequence[Path]) -> str:
     return f"{files[0]}{others}" if files else "the project's kernels"
 
 
-def _shared_library(files: Sequence[Path], include: Sequence[Path], *, zero_locals: bool) -> Path:
+def _shared_library(files: Sequence[Path], include: Sequence[Path], *, zero_locals: bool) -> Built:
     if not files:
-        return path_of_kernels()
+        return Built(path_of_kernels(), ())
     for file in files:
         if not file.is_file():
             raise CompileError(file, "not a file" if file.exists() else "no such file")
@@ -168,7 +168,7 @@ def _shared_library(files: Sequence[Path], include: Sequence[Path], *, zero_loca
     if any(file.suffix.lower() == ".so" for file in files):
         if len(files) > 1:
             raise CompileError(files[0], "a shared library cannot be combined with other files")
-        return files[0]
+        return Built(files[0], ())
     return build(files, include, zero_locals=zero_locals)
 
 

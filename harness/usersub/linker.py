@@ -78,6 +78,11 @@ def _bundled_openblas() -> Path | None:
     return next(iter(sorted(folder.glob("libscipy_openblas-*"))), None)
 
 
+def bundled_lapack() -> str:
+    """Path of the library that stands in where the system has no LAPACK; '' without one."""
+    return str(_bundled_openblas() or "")
+
+
 def _symbols(option: str, file: Path) -> Iterator[str]:
     output = subprocess.run(["nm", option, str(file)], capture_output=True, text=True, check=False).stdout
     yield from re.findall(r"(\w+)$", output, re.MULTILINE)
