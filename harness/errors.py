@@ -38,9 +38,10 @@ _LONGEST: Final = 1000
 
 def _shown(message: str) -> str:
     """A message that quotes a deck: what a terminal does not show, or obeys, is spelt, and a long line cut out."""
-    text = message
-    if not message.isprintable():
-        text = "".join(c if c.isprintable() or c == "\n" else ascii(c)[1:-1] for c in message)
+    # a whole file may be one line
+    text = message if len(message) <= 2 * _LONGEST else message[:_LONGEST] + message[-_LONGEST:]
+    if not text.isprintable():
+        text = "".join(c if c.isprintable() or c == "\n" else ascii(c)[1:-1] for c in text)
     return text if len(text) <= _LONGEST else f"{text[: _LONGEST // 2]} ... {text[-_LONGEST // 2 :]}"
 
 

@@ -11,6 +11,8 @@ from contextlib import contextmanager
 from harness.errors import DeckError, Source, all_of
 
 MOST_REPORTED = 50
+_LONGEST_WORD = 80
+"""Characters of a word for which the nearest one is sought; the longest keyword has half as many."""
 
 
 class Problems:
@@ -53,5 +55,7 @@ class Problems:
 
 def nearest(word: str, known: Iterable[str]) -> str:
     """The ending '; did you mean X?' for a misspelt word, '' where nothing is near."""
+    if len(word) > _LONGEST_WORD:
+        return ""
     found = difflib.get_close_matches(word, list(known), n=1, cutoff=0.6)
     return f"; did you mean {found[0]}?" if found else ""

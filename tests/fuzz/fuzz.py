@@ -13,6 +13,7 @@ from __future__ import annotations
 
 import argparse
 import faulthandler
+import gc
 import multiprocessing
 import os
 import resource
@@ -23,10 +24,12 @@ import tempfile
 import time
 import warnings
 from collections import Counter
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field
 from multiprocessing.connection import Connection, wait
+from multiprocessing.sharedctypes import Synchronized
 from pathlib import Path
+from typing import Any
 
 # threads of the linear algebra would each reserve memory, and share the processors with the other workers
 os.environ.update(OPENBLAS_NUM_THREADS="1", OMP_NUM_THREADS="1", MKL_NUM_THREADS="1")
@@ -41,18 +44,22 @@ SECONDS = 10
 WAIT = 180
 """Seconds after which a trial that waits for something is ended."""
 BYTES = 1 << 30
-TRIALS_OF_A_PROCESS = 500
+TRIALS_OF_A_PROCESS = 4000
 """Each run keeps a library loaded."""
+TRIALS_OF_A_MESSAGE = 50
+"""Outcomes of a worker go to the other side together, since each message may have two processes change places."""
 GOOD = ("runs", "reads", "refused", "stopped")
 
 
 @dataclass
 class Worker:
-    """A process that makes the trials `numbers`, and the one it is at."""
+    """A process that makes the trials `numbers`; `later` are those of the next one, `at` is where it is."""
 
     process: multiprocessing.process.BaseProcess
     connection: Connection
     numbers: list[int]
+    later: range
+    at: Synchronized[int]
     trace: Path
 
 
@@ -85,64 +92,81 @@ class Findings:
 
 
 def work(
-    corpus: Corpus, seed: int, numbers: Iterable[int], connection: Connection, other_end: Connection, trace: Path
+    corpus: Corpus, seed: int, numbers: Sequence[int], connection: Connection, at: Synchronized[int], trace: Path
 ) -> None:
-    """Make trials and send (number, kind, text) of each; what ends this process is seen by the other side."""
-    # else sending to a parent that is no more would not fail
-    other_end.close()
+    """Make trials and send (number, kind, text) of some at a time; what ends this process is seen by the other side."""
+    # what is there by now stays, and need not be looked at again and again
+    gc.freeze()
     warnings.simplefilter("ignore")
     resource.setrlimit(resource.RLIMIT_DATA, (BYTES, BYTES))
     resource.setrlimit(resource.RLIMIT_CORE, (0, 0))
     os.dup2(os.open(os.devnull, os.O_RDONLY), 0)
+    outcomes: list[tuple[int, str, str]] = []
     with tempfile.TemporaryDirectory() as folder, trace.open("w") as log:
         # what the Fortran library prints before it ends the process goes there as well
         os.dup2(log.fileno(), 2)
         faulthandler.enable(log)
-        faulthandler.register(signal.SIGPROF, log, chain=True)
+        for number in (signal.SIGPROF, signal.SIGALRM):
+            faulthandler.register(number, log, chain=True)
         for number in numbers:
             log.truncate(0)
+            at.value = number
             case = corpus.case(seed, number)
             signal.setitimer(signal.ITIMER_PROF, SECONDS)
-            faulthandler.dump_traceback_later(WAIT, exit=True, file=log)
+            signal.setitimer(signal.ITIMER_REAL, WAIT)
             outcome = trial.run(case, Path(folder) / str(number))
-            faulthandler.cancel_dump_traceback_later()
+            signal.setitimer(signal.ITIMER_REAL, 0)
             signal.setitimer(signal.ITIMER_PROF, 0)
             shutil.rmtree(Path(folder) / str(number), ignore_errors=True)
-            connection.send((number, *outcome))
+            outcomes.append((number, *outcome))
+            if len(outcomes) == TRIALS_OF_A_MESSAGE or number == numbers[-1]:
+                connection.send(outcomes)
+                outcomes = []
 
 
-def start(corpus: Corpus, seed: int, numbers: list[int], traces: Path) -> Worker:
-    """A process for the first of these trials."""
+def start(corpus: Corpus, seed: int, numbers: Sequence[int], later: range, traces: Path) -> Worker:
+    """A process for these trials, or the first ones of those that come later."""
+    if not numbers:
+        numbers, later = later[:TRIALS_OF_A_PROCESS], later[TRIALS_OF_A_PROCESS:]
     receiving, sending = multiprocessing.Pipe(duplex=False)
     trace = traces / f"{numbers[0]}.txt"
-    arguments = (corpus, seed, numbers[:TRIALS_OF_A_PROCESS], sending, receiving, trace)
-    process = multiprocessing.get_context("fork").Process(target=work, args=arguments)
+    at = multiprocessing.Value("q", numbers[0])
+    context = multiprocessing.get_context("fork")
+    # a process that has the receiving end as well would not notice that there is no parent any more
+    process = context.Process(target=_only_sending, args=(receiving, corpus, seed, numbers, sending, at, trace))
     process.start()
     sending.close()
-    return Worker(process, receiving, numbers, trace)
+    return Worker(process, receiving, list(numbers), later, at, trace)
 
 
-def trials(corpus: Corpus, seed: int, numbers: Iterable[int], workers: int) -> Iterator[tuple[int, str, str]]:
+def _only_sending(receiving: Connection, *arguments: Any) -> None:
+    receiving.close()
+    work(*arguments)
+
+
+def trials(corpus: Corpus, seed: int, numbers: range, workers: int) -> Iterator[tuple[int, str, str]]:
     """(number, kind, text) of all trials, in the order in which they end."""
-    every = list(numbers)
-    shares = [every[first::workers] for first in range(workers)]
     with tempfile.TemporaryDirectory() as traces:
-        running = [start(corpus, seed, share, Path(traces)) for share in shares if share]
+        shares = [numbers[first::workers] for first in range(workers)]
+        running = [start(corpus, seed, (), share, Path(traces)) for share in shares if share]
         while running:
             ready = wait([worker.connection for worker in running])
             for worker in [worker for worker in running if worker.connection in ready]:
                 try:
-                    yield worker.connection.recv()
-                    worker.numbers.pop(0)
+                    outcomes = worker.connection.recv()
+                    del worker.numbers[: len(outcomes)]
+                    yield from outcomes
                     continue
                 except EOFError:
                     worker.process.join()
                 running.remove(worker)
                 if worker.process.exitcode:
-                    yield worker.numbers.pop(0), *ended(worker)
+                    # those before it, which were not told of, are made again
+                    worker.numbers.remove(worker.at.value)
+                    yield worker.at.value, *ended(worker)
                 worker.connection.close()
-                if worker.numbers:
-                    running.append(start(corpus, seed, worker.numbers, Path(traces)))
+                if worker.numbers or worker.later:
+                    running.append(start(corpus, seed, worker.numbers, worker.later, Path(traces)))
 
 
 def ended(worker: Worker) -> tuple[str, str]:
@@ -151,7 +175,7 @@ def ended(worker: Worker) -> tuple[str, str]:
     frame = trial.OWN_FRAME.search(text)
     where = f" at {':'.join(frame.groups())}" if frame else ""
     code = worker.process.exitcode
-    return f"{'timeout' if code == -signal.SIGPROF or 'Timeout' in text else f'exit code {code}'}{where}", text
+    return f"{'timeout' if code in (-signal.SIGPROF, -signal.SIGALRM) else f'exit code {code}'}{where}", text
 
 
 def main() -> int:
