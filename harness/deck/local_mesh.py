@@ -245,6 +245,8 @@ class LocalMesh:
         step = row.integer(2, "increment", 1)
         if step < 1 or last < first or first < 1:
             raise row.error(f"cannot generate from {first} to {last} in steps of {step}")
+        if last > LARGEST_LABEL:
+            raise row.error(f"{last} is not a node or element number (1 to {LARGEST_LABEL})")
         self.reserve((last - first) // step + 1, "numbers", row)
         return np.arange(first, last + 1, step, dtype=np.int64)
 
@@ -260,7 +262,7 @@ class LocalMesh:
     def _connectivity(self, block: Block, kind: ElementType) -> tuple[IntArray, IntArray, IntArray]:
         """Labels, node labels and data line of each element."""
         table = integer_table(block.lines)
-        if table is not None and table.shape[1] == kind.nodes + 1 and table.min() > 0:
+        if table is not None and table.shape[1] == kind.nodes + 1 and 0 < table.min() <= table.max() <= LARGEST_LABEL:
             return table[:, 0], table[:, 1:], np.arange(len(table))
         labels: list[int] = []
         nodes: list[list[int]] = []
@@ -317,7 +319,9 @@ def _label(text: str, source: Source) -> int:
 
 
 def _read_nodes(block: Block) -> tuple[IntArray, FloatArray, Callable[[int], Source]]:
-    table = real_table(block.lines)
+    # read as a real number, 2e0 would be a label
+    labels_only = "".join(line.partition(",")[0] for line in block.lines)
+    table = None if "e" in labels_only or "E" in labels_only else real_table(block.lines)
     if table is not None and table.shape[1] <= 7 and table[:, 0].min() >= 1 and table[:, 0].max() <= LARGEST_LABEL:
         labels = table[:, 0].astype(np.int64)
         if (labels == table[:, 0]).all():

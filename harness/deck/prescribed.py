@@ -4,7 +4,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Mapping
+from collections.abc import Collection, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -115,6 +115,36 @@ def _dof(row: Row, index: int) -> int:
     if not 1 <= dof <= LARGEST_DOF:
         raise row.error(f"{dof} is not a dof (1 to {LARGEST_DOF})")
     return dof
+
+
+def contradictions(entries: Sequence[Boundary], flat: FlatMesh) -> Iterator[tuple[Source, str]]:
+    """Place and sentence of each entry of a step that gives a dof another value than an earlier one does."""
+    alike: dict[tuple[int, bool], list[Boundary]] = {}
+    for entry in entries:
+        alike.setdefault((entry.dof, entry.imaginary), []).append(entry)
+    for group in (group for group in alike.values() if len(group) > 1):
+        nodes = np.concatenate([entry.nodes for entry in group])
+        numbers = np.repeat(np.arange(len(group)), [len(entry.nodes) for entry in group])
+        order = np.argsort(nodes, kind="stable")
+        nodes, numbers = nodes[order], numbers[order]
+        again = np.flatnonzero(nodes[1:] == nodes[:-1])
+        pairs = np.stack([numbers[again], numbers[again + 1]], axis=1)
+        for first, later in np.unique(pairs, axis=0).tolist():
+            if _given(group[first]) != _given(group[later]):
+                node = int(nodes[again[np.all(pairs == (first, later), axis=1)][0]])
+                yield (
+                    group[later].source,
+                    f"*BOUNDARY: node {flat.mesh.name(node)}, dof {group[later].dof} is given {_given(group[later])} "
+                    f"here and {_given(group[first])} at {group[first].source}, in one step; what is here counts",
+                )
+
+
+def _given(entry: Boundary) -> str:
+    """What an entry prescribes, for messages."""
+    if entry.fixed or entry.user:
+        return "what DISP says" if entry.user else "the value at the start of the step"
+    curve = f" with amplitude {entry.amplitude.name}" if entry.amplitude else ""
+    return f"{'the rate' if entry.velocity else 'the value'} {entry.magnitude:g}{curve}"
 
 
 def read_equations(flat: FlatMesh, problems: Problems) -> tuple[Equation, ...]:

@@ -12,7 +12,7 @@ from typing import TypeVar
 from harness.deck.blocks import Block
 from harness.deck.controls import ControlState
 from harness.deck.distributed import read_distributed, read_fields, read_surface_loads
-from harness.deck.prescribed import Prescription
+from harness.deck.prescribed import Prescription, contradictions
 from harness.deck.problems import Problems
 from harness.deck.procedures import read_procedure
 from harness.deck.requests import RequestReader
@@ -48,6 +48,8 @@ def read_steps(
         boundaries, new_boundary = _read_entries(
             scope, ("BOUNDARY",), partial(prescription.read_boundary, in_step=True), problems
         )
+        for source, message in contradictions(boundaries, prescription.flat):
+            problems.warn(source, message)
         loads, new_loads = _read_entries(scope, ("CLOAD", "CFLUX"), prescription.read_loads, problems)
         distributed, new_distributed = _read_entries(
             scope, ("DLOAD",), partial(read_distributed, prescription=prescription), problems

@@ -43,6 +43,12 @@ from harness.solver.newton import Increment, Iterate, Newton
 
 SEARCH_TOO_LONG = f"THE DESCENT SEARCH HAS NOT CONVERGED IN {ITERATIONS} ITERATIONS."
 
+SMALL_FLUX = (
+    "THE AVERAGE {1} FLUX {0.average_flux:.3G} COUNTS AS ZERO BESIDE {0.time_average_flux:G}, WHICH IS TAKEN FOR "
+    "ITS TIME AVERAGE UNTIL A LARGER ONE IS SEEN, AS IN ABAQUS: THE LARGEST RESIDUAL {0.residual.value:.3G} IS "
+    "ACCEPTED. OTHER UNITS, OR AN INITIAL TIME AVERAGE FLUX (*CONTROLS, PARAMETERS=FIELD), MAKE RESULTS ACCURATE"
+)
+
 NORMAL, MASS = 1, 4
 """LFLAGS(3): a normal call, and the mass matrix alone."""
 
@@ -126,6 +132,7 @@ class StaticStep:
         self._time = 0.0
         self._increment = 0
         self._warned = False
+        self._small: set[str] = set()
 
     @property
     def reached(self) -> tuple[tuple[float, float], float, int, int]:
@@ -191,6 +198,7 @@ class StaticStep:
                     accuracy = self._accuracy(state, size)
                     abandoned = self._control.too_inaccurate(accuracy) or self._passed_limit(state, size)
                     if abandoned is None:
+                        yield from self._small_flux(checks)
                         yield from self._help(increment, iteration)
                         yield self._converge(state, increment, size, accuracy)
                         return True, iteration
@@ -205,6 +213,13 @@ class StaticStep:
         if isinstance(solver, UnheldSolver) and solver.free is not None and not self._warned:
             self._warned = True
             yield Warned(UNLOADED.format(solver.free))
+
+    def _small_flux(self, checks: Sequence[FieldCheck]) -> Iterator[Noted]:
+        """Say once in the step that forces count as zero, and are in no equilibrium, for Abaqus' default alone."""
+        for check in self._checker.accepted_as_zero(checks):
+            if check.field not in self._small:
+                self._small.add(check.field)
+                yield Noted(SMALL_FLUX.format(check, check.field.upper()))
 
     def _accuracy(self, last: Iterate, size: float) -> Accuracy | None:
         """How accurate the integration over time is, None where nothing measures it."""

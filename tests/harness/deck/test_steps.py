@@ -293,3 +293,31 @@ def test_print_tables(read: Read) -> None:
     assert output.node_print[0].nodes.tolist() == list(range(8))
     assert [request.variables for request in output.element_print] == [("SDV1",), ("SDV2",)]
     assert output.element_print[0].elements.tolist() == [0, 1]
+
+
+def test_dof_that_is_given_two_values_in_a_step(read: Read) -> None:
+    """The later value counts, as in later steps; what says the same is no contradiction."""
+    body = "*BOUNDARY\nTOP, 1, 2\n*BOUNDARY, AMPLITUDE=GROW\n7, 2, , 0.1\n*BOUNDARY\nTOP, 1, 1, 0.\n"
+    begin = FLAT.index("*STEP")
+    line = FLAT[:begin].count("\n") + 5
+    model = read(MODEL + f"*STEP\n*STATIC\n{body}*END STEP\n*STEP\n*STATIC\n*BOUNDARY\nTOP, 1, , 1.\n*END STEP\n")
+    (warning,) = [text for text in model.warnings if "in one step" in text]
+    assert warning == (
+        f"deck.inp:{line + 1}: *BOUNDARY: node 7, dof 2 is given the value 0.1 with amplitude GROW here and the value "
+        f"0 at deck.inp:{line - 1}, in one step; what is here counts"
+    )
+
+
+@pytest.mark.parametrize(
+    ("options", "said"),
+    [
+        (", TYPE=VELOCITY", "the rate 0"),
+        (", USER", "what DISP says"),
+        (", FIXED", "the value at the start of the step"),
+    ],
+)
+def test_other_ways_to_contradict(read: Read, options: str, said: str) -> None:
+    body = f"*BOUNDARY\nTOP, 1, 1\n*BOUNDARY{options}\n7, 1, 1\n"
+    model = read(MODEL + f"*STEP\n*STATIC\n{body}*END STEP\n")
+    (warning,) = [text for text in model.warnings if "in one step" in text]
+    assert f"node 7, dof 1 is given {said} here and the value 0 at deck.inp:" in warning
