@@ -245,9 +245,9 @@ class LocalMesh:
         step = row.integer(2, "increment", 1)
         if step < 1 or last < first or first < 1:
             raise row.error(f"cannot generate from {first} to {last} in steps of {step}")
+        self.reserve((last - first) // step + 1, "numbers", row)
         if last > LARGEST_LABEL:
             raise row.error(f"{last} is not a node or element number (1 to {LARGEST_LABEL})")
-        self.reserve((last - first) // step + 1, "numbers", row)
         return np.arange(first, last + 1, step, dtype=np.int64)
 
     def _member(self, kind: str, token: str, instance: str, source: Source) -> list[Members]:
