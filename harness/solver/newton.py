@@ -20,6 +20,10 @@ RESIDUAL_ONLY = 5
 """LFLAGS(3) of a pass that line search makes: RHS alone, the state is not kept."""
 
 
+ROUNDING = 16 * float(np.finfo(float).eps)
+"""Relative error of differences of prescribed displacements."""
+
+
 class Factoriser(Protocol):
     """What is needed of a linear solver."""
 
@@ -94,7 +98,7 @@ class Newton:
         if given.guess is None:
             increment, first = np.zeros_like(given.displacement), call
         else:
-            increment, first = given.guess, replace(call, lflags=(*call.lflags[:4], 1))
+            increment, first = self._rounded(given, given.guess), replace(call, lflags=(*call.lflags[:4], 1))
         state = self._evaluate(first, given, 0, increment, np.zeros_like(increment))
         yield state
         missing = given.prescribed - increment[self._constraints.prescribed]
@@ -102,6 +106,18 @@ class Newton:
             state = self._advance(given, state, missing)
             yield state
             missing = np.zeros_like(missing)
+
+    def _rounded(self, given: Increment, guess: FloatArray) -> FloatArray:
+        """The guess, with what is prescribed where it differs from it by the rounding of the displacements.
+
+        Else it would depend on the last bits, and thus on the units, whether anything is missing of it.
+        """
+        prescribed = self._constraints.prescribed
+        total = np.abs(given.displacement[prescribed]) + np.abs(given.prescribed)
+        close = np.abs(given.prescribed - guess[prescribed]) <= ROUNDING * total
+        rounded = guess.copy()
+        rounded[prescribed[close]] = given.prescribed[close]
+        return rounded
 
     def _advance(self, given: Increment, state: Iterate, missing: FloatArray) -> Iterate:
         """The next iterate: a solve, a pass, and a line search where one is asked for."""
