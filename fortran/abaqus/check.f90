@@ -4,7 +4,7 @@
 module abaqus_check
   use core_kinds, only: dp
   use core_status, only: status_type, sentence, too_brittle, zero_length, edges_apart, small_beta, &
-    too_brittle_mixed, late_secant
+    too_brittle_mixed, late_secant, no_root
   use abaqus_layout, only: elements, reals, integer_item, &
     continuum_integers, standard_integers, four_node_integers, eight_node_integers, &
     positive, not_negative, below_one, up_to_one, exponent, estimated, above_one, any_integer, p_alphan, p_alphat, p_gic, p_giic, &
@@ -235,6 +235,8 @@ contains
       call fatal(jtype, jelem, 'PROPS(%I) ' // trim(reals(position)%name) // ': beta = %R, ' // &
         trim(sentence(status%code)) // '; more than %R is expected: give it, or with 0 refine the mesh', &
         [position], [status%value, status%expected])
+    case (no_root)
+      call fatal(jtype, jelem, 'point or mode %I: ' // trim(sentence(status%code)), [status%item], [real(dp) ::])
     case (zero_length)
       call fatal(jtype, jelem, trim(sentence(status%code)), [integer ::], [real(dp) ::])
     case (edges_apart)

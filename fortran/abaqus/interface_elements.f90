@@ -7,10 +7,9 @@ module abaqus_interface_elements
   use materials_linear_elasticity, only: engineering_constants, plane_stiffness
   use cohesive_parameters, only: law_parameters, bilinear_law, ppr_law
   use cohesive_ppr, only: prepare_ppr
+  use elements_interface_bulk, only: stabilisation_type
+  use elements_interface_kernel, only: interface_shape, integrate_interface, most_points
   use elements_interface_point, only: interface_options, interface_point
-  use elements_standard_interface, only: standard_interface
-  use elements_stabilised_interface, only: stabilisation_type, stabilised_interface_four, stabilised_interface_eight
-  use elements_quadratic_interface, only: quadratic_standard, quadratic_stabilised
   use abaqus_layout, only: elements, reals, interface_variables, &
     p_thickness, p_alphan, p_alphat, p_sigmamax, p_taumax, p_gic, p_giic, p_viscosity, p_eta, p_power, &
     p_shapen, p_shapet, p_blend, p_betan, p_betat, p_gammabot, p_friction, p_bottom_e1, p_bottom_nu12, p_top_e1, p_top_nu12, &
@@ -24,62 +23,70 @@ module abaqus_interface_elements
   private
   public :: evaluate_interface
 
+  !> U2 to U6: nodes of an edge, nodes of a quad of its own, and the nodes of the bottom and the top edge, left to right.
+  type(interface_shape), parameter :: shapes(2:6) = [ &
+    interface_shape(2, 0, [1, 2, 0], [4, 3, 0]), &
+    interface_shape(2, 0, [1, 2, 0], [4, 3, 0]), &
+    interface_shape(2, 4, [4, 3, 0], [5, 6, 0]), &
+    interface_shape(3, 0, [1, 2, 5], [4, 3, 6]), &
+    interface_shape(3, 8, [4, 3, 7], [9, 10, 13])]
+
 contains
 
   !> Evaluates U2 to U6; `good` is false after a message. SVARS and ENERGY come back with their end values:
   !> ENERGY(2) is T.g/2, ENERGY(4) what damage and friction have dissipated, ENERGY(5) what the viscous overstress has.
-  subroutine evaluate_interface(jtype, jelem, props, jprops, coords, u, dtime, svars, energy, residual, tangent, good)
+  subroutine evaluate_interface(jtype, jelem, props, jprops, coords, u, dtime, with_tangent, svars, energy, residual, &
+    tangent, good)
     integer, intent(in) :: jtype, jelem
     real(dp), intent(in) :: props(*)
     integer, intent(in) :: jprops(*)
     real(dp), intent(in) :: coords(:, :)           !< (2 or 3, nodes)
-    real(dp), intent(in) :: u(*)
+    real(dp), intent(in) :: u(:)
     real(dp), intent(in) :: dtime
+    logical, intent(in) :: with_tangent            !< else it is zero
     real(dp), intent(inout) :: svars(*), energy(8)
-    real(dp), intent(out) :: residual(*), tangent(*)
+    real(dp), intent(out) :: residual(:), tangent(:, :)
     logical, intent(out) :: good
     type(law_parameters) :: law
     type(interface_options) :: options
     type(stabilisation_type) :: stabilisation
-    type(interface_point) :: old(3), new(3)
+    type(interface_point) :: old(most_points), new(most_points)
     type(status_type) :: status
-    real(dp) :: energies(3), bulk_stress(3, 2), stiffness(3, 3, 2), xy(2, 16)
+    real(dp) :: energies(3), stress(3, 2), stiffness(3, 3, 2), xy(2, size(coords, 2))
     integer :: points
 
-    law = law_of(jtype, props, jprops)
+    call prepare_law(jtype, props, jprops, law, status)
+    good = status%code == ok
+    if (.not. good) then
+      call refuse(jtype, jelem, status)
+      return
+    end if
     options = interface_options(jprops(j_integration), 0, closure_of(jtype, jprops) == 1, &
       merge(1.0_dp, props(p_blend), jprops(j_tangent) == 1))
     if (jtype /= 2 .and. jtype /= 5) then
       options%sampling = jprops(j_sampling)
       stabilisation = stabilisation_type([props(p_betat), props(p_betan)], props(p_gammabot))
     end if
-    xy(:, 1:size(coords, 2)) = coords(1:2, :)
-    points = elements(jtype)%variables/size(interface_variables)
+    xy = coords(1:2, :)
+    points = shapes(jtype)%points
     old(1:points) = points_from(svars, points)
-    good = .true.
-    if (jtype == 4 .or. jtype == 6) then
-      call elasticity_of_quads(jtype, jelem, props, jprops(j_eight_plane), stiffness, good)
-    end if
-    if (.not. good) return
-    select case (jtype)
-    case (2)
-      call standard_interface(law, options, props(p_thickness), xy(:, 1:4), u(1:8), dtime, old(1:2), new(1:2), &
-        residual(1:8), tangent(1:64), energies, status)
-    case (3)
-      call stress_of_neighbours(jelem, jprops, options, xy(:, 1:4), u(1:8), stabilisation, bulk_stress, good)
-      if (.not. good) return
-      call stabilised_interface_four(law, options, props(p_thickness), stabilisation, xy(:, 1:4), u(1:8), &
-        bulk_stress, dtime, old(1:2), new(1:2), residual(1:8), tangent(1:64), energies, status)
-    case (4)
-      call stabilised_interface_eight(law, options, props(p_thickness), stabilisation, stiffness, xy(:, 1:8), u(1:16), &
-        dtime, old(1:2), new(1:2), residual(1:16), tangent(1:256), energies, status)
-    case (5)
-      call quadratic_standard(law, options, props(p_thickness), xy(:, 1:6), u(1:12), dtime, old, new, &
-        residual(1:12), tangent(1:144), energies, status)
-    case default
-      call quadratic_stabilised(law, options, props(p_thickness), stabilisation, stiffness, xy, u(1:32), &
-        dtime, old, new, residual(1:32), tangent(1:1024), energies, status)
-    end select
+    associate (shape => shapes(jtype), thickness => props(p_thickness))
+      select case (jtype)
+      case (2, 5)
+        call integrate_interface(shape, law, options, thickness, xy, u, dtime, with_tangent, old, new, residual, tangent, &
+          energies, status)
+      case (3)
+        call stress_of_neighbours(jelem, jprops, options, xy, reshape(u, [2, 4]), stabilisation, stress, good)
+        if (.not. good) return
+        call integrate_interface(shape, law, options, thickness, xy, u, dtime, with_tangent, old, new, residual, tangent, &
+          energies, status, stabilisation, neighbours=stress)
+      case default
+        call elasticity_of_quads(jtype, jelem, props, jprops(j_eight_plane), stiffness, good)
+        if (.not. good) return
+        call integrate_interface(shape, law, options, thickness, xy, u, dtime, with_tangent, old, new, residual, tangent, &
+          energies, status, stabilisation, stiffness)
+      end select
+    end associate
     good = status%code == ok
     if (good) then
       call write_state(new(1:points), svars)
@@ -91,12 +98,14 @@ contains
   end subroutine evaluate_interface
 
   !> The cohesive law; an initial stiffness of 0 stands for an infinite one.
-  pure function law_of(jtype, props, jprops) result(law)
+  pure subroutine prepare_law(jtype, props, jprops, law, status)
     integer, intent(in) :: jtype
     real(dp), intent(in) :: props(*)
     integer, intent(in) :: jprops(*)
-    type(law_parameters) :: law
+    type(law_parameters), intent(out) :: law
+    type(status_type), intent(out) :: status
 
+    status = status_type(ok, 0, 0.0_dp, 0.0_dp)
     law%kind = jprops(j_law)
     law%flexibility = 0.0_dp
     law%ratio = 1.0_dp
@@ -112,12 +121,12 @@ contains
     if (law%kind == ppr_law) then
       if (props(p_shapet) > 0.0_dp) law%shape(1) = props(p_shapet)
       if (props(p_shapen) > 0.0_dp) law%shape(2) = props(p_shapen)
-      call prepare_ppr(law)
+      call prepare_ppr(law, status)
       return
     end if
     law%eta = props(p_eta)
     if (props(p_power) > 0.0_dp) law%power = props(p_power)
-  end function law_of
+  end subroutine prepare_law
 
   !> Stiffness of the bottom and the top quad of U4 and U6.
   subroutine elasticity_of_quads(jtype, jelem, props, plane, stiffness, good)

@@ -6,7 +6,7 @@ module abaqus_neighbours
   use core_quadrature, only: gauss_rule
   use elements_quad4, only: face_nodes, gauss_of_face
   use elements_interface_point, only: interface_options
-  use elements_stabilised_interface, only: stabilisation_type, weigh_sides, sample_face, sample_gauss
+  use elements_interface_bulk, only: stabilisation_type, weigh_sides, sample_face, sample_gauss
   use abaqus_layout, only: four_node_integers, j_offset_bottom, j_offset_top
   use abaqus_bulk_exchange, only: records, slot_of_bulk
   use abaqus_report, only: fatal

@@ -20,10 +20,9 @@ subroutine uel(rhs, amatrx, svars, energy, ndofel, nrhs, nsvars, props, nprops, 
   real(dp), intent(inout) :: rhs(mlvarx, *), amatrx(ndofel, ndofel), svars(*), energy(8), pnewdt
   real(dp), intent(in) :: props(*), coords(mcrd, nnode), u(ndofel), du(mlvarx, *), v(ndofel), a(ndofel), time(2), dtime
   real(dp), intent(in) :: params(*), adlmag(mdload, *), predef(2, npredf, nnode), ddlmag(mdload, *), period
-  integer, parameter :: most_unknowns = 32, most_variables = 54
-  real(dp) :: residual(most_unknowns), tangent(most_unknowns**2), state(most_variables), energies(8)
-  logical :: good
-  integer :: j, n
+  real(dp) :: residual(ndofel), tangent(ndofel, ndofel), state(maxval(elements%variables)), energies(8)
+  logical :: good, with_tangent
+  integer :: n
 
   rhs(1:ndofel, 1:nrhs) = 0.0_dp
   amatrx = 0.0_dp
@@ -43,18 +42,16 @@ subroutine uel(rhs, amatrx, svars, energy, ndofel, nrhs, nsvars, props, nprops, 
 
   n = elements(jtype)%variables
   state(1:n) = svars(1:n)
-  call evaluate_interface(jtype, jelem, props, jprops, coords, u, dtime, state, energies, residual, tangent, good)
+  with_tangent = lflags(3) /= 5 .and. lflags(3) /= 6
+  call evaluate_interface(jtype, jelem, props, jprops, coords, u, dtime, with_tangent, state, energies, residual, tangent, &
+    good)
   if (.not. good) return
-  if (lflags(3) /= 5 .and. lflags(3) /= 6) then
-    do j = 1, ndofel
-      amatrx(:, j) = tangent((j - 1)*ndofel + 1:j*ndofel)
-    end do
-  end if
+  if (with_tangent) amatrx = tangent
   if (lflags(4) == 1) then
     if (lflags(3) == 100) rhs(1:ndofel, 1) = -matmul(amatrx, du(1:ndofel, 1))
     return
   end if
-  if (lflags(3) /= 2) rhs(1:ndofel, 1) = residual(1:ndofel)
+  if (lflags(3) /= 2) rhs(1:ndofel, 1) = residual
   if (lflags(3) == 1) then
     svars(1:n) = state(1:n)
     energy = energies

@@ -15,6 +15,7 @@
 !> Components are in the order (tau, n). The interface is closed where p_n < 0: the normal stiffness is not damaged there.
 module cohesive_closure
   use core_kinds, only: dp
+  use core_root, only: root_search, search_between, searching, advance
   use cohesive_parameters, only: law_parameters, ppr_law
   use cohesive_state, only: point_history, closure_state
   use cohesive_law, only: softening
@@ -75,7 +76,9 @@ contains
     state%damage = history%damage
     state%largest = 0.0_dp
     grows = history%damage < 1.0_dp .and. .not. sticks .and. (dtime > 0.0_dp .or. .not. law%viscosity > 0.0_dp)
-    if (grows) call find_root(law, equation, x, grows)
+    state%solved = .true.
+    state%steps = 0
+    if (grows) call find_root(law, equation, x, grows, state%solved, state%steps)
     if (grows) then
       ! where it is nearly 1, rounding would let it fall
       state%damage = max(history%damage, damage_of(law, equation%least, x))
@@ -139,41 +142,39 @@ contains
   !> Finds x where the damage of the law is that which opens the law to the separation at this damage.
   !>
   !> h(x) = 1 - x min b - tau(lambda(x), c(x)) x/lambda, (K - tau/lambda) x with K = 1/x - min b, falls from a positive
-  !> value, if the damage grows at all, to one that is not positive at failure. Newton's method, kept within the bracket.
-  pure subroutine find_root(law, equation, x, grows)
+  !> value, if the damage grows at all, to one that is not positive at failure.
+  pure subroutine find_root(law, equation, x, grows, solved, steps)
     type(law_parameters), intent(in) :: law
     type(closure_equation), intent(in) :: equation
     real(dp), intent(inout) :: x         !< at the damage so far; at the damage of the end of the increment
     logical, intent(out) :: grows        !< false if the damage stays
-    integer, parameter :: most_steps = 100
-    real(dp) :: lower, upper, h, slope, new
-    integer :: i
+    logical, intent(out) :: solved       !< false if the root was not found
+    integer, intent(out) :: steps        !< of the search
+    type(root_search) :: search
+    real(dp) :: upper, h, slope, at_failure, not_used
 
+    solved = .true.
+    steps = 0
     grows = maxval(equation%driving) > 0.0_dp
     if (.not. grows) return
     call closure_function(law, equation, x, h, slope)
     grows = h > 0.0_dp
     if (.not. grows) return
-    lower = x
     upper = 1.0_dp/equation%least
-    call closure_function(law, equation, upper, h, slope)
-    if (h >= 0.0_dp) then
+    call closure_function(law, equation, upper, at_failure, not_used)
+    if (at_failure >= 0.0_dp) then
       x = upper
       return
     end if
-    call closure_function(law, equation, x, h, slope)
-    do i = 1, most_steps
-      new = x - h/min(slope, -tiny(1.0_dp)*upper)
-      if (.not. (new > lower .and. new < upper)) new = 0.5_dp*(lower + upper)
-      if (abs(new - x) <= epsilon(1.0_dp)*new) exit
-      x = new
-      call closure_function(law, equation, x, h, slope)
-      if (h > 0.0_dp) then
-        lower = x
-      else
-        upper = x
-      end if
+    search = search_between(x, upper, x, geometric=.false.)
+    do
+      call advance(search, -h, -slope)
+      if (.not. searching(search)) exit
+      call closure_function(law, equation, search%x, h, slope)
     end do
+    x = search%x
+    solved = search%found
+    steps = search%steps
   end subroutine find_root
 
   !> h of `find_root` and its derivative.

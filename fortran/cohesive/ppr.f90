@@ -25,7 +25,8 @@
 !> both separations grow, the two are the same.
 module cohesive_ppr
   use core_kinds, only: dp
-  use core_status, only: status_type, ok, late_secant, small_beta
+  use core_root, only: root_search, search_between, searching, advance
+  use core_status, only: status_type, ok, late_secant, small_beta, no_root
   use cohesive_parameters, only: law_parameters
   use cohesive_state, only: point_history, damage_state
   implicit none(type, external)
@@ -43,35 +44,40 @@ module cohesive_ppr
     real(dp) :: by_share   !< derivative of c, 1/length
   end type ppr_component
 
+  !> Half the width of the bracket of log(m): exponents up to which the law is told from one that is too soft.
+  real(dp), parameter :: widest = 30.0_dp
+
 contains
 
   !> Puts the exponents of the rise and the final separations.
   !>
   !> With k the initial stiffness, G k/strength**2 = a (a/m + 1)/q**2 and the product q = final strength/G of the
-  !> paper, a function of m. Newton's method in log(m), from m = strength**2/(G k), its limit for a large stiffness. For
+  !> paper, a function of m. Solved for log(m), from m = strength**2/(G k), its limit for a large stiffness. For
   !> the derivative: q is what makes the peak the strength, so it does not depend on where the peak is.
-  pure subroutine prepare_ppr(law)
+  pure subroutine prepare_ppr(law, status)
     type(law_parameters), intent(inout) :: law
-    integer, parameter :: most_steps = 50
-    real(dp) :: wanted, m, a, q, peak, rises, step
-    integer :: i, k
+    type(status_type), intent(out) :: status   !< no_root: item 1 for mode I, 2 for mode II
+    type(root_search) :: search
+    real(dp) :: wanted, m, a, q, peak, rises
+    integer :: i
 
+    status = status_type(ok, 0, 0.0_dp, 0.0_dp)
     do i = 1, 2
       a = law%shape(i)
       q = a
       if (law%flexibility > 0.0_dp) then
         wanted = law%toughness(i)*law%ratio(i)/(law%flexibility*law%strength(i)**2)
-        m = 1.0_dp/wanted
-        do k = 1, most_steps
+        search = search_between(-log(wanted) - widest, -log(wanted) + widest, -log(wanted), geometric=.false.)
+        do while (searching(search))
+          m = exp(search%x)
           peak = peak_of(a, m)
           q = final_of(a, m)
           rises = (m - 1.0_dp)*a*peak/(m + a*peak) - m*log(1.0_dp + a*peak/m)
-          step = log(a*(a/m + 1.0_dp)/(wanted*q**2))/(a/(a + m) + 2.0_dp*rises)
-          ! the slope is -1 where the law is stiff and not far from it elsewhere
-          m = m*exp(-min(1.0_dp, max(-1.0_dp, step)))
-          ! the next one would be rounding
-          if (abs(step) <= sqrt(epsilon(1.0_dp))) exit
+          ! the slope is 1 where the law is stiff and not far from it elsewhere
+          call advance(search, -log(a*(a/m + 1.0_dp)/(wanted*q**2)), -(a/(a + m) + 2.0_dp*rises))
         end do
+        if (.not. search%found) status = status_type(no_root, 3 - i, law%toughness(i), 0.0_dp)
+        m = exp(search%x)
         q = final_of(a, m)
         law%rise(i) = m
       end if

@@ -4,9 +4,10 @@
 !>
 !> With a sufficient beta, `check_ppr_beta`, the left side is strongly monotone in w, with history and for infinite
 !> stiffness too: w_n follows from w_tau by one equation that rises with w_n, and what is left rises with w_tau.
-!> Both are solved by Newton's method within a bracket.
+!> Both are solved by core_root.
 module cohesive_ppr_closure
   use core_kinds, only: dp
+  use core_root, only: root_search, search_between, searching, advance
   use cohesive_parameters, only: law_parameters
   use cohesive_state, only: point_history, closure_state
   use cohesive_ppr, only: ppr_component, component_at, damage_at
@@ -25,14 +26,9 @@ module cohesive_ppr_closure
     real(dp) :: w(2)                  !< absolute value of the separations, length
     logical :: grows(2)               !< beyond the largest separation so far
     logical :: held(2)                !< rigid, without a separation
+    logical :: solved                 !< both roots were found
+    integer :: steps                  !< of the search for w_tau, or of that for w_n where w_tau does not grow
   end type ppr_equations
-
-  !> A root in a bracket of positive numbers.
-  type :: bracket_type
-    real(dp) :: lower, upper
-  end type bracket_type
-
-  integer, parameter :: most_steps = 100
 
 contains
 
@@ -73,6 +69,8 @@ contains
     equations%driving(1) = abs(p(1))
     call solve(law, equations)
 
+    state%solved = equations%solved
+    state%steps = equations%steps
     state%largest = history%largest
     where (equations%grows) state%largest = equations%w
     state%damage = damage_at(law, state%largest)
@@ -119,51 +117,49 @@ contains
   pure subroutine solve(law, equations)
     type(law_parameters), intent(in) :: law
     type(ppr_equations), intent(inout) :: equations
-    type(bracket_type) :: bracket
-    real(dp) :: residual, slope, w
-    logical :: settled
-    integer :: i
+    type(root_search) :: search
+    real(dp) :: residual, slope
 
+    equations%solved = .true.
+    equations%steps = 0
     equations%parts(1) = component_at(law, 1, equations%largest(1))
     call open_normally(law, equations)
     call stay(law, equations, 1)
     if (.not. equations%grows(1)) return
 
-    bracket = bracket_of(law, equations, 1)
-    w = bracket%upper
-    do i = 1, most_steps
-      equations%w(1) = w
-      equations%parts(1) = component_at(law, 1, w)
+    search = search_of(law, equations, 1)
+    do while (searching(search))
+      equations%w(1) = search%x
+      equations%parts(1) = component_at(law, 1, search%x)
       call open_normally(law, equations)
       call miss(equations, 1, residual, slope)
       if (equations%grows(2)) slope = slope - cross(equations, 1)*cross(equations, 2)/normal_slope(equations)
-      call step(residual, slope, bracket, w, settled)
-      if (settled) exit
+      call advance(search, residual, slope)
     end do
+    equations%solved = equations%solved .and. search%found
+    equations%steps = search%steps
   end subroutine solve
 
   !> Solves for w_n, the other component being what it is.
   pure subroutine open_normally(law, equations)
     type(law_parameters), intent(in) :: law
     type(ppr_equations), intent(inout) :: equations
-    type(bracket_type) :: bracket
-    real(dp) :: residual, slope, w
-    logical :: settled
-    integer :: i
+    type(root_search) :: search
+    real(dp) :: residual, slope
 
     equations%parts(2) = component_at(law, 2, equations%largest(2))
     call stay(law, equations, 2)
     if (.not. equations%grows(2)) return
 
-    bracket = bracket_of(law, equations, 2)
-    w = bracket%upper
-    do i = 1, most_steps
-      equations%w(2) = w
-      equations%parts(2) = component_at(law, 2, w)
+    search = search_of(law, equations, 2)
+    do while (searching(search))
+      equations%w(2) = search%x
+      equations%parts(2) = component_at(law, 2, search%x)
       call miss(equations, 2, residual, slope)
-      call step(residual, slope, bracket, w, settled)
-      if (settled) exit
+      call advance(search, residual, slope)
     end do
+    equations%solved = equations%solved .and. search%found
+    equations%steps = search%steps
   end subroutine open_normally
 
   !> Separation of component i at its largest separation so far, and whether it has to grow beyond it.
@@ -186,18 +182,21 @@ contains
     if (equations%grows(i)) equations%held(i) = .false.
   end subroutine stay
 
-  !> Where w_i is that grows: the secant, or the strength of a rigid one, is not greater than it was, nor less than nothing.
-  pure function bracket_of(law, equations, i) result(bracket)
+  !> The search for w_i that grows: the secant, or the strength of a rigid one, is not greater than it was, nor less than
+  !> nothing. The root of a stiff law is smaller by orders of magnitude than that of a soft one.
+  pure function search_of(law, equations, i) result(search)
     type(law_parameters), intent(in) :: law
     type(ppr_equations), intent(in) :: equations
     integer, intent(in) :: i
-    type(bracket_type) :: bracket
+    type(root_search) :: search
+    real(dp) :: lower, upper
 
-    bracket%upper = equations%driving(i)/equations%b(i)
-    bracket%lower = equations%w(i)
-    if (.not. law%flexibility > 0.0_dp) bracket%lower = max(equations%largest(i), &
+    upper = equations%driving(i)/equations%b(i)
+    lower = equations%w(i)
+    if (.not. law%flexibility > 0.0_dp) lower = max(equations%largest(i), &
       (equations%driving(i) - equations%parts(i)%traction*equations%parts(3 - i)%share)/equations%b(i))
-  end function bracket_of
+    search = search_between(lower, upper, upper, geometric=.true.)
+  end function search_of
 
   !> t_i + b_i w_i - driving_i and its derivative by w_i.
   pure subroutine miss(equations, i, residual, slope)
@@ -228,30 +227,6 @@ contains
     slope = 0.0_dp
     if (equations%grows(3 - i)) slope = equations%parts(i)%secant*equations%w(i)*equations%parts(3 - i)%by_share
   end function cross
-
-  !> A step of Newton's method towards the root of a function that rises; where it leaves the bracket, the middle in
-  !> logarithms, since the root of a stiff law is smaller by orders of magnitude than that of a soft one.
-  pure subroutine step(residual, slope, bracket, w, settled)
-    real(dp), intent(in) :: residual, slope
-    type(bracket_type), intent(inout) :: bracket
-    real(dp), intent(inout) :: w
-    logical, intent(out) :: settled
-    real(dp) :: new
-
-    settled = .not. abs(residual) > 0.0_dp
-    if (settled) return
-    if (residual > 0.0_dp) then
-      bracket%upper = w
-    else
-      bracket%lower = w
-    end if
-    new = w - residual/slope
-    settled = abs(new - w) <= 2.0_dp*epsilon(1.0_dp)*w
-    if (settled) return
-    if (.not. (new > bracket%lower .and. new < bracket%upper)) new = sqrt(bracket%lower*bracket%upper)
-    settled = abs(new - w) <= 2.0_dp*epsilon(1.0_dp)*w
-    w = new
-  end subroutine step
 
   !> dT/dp = (dt/dw + viscous part) (dt/dw + b)**-1 of an open point, blended with that at fixed damage.
   pure subroutine derive(equations, beta, viscous, side, secants, secant_share, by_trial)

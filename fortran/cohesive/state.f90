@@ -38,6 +38,8 @@ module cohesive_state
     real(dp) :: largest(2)         !< as in the history
     real(dp) :: stabilisation(2)   !< S of (17)
     real(dp) :: by_trial(2, 2)     !< dT/dp
+    logical :: solved              !< false where no separation was found
+    integer :: steps               !< of the search for it; 0 where the damage stays
   end type closure_state
 
 end module cohesive_state

@@ -1,60 +1,17 @@
 ! SPDX-FileCopyrightText: The uel-harness authors
 ! SPDX-License-Identifier: BSD-3-Clause
-!> Quadratic line and eight-node serendipity quad: shape functions, and the rules of three points.
-!>
-!> Nodes of the line: both ends, then the middle. Nodes of the quad: corners counter-clockwise, then the middles of the
-!> edges 1-2, 2-3, 3-4 and 4-1.
+!> Shape functions of the eight-node serendipity quad. Nodes: corners counter-clockwise, then the middles of the edges 1-2,
+!> 2-3, 3-4 and 4-1.
 module core_quadratic_shape
   use core_kinds, only: dp
-  use core_quadrature, only: gauss_rule
   implicit none(type, external)
   private
-  public :: line3_shape, line3_slope, quad8_gradient, three_points, three_weights, outer_abscissa
-
-  !> Outer Gauss points of the rule of three.
-  real(dp), parameter :: outer_abscissa = 0.774596669241483377035853079956480_dp
+  public :: quad8_gradient
 
   real(dp), parameter :: xi_of_node(8) = [-1.0_dp, 1.0_dp, 1.0_dp, -1.0_dp, 0.0_dp, 1.0_dp, 0.0_dp, -1.0_dp]
   real(dp), parameter :: eta_of_node(8) = [-1.0_dp, -1.0_dp, 1.0_dp, 1.0_dp, -1.0_dp, 0.0_dp, 1.0_dp, 0.0_dp]
 
 contains
-
-  !> The three points of a line rule on (-1, 1): Gauss, or Newton-Cotes (the nodes: Simpson's rule).
-  pure function three_points(rule) result(points)
-    integer, intent(in) :: rule
-    real(dp) :: points(3)
-
-    points = [-1.0_dp, 0.0_dp, 1.0_dp]
-    if (rule == gauss_rule) points = outer_abscissa*points
-  end function three_points
-
-  !> Their weights.
-  pure function three_weights(rule) result(weights)
-    integer, intent(in) :: rule
-    real(dp) :: weights(3)
-
-    if (rule == gauss_rule) then
-      weights = [5.0_dp, 8.0_dp, 5.0_dp]/9.0_dp
-    else
-      weights = [1.0_dp, 4.0_dp, 1.0_dp]/3.0_dp
-    end if
-  end function three_weights
-
-  !> Shape functions of the line at s.
-  pure function line3_shape(s) result(shape)
-    real(dp), intent(in) :: s
-    real(dp) :: shape(3)
-
-    shape = [0.5_dp*s*(s - 1.0_dp), 0.5_dp*s*(s + 1.0_dp), 1.0_dp - s*s]
-  end function line3_shape
-
-  !> Their derivatives by s.
-  pure function line3_slope(s) result(slope)
-    real(dp), intent(in) :: s
-    real(dp) :: slope(3)
-
-    slope = [s - 0.5_dp, s + 0.5_dp, -2.0_dp*s]
-  end function line3_slope
 
   !> Derivatives of the shape functions of the quad by x and y, and the Jacobian, at (xi, eta).
   !> Where the Jacobian is not positive the derivatives are zero.

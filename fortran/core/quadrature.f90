@@ -1,14 +1,17 @@
 ! SPDX-FileCopyrightText: The uel-harness authors
 ! SPDX-License-Identifier: BSD-3-Clause
-!> Points and weights of the quadrature rules; both line rules have two points of weight 1 on (-1, 1).
+!> Points and weights of the quadrature rules.
 module core_quadrature
   use core_kinds, only: dp
   implicit none(type, external)
   private
-  public :: gauss_abscissa, quad_points, line_points
+  public :: gauss_abscissa, outer_abscissa, quad_points, line_points, line_weights
   public :: gauss_rule, newton_cotes_rule
 
   real(dp), parameter :: gauss_abscissa = 0.577350269189625764509148780501957_dp
+
+  !> Outer Gauss points of the rule of three.
+  real(dp), parameter :: outer_abscissa = 0.774596669241483377035853079956480_dp
 
   !> 2 x 2 Gauss points (xi, eta) in the order Abaqus numbers them in CPS4; every weight is 1.
   real(dp), parameter :: quad_points(2, 4) = gauss_abscissa*reshape( &
@@ -19,13 +22,34 @@ module core_quadrature
 
 contains
 
-  !> The two points of a line rule on (-1, 1): Gauss, or Newton-Cotes (the ends).
-  pure function line_points(rule) result(points)
+  !> Points of a line rule on (-1, 1): Gauss, or Newton-Cotes (the ends, with three points the middle too).
+  pure function line_points(count, rule) result(points)
+    integer, intent(in) :: count    !< 2 or 3
     integer, intent(in) :: rule
-    real(dp) :: points(2)
+    real(dp) :: points(count)
 
-    points = [-1.0_dp, 1.0_dp]
-    if (rule == gauss_rule) points = gauss_abscissa*points
+    if (count == 2) then
+      points = [-1.0_dp, 1.0_dp]
+      if (rule == gauss_rule) points = gauss_abscissa*points
+    else
+      points = [-1.0_dp, 0.0_dp, 1.0_dp]
+      if (rule == gauss_rule) points = outer_abscissa*points
+    end if
   end function line_points
+
+  !> Their weights; Newton-Cotes of three points is Simpson's rule.
+  pure function line_weights(count, rule) result(weights)
+    integer, intent(in) :: count    !< 2 or 3
+    integer, intent(in) :: rule
+    real(dp) :: weights(count)
+
+    if (count == 2) then
+      weights = 1.0_dp
+    else if (rule == gauss_rule) then
+      weights = [5.0_dp, 8.0_dp, 5.0_dp]/9.0_dp
+    else
+      weights = [1.0_dp, 4.0_dp, 1.0_dp]/3.0_dp
+    end if
+  end function line_weights
 
 end module core_quadrature

@@ -1,24 +1,42 @@
 ! SPDX-FileCopyrightText: The uel-harness authors
 ! SPDX-License-Identifier: BSD-3-Clause
-!> Linear shape functions of the line and bilinear ones of the quad, nodes counter-clockwise.
+!> Shape functions of the line of two or three nodes, and bilinear ones of the quad, nodes counter-clockwise.
 module core_shape_functions
   use core_kinds, only: dp
   implicit none(type, external)
   private
-  public :: line_shape, quad_shape, quad_gradient
+  public :: line_shape, line_slope, quad_shape, quad_gradient
 
   real(dp), parameter :: xi_of_node(4) = [-1.0_dp, 1.0_dp, 1.0_dp, -1.0_dp]
   real(dp), parameter :: eta_of_node(4) = [-1.0_dp, -1.0_dp, 1.0_dp, 1.0_dp]
 
 contains
 
-  !> Shape functions of the two ends of (-1, 1) at s.
-  pure function line_shape(s) result(shape)
+  !> Shape functions of a line of two nodes, its ends, or of three, the middle last, at s in (-1, 1).
+  pure function line_shape(nodes, s) result(shape)
+    integer, intent(in) :: nodes
     real(dp), intent(in) :: s
-    real(dp) :: shape(2)
+    real(dp) :: shape(nodes)
 
-    shape = [0.5_dp*(1.0_dp - s), 0.5_dp*(1.0_dp + s)]
+    if (nodes == 2) then
+      shape = [0.5_dp*(1.0_dp - s), 0.5_dp*(1.0_dp + s)]
+    else
+      shape = [0.5_dp*s*(s - 1.0_dp), 0.5_dp*s*(s + 1.0_dp), 1.0_dp - s*s]
+    end if
   end function line_shape
+
+  !> Their derivatives by s.
+  pure function line_slope(nodes, s) result(slope)
+    integer, intent(in) :: nodes
+    real(dp), intent(in) :: s
+    real(dp) :: slope(nodes)
+
+    if (nodes == 2) then
+      slope = [-0.5_dp, 0.5_dp]
+    else
+      slope = [s - 0.5_dp, s + 0.5_dp, -2.0_dp*s]
+    end if
+  end function line_slope
 
   !> Shape functions of the four nodes at (xi, eta).
   pure function quad_shape(point) result(shape)

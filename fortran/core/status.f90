@@ -7,7 +7,7 @@ module core_status
   private
   public :: status_type, sentence
   public :: ok, too_brittle, not_positive_definite, inside_out, zero_length, edges_apart, small_beta, too_brittle_mixed, &
-    late_secant
+    late_secant, no_root
 
   !> Outcome of a kernel; the caller knows the names of elements and properties.
   type :: status_type
@@ -26,6 +26,7 @@ module core_status
   integer, parameter :: small_beta = 6
   integer, parameter :: too_brittle_mixed = 7
   integer, parameter :: late_secant = 8
+  integer, parameter :: no_root = 9
 
 contains
 
@@ -45,6 +46,8 @@ contains
         'does not exceed that at the onset of damage'
     case (late_secant)
       text = 'too small for its stiffness: the secant of the PPR law has to fall from the origin on'
+    case (no_root)
+      text = 'the equation of its point is not solved within the largest number of steps'
     case (not_positive_definite)
       text = 'the elastic constants are not positive definite'
     case (inside_out)

@@ -9,54 +9,52 @@ module core_symmetric
 
 contains
 
-  !> Lower Cholesky factor L of a positive definite matrix L transpose(L); what lies above the diagonal is zero.
-  !> A matrix that is not positive definite has a factor with a zero on the diagonal.
-  pure function lower_factor(matrix) result(factor)
-    real(dp), intent(in) :: matrix(:, :)
-    real(dp) :: factor(size(matrix, 1), size(matrix, 1))
+  !> Puts the lower Cholesky factor L of a positive definite matrix L transpose(L) in its place, zero above the diagonal.
+  pure subroutine lower_factor(matrix, good)
+    real(dp), intent(inout) :: matrix(:, :)
+    logical, intent(out) :: good   !< false where the matrix is not positive definite
     integer :: i, j
 
-    factor = 0.0_dp
+    good = .false.
     do j = 1, size(matrix, 1)
-      factor(j, j) = matrix(j, j) - sum(factor(j, 1:j - 1)**2)
-      if (.not. factor(j, j) > 0.0_dp) then
-        factor(j, j) = 0.0_dp
-        return
-      end if
-      factor(j, j) = sqrt(factor(j, j))
+      matrix(j, j) = matrix(j, j) - sum(matrix(j, 1:j - 1)**2)
+      if (.not. matrix(j, j) > 0.0_dp) return
+      matrix(j, j) = sqrt(matrix(j, j))
       do i = j + 1, size(matrix, 1)
-        factor(i, j) = (matrix(i, j) - dot_product(factor(i, 1:j - 1), factor(j, 1:j - 1)))/factor(j, j)
+        matrix(i, j) = (matrix(i, j) - dot_product(matrix(i, 1:j - 1), matrix(j, 1:j - 1)))/matrix(j, j)
+        matrix(j, i) = 0.0_dp
       end do
     end do
-  end function lower_factor
+    good = .true.
+  end subroutine lower_factor
 
   !> Largest eigenvalue of a symmetric matrix by cyclic Jacobi rotations (Golub, Van Loan, Matrix Computations, 8.5).
-  pure function largest_eigenvalue(matrix) result(value)
+  pure subroutine largest_eigenvalue(matrix, value, good)
     real(dp), intent(in) :: matrix(:, :)
-    real(dp) :: value
+    real(dp), intent(out) :: value
+    logical, intent(out) :: good             !< false where the sweeps have run out
     integer, parameter :: most_sweeps = 30   ! convergence is quadratic: six or so do
     real(dp) :: a(size(matrix, 1), size(matrix, 1)), negligible
     integer :: sweep, p, q
-    logical :: rotated
 
     a = matrix
     negligible = epsilon(1.0_dp)*maxval(abs(a))
     do sweep = 1, most_sweeps
-      rotated = .false.
+      good = .true.
       do q = 2, size(a, 1)
         do p = 1, q - 1
           if (.not. abs(a(p, q)) > negligible) cycle
           call rotate(p, q, a)
-          rotated = .true.
+          good = .false.
         end do
       end do
-      if (.not. rotated) exit
+      if (good) exit
     end do
     value = a(1, 1)
     do p = 2, size(a, 1)
       value = max(value, a(p, p))
     end do
-  end function largest_eigenvalue
+  end subroutine largest_eigenvalue
 
   !> Rotation in the plane of axes p and q that makes a(p, q), which is not zero, vanish.
   pure subroutine rotate(p, q, a)

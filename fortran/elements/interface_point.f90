@@ -1,24 +1,18 @@
 ! SPDX-FileCopyrightText: The uel-harness authors
 ! SPDX-License-Identifier: BSD-3-Clause
-!> What all interface elements share: geometry, separation, state of a point, nodal forces of a point.
-!>
-!> Nodes 1 and 2 lie along the bottom edge, 3 and 4 back along the top one (4 on 1, 3 on 2), as in COH2D4. The tangent
-!> tau runs from 1 to 2 along the mid-line of the original coordinates, n is tau turned by +90 degrees: bottom to top.
+!> What happens at one integration point of an interface, of any element: traction, its derivatives, state, energies.
 module elements_interface_point
   use core_kinds, only: dp
-  use core_quadrature, only: line_points
-  use core_rotation, only: line_frame
-  use core_shape_functions, only: line_shape
-  use core_status, only: status_type, zero_length, edges_apart, ok
+  use core_status, only: status_type, ok, no_root
   use cohesive_parameters, only: law_parameters
   use cohesive_state, only: point_history, damage_state, closure_state
-  use cohesive_law, only: dissipate
-  use cohesive_closure, only: dissipate_consistently
+  use cohesive_law, only: dissipate, evolve_damage, stiffness_of
+  use cohesive_closure, only: close_consistently, dissipate_consistently
+  use cohesive_traction, only: standard_traction, stabilised_traction
   implicit none(type, external)
   private
-  public :: interface_options, interface_point, interface_geometry
-  public :: measure_interface, separation_at, add_point, spread_to_nodes, close_point, close_consistent_point, point_energies
-  public :: end_of_node, sign_of_node, apart
+  public :: interface_options, interface_point, point_response
+  public :: standard_point, stabilised_point, point_energies
 
   !> Options every interface element has.
   type :: interface_options
@@ -38,155 +32,97 @@ module elements_interface_point
     type(point_history) :: history
   end type interface_point
 
-  !> Mid-line of the interface.
-  type :: interface_geometry
-    real(dp) :: frame(2, 2)   !< rows tau and n
-    real(dp) :: length
-    real(dp) :: s(2)          !< the two integration points in (-1, 1), of weight 1
-    real(dp) :: ends(2, 2)    !< global coordinates of the left and right end
-  end type interface_geometry
-
-  !> Distance of coincident nodes, relative to the length, up to which they count as coincident: what a mesh generator
-  !> that prints few digits may cause.
-  real(dp), parameter :: apart = 1.0e-4_dp
-
-  !> End of the interface where each of its nodes lies, and its sign in the separation.
-  integer, parameter :: end_of_node(4) = [1, 2, 2, 1]
-  real(dp), parameter :: sign_of_node(4) = [-1.0_dp, -1.0_dp, 1.0_dp, 1.0_dp]
+  !> Derivatives of the traction T, (tau, n).
+  type :: point_response
+    real(dp) :: by_jump(2, 2)   !< dT/dg at constant bulk stress
+    real(dp) :: by_bulk(2, 2)   !< dT/d(<sigma>.n); zero in the standard element
+  end type point_response
 
 contains
 
-  !> Geometry of the interface between coincident edges.
-  pure subroutine measure_interface(coordinates, rule, geometry, status)
-    real(dp), intent(in) :: coordinates(2, 4)   !< original coordinates of nodes 1 to 4
-    integer, intent(in) :: rule
-    type(interface_geometry), intent(out) :: geometry
-    type(status_type), intent(out) :: status    !< zero_length, or edges_apart with the distance and its limit
-    real(dp) :: distance, edge
-
-    geometry%ends(:, 1) = 0.5_dp*(coordinates(:, 1) + coordinates(:, 4))
-    geometry%ends(:, 2) = 0.5_dp*(coordinates(:, 2) + coordinates(:, 3))
-    geometry%s = line_points(rule)
-    call line_frame(geometry%ends(:, 1), geometry%ends(:, 2), geometry%frame, geometry%length)
-    distance = maxval(abs(coordinates(:, [4, 3]) - coordinates(:, [1, 2])))
-    edge = maxval(abs(coordinates(:, 2) - coordinates(:, 1)))
-    if (.not. edge > 0.0_dp) then
-      status = status_type(zero_length, 0, edge, 0.0_dp)
-    else if (distance > apart*edge) then
-      status = status_type(edges_apart, 0, distance, apart*edge)
-    else
-      status = status_type(ok, 0, 0.0_dp, 0.0_dp)
-    end if
-  end subroutine measure_interface
-
-  !> Separation (tau, n) at s from the displacements of nodes 1 to 4.
-  pure function separation_at(frame, s, u) result(separation)
-    real(dp), intent(in) :: frame(2, 2), s, u(2, 4)
-    real(dp) :: separation(2)
-    real(dp) :: shape(2), jump(2)
-
-    shape = line_shape(s)
-    jump = shape(1)*(u(:, 4) - u(:, 1)) + shape(2)*(u(:, 3) - u(:, 2))
-    separation(1) = frame(1, 1)*jump(1) + frame(1, 2)*jump(2)
-    separation(2) = frame(2, 1)*jump(1) + frame(2, 2)*jump(2)
-  end function separation_at
-
-  !> Adds the force of a point on the left and right end of the top edge, and its derivative by the separation there.
-  pure subroutine add_point(frame, s, weight, traction, tangent, force, matrix)
-    real(dp), intent(in) :: frame(2, 2)
-    real(dp), intent(in) :: s
-    real(dp), intent(in) :: weight                  !< area of the point
-    real(dp), intent(in) :: traction(2)             !< (tau, n)
-    real(dp), intent(in) :: tangent(2, 2)           !< dT/dg in (tau, n)
-    real(dp), intent(inout) :: force(2, 2)          !< (x and y, end)
-    real(dp), intent(inout) :: matrix(2, 2, 2, 2)   !< (x and y, end, x and y, end)
-    real(dp) :: shape(2), global_force(2), global_tangent(2, 2), by_y(2)
-    integer :: i, j
-
-    shape = line_shape(s)
-    global_force = to_global(frame, traction)
-    global_tangent(:, 1) = to_global(frame, tangent(:, 1))
-    global_tangent(:, 2) = to_global(frame, tangent(:, 2))
-    ! now by the components of the separation along x and y
-    by_y = global_tangent(:, 1)*frame(1, 2) + global_tangent(:, 2)*frame(2, 2)
-    global_tangent(:, 1) = global_tangent(:, 1)*frame(1, 1) + global_tangent(:, 2)*frame(2, 1)
-    global_tangent(:, 2) = by_y
-    do j = 1, 2
-      force(:, j) = force(:, j) + (weight*shape(j))*global_force
-      do i = 1, 2
-        matrix(:, i, 1, j) = matrix(:, i, 1, j) + (weight*shape(i)*shape(j))*global_tangent(:, 1)
-        matrix(:, i, 2, j) = matrix(:, i, 2, j) + (weight*shape(i)*shape(j))*global_tangent(:, 2)
-      end do
-    end do
-  end subroutine add_point
-
-  !> Residual and tangent of nodes 1 to 4 from the sums of `add_point`: top and bottom are pulled together.
-  pure subroutine spread_to_nodes(force, matrix, residual, tangent)
-    real(dp), intent(in) :: force(2, 2), matrix(2, 2, 2, 2)
-    real(dp), intent(out) :: residual(2, 4)
-    real(dp), intent(out) :: tangent(2, 4, 2, 4)
-    integer :: a, b, j
-
-    do b = 1, 4
-      residual(:, b) = -sign_of_node(b)*force(:, end_of_node(b))
-      do j = 1, 2
-        do a = 1, 4
-          tangent(:, a, j, b) = (sign_of_node(a)*sign_of_node(b))*matrix(:, end_of_node(a), j, end_of_node(b))
-        end do
-      end do
-    end do
-  end subroutine spread_to_nodes
-
-  !> Global components of a vector given in (tau, n).
-  pure function to_global(frame, local) result(global)
-    real(dp), intent(in) :: frame(2, 2), local(2)
-    real(dp) :: global(2)
-
-    global(1) = frame(1, 1)*local(1) + frame(2, 1)*local(2)
-    global(2) = frame(1, 2)*local(1) + frame(2, 2)*local(2)
-  end function to_global
-
-  !> State of a point at the end of the increment.
-  pure subroutine close_point(law, geometry, s, old, separation, state, traction, stabilisation, new)
+  !> Equations (8) to (15): the standard element.
+  pure subroutine standard_point(law, options, dtime, jump, old, new, response)
     type(law_parameters), intent(in) :: law
-    type(interface_geometry), intent(in) :: geometry
-    real(dp), intent(in) :: s
+    type(interface_options), intent(in) :: options
+    real(dp), intent(in) :: dtime                     !< duration of the increment
+    real(dp), intent(in) :: jump(2)                   !< g
     type(interface_point), intent(in) :: old
-    real(dp), intent(in) :: separation(2)
-    type(damage_state), intent(in) :: state
-    real(dp), intent(in) :: traction(2), stabilisation(2)
-    type(interface_point), intent(out) :: new
-    real(dp) :: shape(2)
+    type(interface_point), intent(inout) :: new       !< its position is known
+    type(point_response), intent(out) :: response
+    type(damage_state) :: state
 
-    shape = line_shape(s)
-    new%position = shape(1)*geometry%ends(:, 1) + shape(2)*geometry%ends(:, 2)
-    new%traction = traction
-    new%stabilisation = stabilisation
-    new%jump = separation
-    new%stored = 0.5_dp*(traction(1)*separation(1) + traction(2)*separation(2))
-    new%history%separation = separation
+    call evolve_damage(law, old%history, jump, dtime, state)
+    state%slope = (1.0_dp - options%secant_share)*state%slope
+    response%by_bulk = 0.0_dp
+    call standard_traction(stiffness_of(law), jump, state%acting, state%slope, new%traction, response%by_jump)
+    ! S = 1 turns the stabilised weak form into the standard one
+    new%stabilisation = 1.0_dp
+    call keep_damage(law, old, jump, state, new)
+  end subroutine standard_point
+
+  !> Equations (16) to (18), or the consistent closure.
+  pure subroutine stabilised_point(law, options, dtime, beta, jump, bulk, old, new, response, status)
+    type(law_parameters), intent(in) :: law
+    type(interface_options), intent(in) :: options
+    real(dp), intent(in) :: dtime
+    real(dp), intent(in) :: beta(2)                   !< (tau, n), stress/length
+    real(dp), intent(in) :: jump(2)                   !< g
+    real(dp), intent(in) :: bulk(2)                   !< <sigma>.n
+    type(interface_point), intent(in) :: old
+    type(interface_point), intent(inout) :: new       !< its position is known
+    type(point_response), intent(out) :: response
+    type(status_type), intent(out) :: status          !< no_root
+    type(damage_state) :: state
+    type(closure_state) :: closure
+
+    status = status_type(ok, 0, 0.0_dp, 0.0_dp)
+    if (options%consistent_closure) then
+      call close_consistently(law, beta, bulk + beta*jump, dtime, options%secant_share, old%history, closure)
+      if (.not. closure%solved) status = status_type(no_root, 0, 0.0_dp, 0.0_dp)
+      response%by_bulk = closure%by_trial
+      response%by_jump(:, 1) = beta(1)*closure%by_trial(:, 1)
+      response%by_jump(:, 2) = beta(2)*closure%by_trial(:, 2)
+      call keep_closure(law, old, jump, closure, new)
+    else
+      call evolve_damage(law, old%history, jump, dtime, state)
+      state%slope = (1.0_dp - options%secant_share)*state%slope
+      call stabilised_traction(stiffness_of(law), beta, jump, bulk, state%acting, state%slope, new%traction, &
+        new%stabilisation, response%by_jump)
+      response%by_bulk = 0.0_dp
+      response%by_bulk(1, 1) = 1.0_dp - new%stabilisation(1)
+      response%by_bulk(2, 2) = 1.0_dp - new%stabilisation(2)
+      call keep_damage(law, old, jump, state, new)
+    end if
+  end subroutine stabilised_point
+
+  !> State of a point whose damage is that of the displacement jump.
+  pure subroutine keep_damage(law, old, jump, state, new)
+    type(law_parameters), intent(in) :: law
+    type(interface_point), intent(in) :: old
+    real(dp), intent(in) :: jump(2)
+    type(damage_state), intent(in) :: state
+    type(interface_point), intent(inout) :: new       !< traction is known
+
+    new%jump = jump
+    new%stored = 0.5_dp*(new%traction(1)*jump(1) + new%traction(2)*jump(2))
+    new%history%separation = jump
     new%history%damage = state%damage
     new%history%damage_max = state%damage_max
     new%history%largest = state%largest
-    call dissipate(law, old%history, separation, state, new%history%dissipated, new%history%viscous)
-  end subroutine close_point
+    call dissipate(law, old%history, jump, state, new%history%dissipated, new%history%viscous)
+  end subroutine keep_damage
 
-  !> State of a point of the consistent closure at the end of the increment.
-  pure subroutine close_consistent_point(law, geometry, s, old, separation, state, new)
+  !> State of a point of the consistent closure.
+  pure subroutine keep_closure(law, old, jump, state, new)
     type(law_parameters), intent(in) :: law
-    type(interface_geometry), intent(in) :: geometry
-    real(dp), intent(in) :: s
     type(interface_point), intent(in) :: old
-    real(dp), intent(in) :: separation(2)   !< displacement jump
+    real(dp), intent(in) :: jump(2)
     type(closure_state), intent(in) :: state
-    type(interface_point), intent(out) :: new
-    real(dp) :: shape(2)
+    type(interface_point), intent(inout) :: new
 
-    shape = line_shape(s)
-    new%position = shape(1)*geometry%ends(:, 1) + shape(2)*geometry%ends(:, 2)
     new%traction = state%traction
     new%stabilisation = state%stabilisation
-    new%jump = separation
+    new%jump = jump
     new%stored = 0.5_dp*(state%recoverable(1)*state%separation(1) + state%recoverable(2)*state%separation(2))
     new%history%separation = state%separation
     new%history%damage = state%damage
@@ -194,7 +130,7 @@ contains
     new%history%largest = state%largest
     call dissipate_consistently(law, old%history, old%traction, state, new%history%dissipated, new%history%viscous, &
       new%history%rubbed)
-  end subroutine close_consistent_point
+  end subroutine keep_closure
 
   !> Energies of a point: stored, dissipated by damage and friction, dissipated by the viscous overstress.
   pure function point_energies(weight, point) result(energies)

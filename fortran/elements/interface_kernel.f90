@@ -1,0 +1,127 @@
+! SPDX-FileCopyrightText: The uel-harness authors
+! SPDX-License-Identifier: BSD-3-Clause
+!> Every interface element: a sum over points. With the area w of a point, its jump operator N (g = N u) and, in the
+!> stabilised element, its bulk-traction operator B (<sigma>.n = B u),
+!>
+!>     residual = -sum w N^T T,    tangent = -d(residual)/du = sum w N^T (dT/dg N + dT/d(<sigma>.n) B),
+!>
+!> in components (tau, n). The elements differ in their points, N and B: (14) and (15) without B, (16) to (22) with it.
+module elements_interface_kernel
+  use core_kinds, only: dp
+  use core_rotation, only: traction_operator
+  use core_status, only: status_type, ok
+  use cohesive_parameters, only: law_parameters
+  use cohesive_law, only: check_law, check_beta
+  use elements_interface_bulk, only: stabilisation_type, stabilise, bulk_operator
+  use elements_interface_edges, only: interface_place, measure_interface, jump_operator, separation_at
+  use elements_interface_point, only: interface_options, interface_point, point_response, standard_point, &
+    stabilised_point, point_energies
+  implicit none(type, external)
+  private
+  public :: interface_shape, integrate_interface, most_points
+
+  integer, parameter :: most_points = 3
+
+  !> Which of an element's nodes are what.
+  type :: interface_shape
+    integer :: points                !< nodes of an edge, and integration points
+    integer :: quad                  !< nodes of each of its two quads, the bottom one first; 0 where it has none
+    integer :: bottom(most_points)   !< nodes of the bottom edge: left, right, middle
+    integer :: top(most_points)      !< nodes of the top edge, on those
+  end type interface_shape
+
+contains
+
+  !> Residual (external minus internal force), tangent and state at the end of the increment.
+  !>
+  !> Without stabilisation it is the standard element. The stabilised one takes the bulk stress from quads of its own, for
+  !> which it is given their stiffness, or from its neighbours. Then its tangent is that at constant bulk stress, since
+  !> what depends on it involves nodes that the element does not own.
+  pure subroutine integrate_interface(shape, law, options, thickness, coordinates, u, dtime, with_tangent, old, new, &
+    residual, tangent, energies, status, stabilisation, stiffness, neighbours)
+    type(interface_shape), intent(in) :: shape
+    type(law_parameters), intent(in) :: law
+    type(interface_options), intent(in) :: options
+    real(dp), intent(in) :: thickness                         !< out of the plane, length
+    real(dp), intent(in) :: u(:)                              !< displacements at the end of the increment, length
+    real(dp), intent(in) :: coordinates(2, size(u)/2)         !< original coordinates, length
+    real(dp), intent(in) :: dtime                             !< duration of the increment
+    logical, intent(in) :: with_tangent
+    type(interface_point), intent(in) :: old(shape%points)    !< committed state
+    type(interface_point), intent(out) :: new(shape%points)
+    real(dp), intent(out) :: residual(size(u))                !< force
+    real(dp), intent(out) :: tangent(size(u), size(u))        !< -d(residual)/du, force/length; zero if not wanted
+    real(dp), intent(out) :: energies(3)                      !< stored, dissipated by damage and friction, viscous
+    type(status_type), intent(out) :: status                  !< its item is the point, the mode or the quad
+    type(stabilisation_type), intent(in), optional :: stabilisation    !< beta and gamma, or what they follow from
+    real(dp), intent(in), optional :: stiffness(3, 3, 2)               !< D of the bottom and the top quad, stress
+    real(dp), intent(in), optional :: neighbours(3, shape%points)      !< weighted (s11, s22, s12) of each point
+    type(interface_place) :: places(shape%points)
+    type(stabilisation_type) :: used
+    type(point_response) :: response
+    real(dp) :: jump(2, size(u)), bulk(2, size(u)), by_displacement(2, size(u)), bulk_traction(2), separation(2), area
+    integer :: edges(shape%points, 2), k
+
+    residual = 0.0_dp
+    tangent = 0.0_dp
+    energies = 0.0_dp
+    edges(:, 1) = shape%bottom(1:shape%points)
+    edges(:, 2) = shape%top(1:shape%points)
+    call check_law(law, status)
+    if (status%code /= ok) return
+    call measure_interface(shape%points, coordinates(:, edges(:, 1)), coordinates(:, edges(:, 2)), options%rule, places, &
+      status)
+    if (status%code /= ok) return
+    if (present(stabilisation)) then
+      used = stabilisation
+      if (present(stiffness)) call stabilise(stabilisation, shape%quad, shape%points, edges, coordinates, stiffness, &
+        used, status)
+      if (status%code /= ok) return
+      if (options%consistent_closure) call check_beta(law, used%beta, status)
+      if (status%code /= ok) return
+    end if
+
+    do k = 1, shape%points
+      new(k)%position = places(k)%position
+      separation = separation_at(places(k), shape%points, edges, u)
+      if (present(stabilisation)) then
+        if (present(stiffness)) then
+          call bulk_operator(options%sampling, places(k), used%gamma_bottom, shape%quad, stiffness, coordinates, bulk, &
+            status)
+          if (status%code /= ok) return
+          bulk_traction = matmul(bulk, u)
+        else
+          bulk_traction = matmul(traction_operator(places(k)%frame), neighbours(:, k))
+        end if
+        call stabilised_point(law, options, dtime, used%beta, separation, bulk_traction, old(k), new(k), response, status)
+        if (status%code /= ok) then
+          status%item = k
+          return
+        end if
+      else
+        call standard_point(law, options, dtime, separation, old(k), new(k), response)
+      end if
+      area = places(k)%length*thickness
+      energies = energies + point_energies(area, new(k))
+      jump = jump_operator(places(k), shape%points, edges, size(u))
+      residual = residual - area*matmul(new(k)%traction, jump)
+      if (.not. with_tangent) cycle
+      by_displacement = matmul(response%by_jump, jump)
+      if (present(stiffness)) by_displacement = by_displacement + matmul(response%by_bulk, bulk)
+      call add_product(area, jump, by_displacement, tangent)
+    end do
+  end subroutine integrate_interface
+
+  !> Adds area N^T x to a matrix.
+  pure subroutine add_product(area, jump, x, matrix)
+    real(dp), intent(in) :: area
+    real(dp), intent(in) :: jump(:, :), x(:, :)     !< (2, unknowns)
+    real(dp), intent(inout) :: matrix(:, :)
+    integer :: j
+
+    do j = 1, size(x, 2)
+      matrix(:, j) = matrix(:, j) + (area*x(1, j))*jump(1, :) + (area*x(2, j))*jump(2, :)
+    end do
+  end subroutine add_product
+
+end module elements_interface_kernel

@@ -1,0 +1,39 @@
+! SPDX-FileCopyrightText: The uel-harness authors
+! SPDX-License-Identifier: BSD-3-Clause
+!> Closes a law for many trial tractions and counts the steps of its local solve.
+subroutine closure_steps(kind, count, trials, histories, beta, searches, total, most, unsolved) bind(c)
+  use, intrinsic :: iso_c_binding, only: c_double, c_int
+  use cohesive_closure, only: close_consistently
+  use cohesive_parameters, only: law_parameters
+  use cohesive_state, only: closure_state, point_history
+  implicit none(type, external)
+  integer(c_int), value :: kind, count
+  real(c_double), intent(in) :: trials(2, count), histories(count), beta(2)
+  integer(c_int), intent(out) :: searches   !< trials for which a root is sought
+  integer(c_int), intent(out) :: total, most, unsolved
+  type(law_parameters) :: law
+  type(closure_state) :: state
+  type(point_history) :: history
+  integer :: i
+
+  ! the paper's carbon/epoxy, with an infinite stiffness
+  law%kind = kind
+  law%flexibility = 0
+  law%ratio = 1
+  law%strength = [60, 30]
+  law%toughness = [1.002_c_double, 0.26_c_double]
+  law%viscosity = 0
+  law%eta = 1.45_c_double
+  searches = 0
+  total = 0
+  most = 0
+  unsolved = 0
+  do i = 1, count
+    history%damage = histories(i)
+    call close_consistently(law, beta, trials(:, i), 1.0_c_double, 0.0_c_double, history, state)
+    if (state%steps > 0) searches = searches + 1
+    total = total + state%steps
+    most = max(most, state%steps)
+    if (.not. state%solved) unsolved = unsolved + 1
+  end do
+end subroutine closure_steps

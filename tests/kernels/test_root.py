@@ -1,0 +1,49 @@
+# SPDX-FileCopyrightText: The uel-harness authors
+# SPDX-License-Identifier: BSD-3-Clause
+"""The local solves: how many steps they take."""
+
+import ctypes
+import subprocess
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+HERE = Path(__file__).parent
+FORTRAN = HERE.parents[1] / "fortran"
+SOURCES = (
+    *("core/kinds", "core/status", "core/root", "cohesive/parameters", "cohesive/state", "cohesive/mode_mix"),
+    *("cohesive/bilinear", "cohesive/exponential", "cohesive/ppr", "cohesive/law", "cohesive/friction"),
+    *("cohesive/ppr_closure", "cohesive/closure"),
+)
+
+
+@pytest.fixture(scope="module")
+def closures(tmp_path_factory):
+    """The compiled `closure_steps`."""
+    folder = tmp_path_factory.mktemp("closures")
+    files = [*(str(FORTRAN / f"{name}.f90") for name in SOURCES), str(HERE / "closure_steps.f90")]
+    library = folder / "closures.so"
+    subprocess.run(["gfortran", "-O2", "-shared", "-fPIC", "-o", library, *files], cwd=folder, check=True)
+    return ctypes.CDLL(str(library)).closure_steps
+
+
+@pytest.mark.parametrize("law, mean, most", [(1, 3.0, 20), (2, 3.0, 20), (3, 5.0, 20)])
+def test_steps_of_the_closure(closures, law, mean, most):
+    """A bilinear law is a straight line in x where beta is the same in both modes: Newton's method lands on the root.
+
+    The bounds leave room above what a count over 1e6 states gave once a step onto the root was kept: 2.2 and 3.9.
+    """
+    count, rng = 20000, np.random.default_rng(1)
+    angles = rng.uniform(0, np.pi / 2, count)
+    trials = rng.uniform(0, 300, count)[:, None] * np.column_stack([np.sin(angles), np.cos(angles)])
+    histories = rng.choice([0.0, 1.0], count) * rng.uniform(0, 1, count)
+    beta = np.array([1e5, 1e5])
+    found = [ctypes.c_int() for _ in range(4)]
+    pointers = [array.ctypes.data_as(ctypes.c_void_p) for array in (np.ascontiguousarray(trials), histories, beta)]
+    closures(law, count, *pointers, *map(ctypes.byref, found))
+    searches, total, largest, unsolved = (number.value for number in found)
+    assert searches > count / 4
+    assert unsolved == 0
+    assert total / searches <= mean, total / searches
+    assert largest <= most
