@@ -195,7 +195,7 @@ contains
     end do
   end subroutine node_function
 
-  !> Patterns of displacement without strain in the middle of an element of 4 or 8 nodes, of unit length:
+  !> Patterns of displacement without strain in the middle of an element of 4 or 8 nodes, 1 and -1 at the nodes:
   !> xy; and yz, xz, xy, xyz.
   pure function hourglass_shapes(dim) result(pattern)
     integer, intent(in) :: dim
@@ -208,6 +208,5 @@ contains
       pattern(:, 3) = hex(1, :8)*hex(2, :8)
       pattern(:, 4) = pattern(:, 3)*hex(3, :8)
     end if
-    pattern = pattern/sqrt(2.0_dp**dim)
   end function hourglass_shapes
 end module host_shape

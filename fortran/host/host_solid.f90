@@ -5,9 +5,8 @@
 !>
 !> JPROPS(1) is the number of integration points, JPROPS(2) that of direct strains (host_kinematics). CPE4, CAX4 and C3D8
 !> replace the volume strain of the points by its mean over the element, as Abaqus does. Elements of one point have the
-!> uniform strain, and with four or eight nodes hourglass stiffness: PROPS(3) times volume, sum of the squared gradients
-!> of the shape functions in the plane or in space, and hourglass displacement. PROPS(1) is the thickness, of axisymmetric
-!> elements the angle 2 pi; PROPS(2) is the density.
+!> uniform strain, and with four or eight nodes hourglass control (host_hourglass) with the stiffness PROPS(3). PROPS(1) is
+!> the thickness, of axisymmetric elements the angle 2 pi; PROPS(2) is the density.
 !>
 !> Large displacements: Cauchy stress, turned and extended increment by increment with the strain and the rotation at the
 !> middle of the increment (Jaumann rate; Hughes and Winget). The tangent leaves out the change of the volume and of the
@@ -16,16 +15,17 @@
 !> The last of the predefined fields is the initial temperature; thermal strain is that of *EXPANSION since then.
 !>
 !> SVARS hold, for each point, E11 E22 E33 E12 S11 S22 S33 S12, in space with 13 and 23 after 12, in the directions of
-!> *ORIENTATION where the section has one, as Abaqus prints them; then hourglass displacements; in dynamic analyses then
-!> the forces of the last two increments.
+!> *ORIENTATION where the section has one, as Abaqus prints them; in dynamic analyses then the forces of the last two
+!> increments.
 module host_solid
   use host_context, only: current
+  use host_hourglass, only: has_hourglass_modes, resist_hourglass
   use host_inertia, only: is_dynamic, mass_matrix, respond
   use host_kinds, only: dp, i4
   use host_kinematics, only: average_volume_strain, gradients, mean_gradients, point_position, rotated, rotation_of, &
                              strain_matrix
   use host_materials, only: elastic_energy, find_material, has_fields, material_t, set_constants, stress_update, thickness_strain
-  use host_shape, only: hourglass_shapes, radius_of, rule_of, rule_t
+  use host_shape, only: radius_of, rule_of, rule_t
   use host_usdfld, only: call_usdfld
   implicit none (type, external)
   private
@@ -44,15 +44,14 @@ contains
                 params(*), adlmag(*), predef(*), ddlmag(*), pnewdt, period
     type(material_t), pointer :: material
     real(dp) :: mass(ndofel, ndofel), old(ndofel, 2)
-    integer :: dim, direct, nodes, points, modes, first, last, n
+    integer :: dim, direct, nodes, points, first, last, n
     dim = mcrd
     nodes = nnode
     points = jprops(1)
     direct = jprops(2)
     n = ndofel
-    modes = hourglass_modes(dim, nodes, points)
     material => find_material(materiallib)
-    first = points*values_of_point(dim) + dim*modes + 1
+    first = points*values_of_point(dim) + 1
     last = first + 2*n - 1
     old = 0
     if (nsvars >= last) old = reshape(svars(first:last), [n, 2])
@@ -62,8 +61,8 @@ contains
     rhs(1:n*nrhs) = 0
     amatrx(1:n*n) = 0
     if (lflags(3) /= 3 .and. lflags(3) /= 4) then
-      call integrate(dim, direct, direct + 2*dim - 3, nodes, points, modes, lflags(2) /= 0, material, props(1), props(3), &
-                     coords, int(npredf), predef, u, du, rhs, amatrx, svars, svars(points*values_of_point(dim) + 1), energy)
+      call integrate(dim, direct, direct + 2*dim - 3, nodes, points, lflags(2) /= 0, material, props(1), props(3), coords, &
+                     int(npredf), predef, u, du, rhs, amatrx, svars, energy)
     end if
     call respond(n, lflags, params, dtime, v, a, mass, old, rhs, amatrx, energy(1))
     if (nsvars >= last) svars(first:last) = reshape(old, [2*n])
@@ -75,22 +74,15 @@ contains
     values_of_point = merge(8, 12, dim == 2)
   end function values_of_point
 
-  !> Number of hourglass patterns: one in a quadrilateral, four in a hexahedron of one point.
-  pure integer function hourglass_modes(dim, nodes, points)
-    integer, intent(in) :: dim, nodes, points
-    hourglass_modes = 0
-    if (points == 1 .and. nodes == 2**dim) hourglass_modes = merge(1, 4, dim == 2)
-  end function hourglass_modes
-
   !> Force, tangent, state and energies.
-  subroutine integrate(dim, direct, strains, nodes, points, modes, finite, material, thickness, hourglass, x, fields, predef, &
-                       u, du, force, stiffness, svars, hourglass_state, energy)
-    integer, intent(in) :: dim, direct, strains, nodes, points, modes, fields
+  subroutine integrate(dim, direct, strains, nodes, points, finite, material, thickness, hourglass, x, fields, predef, u, du, &
+                       force, stiffness, svars, energy)
+    integer, intent(in) :: dim, direct, strains, nodes, points, fields
     logical, intent(in) :: finite
     type(material_t), intent(inout) :: material
     real(dp), intent(in) :: thickness, hourglass, x(dim, nodes), predef(2, fields, nodes), u(dim, nodes), du(dim, nodes)
     real(dp), intent(inout) :: force(dim*nodes), stiffness(dim*nodes, dim*nodes), svars(values_of_point(dim), points)
-    real(dp), intent(inout) :: hourglass_state(dim, modes), energy(8)
+    real(dp), intent(inout) :: energy(8)
     real(dp) :: now(dim, nodes), g(nodes, direct, points), b(dim*nodes, strains, points), volume(points)
     real(dp) :: g_mid(nodes, direct, points), b_mid(dim*nodes, strains, points), volume_mid(points), weight, elastic, work
     real(dp) :: strain(strains), stress(strains), modulus(strains, strains), thermal(2)
@@ -141,9 +133,8 @@ contains
     if (allocated(current%fields)) deallocate (current%fields)
     energy(2) = elastic
     energy(4) = work - elastic
-    if (modes > 0) then
-      call resist(dim, nodes, modes, hourglass*volume(1)*merge(thickness, 1.0_dp, dim == 2), finite, now, u, du, g(:, :dim, 1), &
-                  hourglass_state, force, stiffness, energy(6))
+    if (has_hourglass_modes(dim, nodes, points)) then
+      call resist_hourglass(dim, direct, hourglass*merge(thickness, 1.0_dp, dim == 2), finite, x, u, force, stiffness, energy(6))
     end if
   end subroutine integrate
 
@@ -409,28 +400,4 @@ contains
       stiffness(1::2, 2*i - 1) = stiffness(1::2, 2*i - 1) + volume*full(3, 3)*g(i, 3)*g(:, 3)
     end do
   end subroutine add_geometric
-
-  !> Stiffness against displacements that the point in the middle does not feel.
-  pure subroutine resist(dim, nodes, modes, modulus, finite, x, u, du, g, state, force, stiffness, energy)
-    integer, intent(in) :: dim, nodes, modes
-    logical, intent(in) :: finite
-    real(dp), intent(in) :: modulus     !< hourglass stiffness times volume
-    real(dp), intent(in) :: x(dim, nodes), u(dim, nodes), du(dim, nodes), g(nodes, dim)
-    real(dp), intent(inout) :: state(dim, modes), force(dim, nodes), stiffness(dim*nodes, dim*nodes), energy
-    real(dp) :: pattern(nodes, modes), k
-    integer :: i
-    pattern = hourglass_shapes(dim)
-    pattern = pattern - matmul(g, matmul(x, pattern))
-    if (finite) then
-      state = matmul(current%rotation(:dim, :dim), state) + matmul(du, pattern)
-    else
-      state = matmul(u, pattern)
-    end if
-    k = modulus*sum(g**2)
-    force = force + k*matmul(state, transpose(pattern))
-    do i = 1, dim
-      stiffness(i::dim, i::dim) = stiffness(i::dim, i::dim) + k*matmul(pattern, transpose(pattern))
-    end do
-    energy = 0.5_dp*k*sum(state**2)
-  end subroutine resist
 end module host_solid

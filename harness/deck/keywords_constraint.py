@@ -25,9 +25,14 @@ DISCRETE = (
     Keyword("MASS", "Point masses.", Where.MODEL, (_ELSET, *refused("ALPHA", "ORIENTATION", "TYPE")), "mass"),
     Keyword(
         "HOURGLASS STIFFNESS",
-        "Hourglass stiffness of elements with one point, of the *SOLID SECTION before.",
+        "Hourglass stiffness parameter r of CPS4R, CPE4R, CAX4R, C3D8R and those with temperatures, of the *SOLID "
+        "SECTION before. With mean gradients B and volume V before any displacement the stiffness per squared "
+        "hourglass displacement q is r V sum(B^2)/16 in the plane, in direction i of space 0.2357 r V sum(B_i^2); "
+        "with NLGEOM F^T q takes the place of q, F the mean deformation gradient. Results of Abaqus R2018x and "
+        "2024 show it for square CPS4R, skewed CAX4RT and skewed C3D8RT; for CPE4R and skewed CPS4R it is inferred "
+        "from CAX4RT.",
         Where.MODEL,
-        data="stiffness in place of 0.005 times the shear modulus",
+        data="stiffness parameter in place of 0.005 times the shear modulus",
     ),
 )
 

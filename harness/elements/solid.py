@@ -28,7 +28,7 @@ from harness.model.records import PointVariables
 from harness.usersub import Library, _binding
 
 HOURGLASS_FRACTION: Final = 0.005
-"""Hourglass stiffness over the shear modulus (Abaqus Analysis User's Guide, Section controls)."""
+"""Hourglass stiffness parameter over the shear modulus (Abaqus Analysis User's Guide, Section controls)."""
 
 SMALLEST_RADIUS: Final = 1e-9
 """Radius, over the largest one of a group, below which a node is on the axis."""
@@ -62,11 +62,9 @@ class Solid:
         return min(self.nodes, 4 if self.dimension == 2 else 8)
 
     @property
-    def hourglass_modes(self) -> int:
-        """Patterns of displacement that its points do not feel."""
-        if self.points > 1 or self.nodes != 2**self.dimension:
-            return 0
-        return 1 if self.dimension == 2 else 4
+    def hourglass_control(self) -> bool:
+        """True where displacements other than rigid ones leave its only point without strain."""
+        return self.points == 1 and self.nodes == 2**self.dimension
 
 
 _PLANE = {"3": (3, 1), "4": (4, 4), "4R": (4, 1), "6": (6, 3), "8": (8, 9), "8R": (8, 4)}
@@ -117,7 +115,7 @@ def solid_procedure(model: Model, group: ElementGroup, section: SolidSection, li
     if material.expansion:
         _binding.set_expansion(number, material.expansion)
     unknowns = kind.dimension * kind.nodes
-    hidden = kind.dimension * kind.hourglass_modes + (2 * unknowns if dynamic is not None else 0)
+    hidden = 2 * unknowns if dynamic is not None else 0
     return Procedure(
         address=_binding.solid_address(),
         jtype=kind.nodes,
@@ -166,7 +164,7 @@ def history_of(material: Material, points: int) -> tuple[int, int]:
 
 
 def _hourglass_stiffness(group: ElementGroup, kind: Solid, section: SolidSection) -> float:
-    if not kind.hourglass_modes:
+    if not kind.hourglass_control:
         return 0.0
     if section.hourglass:
         return section.hourglass
