@@ -5,8 +5,9 @@
 !>
 !> JPROPS(1) is the number of integration points, JPROPS(2) that of direct strains (host_kinematics). CPE4, CAX4 and C3D8
 !> replace the volume strain of the points by its mean over the element, as Abaqus does. Elements of one point have the
-!> uniform strain, and with four or eight nodes hourglass control (host_hourglass) with the stiffness PROPS(3). PROPS(1) is
-!> the thickness, of axisymmetric elements the angle 2 pi; PROPS(2) is the density.
+!> uniform strain, and with four or eight nodes hourglass control (host_hourglass): enhanced where JPROPS(3) is not zero,
+!> else with the stiffness parameter PROPS(3). PROPS(1) is the thickness, of axisymmetric elements the angle 2 pi; PROPS(2)
+!> is the density.
 !>
 !> Large displacements: Cauchy stress, turned and extended increment by increment with the strain and the rotation at the
 !> middle of the increment (Jaumann rate; Hughes and Winget). The tangent leaves out the change of the volume and of the
@@ -61,8 +62,8 @@ contains
     rhs(1:n*nrhs) = 0
     amatrx(1:n*n) = 0
     if (lflags(3) /= 3 .and. lflags(3) /= 4) then
-      call integrate(dim, direct, direct + 2*dim - 3, nodes, points, lflags(2) /= 0, material, props(1), props(3), coords, &
-                     int(npredf), predef, u, du, rhs, amatrx, svars, energy)
+      call integrate(dim, direct, direct + 2*dim - 3, nodes, points, lflags(2) /= 0, material, props(1), props(3), &
+                     jprops(3) /= 0, coords, int(npredf), predef, u, du, rhs, amatrx, svars, energy)
     end if
     call respond(n, lflags, params, dtime, v, a, mass, old, rhs, amatrx, energy(1))
     if (nsvars >= last) svars(first:last) = reshape(old, [2*n])
@@ -75,10 +76,10 @@ contains
   end function values_of_point
 
   !> Force, tangent, state and energies.
-  subroutine integrate(dim, direct, strains, nodes, points, finite, material, thickness, hourglass, x, fields, predef, u, du, &
-                       force, stiffness, svars, energy)
+  subroutine integrate(dim, direct, strains, nodes, points, finite, material, thickness, hourglass, enhanced, x, fields, &
+                       predef, u, du, force, stiffness, svars, energy)
     integer, intent(in) :: dim, direct, strains, nodes, points, fields
-    logical, intent(in) :: finite
+    logical, intent(in) :: finite, enhanced
     type(material_t), intent(inout) :: material
     real(dp), intent(in) :: thickness, hourglass, x(dim, nodes), predef(2, fields, nodes), u(dim, nodes), du(dim, nodes)
     real(dp), intent(inout) :: force(dim*nodes), stiffness(dim*nodes, dim*nodes), svars(values_of_point(dim), points)
@@ -134,9 +135,26 @@ contains
     energy(2) = elastic
     energy(4) = work - elastic
     if (has_hourglass_modes(dim, nodes, points)) then
-      call resist_hourglass(dim, direct, hourglass*merge(thickness, 1.0_dp, dim == 2), finite, x, u, force, stiffness, energy(6))
+      if (finite) call mean_gradients(dim, direct, x, g(:, :, 1), volume(1))
+      call resist_hourglass(dim, g(:, :dim, 1), volume(1)*merge(thickness, 1.0_dp, dim == 2), hourglass, &
+                            enhanced_constants(material, enhanced), finite, x, u, force, stiffness, energy(6))
     end if
   end subroutine integrate
+
+  !> Young's modulus and Poisson's ratio of an isotropic material for the enhanced hourglass control, the modulus in plane
+  !> strain over 1 - nu^2; none without that control.
+  pure function enhanced_constants(material, enhanced) result(constants)
+    type(material_t), intent(in) :: material
+    logical, intent(in) :: enhanced
+    real(dp), allocatable :: constants(:)
+    real(dp) :: young, poisson
+    allocate (constants(0))
+    if (.not. enhanced) return
+    young = 1/material%compliance(1, 1)
+    poisson = -material%compliance(1, 2)*young
+    if (material%ntens == 4) young = young/(1 - poisson**2)
+    constants = [young, poisson]
+  end function enhanced_constants
 
   !> A line across the element in its plane or in space, half of it where there are nodes in the middle of the edges.
   function size_of(dim, direct, nodes, points, x, volume) result(length)

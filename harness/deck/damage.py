@@ -103,4 +103,10 @@ def _read_controls(block: Block) -> SectionControls:
     if viscosity is not None and viscosity < 0:
         raise block.error(f"VISCOSITY={viscosity:g} must not be negative")
     deletion = options.flag("ELEMENT DELETION") or not options.given("ELEMENT DELETION")
-    return SectionControls(deletion, degradation, viscosity)
+    enhanced = options.text("HOURGLASS") == "ENHANCED"
+    row = next(block.rows(), None)
+    # "any data given on the data line will be ignored" where it is enhanced (Abaqus Keywords Guide)
+    factor = 1.0 if row is None or enhanced else row.real(0, "factor of the hourglass stiffness", 1.0)
+    if factor <= 0:
+        raise block.error(f"factor {factor:g} of the hourglass stiffness must be positive")
+    return SectionControls(deletion, degradation, viscosity, enhanced, factor)

@@ -36,16 +36,28 @@ COHESIVE = (
     ),
     Keyword(
         "SECTION CONTROLS",
-        "Deletion, largest damage and viscosity of cohesive elements.",
+        "Deletion, largest damage and viscosity of cohesive elements; hourglass control of CPS4R, CPE4R, CAX4R, "
+        "C3D8R and those with temperatures. STIFFNESS is that of *HOURGLASS STIFFNESS. ENHANCED is the assumed "
+        "strain stabilization of Belytschko and Bindeman (1991, 1993), with which rectangles and bricks bend "
+        "exactly; that Abaqus has the same numbers is inferred from its manual, which names the method, and a "
+        "warning says so. It takes *ELASTIC, TYPE=ISOTROPIC that depends on nothing, and no axisymmetric elements.",
         Where.MODEL,
         (
             Option("NAME", Kind.NAME, "name", required=True),
             Option("ELEMENT DELETION", Kind.SWITCH, "delete failed elements, unless they are in compression (YES)"),
             Option("MAX DEGRADATION", Kind.REAL, "largest damage (1)"),
             Option("VISCOSITY", Kind.REAL, "relaxation time of the damage (0)"),
-            *ignored("DISTORTION CONTROL", "HOURGLASS", "KINEMATIC SPLIT", "LENGTH RATIO", "SECOND ORDER ACCURACY"),
+            Option(
+                "HOURGLASS",
+                Kind.CHOICE,
+                "hourglass control",
+                default="STIFFNESS",
+                choices=("STIFFNESS", "ENHANCED"),
+                refused=("COMBINED", "RELAX STIFFNESS", "VISCOUS"),
+            ),
+            *ignored("DISTORTION CONTROL", "KINEMATIC SPLIT", "LENGTH RATIO", "SECOND ORDER ACCURACY"),
         ),
-        "factors of other elements, which are not read",
+        "factor of the hourglass stiffness with STIFFNESS (1); factors of shells and of Abaqus/Explicit, not read",
     ),
 )
 

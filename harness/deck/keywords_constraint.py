@@ -32,7 +32,7 @@ DISCRETE = (
         "2024 show it for square CPS4R, skewed CAX4RT and skewed C3D8RT; for CPE4R and skewed CPS4R it is inferred "
         "from CAX4RT.",
         Where.MODEL,
-        data="stiffness parameter in place of 0.005 times the shear modulus",
+        data="stiffness parameter in place of 0.005 times the shear modulus; further entries are not read",
     ),
 )
 

@@ -62,7 +62,9 @@ def make_section(
     if kind.definition:
         return _user_property(block, kind.definition, material, orientation, problems)
     assert material is not None
-    return SolidSection(elset, material, orientation, _thickness(list(block.rows()), 0, "thickness"), block.source)
+    thickness = _thickness(list(block.rows()), 0, "thickness")
+    found = _controls(block, controls)
+    return SolidSection(elset, material, orientation, thickness, block.source, controls=found)
 
 
 def _mass(block: Block) -> float:
@@ -122,17 +124,21 @@ def _thickness(rows: list[Row], index: int, what: str) -> float:
     return thickness
 
 
+def _controls(block: Block, controls: Mapping[str, SectionControls]) -> SectionControls:
+    """What CONTROLS= names; defaults without it."""
+    name = block.options.text("CONTROLS")
+    return look_up(controls, name, "section controls", block.source) if name else SectionControls()
+
+
 def _cohesive_section(block: Block, material: Material, controls: Mapping[str, SectionControls]) -> CohesiveSection:
     options, rows = block.options, list(block.rows())
-    name = options.text("CONTROLS")
-    found = look_up(controls, name, "section controls", block.source) if name else SectionControls()
     geometry = options.text("THICKNESS") == "GEOMETRY"
     return CohesiveSection(
         options.text("ELSET"),
         material,
         thickness=0.0 if geometry else _thickness(rows, 0, "constitutive thickness"),
         width=_thickness(rows, 1, "out-of-plane width"),
-        controls=found,
+        controls=_controls(block, controls),
         source=block.source,
     )
 

@@ -23,7 +23,7 @@ from harness.errors import DeckError
 from harness.model.mesh import ElementGroup
 from harness.model.model import Model
 from harness.model.procedures import Dynamic
-from harness.model.properties import Material, SolidSection
+from harness.model.properties import ElasticType, Material, SolidSection
 from harness.model.records import PointVariables
 from harness.usersub import Library, _binding
 
@@ -109,7 +109,7 @@ def solid_procedure(model: Model, group: ElementGroup, section: SolidSection, li
     if nonlinear is not None and section.orientation is not None:
         message = f"*ORIENTATION is not supported for elements of type {group.type} with NLGEOM ({nonlinear.source})"
         raise DeckError(section.source, message)
-    hourglass = _hourglass_stiffness(group, kind, section)
+    hourglass = _hourglass_stiffness(group, kind, section, library)
     number = define_material(material, section.orientation, kind.tensor, section.source, library)
     define_fields(number, material, section.orientation, kind.tensor, library)
     if material.expansion:
@@ -124,7 +124,7 @@ def solid_procedure(model: Model, group: ElementGroup, section: SolidSection, li
         hidden=hidden,
         density=1,
         props=np.array([section_depth(group, section), material.density, hourglass]),
-        jprops=np.array([kind.points, kind.direct]),
+        jprops=np.array([kind.points, kind.direct, kind.hourglass_control and section.controls.enhanced]),
         material=number,
         tensor=int(kind.tensor),
         history=history_of(material, kind.points),
@@ -163,15 +163,38 @@ def history_of(material: Material, points: int) -> tuple[int, int]:
     return values, points if values > 1 else 1
 
 
-def _hourglass_stiffness(group: ElementGroup, kind: Solid, section: SolidSection) -> float:
+def _hourglass_stiffness(group: ElementGroup, kind: Solid, section: SolidSection, library: Library) -> float:
+    """Parameter of the total stiffness; 0 where there is none. Raises DeckError."""
+    controls, elastic = section.controls, section.material.elastic
     if not kind.hourglass_control:
+        return 0.0
+    if section.hourglass and (controls.enhanced or controls.hourglass != 1):
+        what = "HOURGLASS=ENHANCED" if controls.enhanced else "a factor of the hourglass stiffness"
+        raise DeckError(section.source, f"*HOURGLASS STIFFNESS and *SECTION CONTROLS with {what}: expected one of them")
+    if controls.enhanced:
+        _check_enhanced(group, kind, section)
+        message = "*SECTION CONTROLS, HOURGLASS=ENHANCED: the published method that Abaqus' manual names"
+        library.warn(f"{section.source}: {message}; there are no results of Abaqus to compare with")
         return 0.0
     if section.hourglass:
         return section.hourglass
-    if section.material.elastic is None:
+    if elastic is None:
         message = f"elements of type {group.type} with *USER MATERIAL need *HOURGLASS STIFFNESS after *SOLID SECTION"
         raise DeckError(section.source, message)
-    return HOURGLASS_FRACTION * shear_modulus(section.material.elastic, kind.tensor)
+    return controls.hourglass * HOURGLASS_FRACTION * shear_modulus(elastic, kind.tensor)
+
+
+def _check_enhanced(group: ElementGroup, kind: Solid, section: SolidSection) -> None:
+    """Raise DeckError where there is no enhanced hourglass control for the elements or the material."""
+    elastic = section.material.elastic
+    if kind.axisymmetric:
+        what, expected = f"elements of type {group.type}", "plane elements or C3D8R"
+    elif elastic is None or elastic.type is not ElasticType.ISOTROPIC or elastic.table is not None:
+        what, expected = f"material {section.material.name}", "*ELASTIC, TYPE=ISOTROPIC that depends on nothing"
+    else:
+        return
+    message = f"*SECTION CONTROLS, HOURGLASS=ENHANCED is not supported for {what}; expected {expected}"
+    raise DeckError(section.source, message)
 
 
 def _output_variables(section: SolidSection, points: int, library: Library) -> OutputVariables | None:

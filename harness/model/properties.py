@@ -122,6 +122,27 @@ class Orientation:
 
 
 @dataclass(frozen=True, slots=True)
+class SectionControls:
+    """*SECTION CONTROLS: of cohesive elements
+
+    deletion     ELEMENT DELETION=
+    degradation  MAX DEGRADATION=
+    viscosity    VISCOSITY=, time; None if not given
+
+    and of continuum elements with one integration point
+
+    enhanced     HOURGLASS=ENHANCED, else STIFFNESS
+    hourglass    factor of the hourglass stiffness
+    """
+
+    deletion: bool = True
+    degradation: float = 1.0
+    viscosity: float | None = None
+    enhanced: bool = False
+    hourglass: float = 1.0
+
+
+@dataclass(frozen=True, slots=True)
 class SolidSection:
     """*SOLID SECTION of built-in continuum elements; thickness 1, default hourglass stiffness (0) unless given."""
 
@@ -131,20 +152,7 @@ class SolidSection:
     thickness: float
     source: Source
     hourglass: float = 0.0
-
-
-@dataclass(frozen=True, slots=True)
-class SectionControls:
-    """*SECTION CONTROLS of cohesive elements.
-
-    deletion     ELEMENT DELETION=
-    degradation  MAX DEGRADATION=
-    viscosity    VISCOSITY=, time; None if not given
-    """
-
-    deletion: bool = True
-    degradation: float = 1.0
-    viscosity: float | None = None
+    controls: SectionControls = SectionControls()
 
 
 @dataclass(frozen=True, slots=True)

@@ -7,6 +7,7 @@ import pytest
 
 import harness
 from harness.errors import DeckError
+from harness.model.properties import SectionControls
 
 # two squares side by side with nodes of their own on the common edge: 2, 3 and 5, 8; stretched along x, nu = 0.3
 SQUARES = """*NODE, NSET=ALL
@@ -251,3 +252,39 @@ def test_hourglass_stiffness_of_a_section(read):
     assert [group.section.hourglass for group in model.groups] == [0.0, 7.5]
     with pytest.raises(DeckError, match=r"\*HOURGLASS STIFFNESS: does not follow \*SOLID SECTION"):
         read(text.replace("*SOLID", "*HOURGLASS STIFFNESS\n7.5\n*SOLID", 1))
+
+
+CONTROLLED = SQUARES.replace("MATERIAL=M", "MATERIAL=M, CONTROLS=C", 1) % ""
+
+
+@pytest.mark.parametrize(
+    ("line", "expected"),
+    [
+        ("*SECTION CONTROLS, NAME=C", SectionControls()),
+        ("*SECTION CONTROLS, NAME=C, HOURGLASS=STIFFNESS\n2.5, 1., 1.", SectionControls(hourglass=2.5)),
+        # the data line is not read, as in Abaqus
+        ("*SECTION CONTROLS, NAME=C, HOURGLASS=ENHANCED\n2.5, 1., 1.", SectionControls(enhanced=True)),
+    ],
+)
+def test_section_controls_of_a_solid_section(read, line, expected):
+    model = read(CONTROLLED.replace("*MATERIAL", f"{line}\n*MATERIAL", 1))
+    assert [group.section.controls for group in model.groups] == [expected, SectionControls()]
+
+
+@pytest.mark.parametrize(
+    ("line", "message"),
+    [
+        (
+            "*SECTION CONTROLS, NAME=C, HOURGLASS=VISCOUS",
+            r"HOURGLASS=VISCOUS is not supported \(supported: STIFF",
+        ),
+        ("*SECTION CONTROLS, NAME=C, HOURGLASS=COMBINED", r"HOURGLASS=COMBINED is not supported"),
+        ("*SECTION CONTROLS, NAME=C, HOURGLASS=RELAX STIFFNESS", r"HOURGLASS=RELAX STIFFNESS is not supported"),
+        ("*SECTION CONTROLS, NAME=C\n-1.", r"factor -1 of the hourglass stiffness must be positive"),
+        ("*SECTION CONTROLS, NAME=C\n0.", r"factor 0 of the hourglass stiffness must be positive"),
+        ("*SECTION CONTROLS, NAME=OTHER", r"unknown section controls C"),
+    ],
+)
+def test_wrong_section_controls_of_a_solid_section(read, line, message):
+    with pytest.raises(DeckError, match=r"deck.inp:\d+: .*" + message):
+        read(CONTROLLED.replace("*MATERIAL", f"{line}\n*MATERIAL", 1))

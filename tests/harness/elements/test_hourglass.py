@@ -10,8 +10,8 @@ from scipy.linalg import null_space
 from scipy.optimize import approx_fprime
 
 from harness.elements.solid import HOURGLASS_FRACTION, SOLIDS
-from harness.errors import Source
-from harness.model.properties import Elastic, ElasticType
+from harness.errors import DeckError, Source
+from harness.model.properties import Elastic, ElasticType, Material, SectionControls, UserMaterial
 
 SOURCE = Source("test.inp", 1)
 SQUARE = np.array([[-1.0, -1, 0], [1, -1, 0], [1, 1, 0], [-1, 1, 0]])
@@ -24,16 +24,18 @@ WARPED = np.array(
     ]
 )
 TYPES = ["CPS4R", "CPE4R", "CAX4R", "C3D8R"]
+ENHANCED = SectionControls(enhanced=True)
 
 
 @pytest.fixture
 def element(solid_group, bound, load, call):
-    """Force, tangent and energies of an element by its displacements (nodes, directions)."""
+    """Force, tangent and energies of an element, or of some, by the displacements (nodes, directions)."""
 
-    def element(element_type, nodes, *, young=1000.0, nu=0.3, stiffness=0.0, nlgeom=False):
+    def element(element_type, nodes, *, elements=None, young=1000.0, nu=0.3, nlgeom=False, **options):
         elastic = Elastic(ElasticType.ISOTROPIC, (young, nu), SOURCE)
-        group = solid_group(element_type, np.arange(len(nodes))[None], 1.0, elastic=elastic)
-        group = replace(group, section=replace(group.section, hourglass=stiffness))
+        elements = np.arange(len(nodes))[None] if elements is None else elements
+        group = solid_group(element_type, elements, 1.0, elastic=elastic)
+        group = replace(group, section=replace(group.section, **options))
         block, matrix = bound(group, nodes, load(None))
         now = replace(call, lflags=(1, int(nlgeom), 1, 0, 0))
 
@@ -51,14 +53,17 @@ def element(solid_group, bound, load, call):
 
 @pytest.fixture
 def control(element):
-    """Force and tangent of the hourglass control alone: what a large parameter adds to a small one."""
+    """Force and tangent of the hourglass control alone: total stiffness of a parameter, or enhanced (None)."""
 
     def control(element_type, nodes, parameter, **options):
-        small, large = (element(element_type, nodes, stiffness=r, **options) for r in (parameter, 2 * parameter))
+        ways = [{"hourglass": r} for r in (1.0, 2.0)]
+        ways += [{"controls": ENHANCED} if parameter is None else {"hourglass": parameter}]
+        solids = [element(element_type, nodes, **way, **options) for way in ways]
 
         def evaluate(u):
-            (force, tangent, _), (more, stiffer, _) = small(u), large(u)
-            return more - force, stiffer - tangent
+            found = [solid(u)[:2] for solid in solids]
+            # force and tangent are linear in the parameter: what they are with none
+            return tuple(wanted - (2 * one - two) for one, two, wanted in zip(*found, strict=True))
 
         return evaluate
 
@@ -160,7 +165,7 @@ ABAQUS_WARPED = {
 @pytest.mark.parametrize(("nodes", "reactions"), [((CUBE + 1) / 2, ABAQUS_CUBE), (WARPED, ABAQUS_WARPED)])
 def test_c3d8r_with_nlgeom_as_in_abaqus(element, nodes, reactions):
     default = element("C3D8R", nodes, young=2e11, nu=0.25, nlgeom=True)
-    weak = element("C3D8R", nodes, young=2e11, nu=0.25, nlgeom=True, stiffness=1.0)
+    weak = element("C3D8R", nodes, young=2e11, nu=0.25, nlgeom=True, hourglass=1.0)
     u = np.outer(CUBE[:, 0] * CUBE[:, 1], [0.012, -0.007, 0.009])
     force = default(u)[0] - weak(u)[0]
     # reactions have sixteen digits, which leaves nine of their difference
@@ -210,46 +215,57 @@ def shape(element_type):
     return SKEWED
 
 
-@pytest.mark.parametrize("element_type", TYPES)
-def test_rank(element, element_type):
+CONTROLS = [(name, controls) for name in TYPES for controls in (SectionControls(), ENHANCED)]
+CONTROLS.remove(("CAX4R", ENHANCED))
+
+
+@pytest.mark.parametrize(("element_type", "controls"), CONTROLS)
+def test_rank(element, element_type, controls):
     """Nothing but rigid motions costs no energy: three in the plane, six in space; of an axisymmetric element the
     motion along the axis, and a tilt about its point, which hourglass control leaves to the other elements."""
-    _, tangent, _ = element(element_type, shape(element_type))(np.zeros((8, 3))[: len(shape(element_type))])
+    nodes = shape(element_type)
+    _, tangent, _ = element(element_type, nodes, controls=controls)(np.zeros((len(nodes), 3)))
     rigid = {"CAX4R": 2, "C3D8R": 6}.get(element_type, 3)
     assert np.linalg.matrix_rank(tangent, tol=1e-9 * abs(tangent).max()) == len(tangent) - rigid
 
 
 @pytest.mark.parametrize("nlgeom", [False, True])
-@pytest.mark.parametrize("element_type", TYPES)
-def test_linear_displacements_are_free(element, element_type, nlgeom):
+@pytest.mark.parametrize(("element_type", "controls"), CONTROLS)
+def test_linear_displacements_are_free(element, element_type, controls, nlgeom):
     nodes = shape(element_type)
     u = nodes @ np.array([[0.1, 0.05, 0.02], [-0.03, 0.08, 0.01], [0.02, 0.04, -0.1]])
-    _, _, energy = element(element_type, nodes, nlgeom=nlgeom)(u)
+    _, _, energy = element(element_type, nodes, controls=controls, nlgeom=nlgeom)(u)
     assert energy[1] > 1
     assert energy[5] == pytest.approx(0.0, abs=1e-15)
 
 
-@pytest.mark.parametrize("element_type", ["CPS4R", "CPE4R", "C3D8R"])
-def test_energy_does_not_change_with_a_rotation(element, element_type):
+@pytest.mark.parametrize(("element_type", "controls"), [pair for pair in CONTROLS if pair[0] != "CAX4R"])
+def test_energy_does_not_change_with_a_rotation(element, element_type, controls):
     nodes = shape(element_type)
-    solid = element(element_type, nodes, nlgeom=True)
+    solid = element(element_type, nodes, controls=controls, nlgeom=True)
     rng = np.random.default_rng(5)
     u = np.column_stack([rng.normal(size=(len(nodes), 2)), np.zeros(len(nodes))]) * 0.1
     c, s = np.cos(2.0), np.sin(2.0)
-    turned = (nodes + u) @ np.array([[c, s, 0], [-s, c, 0], [0, 0, 1]]) - nodes
+    rotation = np.array([[c, s, 0], [-s, c, 0], [0, 0, 1]])
     before = solid(u)[2][5]
     assert before > 1e-3
-    assert solid(turned)[2][5] == pytest.approx(before, rel=1e-12)
+    assert solid((nodes + u) @ rotation - nodes)[2][5] == pytest.approx(before, rel=1e-12)
+    if controls.enhanced:
+        # nor with a rotation of the element before it
+        assert element(element_type, nodes @ rotation, controls=controls)(u @ rotation)[2][5] == pytest.approx(
+            element(element_type, nodes, controls=controls)(u)[2][5], rel=1e-12
+        )
 
 
 @pytest.mark.parametrize("nlgeom", [False, True])
-@pytest.mark.parametrize("element_type", TYPES)
-def test_force_and_tangent_are_derivatives_of_the_energy(element, control, element_type, nlgeom):
+@pytest.mark.parametrize(("element_type", "controls"), CONTROLS)
+def test_force_and_tangent_are_derivatives_of_the_energy(element, control, element_type, controls, nlgeom):
     """To ENERGY(6), which is ALLAE."""
     nodes = shape(element_type)
-    parameter, dimension = 7.0, SOLIDS[element_type].dimension
+    parameter, dimension = None if controls.enhanced else 7.0, SOLIDS[element_type].dimension
     u = np.random.default_rng(7).normal(size=(len(nodes), dimension)) * 0.1
-    solid = element(element_type, nodes, stiffness=parameter, nlgeom=nlgeom)
+    options = {"controls": controls} if controls.enhanced else {"hourglass": parameter}
+    solid = element(element_type, nodes, nlgeom=nlgeom, **options)
     alone = control(element_type, nodes, parameter, nlgeom=nlgeom)
     force, tangent = alone(u)
 
@@ -259,5 +275,121 @@ def test_force_and_tangent_are_derivatives_of_the_energy(element, control, eleme
     def forces(v):
         return alone(v.reshape(u.shape))[0].ravel()
 
-    np.testing.assert_allclose(approx_fprime(u.ravel(), energy, 1e-7), force.ravel(), atol=1e-6 * abs(force).max())
+    np.testing.assert_allclose(approx_fprime(u.ravel(), energy, 1e-7), force.ravel(), atol=2e-6 * abs(force).max())
     np.testing.assert_allclose(approx_fprime(u.ravel(), forces, 1e-7), tangent, atol=1e-5 * abs(tangent).max())
+
+
+GRID = [np.array(values) for values in ([0.0, 1.0, 4.0], [-0.3, 0.1, 0.4], [-0.2, 0.3, 0.5])]
+
+
+def rectangles(dimension):
+    """Nodes and elements of 2 x 2 (x 2) rectangles or bricks of different sizes."""
+    axes = GRID[:dimension]
+    nodes = np.stack(np.meshgrid(*axes, indexing="ij"), axis=-1).reshape(-1, dimension)
+    step = 3 ** np.arange(dimension - 1, -1, -1)
+    first = np.stack(np.meshgrid(*[[0, 1]] * dimension, indexing="ij"), axis=-1).reshape(-1, dimension) @ step
+    corners = (((CUBE if dimension == 3 else SQUARE)[:, :dimension] + 1) / 2).astype(int) @ step
+    return np.pad(nodes, ((0, 0), (0, 3 - dimension))), first[:, None] + corners
+
+
+@pytest.mark.parametrize("element_type", ["CPS4R", "CPE4R"])
+def test_rectangles_with_enhanced_control_bend_exactly(element, element_type):
+    """u = (xy, -x^2/2 - m y^2/2) is bending by E11 = y alone, with m = nu and E, in plane strain nu/(1 - nu) and
+    E/(1 - nu^2): no force within, and the energy of the beam."""
+    young, nu = 1000.0, 0.3
+    ratio, modulus = (nu, young) if element_type == "CPS4R" else (nu / (1 - nu), young / (1 - nu**2))
+    nodes, elements = rectangles(2)
+    x, y, _ = nodes.T
+    u = np.column_stack([x * y, -(x**2 + ratio * y**2) / 2])
+    force, _, energy = element(element_type, nodes, elements=elements, young=young, nu=nu, controls=ENHANCED)(u)
+    assert energy[1] + energy[5] == pytest.approx(modulus / 2 * 4 * (0.4**3 + 0.3**3) / 3, rel=1e-12)
+    np.testing.assert_allclose(force[(x > 0) & (x < 4)], 0.0, atol=1e-10)
+    np.testing.assert_allclose(force[:, 1], 0.0, atol=1e-10)
+
+
+@pytest.mark.parametrize("axis", [0, 1, 2])
+def test_bricks_with_enhanced_control_bend_exactly(element, axis):
+    """Bending by E11 = y alone, the section bent as well: u = (xy, -x^2/2 - nu (y^2 - z^2)/2, -nu y z)."""
+    young, nu = 1000.0, 0.3
+    nodes, elements = rectangles(3)
+    x, y, z = nodes[:, np.roll([0, 1, 2], -axis)].T
+    u = np.column_stack([x * y, -(x**2 + nu * (y**2 - z**2)) / 2, -nu * y * z])[:, np.roll([0, 1, 2], axis)]
+    force, _, energy = element("C3D8R", nodes, elements=elements, young=young, nu=nu, controls=ENHANCED)(u)
+    second_moment = np.ptp(z) * (y.max() ** 3 - y.min() ** 3) / 3
+    assert energy[1] + energy[5] == pytest.approx(young / 2 * np.ptp(x) * second_moment, rel=1e-12)
+    inside = (x > x.min()) & (x < x.max())
+    np.testing.assert_allclose(force[inside], 0.0, atol=1e-9)
+
+
+def test_enhanced_control_of_a_brick_as_published(control):
+    """Forces Q of the hourglass displacements q of a brick (T. Belytschko, L.P. Bindeman, Computer Methods in Applied
+    Mechanics and Engineering 105 (1993) 225), those of h_1 = yz, h_2 = zx, h_3 = xy, h_4 = xyz over 8."""
+    young, nu = 1000.0, 0.3
+    shear, lengths = young / (2 * (1 + nu)), np.array([2.0, 0.7, 0.4])
+    signs = CUBE
+    patterns = np.array(
+        [signs[:, 1] * signs[:, 2], signs[:, 2] * signs[:, 0], signs[:, 0] * signs[:, 1], signs.prod(1)]
+    )
+    q = np.random.default_rng(1).normal(size=(3, 4))
+    edges = 4 * lengths  # sums of signs times coordinates
+    forces = np.zeros((3, 4))
+    for i in range(3):
+        j, k = (i + 1) % 3, (i + 2) % 3
+
+        def h(a, b):
+            c = 3 - a - b
+            return edges[c] / 3 if a != b else edges[(a + 1) % 3] * edges[(a + 2) % 3] / edges[a] / 3
+
+        forces[i, i] = shear * ((h(j, j) + h(k, k)) * q[i, i] + h(i, j) * q[j, j] + h(i, k) * q[k, k])
+        for m in (j, k):
+            forces[i, m] = 2 * shear / (1 - nu) * (h(i, i) * q[i, m] + nu * h(i, m) * q[m, i])
+        forces[i, 3] = 2 * shear * (1 + nu) / 3 * h(i, i) * q[i, 3]
+    # displacements q times the patterns have hourglass displacements 8 q over 8
+    force, _ = control("C3D8R", CUBE / 2 * lengths, None, young=young, nu=nu)((q @ patterns).T)
+    np.testing.assert_allclose(force, (forces @ patterns).T / 8, rtol=1e-12)
+
+
+def test_factor_of_the_stiffness(element):
+    pattern = np.outer(SQUARE[:, 0] * SQUARE[:, 1], [1.0, 0.0])
+    energies = [
+        element("CPE4R", SQUARE, controls=SectionControls(hourglass=factor))(pattern)[2][5] for factor in (1, 2.5)
+    ]
+    assert energies[1] == pytest.approx(2.5 * energies[0], rel=1e-12)
+
+
+def test_enhanced_control_warns(solid_group, bound, load):
+    library = load(None)
+    group = solid_group("CPS4R", np.arange(4)[None], 1.0)
+    bound(replace(group, section=replace(group.section, controls=ENHANCED)), SQUARE, library)
+    (warning,) = [message.text for message in library.messages()]
+    assert "test.inp:7: *SECTION CONTROLS, HOURGLASS=ENHANCED: the published method" in warning
+    assert "no results of Abaqus to compare with" in warning
+
+
+PLY = Elastic(ElasticType.LAMINA, (1000.0, 500.0, 0.3, 200.0, 200.0, 200.0), SOURCE)
+USER = Material("M", SOURCE, user=UserMaterial(np.array([1.0]), False, SOURCE))
+
+
+@pytest.mark.parametrize(
+    ("element_type", "change", "message"),
+    [
+        ("CAX4R", {}, r"not supported for elements of type CAX4R; expected plane elements or C3D8R"),
+        ("CPS4R", {"material": Material("M", SOURCE, PLY)}, r"for material M; expected \*ELASTIC, TYPE=ISOTROPIC that"),
+        ("CPE4R", {"material": USER}, r"for material M; expected \*ELASTIC, TYPE=ISOTROPIC that depends on nothing"),
+        (
+            "CPE4R",
+            {"hourglass": 1.0},
+            r"\*HOURGLASS STIFFNESS and \*SECTION CONTROLS with HOURGLASS=ENHANCED: expected",
+        ),
+        (
+            "CPE4R",
+            {"hourglass": 1.0, "controls": SectionControls(hourglass=2.0)},
+            r"\*HOURGLASS STIFFNESS and \*SECTION CONTROLS with a factor of the hourglass stiffness: expected one",
+        ),
+    ],
+)
+def test_what_controls_do_not_go_with(solid_group, bound, load, element_type, change, message):
+    group = solid_group(element_type, np.arange(4)[None], 1.0)
+    group = replace(group, section=replace(group.section, **({"controls": ENHANCED} | change)))
+    with pytest.raises(DeckError, match=r"test.inp:7: .*" + message):
+        bound(group, SQUARE + 2 * np.eye(3)[0], load(None))
