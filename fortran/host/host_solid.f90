@@ -23,7 +23,7 @@ module host_solid
   use host_hourglass, only: has_hourglass_modes, resist_hourglass
   use host_inertia, only: is_dynamic, mass_matrix, respond
   use host_kinds, only: dp, i4
-  use host_kinematics, only: average_volume_strain, gradients, mean_gradients, point_position, rotated, rotation_of, &
+  use host_kinematics, only: average_volume_strain, cofactors, gradients, mean_gradients, point_position, rotated, rotation_of, &
                              strain_matrix
   use host_materials, only: elastic_energy, find_material, has_fields, material_t, set_constants, stress_update, thickness_strain
   use host_shape, only: radius_of, rule_of, rule_t
@@ -86,6 +86,7 @@ contains
     real(dp), intent(inout) :: energy(8)
     real(dp) :: now(dim, nodes), g(nodes, direct, points), b(dim*nodes, strains, points), volume(points)
     real(dp) :: g_mid(nodes, direct, points), b_mid(dim*nodes, strains, points), volume_mid(points), weight, elastic, work
+    real(dp) :: g_start(nodes, direct), volume_start
     real(dp) :: strain(strains), stress(strains), modulus(strains, strains), thermal(2)
     logical :: averaged
     integer :: p
@@ -95,6 +96,15 @@ contains
     if (finite) now = x + u
     call all_gradients(dim, direct, strains, nodes, points, averaged, now, g, b, volume)
     if (finite) call all_gradients(dim, direct, strains, nodes, points, averaged, now - 0.5_dp*du, g_mid, b_mid, volume_mid)
+    g_start = g(:, :, 1)
+    volume_start = volume(1)
+    if (finite .and. has_hourglass_modes(dim, nodes, points)) then
+      call mean_gradients(dim, direct, x, g_start, volume_start)
+      if (direct == 3) then
+        call carry(dim, direct, strains, g_start, u, g(:, :, 1), b(:, :, 1))
+        call carry(dim, direct, strains, g_start, u - 0.5_dp*du, g_mid(:, :, 1), b_mid(:, :, 1))
+      end if
+    end if
     elastic = 0
     work = energy(2) + energy(4)
     if (has_fields(material)) current%length = size_of(dim, direct, nodes, points, now, volume)
@@ -135,8 +145,7 @@ contains
     energy(2) = elastic
     energy(4) = work - elastic
     if (has_hourglass_modes(dim, nodes, points)) then
-      if (finite) call mean_gradients(dim, direct, x, g(:, :, 1), volume(1))
-      call resist_hourglass(dim, g(:, :dim, 1), volume(1)*merge(thickness, 1.0_dp, dim == 2), hourglass, &
+      call resist_hourglass(dim, g_start(:, :dim), volume_start*merge(thickness, 1.0_dp, dim == 2), hourglass, &
                             enhanced_constants(material, enhanced), finite, x, u, force, stiffness, energy(6))
     end if
   end subroutine integrate
@@ -222,6 +231,28 @@ contains
     end do
     if (averaged) call average_volume_strain(direct, dim*nodes, strains, points, volume, b)
   end subroutine all_gradients
+
+  !> With large displacements elements of one point take the shape of the strain from the mean deformation gradient
+  !> F = 1 + u g_start, so that the gradients are those before any displacement times its inverse; and its volume from
+  !> the mean of the gradients now, the difference in equal parts to the directions of the displacements. So does Abaqus
+  !> R2018x (reactions of C3D8RT and CAX4RT); in the plane the two are the same.
+  pure subroutine carry(dim, direct, strains, g_start, u, g, b)
+    integer, intent(in) :: dim, direct, strains
+    real(dp), intent(in) :: g_start(2**dim, direct), u(dim, 2**dim)
+    real(dp), intent(inout) :: g(2**dim, direct), b(dim, 2**dim, strains)     !< on entry the mean now
+    real(dp) :: f(3, 3), c(3, 3), change(dim, 2**dim)
+    integer :: i
+    change = sum(b(:, :, :direct), 3)
+    f = identity + gradient_of(dim, direct, 2**dim, u, g_start)
+    c = cofactors(f)/determinant(f)
+    g(:, :dim) = matmul(g_start(:, :dim), transpose(c(:dim, :dim)))
+    if (direct > dim) g(:, direct) = g_start(:, direct)/f(3, 3)
+    call strain_matrix(dim, direct, 2**dim, g, b)
+    change = (change - sum(b(:, :, :direct), 3))/dim
+    do i = 1, dim
+      b(:, :, i) = b(:, :, i) + change
+    end do
+  end subroutine carry
 
   !> Gradient (3, 3) of displacements.
   pure function gradient_of(dim, direct, nodes, u, g) result(gradient)

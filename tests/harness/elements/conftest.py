@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Blocks for tests without a deck and without the assembly."""
 
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -10,10 +11,19 @@ import scipy.sparse as sp
 
 from harness import usersub
 from harness.elements import Call, build_blocks
+from harness.elements.solid import SOLIDS
 from harness.errors import Source
 from harness.model.mesh import ElementGroup, Mesh
 from harness.model.model import Model
-from harness.model.properties import Elastic, ElasticType, Material, SolidSection, UserElement, UserProperty
+from harness.model.properties import (
+    Elastic,
+    ElasticType,
+    Material,
+    SectionControls,
+    SolidSection,
+    UserElement,
+    UserProperty,
+)
 
 HERE = Path(__file__).parent
 SOURCE = Source("test.inp", 7)
@@ -91,3 +101,46 @@ def bound():
         return block, matrix
 
     return bound
+
+
+@pytest.fixture
+def forces_of(solid_group, bound, load, call):
+    """Force, tangent and energies of an element, or of some, by the displacements (nodes, directions)."""
+
+    def forces_of(element_type, nodes, *, elements=None, young=1000.0, nu=0.3, nlgeom=False, **options):
+        elastic = Elastic(ElasticType.ISOTROPIC, (young, nu), SOURCE)
+        elements = np.arange(len(nodes))[None] if elements is None else elements
+        group = solid_group(element_type, elements, 1.0, elastic=elastic)
+        group = replace(group, section=replace(group.section, **options))
+        block, matrix = bound(group, nodes, load(None))
+        now = replace(call, lflags=(1, int(nlgeom), 1, 0, 0))
+
+        def evaluate(u):
+            u = np.asarray(u, dtype=float)[:, : SOLIDS[element_type].dimension]
+            residual = np.zeros(u.size)
+            matrix.data[:] = 0
+            report = block.evaluate(now, u.ravel(), u.ravel(), residual, matrix.data)
+            return -residual.reshape(u.shape), matrix.toarray(), report.energy
+
+        return evaluate
+
+    return forces_of
+
+
+@pytest.fixture
+def control_of(forces_of):
+    """Force and tangent of the hourglass control alone: total stiffness of a parameter, or enhanced (None)."""
+
+    def control_of(element_type, nodes, parameter, **options):
+        ways = [{"hourglass": r} for r in (1.0, 2.0)]
+        ways += [{"controls": SectionControls(enhanced=True)} if parameter is None else {"hourglass": parameter}]
+        solids = [forces_of(element_type, nodes, **way, **options) for way in ways]
+
+        def evaluate(u):
+            found = [solid(u)[:2] for solid in solids]
+            # force and tangent are linear in the parameter: what they are with none
+            return tuple(wanted - (2 * one - two) for one, two, wanted in zip(*found, strict=True))
+
+        return evaluate
+
+    return control_of

@@ -1,0 +1,122 @@
+# SPDX-FileCopyrightText: The uel-harness authors
+# SPDX-License-Identifier: BSD-3-Clause
+"""Enhanced hourglass control: exact bending, the published forces of a brick, and what it does not go with."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from harness.errors import DeckError, Source
+from harness.model.properties import Elastic, ElasticType, Material, SectionControls, UserMaterial
+
+SOURCE = Source("test.inp", 1)
+SQUARE = np.array([[-1.0, -1, 0], [1, -1, 0], [1, 1, 0], [-1, 1, 0]])
+CUBE = np.vstack([SQUARE - np.eye(3)[2], SQUARE + np.eye(3)[2]])
+ENHANCED = SectionControls(enhanced=True)
+GRID = [np.array(values) for values in ([0.0, 1.0, 4.0], [-0.3, 0.1, 0.4], [-0.2, 0.3, 0.5])]
+
+
+def rectangles(dimension):
+    """Nodes and elements of 2 x 2 (x 2) rectangles or bricks of different sizes."""
+    axes = GRID[:dimension]
+    nodes = np.stack(np.meshgrid(*axes, indexing="ij"), axis=-1).reshape(-1, dimension)
+    step = 3 ** np.arange(dimension - 1, -1, -1)
+    first = np.stack(np.meshgrid(*[[0, 1]] * dimension, indexing="ij"), axis=-1).reshape(-1, dimension) @ step
+    corners = (((CUBE if dimension == 3 else SQUARE)[:, :dimension] + 1) / 2).astype(int) @ step
+    return np.pad(nodes, ((0, 0), (0, 3 - dimension))), first[:, None] + corners
+
+
+@pytest.mark.parametrize("element_type", ["CPS4R", "CPE4R"])
+def test_rectangles_with_enhanced_control_bend_exactly(forces_of, element_type):
+    """u = (xy, -x^2/2 - m y^2/2) is bending by E11 = y alone, with m = nu and E, in plane strain nu/(1 - nu) and
+    E/(1 - nu^2): no force within, and the energy of the beam."""
+    young, nu = 1000.0, 0.3
+    ratio, modulus = (nu, young) if element_type == "CPS4R" else (nu / (1 - nu), young / (1 - nu**2))
+    nodes, elements = rectangles(2)
+    x, y, _ = nodes.T
+    u = np.column_stack([x * y, -(x**2 + ratio * y**2) / 2])
+    force, _, energy = forces_of(element_type, nodes, elements=elements, young=young, nu=nu, controls=ENHANCED)(u)
+    assert energy[1] + energy[5] == pytest.approx(modulus / 2 * 4 * (0.4**3 + 0.3**3) / 3, rel=1e-12)
+    np.testing.assert_allclose(force[(x > 0) & (x < 4)], 0.0, atol=1e-10)
+    np.testing.assert_allclose(force[:, 1], 0.0, atol=1e-10)
+
+
+@pytest.mark.parametrize("axis", [0, 1, 2])
+def test_bricks_with_enhanced_control_bend_exactly(forces_of, axis):
+    """Bending by E11 = y alone, the section bent as well: u = (xy, -x^2/2 - nu (y^2 - z^2)/2, -nu y z)."""
+    young, nu = 1000.0, 0.3
+    nodes, elements = rectangles(3)
+    x, y, z = nodes[:, np.roll([0, 1, 2], -axis)].T
+    u = np.column_stack([x * y, -(x**2 + nu * (y**2 - z**2)) / 2, -nu * y * z])[:, np.roll([0, 1, 2], axis)]
+    force, _, energy = forces_of("C3D8R", nodes, elements=elements, young=young, nu=nu, controls=ENHANCED)(u)
+    second_moment = np.ptp(z) * (y.max() ** 3 - y.min() ** 3) / 3
+    assert energy[1] + energy[5] == pytest.approx(young / 2 * np.ptp(x) * second_moment, rel=1e-12)
+    inside = (x > x.min()) & (x < x.max())
+    np.testing.assert_allclose(force[inside], 0.0, atol=1e-9)
+
+
+def test_enhanced_control_of_a_brick_as_published(control_of):
+    """Forces Q of the hourglass displacements q of a brick (T. Belytschko, L.P. Bindeman, Computer Methods in Applied
+    Mechanics and Engineering 105 (1993) 225), those of h_1 = yz, h_2 = zx, h_3 = xy, h_4 = xyz over 8."""
+    young, nu = 1000.0, 0.3
+    shear, lengths = young / (2 * (1 + nu)), np.array([2.0, 0.7, 0.4])
+    signs = CUBE
+    patterns = np.array(
+        [signs[:, 1] * signs[:, 2], signs[:, 2] * signs[:, 0], signs[:, 0] * signs[:, 1], signs.prod(1)]
+    )
+    q = np.random.default_rng(1).normal(size=(3, 4))
+    edges = 4 * lengths  # sums of signs times coordinates
+    forces = np.zeros((3, 4))
+    for i in range(3):
+        j, k = (i + 1) % 3, (i + 2) % 3
+
+        def h(a, b):
+            c = 3 - a - b
+            return edges[c] / 3 if a != b else edges[(a + 1) % 3] * edges[(a + 2) % 3] / edges[a] / 3
+
+        forces[i, i] = shear * ((h(j, j) + h(k, k)) * q[i, i] + h(i, j) * q[j, j] + h(i, k) * q[k, k])
+        for m in (j, k):
+            forces[i, m] = 2 * shear / (1 - nu) * (h(i, i) * q[i, m] + nu * h(i, m) * q[m, i])
+        forces[i, 3] = 2 * shear * (1 + nu) / 3 * h(i, i) * q[i, 3]
+    # displacements q times the patterns have hourglass displacements 8 q over 8
+    force, _ = control_of("C3D8R", CUBE / 2 * lengths, None, young=young, nu=nu)((q @ patterns).T)
+    np.testing.assert_allclose(force, (forces @ patterns).T / 8, rtol=1e-12)
+
+
+def test_enhanced_control_warns(solid_group, bound, load):
+    library = load(None)
+    group = solid_group("CPS4R", np.arange(4)[None], 1.0)
+    bound(replace(group, section=replace(group.section, controls=ENHANCED)), SQUARE, library)
+    (warning,) = [message.text for message in library.messages()]
+    assert "test.inp:7: *SECTION CONTROLS, HOURGLASS=ENHANCED: the published method" in warning
+    assert "no results of Abaqus to compare with" in warning
+
+
+PLY = Elastic(ElasticType.LAMINA, (1000.0, 500.0, 0.3, 200.0, 200.0, 200.0), SOURCE)
+USER = Material("M", SOURCE, user=UserMaterial(np.array([1.0]), False, SOURCE))
+
+
+@pytest.mark.parametrize(
+    ("element_type", "change", "message"),
+    [
+        ("CAX4R", {}, r"not supported for elements of type CAX4R; expected plane elements or C3D8R"),
+        ("CPS4R", {"material": Material("M", SOURCE, PLY)}, r"for material M; expected \*ELASTIC, TYPE=ISOTROPIC that"),
+        ("CPE4R", {"material": USER}, r"for material M; expected \*ELASTIC, TYPE=ISOTROPIC that depends on nothing"),
+        (
+            "CPE4R",
+            {"hourglass": 1.0},
+            r"\*HOURGLASS STIFFNESS and \*SECTION CONTROLS with HOURGLASS=ENHANCED: expected",
+        ),
+        (
+            "CPE4R",
+            {"hourglass": 1.0, "controls": SectionControls(hourglass=2.0)},
+            r"\*HOURGLASS STIFFNESS and \*SECTION CONTROLS with a factor of the hourglass stiffness: expected one",
+        ),
+    ],
+)
+def test_what_controls_do_not_go_with(solid_group, bound, load, element_type, change, message):
+    group = solid_group(element_type, np.arange(4)[None], 1.0)
+    group = replace(group, section=replace(group.section, **({"controls": ENHANCED} | change)))
+    with pytest.raises(DeckError, match=r"test.inp:7: .*" + message):
+        bound(group, SQUARE + 2 * np.eye(3)[0], load(None))
