@@ -109,7 +109,8 @@ def solid_procedure(model: Model, group: ElementGroup, section: SolidSection, li
     if nonlinear is not None and section.orientation is not None:
         message = f"*ORIENTATION is not supported for elements of type {group.type} with NLGEOM ({nonlinear.source})"
         raise DeckError(section.source, message)
-    hourglass = _hourglass_stiffness(group, kind, section, library)
+    hourglass = _hourglass_stiffness(group, kind, section)
+    _warn_of_enhanced(model, group, kind, library)
     number = define_material(material, section.orientation, kind.tensor, section.source, library)
     define_fields(number, material, section.orientation, kind.tensor, library)
     if material.expansion:
@@ -163,7 +164,7 @@ def history_of(material: Material, points: int) -> tuple[int, int]:
     return values, points if values > 1 else 1
 
 
-def _hourglass_stiffness(group: ElementGroup, kind: Solid, section: SolidSection, library: Library) -> float:
+def _hourglass_stiffness(group: ElementGroup, kind: Solid, section: SolidSection) -> float:
     """Parameter of the total stiffness; 0 where there is none. Raises DeckError."""
     controls, elastic = section.controls, section.material.elastic
     if not kind.hourglass_control:
@@ -173,8 +174,6 @@ def _hourglass_stiffness(group: ElementGroup, kind: Solid, section: SolidSection
         raise DeckError(section.source, f"*HOURGLASS STIFFNESS and *SECTION CONTROLS with {what}: expected one of them")
     if controls.enhanced:
         _check_enhanced(group, kind, section)
-        message = "*SECTION CONTROLS, HOURGLASS=ENHANCED: the published method that Abaqus' manual names"
-        library.warn(f"{section.source}: {message}; there are no results of Abaqus to compare with")
         return 0.0
     if section.hourglass:
         return section.hourglass
@@ -195,6 +194,16 @@ def _check_enhanced(group: ElementGroup, kind: Solid, section: SolidSection) -> 
         return
     message = f"*SECTION CONTROLS, HOURGLASS=ENHANCED is not supported for {what}; expected {expected}"
     raise DeckError(section.source, message)
+
+
+def _warn_of_enhanced(model: Model, group: ElementGroup, kind: Solid, library: Library) -> None:
+    """Say, once for a section, what the enhanced hourglass control stands on."""
+    section = group.section
+    if not (isinstance(section, SolidSection) and section.controls.enhanced and kind.hourglass_control):
+        return
+    if group is next(other for other in model.groups if other.section is section):
+        message = "*SECTION CONTROLS, HOURGLASS=ENHANCED: the published method that Abaqus' manual names"
+        library.warn(f"{section.source}: {message}; there are no results of Abaqus to compare with")
 
 
 def _output_variables(section: SolidSection, points: int, library: Library) -> OutputVariables | None:

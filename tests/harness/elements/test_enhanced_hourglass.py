@@ -3,11 +3,15 @@
 """Enhanced hourglass control: exact bending, the published forces of a brick, and what it does not go with."""
 
 from dataclasses import replace
+from pathlib import Path
 
 import numpy as np
 import pytest
 
+from harness.elements import build_blocks
 from harness.errors import DeckError, Source
+from harness.model.mesh import Mesh
+from harness.model.model import Model
 from harness.model.properties import Elastic, ElasticType, Material, SectionControls, UserMaterial
 
 SOURCE = Source("test.inp", 1)
@@ -84,10 +88,13 @@ def test_enhanced_control_of_a_brick_as_published(control_of):
     np.testing.assert_allclose(force, (forces @ patterns).T / 8, rtol=1e-12)
 
 
-def test_enhanced_control_warns(solid_group, bound, load):
+def test_enhanced_control_warns_once_for_a_section(solid_group, load):
     library = load(None)
     group = solid_group("CPS4R", np.arange(4)[None], 1.0)
-    bound(replace(group, section=replace(group.section, controls=ENHANCED)), SQUARE, library)
+    group = replace(group, section=replace(group.section, controls=ENHANCED))
+    others = (replace(group, labels=np.array([7])), solid_group("CPS4", np.arange(4)[None], 1.0))
+    mesh = Mesh(np.arange(1, 5), SQUARE, ("",) * 4)
+    build_blocks(Model(Path("test.inp"), "", mesh, (group, *others), ()), library)
     (warning,) = [message.text for message in library.messages()]
     assert "test.inp:7: *SECTION CONTROLS, HOURGLASS=ENHANCED: the published method" in warning
     assert "no results of Abaqus to compare with" in warning
