@@ -5,7 +5,15 @@ module host_context
   use host_kinds, only: dp, i4
   implicit none (type, external)
   private
-  public :: call_context, current, job_name, output_directory
+  public :: call_context, current, heat_t, job_name, output_directory
+
+  !> What UMAT says about heat at the end of the increment; directions of the stresses, shear strains twice.
+  type :: heat_t
+    real(dp) :: source = 0                   !< RPL, heat generated per volume and time
+    real(dp) :: source_by_temperature = 0    !< DRPLDT
+    real(dp) :: source_by_strain(6) = 0      !< DRPLDE
+    real(dp) :: stress_by_temperature(6) = 0 !< DDSDDT
+  end type heat_t
 
   type :: call_context
     character(len=16) :: routine = ' '   !< name of the user routine that runs
@@ -21,6 +29,7 @@ module host_context
     real(dp) :: length = 0        !< characteristic length of the element
     real(dp) :: pnewdt = 0        !< smallest that a user material has returned in this call
     integer(i4) :: tensor = 0     !< components of stress: 3, 4 or 6; 0 without a material
+    type(heat_t) :: heat          !< of the last call of UMAT
     logical :: finite = .false.   !< large displacements: the next two are those of the point
     real(dp) :: rotation(3, 3) = 0         !< of the increment
     real(dp) :: deformation(3, 3, 2) = 0   !< deformation gradients at its start and end, for UMAT

@@ -4,17 +4,18 @@
 !> UELMAT: a continuum element (host_solid), and heat conduction with temperatures at its corners.
 !>
 !> The unknowns are the displacements of all nodes, then the temperatures of the corners. PROPS go on with conductivity and
-!> specific heat. Without thermal expansion the two parts see each other through the change of shape alone, which the
-!> tangent leaves out.
+!> specific heat. Without thermal expansion the two parts see each other through what UMAT says of heat (host_coupling), and
+!> through the change of shape, which the tangent leaves out.
 !>
 !> Heat is conducted through the present shape (Fourier's law, isotropic). It is stored by the initial mass, over time by
 !> backward differences, at the corners in elements with straight edges, as in Abaqus (Theory Guide, Uncoupled heat
 !> transfer analysis).
 module host_coupled
+  use host_coupling, only: coupling_t, thermal_points
   use host_kinds, only: dp, i4
   use host_kinematics, only: cofactors
   use host_shape, only: radius_of, rule_of, rule_t
-  use host_solid, only: solid_uelmat
+  use host_solid, only: solid_element
   implicit none (type, external)
   private
   public :: coupled_uelmat
@@ -28,16 +29,21 @@ contains
                             lflags, mlvarx, ddlmag, mdload, pnewdt, jprops, njprop, period, materiallib)
     integer(i4) :: ndofel, nrhs, nsvars, nprops, mcrd, nnode, jtype, kstep, kinc, jelem, ndload, jdltyp(*), npredf, &
                    lflags(*), mlvarx, mdload, jprops(*), njprop, materiallib
-    real(dp) :: rhs(ndofel), amatrx(ndofel, ndofel), svars(*), energy(*), props(nprops), coords(mcrd, nnode), u(ndofel), &
-                du(ndofel), v(*), a(*), time(*), dtime, params(*), adlmag(*), predef(*), ddlmag(*), pnewdt, period
+    real(dp), target :: rhs(ndofel), amatrx(ndofel, ndofel), u(ndofel), du(ndofel)
+    real(dp) :: svars(*), energy(*), props(nprops), coords(mcrd, nnode), v(*), a(*), time(*), dtime, params(*), adlmag(*), &
+                predef(*), ddlmag(*), pnewdt, period
     real(dp) :: force(mcrd*nnode), stiffness(mcrd*nnode, mcrd*nnode), now(mcrd, nnode)
+    type(coupling_t) :: coupling
     integer(i4) :: n
     n = mcrd*nnode
-    call solid_uelmat(force, stiffness, svars, energy, n, nrhs, nsvars, props, nprops, coords, mcrd, nnode, u, du, v, a, jtype, &
-                      time, dtime, kstep, kinc, jelem, params, ndload, jdltyp, adlmag, predef, npredf, lflags, n, ddlmag, &
-                      mdload, pnewdt, jprops, njprop, period, materiallib)
     rhs = 0
     amatrx = 0
+    coupling%temperature => u(n + 1:)
+    coupling%increment => du(n + 1:)
+    coupling%heat => rhs(n + 1:)
+    coupling%tangent => amatrx
+    call solid_element(force, stiffness, svars, energy, n, nrhs, nsvars, props, coords, mcrd, nnode, u, du, v, a, params, dtime, &
+                       predef, npredf, lflags, jprops, materiallib, coupling)
     rhs(:n) = force
     amatrx(:n, :n) = stiffness
     if (lflags(3) == 3 .or. lflags(3) == 4) return
@@ -102,17 +108,13 @@ contains
     tangent = tangent + matrix
   end subroutine store
 
-  !> Integration points with the functions of the shape and of the temperature. One point would not feel all temperatures
-  !> of a quadrilateral or hexahedron: these have two in each direction at least. Nor would it tell the corners of a
-  !> triangle about an axis apart, which have different radii.
+  !> Integration points with the functions of the shape and of the temperature.
   subroutine rules(dim, nodes, corners, points, axisymmetric, geometry, field)
     integer, intent(in) :: dim, nodes, corners, points
     logical, intent(in) :: axisymmetric
     type(rule_t), pointer, intent(out) :: geometry, field
     integer :: count
-    count = points
-    if (corners == 2**dim) count = max(points, 2**dim)
-    if (axisymmetric .and. nodes == 3) count = 3
+    count = thermal_points(dim, nodes, points, axisymmetric)
     geometry => rule_of(dim, nodes, count)
     field => rule_of(dim, corners, count)
   end subroutine rules

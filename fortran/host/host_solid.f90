@@ -20,6 +20,7 @@
 !> increments.
 module host_solid
   use host_context, only: current
+  use host_coupling, only: add_heat_source, coupling_t, set_temperature
   use host_hourglass, only: has_hourglass_modes, resist_hourglass
   use host_inertia, only: is_dynamic, mass_matrix, respond
   use host_kinds, only: dp, i4
@@ -30,7 +31,7 @@ module host_solid
   use host_usdfld, only: call_usdfld
   implicit none (type, external)
   private
-  public :: solid_uelmat
+  public :: solid_uelmat, solid_element
 
   real(dp), parameter :: identity(3, 3) = reshape([1, 0, 0, 0, 1, 0, 0, 0, 1], [3, 3])
 
@@ -43,6 +44,16 @@ contains
                    lflags(*), mlvarx, mdload, jprops(*), njprop, materiallib
     real(dp) :: rhs(*), amatrx(*), svars(*), energy(*), props(*), coords(*), u(*), du(*), v(*), a(*), time(*), dtime, &
                 params(*), adlmag(*), predef(*), ddlmag(*), pnewdt, period
+    call solid_element(rhs, amatrx, svars, energy, ndofel, nrhs, nsvars, props, coords, mcrd, nnode, u, du, v, a, params, dtime, &
+                       predef, npredf, lflags, jprops, materiallib)
+  end subroutine solid_uelmat
+
+  !> The same without the arguments that it does not use; coupling: where the element has temperatures too.
+  subroutine solid_element(rhs, amatrx, svars, energy, ndofel, nrhs, nsvars, props, coords, mcrd, nnode, u, du, v, a, params, &
+                           dtime, predef, npredf, lflags, jprops, materiallib, coupling)
+    integer(i4) :: ndofel, nrhs, nsvars, mcrd, nnode, npredf, lflags(*), jprops(*), materiallib
+    real(dp) :: rhs(*), amatrx(*), svars(*), energy(*), props(*), coords(*), u(*), du(*), v(*), a(*), params(*), dtime, predef(*)
+    type(coupling_t), intent(inout), optional :: coupling
     type(material_t), pointer :: material
     real(dp) :: mass(ndofel, ndofel), old(ndofel, 2)
     integer :: dim, direct, nodes, points, first, last, n
@@ -63,11 +74,12 @@ contains
     amatrx(1:n*n) = 0
     if (lflags(3) /= 3 .and. lflags(3) /= 4) then
       call integrate(dim, direct, direct + 2*dim - 3, nodes, points, lflags(2) /= 0, material, props(1), props(3), &
-                     jprops(3) /= 0, coords, int(npredf), predef, u, du, rhs, amatrx, svars, energy)
+                     jprops(3) /= 0, coords, int(npredf), predef, u, du, rhs, amatrx, svars, energy, &
+                     coupling)
     end if
     call respond(n, lflags, params, dtime, v, a, mass, old, rhs, amatrx, energy(1))
     if (nsvars >= last) svars(first:last) = reshape(old, [2*n])
-  end subroutine solid_uelmat
+  end subroutine solid_element
 
   !> Strains and stresses that SVARS hold for a point.
   pure integer function values_of_point(dim)
@@ -77,13 +89,14 @@ contains
 
   !> Force, tangent, state and energies.
   subroutine integrate(dim, direct, strains, nodes, points, finite, material, thickness, hourglass, enhanced, x, fields, &
-                       predef, u, du, force, stiffness, svars, energy)
+                       predef, u, du, force, stiffness, svars, energy, coupling)
     integer, intent(in) :: dim, direct, strains, nodes, points, fields
     logical, intent(in) :: finite, enhanced
     type(material_t), intent(inout) :: material
     real(dp), intent(in) :: thickness, hourglass, x(dim, nodes), predef(2, fields, nodes), u(dim, nodes), du(dim, nodes)
     real(dp), intent(inout) :: force(dim*nodes), stiffness(dim*nodes, dim*nodes), svars(values_of_point(dim), points)
     real(dp), intent(inout) :: energy(8)
+    type(coupling_t), intent(inout), optional :: coupling
     real(dp) :: now(dim, nodes), g(nodes, direct, points), b(dim*nodes, strains, points), volume(points)
     real(dp) :: g_mid(nodes, direct, points), b_mid(dim*nodes, strains, points), volume_mid(points), weight, elastic, work
     real(dp) :: g_start(nodes, direct), volume_start
@@ -114,6 +127,7 @@ contains
       if (has_fields(material)) then
         current%place = point_position(points, p, now)
         call interpolate(dim, nodes, points, p, fields, predef, material%variables)
+        if (present(coupling)) call set_temperature(coupling, dim, direct, points, p, now)
       end if
       if (allocated(material%user_field)) then
         call call_usdfld(material%user_field, material%ntens, int(p, i4), material%axes, svars(:, p))
@@ -131,6 +145,9 @@ contains
       call point_update(dim, strains, material, int(p, i4), weight, finite, strain, thermal, svars(:, p), stress, modulus, &
                         elastic, work)
       if (finite .and. material%ntens == 3) weight = weight*exp(svars(3, p))
+      if (present(coupling) .and. allocated(material%user)) then
+        call add_heat_source(coupling, weight, b(:, :, p), components(strains, material%ntens))
+      end if
       if (finite) call add_geometric(dim, direct, strains, nodes, g(:, :, p), stress, weight, modulus, stiffness)
       select case (strains)
       case (3)
@@ -301,6 +318,14 @@ contains
                   + a(1, 3)*(a(2, 1)*a(3, 2) - a(2, 2)*a(3, 1))
   end function determinant
 
+  !> Places of m strains (three in the plane: 11, 22, 12) among n components.
+  pure function components(m, n) result(place)
+    integer, intent(in) :: m, n
+    integer :: place(m), k
+    place = [(k, k=1, m)]
+    if (m == 3 .and. n > 3) place(3) = 4
+  end function components
+
   !> Stress and tangent of a point (11, 22, 12 in the plane); its state and its part of the energies. strain is the total
   !> one in small displacements, that of the increment in large ones; thermal: at the start and end of the increment.
   subroutine point_update(dim, m, material, point, volume, finite, strain, thermal, state, stress, modulus, elastic, work)
@@ -311,17 +336,14 @@ contains
     real(dp), intent(in) :: volume, strain(m), thermal(2)
     real(dp), intent(inout) :: state(values_of_point(dim)), elastic, work
     real(dp), intent(out) :: stress(m), modulus(m, m)
-    integer, parameter :: plane(3) = [1, 2, 4], space(6) = [1, 2, 3, 4, 5, 6]
-    integer :: j, k, n, of_material(6), of_state(6), direct
+    integer :: j, k, n, of_material(m), of_state(m), direct
     real(dp) :: total(material%ntens), t(material%ntens), tangent(material%ntens, material%ntens)
     real(dp) :: e_old(values_of_point(dim)/2), t_old(values_of_point(dim)/2), e_new(values_of_point(dim)/2), &
                 t_new(values_of_point(dim)/2)
     logical :: valid
     n = values_of_point(dim)/2
-    of_state = space
-    if (m == 3) of_state(:3) = plane
-    of_material = of_state
-    if (material%ntens == 3) of_material(3) = 3
+    of_state = components(m, 2*dim)
+    of_material = components(m, material%ntens)
     e_old = state(:n)
     t_old = state(n + 1:)
     if (finite) then

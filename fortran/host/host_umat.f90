@@ -6,7 +6,7 @@
 !> displacements DFGRD0, DFGRD1 and DROT are the identity; in large ones STRAN and STRESS come turned by DROT.
 module host_umat
   use, intrinsic :: iso_c_binding, only: c_f_procpointer, c_funptr
-  use host_context, only: current
+  use host_context, only: current, heat_t
   use host_kinds, only: dp, i4
   use host_kinematics, only: rotated
   implicit none (type, external)
@@ -50,6 +50,7 @@ contains
   end function field_variables
 
   !> Stress and tangent at the end of the increment; the history goes from old to new, where STATEV are those to begin with.
+  !> What UMAT says about heat is in current%heat.
   subroutine call_umat(material, ntens, point, strain, old, stress, tangent, new)
     type(user_material_t), intent(in) :: material
     integer, intent(in) :: ntens
@@ -119,6 +120,9 @@ contains
               temp, dtemp, predef, dpred, cmname, ndi, nshr, components, nstatv, constants, nprops, coords, drot, pnewdt, &
               celent, dfgrd0, dfgrd1, noel, npt, layer, kspt, jstep, kinc)
     current%routine = routine
+    current%heat = heat_t(source=rpl, source_by_temperature=drpldt)
+    current%heat%source_by_strain(:ntens) = drplde
+    current%heat%stress_by_temperature(:ntens) = ddsddt
     current%pnewdt = min(current%pnewdt, pnewdt)
     new(:ntens) = strain
     new(7:6 + ntens) = stress

@@ -247,7 +247,7 @@ PROPERTIES = (
     ),
     Keyword(
         "USER MATERIAL",
-        "Material of UMAT.",
+        "Material of UMAT. RPL, DRPLDT, DRPLDE and DDSDDT count in coupled temperature-displacement elements.",
         Where.MODEL,
         (
             Option("CONSTANTS", Kind.INTEGER, "number of constants", required=True),

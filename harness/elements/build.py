@@ -122,11 +122,11 @@ MOST_POINTS: Final = 64
 
 
 def _solid_block(model: Model, group: ElementGroup, library: Library) -> Block:
-    section, kind = group.section, solid_of(group)
+    section, kind, coupled = group.section, solid_of(group), group.type in COUPLED
     if not isinstance(section, SolidSection):
         raise DeckError(section.source, f"elements of type {group.type} take *SOLID SECTION")
     _check_nodes(group, kind.nodes)
-    if group.type in COUPLED:
+    if coupled:
         procedure, unknowns = coupled_procedure(model, group, section, library), coupled_unknowns(group)
     else:
         procedure = solid_procedure(model, group, section, library)
@@ -137,8 +137,9 @@ def _solid_block(model: Model, group: ElementGroup, library: Library) -> Block:
         unknowns,
         procedure,
         library,
-        # the elastic and the plastic tangent are symmetric
-        unsymmetric=section.material.user is not None and section.material.user.unsymmetric,
+        # the elastic and the plastic tangent are symmetric; Abaqus stores the matrix of coupled steps as unsymmetric,
+        # UNSYMM or not (Analysis User's Guide, Fully coupled thermal-stress analysis), as what UMAT says of heat needs
+        unsymmetric=section.material.user is not None and (coupled or section.material.user.unsymmetric),
         variables=solid_variables(group, procedure),
     )
 

@@ -1,0 +1,91 @@
+! SPDX-FileCopyrightText: The uel-harness authors
+! SPDX-License-Identifier: BSD-3-Clause
+!> What UMAT adds to a coupled temperature-displacement element: the heat RPL that it generates at the points, and the
+!> derivatives DRPLDT, DRPLDE and DDSDDT for the tangent (User Subroutines Guide, UMAT).
+!>
+!> The temperature of a point is that between the corners, in elements with middle nodes too (Analysis User's Guide,
+!> Coupled temperature-displacement elements). The manual leaves open whether elements with straight edges take the mean of
+!> the corners instead, as it says of their thermal strain: here every point has its own.
+module host_coupling
+  use host_context, only: current
+  use host_kinds, only: dp
+  use host_kinematics, only: gradients
+  use host_shape, only: rule_of, rule_t
+  implicit none (type, external)
+  private
+  public :: coupling_t, thermal_points, set_temperature, add_heat_source
+
+  !> Corners of an element: their temperatures, and their part of its equations. The arrays belong to the caller.
+  type :: coupling_t
+    real(dp), pointer :: temperature(:) => null()   !< at the end of the increment
+    real(dp), pointer :: increment(:) => null()
+    real(dp), pointer :: heat(:) => null()          !< that flows into the corners
+    !> Tangent of all unknowns, temperatures behind the displacements; the part of the displacements alone stays.
+    real(dp), pointer :: tangent(:, :) => null()
+    real(dp) :: shape(8) = 0                        !< of the temperatures, in the point of set_temperature
+  end type coupling_t
+
+contains
+
+  !> Points of the integrals over temperatures. One would not feel all temperatures of a quadrilateral or hexahedron: these
+  !> have two in each direction at least. Nor would it tell the corners of a triangle about an axis apart, which have
+  !> different radii.
+  pure integer function thermal_points(dim, nodes, points, axisymmetric)
+    integer, intent(in) :: dim, nodes, points   !< points: of the stresses
+    logical, intent(in) :: axisymmetric
+    thermal_points = points
+    if (nodes >= 2**dim) thermal_points = max(points, 2**dim)
+    if (axisymmetric .and. nodes == 3) thermal_points = 3
+  end function thermal_points
+
+  !> Give UMAT the temperature of a point, at the start of the increment and its change. The only point of an element stands
+  !> for all of it, and has the mean.
+  subroutine set_temperature(coupling, dim, direct, points, point, x)
+    type(coupling_t), intent(inout) :: coupling
+    integer, intent(in) :: dim, direct, points, point
+    real(dp), intent(in) :: x(:, :)             !< (dimension, nodes) of the present shape
+    type(rule_t), pointer :: rule
+    real(dp) :: g(size(x, 2), direct), volume, total
+    integer :: corners, count, p
+    corners = size(coupling%temperature)
+    count = thermal_points(dim, size(x, 2), points, direct > dim)
+    rule => rule_of(dim, corners, count)
+    if (count == points) then
+      coupling%shape(:corners) = rule%n(:, point)
+    else
+      total = 0
+      coupling%shape = 0
+      do p = 1, count
+        call gradients(dim, direct, size(x, 2), count, p, x, g, volume)
+        coupling%shape(:corners) = coupling%shape(:corners) + volume*rule%n(:, p)
+        total = total + volume
+      end do
+      coupling%shape = coupling%shape/total
+    end if
+    current%fields(1, 2) = dot_product(coupling%increment, coupling%shape(:corners))
+    current%fields(1, 1) = dot_product(coupling%temperature, coupling%shape(:corners)) - current%fields(1, 2)
+  end subroutine set_temperature
+
+  !> Add the heat source of a point, as the last call of UMAT left it.
+  subroutine add_heat_source(coupling, volume, b, component)
+    type(coupling_t), intent(inout) :: coupling
+    real(dp), intent(in) :: volume
+    real(dp), intent(in) :: b(:, :)           !< (displacements, strains)
+    integer, intent(in) :: component(:)       !< of the stresses of UMAT, that of each strain
+    integer :: i, j, n, corners
+    n = size(b, 1)
+    corners = size(coupling%heat)
+    associate (heat => current%heat, shape => coupling%shape, k => coupling%tangent)
+      coupling%heat = coupling%heat + volume*heat%source*shape(:corners)
+      do j = 1, corners
+        do i = 1, corners
+          k(n + i, n + j) = k(n + i, n + j) - volume*heat%source_by_temperature*shape(i)*shape(j)
+        end do
+        do i = 1, n
+          k(n + j, i) = k(n + j, i) - volume*shape(j)*dot_product(b(i, :), heat%source_by_strain(component))
+          k(i, n + j) = k(i, n + j) + volume*shape(j)*dot_product(b(i, :), heat%stress_by_temperature(component))
+        end do
+      end do
+    end associate
+  end subroutine add_heat_source
+end module host_coupling
