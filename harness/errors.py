@@ -76,6 +76,10 @@ class NotFiniteError(KernelError):
     """It returned NaN, or infinity."""
 
 
+class DistortionError(KernelError):
+    """A built-in element has turned inside out."""
+
+
 class CallLimitError(ElementError):
     """A call did not return within the time that a call may take."""
 

@@ -30,6 +30,8 @@ module host_context
     real(dp) :: pnewdt = 0        !< smallest that a user material has returned in this call
     integer(i4) :: tensor = 0     !< components of stress: 3, 4 or 6; 0 without a material
     type(heat_t) :: heat          !< of the last call of UMAT
+    logical :: deformed = .false. !< the element has left its initial shape
+    integer :: distorted = 0      !< point at which it is inside out, negative: over the axis; 0 for none
     logical :: finite = .false.   !< large displacements: the next two are those of the point
     real(dp) :: rotation(3, 3) = 0         !< of the increment
     real(dp) :: deformation(3, 3, 2) = 0   !< deformation gradients at its start and end, for UMAT

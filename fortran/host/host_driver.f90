@@ -12,7 +12,7 @@ module host_driver
   implicit none (type, external)
   private
   public :: block_t, run_block, set_marks
-  public :: fault_none, fault_left, fault_outside, fault_unset, fault_not_finite, fault_endless
+  public :: fault_none, fault_left, fault_outside, fault_unset, fault_not_finite, fault_endless, fault_distorted
 
   integer(i4), parameter :: fault_none = 0        !< all went well
   integer(i4), parameter :: fault_left = 1        !< the user routine ended the analysis
@@ -20,6 +20,8 @@ module host_driver
   integer(i4), parameter :: fault_unset = 3       !< an entry was not set
   integer(i4), parameter :: fault_not_finite = 4  !< an entry is NaN or infinite
   integer(i4), parameter :: fault_endless = 5     !< a call did not return in its time
+
+  integer(i4), parameter :: fault_distorted = 6   !< a built-in element has turned inside out
 
   integer(i4), parameter :: guards_stop = 0       !< a write outside an array ends the pass; the element is searched for
   integer(i4), parameter :: guards_notice = 1     !< it is noticed after the pass
@@ -68,7 +70,7 @@ module host_driver
     integer(i4) :: fault = fault_none     !< one of fault_*
     integer(i4) :: position = 0           !< element of the fault, from 1; 0 if it is not known
     integer(i4) :: culprit(3) = 0         !< first element that wrote outside an array, array and entry, with guards_search
-    integer(i4) :: array = 0, index = 0   !< array (number in host_workspace) and entry of the fault
+    integer(i4) :: array = 0, index = 0   !< array (number in host_workspace) and entry of the fault, or point
     integer(i4) :: unset(3) = 0           !< element, array and entry after which entries_notice became entries_zero
     procedure(uel_procedure), pointer, nopass :: uel => null()
     procedure(uelmat_procedure), pointer, nopass :: uelmat => null()
@@ -98,7 +100,8 @@ contains
     case (2)
       block%fault = fault_endless
     case default
-      block%fault = fault_left
+      block%fault = merge(fault_distorted, fault_left, current%distorted /= 0)
+      block%index = current%distorted
     end select
     call find_damage(work, array, index)
     if (array > 0 .and. block%guards == guards_stop) call diagnose(block, array, index)
@@ -139,6 +142,8 @@ contains
     current%iteration = block%iteration
     current%tensor = block%tensor
     current%finite = .false.
+    current%deformed = .false.
+    current%distorted = 0
     current%routine = merge('UELMAT', 'UEL   ', block%with_material)
     current%time = block%time - block%dtime
     current%dtime = block%dtime

@@ -5,6 +5,7 @@
 !> `direct` is the number of direct strains: 2 in the plane; 3 in space, and in axisymmetric elements, which have the hoop
 !> strain u_r/r beside those of the plane: direction 1 is the radius, 2 the axis. Their volumes are per angle.
 module host_kinematics
+  use host_context, only: current
   use host_kinds, only: dp, i4
   use host_messages, only: add_message
   use host_protect, only: escape
@@ -16,7 +17,8 @@ module host_kinematics
 contains
 
   !> Derivatives of the shape functions by the coordinates in a point, where the element is axisymmetric also the
-  !> functions over the radius; and the volume of the point. Leaves the analysis where the element is inside out.
+  !> functions over the radius; and the volume of the point. Leaves the pass where the element is inside out: a displaced
+  !> one is too distorted, which a smaller increment may mend, an initial one is an error of the mesh.
   subroutine gradients(dim, direct, nodes, points, point, x, g, volume)
     integer, intent(in) :: dim, direct, nodes, points, point
     real(dp), intent(in) :: x(dim, nodes)
@@ -34,14 +36,13 @@ contains
     end if
     volume = rule%weight(point)*determinant*radius
     if (determinant > 0 .and. radius > 0) return
-    if (determinant > 0) then
-      write (text, '(a,i0,a,es10.2,a)') 'the integration point ', point, ' of the element is at the radius', radius, &
-        '; it must not cross the axis'
-    else
-      write (text, '(a,i0,a,es10.2,a)') 'the element is inside out at its integration point ', point, &
-        ' (Jacobian', determinant, '); its nodes must run counter-clockwise'
-      if (dim == 3) text = trim(text)//' as seen from its other side'
+    if (current%deformed) then
+      current%distorted = merge(-point, point, determinant > 0)
+      call escape()
     end if
+    write (text, '(a,i0,a,es10.2,a)') 'the element is inside out at its integration point ', point, &
+      ' (Jacobian', determinant*radius, '); its nodes must run counter-clockwise'
+    if (dim == 3) text = trim(text)//' as seen from its other side'
     call add_message(-3_i4, trim(text))
     call escape()
   end subroutine gradients

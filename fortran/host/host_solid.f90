@@ -107,6 +107,8 @@ contains
     averaged = points > 1 .and. nodes == 2**dim .and. material%ntens /= 3
     now = x
     if (finite) now = x + u
+    ! the first pass of an analysis, without displacements, sees the initial shape
+    current%deformed = finite .and. any(abs(u) > 0)
     call all_gradients(dim, direct, strains, nodes, points, averaged, now, g, b, volume)
     if (finite) call all_gradients(dim, direct, strains, nodes, points, averaged, now - 0.5_dp*du, g_mid, b_mid, volume_mid)
     g_start = g(:, :, 1)

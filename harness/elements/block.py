@@ -11,9 +11,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from harness.elements.call import BlockReport, Call, Distributed, Motion, Predefined
-from harness.elements.faults import write_outside, wrong_entry
+from harness.elements.faults import ERRORS, distortion, write_outside, wrong_entry
 from harness.elements.fields import FIELD_NAMES, field_of
-from harness.errors import CallLimitError, ElementError, KernelError, NotFiniteError
+from harness.errors import ElementError, KernelError
 from harness.model.arrays import FloatArray, IntArray
 from harness.model.mesh import ElementGroup
 from harness.model.records import ElementState, PointVariables
@@ -374,11 +374,11 @@ class Block:
                 message = self._library.stop_reason()
             case Fault.OUTSIDE:
                 message = self._outside(outcome, nrhs)
+            case Fault.DISTORTED:
+                message = distortion(outcome)
             case _:
                 message = wrong_entry(outcome, len(self.unknowns))
-        place = f"step {call.step}, increment {call.increment}, iteration {call.iteration}"
-        error = {Fault.ENDLESS: CallLimitError, Fault.NOT_FINITE: NotFiniteError}.get(outcome.fault, KernelError)
-        return error(element, self.group.type, f"{message} ({place})")
+        return ERRORS.get(outcome.fault, KernelError)(element, self.group.type, f"{message} ({call.place})")
 
     def _warn(self, outcome: _binding.Outcome, nrhs: int, call: Call) -> None:
         """Report a write outside an array once; the run goes on, and the next pass looks which element it is."""

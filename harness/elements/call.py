@@ -73,6 +73,11 @@ class Call:
         return (*self.lflags, 0, self.damping)
 
     @property
+    def place(self) -> str:
+        """Step, increment and iteration, for messages."""
+        return f"step {self.step}, increment {self.increment}, iteration {self.iteration}"
+
+    @property
     def unsymmetric(self) -> bool:
         """Whether AMATRX of UEL counts as it is, UNSYMM or not: in coupled temperature-displacement steps.
 

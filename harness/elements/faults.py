@@ -5,8 +5,17 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from typing import Final
 
+from harness.errors import CallLimitError, DistortionError, ElementError, NotFiniteError
 from harness.usersub._binding import Fault, Outcome
+
+ERRORS: Final[Mapping[Fault, type[ElementError]]] = {
+    Fault.ENDLESS: CallLimitError,
+    Fault.NOT_FINITE: NotFiniteError,
+    Fault.DISTORTED: DistortionError,
+}
+"""Those that others tell from a KernelError."""
 
 
 def wrong_entry(outcome: Outcome, n: int) -> str:
@@ -21,6 +30,12 @@ def wrong_entry(outcome: Outcome, n: int) -> str:
         why = "was not filled, or was added to without being set first (RHS and AMATRX are not zero on entry)"
         return f"{entry} {why}{hint}"
     return f"{entry} is NaN or infinite"
+
+
+def distortion(outcome: Outcome) -> str:
+    """A built-in element whose present shape is inside out, or goes over the axis (at -index)."""
+    what = "turns inside out" if outcome.index > 0 else "crosses the axis"
+    return f"{what} at its integration point {abs(outcome.index)}"
 
 
 def write_outside(outcome: Outcome, n: int, nrhs: int, sizes: Mapping[str, str]) -> str:

@@ -18,6 +18,8 @@ DIVERGING = "THE SOLUTION APPEARS TO BE DIVERGING. CONVERGENCE IS JUDGED UNLIKEL
 TOO_SLOW = "THE RATE OF CONVERGENCE IS VERY SLOW. CONVERGENCE IS JUDGED UNLIKELY."
 TOO_MANY_ITERATIONS = "THE SOLUTION FAILS TO CONVERGE IN THE MAXIMUM NUMBER OF EQUILIBRIUM ITERATIONS ALLOWED."
 
+DISTORTED = "ELEMENTS ARE DISTORTING EXCESSIVELY. CONVERGENCE IS JUDGED UNLIKELY."
+
 BELOW_MINIMUM = "TIME INCREMENT REQUIRED IS LESS THAN THE MINIMUM SPECIFIED"
 TOO_MANY_ATTEMPTS = "TOO MANY ATTEMPTS MADE FOR THIS INCREMENT"
 FIXED_TOO_LARGE = "FIXED TIME INCREMENT IS TOO LARGE"
@@ -35,10 +37,14 @@ _ROUNDING = 1e-12
 
 @dataclass(frozen=True, slots=True)
 class Abandoned:
-    """An attempt is given up: the next one takes `factor` times the increment; `reason` as Abaqus words it."""
+    """An attempt is given up: the next one takes `factor` times the increment; `reason` as Abaqus words it.
+
+    cause  what the error says that ends the job where no other attempt is left, if there is more to say
+    """
 
     factor: float
     reason: str
+    cause: str = ""
 
 
 def judge_rate(

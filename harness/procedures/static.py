@@ -13,7 +13,7 @@ import numpy as np
 
 from harness.assembly import Constraints, System
 from harness.elements import Call
-from harness.errors import ConvergenceError, DeckError, SingularMatrixError
+from harness.errors import ConvergenceError, DeckError, DistortionError, SingularMatrixError
 from harness.model.arrays import FloatArray
 from harness.model.model import Model
 from harness.model.records import (
@@ -32,7 +32,14 @@ from harness.model.steps import Step
 from harness.model.user_values import GivesValues, UserValues
 from harness.procedures.checks import Checker
 from harness.procedures.extrapolation import Extrapolation
-from harness.procedures.incrementation import TOO_MANY_INCREMENTS, Abandoned, Accuracy, IncrementControl, refused
+from harness.procedures.incrementation import (
+    DISTORTED,
+    TOO_MANY_INCREMENTS,
+    Abandoned,
+    Accuracy,
+    IncrementControl,
+    refused,
+)
 from harness.procedures.limit import PASSED, LimitLoad
 from harness.procedures.loads import released_reactions
 from harness.procedures.state import State
@@ -177,16 +184,22 @@ class StaticStep:
         end = self._end(size)
         self._amplitudes.attempt(increment, (end, self._start + end), size, self._control.attempts - 1)
         iterates, extrapolated = self._begin(increment, size)
-        iteration, abandoned = 0, None
+        iteration, passes, abandoned = 0, 0, None
         while abandoned is None:
             try:
                 state = next(iterates)
+            except DistortionError as error:
+                # the solve before the pass that failed counts too
+                iteration = passes
+                yield Warned(f"EXCESSIVE DISTORTION IN SOLID (CONTINUUM) ELEMENTS: {error}")
+                abandoned = Abandoned(self._step.controls.time.d_h, DISTORTED, str(error))
+                break
             except SingularMatrixError:
                 if not self._control.in_parts:
                     raise
                 abandoned = Abandoned(self._step.controls.time.d_f, SINGULAR)
                 break
-            iteration = state.iteration
+            iteration, passes = state.iteration, passes + 1
             yield from self._unheld()
             abandoned = refused(state.evaluation.pnewdt)
             if abandoned is None and iteration == 0:
@@ -354,7 +367,8 @@ class StaticStep:
         times = self._times
         yield AttemptAbandoned(number, increment, attempt, iterations, *times, size, following, abandoned.reason)
         if error:
-            raise ConvergenceError(f"{error} (step {number}, increment {increment}, attempt {attempt})")
+            cause = f": {abandoned.cause}" if abandoned.cause else ""
+            raise ConvergenceError(f"{error} (step {number}, increment {increment}, attempt {attempt}){cause}")
 
 
 def choose_solver(name: str, constraints: Constraints) -> LinearSolver:

@@ -66,6 +66,7 @@ class Fault(IntEnum):
     UNSET = 3
     NOT_FINITE = 4
     ENDLESS = 5
+    DISTORTED = 6
 
 
 @dataclass(frozen=True, slots=True)
@@ -74,7 +75,7 @@ class Outcome:
 
     position  element of the fault (from 0; -1 unknown)
     array     name of the array of the fault
-    index     entry of the array, from 1; below 1 or beyond its length for a write outside
+    index     entry of the array, from 1; below 1 or beyond its length for a write outside; or the point
     flux      (ndofel,) sum over the elements of |RHS|
     terms     (ndofel,) entries of RHS above the floor
     """

@@ -1,0 +1,71 @@
+# SPDX-FileCopyrightText: The uel-harness authors
+# SPDX-License-Identifier: BSD-3-Clause
+"""Built-in elements that turn inside out in an iteration: the attempt is given up, as in Abaqus."""
+
+import numpy as np
+import pytest
+
+import harness
+from harness.errors import ConvergenceError, KernelError
+
+YOUNG, PRESSURE = 1000.0, 1500.0
+"""A first solve shortens the element by 1.5 of its length."""
+PLANE = np.array([[0, 0], [1, 0], [1, 1], [0, 1.0]])
+CUBE = np.array([[*x, z] for z in (0.0, 1.0) for x in PLANE])
+
+
+def deck(element_type, nodes, *, options=", NLGEOM", order=1):
+    """An element of side 1 with its sides held, whose right side is pushed and stays straight; nu = 0."""
+    dimension = nodes.shape[1]
+    lines = ["*NODE, NSET=ALL"]
+    lines += [", ".join([str(k), *map(str, x)]) for k, x in enumerate(nodes, start=1)]
+    numbers = range(1, len(nodes) + 1)[::order]
+    lines += [f"*ELEMENT, TYPE={element_type}, ELSET=BODY", ", ".join(map(str, [101, *numbers]))]
+    lines += ["*SOLID SECTION, ELSET=BODY, MATERIAL=M", "1.", "*MATERIAL, NAME=M", "*ELASTIC", f"{YOUNG}, 0."]
+    right = [k for k, x in enumerate(nodes, start=1) if x[0] == 1.0]
+    lines += [f"*EQUATION\n2\n{k}, 1, 1., {right[0]}, 1, -1." for k in right[1:]]
+    lines += [f"*STEP{options}", "*STATIC", "1., 1.", "*BOUNDARY", f"ALL, 2, {dimension}"]
+    lines += [f"{k}, 1" for k, x in enumerate(nodes, start=1) if x[0] == 0.0]
+    lines += ["*CLOAD", f"{right[0]}, 1, {-PRESSURE}"]
+    lines += ["*OUTPUT, HISTORY", "*NODE OUTPUT, NSET=ALL", "U", "*END STEP", ""]
+    return "\n".join(lines)
+
+
+@pytest.fixture
+def run(tmp_path):
+    def run(text, **options):
+        (tmp_path / "pushed.inp").write_text(text)
+        return harness.run(tmp_path / "pushed.inp", output_dir=tmp_path, **options)
+
+    return run
+
+
+@pytest.mark.parametrize(("element_type", "nodes"), [("CPE4", PLANE), ("CPS4R", PLANE), ("C3D8", CUBE)])
+def test_an_attempt_in_which_an_element_turns_inside_out_is_made_again(run, tmp_path, element_type, nodes):
+    """With a quarter of the increment (D_H), to the end, where the logarithm of the length is -p/E."""
+    result = run(deck(element_type, nodes))
+    first, second = result.status[:2]
+    assert (first.attempt, first.cutback, second.attempt) == (1, True, 2)
+    message = " ".join((tmp_path / "pushed.msg").read_text().split())
+    place = rf"element 101 (type {element_type}): turns inside out at its integration point"
+    assert f"***WARNING: EXCESSIVE DISTORTION IN SOLID (CONTINUUM) ELEMENTS: {place}" in message
+    assert "***NOTE: ELEMENTS ARE DISTORTING EXCESSIVELY. CONVERGENCE IS JUDGED UNLIKELY." in message
+    assert "ATTEMPT NUMBER 2, TIME INCREMENT 0.250" in message
+    length = 1 + result.history["U1[ALL:2]"][-1]
+    assert np.log(length) == pytest.approx(-PRESSURE / YOUNG, rel=0.02)
+
+
+def test_a_fixed_increment_ends_with_the_element(run):
+    text = deck("CPE4", PLANE).replace("*STATIC", "*STATIC, DIRECT")
+    message = (
+        r"FIXED TIME INCREMENT IS TOO LARGE \(step 1, increment 1, attempt 1\): "
+        r"element 101 \(type CPE4\): turns inside out at its integration point \d \(step 1, increment 1, iteration \d"
+    )
+    with pytest.raises(ConvergenceError, match=message):
+        run(text)
+
+
+@pytest.mark.parametrize("options", ["", ", NLGEOM"])
+def test_a_mesh_that_is_inside_out_stays_an_error_of_the_mesh(run, options):
+    with pytest.raises(KernelError, match=r"element 101 .* nodes must run counter-clockwise"):
+        run(deck("CPE4", PLANE, options=options, order=-1))
