@@ -288,6 +288,7 @@ subroutine host_define_user_material(umat, name, ntens, constants, count, number
   use, intrinsic :: iso_c_binding, only: c_intptr_t
   use host_kinds, only: dp, i4, i8
   use host_materials, only: define, material_t
+  use host_umat, only: outputs
   implicit none (type, external)
   integer(i8), intent(in) :: umat             !< address
   character(len=80), intent(in) :: name
@@ -301,6 +302,7 @@ subroutine host_define_user_material(umat, name, ntens, constants, count, number
   material%user%umat = transfer(int(umat, c_intptr_t), material%user%umat)
   material%user%name = name
   material%user%constants = constants(:count)
+  allocate (material%user%reported(outputs), source=.false.)
   number = define(material)
 end subroutine host_define_user_material
 

@@ -7,19 +7,28 @@
 module host_umat
   use, intrinsic :: iso_c_binding, only: c_f_procpointer, c_funptr
   use host_context, only: current, heat_t
+  use host_guarded, only: guarded_t, lay_out_guarded, warn_of_writes
   use host_kinds, only: dp, i4
   use host_kinematics, only: rotated
   implicit none (type, external)
   private
-  public :: user_material_t, call_umat, direct_components, head, strain_energy
+  public :: user_material_t, call_umat, direct_components, head, outputs, strain_energy
 
   !> Values of the history before STATEV, and among them the place of SSE.
   integer, parameter :: head = 15, strain_energy = 13
+
+  !> Arrays that UMAT writes to.
+  integer, parameter :: outputs = 5
+  character(len=6), parameter :: names(outputs) = [character(len=6) :: 'STRESS', 'DDSDDE', 'DDSDDT', 'DRPLDE', 'STATEV']
+  character(len=13), parameter :: sizes(outputs) = [character(len=13) :: &
+    'NTENS', 'NTENS x NTENS', 'NTENS', 'NTENS', '*DEPVAR']
+  type(guarded_t), save, target :: work
 
   type :: user_material_t
     type(c_funptr) :: umat
     character(len=80) :: name = ' '
     real(dp), allocatable :: constants(:)
+    logical, pointer :: reported(:) => null()   !< (outputs) a write outside the array is
   end type user_material_t
 
   abstract interface
@@ -60,7 +69,7 @@ contains
     real(dp), intent(out) :: stress(ntens), tangent(ntens, ntens)
     real(dp), intent(inout) :: new(:)
     procedure(umat_procedure), pointer :: umat
-    real(dp) :: stran(ntens), dstran(ntens), time(2), dtime, ddsddt(ntens), drplde(ntens), constants(size(material%constants))
+    real(dp) :: stran(ntens), dstran(ntens), time(2), dtime, constants(size(material%constants))
     real(dp) :: rpl, drpldt, temp, dtemp, coords(3), drot(3, 3), dfgrd0(3, 3), dfgrd1(3, 3), celent, pnewdt
     real(dp) :: predef(max(field_variables(), 1)), dpred(max(field_variables(), 1))
     real(dp), parameter :: identity(3, 3) = reshape([1, 0, 0, 0, 1, 0, 0, 0, 1], [3, 3])
@@ -70,6 +79,7 @@ contains
     call c_f_procpointer(material%umat, umat)
     stran = old(:ntens)
     stress = old(7:6 + ntens)
+    call lay_out_guarded(work, [ntens, ntens**2, ntens, ntens, size(new) - head])
     drot = identity
     dfgrd0 = identity
     dfgrd1 = identity
@@ -81,11 +91,8 @@ contains
       stress = rotated(ntens, stress, drot, 1.0_dp)
     end if
     dstran = strain - stran
-    tangent = 0
     time = current%time
     dtime = current%dtime
-    ddsddt = 0
-    drplde = 0
     rpl = 0
     drpldt = 0
     temp = 0
@@ -116,13 +123,24 @@ contains
     cmname = material%name
     routine = current%routine
     current%routine = 'UMAT'
-    call umat(stress, new(head + 1:), tangent, new(13), new(14), new(15), rpl, ddsddt, drplde, drpldt, stran, dstran, time, dtime, &
-              temp, dtemp, predef, dpred, cmname, ndi, nshr, components, nstatv, constants, nprops, coords, drot, pnewdt, &
-              celent, dfgrd0, dfgrd1, noel, npt, layer, kspt, jstep, kinc)
+    associate (x => work%memory, s => work%start)
+      x(s(1):s(1) + ntens - 1) = stress
+      x(s(2):s(2) + ntens**2 - 1) = 0
+      x(s(3):s(3) + ntens - 1) = 0
+      x(s(4):s(4) + ntens - 1) = 0
+      x(s(5):s(5) + nstatv - 1) = new(head + 1:)
+      call umat(x(s(1)), x(s(5)), x(s(2)), new(13), new(14), new(15), rpl, x(s(3)), x(s(4)), drpldt, stran, dstran, time, dtime, &
+                temp, dtemp, predef, dpred, cmname, ndi, nshr, components, nstatv, constants, nprops, coords, drot, pnewdt, &
+                celent, dfgrd0, dfgrd1, noel, npt, layer, kspt, jstep, kinc)
+      call warn_of_writes(work, names, sizes, point, material%reported)
+      stress = x(s(1):s(1) + ntens - 1)
+      tangent = reshape(x(s(2):s(2) + ntens**2 - 1), [ntens, ntens])
+      current%heat = heat_t(source=rpl, source_by_temperature=drpldt)
+      current%heat%stress_by_temperature(:ntens) = x(s(3):s(3) + ntens - 1)
+      current%heat%source_by_strain(:ntens) = x(s(4):s(4) + ntens - 1)
+      new(head + 1:) = x(s(5):s(5) + size(new) - head - 1)
+    end associate
     current%routine = routine
-    current%heat = heat_t(source=rpl, source_by_temperature=drpldt)
-    current%heat%source_by_strain(:ntens) = drplde
-    current%heat%stress_by_temperature(:ntens) = ddsddt
     current%pnewdt = min(current%pnewdt, pnewdt)
     new(:ntens) = strain
     new(7:6 + ntens) = stress

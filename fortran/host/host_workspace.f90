@@ -10,6 +10,7 @@ module host_workspace
   implicit none (type, external)
   private
   public :: workspace_t, arrays, n_arrays, lay_out, exchange_marks, arm_guards, find_damage, fill, same_bits, all_finite
+  public :: first_difference
   public :: i_rhs, i_amatrx, i_svars, i_energy, i_props, i_coords, i_u, i_du, i_v, i_a, i_predef
 
   integer, parameter :: n_arrays = 11

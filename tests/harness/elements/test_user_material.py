@@ -118,3 +118,34 @@ def test_without_uvarm_its_variables_are_left_out(run):
 def test_history_is_laid_out_as_in_fortran():
     text = (Path(harness.__file__).parents[1] / "fortran/host/host_umat.f90").read_text()
     assert f"head = {USER_HISTORY_VALUES}," in text
+
+
+BEYOND = "*USER MATERIAL, CONSTANTS=4\n1000., {}, {}, {}\n"
+LOST = "at integration point 1; the run goes on, but what is written there is lost"
+
+
+@pytest.mark.parametrize(
+    ("array", "first", "last", "depvar", "message"),
+    [
+        (1, 3, 3, "*DEPVAR\n2", "STATEV: entry 3 of 2 (*DEPVAR)"),
+        (1, 1, 1, "", "STATEV: entry 1 of 0 (*DEPVAR)"),
+        (1, 0, 0, "*DEPVAR\n2", "STATEV: entry 0 of 2 (*DEPVAR)"),
+        (1, 3, 9000, "*DEPVAR\n2", "STATEV: entry 3 of 2 (*DEPVAR)"),
+        (2, 5, 6, "", "STRESS: entry 5 of 4 (NTENS)"),
+        (3, 17, 36, "", "DDSDDE: entry 17 of 16 (NTENS x NTENS)"),
+    ],
+)
+def test_a_write_outside_an_array_is_told_once(run, tmp_path, array, first, last, depvar, message):
+    """With its element and point; all else is as without it."""
+    sound = run("*ELASTIC\n1000., 0.")
+    wrong = run(BEYOND.format(array, first, last) + depvar, user=HERE / "beyond.f")
+    np.testing.assert_allclose(wrong.field("U"), sound.field("U"), rtol=1e-9, atol=1e-12)
+    np.testing.assert_allclose(wrong.field("S11"), sound.field("S11"), rtol=1e-9, atol=1e-9)
+    text = " ".join((tmp_path / "strip.msg").read_text().split())
+    assert f"***WARNING: element 1: UMAT writes outside {message} {LOST}" in text
+    assert text.count("writes outside") == 1
+
+
+def test_a_material_that_keeps_to_its_arrays_gives_no_warning(run, tmp_path):
+    run(USER.format(0))
+    assert "outside" not in (tmp_path / "strip.msg").read_text()

@@ -1,0 +1,81 @@
+! SPDX-FileCopyrightText: The uel-harness authors
+! SPDX-License-Identifier: BSD-3-Clause
+!> Arrays that a user routine of material points writes to, each between guards, as those of elements are (host_workspace).
+!>
+!> The guards are looked at after each call, so that the point of a write outside an array is known; they are shorter than
+!> those of elements, because there are many more calls. They hold a number that is as good as zero: what a routine reads
+!> outside an array does not make the results NaN.
+module host_guarded
+  use host_context, only: current
+  use host_kinds, only: dp, i4, i8
+  use host_messages, only: add_message
+  use host_workspace, only: fill, first_difference
+  implicit none (type, external)
+  private
+  public :: guarded_t, lay_out_guarded, warn_of_writes
+
+  !> Entries of the guard before an array; behind it as many as the array has, within limits.
+  integer, parameter :: before = 8, least = 40, most = 20000
+  !> Room behind the last array: a write beyond its guard does no harm.
+  integer, parameter :: room = 20000
+  integer(i8), parameter :: mark = transfer(1.0e-300_dp, 0_i8)
+
+  type :: guarded_t
+    real(dp), allocatable :: memory(:)
+    integer, allocatable :: length(:)   !< entries of each array
+    integer, allocatable :: start(:)    !< position of the first entry of each array
+    integer, allocatable :: behind(:)   !< entries of the guard behind it
+  end type guarded_t
+
+contains
+
+  !> Place arrays of these lengths, those that are most likely taken for too long last. Where they have these lengths
+  !> already, they hold what the last call left.
+  subroutine lay_out_guarded(work, length)
+    type(guarded_t), intent(inout) :: work
+    integer, intent(in) :: length(:)
+    integer :: k, total
+    if (allocated(work%length)) then
+      if (all(work%length == length)) return
+      deallocate (work%memory, work%length, work%start, work%behind)
+    end if
+    allocate (work%length(size(length)), work%start(size(length)), work%behind(size(length)))
+    work%length = length
+    work%behind = min(max(length, least), most)
+    total = 0
+    do k = 1, size(length)
+      work%start(k) = total + before + 1
+      total = total + before + length(k) + work%behind(k)
+    end do
+    allocate (work%memory(total + room))
+    call fill(total + room, mark, work%memory)
+  end subroutine lay_out_guarded
+
+  !> Warn of writes outside the arrays by the call that has returned, once for each array, and mend the guards.
+  subroutine warn_of_writes(work, names, sizes, point, reported)
+    type(guarded_t), intent(inout) :: work
+    character(len=*), intent(in) :: names(:)
+    character(len=*), intent(in) :: sizes(:)    !< where the lengths come from
+    integer(i4), intent(in) :: point            !< from 1
+    logical, intent(inout) :: reported(:)
+    character(len=240) :: text
+    integer :: k, entry, length, position
+    do k = 1, size(work%length)
+      length = work%length(k)
+      entry = length + first_difference(work%behind(k), mark, work%memory(work%start(k) + length))
+      if (entry == length) then
+        position = first_difference(before, mark, work%memory(work%start(k) - before))
+        if (position == 0) cycle
+        entry = position - before
+      end if
+      call fill(work%behind(k), mark, work%memory(work%start(k) + length))
+      call fill(before, mark, work%memory(work%start(k) - before))
+      if (reported(k)) cycle
+      reported(k) = .true.
+      write (text, '(a,i0,5a,i0,a,i0,3a,i0)') 'element ', current%element, ': ', trim(current%routine), &
+        ' writes outside ', trim(names(k)), ': entry ', entry, ' of ', length, ' (', trim(sizes(k)), ') at integration point ', &
+        point
+      call add_message(-1_i4, trim(text)//'; the run goes on, but what is written there is lost')
+    end do
+  end subroutine warn_of_writes
+end module host_guarded
