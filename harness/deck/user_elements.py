@@ -8,6 +8,7 @@ import re
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
+from harness.deck.abaqus_elements import is_abaqus_element
 from harness.deck.blocks import Block
 from harness.deck.problems import nearest
 from harness.errors import DeckError, Source
@@ -100,9 +101,11 @@ def find_type(name: str, definitions: Definitions, source: Source) -> ElementTyp
     if _USER_TYPE.fullmatch(name):
         defined = ", ".join(definitions) or "none"
         raise DeckError(source, f"element type {name} is not defined by *USER ELEMENT (defined: {defined})")
-    known = [*BUILT_IN_NODES, *definitions]
-    message = f"element type {name} is not supported (supported: {', '.join(BUILT_IN_NODES)} and user elements)"
-    raise DeckError(source, message + nearest(name, known))
+    supported = f"(supported: {', '.join(BUILT_IN_NODES)} and user elements)"
+    if is_abaqus_element(name):
+        raise DeckError(source, f"element type {name} of Abaqus is not supported here {supported}")
+    hint = nearest(name, [*BUILT_IN_NODES, *definitions])
+    raise DeckError(source, f"element type {name} is not supported {supported}{hint}")
 
 
 def read_user_element(block: Block) -> UserElement:

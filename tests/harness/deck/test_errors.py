@@ -119,7 +119,12 @@ MISTAKES = {
     "built-in type": (
         "*ELEMENT, TYPE=U2",
         "*ELEMENT, TYPE=S4R",
-        r"23: element type S4R is not supported \(supported",
+        r"23: element type S4R of Abaqus is not supported here \(supported: .* and user elements\)$",
+    ),
+    "misspelt type": (
+        "*ELEMENT, TYPE=U2",
+        "*ELEMENT, TYPE=CPS4RR",
+        r"23: element type CPS4RR is not supported \(supported: .*\); did you mean CPS4RT?\?",
     ),
     "set member": ("7, 8,\n", "7, NOWHERE\n", r"28: unknown node set NOWHERE"),
     "generate": ("GENERATE\n1, 2, 1", "GENERATE\n2, 1, 1", r"26: \*NSET: cannot generate from 2 to 1 in steps of 1"),
