@@ -302,7 +302,7 @@ subroutine host_define_user_material(umat, name, ntens, constants, count, number
   material%user%umat = transfer(int(umat, c_intptr_t), material%user%umat)
   material%user%name = name
   material%user%constants = constants(:count)
-  allocate (material%user%reported(outputs), source=.false.)
+  allocate (material%user%reported(outputs), material%user%spoilt(outputs), source=.false.)
   number = define(material)
 end subroutine host_define_user_material
 

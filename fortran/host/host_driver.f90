@@ -70,7 +70,7 @@ module host_driver
     integer(i4) :: fault = fault_none     !< one of fault_*
     integer(i4) :: position = 0           !< element of the fault, from 1; 0 if it is not known
     integer(i4) :: culprit(3) = 0         !< first element that wrote outside an array, array and entry, with guards_search
-    integer(i4) :: array = 0, index = 0   !< array (number in host_workspace) and entry of the fault, or point
+    integer(i4) :: array = 0, index = 0   !< array (number in host_workspace) and entry of the fault, or material point
     integer(i4) :: unset(3) = 0           !< element, array and entry after which entries_notice became entries_zero
     procedure(uel_procedure), pointer, nopass :: uel => null()
     procedure(uelmat_procedure), pointer, nopass :: uelmat => null()
@@ -102,6 +102,8 @@ contains
     case default
       block%fault = merge(fault_distorted, fault_left, current%distorted /= 0)
       block%index = current%distorted
+      if (current%routine == 'UMAT') block%index = current%point
+      if (current%routine == 'USDFLD') block%index = -current%point
     end select
     call find_damage(work, array, index)
     if (array > 0 .and. block%guards == guards_stop) call diagnose(block, array, index)

@@ -9,10 +9,10 @@ module host_guarded
   use host_context, only: current
   use host_kinds, only: dp, i4, i8
   use host_messages, only: add_message
-  use host_workspace, only: fill, first_difference
+  use host_workspace, only: all_finite, fill, first_difference
   implicit none (type, external)
   private
-  public :: guarded_t, lay_out_guarded, warn_of_writes
+  public :: guarded_t, lay_out_guarded, warn_of_no_numbers, warn_of_writes
 
   !> Entries of the guard before an array; behind it as many as the array has, within limits.
   integer, parameter :: before = 8, least = 40, most = 20000
@@ -78,4 +78,24 @@ contains
       call add_message(-1_i4, trim(text)//'; the run goes on, but what is written there is lost')
     end do
   end subroutine warn_of_writes
+
+  !> Warn of arrays in which the call has left NaN or infinity, once for each.
+  subroutine warn_of_no_numbers(work, names, point, reported)
+    type(guarded_t), intent(in) :: work
+    character(len=*), intent(in) :: names(:)
+    integer(i4), intent(in) :: point            !< from 1
+    logical, intent(inout) :: reported(:)
+    character(len=240) :: text
+    integer :: k, entry
+    do k = 1, size(work%length)
+      associate (array => work%memory(work%start(k):work%start(k) + work%length(k) - 1))
+        if (all_finite(size(array), array) .or. reported(k)) cycle
+        reported(k) = .true.
+        entry = findloc([(all_finite(1, array(entry:entry)), entry=1, size(array))], .false., dim=1)
+      end associate
+      write (text, '(a,i0,5a,i0,a,i0)') 'element ', current%element, ': ', trim(current%routine), ' sets an entry of ', &
+        trim(names(k)), ' to NaN or infinity, entry ', entry, ', at integration point ', point
+      call add_message(-1_i4, trim(text))
+    end do
+  end subroutine warn_of_no_numbers
 end module host_guarded

@@ -7,7 +7,7 @@
 module host_umat
   use, intrinsic :: iso_c_binding, only: c_f_procpointer, c_funptr
   use host_context, only: current, heat_t
-  use host_guarded, only: guarded_t, lay_out_guarded, warn_of_writes
+  use host_guarded, only: guarded_t, lay_out_guarded, warn_of_no_numbers, warn_of_writes
   use host_kinds, only: dp, i4
   use host_kinematics, only: rotated
   implicit none (type, external)
@@ -29,6 +29,7 @@ module host_umat
     character(len=80) :: name = ' '
     real(dp), allocatable :: constants(:)
     logical, pointer :: reported(:) => null()   !< (outputs) a write outside the array is
+    logical, pointer :: spoilt(:) => null()     !< (outputs) NaN in the array is
   end type user_material_t
 
   abstract interface
@@ -123,6 +124,7 @@ contains
     cmname = material%name
     routine = current%routine
     current%routine = 'UMAT'
+    current%point = point
     associate (x => work%memory, s => work%start)
       x(s(1):s(1) + ntens - 1) = stress
       x(s(2):s(2) + ntens**2 - 1) = 0
@@ -133,6 +135,7 @@ contains
                 temp, dtemp, predef, dpred, cmname, ndi, nshr, components, nstatv, constants, nprops, coords, drot, pnewdt, &
                 celent, dfgrd0, dfgrd1, noel, npt, layer, kspt, jstep, kinc)
       call warn_of_writes(work, names, sizes, point, material%reported)
+      call warn_of_no_numbers(work, names, point, material%spoilt)
       stress = x(s(1):s(1) + ntens - 1)
       tangent = reshape(x(s(2):s(2) + ntens**2 - 1), [ntens, ntens])
       current%heat = heat_t(source=rpl, source_by_temperature=drpldt)

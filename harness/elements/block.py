@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from harness.elements.call import BlockReport, Call, Distributed, Motion, Predefined
-from harness.elements.faults import ERRORS, distortion, write_outside, wrong_entry
+from harness.elements.faults import ERRORS, distortion, material_point, write_outside, wrong_entry
 from harness.elements.fields import FIELD_NAMES, field_of
 from harness.errors import ElementError, KernelError
 from harness.model.arrays import FloatArray, IntArray
@@ -371,7 +371,7 @@ class Block:
         element = int(self.group.labels[outcome.position]) if outcome.position >= 0 else 0
         match outcome.fault:
             case Fault.LEFT | Fault.ENDLESS:
-                message = self._library.stop_reason()
+                message = material_point(outcome) + self._library.stop_reason()
             case Fault.OUTSIDE:
                 message = self._outside(outcome, nrhs)
             case Fault.DISTORTED:

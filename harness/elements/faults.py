@@ -32,6 +32,13 @@ def wrong_entry(outcome: Outcome, n: int) -> str:
     return f"{entry} is NaN or infinite"
 
 
+def material_point(outcome: Outcome) -> str:
+    """The beginning of a sentence where UMAT, or USDFLD (-index), has ended the call, else ''."""
+    if not outcome.index:
+        return ""
+    return f"{'UMAT' if outcome.index > 0 else 'USDFLD'} at integration point {abs(outcome.index)} "
+
+
 def distortion(outcome: Outcome) -> str:
     """A built-in element whose present shape is inside out, or goes over the axis (at -index)."""
     what = "turns inside out" if outcome.index > 0 else "crosses the axis"

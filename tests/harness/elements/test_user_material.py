@@ -97,7 +97,9 @@ def test_umat_cuts_the_increment_back(run):
 
 
 def test_xit_in_umat_and_uvarm(run):
-    with pytest.raises(KernelError, match=r"element 1 \(type CPE4\): stopped the analysis \(XIT\)"):
+    with pytest.raises(
+        KernelError, match=r"element 1 \(type CPE4\): UMAT at integration point 1 stopped the analysis \(XIT\)"
+    ):
         run(USER.format(2))
     with pytest.raises(KernelError, match=r"element 99 \(type CPE4\): UVARM stopped the analysis \(XIT\)"):
         run(USER.format(0), last=99)
@@ -149,3 +151,32 @@ def test_a_write_outside_an_array_is_told_once(run, tmp_path, array, first, last
 def test_a_material_that_keeps_to_its_arrays_gives_no_warning(run, tmp_path):
     run(USER.format(0))
     assert "outside" not in (tmp_path / "strip.msg").read_text()
+
+
+@pytest.mark.nan
+def test_no_number_of_umat_is_told_with_its_point(run, tmp_path):
+    """Before the element's RHS, which is none either, ends the run."""
+    wrong = tmp_path / "none.f"
+    lines = (HERE / "beyond.f").read_text().replace("include '../umat.inc'", f"include '{HERE.parent / 'umat.inc'}'")
+    at_last = "if (noel.eq.2.and.npt.eq.3) stress(2)=sqrt(-1-stran(1)**2)"
+    wrong.write_text(lines.replace("      do i=nint(props(3))", f"      {at_last}\n      do i=nint(props(3))"))
+    with pytest.raises(KernelError, match=r"element 2 \(type CPE4\): RHS\(\d\) is NaN or infinite"):
+        run(BEYOND.format(1, 1, 0), user=wrong)
+    text = " ".join((tmp_path / "strip.msg").read_text().split())
+    told = "***WARNING: element 2: UMAT sets an entry of STRESS to NaN or infinity, entry 2, at integration point 3"
+    assert text.count(told) == 1
+
+
+def test_an_array_used_before_allocate(run, tmp_path):
+    """The message names routine and point, and says what a segmentation fault is."""
+    text = (
+        (HERE / "beyond.f")
+        .read_text()
+        .replace("'../umat.inc'", f"'{HERE.parent / 'umat.inc'}'\n      real*8, allocatable :: a(:)")
+    )
+    (tmp_path / "none.f").write_text(
+        text.replace("      ddsdde=0\n", "      ddsdde=0\n      if (npt.eq.3) a(2)=dtime\n")
+    )
+    message = r"element 1 \(type CPE4\): UMAT at integration point 3 stopped the analysis: in UMAT: segmentation fault"
+    with pytest.raises(KernelError, match=message):
+        run(BEYOND.format(1, 1, 0), user=tmp_path / "none.f")
