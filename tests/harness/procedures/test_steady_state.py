@@ -22,8 +22,7 @@ OSCILLATOR = f"""*NODE, NSET=ALL
 *ELEMENT, TYPE=U1, ELSET=E
 1, 1, 2
 *UEL PROPERTY, ELSET=E
-{K}, {C}, {S}, {M}, 0.
-0
+{K}, {C}, {S}, {M}, 0., 0
 """
 HELD = "*BOUNDARY\n1, 1\n"
 PUSHED = "*CLOAD\n2, 1, 3.\n*CLOAD, IMAGINARY\n2, 1, 4."
@@ -92,7 +91,7 @@ def test_everything_is_moved(run):
 
 def test_the_matrix_need_not_be_symmetric(run):
     """A force on the mass, -5 times the displacement of its free support."""
-    free = OSCILLATOR.replace(", 0.\n0", ", 5.\n0")
+    free = OSCILLATOR.replace(", 0., 0", ", 5., 0")
     history = run(free, more="*CLOAD\n1, 1, 2.").history
     rate = 2j * np.pi * history["time"]
     spring = K + rate * C + 1j * S
@@ -212,7 +211,7 @@ def test_frequencies(tmp_path, how, data, expected):
 
 
 def test_calls(run):
-    result = run(OSCILLATOR.replace("\n0\n", "\n1\n") + HELD, "0.1\n0.2")
+    result = run(OSCILLATOR.replace(", 0., 0", ", 0., 1") + HELD, "0.1\n0.2")
     lines = result.file(".msg").read_text().splitlines()
     calls = [line.split()[1:] for line in lines if line.startswith("FLAGS")]
     assert calls[0] == ["95", "0", "4", "0", "0", "0", "0", "0.000"]
