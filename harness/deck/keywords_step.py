@@ -213,9 +213,22 @@ OUTPUT = (
         (
             Option("ELSET", Kind.NAME, "element set"),
             FREQUENCY,
-            *ignored("DIRECTIONS", "LAST MODE", "LOCALDIR", "MODE", "POSITION", "REBAR", "SUMMARY", "TOTALS"),
+            Option(
+                "POSITION",
+                Kind.CHOICE,
+                "where; with any other choice than the default .dat warns, and has values at integration points",
+                default="INTEGRATION POINTS",
+                choices=("INTEGRATION POINTS", "CENTROIDAL", "NODES", "AVERAGED AT NODES"),
+            ),
+            *ignored("DIRECTIONS", "LAST MODE", "LOCALDIR", "MODE", "REBAR", "SUMMARY", "TOTALS"),
         ),
         "variables, one table a line",
+    ),
+    Keyword(
+        "ENERGY PRINT",
+        "Table of the energies of the whole model in .dat.",
+        Where.STEP,
+        (FREQUENCY, *refused("ELSET")),
     ),
     Keyword(
         "MONITOR",
@@ -240,7 +253,6 @@ _IGNORED = {
     "EL FILE": "Element variables in the results file.",
     "NODE FILE": "Nodal variables in the results file.",
     "ENERGY FILE": "Energies in the results file.",
-    "ENERGY PRINT": "Energies in .dat.",
     "CONTACT FILE": "Contact variables in the results file.",
     "CONTACT PRINT": "Contact variables in .dat.",
     "CONTACT OUTPUT": "Contact variables.",

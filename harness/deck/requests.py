@@ -20,6 +20,7 @@ from harness.model.records import ENERGIES
 from harness.model.steps import ElementRequest, NodeRequest, OutputRequests
 
 PRESELECTED_NODAL = ("U", "RF", "CF")
+AT_POINTS = "INTEGRATION POINTS"
 NEVER = 0
 _OUTPUT_TIMES = ("NUMBER INTERVAL", "TIME INTERVAL", "TIME POINTS")
 
@@ -48,6 +49,7 @@ class RequestReader:
             "ENERGY OUTPUT": self._energy_output,
             "NODE PRINT": self._node_print,
             "EL PRINT": self._element_print,
+            "ENERGY PRINT": self._energy_print,
             "MONITOR": self._monitor,
         }
 
@@ -141,9 +143,16 @@ class RequestReader:
         name, frequency = block.options.text("ELSET"), _frequency(block)
         count = sum(len(owner.elements) for owner in self._flat.owners)
         elements = self._flat.elements(name, block.source) if name else np.arange(count)
+        position = block.options.text("POSITION")
+        if position != AT_POINTS:
+            message = f"*EL PRINT, POSITION={position}: values at the integration points are printed instead"
+            self._problems.warn(block.source, message)
         tables = [_variables(row.fields) for row in block.rows()] if frequency != NEVER else []
         requests = [ElementRequest(name, elements, variables, frequency) for variables in tables]
         self._requests = replace(self._requests, element_print=(*self._requests.element_print, *requests))
+
+    def _energy_print(self, block: Block) -> None:
+        self._requests = replace(self._requests, energy_print=_frequency(block))
 
     def _monitor(self, block: Block) -> None:
         name, dof = block.options.text("NODE"), block.options.integer("DOF", 0)

@@ -221,6 +221,7 @@ class OutputRequests:
     """What the step writes. field_frequency: every k-th increment a .vtu, 0 never; the last one always unless 0.
 
     field_intervals: also at the end of each of so many parts of the step, at the first increment that gets there.
+    energy_print: every k-th increment the energies of the whole model in .dat, 0 never.
     """
 
     history_nodes: tuple[NodeRequest, ...] = ()
@@ -230,6 +231,7 @@ class OutputRequests:
     field_intervals: int = 0
     node_print: tuple[NodeRequest, ...] = ()
     element_print: tuple[ElementRequest, ...] = ()
+    energy_print: int = 0
     monitor: tuple[int, int] | None = None
 
 

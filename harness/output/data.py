@@ -8,6 +8,8 @@ import math
 from datetime import datetime
 from pathlib import Path
 
+import numpy as np
+
 from harness.model.model import Model
 from harness.model.nodal import NodalIndex
 from harness.model.properties import UserElement
@@ -16,7 +18,7 @@ from harness.model.steps import ElementRequest, NodeRequest
 from harness.output.formats import TextFile, program
 from harness.output.schedule import Schedule
 from harness.output.step_header import completed, procedure
-from harness.output.tables import element_tables, missing_variables, node_tables
+from harness.output.tables import element_tables, energy_table, missing_variables, node_tables, used_nodes
 from harness.output.wording import remark
 
 _USER_ELEMENT_OUTPUT = (
@@ -37,6 +39,7 @@ class DataFile:
             request for step in model.steps for request in (*step.output.node_print, *step.output.element_print)
         ]
         self._schedules = {id(request): Schedule() for request in requests}
+        self._energies = Schedule()
         now = datetime.now()
         self._file.write(
             f"1\n\n   {program()}                                  Date {now:%d-%b-%Y}   Time {now:%H:%M:%S}\n\n"
@@ -55,7 +58,7 @@ class DataFile:
         if record.increment == 1:
             self._missing(record, self._index)
         nodes = "".join(
-            node_tables(request, self._model, record.solution, self._index)
+            node_tables(request, self._model, record.solution, self._index, nlgeom=step.nlgeom)
             for request in step.output.node_print
             if self._schedules[id(request)].due(request.frequency, record, last=last)
         )
@@ -64,7 +67,10 @@ class DataFile:
             for request in step.output.element_print
             if self._schedules[id(request)].due(request.frequency, record, last=last)
         )
-        if not nodes and not elements:
+        energies = ""
+        if self._energies.due(step.output.energy_print, record, last=last):
+            energies = energy_table(record.solution)
+        if not nodes and not elements and not energies:
             return
         text = (
             f"\n\n                                INCREMENT{record.increment:6d} SUMMARY\n\n\n"
@@ -74,6 +80,8 @@ class DataFile:
             text += f"\n\n                             E L E M E N T   O U T P U T\n{elements}"
         if nodes:
             text += f"\n\n                                N O D E   O U T P U T\n{nodes}"
+        if energies:
+            text += f"\n\n                              E N E R G Y   O U T P U T\n{energies}"
         self._file.write(text)
 
     def modes(self, record: ModesFound) -> None:
@@ -123,10 +131,12 @@ class DataFile:
         """What was understood of the deck: size, user elements, ignored keywords, warnings."""
         model = self._model
         elements = sum(len(group.labels) for group in model.groups)
+        used = used_nodes(model)
+        nodes, unused = int(used.sum()), int((~used).sum())
         text = (
             "\n\n                            P R O B L E M   S I Z E\n\n\n"
             f"          NUMBER OF ELEMENTS IS                            {elements:10d}\n"
-            f"          NUMBER OF NODES IS                               {len(model.mesh.labels):10d}\n"
+            f"          NUMBER OF NODES IS                               {nodes:10d}\n"
         )
         text += "".join(
             f"          {len(group.labels):10d} ELEMENTS OF TYPE {group.type}"
@@ -134,6 +144,11 @@ class DataFile:
             + "\n"
             for group in model.groups
         )
+        if unused:
+            first = model.mesh.name(int(np.argmin(used)))
+            belong = "NODE BELONGS" if unused == 1 else "NODES BELONG"
+            message = f"{unused} {belong} TO NO ELEMENT AND NO CONSTRAINT, LEFT OUT: {first}"
+            text += "\n" + remark("NOTE", message + (" AND OTHERS" if unused > 1 else ""))
         definitions = {group.type: group.definition for group in model.groups if group.definition is not None}
         if definitions:
             text += "\n\n                            U S E R   E L E M E N T S\n\n"

@@ -23,10 +23,20 @@ def general(value: float, width: int = 11, digits: int = 3) -> str:
     exponent = int(f"{value:.{digits - 1}e}".partition("e")[2])
     if -1 <= exponent < digits:
         return f"{value:#{width - 4}.{digits - 1 - exponent}f}    "
+    return _scientific(value, width, digits)
+
+
+def exponential(value: float, width: int = 15, digits: int = 7) -> str:
+    """Fortran's `1PEw.d`, with which the .dat file prints values at nodes: one digit before the point, d behind it."""
+    if not math.isfinite(value):
+        return general(value, width)
+    # without the sign of a zero
+    return _scientific(value + 0.0, width, digits)
+
+
+def _scientific(value: float, width: int, digits: int) -> str:
     mantissa, _, power = f"{value:.{digits}e}".partition("e")
-    if len(power) > 3:
-        return f"{mantissa}{power}".rjust(width)
-    return f"{mantissa}E{power}".rjust(width)
+    return f"{mantissa}{'' if len(power) > 3 else 'E'}{power}".rjust(width)
 
 
 def status_number(value: float, digits: int) -> str:

@@ -2,14 +2,17 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Tables of *NODE PRINT and *EL PRINT in the .dat file, laid out as Abaqus prints them.
 
-Lines whose values are all zero are left out of a table, as Abaqus does, but count for MAXIMUM and MINIMUM.
+Lines whose values are all zero are left out of a table, as Abaqus does, but count for MAXIMUM and MINIMUM. Values at
+nodes have eight significant digits, their extremes and all values of elements five or four.
 """
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
+from numpy.typing import NDArray
 
 from harness.model.arrays import FloatArray, IntArray, first_largest
 from harness.model.mesh import ElementGroup, Mesh
@@ -17,11 +20,13 @@ from harness.model.model import Model
 from harness.model.nodal import NodalIndex
 from harness.model.records import ElementState, Solution
 from harness.model.steps import ElementRequest, NodeRequest
-from harness.output.formats import general
+from harness.output.cells import is_solid
+from harness.output.formats import exponential, general
 from harness.output.points import point_values
 
 COLUMNS = 9  # of a table of Abaqus
 _SUFFIXES = ("11", "22", "33", "12", "13", "23")
+_COORDINATES = ("COOR1", "COOR2", "COOR3")
 
 
 @dataclass(frozen=True, slots=True)
@@ -36,6 +41,7 @@ class _Table:
     labels: list[str]
     values: FloatArray
     where: str
+    number: Callable[[float], str]
     totals: bool = False
 
     def __str__(self) -> str:
@@ -44,7 +50,7 @@ class _Table:
         text = f"\n\n{self.title}\n\n{self.head}\n\n"
         for line, values in zip(self.lines, self.values.tolist(), strict=True):
             if any(values):
-                text += line + _row(values) + "\n"
+                text += line + "".join(map(self.number, values)) + "\n"
         for name, best in (
             ("MAXIMUM", first_largest(self.values)),
             ("MINIMUM", first_largest(-self.values)),
@@ -57,43 +63,84 @@ class _Table:
         return text
 
 
-def node_tables(request: NodeRequest, model: Model, solution: Solution, index: NodalIndex) -> str:
-    """Tables of one *NODE PRINT request; of each variable the components that the nodes have."""
-    components = index.components(request.variables, request.nodes, harmonic=solution.imaginary is not None)
+def used_nodes(model: Model) -> NDArray[np.bool_]:
+    """(nodes,) whether a node belongs to an element or a constraint; others are no part of the analysis."""
+    used = np.zeros(len(model.mesh.labels), dtype=bool)
+    for group in model.groups:
+        used[group.nodes] = True
+    for equation in model.equations:
+        used[[node for node, _, _ in equation.terms]] = True
+    return used
+
+
+def node_tables(request: NodeRequest, model: Model, solution: Solution, index: NodalIndex, *, nlgeom: bool) -> str:
+    """Tables of one *NODE PRINT request; of each variable the components that the nodes have.
+
+    nlgeom: coordinates are those of the moved nodes.
+    """
     title = "   THE FOLLOWING TABLE IS PRINTED FOR " + (
         f"NODES BELONGING TO NODE SET {request.nset}" if request.nset else "ALL NODES"
     )
-    labels = [_label(model.mesh, node) for node in request.nodes.tolist()]
+    nodes = request.nodes[used_nodes(model)[request.nodes]]
+    columns: dict[str, FloatArray] = {}
+    for variable in request.variables:
+        columns |= _node_values(variable, nodes, model, solution, index, nlgeom=nlgeom)
+    names = list(columns)
+    labels = [_label(model.mesh, node) for node in nodes.tolist()]
     text = ""
-    for first in range(0, len(components), COLUMNS):
-        part = components[first : first + COLUMNS]
-        values = np.zeros((len(request.nodes), len(part)))
-        for k, component in enumerate(part):
-            position = index.find(request.nodes, component.dof)
-            values[:, k] = np.append(component.values(solution), 0.0)[position]
+    for first in range(0, len(names), COLUMNS):
+        part = names[first : first + COLUMNS]
         text += str(
             _Table(
                 title,
-                "       NODE FOOT-   " + "".join(f"{component.name:<12}" for component in part) + "\n            NOTE",
+                "       NODE FOOT-  " + "".join(f"{name:<15}" for name in part) + "\n            NOTE",
                 15,
-                [component.name for component in part],
+                part,
                 [f"{label:>11}    " for label in labels],
                 labels,
-                values,
+                np.stack([columns[name] for name in part], axis=1),
                 "AT NODE",
+                exponential,
                 request.totals,
             )
         )
     return text
 
 
+def _node_values(
+    variable: str, nodes: IntArray, model: Model, solution: Solution, index: NodalIndex, *, nlgeom: bool
+) -> dict[str, FloatArray]:
+    """Values (nodes,) of the components of a variable by their names; none where no node has it."""
+    axes = _COORDINATES[: 3 if is_solid(model) else 2]
+    if variable in ("COORD", *axes):
+        values = model.mesh.coordinates[nodes]
+        if nlgeom:
+            values = values + np.stack(
+                [np.append(solution.displacement, 0.0)[index.find(nodes, dof)] for dof in (1, 2, 3)], axis=1
+            )
+        return {name: values[:, k] for k, name in enumerate(axes) if variable in ("COORD", name)}
+    components = index.components((variable,), nodes, harmonic=solution.imaginary is not None)
+    return {
+        component.name: np.append(component.values(solution), 0.0)[index.find(nodes, component.dof)]
+        for component in components
+    }
+
+
 def element_tables(request: ElementRequest, model: Model, solution: Solution) -> str:
     """Tables of one *EL PRINT request, one for each element type that keeps any of the variables."""
     text = ""
     for group, inside, state in _chosen(request, model, solution):
-        for names, values in _element_values(state, inside, request.variables):
+        for names, values in _element_values(group, state, inside, request.variables):
             text += _element_table(request, group, inside, names, values)
     return text
+
+
+def energy_table(solution: Solution) -> str:
+    """Energies of the whole model, '' where the procedure has none."""
+    if not solution.energies:
+        return ""
+    lines = (f"          {name:<10}{_short(value)}".rstrip() for name, value in sorted(solution.energies.items()))
+    return "\n\n   THE FOLLOWING TABLE IS PRINTED FOR THE WHOLE MODEL\n\n" + "\n".join(lines) + "\n"
 
 
 def missing_variables(
@@ -101,13 +148,16 @@ def missing_variables(
 ) -> list[str]:
     """Variables of a request that none of its nodes or elements has."""
     if isinstance(request, NodeRequest):
-        harmonic = solution.imaginary is not None
-        return [name for name in request.variables if not index.components((name,), request.nodes, harmonic=harmonic)]
+        return [
+            name
+            for name in request.variables
+            if not _node_values(name, request.nodes, model, solution, index, nlgeom=False)
+        ]
     chosen = _chosen(request, model, solution)
     return [
         name
         for name in request.variables
-        if not any(_element_values(state, inside, (name,)) for _, inside, state in chosen)
+        if not any(_element_values(group, state, inside, (name,)) for group, inside, state in chosen)
     ]
 
 
@@ -148,18 +198,19 @@ def _element_table(
                 [str(label) for label in labels for _ in points],
                 values[:, :, start : start + COLUMNS].reshape(-1, len(part)),
                 "ELEMENT",
+                _short,
             )
         )
     return text
 
 
 def _element_values(
-    state: ElementState, inside: IntArray, variables: tuple[str, ...]
+    group: ElementGroup, state: ElementState, inside: IntArray, variables: tuple[str, ...]
 ) -> list[tuple[list[str], FloatArray]]:
     """Names and values (elements, points, names) of the variables that the elements keep.
 
-    SDV are the SVARS of a user element, one line an element; other names (S, S11, DAMAGE, ...) are values at the
-    points and need elements whose SVARS are known.
+    SDV are the SVARS of a user element, one line an element, and STATEV at the points of a built-in one; other names
+    (S, S11, DAMAGE, ...) are values at the points and need elements whose SVARS are known.
     """
     svars = state.svars[inside]
     found: list[tuple[list[str], FloatArray]] = []
@@ -170,6 +221,8 @@ def _element_values(
         if names:
             values = point_values(state, state.variables)[inside]
             found.append((names, values[:, :, [known[name] for name in names]]))
+    if group.definition is None:
+        return found
     names = [f"SDV{k}" for k in range(1, svars.shape[1] + 1)]
     names = [name for variable in variables for name in names if variable in ("SDV", name)]
     if names:
@@ -178,12 +231,19 @@ def _element_values(
 
 
 def _asked(variable: str, name: str) -> bool:
-    """True if a variable as asked for (S, E, S11) takes in a component (S11)."""
-    return name == variable or (name.startswith(variable) and name[len(variable) :] in _SUFFIXES)
+    """True if a variable as asked for (S, E, S11, SDV) takes in a component (S11, SDV1)."""
+    suffix = name.removeprefix(variable)
+    return name == variable or (
+        name.startswith(variable) and (suffix in _SUFFIXES or (variable in ("SDV", "UVARM") and suffix.isdecimal()))
+    )
 
 
 def _row(values: list[float]) -> str:
-    return "".join(general(value, 12, 4) for value in values)
+    return "".join(map(_short, values))
+
+
+def _short(value: float) -> str:
+    return general(value, 12, 4)
 
 
 def _label(mesh: Mesh, node: int) -> str:

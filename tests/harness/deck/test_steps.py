@@ -235,6 +235,21 @@ def test_several_outputs_in_a_step_add_up(read: Read) -> None:
     assert output.history_frequency == 1
 
 
+@pytest.mark.parametrize("position", ["CENTROIDAL", "NODES", "AVERAGED AT NODES"])
+def test_positions_of_element_tables_are_warned_of(read: Read, position: str) -> None:
+    text = MODEL + "*STEP\n*STATIC\n*EL PRINT, POSITION={}\nS\n*END STEP\n"
+    assert read(text.format(position)).warnings == (
+        f"deck.inp:43: *EL PRINT, POSITION={position}: values at the integration points are printed instead",
+    )
+    assert read(text.format("INTEGRATION POINTS")).warnings == ()
+
+
+def test_energies_are_printed_where_asked_for(read: Read) -> None:
+    assert steps(read, "*NODE PRINT\nU")[0].output.energy_print == 0
+    assert steps(read, "*ENERGY PRINT")[0].output.energy_print == 1
+    assert steps(read, "*ENERGY PRINT, FREQUENCY=3")[0].output.energy_print == 3
+
+
 def test_requests_stay_until_replaced(read: Read) -> None:
     body = "*OUTPUT, FIELD, FREQUENCY=6\n*OUTPUT, HISTORY\n*NODE OUTPUT, NSET=TOP\nU1\n"
     body += "*NODE PRINT, NSET=TOP\nU\n*EL PRINT\nS"

@@ -11,13 +11,13 @@ import pytest
 
 from harness.errors import Source
 from harness.model.mesh import Mesh
-from harness.model.model import Model
+from harness.model.model import Equation, Model
 from harness.model.nodal import NodalIndex
 from harness.model.properties import UserElement
-from harness.model.records import IncrementDone, Record, Solution, StepStarted
+from harness.model.records import IncrementDone, PointVariables, Record, Solution, StepStarted
 from harness.model.steps import ElementRequest, NodeRequest
 from harness.output.data import DataFile
-from harness.output.tables import element_tables, node_tables
+from harness.output.tables import element_tables, missing_variables, node_tables
 
 Records = Callable[..., Iterator[Record]]
 Requests = Callable[..., Model]
@@ -32,19 +32,19 @@ def test_a_table_of_nodes(model: Model) -> None:
     model = replace(model, mesh=Mesh(labels, model.mesh.coordinates, model.mesh.instances))
     displacement = np.array([0.0, 0.0, 7.3531e-4, -4.6698e-3, 1.4706e-3, 0.0, 1.4706e-3, -2.5472e-3, 0.0, -2.5472e-3])
     solution = Solution(np.repeat(np.arange(5), 2), np.tile([1, 2], 5), displacement, np.zeros(10), np.zeros(10))
-    text = node_tables(NodeRequest("", np.arange(5), ("U",)), model, solution, NodalIndex(8, solution))
+    text = node_tables(NodeRequest("", np.arange(5), ("U",)), model, solution, NodalIndex(8, solution), nlgeom=False)
     assert lines(text) == [
         "",
         "",
         "   THE FOLLOWING TABLE IS PRINTED FOR ALL NODES",
         "",
-        "       NODE FOOT-   U1          U2",
+        "       NODE FOOT-  U1             U2",
         "            NOTE",
         "",
-        "        102      7.3531E-04 -4.6698E-03",
-        "        103      1.4706E-03   0.000",
-        "        104      1.4706E-03 -2.5472E-03",
-        "        105       0.000     -2.5472E-03",
+        "        102      7.3531000E-04 -4.6698000E-03",
+        "        103      1.4706000E-03  0.0000000E+00",
+        "        104      1.4706000E-03 -2.5472000E-03",
+        "        105      0.0000000E+00 -2.5472000E-03",
         "",
         " MAXIMUM         1.4706E-03   0.000",
         " AT NODE               103         101",
@@ -58,22 +58,62 @@ def test_a_table_of_nodes(model: Model) -> None:
 def test_first_of_equal_extremes_is_named(model: Model, rounding: float) -> None:
     displacement = np.array([0.0, 1.0, -2.0, 1.0 * rounding, -2.0 * rounding])
     solution = Solution(np.arange(5), np.ones(5, dtype=int), displacement, np.zeros(5), np.zeros(5))
-    text = node_tables(NodeRequest("", np.arange(5), ("U1",)), model, solution, NodalIndex(8, solution))
+    text = node_tables(NodeRequest("", np.arange(5), ("U1",)), model, solution, NodalIndex(8, solution), nlgeom=False)
     labels = [line.split()[-1] for line in lines(text) if line.startswith(" AT NODE")]
     assert labels == [str(model.mesh.labels[1]), str(model.mesh.labels[2])]
+
+
+@pytest.mark.parametrize(
+    ("nlgeom", "rows"),
+    [
+        (False, ["3      2.0000000E+00  1.0000000E+00", "8      0.0000000E+00  2.0000000E+00"]),
+        (True, ["3      2.0000000E+00  1.5000000E+00", "8      0.0000000E+00  3.0000000E+00"]),
+    ],
+)
+def test_coordinates_are_those_of_the_moved_nodes_with_nlgeom(
+    model: Model, records: Records, nlgeom: bool, rows: list[str]
+) -> None:
+    done = next(record for record in records(model, times=(0.5,)) if isinstance(record, IncrementDone))
+    request, index = NodeRequest("", np.array([2, 7]), ("COORD",)), NodalIndex(8, done.solution)
+    text = node_tables(request, model, done.solution, index, nlgeom=nlgeom)
+    assert "       NODE FOOT-  COOR1          COOR2" in lines(text)
+    assert [line.strip() for line in lines(text)[7:9]] == rows
+    second = node_tables(replace(request, variables=("COOR2",)), model, done.solution, index, nlgeom=nlgeom)
+    assert [line.split()[1] for line in lines(second)[7:9]] == [row.split()[2] for row in rows]
+
+
+def test_nodes_of_no_element_are_left_out(with_requests: Requests, records: Records, tmp_path: Path) -> None:
+    model = with_requests(node_print=(NodeRequest("", np.arange(8), ("COORD",)),))
+    assert " NUMBER OF NODES IS 8 " in " ".join(describe(model, tmp_path).split())
+    model = replace(model, groups=model.groups[1:])
+    text = describe(model, tmp_path)
+    assert " NUMBER OF NODES IS 4 " in " ".join(text.split())
+    assert " ***NOTE: 4 NODES BELONG TO NO ELEMENT AND NO CONSTRAINT, LEFT OUT: 1 AND OTHERS\n" in text
+    done = next(record for record in records(model) if isinstance(record, IncrementDone))
+    index = NodalIndex(8, done.solution)
+    table = node_tables(model.steps[0].output.node_print[0], model, done.solution, index, nlgeom=False)
+    assert [line.split()[0] for line in lines(table) if line[:11].strip().isdigit()] == ["3", "4", "5", "6"]
+    held = Equation(((0, 1, 1.0), (1, 1, -1.0), (6, 1, 1.0), (7, 1, 1.0)), Source("deck.inp", 9))
+    assert "LEFT OUT" not in describe(replace(model, equations=(held,)), tmp_path)
+
+
+def describe(model: Model, folder: Path) -> str:
+    DataFile(folder / "job.dat", model)
+    return (folder / "job.dat").read_text()
 
 
 def test_totals_where_asked_for(model: Model, records: Records) -> None:
     done = next(record for record in records(model, times=(1.0,)) if isinstance(record, IncrementDone))
     request = NodeRequest("BASE", np.array([0, 1]), ("RF2",), totals=True)
-    text = node_tables(request, model, done.solution, NodalIndex(8, done.solution))
+    text = node_tables(request, model, done.solution, NodalIndex(8, done.solution), nlgeom=False)
     assert lines(text)[-2:] == ["", " TOTAL           -2.000"]
     assert "   THE FOLLOWING TABLE IS PRINTED FOR NODES BELONGING TO NODE SET BASE" in lines(text)
 
 
 def test_a_table_of_zeros_says_so(model: Model, records: Records) -> None:
     done = next(record for record in records(model) if isinstance(record, IncrementDone))
-    text = node_tables(NodeRequest("LOAD", np.array([6]), ("CF1",)), model, done.solution, NodalIndex(8, done.solution))
+    request, index = NodeRequest("LOAD", np.array([6]), ("CF1",)), NodalIndex(8, done.solution)
+    text = node_tables(request, model, done.solution, index, nlgeom=False)
     assert lines(text)[-1] == "          ALL VALUES IN THIS TABLE ARE ZERO"
 
 
@@ -121,6 +161,33 @@ def test_variables_of_user_elements(
     done = next(record for record in records(model) if isinstance(record, IncrementDone))
     text = element_tables(ElementRequest("CZ", np.array([2]), variables), model, done.solution)
     assert [line.split()[3:] for line in lines(text) if "FOOT-" in line] == heads
+
+
+def test_state_variables_of_built_in_elements_are_those_of_umat(model: Model, records: Records) -> None:
+    """SVARS of a built-in element are the host's own."""
+    done = next(record for record in records(model, times=(1.0,)) if isinstance(record, IncrementDone))
+    built_in = replace(model, groups=(replace(model.groups[0], type="CPE4", definition=None), *model.groups[1:]))
+    request = ElementRequest("BULK", np.array([0]), ("SDV",))
+    assert not element_tables(request, built_in, done.solution)
+    index = NodalIndex(8, done.solution)
+    assert missing_variables(request, built_in, done.solution, index) == ["SDV"]
+    named = replace(done.solution.elements[0], variables=PointVariables("continuum", ("S11", "SDV1", "SDV2", "X"), 4))
+    solution = replace(done.solution, elements=(named, *done.solution.elements[1:]))
+    text = element_tables(request, built_in, solution)
+    assert "    ELEMENT  PT FOOT-      SDV1        SDV2" in lines(text)
+    assert "           1   2         105.0       106.0" in lines(text)
+    assert missing_variables(replace(request, variables=("SDV2", "SDV3")), built_in, solution, index) == ["SDV3"]
+
+
+def test_energies_of_the_model(with_requests: Requests, records: Records, tmp_path: Path) -> None:
+    model = with_requests(energy_print=2)
+    file = DataFile(tmp_path / "job.dat", model)
+    for record in records(model):
+        if isinstance(record, IncrementDone):
+            file.increment(record, last=record.increment == 4)
+    found = lines((tmp_path / "job.dat").read_text())
+    assert found.count("                              E N E R G Y   O U T P U T") == 2
+    assert [line.split() for line in found if "ALLSE" in line] == [["ALLSE", "6.2500E-02"], ["ALLSE", "1.000"]]
 
 
 def test_the_deck_is_echoed_with_line_numbers(model: Model, tmp_path: Path) -> None:

@@ -12,7 +12,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from harness.output.formats import TextFile, general, status_number
+from harness.output.formats import TextFile, exponential, general, status_number
 
 DATA = Path(__file__).parents[2] / "data"
 
@@ -94,3 +94,19 @@ def test_a_text_file_replaces_an_older_one_and_is_written_at_once(tmp_path: Path
     file.write("new\n")
     assert path.read_text() == "new\n"
     file.close()
+
+
+@pytest.mark.parametrize(
+    ("value", "text"),
+    [
+        # importAbaqusDat of GIBBON shows such lines
+        (-5.0, " -5.0000000E+00"),
+        (-1.1555553, " -1.1555553E+00"),
+        (0.0, "  0.0000000E+00"),
+        (-0.0, "  0.0000000E+00"),
+        (1.5e-100, "  1.5000000-100"),
+        (math.inf, "       Infinity"),
+    ],
+)
+def test_values_at_nodes(value: float, text: str) -> None:
+    assert exponential(value) == text
