@@ -134,9 +134,12 @@ def _start_linear(
 
 
 def _mass_pass(system: System, step: Step) -> None:
-    """The mass matrix that Abaqus asks of user elements at the start of the analysis; the results are not used."""
+    """The mass matrix that Abaqus asks of user elements at the start of the analysis; the results are not used.
+
+    It belongs to increment 1, but no time passes.
+    """
     call = Call(
-        (step.procedure.lflag, int(step.nlgeom), MASS, 0, 0), step.number, 0, 0.0, 0.0, 0.0, step.procedure.period
+        (step.procedure.lflag, int(step.nlgeom), MASS, 0, 0), step.number, 1, 0.0, 0.0, 0.0, step.procedure.period
     )
     zero = np.zeros(len(system))
     system.evaluate(call, zero, zero, matrix=False)

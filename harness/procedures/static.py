@@ -26,6 +26,7 @@ from harness.model.records import (
     Record,
     SearchHelped,
     StepDone,
+    Verdict,
     Warned,
 )
 from harness.model.steps import Step
@@ -135,6 +136,8 @@ class StaticStep:
         self._checker = Checker(system.dofs, constraints, step.controls, state.flux)
         self._extrapolation = Extrapolation(step.extrapolation)
         self._limit = LimitLoad()
+        # size of the last increment, where its response was linear
+        self._linear: float | None = None
         self._start = state.total_time
         self._time = 0.0
         self._increment = 0
@@ -213,6 +216,7 @@ class StaticStep:
                     if abandoned is None:
                         yield from self._small_flux(checks)
                         yield from self._help(increment, iteration)
+                        self._linear = size if _is_linear(checks) else None
                         yield self._converge(state, increment, size, accuracy)
                         return True, iteration
                 else:
@@ -275,7 +279,12 @@ class StaticStep:
     def _begin(self, increment: int, size: float) -> tuple[Iterator[Iterate], bool]:
         """Iterates of an attempt, and whether they start from an extrapolation."""
         given = self._given(increment, size)
-        return (self._search or self._newton).iterates(given), given.guess is not None
+        if self._search is not None:
+            return self._search.iterates(given), given.guess is not None
+        # Abaqus does not form the matrix anew where the response was linear in the increment before; its public message
+        # files show that for increments of one size
+        again = self._linear == size and self._control.attempts == 1
+        return self._newton.iterates(given, same_matrix=again), given.guess is not None
 
     def _given(self, increment: int, size: float) -> Increment:
         """What the end of the increment prescribes."""
@@ -369,6 +378,12 @@ class StaticStep:
         if error:
             cause = f": {abandoned.cause}" if abandoned.cause else ""
             raise ConvergenceError(f"{error} (step {number}, increment {increment}, attempt {attempt}){cause}")
+
+
+def _is_linear(checks: Sequence[FieldCheck]) -> bool:
+    """Whether the response was linear in an increment that these checks accept: as far as there are fluxes."""
+    verdicts = {check.verdict for check in checks}
+    return Verdict.LINEAR in verdicts and verdicts <= {Verdict.LINEAR, Verdict.ZERO_FLUX}
 
 
 def choose_solver(name: str, constraints: Constraints) -> LinearSolver:

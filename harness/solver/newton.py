@@ -86,15 +86,20 @@ class Newton:
         self._constraints = constraints
         self._solver = solver
         self._line_search = line_search
+        # values of the matrix that the solver has factorised, and whether the next solve takes it again
+        self._factorised: FloatArray | None = None
+        self._again = False
 
-    def iterates(self, given: Increment) -> Iterator[Iterate]:
+    def iterates(self, given: Increment, *, same_matrix: bool = False) -> Iterator[Iterate]:
         """Iterate without end; the caller stops when it accepts or gives up.
 
         The first pass is at the start state, or at the extrapolated one. Prescribed values are not written into it:
         what is missing of them enters the linear system of iteration 1, so that the correction of all unknowns takes
-        part in it. Raises KernelError and SingularMatrixError.
+        part in it. With `same_matrix` the first solve takes the matrix of the last one again. Raises KernelError and
+        SingularMatrixError.
         """
         call = given.call
+        self._again = same_matrix and self._factorised is not None
         if given.guess is None:
             increment, first = np.zeros_like(given.displacement), call
         else:
@@ -140,12 +145,19 @@ class Newton:
         return Iterate(iteration, increment, correction, residual, reduced, evaluation)
 
     def _correction(self, state: Iterate, missing: FloatArray) -> FloatArray:
-        data = state.evaluation.data
-        assert data is not None
+        if self._again:
+            self._again = False
+        else:
+            assert state.evaluation.data is not None
+            # a pass writes over the values of the one before
+            self._factorised = state.evaluation.data.copy()
+            self._solver.factorise(self._constraints.reduce(self._factorised))
+        assert self._factorised is not None
         rhs = state.reduced
         if missing.any():
-            rhs = rhs - self._constraints.reduce_vector(self._constraints.prescribed_residual(data, missing))
-        self._solver.factorise(self._constraints.reduce(data))
+            rhs = rhs - self._constraints.reduce_vector(
+                self._constraints.prescribed_residual(self._factorised, missing)
+            )
         return self._constraints.expand(self._solver.solve(rhs), missing)
 
     def _trial(self, given: Increment, increment: FloatArray) -> Evaluation:

@@ -28,7 +28,7 @@ DECK = """*NODE
 *END STEP
 """
 UEL = f"""      include '{Path(__file__).parents[1] / "uel.inc"}'
-      write(7,'(a,5i4)') 'FLAGS', lflags(1:5)
+      write(7,'(a,6i4)') 'FLAGS', lflags(1:5), kinc
       stiffness = 10
       mass = 1
       if (lflags(3) .eq. 4 .or. lflags(3) .eq. 6) stiffness = 0
@@ -76,5 +76,5 @@ def test_calls_of_a_step(tmp_path, step, code, requests, linear):
     assert {str(row[0]) for row in flags} == {code}
     assert [request for request, _ in groupby(row[2] for row in flags)] == requests
     assert {str(row[3]) for row in flags[1:]} == {linear}
-    assert flags[0][1:] == [0, 4, 0, 0]
+    assert flags[0][1:] == [0, 4, 0, 0, 1]
     assert result is None or result.completed

@@ -5,12 +5,13 @@
 import numpy as np
 import pytest
 
-from harness.errors import ConvergenceError, KernelError, SingularMatrixError
+from harness.errors import ConvergenceError, KernelError, SingularMatrixError, Source
 from harness.model.amplitude import Amplitude, AmplitudeType
 from harness.model.procedures import Static
 from harness.model.records import AttemptStarted, IterationDone, StepDone, StepStarted, Verdict, Warned
 from harness.model.steps import Controls, FieldControls, LineSearchControls, TimeControls
 
+SOURCE = Source("springs.inp", 1)
 LINEAR = (0, 1, 1, (2.0, 0.0))
 DIVERGING = (0, 1, 4, (1.0, 0.25))
 
@@ -37,6 +38,48 @@ def test_prescribed_value_reaches_free_nodes_in_the_first_iteration(bench):
     assert (checks[0].increment.node, checks[0].increment.dof) == (2, 1)
 
 
+@pytest.mark.parametrize("sizes", ["equal", "growing"])
+def test_matrix_is_taken_again_after_a_linear_increment(bench, sizes):
+    """Newton's method on f = d + d^3/100 for one unknown, done here with the matrix that each solve is to take.
+
+    Residuals as in a public message file of Abaqus, of a cube that hardens: rounding after a new matrix, thousandths to
+    millionths of the force after the old one, in turns.
+    """
+    period = 1.0 if sizes == "equal" else 2.0
+    amplitude = Amplitude("LOAD", AmplitudeType.TABULAR, np.array([[0.0, 0.0], [2.0, 2.0]]), SOURCE)
+    static = Static(0.1, period) if sizes == "growing" else Static(0.1, period, 0.1, 0.1, direct=True)
+    loads = (bench.force(1, 1.0, amplitude),)
+    result = bench.run([(0, 1, 1, (1.0, 0.01))], [bench.step(static=static, boundaries=(bench.fix(0),), loads=loads)])
+    assert result.error is None
+    ends = [done.step_time for done in result.increments]
+    blocks = result.iterations()
+    linear = [block[-1].verdict is Verdict.LINEAR for block in blocks]
+    found = [abs(check.residual.value) for block in blocks for check in block]
+    wanted = newton_with_old_matrices(ends, [len(block) for block in blocks], linear)
+    assert found == pytest.approx(wanted, rel=1e-3, abs=1e-14)
+    assert True in linear[:-1]
+    if sizes == "equal":
+        assert linear[:6] == [False, True, False, True, False, True]
+
+
+def newton_with_old_matrices(ends, iterations, linear):
+    """Residual of each iteration; the increments end at these forces and take so many iterations each."""
+    residuals = []
+    d = start = step = size = slope = 0.0
+    for k, end in enumerate(ends):
+        same = k > 0 and linear[k - 1] and abs(end - start - size) < 1e-12
+        step = step * (end - start) / size if size else 0.0
+        size = end - start
+        for iteration in range(iterations[k]):
+            now = d + step
+            if iteration or not same:
+                slope = 1 + 0.03 * now**2
+            step += (end - now - 0.01 * now**3) / slope
+            residuals.append(abs(end - d - step - 0.01 * (d + step) ** 3))
+        d, start = d + step, end
+    return residuals
+
+
 def test_call_sequence(bench):
     """Passes as Abaqus makes them: mass, start of the increment, one after each solve; none after convergence."""
     result = bench.run(
@@ -57,7 +100,7 @@ def test_call_sequence(bench):
     assert seen == [
         ("DB", 0, 1, 0, 0.0, 0.0, 0.0),
         ("DB", 5, 1, 0, 0.0, 0.0, 0.0),
-        ((1, 0, 4, 0, 0), 0, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0),
+        ((1, 0, 4, 0, 0), 1, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0),
         ("DB", 1, 1, 1, 0.0, 0.0, 0.5),
         ((1, 0, 1, 0, 0), 1, 0.0, 0.0, 0.5, 0.5, 0.5, 1.0),
         ((1, 0, 1, 0, 0), 1, 0.5, 0.5, 0.5, 0.5, 0.5, 1.0),
