@@ -4,7 +4,7 @@
 
 from __future__ import annotations
 
-from harness.deck.table import Keyword, Kind, Option, Where, ignored, refused
+from harness.deck.table import Keyword, Kind, Option, Support, Where, ignored, refused
 
 _ELSET = Option("ELSET", Kind.NAME, "element set", required=True)
 _REF_NODE = Option("REF NODE", Kind.NAME, "reference node, or set of one node", required=True)
@@ -108,5 +108,16 @@ CONSTRAINTS = (
             *refused("CYCLIC SYMMETRY", "TIED NSET"),
         ),
         "first (secondary) surface, second (main) surface",
+    ),
+    Keyword(
+        "SURFACE INTERACTION",
+        "Begin a contact property. Nothing uses one, since contact is refused: it is listed and left out.",
+        Where.MODEL,
+        (Option("NAME", Kind.NAME, "name", required=True), *ignored("DEPVAR", "PAD THICKNESS", "PROPERTIES")),
+        "not read",
+    ),
+    *(
+        Keyword(name, "Contact property, after *SURFACE INTERACTION.", Where.ANY, support=Support.IGNORED)
+        for name in ("FRICTION", "SURFACE BEHAVIOR", "CONTACT DAMPING", "GAP CONDUCTANCE", "GAP HEAT GENERATION")
     ),
 )

@@ -33,6 +33,9 @@ HISTORY_VALUES: Final = 7
 USER_HISTORY_VALUES: Final = 15
 """Those of a point of a user material besides STATEV (fortran/host/host_umat.f90)."""
 
+PARALLEL: Final = 1e-9
+"""Largest component of the difference of unit vectors that are parallel."""
+
 _PAIRS: Final = ((0, 0), (1, 1), (2, 2), (0, 1), (0, 2), (1, 2))
 _COMPONENTS: Final = {Tensor.PLANE_STRESS: [0, 1, 3], Tensor.PLANE_STRAIN: [0, 1, 2, 3], Tensor.SOLID: list(range(6))}
 _COUNTS: Final = {
@@ -63,6 +66,11 @@ def refuse_fields(material: Material, elements: str) -> None:
     if material.elastic is not None and material.elastic.table is not None:
         message = f"*ELASTIC: dependence on temperature and fields is not supported for {elements}"
         raise DeckError(material.elastic.source, message)
+
+
+def is_global(orientation: Orientation) -> bool:
+    """Whether the directions are the global ones, within rounding."""
+    return bool(np.abs(orientation.axes - np.eye(3)).max() < PARALLEL)
 
 
 def directions(orientation: Orientation | None) -> tuple[FloatArray, str]:
@@ -136,7 +144,7 @@ def _define_user_material(
     if library.umat is None:
         message = f"material {material.name} needs UMAT; {library.name} has {library.contents}"
         raise DeckError(given.source, f"*USER MATERIAL: {message}")
-    if orientation is not None:
+    if orientation is not None and not is_global(orientation):
         raise DeckError(orientation.source, f"*ORIENTATION is not supported for *USER MATERIAL ({material.name})")
     return _binding.define_user_material(library.umat, material.name, int(tensor), given.constants)
 

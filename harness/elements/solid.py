@@ -16,6 +16,7 @@ from harness.elements.materials import (
     define_material,
     directions,
     history_values,
+    is_global,
     shear_modulus,
     state_variables,
 )
@@ -23,7 +24,7 @@ from harness.errors import DeckError
 from harness.model.mesh import ElementGroup
 from harness.model.model import Model
 from harness.model.procedures import Dynamic
-from harness.model.properties import ElasticType, Material, SolidSection
+from harness.model.properties import ElasticType, Material, Orientation, SolidSection
 from harness.model.records import PointVariables
 from harness.usersub import Library, _binding
 
@@ -105,14 +106,11 @@ def solid_procedure(model: Model, group: ElementGroup, section: SolidSection, li
     if dynamic is not None and not material.density:
         message = f"material {material.name} has no *DENSITY, which elements of type {group.type} need in *DYNAMIC"
         raise DeckError(material.source, message)
-    nonlinear = next((step for step in model.steps if step.nlgeom), None)
-    if nonlinear is not None and section.orientation is not None:
-        message = f"*ORIENTATION is not supported for elements of type {group.type} with NLGEOM ({nonlinear.source})"
-        raise DeckError(section.source, message)
+    orientation = _orientation(model, group, section, library)
     hourglass = _hourglass_stiffness(group, kind, section)
     _warn_of_enhanced(model, group, kind, library)
-    number = define_material(material, section.orientation, kind.tensor, section.source, library)
-    define_fields(number, material, section.orientation, kind.tensor, library)
+    number = define_material(material, orientation, kind.tensor, section.source, library)
+    define_fields(number, material, orientation, kind.tensor, library)
     if material.expansion:
         _binding.set_expansion(number, material.expansion)
     unknowns = kind.dimension * kind.nodes
@@ -132,6 +130,26 @@ def solid_procedure(model: Model, group: ElementGroup, section: SolidSection, li
         statev=state_variables(material),
         uvarm=_output_variables(section, kind.points, library),
     )
+
+
+def _orientation(model: Model, group: ElementGroup, section: SolidSection, library: Library) -> Orientation | None:
+    """Directions of the material; with NLGEOM only those that do not change the solution are taken, and left out.
+
+    These are global ones, and any of an isotropic material. UMAT would see stresses in directions that turn.
+    """
+    nonlinear = next((step for step in model.steps if step.nlgeom), None)
+    orientation, material = section.orientation, section.material
+    if nonlinear is None or orientation is None:
+        return orientation
+    isotropic = material.elastic is not None and material.elastic.type is ElasticType.ISOTROPIC
+    if material.user is not None or material.user_field is not None or not (isotropic or is_global(orientation)):
+        message = f"*ORIENTATION is not supported for elements of type {group.type} with NLGEOM ({nonlinear.source})"
+        raise DeckError(section.source, message)
+    library.warn(
+        f"{section.source}: *ORIENTATION, NAME={orientation.name} with NLGEOM: the directions of the material and of "
+        f"stresses and strains in the output are the global ones, which do not turn with the elements"
+    )
+    return None
 
 
 def solid_variables(group: ElementGroup, procedure: Procedure) -> PointVariables:

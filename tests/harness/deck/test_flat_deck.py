@@ -10,6 +10,7 @@ import pytest
 from numpy.testing import assert_allclose, assert_array_equal
 
 from harness.deck import read_deck
+from harness.errors import DeckError
 from harness.model.model import Model
 from harness.model.properties import ElasticType, UserProperty
 
@@ -98,6 +99,25 @@ def test_output_requests(model: Model) -> None:
 
 def test_what_is_ignored_is_listed(model: Model) -> None:
     assert [(name, str(place)) for name, place in model.ignored] == [("RESTART", "deck.inp:63")]
+
+
+CONTACT = "*SURFACE INTERACTION, NAME=TOUCH\n1.\n*FRICTION\n0.3,\n*SURFACE BEHAVIOR, PRESSURE-OVERCLOSURE=HARD\n"
+
+
+def test_contact_properties_that_nothing_uses(read: Read) -> None:
+    text = FLAT.replace("*STEP", f"{CONTACT}*STEP", 1)
+    line = FLAT[: FLAT.index("*STEP")].count("\n") + 1
+    assert [(name, str(place)) for name, place in read(text).ignored[:3]] == [
+        ("SURFACE INTERACTION", f"deck.inp:{line}"),
+        ("FRICTION", f"deck.inp:{line + 2}"),
+        ("SURFACE BEHAVIOR", f"deck.inp:{line + 4}"),
+    ]
+    # an option of a contact property is none of the material before it
+    damage = text.replace("*FRICTION\n0.3,", "*DAMAGE INITIATION, CRITERION=MAXS\n1., 1., 1.")
+    with pytest.raises(DeckError, match=rf"deck.inp:{line + 2}: \*DAMAGE INITIATION: does not follow \*MATERIAL"):
+        read(damage)
+    with pytest.raises(DeckError, match=r"\*CONTACT PAIR is not supported"):
+        read(text.replace("*STEP", "*CONTACT PAIR, INTERACTION=TOUCH\nA, B\n*STEP", 1))
 
 
 @pytest.mark.parametrize(

@@ -113,6 +113,12 @@ def test_a_job_without_umat_or_with_an_orientation_is_refused(run):
         run(material, orientation=", ORIENTATION=TURNED")
 
 
+def test_global_directions_are_no_orientation(run):
+    axes = "\n*ORIENTATION, NAME=GLOBAL\n2., 0., 0., 1., 1., 0."
+    turned, plain = run(USER.format(0) + axes, orientation=", ORIENTATION=GLOBAL"), run(USER.format(0))
+    np.testing.assert_array_equal(turned.field("S11"), plain.field("S11"))
+
+
 def test_without_uvarm_its_variables_are_left_out(run):
     assert run("*ELASTIC\n1000., 0.3\n*USER OUTPUT VARIABLES\n2", user=None).status
 
