@@ -22,7 +22,7 @@ from harness.usersub.cache import Built
 from harness.usersub.diagnostics import first_error
 from harness.usersub.headers import HEADERS
 from harness.usersub.languages import FIXED, FORTRAN, FREE, LANGUAGES, ZERO_LOCALS, is_free_form, language_of, linking
-from harness.usersub.mending import repairs
+from harness.usersub.mending import Repair, hidden_types, repairs
 
 _SEARCH_VARIABLES: Final = (
     *("CPATH", "C_INCLUDE_PATH", "CPLUS_INCLUDE_PATH", "LIBRARY_PATH", "COMPILER_PATH", "GCC_EXEC_PREFIX"),
@@ -188,26 +188,41 @@ def _compile_one(command: Sequence[str], file: Path, sources: dict[str, list[Pat
     """
     copies: dict[str, str] = {}
     notes: list[str] = []
+    if language_of(file) is FORTRAN:
+        for repair in hidden_types(_read(file), file.name):
+            _mend(repair, sources, copies, notes)
+        _write(copies, folder)
     while True:
         source = folder / file.name if copies else file.resolve()
         errors = _errors([*command, f"-I{folder}", str(source)], folder.parent)
         if errors is None:
             return notes
-        changed = False
-        for repair in repairs(errors):
-            if len(sources.get(repair.file, [])) != 1:
-                continue
-            mended = repair.apply(copies.get(repair.file) or _read(sources[repair.file][0]))
-            if mended is not None:
-                copies[repair.file], changed = mended, True
-                notes.append(f"{repair.file}, line {repair.line}: {repair.note}")
-        if not changed:
+        changed = [_mend(repair, sources, copies, notes) for repair in repairs(errors)]
+        if not any(changed):
             texts = {name: _read(paths[0]) for name, paths in sources.items()}
             raise CompileError(file, first_error(errors, texts))
         copies.setdefault(file.name, _read(file))
+        _write(copies, folder)
+
+
+def _mend(repair: Repair, sources: dict[str, list[Path]], copies: dict[str, str], notes: list[str]) -> bool:
+    """Change the copy of a file, which is made where there is none; whether that could be done."""
+    if len(sources.get(repair.file, [])) != 1:
+        return False
+    mended = repair.apply(copies.get(repair.file) or _read(sources[repair.file][0]))
+    if mended is None:
+        return False
+    copies[repair.file] = mended
+    notes.append(f"{repair.file}, line {repair.line}: {repair.note}")
+    return True
+
+
+def _write(copies: dict[str, str], folder: Path) -> None:
+    """Put copies into their folder."""
+    if copies:
         folder.mkdir(exist_ok=True)
-        for name, text in copies.items():
-            (folder / name).write_text(text, encoding="latin-1")
+    for name, text in copies.items():
+        (folder / name).write_text(text, encoding="latin-1")
 
 
 def _errors(command: Sequence[str], folder: Path) -> str | None:

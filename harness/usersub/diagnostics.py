@@ -31,6 +31,11 @@ _HINTS: Final = (
     ),
     (r"\.(?:h|hpp|hh|hxx): No such file|/\w+: No such file", "name its folder in the environment variable CPATH"),
     (
+        r"already being used as a SUBROUTINE|FUNCTION attribute conflicts with SUBROUTINE|Unexpected use of subroutine",
+        "a subroutine has no value to use in an expression: CALL it and use what it returns in an argument, or make it "
+        "a FUNCTION",
+    ),
+    (
         r"Return type mismatch of function",
         "it is not declared where it is called, and takes its type from its first letter: declare it there",
     ),

@@ -36,13 +36,20 @@ _REAL_BOUND: Final = _error(
 _OWN_RESULT: Final = _error(
     r"'(?P<name>\w+)' at \(1\) is the name of a recursive function and so refers to the result variable\."
 )
+_UNTYPED: Final = _error(r"Symbol '\w+' at \(1\) has no IMPLICIT type$")
 _MIXED_SIGN: Final = _error(r"'b' argument of 'sign' intrinsic at \(1\) must be the same type and kind as 'a'$")
 _SIGN: Final = re.compile(r"\bsign\s*\(", re.IGNORECASE)
 _END_OF_FUNCTION: Final = re.compile(r"^\s*end\s*(?:function\b.*)?(?:!.*)?$", re.IGNORECASE)
-_REAL_CONSTANTS: Final = re.compile(
-    r"^\s*(?:real|double\s*precision)[^!\n]*\bparameter\b[^!\n]*::(.*)$", re.IGNORECASE | re.MULTILINE
+_BARE_PARAMETER: Final = re.compile(r"^(\s*)parameter\s+([a-z]\w*\s*=[^!]*?)\s*$", re.IGNORECASE)
+_CONSTANT: Final = re.compile(
+    r"[-+]?(?:(?P<whole>\d+)|(?P<single>\d*\.?\d*(?:e[-+]?\d+)?)|(?P<double>\d*\.?\d*d[-+]?\d+))", re.IGNORECASE
 )
-_BOUND: Final = re.compile(r"(?<=[(,:])[a-z]\w*(?=[),:])", re.IGNORECASE)
+_TYPES: Final = {"whole": "integer", "single": "real", "double": "double precision"}
+_NAMED: Final = re.compile(r"^[^!\n]*\bparameter\b(?P<list>[^!\n]*)", re.IGNORECASE | re.MULTILINE)
+_NAME: Final = re.compile(r"(?<![\w.])[a-z]\w*", re.IGNORECASE)
+_REAL_NUMBER: Final = re.compile(r"(?<!\w)\d+\.\d*(?:[de][-+]?\d+)?|(?<!\w)\d+[de][-+]?\d+", re.IGNORECASE)
+_DECLARED: Final = re.compile(r"\w\s*(?=\()")
+_LONGEST: Final = 132
 _SPELLINGS: Final = {".eq.": (".eq.", "=="), "==": (".eq.", "=="), ".ne.": (".ne.", "/="), "/=": (".ne.", "/=")}
 _STANDARD: Final = {".eq.": ".eqv.", "==": ".eqv.", ".ne.": ".neqv.", "/=": ".neqv."}
 _WEAKER: Final = re.compile(r"\.(and|or|eqv|neqv)\.", re.IGNORECASE)
@@ -78,6 +85,9 @@ def repairs(errors: str) -> Iterator[Repair]:
         line, name = int(found["line"]), found["name"]
         note = f"the function {name} calls itself and has no RESULT, which it has in the copy"
         yield Repair(Path(found["file"]).name, line, partial(name_result, line=line, name=name), note)
+    for found in _UNTYPED.finditer(errors):
+        line = int(found["line"])
+        yield Repair(Path(found["file"]).name, line, partial(type_constants, line=line), TYPED)
     for found in _MIXED_SIGN.finditer(errors):
         line = int(found["line"])
         change = partial(sign_of_one_kind, line=line, column=int(found["column"]))
@@ -127,19 +137,96 @@ def name_result(text: str, line: int, name: str) -> str | None:
 
 
 def whole_bound(text: str, line: int) -> str | None:
-    """The text in which the real constants that are array bounds in a declaration are made integers; None without one.
+    """The text in which the array bounds of a declaration that are real constants are made integers; None without one.
 
-    Only names declared as real PARAMETER are taken, which stand alone between parentheses, commas and colons.
+    Only bounds of numbers and of names in PARAMETER are taken.
     """
     lines = text.splitlines(keepends=True)
     if not 1 <= line <= len(lines):
         return None
-    reals = {name.lower() for found in _REAL_CONSTANTS.finditer(text) for name in re.findall(r"(\w+)\s*=", found[1])}
-    row = _BOUND.sub(lambda bound: f"int({bound[0]})" if bound[0].lower() in reals else bound[0], lines[line - 1])
-    if row == lines[line - 1]:
+    names = {name.lower() for found in _NAMED.finditer(text) for name in re.findall(r"(\w+)\s*=", found["list"])}
+    row, end = lines[line - 1], 0
+    pieces: list[str] = []
+    for found in _DECLARED.finditer(row):
+        last = _unmatched(row, range(found.end() + 1, len(row)), ")", "(")
+        if found.end() < end or last is None:
+            continue
+        bounds = row[found.end() + 1 : last]
+        pieces += [row[end : found.end() + 1], *(_whole(bound, names) for bound in re.split("([,:])", bounds))]
+        end = last
+    mended = "".join(pieces) + row[end:]
+    if mended == row:
         return None
-    lines[line - 1] = row
+    lines[line - 1] = mended
     return "".join(lines)
+
+
+def _whole(bound: str, names: set[str]) -> str:
+    """int() of a bound that is made of numbers and named constants, one of which may be real."""
+    used = {name.lower() for name in _NAME.findall(_REAL_NUMBER.sub("", bound))}
+    constant = used <= names and (used or _REAL_NUMBER.search(bound))
+    return f"int({bound.strip()})" if constant and "=" not in bound else bound
+
+
+TYPED: Final = "PARAMETER without parentheses, whose names take the types of their constants, which they are given"
+
+
+def hidden_types(text: str, file: str) -> Iterator[Repair]:
+    """Repairs of what gfortran takes, but otherwise than Abaqus' compiler: PARAMETER without parentheses.
+
+    There the constant says which type its name has, and not the first letter, by which NU = 0.3D0 would be 0. Names
+    that are declared somewhere in the file are left alone.
+    """
+    for line, row in enumerate(text.splitlines(), 1):
+        for name, kind, _ in _bare_constants(row) or ():
+            whole = name[0].lower() in "ijklmn"
+            declared = rf"^(?!\s*[c*!])[^!\n]*\b(?:real|double\s*precision|integer)\b[^!\n]*\b{name}\b"
+            if whole != (kind == "integer") and not re.search(declared, text, re.IGNORECASE | re.MULTILINE):
+                yield Repair(file, line, partial(type_constants, line=line), TYPED)
+                break
+
+
+def type_constants(text: str, line: int) -> str | None:
+    """The text in which the names of a PARAMETER without parentheses have the types of their constants.
+
+    None where it is not one line of plain constants.
+    """
+    lines = text.splitlines(keepends=True)
+    row = lines[line - 1].rstrip("\r\n") if 1 <= line <= len(lines) else ""
+    constants = _bare_constants(row)
+    if not constants or _continued(lines, line):
+        return None
+    kinds: dict[str, list[str]] = {}
+    for name, kind, _ in constants:
+        kinds.setdefault(kind, []).append(name)
+    typed = "; ".join(f"{kind} {', '.join(names)}" for kind, names in kinds.items())
+    values = ", ".join(f"{name}={value}" for name, _, value in constants)
+    mended = f"{row[: len(row) - len(row.lstrip())]}{typed}; parameter ({values})"
+    if len(mended) > _LONGEST:
+        return None
+    lines[line - 1] = f"{mended}\n"
+    return "".join(lines)
+
+
+def _bare_constants(row: str) -> list[tuple[str, str, str]] | None:
+    """Name, type and constant of each entry of a PARAMETER without parentheses; None of any other line."""
+    found = _BARE_PARAMETER.match(row.partition("!")[0])
+    if found is None:
+        return None
+    entries = []
+    for entry in found[2].split(","):
+        name, _, value = (part.strip() for part in entry.partition("="))
+        constant = _CONSTANT.fullmatch(value)
+        if constant is None or not value or constant.lastgroup is None or not re.fullmatch(r"[a-z]\w*", name.lower()):
+            return None
+        entries.append((name, _TYPES[constant.lastgroup], value))
+    return entries
+
+
+def _continued(lines: list[str], line: int) -> bool:
+    """Whether a statement goes on after a line, in fixed form; in free form its line ends with &, no constant."""
+    following = lines[line] if line < len(lines) else ""
+    return following[:5] == "     " and following[5:6].strip() not in ("", "0")
 
 
 def rename_import(text: str, line: int, module: str, name: str) -> str | None:

@@ -304,6 +304,23 @@ HINTS = {
         "the module tensors stands further down: move it to the top",
     ),
     "integer for logical": (database("      if (lop) i = 1"), "user.f", "write the comparison out, such as i /= 0"),
+    "a subroutine in an expression": (
+        "      subroutine uel(x)\n      x = s3(x)\n      end\n      subroutine s3(y)\n      y = 2*y\n      end\n",
+        "user.f",
+        "a subroutine has no value to use in an expression: CALL it",
+    ),
+    "a subroutine of a module in an expression": (
+        "      module m\n      contains\n      subroutine s3(y)\n      y = 2*y\n      end subroutine\n"
+        "      end module\n"
+        "      subroutine uel(x)\n      use m\n      x = s3(x)\n      end\n",
+        "user.f",
+        "a subroutine has no value to use in an expression: CALL it",
+    ),
+    "a subroutine that is called too": (
+        "      subroutine uel(x)\n      call s3(x)\n      x = s3(x)\n      end\n",
+        "user.f",
+        "a subroutine has no value to use in an expression: CALL it",
+    ),
     "fixed form in .f90": (
         "      subroutine uexternaldb(lop,\n     1 lrestart)\n      end\n",
         "user.f90",

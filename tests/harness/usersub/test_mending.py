@@ -42,6 +42,48 @@ def test_real_array_bound_that_is_no_constant_is_shown(load):
         load(database(body + "      a(1) = 0"))
 
 
+@pytest.mark.parametrize(
+    ("constants", "declaration"),
+    [
+        ("      parameter (three=3.d0, two=2)", "real*8 a(three*two), b(2)"),
+        ("      parameter three=3.d0", "real*8 a(2*three), b(0:1)"),
+        ("      double precision three\n      parameter (three=3)", "dimension a(three,2), b(-1:two)"),
+        ("      parameter (n=3)", "double precision a(2.d0*n), b(2.0)"),
+        ("      parameter (n=3)", "real(kind=8), dimension(n*2.) :: a, b"),
+    ],
+)
+def test_array_bounds_of_real_constants_in_any_form(load, constants, declaration):
+    """Expressions, numbers, and constants of implicit type; size(a) is 6."""
+    body = f"{constants}\n      parameter (two=2)\n" if "two" not in constants else f"{constants}\n"
+    body = f"      call work\n      end\n      subroutine work\n      include 'aba_param.inc'\n{body}"
+    library = load(database(f"{body}      {declaration}\n      a = 0\n      b = 0\n{note('%I', 'size(a)')}"))
+    assert any("a real number as an array bound" in m.text for m in library.messages())
+    assert said(library) == ["6"]
+
+
+@pytest.mark.parametrize("implicit", ["      implicit none\n", "      include 'aba_param.inc'\n"])
+def test_constants_without_parentheses_have_the_types_of_their_values(load, implicit):
+    """Intel Fortran Developer Guide, "Alternative Syntax for the PARAMETER Statement": first letters do not count."""
+    body = f"      call work\n      end\n      subroutine work\n{implicit}"
+    body += "      parameter nu=0.25d0, three=3, half=0.5 ! ratio\n"
+    text = database(body + note("%I %I", "nint(1/nu), three/2, nint(1/half)").replace("%I %I", "%I %I %I"))
+    library = load(text)
+    (message,) = library.messages()
+    assert "user.f, line 9: PARAMETER without parentheses, whose names take the types of their" in message.text
+    assert said(library) == ["4 1 2"]
+
+
+@pytest.mark.parametrize("line", ["parameter zero=0.d0", "parameter (nu=3)", "real*8 nu\n      parameter nu=3"])
+def test_constants_whose_types_are_plain_stay(load, line):
+    assert not load(database(f"      {line}")).messages()
+
+
+def test_constants_that_go_on_in_the_next_line_are_shown(load):
+    body = "      call work\n      end\n      subroutine work\n      implicit none\n"
+    with pytest.raises(CompileError, match=r"has no IMPLICIT type \(user.f, line 9"):
+        load(database(body + "      parameter zero=0.d0\n     1 , one=1.d0"))
+
+
 def test_name_that_is_imported_and_defined_compiles_in_a_copy(load):
     """As Abaqus' compiler takes it: in the routine its own name is meant."""
     modules = "      module one\n      contains\n      subroutine twice(i)\n      i = 2*i\n"
