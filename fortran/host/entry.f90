@@ -27,7 +27,7 @@ subroutine host_evaluate(address, options, lflags, clock, labels, jprops, equati
   real(dp), intent(inout), target :: svars_trial(nsvars, m), energy_trial(8, m), history_trial(values, points, m), &
                                      residual(n, nrhs), matrix(nnz)
   real(dp), intent(in), target :: floor(ndofel)
-  real(dp), intent(out), target :: flux(ndofel)
+  real(dp), intent(out), target :: flux(ndofel, 2)
   integer(i4), intent(out), target :: terms(ndofel)
   real(dp), intent(out) :: sums(9)            !< PNEWDT, ENERGY
   integer(i4), intent(out) :: status(4)       !< fault, position, array, index

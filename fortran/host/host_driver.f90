@@ -63,7 +63,7 @@ module host_driver
     real(dp), pointer, contiguous :: residual(:, :) => null()  !< (n, NRHS)
     real(dp), pointer, contiguous :: matrix(:) => null()
     real(dp), pointer, contiguous :: floor(:) => null()            !< (ndofel) |RHS| above which an entry counts as a term
-    real(dp), pointer, contiguous :: flux(:) => null()             !< (ndofel) sum of |RHS|
+    real(dp), pointer, contiguous :: flux(:, :) => null()          !< (ndofel, 2) sum of |RHS|, and the largest one
     integer(i4), pointer, contiguous :: terms(:) => null()         !< (ndofel) number of terms
     real(dp) :: pnewdt = 0                !< smallest returned
     real(dp) :: energy_sum(8) = 0
@@ -432,13 +432,14 @@ contains
     end do
   end subroutine add_residual
 
-  !> Add |x| to the sums of magnitudes, and to their terms those above the floor.
+  !> Add |x| to the sums of magnitudes, keep the largest ones, and count those above the floor.
   subroutine add_magnitude(n, x, floor, y, terms)
     integer, intent(in) :: n
     real(dp), intent(in) :: x(n), floor(n)
-    real(dp), intent(inout) :: y(n)
+    real(dp), intent(inout) :: y(n, 2)
     integer(i4), intent(inout) :: terms(n)
-    y = y + abs(x)
+    y(:, 1) = y(:, 1) + abs(x)
+    y(:, 2) = max(y(:, 2), abs(x))
     terms = terms + merge(1_i4, 0_i4, abs(x) > floor)
   end subroutine add_magnitude
 

@@ -5,7 +5,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 import numpy as np
 from numpy.typing import NDArray
@@ -30,6 +30,8 @@ class Evaluation:
     energy      (8,) sum of ENERGY
     load        (n,) sum of column 2 of RHS, increments of the loads that elements apply; None unless NRHS = 2
     damage      dissipated by the damage of built-in elements
+    largest     (fields,) largest |element nodal force|
+    entries     (fields,) number of element nodal forces
     """
 
     residual: FloatArray
@@ -40,6 +42,8 @@ class Evaluation:
     energy: FloatArray
     load: FloatArray | None = None
     damage: float = 0.0
+    largest: FloatArray = field(default_factory=lambda: np.zeros(len(FIELD_NAMES)))
+    entries: IntArray = field(default_factory=lambda: np.zeros(len(FIELD_NAMES), dtype=np.int64))
 
 
 class System:
@@ -87,6 +91,7 @@ class System:
         if data is not None:
             data.fill(0.0)
         flux, count = np.zeros(len(FIELD_NAMES)), np.zeros(len(FIELD_NAMES), dtype=np.int64)
+        largest, entries = np.zeros(len(FIELD_NAMES)), np.zeros(len(FIELD_NAMES), dtype=np.int64)
         energy, damage = np.zeros(8), 0.0
         pnewdt = np.inf
         for block in self.blocks:
@@ -94,13 +99,15 @@ class System:
             report = block.evaluate(call, u, du, kept if nrhs > 1 else kept[0], data, motion)
             flux += report.flux
             count += report.flux_count
+            largest = np.maximum(largest, report.largest)
+            entries += report.entries
             energy += report.energy
             damage += report.damage
             pnewdt = min(pnewdt, report.pnewdt)
         for face in self.pressures if call.distributed is not None else ():
             energy += face.evaluate(call, u, du, columns[0], data, motion).energy
         load = columns[1] if nrhs > 1 else None
-        return Evaluation(columns[0], data, flux, count, pnewdt, energy, load, damage)
+        return Evaluation(columns[0], data, flux, count, pnewdt, energy, load, damage, largest, entries)
 
     def artificial_mass(self, call: Call) -> FloatArray:
         """(nnz,) CSR values of the mass of the built-in elements that have one, for unit density."""

@@ -225,8 +225,7 @@ class Block:
         energy, damage = outcome.energy, 0.0
         if self._procedure.damages:
             damage, energy[_PLASTIC] = float(energy[_PLASTIC]), 0.0
-        terms = (outcome.terms @ self._by_field).astype(np.int64)
-        return BlockReport(outcome.flux @ self._by_field, terms, outcome.pnewdt, energy, damage)
+        return BlockReport.of(outcome, self._by_field, len(self.group.labels), energy, damage)
 
     def _loads(self, distributed: Distributed | None) -> LoadArrays:
         """Loads on the elements of the block, one row for each element, or one for all if there is none."""

@@ -4,10 +4,13 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-from typing import Final
+from dataclasses import dataclass, field
+from typing import Final, Self
+
+import numpy as np
 
 from harness.model.arrays import FloatArray, IntArray
+from harness.usersub._binding import Outcome
 
 COUPLED_TEMPERATURE: Final = (71, 72, 73)
 """LFLAGS(1) of *COUPLED TEMPERATURE-DISPLACEMENT: steady, transient, with fixed increments."""
@@ -108,6 +111,8 @@ class BlockReport:
     pnewdt      smallest PNEWDT returned; large where none was
     energy      (8,) sum of ENERGY
     damage      dissipated by the damage of built-in elements (ALLDMD), for which ENERGY has no entry
+    largest     (fields,) largest |element nodal force| by field
+    entries     (fields,) number of element nodal forces
     """
 
     flux: FloatArray
@@ -115,3 +120,18 @@ class BlockReport:
     pnewdt: float
     energy: FloatArray
     damage: float = 0.0
+    largest: FloatArray = field(default_factory=lambda: np.zeros(1))
+    entries: IntArray = field(default_factory=lambda: np.zeros(1, dtype=np.int64))
+
+    @classmethod
+    def of(cls, outcome: Outcome, by_field: FloatArray, elements: int, energy: FloatArray, damage: float) -> Self:
+        """From sums by unknown; by_field (unknowns, fields) is 1 where an unknown belongs to a field, else 0."""
+        return cls(
+            outcome.flux @ by_field,
+            (outcome.terms @ by_field).astype(np.int64),
+            outcome.pnewdt,
+            energy,
+            damage,
+            (outcome.largest[:, None] * by_field).max(axis=0),
+            (elements * by_field.sum(axis=0)).astype(np.int64),
+        )

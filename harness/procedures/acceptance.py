@@ -17,6 +17,10 @@ INITIAL_FLUX = 1e-2
 """Time average flux of Abaqus before any flux was seen in the first step (*CONTROLS, q_0)."""
 
 
+SMALL_PEAK = 0.1
+"""Largest element force over its time average below which none of the smaller ones counts as zero."""
+
+
 @dataclass(frozen=True, slots=True)
 class Check:
     """What decides on one field in one iteration; all values are magnitudes.
@@ -83,12 +87,14 @@ class FluxHistory:
     """Converged average fluxes of one field in a step.
 
     The time average is the plain mean over the increments of the step, the current one included, that carry flux;
-    increments of zero flux are skipped. Before any flux it is `initial`.
+    increments of zero flux are skipped. Before any flux it is `initial`. `peaks` sums the largest
+    element forces.
     """
 
     initial: float = INITIAL_FLUX
     total: float = 0.0
     count: int = 0
+    peaks: float = 0.0
 
     def average(self, q: float, controls: FieldControls) -> float:
         """Time average flux if the current increment ended with the average flux q."""
@@ -98,15 +104,19 @@ class FluxHistory:
             return (self.total + q) / (self.count + 1)
         return self._mean()
 
-    def converged(self, q: float, controls: FieldControls) -> FluxHistory:
-        """History after an increment that converged with the average flux q."""
+    def converged(self, q: float, controls: FieldControls, peak: float = 0.0) -> FluxHistory:
+        """History after an increment that converged with the average flux q and the largest element force `peak`."""
         if not self._carries(q, controls):
             return self
-        return FluxHistory(self.initial, self.total + q, self.count + 1)
+        return FluxHistory(self.initial, self.total + q, self.count + 1, self.peaks + peak)
 
     def floor(self, controls: FieldControls) -> float:
         """Element nodal force that counts as zero in the next increment; -1 before any flux was seen in the step."""
-        return controls.eps * self._mean() if self.count else -1.0
+        return controls.eps * self.peaks / self.count if self.count else -1.0
+
+    def leaves_out(self, peak: float) -> bool:
+        """Whether element forces below the floor are no terms of the average, where the largest one is `peak`."""
+        return self.count > 0 and peak >= SMALL_PEAK * self.peaks / self.count
 
     def next_step(self, controls: FieldControls) -> FluxHistory:
         """History at the start of the next step: q_0 where given, else the time average of this step."""

@@ -74,10 +74,8 @@ class Outcome:
     """End of a pass over a block.
 
     position  element of the fault (from 0; -1 unknown)
-    array     name of the array of the fault
-    index     entry of the array, from 1; below 1 or beyond its length for a write outside; or the point
-    flux      (ndofel,) sum over the elements of |RHS|
-    terms     (ndofel,) entries of RHS above the floor
+    array, index  array of the fault and its entry, from 1, beyond its ends for a write outside; or the point
+    flux, largest, terms  (ndofel,) sum over the elements of |RHS|, the largest one, number of those above the floor
     """
 
     fault: Fault
@@ -85,6 +83,7 @@ class Outcome:
     array: str
     index: int
     flux: FloatArray
+    largest: FloatArray
     terms: Int32Array
     pnewdt: float
     energy: FloatArray
@@ -184,7 +183,8 @@ def evaluate(
         matrix,
     )
     fault, position, array, index = (int(k) for k in status)
-    return Outcome(Fault(fault), position - 1, ARRAYS[array - 1], index, flux, terms, float(sums[0]), sums[1:])
+    place = Fault(fault), position - 1, ARRAYS[array - 1], index
+    return Outcome(*place, flux[:, 0], flux[:, 1], terms, float(sums[0]), sums[1:])
 
 
 def exchange_marks(marks: FloatArray) -> None:

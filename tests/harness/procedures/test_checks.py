@@ -25,8 +25,9 @@ DOFS = SimpleNamespace(
 CONSTRAINTS = SimpleNamespace(free=np.array([1, 2, 3]))
 
 
+ENTRIES = np.array([4, 0, 0, 0, 2])
 MADE_UP = Evaluation(
-    np.zeros(4), None, np.array([12.0, 0.0, 0.0, 0.0, 8.0]), np.array([4, 0, 0, 0, 2]), 1e36, np.zeros(8)
+    np.zeros(4), None, np.array([12.0, 0.0, 0.0, 0.0, 8.0]), ENTRIES, 1e36, np.zeros(8), entries=ENTRIES
 )
 
 
