@@ -99,13 +99,13 @@ COLUMNS: dict[str, tuple[Column, ...]] = {
     "at 3 mm (N)": (END,),
     "at the end (N)": (END,),
     "load at 4.4 mm (N)": (END,),
-    "off beam theory after the peak": (Column(measures.theory_deviation, 0.1, 1e-3),),
+    "off beam theory after the peak": (Column(measures.theory_deviation, 0.1, 1e-3, 3.0),),
     "dissipated / (G_Ic width growth)": (Column(measures.dissipation_ratio, 5e-3),),
     "dissipated by damage (N mm)": (DISSIPATED,),
     "dissipated (N mm)": (DISSIPATED,),
     "work - stored - dissipated": (Column(measures.energy_error, 0.1, 1e-3, 3.0),),
-    "total variation of t_n (MPa)": (Column(measures.traction_variation, 0.02),),
-    "increments, given up": (Column(measures.increments, 0.0, 3.0, 3.0), Column(measures.cutbacks, 0.0, 2.0, 3.0)),
+    "total variation of t_n (MPa)": (Column(measures.traction_variation, 0.02, 0.0, 3.0),),
+    "increments, given up": (Column(measures.increments, 0.1, 0.0, 3.0), Column(measures.cutbacks, 0.1, 2.0, 3.0)),
     "iterations": (Column(measures.iterations, 0.1, 0.0, 3.0),),
 }
 
