@@ -113,7 +113,9 @@ def test_compression_from_all_sides(run, element_type):
     strain = (1 + NU if plane else 1) * (1 - 2 * NU) * pressure / YOUNG
     stretch = ((1 - strain / 20) / (1 + strain / 20)) ** 10
     nodes = NODES[element_type]
-    np.testing.assert_allclose(nodal(result, "U", nodes), (stretch - 1) * nodes, atol=1e-7)
+    # a C3D20R by itself has modes without stiffness, in which rounding moves it
+    rounding = 1e-6 if element_type == "C3D20R" else 1e-7
+    np.testing.assert_allclose(nodal(result, "U", nodes), (stretch - 1) * nodes, atol=rounding)
     volume = {"CPE": THICKNESS, "CAX": np.pi, "C3D": 1.0}[element_type[:3]]
     # V = exp(-rate t), p in proportion to t
     rate = (2 if plane else 3) * strain
