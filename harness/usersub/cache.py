@@ -44,7 +44,7 @@ def cache_folder() -> Path | None:
     """Folder of compiled user files; None where there can be none, or others could write there."""
     base = Path(os.environ.get("XDG_CACHE_HOME", ""))
     try:
-        folder = (base if base.is_absolute() else Path.home() / ".cache") / "uel-harness"
+        folder = (base if base.is_absolute() else Path.home() / ".cache") / "uel-harness" / "compiled"
         if not folder.is_absolute():
             return None
         folder.mkdir(mode=0o700, parents=True, exist_ok=True)

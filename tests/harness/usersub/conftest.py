@@ -9,7 +9,7 @@ from harness import usersub
 def cache(tmp_path, monkeypatch):
     """Every test compiles anew, into its own cache folder."""
     monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path / "cache"))
-    return tmp_path / "cache" / "uel-harness"
+    return tmp_path / "cache" / "uel-harness" / "compiled"
 
 
 @pytest.fixture

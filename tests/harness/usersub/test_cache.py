@@ -187,7 +187,7 @@ def test_ten_processes_at_once(tmp_path):
     processes = [run_apart(tmp_path, XDG_CACHE_HOME=str(tmp_path / "cache")) for _ in range(10)]
     for process in processes:
         good(process)
-    left = sorted(file.suffix for file in (tmp_path / "cache" / "uel-harness").iterdir())
+    left = sorted(file.suffix for file in (tmp_path / "cache" / "uel-harness" / "compiled").iterdir())
     assert set(left) == {".json", ".so"}
     assert left.count(".json") == left.count(".so")
 
@@ -208,6 +208,14 @@ def test_folder_that_others_can_write(load, cache):
         assert store.cache_folder() is None
         assert said(load(database(note()))) == ["here"]
     cache.chmod(0o700)
+    assert len(list(cache.glob("*.so"))) == 1
+
+
+def test_folder_around_it_may_be_open(load, cache):
+    """As one that is made with an open umask: what is in it is looked at itself."""
+    cache.parent.mkdir(parents=True)
+    cache.parent.chmod(0o775)
+    load(database(note()))
     assert len(list(cache.glob("*.so"))) == 1
 
 
