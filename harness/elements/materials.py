@@ -120,10 +120,10 @@ def define_material(
     components = _COMPONENTS[tensor]
     if tensor is Tensor.PLANE_STRESS:
         reduced = compliance[np.ix_(components, components)]
-        stiffness = _inverse(reduced)
+        stiffness = _inverse(reduced, elastic)
     else:
-        stiffness = _inverse(compliance)[np.ix_(components, components)]
-        reduced = _inverse(stiffness)
+        stiffness = _inverse(compliance, elastic)[np.ix_(components, components)]
+        reduced = _inverse(stiffness, elastic)
     constants, table = (0.0, 0.0), np.zeros((1, 2))
     if material.plastic is not None:
         if elastic.type is not ElasticType.ISOTROPIC:
@@ -149,7 +149,14 @@ def _define_user_material(
     return _binding.define_user_material(library.umat, material.name, int(tensor), given.constants)
 
 
-def _inverse(matrix: FloatArray) -> FloatArray:
+MOST_STIFF: Final = 1e13
+"""Ratio of the stiffest to the softest response of a material, with which three digits are left."""
+
+
+def _inverse(matrix: FloatArray, elastic: Elastic) -> FloatArray:
+    if (ratio := np.linalg.cond(matrix)) > MOST_STIFF:
+        message = f"the stiffest response is {ratio:.0e} times the softest: up to {MOST_STIFF:.0e} can be computed with"
+        raise DeckError(elastic.source, f"*ELASTIC: {message}")
     return np.asarray(np.linalg.inv(matrix), dtype=np.float64)
 
 
@@ -168,7 +175,7 @@ def _compliance(elastic: Elastic, tensor: Tensor) -> FloatArray:
     if elastic.type in (ElasticType.ORTHOTROPIC, ElasticType.ANISOTROPIC):
         stiffness = _orthotropic(c) if elastic.type is ElasticType.ORTHOTROPIC else _anisotropic(c)
         _check_definite(elastic, stiffness)
-        return _inverse(stiffness)
+        return _inverse(stiffness, elastic)
     compliance = _compliance_of(_engineering(elastic, c, tensor))
     _check_definite(elastic, compliance)
     return compliance
