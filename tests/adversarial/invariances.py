@@ -176,7 +176,7 @@ def beam(name: str, columns: int = 10, rows: int = 2) -> str:
 def cases(folder: Path) -> Iterator[Case]:
     """All cases; decks that are made go to the folder."""
     inputs = ROOT / "abaqus_inputs"
-    interface = {"INTERFACE": _INTERFACE}
+    interface = {"INTERFACE": _INTERFACE, **dict.fromkeys(("BOTTOM", "TOP"), (LENGTH, ONE, ONE))}
     yield Case("delamination, user elements", inputs / "cohesive" / "frmm_u2.inp", None, interface)
     yield Case("delamination, COH2D4", inputs / "cohesive" / "frmm_coh2d4.inp")
     yield Case("double cantilever beam", inputs / "dcb" / "dcb_u2_1e6.inp", None, interface)
