@@ -47,6 +47,11 @@ class Abandoned:
     cause: str = ""
 
 
+ALIKE = 1e-6
+"""Relative difference of residuals that is no growth: those of two states that follow each other in turn differ by
+rounding, on which it must not depend how the attempt ends."""
+
+
 def judge_rate(
     iteration: int, residuals: Sequence[float], tolerance: float, controls: TimeControls
 ) -> Abandoned | None:
@@ -67,7 +72,7 @@ def judge_rate(
         From iteration I_0: the residuals of two iterations in a row above that of the one before. From I_R: more than
         I_C iterations needed if the residual goes on falling by the factor of the last iteration.
     """
-    if iteration >= controls.i_0 and len(residuals) > 2 and min(residuals[-2:]) > residuals[-3]:
+    if iteration >= controls.i_0 and len(residuals) > 2 and min(residuals[-2:]) > (1.0 + ALIKE) * residuals[-3]:
         return Abandoned(controls.d_f, DIVERGING)
     if iteration >= controls.i_r and len(residuals) > 1:
         needed = math.inf
