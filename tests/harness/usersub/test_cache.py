@@ -19,10 +19,10 @@ from harness.usersub import compiler
 
 VALUE = "      i = {}\n"
 SCRIPT = """\
-import sys
+import os, sys
 from pathlib import Path
 from harness import usersub
-library = usersub.load(Path("user.f"), job="job", output_dir=Path(sys.argv[1]))
+library = usersub.load(Path("user.f"), job=f"job{os.getpid()}", output_dir=Path(sys.argv[1]))
 library.external_database(0, 0, (0.0, 0.0), 0.0, 1, 0)
 print([message.text for message in library.messages()])
 library.close()
