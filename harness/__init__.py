@@ -2,6 +2,18 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Run Abaqus decks with Abaqus user elements, without Abaqus."""
 
-from harness.job import run
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from harness.job import run
 
 __all__ = ["run"]
+
+
+def __getattr__(name: str) -> Any:
+    """Load numpy and scipy where something is run: the command takes an interrupt from its first moment on."""
+    if name != "run":
+        raise AttributeError(f"module 'harness' has no attribute '{name}'")
+    from harness.job import run  # noqa: PLC0415
+
+    return run

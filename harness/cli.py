@@ -5,16 +5,15 @@
 from __future__ import annotations
 
 import argparse
+import math
+import os
 import shutil
 import sys
 from collections.abc import Sequence
 from pathlib import Path
 
-from rich.console import Console
-from rich.table import Table
-
 from harness import isolation
-from harness.errors import UelError
+from harness.errors import UelError, in_words, tell_error
 
 # options of the `abaqus` command and what they are here; None: accepted and without effect on one machine
 ABAQUS_OPTIONS = {
@@ -31,35 +30,46 @@ ABAQUS_OPTIONS = {
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
-    """Run the command; returns the exit code: 0 on success, 1 on a failed job, 2 on wrong usage.
+    """Run the command; returns the exit code: 0 on success, 1 on a failed or interrupted job, 2 on wrong usage.
 
     Without arguments it is those of the command line, and `uel run` and `uel check` work in a process of their own.
     """
-    parser = build_parser()
-    words = list(sys.argv[1:] if arguments is None else arguments)
-    if words[:1] == ["run"]:
-        words[1:] = from_abaqus(parser, words[1:])
-    elif words[:1] == ["law"]:
-        # properties may stand anywhere between the options
-        words[1:] = sorted(words[1:], key=lambda word: word.startswith("-") or "=" not in word)
-    options = parser.parse_args(words)
     try:
+        open_standard_streams()
+        parser = build_parser()
+        words = list(sys.argv[1:] if arguments is None else arguments)
+        if words[:1] == ["run"]:
+            words[1:] = from_abaqus(parser, words[1:])
+        elif words[:1] == ["law"]:
+            # properties may stand anywhere between the options
+            words[1:] = sorted(words[1:], key=lambda word: word.startswith("-") or "=" not in word)
+        options = parser.parse_args(words)
         # in this process where a program calls, or a debugger
         options.apart = arguments is None and not getattr(options, "same_process", True)
         if options.apart and options.function is run_job:
             stem = (options.output_dir or Path()) / (options.job or options.deck.stem)
-            return isolation.supervise(words, stem)
-        return int(options.function(options))
-    except UelError as error:
-        for text in (error, *getattr(error, "__notes__", ())):
-            print(f"uel: {text}", file=sys.stderr)
-    except OSError as error:
-        print(f"uel: {error.filename or ''}: {error.strerror or error}", file=sys.stderr)
-    except MemoryError:
-        print("uel: not enough memory for this model; the output written so far is readable", file=sys.stderr)
-    except KeyboardInterrupt:
-        print("uel: interrupted; the output written so far is readable", file=sys.stderr)
+            return isolation.supervise(words, stem, options.call_limit)
+        code = int(options.function(options))
+        if sys.stdout is not None:
+            sys.stdout.flush()
+        return code
+    except BrokenPipeError:
+        # whoever reads has seen enough; nothing is written to it where the process ends
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+    except (UelError, OSError, MemoryError, KeyboardInterrupt) as error:
+        ending = "" if isinstance(error, UelError | OSError) else "; the output written so far is readable"
+        for text in (in_words(error) + ending, *getattr(error, "__notes__", ())):
+            tell_error(text)
     return 1
+
+
+def open_standard_streams() -> None:
+    """Where one is closed, the next file that is opened would get its number, and what user code prints."""
+    for number in range(3):
+        try:
+            os.fstat(number)
+        except OSError:
+            os.open(os.devnull, os.O_RDWR)
 
 
 def build_parser() -> argparse.ArgumentParser:
@@ -170,9 +180,20 @@ def add_check(check: argparse.ArgumentParser) -> None:
 def add_isolation(command: argparse.ArgumentParser) -> None:
     """Options of commands that call user code."""
     command.add_argument(
-        "--call-limit", type=float, default=60.0, metavar="SECONDS", help="time for one call of a user routine (60)"
+        "--call-limit",
+        type=seconds,
+        default=60.0,
+        metavar="SECONDS",
+        help="time for one call of a user routine, and for loading the library; 0: any (60)",
     )
     command.add_argument(isolation.SAME_PROCESS, action="store_true", help="for debuggers: no process of its own")
+
+
+def seconds(text: str) -> float:
+    """A time of 0 or more, given as an option."""
+    if not (math.isfinite(value := float(text)) and value >= 0.0):
+        raise argparse.ArgumentTypeError(f"expected a time of 0 or more, found {text}")
+    return value
 
 
 def positive(text: str) -> int:
@@ -251,6 +272,8 @@ def write_amalgam(options: argparse.Namespace) -> int:
 
 def explore_law(options: argparse.Namespace) -> int:
     """`uel law`."""
+    from rich.console import Console  # noqa: PLC0415
+
     from harness.delamination.law_report import Exploration, explore, path_points, summary  # noqa: PLC0415
 
     asked = {
@@ -266,6 +289,8 @@ def explore_law(options: argparse.Namespace) -> int:
 
 def check_elements(options: argparse.Namespace) -> int:
     """`uel check`."""
+    from rich.console import Console  # noqa: PLC0415
+
     from harness.check.command import check  # noqa: PLC0415
 
     return check(options, Console(), apart=options.apart)
@@ -273,6 +298,8 @@ def check_elements(options: argparse.Namespace) -> int:
 
 def reproduce_paper(options: argparse.Namespace) -> int:
     """`uel reproduce`."""
+    from rich.console import Console  # noqa: PLC0415
+
     from harness.delamination.reproduce.command import reproduce  # noqa: PLC0415
 
     reproduce(options.cases, options.output_dir, quick=options.quick, console=Console())
@@ -281,6 +308,9 @@ def reproduce_paper(options: argparse.Namespace) -> int:
 
 def list_solvers(_: argparse.Namespace) -> int:
     """`uel solvers`."""
+    from rich.console import Console  # noqa: PLC0415
+    from rich.table import Table  # noqa: PLC0415
+
     from harness.solver.linear import available  # noqa: PLC0415
 
     table = Table("solver", "installed", "version", "when it is taken")

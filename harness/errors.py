@@ -4,7 +4,10 @@
 
 from __future__ import annotations
 
+import os
+import sys
 from collections.abc import Sequence
+from contextlib import suppress
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Final
@@ -23,6 +26,26 @@ class Source:
 
 class UelError(Exception):
     """Base of every error with a message for the user."""
+
+
+def in_words(error: BaseException) -> str:
+    """What went wrong, for a user: of an error of ours, of the system, of memory, or an interrupt."""
+    if isinstance(error, UelError):
+        return str(error)
+    if isinstance(error, OSError):
+        place = f"{_shown(os.fsdecode(error.filename))}: " if isinstance(error.filename, str | bytes) else ""
+        return f"{place}{error.strerror or error}"
+    if isinstance(error, MemoryError):
+        return "not enough memory for this model"
+    if isinstance(error, KeyboardInterrupt):
+        return f"{error}" or "interrupted"
+    return f"{type(error).__name__}: {error}"
+
+
+def tell_error(text: str) -> None:
+    """Print an error of the command, as far as that is possible."""
+    with suppress(OSError):
+        print(f"uel: {text}", file=sys.stderr, flush=True)
 
 
 class DeckError(UelError):

@@ -1,19 +1,24 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""A run in a process of its own: whatever user code does to it, the files are closed and the reason is said."""
+"""A run in a process of its own: whatever user code does to it, it ends, with the files closed and the reason said."""
 
 from __future__ import annotations
 
 import ctypes
+import os
 import resource
 import signal
 import subprocess
 import sys
+import time
 from collections.abc import Callable, Sequence
+from dataclasses import dataclass
 from pathlib import Path
 from typing import IO, Final
 
-from harness.output.broken import close_broken
+from harness.errors import tell_error
+from harness.interrupts import ENDS, collected, describe_interrupt
+from harness.slate import Slate, new_slate
 
 SAME_PROCESS: Final = "--same-process"
 """Option of `uel run` and `uel check` for the process that runs."""
@@ -26,7 +31,13 @@ _ENDED = 2
 """Exit code with which the Fortran library ends a process; usage errors, which have it too, were found before."""
 
 _GLANCE: Final = 0.2
-"""Seconds between two calls of `meanwhile`."""
+"""Seconds between two looks at the process."""
+
+_GRACE: Final = 5.0
+"""Seconds that it has for its end: after a signal, when all is done, or beyond the limit of a call."""
+
+_IDLE: Final = 10.0
+"""Seconds without work after which a process in which a call was left is taken to wait for a lock, for ever."""
 
 _REASONS: Final = {
     signal.SIGKILL: "killed, by a user or by the system for lack of memory",
@@ -35,50 +46,136 @@ _REASONS: Final = {
 }
 
 
-def supervise(words: Sequence[str], stem: Path) -> int:
-    """Run `uel` with these words in a process of its own; returns the exit code.
+@dataclass(frozen=True, slots=True)
+class End:
+    """How a process ended.
+
+    code         exit code, -n for signal n
+    finished     whether it came to its end by itself
+    reason       the end of a sentence, where it did not
+    place        where in user code that was; '' if it was elsewhere
+    interrupted  whether a signal asked for it
+    """
+
+    code: int
+    finished: bool
+    reason: str
+    place: str
+    interrupted: bool = False
+
+
+def supervise(words: Sequence[str], stem: Path, call_limit: float) -> int:
+    """Run `uel` with these words, a subcommand first, in a process of its own; returns the exit code.
 
     stem is the folder and name of the job. A run that ends without closing its files gets them closed here.
     """
-    code = run_apart(["harness.cli", *words, SAME_PROCESS])
-    if code in (0, 1):
-        return code
-    reason = f"the run was {describe_end(code)}"
+    end = run_apart("harness.cli", [words[0], SAME_PROCESS, *words[1:]], call_limit)
+    if end.finished:
+        return end.code
+    from harness.output.broken import close_broken  # noqa: PLC0415 (numpy, after the process has begun)
+
+    reason = f"the run was {end.reason}" + (f", {end.place}" if end.place else "")
     close_broken(stem, reason)
-    print(f"uel: {reason}; the output written so far is readable", file=sys.stderr)
+    tell_error(f"{reason}; the output written so far is readable")
     return 1
 
 
 def run_apart(
-    command: Sequence[str], errors: IO[str] | None = None, meanwhile: Callable[[], None] | None = None
-) -> int:
-    """Run a Python module with arguments in a process that user code may end; returns its exit code, -n for signal n.
+    module: str,
+    words: Sequence[str],
+    call_limit: float,
+    *,
+    errors: IO[str] | None = None,
+    meanwhile: Callable[[], None] | None = None,
+) -> End:
+    """Call `main` of a module with words in a process that user code may end, and that is ended if it hangs.
 
+    call_limit: seconds that one call of a user routine may take, 0: any; the process itself holds it as far as it can.
     errors: where its messages go, by default to those of this process. meanwhile: is called now and then.
     """
     _take_all_stack()
-    process = subprocess.Popen(
-        [sys.executable, "-m", *command],
-        stderr=errors,
-        preexec_fn=_end_with_parent,  # noqa: PLW1509 (takes no lock: one call of the system)
-    )
-    code = None
-    while code is None:
-        try:
-            code = process.wait(_GLANCE if meanwhile else None)
-        except subprocess.TimeoutExpired:
-            assert meanwhile is not None
-            meanwhile()
-        except KeyboardInterrupt:
-            # the process gets the signal as well, and ends by itself
-            continue
-    return code
+    descriptor, slate = new_slate()
+    with collected() as signals:
+        process = subprocess.Popen(
+            [sys.executable, "-m", "harness.apart", str(descriptor), module, *words],
+            stderr=errors,
+            pass_fds=[descriptor],
+            preexec_fn=_prepare,  # noqa: PLW1509 (takes no lock: two calls of the system)
+        )
+        os.close(descriptor)
+        watch = _Watch(process, slate, call_limit)
+        code, why = None, ""
+        while code is None:
+            try:
+                code = process.wait(_GLANCE)
+            except subprocess.TimeoutExpired:
+                if meanwhile:
+                    meanwhile()
+                why = why or watch.glance(signals)
+                if why:
+                    process.kill()
+    if slate.finished:
+        return End(slate.finished - 1, True, "", "", bool(signals))
+    inside = bool(slate.within) or why == HANGS
+    return End(code, False, why or describe_end(code), slate.where() if inside else "", bool(signals))
 
 
-def _end_with_parent() -> None:
-    """Whoever kills this process wants no other one to go on."""
+ENDLESS: Final = (
+    "ended because a call of a user routine, or loading the library, does not end within {limit:g} s (--call-limit)"
+)
+HANGS: Final = "ended because it hangs after a call that was left, mostly inside a WRITE, which locks its unit"
+
+
+class _Watch:
+    """Looks at a process now and then, and says when and why it is to be killed.
+
+    What it measures is the number of its looks: where all processes were stopped, no time has passed.
+    """
+
+    def __init__(self, process: subprocess.Popen[bytes], slate: Slate, call_limit: float) -> None:
+        self._process = process
+        self._slate = slate
+        self._limit = call_limit
+        self._passed = 0
+        self._seen: tuple[int, ...] = ()
+        self._call, self._idle, self._ending = 0.0, 0.0, 0.0
+        self._work = 0
+
+    def glance(self, signals: Sequence[int]) -> str:
+        """Pass on signals that have come; '' or why the process has to be killed."""
+        slate = self._slate
+        for signum in signals[self._passed :]:
+            self._process.send_signal(signum)
+        again, self._passed = 0 < self._passed < len(signals), len(signals)
+        seen = (slate.calls, slate.within, slate.left)
+        self._call = self._call + _GLANCE if slate.within and seen == self._seen else 0.0
+        work = _work(self._process.pid)
+        self._idle = self._idle + _GLANCE if slate.left and work == self._work else 0.0
+        self._ending = self._ending + _GLANCE if signals or slate.finished else 0.0
+        self._seen, self._work = seen, work
+        if signals and (again or self._ending > _GRACE):
+            return describe_interrupt(signals[0])
+        if slate.finished and self._ending > _GRACE:
+            return "ended"
+        if self._limit > 0.0 and self._call > self._limit + _GRACE:
+            return ENDLESS.format(limit=self._limit)
+        return HANGS if self._idle > _IDLE else ""
+
+
+def _work(process: int) -> int:
+    """Ticks of processor time that a process has used; where the system does not tell, it always works."""
+    try:
+        fields = Path(f"/proc/{process}/stat").read_text("utf-8", errors="replace").rpartition(")")[2].split()
+    except OSError:
+        return time.monotonic_ns()
+    return int(fields[11]) + int(fields[12])
+
+
+def _prepare() -> None:
+    """Let signals wait until the process can take them. Whoever kills this process wants no other one to go on."""
+    signal.pthread_sigmask(signal.SIG_BLOCK, ENDS)
     if _PRCTL is not None:
-        _PRCTL(_PR_SET_PDEATHSIG, signal.SIGTERM)
+        _PRCTL(_PR_SET_PDEATHSIG, signal.SIGKILL)
 
 
 def describe_end(code: int) -> str:

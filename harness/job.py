@@ -6,14 +6,19 @@ from __future__ import annotations
 
 import time
 from collections.abc import Sequence
+from contextlib import suppress
 from pathlib import Path
 from typing import Final
 
 from harness import usersub
 from harness.assembly import ForgivingSystem
 from harness.deck import read_deck
-from harness.errors import UelError
+from harness.errors import UelError, in_words
+from harness.interrupts import held
+from harness.model.model import Model
 from harness.output import JobOutput, Result
+from harness.output.broken import forget_verdict, write_verdict
+from harness.output.lock import job_stem, locked
 from harness.procedures import run_steps
 from harness.solver.threads import one_blas_thread
 from harness.usersub import Library, marks
@@ -71,38 +76,53 @@ def run(
         stays readable. Its notes are the first warnings before it.
     """
     deck = Path(deck)
-    job = job or deck.stem
-    directory = Path(output_dir or ".")
-    directory.mkdir(parents=True, exist_ok=True)
-    started = time.perf_counter()
-    model = read_deck(deck)
-    usersub.limit_calls(call_limit)
+    stem = job_stem(job or deck.stem, output_dir)
     files = [user] if isinstance(user, str | Path) else user or ()
-    sources = [Path(file) for file in files]
-    library = usersub.load(sources, job=job, output_dir=directory, deck=deck, zero_locals=True)
-    output = JobOutput(model, job, directory, quiet=quiet)
+    stem.parent.mkdir(parents=True, exist_ok=True)
+    started = time.perf_counter()
+    with locked(stem):
+        forget_verdict(stem)
+        try:
+            model = read_deck(deck)
+            usersub.limit_calls(call_limit)
+            sources = [Path(file) for file in files]
+            library = usersub.load(sources, job=stem.name, output_dir=stem.parent, deck=deck, zero_locals=True)
+            try:
+                output = JobOutput(model, stem.name, stem.parent, quiet=quiet)
+                _analyse(model, library, output, solver, fallback=fallback, energy_control=energy_control)
+            finally:
+                library.close()
+        except BaseException as error:
+            # where the files of the run have not begun, or cannot be closed
+            with suppress(OSError):  # the error that counts is the first
+                write_verdict(stem, in_words(error))
+            raise
+    return Result(stem, seconds=time.perf_counter() - started, warnings=output.warnings)
+
+
+def _analyse(
+    model: Model, library: Library, output: JobOutput, solver: str, *, fallback: bool, energy_control: bool
+) -> None:
+    """Run all steps, with their records in the files, which are closed at the end, whatever that is."""
     try:
         system = ForgivingSystem(model, library)
         with one_blas_thread(), marks({}):
             for record in run_steps(system, model, library, solver, fallback=fallback, energy_control=energy_control):
-                _pass_on(library, output)
-                output.write(record)
-        _pass_on(library, output)
-    except UelError as error:
-        _pass_on(library, output)
-        output.close(error)
+                with held():
+                    _pass_on(library, output)
+                    output.write(record)
+        with held():
+            _pass_on(library, output)
+            output.close(None)
+    except BaseException as error:
+        with held(), suppress(OSError):
+            _pass_on(library, output)
+            output.close(UelError(in_words(error)))
         for warning in output.warnings[:MOST_REPEATED]:
             error.add_note(f"earlier warning: {warning}")
         if len(output.warnings) > MOST_REPEATED:
-            error.add_note(f"and {len(output.warnings) - MOST_REPEATED} more warnings in {job}.dat and {job}.msg")
+            error.add_note(f"and {len(output.warnings) - MOST_REPEATED} more warnings in {output.job}.dat and .msg")
         raise
-    except BaseException:
-        output.close(UelError("the run was interrupted"))
-        raise
-    finally:
-        library.close()
-    output.close(None)
-    return Result(directory / job, seconds=time.perf_counter() - started, warnings=output.warnings)
 
 
 def _pass_on(library: Library, output: JobOutput) -> None:

@@ -154,19 +154,15 @@ subroutine host_open_job(name, directory, file6, file7, status)
   use host_context, only: job_name, output_directory
   use host_kinds, only: i4
   use host_protect, only: clear_arrays
+  use host_units, only: connect_units
   implicit none (type, external)
   character(len=256), intent(in) :: name, directory
   character(len=2048), intent(in) :: file6, file7
-  integer(i4), intent(out) :: status          !< 0, or IOSTAT of the OPEN that failed
+  integer(i4), intent(out) :: status          !< of connect_units
   job_name = name
   output_directory = directory
   call clear_arrays()
-  ! an earlier job in this process may have had the same files
-  close (6)
-  close (7)
-  open (unit=6, file=trim(file6), status='replace', action='readwrite', iostat=status)
-  if (status /= 0) return
-  open (unit=7, file=trim(file7), status='replace', action='readwrite', iostat=status)
+  call connect_units(file6, file7, status)
 end subroutine host_open_job
 
 !> Time in seconds that one call of a user routine may take; 0: any.
@@ -178,22 +174,36 @@ subroutine host_limit_calls(seconds)
   call limit_calls(seconds)
 end subroutine host_limit_calls
 
-!> Write out what user routines have printed to units 6 and 7; with `finish` the units are closed too.
-subroutine host_flush(finish)
+!> Let another process see where user code is, in a file that both have open; failed is 1 if that is not possible.
+subroutine host_share(file, failed)
+  use, intrinsic :: iso_c_binding, only: c_int
   use host_kinds, only: i4
+  use host_protect, only: share
+  implicit none (type, external)
+  integer(i4), intent(in) :: file
+  integer(i4), intent(out) :: failed
+  failed = int(share(int(file, c_int)), i4)
+end subroutine host_share
+
+!> The library of user routines is loaded from now on (begins = 1), or has been.
+subroutine host_loading(begins)
+  use, intrinsic :: iso_c_binding, only: c_int
+  use host_kinds, only: i4
+  use host_protect, only: loading
+  implicit none (type, external)
+  integer(i4), intent(in) :: begins
+  call loading(int(begins, c_int))
+end subroutine host_loading
+
+!> Write out what user routines have printed to units 6 and 7; with `finish` the units are closed too. lost is 1 where a
+!> call that was left has them locked.
+subroutine host_flush(finish, lost)
+  use host_kinds, only: i4
+  use host_units, only: flush_units
   implicit none (type, external)
   integer(i4), intent(in) :: finish
-  integer :: unit
-  logical :: is_open
-  do unit = 6, 7
-    inquire (unit=unit, opened=is_open)
-    if (.not. is_open) cycle
-    if (finish /= 0) then
-      close (unit)
-    else
-      flush (unit)
-    end if
-  end do
+  integer(i4), intent(out) :: lost
+  call flush_units(finish /= 0, lost)
 end subroutine host_flush
 
 !> Call UEXTERNALDB; left = 1 if it ended the analysis.

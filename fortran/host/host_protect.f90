@@ -6,7 +6,7 @@ module host_protect
   implicit none (type, external)
   private
   public :: protect, escape, clear_arrays, calls, limit_calls, watch, take_changes, fill_stack, &
-            fill_beyond
+            fill_beyond, attempt, share, loading
 
   !> Calls of user routines so far: by it the clock sees whether one is still the same.
   integer(c_int64_t), bind(c, name='uel_host_calls') :: calls = 0
@@ -19,6 +19,27 @@ module host_protect
       type(c_ptr), value :: context
       integer(c_int) :: left
     end function protect
+
+    !> Run routine(context), statements on units 6 and 7; 1 where a call that was left has them locked, else 0.
+    function attempt(routine, context) bind(c, name='uel_host_attempt') result(lost)
+      import :: c_funptr, c_int, c_ptr
+      type(c_funptr), value :: routine
+      type(c_ptr), value :: context
+      integer(c_int) :: lost
+    end function attempt
+
+    !> Let another process, which has the file open, see where user code is; 1 if that is not possible, else 0.
+    function share(file) bind(c, name='uel_host_share') result(failed)
+      import :: c_int
+      integer(c_int), value :: file
+      integer(c_int) :: failed
+    end function share
+
+    !> The library of user routines is loaded from now on (begins /= 0), or has been.
+    subroutine loading(begins) bind(c, name='uel_host_loading')
+      import :: c_int
+      integer(c_int), value :: begins
+    end subroutine loading
 
     !> Leave the running protect; does not return.
     subroutine escape() bind(c, name='uel_host_escape')

@@ -7,6 +7,10 @@
 // A signal that user code raises (a wrong address, a division of integers by zero) and a call that does not return leave
 // it in the same way. After abort, which mostly says that the heap is damaged, nothing can go on: the process says where
 // it was and ends.
+//
+// A call that is left inside a statement of input or output keeps the lock of its unit, and the next one of the unit waits
+// for ever: the host touches the units then by uel_host_attempt alone. Another process that shares the slate sees where
+// user code is, whatever state this one is in.
 
 #define _GNU_SOURCE
 #include <fenv.h>
@@ -16,6 +20,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/mman.h>
 #include <sys/resource.h>
 #include <sys/time.h>
 #include <unistd.h>
@@ -26,6 +31,20 @@ void uel_host_place(char routine[16], int32_t place[4]);
 
 // Calls that the driver has made; the clock sees by it whether one is still the same.
 extern int64_t uel_host_calls;
+
+// As harness/slate.py has it.
+struct slate {
+    int64_t calls;         // of user routines, as the clock has seen them last
+    int32_t within;        // one of the three below
+    int32_t left;          // calls that did not end by returning
+    int32_t place[4];      // element, step, increment, iteration
+    char routine[16];      // filled up with blanks
+    char reason[256];      // why the last one was left, or the process ends
+};
+enum { OUTSIDE, IN_CALL, LOADING };
+
+static struct slate own;
+static struct slate *slate = &own;
 
 enum { STACK = 1000, FLOATING };
 
@@ -42,38 +61,58 @@ static char handler_stack[1 << 16];
 
 static char *stack_at_entry;
 static double limit = 0;            // seconds for one call; 0: none
+static double allowed;              // seconds for what runs now; 0: any
+static const double patience = 3;   // seconds for statements of the host on units that may be locked
+static int lost = 0;                // the units are
 static volatile int64_t watched;    // the call that the clock saw last
 static volatile double waited;      // how long it has seen it
 static const double tick = 0.25;
 
-static const char *describe(int signal)
+static void describe(int signal, char *text, size_t size)
 {
     switch (signal) {
     case SIGSEGV:
     case SIGBUS:
-        return "segmentation fault: it reads or writes where no memory is, mostly through an index outside an array or "
-               "an argument of another type or rank";
+        snprintf(text, size, "segmentation fault: it reads or writes where no memory is, mostly through an index outside an "
+                             "array or an argument of another type or rank");
+        break;
     case STACK:
-        return "segmentation fault: the stack is full, through endless recursion or large local arrays";
+        snprintf(text, size, "segmentation fault: the stack is full, through endless recursion or large local arrays");
+        break;
     case SIGFPE:
-        return "division of an integer by zero";
+        snprintf(text, size, "division of an integer by zero");
+        break;
     case FLOATING:
-        return "floating-point exception";
+        snprintf(text, size, "floating-point exception");
+        break;
     case SIGILL:
-        return "illegal instruction: the library was made for another processor, or a call went astray";
+        snprintf(text, size, "illegal instruction: the library was made for another processor, or a call went astray");
+        break;
+    case SIGALRM:
+        snprintf(text, size, "the call does not return within %g s, the limit for one call (--call-limit)", limit);
+        break;
     default:
-        return "the call does not return, see the time limit for one call";
+        snprintf(text, size, "XIT or STOP");
     }
 }
 
-static void say_place(const char *what)
+static void note_place(void)
 {
-    int32_t place[4];
-    char text[256], routine[17] = "";
-    uel_host_place(routine, place);
-    const int length =
-        snprintf(text, sizeof text, "uel: in %.*s for element %d, step %d, increment %d, iteration %d: %s\n",
-                 (int)strcspn(routine, " "), routine, (int)place[0], (int)place[1], (int)place[2], (int)place[3], what);
+    slate->calls = uel_host_calls;
+    uel_host_place(slate->routine, slate->place);
+}
+
+// Why the process ends: for the one that watches it, or on the terminal where none does.
+static void say_end(const char *what)
+{
+    note_place();
+    snprintf(slate->reason, sizeof slate->reason, "%s", what);
+    if (slate != &own)
+        return;
+    char text[512];
+    const int length = snprintf(text, sizeof text, "uel: in %.*s for element %d, step %d, increment %d, iteration %d: %s\n",
+                                (int)strcspn(slate->routine, " "), slate->routine, (int)slate->place[0],
+                                (int)slate->place[1], (int)slate->place[2], (int)slate->place[3], what);
     const ssize_t written = write(STDERR_FILENO, text, (size_t)length);
     (void)written;
 }
@@ -84,18 +123,20 @@ static void catch(int signal, siginfo_t *info, void *context)
     if (!armed)
         return;
     if (signal == SIGABRT) {
-        say_place("abort: memory is damaged, mostly by a write outside an array");
+        say_end("abort: memory is damaged, mostly by a write outside an array");
         return;  // abort() goes on and ends the process
     }
     if (signal == SIGFPE && info->si_code != FPE_INTDIV)
         signal = FLOATING;
     if (signal == SIGALRM) {
+        if (slate->within)
+            note_place();
         if (watched != uel_host_calls) {
             watched = uel_host_calls;
             waited = 0;
         }
         waited += tick;
-        if (!(limit > 0 && waited > limit))
+        if (!(allowed > 0 && waited > allowed))
             return;
     }
     if (signal == SIGSEGV) {
@@ -157,44 +198,101 @@ static void leave(void)
 {
     armed = 0;
     trap(0);
-    if (limit > 0)
-        set_clock(0);
+    set_clock(0);
     unguard();
 }
 
-// The Fortran library ends the process where an input or output statement fails: say where that was.
+// The Fortran library ends the process where an input or output statement fails, as exit does: say where that was.
 static void at_exit(void)
 {
-    if (armed)
-        say_place("the process ends");
+    if (armed && slate->within)
+        say_end("the process ends");
 }
 
 void uel_host_limit(double seconds) { limit = seconds; }
 
-// Runs routine(context); 0 if it returned, 1 if it was left, with a message in the queue unless by XIT, 2 if that was
-// because a call did not return.
-int uel_host_protect(void (*routine)(void *), void *context)
+// From now on what is on the slate is in a file that another process reads; 0, or 1 if it cannot be.
+int uel_host_share(int file)
+{
+    void *shared = mmap(NULL, sizeof *slate, PROT_READ | PROT_WRITE, MAP_SHARED, file, 0);
+    if (shared == MAP_FAILED)
+        return 1;
+    slate = shared;
+    return 0;
+}
+
+// The library of user routines is loaded from now on, which runs its constructors, or has been.
+void uel_host_loading(int begins)
+{
+    memset(slate->routine, ' ', sizeof slate->routine);
+    memset(slate->place, 0, sizeof slate->place);
+    slate->within = begins ? LOADING : OUTSIDE;
+}
+
+// Runs routine(context) for so many seconds (0: any); 0 if it returned, 1 if it was left.
+static int run(void (*routine)(void *), void *context, double seconds)
 {
     char here;
     stack_at_entry = &here;
     reason = 0;
     watched = -1;
+    waited = 0;
+    allowed = seconds;
     if (sigsetjmp(landing, 1)) {
         leave();
-        if (reason)
-            uel_host_fault(describe(reason));
-        return reason == SIGALRM ? 2 : 1;
+        return 1;
     }
-    if (!registered)
-        registered = atexit(at_exit) == 0;
     guard();
     armed = 1;
-    trap(1);
-    if (limit > 0)
+    trap(slate->within);
+    // the clock keeps the slate up to date as well
+    if (seconds > 0 || slate != &own)
         set_clock(tick);
     routine(context);
     leave();
     return 0;
+}
+
+// Runs routine(context); 0 if it returned, 1 if it was left, with a message in the queue unless by XIT, 2 if that was
+// because a call did not return.
+int uel_host_protect(void (*routine)(void *), void *context)
+{
+    if (!registered)
+        registered = atexit(at_exit) == 0;
+    note_place();
+    slate->within = IN_CALL;
+    const int left = run(routine, context, limit);
+    if (left) {
+        // before anything that may wait for a lock
+        note_place();
+        describe(reason, slate->reason, sizeof slate->reason);
+        slate->left++;
+    }
+    slate->within = OUTSIDE;
+    if (left && reason)
+        uel_host_fault(slate->reason);
+    return left && reason == SIGALRM ? 2 : left;
+}
+
+// libgfortran closes its units where the process ends, and would wait for their locks.
+static void leave_units(int code, void *none)
+{
+    (void)none;
+    _exit(code);
+}
+
+// Runs routine(context), statements of the host on units 6 and 7; 0, or 1 where a call that was left has them locked.
+int uel_host_attempt(void (*routine)(void *), void *context)
+{
+    if (!lost && !slate->left)
+        routine(context);
+    else if (!lost && run(routine, context, patience)) {
+        lost = 1;
+#ifdef __GLIBC__
+        on_exit(leave_units, NULL);
+#endif
+    }
+    return lost;
 }
 
 void uel_host_escape(void)

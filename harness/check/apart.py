@@ -9,7 +9,6 @@ but the check that was running.
 from __future__ import annotations
 
 import pickle
-import re
 import sys
 import tempfile
 from collections.abc import Callable
@@ -21,7 +20,7 @@ from harness.check.finding import failed
 from harness.check.progress import Running, Snapshot
 from harness.check.worker import INTERRUPTED
 from harness.errors import UelError
-from harness.isolation import describe_end, run_apart
+from harness.isolation import run_apart
 
 CALL_LIMIT: Final = 60.0
 """Seconds that a call of a user routine may take."""
@@ -34,18 +33,16 @@ ADVICE: Final = (
 
 INTERRUPTION: Final = "The checks behind this one were not made."
 
-_PLACE: Final = re.compile(r"^uel: (in .*)$", re.MULTILINE)
-
 T = TypeVar("T")
 
 
 class EndedError(UelError):
-    """User code ended the process, with an exit code; snapshot has what was found until then."""
+    """User code ended the process, or a user interrupted it; snapshot has what was found until then."""
 
-    def __init__(self, reason: str, code: int, snapshot: Snapshot) -> None:
+    def __init__(self, reason: str, snapshot: Snapshot, *, interrupted: bool = False) -> None:
         super().__init__(reason)
-        self.code = code
         self.snapshot = snapshot
+        self.interrupted = interrupted
 
 
 Tell = Callable[[str], None]
@@ -66,7 +63,7 @@ def examine_apart(
         if running is None or not running.check:
             raise
         examination: Examination = outcome
-        advice = INTERRUPTION if end.code == INTERRUPTED else ADVICE
+        advice = INTERRUPTION if end.interrupted else ADVICE
         examination.types[-1].findings[running.check] = failed(str(end), advice)
         return examination
 
@@ -90,21 +87,21 @@ def call_apart(
                 tell(str(running))
 
         with messages.open("w", encoding="utf-8") as stream:
-            code = run_apart(["harness.check.worker", str(task), str(file)], stream, meanwhile if tell else None)
-        said = messages.read_text("utf-8", errors="replace")
+            words = [str(task), str(file)]
+            end = run_apart(
+                "harness.check.worker", words, call_limit, errors=stream, meanwhile=meanwhile if tell else None
+            )
+        sys.stderr.write(messages.read_text("utf-8", errors="replace"))
         snapshot = _snapshot(file)
-    if snapshot.running is None and not code:
-        sys.stderr.write(said)
+    if snapshot.running is None:
         if snapshot.error:
             raise UelError(snapshot.error)
         result: T = snapshot.outcome
         return result
-    places = _PLACE.findall(said)
-    # the place is part of the reason, the rest is the user's own
-    sys.stderr.write(_PLACE.sub("", said).lstrip("\n"))
-    why = "interrupted" if code == INTERRUPTED else describe_end(code)
-    place = f"; {places[-1]}" if places else ""
-    raise EndedError(f"the process was {why} during {snapshot.running}{place}", code, snapshot)
+    interrupted = end.interrupted or end.code == INTERRUPTED
+    why = "interrupted" if interrupted else end.reason
+    place = f"; {end.place}" if end.place else ""
+    raise EndedError(f"the process was {why} during {snapshot.running}{place}", snapshot, interrupted=interrupted)
 
 
 def _snapshot(file: Path) -> Snapshot:

@@ -1,24 +1,25 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""The process in which a function is called that user code may end: `python -m harness.check.worker TASK SNAPSHOT`."""
+"""The process in which a function is called that user code may end (harness/apart.py); its words are TASK SNAPSHOT."""
 
 from __future__ import annotations
 
 import pickle
-import sys
+from collections.abc import Sequence
 from pathlib import Path
 from typing import Final
 
 from harness.check.progress import Running, Snapshot
-from harness.errors import UelError
+from harness.errors import UelError, in_words
 from harness.usersub import limit_calls
 
 INTERRUPTED: Final = 130
 """Exit code after an interrupt from the keyboard."""
 
 
-def _work(task: Path, file: Path) -> int:
-    """Call a function as asked for."""
+def main(words: Sequence[str]) -> int:
+    """Call the function of the file TASK, and keep what it comes to in the file SNAPSHOT; returns the exit code."""
+    task, file = map(Path, words)
     function, arguments, options, call_limit = pickle.loads(task.read_bytes())
     limit_calls(call_limit)
 
@@ -33,16 +34,8 @@ def _work(task: Path, file: Path) -> int:
 
     try:
         keep(Snapshot(None, function(*arguments, progress=progress, **options)))
-    except UelError as error:
-        keep(Snapshot(None, error=str(error)))
-    except OSError as error:
-        keep(Snapshot(None, error=f"{error.filename or ''}: {error.strerror or error}"))
-    except MemoryError:
-        keep(Snapshot(None, error="not enough memory for this model"))
+    except (UelError, OSError, MemoryError) as error:
+        keep(Snapshot(None, error=in_words(error)))
     except KeyboardInterrupt:
         return INTERRUPTED
     return 0
-
-
-if __name__ == "__main__":
-    sys.exit(_work(Path(sys.argv[1]), Path(sys.argv[2])))

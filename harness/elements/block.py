@@ -18,7 +18,7 @@ from harness.model.arrays import FloatArray, IntArray
 from harness.model.mesh import ElementGroup
 from harness.model.records import ElementState, PointVariables
 from harness.usersub import Library, _binding
-from harness.usersub._binding import Entries, Fault, Guards, LoadArrays, Options
+from harness.usersub.faults import Entries, Fault, Guards
 
 NORMAL: Final = 1
 """LFLAGS(3) of a normal call."""
@@ -31,7 +31,7 @@ _PLASTIC: Final = 3
 
 _NO_MATRIX = np.zeros(1)
 _AT_REST = Motion(np.zeros(1), np.zeros(1))
-_NO_LOADS = LoadArrays(np.zeros(1, np.int32), np.zeros((1, 1), np.int32), np.zeros((1, 1, 2)))
+_NO_LOADS = _binding.LoadArrays(np.zeros(1, np.int32), np.zeros((1, 1), np.int32), np.zeros((1, 1, 2)))
 
 
 @dataclass(frozen=True, slots=True)
@@ -227,7 +227,7 @@ class Block:
             damage, energy[_PLASTIC] = float(energy[_PLASTIC]), 0.0
         return BlockReport.of(outcome, self._by_field, len(self.group.labels), energy, damage)
 
-    def _loads(self, distributed: Distributed | None) -> LoadArrays:
+    def _loads(self, distributed: Distributed | None) -> _binding.LoadArrays:
         """Loads on the elements of the block, one row for each element, or one for all if there is none."""
         if distributed is None:
             return _NO_LOADS
@@ -241,7 +241,7 @@ class Block:
         kinds, values = np.zeros((m, most), np.int32), np.zeros((m, most, 2))
         kinds[row, column] = distributed.kinds[mine]
         values[row, column] = np.stack([distributed.end[mine], distributed.increment[mine]], axis=1)
-        return LoadArrays(counts.astype(np.int32), kinds, values)
+        return _binding.LoadArrays(counts.astype(np.int32), kinds, values)
 
     def _fields(self, predefined: Predefined | None) -> FloatArray:
         """PREDEF of the elements, (m, nodes, fields, 2), or (1, nodes, fields, 2) if there is none.
@@ -277,7 +277,7 @@ class Block:
         options = self._options(call, assemble=False)
         _binding.bare_loop(self._procedure.address, options, call.flags, clock, self._arrays, u, du, residual)
 
-    def _options(self, call: Call, *, assemble: bool) -> Options:
+    def _options(self, call: Call, *, assemble: bool) -> _binding.Options:
         p, guards = self._procedure, (self._guards, self._entries)
         flags = int(not (self.unsymmetric or (call.unsymmetric and self.group.definition))), int(assemble)
         return p.material, p.tensor, p.jtype, *flags, call.step, call.increment, *guards, call.iteration

@@ -8,7 +8,8 @@ from collections.abc import Mapping
 from typing import Final
 
 from harness.errors import CallLimitError, DistortionError, ElementError, NotFiniteError
-from harness.usersub._binding import Fault, Outcome
+from harness.usersub._binding import Outcome
+from harness.usersub.faults import Fault
 
 ERRORS: Final[Mapping[Fault, type[ElementError]]] = {
     Fault.ENDLESS: CallLimitError,

@@ -52,8 +52,9 @@ class FieldFiles:
         self._entries: list[str] = []
         self._cells: tuple[Cells, ...] = ()
         self._nodal: list[_PointArray] = []
-        shutil.rmtree(self._folder, ignore_errors=True)
+        # what it lists is there at every moment
         pvd.unlink(missing_ok=True)
+        shutil.rmtree(self._folder, ignore_errors=True)
 
     def write(self, record: IncrementDone, *, last: bool) -> None:
         """Write the increment if the step asks for it."""

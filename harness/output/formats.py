@@ -59,13 +59,21 @@ class TextFile:
     """
 
     def __init__(self, path: Path) -> None:
+        self._path = path
         self._descriptor = os.open(path, os.O_WRONLY | os.O_CREAT | os.O_TRUNC | os.O_APPEND, 0o666)
 
     def write(self, text: str) -> None:
-        """Append text."""
-        data = memoryview(text.encode())
-        while data:
-            data = data[os.write(self._descriptor, data) :]
+        """Append text, or nothing where there is no room for all of it."""
+        data = memoryview(text.encode(errors="replace"))
+        written = 0
+        try:
+            while written < len(data):
+                written += os.write(self._descriptor, data[written:])
+        except OSError as error:
+            if written:
+                os.ftruncate(self._descriptor, os.fstat(self._descriptor).st_size - written)
+            error.filename = str(self._path)
+            raise
 
     def close(self) -> None:
         """Close the file; it is not written to again."""

@@ -8,6 +8,7 @@ it is written: a run that is killed leaves the files readable and complete up to
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from pathlib import Path
 
 import numpy as np
@@ -56,15 +57,19 @@ class JobOutput:
 
     Attributes
     ----------
+    job
+        Name of the files.
     warnings
         About the deck, then about the user routines and of them.
     """
 
     def __init__(self, model: Model, job: str, directory: Path, *, quiet: bool = False) -> None:
         stem = Path(directory) / job
+        self.job = job
         self._model = model
         self.warnings = list(model.warnings)
         self._pending: IncrementDone | None = None
+        self._closed = False
         self._status = StatusFile(stem.with_name(f"{job}.sta"))
         self._message = MessageFile(stem.with_name(f"{job}.msg"), model)
         self._data = DataFile(stem.with_name(f"{job}.dat"), model)
@@ -113,15 +118,32 @@ class JobOutput:
             target.remark(kind.upper(), text)
 
     def close(self, error: UelError | None) -> None:
-        """Write what the last converged increment still owes, and the verdict; the job ends here."""
-        self._finish_step()
+        """Write what the last converged increment still owes, and the verdict; the job ends here.
+
+        Where a file takes no more, the others are closed all the same. Raises the OSError of the first such file. What
+        is closed stays as it is.
+        """
+        if self._closed:
+            return
+        self._closed = True
         text = None if error is None else str(error)
-        self._progress.close()
-        self._message.close(text)
-        self._data.close(text)
-        self._history.close()
-        self._interface.close()
-        self._status.close(completed=error is None)
+        closing: list[Callable[[], None]] = [
+            self._finish_step,
+            self._progress.close,
+            lambda: self._message.close(text),
+            lambda: self._data.close(text),
+            self._history.close,
+            self._interface.close,
+        ]
+        failed: list[OSError] = []
+        for act in closing:
+            try:
+                act()
+            except OSError as trouble:
+                failed.append(trouble)
+        self._status.close(completed=error is None and not failed)
+        if failed:
+            raise failed[0]
 
     def _abandoned(self, record: AttemptAbandoned) -> None:
         self._message.abandoned(record)

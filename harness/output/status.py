@@ -88,13 +88,18 @@ class StatusRow:
         )
 
 
+def head() -> str:
+    """First lines of the file of a run that begins now."""
+    now = datetime.now()
+    return f" {program()}                  DATE {now:%d-%b-%Y} TIME {now:%H:%M:%S}\n{HEADER}"
+
+
 class StatusFile:
     """Writes NAME.sta."""
 
     def __init__(self, path: Path) -> None:
         self._file = TextFile(path)
-        now = datetime.now()
-        self._file.write(f" {program()}                  DATE {now:%d-%b-%Y} TIME {now:%H:%M:%S}\n{HEADER}")
+        self._file.write(head())
 
     def write(self, row: StatusRow) -> None:
         """Append a line."""

@@ -11,7 +11,6 @@ import os
 import sys
 from collections.abc import Sequence
 from dataclasses import dataclass
-from enum import IntEnum
 from typing import Final
 
 import numpy as np
@@ -19,6 +18,7 @@ from numpy.typing import NDArray
 
 from harness.model.arrays import FloatArray
 from harness.model.user_values import AskedAmplitude, UserValues
+from harness.usersub.faults import Fault
 
 _flags = sys.getdlopenflags()
 sys.setdlopenflags(_flags | os.RTLD_GLOBAL)
@@ -36,37 +36,7 @@ ARRAYS: Final = ("RHS", "AMATRX", "SVARS", "ENERGY", "PROPS", "COORDS", "U", "DU
 Options = tuple[int, int, int, int, int, int, int, int, int, int]
 """As host_evaluate in fortran/host/entry.f90 names them."""
 
-
 _watching = False
-
-
-class Guards(IntEnum):
-    """What a write outside an array does to a pass (fortran/host/host_driver.f90)."""
-
-    STOP = 0
-    NOTICE = 1
-    SEARCH = 2
-    IGNORE = 3
-
-
-class Entries(IntEnum):
-    """What an entry of RHS or AMATRX that is not set does to a pass (fortran/host/host_driver.f90)."""
-
-    STOP = 0
-    NOTICE = 1
-    ZERO = 2
-
-
-class Fault(IntEnum):
-    """What went wrong in a pass over a block (fortran/host/host_driver.f90)."""
-
-    NONE = 0
-    LEFT = 1
-    OUTSIDE = 2
-    UNSET = 3
-    NOT_FINITE = 4
-    ENDLESS = 5
-    DISTORTED = 6
 
 
 @dataclass(frozen=True, slots=True)
@@ -385,9 +355,13 @@ def take_messages() -> list[RawMessage]:
         found.append(RawMessage(level, int(element), int(step), int(increment), text.decode(errors="replace").rstrip()))
 
 
-def open_job(name: str, directory: str, file6: str, file7: str) -> bool:
-    """Set the job for GETJOBNAME and GETOUTDIR and connect units 6 and 7; False if a file cannot be opened."""
-    return not _host.host_open_job(name, directory, file6, file7)
+def open_job(name: str, directory: str, file6: str, file7: str) -> int:
+    """Set the job for GETJOBNAME and GETOUTDIR and connect units 6 and 7.
+
+    Returns 0, an error's number, or -1 where a call of an earlier job was left inside a WRITE and has them locked.
+    """
+    encode = os.fsencode
+    return int(_host.host_open_job(encode(name), encode(directory), encode(file6), encode(file7)))
 
 
 def limit_calls(seconds: float) -> None:
@@ -395,6 +369,16 @@ def limit_calls(seconds: float) -> None:
     _host.host_limit_calls(seconds)
 
 
-def flush_units(*, close: bool = False) -> None:
-    """Write out what user routines printed to units 6 and 7."""
-    _host.host_flush(int(close))
+def share_slate(descriptor: int) -> bool:
+    """Let another process, which has the file open too, see where user code is; False if that is not possible."""
+    return not _host.host_share(descriptor)
+
+
+def set_loading(begins: bool) -> None:
+    """Say on the slate that constructors of user code may run, or that they have."""
+    _host.host_loading(int(begins))
+
+
+def flush_units(*, close: bool = False) -> bool:
+    """Write out what user routines printed to units 6 and 7; False where a call that was left has the units locked."""
+    return not _host.host_flush(int(close))

@@ -112,8 +112,11 @@ class Library:
 
     def stop_reason(self) -> str:
         """Why a user routine ended the analysis, as the end of a sentence."""
-        text = self._inbox.last_error()
-        return f"stopped the analysis: {text}" if text else "stopped the analysis (XIT) without a message"
+        if text := self._inbox.last_error():
+            return f"stopped the analysis: {text}"
+        if lines := self._inbox.last_lines():
+            return f"stopped the analysis (XIT); last printed: {' / '.join(lines)}"
+        return "stopped the analysis (XIT) without a message"
 
     def messages(self) -> list[Message]:
         """Texts of user routines since the last call: STDB_ABQERR, then what was printed to units 6 and 7."""
@@ -177,10 +180,13 @@ def _open(shared: Path, name: str) -> ctypes.CDLL:
     with tempfile.TemporaryDirectory() as folder:
         copy = Path(folder) / shared.name
         shutil.copyfile(shared, copy)
+        _binding.set_loading(True)
         try:
             return ctypes.CDLL(str(copy), mode=ctypes.RTLD_LOCAL)
         except OSError as error:
             raise CompileError(Path(name), undefined_routine(str(error))) from None
+        finally:
+            _binding.set_loading(False)
 
 
 def _address(handle: ctypes.CDLL, entry: str) -> int | None:

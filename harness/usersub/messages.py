@@ -4,12 +4,16 @@
 
 from __future__ import annotations
 
+import os
 from dataclasses import dataclass
 from pathlib import Path
-from typing import ClassVar
+from typing import ClassVar, Final
 
 from harness.errors import UelError
 from harness.usersub import _binding
+
+_LAST: Final = 3
+"""Printed lines that a message quotes."""
 
 _KINDS = {1: "note", -1: "warning", -2: "error", -3: "error"}
 
@@ -44,19 +48,33 @@ class Inbox:
         self._sent: list[Message] = []
         folder = str(directory.resolve())
         Inbox._current = self
-        if not _binding.open_job(job, folder, *(str(f.resolve()) for f in self._files.values())):
-            raise UelError(f"cannot write {self._files['.dat']} and {self._files['.msg']}")
+        self._lost = False
+        failed = _binding.open_job(job, folder, *(str(f.resolve()) for f in self._files.values()))
+        if failed < 0:
+            raise UelError(
+                "units 6 and 7 are locked by a call of an earlier job that was left inside a WRITE: begin afresh"
+            )
+        if failed:
+            raise UelError(f"cannot write {self._files['.dat']} and {self._files['.msg']}: {os.strerror(failed)}")
 
     def take(self) -> list[Message]:
         """All messages since the last call."""
         self._collect()
+        self._print()
         found, self._sent = self._sent, []
-        return found + self._printed()
+        return sorted(found, key=lambda message: message.kind == "print")
 
     def last_error(self) -> str:
         """Text of the latest error or fatal error not yet taken; '' if there is none."""
         self._collect()
         return next((m.text for m in reversed(self._sent) if m.kind == "error"), "")
+
+    def last_lines(self) -> list[str]:
+        """Last lines that were printed to unit 7, or else to unit 6, and are not yet taken."""
+        self._print()
+        printed = {m.file: m.text.split("\n") for m in self._sent if m.kind == "print"}
+        lines = [line.strip() for line in printed.get(".msg", printed.get(".dat", [])) if line.strip()]
+        return lines[-_LAST:]
 
     def warn(self, text: str) -> None:
         """Add a warning of the harness."""
@@ -76,14 +94,18 @@ class Inbox:
             kind = _KINDS.get(raw.level, "note")
             self._sent.append(Message(".msg", kind, raw.text, raw.element, raw.step, raw.increment))
 
-    def _printed(self) -> list[Message]:
-        _binding.flush_units()
-        found = []
+    def _print(self) -> None:
+        """Take over what was printed to the units."""
+        if not self._lost and not _binding.flush_units():
+            self._lost = True
+            lost = (
+                "a call was left inside a WRITE and has unit 6 or 7 locked: the last of what was printed there is lost"
+            )
+            self._sent.append(Message(".msg", "warning", lost))
         for file, path in self._files.items():
             with path.open("rb") as stream:
                 stream.seek(self._read[file])
                 text = stream.read()
             if text:
                 self._read[file] += len(text)
-                found.append(Message(file, "print", text.decode(errors="replace")))
-        return found
+                self._sent.append(Message(file, "print", text.decode(errors="replace")))

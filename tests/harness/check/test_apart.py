@@ -19,7 +19,6 @@ from harness.check.command import display
 from harness.check.examine import examine
 from harness.check.finding import Verdict
 from harness.check.progress import Running, Snapshot
-from harness.check.worker import INTERRUPTED
 from harness.errors import UelError
 from harness.usersub import limit_calls
 
@@ -79,7 +78,8 @@ def test_call_that_does_not_return(patch):
     code, printed, _ = uel_check(deck, "--call-limit", "1", "--json", "findings.json")
     assert code == 1
     (report,) = json.loads((deck.parent / "findings.json").read_text())["types"]
-    place = "the call does not return, see the time limit for one call (step 1, increment 1, iteration 0)"
+    limit = "within 1 s, the limit for one call (--call-limit)"
+    place = f"the call does not return {limit} (step 1, increment 1, iteration 0)"
     assert report["findings"]["rotation"]["message"] == f"element 1 (type U1): stopped the analysis: in UEL: {place}"
     assert report["findings"]["energy"]["message"] == "not made, since a call did not return in 'rotation'"
     assert "U1 rotation: A call did not return in its time (--call-limit): look for a loop" in printed
@@ -183,7 +183,7 @@ def test_interruption_keeps_findings(patch, monkeypatch):
     del checks["filled"]
 
     def interrupt(*_, **__):
-        raise EndedError("interrupted", INTERRUPTED, Snapshot(Running("a check", "filled"), examination))
+        raise EndedError("interrupted", Snapshot(Running("a check", "filled"), examination), interrupted=True)
 
     monkeypatch.setattr("harness.check.apart.call_apart", interrupt)
     found = examine_apart(patch(), [QUAD])

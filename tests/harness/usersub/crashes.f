@@ -30,7 +30,38 @@
         open (unit=99, file='no-such-folder/no-such-file', status='old')
       case (7)
         stop 'enough'
+      case (8)
+        k = 900000000
+        write (7,*) 'entry', svars(k)
+      case (9)
+        write (7,*) 'value', given(1)
+      case (10)
+        write (6,*) 'value', given(2)
+      case (11)
+        k = jprops(2)
+        write (6,*) 5/k
+      case (12)
+        do
+          write (7,*) 'again'
+        end do
+      case (13)
+        write (7,*) 'first of four'
+        write (7,*) 'second'
+        write (7,*) 'stiffness is negative'
+        write (7,'(a)') '   see page 7'
+        call xit
+      case (14)
+        write (*,*) 'no convergence of the local iteration'
+        call xit
       end select
+      end
+
+      function given(way)
+      include 'aba_param.inc'
+      integer way
+      given = 0
+      if (way == 1) call xit
+      if (way == 2) stop 'no value'
       end
 
       recursive function endless(x) result(y)

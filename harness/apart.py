@@ -1,0 +1,34 @@
+# SPDX-FileCopyrightText: The uel-harness authors
+# SPDX-License-Identifier: BSD-3-Clause
+"""The process that isolation.py starts: `python -m harness.apart DESCRIPTOR MODULE WORD ...` calls MODULE.main(words).
+
+It proves on the slate that it has come to its end: user code may end a process with the exit code of success.
+"""
+
+from __future__ import annotations
+
+import sys
+from collections.abc import Sequence
+from importlib import import_module
+
+from harness.errors import tell_error
+from harness.interrupts import raise_interrupts
+from harness.slate import open_slate
+
+
+def work(descriptor: int, module: str, words: Sequence[str]) -> int:
+    """Call the function, with where user code is on the slate; returns the exit code."""
+    slate = open_slate(descriptor)
+    try:
+        raise_interrupts()
+        import_module("harness.usersub").share_slate(descriptor)
+        code: int = import_module(module).main(words)
+    except KeyboardInterrupt as interrupt:
+        tell_error(str(interrupt))
+        code = 1
+    slate.finished = 1 + code
+    return code
+
+
+if __name__ == "__main__":
+    sys.exit(work(int(sys.argv[1]), sys.argv[2], sys.argv[3:]))

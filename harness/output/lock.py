@@ -1,0 +1,69 @@
+# SPDX-FileCopyrightText: The uel-harness authors
+# SPDX-License-Identifier: BSD-3-Clause
+"""Name of a job, and the lock file (NAME.lck) that keeps a second run of the same name away from its files."""
+
+from __future__ import annotations
+
+import errno
+import fcntl
+import os
+import socket
+from collections.abc import Iterator
+from contextlib import contextmanager, suppress
+from pathlib import Path
+
+from harness.errors import UelError
+
+
+def job_stem(job: str, folder: str | Path | None) -> Path:
+    """Folder and name of a job; raises UelError where the name is none."""
+    if not job or job in (".", "..") or "/" in job or "\0" in job:
+        raise UelError(
+            f"'{job}' is no name of a job: expected a file name without folders (--output-dir takes the folder)"
+        )
+    return Path(folder or ".") / job
+
+
+class LockedError(UelError):
+    """Another process runs a job of this name in this folder."""
+
+
+@contextmanager
+def locked(stem: Path) -> Iterator[None]:
+    """Hold STEM.lck in the block; raises LockedError where another process does.
+
+    The system lets go of it when a process ends, however that is: a file that is left over locks nothing.
+    """
+    path = stem.with_name(stem.name + ".lck")
+    descriptor = _open(path)
+    try:
+        yield
+    finally:
+        path.unlink(missing_ok=True)
+        os.close(descriptor)
+
+
+def _open(path: Path) -> int:
+    """Open the file and lock it."""
+    while True:
+        descriptor = os.open(path, os.O_RDWR | os.O_CREAT, 0o666)
+        try:
+            fcntl.flock(descriptor, fcntl.LOCK_EX | fcntl.LOCK_NB)
+            # the one that held it may have removed the file in the meantime
+            if not path.exists() or not os.path.samestat(os.fstat(descriptor), path.stat()):
+                os.close(descriptor)
+                continue
+        except BlockingIOError:
+            owner = os.read(descriptor, 200).decode(errors="replace").strip() or "another process"
+            os.close(descriptor)
+            message = f"a job of this name runs in this folder: {path} is held by {owner}"
+            raise LockedError(f"{message}; give another --job or --output-dir") from None
+        except OSError as error:
+            # a file system without locks has no protection
+            if error.errno not in (errno.ENOLCK, errno.ENOSYS, errno.EOPNOTSUPP):
+                os.close(descriptor)
+                raise
+        with suppress(OSError):  # who has it is a help only, and the disk may be full
+            os.ftruncate(descriptor, 0)
+            os.write(descriptor, f"process {os.getpid()} on {socket.gethostname()}\n".encode())
+        return descriptor
