@@ -18,7 +18,7 @@ from typing import IO, Final
 
 from harness.errors import tell_error
 from harness.interrupts import ENDS, collected, describe_interrupt
-from harness.slate import Slate, new_slate
+from harness.slate import Slate, Within, new_slate
 
 SAME_PROCESS: Final = "--same-process"
 """Option of `uel run` and `uel check` for the process that runs."""
@@ -120,9 +120,7 @@ def run_apart(
     return End(code, False, why or describe_end(code), slate.where() if inside else "", bool(signals))
 
 
-ENDLESS: Final = (
-    "ended because a call of a user routine, or loading the library, does not end within {limit:g} s (--call-limit)"
-)
+ENDLESS: Final = "ended because {what} does not end within {limit:g} s (--call-limit)"
 HANGS: Final = "ended because it hangs after a call that was left, mostly inside a WRITE, which locks its unit"
 
 
@@ -158,7 +156,10 @@ class _Watch:
         if slate.finished and self._ending > _GRACE:
             return "ended"
         if self._limit > 0.0 and self._call > self._limit + _GRACE:
-            return ENDLESS.format(limit=self._limit)
+            what = (
+                "loading the library of user routines" if slate.within == Within.LOADING else "a call of a user routine"
+            )
+            return ENDLESS.format(what=what, limit=self._limit)
         return HANGS if self._idle > _IDLE else ""
 
 

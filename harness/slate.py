@@ -51,9 +51,7 @@ class Slate(ctypes.Structure):
 
     def where(self) -> str:
         """Place of the call that runs, or of the last one that was left, with the reason; '' without either."""
-        if self.within == Within.LOADING:
-            return "while the library of user routines is loaded"
-        if not (self.within or self.left):
+        if self.within != Within.CALL and not self.left:
             return ""
         element, step, increment, iteration = self.place
         routine = self.routine.decode(errors="replace").strip()

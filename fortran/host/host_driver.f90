@@ -6,7 +6,7 @@ module host_driver
   use host_context, only: current
   use host_interfaces, only: uel_procedure, uelmat_procedure
   use host_kinds, only: dp, i4, i8
-  use host_protect, only: calls, protect
+  use host_protect, only: begin_call, protect
   use host_workspace, only: all_finite, arm_guards, exchange_marks, fill, find_damage, i_a, i_amatrx, i_coords, i_du, &
                             i_energy, i_predef, i_props, i_rhs, i_svars, i_u, i_v, lay_out, n_arrays, same_bits, workspace_t
   implicit none (type, external)
@@ -217,7 +217,7 @@ contains
     nsvars = int(work%length(i_svars), i4)
     nprops = int(work%length(i_props), i4)
     current%element = block%labels(e)
-    calls = calls + 1
+    call begin_call(current%element)
     if (associated(block%history)) then
       current%history => block%history(:, :, e)
       if (keeps_state(block%lflags(3))) then

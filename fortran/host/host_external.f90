@@ -6,7 +6,7 @@ module host_external
   use host_context, only: current
   use host_interfaces, only: uexternaldb_procedure
   use host_kinds, only: dp, i4, i8
-  use host_protect, only: calls, protect
+  use host_protect, only: begin_call, protect
   implicit none (type, external)
   private
   public :: call_external_database
@@ -37,7 +37,7 @@ contains
     arguments%dtime = dtime
     current%routine = 'UEXTERNALDB'
     current%element = 0
-    calls = calls + 1
+    call begin_call(current%element)
     current%step = kstep
     current%increment = kinc
     left = int(protect(c_funloc(invoke), c_loc(arguments)), i4)

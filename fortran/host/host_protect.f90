@@ -5,13 +5,16 @@ module host_protect
   use, intrinsic :: iso_c_binding, only: c_double, c_funptr, c_int, c_int32_t, c_int64_t, c_ptr
   implicit none (type, external)
   private
-  public :: protect, escape, clear_arrays, calls, limit_calls, watch, take_changes, fill_stack, &
+  public :: protect, escape, clear_arrays, begin_call, limit_calls, watch, take_changes, fill_stack, &
             fill_beyond, attempt, share, loading
 
-  !> Calls of user routines so far: by it the clock sees whether one is still the same.
-  integer(c_int64_t), bind(c, name='uel_host_calls') :: calls = 0
-
   interface
+    !> A user routine is about to be called for this element (0: for none): by it the clock sees that this is another call.
+    subroutine begin_call(element) bind(c, name='uel_host_begin')
+      import :: c_int32_t
+      integer(c_int32_t), value :: element
+    end subroutine begin_call
+
     !> Run routine(context); 0 if it returned, 1 if it was left through escape or a signal, 2 if a call did not return.
     function protect(routine, context) bind(c, name='uel_host_protect') result(left)
       import :: c_funptr, c_int, c_ptr

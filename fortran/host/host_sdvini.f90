@@ -7,7 +7,7 @@ module host_sdvini
   use host_context, only: current
   use host_kinds, only: dp, i4
   use host_kinematics, only: point_position
-  use host_protect, only: calls, protect
+  use host_protect, only: begin_call, protect
   implicit none (type, external)
   private
   public :: sdvini_pass_t, run_sdvini
@@ -54,7 +54,7 @@ contains
       current%element = pass%labels(e)
       do point = 1, size(pass%statev, 2, kind=i4)
         current%point = point
-        calls = calls + 1
+        call begin_call(current%element)
         coords = 0
         if (pass%solid) then
           coords = point_position(size(pass%statev, 2), int(point), pass%coords(:, :, e))

@@ -6,7 +6,7 @@ module host_uamp
   use host_context, only: current
   use host_kinds, only: dp, i4
   use host_messages, only: add_message
-  use host_protect, only: calls, escape, protect
+  use host_protect, only: begin_call, escape, protect
   implicit none (type, external)
   private
   public :: uamp_call_t, run_uamp, find_sensor
@@ -50,7 +50,7 @@ contains
     current%element = 0
     current%step = arguments%info(4)
     current%increment = kinc
-    calls = calls + 1
+    call begin_call(current%element)
     running => arguments
     left = int(protect(c_funloc(invoke), c_loc(arguments)), i4)
     nullify (running)

@@ -5,7 +5,7 @@ module host_uvarm
   use, intrinsic :: iso_c_binding, only: c_f_pointer, c_f_procpointer, c_funloc, c_funptr, c_loc, c_ptr
   use host_context, only: current
   use host_kinds, only: dp, i4
-  use host_protect, only: calls, protect
+  use host_protect, only: begin_call, protect
   use host_kinematics, only: point_position
   use host_umat, only: direct_components
   implicit none (type, external)
@@ -64,7 +64,7 @@ contains
       current%history => pass%history(:, :, e)
       do point = 1, size(pass%uvar, 2, kind=i4)
         current%point = point
-        calls = calls + 1
+        call begin_call(current%element)
         current%values => pass%svars(:, point, e)
         call call_uvarm(pass, point, pass%coords(:, :, e), pass%uvar(:, point, e))
       end do

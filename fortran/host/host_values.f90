@@ -6,7 +6,7 @@ module host_values
   use, intrinsic :: iso_c_binding, only: c_f_pointer, c_f_procpointer, c_funloc, c_funptr, c_loc, c_ptr
   use host_context, only: current
   use host_kinds, only: dp, i4
-  use host_protect, only: calls, protect
+  use host_protect, only: begin_call, protect
   implicit none (type, external)
   private
   public :: value_pass_t, run_values
@@ -61,11 +61,12 @@ contains
     call c_f_pointer(context, pass)
     do k = 1, size(pass%values, kind=i4)
       pass%last = k
-      calls = calls + 1
       if (size(pass%places, 1) == rows_of_disp) then
+        call begin_call(0_i4)
         call prescribe(pass, pass%places(:, k), pass%coords(:, k), pass%values(k))
       else
         current%element = pass%places(1, k)
+        call begin_call(current%element)
         call load(pass, pass%places(:, k), pass%coords(:, k), pass%values(k))
       end if
     end do

@@ -14,6 +14,7 @@
 
 #define _GNU_SOURCE
 #include <fenv.h>
+#include <pthread.h>
 #include <setjmp.h>
 #include <signal.h>
 #include <stdint.h>
@@ -29,12 +30,12 @@
 void uel_host_fault(const char *text);
 void uel_host_place(char routine[16], int32_t place[4]);
 
-// Calls that the driver has made; the clock sees by it whether one is still the same.
-extern int64_t uel_host_calls;
+// exceptions.c
+void uel_host_watch_exceptions(void);
 
 // As harness/slate.py has it.
 struct slate {
-    int64_t calls;         // of user routines, as the clock has seen them last
+    int64_t calls;         // of user routines so far: the clock sees by it whether one is still the same
     int32_t within;        // one of the three below
     int32_t left;          // calls that did not end by returning
     int32_t place[4];      // element, step, increment, iteration
@@ -49,6 +50,7 @@ static struct slate *slate = &own;
 enum { STACK = 1000, FLOATING };
 
 static sigjmp_buf landing;
+static pthread_t thread;            // in which the call is
 static volatile int reason;         // the signal, STACK or FLOATING; 0 for XIT
 static volatile sig_atomic_t armed = 0;
 static int registered = 0;          // at_exit is
@@ -96,10 +98,12 @@ static void describe(int signal, char *text, size_t size)
     }
 }
 
-static void note_place(void)
+static void note_place(void) { uel_host_place(slate->routine, slate->place); }
+
+void uel_host_begin(int32_t element)
 {
-    slate->calls = uel_host_calls;
-    uel_host_place(slate->routine, slate->place);
+    slate->calls++;
+    slate->place[0] = element;
 }
 
 // Why the process ends: for the one that watches it, or on the terminal where none does.
@@ -117,6 +121,13 @@ static void say_end(const char *what)
     (void)written;
 }
 
+static void unguard(void)
+{
+    for (int k = 0; k < CAUGHT; k++)
+        sigaction(caught[k], &before[k], NULL);
+    sigaltstack(&stack_before, NULL);
+}
+
 static void catch(int signal, siginfo_t *info, void *context)
 {
     (void)context;
@@ -126,13 +137,21 @@ static void catch(int signal, siginfo_t *info, void *context)
         say_end("abort: memory is damaged, mostly by a write outside an array");
         return;  // abort() goes on and ends the process
     }
+    if (!pthread_equal(pthread_self(), thread)) {
+        // the call is not on the stack of a thread of the user's, or of a library
+        if (signal != SIGALRM) {
+            char text[sizeof slate->reason];
+            describe(signal, text, sizeof text);
+            say_end(text);
+            unguard();
+        }
+        return;
+    }
     if (signal == SIGFPE && info->si_code != FPE_INTDIV)
         signal = FLOATING;
     if (signal == SIGALRM) {
-        if (slate->within)
-            note_place();
-        if (watched != uel_host_calls) {
-            watched = uel_host_calls;
+        if (watched != slate->calls) {
+            watched = slate->calls;
             waited = 0;
         }
         waited += tick;
@@ -162,13 +181,6 @@ static void guard(void)
     sigaltstack(&own, &stack_before);
     for (int k = 0; k < CAUGHT; k++)
         sigaction(caught[k], &action, &before[k]);
-}
-
-static void unguard(void)
-{
-    for (int k = 0; k < CAUGHT; k++)
-        sigaction(caught[k], &before[k], NULL);
-    sigaltstack(&stack_before, NULL);
 }
 
 static void set_clock(double seconds)
@@ -227,6 +239,7 @@ void uel_host_loading(int begins)
     memset(slate->routine, ' ', sizeof slate->routine);
     memset(slate->place, 0, sizeof slate->place);
     slate->within = begins ? LOADING : OUTSIDE;
+    uel_host_watch_exceptions();
 }
 
 // Runs routine(context) for so many seconds (0: any); 0 if it returned, 1 if it was left.
@@ -243,10 +256,10 @@ static int run(void (*routine)(void *), void *context, double seconds)
         return 1;
     }
     guard();
+    thread = pthread_self();
     armed = 1;
     trap(slate->within);
-    // the clock keeps the slate up to date as well
-    if (seconds > 0 || slate != &own)
+    if (seconds > 0)
         set_clock(tick);
     routine(context);
     leave();
@@ -294,6 +307,8 @@ int uel_host_attempt(void (*routine)(void *), void *context)
     }
     return lost;
 }
+
+int uel_host_in_call(void) { return armed && slate->within; }
 
 void uel_host_escape(void)
 {

@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: The uel-harness authors
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// Ends of the process that become ends of the call: user files are linked with --wrap for these procedures of
-// libgfortran, so a STOP in a user routine comes here. Errors inside libgfortran (reading a file that is not there)
-// still end the process.
+// Ends of the process that become ends of the call: user files are linked with --wrap for these procedures of libgfortran
+// and libc, so a STOP in a user routine, or exit in C, comes here. Errors inside libgfortran (reading a file that is not
+// there) still end the process.
 
 #include <stdbool.h>
 #include <stdint.h>
@@ -13,11 +13,18 @@
 
 void uel_host_note(int32_t level, const char *text, int32_t length);
 void uel_host_escape(void);
+int uel_host_in_call(void);
 
 static void fatal(const char *text)
 {
     uel_host_note(-3, text, (int32_t)strlen(text));
     uel_host_escape();
+}
+
+void uel_host_thrown(const char *text)
+{
+    if (uel_host_in_call())
+        fatal(text);
 }
 
 void uel_host_fail(const char *routine, int32_t id, const char *reason)
@@ -69,6 +76,19 @@ void __wrap__gfortran_error_stop_numeric(int code, bool quiet)
 }
 
 void __wrap__gfortran_exit_i4(const int32_t *code) { stop_number("CALL EXIT", code ? *code : 0); }
+
+#define ENDS_CALL(name)                                                                                                \
+    void __wrap_##name(int code)                                                                                       \
+    {                                                                                                                  \
+        char text[64];                                                                                                 \
+        snprintf(text, sizeof text, #name "(%d)", code);                                                               \
+        fatal(text);                                                                                                   \
+    }
+
+ENDS_CALL(exit)
+ENDS_CALL(_exit)
+ENDS_CALL(_Exit)
+ENDS_CALL(quick_exit)
 
 // Routines of Abaqus that the host does not supply. A file may refer to them in procedures that are never called here.
 #define NOT_SUPPLIED(name, title)                                                                                      \

@@ -21,6 +21,7 @@ from harness.delamination import law
 from harness.delamination.law import Curve, LawElement
 from harness.errors import UelError
 from harness.model.arrays import FloatArray
+from harness.output.lock import job_stem, locked
 from harness.output.plots import COLOURS, STYLE
 
 SURFACE_ANGLES = 31
@@ -64,7 +65,13 @@ class Exploration:
 
 def explore(asked: Exploration) -> tuple[list[Curve], list[Path]]:
     """Drive the element, write JOB.csv and JOB.png, and JOB_surface.png if asked for; the curves and the files."""
+    stem = job_stem(asked.job, asked.output_dir)
     asked.output_dir.mkdir(parents=True, exist_ok=True)
+    with locked(stem):
+        return _explore(asked)
+
+
+def _explore(asked: Exploration) -> tuple[list[Curve], list[Path]]:
     jtype, values = law.STANDARD, law.standard_properties()
     if asked.deck is not None:
         jtype, from_deck = law.deck_properties(asked.deck, asked.elset)

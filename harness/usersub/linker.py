@@ -18,6 +18,8 @@ FLAGS: Final = (
     "-Wl,-Bsymbolic",
     # STOP ends the process; the host's versions end the call (fortran/host/stops.c)
     *(f"-Wl,--wrap=_gfortran_{name}" for name in _STOPS),
+    # and so does exit in C
+    *(f"-Wl,--wrap={name}" for name in ("exit", "_exit", "_Exit", "quick_exit")),
 )
 
 _PREFIX: Final = "scipy_"

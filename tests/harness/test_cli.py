@@ -192,12 +192,7 @@ def test_several_user_files(tmp_path: Path, option: tuple[str, ...]) -> None:
     database.write_text(
         "subroutine uexternaldb(lop)\n  if (lop == 3) call stdb_abqerr(1, 'at the end', (/0/), (/0d0/), (/' '/))\nend\n"
     )
-    deck = tmp_path / "pulled.inp"
-    deck.write_text(
-        "*NODE\n1, 0.\n2, 1.\n*USER ELEMENT, TYPE=U1, NODES=2, COORDINATES=1, PROPERTIES=1\n1\n"
-        "*ELEMENT, TYPE=U1, ELSET=ALL\n1, 1, 2\n*UEL PROPERTY, ELSET=ALL\n1.\n"
-        "*STEP\n*STATIC\n1., 1.\n*BOUNDARY\n1, 1\n2, 1, 1, 0.1\n*END STEP\n"
-    )
+    deck = pulled(tmp_path)
     files = [word.format(file) for file in (SPRING_IN_C, database) for word in option]
     assert main(["run", str(deck), *files, "--quiet", f"--output-dir={tmp_path}"]) == 0
     assert "at the end" in (tmp_path / "pulled.msg").read_text()
@@ -259,6 +254,87 @@ def test_failed_job_keeps_its_files(tmp_path: Path, capsys: pytest.CaptureFixtur
     assert "SIGMAMAX" in capsys.readouterr().err
     assert "THE ANALYSIS HAS NOT BEEN COMPLETED" in (tmp_path / "negative.sta").read_text()
     assert "SIGMAMAX" in (tmp_path / "negative.msg").read_text()
+
+
+def test_run_that_does_not_begin_leaves_no_verdict_of_an_earlier_one(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """The results that are not of this run stay."""
+    deck = pulled(tmp_path)
+    words = ["run", str(deck), "--user", str(SPRING_IN_C), "--quiet", "--output-dir", str(tmp_path)]
+    assert main(words) == 0
+    history = (tmp_path / "pulled_history.csv").read_text()
+    user = tmp_path / "broken.c"
+    user.write_text("int uel_(")
+    assert main([*words, "--user", str(user)]) == 1
+    for mistake in ("*NODDE\n1, 0.\n", ""):
+        deck.write_text(mistake)
+        assert main(words) == 1
+        assert (tmp_path / "pulled.sta").read_text().endswith(" THE ANALYSIS HAS NOT BEEN COMPLETED\n")
+        assert not Result(tmp_path / "pulled").completed
+        assert Result(tmp_path / "pulled").status == []
+        assert (tmp_path / "pulled.msg").read_text().startswith(" ***ERROR: ")
+    assert (tmp_path / "pulled_history.csv").read_text() == history
+    assert not list(tmp_path.glob("*.lck"))
+    capsys.readouterr()
+
+
+def test_second_run_of_a_name_in_a_folder_is_refused(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    """The lock of a process that is gone holds nothing."""
+    deck = pulled(tmp_path)
+    words = ["run", str(deck), "--user", str(SPRING_IN_C), "--quiet", "--output-dir", str(tmp_path)]
+    holder = "import sys; from pathlib import Path; from harness.output.lock import locked\n"
+    holder += "with locked(Path(sys.argv[1])):\n print('held', flush=True)\n sys.stdin.read()"
+    command = [sys.executable, "-c", holder, str(tmp_path / "pulled")]
+    with subprocess.Popen(command, stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True) as process:
+        assert process.stdout is not None
+        assert process.stdout.readline() == "held\n"
+        assert main(words) == 1
+        said = capsys.readouterr().err
+        expected = rf"uel: a job of this name runs in this folder: .*pulled.lck is held by process {process.pid} on .*"
+        assert re.fullmatch(expected + r"; give another --job or --output-dir\n", said)
+        assert not (tmp_path / "pulled.sta").exists()
+        assert main([*words, "--job", "other"]) == 0
+        process.kill()
+    assert (tmp_path / "pulled.lck").exists()
+    assert main(words) == 0
+    assert not (tmp_path / "pulled.lck").exists()
+
+
+@pytest.mark.parametrize("name", ["a/b", ".", "..", "/"])
+def test_job_that_is_no_name(tmp_path: Path, capsys: pytest.CaptureFixture[str], name: str) -> None:
+    assert main(["run", str(pulled(tmp_path)), "--user", str(SPRING_IN_C), "--job", name]) == 1
+    assert f"uel: '{name}' is no name of a job: expected a file name without folders" in capsys.readouterr().err
+    assert main(["law", "--job", name, "--output-dir", str(tmp_path)]) == 1
+    assert f"uel: '{name}' is no name of a job" in capsys.readouterr().err
+
+
+def test_names_outside_ascii(tmp_path: Path) -> None:
+    folder = tmp_path / "Prüfung \n'1'"
+    assert (
+        main(["run", str(pulled(tmp_path)), "--user", str(SPRING_IN_C), "--job", "zäh", f"--output-dir={folder}"]) == 0
+    )
+    assert Result(folder / "zäh").completed
+
+
+def pulled(folder: Path) -> Path:
+    """A spring of a user element, pulled."""
+    deck = folder / "pulled.inp"
+    deck.write_text(
+        "*NODE\n1, 0.\n2, 1.\n*USER ELEMENT, TYPE=U1, NODES=2, COORDINATES=1, PROPERTIES=1\n1\n"
+        "*ELEMENT, TYPE=U1, ELSET=ALL\n1, 1, 2\n*UEL PROPERTY, ELSET=ALL\n1.\n"
+        "*STEP\n*STATIC\n1., 1.\n*BOUNDARY\n1, 1\n2, 1, 1, 0.1\n*END STEP\n"
+    )
+    return deck
+
+
+def test_command_loads_little_before_it_can_be_interrupted() -> None:
+    """An interrupt in the imports would show a traceback."""
+    program = (
+        "import sys, harness.cli, harness.apart; print([m for m in ('numpy', 'scipy', 'rich') if m in sys.modules])"
+    )
+    result = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True, check=True)
+    assert result.stdout == "[]\n"
 
 
 def test_solvers(capsys: pytest.CaptureFixture[str]) -> None:

@@ -4,6 +4,7 @@
 
 import os
 import re
+import signal
 import subprocess
 import sys
 import time
@@ -15,6 +16,8 @@ from harness.isolation import supervise
 from harness.output.broken import close_broken
 from harness.output.status import read_status
 
+CRASHES = Path(__file__).parent / "usersub" / "crashes.cpp"
+LONG_RUN = Path(__file__).parents[2] / "abaqus_inputs" / "dcb" / "dcb_u4_1e8.inp"
 USER = Path(__file__).parent / "usersub" / "crashes.f"
 DECK = """\
 *USER ELEMENT, TYPE=U1, NODES=2, I PROPERTIES=2
@@ -72,6 +75,87 @@ def test_the_end_is_reported(tmp_path: Path, way: int, message: str) -> None:
     assert [row.increment for row in read_status(tmp_path / "crash.sta")] == [1]
     assert (tmp_path / "crash.sta").read_text().endswith(" THE ANALYSIS HAS NOT BEEN COMPLETED\n")
     assert "***ERROR" in (tmp_path / "crash.msg").read_text()
+
+
+KILLED = r"uel: the run was {}, in UEL for element 7, step 1, increment 2, iteration 0; the output written so far"
+
+
+def begin(folder: Path, user: Path, way: int, *words: str) -> subprocess.Popen[str]:
+    """A run of the spring."""
+    (folder / "crash.inp").write_text(DECK.format(way=way))
+    command = [sys.executable, "-m", "harness.cli", "run", "crash.inp", "--user", str(user), "--quiet", *words]
+    return subprocess.Popen(command, cwd=folder, stderr=subprocess.PIPE, text=True)
+
+
+@pytest.mark.parametrize(
+    ("way", "message"),
+    [
+        (1, PLACE.format("an exception of C.. that nothing catches: std::runtime_error: no such layer")),
+        pytest.param(2, PLACE.format("an .*: .anonymous namespace.::own_exception"), marks=pytest.mark.long),
+        (3, PLACE.format(r"exit\(0\)")),
+        pytest.param(4, PLACE.format(r"_exit\(0\)"), marks=pytest.mark.long),
+        # exit code 0, without the end of the run
+        (5, KILLED.format(r"ended \(exit code 0\)")),
+        (6, KILLED.format(r"ended because a call of a user routine does not end within 1 s \(--call-limit\)")),
+    ],
+)
+def test_ends_of_the_process_in_c(tmp_path: Path, way: int, message: str) -> None:
+    process = begin(tmp_path, CRASHES, way, "--call-limit", "1")
+    said = process.communicate()[1]
+    assert process.returncode == 1
+    assert re.search(message, said), said
+    assert [row.increment for row in read_status(tmp_path / "crash.sta")] == [1]
+    assert (tmp_path / "crash.sta").read_text().endswith(" THE ANALYSIS HAS NOT BEEN COMPLETED\n")
+    assert re.search(r"\*\*\*ERROR: .*element 7", (tmp_path / "crash.msg").read_text(), re.DOTALL)
+
+
+def test_library_whose_loading_does_not_end(tmp_path: Path) -> None:
+    user = tmp_path / "endless.cpp"
+    user.write_text("#define ENDLESS\n" + CRASHES.read_text())
+    process = begin(tmp_path, user, 0, "--call-limit", "1")
+    said = process.communicate()[1]
+    assert process.returncode == 1
+    assert "ended because loading the library of user routines does not end within 1 s (--call-limit);" in said
+
+
+@pytest.mark.parametrize(
+    ("signum", "reason"),
+    [
+        (signal.SIGINT, r"interrupted \(SIGINT\)"),
+        pytest.param(signal.SIGTERM, r"ended by a user or the system \(SIGTERM\)", marks=pytest.mark.long),
+        pytest.param(signal.SIGHUP, r"ended because the terminal was closed \(SIGHUP\)", marks=pytest.mark.long),
+    ],
+)
+def test_signal_to_the_parent_alone_ends_an_endless_loop(tmp_path: Path, signum: int, reason: str) -> None:
+    process = begin(tmp_path, CRASHES, 7, "--call-limit", "0")
+    wait_for(tmp_path / "crash.sta", "   1     1   1 ", process)
+    process.send_signal(signum)
+    said = process.communicate()[1]
+    assert process.returncode == 1
+    assert re.search(KILLED.format(reason), said), said
+    assert (tmp_path / "crash.sta").read_text().endswith(" THE ANALYSIS HAS NOT BEEN COMPLETED\n")
+
+
+def test_signal_between_calls_ends_the_run_at_once(tmp_path: Path) -> None:
+    """The run writes its verdict itself."""
+    command = [sys.executable, "-m", "harness.cli", "run", str(LONG_RUN), "--output-dir", str(tmp_path), "--quiet"]
+    process = subprocess.Popen(command, stderr=subprocess.PIPE, text=True)
+    wait_for(tmp_path / f"{LONG_RUN.stem}.sta", "   1     3   1 ", process)
+    process.send_signal(signal.SIGTERM)
+    said = process.communicate()[1]
+    assert process.returncode == 1
+    assert said == "uel: ended by a user or the system (SIGTERM); the output written so far is readable\n"
+    assert (tmp_path / f"{LONG_RUN.stem}.sta").read_text().endswith(" THE ANALYSIS HAS NOT BEEN COMPLETED\n")
+    assert "***ERROR: ended by a user or the system" in (tmp_path / f"{LONG_RUN.stem}.msg").read_text()
+
+
+def wait_for(file: Path, text: str, process: subprocess.Popen[str]) -> None:
+    """Wait until a file of a run has a text."""
+    began = time.monotonic()
+    while not (file.exists() and text in file.read_text()):
+        assert process.poll() is None, "the run ended too soon"
+        assert time.monotonic() - began < 120
+        time.sleep(0.01)
 
 
 def test_process_that_is_killed_takes_the_other_along(tmp_path: Path) -> None:
