@@ -9,11 +9,11 @@ import math
 import os
 import shutil
 import sys
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from pathlib import Path
 
 from harness import isolation
-from harness.errors import UelError, in_words, tell_error
+from harness.errors import FAILURES, tell_failure
 
 # options of the `abaqus` command and what they are here; None: accepted and without effect on one machine
 ABAQUS_OPTIONS = {
@@ -27,6 +27,10 @@ ABAQUS_OPTIONS = {
     "memory": None,
     "scratch": None,
 }
+
+
+_MANY = 1 << 31
+"""No count is so large."""
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
@@ -56,10 +60,8 @@ def main(arguments: Sequence[str] | None = None) -> int:
     except BrokenPipeError:
         # whoever reads has seen enough; nothing is written to it where the process ends
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
-    except (UelError, OSError, MemoryError, KeyboardInterrupt) as error:
-        ending = "" if isinstance(error, UelError | OSError) else "; the output written so far is readable"
-        for text in (in_words(error) + ending, *getattr(error, "__notes__", ())):
-            tell_error(text)
+    except FAILURES as error:
+        tell_failure(error)
     return 1
 
 
@@ -77,7 +79,11 @@ def build_parser() -> argparse.ArgumentParser:
     parser = argparse.ArgumentParser(prog="uel", description="Run Abaqus decks with user elements, without Abaqus.")
     commands = parser.add_subparsers(required=True, metavar="COMMAND")
 
-    run = commands.add_parser("run", help="run a deck", epilog="Abaqus' spelling works too: uel run job=NAME user=FILE")
+    run = commands.add_parser("run", help="run a deck")
+    run.epilog = (
+        "Abaqus' spelling works too: uel run job=NAME user=FILE. "
+        "Exit code: 0 the analysis has completed; 1 it has not, by an error, an interrupt or the system; 2 wrong usage."
+    )
     run.add_argument("deck", type=Path, metavar="DECK.inp")
     run.add_argument(
         "--user",
@@ -126,20 +132,26 @@ def add_law(law: argparse.ArgumentParser) -> None:
     law.add_argument(
         *("--angles", "-a"),
         nargs="+",
-        type=float,
+        type=FINITE,
         metavar="DEGREES",
         default=[0.0, 30.0, 60.0, 90.0],
         help="directions of the separation, 0 opening, 90 sliding (0 30 60 90)",
     )
-    law.add_argument("--reach", type=float, metavar="LENGTH", help="largest separation (where no traction is left)")
     law.add_argument(
-        *("--unload", "-u"), nargs="+", type=float, metavar="F", default=[], help="go back to 0 at these parts of it"
+        "--reach", type=ABOVE_ZERO, metavar="LENGTH", help="largest separation (where no traction is left)"
     )
-    law.add_argument("--close", type=float, metavar="F", default=0.0, help="... and press together by this part of it")
+    law.add_argument(
+        *("--unload", "-u"), nargs="+", type=PART, metavar="F", default=[], help="go back to 0 at these parts of it"
+    )
+    law.add_argument(
+        "--close", type=NOT_NEGATIVE, metavar="F", default=0.0, help="... and press together by this part of it"
+    )
     law.add_argument("--path", metavar="'N,T N,T ...'", help="go through these separations instead")
     law.add_argument("--surface", action="store_true", help="draw both tractions over both separations too")
-    law.add_argument("--increments", type=int, default=400, metavar="N", help="of a curve, or a line of a path (400)")
-    law.add_argument("--duration", type=float, default=1.0, metavar="TIME", help="step time of a curve (1)")
+    law.add_argument(
+        "--increments", type=positive, default=400, metavar="N", help="of a curve, or a line of a path (400)"
+    )
+    law.add_argument("--duration", type=ABOVE_ZERO, default=1.0, metavar="TIME", help="step time of a curve (1)")
     law.add_argument("--job", default="law", metavar="NAME", help="name of the output files (law)")
     law.add_argument("--output-dir", type=Path, default=Path(), metavar="DIR", help="where they go (current folder)")
     law.set_defaults(function=explore_law)
@@ -181,7 +193,7 @@ def add_isolation(command: argparse.ArgumentParser) -> None:
     """Options of commands that call user code."""
     command.add_argument(
         "--call-limit",
-        type=seconds,
+        type=NOT_NEGATIVE,
         default=60.0,
         metavar="SECONDS",
         help="time for one call of a user routine, and for loading the library; 0: any (60)",
@@ -189,18 +201,32 @@ def add_isolation(command: argparse.ArgumentParser) -> None:
     command.add_argument(isolation.SAME_PROCESS, action="store_true", help="for debuggers: no process of its own")
 
 
-def seconds(text: str) -> float:
-    """A time of 0 or more, given as an option."""
-    if not (math.isfinite(value := float(text)) and value >= 0.0):
-        raise argparse.ArgumentTypeError(f"expected a time of 0 or more, found {text}")
-    return value
+def number(words: str, holds: Callable[[float], bool] = math.isfinite) -> Callable[[str], float]:
+    """What makes a finite number of an option, for which a condition holds; words say what is expected."""
+
+    def read(text: str) -> float:
+        try:
+            value = float(text)
+        except ValueError:
+            value = math.nan
+        if not (math.isfinite(value) and holds(value)):
+            raise argparse.ArgumentTypeError(f"expected {words}, found '{text}'")
+        return value
+
+    return read
+
+
+FINITE = number("a number")
+ABOVE_ZERO = number("a number above 0", lambda value: value > 0.0)
+NOT_NEGATIVE = number("a number of 0 or more", lambda value: value >= 0.0)
+PART = number("a number from 0 to 1", lambda value: 0.0 <= value <= 1.0)
 
 
 def positive(text: str) -> int:
     """A whole number from 1, given as an option."""
-    if (count := int(text)) < 1:
-        raise argparse.ArgumentTypeError(f"expected at least 1, found {count}")
-    return count
+    return int(
+        number("a whole number from 1", lambda value: value >= 1.0 and value == int(value) and value < _MANY)(text)
+    )
 
 
 def from_abaqus(parser: argparse.ArgumentParser, words: list[str]) -> list[str]:
@@ -228,7 +254,7 @@ def from_abaqus(parser: argparse.ArgumentParser, words: list[str]) -> list[str]:
 
 def run_job(options: argparse.Namespace) -> int:
     """`uel run`."""
-    from harness.job import run  # noqa: PLC0415 (keeps the other commands quick)
+    from harness.job import MOST_REPEATED, run  # noqa: PLC0415 (keeps the other commands quick)
     from harness.model.procedures import PERTURBATION_TIME  # noqa: PLC0415
 
     result = run(
@@ -243,6 +269,8 @@ def run_job(options: argparse.Namespace) -> int:
         quiet=options.quiet,
     )
     if not options.quiet:
+        for warning in result.warnings[:MOST_REPEATED]:
+            print(f"warning: {warning}")
         last = result.status[-1]
         # a linear step takes no time, and may have a frequency in its place
         ending = f", total time {last.total_time:g}" if last.time_increment > PERTURBATION_TIME else ""

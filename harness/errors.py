@@ -48,6 +48,20 @@ def tell_error(text: str) -> None:
         print(f"uel: {text}", file=sys.stderr, flush=True)
 
 
+def tell_failure(error: BaseException) -> None:
+    """Print why a command failed, with the notes of the error."""
+    whole = isinstance(error, UelError | OSError)
+    for text in (
+        in_words(error) + ("" if whole else "; the output written so far is readable"),
+        *getattr(error, "__notes__", ()),
+    ):
+        tell_error(text)
+
+
+FAILURES: Final = (UelError, OSError, MemoryError, KeyboardInterrupt)
+"""What ends a command with a message, and no traceback."""
+
+
 class DeckError(UelError):
     """The input deck is wrong or asks for something unsupported; begins with file:line, one line per place."""
 

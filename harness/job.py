@@ -13,13 +13,14 @@ from typing import Final
 from harness import usersub
 from harness.assembly import ForgivingSystem
 from harness.deck import read_deck
-from harness.errors import UelError, in_words
+from harness.errors import ConvergenceError, UelError, in_words
 from harness.interrupts import held
 from harness.model.model import Model
 from harness.output import JobOutput, Result
 from harness.output.broken import forget_verdict, write_verdict
 from harness.output.lock import job_stem, locked
 from harness.procedures import run_steps
+from harness.procedures.incrementation import FIXED_TOO_LARGE, TOO_MANY_INCREMENTS
 from harness.solver.threads import one_blas_thread
 from harness.usersub import Library, marks
 
@@ -122,7 +123,24 @@ def _analyse(
             error.add_note(f"earlier warning: {warning}")
         if len(output.warnings) > MOST_REPEATED:
             error.add_note(f"and {len(output.warnings) - MOST_REPEATED} more warnings in {output.job}.dat and .msg")
+        error.add_note(f"{output.job} ended {output.reached}; what was written is readable")
+        if isinstance(error, ConvergenceError):
+            error.add_note(_advice(str(error), fallback=fallback, energy_control=energy_control))
         raise
+
+
+def _advice(error: str, *, fallback: bool, energy_control: bool) -> str:
+    """What can be tried where a step does not converge."""
+    if error.startswith(TOO_MANY_INCREMENTS):
+        return "what may help: a larger INC on *STEP"
+    ways = [] if fallback else ["--fallback, a search where Newton's method fails"]
+    ways += [] if energy_control else ["--control energy, where an interface snaps"]
+    if error.startswith(FIXED_TOO_LARGE):
+        ways.append("*STATIC without DIRECT, which cuts increments back")
+    else:
+        ways.append("a smaller smallest increment (third number below *STATIC)")
+    ways.append("VISCOSITY of the interface elements, or on *SECTION CONTROLS of cohesive elements")
+    return f"what may help: {'; '.join(ways)}"
 
 
 def _pass_on(library: Library, output: JobOutput) -> None:

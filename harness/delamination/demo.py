@@ -6,7 +6,7 @@ from __future__ import annotations
 
 import argparse
 import sys
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
 
 import numpy as np
@@ -18,6 +18,7 @@ from harness.delamination.decks import FOLDER
 from harness.delamination.materials import TABLE_2
 from harness.delamination.specimens import ARMS, CRACK
 from harness.delamination.theory import dcb_curve, dcb_load
+from harness.errors import FAILURES, tell_failure
 from harness.job import run
 from harness.output import Result
 from harness.output.plots import Curve, load_displacement, profiles
@@ -30,7 +31,10 @@ AROUND_FRONT = (2.0, 6.0)
 
 def main(arguments: Sequence[str] | None = None) -> int:
     """Run the decks, write the figures, print the table; returns the exit code."""
-    parser = argparse.ArgumentParser(description="Run a double cantilever beam, draw it, compare it with beam theory.")
+    parser = argparse.ArgumentParser(
+        description="Run a double cantilever beam, draw it, compare it with beam theory.",
+        epilog="Exit code: 0 all runs have completed; 1 one has not, and the last lines say why; 2 wrong usage.",
+    )
     parser.add_argument("--output-dir", type=Path, default=Path("demo"), help="folder of all files written (demo)")
     known = sorted(path.name for path in (FOLDER / "dcb").glob("dcb_u*.inp"))
     parser.add_argument("decks", nargs="*", metavar="DECK", help=f"of {', '.join(known)} (the two at 1e8)")
@@ -39,16 +43,24 @@ def main(arguments: Sequence[str] | None = None) -> int:
         if deck not in known:
             parser.error(f"no deck {deck}; there are {', '.join(known)}")
     folder: Path = options.output_dir
-    console = Console()
+    try:
+        compare(folder, {Path(deck).stem: deck for deck in options.decks} or DECKS, Console())
+    except FAILURES as error:
+        tell_failure(error)
+        return 1
+    return 0
+
+
+def compare(folder: Path, decks: Mapping[str, str], console: Console) -> None:
+    """Run decks, which have names, write the figures into the folder and print the table."""
     results = {}
-    for name, deck in ({Path(deck).stem: deck for deck in options.decks} or DECKS).items():
+    for name, deck in decks.items():
         console.print(f"{deck}: {name}, to 3 mm each arm", highlight=False)
         results[name] = run(FOLDER / "dcb" / deck, output_dir=folder, quiet=not console.is_terminal)
     figures = [draw_load(results, folder / "dcb_load.png"), draw_traction(results, folder / "dcb_traction.png")]
     console.print(summary(results))
     for figure in figures:
         console.print(f"figure: {figure}", highlight=False)
-    return 0
 
 
 def draw_load(results: dict[str, Result], path: Path) -> Path:

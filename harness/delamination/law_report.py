@@ -116,7 +116,7 @@ def path_points(text: str) -> FloatArray:
         points = np.array([[float(value) for value in point.split(",")] for point in text.replace(";", " ").split()])
     except ValueError:
         points = np.zeros(0)
-    if points.ndim != 2 or points.shape[1] != 2:
+    if points.ndim != 2 or points.shape[1] != 2 or not np.isfinite(points).all():
         raise UelError(f"'{text}': expected are points NORMAL,TANGENTIAL with blanks between them")
     return points
 

@@ -60,7 +60,7 @@ class JobOutput:
     job
         Name of the files.
     warnings
-        About the deck, then about the user routines and of them.
+        About the deck, then about the model, about the user routines and of them.
     """
 
     def __init__(self, model: Model, job: str, directory: Path, *, quiet: bool = False) -> None:
@@ -69,6 +69,7 @@ class JobOutput:
         self._model = model
         self.warnings = list(model.warnings)
         self._pending: IncrementDone | None = None
+        self._last: IncrementDone | None = None
         self._closed = False
         self._status = StatusFile(stem.with_name(f"{job}.sta"))
         self._message = MessageFile(stem.with_name(f"{job}.msg"), model)
@@ -102,6 +103,7 @@ class JobOutput:
                 self._finish_step()
                 self._message.step_done(record)
             case Warned():
+                self.warnings.append(record.message)
                 self._message.remark("WARNING", record.message)
             case Noted():
                 self._message.remark("NOTE", record.message)
@@ -116,6 +118,16 @@ class JobOutput:
             target.text(text)
         else:
             target.remark(kind.upper(), text)
+
+    @property
+    def reached(self) -> str:
+        """Where the run is, as the end of a sentence."""
+        steps, last = self._model.steps, self._last
+        if last is None:
+            return "before its first increment was complete"
+        period = steps[last.step - 1].procedure.period
+        place = f"increment {last.increment} of step {last.step} (of {len(steps)})"
+        return f"after {place}, step time {last.step_time:g} of {period:g}"
 
     def close(self, error: UelError | None) -> None:
         """Write what the last converged increment still owes, and the verdict; the job ends here.
@@ -172,7 +184,7 @@ class JobOutput:
         timeless = procedure.riks is not None or isinstance(record, HarmonicResponse)
         last = not timeless and record.step_time >= procedure.period * (1.0 - 1e-9)
         self._requested(record, last=last)
-        self._pending = record
+        self._pending = self._last = record
         self._message.increment(record)
         self._status.write(
             StatusRow(

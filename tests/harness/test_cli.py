@@ -42,6 +42,46 @@ def test_fallback_finishes_a_run_that_fails_without_it(tmp_path: Path) -> None:
     assert "1  INCREMENTS THAT NEEDED THE DESCENT SEARCH" in message
 
 
+@pytest.mark.parametrize(
+    ("static", "ended", "ways"),
+    [
+        (
+            "*STATIC\n0.1, 1., 1e-5, 0.1\n",
+            r"ended after increment 12 of step 1 \(of 1\), step time 0\.66\d+ of 1; what was written is readable",
+            "--fallback, .*; --control energy, .*; a smaller smallest increment .*STATIC.; VISCOSITY .*",
+        ),
+        (
+            "*STATIC, DIRECT\n0.1, 1.\n",
+            "ended after increment 6 .*",
+            r"--fallback, .*; --control energy, .*; \*STATIC without DIRECT, which cuts increments back; VISCOSITY .*",
+        ),
+    ],
+)
+def test_run_that_ends_early_says_where_and_what_may_help(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str], static: str, ended: str, ways: str
+) -> None:
+    deck = snapping(tmp_path, static)
+    assert main(["run", str(deck), "--user", str(SPRINGS), "--quiet", "--output-dir", str(tmp_path)]) == 1
+    said = capsys.readouterr().err.splitlines()
+    assert re.fullmatch(f"uel: snap {ended}", said[-2])
+    assert re.fullmatch(f"uel: what may help: {ways}", said[-1])
+
+
+def test_last_lines_of_other_ends(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    """Too few increments; and a part that nothing holds, on which no force acts, in a run that completes."""
+    deck = snapping(tmp_path, "*STATIC\n0.1, 1., 1e-5, 0.1\n")
+    deck.write_text(deck.read_text().replace("INC=500", "INC=2"))
+    words = ["run", str(deck), "--user", str(SPRINGS), "--output-dir", str(tmp_path)]
+    assert main(words) == 1
+    assert capsys.readouterr().err.endswith("uel: what may help: a larger INC on *STEP\n")
+    deck = pulled(tmp_path)
+    deck.write_text(deck.read_text().replace("*BOUNDARY\n1, 1\n2, 1, 1, 0.1\n", ""))
+    assert main(["run", str(deck), "--user", str(SPRING_IN_C), "--output-dir", str(tmp_path)]) == 0
+    first, *_, last = capsys.readouterr().out.splitlines()
+    assert "look at *BOUNDARY" in first
+    assert last.endswith("warnings in .dat and .msg: 1")
+
+
 def test_energy_control_traces_the_snap_back(tmp_path: Path) -> None:
     deck = snapping(tmp_path, "*STATIC\n0.05, 1., 1e-5, 0.05\n")
     words = ["run", str(deck), "--user", str(SPRINGS), "--quiet", "--output-dir", str(tmp_path)]
@@ -142,13 +182,16 @@ def test_warnings_are_told_at_the_end(tmp_path: Path, capsys: pytest.CaptureFixt
     words = ["run", str(deck), "--user", str(user), "--output-dir", str(tmp_path)]
     deck.write_text(HALF_SET_DECK.format(last=2))
     assert main(words) == 0
-    assert capsys.readouterr().out.endswith("total time 1, warnings in .dat and .msg: 2\n")
+    *warnings, last = capsys.readouterr().out.splitlines()
+    assert last.endswith("total time 1, warnings in .dat and .msg: 2")
+    assert [line.startswith("warning: ") for line in warnings] == [True, True]
     deck.write_text(HALF_SET_DECK.format(last=1))
     assert main(words) == 1
-    first, second, third = capsys.readouterr().err.splitlines()
+    first, second, third, last = capsys.readouterr().err.splitlines()
     assert "singular system matrix at node 2, dof 2" in first
     assert re.fullmatch(r"uel: earlier warning: .*half.inp:8: .* 1 values where U1 takes 0 .*", second)
     assert re.match("uel: earlier warning: element 1 .type U1.: RHS.3. was not filled, .*REAL, of four bytes", third)
+    assert last == "uel: half ended before its first increment was complete; what was written is readable"
 
 
 READS_OUTSIDE = """\
@@ -177,7 +220,7 @@ def test_run_goes_on_where_an_element_reads_outside_its_arrays(
         assert "it reads outside SVARS, see uel check" in " ".join((tmp_path / "beyond.msg").read_text().split())
     user.write_text(READS_OUTSIDE.format(folder=Path(__file__).parent, more=" + sqrt(-1d0 - u(i)**2)"))
     assert main(words) == 1
-    assert re.fullmatch(r"uel: element 1 .*: RHS\(1\) is NaN or infinite \(.*\)\n", capsys.readouterr().err)
+    assert re.fullmatch(r"uel: element 1 .*: RHS\(1\) is NaN or infinite \(.*\)\nuel: .*\n", capsys.readouterr().err)
 
 
 def test_spelling_of_abaqus(tmp_path: Path) -> None:
@@ -307,6 +350,39 @@ def test_job_that_is_no_name(tmp_path: Path, capsys: pytest.CaptureFixture[str],
     assert f"uel: '{name}' is no name of a job: expected a file name without folders" in capsys.readouterr().err
     assert main(["law", "--job", name, "--output-dir", str(tmp_path)]) == 1
     assert f"uel: '{name}' is no name of a job" in capsys.readouterr().err
+
+
+@pytest.mark.parametrize(
+    ("words", "expected"),
+    [
+        ("law --increments 0", "--increments: expected a whole number from 1, found '0'"),
+        ("law --increments=-5", "--increments: expected a whole number from 1, found '-5'"),
+        ("law --increments nan", "--increments: expected a whole number from 1, found 'nan'"),
+        ("law --unload 2 -1", "--unload/-u: expected a number from 0 to 1, found '2'"),
+        ("law --unload nan", "--unload/-u: expected a number from 0 to 1, found 'nan'"),
+        ("law --angles inf", "--angles/-a: expected a number, found 'inf'"),
+        ("law --reach 0", "--reach: expected a number above 0, found '0'"),
+        ("law --close=-inf", "--close: expected a number of 0 or more, found '-inf'"),
+        ("law --duration a", "--duration: expected a number above 0, found 'a'"),
+        ("run a.inp --call-limit nan", "--call-limit: expected a number of 0 or more, found 'nan'"),
+        ("run a.inp --call-limit inf", "--call-limit: expected a number of 0 or more, found 'inf'"),
+        ("run a.inp --call-limit=-1", "--call-limit: expected a number of 0 or more, found '-1'"),
+        ("check a.inp --seed 0", "--seed: expected a whole number from 1, found '0'"),
+        ("check a.inp --seed 99999999999999", "--seed: expected a whole number from 1, found '99999999999999'"),
+        ("check a.inp --increments 1.5", "--increments: expected a whole number from 1, found '1.5'"),
+    ],
+)
+def test_numbers_that_make_no_sense(words: str, expected: str, capsys: pytest.CaptureFixture[str]) -> None:
+    with pytest.raises(SystemExit) as stop:
+        main(words.split())
+    assert stop.value.code == 2
+    assert expected in capsys.readouterr().err
+
+
+@pytest.mark.parametrize("path", ["nan,1", "inf,0", "1", "1,2,3", "a,b", ""])
+def test_path_that_is_none(path: str, capsys: pytest.CaptureFixture[str], tmp_path: Path) -> None:
+    assert main(["law", "--path", path, "--output-dir", str(tmp_path)]) == 1
+    assert f"uel: '{path}': expected are points NORMAL,TANGENTIAL with blanks between them" in capsys.readouterr().err
 
 
 def test_names_outside_ascii(tmp_path: Path) -> None:
