@@ -13,7 +13,7 @@ from collections.abc import Callable, Sequence
 from pathlib import Path
 
 from harness import isolation
-from harness.errors import FAILURES, tell_failure
+from harness.errors import FAILURES, drop_output, tell, tell_failure
 
 # options of the `abaqus` command and what they are here; None: accepted and without effect on one machine
 ABAQUS_OPTIONS = {
@@ -58,9 +58,12 @@ def main(arguments: Sequence[str] | None = None) -> int:
             sys.stdout.flush()
         return code
     except BrokenPipeError:
-        # whoever reads has seen enough; nothing is written to it where the process ends
-        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+        # whoever reads has seen enough
+        drop_output()
     except FAILURES as error:
+        if isinstance(error, OSError) and error.filename is None:
+            error.filename = "standard output"
+            drop_output()
         tell_failure(error)
     return 1
 
@@ -270,12 +273,12 @@ def run_job(options: argparse.Namespace) -> int:
     )
     if not options.quiet:
         for warning in result.warnings[:MOST_REPEATED]:
-            print(f"warning: {warning}")
+            tell(f"warning: {warning}")
         last = result.status[-1]
         # a linear step takes no time, and may have a frequency in its place
         ending = f", total time {last.total_time:g}" if last.time_increment > PERTURBATION_TIME else ""
         warned = f", warnings in .dat and .msg: {len(result.warnings)}" if result.warnings else ""
-        print(f"{result.job}: completed, {len(result.status)} lines in .sta{ending}{warned}")
+        tell(f"{result.job}: completed, {len(result.status)} lines in .sta{ending}{warned}")
     return 0
 
 

@@ -48,6 +48,19 @@ def tell_error(text: str) -> None:
         print(f"uel: {text}", file=sys.stderr, flush=True)
 
 
+def tell(text: str) -> None:
+    """Print what a command has to say where its exit code does not depend on whether that can be written."""
+    try:
+        print(text, flush=True)
+    except OSError:
+        drop_output()
+
+
+def drop_output() -> None:
+    """Standard output takes no more; nor does Python try to write the rest where the process ends."""
+    os.dup2(os.open(os.devnull, os.O_WRONLY), 1)
+
+
 def tell_failure(error: BaseException) -> None:
     """Print why a command failed, with the notes of the error."""
     whole = isinstance(error, UelError | OSError)

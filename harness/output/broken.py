@@ -47,7 +47,8 @@ def write_verdict(stem: Path, reason: str) -> None:
     if COMPLETED in lines or NOT_COMPLETED in lines:
         return
     for ending in _TEXTS:
-        _cut(stem.with_name(stem.name + ending))
+        with suppress(OSError):  # one that cannot be opened, or does not even take so long a name
+            _cut(stem.with_name(stem.name + ending))
     with status.open("a", encoding="utf-8") as file:
         file.write(f"{' ' * 26}\n{NOT_COMPLETED}\n")
     with message.open("a", encoding="utf-8", errors="replace") as file:

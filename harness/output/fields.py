@@ -10,11 +10,14 @@ are the real parts; the imaginary ones are arrays of the same names that end wit
 
 from __future__ import annotations
 
+import os
 import re
 import shutil
 from dataclasses import dataclass
+from html import unescape
 from pathlib import Path
 from typing import TypeVar
+from xml.sax.saxutils import escape
 
 import meshio
 import numpy as np
@@ -64,10 +67,15 @@ class FieldFiles:
             self._plan(record.solution)
         name = f"step{record.step}_increment{record.increment:04d}.vtu"
         unfinished = self._folder / "unfinished.tmp"
-        meshio.vtu.write(unfinished, self._mesh(record.solution), binary=True, compression="zlib")
+        try:
+            meshio.vtu.write(unfinished, self._mesh(record.solution), binary=True, compression="zlib")
+        except OSError as error:
+            unfinished.unlink(missing_ok=True)
+            error.filename = str(self._folder / name)
+            raise
         unfinished.replace(self._folder / name)
         self._entries.append(
-            f'    <DataSet timestep="{record.total_time!r}" part="0" file="{self._folder.name}/{name}"/>\n'
+            f'    <DataSet timestep="{record.total_time!r}" part="0" file="{_quoted(self._folder.name)}/{name}"/>\n'
         )
         _replace(
             self._pvd,
@@ -132,10 +140,19 @@ class _PointArray:
         return gathered[:, 0] if gathered.shape[1] == 1 else gathered
 
 
+def _quoted(name: str) -> str:
+    """A file name in XML."""
+    return escape(name, {'"': "&quot;", "\n": "&#10;"})
+
+
 def _replace(path: Path, text: str) -> None:
-    """Replace a file as a whole."""
+    """Replace a file as a whole; names of files keep their bytes."""
     unfinished = path.with_suffix(".tmp")
-    unfinished.write_text(text, "utf-8")
+    try:
+        unfinished.write_bytes(os.fsencode(text))
+    except OSError as error:
+        error.filename = str(unfinished)
+        raise
     unfinished.replace(path)
 
 
@@ -144,8 +161,8 @@ def read_frames(pvd: Path) -> list[Frame]:
     if not pvd.exists():
         return []
     return [
-        Frame(int(step), int(increment), float(time), pvd.parent / file)
-        for time, file, step, increment in _ENTRY.findall(pvd.read_text("utf-8"))
+        Frame(int(step), int(increment), float(time), pvd.parent / unescape(file))
+        for time, file, step, increment in _ENTRY.findall(os.fsdecode(pvd.read_bytes()))
     ]
 
 
