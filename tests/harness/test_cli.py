@@ -3,16 +3,13 @@
 """The command: exit codes, messages without tracebacks, Abaqus' spelling, and what a killed run leaves."""
 
 import re
-import shutil
-import signal
 import subprocess
 import sys
-import time
 from pathlib import Path
 
-import meshio
 import numpy as np
 import pytest
+from small_decks import pulled, snapping
 
 from harness.cli import main
 from harness.output import Result
@@ -40,46 +37,6 @@ def test_fallback_finishes_a_run_that_fails_without_it(tmp_path: Path) -> None:
     message = (tmp_path / "snap.msg").read_text()
     assert "EQUILIBRIUM FOUND WITH THE DESCENT SEARCH" in message
     assert "1  INCREMENTS THAT NEEDED THE DESCENT SEARCH" in message
-
-
-@pytest.mark.parametrize(
-    ("static", "ended", "ways"),
-    [
-        (
-            "*STATIC\n0.1, 1., 1e-5, 0.1\n",
-            r"ended after increment 12 of step 1 \(of 1\), step time 0\.66\d+ of 1; what was written is readable",
-            "--fallback, .*; --control energy, .*; a smaller smallest increment .*STATIC.; VISCOSITY .*",
-        ),
-        (
-            "*STATIC, DIRECT\n0.1, 1.\n",
-            "ended after increment 6 .*",
-            r"--fallback, .*; --control energy, .*; \*STATIC without DIRECT, which cuts increments back; VISCOSITY .*",
-        ),
-    ],
-)
-def test_run_that_ends_early_says_where_and_what_may_help(
-    tmp_path: Path, capsys: pytest.CaptureFixture[str], static: str, ended: str, ways: str
-) -> None:
-    deck = snapping(tmp_path, static)
-    assert main(["run", str(deck), "--user", str(SPRINGS), "--quiet", "--output-dir", str(tmp_path)]) == 1
-    said = capsys.readouterr().err.splitlines()
-    assert re.fullmatch(f"uel: snap {ended}", said[-2])
-    assert re.fullmatch(f"uel: what may help: {ways}", said[-1])
-
-
-def test_last_lines_of_other_ends(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    """Too few increments; and a part that nothing holds, on which no force acts, in a run that completes."""
-    deck = snapping(tmp_path, "*STATIC\n0.1, 1., 1e-5, 0.1\n")
-    deck.write_text(deck.read_text().replace("INC=500", "INC=2"))
-    words = ["run", str(deck), "--user", str(SPRINGS), "--output-dir", str(tmp_path)]
-    assert main(words) == 1
-    assert capsys.readouterr().err.endswith("uel: what may help: a larger INC on *STEP\n")
-    deck = pulled(tmp_path)
-    deck.write_text(deck.read_text().replace("*BOUNDARY\n1, 1\n2, 1, 1, 0.1\n", ""))
-    assert main(["run", str(deck), "--user", str(SPRING_IN_C), "--output-dir", str(tmp_path)]) == 0
-    first, *_, last = capsys.readouterr().out.splitlines()
-    assert "look at *BOUNDARY" in first
-    assert last.endswith("warnings in .dat and .msg: 1")
 
 
 def test_energy_control_traces_the_snap_back(tmp_path: Path) -> None:
@@ -118,21 +75,6 @@ def test_riks_in_all_files(tmp_path: Path) -> None:
     assert "AUTOMATIC ARC LENGTH CONTROL (RIKS METHOD)" in message
     assert "ARC LENGTH INCREMENT" in message
     assert "LOAD PROPORTIONALITY FACTOR" in message
-
-
-def snapping(folder: Path, static: str) -> Path:
-    """A spring in series with one that fails at once, pulled to 3.15."""
-    deck = folder / "snap.inp"
-    deck.write_text(
-        "*NODE\n1, 0.\n2, 1.\n3, 2.\n*NSET, NSET=END\n3\n"
-        "*USER ELEMENT, TYPE=U1, NODES=2, COORDINATES=1, PROPERTIES=2, I PROPERTIES=1\n1\n"
-        "*USER ELEMENT, TYPE=U6, NODES=2, COORDINATES=1, PROPERTIES=3, I PROPERTIES=1\n1\n"
-        "*ELEMENT, TYPE=U1, ELSET=ELASTIC\n1, 1, 2\n*ELEMENT, TYPE=U6, ELSET=FAILING\n2, 2, 3\n"
-        "*UEL PROPERTY, ELSET=ELASTIC\n0.5, 0., 0\n*UEL PROPERTY, ELSET=FAILING\n10., 0.1, 1., 0\n"
-        f"*STEP, INC=500\n{static}*BOUNDARY\n1, 1\n3, 1, 1, 3.15\n"
-        "*OUTPUT, HISTORY\n*NODE OUTPUT, NSET=END\nU1, RF1\n*END STEP\n"
-    )
-    return deck
 
 
 def test_quiet_prints_nothing(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
@@ -287,71 +229,6 @@ def test_missing_deck(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> Non
     assert "nothing.inp" in capsys.readouterr().err
 
 
-def test_failed_job_keeps_its_files(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    text = FLAT.read_text().replace("30., 60., 0.26", "-30., 60., 0.26")
-    for path in FLAT.parent.glob("flat_*.inp"):
-        (tmp_path / path.name).write_text(path.read_text())
-    deck = tmp_path / "negative.inp"
-    deck.write_text(text)
-    assert main(["run", str(deck), "--output-dir", str(tmp_path)]) == 1
-    assert "SIGMAMAX" in capsys.readouterr().err
-    assert "THE ANALYSIS HAS NOT BEEN COMPLETED" in (tmp_path / "negative.sta").read_text()
-    assert "SIGMAMAX" in (tmp_path / "negative.msg").read_text()
-
-
-def test_run_that_does_not_begin_leaves_no_verdict_of_an_earlier_one(
-    tmp_path: Path, capsys: pytest.CaptureFixture[str]
-) -> None:
-    """The results that are not of this run stay."""
-    deck = pulled(tmp_path)
-    words = ["run", str(deck), "--user", str(SPRING_IN_C), "--quiet", "--output-dir", str(tmp_path)]
-    assert main(words) == 0
-    history = (tmp_path / "pulled_history.csv").read_text()
-    user = tmp_path / "broken.c"
-    user.write_text("int uel_(")
-    assert main([*words, "--user", str(user)]) == 1
-    for mistake in ("*NODDE\n1, 0.\n", ""):
-        deck.write_text(mistake)
-        assert main(words) == 1
-        assert (tmp_path / "pulled.sta").read_text().endswith(" THE ANALYSIS HAS NOT BEEN COMPLETED\n")
-        assert not Result(tmp_path / "pulled").completed
-        assert Result(tmp_path / "pulled").status == []
-        assert (tmp_path / "pulled.msg").read_text().startswith(" ***ERROR: ")
-    assert (tmp_path / "pulled_history.csv").read_text() == history
-    assert not list(tmp_path.glob("*.lck"))
-    capsys.readouterr()
-
-
-def test_second_run_of_a_name_in_a_folder_is_refused(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    """The lock of a process that is gone holds nothing."""
-    deck = pulled(tmp_path)
-    words = ["run", str(deck), "--user", str(SPRING_IN_C), "--quiet", "--output-dir", str(tmp_path)]
-    holder = "import sys; from pathlib import Path; from harness.output.lock import locked\n"
-    holder += "with locked(Path(sys.argv[1])):\n print('held', flush=True)\n sys.stdin.read()"
-    command = [sys.executable, "-c", holder, str(tmp_path / "pulled")]
-    with subprocess.Popen(command, stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True) as process:
-        assert process.stdout is not None
-        assert process.stdout.readline() == "held\n"
-        assert main(words) == 1
-        said = capsys.readouterr().err
-        expected = rf"uel: a job of this name runs in this folder: .*pulled.lck is held by process {process.pid} on .*"
-        assert re.fullmatch(expected + r"; give another --job or --output-dir\n", said)
-        assert not (tmp_path / "pulled.sta").exists()
-        assert main([*words, "--job", "other"]) == 0
-        process.kill()
-    assert (tmp_path / "pulled.lck").exists()
-    assert main(words) == 0
-    assert not (tmp_path / "pulled.lck").exists()
-
-
-@pytest.mark.parametrize("name", ["a/b", ".", "..", "/"])
-def test_job_that_is_no_name(tmp_path: Path, capsys: pytest.CaptureFixture[str], name: str) -> None:
-    assert main(["run", str(pulled(tmp_path)), "--user", str(SPRING_IN_C), "--job", name]) == 1
-    assert f"uel: '{name}' is no name of a job: expected a file name without folders" in capsys.readouterr().err
-    assert main(["law", "--job", name, "--output-dir", str(tmp_path)]) == 1
-    assert f"uel: '{name}' is no name of a job" in capsys.readouterr().err
-
-
 @pytest.mark.parametrize(
     ("words", "expected"),
     [
@@ -385,25 +262,6 @@ def test_path_that_is_none(path: str, capsys: pytest.CaptureFixture[str], tmp_pa
     assert f"uel: '{path}': expected are points NORMAL,TANGENTIAL with blanks between them" in capsys.readouterr().err
 
 
-def test_names_outside_ascii(tmp_path: Path) -> None:
-    folder = tmp_path / "Prüfung \n'1'"
-    assert (
-        main(["run", str(pulled(tmp_path)), "--user", str(SPRING_IN_C), "--job", "zäh", f"--output-dir={folder}"]) == 0
-    )
-    assert Result(folder / "zäh").completed
-
-
-def pulled(folder: Path) -> Path:
-    """A spring of a user element, pulled."""
-    deck = folder / "pulled.inp"
-    deck.write_text(
-        "*NODE\n1, 0.\n2, 1.\n*USER ELEMENT, TYPE=U1, NODES=2, COORDINATES=1, PROPERTIES=1\n1\n"
-        "*ELEMENT, TYPE=U1, ELSET=ALL\n1, 1, 2\n*UEL PROPERTY, ELSET=ALL\n1.\n"
-        "*STEP\n*STATIC\n1., 1.\n*BOUNDARY\n1, 1\n2, 1, 1, 0.1\n*END STEP\n"
-    )
-    return deck
-
-
 def test_command_loads_little_before_it_can_be_interrupted() -> None:
     """An interrupt in the imports would show a traceback."""
     program = (
@@ -431,41 +289,3 @@ def test_amalgamate(tmp_path: Path) -> None:
 def test_amalgamate_into_a_missing_folder(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     assert main(["amalgamate", "-o", str(tmp_path / "no" / "kernels.for")]) == 1
     assert "No such file or directory" in capsys.readouterr().err
-
-
-@pytest.mark.parametrize("after", [0.0, 0.4])
-def test_killed_run_leaves_readable_files(tmp_path: Path, after: float) -> None:
-    """kill -9 in the middle of a run: every file reads, up to the last increment of the status file.
-
-    The deck takes twenty times the increments, so that no run ends while this process waits for its turn.
-    """
-    deck = tmp_path / "dcb_u4_1e8.inp"
-    for part in (DECKS / "dcb").glob("dcb_*.inp"):
-        shutil.copy(part, tmp_path)
-    text = deck.read_text()
-    slow = text.replace("0.01, 1., 1e-07, 0.01\n", "0.0005, 1., 1e-07, 0.0005\n")
-    assert slow != text
-    deck.write_text(slow)
-    command = [sys.executable, "-m", "harness.cli", "run", str(deck), "--output-dir", str(tmp_path), "--quiet"]
-    process = subprocess.Popen(command)
-    status = tmp_path / "dcb_u4_1e8.sta"
-    started = time.monotonic()
-    while not (status.exists() and len(status.read_text().splitlines()) > 18):
-        assert process.poll() is None, "the run ended before it could be killed"
-        assert time.monotonic() - started < 600
-        time.sleep(0.01)
-    time.sleep(after)
-    process.send_signal(signal.SIGKILL)
-    process.wait()
-
-    result = Result(tmp_path / "dcb_u4_1e8")
-    last = [row.increment for row in result.status if not row.cutback][-1]
-    assert last >= 10
-    assert not result.completed
-    assert list(result.history["increment"][:last]) == list(range(1, last + 1))
-    assert result.frames
-    for frame in result.frames:
-        mesh = meshio.read(frame.path)
-        assert len(mesh.points)
-    assert (tmp_path / "dcb_u4_1e8.msg").read_text().count("INCREMENT") >= last
-    assert len(result.interface())

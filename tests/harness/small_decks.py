@@ -1,0 +1,31 @@
+# SPDX-FileCopyrightText: The uel-harness authors
+# SPDX-License-Identifier: BSD-3-Clause
+"""Decks of a few springs."""
+
+from pathlib import Path
+
+
+def snapping(folder: Path, static: str) -> Path:
+    """A spring in series with one that fails at once, pulled to 3.15."""
+    deck = folder / "snap.inp"
+    deck.write_text(
+        "*NODE\n1, 0.\n2, 1.\n3, 2.\n*NSET, NSET=END\n3\n"
+        "*USER ELEMENT, TYPE=U1, NODES=2, COORDINATES=1, PROPERTIES=2, I PROPERTIES=1\n1\n"
+        "*USER ELEMENT, TYPE=U6, NODES=2, COORDINATES=1, PROPERTIES=3, I PROPERTIES=1\n1\n"
+        "*ELEMENT, TYPE=U1, ELSET=ELASTIC\n1, 1, 2\n*ELEMENT, TYPE=U6, ELSET=FAILING\n2, 2, 3\n"
+        "*UEL PROPERTY, ELSET=ELASTIC\n0.5, 0., 0\n*UEL PROPERTY, ELSET=FAILING\n10., 0.1, 1., 0\n"
+        f"*STEP, INC=500\n{static}*BOUNDARY\n1, 1\n3, 1, 1, 3.15\n"
+        "*OUTPUT, HISTORY\n*NODE OUTPUT, NSET=END\nU1, RF1\n*END STEP\n"
+    )
+    return deck
+
+
+def pulled(folder: Path) -> Path:
+    """A spring of a user element, pulled."""
+    deck = folder / "pulled.inp"
+    deck.write_text(
+        "*NODE\n1, 0.\n2, 1.\n*USER ELEMENT, TYPE=U1, NODES=2, COORDINATES=1, PROPERTIES=1\n1\n"
+        "*ELEMENT, TYPE=U1, ELSET=ALL\n1, 1, 2\n*UEL PROPERTY, ELSET=ALL\n1.\n"
+        "*STEP\n*STATIC\n1., 1.\n*BOUNDARY\n1, 1\n2, 1, 1, 0.1\n*END STEP\n"
+    )
+    return deck
