@@ -12,7 +12,7 @@ from collections.abc import Sequence
 from importlib import import_module
 
 from harness.errors import tell_error
-from harness.interrupts import raise_interrupts
+from harness.interrupts import held, raise_interrupts
 from harness.slate import open_slate
 
 
@@ -21,8 +21,11 @@ def work(descriptor: int, module: str, words: Sequence[str]) -> int:
     slate = open_slate(descriptor)
     try:
         raise_interrupts()
-        import_module("harness.usersub").share_slate(descriptor)
-        code: int = import_module(module).main(words)
+        with held():  # an interrupt within an import may come out as another error
+            import_module("harness.usersub").share_slate(descriptor)
+            command = import_module(module)
+            import_module("harness.job")
+        code: int = command.main(words)
     except KeyboardInterrupt as interrupt:
         tell_error(str(interrupt))
         code = 1

@@ -15,6 +15,8 @@ from harness.usersub import _binding
 _LAST: Final = 3
 """Printed lines that a message quotes."""
 
+_LOCKED: Final = "a call was left inside a WRITE, which has unit 6 or 7 locked"
+
 _KINDS = {1: "note", -1: "warning", -2: "error", -3: "error"}
 
 
@@ -48,14 +50,12 @@ class Inbox:
         self._sent: list[Message] = []
         folder = str(directory.resolve())
         Inbox._current = self
-        self._lost = False
         failed = _binding.open_job(job, folder, *(str(f.resolve()) for f in self._files.values()))
-        if failed < 0:
-            raise UelError(
-                "units 6 and 7 are locked by a call of an earlier job that was left inside a WRITE: begin afresh"
-            )
-        if failed:
+        if failed > 0:
             raise UelError(f"cannot write {self._files['.dat']} and {self._files['.msg']}: {os.strerror(failed)}")
+        self._lost = failed < 0
+        if self._lost:
+            self.warn(f"in an earlier run {_LOCKED}, and what is printed there is lost")
 
     def take(self) -> list[Message]:
         """All messages since the last call."""
@@ -98,11 +98,10 @@ class Inbox:
         """Take over what was printed to the units."""
         if not self._lost and not _binding.flush_units():
             self._lost = True
-            lost = (
-                "a call was left inside a WRITE and has unit 6 or 7 locked: the last of what was printed there is lost"
-            )
-            self._sent.append(Message(".msg", "warning", lost))
+            self.warn(f"{_LOCKED}, and the last of what was printed there is lost")
         for file, path in self._files.items():
+            if not path.exists():
+                continue
             with path.open("rb") as stream:
                 stream.seek(self._read[file])
                 text = stream.read()

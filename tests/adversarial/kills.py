@@ -17,7 +17,6 @@ import sys
 import tempfile
 import threading
 import time
-from collections import Counter
 from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
@@ -137,12 +136,12 @@ def main(count: int, jobs: int, seed: int, longest: float) -> int:
     with tempfile.TemporaryDirectory() as name:
         command = [sys.executable, "-m", "harness.cli", "run", str(write_deck(Path(name))), "--quiet"]
         subprocess.run([*command, "--output-dir", name], check=True)
+    bad = 0
     with ThreadPoolExecutor(jobs) as pool:
-        outcomes = list(pool.map(lambda number: trial(number, seed, longest), range(count)))
-    failed = [complaint for outcome in outcomes for complaint in outcome]
-    for complaint, times in Counter(failed).most_common():
-        print(f"{times} x {complaint}")
-    bad = sum(bool(outcome) for outcome in outcomes)
+        for done, outcome in enumerate(pool.map(lambda number: trial(number, seed, longest), range(count)), 1):
+            bad += bool(outcome)
+            for complaint in outcome:
+                print(f"{done}: {complaint}", flush=True)
     print(f"{count} kills, {bad} with complaints")
     return bad
 
