@@ -63,11 +63,10 @@ def drop_output() -> None:
 
 def tell_failure(error: BaseException) -> None:
     """Print why a command failed, with the notes of the error."""
-    whole = isinstance(error, UelError | OSError)
-    for text in (
-        in_words(error) + ("" if whole else "; the output written so far is readable"),
-        *getattr(error, "__notes__", ()),
-    ):
+    notes: Sequence[str] = getattr(error, "__notes__", ())
+    if not (notes or isinstance(error, UelError | OSError)):
+        notes = ["the output written so far is readable"]
+    for text in (in_words(error), *notes):
         tell_error(text)
 
 

@@ -12,6 +12,9 @@ from typing import ClassVar, Final
 from harness.errors import UelError
 from harness.usersub import _binding
 
+MOST: Final = 1 << 26
+"""Bytes of a unit that are taken over at once: an endless loop prints more than memory holds."""
+
 _LAST: Final = 3
 """Printed lines that a message quotes."""
 
@@ -104,7 +107,9 @@ class Inbox:
                 continue
             with path.open("rb") as stream:
                 stream.seek(self._read[file])
-                text = stream.read()
+                text = stream.read(MOST)
+            if len(text) == MOST:
+                self.warn(f"more was printed than is taken over at once: what is left at the end stays in {path.name}")
             if text:
                 self._read[file] += len(text)
                 self._sent.append(Message(file, "print", text.decode(errors="replace")))

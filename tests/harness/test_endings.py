@@ -15,6 +15,7 @@ import pytest
 from small_decks import pulled, snapping
 
 from harness.cli import main
+from harness.delamination import demo
 from harness.output import Result
 
 DECKS = Path(__file__).parents[2] / "abaqus_inputs"
@@ -172,3 +173,9 @@ def test_killed_run_leaves_readable_files(tmp_path: Path, after: float) -> None:
         assert len(mesh.points)
     assert (tmp_path / "dcb_u4_1e8.msg").read_text().count("INCREMENT") >= last
     assert len(result.interface())
+
+
+def test_demo_that_cannot_write_says_so(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    (tmp_path / "file").touch()
+    assert demo.main(["--output-dir", str(tmp_path / "file")]) == 1
+    assert capsys.readouterr().err == f"uel: {tmp_path}/file: File exists\n"

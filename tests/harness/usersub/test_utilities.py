@@ -216,6 +216,17 @@ def test_prints_to_units_6_and_7_become_messages(load, tmp_path):
     assert list((tmp_path / "out").iterdir()) == []
 
 
+def test_prints_that_memory_does_not_hold_stay_on_disk(load, tmp_path, monkeypatch):
+    monkeypatch.setattr("harness.usersub.messages.MOST", 30)
+    library = load(program("      do k = 1, 4\n        write(7,'(a)') 'a line of twenty '\n      end do\n"))
+    library.external_database(0, 0, (0.0, 0.0), 0.0, 0, 0)
+    warning, text = library.messages()
+    assert "stays in job.unit7" in warning.text
+    assert text.text == "a line of twenty \na line of tw"
+    library.close()
+    assert (tmp_path / "out" / "job.unit7").read_text() == 4 * "a line of twenty \n"
+
+
 def test_untaken_prints_stay_on_disk(load, tmp_path):
     library = load(program("      write(7,'(a)') 'nobody reads this'\n"))
     library.external_database(0, 0, (0.0, 0.0), 0.0, 0, 0)

@@ -1,0 +1,111 @@
+# SPDX-FileCopyrightText: The uel-harness authors
+# SPDX-License-Identifier: BSD-3-Clause
+"""The process that is watched, and the signals that it gets."""
+
+import os
+import signal
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+from harness.interrupts import ENDS, Interrupted, collected, held, raise_interrupts
+from harness.isolation import HANGS, End, run_apart
+
+
+@pytest.fixture
+def module(tmp_path: Path, monkeypatch: pytest.MonkeyPatch):
+    """Run a module of this text apart; returns how it ended, and what it said."""
+
+    def run(text: str, call_limit: float = 0.0) -> tuple[End, str]:
+        (tmp_path / "apart_module.py").write_text(text)
+        monkeypatch.setenv("PYTHONPATH", str(tmp_path))
+        with (tmp_path / "said").open("w") as errors:
+            end = run_apart("apart_module", [str(tmp_path)], call_limit, errors=errors)
+        return end, (tmp_path / "said").read_text()
+
+    return run
+
+
+def test_exit_code_of_a_process_that_comes_to_its_end(module) -> None:
+    assert module("def main(words):\n    return 1\n") == (End(1, True, "", ""), "")
+
+
+@pytest.mark.parametrize("way", ["os._exit(0)", "sys.exit(0)"])
+def test_process_that_does_not_come_to_its_end(module, way: str) -> None:
+    end, _ = module(f"import os, sys\ndef main(words):\n    {way}\n")
+    assert (end.finished, end.code, end.reason) == (False, 0, "ended (exit code 0)")
+
+
+def test_end_that_hangs_behind_the_result(module) -> None:
+    """The exit code is known by then."""
+    end, _ = module("import atexit, time\natexit.register(time.sleep, 600)\ndef main(words):\n    return 0\n")
+    assert (end.finished, end.code) == (True, 0)
+
+
+def test_interrupt_within_an_import(module) -> None:
+    """Where a module takes it for something else."""
+    text = (
+        "import os, signal, time\ntry:\n    os.kill(os.getpid(), signal.SIGINT)\n    time.sleep(0.05)\n"
+        "except BaseException as error:\n    raise ImportError from error\ndef main(words):\n    return 0\n"
+    )
+    end, said = module(text)
+    assert (end.finished, end.code, said) == (True, 1, "uel: interrupted (SIGINT)\n")
+
+
+@pytest.mark.long
+def test_process_that_waits_for_ever_after_a_call_was_left(module, tmp_path: Path) -> None:
+    (tmp_path / "user.f").write_text("      subroutine uexternaldb(lop)\n      call xit\n      end\n")
+    text = (
+        "import time\nfrom pathlib import Path\nfrom harness.errors import UelError\nfrom harness.usersub import load\n"
+        "def main(words):\n    folder = Path(words[0])\n"
+        "    library = load(folder / 'user.f', job='job', output_dir=folder)\n"
+        "    try:\n        library.external_database(0, 0, (0.0, 0.0), 0.0, 3, 4)\n"
+        "    except UelError:\n        time.sleep(600)\n"
+    )
+    end, _ = module(text)
+    assert (end.finished, end.reason) == (False, HANGS)
+    assert end.place == "in UEXTERNALDB for element 0, step 3, increment 4, iteration 0: XIT or STOP"
+
+
+@pytest.fixture
+def own_signals():
+    before = {each: signal.getsignal(each) for each in ENDS}
+    yield
+    for each, handler in before.items():
+        signal.signal(each, handler)
+
+
+def test_signal_waits_for_the_end_of_a_block(own_signals: None) -> None:
+    raise_interrupts()
+    reached = []
+
+    def block() -> None:
+        with held():
+            signal.raise_signal(signal.SIGTERM)
+            reached.append("within")
+        reached.append("behind")
+
+    with pytest.raises(Interrupted, match=r"ended by a user or the system \(SIGTERM\)"):
+        block()
+    assert reached == ["within"]
+    # those that follow have no effect
+    signal.raise_signal(signal.SIGINT)
+
+
+def test_signals_that_are_ignored_stay_so(own_signals: None) -> None:
+    """As nohup has it."""
+    signal.signal(signal.SIGHUP, signal.SIG_IGN)
+    with collected() as found:
+        signal.raise_signal(signal.SIGHUP)
+        signal.raise_signal(signal.SIGTERM)
+    assert found == [signal.SIGTERM]
+    assert signal.getsignal(signal.SIGHUP) == signal.SIG_IGN
+
+
+def test_command_as_a_module() -> None:
+    result = subprocess.run(
+        [sys.executable, "-m", "harness", "solvers"], capture_output=True, text=True, check=True, env=os.environ
+    )
+    assert "superlu" in result.stdout
