@@ -10,7 +10,6 @@ import resource
 import signal
 import subprocess
 import sys
-import time
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from pathlib import Path
@@ -121,6 +120,10 @@ def run_apart(
 
 
 ENDLESS: Final = "ended because {what} does not end within {limit:g} s (--call-limit)"
+_ENDLESS: Final = {
+    Within.CALL: "a call of a user routine",
+    Within.LOADING: "loading the library of user routines",
+}
 HANGS: Final = "ended because it hangs after a call that was left, mostly inside a WRITE, which locks its unit"
 
 
@@ -145,31 +148,39 @@ class _Watch:
         for signum in signals[self._passed :]:
             self._process.send_signal(signum)
         again, self._passed = 0 < self._passed < len(signals), len(signals)
-        seen = (slate.calls, slate.within, slate.left)
-        self._call = self._call + _GLANCE if slate.within and seen == self._seen else 0.0
-        work = _work(self._process.pid)
-        self._idle = self._idle + _GLANCE if slate.left and work == self._work else 0.0
         self._ending = self._ending + _GLANCE if signals or slate.finished else 0.0
-        self._seen, self._work = seen, work
+        state, work = _state(self._process.pid)
+        if state not in _STOPPED:
+            seen = (slate.calls, slate.within, slate.left)
+            self._call = self._call + _GLANCE if slate.within and seen == self._seen else 0.0
+            waits = state == "S" and work == self._work
+            self._idle = self._idle + _GLANCE if slate.left and waits else 0.0
+            self._seen, self._work = seen, work
         if signals and (again or self._ending > _GRACE):
             return describe_interrupt(signals[0])
         if slate.finished and self._ending > _GRACE:
             return "ended"
         if self._limit > 0.0 and self._call > self._limit + _GRACE:
-            what = (
-                "loading the library of user routines" if slate.within == Within.LOADING else "a call of a user routine"
-            )
-            return ENDLESS.format(what=what, limit=self._limit)
+            return ENDLESS.format(what=_ENDLESS[Within(slate.within)], limit=self._limit)
         return HANGS if self._idle > _IDLE else ""
 
 
-def _work(process: int) -> int:
-    """Ticks of processor time that a process has used; where the system does not tell, it always works."""
+_STOPPED: Final = ("T", "t")
+"""States of a process that a user or a debugger has stopped."""
+
+
+def _state(process: int) -> tuple[str, int]:
+    """State of a process, and ticks of processor time that it has used.
+
+    The state is "" where the system does not tell, and where it may wait for another process, a compiler for example.
+    """
+    folder = Path(f"/proc/{process}")
     try:
-        fields = Path(f"/proc/{process}/stat").read_text("utf-8", errors="replace").rpartition(")")[2].split()
+        fields = (folder / "stat").read_text("utf-8", errors="replace").rpartition(")")[2].split()
+        children = (folder / f"task/{process}/children").read_text()
     except OSError:
-        return time.monotonic_ns()
-    return int(fields[11]) + int(fields[12])
+        return "", 0
+    return "" if children and fields[0] == "S" else fields[0], int(fields[11]) + int(fields[12])
 
 
 def _prepare() -> None:

@@ -6,12 +6,14 @@ import os
 import signal
 import subprocess
 import sys
+import time
 from pathlib import Path
 
 import pytest
 
 from harness.interrupts import ENDS, Interrupted, collected, held, raise_interrupts
-from harness.isolation import HANGS, End, run_apart
+from harness.isolation import _GLANCE, HANGS, End, _state, _Watch, run_apart
+from harness.slate import Within, new_slate
 
 
 @pytest.fixture
@@ -67,6 +69,42 @@ def test_process_that_waits_for_ever_after_a_call_was_left(module, tmp_path: Pat
     end, _ = module(text)
     assert (end.finished, end.reason) == (False, HANGS)
     assert end.place == "in UEXTERNALDB for element 0, step 3, increment 4, iteration 0: XIT or STOP"
+
+
+def test_process_that_a_debugger_has_stopped_is_left_alone(tmp_path: Path) -> None:
+    """Its call takes as long as the user looks at it; a request to end ends it all the same."""
+    _, slate = new_slate()
+    slate.within = Within.CALL
+    with subprocess.Popen(["sleep", "600"]) as process:
+        try:
+            watch = _Watch(process, slate, 1.0)
+            looks = int(20 / _GLANCE)
+            process.send_signal(signal.SIGSTOP)
+            while _state(process.pid)[0] != "T":
+                time.sleep(0.01)
+            assert {watch.glance([]) for _ in range(looks)} == {""}
+            assert {watch.glance([signal.SIGINT]) for _ in range(looks)} == {"", "interrupted (SIGINT)"}
+            process.send_signal(signal.SIGCONT)
+        finally:
+            process.kill()
+
+
+def test_call_whose_process_does_not_hold_its_limit() -> None:
+    _, slate = new_slate()
+    slate.within = Within.LOADING
+    with subprocess.Popen(["sleep", "600"]) as process:
+        try:
+            watch = _Watch(process, slate, 1.0)
+            said = [watch.glance([]) for _ in range(int(8 / _GLANCE))]
+            assert said[0] == ""
+            assert (
+                said[-1] == "ended because loading the library of user routines does not end within 1 s (--call-limit)"
+            )
+            # another call
+            slate.calls = 2
+            assert watch.glance([]) == ""
+        finally:
+            process.kill()
 
 
 @pytest.fixture
