@@ -65,7 +65,7 @@ module host_driver
     real(dp), pointer, contiguous :: floor(:) => null()            !< (ndofel) |RHS| above which an entry counts as a term
     real(dp), pointer, contiguous :: flux(:, :) => null()          !< (ndofel, 2) sum of |RHS|, and the largest one
     integer(i4), pointer, contiguous :: terms(:) => null()         !< (ndofel) number of terms
-    real(dp) :: pnewdt = 0                !< smallest returned
+    real(dp) :: pnewdt = 0                !< smallest returned, or one that is not finite
     real(dp) :: energy_sum(8) = 0
     integer(i4) :: fault = fault_none     !< one of fault_*
     integer(i4) :: position = 0           !< element of the fault, from 1; 0 if it is not known
@@ -311,7 +311,11 @@ contains
                      dtime, kstep, kinc, jelem, params, ndload, jdltyp, adlmag, x(s(i_predef)), npredf, lflags, mlvarx, &
                      ddlmag, mdload, pnewdt, jprops, njprop, period)
     end if
-    if (block%lflags(3) == 1) block%pnewdt = min(block%pnewdt, pnewdt, current%pnewdt)
+    ! what is no number stays, for the caller to see: no comparison finds it
+    if (block%lflags(3) == 1 .and. all_finite(1, [block%pnewdt])) then
+      block%pnewdt = min(block%pnewdt, pnewdt, current%pnewdt)
+      if (.not. all_finite(1, [pnewdt])) block%pnewdt = pnewdt
+    end if
   end subroutine invoke
 
   !> Set the fault if an entry of an array of the running element is not a number.

@@ -4,7 +4,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from typing import Final
 
 import numpy as np
@@ -13,6 +13,8 @@ from numpy.typing import NDArray
 from harness.elements.call import BlockReport, Call, Distributed, Motion, Predefined
 from harness.elements.faults import ERRORS, distortion, material_point, write_outside, wrong_entry
 from harness.elements.fields import FIELD_NAMES, field_of
+from harness.elements.procedure import Procedure
+from harness.elements.watch import Watch
 from harness.errors import ElementError, KernelError
 from harness.model.arrays import FloatArray, IntArray
 from harness.model.mesh import ElementGroup
@@ -32,51 +34,6 @@ _PLASTIC: Final = 3
 _NO_MATRIX = np.zeros(1)
 _AT_REST = Motion(np.zeros(1), np.zeros(1))
 _NO_LOADS = _binding.LoadArrays(np.zeros(1, np.int32), np.zeros((1, 1), np.int32), np.zeros((1, 1, 2)))
-
-
-@dataclass(frozen=True, slots=True)
-class Procedure:
-    """What the driver calls for a block, and with which constants.
-
-    material  number of the material in the host, 0 without one (then UEL is called, else UELMAT)
-    history   values per point and points of the material history; (1, 1) without one
-    statev    number of STATEV, which are the last values of the history
-    uvarm     UVARM to call after each increment, None for none
-    density   place of the density in PROPS, from 0; -1 without one
-    hidden    SVARS at the end that are no state of a point, which output does not see
-    tensor    stress components of the material: 3 plane stress, 4 plane strain, 6 three-dimensional; 0 without one
-    mcrd      coordinates per node
-    damages   ENERGY(4) is dissipated by damage, not by plasticity
-    """
-
-    address: int
-    jtype: int
-    mcrd: int
-    svars: int
-    props: FloatArray
-    jprops: IntArray
-    material: int = 0
-    tensor: int = 0
-    history: tuple[int, int] = (1, 1)
-    statev: int = 0
-    hidden: int = 0
-    density: int = -1
-    uvarm: OutputVariables | None = None
-    damages: bool = False
-
-
-@dataclass(frozen=True, slots=True)
-class OutputVariables:
-    """*USER OUTPUT VARIABLES of a material: the address of UVARM, points and variables of each.
-
-    names  of the material and its orientation; axes (3, 3), rows are its directions
-    """
-
-    address: int
-    names: tuple[str, str]
-    axes: FloatArray
-    points: int
-    count: int
 
 
 class Block:
@@ -135,6 +92,7 @@ class Block:
         )
         self._uvar = np.zeros((m, procedure.uvarm.points, procedure.uvarm.count)) if procedure.uvarm else None
         self._last: Call | None = None
+        self._watch = Watch(group, library)
         fields = np.array([field_of(dof) for _, dof in unknowns])
         # (unknowns, fields): sums entries of an element vector by field
         self._by_field = (fields[:, None] == np.arange(len(FIELD_NAMES))).astype(np.float64)
@@ -222,6 +180,7 @@ class Block:
             self._warn(outcome, residual.ndim, call)
         elif outcome.fault is not Fault.NONE:
             raise self._error(outcome, residual.ndim, call)
+        self._watch.pnewdt(call, outcome.pnewdt)
         energy, damage = outcome.energy, 0.0
         if self._procedure.damages:
             damage, energy[_PLASTIC] = float(energy[_PLASTIC]), 0.0
@@ -321,6 +280,7 @@ class Block:
         arrays.svars[:] = arrays.svars_trial
         arrays.energy[:] = arrays.energy_trial
         arrays.history[:] = arrays.history_trial
+        self._watch.state(self._last, arrays.svars, arrays.energy)
         if self._uvar is not None and self._last is not None:
             self._call_uvarm(self._last, self._uvar)
 

@@ -8,12 +8,13 @@ from difflib import get_close_matches
 from itertools import pairwise
 from typing import Final
 
-from harness.elements.block import Block, Procedure
+from harness.elements.block import Block
 from harness.elements.cohesive import COHESIVE, cohesive_procedure, cohesive_variables
 from harness.elements.coupled import coupled_procedure, coupled_unknowns
 from harness.elements.discrete import DISCRETE, discrete_procedure, discrete_unknowns, discrete_variables
 from harness.elements.materials import Tensor, define_material, refuse_fields
 from harness.elements.pressure import pressure_blocks
+from harness.elements.procedure import Procedure
 from harness.elements.solid import COUPLED, SOLIDS, history_of, solid_of, solid_procedure, solid_variables
 from harness.errors import DeckError, all_of
 from harness.model.mesh import ElementGroup

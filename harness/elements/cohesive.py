@@ -8,8 +8,8 @@ from typing import Final
 
 import numpy as np
 
-from harness.elements.block import Procedure
 from harness.elements.materials import refuse_fields
+from harness.elements.procedure import Procedure
 from harness.errors import DeckError
 from harness.model.mesh import ElementGroup
 from harness.model.model import Model

@@ -8,8 +8,8 @@ from dataclasses import replace
 
 import numpy as np
 
-from harness.elements.block import Procedure
 from harness.elements.materials import refuse_fields
+from harness.elements.procedure import Procedure
 from harness.elements.solid import COUPLED, solid_procedure
 from harness.errors import DeckError
 from harness.model.mesh import ElementGroup

@@ -11,8 +11,9 @@ from dataclasses import replace
 
 import numpy as np
 
-from harness.elements.block import Block, Procedure
+from harness.elements.block import Block
 from harness.elements.load_vectors import outward_sign
+from harness.elements.procedure import Procedure
 from harness.elements.solid import section_depth, solid_of
 from harness.model.arrays import FloatArray, IntArray
 from harness.model.mesh import ElementGroup

@@ -9,7 +9,6 @@ from typing import Final
 
 import numpy as np
 
-from harness.elements.block import OutputVariables, Procedure
 from harness.elements.materials import (
     Tensor,
     define_fields,
@@ -20,6 +19,7 @@ from harness.elements.materials import (
     shear_modulus,
     state_variables,
 )
+from harness.elements.procedure import OutputVariables, Procedure
 from harness.errors import DeckError
 from harness.model.mesh import ElementGroup
 from harness.model.model import Model

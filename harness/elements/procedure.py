@@ -1,0 +1,54 @@
+# SPDX-FileCopyrightText: The uel-harness authors
+# SPDX-License-Identifier: BSD-3-Clause
+"""What the driver calls for a block of elements."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from harness.model.arrays import FloatArray, IntArray
+
+
+@dataclass(frozen=True, slots=True)
+class Procedure:
+    """What the driver calls for a block, and with which constants.
+
+    material  number of the material in the host, 0 without one (then UEL is called, else UELMAT)
+    history   values per point and points of the material history; (1, 1) without one
+    statev    number of STATEV, which are the last values of the history
+    uvarm     UVARM to call after each increment, None for none
+    density   place of the density in PROPS, from 0; -1 without one
+    hidden    SVARS at the end that are no state of a point, which output does not see
+    tensor    stress components of the material: 3 plane stress, 4 plane strain, 6 three-dimensional; 0 without one
+    mcrd      coordinates per node
+    damages   ENERGY(4) is dissipated by damage, not by plasticity
+    """
+
+    address: int
+    jtype: int
+    mcrd: int
+    svars: int
+    props: FloatArray
+    jprops: IntArray
+    material: int = 0
+    tensor: int = 0
+    history: tuple[int, int] = (1, 1)
+    statev: int = 0
+    hidden: int = 0
+    density: int = -1
+    uvarm: OutputVariables | None = None
+    damages: bool = False
+
+
+@dataclass(frozen=True, slots=True)
+class OutputVariables:
+    """*USER OUTPUT VARIABLES of a material: the address of UVARM, points and variables of each.
+
+    names  of the material and its orientation; axes (3, 3), rows are its directions
+    """
+
+    address: int
+    names: tuple[str, str]
+    axes: FloatArray
+    points: int
+    count: int
