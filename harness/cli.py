@@ -175,7 +175,10 @@ def add_reproduce(reproduce: argparse.ArgumentParser) -> None:
 
 def add_check(check: argparse.ArgumentParser) -> None:
     """Options of `uel check`."""
-    check.epilog = "Exit code: 0 all passed, 1 a check failed, 2 nothing could be checked."
+    check.epilog = (
+        "Exit code: 0 all checks that apply passed, and some that judge forces did for every element type; 1 a check "
+        "failed, that of the run among them; 2 nothing was looked at: the deck or a file is wrong, or no check applies."
+    )
     check.add_argument("files", nargs="+", type=Path, metavar="FILE", help="the deck (.inp), and user routines")
     check.add_argument(
         "--user", type=Path, action="append", default=[], metavar="FILE", help="as for `uel run`; ours by default"

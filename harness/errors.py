@@ -150,3 +150,7 @@ class SingularMatrixError(UelError):
 
 class ConvergenceError(UelError):
     """The step procedure gave up: the smallest increment, the number of increments or of attempts is exhausted."""
+
+
+class IncrementsUsedUpError(ConvergenceError):
+    """A step needs more increments than INC= of *STEP allows."""

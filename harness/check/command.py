@@ -16,21 +16,32 @@ from rich.console import Console, Group
 
 from harness.check.apart import Tell, call_apart, examine_apart
 from harness.check.examine import examine
+from harness.check.finding import Conclusion
 from harness.check.progress import Progress, Running, untold
-from harness.check.report import as_json, table
+from harness.check.report import as_json, error_as_json, table
 from harness.check.shuffle import report, shuffle
 from harness.errors import UelError
 from harness.usersub import limit_calls
 
-UNCHECKED: Final = 2
-"""Exit code where nothing could be checked."""
+CODES: Final = {Conclusion.PASSED: 0, Conclusion.FAILED: 1, Conclusion.NOTHING: 2}
+"""Exit codes."""
+
+WIDEST: Final = 10_000
+"""Columns where no terminal says how many there are: tables are as wide as their texts."""
 
 
 def check(options: argparse.Namespace, console: Console, *, apart: bool) -> int:
-    """Run the checks and print what they found; returns the exit code: 0 all passed, 1 a check failed, 2 neither.
+    """Run the checks and print what they found; returns the exit code, see CODES.
 
     apart: in a process of its own, which user code may end; what it does is shown on a terminal.
     """
+    if not console.is_terminal:
+        console = Console(file=console.file, width=WIDEST)
+    try:
+        _clear(options.json, shuffle=options.shuffle)
+    except UelError as error:
+        print(f"uel: {error}", file=sys.stderr)
+        return CODES[Conclusion.NOTHING]
     try:
         deck, user = deck_and_user(options.files, options.user)
         how = {"seed": options.seed, "increments": options.increments}
@@ -40,17 +51,35 @@ def check(options: argparse.Namespace, console: Console, *, apart: bool) -> int:
             if options.shuffle:
                 look_at_order = partial(call_apart, tell_order, call_limit=limit, tell=tell) if apart else tell_order
                 passed, told = look_at_order(deck, user, **how)
+                conclusion = Conclusion.PASSED if passed else Conclusion.FAILED
             else:
                 look = partial(examine_apart, call_limit=limit, tell=tell) if apart else examine
                 outcome = look(deck, user, **how, skip=options.skip)
-                passed, told = outcome.passed, table(outcome)
+                conclusion, told = outcome.conclusion, table(outcome)
     except UelError as error:
         print(f"uel: {error}", file=sys.stderr)
-        return UNCHECKED
+        if options.json:
+            options.json.write_text(error_as_json(error), encoding="utf-8")
+        return CODES[Conclusion.NOTHING]
     console.print(told)
-    if options.json and not options.shuffle:
+    if options.json:
         options.json.write_text(as_json(outcome), encoding="utf-8")
-    return int(not passed)
+    return CODES[conclusion]
+
+
+def _clear(file: Path | None, *, shuffle: bool) -> None:
+    """Remove the findings of an earlier run: they are none of this one, however it ends. Raises UelError."""
+    if file is None:
+        return
+    if shuffle:
+        raise UelError("--json is for the table of all checks, which --shuffle does not make")
+    try:
+        file.unlink(missing_ok=True)
+        # before the checks, which take their time
+        file.touch()
+        file.unlink()
+    except OSError as error:
+        raise UelError(f"--json {file}: {error.strerror}") from None
 
 
 @contextmanager

@@ -10,7 +10,7 @@ from pathlib import Path
 from typing import Final
 
 from harness.check.checks import CHECKS, Check
-from harness.check.finding import Finding, Verdict, failed, not_applicable
+from harness.check.finding import Conclusion, Finding, Verdict, failed, not_applicable
 from harness.check.progress import Progress, Running, untold
 from harness.check.recording import Recording, record_leniently
 from harness.check.shuffle import TypeVerdict, shuffle_recording
@@ -20,6 +20,11 @@ from harness.usersub import ARRAYS, AS_GOOD_AS_ZERO, UNSET, marks
 
 LENIENT: Final = {UNSET: 0.0, **dict.fromkeys(ARRAYS, AS_GOOD_AS_ZERO)}
 """Entries not set are zero, and guards as good as zero, so that one mistake does not hide all others."""
+
+IDLE: Final = (
+    "RHS and AMATRX are zero at all states that were tried: take a deck in which these elements resist something, and "
+    "look for a factor that is zero"
+)
 
 ENDLESS: Final = (
     "A call did not return in its time (--call-limit): look for a loop that ends only where something converges, give "
@@ -36,12 +41,36 @@ class TypeReport:
     states: int = 0
     findings: dict[str, Finding] = field(default_factory=dict)
 
+    @property
+    def conclusion(self) -> Conclusion:
+        """Failed where one check failed; passed where, of the checks made, one that judges forces applied."""
+        verdicts = {name: finding.verdict for name, finding in self.findings.items()}
+        if Verdict.FAILED in verdicts.values():
+            return Conclusion.FAILED
+        decisive = [verdicts[check.name] for check in CHECKS if check.forces and check.name in verdicts]
+        return Conclusion.PASSED if Verdict.PASSED in (decisive or verdicts.values()) else Conclusion.NOTHING
+
+    @property
+    def looked_at(self) -> tuple[str, ...]:
+        """Names of the checks that applied."""
+        return tuple(name for name, finding in self.findings.items() if finding.verdict is not Verdict.NOT_APPLICABLE)
+
+    @property
+    def unseen(self) -> str:
+        """Why nothing was looked at, as a sentence; '' where something was."""
+        if self.conclusion is not Conclusion.NOTHING:
+            return ""
+        reasons = [
+            self.findings[check.name].message for check in CHECKS if check.forces and check.name in self.findings
+        ]
+        return f"{self.type}: nothing was looked at: {reasons[0] if reasons else 'all checks were left out'}"
+
 
 @dataclass(frozen=True, slots=True)
 class Examination:
     """Outcome of all checks.
 
-    increments  of the deck that were run; stopped says why these are fewer than asked for
+    increments  of the deck that were run; stopped says why the run ended before those asked for
     warnings    about the deck
     """
 
@@ -54,10 +83,16 @@ class Examination:
     warnings: tuple[str, ...] = ()
 
     @property
+    def conclusion(self) -> Conclusion:
+        """The worst of all types: a failure, then one of which nothing was looked at."""
+        found = {report.conclusion for report in self.types}
+        worst = Conclusion.FAILED, Conclusion.NOTHING, Conclusion.PASSED
+        return next((one for one in worst if one in found), Conclusion.NOTHING)
+
+    @property
     def passed(self) -> bool:
-        """No check failed."""
-        verdicts = [finding.verdict for report in self.types for finding in report.findings.values()]
-        return Verdict.FAILED not in verdicts
+        """No check failed, and every type was looked at."""
+        return self.conclusion is Conclusion.PASSED
 
 
 def examine(
@@ -125,6 +160,8 @@ def _run(check: Check, subject: Subject, before: Mapping[str, Finding]) -> Findi
         return not_applicable(f"nothing to be learnt from it while '{check.unless}' fails")
     if check.calls and not subject.states:
         return not_applicable(f"no call of an element by itself returns: {subject.refusal}")
+    if check.forces and subject.idle:
+        return not_applicable(IDLE)
     try:
         return check.function(subject)
     except KernelError as error:

@@ -16,6 +16,14 @@ class Verdict(StrEnum):
     NOT_APPLICABLE = "not applicable"
 
 
+class Conclusion(StrEnum):
+    """Outcome of all checks: of one element type, or of all."""
+
+    PASSED = "passed"
+    FAILED = "failed"
+    NOTHING = "nothing looked at"
+
+
 @dataclass(frozen=True, slots=True)
 class Finding:
     """Outcome of one check for one element type.
@@ -41,7 +49,7 @@ def passed(message: str, figure: float | None = None, limit: float | None = None
 
 
 def not_applicable(reason: str) -> Finding:
-    """The check says nothing about this element."""
+    """The check says nothing about this element; reason: why, and in which deck it would."""
     return Finding(Verdict.NOT_APPLICABLE, reason)
 
 

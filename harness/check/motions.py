@@ -127,6 +127,27 @@ def _with_own_rotations(subject: Subject, body: Body) -> Body:
     return body
 
 
-NO_BODY: Final = "fewer than two nodes with displacements in all directions of COORDINATES="
+def makes_inertia(state: State, body: Body) -> bool:
+    """Whether, in a dynamic step, a translation within the increment makes forces without V and A: inertia of DU."""
+    if not state.dynamic:
+        return False
+    here = state.quiet().evaluate(matrix=False).rhs[0]
+    for direction in range(body.dimensions):
+        motion = body.size * body.translation(direction)
+        moved, carried = (one.evaluate(matrix=False).rhs[0] for one in _elsewhere(state.quiet(), motion))
+        size = max(float(np.abs(here).max()), float(np.abs(moved).max()))
+        if np.abs(moved - here).max() > ALIKE * size >= np.abs(carried - here).max():
+            return True
+    return False
 
-AT_REST: Final = "the run has no state without displacements"
+
+def _elsewhere(state: State, motion: FloatArray) -> tuple[State, State]:
+    """The state of an element that has moved within the increment, and of one that was there all the time."""
+    return state.moved(motion), state.carried(motion)
+
+
+NO_BODY: Final = "fewer than two nodes with displacements in all directions of COORDINATES=, which it is for"
+
+AT_REST: Final = "the run has no state without displacements: begin the deck with an increment without loads"
+
+INERTIA: Final = "inertia that is made of DU, not of A: take a deck with a static step"

@@ -59,6 +59,8 @@ class UelDeck(pytest.File):
             outcome = examine_apart(self.path, users, increments=config.getoption("--uel-increments"), call_limit=limit)
         except UelError as error:
             raise self.CollectError(str(error)) from None
+        if unseen := [report.unseen for report in outcome.types if report.unseen]:
+            raise self.CollectError("\n".join(unseen))
         for report in outcome.types:
             for name, finding in report.findings.items():
                 yield UelCheck.from_parent(self, name=f"{report.type}-{name}", report=report, finding=finding)

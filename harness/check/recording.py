@@ -17,10 +17,10 @@ from harness import usersub
 from harness.assembly import Evaluation, System
 from harness.deck import read_deck
 from harness.elements import Block, Call, Motion, build_blocks
-from harness.errors import ConvergenceError, ElementError, KernelError, NotFiniteError, UelError
+from harness.errors import ConvergenceError, ElementError, IncrementsUsedUpError, KernelError, NotFiniteError, UelError
 from harness.model.arrays import FloatArray, IntArray
 from harness.model.model import Model
-from harness.model.records import IncrementDone
+from harness.model.records import AttemptAbandoned, IncrementDone
 from harness.procedures import run_steps
 from harness.solver.threads import one_blas_thread
 from harness.usersub import Library
@@ -77,8 +77,8 @@ class Recording:
     events      in the order in which they happened
     equations   (m, unknowns of an element) position in U of each element unknown, per group
     increments  that converged
-    stopped     why the run ended before the increments asked for; '' if it did not
-    failure     error of an element that ended the run, None if none did
+    stopped     why the run ended before the increments asked for; '' if it did not, or the deck has no more
+    failure     error that ended it, None where all increments that INC= of a step allows converged in one attempt
     unset       error with which a run ends in which local variables without a value hold what earlier calls have left;
                 '' where it does not. Where it does, they are zero in this run and in all further calls.
     """
@@ -89,7 +89,7 @@ class Recording:
     equations: tuple[IntArray, ...]
     increments: int
     stopped: str
-    failure: ElementError | None = None
+    failure: UelError | None = None
     unset: str = ""
 
 
@@ -116,7 +116,7 @@ def record_leniently(deck: Path, user: Sequence[Path], increments: int) -> Recor
     if isinstance(error, NotFiniteError) and user:
         with suppress(UelError):
             again = record(deck, user, increments, strict=False, zero_locals=True)
-            if again.failure is None:
+            if not isinstance(again.failure, ElementError):
                 return replace(again, unset=str(error))
     if recording is None:
         assert error is not None
@@ -134,20 +134,25 @@ def record(
     """
     model = read_deck(deck)
     events: list[Event] = []
-    done, stopped, failure = 0, "", None
+    done, abandoned = 0, 0
+    stopped = ""
+    failure: UelError | None = None
     with opened(model, user, zero_locals=zero_locals) as library, one_blas_thread():
         system = _RecordedSystem(model, build_blocks(model, library, strict=strict), events)
         try:
             for happened in run_steps(system, model, _RecordedRoutines(library, events)):
                 done += isinstance(happened, IncrementDone)
+                abandoned += isinstance(happened, AttemptAbandoned)
                 if done == increments:
                     break
+        except IncrementsUsedUpError as error:
+            stopped, failure = str(error), error if abandoned else None
         except ConvergenceError as error:
-            stopped = str(error)
+            stopped, failure = str(error), error
         except UelError as error:
             if strict or not any(isinstance(event, Pass) and event.normal for event in events):
                 raise
-            stopped, failure = str(error), error if isinstance(error, ElementError) else None
+            stopped, failure = str(error), error
         equations = tuple(system.dofs.equations_of(block).astype(np.int64) for block in system.blocks)
     if not any(isinstance(event, Pass) and event.normal for event in events):
         events.append(_general(events))

@@ -14,7 +14,8 @@ from rich.table import Table
 from rich.text import Text
 
 from harness.check.examine import Examination, TypeReport
-from harness.check.finding import Verdict
+from harness.check.finding import Conclusion, Verdict
+from harness.errors import UelError
 
 _STYLES: Final = {Verdict.PASSED: "green", Verdict.FAILED: "bold red", Verdict.NOT_APPLICABLE: "dim"}
 
@@ -24,11 +25,15 @@ def table(outcome: Examination) -> Group:
     parts: list[Table | Text] = []
     for report in outcome.types:
         title = f"{outcome.deck.name}: {report.type}, elements: {report.elements}, states: {report.states}"
-        shown = Table("check", "verdict", "finding", title=escape(title), title_justify="left")
+        shown = Table("check", "verdict", title=escape(title), title_justify="left")
+        # a long word, as the path of a file, goes on in the next line
+        shown.add_column("finding", overflow="fold")
         for name, finding in report.findings.items():
             shown.add_row(name, _cell(finding.verdict), Text(finding.message))
         parts.append(shown)
         parts += _advice(report)
+        if report.unseen:
+            parts.append(Text(report.unseen, "bold red"))
     if outcome.stopped:
         parts.append(Text(f"The run of the deck ended early: {outcome.stopped}"))
     parts += [Text(f"Warning: {warning}") for warning in outcome.warnings]
@@ -56,7 +61,16 @@ def as_json(outcome: Examination) -> str:
         "stopped": outcome.stopped,
         "warnings": outcome.warnings,
         "seed": outcome.seed,
+        "conclusion": outcome.conclusion,
         "passed": outcome.passed,
-        "types": [asdict(report) for report in outcome.types],
+        "types": [
+            {**asdict(report), "conclusion": report.conclusion, "looked_at": report.looked_at}
+            for report in outcome.types
+        ],
     }
     return json.dumps(data, indent=2) + "\n"
+
+
+def error_as_json(error: UelError) -> str:
+    """Why nothing could be checked, for other programs."""
+    return json.dumps({"conclusion": Conclusion.NOTHING, "passed": False, "error": str(error)}, indent=2) + "\n"

@@ -72,6 +72,12 @@ class Single:
         label = int(group.labels[0])
         return f"{group.instance}.{label}" if group.instance else str(label)
 
+    @property
+    def svars(self) -> FloatArray:
+        """(nsvars,) at the start of the increment."""
+        svars: FloatArray = self.block.state(0).svars[0]
+        return svars
+
     def twin(self, *, strict: bool) -> Single:
         """The same element in the same committed state, to be called without effect on this one."""
         return Single(self.block.split(strict=strict)[0])

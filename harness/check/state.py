@@ -12,10 +12,14 @@ import numpy as np
 from harness.check.recording import Pass
 from harness.check.single import Returned, Single
 from harness.elements import Call, Motion
+from harness.errors import KernelError
 from harness.model.arrays import FloatArray
 
 DYNAMIC: Final = 11, 12
 """LFLAGS(1) of *DYNAMIC: V and A go with U."""
+
+CHANGES: Final = 1e-3, 1.0, 1e3, -1e-3, -1.0, -1e3
+"""What a state variable is changed by, to see whether something depends on it."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -24,6 +28,7 @@ class State:
 
     u, du, motion  (n,) of the element: estimate of the end of the increment, the increment, velocity and acceleration
     origin         where the state comes from, for messages
+    inertia        in dynamics V and A follow where U is changed
     """
 
     single: Single
@@ -33,6 +38,7 @@ class State:
     motion: Motion
     nrhs: int
     origin: str
+    inertia: bool = True
 
     def __str__(self) -> str:
         return f"element {self.single.name}, {self.origin}"
@@ -47,6 +53,10 @@ class State:
         motion = Motion(self.motion.velocity + rates[0] * shift, self.motion.acceleration + rates[1] * shift)
         return replace(self, u=self.u + shift, du=self.du + shift, motion=motion)
 
+    def moved_on(self, shift: FloatArray) -> State:
+        """An increment of its own by shift (n,) from the end of this one; the element is in the state of its start."""
+        return replace(self.moved(shift), du=shift)
+
     def carried(self, shift: FloatArray) -> State:
         """The state of an element that was elsewhere all the time: U + shift (n,)."""
         return replace(self, u=self.u + shift)
@@ -54,6 +64,13 @@ class State:
     def part(self, share: float) -> State:
         """The state at this share of the increment of displacements."""
         return replace(self, u=self.u - (1.0 - share) * self.du, du=share * self.du)
+
+    def quiet(self) -> State:
+        """In a dynamic step the state without velocities and accelerations, whatever moves; else the state itself."""
+        if not self.dynamic:
+            return self
+        zero = Motion(np.zeros(len(self.u)), np.zeros(len(self.u)))
+        return replace(self, motion=zero, inertia=False)
 
     def still(self) -> State:
         """The state at the start of the increment, at rest and without loads on the element."""
@@ -74,6 +91,24 @@ class State:
         """V and A go with U."""
         return self.call.lflags[0] in DYNAMIC
 
+    def with_svars(self, svars: FloatArray) -> State:
+        """The state with other state variables (nsvars,) at the start of the increment."""
+        single = self.single.twin(strict=False)
+        single.block.initialise(np.array([0]), svars)
+        return replace(self, single=single)
+
+    def depends_on(self, chosen: np.ndarray) -> bool:
+        """Whether RHS changes with these state variables (nsvars,) on entry. Raises KernelError."""
+        expected = self.evaluate(matrix=False).rhs
+        for value in CHANGES:
+            try:
+                found = self.with_svars(self.single.svars + value * chosen).evaluate(matrix=False).rhs
+            except KernelError:
+                return True
+            if not np.array_equal(found, expected):
+                return True
+        return False
+
     def strictly(self) -> State:
         """The state of a copy for which a write outside an array is an error."""
         return replace(self, single=self.single.twin(strict=True))
@@ -81,7 +116,7 @@ class State:
     def _rates(self) -> tuple[float, float]:
         """Derivatives of V and A by U."""
         call = self.call
-        if not self.dynamic or not call.time_increment:
+        if not (self.dynamic and self.inertia and call.time_increment):
             return 0.0, 0.0
         _, beta, gamma = call.params
         return gamma / (beta * call.time_increment), 1.0 / (beta * call.time_increment**2)

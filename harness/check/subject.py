@@ -11,10 +11,11 @@ from typing import Final
 
 import numpy as np
 
+from harness.check.choice import first_largest
 from harness.check.differences import Differences, differences
 from harness.check.patch import patches_of
 from harness.check.recording import Pass, Recording
-from harness.check.replay import Elements, abaqus_order, replay
+from harness.check.replay import Elements, Results, abaqus_order, replay
 from harness.check.shuffle import TypeVerdict
 from harness.check.single import Returned
 from harness.check.state import State, state_of
@@ -31,8 +32,17 @@ ELEMENTS: Final = 3
 """Elements of a type whose states are taken."""
 
 
+NOT_MOVING: Final = (
+    "nothing moves within an increment: take a deck whose first increments move these elements, or ask for more "
+    "(--increments)"
+)
+
 PATCHES: Final = 3
 """Nodes of the deck at which the patch test is made."""
+
+
+YIELDING: Final = 1e-4
+"""Stiffness of a state that counts, at least, over that of the others."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -57,6 +67,7 @@ class Subject:
     patches     for the patch test
     library     the user routines
     refusal     why no element returns from a call by itself; '' where one does
+    strange     the first entry of SVARS or ENERGY, or PNEWDT, that is not finite in the run, as a sentence; '' if none
     """
 
     type: str
@@ -71,7 +82,9 @@ class Subject:
     patches: tuple[Patch, ...]
     library: Library
     refusal: str
+    strange: str
     _differences: dict[int, Differences] = field(default_factory=dict)
+    _quiet: dict[int, State] = field(default_factory=dict)
 
     def differences(self, state: State) -> Differences:
         """Of RHS at one of the states. Raises KernelError."""
@@ -80,8 +93,39 @@ class Subject:
         return self._differences[id(state)]
 
     def stiffness(self, state: State) -> FloatArray:
-        """(n, n) magnitudes: the larger of AMATRX and of the differences of RHS, so that either may be wrong."""
-        return np.maximum(np.abs(state.evaluate().amatrx), np.abs(self.differences(state).matrix))
+        """(n, n) magnitudes: the larger of AMATRX and of the differences of RHS, so that either may be wrong.
+
+        Without inertia these are the differences: AMATRX of a dynamic step holds mass. Else they are no less than a
+        part of those at the other states, so that rounding counts for nothing where an element yields.
+        """
+        found: FloatArray = np.abs(self.differences(state).matrix)
+        if not state.inertia:
+            return found
+        others = np.max([np.abs(other.evaluate().amatrx) for other in self.states], axis=0)
+        largest: FloatArray = np.maximum.reduce([np.abs(state.evaluate().amatrx), found, YIELDING * others])
+        return largest
+
+    def quiet(self, state: State) -> State:
+        """One of the states without inertia, see `State.quiet`; the same one each time."""
+        return self._quiet.setdefault(id(state), state.quiet())
+
+    @property
+    def usual_forces(self) -> FloatArray:
+        """(n,) what the displacements of the run make of AMATRX, at the states of the run."""
+        forces: FloatArray = np.max([np.abs(state.evaluate().amatrx) @ self.scales for state in self.states], axis=0)
+        return forces
+
+    @property
+    def idle(self) -> bool:
+        """RHS and AMATRX are zero at all states: nothing can be said of the forces."""
+        for state in self.all_states:
+            try:
+                returned = state.evaluate()
+            except KernelError:
+                return False
+            if returned.rhs.any() or returned.amatrx.any():
+                return False
+        return True
 
     @property
     def all_states(self) -> tuple[State, ...]:
@@ -90,8 +134,12 @@ class Subject:
 
     @property
     def resting(self) -> list[State]:
-        """States of the first pass of the run, before anything has happened, in which nothing is displaced."""
-        return [state for state in self.states if state.call is self.states[0].call and not state.u.any()]
+        """States of the first pass of the run, before anything has happened, in which nothing is displaced.
+
+        In a dynamic step without inertia.
+        """
+        first = self.states[0].call if self.states else None
+        return [self.quiet(state) for state in self.states if state.call is first and not state.u.any()]
 
     @property
     def local_nodes(self) -> np.ndarray:
@@ -126,11 +174,13 @@ def subject_of(recording: Recording, kind: str, order: TypeVerdict, seed: int) -
     states: list[tuple[State, Returned]] = []
     refusals: list[str] = []
     patches: tuple[Patch, ...] = ()
+    strange = ""
     with closing(replay(recording, abaqus_order, strict=False)) as passes:
         for elements, results in passes:
             if results.made is made[0]:
                 patches = _patches(recording, group, elements, made[0])
             refusals += [str(results.refusals[k]) for k in results.refusals if elements.types[k] == kind]
+            strange = strange or _strange(elements, results, kind)
             if id(results.made) in chosen:
                 states += _states(elements, kind, results.made, made[-1])
             if results.made is made[-1]:
@@ -138,7 +188,21 @@ def subject_of(recording: Recording, kind: str, order: TypeVerdict, seed: int) -
         errors = [_error_of(state) for state, _ in states]
         refusal = "" if not all(errors) else [*refusals, *errors, "it is not called in the run"][0]
         states = [pair for pair, error in zip(states, errors, strict=True) if not error]
-        yield _subject(recording, group, states, order, seed, patches, elements.library, refusal)
+        yield _subject(recording, group, states, order, seed, patches, elements.library, refusal, strange)
+
+
+def _strange(elements: Elements, results: Results, kind: str) -> str:
+    """The first value that an element of a type returned in a pass and that is not finite; '' if there is none."""
+    if not results.made.normal or np.isfinite(results.values).all():
+        return ""
+    wrong = np.flatnonzero(~np.isfinite(results.values))
+    for index, position in zip(wrong, np.searchsorted(elements.starts, wrong, side="right") - 1, strict=True):
+        if elements.types[position] == kind:
+            entry = elements.entry(position, int(index - elements.starts[position]))
+            call = results.made.call
+            where = f"step {call.step}, increment {call.increment}, iteration {call.iteration}"
+            return f"element {elements.names[position]}, {where}: {entry} is {results.values[index]:.6g}"
+    return ""
 
 
 def _patches(recording: Recording, group: ElementGroup, elements: Elements, made: Pass) -> tuple[Patch, ...]:
@@ -155,13 +219,15 @@ def _patches(recording: Recording, group: ElementGroup, elements: Elements, made
 
 
 def _states(elements: Elements, kind: str, made: Pass, last: Pass) -> Iterator[tuple[State, Returned]]:
-    """Of the most deformed element of a type and of others, with what they return now."""
+    """Of the most deformed element of a type, of others, and of one with a load, with what they return now."""
     positions = np.flatnonzero(elements.types == kind)
     dofs = np.array([dof for _, dof in elements.singles[positions[0]].block.unknowns])
     deformation = [deformations(last.u[elements.equations[position]], dofs).max() for position in positions]
-    most = positions[int(np.argmax(deformation))]
+    most = positions[first_largest(np.array(deformation))]
     spread = positions[np.unique(np.linspace(0, len(positions) - 1, ELEMENTS - 1).astype(int))]
-    for position in dict.fromkeys([int(most), *spread.tolist()]):
+    loads = last.call.distributed
+    loaded = [p for p in positions.tolist() if loads and elements.singles[p].block.first in loads.elements][:1]
+    for position in dict.fromkeys([int(most), *spread.tolist(), *loaded]):
         state = state_of(elements.singles[position], made, elements.equations[position])
         with suppress(KernelError):
             yield state, state.evaluate()
@@ -196,6 +262,7 @@ def _subject(
     patches: tuple[Patch, ...],
     library: Library,
     refusal: str,
+    strange: str,
 ) -> Subject:
     assert group.definition is not None
     definition = group.definition
@@ -220,6 +287,7 @@ def _subject(
         patches,
         library,
         refusal,
+        strange,
     )
 
 

@@ -13,7 +13,7 @@ import numpy as np
 
 from harness.assembly import Constraints, System
 from harness.elements import Call
-from harness.errors import ConvergenceError, DeckError, DistortionError, SingularMatrixError
+from harness.errors import ConvergenceError, DeckError, DistortionError, IncrementsUsedUpError, SingularMatrixError
 from harness.model.arrays import FloatArray
 from harness.model.model import Model
 from harness.model.records import (
@@ -165,7 +165,8 @@ class StaticStep:
             yield Noted(self._choice)
         while not self._finished():
             if self._increment == self._step.increments:
-                raise ConvergenceError(f"{TOO_MANY_INCREMENTS} (step {self._step.number}, INC={self._step.increments})")
+                limit = f"step {self._step.number}, INC={self._step.increments}"
+                raise IncrementsUsedUpError(f"{TOO_MANY_INCREMENTS} ({limit})")
             self._increment += 1
             converged = False
             while not converged:

@@ -10,8 +10,10 @@ from typing import Final
 
 from harness.check.checks import (
     energy,
+    history,
     increments,
     inputs,
+    loads,
     local_variables,
     memory,
     no_time,
@@ -23,10 +25,12 @@ from harness.check.checks import (
     requests,
     rest,
     rotation,
+    state_rule,
     symmetry,
     tangent,
     threads,
     translation,
+    values,
     zero_modes,
 )
 from harness.check.finding import Finding
@@ -38,17 +42,20 @@ class Check:
     """A check: its name on the command line and in the table, and what does it.
 
     calls   it calls elements, so it needs a state
+    forces  it judges RHS and AMATRX, so it needs one at which they are not all zero
     unless  of another check, whose failure explains one of this check too; '' for none
     """
 
     name: str
     function: Callable[[Subject], Finding]
     calls: bool = True
+    forces: bool = False
     unless: str = ""
 
 
 CHECKS: Final = (
     Check("run", own_run.check, calls=False),
+    Check("values", values.check, calls=False),
     Check("filled", memory.check_filled),
     Check("outside", memory.check_outside),
     Check("undeclared", memory.check_undeclared),
@@ -60,14 +67,17 @@ CHECKS: Final = (
     Check("no-time", no_time.check),
     Check("requests", requests.check),
     Check("pnewdt", pnewdt.check),
-    Check("tangent", tangent.check),
-    Check("symmetry", symmetry.check),
-    Check("translation", translation.check),
-    Check("rotation", rotation.check, unless="translation"),
-    Check("zero-modes", zero_modes.check, unless="translation"),
-    Check("rest", rest.check),
-    Check("patch", patch_test.check),
-    Check("energy", energy.check),
-    Check("increments", increments.check),
+    Check("loads", loads.check),
+    Check("tangent", tangent.check, forces=True),
+    Check("symmetry", symmetry.check, forces=True),
+    Check("translation", translation.check, forces=True),
+    Check("rotation", rotation.check, forces=True, unless="translation"),
+    Check("zero-modes", zero_modes.check, forces=True, unless="translation"),
+    Check("rest", rest.check, forces=True),
+    Check("patch", patch_test.check, forces=True),
+    Check("energy", energy.check, forces=True),
+    Check("increments", increments.check, forces=True, unless="repeat"),
+    Check("state", state_rule.check, forces=True, unless="repeat"),
+    Check("history", history.check, forces=True, unless="repeat"),
 )
 """All checks, in the order of the table: what invalidates later ones comes first."""

@@ -9,6 +9,7 @@ from typing import Final
 
 import numpy as np
 
+from harness.check.choice import first_largest
 from harness.check.finding import Finding, failed, passed
 from harness.check.state import State
 from harness.check.subject import Subject
@@ -60,7 +61,7 @@ def _against_velocities(subject: Subject, state: State, lflags: tuple[int, int, 
     """A finding where the viscous matrix is not what RHS of a dynamic call loses with V, over 1 + alpha."""
     viscous = _matrix(state, lflags, VISCOUS)
     slope = _slope(subject, state) / (1.0 + state.call.params[0])
-    row, column = np.unravel_index(int(np.abs(viscous - slope).argmax()), slope.shape)
+    row, column = np.unravel_index(first_largest(np.abs(viscous - slope)), slope.shape)
     deviation = float(abs(viscous[row, column] - slope[row, column]))
     if deviation <= SLOPE * max(float(np.abs(slope).max()), float(np.abs(viscous).max()), 1e-300):
         return None

@@ -9,6 +9,7 @@ from typing import Final
 import numpy as np
 
 from harness.check.checks.rest import MECHANICAL
+from harness.check.choice import exceeds
 from harness.check.finding import Finding, failed, not_applicable, passed
 from harness.check.state import State
 from harness.check.subject import Subject
@@ -38,7 +39,7 @@ def check(subject: Subject) -> Finding:
             continue
         judged += 1
         stored, work = min(pairs, key=_deviation)
-        if _deviation((stored, work)) > figure:
+        if exceeds(_deviation((stored, work)), figure):
             figure = _deviation((stored, work))
             message = f"{state}: ENERGY(1) to (7) grow by {stored:.5g}, the work of the forces is {work:.5g}"
     if not judged:

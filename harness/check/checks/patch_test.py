@@ -8,8 +8,9 @@ from typing import Final
 
 import numpy as np
 
+from harness.check.choice import exceeds
 from harness.check.finding import Finding, failed, not_applicable, passed
-from harness.check.motions import NO_BODY, Body, body_of
+from harness.check.motions import INERTIA, NO_BODY, Body, body_of, makes_inertia
 from harness.check.state import State
 from harness.check.subject import Subject
 from harness.model.arrays import FloatArray
@@ -21,14 +22,18 @@ TOLERANCE: Final = 1e-8
 def check(subject: Subject) -> Finding:
     """At nodes of the deck, from rest, with every displacement gradient as large as the strains of the run."""
     if not subject.patches:
-        return not_applicable("no node of the deck lies inside of elements of the type, as in a patch of four quads")
+        return not_applicable(
+            "no node lies inside of elements of the type: take a deck with a patch of four quads, say"
+        )
     if any(state.call.predefined is not None for patch in subject.patches for state in patch.states):
-        return not_applicable("predefined fields, which make forces of their own")
+        return not_applicable("predefined fields, which make forces of their own: take a deck without them")
     figure, message = 0.0, ""
     for patch in subject.patches:
         bodies = [body_of(subject, state) for state in patch.states]
         if any(body is None or body.coincident for body in bodies):
             return not_applicable(NO_BODY)
+        if any(makes_inertia(state, body) for state, body in zip(patch.states, bodies, strict=True) if body):
+            return not_applicable(INERTIA)
         members = [(state, body) for state, body in zip(patch.states, bodies, strict=True) if body is not None]
         first = members[0][1]
         strain = float(subject.scales[first.displacement].max()) / first.size
@@ -36,7 +41,7 @@ def check(subject: Subject) -> Finding:
             forces = [_forces(*member, patch.node, (i, j), strain) for member in members]
             size = float(np.abs(forces).max()) or 1.0
             ratio = float(np.abs(np.sum(forces, axis=0)).max()) / size
-            if ratio > figure:
+            if exceeds(ratio, figure):
                 figure = ratio
                 name = subject.recording.model.mesh.name(patch.node)
                 message = (
@@ -59,7 +64,7 @@ def _forces(state: State, body: Body, node: int, gradient: tuple[int, int], stra
     moved = body.displacement & (body.axis == i)
     field = np.zeros(len(body.axis))
     field[moved] = strain * body.points[body.local[moved], j]
-    still = state.still()
+    still = state.still().quiet()
     rhs = still.moved(field).evaluate().rhs[0] - still.evaluate().rhs[0]
     mine = body.displacement & (state.single.block.group.nodes[0][body.local] == node)
     return np.array([rhs[mine & (body.axis == direction)].sum() for direction in range(body.dimensions)])

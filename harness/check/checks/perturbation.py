@@ -9,6 +9,7 @@ from typing import Final
 
 import numpy as np
 
+from harness.check.choice import first_largest
 from harness.check.finding import Finding, failed, passed
 from harness.check.state import State
 from harness.check.subject import Subject
@@ -35,7 +36,7 @@ def check_perturbation(subject: Subject, states: list[State], lflags: tuple[int,
         forces = still.evaluate()
         linear = replace(still.called(lflags=lflags), du=change)
         found, expected = linear.evaluate().rhs[0], -forces.amatrx @ change
-        row = int(np.abs(found - expected).argmax())
+        row = first_largest(np.abs(found - expected))
         deviation = float(abs(found[row] - expected[row]))
         if deviation > TOLERANCE * max(float(np.abs(forces.rhs[0]).max()), float(np.abs(expected).max()), 1e-300):
             return failed(

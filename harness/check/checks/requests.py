@@ -12,6 +12,7 @@ import numpy as np
 
 from harness.check.checks.damping import check_damping
 from harness.check.checks.perturbation import NORMAL, OUTPUT, check_perturbation
+from harness.check.choice import first_largest
 from harness.check.finding import Finding, Verdict, failed, not_applicable, passed
 from harness.check.recording import Pass
 from harness.check.state import DYNAMIC, State
@@ -79,7 +80,7 @@ def _residual(states: list[State]) -> Finding:
         with marks({UNSET: float("nan")}):
             alone = state.asked(RESIDUAL).evaluate(matrix=False).rhs[0]
         deviation = np.abs(alone - normal)
-        row = int(deviation.argmax())
+        row = first_largest(deviation)
         if deviation[row] > TOLERANCE * max(float(np.abs(normal).max()), 1e-300):
             return failed(
                 f"{state}: RHS({row + 1}) is {alone[row]:.6g} with LFLAGS(3) = 5, {normal[row]:.6g} with 1",
@@ -105,7 +106,7 @@ def _half_increment(subject: Subject, state: State) -> Finding:
         normal = changed(state).evaluate().rhs[0] - state.evaluate().rhs[0]
         with marks({UNSET: float("nan")}):
             half = changed(alone).evaluate(matrix=False).rhs[0] - alone.evaluate(matrix=False).rhs[0]
-        row = int(np.abs(half - normal).argmax())
+        row = first_largest(np.abs(half - normal))
         if abs(half[row] - normal[row]) > LINEAR * max(float(np.abs(normal).max()), 1e-300):
             return failed(
                 f"{state}: when {name} changes, RHS({row + 1}) changes by {half[row]:.6g} with LFLAGS(3) = 5, by "
@@ -138,7 +139,7 @@ def _mass(subject: Subject, state: State) -> Finding:
             f"{state}: AMATRX differs between LFLAGS(3) = 4 and 6 by {np.abs(mass - initial).max():.4g}",
             "Both ask for the mass matrix; 6 asks for the residual as well, for the accelerations at the start.",
         )
-    row, column = np.unravel_index(int(np.abs(mass - inertia).argmax()), mass.shape)
+    row, column = np.unravel_index(first_largest(np.abs(mass - inertia)), mass.shape)
     deviation = float(abs(mass[row, column] - inertia[row, column]))
     wrong = _indefinite(state, mass)
     if wrong is None and deviation > LINEAR * max(size, float(np.abs(mass).max())):
@@ -190,7 +191,7 @@ def _stiffness(state: State, lflags: tuple[int, int, int, int, int]) -> Finding:
     normal = state.evaluate().amatrx
     with marks({UNSET: float("nan")}):
         alone = state.called(lflags=lflags).evaluate().amatrx
-    row, column = np.unravel_index(int(np.abs(alone - normal).argmax()), alone.shape)
+    row, column = np.unravel_index(first_largest(np.abs(alone - normal)), alone.shape)
     deviation = float(abs(alone[row, column] - normal[row, column]))
     if deviation > TOLERANCE * max(float(np.abs(normal).max()), 1e-300):
         entry = f"AMATRX({row + 1},{column + 1})"

@@ -8,6 +8,7 @@ from typing import Final
 
 import numpy as np
 
+from harness.check.choice import exceeds, first_largest
 from harness.check.finding import Finding, failed, not_applicable, passed
 from harness.check.motions import AT_REST
 from harness.check.subject import Subject
@@ -29,9 +30,9 @@ def check(subject: Subject) -> Finding:
     figure, message = 0.0, ""
     for state in states:
         forces = np.where(mechanical, np.abs(state.still().evaluate().rhs[0]), 0.0)
-        row = int(forces.argmax())
+        row = first_largest(forces)
         ratio = float(forces[row]) / _usual(subject.stiffness(state), subject.scales)
-        if ratio > figure:
+        if exceeds(ratio, figure):
             figure = ratio
             message = f"{state}: RHS({row + 1}) is {forces[row]:.4g} in size with U = 0, DU = 0 and no loads"
     if figure <= TOLERANCE:

@@ -10,7 +10,7 @@ import numpy as np
 
 from harness.check.checks.translation import relative
 from harness.check.finding import Finding, failed, not_applicable, passed
-from harness.check.motions import AT_REST, NO_BODY, Body, body_of
+from harness.check.motions import AT_REST, INERTIA, NO_BODY, Body, body_of, makes_inertia
 from harness.check.state import State
 from harness.check.subject import Subject
 from harness.errors import KernelError
@@ -33,7 +33,9 @@ def check(subject: Subject) -> Finding:
     if not known:
         return not_applicable(NO_BODY if states else AT_REST)
     if known[0][1].dimensions == 1:
-        return not_applicable("one dimension")
+        return not_applicable("one dimension: it is for elements that can turn, with COORDINATES=2 or 3")
+    if any(makes_inertia(*pair) for pair in known):
+        return not_applicable(INERTIA)
     first, small = (max(_linear(subject, *pair, angle) for pair in known) for angle in (TINY, None))
     return _judge(states[0], first, small, max(_turned(subject, *pair) for pair in known))
 

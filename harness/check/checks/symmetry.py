@@ -9,6 +9,7 @@ from typing import Final
 import numpy as np
 
 from harness.check.checks.tangent import block_scales
+from harness.check.choice import exceeds, first_largest
 from harness.check.finding import Finding, failed, passed
 from harness.check.subject import Subject
 
@@ -23,9 +24,9 @@ def check(subject: Subject) -> Finding:
         amatrx = state.evaluate().amatrx
         magnitude = np.maximum(np.abs(amatrx), np.abs(amatrx.T))
         deviation = np.abs(amatrx - amatrx.T) / block_scales(magnitude, subject.dofs)
-        if deviation.max() > figure:
+        if exceeds(float(deviation.max()), figure):
             figure = float(deviation.max())
-            row, column = np.unravel_index(int(deviation.argmax()), deviation.shape)
+            row, column = np.unravel_index(first_largest(deviation), deviation.shape)
             entry = f"AMATRX({row + 1},{column + 1})"
             message = (
                 f"{state}: {entry} is {amatrx[row, column]:.6g}, AMATRX({column + 1},{row + 1}) is "

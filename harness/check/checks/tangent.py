@@ -9,6 +9,7 @@ from typing import Final
 
 import numpy as np
 
+from harness.check.choice import exceeds, ranked
 from harness.check.differences import Differences
 from harness.check.finding import Finding, failed, not_applicable, passed
 from harness.check.state import State
@@ -46,7 +47,7 @@ def check(subject: Subject) -> Finding:
         scale = block_scales(np.maximum(np.abs(amatrx), np.abs(found.matrix)), subject.dofs)
         surplus = np.where(found.smooth, np.abs(amatrx - found.matrix) - 10.0 * found.error, 0.0)
         deviation = np.maximum(surplus, 0.0) / scale
-        if worst is None or deviation.max() > worst.deviation.max():
+        if worst is None or exceeds(float(deviation.max()), float(worst.deviation.max())):
             worst = _Worst(state, amatrx, found, deviation)
     if worst is None or not columns:
         return not_applicable("RHS has a kink, or no value beside the run's, at every state that was tried")
@@ -55,7 +56,7 @@ def check(subject: Subject) -> Finding:
         message = f"{columns} columns at {len(subject.all_states)} states agree, largest deviation {figure:.1e}"
         return passed(message, figure, TOLERANCE)
     wrong = np.argwhere(worst.deviation > TOLERANCE)
-    order = np.argsort(-worst.deviation[tuple(wrong.T)], kind="stable")
+    order = ranked(worst.deviation[tuple(wrong.T)])
     entries = tuple(f"AMATRX({row + 1},{column + 1})" for row, column in wrong[order].tolist())
     row, column = wrong[order[0]].tolist()
     more = f" and {len(entries) - SHOWN} more" if len(entries) > SHOWN else ""

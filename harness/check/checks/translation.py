@@ -9,6 +9,7 @@ from typing import Final
 
 import numpy as np
 
+from harness.check.choice import exceeds, first_largest
 from harness.check.finding import Finding, failed, not_applicable, passed
 from harness.check.motions import NO_BODY, body_of
 from harness.check.state import State
@@ -22,14 +23,14 @@ TOLERANCE: Final = 1e-8
 def check(subject: Subject) -> Finding:
     """RHS stays when the element moves in any direction, by its own size and by as much as it deforms in the run."""
     figure, message = 0.0, ""
-    for state in subject.all_states:
+    for state in map(subject.quiet, subject.all_states):
         body = body_of(subject, state)
         if body is None:
             return not_applicable(NO_BODY)
         deformation = float(subject.scales[body.displacement].max())
         for direction, distance in product(range(body.dimensions), (body.size, deformation)):
             ratio, row, change = _added(subject, state, distance * body.translation(direction))
-            if ratio > figure:
+            if exceeds(ratio, figure):
                 figure = ratio
                 message = (
                     f"{state}: RHS({row + 1}) changes by {change:.4g}, {100 * ratio:.3g} % of what the stiffness would "
@@ -49,7 +50,7 @@ def check(subject: Subject) -> Finding:
 def _added(subject: Subject, state: State, motion: FloatArray) -> tuple[float, int, float]:
     """Largest force that a motion adds, over what the stiffness makes of its parts, the row, and the force."""
     here = state.evaluate()
-    # in dynamics an element that moves has inertia: then it was elsewhere all the time
+    # in dynamics an element may make inertia of DU: then it was elsewhere all the time
     moved = state.carried(motion) if state.dynamic else state.moved(motion)
     change = moved.evaluate().rhs[0] - here.rhs[0]
     ratio, row = relative(np.abs(change), subject.stiffness(state), motion)
@@ -59,5 +60,5 @@ def _added(subject: Subject, state: State, motion: FloatArray) -> tuple[float, i
 def relative(change: FloatArray, stiffness: FloatArray, motion: FloatArray) -> tuple[float, int]:
     """Largest change of RHS over the sum of |stiffness| |motion|, and its row."""
     cost = float((stiffness @ np.abs(motion)).max())
-    row = int(change.argmax())
+    row = first_largest(change)
     return float(change[row]) / cost if cost else float(change[row] > 0.0), row

@@ -4,18 +4,31 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from typing import Final
 
 import numpy as np
 
 from harness.check.finding import Finding, failed, not_applicable, passed
-from harness.check.motions import AT_REST, NO_BODY, Body, body_of
+from harness.check.motions import AT_REST, INERTIA, NO_BODY, Body, body_of, makes_inertia
 from harness.check.state import State
 from harness.check.subject import Subject
 from harness.model.arrays import FloatArray
 
 TOLERANCE: Final = 1e-9
 """Of the largest eigenvalue: below, a mode costs nothing."""
+
+DIFFERENCES: Final = 1e-6
+"""The same for differences of RHS, in a dynamic step."""
+
+
+@dataclass(frozen=True, slots=True)
+class _Stiffness:
+    """(k, k) matrix of the displacements, what it is called, and its tolerance."""
+
+    name: str
+    limit: float
+    matrix: FloatArray
 
 
 def check(subject: Subject) -> Finding:
@@ -26,42 +39,50 @@ def check(subject: Subject) -> Finding:
     body = body_of(subject, state)
     if body is None:
         return not_applicable(NO_BODY)
-    if state.dynamic:
-        return not_applicable("AMATRX holds mass in a dynamic step")
+    if makes_inertia(state, body):
+        return not_applicable(INERTIA)
     chosen = body.displacement | body.turning.any(axis=0)
-    amatrx = state.evaluate().amatrx[np.ix_(chosen, chosen)]
+    name, limit, matrix = "AMATRX", TOLERANCE, state.evaluate().amatrx
+    if state.dynamic:
+        # AMATRX holds mass
+        name, limit, matrix = "-dRHS/dU", DIFFERENCES, subject.differences(state).matrix
+    stiffness = _Stiffness(name, limit, matrix[np.ix_(chosen, chosen)])
     rigid = _rigid(body)[:, chosen]
-    resisted = _resisted(amatrx, rigid)
-    if resisted > TOLERANCE:
+    resisted = _resisted(stiffness.matrix, rigid)
+    if resisted > limit:
         return failed(
-            f"{state}: AMATRX resists a rigid-body motion with {100 * resisted:.3g} % of its stiffness",
+            f"{state}: {name} resists a rigid-body motion with {100 * resisted:.3g} % of its stiffness",
             "Rows and columns of AMATRX have to sum up to zero over the nodes, for each direction. What the checks of "
             "translation and rotation say of RHS holds for AMATRX too.",
             figure=resisted,
-            limit=TOLERANCE,
+            limit=limit,
         )
-    return _judge(state, amatrx, int(np.linalg.matrix_rank(rigid)), interface=body.coincident)
+    return _judge(state, stiffness, int(np.linalg.matrix_rank(rigid)), interface=body.coincident)
 
 
-def _judge(state: State, amatrx: FloatArray, expected: int, *, interface: bool) -> Finding:
-    """Finding for a matrix (k, k) and the number of rigid-body motions; interface: nodes lie on each other."""
-    if not amatrx.any():
-        return not_applicable("AMATRX is zero at rest")
-    values = np.linalg.eigvalsh(0.5 * (amatrx + amatrx.T)) / np.abs(amatrx).max()
-    zero = int(np.count_nonzero(np.abs(values) < TOLERANCE))
+def _judge(state: State, stiffness: _Stiffness, expected: int, *, interface: bool) -> Finding:
+    """Finding for the number of rigid-body motions that are expected; interface: nodes lie on each other."""
+    name, limit, matrix = stiffness.name, stiffness.limit, stiffness.matrix
+    if not matrix.any():
+        return not_applicable(f"{name} is zero at rest: it is for elements that resist the first displacement")
+    values = np.linalg.eigvalsh(0.5 * (matrix + matrix.T)) / np.abs(matrix).max()
+    zero = int(np.count_nonzero(np.abs(values) < limit))
     if interface:
-        return not_applicable(f"nodes lie on each other (an interface): {zero} zero modes of {len(values)}")
-    if values[0] < -TOLERANCE:
+        return not_applicable(
+            f"nodes lie on each other: {zero} zero modes of {len(values)}, which are no mistake of an interface; it is "
+            "for elements with a volume"
+        )
+    if values[0] < -limit:
         return failed(
-            f"{state}: AMATRX has a negative eigenvalue at rest, {values[0]:.3g} of its largest entry",
+            f"{state}: {name} has a negative eigenvalue at rest, {values[0]:.3g} of its largest entry",
             "An element that is stable at rest has none: look at the sign of AMATRX (it is -dRHS/dU), at the Jacobian "
             "(order of the nodes), and at the material's stiffness.",
             figure=float(values[0]),
-            limit=-TOLERANCE,
+            limit=-limit,
         )
     if zero > expected:
         return failed(
-            f"{state}: AMATRX has {zero} zero modes, rigid-body motions are {expected}",
+            f"{state}: {name} has {zero} zero modes, rigid-body motions are {expected}",
             f"{zero - expected} deformation(s) cost nothing (hourglass modes): take more integration points, or "
             "stabilise the element. With reduced integration on purpose look whether neighbours suppress the mode.",
             figure=float(zero),

@@ -1,0 +1,122 @@
+# SPDX-FileCopyrightText: The uel-harness authors
+# SPDX-License-Identifier: BSD-3-Clause
+"""State variables that the forces depend on are written."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from contextlib import suppress
+from itertools import product
+from typing import Final
+
+import numpy as np
+
+from harness.check.finding import Finding, failed, not_applicable, passed
+from harness.check.state import CHANGES, State
+from harness.check.subject import Subject, diagonal
+from harness.errors import KernelError
+from harness.model.arrays import FloatArray
+
+GROWTH: Final = 3.0
+"""Of random displacements from increment to increment, from those of the run to the size of the element: what yields or
+breaks at some strain does so at one of them."""
+
+ENOUGH: Final = 0.1
+"""Displacements over the size of the element with which a call has to return, without a smaller increment."""
+
+FEWEST: Final = 4
+"""Increments where the displacements of the run are large."""
+
+PATHS: Final = 4
+"""Random directions: half of them against the others."""
+
+MOVES: Final = 3
+"""Largest dof that is a displacement."""
+
+SHOWN: Final = 6
+"""State variables that a message names."""
+
+
+def check(subject: Subject) -> Finding:
+    """Where RHS changes with state variables, calls write some of them.
+
+    All of them would be too much to ask: one that is stored as it is may be meant to change under other loads.
+    """
+    if subject.library.sdvini or subject.recording.model.initial_solutions:
+        return not_applicable(
+            "SVARS have initial values, which may be meant to stay: take a deck without *INITIAL CONDITIONS, "
+            "TYPE=SOLUTION"
+        )
+    unwritten, far = np.ones(subject.definition.variables, dtype=np.bool_), False
+    for state, large in _tried(subject):
+        with suppress(KernelError):
+            returned = state.evaluate(matrix=False)
+            unwritten &= returned.svars.view(np.int64) == state.single.svars.view(np.int64)
+            far |= large and returned.pnewdt >= 1.0
+    if not unwritten.any():
+        return passed("every state variable is written")
+    if not far:
+        return not_applicable(
+            "no call with large displacements returns, in which a state would change: take a deck in which these "
+            "elements yield or break"
+        )
+    return _judge((subject.states[0], subject.states[-1], *subject.random[-1:]), unwritten)
+
+
+def _judge(states: tuple[State, ...], unwritten: np.ndarray) -> Finding:
+    """Finding for state variables (nsvars,) that no call on the way has written."""
+    if any(state.depends_on(~unwritten) for state in states):
+        return passed("RHS depends on state variables that are written")
+    if not any(state.depends_on(unwritten) for state in states):
+        return passed("RHS depends on no state variable")
+    alone = {place: np.arange(len(unwritten)) == place for place in np.flatnonzero(unwritten).tolist()}
+    read = [place for place, chosen in alone.items() if any(state.depends_on(chosen) for state in states)]
+    if any(_writes(state, read) for state in states):
+        return passed("RHS depends on state variables that are written")
+    names = tuple(f"SVARS({place + 1})" for place in read)
+    more = f" and {len(names) - SHOWN} more" if len(names) > SHOWN else ""
+    message = f"RHS depends on {', '.join(names[:SHOWN])}{more} on entry, and no call writes any of them"
+    advice = (
+        "What an increment begins with is what the last converged call has stored in SVARS: without that the element "
+        "forgets what happened, and begins each increment anew. Store the state at the end of UEL, in the entry from "
+        "which it is read. A value that is only given by *INITIAL CONDITIONS, TYPE=SOLUTION in other decks is right."
+    )
+    return failed(message, advice, entries=names)
+
+
+def _tried(subject: Subject) -> Iterator[tuple[State, bool]]:
+    """States with zeros that are negative, which any sum changes, and whether displacements are large.
+
+    Those of the run, and increments of ever larger displacements, the last of which are in a later step.
+    """
+    for state in subject.all_states:
+        yield state.with_svars(_negative_zeros(state.single.svars)), False
+    moves = subject.dofs <= MOVES
+    for number, state in product(range(PATHS), (subject.states[0], subject.states[-1])):
+        direction = subject.scales * np.random.default_rng(number // 2).uniform(-1.0, 1.0, len(subject.scales))
+        direction *= (-1.0) ** number
+        size = diagonal(subject.coordinates(state))
+        largest = float(np.abs(direction[moves]).max(initial=0.0)) or size
+        count = max(FEWEST, int(np.ceil(np.log(size / largest) / np.log(GROWTH))) + 1)
+        on_path = state.part(0.0).with_svars(_negative_zeros(state.single.svars))
+        for later, step in product((0, 1), range(count)):
+            on_path = on_path.moved_on(GROWTH**step * direction).called(step=state.call.step + later)
+            yield on_path, largest * GROWTH**step >= ENOUGH * size
+            on_path.single.block.commit()
+            on_path = on_path.with_svars(_negative_zeros(on_path.single.svars))
+
+
+def _negative_zeros(svars: FloatArray) -> FloatArray:
+    """-0.0 in place of 0.0."""
+    return np.where(svars == 0.0, -0.0, svars)
+
+
+def _writes(state: State, places: list[int]) -> bool:
+    """Whether a call returns another value of a state variable than on entry, where this is far from the usual ones."""
+    for place, value in product(places, CHANGES):
+        given = state.single.svars
+        given[place] += value
+        with suppress(KernelError):
+            if (state.with_svars(given).evaluate(matrix=False).svars[places] != given[places]).any():
+                return True
+    return False
