@@ -5,6 +5,7 @@
 from __future__ import annotations
 
 import argparse
+import os
 import sys
 from collections.abc import Iterator
 from contextlib import contextmanager
@@ -27,7 +28,7 @@ CODES: Final = {Conclusion.PASSED: 0, Conclusion.FAILED: 1, Conclusion.NOTHING: 
 """Exit codes."""
 
 WIDEST: Final = 10_000
-"""Columns where no terminal says how many there are: tables are as wide as their texts."""
+"""Columns where neither a terminal nor COLUMNS says how many there are: tables are as wide as their texts."""
 
 
 def check(options: argparse.Namespace, console: Console, *, apart: bool) -> int:
@@ -35,7 +36,7 @@ def check(options: argparse.Namespace, console: Console, *, apart: bool) -> int:
 
     apart: in a process of its own, which user code may end; what it does is shown on a terminal.
     """
-    if not console.is_terminal:
+    if not console.is_terminal and "COLUMNS" not in os.environ:
         console = Console(file=console.file, width=WIDEST)
     try:
         _clear(options.json, shuffle=options.shuffle)

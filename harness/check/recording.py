@@ -78,7 +78,8 @@ class Recording:
     equations   (m, unknowns of an element) position in U of each element unknown, per group
     increments  that converged
     stopped     why the run ended before the increments asked for; '' if it did not, or the deck has no more
-    failure     error that ended it, None where all increments that INC= of a step allows converged in one attempt
+    failure     error of an element that ended the run, None if none did
+    ending      error that ended it, of whatever kind; None where INC= of a step did, and all attempts converged
     unset       error with which a run ends in which local variables without a value hold what earlier calls have left;
                 '' where it does not. Where it does, they are zero in this run and in all further calls.
     """
@@ -89,8 +90,9 @@ class Recording:
     equations: tuple[IntArray, ...]
     increments: int
     stopped: str
-    failure: UelError | None = None
+    failure: ElementError | None = None
     unset: str = ""
+    ending: UelError | None = None
 
 
 @contextmanager
@@ -116,7 +118,7 @@ def record_leniently(deck: Path, user: Sequence[Path], increments: int) -> Recor
     if isinstance(error, NotFiniteError) and user:
         with suppress(UelError):
             again = record(deck, user, increments, strict=False, zero_locals=True)
-            if not isinstance(again.failure, ElementError):
+            if again.failure is None:
                 return replace(again, unset=str(error))
     if recording is None:
         assert error is not None
@@ -136,7 +138,7 @@ def record(
     events: list[Event] = []
     done, abandoned = 0, 0
     stopped = ""
-    failure: UelError | None = None
+    ending: UelError | None = None
     with opened(model, user, zero_locals=zero_locals) as library, one_blas_thread():
         system = _RecordedSystem(model, build_blocks(model, library, strict=strict), events)
         try:
@@ -146,17 +148,18 @@ def record(
                 if done == increments:
                     break
         except IncrementsUsedUpError as error:
-            stopped, failure = str(error), error if abandoned else None
+            stopped, ending = str(error), error if abandoned else None
         except ConvergenceError as error:
-            stopped, failure = str(error), error
+            stopped, ending = str(error), error
         except UelError as error:
             if strict or not any(isinstance(event, Pass) and event.normal for event in events):
                 raise
-            stopped, failure = str(error), error
+            stopped, ending = str(error), error
         equations = tuple(system.dofs.equations_of(block).astype(np.int64) for block in system.blocks)
     if not any(isinstance(event, Pass) and event.normal for event in events):
         events.append(_general(events))
-    return Recording(model, tuple(user), tuple(events), equations, done, stopped, failure)
+    failure = ending if isinstance(ending, ElementError) else None
+    return Recording(model, tuple(user), tuple(events), equations, done, stopped, failure, ending=ending)
 
 
 def _general(events: Sequence[Event]) -> Pass:

@@ -35,7 +35,7 @@ OTHERWISE: Final = "Run the deck with `uel run`, which has to reach its end befo
 def check(subject: Subject) -> Finding:
     """It converged for as many increments as were asked for, or as the deck has, and at least for one."""
     recording = subject.recording
-    failure, done = recording.failure, recording.increments
+    failure, done = recording.failure or recording.ending, recording.increments
     if failure is None and done:
         more = f"; the deck allows no more: {recording.stopped}" if recording.stopped else ""
         return passed(f"{done} increments of the deck{more}", float(done))
