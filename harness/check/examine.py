@@ -150,7 +150,7 @@ def _examine_type(
     except CallLimitError as error:
         report.findings[running] = failed(str(error), ENDLESS)
         for check in checks:
-            missed = not_applicable(f"not made, since a call did not return in '{running}'")
+            missed = not_applicable(f"not made, since a call did not return in '{running}', which comes first")
             report.findings.setdefault(check.name, missed)
 
 
@@ -159,13 +159,18 @@ def _run(check: Check, subject: Subject, before: Mapping[str, Finding]) -> Findi
     if explained is not None and explained.verdict is Verdict.FAILED:
         return not_applicable(f"nothing to be learnt from it while '{check.unless}' fails")
     if check.calls and not subject.states:
-        return not_applicable(f"no call of an element by itself returns: {subject.refusal}")
+        return not_applicable(
+            f"no call of an element by itself returns: {subject.refusal}; take a deck in which one does, or mend that"
+        )
     if check.forces and subject.idle:
         return not_applicable(IDLE)
     try:
         return check.function(subject)
     except KernelError as error:
         if not subject.random:
-            return not_applicable("the element ends the analysis at all displacements that are not those of the run")
+            return not_applicable(
+                "the element ends the analysis at all displacements that are not those of the run: take a deck in "
+                "which it may move, and does not need calls of other elements"
+            )
         advice = "The element ended a call that this check makes: it has to return from small changes of its arguments."
         return failed(str(error), advice)

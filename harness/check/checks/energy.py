@@ -12,7 +12,7 @@ from harness.check.checks.rest import MECHANICAL
 from harness.check.choice import exceeds
 from harness.check.finding import Finding, failed, not_applicable, passed
 from harness.check.state import State
-from harness.check.subject import Subject
+from harness.check.subject import NOT_MOVING, Subject
 
 SHARES: Final = 1.0, 0.1, 0.01, 0.001
 """Of the increment: the work is that of the trapezoidal rule, which is right for small increments."""
@@ -43,7 +43,7 @@ def check(subject: Subject) -> Finding:
             figure = _deviation((stored, work))
             message = f"{state}: ENERGY(1) to (7) grow by {stored:.5g}, the work of the forces is {work:.5g}"
     if not judged:
-        return not_applicable("no work is done at the states")
+        return not_applicable(f"no work is done at the states; {NOT_MOVING}")
     if figure <= TOLERANCE:
         return passed(f"ENERGY grows by the work at {judged} states, to {100 * figure:.1e} %", figure, TOLERANCE)
     advice = (
@@ -59,15 +59,15 @@ def _reason_against(subject: Subject) -> str:
     """Why work and ENERGY cannot be compared; '' if they can."""
     states = subject.all_states
     if (subject.dofs > MECHANICAL).any():
-        return "dofs that are no displacements or rotations"
+        return "dofs that are no displacements or rotations, whose work is not known: it is for mechanical elements"
     if any(state.dynamic for state in states):
-        return "a dynamic step, in which RHS holds inertia"
+        return "a dynamic step, in which RHS holds inertia: take a deck with a static step"
     if any(state.call.distributed is not None or state.call.predefined is not None for state in states):
-        return "distributed loads or predefined fields, whose work is not known"
+        return "distributed loads or predefined fields, whose work is not known: take a deck without them"
     if not any(state.evaluate().energy[STORED].any() for state in states):
-        return "ENERGY is not set"
+        return "ENERGY is not set, or zero: it is for elements that set it, in a deck in which they deform"
     if any(_depends_on_time(state) for state in states):
-        return "the forces depend on DTIME"
+        return "the forces depend on DTIME: take properties without viscosity, if there are such"
     return ""
 
 

@@ -45,7 +45,10 @@ def check(subject: Subject) -> Finding:
     if wrong is not None:
         return wrong
     if not findings:
-        return not_applicable("the procedures of the deck use calls with LFLAGS(3) = 1 alone")
+        return not_applicable(
+            "the procedures of the deck use calls with LFLAGS(3) = 1 alone: with *DYNAMIC they use 4, 5 and 6, with "
+            "*CONTROLS, PARAMETERS=LINE SEARCH 5, with *FREQUENCY 2 and 4"
+        )
     return passed(f"LFLAGS(3): {', '.join(finding.message for finding in findings)}")
 
 

@@ -50,7 +50,10 @@ def check(subject: Subject) -> Finding:
         if worst is None or exceeds(float(deviation.max()), float(worst.deviation.max())):
             worst = _Worst(state, amatrx, found, deviation)
     if worst is None or not columns:
-        return not_applicable("RHS has a kink, or no value beside the run's, at every state that was tried")
+        return not_applicable(
+            "RHS has a kink, or no value beside the run's, at every state that was tried: take smaller increments, or "
+            "more of them (--increments)"
+        )
     figure = float(worst.deviation.max())
     if figure <= TOLERANCE:
         message = f"{columns} columns at {len(subject.all_states)} states agree, largest deviation {figure:.1e}"

@@ -81,7 +81,10 @@ def test_call_that_does_not_return(patch):
     limit = "within 1 s, the limit for one call (--call-limit)"
     place = f"the call does not return {limit} (step 1, increment 1, iteration 0)"
     assert report["findings"]["rotation"]["message"] == f"element 1 (type U1): stopped the analysis: in UEL: {place}"
-    assert report["findings"]["energy"]["message"] == "not made, since a call did not return in 'rotation'"
+    assert (
+        report["findings"]["energy"]["message"]
+        == "not made, since a call did not return in 'rotation', which comes first"
+    )
     assert "U1 rotation: A call did not return in its time (--call-limit): look for a loop" in printed
 
 
