@@ -25,7 +25,7 @@ def test_checks_are_tests(patch):
     assert code == 0
     assert "patch.inp::U1-tangent PASSED" in printed
     assert re.search(r"patch.inp::U1-requests SKIPPED \(the procedures of the deck", printed)
-    assert re.search(r"\d+ passed, 1 skipped", printed)
+    assert re.search(r"\d+ passed, 2 skipped", printed)
 
 
 def test_finding_is_shown_without_a_traceback(patch):
