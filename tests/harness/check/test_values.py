@@ -125,3 +125,26 @@ def test_deck_without_loads(model):
     assert re.search(
         "no loads on the elements: .* take a deck with .DLOAD", findings(model("continue"))["loads"].message
     )
+
+
+COUNTED = """\
+      module residuals
+      integer :: calls = 0
+      end module
+"""
+
+
+def test_residual_alone_leaves_no_trace(model):
+    """A call with LFLAGS(3) = 5 that calls with 1 remember."""
+    deck, user = model("call remember(lflags(3), rhs)")
+    user.write_text(
+        f"{COUNTED}{user.read_text()}"
+        "      subroutine remember(request, rhs)\n      use residuals, only: calls\n      integer request\n"
+        "      double precision rhs(2)\n      if (request == 5) calls = calls + 1\n"
+        "      rhs = rhs*(1 + 0.1d0*calls)\n      end\n"
+    )
+    finding = findings((deck, user))["repeat"]
+    assert finding.verdict is Verdict.FAILED
+    message = r"the same call returns other values after calls with LFLAGS\(3\) = 5: RHS\(1\) is"
+    assert re.search(message, finding.message), finding.message
+    assert re.search("they leave no trace behind", finding.advice)
