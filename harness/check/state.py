@@ -65,6 +65,13 @@ class State:
         """The state at this share of the increment of displacements."""
         return replace(self, u=self.u - (1.0 - share) * self.du, du=share * self.du)
 
+    def settled(self) -> State:
+        """The next increment, in which nothing moves."""
+        still = replace(self, single=self.single.twin(strict=False))
+        still.evaluate()
+        still.single.block.commit()
+        return replace(still, du=np.zeros_like(self.u))
+
     def quiet(self) -> State:
         """In a dynamic step the state without velocities and accelerations, whatever moves; else the state itself."""
         if not self.dynamic:

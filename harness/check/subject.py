@@ -85,6 +85,7 @@ class Subject:
     strange: str
     _differences: dict[int, Differences] = field(default_factory=dict)
     _quiet: dict[int, State] = field(default_factory=dict)
+    _magnitudes: list[FloatArray] = field(default_factory=list)
 
     def differences(self, state: State) -> Differences:
         """Of RHS at one of the states. Raises KernelError."""
@@ -101,7 +102,7 @@ class Subject:
         found: FloatArray = np.abs(self.differences(state).matrix)
         if not state.inertia:
             return found
-        others = np.max([np.abs(other.evaluate().amatrx) for other in self.states], axis=0)
+        others = self._largest()
         largest: FloatArray = np.maximum.reduce([np.abs(state.evaluate().amatrx), found, YIELDING * others])
         return largest
 
@@ -112,8 +113,14 @@ class Subject:
     @property
     def usual_forces(self) -> FloatArray:
         """(n,) what the displacements of the run make of AMATRX, at the states of the run."""
-        forces: FloatArray = np.max([np.abs(state.evaluate().amatrx) @ self.scales for state in self.states], axis=0)
+        forces: FloatArray = self._largest() @ self.scales
         return forces
+
+    def _largest(self) -> FloatArray:
+        """(n, n) largest magnitude of each entry of AMATRX at the states of the run. Raises KernelError."""
+        if not self._magnitudes:
+            self._magnitudes.append(np.max([np.abs(state.evaluate().amatrx) for state in self.states], axis=0))
+        return self._magnitudes[0]
 
     @property
     def idle(self) -> bool:

@@ -61,6 +61,8 @@ def _findings(subject: Subject) -> Iterator[Finding]:
         yield _residual(static)
     if moving:
         yield _mass(subject, moving[0])
+        if moving[0].call.params[0]:
+            yield _weights(subject, moving)
         if any((kind, RESIDUAL) in requests for kind in DYNAMIC):
             yield _half_increment(subject, moving[0])
     # perturbations start from the last state of the steps before
@@ -120,6 +122,38 @@ def _half_increment(subject: Subject, state: State) -> Finding:
                 figure=float(abs(half[row] - normal[row])),
             )
     return passed("half-increment residual (5)")
+
+
+def _weights(subject: Subject, states: list[State]) -> Finding:
+    """The weights of the operator of Hilber, Hughes and Taylor: (1 + alpha) G less alpha times the G before.
+
+    G is what RHS with LFLAGS(3) = 6 falls by where U changes; elements that do not answer that are not judged.
+    """
+    shift = subject.scales * np.linspace(-1.0, 1.0, len(subject.scales))
+    for state in states:
+        alpha = state.call.params[0]
+        here = replace(state.quiet(), du=np.zeros_like(state.u)).called(distributed=None)
+        there = here.carried(shift)
+        initial = there.asked(INITIAL).evaluate().rhs[0] - here.asked(INITIAL).evaluate().rhs[0]
+        if not np.abs(initial).max() > LINEAR * float(np.abs(there.evaluate().rhs[0]).max()):
+            continue
+        normal = there.evaluate().rhs[0] - here.evaluate().rhs[0]
+        settled = there.settled().evaluate().rhs[0] - here.settled().evaluate().rhs[0]
+        for found, factor, what in (
+            (normal, 1.0 + alpha, "in the increment in which U changes"),
+            (settled, 1.0, "in the increment after that"),
+        ):
+            row = first_largest(np.abs(found - factor * initial))
+            deviation = float(abs(found[row] - factor * initial[row]))
+            if deviation > LINEAR * float(np.abs(initial).max()):
+                return failed(
+                    f"{state}: {what}, RHS({row + 1}) of a normal call changes by {found[row]:.6g}, not by "
+                    f"{factor * initial[row]:.6g}; alpha is {alpha:g}",
+                    "RHS of *DYNAMIC is -M A - (1 + alpha) G plus alpha times the G of the last increment, which SVARS "
+                    "keep; PARAMS(1) is alpha. With LFLAGS(3) = 6 it is -G.",
+                    figure=deviation,
+                )
+    return passed("weights of alpha")
 
 
 def _mass(subject: Subject, state: State) -> Finding:

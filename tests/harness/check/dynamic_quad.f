@@ -17,6 +17,7 @@
       c(1,2) = props(2)*c(1,1)
       c(2,1) = c(1,2)
       c(3,3) = props(1)/(2 + 2*props(2))
+      if (mistake == 53) c(3,3) = 2*c(3,3)
       stiff = 0
       mass = 0
       g = 1/sqrt(3d0)
@@ -62,9 +63,11 @@
       select case (lflags(3))
       case (1)
         if (lflags(1) == 11 .or. lflags(1) == 12) then
-          rhs(1:8,1) = -matmul(mass, a) - (1 + params(1))*force
-     &      + params(1)*svars(1:8)
-          amatrx = mass/(params(2)*dtime**2) + (1 + params(1))*stiff
+          alpha = params(1)
+          if (mistake == 51) alpha = 0
+          rhs(1:8,1) = -matmul(mass, a) - (1 + alpha)*force
+          if (mistake /= 52) rhs(1:8,1) = rhs(1:8,1) + alpha*svars(1:8)
+          amatrx = mass/(params(2)*dtime**2) + (1 + alpha)*stiff
         else
           rhs(1:8,1) = -force
           amatrx = stiff

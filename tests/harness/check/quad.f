@@ -51,6 +51,7 @@
           b(3,2*n-1) = b(2,2*n)
           if (mistake /= 3) b(3,2*n) = b(1,2*n-1)
         end do
+        if (mistake == 45) b(3,:) = b(3,:)/sqrt(2d0)
         stress = matmul(c, matmul(b, u))
         if (mistake == 35) stress = stress
      &    + c(:,1)*dot_product(b(1,1:7:2), u(2:8:2))**2/2

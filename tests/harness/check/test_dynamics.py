@@ -45,6 +45,13 @@ def test_right_element_passes(patch, mass):
         (3, "rotation", r"a small rigid rotation makes forces of 25.2 %"),
         (8, "translation", r"RHS\(1\) changes by .* in direction 1"),
         (20, "patch", r"node 5, .* the forces of its 4 elements do not balance"),
+        (
+            51,
+            "requests",
+            r"in the increment in which U changes, RHS\(\d\) of a normal call changes by .*; alpha is -0.05",
+        ),
+        (52, "requests", r"in the increment after that, RHS\(\d\) of a normal call changes by .*; alpha is -0.05"),
+        (53, "shear", r"shear in directions 1 and 2 is resisted 2 times as much as an isotropic material"),
         (50, "state", r"with DU and DTIME both a tenth of what they are, for the same U"),
     ],
 )

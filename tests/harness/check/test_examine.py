@@ -46,6 +46,7 @@ MISTAKES = [
     (17, "no-time", r"called with DTIME = 0 and .* RHS\(1\) is NaN", "Divide by DTIME only where it is"),
     (18, "no-time", r"called with KINC = 0 and .* RHS\(1\) is NaN", "do not take KINC for an index"),
     (19, "rest", r"RHS\(1\) is 1 in size with U = 0, DU = 0 and no loads", "Forces at rest move the model"),
+    (45, "shear", "shear in directions 1 and 2 is resisted 0.5 times as much as an isotropic", "with G = E/.2 . 2 nu."),
     (20, "patch", r"node 5, .* the forces of its 4 elements do not balance for u\d = x\d", "Look at the Jacobian"),
     (21, "energy", r"ENERGY\(1\) to \(7\) grow by (.*), the work of the forces is", "A factor of 2 is a forgotten 1/2"),
     (22, "increments", "made in two, and by 6.9 % when it is made in 16 and not in 8", "a rate without DTIME"),

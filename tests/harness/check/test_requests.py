@@ -91,7 +91,7 @@ def test_mass_matrix(tmp_path, requests, wrong, message, advice):
     deck.write_text(OSCILLATOR)
     found = findings(deck, user)
     if message is None:
-        assert found["requests"].message == "LFLAGS(3): mass (4 and 6), half-increment residual (5)"
+        assert found["requests"].message == "LFLAGS(3): mass (4 and 6), weights of alpha, half-increment residual (5)"
         assert not [name for name, finding in found.items() if finding.verdict is Verdict.FAILED]
         return
     assert found["requests"].verdict is Verdict.FAILED
@@ -155,7 +155,9 @@ def test_forces_of_a_linear_step(patch, mistake, message):
 def test_element_without_mass(tmp_path):
     deck = tmp_path / "oscillators.inp"
     deck.write_text(OSCILLATOR.replace("4., 0.25, 1.", "4., 0., 1."))
-    assert findings(deck, OSCILLATORS)["requests"].message.startswith("LFLAGS(3): no mass (4 and 6), half")
+    assert findings(deck, OSCILLATORS)["requests"].message.startswith(
+        "LFLAGS(3): no mass (4 and 6), weights of alpha, half"
+    )
 
 
 @pytest.mark.parametrize(
@@ -240,7 +242,7 @@ def test_damping_of_harmonic_responses(tmp_path, wrong, message, advice):
     [
         (
             "0.5d0",
-            r"LFLAGS\(3\): mass \(4 and 6\), half-increment residual \(5\), stiffness only \(2\), mass \(4\), damping",
+            r"LFLAGS\(3\): mass \(4 and 6\), weights of alpha, half-increment residual \(5\), stiffness only \(2\), mass \(4\), damping",
         ),
         ("0.6d0", r"AMATRX\(1,1\) is 0.5 with LFLAGS\(3\) = 3 and LFLAGS\(7\) = 1; by V\(1\) G\(1\) .* falls by 0.6$"),
     ],
