@@ -23,8 +23,7 @@ PATCH = """\
 3, 4, 5, 8, 7
 4, 5, 6, 9, 8
 *UEL PROPERTY, ELSET=ALL
-1000., 0.3, 2.
-{mistake}
+1000., 0.3, 2., {mistake}
 *STEP
 *STATIC, DIRECT
 0.5, 1.

@@ -14,7 +14,7 @@ QUAD = Path(__file__).parent / "dynamic_quad.f"
 
 DYNAMIC = (
     ("PROPERTIES=3, I PROPERTIES=1, VARIABLES=12", "PROPERTIES=4, I PROPERTIES=2, VARIABLES=16"),
-    ("1000., 0.3, 2.\n", "1000., 0.3, 2., 0.1, "),
+    ("1000., 0.3, 2., ", "1000., 0.3, 2., 0.1, "),
     ("*STATIC, DIRECT\n0.5, 1.", "*DYNAMIC\n0.01, 0.1"),
     ("3, 1, 1, 0.01\n6, 1, 1, 0.01\n9, 1, 1, 0.01\n", "*CLOAD\n3, 1, 1.\n6, 1, 2.\n9, 1, 1.\n"),
     ("3, 2\n", ""),

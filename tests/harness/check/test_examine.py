@@ -288,7 +288,7 @@ def test_unsymmetric_matrix_in_a_coupled_step(tmp_path):
 
 
 def test_warnings_about_the_deck(patch, tmp_path, capsys):
-    deck = patch(0, ("1000., 0.3, 2.\n0\n", "1000., 0.3, 2.\n0, 1.\n"))
+    deck = patch(0, ("1000., 0.3, 2., 0\n", "1000., 0.3, 2., 0, 1.\n"))
     assert main(["check", str(QUAD), str(deck), "--json", str(tmp_path / "found.json")]) == 0
     assert "Warning: " in capsys.readouterr().out
     (warning,) = json.loads((tmp_path / "found.json").read_text())["warnings"]

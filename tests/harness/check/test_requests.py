@@ -43,8 +43,7 @@ OSCILLATOR = """\
 1, 1, 2
 2, 2, 3
 *UEL PROPERTY, ELSET=ALL
-4., 0.25, 1.
-0
+4., 0.25, 1., 0
 *STEP
 *DYNAMIC
 0.1, 0.3
