@@ -102,6 +102,7 @@ def build_parser() -> argparse.ArgumentParser:
     help_.add_argument("--fallback", action="store_true", help="search downhill where Newton's method fails")
     help_.add_argument("--control", choices=("load", "energy"), default="load", help="energy: trace snap-backs (load)")
     add_isolation(run)
+    run.add_argument("--debug", action="store_true", help="checks at run time: errors in user code have file and line")
     run.add_argument("--quiet", action="store_true", help="no progress display")
     run.set_defaults(function=run_job)
 
@@ -272,6 +273,7 @@ def run_job(options: argparse.Namespace) -> int:
         fallback=options.fallback,
         energy_control=options.control == "energy",
         call_limit=options.call_limit,
+        debug=options.debug,
         quiet=options.quiet,
     )
     if not options.quiet:

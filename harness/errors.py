@@ -121,6 +121,10 @@ class KernelError(ElementError):
     """It stopped the analysis, wrote outside its arrays, or returned NaN; a call of another state may go well."""
 
 
+class OutsideError(KernelError):
+    """It wrote outside its arrays."""
+
+
 class NotFiniteError(KernelError):
     """It returned NaN, or infinity."""
 

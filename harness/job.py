@@ -13,7 +13,7 @@ from typing import Final
 from harness import usersub
 from harness.assembly import ForgivingSystem
 from harness.deck import read_deck
-from harness.errors import ConvergenceError, UelError, in_words
+from harness.errors import ConvergenceError, ElementError, UelError, in_words
 from harness.interrupts import held
 from harness.model.model import Model
 from harness.output import JobOutput, Result
@@ -38,6 +38,7 @@ def run(
     fallback: bool = False,
     energy_control: bool = False,
     call_limit: float = 0.0,
+    debug: bool = False,
     quiet: bool = True,
 ) -> Result:
     """Run an Abaqus deck.
@@ -62,6 +63,9 @@ def run(
         is part of the solution. Not with `fallback`, which keeps the load.
     call_limit
         Seconds that one call of a user routine may take; 0: any.
+    debug
+        Compile the user's files with run-time checks, and stop where a NaN or an infinity is made: errors have file and
+        line. Slower, and a local variable without a value is no zero but an error.
     quiet
         No progress display.
 
@@ -87,11 +91,19 @@ def run(
             model = read_deck(deck)
             usersub.limit_calls(call_limit)
             sources = [Path(file) for file in files]
-            library = usersub.load(sources, job=stem.name, output_dir=stem.parent, deck=deck, zero_locals=True)
+            job, folder = stem.name, stem.parent
+            library = usersub.load(sources, job=job, output_dir=folder, deck=deck, zero_locals=not debug, debug=debug)
+            trapping = usersub.trap(True) if debug else None
             try:
-                output = JobOutput(model, stem.name, stem.parent, quiet=quiet)
+                output = JobOutput(model, job, folder, quiet=quiet)
                 _analyse(model, library, output, solver, fallback=fallback, energy_control=energy_control)
+            except ElementError as error:
+                if not debug and _debug_helps(sources, str(error)):
+                    error.add_note("run again with --debug to see file and line")
+                raise
             finally:
+                if trapping is not None:
+                    usersub.trap(trapping)
                 library.close()
         except BaseException as error:
             # where the files of the run have not begun, or cannot be closed
@@ -141,6 +153,12 @@ def _advice(error: str, *, fallback: bool, energy_control: bool) -> str:
         ways.append("a smaller smallest increment (third number below *STATIC)")
     ways.append("VISCOSITY of the interface elements, or on *SECTION CONTROLS of cohesive elements")
     return f"what may help: {'; '.join(ways)}"
+
+
+def _debug_helps(sources: Sequence[Path], message: str) -> bool:
+    """Whether an error without a line may have one in a debug build."""
+    compiled = bool(sources) and all(map(usersub.is_source, sources))
+    return compiled and not usersub.names_line(message)
 
 
 def _pass_on(library: Library, output: JobOutput) -> None:

@@ -94,46 +94,6 @@ subroutine host_exchange_marks(marks)
   call set_marks(marks)
 end subroutine host_exchange_marks
 
-!> Address of a routine that calls UEL, or UELMAT, at an address and notes which inputs it changes.
-subroutine host_watch(address, with_material, watched)
-  use host_kinds, only: i4, i8
-  use host_protect, only: watch
-  implicit none (type, external)
-  integer(i8), intent(in) :: address
-  integer(i4), intent(in) :: with_material    !< 0 for UEL
-  integer(i8), intent(out) :: watched
-  watched = watch(address, with_material)
-end subroutine host_watch
-
-!> First entry of each argument that was changed since the last look (0: none), and its values before and after.
-subroutine host_take_changes(entries, values)
-  use host_kinds, only: dp, i4
-  use host_protect, only: take_changes
-  implicit none (type, external)
-  integer(i4), intent(out) :: entries(37)
-  real(dp), intent(out) :: values(2, 37)
-  call take_changes(entries, values)
-end subroutine host_take_changes
-
-!> From now on (on /= 0) watched calls find this number where their local variables are, or do not.
-subroutine host_fill_stack(on, number)
-  use host_kinds, only: dp, i4
-  use host_protect, only: fill_stack
-  implicit none (type, external)
-  integer(i4), intent(in) :: on
-  real(dp), intent(in) :: number
-  call fill_stack(on, number)
-end subroutine host_fill_stack
-
-!> What lies behind JPROPS in watched calls from now on.
-subroutine host_fill_beyond(number)
-  use host_kinds, only: i4
-  use host_protect, only: fill_beyond
-  implicit none (type, external)
-  integer(i4), intent(in) :: number
-  call fill_beyond(number)
-end subroutine host_fill_beyond
-
 !> Oldest message of a user routine; level 0 if none is left.
 subroutine host_take_message(level, place, text)
   use host_kinds, only: i4

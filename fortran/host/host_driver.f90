@@ -8,10 +8,11 @@ module host_driver
   use host_kinds, only: dp, i4, i8
   use host_protect, only: begin_call, protect
   use host_workspace, only: all_finite, arm_guards, exchange_marks, fill, find_damage, i_a, i_amatrx, i_coords, i_du, &
-                            i_energy, i_predef, i_props, i_rhs, i_svars, i_u, i_v, lay_out, n_arrays, same_bits, workspace_t
+                            i_energy, i_predef, i_props, i_rhs, i_svars, i_u, i_v, lay_out, n_arrays, same_bits, &
+                            set_room, workspace_t
   implicit none (type, external)
   private
-  public :: block_t, run_block, set_marks
+  public :: block_t, run_block, set_marks, set_guard_room
   public :: fault_none, fault_left, fault_outside, fault_unset, fault_not_finite, fault_endless, fault_distorted
 
   integer(i4), parameter :: fault_none = 0        !< all went well
@@ -118,6 +119,12 @@ contains
     real(dp), intent(inout) :: marks(n_arrays + 1)
     call exchange_marks(work, marks)
   end subroutine set_marks
+
+  !> Exchange the fewest entries of the guard behind each array.
+  subroutine set_guard_room(room)
+    integer, intent(inout) :: room
+    call set_room(work, room)
+  end subroutine set_guard_room
 
   !> Workspace and context of this block, guards whole. Column 2 of DU is zero throughout.
   subroutine prepare(block)

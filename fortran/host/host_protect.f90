@@ -1,12 +1,14 @@
 ! SPDX-FileCopyrightText: The uel-harness authors
 ! SPDX-License-Identifier: BSD-3-Clause
-!> Fortran view of protect.c, sma_arrays.c, inputs.c and stack.c.
+!> Fortran view of protect.c, frames.c, sma_arrays.c, inputs.c and stack.c.
 module host_protect
   use, intrinsic :: iso_c_binding, only: c_double, c_funptr, c_int, c_int32_t, c_int64_t, c_ptr
   implicit none (type, external)
   private
-  public :: protect, escape, clear_arrays, begin_call, limit_calls, watch, take_changes, fill_stack, &
-            fill_beyond, attempt, share, loading
+  public :: protect, escape, clear_arrays, begin_call, limit_calls, trap, take_frames, most_frames, watch, take_changes, &
+            fill_stack, exchange_around, take_outside, allocated_bytes, attempt, share, loading
+
+  integer, parameter :: most_frames = 64   !< as in frames.c
 
   interface
     !> A user routine is about to be called for this element (0: for none): by it the clock sees that this is another call.
@@ -54,6 +56,20 @@ module host_protect
       real(c_double), value :: seconds
     end subroutine limit_calls
 
+    !> Let calls of user routines stop (on /= 0) at the operation that makes a NaN or an infinity; returns whether they did.
+    function trap(on) bind(c, name='uel_host_trap') result(before)
+      import :: c_int32_t
+      integer(c_int32_t), value :: on
+      integer(c_int32_t) :: before
+    end function trap
+
+    !> Addresses of the calls that the last signal has ended, innermost first; forgets them.
+    subroutine take_frames(address, count) bind(c, name='uel_host_take_frames')
+      import :: c_int32_t, c_int64_t, most_frames
+      integer(c_int64_t), intent(out) :: address(most_frames)
+      integer(c_int32_t), intent(out) :: count
+    end subroutine take_frames
+
     !> Drop the arrays of SMAIntArrayCreate and its like.
     subroutine clear_arrays() bind(c, name='uel_host_clear_arrays')
     end subroutine clear_arrays
@@ -73,11 +89,24 @@ module host_protect
       real(c_double), intent(out) :: values(2, 37)
     end subroutine take_changes
 
-    !> What lies behind JPROPS in watched calls from now on.
-    subroutine fill_beyond(number) bind(c, name='uel_host_beyond')
+    !> Exchange what lies around an argument, counted from 0, in watched calls.
+    subroutine exchange_around(argument, number) bind(c, name='uel_host_around')
+      import :: c_double, c_int32_t
+      integer(c_int32_t), value :: argument
+      real(c_double), intent(inout) :: number
+    end subroutine exchange_around
+
+    !> Whether something was written outside of each argument since the last look, and the entry of the first such write.
+    subroutine take_outside(found, entries) bind(c, name='uel_host_take_outside')
       import :: c_int32_t
-      integer(c_int32_t), value :: number
-    end subroutine fill_beyond
+      integer(c_int32_t), intent(out) :: found(37), entries(37)
+    end subroutine take_outside
+
+    !> Bytes that this process has allocated; below 0 where the C library does not say.
+    function allocated_bytes() bind(c, name='uel_host_allocated') result(bytes)
+      import :: c_int64_t
+      integer(c_int64_t) :: bytes
+    end function allocated_bytes
 
     !> From now on (on /= 0) a watched call finds this number where its local variables are, or does not.
     subroutine fill_stack(on, number) bind(c, name='uel_host_fill_stack')

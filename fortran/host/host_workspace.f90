@@ -10,7 +10,7 @@ module host_workspace
   implicit none (type, external)
   private
   public :: workspace_t, arrays, n_arrays, lay_out, exchange_marks, arm_guards, find_damage, fill, same_bits, all_finite
-  public :: first_difference
+  public :: first_difference, set_room
   public :: i_rhs, i_amatrx, i_svars, i_energy, i_props, i_coords, i_u, i_du, i_v, i_a, i_predef
 
   integer, parameter :: n_arrays = 11
@@ -20,7 +20,7 @@ module host_workspace
     'RHS', 'AMATRX', 'SVARS', 'ENERGY', 'PROPS', 'COORDS', 'U', 'DU', 'V', 'A', 'PREDEF']
 
   !> Entries of a guard that belong to the array behind it; to the one before belong as many as that has, within limits, so
-  !> that a routine that takes an array for twice as large meets the guard and not the next array.
+  !> that a routine that takes an array for twice as large meets the guard and not the next array. A check may ask for more.
   integer, parameter :: before = 100, least = 100, most = 20000
   !> Entries of a cache line: each array starts on one, or its place would decide how fast an element runs.
   integer, parameter :: line = 8
@@ -29,7 +29,8 @@ module host_workspace
     real(dp), allocatable :: memory(:)
     integer :: length(n_arrays) = 0   !< entries of each array
     integer :: start(n_arrays) = 0    !< position of the first entry of each array
-    integer :: behind(n_arrays) = 0   !< entries of its guard behind it
+    integer :: behind(n_arrays) = 0   !< entries of its guard behind it, up to those that belong to the next array
+    integer :: room = least           !< fewest of them
     integer(i8) :: guard(n_arrays) = guard_bits   !< what the guards of each array hold
     integer(i8) :: unset = unset_bits             !< what RHS and AMATRX hold before a call
   end type workspace_t
@@ -48,15 +49,15 @@ contains
       return
     end if
     if (allocated(work%memory)) deallocate (work%memory)
-    work%behind = min(max(length, least), most)
+    work%behind = max(min(max(length, least), most), work%room)
     allocate (work%memory(sum(length + work%behind) + (n_arrays + 1)*(before + line)), source=0.0_dp)
     ! entries from the beginning of the memory to its first cache line, and whole lines before the first array
     total = int(modulo(-transfer(c_loc(work%memory), 0_c_intptr_t)/8, int(line, c_intptr_t)))
     total = total + before + modulo(-before, line)
     do k = 1, n_arrays
       work%start(k) = total + 1
+      work%behind(k) = work%behind(k) + modulo(-length(k) - work%behind(k) - before, line)
       total = total + length(k) + work%behind(k) + before
-      total = total + modulo(-length(k) - work%behind(k) - before, line)
     end do
     work%length = length
     call arm_guards(work)
@@ -73,6 +74,17 @@ contains
     work%unset = given(n_arrays + 1)
     if (allocated(work%memory)) call arm_guards(work)
   end subroutine exchange_marks
+
+  !> Exchange the fewest entries of the guard behind each array.
+  subroutine set_room(work, room)
+    type(workspace_t), intent(inout) :: work
+    integer, intent(inout) :: room
+    integer :: asked
+    asked = max(room, least)
+    room = work%room
+    work%room = asked
+    if (allocated(work%memory)) deallocate (work%memory)
+  end subroutine set_room
 
   !> Write the guards' patterns: what is not guard behind an array belongs to the one that follows.
   subroutine arm_guards(work)
@@ -92,15 +104,18 @@ contains
   subroutine find_damage(work, array, index)
     type(workspace_t), intent(in) :: work
     integer, intent(out) :: array, index
-    integer :: k, position
+    integer :: k, position, front
+    ! before the first array lies all that is not in a cache line with it
+    front = work%start(1) - 1
     do k = 1, n_arrays
       position = first_difference(work%behind(k), work%guard(k), work%memory(work%start(k) + work%length(k)))
       array = k
       index = work%length(k) + position
       if (position > 0) return
-      position = first_difference(before, work%guard(k), work%memory(work%start(k) - before))
-      index = position - before
+      position = first_difference(front, work%guard(k), work%memory(work%start(k) - front))
+      index = position - front
       if (position > 0) return
+      front = before
     end do
     array = 0
     index = 0

@@ -3,11 +3,15 @@
 //
 // Finds what a user element changes of the arguments that Abaqus passes in only: a routine with the arguments of UEL that
 // calls the real one between a copy and a comparison. The driver calls it in place of the real one while a check asks for it.
-// JPROPS, which is no array of the driver's workspace, is passed with room behind it, which holds what a check asks for.
+// Arguments that are no arrays of the driver's workspace, whose guards find writes outside these, are passed with room
+// around them, which holds what a check asks for and is looked at as well.
 
 #include <stdint.h>
 #include <stdlib.h>
 #include <string.h>
+#if defined(__GLIBC__)
+#include <malloc.h>
+#endif
 
 // stack.c
 void uel_host_scribble(void);
@@ -31,16 +35,18 @@ static uelmat_t *uelmat;
 static unsigned char *copies;   // of all inputs, one behind the other, with room for doubles
 static int32_t changed[ARGUMENTS];
 static double values[ARGUMENTS][2];
-static int32_t *jprops;
-static int32_t beyond;          // what lies behind JPROPS
+static double around[ARGUMENTS];        // what lies around an argument
+static int32_t damaged[ARGUMENTS];      // entry, from 1, that a call wrote outside of an argument
+static int32_t outside[ARGUMENTS];      // whether it did
+static unsigned char *guarded;          // arguments with room around them, one behind the other
 
-enum { ROOM = 100 };            // integers behind JPROPS
+enum { ROOM = 100 };                    // entries on either side of an argument
 
 static int is_real(int argument)
 {
     switch (argument) {
     case PROPS: case COORDS: case U: case DU: case V: case A: case TIME: case DTIME: case PARAMS: case ADLMAG: case PREDEF:
-    case DDLMAG: case PERIOD:
+    case DDLMAG: case PERIOD: case PNEWDT:
         return 1;
     default:
         return 0;
@@ -113,13 +119,77 @@ static void compare(void *const *given, int count, const size_t *length)
             }
 }
 
-static void *with_room(const int32_t *given, const int32_t *length)
+static int in_workspace(int argument)
 {
-    jprops = realloc(jprops, (size_t)(*length + ROOM) * sizeof *jprops);
-    memcpy(jprops, given, (size_t)*length * sizeof *jprops);
-    for (int k = *length; k < *length + ROOM; k++)
-        jprops[k] = beyond;
-    return jprops;
+    switch (argument) {
+    case RHS: case AMATRX: case SVARS: case ENERGY: case PROPS: case COORDS: case U: case DU: case V: case A: case PREDEF:
+        return 1;
+    default:
+        return 0;
+    }
+}
+
+static size_t size_of(int argument, void *const *given)
+{
+    return argument == PNEWDT ? 1 : entries(argument, given);
+}
+
+static void put(void *to, int argument, size_t entry, double value)
+{
+    if (width(argument) == sizeof(double))
+        ((double *)to)[entry] = value;
+    else
+        ((int32_t *)to)[entry] = (int32_t)value;
+}
+
+// Copies of the arguments with room around them; `given` then holds their addresses.
+static void surround(void **given, int count)
+{
+    size_t length[ARGUMENTS], total = 0;
+    for (int k = 0; k < count; k++) {
+        length[k] = size_of(k, given);
+        total += in_workspace(k) ? 0 : (length[k] + 2 * ROOM) * sizeof(double);
+    }
+    unsigned char *to = guarded = realloc(guarded, total);
+    for (int k = 0; k < count; k++) {
+        if (in_workspace(k))
+            continue;
+        const size_t all = length[k] + 2 * ROOM;
+        for (size_t n = 0; n < all; n++)
+            if (n < ROOM || n >= ROOM + length[k])
+                put(to, k, n, around[k]);
+        given[k] = memcpy(to + ROOM * width(k), given[k], length[k] * width(k));
+        to += all * sizeof(double);
+    }
+}
+
+// The first entry in the room around each argument that is another one now; earlier findings stay.
+static void look_around(void *const *given, int count, const size_t *length)
+{
+    for (int k = 0; k < count; k++) {
+        if (in_workspace(k) || outside[k])
+            continue;
+        const size_t many = k == PNEWDT ? 1 : length[k];
+        const unsigned char *first = (const unsigned char *)given[k] - ROOM * width(k);
+        double expected = 0;
+        put(&expected, k, 0, around[k]);
+        for (size_t n = 0; n < many + 2 * ROOM && !outside[k]; n++)
+            if ((n < ROOM || n >= ROOM + many) && memcmp(first + n * width(k), &expected, width(k))) {
+                outside[k] = 1;
+                damaged[k] = (int32_t)n - ROOM + 1;
+            }
+    }
+}
+
+// Bytes that are allocated now; below 0 where the C library does not say.
+int64_t uel_host_allocated(void)
+{
+#if defined(__GLIBC__) && __GLIBC_PREREQ(2, 33)
+    const struct mallinfo2 now = mallinfo2();
+    return (int64_t)(now.uordblks + now.hblkhd);
+#else
+    return -1;
+#endif
 }
 
 #define PARAMETERS                                                                                                       \
@@ -131,26 +201,37 @@ static void *with_room(const int32_t *given, const int32_t *length)
     a0, a1, a2, a3, a4, a5, a6, a7, a8, a9, a10, a11, a12, a13, a14, a15, a16, a17, a18, a19, a20, a21, a22, a23, a24,   \
         a25, a26, a27, a28, a29, a30, a31, a32, a33, a34, a35
 
+#define PASSED                                                                                                           \
+    g[0], g[1], g[2], g[3], g[4], g[5], g[6], g[7], g[8], g[9], g[10], g[11], g[12], g[13], g[14], g[15], g[16], g[17],  \
+        g[18], g[19], g[20], g[21], g[22], g[23], g[24], g[25], g[26], g[27], g[28], g[29], g[30], g[31], g[32], g[33],  \
+        g[34], g[35]
+
 static void watched_uel(PARAMETERS)
 {
-    a33 = with_room(a33, a34);
-    void *const given[] = {GIVEN};
+    void *g[] = {GIVEN};
+    double *pnewdt = g[PNEWDT];
     size_t length[ARGUMENTS];
-    keep(given, MATERIALLIB, length);
+    surround(g, MATERIALLIB);
+    keep(g, MATERIALLIB, length);
     uel_host_scribble();
-    uel(GIVEN);
-    compare(given, MATERIALLIB, length);
+    uel(PASSED);
+    look_around(g, MATERIALLIB, length);
+    compare(g, MATERIALLIB, length);
+    *pnewdt = *(double *)g[PNEWDT];
 }
 
 static void watched_uelmat(PARAMETERS, void *a36)
 {
-    a33 = with_room(a33, a34);
-    void *const given[] = {GIVEN, a36};
+    void *g[] = {GIVEN, a36};
+    double *pnewdt = g[PNEWDT];
     size_t length[ARGUMENTS];
-    keep(given, ARGUMENTS, length);
+    surround(g, ARGUMENTS);
+    keep(g, ARGUMENTS, length);
     uel_host_scribble();
-    uelmat(GIVEN, a36);
-    compare(given, ARGUMENTS, length);
+    uelmat(PASSED, g[MATERIALLIB]);
+    look_around(g, ARGUMENTS, length);
+    compare(g, ARGUMENTS, length);
+    *pnewdt = *(double *)g[PNEWDT];
 }
 
 // Address of a routine that calls UEL, or UELMAT if with_material, at an address and watches it.
@@ -164,7 +245,21 @@ int64_t uel_host_watch(int64_t address, int32_t with_material)
     return (int64_t)(intptr_t)watched_uel;
 }
 
-void uel_host_beyond(int32_t number) { beyond = number; }
+// Exchange what lies around an argument in watched calls.
+void uel_host_around(int32_t argument, double *number)
+{
+    const double before = around[argument];
+    around[argument] = *number;
+    *number = before;
+}
+
+// Whether (1 or 0) something was written outside of each argument, and the entry of the first such write, from 1; forgets it.
+void uel_host_take_outside(int32_t found[ARGUMENTS], int32_t entry[ARGUMENTS])
+{
+    memcpy(found, outside, sizeof outside);
+    memcpy(entry, damaged, sizeof damaged);
+    memset(outside, 0, sizeof outside);
+}
 
 // Entry of each argument that was changed, from 1 (0: none), with its value before and after; forgets them.
 void uel_host_take_changes(int32_t entry[ARGUMENTS], double value[ARGUMENTS][2])

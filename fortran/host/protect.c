@@ -30,6 +30,10 @@
 void uel_host_fault(const char *text);
 void uel_host_place(char routine[16], int32_t place[4]);
 
+// frames.c
+void uel_host_prepare_frames(void);
+void uel_host_keep_frames(const void *context);
+
 // exceptions.c
 void uel_host_watch_exceptions(void);
 
@@ -47,11 +51,11 @@ enum { OUTSIDE, IN_CALL, LOADING };
 static struct slate own;
 static struct slate *slate = &own;
 
-enum { STACK = 1000, FLOATING };
+enum { STACK = 1000, INVALID, DIVISION, OVERFLOW };
 
 static sigjmp_buf landing;
 static pthread_t thread;            // in which the call is
-static volatile int reason;         // the signal, STACK or FLOATING; 0 for XIT
+static volatile int reason;         // the signal, or one of the enumeration above; 0 for XIT
 static volatile sig_atomic_t armed = 0;
 static int registered = 0;          // at_exit is
 
@@ -84,11 +88,19 @@ static void describe(int signal, char *text, size_t size)
     case SIGFPE:
         snprintf(text, size, "division of an integer by zero");
         break;
-    case FLOATING:
-        snprintf(text, size, "floating-point exception");
+    case INVALID:
+        snprintf(text, size, "floating-point exception: the result is no number (0/0, the square root of a negative number), "
+                             "or a variable that has no value is used");
+        break;
+    case DIVISION:
+        snprintf(text, size, "floating-point exception: division by zero");
+        break;
+    case OVERFLOW:
+        snprintf(text, size, "floating-point exception: the result is too large for a number");
         break;
     case SIGILL:
-        snprintf(text, size, "illegal instruction: the library was made for another processor, or a call went astray");
+        snprintf(text, size, "illegal instruction: an index outside an array or the address 0 in C or C++ with run-time "
+                             "checks, a library for another processor, or a call that went astray");
         break;
     case SIGALRM:
         snprintf(text, size, "the call does not return within %g s, the limit for one call (--call-limit)", limit);
@@ -130,7 +142,6 @@ static void unguard(void)
 
 static void catch(int signal, siginfo_t *info, void *context)
 {
-    (void)context;
     if (!armed)
         return;
     if (signal == SIGABRT) {
@@ -148,7 +159,7 @@ static void catch(int signal, siginfo_t *info, void *context)
         return;
     }
     if (signal == SIGFPE && info->si_code != FPE_INTDIV)
-        signal = FLOATING;
+        signal = info->si_code == FPE_FLTDIV ? DIVISION : info->si_code == FPE_FLTOVF ? OVERFLOW : INVALID;
     if (signal == SIGALRM) {
         if (watched != slate->calls) {
             watched = slate->calls;
@@ -167,6 +178,7 @@ static void catch(int signal, siginfo_t *info, void *context)
             (uintptr_t)(stack_at_entry - address) < size.rlim_cur + (1 << 24))
             signal = STACK;
     }
+    uel_host_keep_frames(context);
     reason = signal;
     siglongjmp(landing, 1);
 }
@@ -190,20 +202,32 @@ static void set_clock(double seconds)
     setitimer(ITIMER_REAL, &timer, NULL);
 }
 
-// A debug build stops at the operation that makes a NaN or an infinity: gfortran's -ffpe-trap asks the main program,
-// which is Python's here. The quiet NaNs that the driver puts into the arrays trap nothing.
+// A debug build, of the host or of a user's file, stops at the operation that makes a NaN or an infinity: gfortran's
+// -ffpe-trap asks the main program, which is Python's here. The quiet NaNs that the driver puts into the arrays trap nothing.
+#ifdef UEL_TRAP_FPE
+static int trapping = 1;
+#else
+static int trapping = 0;
+#endif
+
 static void trap(int on)
 {
-#ifdef UEL_TRAP_FPE
     const int traps = FE_INVALID | FE_DIVBYZERO | FE_OVERFLOW;
+    if (!trapping)
+        return;
     feclearexcept(traps);
     if (on)
         feenableexcept(traps);
     else
         fedisableexcept(traps);
-#else
-    (void)on;
-#endif
+}
+
+// Let calls from now on stop there, or not; returns whether they did before.
+int32_t uel_host_trap(int32_t on)
+{
+    const int32_t before = trapping;
+    trapping = on;
+    return before;
 }
 
 static void leave(void)
@@ -255,6 +279,7 @@ static int run(void (*routine)(void *), void *context, double seconds)
         leave();
         return 1;
     }
+    uel_host_prepare_frames();
     guard();
     thread = pthread_self();
     armed = 1;

@@ -23,7 +23,7 @@ from harness.model.model import Model
 from harness.model.records import AttemptAbandoned, IncrementDone
 from harness.procedures import run_steps
 from harness.solver.threads import one_blas_thread
-from harness.usersub import Library
+from harness.usersub import Library, names_line, trap
 
 NORMAL: Final = 1
 """LFLAGS(3) of a normal call."""
@@ -70,6 +70,17 @@ Event = Pass | Commit | External
 
 
 @dataclass(frozen=True, slots=True)
+class Build:
+    """How the user's files are compiled, see `usersub.load`."""
+
+    zero_locals: bool = False
+    debug: bool = False
+
+
+_ORDINARY: Final = Build()
+
+
+@dataclass(frozen=True, slots=True)
 class Recording:
     """A run of a deck, as the user routines saw it.
 
@@ -82,6 +93,7 @@ class Recording:
     ending      error that ended it, of whatever kind; None where INC= of a step did, and all attempts converged
     unset       error with which a run ends in which local variables without a value hold what earlier calls have left;
                 '' where it does not. Where it does, they are zero in this run and in all further calls.
+    build       with which calls are made again
     """
 
     model: Model
@@ -93,14 +105,21 @@ class Recording:
     failure: ElementError | None = None
     unset: str = ""
     ending: UelError | None = None
+    build: Build = _ORDINARY
 
 
 @contextmanager
-def opened(model: Model, user: Sequence[Path], *, zero_locals: bool = False) -> Iterator[Library]:
+def opened(model: Model, user: Sequence[Path], build: Build = _ORDINARY) -> Iterator[Library]:
     """The user routines, freshly loaded; what they print goes to a folder that is removed."""
     with tempfile.TemporaryDirectory() as folder:
-        job, output_dir = model.deck.stem, Path(folder)
-        library = usersub.load(user or None, job=job, output_dir=output_dir, deck=model.deck, zero_locals=zero_locals)
+        library = usersub.load(
+            user or None,
+            job=model.deck.stem,
+            output_dir=Path(folder),
+            deck=model.deck,
+            zero_locals=build.zero_locals,
+            debug=build.debug,
+        )
         try:
             yield library
         finally:
@@ -115,19 +134,42 @@ def record_leniently(deck: Path, user: Sequence[Path], increments: int) -> Recor
         error = recording.failure
     except KernelError as raised:
         error = raised
-    if isinstance(error, NotFiniteError) and user:
+    if error is None or not user:
+        assert recording is not None
+        return recording
+    if isinstance(error, NotFiniteError):
         with suppress(UelError):
-            again = record(deck, user, increments, strict=False, zero_locals=True)
+            again = record(deck, user, increments, strict=False, build=Build(zero_locals=True))
             if again.failure is None:
-                return replace(again, unset=str(error))
+                return replace(again, unset=str(error), build=Build(zero_locals=True))
+    error = _with_place(error, deck, user, increments)
     if recording is None:
-        assert error is not None
         raise error
-    return recording
+    return replace(recording, failure=error, stopped=str(error))
+
+
+def _with_place(error: ElementError, deck: Path, user: Sequence[Path], increments: int) -> ElementError:
+    """The error with file and line, where a build that stops at the first mistake tells them."""
+    if names_line(str(error)):
+        return error
+    told = ""
+    trapping = trap(True)
+    try:
+        failure: UelError | None = record(deck, user, increments, strict=False, build=Build(debug=True)).failure
+        told = str(failure or "")
+    except UelError as raised:
+        told = str(raised)
+    finally:
+        trap(trapping)
+    if not names_line(told):
+        return error
+    kind, number = error.element_type, error.element
+    message = str(error).removeprefix(f"element {number} (type {kind}): ")
+    return type(error)(number, kind, f"{message}; in a build with run-time checks: {told}")
 
 
 def record(
-    deck: Path, user: Sequence[Path], increments: int, *, strict: bool = True, zero_locals: bool = False
+    deck: Path, user: Sequence[Path], increments: int, *, strict: bool = True, build: Build = _ORDINARY
 ) -> Recording:
     """Run the first increments of a deck in Abaqus' order.
 
@@ -139,7 +181,7 @@ def record(
     done, abandoned = 0, 0
     stopped = ""
     ending: UelError | None = None
-    with opened(model, user, zero_locals=zero_locals) as library, one_blas_thread():
+    with opened(model, user, build) as library, one_blas_thread():
         system = _RecordedSystem(model, build_blocks(model, library, strict=strict), events)
         try:
             for happened in run_steps(system, model, _RecordedRoutines(library, events)):

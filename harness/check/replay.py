@@ -100,7 +100,7 @@ def replay(
 
     strict: an element that writes outside an array is refused.
     """
-    with opened(recording.model, recording.user, zero_locals=bool(recording.unset)) as library:
+    with opened(recording.model, recording.user, recording.build) as library:
         elements = Elements(recording, library, strict=strict)
         refused: set[str] = set()
         for event in recording.events:

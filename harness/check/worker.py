@@ -5,6 +5,7 @@
 from __future__ import annotations
 
 import pickle
+import resource
 from collections.abc import Sequence
 from pathlib import Path
 from typing import Final
@@ -22,6 +23,9 @@ def main(words: Sequence[str]) -> int:
     task, file = map(Path, words)
     function, arguments, options, call_limit = pickle.loads(task.read_bytes())
     limit_calls(call_limit)
+    # a user element that leaves files open is to be found before the system refuses it more
+    _, most = resource.getrlimit(resource.RLIMIT_NOFILE)
+    resource.setrlimit(resource.RLIMIT_NOFILE, (most, most))
 
     def keep(snapshot: Snapshot) -> None:
         # whole, or not at all

@@ -156,7 +156,7 @@ def _user_property(
     if len(entries) != wanted:
         announced = f"PROPERTIES={reals}" + (f", I PROPERTIES={integers}" if integers else "")
         message = f"{len(entries)} values where U{definition.number} takes {wanted} ({announced})"
-        lines, needed = math.ceil(len(entries) / PER_LINE), math.ceil(wanted / PER_LINE)
+        lines, needed = math.ceil(len(entries) / PER_LINE), math.ceil(max(wanted, 1) / PER_LINE)
         if lines != needed:
             raise block.error(f"{message}; a line has eight values" if lines > needed else message)
         left = "those that are left are not passed to it" if len(entries) > wanted else "the others are zero"

@@ -20,20 +20,19 @@ from harness.model.arrays import FloatArray, IntArray
 from harness.model.mesh import ElementGroup
 from harness.model.records import ElementState, PointVariables
 from harness.usersub import Library, _binding
+from harness.usersub.exchange import BlockArrays, LoadArrays, Outcome
 from harness.usersub.faults import Entries, Fault, Guards
 
 NORMAL: Final = 1
-"""LFLAGS(3) of a normal call."""
-
 MASS: Final = 4
-"""LFLAGS(3) of a call for the mass matrix."""
+"""LFLAGS(3) of a normal call, and of one for the mass matrix."""
 
 _PLASTIC: Final = 3
 """Index of ENERGY(4)."""
 
 _NO_MATRIX = np.zeros(1)
 _AT_REST = Motion(np.zeros(1), np.zeros(1))
-_NO_LOADS = _binding.LoadArrays(np.zeros(1, np.int32), np.zeros((1, 1), np.int32), np.zeros((1, 1, 2)))
+_NO_LOADS = LoadArrays(np.zeros(1, np.int32), np.zeros((1, 1), np.int32), np.zeros((1, 1, 2)))
 
 
 class Block:
@@ -71,12 +70,12 @@ class Block:
         self.first = 0
         self._guards = Guards.STOP if strict else Guards.NOTICE
         self._entries = Entries.NOTICE if zeros else Entries.STOP
-        self._noticed: _binding.Outcome | None = None
+        self._noticed: Outcome | None = None
         m, n = len(group.labels), len(unknowns)
         svars = np.zeros((m, procedure.svars))
         energy = np.zeros((m, 8))
         history = np.zeros((m, procedure.history[1], procedure.history[0]))
-        self._arrays = _binding.BlockArrays(
+        self._arrays = BlockArrays(
             labels=group.labels.astype(np.int32),
             jprops=procedure.jprops.astype(np.int32),
             equations=np.zeros((m, n), dtype=np.int32),
@@ -186,7 +185,7 @@ class Block:
             damage, energy[_PLASTIC] = float(energy[_PLASTIC]), 0.0
         return BlockReport.of(outcome, self._by_field, len(self.group.labels), energy, damage)
 
-    def _loads(self, distributed: Distributed | None) -> _binding.LoadArrays:
+    def _loads(self, distributed: Distributed | None) -> LoadArrays:
         """Loads on the elements of the block, one row for each element, or one for all if there is none."""
         if distributed is None:
             return _NO_LOADS
@@ -200,7 +199,7 @@ class Block:
         kinds, values = np.zeros((m, most), np.int32), np.zeros((m, most, 2))
         kinds[row, column] = distributed.kinds[mine]
         values[row, column] = np.stack([distributed.end[mine], distributed.increment[mine]], axis=1)
-        return _binding.LoadArrays(counts.astype(np.int32), kinds, values)
+        return LoadArrays(counts.astype(np.int32), kinds, values)
 
     def _fields(self, predefined: Predefined | None) -> FloatArray:
         """PREDEF of the elements, (m, nodes, fields, 2), or (1, nodes, fields, 2) if there is none.
@@ -326,7 +325,7 @@ class Block:
         if element:
             raise KernelError(element, self.group.type, f"UVARM {self._library.stop_reason()}")
 
-    def _error(self, outcome: _binding.Outcome, nrhs: int, call: Call) -> ElementError:
+    def _error(self, outcome: Outcome, nrhs: int, call: Call) -> ElementError:
         element = int(self.group.labels[outcome.position]) if outcome.position >= 0 else 0
         match outcome.fault:
             case Fault.LEFT | Fault.ENDLESS:
@@ -339,7 +338,7 @@ class Block:
                 message = wrong_entry(outcome, len(self.unknowns))
         return ERRORS.get(outcome.fault, KernelError)(element, self.group.type, f"{message} ({call.place})")
 
-    def _warn(self, outcome: _binding.Outcome, nrhs: int, call: Call) -> None:
+    def _warn(self, outcome: Outcome, nrhs: int, call: Call) -> None:
         """Report a write outside an array once; the run goes on, and the next pass looks which element it is."""
         if self._guards is Guards.SEARCH:
             self._guards = Guards.IGNORE
@@ -349,7 +348,7 @@ class Block:
         elif outcome.fault is Fault.OUTSIDE:
             self._guards, self._noticed = Guards.SEARCH, outcome
 
-    def _outside(self, outcome: _binding.Outcome, nrhs: int) -> str:
+    def _outside(self, outcome: Outcome, nrhs: int) -> str:
         sizes = {
             "SVARS": f"{self._procedure.svars} (VARIABLES=)",
             "PROPS": f"{len(self._procedure.props)} (PROPERTIES=)",

@@ -10,7 +10,7 @@ from typing import Final, Self
 import numpy as np
 
 from harness.model.arrays import FloatArray, IntArray
-from harness.usersub._binding import Outcome
+from harness.usersub.exchange import Outcome
 
 COUPLED_TEMPERATURE: Final = (71, 72, 73)
 """LFLAGS(1) of *COUPLED TEMPERATURE-DISPLACEMENT: steady, transient, with fixed increments."""

@@ -7,14 +7,15 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import Final
 
-from harness.errors import CallLimitError, DistortionError, ElementError, NotFiniteError
-from harness.usersub._binding import Outcome
+from harness.errors import CallLimitError, DistortionError, ElementError, NotFiniteError, OutsideError
+from harness.usersub.exchange import Outcome
 from harness.usersub.faults import Fault
 
 ERRORS: Final[Mapping[Fault, type[ElementError]]] = {
     Fault.ENDLESS: CallLimitError,
     Fault.NOT_FINITE: NotFiniteError,
     Fault.DISTORTED: DistortionError,
+    Fault.OUTSIDE: OutsideError,
 }
 """Those that others tell from a KernelError."""
 

@@ -8,11 +8,14 @@ and the caller gets an error with the reason. What still ends the whole process:
 himself. What is on the slate (harness/slate.py) tells another process where that was.
 """
 
-from harness.usersub._binding import limit_calls, share_slate
-from harness.usersub.inputs import Change, beyond_jprops, local_variables, watched_inputs
+from harness.usersub._binding import allocated, limit_calls, share_slate, trap
+from harness.usersub.inputs import Change, around, local_variables, watched_inputs, writes_outside
+from harness.usersub.languages import is_source
 from harness.usersub.library import Library, load
-from harness.usersub.marks import ARRAYS, AS_GOOD_AS_ZERO, UNSET, marks, set_marks
+from harness.usersub.marks import ARRAYS, AS_GOOD_AS_ZERO, UNSET, marks, room, set_marks
 from harness.usersub.messages import Message
+from harness.usersub.places import names_line
+from harness.usersub.suspicions import Suspicion, suspicions
 
 __all__ = [
     "ARRAYS",
@@ -21,12 +24,20 @@ __all__ = [
     "Change",
     "Library",
     "Message",
-    "beyond_jprops",
+    "Suspicion",
+    "allocated",
+    "around",
+    "is_source",
     "limit_calls",
     "load",
     "local_variables",
     "marks",
+    "names_line",
+    "room",
     "set_marks",
     "share_slate",
+    "suspicions",
+    "trap",
     "watched_inputs",
+    "writes_outside",
 ]

@@ -10,7 +10,6 @@ from __future__ import annotations
 import os
 import sys
 from collections.abc import Sequence
-from dataclasses import dataclass
 from typing import Final
 
 import numpy as np
@@ -18,6 +17,7 @@ from numpy.typing import NDArray
 
 from harness.model.arrays import FloatArray
 from harness.model.user_values import AskedAmplitude, UserValues
+from harness.usersub.exchange import BlockArrays, Int32Array, LoadArrays, Outcome, RawMessage
 from harness.usersub.faults import Fault
 
 _flags = sys.getdlopenflags()
@@ -27,79 +27,13 @@ try:
 finally:
     sys.setdlopenflags(_flags)
 
-Int32Array = NDArray[np.int32]
-
 ARRAYS: Final = ("RHS", "AMATRX", "SVARS", "ENERGY", "PROPS", "COORDS", "U", "DU", "V", "A", "PREDEF")
 """Guarded arrays, in the order of fortran/host/host_workspace.f90."""
-
 
 Options = tuple[int, int, int, int, int, int, int, int, int, int]
 """As host_evaluate in fortran/host/entry.f90 names them."""
 
 _watching = False
-
-
-@dataclass(frozen=True, slots=True)
-class Outcome:
-    """End of a pass over a block.
-
-    position  element of the fault (from 0; -1 unknown)
-    array, index  array of the fault and its entry, from 1, beyond its ends for a write outside; or the point
-    flux, largest, terms  (ndofel,) sum over the elements of |RHS|, the largest one, number of those above the floor
-    """
-
-    fault: Fault
-    position: int
-    array: str
-    index: int
-    flux: FloatArray
-    largest: FloatArray
-    terms: Int32Array
-    pnewdt: float
-    energy: FloatArray
-
-
-@dataclass(slots=True)
-class BlockArrays:
-    """Arrays of a block that the driver reads and writes, C order, element first (the driver's shapes reversed)."""
-
-    labels: Int32Array
-    jprops: Int32Array
-    equations: Int32Array
-    map: Int32Array
-    props: FloatArray
-    coords: FloatArray
-    svars: FloatArray
-    svars_trial: FloatArray
-    energy: FloatArray
-    energy_trial: FloatArray
-    history: FloatArray
-    history_trial: FloatArray
-
-
-@dataclass(frozen=True, slots=True)
-class LoadArrays:
-    """Distributed loads of the elements of a block, C order; the elements are m, or one that stands for all.
-
-    counts  (m,) number of loads on each element
-    kinds   (m, most) JDLTYP
-    values  (m, most, 2) magnitude at the end of the increment, and its change
-    """
-
-    counts: Int32Array
-    kinds: Int32Array
-    values: FloatArray
-
-
-@dataclass(frozen=True, slots=True)
-class RawMessage:
-    """A text sent with STDB_ABQERR; level is its LOP."""
-
-    level: int
-    element: int
-    step: int
-    increment: int
-    text: str
 
 
 def evaluate(
@@ -162,6 +96,13 @@ def exchange_marks(marks: FloatArray) -> None:
     _host.host_exchange_marks(marks)
 
 
+def exchange_room(entries: int) -> int:
+    """From now on guards behind the arrays have so many entries, or more; returns those before."""
+    room = np.array([entries], dtype=np.int32)
+    _host.host_exchange_room(room)
+    return int(room[0])
+
+
 def watch_inputs(on: bool) -> bool:
     """From now on `evaluate` notes which inputs the elements change, or does not; returns whether it did before."""
     global _watching
@@ -180,9 +121,22 @@ def fill_stack(number: float | None) -> None:
     _host.host_fill_stack(int(number is not None), number or 0.0)
 
 
-def fill_beyond(number: int) -> None:
-    """What lies behind JPROPS in watched calls from now on."""
-    _host.host_fill_beyond(number)
+def exchange_around(argument: int, number: float) -> float:
+    """From now on a number lies around an argument (from 0) in watched calls; returns the one before."""
+    held = np.array([number], dtype=np.float64)
+    _host.host_exchange_around(argument, held)
+    return float(held[0])
+
+
+def take_outside() -> dict[int, int]:
+    """Arguments (from 0) outside of which something was written since the last look, with the entry, from 1."""
+    found, entries = _host.host_take_outside()
+    return {k: int(entries[k]) for k in np.flatnonzero(found).tolist()}
+
+
+def allocated() -> int:
+    """Bytes that this process has allocated; below 0 where the C library does not say."""
+    return int(_host.host_allocated())
 
 
 def bare_loop(
@@ -367,6 +321,17 @@ def open_job(name: str, directory: str, file6: str, file7: str) -> int:
 def limit_calls(seconds: float) -> None:
     """Let no call of a user routine take longer; 0: no limit."""
     _host.host_limit_calls(seconds)
+
+
+def trap(on: bool) -> bool:
+    """Let calls of user routines stop at the operation that makes a NaN or an infinity; returns whether they did."""
+    return bool(_host.host_trap(int(on)))
+
+
+def take_frames() -> list[int]:
+    """Addresses of the calls that the last signal has ended, innermost first; forgets them."""
+    addresses, count = _host.host_take_frames()
+    return [int(address) for address in addresses[:count]]
 
 
 def share_slate(descriptor: int) -> bool:

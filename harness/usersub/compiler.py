@@ -11,7 +11,8 @@ import re
 import subprocess
 import tempfile
 import time
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass
 from pathlib import Path
 from typing import Final
 
@@ -21,35 +22,58 @@ from harness.usersub import cache, linker, mending
 from harness.usersub.cache import Built
 from harness.usersub.diagnostics import first_error
 from harness.usersub.headers import HEADERS
-from harness.usersub.languages import FIXED, FORTRAN, FREE, LANGUAGES, ZERO_LOCALS, is_free_form, language_of, linking
+from harness.usersub.languages import (
+    FIXED,
+    FORTRAN,
+    FREE,
+    LANGUAGES,
+    SILENT,
+    ZERO_LOCALS,
+    ZEROS,
+    Language,
+    is_free_form,
+    language_of,
+    linking,
+)
 from harness.usersub.mending import Repair, hidden_types, repairs
+from harness.usersub.units import with_open_bounds, without_implicit
 
 _SEARCH_VARIABLES: Final = (
     *("CPATH", "C_INCLUDE_PATH", "CPLUS_INCLUDE_PATH", "LIBRARY_PATH", "COMPILER_PATH", "GCC_EXEC_PREFIX"),
 )
 """What changes where compilers look for files."""
 _INCLUDE = re.compile(r"^\s*#?\s*include\s*['\"<]([^'\">]+)['\">]", re.IGNORECASE | re.MULTILINE)
+_WHOLE: Final = re.compile(r"assumed[- ]size array '(\w+)'", re.IGNORECASE)
+
+Flags = Mapping[Language, tuple[str, ...]]
+"""What a compiler gets besides the flags of its language."""
 
 
-def build(files: Sequence[Path], include: Sequence[Path] = (), *, zero_locals: bool = False) -> Built:
+def build(
+    files: Sequence[Path], include: Sequence[Path] = (), *, zero_locals: bool = False, debug: bool = False
+) -> Built:
     """Shared library of the files, compiled in their order; include: folders besides the sources' own.
 
-    zero_locals: local variables of Fortran that are given no value are zero. Raises CompileError with the compiler's
-    first error.
+    zero_locals: local variables of Fortran that are given no value are zero. debug: with run-time checks, and NaN in
+    such variables unless they are zero. Raises CompileError with the compiler's first error.
     """
     began = time.time()
     compilers = {language_of(file): language_of(file).program(file) for file in files}
-    folders = list(dict.fromkeys([*(f.resolve().parent for f in files), *(p.resolve() for p in include)]))
+    folders = _folders(files, include)
     headers, texts, sources = _scan(files, folders)
-    flags = (ZERO_LOCALS,) if zero_locals else ()
+    flags: Flags = {FORTRAN: (ZERO_LOCALS, SILENT)} if zero_locals else {}
+    if debug:
+        last = {language: (ZEROS[language], SILENT) if zero_locals else (SILENT,) for language in LANGUAGES}
+        flags = {language: (*language.checks, *last[language]) for language in LANGUAGES}
     forms = [str(is_free_form(file, _read(file))) for file in files]
-    name = f"{files[0].stem}-{_key(compilers.values(), [*flags, *forms, *texts])}"
+    given = [flag for more in flags.values() for flag in more]
+    name = f"{files[0].stem}-{_key(compilers.values(), [*given, *forms, *texts])}"
     found = cache.find(name, folders)
     if found is not None:
         return found
     with tempfile.TemporaryDirectory() as folder:
         work = Path(folder)
-        library, notes = _compile(files, folders, headers, sources, work, flags)
+        library, notes = _compile(files, folders, headers, sources, work, flags, open_bounds=debug)
         read = {Path(name) for rule in work.glob("*.d") for name in cache.dependencies(_read(rule))}
         # copies in the compiler's folder stand for files that are known
         read = {file for file in read if not (work / file).is_relative_to(work)}
@@ -58,6 +82,59 @@ def build(files: Sequence[Path], include: Sequence[Path] = (), *, zero_locals: b
             return cache.keep_for_now(name, library, notes)
         known = {file.resolve() for paths in sources.values() for file in paths}
         return cache.keep(name, library, notes, [file for file in read if file.resolve() not in known], folders)
+
+
+@dataclass(frozen=True, slots=True)
+class Opinion:
+    """What the compilers say of files that compile.
+
+    warnings    their text
+    undeclared  gfortran's text where no name has a type by its first letter
+    texts       of all files read, by bare name
+    free        bare names of those in free form
+    """
+
+    warnings: str
+    undeclared: str
+    texts: Mapping[str, str]
+    free: frozenset[str]
+
+
+def listen(files: Sequence[Path], include: Sequence[Path] = ()) -> Opinion:
+    """Compile files as `build` does, with all warnings, and throw the result away. Raises CompileError."""
+    folders = _folders(files, include)
+    supply, _, sources = _scan(files, folders)
+    free = frozenset(file.name for file in files if is_free_form(file, _read(file)))
+    with tempfile.TemporaryDirectory() as work:
+        flags = {language: language.warnings for language in LANGUAGES}
+        _, _, warnings = _objects(files, folders, supply, sources, Path(work), flags)
+        undeclared = _without_implicit_types(files, folders, supply, Path(work))
+    texts = {name: _read(paths[0]) for name, paths in sources.items()}
+    return Opinion(warnings, undeclared, texts, free)
+
+
+def _without_implicit_types(
+    files: Sequence[Path], folders: Sequence[Path], supply: Mapping[str, str | Path], work: Path
+) -> str:
+    """What gfortran says of copies without IMPLICIT statements; work has the module files."""
+    copies, texts = _supplied(supply, work / "declared")
+    for path, text in texts.items():
+        path.write_text(without_implicit(text, free=path.suffix.lower() == ".f90"), encoding="latin-1")
+    said = ""
+    for file in files:
+        if language_of(file) is FORTRAN:
+            text = _read(file)
+            free = is_free_form(file, text)
+            (copies / file.name).write_text(without_implicit(text, free=free), encoding="latin-1")
+            search = [f"-I{folder}" for folder in (copies, *folders, work)]
+            asked = ("-fsyntax-only", "-fimplicit-none", "-fmax-errors=0", f"-J{copies}", SILENT)
+            command = [FORTRAN.compiler, *FORTRAN.flags, *(FREE if free else FIXED), *asked, *search, file.name]
+            said += _run(command, copies).stderr
+    return said
+
+
+def _folders(files: Sequence[Path], include: Sequence[Path]) -> list[Path]:
+    return list(dict.fromkeys([*(f.resolve().parent for f in files), *(p.resolve() for p in include)]))
 
 
 def _read(file: Path) -> str:
@@ -150,59 +227,116 @@ def _compile(
     supply: dict[str, str | Path],
     sources: dict[str, list[Path]],
     work: Path,
-    flags: Sequence[str],
+    flags: Flags,
+    *,
+    open_bounds: bool,
 ) -> tuple[Path, list[str]]:
     """Library in the folder work, and what was changed to compile it; beside it the compilers list what they read."""
-    # deep enough for names that go upwards to stay within
-    upwards = max((name.count("..") for name in supply), default=0)
-    headers = work.joinpath("include", *["below"] * upwards)
-    headers.mkdir(parents=True)
-    for name, content in supply.items():
-        path = headers / name
-        path.parent.mkdir(parents=True, exist_ok=True)
-        path.write_text(content if isinstance(content, str) else _read(content), encoding="latin-1")
-    search = [f"-I{folder}" for folder in (*folders, headers)]
-    objects: list[Path] = []
-    notes: list[str] = []
-    for number, file in enumerate(files):
-        language = language_of(file)
-        output = work / f"{number}.o"
-        command = [language.compiler, *language.flags, *search, "-o", str(output), "-MD", "-MF", f"{number}.d"]
-        if language is FORTRAN:
-            command += [*(FREE if is_free_form(file, _read(file)) else FIXED), *flags, f"-J{work}"]
-        notes += _compile_one(command, file, sources, work / f"mended{number}")
-        objects.append(output)
+    objects, notes, _ = _objects(files, folders, supply, sources, work, flags, open_bounds=open_bounds)
     library = work / "user.so"
     language, libraries = linking([language_of(file) for file in files])
     libraries += linker.lapack_flags(objects, language.compiler)
-    errors = _errors([language.compiler, *linker.FLAGS, *map(str, objects), *libraries, "-o", str(library)], work)
-    if errors is not None:
-        raise CompileError(files[0], first_error(errors, {}))
+    linked = _run([language.compiler, *linker.FLAGS, *map(str, objects), *libraries, "-o", str(library)], work)
+    if linked.returncode:
+        raise CompileError(files[0], first_error(linked.stderr, {}))
     return library, notes
 
 
-def _compile_one(command: Sequence[str], file: Path, sources: dict[str, list[Path]], folder: Path) -> list[str]:
-    """Compile a file; what gfortran refuses of Abaqus' compiler is mended in copies in the folder. Returns what was.
+def _objects(
+    files: Sequence[Path],
+    folders: Sequence[Path],
+    supply: dict[str, str | Path],
+    sources: dict[str, list[Path]],
+    work: Path,
+    flags: Flags,
+    *,
+    open_bounds: bool = False,
+) -> tuple[list[Path], list[str], str]:
+    """Object files, what was changed to compile them, and what the compilers say."""
+    headers, texts = _supplied(supply, work / "include")
+    for path, text in texts.items():
+        path.write_text(text, encoding="latin-1")
+    search = [f"-I{folder}" for folder in (*folders, headers)]
+    objects: list[Path] = []
+    notes: list[str] = []
+    said = ""
+    for number, file in enumerate(files):
+        language = language_of(file)
+        output = work / f"{number}.o"
+        command = [language.compiler, *language.flags, *flags.get(language, (SILENT,)), *search, "-o", str(output)]
+        command += ["-MD", "-MF", f"{number}.d"]
+        if language is FORTRAN:
+            command += [*(FREE if is_free_form(file, _read(file)) else FIXED), f"-J{work}"]
+        compile_ = _compile_opened if language is FORTRAN and open_bounds else _compile_one
+        noted, output_text = compile_(command, file, sources, work / f"mended{number}")
+        notes += noted
+        said += output_text
+        objects.append(output)
+    return objects, notes, said
 
+
+def _supplied(supply: Mapping[str, str | Path], folder: Path) -> tuple[Path, dict[Path, str]]:
+    """Folder from which INCLUDE lines find files to supply, within another one, and their paths and texts."""
+    # deep enough for names that go upwards to stay within
+    upwards = max((name.count("..") for name in supply), default=0)
+    folder = folder.joinpath(*["below"] * upwards)
+    folder.mkdir(parents=True)
+    texts = {folder / name: text if isinstance(text, str) else _read(text) for name, text in supply.items()}
+    for path in texts:
+        path.parent.mkdir(parents=True, exist_ok=True)
+    return folder, texts
+
+
+def _compile_opened(
+    command: Sequence[str], file: Path, sources: dict[str, list[Path]], folder: Path
+) -> tuple[list[str], str]:
+    """Compile a file with open bounds, but of those arrays that are used as a whole, which the compiler names."""
+    text = _read(file)
+    free = is_free_form(file, text)
+    whole: frozenset[str] = frozenset()
+    while True:
+        opened = with_open_bounds(text, free=free, but=whole)
+        try:
+            return _compile_one(command, file, sources, folder, {file.name: opened} if opened != text else None)
+        except CompileError as error:
+            found = whole | {name.lower() for name in _WHOLE.findall(str(error))}
+            if found == whole:
+                return _compile_one(command, file, sources, folder)
+            whole = found
+
+
+def _compile_one(
+    command: Sequence[str],
+    file: Path,
+    sources: dict[str, list[Path]],
+    folder: Path,
+    changed_texts: Mapping[str, str] | None = None,
+) -> tuple[list[str], str]:
+    """Compile a file, in copies in the folder where there are changed texts, by bare name.
+
+    What gfortran refuses of Abaqus' compiler is mended in such copies. Returns what was, and what the compiler says.
     The compiler runs beside the folder: it takes module files of the current folder before those just made.
     """
-    copies: dict[str, str] = {}
+    copies = dict(changed_texts or {})
     notes: list[str] = []
     if language_of(file) is FORTRAN:
         for repair in hidden_types(_read(file), file.name):
             _mend(repair, sources, copies, notes)
-        _write(copies, folder)
     while True:
+        if copies:
+            copies.setdefault(file.name, _read(file))
+            folder.mkdir(exist_ok=True)
+        for name, text in copies.items():
+            (folder / name).write_text(text, encoding="latin-1")
         source = folder / file.name if copies else file.resolve()
-        errors = _errors([*command, f"-I{folder}", str(source)], folder.parent)
-        if errors is None:
-            return notes
+        compiled = _run([*command, f"-I{folder}", str(source)], folder.parent)
+        errors = compiled.stderr
+        if not compiled.returncode:
+            return notes, errors
         changed = [_mend(repair, sources, copies, notes) for repair in repairs(errors)]
         if not any(changed):
             texts = {name: _read(paths[0]) for name, paths in sources.items()}
             raise CompileError(file, first_error(errors, texts))
-        copies.setdefault(file.name, _read(file))
-        _write(copies, folder)
 
 
 def _mend(repair: Repair, sources: dict[str, list[Path]], copies: dict[str, str], notes: list[str]) -> bool:
@@ -217,17 +351,9 @@ def _mend(repair: Repair, sources: dict[str, list[Path]], copies: dict[str, str]
     return True
 
 
-def _write(copies: dict[str, str], folder: Path) -> None:
-    """Put copies into their folder."""
-    if copies:
-        folder.mkdir(exist_ok=True)
-    for name, text in copies.items():
-        (folder / name).write_text(text, encoding="latin-1")
-
-
-def _errors(command: Sequence[str], folder: Path) -> str | None:
-    """What the compiler says, run in a folder; None if it is content."""
-    result = subprocess.run(
+def _run(command: Sequence[str], folder: Path) -> subprocess.CompletedProcess[str]:
+    """Run a compiler in a folder; what it says is in English."""
+    return subprocess.run(
         command,
         cwd=folder,
         capture_output=True,
@@ -236,4 +362,3 @@ def _errors(command: Sequence[str], folder: Path) -> str | None:
         env=os.environ | {"LC_ALL": "C"},
         check=False,
     )
-    return result.stderr if result.returncode else None

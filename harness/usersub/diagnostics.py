@@ -49,7 +49,9 @@ _HINTS: Final = (
 
 _NO_MODULE: Final = re.compile(r"Cannot open module file '(\w+)\.mod'")
 
-_TWICE: Final = re.compile(r"([\w.-]+):\([^)]*\): multiple definition of `(\w+)'; [^\n]*?([\w.-]+):\(")
+_TWICE: Final = re.compile(
+    r"([\w.-]+):(?:\([^)]*\)|\d+): multiple definition of `(\w+)'; [^\n]*?([\w.-]+):(?:\(|\d+: first)"
+)
 _OTHER_FORM: Final = (
     r"Non-numeric character in statement label|Invalid character in name|Unclassifiable statement"
     r"|Bad continuation line|Unexpected end of file|Expecting|Syntax error"

@@ -4,7 +4,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager
 from dataclasses import dataclass
 from typing import Final
@@ -20,6 +20,12 @@ NAMES: Final = (
     "MATERIALLIB",
 )
 """Arguments of UEL, and the last of UELMAT, in Abaqus' order."""
+
+SURROUNDED: Final = tuple(name for name in NAMES if name not in _binding.ARRAYS)
+"""Those that have room around them while they are watched; the others have guards always."""
+
+_MARK: Final = -559038737.0
+"""What lies around them where writes are looked for: nothing that an element would write, as integer and as real."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -49,14 +55,27 @@ def watched_inputs() -> Iterator[Callable[[], list[Change]]]:
 
 
 @contextmanager
-def beyond_jprops(number: int) -> Iterator[None]:
-    """Let a number lie behind the last entry of JPROPS."""
+def around(values: Mapping[str, float]) -> Iterator[None]:
+    """Let numbers lie around arguments, by their names in SURROUNDED; elsewhere there is 0."""
     with watched_inputs():
-        _binding.fill_beyond(number)
+        before = {name: _binding.exchange_around(NAMES.index(name), value) for name, value in values.items()}
         try:
             yield
         finally:
-            _binding.fill_beyond(0)
+            for name, value in before.items():
+                _binding.exchange_around(NAMES.index(name), value)
+
+
+@contextmanager
+def writes_outside() -> Iterator[Callable[[], dict[str, int]]]:
+    """Watch the calls; what it gives returns arguments outside of which they wrote, with the entry, from 1."""
+
+    def found() -> dict[str, int]:
+        return {NAMES[k]: entry for k, entry in _binding.take_outside().items()}
+
+    with around(dict.fromkeys(SURROUNDED, _MARK)):
+        found()
+        yield found
 
 
 @contextmanager

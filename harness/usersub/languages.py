@@ -18,12 +18,16 @@ from harness.errors import CompileError
 class Language:
     """A language: endings of its files in lower case, its compiler, flags, and how to get and to link it.
 
+    checks   flags of a debug build: run-time checks, and values that betray themselves in variables that get none
+    warnings flags with which the compiler tells what it suspects
     runtime  libraries that the objects need where another language's compiler links them
     """
 
     suffixes: tuple[str, ...]
     compiler: str
     flags: tuple[str, ...]
+    checks: tuple[str, ...]
+    warnings: tuple[str, ...]
     install: str
     runtime: tuple[str, ...]
 
@@ -36,7 +40,19 @@ class Language:
         return found
 
 
-_COMMON: Final = ("-c", "-O2", "-fPIC", "-ffp-contract=off", "-w", "-fdiagnostics-color=never")
+# -g1: what ends a call is told with its line
+_COMMON: Final = ("-c", "-O2", "-g1", "-fPIC", "-ffp-contract=off", "-fdiagnostics-color=never")
+SILENT: Final = "-w"
+"""Flag of all compilers: no warnings."""
+_DEBUG: Final = ("-g", "-Og", "-fno-omit-frame-pointer", "-fsignaling-nans")
+_C_DEBUG: Final = (
+    *_DEBUG,
+    "-ftrivial-auto-var-init=pattern",
+    # what they find is a trap in the code: it needs no library
+    *("-fsanitize=bounds,null,vla-bound", "-fsanitize-undefined-trap-on-error"),
+)
+_WARNINGS: Final = ("-Wall", "-Wextra", "-Wno-unused-variable", "-Wno-unused-function", "-Wno-unused-but-set-variable")
+_C_WARNINGS: Final = (*_WARNINGS, "-Wno-unused-parameter", "-Wno-sign-compare", "-Wno-misleading-indentation")
 FORTRAN: Final = Language(
     (".f", ".for", ".f90"),
     "gfortran",
@@ -47,15 +63,37 @@ FORTRAN: Final = Language(
         # a write behind one ends the process later on
         *("-frecursive", "-fstack-arrays"),
     ),
+    (
+        *_DEBUG,
+        # not recursion: the mark of a procedure that is left through XIT would stay
+        "-fcheck=bounds,do,mem,pointer,bits",
+        *("-finit-real=snan", "-finit-integer=-1431655766", "-finit-logical=true", "-finit-derived"),
+    ),
+    (
+        *_WARNINGS,
+        # argument lists are Abaqus'; the rest is style
+        *("-Wno-unused-dummy-argument", "-Wno-unused-parameter", "-Wno-unused-label", "-Wno-tabs"),
+        *("-Wno-compare-reals", "-Wno-missing-include-dirs", "-Wconversion-extra", "-fmax-errors=0"),
+    ),
     "apt install gfortran, dnf install gcc-gfortran",
     ("-lgfortran",),
 )
 ZERO_LOCALS: Final = "-finit-local-zero"
 """Flag of gfortran with which local variables that are given no value are zero, not what an earlier call has left."""
-C: Final = Language((".c",), "gcc", (*_COMMON, "-x", "c"), "apt install gcc, dnf install gcc", ())
-CPP: Final = Language(
-    (".cpp", ".cc", ".cxx"), "g++", (*_COMMON, "-x", "c++"), "apt install g++, dnf install gcc-c++", ("-lstdc++",)
+C: Final = Language(
+    (".c",), "gcc", (*_COMMON, "-x", "c"), _C_DEBUG, _C_WARNINGS, "apt install gcc, dnf install gcc", ()
 )
+CPP: Final = Language(
+    (".cpp", ".cc", ".cxx"),
+    "g++",
+    (*_COMMON, "-x", "c++"),
+    _C_DEBUG,
+    _C_WARNINGS,
+    "apt install g++, dnf install gcc-c++",
+    ("-lstdc++",),
+)
+ZEROS: Final = {FORTRAN: ZERO_LOCALS, C: "-ftrivial-auto-var-init=zero", CPP: "-ftrivial-auto-var-init=zero"}
+"""The same for a debug build, which has other values there."""
 LANGUAGES: Final = (FORTRAN, C, CPP)
 SUFFIXES: Final = tuple(suffix for language in LANGUAGES for suffix in language.suffixes)
 
@@ -66,6 +104,11 @@ _ENVIRONMENT: Final = "abaqus_v6.env"
 _ENVIRONMENT_FREE = re.compile(
     r"^[ \t]*compile_fortran\s*=(?:(?!^\s*\w+\s*=).)*?[\s'\"](?:[-/]free|-ffree-form)\b", re.DOTALL | re.MULTILINE
 )
+
+
+def is_source(file: Path) -> bool:
+    """Whether a file of user routines is to be compiled."""
+    return file.suffix.lower() in SUFFIXES
 
 
 def language_of(file: Path) -> Language:

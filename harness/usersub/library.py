@@ -24,6 +24,7 @@ from harness.usersub.compiler import build
 from harness.usersub.languages import CPP, SUFFIXES, C
 from harness.usersub.linker import undefined_routine
 from harness.usersub.messages import Inbox, Message
+from harness.usersub.places import innermost
 
 ENTRY_POINTS: Final = (
     *("UEL", "UELMAT", "UEXTERNALDB", "UMAT", "UVARM", "SDVINI", "DLOAD", "DISP", "UAMP", "USDFLD", "UTRACLOAD"),
@@ -113,10 +114,19 @@ class Library:
     def stop_reason(self) -> str:
         """Why a user routine ended the analysis, as the end of a sentence."""
         if text := self._inbox.last_error():
-            return f"stopped the analysis: {text}"
+            return f"stopped the analysis: {self._with_place(text)}"
         if lines := self._inbox.last_lines():
             return f"stopped the analysis (XIT); last printed: {' / '.join(lines)}"
         return "stopped the analysis (XIT) without a message"
+
+    def _with_place(self, text: str) -> str:
+        """A text about a signal, 'in UEL: what it was', with file and line, and the routine where it is another one."""
+        place = innermost(_binding.take_frames(), self._handle._name, self.file)
+        head, colon, tail = text.partition(": ")
+        if place is None or not colon:
+            return text
+        inside = "" if f"in {place.routine}" == head else f" ({place.routine})"
+        return f"{head}, {place.file} line {place.line}{inside}: {tail}"
 
     def messages(self) -> list[Message]:
         """Texts of user routines since the last call: STDB_ABQERR, then what was printed to units 6 and 7."""
@@ -138,15 +148,18 @@ def load(
     output_dir: Path,
     deck: Path | None = None,
     zero_locals: bool = False,
+    debug: bool = False,
 ) -> Library:
     """Load user routines: files in Fortran, C or C++ (compiled, or taken from the cache) or a shared library.
 
     None gives the project's own kernels. INCLUDE lines are looked up in the folders of the sources and of the deck.
     zero_locals: local variables of Fortran that are given no value are zero, as many public user elements take them to
-    be; a check wants to see that they are not. Raises CompileError.
+    be; a check wants to see that they are not. debug: with run-time checks, which end a call with file and line, and
+    NaN in such variables. Raises CompileError.
     """
     files = [] if user is None else [user] if isinstance(user, Path) else list(user)
-    built = _shared_library(files, () if deck is None else (deck.resolve().parent,), zero_locals=zero_locals)
+    include = () if deck is None else (deck.resolve().parent,)
+    built = _shared_library(files, include, zero_locals=zero_locals, debug=debug)
     name = _name_of(files)
     library = Library(name, built.library, _open(built.library, name), Inbox(job, output_dir))
     for note in built.notes:
@@ -160,7 +173,7 @@ def _name_of(files: Sequence[Path]) -> str:
     return f"{files[0]}{others}" if files else "the project's kernels"
 
 
-def _shared_library(files: Sequence[Path], include: Sequence[Path], *, zero_locals: bool) -> Built:
+def _shared_library(files: Sequence[Path], include: Sequence[Path], *, zero_locals: bool, debug: bool) -> Built:
     if not files:
         return Built(path_of_kernels(), ())
     for file in files:
@@ -172,7 +185,7 @@ def _shared_library(files: Sequence[Path], include: Sequence[Path], *, zero_loca
         if len(files) > 1:
             raise CompileError(files[0], "a shared library cannot be combined with other files")
         return Built(files[0], ())
-    return build(files, include, zero_locals=zero_locals)
+    return build(files, include, zero_locals=zero_locals, debug=debug)
 
 
 def _open(shared: Path, name: str) -> ctypes.CDLL:

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""Link a user's objects: LAPACK where they need it, STOP turned into an end of the call."""
+"""Link a user's objects: LAPACK where they need it, STOP and errors of libgfortran turned into an end of the call."""
 
 from __future__ import annotations
 
@@ -12,12 +12,13 @@ from pathlib import Path
 from typing import Final
 
 _STOPS: Final = ("stop_string", "stop_numeric", "error_stop_string", "error_stop_numeric", "exit_i4")
+_ERRORS: Final = ("runtime_error_at", "runtime_error", "os_error_at")
 
 FLAGS: Final = (
     "-shared",
     "-Wl,-Bsymbolic",
-    # STOP ends the process; the host's versions end the call (fortran/host/stops.c)
-    *(f"-Wl,--wrap=_gfortran_{name}" for name in _STOPS),
+    # they end the process; the host's versions end the call (fortran/host/stops.c, runtime_errors.c)
+    *(f"-Wl,--wrap=_gfortran_{name}" for name in (*_STOPS, *_ERRORS)),
     # and so does exit in C
     *(f"-Wl,--wrap={name}" for name in ("exit", "_exit", "_Exit", "quick_exit")),
 )

@@ -33,6 +33,16 @@ def set_marks(values: Mapping[str, float]) -> None:
 
 
 @contextmanager
+def room(entries: int) -> Iterator[None]:
+    """Let the guard behind each array have so many entries, so that a write far beyond one does not reach the next."""
+    before = _binding.exchange_room(entries)
+    try:
+        yield
+    finally:
+        _binding.exchange_room(before)
+
+
+@contextmanager
 def marks(values: Mapping[str, float]) -> Iterator[None]:
     """Let guards of some arrays (by their names in ARRAYS), or UNSET, hold other values, and give back what they held.
 

@@ -38,7 +38,7 @@ DECK = """\
 *END STEP
 """
 WHERE = "in UEL for element 7, step 1, increment 2, iteration 0"
-ENDLESS = r"in UEL: the call does not return within 4 s, the limit for one call \(--call-limit\)"
+ENDLESS = r"in UEL, crashes.f line \d+.*: the call does not return within 4 s, the limit for one call \(--call-limit\)"
 STOPPED = r"element 7 \(type U1\): stopped the analysis{} \(step 1, increment 2, iteration 0\)"
 PLACE = STOPPED.format(": {}")
 
@@ -46,18 +46,26 @@ PLACE = STOPPED.format(": {}")
 @pytest.mark.parametrize(
     ("way", "message"),
     [
-        (1, PLACE.format("in UEL: segmentation fault: it reads or writes where no memory is.*")),
-        pytest.param(2, PLACE.format("in UEL: segmentation fault: the stack is full.*"), marks=pytest.mark.long),
-        pytest.param(3, PLACE.format("in UEL: division of an integer by zero"), marks=pytest.mark.long),
+        (1, PLACE.format(r"in UEL, crashes.f line \d+: segmentation fault: it reads or writes where no memory is.*")),
+        pytest.param(
+            2,
+            PLACE.format(r"in UEL, crashes.f line \d+ \(ENDLESS\): segmentation fault: the stack is full.*"),
+            marks=pytest.mark.long,
+        ),
+        pytest.param(
+            3, PLACE.format(r"in UEL, crashes.f line \d+: division of an integer by zero"), marks=pytest.mark.long
+        ),
         (4, PLACE.format(ENDLESS)),
         (5, r"uel: the run was ended by SIGABRT: abort, mostly .*, " + WHERE + ": abort: memory is damaged"),
         (6, r"uel: the run was ended by the Fortran library, .*, " + WHERE + ": the process ends"),
         pytest.param(7, PLACE.format("STOP 'enough'"), marks=pytest.mark.long),
         # inside a WRITE, whose unit stays locked
-        (8, PLACE.format("in UEL: segmentation fault: .*")),
+        (8, PLACE.format(r"in UEL, crashes.f line \d+.*: segmentation fault: .*")),
         (9, STOPPED.format(r" \(XIT\) without a message") + r"\nuel: earlier warning: .* unit 6 or 7 locked"),
         pytest.param(10, PLACE.format("STOP 'no value'"), marks=pytest.mark.long),
-        pytest.param(11, PLACE.format("in UEL: division of an integer by zero"), marks=pytest.mark.long),
+        pytest.param(
+            11, PLACE.format(r"in UEL, crashes.f line \d+.*: division of an integer by zero"), marks=pytest.mark.long
+        ),
         (12, PLACE.format(ENDLESS)),
         # what it has printed before
         (13, STOPPED.format(r" \(XIT\); last printed: second / stiffness is negative / see page 7")),

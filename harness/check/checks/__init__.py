@@ -9,6 +9,8 @@ from dataclasses import dataclass
 from typing import Final
 
 from harness.check.checks import (
+    compiler,
+    debug,
     energy,
     history,
     increments,
@@ -23,6 +25,7 @@ from harness.check.checks import (
     pnewdt,
     repeat,
     requests,
+    resources,
     rest,
     rotation,
     shear,
@@ -57,6 +60,8 @@ class Check:
 CHECKS: Final = (
     Check("run", own_run.check, calls=False),
     Check("values", values.check, calls=False),
+    Check("compiler", compiler.check, calls=False),
+    Check("resources", resources.check),
     Check("filled", memory.check_filled),
     Check("outside", memory.check_outside),
     Check("undeclared", memory.check_undeclared),
@@ -81,5 +86,6 @@ CHECKS: Final = (
     Check("increments", increments.check, forces=True, unless="repeat"),
     Check("state", state_rule.check, forces=True, unless="repeat"),
     Check("history", history.check, forces=True, unless="repeat"),
+    Check("debug", debug.check, calls=False),
 )
 """All checks, in the order of the table: what invalidates later ones comes first."""

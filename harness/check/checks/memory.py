@@ -10,9 +10,10 @@ from typing import Final
 
 from harness.check.finding import Finding, failed, not_applicable, passed
 from harness.check.single import first_difference
+from harness.check.state import State
 from harness.check.subject import Subject
-from harness.errors import KernelError
-from harness.usersub import UNSET, beyond_jprops, marks
+from harness.errors import KernelError, OutsideError
+from harness.usersub import UNSET, around, marks, room, writes_outside
 
 READ: Final = "PROPS", "SVARS", "ENERGY", "COORDS", "U", "DU", "V", "A", "PREDEF"
 """Arrays beyond which an element might read."""
@@ -20,8 +21,23 @@ READ: Final = "PROPS", "SVARS", "ENERGY", "COORDS", "U", "DU", "V", "A", "PREDEF
 POISONS: Final = float("nan"), 7.3, -2.9e5
 """What is put there."""
 
+REALS: Final = "TIME", "PARAMS", "ADLMAG", "DDLMAG"
+WHOLES: Final = "JPROPS", "LFLAGS", "JDLTYP"
+"""Other arrays, around which there is 0 else."""
+
 INTEGERS: Final = 1, 7, -290000
-"""What is put behind JPROPS, where there is 0 else."""
+"""What is put around those of whole numbers."""
+
+REQUESTS: Final = 2, 3, 4, 5, 6
+"""LFLAGS(3) besides that of a normal call."""
+
+ROOM: Final = 20000
+"""Entries behind each array where writes are looked for: what is far beyond one does not reach the next."""
+
+OUTSIDE: Final = (
+    "In Abaqus this overwrites other data, and shows as wrong results or a segmentation fault elsewhere. "
+    "Compare VARIABLES=, PROPERTIES= and the dofs of *USER ELEMENT with the largest indices that UEL uses."
+)
 
 
 def check_filled(subject: Subject) -> Finding:
@@ -40,23 +56,41 @@ def check_filled(subject: Subject) -> Finding:
 
 
 def check_outside(subject: Subject) -> Finding:
-    """Guards around each array are whole after the call."""
-    for state in subject.states:
-        try:
-            state.strictly().evaluate()
-        except KernelError as error:
-            advice = (
-                "In Abaqus this overwrites other data, and shows as wrong results or a segmentation fault elsewhere. "
-                "Compare VARIABLES=, PROPERTIES= and the dofs of *USER ELEMENT with the largest indices that UEL uses."
-            )
-            return failed(str(error), advice)
-    return passed(f"nothing is written outside the arrays at {len(subject.states)} states")
+    """Guards around each argument are whole after the call, whatever it asks for."""
+    with room(ROOM), writes_outside() as found:
+        for state in subject.states:
+            for what, called in _requests(state.strictly()):
+                try:
+                    called.evaluate()
+                except OutsideError as error:
+                    return failed(f"{error}{what}", OUTSIDE)
+                except KernelError as error:
+                    # an element may refuse what it is not asked for in a run
+                    if not what:
+                        return failed(str(error), OUTSIDE)
+                for name, entry in found().items():
+                    size = _sizes(subject).get(name, "")
+                    return failed(f"{state}{what}: writes outside {name}: entry {entry}{size}", OUTSIDE)
+    return passed(f"nothing is written outside the arguments at {len(subject.states)} states")
+
+
+def _requests(state: State) -> Iterator[tuple[str, State]]:
+    """The call itself, then with all that Abaqus may ask for; with what it is. See no_time.py for KINC = 0."""
+    yield "", state
+    for request in REQUESTS:
+        yield f" with LFLAGS(3) = {request}", state.asked(request)
+
+
+def _sizes(subject: Subject) -> dict[str, str]:
+    """Of the arrays that are no fields of the element, for messages."""
+    sizes = {"TIME": 2, "PARAMS": 3, "LFLAGS": 7, "JPROPS": subject.definition.integer_properties}
+    return {name: f" of {size}" for name, size in sizes.items()}
 
 
 def check_undeclared(subject: Subject) -> Finding:
     """What lies beyond the declared ends of an array has no effect."""
     for state in subject.states:
-        with beyond_jprops(0):
+        with around({}):
             expected = state.evaluate()
             if first_difference(expected, state.evaluate()):
                 return not_applicable("the same call returns other values anyway")
@@ -77,8 +111,12 @@ def _poisons() -> Iterator[tuple[str, AbstractContextManager[None]]]:
     for array in READ:
         for poison in POISONS:
             yield array, marks({array: poison})
-    for number in INTEGERS:
-        yield "JPROPS", beyond_jprops(number)
+    for array in REALS:
+        for poison in POISONS:
+            yield array, around({array: poison})
+    for array in WHOLES:
+        for number in INTEGERS:
+            yield array, around({array: number})
 
 
 def _reads(subject: Subject, message: str, array: str) -> Finding:
@@ -87,6 +125,10 @@ def _reads(subject: Subject, message: str, array: str) -> Finding:
         "PROPS": f"*USER ELEMENT has PROPERTIES={definition.properties}",
         "JPROPS": f"*USER ELEMENT has I PROPERTIES={definition.integer_properties}",
         "SVARS": f"*USER ELEMENT has VARIABLES={definition.variables}",
+        "TIME": "it has 2 entries",
+        "PARAMS": "it has 3 entries",
+        "LFLAGS": "it has 7 entries here",
+        **dict.fromkeys(("ADLMAG", "DDLMAG", "JDLTYP"), "it has MDLOAD rows, of which NDLOAD are loads"),
         "COORDS": f"*USER ELEMENT has COORDINATES={definition.coordinates} and NODES={definition.nodes}",
     }.get(array, f"the element has {len(definition.dofs)} unknowns")
     advice = f"UEL reads beyond {array}: {declared} ({definition.source}). Declare more, or read less."

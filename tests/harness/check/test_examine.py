@@ -252,7 +252,9 @@ def test_command_writes_json(patch, tmp_path, capsys):
 
 def test_check_that_is_left_out(patch):
     assert "tangent" not in findings(patch(5), skip=["tangent"])
-    with pytest.raises(UelError, match=r"no check is called 'tangents'; there are run, .*, tangent, symmetry"):
+    with pytest.raises(
+        UelError, match=r"no check is called 'tangents'; there are run, values, compiler, .*, tangent, symm"
+    ):
         examine(patch(), QUAD, skip=["tangents"])
 
 

@@ -74,10 +74,11 @@ def springs(tmp_path):
     [("volume = area*props(3)", "volume = aera*props(3)"), ("70000., 0.3, 2.", "70000., 0.3")],
     ids=["a variable that is misspelt", "a property that is not given"],
 )
-def test_element_that_does_nothing(tmp_path, capsys, old, new):
+def test_element_that_does_nothing(tmp_path, capsys, monkeypatch, old, new):
     """The element of the guide with a factor that is zero: nothing holds the model, and no check of forces applies."""
     for name in ("my_uel.for", "my_uel.inp"):
         (tmp_path / name).write_text((TEMPLATE / name).read_text().replace(old, new))
+    monkeypatch.delenv("COLUMNS", raising=False)
     assert main(["check", str(tmp_path / "my_uel.for"), str(tmp_path / "my_uel.inp")]) == 1
     printed = capsys.readouterr().out
     assert re.search(r"run .*FAILED .*ended after 0 increments: .*my_uel.inp:\d+: singular system matrix", printed)
@@ -126,12 +127,13 @@ def test_fewer_increments_than_asked_for(springs):
     assert re.search(r"^2 increments of the deck; the deck allows no more: TOO MANY INCREMENTS .*INC=2", run)
 
 
-def test_type_that_nothing_is_known_of(springs, tmp_path, capsys):
+def test_type_that_nothing_is_known_of(springs, tmp_path, capsys, monkeypatch):
     """U2 has no force, and its node is held by nothing that acts on it: exit code 2."""
     deck, user = springs("0., 1.", node=2)
     text = deck.read_text()
     deck.write_text(text.replace("1, 1\n*CLOAD", "1, 1\n3, 1\n*CLOAD"))
     file = tmp_path / "found.json"
+    monkeypatch.delenv("COLUMNS", raising=False)
     assert main(["check", str(deck), str(user), "--json", str(file)]) == 2
     said = "U2: nothing was looked at: RHS and AMATRX are zero at all states that were tried: take a deck in which"
     assert said in capsys.readouterr().out

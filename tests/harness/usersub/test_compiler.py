@@ -10,6 +10,7 @@ from user_database import database, note, said
 
 from harness import usersub
 from harness.errors import CompileError
+from harness.usersub import suspicions
 
 
 def test_fixed_form_has_132_columns(load):
@@ -353,3 +354,12 @@ def test_hint_at_the_order_of_files(tmp_path):
     files = [tmp_path / "a.f", tmp_path / "b.f90"]
     with pytest.raises(CompileError, match=r"Hint: b.f90 defines the module tensors: give it before a.f\."):
         usersub.load(files, job="job", output_dir=tmp_path)
+
+
+def test_include_by_its_full_path_is_not_written_for_warnings(tmp_path):
+    included, user = tmp_path / "common.inc", tmp_path / "user.f"
+    included.write_text("      implicit real*8(a-h,o-z)\n")
+    user.write_text(f"      subroutine uexternaldb(lop)\n      include '{included}'\n      end\n")
+    before = included.stat().st_mtime_ns
+    assert suspicions([user]) == []
+    assert included.stat().st_mtime_ns == before

@@ -1,0 +1,94 @@
+! SPDX-FileCopyrightText: The uel-harness authors
+! SPDX-License-Identifier: BSD-3-Clause
+!> Procedures Python calls (through f2py, see _host.pyf) to watch user elements; entry.f90 has the others.
+
+!> Address of a routine that calls UEL, or UELMAT, at an address and notes which inputs it changes.
+subroutine host_watch(address, with_material, watched)
+  use host_kinds, only: i4, i8
+  use host_protect, only: watch
+  implicit none (type, external)
+  integer(i8), intent(in) :: address
+  integer(i4), intent(in) :: with_material    !< 0 for UEL
+  integer(i8), intent(out) :: watched
+  watched = watch(address, with_material)
+end subroutine host_watch
+
+!> First entry of each argument that was changed since the last look (0: none), and its values before and after.
+subroutine host_take_changes(entries, values)
+  use host_kinds, only: dp, i4
+  use host_protect, only: take_changes
+  implicit none (type, external)
+  integer(i4), intent(out) :: entries(37)
+  real(dp), intent(out) :: values(2, 37)
+  call take_changes(entries, values)
+end subroutine host_take_changes
+
+!> From now on (on /= 0) watched calls find this number where their local variables are, or do not.
+subroutine host_fill_stack(on, number)
+  use host_kinds, only: dp, i4
+  use host_protect, only: fill_stack
+  implicit none (type, external)
+  integer(i4), intent(in) :: on
+  real(dp), intent(in) :: number
+  call fill_stack(on, number)
+end subroutine host_fill_stack
+
+!> Exchange what lies around an argument, counted from 0, that is no array of the workspace, in watched calls.
+subroutine host_exchange_around(argument, number)
+  use host_kinds, only: dp, i4
+  use host_protect, only: exchange_around
+  implicit none (type, external)
+  integer(i4), intent(in) :: argument
+  real(dp), intent(inout) :: number(1)
+  call exchange_around(argument, number(1))
+end subroutine host_exchange_around
+
+!> Whether something was written outside of each argument since the last look, and the entry of the first such write.
+subroutine host_take_outside(found, entries)
+  use host_kinds, only: i4
+  use host_protect, only: take_outside
+  implicit none (type, external)
+  integer(i4), intent(out) :: found(37), entries(37)
+  call take_outside(found, entries)
+end subroutine host_take_outside
+
+!> Bytes that this process has allocated; below 0 where the C library does not say.
+subroutine host_allocated(bytes)
+  use host_kinds, only: i8
+  use host_protect, only: allocated_bytes
+  implicit none (type, external)
+  integer(i8), intent(out) :: bytes
+  bytes = allocated_bytes()
+end subroutine host_allocated
+
+!> Let calls of user routines stop (on /= 0) at the operation that makes a NaN or an infinity, or not.
+subroutine host_trap(on, before)
+  use host_kinds, only: i4
+  use host_protect, only: trap
+  implicit none (type, external)
+  integer(i4), intent(in) :: on
+  integer(i4), intent(out) :: before          !< what was asked for last
+  before = trap(on)
+end subroutine host_trap
+
+!> Addresses of the calls that the last signal has ended, innermost first, and how many they are; forgets them.
+subroutine host_take_frames(addresses, count)
+  use host_kinds, only: i4, i8
+  use host_protect, only: most_frames, take_frames
+  implicit none (type, external)
+  integer(i8), intent(out) :: addresses(most_frames)
+  integer(i4), intent(out) :: count
+  call take_frames(addresses, count)
+end subroutine host_take_frames
+
+!> Exchange the fewest entries of the guard behind each array of an element.
+subroutine host_exchange_room(room)
+  use host_driver, only: set_guard_room
+  use host_kinds, only: i4
+  implicit none (type, external)
+  integer(i4), intent(inout) :: room(1)
+  integer :: entries
+  entries = room(1)
+  call set_guard_room(entries)
+  room(1) = int(entries, i4)
+end subroutine host_exchange_room

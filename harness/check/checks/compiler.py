@@ -1,0 +1,44 @@
+# SPDX-FileCopyrightText: The uel-harness authors
+# SPDX-License-Identifier: BSD-3-Clause
+"""What the compiler knows of the user's files: mistakes that it is certain of, and what it suspects."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Final
+
+from harness.check.finding import Finding, Verdict, failed, not_applicable
+from harness.check.subject import Subject
+from harness.errors import CompileError
+from harness.usersub import Suspicion, is_source, suspicions
+
+MOST: Final = 5
+"""Warnings that are shown; all are in the JSON file."""
+
+ADVICE: Final = (
+    "The compiler is certain of these lines: they are wrong wherever they are executed. `uel run --debug` stops at the "
+    "first of them that is."
+)
+
+
+def check(subject: Subject) -> Finding:
+    """It is certain of no mistake."""
+    recording = subject.recording
+    if not recording.user or not all(map(is_source, recording.user)):
+        return not_applicable("there are no sources of the user to compile")
+    try:
+        found = suspicions(recording.user, (recording.model.deck.resolve().parent,))
+    except CompileError as error:
+        return not_applicable(f"with all warnings it does not compile: {error}")
+    certain = [one for one in found if one.certain]
+    told = [one for one in found if not one.certain]
+    entries = tuple(map(str, found))
+    if certain:
+        return failed(_listed(certain), ADVICE, entries=entries)
+    message = f"nothing that is certain; worth a look:\n{_listed(told)}" if told else "no warnings"
+    return Finding(Verdict.PASSED, message, entries=entries)
+
+
+def _listed(found: Sequence[Suspicion]) -> str:
+    more = f"\nand {len(found) - MOST} more" if len(found) > MOST else ""
+    return "\n".join(map(str, found[:MOST])) + more

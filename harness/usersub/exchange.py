@@ -1,0 +1,78 @@
+# SPDX-FileCopyrightText: The uel-harness authors
+# SPDX-License-Identifier: BSD-3-Clause
+"""What goes between Python and the compiled host."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from harness.model.arrays import FloatArray
+from harness.usersub.faults import Fault
+
+Int32Array = NDArray[np.int32]
+
+
+@dataclass(frozen=True, slots=True)
+class Outcome:
+    """End of a pass over a block.
+
+    position  element of the fault (from 0; -1 unknown)
+    array, index  array of the fault and its entry, from 1, beyond its ends for a write outside; or the point
+    flux, largest, terms  (ndofel,) sum over the elements of |RHS|, the largest one, number of those above the floor
+    """
+
+    fault: Fault
+    position: int
+    array: str
+    index: int
+    flux: FloatArray
+    largest: FloatArray
+    terms: Int32Array
+    pnewdt: float
+    energy: FloatArray
+
+
+@dataclass(slots=True)
+class BlockArrays:
+    """Arrays of a block that the driver reads and writes, C order, element first (the driver's shapes reversed)."""
+
+    labels: Int32Array
+    jprops: Int32Array
+    equations: Int32Array
+    map: Int32Array
+    props: FloatArray
+    coords: FloatArray
+    svars: FloatArray
+    svars_trial: FloatArray
+    energy: FloatArray
+    energy_trial: FloatArray
+    history: FloatArray
+    history_trial: FloatArray
+
+
+@dataclass(frozen=True, slots=True)
+class LoadArrays:
+    """Distributed loads of the elements of a block, C order; the elements are m, or one that stands for all.
+
+    counts  (m,) number of loads on each element
+    kinds   (m, most) JDLTYP
+    values  (m, most, 2) magnitude at the end of the increment, and its change
+    """
+
+    counts: Int32Array
+    kinds: Int32Array
+    values: FloatArray
+
+
+@dataclass(frozen=True, slots=True)
+class RawMessage:
+    """A text sent with STDB_ABQERR; level is its LOP."""
+
+    level: int
+    element: int
+    step: int
+    increment: int
+    text: str

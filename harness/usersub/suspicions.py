@@ -1,0 +1,232 @@
+# SPDX-FileCopyrightText: The uel-harness authors
+# SPDX-License-Identifier: BSD-3-Clause
+"""What the compilers suspect in a user's files: certain mistakes, and what deserves a look.
+
+Certain is what is wrong wherever it is executed. Right code in the style of Fortran 77 has none of it: names that have
+their type by the first letter, arguments that are not used, arrays declared with a bound of 1, REAL work arrays.
+"""
+
+from __future__ import annotations
+
+import re
+import struct
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from difflib import get_close_matches
+from pathlib import Path
+from typing import Final
+
+from harness.errors import CompileError
+from harness.usersub.compiler import Opinion, build, listen
+from harness.usersub.units import Unit, unit_at, units
+
+_PLACE: Final = re.compile(r"^(?P<file>[^\s:][^:\n]*):(?P<line>\d+):(?P<column>\d+):\s*(?P<rest>.*)$")
+_MESSAGE: Final = re.compile(r"^(?:Warning|Error): (?P<text>.*?)(?: \[(?P<option>-W[\w=+-]+)\])?$")
+_C_WARNING: Final = re.compile(r"^warning: (?P<text>.*?)(?: \[(?P<option>-W[\w=+-]+)\])?$")
+_CHECKED: Final = re.compile(rb"At line (\d+) of file ([^\0]+)\0")
+
+_BOUNDS: Final = re.compile(r"Array reference at \(1\) is out of bounds \((-?\d+) ([<>]) (-?\d+)\) in dimension (\d+)")
+_TYPES: Final = re.compile(
+    r"Type mismatch in argument '(\w+)' at \(1\); passed (REAL|INTEGER)\((\d+)\) to (REAL|INTEGER)\((\d+)\)"
+)
+_RANK: Final = re.compile(r"Rank mismatch in argument '(\w+)' at \(1\) \(rank-(\d+) and scalar\)")
+_UNDECLARED: Final = re.compile(r"Symbol '(\w+)' at \(1\) has no IMPLICIT type")
+_NEAR: Final = 0.8
+"""Likeness of two names, one of which may be the other misspelt."""
+
+_LONG: Final = 4
+"""Letters of a name that may be a misspelt one: shorter ones are all alike."""
+
+_CONSTANT: Final = re.compile(r"(?<![\w.])(?:\d+\.\d*|\.\d+)(?![\w.])")
+
+_COUNT: Final = "give as many arguments as the routine has"
+_OPTIONS: Final = {
+    "-Winteger-division": "the quotient of whole numbers is cut to a whole number: write 1.d0/3.d0",
+    "-Wmaybe-uninitialized": "give it a value on every path that leads here",
+    "-Wreturn-type": "assign a value to the name of the function on every path",
+    "-Wdo-subscript": "look at the first and the last pass of the loop",
+    "-Waggressive-loop-optimizations": "the loop runs past the end of an array",
+    "-Warray-bounds": "indices in C run from 0 to the size less one",
+    "-Wline-truncation": "the rest of the line is not read: continue it on another one",
+    "-Wunused-result": "what the function returns says whether it worked",
+    "-Wunused-value": "the statement has no effect",
+    "-Wimplicit-function-declaration": "declare the function, or include its header",
+    "-Wint-conversion": "an integer and an address are not the same",
+    "-Wincompatible-pointer-types": "the argument is of another type than the parameter",
+    "-Wformat": "the format does not fit what is printed",
+}
+"""Warnings that are told, and what to do; others are style."""
+
+_SENTENCES: Final = (
+    ("More actual than formal arguments|Missing actual argument", _COUNT),
+    ("too few elements", "the routine may read and write what lies behind it"),
+)
+"""The same for those without an option."""
+
+
+@dataclass(frozen=True, slots=True)
+class Suspicion:
+    """A warning: bare name of the file, line from 1, what is wrong, the source line, what to do.
+
+    certain: wrong wherever it is executed.
+    """
+
+    file: str
+    line: int
+    sentence: str
+    source: str
+    hint: str
+    certain: bool
+
+    def __str__(self) -> str:
+        hint = f" ({self.hint})" if self.hint else ""
+        return f"{self.file} line {self.line}: {self.sentence}: {self.source}{hint}"
+
+
+def suspicions(files: Sequence[Path], include: Sequence[Path] = ()) -> list[Suspicion]:
+    """Certain ones first, each once, in the order of the lines. Raises CompileError."""
+    opinion = listen(files, include)
+    told = _Told(opinion, _checked_lines(files, include))
+    found = dict.fromkeys([*told.warnings(), *told.misspelt(), *told.single_precision()])
+    names = [file.name for file in files]
+    place = {name: number for number, name in enumerate(names)}
+    return sorted(found, key=lambda one: (not one.certain, place.get(one.file, len(names)), one.line))
+
+
+def _checked_lines(files: Sequence[Path], include: Sequence[Path]) -> set[tuple[str, int]]:
+    """Lines of Fortran in which an index is looked at in a debug build: not those that are never reached."""
+    try:
+        library = build(files, include, debug=True).library.read_bytes()
+    except CompileError:
+        return set()
+    return {(Path(name.decode(errors="replace")).name, int(line)) for line, name in _CHECKED.findall(library)}
+
+
+class _Told:
+    """The compilers' texts, read."""
+
+    def __init__(self, opinion: Opinion, checked: set[tuple[str, int]]) -> None:
+        self._opinion = opinion
+        self._checked = checked
+        self._lines = {name: text.splitlines() for name, text in opinion.texts.items()}
+        self._units: dict[str, list[Unit]] = {
+            name: units(text, free=name in opinion.free) for name, text in opinion.texts.items()
+        }
+
+    def warnings(self) -> Iterator[Suspicion]:
+        """What is wrong, or deserves a look."""
+        for file, line, column, text, option in _messages(self._opinion.warnings):
+            if judged := self._judge(file, line, column, text, option):
+                yield self._at(file, line, *judged)
+
+    def misspelt(self) -> Iterator[Suspicion]:
+        """Names that are declared nowhere and stand in their routine once."""
+        for file, line, _, text, _ in _messages(self._opinion.undeclared):
+            found = _UNDECLARED.search(text)
+            unit = unit_at(self._units.get(file, []), line)
+            if found is None or unit is None or not unit.single(found[1]):
+                continue
+            name = found[1]
+            others = (unit.names.keys() | unit.dummies) - {name}
+            near = get_close_matches(name, others, n=1, cutoff=_NEAR) if len(name) >= _LONG else []
+            # what is set and not used, or an argument that nobody needs, is no mistake by itself
+            if name not in unit.read and not near:
+                continue
+            meant = f" for '{near[0]}'" if near else ""
+            yield self._at(file, line, f"'{found[1]}' is declared nowhere and used once: misspelt{meant}?", "", False)
+
+    def single_precision(self) -> Iterator[Suspicion]:
+        """Constants that lose digits on their way into a variable of double precision: one message a file."""
+        found: dict[str, list[tuple[int, str]]] = {}
+        for file, line, _, _, option in _messages(self._opinion.warnings):
+            if option == "-Wconversion-extra":
+                for constant in _CONSTANT.findall(self._code(file, line)):
+                    if (line, constant) not in found.setdefault(file, []) and _loses_digits(constant):
+                        found[file].append((line, constant))
+        for file, places in found.items():
+            if places:
+                line, constant = places[0]
+                sentence = f"{constant} is a constant of single precision, with 7 digits"
+                others = f"; there are {len(places)} of them" if len(places) > 1 else ""
+                yield self._at(file, line, sentence, f"write {constant}d0{others}", False)
+
+    def _judge(self, file: str, line: int, column: int, text: str, option: str) -> tuple[str, str, bool] | None:
+        """Sentence, hint and whether it is certain; None for style."""
+        if found := _BOUNDS.search(text):
+            return self._outside(file, line, column, found)
+        if found := _TYPES.search(text):
+            given, taken = f"{found[2]}({found[3]})", f"{found[4]}({found[5]})"
+            # a real array that a routine takes for integers is a work array, as in LAPACK
+            certain = found[3] != found[5] and found[4] == "REAL"
+            return f"{given} is passed for the argument '{found[1]}', which is {taken}", "use one type in both", certain
+        if found := _RANK.search(text):
+            hint = "it reads the memory behind it, which holds something else: pass an array"
+            return f"a single value is passed for the argument '{found[1]}', which is an array", hint, False
+        if option == "-Wuninitialized":
+            name = found[0] if (found := re.match(r"'\w+'", text)) else "a local variable"
+            return f"{name} is used before it has a value", "", True
+        hint = _OPTIONS.get(option) or next((hint for pattern, hint in _SENTENCES if re.search(pattern, text)), "")
+        return (text.replace(" at (1)", ""), hint, hint == _COUNT) if hint else None
+
+    def _outside(self, file: str, line: int, column: int, found: re.Match[str]) -> tuple[str, str, bool] | None:
+        index, side, bound, dimension = found.groups()
+        name = self._array(file, line, column)
+        unit = unit_at(self._units.get(file, []), line)
+        dummy = unit is not None and name in unit.dummies
+        if dummy and bound == "1":
+            return None
+        if (file, line) not in self._checked:
+            # behind an IF that is never true
+            return None
+        bounds = "below its lower" if side == "<" else "above its upper"
+        sentence = f"index {index} of dimension {dimension} of '{name}' is {bounds} bound of {bound}"
+        return sentence, "" if not dummy else "declare the argument as large as it is", not dummy
+
+    def _array(self, file: str, line: int, column: int) -> str:
+        """Name of the array whose index is at a column, from 1."""
+        row = self._row(file, line)[:column]
+        depth = 0
+        for place in range(len(row) - 1, -1, -1):
+            depth += (row[place] == ")") - (row[place] == "(")
+            if depth < 0:
+                name = re.search(r"(\w+)\s*$", row[:place])
+                return name[1].lower() if name else ""
+        return ""
+
+    def _row(self, file: str, line: int) -> str:
+        rows = self._lines.get(file, [])
+        return rows[line - 1] if 1 <= line <= len(rows) else ""
+
+    def _code(self, file: str, line: int) -> str:
+        return re.sub(r"'[^']*'|!.*", "", self._row(file, line))
+
+    def _at(self, file: str, line: int, sentence: str, hint: str, certain: bool) -> Suspicion:
+        return Suspicion(file, line, sentence, " ".join(self._row(file, line).split()), hint, certain)
+
+
+def _messages(output: str) -> Iterator[tuple[str, int, int, str, str]]:
+    """Bare file name, line, column, text and option of each message of gfortran, gcc or g++."""
+    place: re.Match[str] | None = None
+    for row in output.splitlines():
+        if found := _PLACE.match(row):
+            if said := _C_WARNING.match(found["rest"]):
+                yield (*_where(found), said["text"], said["option"] or "")
+            elif not found["rest"] and place is None:
+                # the first of several places is (1)
+                place = found
+        elif said := _MESSAGE.match(row):
+            if place is not None:
+                yield (*_where(place), said["text"], said["option"] or "")
+            place = None
+        elif row.startswith("note: "):
+            place = None
+
+
+def _where(place: re.Match[str]) -> tuple[str, int, int]:
+    return Path(place["file"]).name, int(place["line"]), int(place["column"])
+
+
+def _loses_digits(constant: str) -> bool:
+    """Whether a number is another one in single precision."""
+    value = float(constant)
+    return bool(struct.unpack("f", struct.pack("f", value))[0] != value)

@@ -1,0 +1,136 @@
+# SPDX-FileCopyrightText: The uel-harness authors
+# SPDX-License-Identifier: BSD-3-Clause
+"""Program units of a Fortran text: their dummy arguments, the names they use, and declarations as of Fortran 66."""
+
+from __future__ import annotations
+
+import re
+from collections import Counter
+from collections.abc import Iterator
+from dataclasses import dataclass, field
+from typing import Final
+
+_TYPE: Final = r"(?:integer|real|double\s*precision|complex|logical|character)"
+_HEAD: Final = re.compile(
+    rf"^(?:(?:recursive|pure|elemental|{_TYPE}(?:\s*\*\s*\d+|\s*\([^()]*\))?)\s+)*(?:subroutine|function)\s+\w+\s*"
+    r"(?:\(([^()]*)\))?",
+    re.IGNORECASE,
+)
+_DECLARATION: Final = re.compile(rf"^(?:dimension|{_TYPE})\b", re.IGNORECASE)
+_SPECIFICATION: Final = re.compile(
+    rf"^(?:dimension|parameter|common|data|save|external|intrinsic|equivalence|{_TYPE})\b(?!\s*=)", re.IGNORECASE
+)
+_CALL: Final = re.compile(r"^(?:if\s*\(.*\)\s*)?(?:call|read)\b", re.IGNORECASE)
+_ASSIGNMENT: Final = re.compile(r"^(?:do\s+(?:\d+\s+)?)?\w+\s*(?:\([^=]*\)\s*)?=(?!=)", re.IGNORECASE)
+_IMPLICIT: Final = re.compile(r"^implicit\s+(?!none)", re.IGNORECASE)
+_NAME: Final = re.compile(r"(?<![\w.%])[a-z]\w*", re.IGNORECASE)
+_STRING: Final = re.compile(r"'[^'\n]*'|\"[^\"\n]*\"")
+
+
+@dataclass(slots=True)
+class Unit:
+    """A subroutine or function from its first line on.
+
+    dummies   names of its arguments, in lower case like all names
+    names     how often each stands in it
+    declared  names in declarations
+    read      names that stand where a value is taken: not assigned, and no argument of CALL
+    """
+
+    first: int
+    dummies: frozenset[str]
+    names: Counter[str] = field(default_factory=Counter)
+    declared: set[str] = field(default_factory=set)
+    read: set[str] = field(default_factory=set)
+
+    def single(self, name: str) -> bool:
+        """Whether a name stands in it once, and in no declaration."""
+        return self.names[name] == 1 and name not in self.declared and name not in self.dummies
+
+
+def units(text: str, *, free: bool) -> list[Unit]:
+    """Subroutines and functions in the order of the text; lines count from 1."""
+    found: list[Unit] = []
+    for lines, statement in statements(text, free=free):
+        if head := _HEAD.match(statement):
+            dummies = frozenset(name.strip().lower() for name in (head[1] or "").split(",") if name.strip())
+            found.append(Unit(lines[0], dummies))
+        elif found:
+            unit, names = found[-1], [name.lower() for name in _NAME.findall(statement)]
+            unit.names.update(names)
+            if _SPECIFICATION.match(statement):
+                unit.declared.update(names)
+            elif not _CALL.match(statement):
+                unit.read.update(names[1:] if _ASSIGNMENT.match(statement) else names)
+    return found
+
+
+def unit_at(found: list[Unit], line: int) -> Unit | None:
+    """The unit in which a line is."""
+    return next((unit for unit in reversed(found) if unit.first <= line), None)
+
+
+def with_open_bounds(text: str, *, free: bool, but: frozenset[str] = frozenset()) -> str:
+    """The text in which dummy arrays declared with the last bound 1 have *: what Fortran 66 had for any size.
+
+    but: names that stay, in lower case.
+    """
+    rows = text.splitlines(keepends=True)
+    dummies: frozenset[str] = frozenset()
+    for lines, statement in statements(text, free=free):
+        if head := _HEAD.match(statement):
+            dummies = frozenset(name.strip().lower() for name in (head[1] or "").split(",")) - but
+        elif dummies and _DECLARATION.match(statement):
+            for line in lines:
+                rows[line - 1] = _opened(rows[line - 1], dummies)
+    return "".join(rows)
+
+
+def _opened(row: str, names: frozenset[str]) -> str:
+    def change(found: re.Match[str]) -> str:
+        return f"{found[1]}*{found[3]}" if found[2].lower() in names else found[0]
+
+    return re.sub(r"((?<![\w*])([a-z]\w*)\s*\((?:[^()]*,)?\s*)1(\s*\))", change, row, flags=re.IGNORECASE)
+
+
+def without_implicit(text: str, *, free: bool) -> str:
+    """The text without its IMPLICIT statements but IMPLICIT NONE; lines stay where they are."""
+    rows = text.splitlines(keepends=True)
+    for lines, statement in statements(text, free=free):
+        if _IMPLICIT.match(statement):
+            for line in lines:
+                rows[line - 1] = "\n"
+    return "".join(rows)
+
+
+def statements(text: str, *, free: bool) -> Iterator[tuple[list[int], str]]:
+    """Statements with the numbers of their lines, from 1: continued lines are joined, comments and strings left out."""
+    lines: list[int] = []
+    statement, continued = "", False
+    for number, row in enumerate(text.splitlines(), 1):
+        code = _STRING.sub("''", row).partition("!")[0]
+        if (not free and row[:1] in "cC*dD#") or not code.strip() or code.lstrip().startswith("#"):
+            continue
+        more = continued if free else _continues(code)
+        if not more and lines:
+            yield lines, statement.strip()
+            lines, statement = [], ""
+        continued = free and code.rstrip().endswith("&")
+        lines.append(number)
+        statement += " " + (code.strip().strip("&") if free else _body(code))
+    if lines:
+        yield lines, statement.strip()
+
+
+def _continues(row: str) -> bool:
+    """Whether a line of fixed form continues the one before it."""
+    if row.startswith("\t"):
+        return row[1:2].isdigit() and row[1] != "0"
+    return len(row) > 5 and not row[:5].strip() and "\t" not in row[:6] and row[5] not in " 0"
+
+
+def _body(row: str) -> str:
+    """A line of fixed form without label and sign of continuation."""
+    if row.startswith("\t"):
+        return row[2:].strip() if _continues(row) else row[1:].strip()
+    return row[6:].strip() if "\t" not in row[:6] else row.strip()
