@@ -78,6 +78,12 @@ class Single:
         svars: FloatArray = self.block.state(0).svars[0]
         return svars
 
+    @property
+    def energy(self) -> FloatArray:
+        """ENERGY (8,) at the start of the increment."""
+        energy: FloatArray = self.block.state(0).energy[0]
+        return energy
+
     def twin(self, *, strict: bool) -> Single:
         """The same element in the same committed state, to be called without effect on this one."""
         return Single(self.block.split(strict=strict)[0])

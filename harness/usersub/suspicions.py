@@ -161,7 +161,10 @@ class _Told:
             return f"{given} is passed for the argument '{found[1]}', which is {taken}", "use one type in both", certain
         if found := _RANK.search(text):
             hint = "it reads the memory behind it, which holds something else: pass an array"
-            return f"a single value is passed for the argument '{found[1]}', which is an array", hint, False
+            # behind a variable may lie what is meant, behind a constant are other constants
+            constant = self._is_constant(file, line, column)
+            what = "a constant" if constant else "a single value"
+            return f"{what} is passed for the argument '{found[1]}', which is an array", hint, constant
         if option == "-Wuninitialized":
             name = found[0] if (found := re.match(r"'\w+'", text)) else "a local variable"
             return f"{name} is used before it has a value", "", True
@@ -192,6 +195,14 @@ class _Told:
                 name = re.search(r"(\w+)\s*$", row[:place])
                 return name[1].lower() if name else ""
         return ""
+
+    def _is_constant(self, file: str, line: int, column: int) -> bool:
+        """Whether a number, or the name of a PARAMETER, stands at a column, from 1, or behind it."""
+        found = re.match(r"[\s(,]*[-+]?(?:\.?\d|([a-z]\w*)\s*[,)])", self._row(file, line)[column - 1 :], re.IGNORECASE)
+        if found is None or found[1] is None:
+            return found is not None
+        named = re.compile(rf"^\s*[^!c*\n]*\bparameter\b[^!\n]*\b{found[1]}\s*=", re.IGNORECASE)
+        return any(named.match(row) for row in self._lines.get(file, []))
 
     def _row(self, file: str, line: int) -> str:
         rows = self._lines.get(file, [])

@@ -27,18 +27,30 @@ STORED: Final = slice(0, 7)
 """Entries of ENERGY that add up to the internal energy; ENERGY(8) is the work of loads."""
 
 
+ADVICE_ON_ENTRY: Final = (
+    "What an increment without displacements leaves is what was there: the elastic energy is set, not added to the "
+    "value on entry, and of dissipated energies that of the increment alone is added."
+)
+
+
 def check(subject: Subject) -> Finding:
     """The sum of ENERGY(1) to ENERGY(7) grows by the work of the internal forces."""
     reason = _reason_against(subject)
     if reason:
         return not_applicable(reason)
+    pairs = [_on_entry(state) for state in subject.states]
+    rounding = 1e-10 * max(abs(energy) for pair in pairs for energy in pair)
+    for state, (entry, start) in zip(subject.states, pairs, strict=True):
+        if abs(start - entry) > TOLERANCE * max(abs(start), abs(entry)) + rounding:
+            message = f"{state}: ENERGY(1) to (7) are {start:.5g} with DU = 0, and {entry:.5g} on entry"
+            return failed(message, ADVICE_ON_ENTRY, figure=abs(start - entry), limit=TOLERANCE * abs(entry))
     figure, message, judged = 0.0, "", 0
     for state in subject.all_states:
-        pairs = [pair for share in SHARES if (pair := _stored_and_work(state, share)) is not None]
-        if not pairs:
+        parts = [part for share in SHARES if (part := _stored_and_work(state, share)) is not None]
+        if not parts:
             continue
         judged += 1
-        stored, work = min(pairs, key=_deviation)
+        stored, work = min(parts, key=_deviation)
         if exceeds(_deviation((stored, work)), figure):
             figure = _deviation((stored, work))
             message = f"{state}: ENERGY(1) to (7) grow by {stored:.5g}, the work of the forces is {work:.5g}"
@@ -69,6 +81,12 @@ def _reason_against(subject: Subject) -> str:
     if any(_depends_on_time(state) for state in states):
         return "the forces depend on DTIME: take properties without viscosity, if there are such"
     return ""
+
+
+def _on_entry(state: State) -> tuple[float, float]:
+    """Energy on entry, and what a call without displacements makes of it."""
+    start = state.part(0.0).evaluate().energy[STORED].sum()
+    return float(state.single.energy[STORED].sum()), float(start)
 
 
 def _depends_on_time(state: State) -> bool:

@@ -53,10 +53,12 @@ CERTAIN = [
     (SET + "call fill(b, 2, 3.0, w)", r"REAL\(4\) is passed for the argument 'x', which is REAL\(8\)"),
     (SET + "call fill(b, 2, 3, w)", r"INTEGER\(4\) is passed for the argument 'x', which is REAL\(8\)"),
     (SET + "call fill(b, 2, 3.d0)", "Missing actual argument for argument 'arr'"),
+    (SET + "call fill(b, 2, 3.d0, 2.d0)", "a constant is passed for the argument 'arr', which is an array"),
+    (SET + "call fill(b, 2, 3.d0, zero)", "a constant is passed for the argument 'arr', which is an array"),
     (SET + "call fill(b, 2, 3.d0, w, n)", "More actual than formal arguments in procedure call"),
 ]
 TOLD = [
-    (SET + "call fill(b, 2, 3.d0, zero)", "a single value is passed for the argument 'arr', which is an array"),
+    (SET + "call fill(b, 2, 3.d0, s)", "a single value is passed for the argument 'arr', which is an array"),
     (SET + "if (n > 1) q = props(n)\n      x = q", "'q' may be used uninitialized"),
     (SET + "young = young*(1/2)", r"Integer division truncated to constant '0'.*write 1.d0/3.d0"),
     (SET + "x = 0.577350269189626", r"0.577350269189626 is a constant of single precision.*write 0.577350269189626d0"),

@@ -143,10 +143,9 @@ def test_residual_alone_leaves_no_trace(model):
         "      double precision rhs(2)\n      if (request == 5) calls = calls + 1\n"
         "      rhs = rhs*(1 + 0.1d0*calls)\n      end\n"
     )
-    finding = findings((deck, user))["repeat"]
+    # other checks make such calls too, and their trace shows as soon as a call is made again
+    finding = findings((deck, user), skip=["outside", "resources"])["repeat"]
     assert finding.verdict is Verdict.FAILED
-    message = (
-        r"the same call returns other values after (others than in the run|calls with LFLAGS\(3\) = 5): RHS\(1\) is"
-    )
+    message = r"the same call returns other values after calls with LFLAGS\(3\) = 5: RHS\(1\) is"
     assert re.search(message, finding.message), finding.message
     assert re.search("they leave no trace behind", finding.advice)
