@@ -1,0 +1,26 @@
+# SPDX-FileCopyrightText: The uel-harness authors
+# SPDX-License-Identifier: BSD-3-Clause
+"""Every right element passes, and the mistakes are found: a sample in `make test`, all in `make test-all`."""
+
+import pytest
+from faults import MISSED, check, elements, faults
+
+SAMPLE = 5
+"""Every fifth fault is tried in `make test`."""
+
+
+@pytest.mark.parametrize("element", list(elements()))
+def test_right_element_passes(element):
+    assert str(check(element)) == "passed"
+
+
+@pytest.mark.parametrize("fault", faults()[::SAMPLE], ids=lambda fault: fault.name)
+def test_fault_is_found(fault):
+    assert check(fault.element, fault).found
+
+
+@pytest.mark.long
+def test_nearly_all_faults_are_found():
+    everything = faults()
+    assert len(everything) == 40
+    assert len([fault for fault in everything if not check(fault.element, fault).found]) <= MISSED
