@@ -178,7 +178,8 @@ def _read_value(keyword: Keyword, option: Option, value: str | None, source: Sou
             .replace("OFF", "NO")
         )
     value = value or option.bare
-    if not value:
+    # quotes around nothing are none
+    if not value or not value.strip('" '):
         raise DeckError(source, f"{place} needs a value")
     if option.kind is Kind.CHOICE:
         return _choose(place, value, option.choices, option.refused, source)

@@ -26,6 +26,7 @@ MISTAKES = {
     "missing option": ("*MATERIAL, NAME=PLY", "*MATERIAL", r"29: \*MATERIAL needs the option NAME"),
     "ambiguous option": ("INC=500", "N=500", r"41: \*STEP: option N may be NAME or NLGEOM; write it out"),
     "option without value": ("NAME=PLY", "NAME=", r"29: \*MATERIAL, NAME needs a value"),
+    "option with a quote alone": ("NAME=PLY", 'NAME="', r"29: \*MATERIAL, NAME needs a value"),
     "flag with a value": ("GENERATE", "GENERATE=3", r"25: \*NSET, GENERATE takes no value, '3' is given"),
     "switch": ("NLGEOM=NO", "NLGEOM=MAYBE", r"41: \*STEP, NLGEOM=MAYBE: expected one of YES, NO, ON, OFF"),
     "choice": ("TENSOR=PSTRESS", "TENSOR=PSTRES5", r"7: TENSOR=PSTRES5: expected one of .*; did you mean PSTRESS\?"),
