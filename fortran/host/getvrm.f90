@@ -23,7 +23,8 @@ subroutine getvrm(var, array, jarray, flgray, jrcd, jmac, jmatyp, matlayo, laccf
   jarray = 0
   flgray = 'YES'
   n = size(current%values)/2
-  head = size(current%history, 1) - current%statev
+  head = 0
+  if (associated(current%history)) head = size(current%history, 1) - current%statev
   jrcd = 0
   select case (var)
   case ('E', 'LE')

@@ -142,6 +142,7 @@ contains
     length(i_coords) = size(block%coords, 1)*nnode
     length(i_predef) = 2*size(block%predef, 2)*nnode
     call lay_out(work, length)
+    nullify (current%history, current%history_trial)
     if (associated(block%history)) then
       if (allocated(discarded)) deallocate (discarded)
       allocate (discarded(size(block%history, 1), size(block%history, 2)))

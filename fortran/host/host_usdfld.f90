@@ -47,9 +47,12 @@ contains
     integer :: first
     call c_f_procpointer(user%address, usdfld)
     field = current%fields(2:, 1) + current%fields(2:, 2)
-    first = size(current%history, 1) - user%statev + 1
     statev = 0
-    statev(:user%statev) = current%history(first:, min(int(point), size(current%history, 2)))
+    ! without STATEV, a material need not have a history
+    if (user%statev > 0) then
+      first = size(current%history, 1) - user%statev + 1
+      statev(:user%statev) = current%history(first:, min(int(point), size(current%history, 2)))
+    end if
     direct = transpose(axes)
     t = direct
     time = current%time
