@@ -5,7 +5,6 @@
 import shutil
 from pathlib import Path
 
-import numpy as np
 import pytest
 
 import harness
@@ -24,7 +23,7 @@ def test_it_converges_too_slowly(tmp_path: Path) -> None:
     text = deck.read_text()
     assert text.count(INTEGERS) == 1
     deck.write_text(text.replace(INTEGERS, "0., 1, 0, 1, 0, -5000, -4000, 0"))
-    with pytest.raises(ConvergenceError, match="TOO MANY ATTEMPTS"):
+    with pytest.raises(ConvergenceError, match=r"LESS THAN THE MINIMUM|TOO MANY ATTEMPTS"):
         harness.run(deck, output_dir=tmp_path)
-    # regression; the page of the decks says where it stops
-    assert np.max(Result(tmp_path / "dcb_u3_1e8").history["time"]) == pytest.approx(0.43, abs=0.05)
+    # regression: 760 increments when it was written, where the whole analysis takes 156 with the consistent tangent
+    assert len(Result(tmp_path / "dcb_u3_1e8").status) > 3 * 156
