@@ -1,21 +1,26 @@
 ! SPDX-FileCopyrightText: The uel-harness authors
 ! SPDX-License-Identifier: BSD-3-Clause
-!> The procedures Python calls (through f2py, see _host.pyf). They only pack and unpack.
+!> The procedures Python calls through f2py, which reads them here: names, kinds, shapes and intents
+!> are those that Python sees (harness/usersub/_host.pyi, written by stub.py). They only pack and unpack.
 
 !> One pass over a block; see block_t for the arrays.
-subroutine host_evaluate(address, options, lflags, clock, labels, jprops, equations, map, props, coords, u, du, v, a, &
+subroutine host_evaluate(address, material, tensor, jtype, symmetric, want_matrix, kstep, kinc, guards, entries, iteration, &
+                         lflags, time, dtime, period, params, labels, jprops, equations, map, props, coords, u, du, v, a, &
                          counts, kinds, loads, predef, floor, svars, svars_trial, energy, energy_trial, history, &
-                         history_trial, residual, matrix, flux, terms, sums, status, ndofel, nsvars, nprops, njprop, mcrd, &
-                         nnode, m, n, nrhs, nnz, values, points, most, nfield, nrate, mload, mfield)
+                         history_trial, residual, matrix, flux, terms, pnewdt, energy_sum, fault, position, array, item, &
+                         ndofel, nsvars, nprops, njprop, mcrd, nnode, m, n, nrhs, nnz, values, points, most, nfield, nrate, &
+                         mload, mfield)
   use, intrinsic :: iso_c_binding, only: c_funptr, c_intptr_t
   use host_driver, only: block_t, run_block
   use host_kinds, only: dp, i4, i8
   implicit none (type, external)
   integer(i8), intent(in) :: address          !< of UEL or UELMAT
-  !> material, tensor, jtype, symmetric, want_matrix, kstep, kinc, guards, entries, iteration
-  integer(i4), intent(in) :: options(10)
+  integer(i4), intent(in) :: material         !< number of it in the host; 0: UEL is called, else UELMAT
+  integer(i4), intent(in) :: tensor, jtype, kstep, kinc
+  integer(i4), intent(in) :: symmetric, want_matrix   !< 0 or 1
+  integer(i4), intent(in) :: guards, entries, iteration
   integer(i4), intent(in) :: lflags(7)
-  real(dp), intent(in) :: clock(7)            !< step time, total time, time increment, period, PARAMS
+  real(dp), intent(in) :: time(2), dtime, period, params(3)
   integer(i4), intent(in) :: ndofel, nsvars, nprops, njprop, mcrd, nnode, m, n, nrhs, nnz, values, points, most, nfield
   integer(i4), intent(in) :: nrate            !< n, or 1 where nothing moves
   integer(i4), intent(in) :: mload, mfield    !< m, or 1 if all elements have the same loads, the same fields
@@ -29,27 +34,27 @@ subroutine host_evaluate(address, options, lflags, clock, labels, jprops, equati
   real(dp), intent(in), target :: floor(ndofel)
   real(dp), intent(out), target :: flux(ndofel, 2)
   integer(i4), intent(out), target :: terms(ndofel)
-  real(dp), intent(out) :: sums(9)            !< PNEWDT, ENERGY
-  integer(i4), intent(out) :: status(4)       !< fault, position, array, index
+  real(dp), intent(out) :: pnewdt, energy_sum(8)
+  integer(i4), intent(out) :: fault, position, array, item   !< as block_t has them; item is its index
   type(block_t), target :: block
   block%address = transfer(int(address, c_intptr_t), block%address)
-  block%with_material = options(1) > 0
-  block%material = options(1)
-  block%tensor = options(2)
-  block%jtype = options(3)
-  block%symmetric = options(4) /= 0
-  block%want_matrix = options(5) /= 0
+  block%with_material = material > 0
+  block%material = material
+  block%tensor = tensor
+  block%jtype = jtype
+  block%symmetric = symmetric /= 0
+  block%want_matrix = want_matrix /= 0
   block%want_residual = any(lflags(3) == [1, 5, 6, 100])
-  block%kstep = options(6)
-  block%kinc = options(7)
-  block%guards = options(8)
-  block%entries = options(9)
-  block%iteration = options(10)
+  block%kstep = kstep
+  block%kinc = kinc
+  block%guards = guards
+  block%entries = entries
+  block%iteration = iteration
   block%lflags = lflags
-  block%time = clock(1:2)
-  block%dtime = clock(3)
-  block%period = clock(4)
-  block%params = clock(5:7)
+  block%time = time
+  block%dtime = dtime
+  block%period = period
+  block%params = params
   block%labels => labels
   block%jprops => jprops
   block%equations => equations
@@ -80,9 +85,12 @@ subroutine host_evaluate(address, options, lflags, clock, labels, jprops, equati
   block%flux => flux
   block%terms => terms
   call run_block(block)
-  sums(1) = block%pnewdt
-  sums(2:9) = block%energy_sum
-  status = [block%fault, block%position, block%array, block%index]
+  pnewdt = block%pnewdt
+  energy_sum = block%energy_sum
+  fault = block%fault
+  position = block%position
+  array = block%array
+  item = block%index
 end subroutine host_evaluate
 
 !> Exchange what the guards of each array (as host_workspace orders them) and, last, entries that are not set hold.
@@ -179,7 +187,7 @@ subroutine host_external_database(address, lop, lrestart, time, dtime, kstep, ki
 end subroutine host_external_database
 
 !> Make a material known; returns the number that stands for it.
-subroutine host_define_material(stiffness, compliance, thickness, axes, constants, yield, number, ntens, rows)
+subroutine host_define_material(stiffness, compliance, thickness, axes, constants, hardening, number, ntens, rows)
   use host_kinds, only: dp, i4
   use host_materials, only: define, material_t
   implicit none (type, external)
@@ -188,7 +196,7 @@ subroutine host_define_material(stiffness, compliance, thickness, axes, constant
   real(dp), intent(in) :: thickness(3)        !< plane stress: elastic strain 33 per stress
   real(dp), intent(in) :: axes(3, 3)          !< rows: material directions
   real(dp), intent(in) :: constants(2)        !< Young's modulus and Poisson's ratio of a plastic material
-  real(dp), intent(in) :: yield(2, rows)      !< yield stress and plastic strain; one row of zeros: elastic
+  real(dp), intent(in) :: hardening(2, rows)  !< yield stress and plastic strain; one row of zeros: elastic
   integer(i4), intent(out) :: number
   type(material_t) :: material
   material%ntens = ntens
@@ -199,7 +207,7 @@ subroutine host_define_material(stiffness, compliance, thickness, axes, constant
   material%turned = any(abs(axes - reshape([1, 0, 0, 0, 1, 0, 0, 0, 1], [3, 3])) > 0)
   material%young = constants(1)
   material%poisson = constants(2)
-  if (yield(1, 1) > 0) material%yield = transpose(yield)
+  if (hardening(1, 1) > 0) material%yield = transpose(hardening)
   number = define(material)
 end subroutine host_define_material
 
@@ -369,8 +377,8 @@ subroutine host_value_pass(address, place, time, places, coords, values, left, l
 end subroutine host_value_pass
 
 !> Call UAMP for an amplitude.
-subroutine host_uamp_call(address, name, clock, props, svars, info, sensors, names, counts, value, define, left, nprop, nsvar, &
-                          nsensor)
+subroutine host_uamp_call(address, name, clock, props, svars, info, sensors, names, counts, given, value, define, left, nprop, &
+                          nsvar, nsensor)
   use, intrinsic :: iso_c_binding, only: c_intptr_t
   use host_kinds, only: dp, i4, i8
   use host_uamp, only: run_uamp, uamp_call_t
@@ -384,7 +392,8 @@ subroutine host_uamp_call(address, name, clock, props, svars, info, sensors, nam
   integer(i4), intent(in) :: info(5)          !< lFlagsInfo, increment
   character(len=80), intent(in), target :: names(nsensor)
   integer(i4), intent(in) :: counts(3)        !< nProps, nSvars, nSensor: the arrays may be longer
-  real(dp), intent(inout) :: value
+  real(dp), intent(in) :: given               !< value on entry
+  real(dp), intent(out) :: value
   integer(i4), intent(out) :: define(6)       !< lFlagsDefine
   integer(i4), intent(out) :: left            !< 1 if the routine ended the analysis
   type(uamp_call_t) :: arguments
@@ -394,7 +403,7 @@ subroutine host_uamp_call(address, name, clock, props, svars, info, sensors, nam
   arguments%dtime = clock(3)
   arguments%old = clock(4)
   arguments%info = info(:4)
-  arguments%value = value
+  arguments%value = given
   arguments%nprops = counts(1)
   arguments%nsvars = counts(2)
   arguments%nsensor = counts(3)

@@ -1,6 +1,6 @@
 ! SPDX-FileCopyrightText: The uel-harness authors
 ! SPDX-License-Identifier: BSD-3-Clause
-!> Procedures Python calls (through f2py, see _host.pyf) to watch user elements; entry.f90 has the others.
+!> Procedures Python calls (through f2py) to watch user elements; entry.f90 has the others.
 
 !> Address of a routine that calls UEL, or UELMAT, at an address and notes which inputs it changes.
 subroutine host_watch(address, with_material, watched)
@@ -74,9 +74,9 @@ end subroutine host_trap
 !> Addresses of the calls that the last signal has ended, innermost first, and how many they are; forgets them.
 subroutine host_take_frames(addresses, count)
   use host_kinds, only: i4, i8
-  use host_protect, only: most_frames, take_frames
+  use host_protect, only: take_frames
   implicit none (type, external)
-  integer(i8), intent(out) :: addresses(most_frames)
+  integer(i8), intent(out) :: addresses(64)   !< most_frames: f2py takes no constant of a module, the compiler compares
   integer(i4), intent(out) :: count
   call take_frames(addresses, count)
 end subroutine host_take_frames

@@ -5,7 +5,7 @@ module host_protect
   use, intrinsic :: iso_c_binding, only: c_double, c_funptr, c_int, c_int32_t, c_int64_t, c_ptr
   implicit none (type, external)
   private
-  public :: protect, escape, clear_arrays, begin_call, limit_calls, trap, take_frames, most_frames, watch, take_changes, &
+  public :: protect, escape, clear_arrays, begin_call, limit_calls, trap, take_frames, watch, take_changes, &
             fill_stack, exchange_around, take_outside, allocated_bytes, attempt, share, loading
 
   integer, parameter :: most_frames = 64   !< as in frames.c

@@ -155,10 +155,9 @@ class Block:
         """
         motion = motion or _AT_REST
         outcome = _binding.evaluate(
-            self._procedure.address,
+            self._scalars(call),
             self._options(call, assemble=matrix is not None),
             call.flags,
-            (call.step_time, call.total_time, call.time_increment, call.period, *call.params),
             self._arrays,
             u,
             du,
@@ -231,14 +230,30 @@ class Block:
 
     def bare_loop(self, call: Call, u: FloatArray, du: FloatArray, residual: FloatArray) -> None:
         """Only call the elements, from a plain Fortran loop over the block: the limit of speed."""
-        clock = (call.step_time, call.total_time, call.time_increment, call.period)
-        options = self._options(call, assemble=False)
-        _binding.bare_loop(self._procedure.address, options, call.flags, clock, self._arrays, u, du, residual)
+        _binding.bare_loop(self._scalars(call), call.flags, self._arrays, u, du, residual)
+
+    def _scalars(self, call: Call) -> _binding.Scalars:
+        return {
+            "address": self._procedure.address,
+            "material": self._procedure.material,
+            "jtype": self._procedure.jtype,
+            "kstep": call.step,
+            "kinc": call.increment,
+            "time": (call.step_time, call.total_time),
+            "dtime": call.time_increment,
+            "period": call.period,
+        }
 
     def _options(self, call: Call, *, assemble: bool) -> _binding.Options:
-        p, guards = self._procedure, (self._guards, self._entries)
-        flags = int(not (self.unsymmetric or (call.unsymmetric and self.group.definition))), int(assemble)
-        return p.material, p.tensor, p.jtype, *flags, call.step, call.increment, *guards, call.iteration
+        return {
+            "tensor": self._procedure.tensor,
+            "symmetric": not (self.unsymmetric or (call.unsymmetric and self.group.definition)),
+            "want_matrix": assemble,
+            "guards": self._guards,
+            "entries": self._entries,
+            "iteration": call.iteration,
+            "params": call.params,
+        }
 
     def initialise(self, rows: IntArray, values: FloatArray) -> None:
         """Initial SVARS of elements (rows of the block), or STATEV of their points. Raises ValueError if too many."""

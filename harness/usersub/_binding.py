@@ -10,7 +10,7 @@ from __future__ import annotations
 import os
 import sys
 from collections.abc import Sequence
-from typing import Final
+from typing import Final, TypedDict
 
 import numpy as np
 from numpy.typing import NDArray
@@ -30,17 +30,39 @@ finally:
 ARRAYS: Final = ("RHS", "AMATRX", "SVARS", "ENERGY", "PROPS", "COORDS", "U", "DU", "V", "A", "PREDEF")
 """Guarded arrays, in the order of fortran/host/host_workspace.f90."""
 
-Options = tuple[int, int, int, int, int, int, int, int, int, int]
-"""As host_evaluate in fortran/host/entry.f90 names them."""
+
+class Scalars(TypedDict):
+    """Scalar arguments of a pass, as host_evaluate in fortran/host/entry.f90 has them."""
+
+    address: int
+    material: int
+    jtype: int
+    kstep: int
+    kinc: int
+    time: tuple[float, float]
+    dtime: float
+    period: float
+
+
+class Options(TypedDict):
+    """Those that a plain loop has no use for."""
+
+    tensor: int
+    symmetric: bool
+    want_matrix: bool
+    guards: int
+    entries: int
+    iteration: int
+    params: tuple[float, float, float]
+
 
 _watching = False
 
 
 def evaluate(
-    address: int,
+    scalars: Scalars,
     options: Options,
     lflags: tuple[int, ...],
-    clock: tuple[float, ...],
     arrays: BlockArrays,
     u: FloatArray,
     du: FloatArray,
@@ -52,43 +74,52 @@ def evaluate(
     residual: FloatArray,
     matrix: FloatArray,
 ) -> Outcome:
-    """One pass over a block; lflags is LFLAGS(1..7), options and clock are those of host_evaluate in entry.f90.
+    """One pass over a block; lflags is LFLAGS(1..7).
 
     v and a are (n,), or (1,) where nothing moves; predef is (m, nodes, fields, 2), or (1, nodes, fields, 2) if it is
     the same for all elements; floor (ndofel,); residual (NRHS, n), whose rows take the columns of RHS.
     """
-    flux, terms, sums, status = _host.host_evaluate(
-        _host.host_watch(address, options[0]) if _watching else address,
-        options,
-        lflags,
-        clock,
-        arrays.labels,
-        arrays.jprops,
-        arrays.equations.T,
-        arrays.map.T,
-        arrays.props,
-        arrays.coords.T,
-        u,
-        du,
-        v,
-        a,
-        loads.counts,
-        loads.kinds.T,
-        loads.values.T,
-        predef.T,
-        floor,
-        arrays.svars.T,
-        arrays.svars_trial.T,
-        arrays.energy.T,
-        arrays.energy_trial.T,
-        arrays.history.T,
-        arrays.history_trial.T,
-        residual.T,
-        matrix,
+    if _watching:
+        scalars = {**scalars, "address": _host.host_watch(scalars["address"], scalars["material"])}
+    flux, terms, pnewdt, energy, fault, position, array, index = _host.host_evaluate(
+        **scalars,
+        **options,
+        lflags=lflags,
+        labels=arrays.labels,
+        jprops=arrays.jprops,
+        equations=arrays.equations.T,
+        map=arrays.map.T,
+        props=arrays.props,
+        coords=arrays.coords.T,
+        u=u,
+        du=du,
+        v=v,
+        a=a,
+        counts=loads.counts,
+        kinds=loads.kinds.T,
+        loads=loads.values.T,
+        predef=predef.T,
+        floor=floor,
+        svars=arrays.svars.T,
+        svars_trial=arrays.svars_trial.T,
+        energy=arrays.energy.T,
+        energy_trial=arrays.energy_trial.T,
+        history=arrays.history.T,
+        history_trial=arrays.history_trial.T,
+        residual=residual.T,
+        matrix=matrix,
     )
-    fault, position, array, index = (int(k) for k in status)
-    place = Fault(fault), position - 1, ARRAYS[array - 1], index
-    return Outcome(*place, flux[:, 0], flux[:, 1], terms, float(sums[0]), sums[1:])
+    return Outcome(
+        fault=Fault(fault),
+        position=position - 1,
+        array=ARRAYS[array - 1],
+        index=index,
+        flux=flux[:, 0],
+        largest=flux[:, 1],
+        terms=terms,
+        pnewdt=pnewdt,
+        energy=energy,
+    )
 
 
 def exchange_marks(marks: FloatArray) -> None:
@@ -140,10 +171,8 @@ def allocated() -> int:
 
 
 def bare_loop(
-    address: int,
-    options: Options,
+    scalars: Scalars,
     lflags: tuple[int, ...],
-    clock: tuple[float, float, float, float],
     arrays: BlockArrays,
     u: FloatArray,
     du: FloatArray,
@@ -151,25 +180,22 @@ def bare_loop(
 ) -> None:
     """Call the elements from a plain loop: what `evaluate` is measured against."""
     ndofel = arrays.equations.shape[1]
-    amatrx = np.zeros((ndofel, ndofel))
     _host.host_bare_loop(
-        address,
-        options,
-        lflags,
-        clock,
-        arrays.labels,
-        arrays.jprops,
-        arrays.equations.T,
-        arrays.props,
-        arrays.coords.T,
-        u,
-        du,
-        arrays.svars.T,
-        arrays.svars_trial.T,
-        arrays.energy.T,
-        arrays.energy_trial.T,
-        residual,
-        amatrx.T,
+        **scalars,
+        lflags=np.array(lflags, dtype=np.int32),
+        labels=arrays.labels,
+        jprops=arrays.jprops,
+        equations=arrays.equations.T,
+        props=arrays.props,
+        coords=arrays.coords.T,
+        u=u,
+        du=du,
+        svars=arrays.svars.T,
+        svars_trial=arrays.svars_trial.T,
+        energy=arrays.energy.T,
+        energy_trial=arrays.energy_trial.T,
+        residual=residual,
+        amatrx=np.zeros((ndofel, ndofel)).T,
     )
 
 

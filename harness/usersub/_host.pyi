@@ -1,50 +1,154 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-from typing import Any
+# Written by fortran/host/stub.py.
+from collections.abc import Sequence
 
 import numpy as np
 from numpy.typing import NDArray
 
-def host_evaluate(*arguments: Any) -> tuple[Any, ...]: ...
+def host_evaluate(
+    address: int,
+    material: int,
+    tensor: int,
+    jtype: int,
+    symmetric: int,
+    want_matrix: int,
+    kstep: int,
+    kinc: int,
+    guards: int,
+    entries: int,
+    iteration: int,
+    lflags: Sequence[int] | NDArray[np.int32],
+    time: Sequence[float] | NDArray[np.float64],
+    dtime: float,
+    period: float,
+    params: Sequence[float] | NDArray[np.float64],
+    labels: NDArray[np.int32],
+    jprops: NDArray[np.int32],
+    equations: NDArray[np.int32],
+    map: NDArray[np.int32],
+    props: NDArray[np.float64],
+    coords: NDArray[np.float64],
+    u: NDArray[np.float64],
+    du: NDArray[np.float64],
+    v: NDArray[np.float64],
+    a: NDArray[np.float64],
+    counts: NDArray[np.int32],
+    kinds: NDArray[np.int32],
+    loads: NDArray[np.float64],
+    predef: NDArray[np.float64],
+    floor: NDArray[np.float64],
+    svars: NDArray[np.float64],
+    svars_trial: NDArray[np.float64],
+    energy: NDArray[np.float64],
+    energy_trial: NDArray[np.float64],
+    history: NDArray[np.float64],
+    history_trial: NDArray[np.float64],
+    residual: NDArray[np.float64],
+    matrix: NDArray[np.float64],
+) -> tuple[NDArray[np.float64], NDArray[np.int32], float, NDArray[np.float64], int, int, int, int]: ...
 def host_exchange_marks(marks: NDArray[np.float64]) -> None: ...
-def host_exchange_room(room: NDArray[np.int32]) -> None: ...
+def host_take_message() -> tuple[int, NDArray[np.int32], bytes]: ...
+def host_open_job(name: str | bytes, directory: str | bytes, file6: str | bytes, file7: str | bytes) -> int: ...
+def host_limit_calls(seconds: float) -> None: ...
+def host_share(file: int) -> int: ...
+def host_loading(begins: int) -> None: ...
+def host_flush(finish: int) -> int: ...
+def host_external_database(
+    address: int,
+    lop: int,
+    lrestart: int,
+    time: Sequence[float] | NDArray[np.float64],
+    dtime: float,
+    kstep: int,
+    kinc: int,
+) -> int: ...
+def host_define_material(
+    stiffness: NDArray[np.float64],
+    compliance: NDArray[np.float64],
+    thickness: Sequence[float] | NDArray[np.float64],
+    axes: NDArray[np.float64],
+    constants: Sequence[float] | NDArray[np.float64],
+    hardening: NDArray[np.float64],
+) -> int: ...
+def host_set_expansion(number: int, expansion: float) -> None: ...
+def host_set_dependence(number: int, constants: int, turn: NDArray[np.float64], table: NDArray[np.float64]) -> None: ...
+def host_set_user_field(
+    number: int, address: int, names: Sequence[str] | NDArray[np.bytes_], statev: int, axes: NDArray[np.float64]
+) -> None: ...
+def host_define_user_material(
+    umat: int, name: str | bytes, ntens: int, constants: NDArray[np.float64], count: int
+) -> int: ...
+def host_uvarm_pass(
+    address: int,
+    names: Sequence[str] | NDArray[np.bytes_],
+    axes: NDArray[np.float64],
+    counts: Sequence[int] | NDArray[np.int32],
+    place: Sequence[int] | NDArray[np.int32],
+    clock: Sequence[float] | NDArray[np.float64],
+    labels: NDArray[np.int32],
+    coords: NDArray[np.float64],
+    svars: NDArray[np.float64],
+    history: NDArray[np.float64],
+    uvar: NDArray[np.float64],
+) -> tuple[int, int]: ...
+def host_sdvini_pass(
+    address: int, solid: int, labels: NDArray[np.int32], coords: NDArray[np.float64], statev: NDArray[np.float64]
+) -> tuple[int, int]: ...
+def host_value_pass(
+    address: int,
+    place: Sequence[int] | NDArray[np.int32],
+    time: Sequence[float] | NDArray[np.float64],
+    places: NDArray[np.int32],
+    coords: NDArray[np.float64],
+    values: NDArray[np.float64],
+) -> tuple[int, int]: ...
+def host_uamp_call(
+    address: int,
+    name: str | bytes,
+    clock: Sequence[float] | NDArray[np.float64],
+    props: NDArray[np.float64],
+    svars: NDArray[np.float64],
+    info: Sequence[int] | NDArray[np.int32],
+    sensors: NDArray[np.float64],
+    names: NDArray[np.bytes_],
+    counts: Sequence[int] | NDArray[np.int32],
+    given: float,
+) -> tuple[float, NDArray[np.int32], int]: ...
+def host_solid_address() -> int: ...
+def host_coupled_address() -> int: ...
+def host_cohesive_address() -> int: ...
+def host_discrete_address() -> int: ...
 def host_watch(address: int, with_material: int) -> int: ...
 def host_take_changes() -> tuple[NDArray[np.int32], NDArray[np.float64]]: ...
 def host_fill_stack(on: int, number: float) -> None: ...
 def host_exchange_around(argument: int, number: NDArray[np.float64]) -> None: ...
 def host_take_outside() -> tuple[NDArray[np.int32], NDArray[np.int32]]: ...
 def host_allocated() -> int: ...
-def host_bare_loop(*arguments: Any) -> None: ...
-def host_take_message() -> tuple[int, NDArray[np.int32], bytes]: ...
-def host_open_job(name: bytes, directory: bytes, file6: bytes, file7: bytes) -> int: ...
-def host_limit_calls(seconds: float) -> None: ...
 def host_trap(on: int) -> int: ...
 def host_take_frames() -> tuple[NDArray[np.int64], int]: ...
-def host_flush(finish: int) -> int: ...
-def host_share(file: int) -> int: ...
-def host_loading(begins: int) -> None: ...
-def host_external_database(
-    address: int, lop: int, lrestart: int, time: tuple[float, float], dtime: float, kstep: int, kinc: int
-) -> int: ...
-def host_define_material(
-    stiffness: NDArray[np.float64],
-    compliance: NDArray[np.float64],
-    thickness: NDArray[np.float64],
-    axes: NDArray[np.float64],
-    constants: tuple[float, float],
-    table: NDArray[np.float64],
-) -> int: ...
-def host_define_user_material(umat: int, name: str, ntens: int, constants: NDArray[np.float64], count: int) -> int: ...
-def host_set_expansion(number: int, expansion: float) -> None: ...
-def host_set_dependence(number: int, constants: int, turn: NDArray[np.float64], table: NDArray[np.float64]) -> None: ...
-def host_set_user_field(
-    number: int, address: int, names: NDArray[np.bytes_], statev: int, axes: NDArray[np.float64]
+def host_exchange_room(room: NDArray[np.int32]) -> None: ...
+def host_bare_loop(
+    address: int,
+    material: int,
+    jtype: int,
+    kstep: int,
+    kinc: int,
+    lflags: NDArray[np.int32],
+    time: Sequence[float] | NDArray[np.float64],
+    dtime: float,
+    period: float,
+    labels: NDArray[np.int32],
+    jprops: NDArray[np.int32],
+    equations: NDArray[np.int32],
+    props: NDArray[np.float64],
+    coords: NDArray[np.float64],
+    u: NDArray[np.float64],
+    du: NDArray[np.float64],
+    svars: NDArray[np.float64],
+    svars_trial: NDArray[np.float64],
+    energy: NDArray[np.float64],
+    energy_trial: NDArray[np.float64],
+    residual: NDArray[np.float64],
+    amatrx: NDArray[np.float64],
 ) -> None: ...
-def host_uvarm_pass(*arguments: Any) -> tuple[int, int]: ...
-def host_sdvini_pass(*arguments: Any) -> tuple[int, int]: ...
-def host_value_pass(*arguments: Any) -> tuple[int, int]: ...
-def host_uamp_call(*arguments: Any) -> tuple[float, NDArray[np.int32], int]: ...
-def host_solid_address() -> int: ...
-def host_discrete_address() -> int: ...
-def host_cohesive_address() -> int: ...
-def host_coupled_address() -> int: ...
