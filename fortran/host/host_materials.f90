@@ -36,7 +36,12 @@ module host_materials
     type(user_field_t), allocatable :: user_field  !< of USDFLD
   end type material_t
 
-  type(material_t), allocatable, save, target :: library(:)
+  type :: shelf_t
+    type(material_t), pointer :: material => null()
+  end type shelf_t
+
+  type(shelf_t), allocatable, save :: library(:)   !< with room behind the last material
+  integer(i4), save :: materials = 0               !< in the library
 
 contains
 
@@ -44,9 +49,17 @@ contains
   function define(material) result(number)
     type(material_t), intent(in) :: material
     integer(i4) :: number
-    if (.not. allocated(library)) allocate (library(0))
-    library = [library, material]
-    number = size(library, kind=i4)
+    type(shelf_t), allocatable :: larger(:)
+    if (.not. allocated(library)) allocate (library(16))
+    if (materials == size(library)) then
+      ! not [library, ...]: its temporary copy would lie on the stack, with all materials in it
+      allocate (larger(2*materials))
+      larger(:materials) = library
+      call move_alloc(larger, library)
+    end if
+    materials = materials + 1_i4
+    allocate (library(materials)%material, source=material)
+    number = materials
   end function define
 
   !> The material of that number, null if there is none.
@@ -54,8 +67,7 @@ contains
     integer(i4), intent(in) :: number
     type(material_t), pointer :: material
     material => null()
-    if (.not. allocated(library)) return
-    if (number >= 1 .and. number <= size(library)) material => library(number)
+    if (number >= 1 .and. number <= materials) material => library(number)%material
   end function find_material
 
   !> Whether it takes temperature and field variables.
