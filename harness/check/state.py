@@ -72,6 +72,15 @@ class State:
         still.single.block.commit()
         return replace(still, du=np.zeros_like(self.u))
 
+    def later(self) -> State:
+        """The same motion one increment later: in the first one an element may take constants for its state."""
+        call = self.call
+        return self.called(
+            increment=call.increment + 1,
+            step_time=call.step_time + call.time_increment,
+            total_time=call.total_time + call.time_increment,
+        )
+
     def quiet(self) -> State:
         """In a dynamic step the state without velocities and accelerations, whatever moves; else the state itself."""
         if not self.dynamic:
