@@ -16,6 +16,7 @@
 module cohesive_closure
   use core_kinds, only: dp
   use core_root, only: root_search, search_between, searching, advance
+  use core_small_matrix, only: invert
   use cohesive_parameters, only: law_parameters, ppr_law
   use cohesive_state, only: point_history, closure_state
   use cohesive_law, only: softening
@@ -219,7 +220,7 @@ contains
     real(dp), intent(out) :: of_separation(2, 2)  !< dw/dp
     real(dp), dimension(2, 2) :: a, inverse, of_tau, of_w
     real(dp), dimension(2) :: direction, turned
-    real(dp) :: length, traction, by_separation, by_angle, separation, sides(2)
+    real(dp) :: length, traction, by_separation, by_angle, separation, sides(2), determinant
     integer :: j
 
     call direction_at(equation, x, length, direction)
@@ -232,7 +233,7 @@ contains
     of_w(:, 2) = separation*turned
     a(:, 1) = of_tau(:, 1) + equation%b*of_w(:, 1)
     a(:, 2) = of_tau(:, 2) + equation%b*of_w(:, 2)
-    inverse = reshape([a(2, 2), -a(2, 1), -a(1, 2), a(1, 1)], [2, 2])/(a(1, 1)*a(2, 2) - a(1, 2)*a(2, 1))
+    call invert(2, a, inverse, determinant)
     of_tau = matmul(of_tau, inverse)
     of_w = matmul(of_w, inverse)
     sides = [sign(1.0_dp, shear), 1.0_dp]

@@ -9,7 +9,8 @@
 !>       call advance(search, value, slope)
 !>     end do
 !>
-!> After it `search%found` says whether x is the root to rounding, or the steps have run out.
+!> After it `search%found` says whether x is the root to rounding. It is not where the steps have run out, or where the
+!> function was NaN.
 module core_root
   use core_kinds, only: dp
   implicit none(type, external)
@@ -27,6 +28,7 @@ module core_root
     real(dp) :: x                  !< where the function is wanted next; the root, once found
     integer :: steps = 0           !< evaluations of the function so far
     logical :: found = .false.
+    logical :: failed = .false.    !< the function was NaN
     real(dp) :: lower, upper       !< the root is between them
     logical :: geometric = .false. !< the middle is that of the logarithms
   end type root_search
@@ -50,7 +52,7 @@ contains
     type(root_search), intent(in) :: search
     logical :: wanted
 
-    wanted = .not. search%found .and. search%steps < most_steps
+    wanted = .not. (search%found .or. search%failed) .and. search%steps < most_steps
   end function searching
 
   !> Takes the value and the slope of the function at x.
@@ -60,12 +62,14 @@ contains
     real(dp) :: new
 
     search%steps = search%steps + 1
-    search%found = .not. abs(value) > 0.0_dp
-    if (search%found) return
     if (value > 0.0_dp) then
       search%upper = search%x
-    else
+    else if (value < 0.0_dp) then
       search%lower = search%x
+    else
+      search%found = abs(value) <= 0.0_dp
+      if (.not. search%found) search%failed = .true.
+      return
     end if
     ! a step that is longer than the bracket is not taken, and never overflows
     if (abs(value) < slope*(search%upper - search%lower)) then

@@ -5,7 +5,7 @@ module core_shape_functions
   use core_kinds, only: dp
   implicit none(type, external)
   private
-  public :: line_shape, line_slope, quad_shape, quad_gradient
+  public :: line_shape, line_slope, quad_shape, quad_gradient, to_position
 
   real(dp), parameter :: xi_of_node(4) = [-1.0_dp, 1.0_dp, 1.0_dp, -1.0_dp]
   real(dp), parameter :: eta_of_node(4) = [-1.0_dp, -1.0_dp, 1.0_dp, 1.0_dp]
@@ -53,21 +53,32 @@ contains
     real(dp), intent(in) :: point(2)           !< (xi, eta)
     real(dp), intent(out) :: gradient(2, 4)    !< dN/dx, dN/dy of each node, 1/length
     real(dp), intent(out) :: jacobian          !< d(x, y)/d(xi, eta), area
-    real(dp) :: along_xi(4), along_eta(4), x_xi, x_eta, y_xi, y_eta
+    real(dp) :: by_parent(4, 2)
 
-    along_xi = 0.25_dp*xi_of_node*(1.0_dp + eta_of_node*point(2))
-    along_eta = 0.25_dp*eta_of_node*(1.0_dp + xi_of_node*point(1))
-    x_xi = dot_product(along_xi, coordinates(1, :))
-    y_xi = dot_product(along_xi, coordinates(2, :))
-    x_eta = dot_product(along_eta, coordinates(1, :))
-    y_eta = dot_product(along_eta, coordinates(2, :))
-    jacobian = x_xi*y_eta - x_eta*y_xi
+    by_parent(:, 1) = 0.25_dp*xi_of_node*(1.0_dp + eta_of_node*point(2))
+    by_parent(:, 2) = 0.25_dp*eta_of_node*(1.0_dp + xi_of_node*point(1))
+    call to_position(4, coordinates, by_parent, gradient, jacobian)
+  end subroutine quad_gradient
+
+  !> Derivatives of shape functions by x and y from those by xi and eta, and the Jacobian.
+  !> Where the Jacobian is not positive the derivatives are zero.
+  pure subroutine to_position(nodes, coordinates, by_parent, gradient, jacobian)
+    integer, intent(in) :: nodes
+    real(dp), intent(in) :: coordinates(2, nodes)   !< nodes, length
+    real(dp), intent(in) :: by_parent(nodes, 2)     !< dN/dxi, dN/deta of each node
+    real(dp), intent(out) :: gradient(2, nodes)     !< dN/dx, dN/dy of each node, 1/length
+    real(dp), intent(out) :: jacobian               !< d(x, y)/d(xi, eta), area
+    real(dp) :: by_xi(2), by_eta(2)
+
+    by_xi = matmul(coordinates, by_parent(:, 1))
+    by_eta = matmul(coordinates, by_parent(:, 2))
+    jacobian = by_xi(1)*by_eta(2) - by_xi(2)*by_eta(1)
     if (jacobian > 0.0_dp) then
-      gradient(1, :) = (y_eta*along_xi - y_xi*along_eta)/jacobian
-      gradient(2, :) = (x_xi*along_eta - x_eta*along_xi)/jacobian
+      gradient(1, :) = (by_eta(2)*by_parent(:, 1) - by_xi(2)*by_parent(:, 2))/jacobian
+      gradient(2, :) = (by_xi(1)*by_parent(:, 2) - by_eta(1)*by_parent(:, 1))/jacobian
     else
       gradient = 0.0_dp
     end if
-  end subroutine quad_gradient
+  end subroutine to_position
 
 end module core_shape_functions

@@ -1,11 +1,11 @@
 ! SPDX-FileCopyrightText: The uel-harness authors
 ! SPDX-License-Identifier: BSD-3-Clause
-!> Small dense symmetric matrices: what the local eigenvalue problem needs, without a library.
+!> Small dense symmetric matrices: Cholesky factor, inverse, eigenvalues, without a library.
 module core_symmetric
   use core_kinds, only: dp
   implicit none(type, external)
   private
-  public :: lower_factor, largest_eigenvalue
+  public :: lower_factor, invert_definite, eigenvalues
 
 contains
 
@@ -28,50 +28,92 @@ contains
     good = .true.
   end subroutine lower_factor
 
-  !> Largest eigenvalue of a symmetric matrix by cyclic Jacobi rotations (Golub, Van Loan, Matrix Computations, 8.5).
-  pure subroutine largest_eigenvalue(matrix, value, good)
+  !> Inverse of a positive definite matrix, by its Cholesky factor L: the columns x of L transpose(L) x = unit vector.
+  pure subroutine invert_definite(matrix, inverse, good)
     real(dp), intent(in) :: matrix(:, :)
-    real(dp), intent(out) :: value
-    logical, intent(out) :: good             !< false where the sweeps have run out
+    real(dp), intent(out) :: inverse(size(matrix, 1), size(matrix, 1))   !< zero where the matrix is not positive definite
+    logical, intent(out) :: good
+    real(dp) :: l(size(matrix, 1), size(matrix, 1)), x(size(matrix, 1))
+    integer :: i, j, n
+
+    n = size(matrix, 1)
+    l = matrix
+    inverse = 0.0_dp
+    call lower_factor(l, good)
+    if (.not. good) return
+    do j = 1, n
+      x = 0.0_dp
+      x(j) = 1.0_dp
+      do i = j, n
+        x(i) = (x(i) - dot_product(l(i, 1:i - 1), x(1:i - 1)))/l(i, i)
+      end do
+      do i = n, 1, -1
+        x(i) = (x(i) - dot_product(l(i + 1:n, i), x(i + 1:n)))/l(i, i)
+      end do
+      inverse(:, j) = x
+    end do
+  end subroutine invert_definite
+
+  !> Eigenvalues of a symmetric matrix by cyclic Jacobi rotations (Golub, Van Loan, Matrix Computations, 8.5), not sorted.
+  pure subroutine eigenvalues(matrix, values, good, vectors)
+    real(dp), intent(in) :: matrix(:, :)
+    real(dp), intent(out) :: values(size(matrix, 1))
+    logical, intent(out) :: good                         !< false where the sweeps run out, or an entry is NaN or infinite
+    real(dp), intent(out), optional :: vectors(:, :)     !< row i belongs to value i
     integer, parameter :: most_sweeps = 30   ! convergence is quadratic: six or so do
     real(dp) :: a(size(matrix, 1), size(matrix, 1)), negligible
     integer :: sweep, p, q
 
     a = matrix
     negligible = epsilon(1.0_dp)*maxval(abs(a))
+    if (present(vectors)) then
+      vectors = 0.0_dp
+      do p = 1, size(a, 1)
+        vectors(p, p) = 1.0_dp
+      end do
+    end if
     do sweep = 1, most_sweeps
-      good = .true.
+      good = all(abs(a) <= huge(1.0_dp))
+      if (.not. good) exit
       do q = 2, size(a, 1)
         do p = 1, q - 1
           if (.not. abs(a(p, q)) > negligible) cycle
-          call rotate(p, q, a)
+          call rotate(p, q, a, vectors)
           good = .false.
         end do
       end do
       if (good) exit
     end do
-    value = a(1, 1)
-    do p = 2, size(a, 1)
-      value = max(value, a(p, p))
+    do p = 1, size(a, 1)
+      values(p) = a(p, p)
     end do
-  end subroutine largest_eigenvalue
+  end subroutine eigenvalues
 
   !> Rotation in the plane of axes p and q that makes a(p, q), which is not zero, vanish.
-  pure subroutine rotate(p, q, a)
+  pure subroutine rotate(p, q, a, vectors)
     integer, intent(in) :: p, q
     real(dp), intent(inout) :: a(:, :)
-    real(dp) :: cotangent, t, c, s, kept(size(a, 1))
+    real(dp), intent(inout), optional :: vectors(:, :)   !< rows turn along
+    real(dp) :: cotangent, t, c, s
 
     cotangent = (a(q, q) - a(p, p))/(2.0_dp*a(p, q))   ! of twice the angle
     t = sign(1.0_dp, cotangent)/(abs(cotangent) + hypot(cotangent, 1.0_dp))
     c = 1.0_dp/hypot(t, 1.0_dp)
     s = t*c
-    kept = a(:, p)
-    a(:, p) = c*kept - s*a(:, q)
-    a(:, q) = s*kept + c*a(:, q)
-    kept = a(p, :)
-    a(p, :) = c*kept - s*a(q, :)
-    a(q, :) = s*kept + c*a(q, :)
+    call turn(c, s, a(:, p), a(:, q))
+    call turn(c, s, a(p, :), a(q, :))
+    if (present(vectors)) call turn(c, s, vectors(p, :), vectors(q, :))
   end subroutine rotate
+
+  !> Turns two vectors in their plane.
+  pure subroutine turn(c, s, x, y)
+    real(dp), intent(in) :: c, s   !< cosine and sine
+    real(dp), intent(inout) :: x(:), y(:)
+    real(dp) :: kept(size(x))
+
+    kept = x
+    x = c*kept - s*y
+    y = s*kept + c*y
+  end subroutine turn
 
 end module core_symmetric

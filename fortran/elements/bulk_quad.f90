@@ -6,7 +6,7 @@
 module elements_bulk_quad
   use core_kinds, only: dp
   use core_quadrature, only: gauss_rule, line_points, line_weights
-  use core_quadratic_shape, only: quad8_gradient
+  use core_serendipity, only: quad8_gradient
   use core_rotation, only: traction_operator
   use core_shape_functions, only: quad_gradient
   use core_status, only: status_type, ok, inside_out

@@ -9,7 +9,7 @@
 module elements_face_eigenvalue
   use core_kinds, only: dp
   use core_status, only: status_type, ok, no_root, not_positive_definite
-  use core_symmetric, only: lower_factor, largest_eigenvalue
+  use core_symmetric, only: lower_factor, eigenvalues
   implicit none(type, external)
   private
   public :: face_eigenvalue
@@ -28,7 +28,7 @@ contains
     real(dp), intent(out) :: lambda
     type(status_type), intent(out) :: status    !< not_positive_definite, or no_root
     real(dp) :: rigid(size(energy, 1), 3), shifted(size(energy, 1), size(energy, 1)), shift
-    real(dp) :: w(size(energy, 1), size(traction, 1)), centre(2)
+    real(dp) :: w(size(energy, 1), size(traction, 1)), values(size(traction, 1)), centre(2)
     integer :: i, n
     logical :: good
 
@@ -56,7 +56,8 @@ contains
     do i = 1, n
       w(i, :) = (w(i, :) - matmul(shifted(i, 1:i - 1), w(1:i - 1, :)))/shifted(i, i)
     end do
-    call largest_eigenvalue(matmul(transpose(w), w), lambda, good)
+    call eigenvalues(matmul(transpose(w), w), values, good)
+    lambda = maxval(values)
     status = status_type(merge(ok, no_root, good), 0, 0.0_dp, 0.0_dp)
   end subroutine face_eigenvalue
 

@@ -8,7 +8,7 @@ subroutine getvrm(var, array, jarray, flgray, jrcd, jmac, jmatyp, matlayo, laccf
   use host_kinds, only: dp, i4
   use host_kinematics, only: rotated
   use host_materials, only: history_values
-  use host_tensors, only: eigen, to_matrix
+  use host_tensors, only: eigen
   implicit none (type, external)
   character(len=*), intent(in) :: var
   real(dp), intent(inout) :: array(15)
@@ -55,7 +55,7 @@ contains
     integer, intent(in) :: n
     real(dp), intent(in) :: stress(n)
     real(dp) :: values(4), principal(3), directions(3, 3), third
-    call eigen(to_matrix(stress, 1_i4, 3_i4, int(n - 3, i4)), principal, directions)
+    call eigen(stress, 1_i4, 3_i4, int(n - 3, i4), principal, directions)
     values(2) = maxval(principal) - minval(principal)
     values(3) = -sum(principal)/3
     principal = principal + values(3)

@@ -11,9 +11,9 @@
 !> backward differences, at the corners in elements with straight edges, as in Abaqus (Theory Guide, Uncoupled heat
 !> transfer analysis).
 module host_coupled
+  use core_small_matrix, only: invert
   use host_coupling, only: coupling_t, thermal_points
   use host_kinds, only: dp, i4
-  use host_kinematics, only: cofactors
   use host_shape, only: radius_of, rule_of, rule_t
   use host_solid, only: solid_element
   implicit none (type, external)
@@ -118,18 +118,4 @@ contains
     geometry => rule_of(dim, nodes, count)
     field => rule_of(dim, corners, count)
   end subroutine rules
-
-  !> Inverse and determinant of a matrix of two or three rows.
-  pure subroutine invert(n, matrix, inverse, determinant)
-    integer, intent(in) :: n
-    real(dp), intent(in) :: matrix(n, n)
-    real(dp), intent(out) :: inverse(n, n), determinant
-    if (n == 2) then
-      inverse = reshape([matrix(2, 2), -matrix(2, 1), -matrix(1, 2), matrix(1, 1)], [2, 2])
-    else
-      inverse = transpose(cofactors(matrix))
-    end if
-    determinant = dot_product(matrix(1, :), inverse(:, 1))
-    inverse = inverse/determinant
-  end subroutine invert
 end module host_coupled

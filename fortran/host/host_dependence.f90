@@ -5,6 +5,7 @@
 !> Between the values of the table they are linear in each variable, beyond them constant (Abaqus Analysis User's Guide,
 !> Material data definition).
 module host_dependence
+  use core_symmetric, only: invert_definite
   use host_kinds, only: dp
   implicit none (type, external)
   private
@@ -19,24 +20,26 @@ module host_dependence
 contains
 
   !> Stiffness and compliance in global axes; thickness: strain 33 per stress in plane stress.
-  subroutine elastic_matrices(dependence, ntens, variables, stiffness, compliance, thickness, constants)
+  subroutine elastic_matrices(dependence, ntens, variables, stiffness, compliance, thickness, constants, definite)
     type(dependence_t), intent(in) :: dependence
     integer, intent(in) :: ntens                      !< 3, 4 or 6
     real(dp), intent(in) :: variables(:)              !< temperature and fields; more than the table has are left out
     real(dp), intent(out) :: stiffness(ntens, ntens), compliance(ntens, ntens), thickness(3)
     real(dp), intent(out) :: constants(dependence%constants)
-    real(dp) :: full(6, 6)
+    logical, intent(out) :: definite                  !< false: they are not positive definite, and the stiffness is zero
+    real(dp) :: full(6, 6), rigid(6, 6)
+    logical :: good
     integer, parameter :: plane(4) = [1, 2, 4, 3]
     call interpolate(dependence%constants, size(dependence%table, 1) - dependence%constants, dependence%table, variables, constants)
     full = matmul(transpose(dependence%turn), matmul(compliance_of(constants), dependence%turn))
     thickness = full(3, plane(:3))
     if (ntens == 3) then
       compliance = full(plane(:3), plane(:3))
-      stiffness = inverse(3, compliance)
+      call invert_definite(compliance, stiffness, definite)
     else
-      full = inverse(6, full)
-      stiffness = full(:ntens, :ntens)
-      compliance = inverse(ntens, stiffness)
+      call invert_definite(full, rigid, definite)
+      stiffness = rigid(:ntens, :ntens)
+      call invert_definite(stiffness, compliance, good)
     end if
   end subroutine elastic_matrices
 
@@ -88,24 +91,4 @@ contains
     s(3, 1) = s(1, 3)
     s(3, 2) = s(2, 3)
   end function compliance_of
-
-  !> Inverse of a positive definite matrix.
-  pure function inverse(n, matrix) result(a)
-    integer, intent(in) :: n
-    real(dp), intent(in) :: matrix(n, n)
-    real(dp) :: a(n, n), pivot
-    integer :: i, k
-    a = matrix
-    do k = 1, n
-      pivot = a(k, k)
-      a(k, k) = 1
-      a(k, :) = a(k, :)/pivot
-      do i = 1, n
-        if (i == k) cycle
-        pivot = a(i, k)
-        a(i, k) = 0
-        a(i, :) = a(i, :) - pivot*a(k, :)
-      end do
-    end do
-  end function inverse
 end module host_dependence

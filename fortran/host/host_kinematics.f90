@@ -5,6 +5,7 @@
 !> `direct` is the number of direct strains: 2 in the plane; 3 in space, and in axisymmetric elements, which have the hoop
 !> strain u_r/r beside those of the plane: direction 1 is the radius, 2 the axis. Their volumes are per angle.
 module host_kinematics
+  use core_small_matrix, only: cofactors
   use host_context, only: current
   use host_kinds, only: dp, i4
   use host_messages, only: add_message
@@ -12,7 +13,7 @@ module host_kinematics
   use host_shape, only: radius_of, rule_of, rule_t
   implicit none (type, external)
   private
-  public :: cofactors, gradients, mean_gradients, strain_matrix, average_volume_strain, point_position, rotation_of, rotated
+  public :: gradients, mean_gradients, strain_matrix, average_volume_strain, point_position, rotation_of, rotated
 
 contains
 
@@ -85,22 +86,6 @@ contains
       g(:, i) = (dn(:, 1)*c(i, 1) + dn(:, 2)*c(i, 2) + dn(:, 3)*c(i, 3))/determinant
     end do
   end subroutine space_gradients
-
-  !> Cofactors of a matrix: the inverse is their transpose over the determinant.
-  pure function cofactors(j) result(c)
-    real(dp), intent(in) :: j(3, 3)
-    real(dp) :: c(3, 3)
-    integer :: i, k, i1, i2, k1, k2
-    do k = 1, 3
-      do i = 1, 3
-        i1 = mod(i, 3) + 1
-        i2 = mod(i + 1, 3) + 1
-        k1 = mod(k, 3) + 1
-        k2 = mod(k + 1, 3) + 1
-        c(i, k) = j(i1, k1)*j(i2, k2) - j(i1, k2)*j(i2, k1)
-      end do
-    end do
-  end function cofactors
 
   !> Mean of the gradients over the volume of a four- or eight-node element, and the volume: the uniform strain of
   !> D.P. Flanagan, T. Belytschko, Int. J. for Numerical Methods in Engineering 17 (1981) 679.

@@ -9,7 +9,9 @@ module host_materials
   use host_dependence, only: dependence_t, elastic_matrices
   use host_kinds, only: dp, i4
   use host_kinematics, only: rotated
+  use host_messages, only: add_message
   use host_mises, only: mises_plane_stress, mises_solid
+  use host_protect, only: escape
   use host_umat, only: call_umat, strain_energy, user_material_t
   use host_usdfld, only: user_field_t
   implicit none (type, external)
@@ -19,6 +21,9 @@ module host_materials
 
   !> Values of the history of a point of a plastic material: plastic strain (6), equivalent plastic strain.
   integer, parameter :: history_values = 7
+
+  !> PNEWDT where the equations of a point are not solved: as Abaqus cuts back where an increment diverges.
+  real(dp), parameter :: smaller = 0.25_dp
 
   type :: material_t
     integer :: ntens = 0                           !< 3, 4 or 6
@@ -77,15 +82,24 @@ contains
   end function has_fields
 
   !> Elastic constants where temperature and field variables are those of current%fields at the end of the increment.
-  subroutine set_constants(material)
+  !> Leaves the pass where they are not positive definite.
+  subroutine set_constants(material, point)
     type(material_t), intent(inout) :: material
+    integer, intent(in) :: point                 !< from 1, for the message
     real(dp) :: constants(material%dependence%constants)
+    logical :: definite
+    character(len=160) :: text
     integer :: n
     n = material%ntens
     call elastic_matrices(material%dependence, n, current%fields(:, 1) + current%fields(:, 2), material%stiffness(:n, :n), &
-                          material%compliance(:n, :n), material%thickness, constants)
+                          material%compliance(:n, :n), material%thickness, constants, definite)
     material%young = constants(1)
     material%poisson = constants(2)
+    if (definite) return
+    write (text, '(a,i0,a)') '*ELASTIC: the constants at integration point ', point, &
+      ', interpolated from the table, are not positive definite'
+    call add_message(-3_i4, text)
+    call escape()
   end subroutine set_constants
 
   !> Stress and tangent at the end of the increment; the history of the point goes from committed to trial.
@@ -99,6 +113,8 @@ contains
     logical, intent(out) :: valid
     real(dp) :: old(history_values)
     integer :: i, j, n
+    logical :: solved
+    character(len=120) :: text
     valid = .true.
     n = material%ntens
     if (.not. (allocated(material%yield) .or. allocated(material%user))) then
@@ -124,7 +140,12 @@ contains
     if (current%finite) old(:6) = rotated(6, old(:6), current%rotation, 2.0_dp)
     associate (new => current%history_trial(:, point))
       if (n == 3) then
-        call mises_plane_stress(material%young, material%poisson, material%yield, old, strain, stress, tangent, new)
+        call mises_plane_stress(material%young, material%poisson, material%yield, old, strain, stress, tangent, new, solved)
+        if (.not. solved) then
+          write (text, '(a,i0)') '*PLASTIC: the return to the yield surface is not solved at integration point ', point
+          call add_message(-1_i4, text)
+          current%pnewdt = min(current%pnewdt, smaller)
+        end if
       else
         call mises_solid(material%young, material%poisson, material%yield, n, old, strain, stress, tangent, new)
       end if

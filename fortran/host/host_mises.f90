@@ -5,6 +5,7 @@
 !> J.C. Simo, T.J.R. Hughes, Computational Inelasticity, Springer 1998: boxes 3.1, 3.2 (solid) and 3.3 (plane stress).
 !> History of a point: plastic strain 11, 22, 33, 12, 13, 23 (engineering shear), equivalent plastic strain.
 module host_mises
+  use core_root, only: advance, root_search, search_between, searching
   use host_kinds, only: dp
   implicit none (type, external)
   private
@@ -88,10 +89,11 @@ contains
     x = (q - table(k, 1))/stiffness
   end subroutine radial_return
 
-  !> Plane stress: the return stays in the plane.
-  pure subroutine mises_plane_stress(young, poisson, table, old, strain, stress, tangent, new)
+  !> Plane stress: the return stays in the plane. Where it is not solved the response is elastic.
+  pure subroutine mises_plane_stress(young, poisson, table, old, strain, stress, tangent, new, solved)
     real(dp), intent(in) :: young, poisson, table(:, :), old(7), strain(3)
     real(dp), intent(out) :: stress(3), tangent(3, 3), new(7)
+    logical, intent(out) :: solved
     real(dp) :: shear, flow, slope, multiplier, trial(3), q, algorithmic(3, 3), direction(3), flow_vector(3), beta
     shear = young/(2*(1 + poisson))
     new = old
@@ -101,8 +103,10 @@ contains
     tangent = algorithmic
     q = sqrt(1.5_dp*dot_product(trial, projected(trial)))
     call yield_stress(table, old(7), flow, slope)
+    solved = .true.
     if (q <= flow) return
-    call plane_return(young, poisson, shear, table, old(7), trial, multiplier, q, slope)
+    call plane_return(young, poisson, shear, table, old(7), trial, multiplier, q, slope, solved)
+    if (.not. solved) return
     algorithmic = plane_modulus(young, poisson, shear, multiplier)
     stress = matmul(algorithmic, strain - old([1, 2, 4]))
     flow_vector = projected(stress)
@@ -115,34 +119,23 @@ contains
     new(7) = old(7) + 2*multiplier*q/3
   end subroutine mises_plane_stress
 
-  !> Multiplier of the return: q(multiplier) = yield(plastic + 2/3 multiplier q), by Newton's method within a bracket.
-  pure subroutine plane_return(young, poisson, shear, table, plastic, trial, multiplier, q, slope)
+  !> Multiplier of the return: yield(plastic + 2/3 multiplier q) - q(multiplier) = 0. q falls at least as fast as with the
+  !> smaller one of its two rates, and is below the least yield stress from the upper end of the bracket on.
+  pure subroutine plane_return(young, poisson, shear, table, plastic, trial, multiplier, q, slope, solved)
     real(dp), intent(in) :: young, poisson, shear, table(:, :), plastic, trial(3)
     real(dp), intent(out) :: multiplier, q, slope
-    real(dp) :: low, high, excess, rate, derivative, flow
-    integer :: i
-    low = 0
-    high = 1/shear
-    do i = 1, 200
-      call returned(young, poisson, shear, table, plastic, trial, high, q, rate, flow, slope)
-      if (q < flow) exit
-      high = 2*high
+    logical, intent(out) :: solved
+    type(root_search) :: search
+    real(dp) :: rate, flow
+    call returned(young, poisson, shear, table, plastic, trial, 0.0_dp, q, rate, flow, slope)
+    search = search_between(0.0_dp, q/minval(table(:, 1))/min(young/(3*(1 - poisson)), 2*shear), 0.0_dp, geometric=.false.)
+    do while (searching(search))
+      call returned(young, poisson, shear, table, plastic, trial, search%x, q, rate, flow, slope)
+      call advance(search, flow - q, slope*2*(q + search%x*rate)/3 - rate)
     end do
-    multiplier = 0
-    do i = 1, 200
-      call returned(young, poisson, shear, table, plastic, trial, multiplier, q, rate, flow, slope)
-      excess = q - flow
-      if (abs(excess) <= 1e-14_dp*flow) return
-      if (excess > 0) then
-        low = multiplier
-      else
-        high = multiplier
-      end if
-      derivative = rate - slope*2*(q + multiplier*rate)/3
-      multiplier = multiplier - excess/derivative
-      if (multiplier <= low .or. multiplier >= high) multiplier = (low + high)/2
-      if (high - low <= spacing(high)) return
-    end do
+    multiplier = search%x
+    solved = search%found
+    call returned(young, poisson, shear, table, plastic, trial, multiplier, q, rate, flow, slope)
   end subroutine plane_return
 
   !> Mises stress q after a return by this multiplier, its derivative, and the yield stress with its slope.

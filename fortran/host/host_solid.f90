@@ -19,12 +19,13 @@
 !> *ORIENTATION where the section has one, as Abaqus prints them; in dynamic analyses then the forces of the last two
 !> increments.
 module host_solid
+  use core_small_matrix, only: cofactors, determinant
   use host_context, only: current
   use host_coupling, only: add_heat_source, coupling_t, set_temperature
   use host_hourglass, only: has_hourglass_modes, resist_hourglass
   use host_inertia, only: is_dynamic, mass_matrix, respond
   use host_kinds, only: dp, i4
-  use host_kinematics, only: average_volume_strain, cofactors, gradients, mean_gradients, point_position, rotated, rotation_of, &
+  use host_kinematics, only: average_volume_strain, gradients, mean_gradients, point_position, rotated, rotation_of, &
                              strain_matrix
   use host_materials, only: elastic_energy, find_material, has_fields, material_t, set_constants, stress_update, thickness_strain
   use host_shape, only: radius_of, rule_of, rule_t
@@ -134,7 +135,7 @@ contains
       if (allocated(material%user_field)) then
         call call_usdfld(material%user_field, material%ntens, int(p, i4), material%axes, svars(:, p))
       end if
-      if (allocated(material%dependence)) call set_constants(material)
+      if (allocated(material%dependence)) call set_constants(material, p)
       if (abs(material%expansion) > 0) thermal = thermal_strain(dim, nodes, points, p, fields, material%expansion, predef)
       if (finite) then
         current%rotation = rotation_of(gradient_of(dim, direct, nodes, du, g_mid(:, :, p)))
@@ -313,12 +314,6 @@ contains
       current%deformation(:direct, :direct, k) = f(:direct, :direct, k)*(swept(k)/total/determinant(f(:, :, k)))**(1.0_dp/direct)
     end do
   end subroutine set_deformation
-
-  pure real(dp) function determinant(a)
-    real(dp), intent(in) :: a(3, 3)
-    determinant = a(1, 1)*(a(2, 2)*a(3, 3) - a(2, 3)*a(3, 2)) + a(1, 2)*(a(2, 3)*a(3, 1) - a(2, 1)*a(3, 3)) &
-                  + a(1, 3)*(a(2, 1)*a(3, 2) - a(2, 2)*a(3, 1))
-  end function determinant
 
   !> Places of m strains (three in the plane: 11, 22, 12) among n components.
   pure function components(m, n) result(place)

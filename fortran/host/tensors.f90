@@ -3,7 +3,10 @@
 !> Tensor utilities of Abaqus (User Subroutines Guide, Obtaining stress invariants ...): components are stored as
 !> ndi direct ones, then nshr shear ones in the order 12, 13, 23; with lstr = 2 shear components are engineering strains.
 module host_tensors
+  use core_symmetric, only: eigenvalues
+  use host_context, only: current
   use host_kinds, only: dp, i4
+  use host_messages, only: add_message
   implicit none (type, external)
   private
   public :: to_matrix, to_components, eigen, cross
@@ -42,41 +45,19 @@ contains
     s(ndi + 1:ndi + nshr) = shear(1:nshr)
   end subroutine to_components
 
-  !> Eigenvalues and eigenvectors (rows of vectors) of a symmetric matrix, by Jacobi rotations; not sorted.
-  pure subroutine eigen(matrix, values, vectors)
-    real(dp), intent(in) :: matrix(3, 3)
+  !> Eigenvalues and eigenvectors (rows of vectors) of a stored tensor, not sorted. Warns where they are not found.
+  subroutine eigen(s, lstr, ndi, nshr, values, vectors)
+    real(dp), intent(in) :: s(*)
+    integer(i4), intent(in) :: lstr, ndi, nshr
     real(dp), intent(out) :: values(3), vectors(3, 3)
-    integer, parameter :: row(3) = [1, 1, 2], column(3) = [2, 3, 3]
-    real(dp) :: a(3, 3), rotation(3, 3), theta, t, c, s
-    integer :: sweep, k, p, q
-    a = matrix
-    vectors = identity()
-    do sweep = 1, 50
-      if (abs(a(1, 2)) + abs(a(1, 3)) + abs(a(2, 3)) <= tiny(1.0_dp) + 1e-16_dp*maxval(abs(matrix))) exit
-      do k = 1, 3
-        p = row(k)
-        q = column(k)
-        if (abs(a(p, q)) <= tiny(1.0_dp)) cycle
-        theta = (a(q, q) - a(p, p))/(2*a(p, q))
-        t = sign(1.0_dp, theta)/(abs(theta) + hypot(theta, 1.0_dp))
-        c = 1/hypot(t, 1.0_dp)
-        s = t*c
-        rotation = identity()
-        rotation(p, p) = c
-        rotation(q, q) = c
-        rotation(p, q) = -s
-        rotation(q, p) = s
-        a = matmul(rotation, matmul(a, transpose(rotation)))
-        vectors = matmul(rotation, vectors)
-      end do
-    end do
-    values = [a(1, 1), a(2, 2), a(3, 3)]
+    logical :: good
+    character(len=120) :: text
+    call eigenvalues(to_matrix(s, lstr, ndi, nshr), values, good, vectors)
+    if (good) return
+    write (text, '(3a,i0)') 'in ', trim(current%routine), ': a tensor without principal values, NaN or infinite, at point ', &
+      current%point
+    call add_message(-1_i4, text)
   end subroutine eigen
-
-  pure function identity() result(matrix)
-    real(dp) :: matrix(3, 3)
-    matrix = reshape([1, 0, 0, 0, 1, 0, 0, 0, 1], [3, 3])
-  end function identity
 
   !> Vector product.
   pure function cross(a, b) result(c)
@@ -121,22 +102,22 @@ end subroutine sinv
 !> Principal values, not sorted.
 subroutine sprinc(s, ps, lstr, ndi, nshr)
   use host_kinds, only: dp, i4
-  use host_tensors, only: eigen, to_matrix
+  use host_tensors, only: eigen
   implicit none (type, external)
   real(dp), intent(in) :: s(*)
   real(dp), intent(out) :: ps(3)
   integer(i4), intent(in) :: lstr, ndi, nshr
   real(dp) :: directions(3, 3)
-  call eigen(to_matrix(s, lstr, ndi, nshr), ps, directions)
+  call eigen(s, lstr, ndi, nshr, ps, directions)
 end subroutine sprinc
 
 !> Principal values, not sorted, and their directions: an(k, :) belongs to ps(k).
 subroutine sprind(s, ps, an, lstr, ndi, nshr)
   use host_kinds, only: dp, i4
-  use host_tensors, only: eigen, to_matrix
+  use host_tensors, only: eigen
   implicit none (type, external)
   real(dp), intent(in) :: s(*)
   real(dp), intent(out) :: ps(3), an(3, 3)
   integer(i4), intent(in) :: lstr, ndi, nshr
-  call eigen(to_matrix(s, lstr, ndi, nshr), ps, an)
+  call eigen(s, lstr, ndi, nshr, ps, an)
 end subroutine sprind

@@ -3,6 +3,7 @@
 !> Spectral norm of a 3 x 3 matrix: |D| of equations (21) and (22).
 module materials_spectral_norm
   use core_kinds, only: dp
+  use core_small_matrix, only: determinant
   implicit none(type, external)
   private
   public :: spectral_norm
@@ -31,15 +32,5 @@ contains
     end if
     norm = scale*sqrt(mean)
   end function spectral_norm
-
-  !> Determinant of a 3 x 3 matrix.
-  pure function determinant(a) result(value)
-    real(dp), intent(in) :: a(3, 3)
-    real(dp) :: value
-
-    value = a(1, 1)*(a(2, 2)*a(3, 3) - a(2, 3)*a(3, 2)) &
-      - a(1, 2)*(a(2, 1)*a(3, 3) - a(2, 3)*a(3, 1)) &
-      + a(1, 3)*(a(2, 1)*a(3, 2) - a(2, 2)*a(3, 1))
-  end function determinant
 
 end module materials_spectral_norm

@@ -12,8 +12,9 @@ import pytest
 HERE = Path(__file__).parent
 FORTRAN = HERE.parents[1] / "fortran"
 SOURCES = (
-    *("core/kinds", "core/status", "core/root", "cohesive/parameters", "cohesive/state", "cohesive/mode_mix"),
-    *("cohesive/bilinear", "cohesive/exponential", "cohesive/ppr", "cohesive/law", "cohesive/friction"),
+    *("core/kinds", "core/status", "core/root", "core/small_matrix", "cohesive/parameters", "cohesive/state"),
+    *("cohesive/mode_mix", "cohesive/bilinear", "cohesive/exponential", "cohesive/ppr", "cohesive/law"),
+    "cohesive/friction",
     *("cohesive/ppr_closure", "cohesive/closure"),
 )
 

@@ -26,8 +26,8 @@ RNG = np.random.default_rng(3)
 class Point:
     """One material point of a UELMAT whose unknowns are its strains."""
 
-    def __init__(self, block, matrix, call):
-        self.block, self.matrix, self.call = block, matrix, call
+    def __init__(self, library, block, matrix, call):
+        self.library, self.block, self.matrix, self.call = library, block, matrix, call
         self.n = matrix.shape[0]
 
     def __call__(self, strain, increment=None):
@@ -36,7 +36,7 @@ class Point:
         minus_stress = np.zeros(self.n)
         self.matrix.data[:] = 0
         du = strain if increment is None else np.array(increment, dtype=float)
-        self.block.evaluate(self.call, strain, du, minus_stress, self.matrix.data)
+        self.report = self.block.evaluate(self.call, strain, du, minus_stress, self.matrix.data)
         return -minus_stress, self.matrix.toarray()
 
 
@@ -54,7 +54,8 @@ def point(load, user_group, bound, call):
             tensor=tensor,
             **definition,
         )
-        return Point(*bound(group, np.zeros((1, 3)), load("point.f")), call)
+        library = load("point.f")
+        return Point(library, *bound(group, np.zeros((1, 3)), library), call)
 
     return point
 
@@ -315,3 +316,14 @@ def test_points_are_counted(point):
 def test_materiallib_is_passed_on(point):
     with pytest.raises(KernelError, match="the first argument is not the MATERIALLIB that UELMAT was given"):
         point(ISOTROPIC, "PSTRESS", integers=(1, 1))([0, 0, 0])
+
+
+@pytest.mark.nan
+def test_a_return_that_is_not_solved_asks_for_a_smaller_increment(point):
+    """The trial stress of such a strain overflows when it is squared."""
+    respond = point(ISOTROPIC, "PSTRESS", table=TABLE)
+    respond([1e200, 0, 0])
+    assert respond.report.pnewdt == 0.25
+    (message,) = respond.library.messages()
+    assert (message.kind, message.element) == ("warning", 101)
+    assert message.text == "*PLASTIC: the return to the yield surface is not solved at integration point 1"

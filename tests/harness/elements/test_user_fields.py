@@ -247,6 +247,14 @@ def test_ends_of_the_analysis(run, body, message):
         run(FIELD, body)
 
 
+def test_constants_between_definite_ones_may_not_be(run):
+    """nu12**2 < E1/E2 at both ends of the table, and not half-way."""
+    rows = "1000., 10., 9., 9., 9., 9., , 0.\n1000., 1000., 0., 9., 9., 9., , 1."
+    message = r"element 7 .*\*ELASTIC: the constants at integration point 1, interpolated .* are not positive definite"
+    with pytest.raises(UelError, match=message):
+        run(f"*ELASTIC, TYPE=LAMINA, DEPENDENCIES=1\n{rows}\n*USER DEFINED FIELD", "FIELD(1) = 0.5")
+
+
 @pytest.mark.parametrize(
     ("material", "message"),
     [

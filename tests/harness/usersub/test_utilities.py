@@ -79,6 +79,7 @@ def test_invariants(ndi, nshr):
     assert mises[0] == pytest.approx(math.sqrt(((a - b) ** 2 + (b - c) ** 2 + (c - a) ** 2) / 2))
 
 
+TENSOR = "      dimension s(6), ps(3), an(3,3)"
 PROGRAM = """
       subroutine uexternaldb(lop,lrestart,time,dtime,kstep,kinc)
       include 'ABA_PARAM.INC'
@@ -124,6 +125,17 @@ def test_environment_variable(load, monkeypatch):
     assert said(load(program("      call getenvvar('UEL_TEST',text,k)\n      word = text\n" + say("%S %I", "k")))) == [
         "value 5"
     ]
+
+
+@pytest.mark.nan
+@pytest.mark.parametrize("routine", ["sprinc(s,ps,1,3,3)", "sprind(s,ps,an,1,3,3)"])
+@pytest.mark.parametrize("value", ["sqrt(s(2)-1)", "1/s(2)"])
+def test_tensors_without_principal_values_are_warned_of(load, routine, value):
+    library = load(program(f"      s = 0\n      s(1) = {value}\n      call {routine}\n", declarations=TENSOR))
+    library.external_database(0, 0, (0.0, 0.0), 0.0, 0, 0)
+    (message,) = library.messages()
+    assert message.kind == "warning"
+    assert "in UEXTERNALDB: a tensor without principal values, NaN or infinite, at point 0" in message.text
 
 
 @pytest.mark.parametrize("header", ["", "SMAAspUserSubroutines.hdr", "SMAAspUserUtilities.hdr"])

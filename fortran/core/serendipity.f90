@@ -1,0 +1,68 @@
+! SPDX-FileCopyrightText: The uel-harness authors
+! SPDX-License-Identifier: BSD-3-Clause
+!> Shape functions of lines, quads and hexahedra with nodes in the corners and, in the serendipity family, in the middles of
+!> the edges.
+module core_serendipity
+  use core_kinds, only: dp
+  use core_shape_functions, only: to_position
+  implicit none(type, external)
+  private
+  public :: serendipity_functions, quad8_gradient
+
+  !> Parent coordinates of the nodes of the quad: corners counter-clockwise, then the middles of the edges 1-2, 2-3, 3-4, 4-1.
+  integer, parameter :: quad_places(2, 8) = reshape([-1, -1, 1, -1, 1, 1, -1, 1, 0, -1, 1, 0, 0, 1, -1, 0], [2, 8])
+
+contains
+
+  !> Shape functions and their derivatives by the parent coordinates: a product over the directions, times a sum in the
+  !> corners where there are middle nodes.
+  pure subroutine serendipity_functions(dim, nodes, places, parent, n, dn)
+    integer, intent(in) :: dim                  !< 1 to 3
+    integer, intent(in) :: nodes                !< with middles if more than 2**dim
+    integer, intent(in) :: places(dim, nodes)   !< parent coordinates of the nodes: -1, 0 or 1
+    real(dp), intent(in) :: parent(dim)         !< of the point
+    real(dp), intent(out) :: n(nodes), dn(nodes, dim)
+    real(dp) :: factor(-1:1, dim), slope(-1:1, dim), others, total
+    integer :: i, j, k
+    logical :: corner
+
+    factor(-1, :) = (1.0_dp - parent)/2.0_dp
+    factor(0, :) = 1.0_dp - parent**2
+    factor(1, :) = (1.0_dp + parent)/2.0_dp
+    slope(-1, :) = -0.5_dp
+    slope(0, :) = -2.0_dp*parent
+    slope(1, :) = 0.5_dp
+    do k = 1, nodes
+      corner = nodes > 2**dim .and. all(places(:, k) /= 0)
+      total = 1.0_dp
+      if (corner) total = sum(places(:, k)*parent) - (dim - 1)
+      n(k) = 1.0_dp
+      do i = 1, dim
+        n(k) = n(k)*factor(places(i, k), i)
+      end do
+      do i = 1, dim
+        others = 1.0_dp
+        do j = 1, dim
+          if (j /= i) others = others*factor(places(j, k), j)
+        end do
+        dn(k, i) = slope(places(i, k), i)*others*total
+        if (corner) dn(k, i) = dn(k, i) + n(k)*places(i, k)
+      end do
+      n(k) = n(k)*total
+    end do
+  end subroutine serendipity_functions
+
+  !> Derivatives of the shape functions of the eight-node quad by x and y, and the Jacobian, at (xi, eta).
+  !> Where the Jacobian is not positive the derivatives are zero.
+  pure subroutine quad8_gradient(coordinates, point, gradient, jacobian)
+    real(dp), intent(in) :: coordinates(2, 8)  !< nodes, length
+    real(dp), intent(in) :: point(2)           !< (xi, eta)
+    real(dp), intent(out) :: gradient(2, 8)    !< dN/dx, dN/dy of each node, 1/length
+    real(dp), intent(out) :: jacobian          !< d(x, y)/d(xi, eta), area
+    real(dp) :: n(8), by_parent(8, 2)
+
+    call serendipity_functions(2, 8, quad_places, point, n, by_parent)
+    call to_position(8, coordinates, by_parent, gradient, jacobian)
+  end subroutine quad8_gradient
+
+end module core_serendipity

@@ -1,0 +1,59 @@
+! SPDX-FileCopyrightText: The uel-harness authors
+! SPDX-License-Identifier: BSD-3-Clause
+!> Determinants and inverses of matrices of two or three rows.
+module core_small_matrix
+  use core_kinds, only: dp
+  implicit none(type, external)
+  private
+  public :: determinant, cofactors, invert
+
+contains
+
+  !> Determinant of a 3 x 3 matrix.
+  pure function determinant(a) result(value)
+    real(dp), intent(in) :: a(3, 3)
+    real(dp) :: value
+
+    value = a(1, 1)*(a(2, 2)*a(3, 3) - a(2, 3)*a(3, 2)) &
+      - a(1, 2)*(a(2, 1)*a(3, 3) - a(2, 3)*a(3, 1)) &
+      + a(1, 3)*(a(2, 1)*a(3, 2) - a(2, 2)*a(3, 1))
+  end function determinant
+
+  !> Cofactors of a 3 x 3 matrix: the inverse is their transpose over the determinant.
+  pure function cofactors(a) result(c)
+    real(dp), intent(in) :: a(3, 3)
+    real(dp) :: c(3, 3)
+    integer :: i, k, i1, i2, k1, k2
+
+    do k = 1, 3
+      do i = 1, 3
+        i1 = mod(i, 3) + 1
+        i2 = mod(i + 1, 3) + 1
+        k1 = mod(k, 3) + 1
+        k2 = mod(k + 1, 3) + 1
+        c(i, k) = a(i1, k1)*a(i2, k2) - a(i1, k2)*a(i2, k1)
+      end do
+    end do
+  end function cofactors
+
+  !> Inverse and determinant; of a singular matrix both are zero.
+  pure subroutine invert(n, a, inverse, value)
+    integer, intent(in) :: n               !< 2 or 3
+    real(dp), intent(in) :: a(n, n)
+    real(dp), intent(out) :: inverse(n, n)
+    real(dp), intent(out) :: value         !< determinant
+
+    if (n == 2) then
+      inverse = reshape([a(2, 2), -a(2, 1), -a(1, 2), a(1, 1)], [2, 2])
+    else
+      inverse = transpose(cofactors(a))
+    end if
+    value = dot_product(a(1, :), inverse(:, 1))
+    if (abs(value) > 0.0_dp) then
+      inverse = inverse/value
+    else
+      inverse = 0.0_dp
+    end if
+  end subroutine invert
+
+end module core_small_matrix
