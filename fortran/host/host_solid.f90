@@ -100,7 +100,7 @@ contains
     type(coupling_t), intent(inout), optional :: coupling
     real(dp) :: now(dim, nodes), g(nodes, direct, points), b(dim*nodes, strains, points), volume(points)
     real(dp) :: g_mid(nodes, direct, points), b_mid(dim*nodes, strains, points), volume_mid(points), weight, elastic, work
-    real(dp) :: g_start(nodes, direct), volume_start
+    real(dp) :: g_start(nodes, direct), volume_start, deformation(3, 3, 2, points)
     real(dp) :: strain(strains), stress(strains), modulus(strains, strains), thermal(2)
     logical :: averaged
     integer :: p
@@ -125,6 +125,7 @@ contains
     work = energy(2) + energy(4)
     if (has_fields(material)) current%length = size_of(dim, direct, nodes, points, now, volume)
     current%finite = finite
+    if (finite .and. allocated(material%user)) call find_deformation(dim, direct, nodes, points, averaged, x, u, du, deformation)
     thermal = 0
     do p = 1, points
       if (has_fields(material)) then
@@ -140,7 +141,7 @@ contains
       if (finite) then
         current%rotation = rotation_of(gradient_of(dim, direct, nodes, du, g_mid(:, :, p)))
         call find_strain(dim*nodes, strains, b_mid(:, :, p), du, strain)
-        if (allocated(material%user)) call set_deformation(dim, direct, nodes, points, p, averaged, x, u, du)
+        if (allocated(material%user)) current%deformation = deformation(:, :, :, p)
       else
         call find_strain(dim*nodes, strains, b(:, :, p), u, strain)
       end if
@@ -284,36 +285,37 @@ contains
     if (direct > dim) gradient(3, 3) = dot_product(u(1, :), g(:, 3))
   end function gradient_of
 
-  !> Deformation gradients at both ends of the increment, for UMAT; with the mean change of volume where it is averaged.
-  subroutine set_deformation(dim, direct, nodes, points, point, averaged, x, u, du)
-    integer, intent(in) :: dim, direct, nodes, points, point
+  !> Deformation gradients of all points at both ends of the increment, for UMAT; with the mean change of volume where it
+  !> is averaged.
+  subroutine find_deformation(dim, direct, nodes, points, averaged, x, u, du, f)
+    integer, intent(in) :: dim, direct, nodes, points
     logical, intent(in) :: averaged
     real(dp), intent(in) :: x(dim, nodes), u(dim, nodes), du(dim, nodes)
-    real(dp) :: g(nodes, direct), volume, f(3, 3, 2), total, swept(2)
+    real(dp), intent(out) :: f(3, 3, 2, points)
+    real(dp) :: g(nodes, direct), volume, total, swept(2)
     integer :: p, k
     total = 0
     swept = 0
     do p = 1, points
-      if (.not. (averaged .or. p == point)) cycle
       if (points == 1 .and. nodes == 2**dim) then
         call mean_gradients(dim, direct, x, g, volume)
       else
         call gradients(dim, direct, nodes, points, p, x, g, volume)
       end if
-      f(:, :, 1) = identity + gradient_of(dim, direct, nodes, u - du, g)
-      f(:, :, 2) = identity + gradient_of(dim, direct, nodes, u, g)
+      f(:, :, 1, p) = identity + gradient_of(dim, direct, nodes, u - du, g)
+      f(:, :, 2, p) = identity + gradient_of(dim, direct, nodes, u, g)
       total = total + volume
       do k = 1, 2
-        swept(k) = swept(k) + volume*determinant(f(:, :, k))
+        swept(k) = swept(k) + volume*determinant(f(:, :, k, p))
       end do
-      if (p == point) current%deformation = f
     end do
     if (.not. averaged) return
-    do k = 1, 2
-      f(:, :, k) = current%deformation(:, :, k)
-      current%deformation(:direct, :direct, k) = f(:direct, :direct, k)*(swept(k)/total/determinant(f(:, :, k)))**(1.0_dp/direct)
+    do p = 1, points
+      do k = 1, 2
+        f(:direct, :direct, k, p) = f(:direct, :direct, k, p)*(swept(k)/total/determinant(f(:, :, k, p)))**(1.0_dp/direct)
+      end do
     end do
-  end subroutine set_deformation
+  end subroutine find_deformation
 
   !> Places of m strains (three in the plane: 11, 22, 12) among n components.
   pure function components(m, n) result(place)
