@@ -7,6 +7,7 @@
 !> iteration (lower element numbers), on one thread and in one process.
 module abaqus_bulk_exchange
   use core_kinds, only: dp
+  use elements_quad4, only: quad4_nodes, quad4_points, face_places
   implicit none(type, external)
   private
   public :: bulk_record, records
@@ -15,15 +16,15 @@ module abaqus_bulk_exchange
   !> Last evaluation of a quad. Stresses are (s11, s22, s12), the places on the face those of `face_places`.
   type :: bulk_record
     integer :: face = 0
-    real(dp) :: coordinates(2, 4) = 0.0_dp
-    real(dp) :: displacement(2, 4) = 0.0_dp
+    real(dp) :: coordinates(2, quad4_nodes) = 0.0_dp
+    real(dp) :: displacement(2, quad4_nodes) = 0.0_dp
     real(dp) :: area = 0.0_dp
     real(dp) :: norm = 0.0_dp                     !< |D| of its stiffness
-    real(dp) :: gauss_stress(3, 4) = 0.0_dp
-    real(dp) :: gauss_gradient(2, 4, 4) = 0.0_dp  !< shape function derivatives (the entries of B) of each Gauss point
-    real(dp) :: gauss_area(4) = 0.0_dp
-    real(dp) :: face_stress(3, 5) = 0.0_dp
-    real(dp) :: face_gradient(2, 4, 5) = 0.0_dp
+    real(dp) :: gauss_stress(3, quad4_points) = 0.0_dp
+    real(dp) :: gauss_gradient(2, quad4_nodes, quad4_points) = 0.0_dp  !< shape function derivatives (entries of B)
+    real(dp) :: gauss_area(quad4_points) = 0.0_dp
+    real(dp) :: face_stress(3, size(face_places)) = 0.0_dp
+    real(dp) :: face_gradient(2, quad4_nodes, size(face_places)) = 0.0_dp
     real(dp) :: face_length = 0.0_dp
   end type bulk_record
 

@@ -8,12 +8,12 @@ module abaqus_continuum_element
   use core_status, only: status_type, inside_out
   use materials_linear_elasticity, only: plane_strain
   use materials_spectral_norm, only: spectral_norm
-  use elements_quad4, only: quad4_area, quad4_strain, quad4_add_force, quad4_add_stiffness, &
-    face_point, face_nodes, gauss_of_face, face_places
+  use elements_quad4, only: quad4_nodes, quad4_unknowns, quad4_points, quad4_area, quad4_strain, quad4_add_force, &
+    quad4_add_stiffness, face_point, face_nodes, gauss_of_face, face_places
   use abaqus_bulk_exchange, only: bulk_record, store_bulk
   use abaqus_check, only: refuse
   use abaqus_report, only: fatal
-  use abaqus_layout, only: continuum_variables, p_thickness, j_plane, j_face, &
+  use abaqus_layout, only: continuum_variables, integer_position, p_thickness, j_plane, j_face, &
     v_e11, v_e22, v_e33, v_e12, v_s11, v_s22, v_s33, v_s12
   implicit none(type, external)
   private
@@ -24,7 +24,8 @@ module abaqus_continuum_element
 
   !> What the four Gauss points have when the stress is known.
   type :: gauss_state
-    real(dp) :: gradient(2, 4, 4), strain(3, 4), stress(3, 4), stiffness(3, 3, 4), volume(4)
+    real(dp) :: gradient(2, quad4_nodes, quad4_points), strain(3, quad4_points), stress(3, quad4_points)
+    real(dp) :: stiffness(3, 3, quad4_points), volume(quad4_points)
   end type gauss_state
 
 contains
@@ -33,22 +34,23 @@ contains
   !>
   !> ENERGY(2) grows by the work of the stress, by the trapezoidal rule: the strain energy of an elastic material, to
   !> which the work of any inelastic strain is added, as the material does not tell them apart.
-  subroutine evaluate_continuum(jelem, props, jprops, coordinates, u, predef, npredf, materiallib, with_tangent, &
+  subroutine evaluate_continuum(jelem, values, options, coordinates, u, predef, npredf, materiallib, with_tangent, &
     svars, energy, residual, tangent, good)
     integer, intent(in) :: jelem
-    real(dp), intent(in) :: props(*)
-    integer, intent(in) :: jprops(*)
-    real(dp), intent(in) :: coordinates(2, 4), u(8)
+    real(dp), intent(in) :: values(:)              !< properties by their rows in the layout
+    integer, intent(in) :: options(:)
+    real(dp), intent(in) :: coordinates(2, quad4_nodes), u(quad4_unknowns)
     integer, intent(in) :: npredf
-    real(dp), intent(in) :: predef(2, npredf, 4)   !< end value and increment at the nodes
+    real(dp), intent(in) :: predef(2, npredf, quad4_nodes)   !< end value and increment at the nodes
     integer, intent(in) :: materiallib(*)          !< handle of the host, passed through
     logical, intent(in) :: with_tangent
-    real(dp), intent(inout) :: svars(32), energy(8)
-    real(dp), intent(out) :: residual(8), tangent(8, 8)   !< tangent: zero without
+    real(dp), intent(inout) :: svars(:), energy(8)
+    real(dp), intent(out) :: residual(quad4_unknowns)
+    real(dp), intent(out) :: tangent(quad4_unknowns, quad4_unknowns)   !< zero without
     logical, intent(out) :: good
     type(gauss_state) :: state
     type(status_type) :: status
-    real(dp) :: jacobian, work, area, length, shape(4), field(npredf), field_change(npredf)
+    real(dp) :: jacobian, work, area, length, shape(quad4_nodes), field(npredf), field_change(npredf)
     integer :: i, k, first
 
     residual = 0.0_dp
@@ -57,7 +59,7 @@ contains
     area = quad4_area(coordinates)
     length = sqrt(max(area, 0.0_dp))
     good = .true.
-    do k = 1, 4
+    do k = 1, quad4_points
       call quad_gradient(coordinates, quad_points(:, k), state%gradient(:, :, k), jacobian)
       if (.not. jacobian > 0.0_dp) then
         good = .false.
@@ -66,15 +68,15 @@ contains
         return
       end if
       first = (k - 1)*size(continuum_variables)
-      state%volume(k) = jacobian*props(p_thickness)
+      state%volume(k) = jacobian*values(p_thickness)
       state%strain(:, k) = quad4_strain(state%gradient(:, :, k), u)
       shape = quad_shape(quad_points(:, k))
       do i = 1, npredf
         field_change(i) = dot_product(shape, predef(2, i, :))
         field(i) = dot_product(shape, predef(1, i, :)) - field_change(i)
       end do
-      call ask_material(jelem, k, jprops(j_plane), matmul(coordinates, shape), length, state%volume(k), field, &
-        field_change, materiallib, state%strain(:, k), svars(first + 1:first + 8), state%stress(:, k), &
+      call ask_material(jelem, k, options(j_plane), matmul(coordinates, shape), length, state%volume(k), field, &
+        field_change, materiallib, state%strain(:, k), svars(first + 1:first + size(continuum_variables)), state%stress(:, k), &
         state%stiffness(:, :, k), work, good)
       if (.not. good) return
       call quad4_add_force(state%gradient(:, :, k), state%volume(k), state%stress(:, k), residual)
@@ -83,7 +85,7 @@ contains
       end if
     end do
     energy(2) = energy(2) + work
-    if (jprops(j_face) /= 0) call share(jelem, jprops(j_face), coordinates, u, area, props(p_thickness), state)
+    if (options(j_face) /= 0) call share(jelem, options(j_face), coordinates, u, area, values(p_thickness), state)
   end subroutine evaluate_continuum
 
   !> Stress and stiffness of Gauss point k from the host; its strains and stresses in SVARS go from start to end values.
@@ -97,7 +99,7 @@ contains
     real(dp), intent(in) :: field_change(:)
     integer, intent(in) :: materiallib(*)
     real(dp), intent(in) :: strain(3)              !< at the end of the increment
-    real(dp), intent(inout) :: variables(8)
+    real(dp), intent(inout) :: variables(size(continuum_variables))
     real(dp), intent(out) :: stress(3), stiffness(3, 3)
     real(dp), intent(inout) :: work                !< the work of the stress is added
     logical, intent(out) :: good
@@ -124,7 +126,8 @@ contains
     good = (abs(found(4) - untouched) > 0.0_dp) .eqv. (plane == plane_strain)
     if (.not. good) then
       call fatal(1, jelem, 'JPROPS(%I) PLANE = %I, but the material has another number of stress components: ' // &
-        'give TENSOR=PSTRESS with PLANE = 0 and TENSOR=PSTRAIN with PLANE = 1', [j_plane, plane], [real(dp) ::])
+        'give TENSOR=PSTRESS with PLANE = 0 and TENSOR=PSTRAIN with PLANE = 1', &
+        [integer_position(1, j_plane), plane], [real(dp) ::])
       return
     end if
 
@@ -147,7 +150,7 @@ contains
   !> another call of the material. In the middle it is the mean of both.
   subroutine share(jelem, face, coordinates, u, area, thickness, state)
     integer, intent(in) :: jelem, face
-    real(dp), intent(in) :: coordinates(2, 4), u(8), area, thickness
+    real(dp), intent(in) :: coordinates(2, quad4_nodes), u(quad4_unknowns), area, thickness
     type(gauss_state), intent(in) :: state
     type(bulk_record) :: record
     real(dp) :: strain(3), jacobian, along(2), carried(3, 2)
@@ -155,8 +158,8 @@ contains
 
     record%face = face
     record%coordinates = coordinates
-    record%displacement(1, :) = u(1:7:2)
-    record%displacement(2, :) = u(2:8:2)
+    record%displacement(1, :) = u(1::2)
+    record%displacement(2, :) = u(2::2)
     record%area = area
     record%gauss_stress = state%stress
     record%gauss_gradient = state%gradient

@@ -8,38 +8,30 @@ module abaqus_interface_elements
   use cohesive_parameters, only: law_parameters, bilinear_law, ppr_law
   use cohesive_ppr, only: prepare_ppr
   use elements_interface_bulk, only: stabilisation_type
-  use elements_interface_kernel, only: interface_shape, integrate_interface, most_points
+  use elements_interface_kernel, only: integrate_interface
   use elements_interface_point, only: interface_options, interface_point
-  use abaqus_layout, only: elements, reals, interface_variables, &
+  use abaqus_layout, only: elements, edges, reals, real_position, interface_variables, standard, next_to_quads, &
     p_thickness, p_alphan, p_alphat, p_sigmamax, p_taumax, p_gic, p_giic, p_viscosity, p_eta, p_power, &
     p_shapen, p_shapet, p_blend, p_betan, p_betat, p_gammabot, p_friction, p_bottom_e1, p_bottom_nu12, p_top_e1, p_top_nu12, &
-    j_law, j_integration, j_tangent, j_sampling, j_eight_plane, &
+    j_law, j_integration, j_tangent, j_sampling, j_offset_bottom, j_offset_top, j_plane, j_closure, &
     v_x, v_y, v_sepn, v_sept, v_tn, v_tt, v_damage, v_dissi, v_dissii, v_sn, v_st, v_dmax, v_dissv, v_wn, v_wt, v_dissf, &
     v_maxn, v_maxt
-  use abaqus_check, only: closure_of, refuse
+  use abaqus_check, only: refuse
   use abaqus_report, only: fatal
   use abaqus_neighbours, only: stress_of_neighbours
   implicit none(type, external)
   private
   public :: evaluate_interface
 
-  !> U2 to U6: nodes of an edge, nodes of a quad of its own, and the nodes of the bottom and the top edge, left to right.
-  type(interface_shape), parameter :: shapes(2:6) = [ &
-    interface_shape(2, 0, [1, 2, 0], [4, 3, 0]), &
-    interface_shape(2, 0, [1, 2, 0], [4, 3, 0]), &
-    interface_shape(2, 4, [4, 3, 0], [5, 6, 0]), &
-    interface_shape(3, 0, [1, 2, 5], [4, 3, 6]), &
-    interface_shape(3, 8, [4, 3, 7], [9, 10, 13])]
-
 contains
 
   !> Evaluates U2 to U6; `good` is false after a message. SVARS and ENERGY come back with their end values:
   !> ENERGY(2) is T.g/2, ENERGY(4) what damage and friction have dissipated, ENERGY(5) what the viscous overstress has.
-  subroutine evaluate_interface(jtype, jelem, props, jprops, coords, u, dtime, with_tangent, svars, energy, residual, &
+  subroutine evaluate_interface(jtype, jelem, values, options, coords, u, dtime, with_tangent, svars, energy, residual, &
     tangent, good)
     integer, intent(in) :: jtype, jelem
-    real(dp), intent(in) :: props(*)
-    integer, intent(in) :: jprops(*)
+    real(dp), intent(in) :: values(:)              !< properties by their rows in the layout
+    integer, intent(in) :: options(:)
     real(dp), intent(in) :: coords(:, :)           !< (2 or 3, nodes)
     real(dp), intent(in) :: u(:)
     real(dp), intent(in) :: dtime
@@ -48,48 +40,48 @@ contains
     real(dp), intent(out) :: residual(:), tangent(:, :)
     logical, intent(out) :: good
     type(law_parameters) :: law
-    type(interface_options) :: options
+    type(interface_options) :: choice
     type(stabilisation_type) :: stabilisation
-    type(interface_point) :: old(most_points), new(most_points)
+    type(interface_point), dimension(elements(jtype)%points) :: old, new
     type(status_type) :: status
-    real(dp) :: energies(3), stress(3, 2), stiffness(3, 3, 2), xy(2, size(coords, 2))
-    integer :: points
+    real(dp) :: energies(3), stress(3, elements(jtype)%points), stiffness(3, 3, 2), xy(2, size(coords, 2))
+    integer :: nodes(elements(jtype)%points, 2), n
 
-    call prepare_law(jtype, props, jprops, law, status)
+    call prepare_law(values, options, law, status)
     good = status%code == ok
     if (.not. good) then
       call refuse(jtype, jelem, status)
       return
     end if
-    options = interface_options(jprops(j_integration), 0, closure_of(jtype, jprops) == 1, &
-      merge(1.0_dp, props(p_blend), jprops(j_tangent) == 1))
-    if (jtype /= 2 .and. jtype /= 5) then
-      options%sampling = jprops(j_sampling)
-      stabilisation = stabilisation_type([props(p_betat), props(p_betan)], props(p_gammabot))
-    end if
+    choice = interface_options(options(j_integration), options(j_sampling), options(j_closure) == 1, &
+      merge(1.0_dp, values(p_blend), options(j_tangent) == 1))
+    stabilisation = stabilisation_type([values(p_betat), values(p_betan)], values(p_gammabot))
     xy = coords(1:2, :)
-    points = shapes(jtype)%points
-    old(1:points) = points_from(svars, points)
-    associate (shape => shapes(jtype), thickness => props(p_thickness))
-      select case (jtype)
-      case (2, 5)
-        call integrate_interface(shape, law, options, thickness, xy, u, dtime, with_tangent, old, new, residual, tangent, &
+    n = elements(jtype)%points
+    nodes(:, 1) = edges(jtype)%bottom(1:n)
+    nodes(:, 2) = edges(jtype)%top(1:n)
+    old = points_from(svars, n)
+    associate (quad => edges(jtype)%quad, thickness => values(p_thickness))
+      select case (elements(jtype)%family)
+      case (standard)
+        call integrate_interface(n, nodes, quad, law, choice, thickness, xy, u, dtime, with_tangent, old, new, residual, tangent, &
           energies, status)
-      case (3)
-        call stress_of_neighbours(jelem, jprops, options, xy, reshape(u, [2, 4]), stabilisation, stress, good)
+      case (next_to_quads)
+        call stress_of_neighbours(jelem, options([j_offset_bottom, j_offset_top]), choice, xy, reshape(u, [2, 4]), stabilisation, &
+          stress, good)
         if (.not. good) return
-        call integrate_interface(shape, law, options, thickness, xy, u, dtime, with_tangent, old, new, residual, tangent, &
+        call integrate_interface(n, nodes, quad, law, choice, thickness, xy, u, dtime, with_tangent, old, new, residual, tangent, &
           energies, status, stabilisation, neighbours=stress)
       case default
-        call elasticity_of_quads(jtype, jelem, props, jprops(j_eight_plane), stiffness, good)
+        call elasticity_of_quads(jtype, jelem, values, options(j_plane), stiffness, good)
         if (.not. good) return
-        call integrate_interface(shape, law, options, thickness, xy, u, dtime, with_tangent, old, new, residual, tangent, &
+        call integrate_interface(n, nodes, quad, law, choice, thickness, xy, u, dtime, with_tangent, old, new, residual, tangent, &
           energies, status, stabilisation, stiffness)
       end select
     end associate
     good = status%code == ok
     if (good) then
-      call write_state(new(1:points), svars)
+      call write_state(new, svars)
       energy = 0.0_dp
       energy([2, 4, 5]) = energies
     else
@@ -98,40 +90,39 @@ contains
   end subroutine evaluate_interface
 
   !> The cohesive law; an initial stiffness of 0 stands for an infinite one.
-  pure subroutine prepare_law(jtype, props, jprops, law, status)
-    integer, intent(in) :: jtype
-    real(dp), intent(in) :: props(*)
-    integer, intent(in) :: jprops(*)
+  pure subroutine prepare_law(values, options, law, status)
+    real(dp), intent(in) :: values(:)
+    integer, intent(in) :: options(:)
     type(law_parameters), intent(out) :: law
     type(status_type), intent(out) :: status
 
     status = status_type(ok, 0, 0.0_dp, 0.0_dp)
-    law%kind = jprops(j_law)
+    law%kind = options(j_law)
     law%flexibility = 0.0_dp
     law%ratio = 1.0_dp
-    if (props(p_alphan) > 0.0_dp) then
-      law%flexibility = 1.0_dp/props(p_alphan)
-      law%ratio = [props(p_alphat)/props(p_alphan), 1.0_dp]
+    if (values(p_alphan) > 0.0_dp) then
+      law%flexibility = 1.0_dp/values(p_alphan)
+      law%ratio = [values(p_alphat)/values(p_alphan), 1.0_dp]
     end if
-    law%strength = [props(p_taumax), props(p_sigmamax)]
-    law%toughness = [props(p_giic), props(p_gic)]
-    law%viscosity = props(p_viscosity)
-    if (jtype /= 2 .and. jtype /= 5) law%friction = props(p_friction)
+    law%strength = [values(p_taumax), values(p_sigmamax)]
+    law%toughness = [values(p_giic), values(p_gic)]
+    law%viscosity = values(p_viscosity)
+    law%friction = values(p_friction)
     if (law%kind == bilinear_law) return
     if (law%kind == ppr_law) then
-      if (props(p_shapet) > 0.0_dp) law%shape(1) = props(p_shapet)
-      if (props(p_shapen) > 0.0_dp) law%shape(2) = props(p_shapen)
+      if (values(p_shapet) > 0.0_dp) law%shape(1) = values(p_shapet)
+      if (values(p_shapen) > 0.0_dp) law%shape(2) = values(p_shapen)
       call prepare_ppr(law, status)
       return
     end if
-    law%eta = props(p_eta)
-    if (props(p_power) > 0.0_dp) law%power = props(p_power)
+    law%eta = values(p_eta)
+    if (values(p_power) > 0.0_dp) law%power = values(p_power)
   end subroutine prepare_law
 
   !> Stiffness of the bottom and the top quad of U4 and U6.
-  subroutine elasticity_of_quads(jtype, jelem, props, plane, stiffness, good)
+  subroutine elasticity_of_quads(jtype, jelem, values, plane, stiffness, good)
     integer, intent(in) :: jtype, jelem
-    real(dp), intent(in) :: props(*)
+    real(dp), intent(in) :: values(:)
     integer, intent(in) :: plane
     real(dp), intent(out) :: stiffness(3, 3, 2)
     logical, intent(out) :: good
@@ -142,7 +133,7 @@ contains
     integer :: side
 
     do side = 1, 2
-      associate (c => props(first(side):first(side) + 7))
+      associate (c => values(first(side):first(side) + 7))
         material = engineering_constants(c(1), c(2), c(3), c(4), c(5), c(6), c(7), c(8))
       end associate
       call plane_stiffness(material, plane, stiffness(:, :, side), status)
@@ -150,7 +141,7 @@ contains
       if (.not. good) then
         call fatal(jtype, jelem, 'PROPS(%I) ' // trim(reals(ratio(side))%name) // ' = %R and its neighbours: ' // &
           trim(sentence(status%code)) // '; %R is expected to be positive', &
-          [ratio(side)], [props(ratio(side)), status%value])
+          [real_position(jtype, ratio(side))], [values(ratio(side)), status%value])
         return
       end if
     end do

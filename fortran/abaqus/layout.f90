@@ -1,14 +1,22 @@
 ! SPDX-FileCopyrightText: The uel-harness authors
 ! SPDX-License-Identifier: BSD-3-Clause
-!> Every position of PROPS, JPROPS and SVARS, named once: the kernels index with the constants, the messages and the
-!> tables of the documentation take names, units, ranges and meanings from the same rows.
+!> Every property of PROPS and JPROPS and every variable of SVARS, named once: the kernels index with the constants, the
+!> messages and the tables of the documentation take names, units, ranges and meanings from the same rows. The sizes of
+!> the elements are here too.
 !>
-!> harness/usersub/layout.py reads this file line by line: one row a line, its meaning after the row.
+!> A row of `reals` or `integers` says which families of elements have it; its position in the deck is the number of rows
+!> up to it that the family has. New rows go to the end of the table, where they are the last of each family that has them:
+!> no position of an existing deck moves. A deck that has no value for them gives 0, and keeps the PROPERTIES that
+!> `elements` says.
+!>
+!> harness/usersub/layout.py reads this file line by line: one row a line, its meaning after the row, there or on the next line.
 module abaqus_layout
   use, intrinsic :: iso_c_binding, only: c_int
+  use core_kinds, only: dp
   implicit none(type, external)
   private
-  public :: real_item, integer_item, variable_item, element_item
+  public :: real_item, integer_item, variable_item, element_item, edges_item
+  public :: unknowns_of, variables_of, reals_of, integers_of, real_position, integer_position, unpack
   public :: delamination_layout_version
 
   !> What a real property may be. A property that may be zero is 0 where the deck leaves it out.
@@ -22,9 +30,19 @@ module abaqus_layout
   integer, parameter, public :: above_one = 8       ! 0 or above 1
   integer, parameter, public :: any_integer = huge(1)
 
-  !> A real property.
+  ! families of elements, and sets of them, which are sums
+  integer, parameter, public :: continuum = 1
+  integer, parameter, public :: standard = 2
+  integer, parameter, public :: next_to_quads = 4    ! stabilised, with the stress of U1 next to it
+  integer, parameter, public :: self_contained = 8   ! stabilised, with quads of its own
+  integer, parameter, public :: stabilised = next_to_quads + self_contained
+  integer, parameter, public :: interfaces = standard + stabilised
+  integer, parameter, public :: every_family = continuum + interfaces
+
+  !> A real property of the elements of these families.
   type :: real_item
-    integer :: position
+    integer :: row
+    integer :: families
     character(len=12) :: name
     character(len=13) :: unit
     integer :: rule
@@ -32,7 +50,8 @@ module abaqus_layout
 
   !> An integer property and its lowest and highest value.
   type :: integer_item
-    integer :: position
+    integer :: row
+    integer :: families
     character(len=12) :: name
     integer :: lowest, highest
   end type integer_item
@@ -44,14 +63,21 @@ module abaqus_layout
     character(len=13) :: unit
   end type variable_item
 
-  !> An element type: the options of *USER ELEMENT that go with Un.
+  !> An element type Un. `reals` and `integers` are the PROPERTIES and I PROPERTIES of decks from before rows were added to
+  !> the tables of properties: the fewest there may be.
   type :: element_item
-    integer :: jtype, nodes, unknowns, reals, integers, variables
+    integer :: jtype, family, dimension, nodes, points, reals, integers
   end type element_item
 
-  ! reals of every element
+  !> The nodes of an interface element on its bottom and top edge, left to right, the middle last; 0 where there is none.
+  type :: edges_item
+    integer :: jtype
+    integer :: quad                !< nodes of each of its own quads, of which the bottom one comes first; 0 without
+    integer :: bottom(3), top(3)
+  end type edges_item
+
+  ! rows of the table of reals
   integer, parameter, public :: p_thickness = 1
-  ! reals of the interface elements
   integer, parameter, public :: p_alphan = 2
   integer, parameter, public :: p_alphat = 3
   integer, parameter, public :: p_sigmamax = 4
@@ -64,12 +90,10 @@ module abaqus_layout
   integer, parameter, public :: p_shapen = 11
   integer, parameter, public :: p_shapet = 12
   integer, parameter, public :: p_blend = 13
-  ! reals of the stabilised interface elements
   integer, parameter, public :: p_betan = 14
   integer, parameter, public :: p_betat = 15
   integer, parameter, public :: p_gammabot = 16
   integer, parameter, public :: p_friction = 17
-  ! reals of the self-contained interface elements: elastic constants of their two quads
   integer, parameter, public :: p_bottom_e1 = 18
   integer, parameter, public :: p_bottom_e2 = 19
   integer, parameter, public :: p_bottom_e3 = 20
@@ -88,82 +112,73 @@ module abaqus_layout
   integer, parameter, public :: p_top_angle = 33
 
   type(real_item), parameter, public :: reals(33) = [ &
-    real_item(p_thickness, 'THICKNESS', 'length', positive), & !< thickness out of the plane
-    real_item(p_alphan, 'ALPHAN', 'stress/length', not_negative), & !< initial normal stiffness alpha_n; 0: infinite, with CLOSURE 1
-    real_item(p_alphat, 'ALPHAT', 'stress/length', not_negative), & !< initial tangential stiffness alpha_tau; 0: as ALPHAN
-    real_item(p_sigmamax, 'SIGMAMAX', 'stress', positive), & !< mode I strength
-    real_item(p_taumax, 'TAUMAX', 'stress', positive), & !< mode II strength
-    real_item(p_gic, 'GIC', 'energy/area', positive), & !< mode I fracture energy, above SIGMAMAX**2/(2 ALPHAN)
-    real_item(p_giic, 'GIIC', 'energy/area', positive), & !< mode II fracture energy, above TAUMAX**2/(2 ALPHAT)
-    real_item(p_viscosity, 'VISCOSITY', 'time', not_negative), & !< relaxation time, see below; 0: none
-    real_item(p_eta, 'ETA', '1', exponent), & !< exponent of Benzeggagh and Kenane (LAW 2, 3); 0: power law
-    real_item(p_power, 'POWER', '1', exponent), & !< exponent of the power law (LAW 2, 3); 0: 1, the linear criterion
-    real_item(p_shapen, 'SHAPEN', '1', above_one), & !< exponent of the softening in opening (LAW 4); 0: 2, about linear
-    real_item(p_shapet, 'SHAPET', '1', above_one), & !< exponent of the softening in sliding (LAW 4); 0: 2, about linear
-    real_item(p_blend, 'BLEND', '1', up_to_one), & !< share of the secant matrix in AMATRX, with TANGENT 0
-    real_item(p_betan, 'BETAN', 'stress/length', estimated), & !< stabilisation beta_n; 0: equation (21), -1: local eigenvalues
-    real_item(p_betat, 'BETAT', 'stress/length', estimated), & !< stabilisation beta_tau; 0: equation (21), -1: local eigenvalues
-    real_item(p_gammabot, 'GAMMABOT', '1', below_one), & !< weight of the bottom stress; 0: equation (22) with the same estimate
-    real_item(p_friction, 'FRICTION', '1', not_negative), & !< coefficient of friction, with CLOSURE 1; 0: none
-    real_item(p_bottom_e1, 'E1 BOTTOM', 'stress', positive), & !< Young's modulus along material axis 1
-    real_item(p_bottom_e2, 'E2 BOTTOM', 'stress', positive), & !< Young's modulus along material axis 2
-    real_item(p_bottom_e3, 'E3 BOTTOM', 'stress', not_negative), & !< Young's modulus out of the plane; plane strain
-    real_item(p_bottom_nu12, 'NU12 BOTTOM', '1', any_value), & !< contraction along 2 under stress along 1
-    real_item(p_bottom_nu13, 'NU13 BOTTOM', '1', any_value), & !< contraction along 3 under stress along 1; plane strain
-    real_item(p_bottom_nu23, 'NU23 BOTTOM', '1', any_value), & !< contraction along 3 under stress along 2; plane strain
-    real_item(p_bottom_g12, 'G12 BOTTOM', 'stress', positive), & !< shear modulus in the plane
-    real_item(p_bottom_angle, 'ANGLE BOTTOM', 'degree', any_value), & !< of material axis 1 from x, counter-clockwise
-    real_item(p_top_e1, 'E1 TOP', 'stress', positive), & !< Young's modulus along material axis 1
-    real_item(p_top_e2, 'E2 TOP', 'stress', positive), & !< Young's modulus along material axis 2
-    real_item(p_top_e3, 'E3 TOP', 'stress', not_negative), & !< Young's modulus out of the plane; plane strain
-    real_item(p_top_nu12, 'NU12 TOP', '1', any_value), & !< contraction along 2 under stress along 1
-    real_item(p_top_nu13, 'NU13 TOP', '1', any_value), & !< contraction along 3 under stress along 1; plane strain
-    real_item(p_top_nu23, 'NU23 TOP', '1', any_value), & !< contraction along 3 under stress along 2; plane strain
-    real_item(p_top_g12, 'G12 TOP', 'stress', positive), & !< shear modulus in the plane
-    real_item(p_top_angle, 'ANGLE TOP', 'degree', any_value)] !< of material axis 1 from x, counter-clockwise
+    real_item(p_thickness, every_family, 'THICKNESS', 'length', positive), & !< thickness out of the plane
+    real_item(p_alphan, interfaces, 'ALPHAN', 'stress/length', not_negative), &
+      !< initial normal stiffness alpha_n; 0: infinite, with CLOSURE 1
+    real_item(p_alphat, interfaces, 'ALPHAT', 'stress/length', not_negative), &
+      !< initial tangential stiffness alpha_tau; 0: as ALPHAN
+    real_item(p_sigmamax, interfaces, 'SIGMAMAX', 'stress', positive), & !< mode I strength
+    real_item(p_taumax, interfaces, 'TAUMAX', 'stress', positive), & !< mode II strength
+    real_item(p_gic, interfaces, 'GIC', 'energy/area', positive), & !< mode I fracture energy, above SIGMAMAX**2/(2 ALPHAN)
+    real_item(p_giic, interfaces, 'GIIC', 'energy/area', positive), & !< mode II fracture energy, above TAUMAX**2/(2 ALPHAT)
+    real_item(p_viscosity, interfaces, 'VISCOSITY', 'time', not_negative), & !< relaxation time, see below; 0: none
+    real_item(p_eta, interfaces, 'ETA', '1', exponent), & !< exponent of Benzeggagh and Kenane (LAW 2, 3); 0: power law
+    real_item(p_power, interfaces, 'POWER', '1', exponent), & !< exponent of the power law (LAW 2, 3); 0: 1, the linear criterion
+    real_item(p_shapen, interfaces, 'SHAPEN', '1', above_one), & !< exponent of the softening in opening (LAW 4); 0: 2, about linear
+    real_item(p_shapet, interfaces, 'SHAPET', '1', above_one), & !< exponent of the softening in sliding (LAW 4); 0: 2, about linear
+    real_item(p_blend, interfaces, 'BLEND', '1', up_to_one), & !< share of the secant matrix in AMATRX, with TANGENT 0
+    real_item(p_betan, stabilised, 'BETAN', 'stress/length', estimated), &
+      !< stabilisation beta_n; 0: equation (21), -1: local eigenvalues
+    real_item(p_betat, stabilised, 'BETAT', 'stress/length', estimated), &
+      !< stabilisation beta_tau; 0: equation (21), -1: local eigenvalues
+    real_item(p_gammabot, stabilised, 'GAMMABOT', '1', below_one), &
+      !< weight of the bottom stress; 0: equation (22) with the same estimate
+    real_item(p_friction, stabilised, 'FRICTION', '1', not_negative), & !< coefficient of friction, with CLOSURE 1; 0: none
+    real_item(p_bottom_e1, self_contained, 'E1 BOTTOM', 'stress', positive), & !< Young's modulus along material axis 1
+    real_item(p_bottom_e2, self_contained, 'E2 BOTTOM', 'stress', positive), & !< Young's modulus along material axis 2
+    real_item(p_bottom_e3, self_contained, 'E3 BOTTOM', 'stress', not_negative), & !< Young's modulus out of the plane; plane strain
+    real_item(p_bottom_nu12, self_contained, 'NU12 BOTTOM', '1', any_value), & !< contraction along 2 under stress along 1
+    real_item(p_bottom_nu13, self_contained, 'NU13 BOTTOM', '1', any_value), &
+      !< contraction along 3 under stress along 1; plane strain
+    real_item(p_bottom_nu23, self_contained, 'NU23 BOTTOM', '1', any_value), &
+      !< contraction along 3 under stress along 2; plane strain
+    real_item(p_bottom_g12, self_contained, 'G12 BOTTOM', 'stress', positive), & !< shear modulus in the plane
+    real_item(p_bottom_angle, self_contained, 'ANGLE BOTTOM', 'degree', any_value), &
+      !< of material axis 1 from x, counter-clockwise
+    real_item(p_top_e1, self_contained, 'E1 TOP', 'stress', positive), & !< Young's modulus along material axis 1
+    real_item(p_top_e2, self_contained, 'E2 TOP', 'stress', positive), & !< Young's modulus along material axis 2
+    real_item(p_top_e3, self_contained, 'E3 TOP', 'stress', not_negative), & !< Young's modulus out of the plane; plane strain
+    real_item(p_top_nu12, self_contained, 'NU12 TOP', '1', any_value), & !< contraction along 2 under stress along 1
+    real_item(p_top_nu13, self_contained, 'NU13 TOP', '1', any_value), & !< contraction along 3 under stress along 1; plane strain
+    real_item(p_top_nu23, self_contained, 'NU23 TOP', '1', any_value), & !< contraction along 3 under stress along 2; plane strain
+    real_item(p_top_g12, self_contained, 'G12 TOP', 'stress', positive), & !< shear modulus in the plane
+    real_item(p_top_angle, self_contained, 'ANGLE TOP', 'degree', any_value)] !< of material axis 1 from x, counter-clockwise
 
-  ! integers of the continuum element
-  integer, parameter, public :: j_plane = 1
-  integer, parameter, public :: j_face = 2
-  ! integers of every interface element
+  ! rows of the table of integers
   integer, parameter, public :: j_law = 1
   integer, parameter, public :: j_integration = 2
   integer, parameter, public :: j_tangent = 3
-  ! integers of the stabilised interface elements
   integer, parameter, public :: j_sampling = 4
-  ! integers of the four-node one
   integer, parameter, public :: j_offset_bottom = 5
   integer, parameter, public :: j_offset_top = 6
-  integer, parameter, public :: j_four_closure = 7
-  ! integers of those with quads of their own
-  integer, parameter, public :: j_eight_plane = 5
-  integer, parameter, public :: j_eight_closure = 6
+  integer, parameter, public :: j_plane = 7
+  integer, parameter, public :: j_face = 8
+  integer, parameter, public :: j_closure = 9
 
-  type(integer_item), parameter, public :: continuum_integers(2) = [ &
-    integer_item(j_plane, 'PLANE', 0, 1), & !< 0 plane stress, 1 plane strain
-    integer_item(j_face, 'FACE', 0, 4)] !< face along a four-node stabilised interface (U3), as Abaqus counts; 0 none
-
-  type(integer_item), parameter, public :: standard_integers(3) = [ &
-    integer_item(j_law, 'LAW', 1, 4), & !< 1 bilinear (9) to (11), 2 bilinear by ETA or POWER, 3 exponential by ETA or POWER, 4 PPR
-    integer_item(j_integration, 'INTEGRATION', 0, 1), & !< 0 Gauss, 1 Newton-Cotes
-    integer_item(j_tangent, 'TANGENT', 0, 1)] !< 0 consistent (23), 1 secant (24)
-
-  type(integer_item), parameter, public :: four_node_integers(7) = [ &
-    integer_item(j_law, 'LAW', 1, 4), & !< 1 bilinear (9) to (11), 2 bilinear by ETA or POWER, 3 exponential by ETA or POWER, 4 PPR
-    integer_item(j_integration, 'INTEGRATION', 0, 1), & !< 0 Gauss, 1 Newton-Cotes
-    integer_item(j_tangent, 'TANGENT', 0, 1), & !< at constant bulk stress: 0 consistent, 1 S alpha (1 - d) alone
-    integer_item(j_sampling, 'SAMPLING', 0, 2), & !< bulk stress: 0 middle of the face, 1 face, 2 nearest Gauss point
-    integer_item(j_offset_bottom, 'OFFSETBOTTOM', -any_integer, any_integer), & !< number of the quad below less its own
-    integer_item(j_offset_top, 'OFFSETTOP', -any_integer, any_integer), & !< number of the quad above, less its own
-    integer_item(j_four_closure, 'CLOSURE', 0, 1)] !< damage at 0 the displacement jump, 1 a separation of its own
-
-  type(integer_item), parameter, public :: eight_node_integers(6) = [ &
-    integer_item(j_law, 'LAW', 1, 4), & !< 1 bilinear (9) to (11), 2 bilinear by ETA or POWER, 3 exponential by ETA or POWER, 4 PPR
-    integer_item(j_integration, 'INTEGRATION', 0, 1), & !< 0 Gauss, 1 Newton-Cotes
-    integer_item(j_tangent, 'TANGENT', 0, 1), & !< 0 consistent, 1 without the derivative of the damage
-    integer_item(j_sampling, 'SAMPLING', 0, 2), & !< bulk stress: 0 middle of face (U6: line), 1 face, 2 nearest Gauss point
-    integer_item(j_eight_plane, 'PLANE', 0, 1), & !< 0 plane stress, 1 plane strain
-    integer_item(j_eight_closure, 'CLOSURE', 0, 1)] !< damage at 0 the displacement jump, 1 a separation of its own
+  type(integer_item), parameter, public :: integers(9) = [ &
+    integer_item(j_law, interfaces, 'LAW', 1, 4), &
+      !< 1 bilinear (9) to (11), 2 bilinear by ETA or POWER, 3 exponential by ETA or POWER, 4 PPR
+    integer_item(j_integration, interfaces, 'INTEGRATION', 0, 1), & !< 0 Gauss, 1 Newton-Cotes
+    integer_item(j_tangent, interfaces, 'TANGENT', 0, 1), &
+      !< 0 consistent (23), 1 secant (24), that is without the derivative of the damage; U3: at constant bulk stress
+    integer_item(j_sampling, stabilised, 'SAMPLING', 0, 2), &
+      !< bulk stress: 0 middle of the face (U6: line), 1 face, 2 nearest Gauss point
+    integer_item(j_offset_bottom, next_to_quads, 'OFFSETBOTTOM', -any_integer, any_integer), &
+      !< number of the quad below less its own
+    integer_item(j_offset_top, next_to_quads, 'OFFSETTOP', -any_integer, any_integer), & !< number of the quad above less its own
+    integer_item(j_plane, continuum + self_contained, 'PLANE', 0, 1), & !< 0 plane stress, 1 plane strain
+    integer_item(j_face, continuum, 'FACE', 0, 4), & !< face along a four-node stabilised interface (U3), as Abaqus counts; 0 none
+    integer_item(j_closure, stabilised, 'CLOSURE', 0, 1)] !< damage at 0 the displacement jump, 1 a separation of its own
 
   ! variables of a point of the continuum element
   integer, parameter, public :: v_e11 = 1
@@ -226,14 +241,101 @@ module abaqus_layout
     variable_item(v_maxt, 'MAXT', 'length')] !< largest tangential separation of the law so far, with LAW 4; else 0
 
   type(element_item), parameter, public :: elements(6) = [ &
-    element_item(1, 4, 8, 1, 2, 32), & !< continuum quad, stress from a material of the deck (UELMAT)
-    element_item(2, 4, 8, 13, 3, 36), & !< standard cohesive interface
-    element_item(3, 4, 8, 17, 7, 36), & !< stabilised cohesive interface, four nodes, next to U1 quads
-    element_item(4, 8, 16, 33, 6, 36), & !< stabilised cohesive interface, eight nodes, self-contained; UNSYMM
-    element_item(5, 6, 12, 13, 3, 54), & !< standard cohesive interface between edges of three nodes
-    element_item(6, 16, 32, 33, 6, 54)] !< stabilised cohesive interface of eight-node quads, self-contained; UNSYMM
+    element_item(1, continuum, 2, 4, 4, 1, 2), & !< continuum quad, stress from a material of the deck (UELMAT)
+    element_item(2, standard, 2, 4, 2, 13, 3), & !< standard cohesive interface
+    element_item(3, next_to_quads, 2, 4, 2, 17, 7), & !< stabilised cohesive interface, four nodes, next to U1 quads
+    element_item(4, self_contained, 2, 8, 2, 33, 6), & !< stabilised cohesive interface, eight nodes, self-contained; UNSYMM
+    element_item(5, standard, 2, 6, 3, 13, 3), & !< standard cohesive interface between edges of three nodes
+    element_item(6, self_contained, 2, 16, 3, 33, 6)] !< stabilised cohesive interface of eight-node quads, self-contained; UNSYMM
+
+  type(edges_item), parameter, public :: edges(2:6) = [ &
+    edges_item(2, 0, [1, 2, 0], [4, 3, 0]), & !< as COH2D4
+    edges_item(3, 0, [1, 2, 0], [4, 3, 0]), & !< as U2
+    edges_item(4, 4, [4, 3, 0], [5, 6, 0]), & !< edge 4-3 of the quad below, edge 1-2 of that above
+    edges_item(5, 0, [1, 2, 5], [4, 3, 6]), & !< as U2, with middles
+    edges_item(6, 8, [4, 3, 7], [9, 10, 13])] !< as U4, with middles
 
 contains
+
+  !> Number of unknowns of Un; 0 where there is no such type.
+  pure function unknowns_of(jtype) result(number)
+    integer, intent(in) :: jtype
+    integer :: number
+
+    number = 0
+    if (jtype >= 1 .and. jtype <= size(elements)) number = elements(jtype)%dimension*elements(jtype)%nodes
+  end function unknowns_of
+
+  !> Number of SVARS of Un, VARIABLES of *USER ELEMENT; 0 where there is no such type.
+  pure function variables_of(jtype) result(number)
+    integer, intent(in) :: jtype
+    integer :: number
+
+    number = 0
+    if (jtype < 1 .or. jtype > size(elements)) return
+    number = elements(jtype)%points &
+      *merge(size(continuum_variables), size(interface_variables), elements(jtype)%family == continuum)
+  end function variables_of
+
+  !> Number of real properties that Un may have, PROPERTIES of *USER ELEMENT.
+  pure function reals_of(jtype) result(number)
+    integer, intent(in) :: jtype
+    integer :: number
+
+    number = count(iand(reals%families, elements(jtype)%family) /= 0)
+  end function reals_of
+
+  !> Number of integer properties that Un may have, I PROPERTIES of *USER ELEMENT.
+  pure function integers_of(jtype) result(number)
+    integer, intent(in) :: jtype
+    integer :: number
+
+    number = count(iand(integers%families, elements(jtype)%family) /= 0)
+  end function integers_of
+
+  !> Position in PROPS of the property in a row of `reals`.
+  pure function real_position(jtype, row) result(position)
+    integer, intent(in) :: jtype, row
+    integer :: position
+
+    position = count(iand(reals(1:row)%families, elements(jtype)%family) /= 0)
+  end function real_position
+
+  !> Position in JPROPS of the property in a row of `integers`.
+  pure function integer_position(jtype, row) result(position)
+    integer, intent(in) :: jtype, row
+    integer :: position
+
+    position = count(iand(integers(1:row)%families, elements(jtype)%family) /= 0)
+  end function integer_position
+
+  !> Properties by their rows in `reals` and `integers`; 0 where Un has no such property or the deck no value for it.
+  pure subroutine unpack(jtype, nprops, props, njprop, jprops, values, options)
+    integer, intent(in) :: jtype, nprops, njprop
+    real(dp), intent(in) :: props(nprops)
+    integer, intent(in) :: jprops(njprop)
+    real(dp), intent(out) :: values(size(reals))
+    integer, intent(out) :: options(size(integers))
+    integer :: row, position, family
+
+    family = elements(jtype)%family
+    values = 0.0_dp
+    position = 0
+    do row = 1, size(reals)
+      if (iand(reals(row)%families, family) == 0) cycle
+      if (position == nprops) exit
+      position = position + 1
+      values(row) = props(position)
+    end do
+    options = 0
+    position = 0
+    do row = 1, size(integers)
+      if (iand(integers(row)%families, family) == 0) cycle
+      if (position == njprop) exit
+      position = position + 1
+      options(row) = jprops(position)
+    end do
+  end subroutine unpack
 
   !> Marks a library as holding these elements, so that a host may name their SVARS.
   function delamination_layout_version() result(version) bind(c, name='delamination_layout_version')

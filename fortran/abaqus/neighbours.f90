@@ -7,7 +7,7 @@ module abaqus_neighbours
   use elements_quad4, only: face_nodes, gauss_of_face
   use elements_interface_point, only: interface_options
   use elements_interface_bulk, only: stabilisation_type, weigh_sides, sample_face, sample_gauss
-  use abaqus_layout, only: four_node_integers, j_offset_bottom, j_offset_top
+  use abaqus_layout, only: integers, integer_position, j_offset_bottom, j_offset_top
   use abaqus_bulk_exchange, only: records, slot_of_bulk
   use abaqus_report, only: fatal
   implicit none(type, external)
@@ -17,17 +17,16 @@ module abaqus_neighbours
 contains
 
   !> Weighted bulk stress of both points, and beta and gamma with (21) and (22) put in; `good` is false after a message.
-  subroutine stress_of_neighbours(jelem, jprops, options, coordinates, u, stabilisation, stress, good)
+  subroutine stress_of_neighbours(jelem, offset, options, coordinates, u, stabilisation, stress, good)
     integer, intent(in) :: jelem
-    integer, intent(in) :: jprops(*)
+    integer, intent(in) :: offset(2)                     !< from its number to those of the bottom and the top quad
     type(interface_options), intent(in) :: options
     real(dp), intent(in) :: coordinates(2, 4), u(2, 4)   !< of the interface nodes
     type(stabilisation_type), intent(inout) :: stabilisation
     real(dp), intent(out) :: stress(3, 2)                !< (s11, s22, s12) of each point
     logical, intent(out) :: good
-    integer :: offset(2), slot(2), side, k
+    integer :: slot(2), side, k
 
-    offset = [jprops(j_offset_bottom), jprops(j_offset_top)]
     stress = 0.0_dp
     do side = 1, 2
       slot(side) = slot_of_bulk(jelem + offset(side))
@@ -67,32 +66,33 @@ contains
     integer, intent(in) :: jelem, offset, side, slot
     real(dp), intent(in) :: coordinates(2, 4), u(2, 4)
     logical, intent(out) :: good
-    integer, parameter :: positions(2) = [j_offset_bottom, j_offset_top]
+    integer, parameter :: rows(2) = [j_offset_bottom, j_offset_top]
     integer, parameter :: shared(2, 2) = reshape([2, 1, 4, 3], [2, 2])
     real(dp), parameter :: place_tolerance = 1.0e-6_dp, round_off = 16.0_dp*epsilon(1.0_dp)
-    integer :: nodes(2)
+    integer :: nodes(2), position
     character(len=40) :: property
 
     good = .false.
-    property = 'JPROPS(%I) ' // trim(four_node_integers(positions(side))%name) // ' = %I'
+    position = integer_position(3, rows(side))
+    property = 'JPROPS(%I) ' // trim(integers(rows(side))%name) // ' = %I'
     if (slot == 0) then
       call fatal(3, jelem, trim(property) // ': bulk element %I has not been evaluated before; it must be a U1 ' // &
         'with FACE, have a lower number than the interface element, and the job must run on one thread', &
-        [positions(side), offset, jelem + offset], [real(dp) ::])
+        [position, offset, jelem + offset], [real(dp) ::])
       return
     end if
     nodes = face_nodes(:, records(slot)%face)
     if (any(abs(records(slot)%coordinates(:, nodes) - coordinates(:, shared(:, side))) &
       > place_tolerance*records(slot)%face_length)) then
       call fatal(3, jelem, trim(property) // ': bulk element %I is no neighbour, its face %I does not lie on ' // &
-        'that edge of the interface', [positions(side), offset, jelem + offset, records(slot)%face], [real(dp) ::])
+        'that edge of the interface', [position, offset, jelem + offset, records(slot)%face], [real(dp) ::])
       return
     end if
     good = all(abs(records(slot)%displacement(:, nodes) - u(:, shared(:, side))) &
       <= round_off*maxval(abs(u(:, shared(:, side)))))
     if (.not. good) call fatal(3, jelem, trim(property) // ': bulk element %I has not been evaluated before the ' // &
       'interface element in this iteration: give bulk elements lower numbers and run on one thread', &
-      [positions(side), offset, jelem + offset], [real(dp) ::])
+      [position, offset, jelem + offset], [real(dp) ::])
   end subroutine check_neighbour
 
 end module abaqus_neighbours

@@ -12,7 +12,7 @@ subroutine uel(rhs, amatrx, svars, energy, ndofel, nrhs, nsvars, props, nprops, 
   use core_kinds, only: dp
   use abaqus_check, only: call_is_good
   use abaqus_interface_elements, only: evaluate_interface
-  use abaqus_layout, only: elements
+  use abaqus_layout, only: elements, reals, integers, variables_of
   use abaqus_report, only: fatal
   implicit none(type, external)
   integer, intent(in) :: ndofel, nrhs, nsvars, nprops, mcrd, nnode, jtype, kstep, kinc, jelem, ndload, npredf, mlvarx
@@ -20,9 +20,9 @@ subroutine uel(rhs, amatrx, svars, energy, ndofel, nrhs, nsvars, props, nprops, 
   real(dp), intent(inout) :: rhs(mlvarx, *), amatrx(ndofel, ndofel), svars(*), energy(8), pnewdt
   real(dp), intent(in) :: props(*), coords(mcrd, nnode), u(ndofel), du(mlvarx, *), v(ndofel), a(ndofel), time(2), dtime
   real(dp), intent(in) :: params(*), adlmag(mdload, *), predef(2, npredf, nnode), ddlmag(mdload, *), period
-  real(dp) :: residual(ndofel), tangent(ndofel, ndofel), state(maxval(elements%variables)), energies(8)
+  real(dp) :: residual(ndofel), tangent(ndofel, ndofel), state(variables_of(jtype)), energies(8), values(size(reals))
   logical :: good, with_tangent
-  integer :: n
+  integer :: n, options(size(integers))
 
   rhs(1:ndofel, 1:nrhs) = 0.0_dp
   amatrx = 0.0_dp
@@ -31,19 +31,20 @@ subroutine uel(rhs, amatrx, svars, energy, ndofel, nrhs, nsvars, props, nprops, 
       call fatal(jtype, jelem, 'takes its stress from a material: give MATERIAL= on *UEL PROPERTY', &
         [integer ::], [real(dp) ::])
     else
-      call fatal(jtype, jelem, 'is no element of this file; it has U1 to U6', [integer ::], [real(dp) ::])
+      call fatal(jtype, jelem, 'is no element of this file; it has U1 to U%I', [size(elements)], [real(dp) ::])
     end if
     return
   end if
-  good = call_is_good(jtype, jelem, ndofel, nsvars, nprops, mcrd, nnode, njprop, ndload, lflags, props, jprops)
+  good = call_is_good(jtype, jelem, ndofel, nsvars, nprops, mcrd, nnode, njprop, ndload, lflags, props, jprops, &
+    values, options)
   if (.not. good) return
   ! neither damping nor mass: those matrices stay zero
   if (lflags(3) == 3 .or. lflags(3) == 4) return
 
-  n = elements(jtype)%variables
-  state(1:n) = svars(1:n)
+  n = size(state)
+  state = svars(1:n)
   with_tangent = lflags(3) /= 5 .and. lflags(3) /= 6
-  call evaluate_interface(jtype, jelem, props, jprops, coords, u, dtime, with_tangent, state, energies, residual, tangent, &
+  call evaluate_interface(jtype, jelem, values, options, coords, u, dtime, with_tangent, state, energies, residual, tangent, &
     good)
   if (.not. good) return
   if (with_tangent) amatrx = tangent
@@ -53,7 +54,7 @@ subroutine uel(rhs, amatrx, svars, energy, ndofel, nrhs, nsvars, props, nprops, 
   end if
   if (lflags(3) /= 2) rhs(1:ndofel, 1) = residual
   if (lflags(3) == 1) then
-    svars(1:n) = state(1:n)
+    svars(1:n) = state
     energy = energies
   end if
 end subroutine uel

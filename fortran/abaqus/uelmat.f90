@@ -12,6 +12,7 @@ subroutine uelmat(rhs, amatrx, svars, energy, ndofel, nrhs, nsvars, props, nprop
   use core_kinds, only: dp
   use abaqus_check, only: call_is_good
   use abaqus_continuum_element, only: evaluate_continuum
+  use abaqus_layout, only: reals, integers, variables_of
   use abaqus_report, only: fatal
   implicit none(type, external)
   integer, intent(in) :: ndofel, nrhs, nsvars, nprops, mcrd, nnode, jtype, kstep, kinc, jelem, ndload, npredf, mlvarx
@@ -20,7 +21,8 @@ subroutine uelmat(rhs, amatrx, svars, energy, ndofel, nrhs, nsvars, props, nprop
   real(dp), intent(in) :: props(*), coords(mcrd, nnode), u(ndofel), du(mlvarx, *), v(ndofel), a(ndofel), time(2), dtime
   real(dp), intent(in) :: params(*), adlmag(mdload, *), predef(2, npredf, nnode), ddlmag(mdload, *), period
   integer, intent(in) :: materiallib(*)
-  real(dp) :: residual(8), tangent(8, 8), state(32), energies(8)
+  real(dp) :: residual(ndofel), tangent(ndofel, ndofel), state(variables_of(jtype)), energies(8), values(size(reals))
+  integer :: options(size(integers)), n
   logical :: with_tangent, good
 
   rhs(1:ndofel, 1:nrhs) = 0.0_dp
@@ -30,26 +32,28 @@ subroutine uelmat(rhs, amatrx, svars, energy, ndofel, nrhs, nsvars, props, nprop
       [integer ::], [real(dp) ::])
     return
   end if
-  good = call_is_good(jtype, jelem, ndofel, nsvars, nprops, mcrd, nnode, njprop, ndload, lflags, props, jprops)
+  good = call_is_good(jtype, jelem, ndofel, nsvars, nprops, mcrd, nnode, njprop, ndload, lflags, props, jprops, &
+    values, options)
   if (.not. good) return
   ! neither damping nor mass: those matrices stay zero
   if (lflags(3) == 3 .or. lflags(3) == 4) return
 
-  state = svars(1:32)
+  n = size(state)
+  state = svars(1:n)
   energies = energy
   ! the residual alone, or with the mass
   with_tangent = lflags(3) /= 5 .and. lflags(3) /= 6
-  call evaluate_continuum(jelem, props, jprops, coords(1:2, 1:4), u, predef, npredf, materiallib, with_tangent, state, &
+  call evaluate_continuum(jelem, values, options, coords(1:2, :), u, predef, npredf, materiallib, with_tangent, state, &
     energies, residual, tangent, good)
   if (.not. good) return
-  if (with_tangent) amatrx(1:8, 1:8) = tangent
+  if (with_tangent) amatrx = tangent
   if (lflags(4) == 1) then
-    if (lflags(3) == 100) rhs(1:8, 1) = -matmul(amatrx, du(1:8, 1))
+    if (lflags(3) == 100) rhs(1:ndofel, 1) = -matmul(amatrx, du(1:ndofel, 1))
     return
   end if
-  if (lflags(3) /= 2) rhs(1:8, 1) = residual
+  if (lflags(3) /= 2) rhs(1:ndofel, 1) = residual
   if (lflags(3) == 1) then
-    svars(1:32) = state
+    svars(1:n) = state
     energy = energies
   end if
 end subroutine uelmat

@@ -22,6 +22,15 @@ contains
     integer, intent(in) :: places(dim, nodes)   !< parent coordinates of the nodes: -1, 0 or 1
     real(dp), intent(in) :: parent(dim)         !< of the point
     real(dp), intent(out) :: n(nodes), dn(nodes, dim)
+
+    call evaluate(dim, nodes, places, parent, n, dn)
+  end subroutine serendipity_functions
+
+  !> The same, for this file alone: a compiler may make a quick copy of it for the sizes of a call.
+  pure subroutine evaluate(dim, nodes, places, parent, n, dn)
+    integer, intent(in) :: dim, nodes, places(dim, nodes)
+    real(dp), intent(in) :: parent(dim)
+    real(dp), intent(out) :: n(nodes), dn(nodes, dim)
     real(dp) :: factor(-1:1, dim), slope(-1:1, dim), others, total
     integer :: i, j, k
     logical :: corner
@@ -50,7 +59,7 @@ contains
       end do
       n(k) = n(k)*total
     end do
-  end subroutine serendipity_functions
+  end subroutine evaluate
 
   !> Derivatives of the shape functions of the eight-node quad by x and y, and the Jacobian, at (xi, eta).
   !> Where the Jacobian is not positive the derivatives are zero.
@@ -61,7 +70,7 @@ contains
     real(dp), intent(out) :: jacobian          !< d(x, y)/d(xi, eta), area
     real(dp) :: n(8), by_parent(8, 2)
 
-    call serendipity_functions(2, 8, quad_places, point, n, by_parent)
+    call evaluate(2, 8, quad_places, point, n, by_parent)
     call to_position(8, coordinates, by_parent, gradient, jacobian)
   end subroutine quad8_gradient
 

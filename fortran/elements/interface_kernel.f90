@@ -18,17 +18,7 @@ module elements_interface_kernel
     stabilised_point, point_energies
   implicit none(type, external)
   private
-  public :: interface_shape, integrate_interface, most_points
-
-  integer, parameter :: most_points = 3
-
-  !> Which of an element's nodes are what.
-  type :: interface_shape
-    integer :: points                !< nodes of an edge, and integration points
-    integer :: quad                  !< nodes of each of its two quads, the bottom one first; 0 where it has none
-    integer :: bottom(most_points)   !< nodes of the bottom edge: left, right, middle
-    integer :: top(most_points)      !< nodes of the top edge, on those
-  end type interface_shape
+  public :: integrate_interface
 
 contains
 
@@ -37,9 +27,11 @@ contains
   !> Without stabilisation it is the standard element. The stabilised one takes the bulk stress from quads of its own, for
   !> which it is given their stiffness, or from its neighbours. Then its tangent is that at constant bulk stress, since
   !> what depends on it involves nodes that the element does not own.
-  pure subroutine integrate_interface(shape, law, options, thickness, coordinates, u, dtime, with_tangent, old, new, &
+  pure subroutine integrate_interface(points, edges, quad, law, options, thickness, coordinates, u, dtime, with_tangent, old, new, &
     residual, tangent, energies, status, stabilisation, stiffness, neighbours)
-    type(interface_shape), intent(in) :: shape
+    integer, intent(in) :: points                             !< integration points, and nodes of an edge
+    integer, intent(in) :: edges(points, 2)                   !< nodes of the bottom and the top edge: left, right, middle
+    integer, intent(in) :: quad                               !< nodes of each of its own quads, the bottom one first; 0 without
     type(law_parameters), intent(in) :: law
     type(interface_options), intent(in) :: options
     real(dp), intent(in) :: thickness                         !< out of the plane, length
@@ -47,46 +39,44 @@ contains
     real(dp), intent(in) :: coordinates(2, size(u)/2)         !< original coordinates, length
     real(dp), intent(in) :: dtime                             !< duration of the increment
     logical, intent(in) :: with_tangent
-    type(interface_point), intent(in) :: old(shape%points)    !< committed state
-    type(interface_point), intent(out) :: new(shape%points)
+    type(interface_point), intent(in) :: old(points)    !< committed state
+    type(interface_point), intent(out) :: new(points)
     real(dp), intent(out) :: residual(size(u))                !< force
     real(dp), intent(out) :: tangent(size(u), size(u))        !< -d(residual)/du, force/length; zero if not wanted
     real(dp), intent(out) :: energies(3)                      !< stored, dissipated by damage and friction, viscous
     type(status_type), intent(out) :: status                  !< its item is the point, the mode or the quad
     type(stabilisation_type), intent(in), optional :: stabilisation    !< beta and gamma, or what they follow from
     real(dp), intent(in), optional :: stiffness(3, 3, 2)               !< D of the bottom and the top quad, stress
-    real(dp), intent(in), optional :: neighbours(3, shape%points)      !< weighted (s11, s22, s12) of each point
-    type(interface_place) :: places(shape%points)
+    real(dp), intent(in), optional :: neighbours(3, points)      !< weighted (s11, s22, s12) of each point
+    type(interface_place) :: places(points)
     type(stabilisation_type) :: used
     type(point_response) :: response
     real(dp) :: jump(2, size(u)), bulk(2, size(u)), by_displacement(2, size(u)), bulk_traction(2), separation(2), area
-    integer :: edges(shape%points, 2), k
+    integer :: k
 
     residual = 0.0_dp
     tangent = 0.0_dp
     energies = 0.0_dp
-    edges(:, 1) = shape%bottom(1:shape%points)
-    edges(:, 2) = shape%top(1:shape%points)
     call check_law(law, status)
     if (status%code /= ok) return
-    call measure_interface(shape%points, coordinates(:, edges(:, 1)), coordinates(:, edges(:, 2)), options%rule, places, &
+    call measure_interface(points, coordinates(:, edges(:, 1)), coordinates(:, edges(:, 2)), options%rule, places, &
       status)
     if (status%code /= ok) return
     if (present(stabilisation)) then
       used = stabilisation
-      if (present(stiffness)) call stabilise(stabilisation, shape%quad, shape%points, edges, coordinates, stiffness, &
+      if (present(stiffness)) call stabilise(stabilisation, quad, points, edges, coordinates, stiffness, &
         used, status)
       if (status%code /= ok) return
       if (options%consistent_closure) call check_beta(law, used%beta, status)
       if (status%code /= ok) return
     end if
 
-    do k = 1, shape%points
+    do k = 1, points
       new(k)%position = places(k)%position
-      separation = separation_at(places(k), shape%points, edges, u)
+      separation = separation_at(places(k), points, edges, u)
       if (present(stabilisation)) then
         if (present(stiffness)) then
-          call bulk_operator(options%sampling, places(k), used%gamma_bottom, shape%quad, stiffness, coordinates, bulk, &
+          call bulk_operator(options%sampling, places(k), used%gamma_bottom, quad, stiffness, coordinates, bulk, &
             status)
           if (status%code /= ok) return
           bulk_traction = matmul(bulk, u)
@@ -103,7 +93,7 @@ contains
       end if
       area = places(k)%length*thickness
       energies = energies + point_energies(area, new(k))
-      jump = jump_operator(places(k), shape%points, edges, size(u))
+      jump = jump_operator(places(k), points, edges, size(u))
       residual = residual - area*matmul(new(k)%traction, jump)
       if (.not. with_tangent) cycle
       by_displacement = matmul(response%by_jump, jump)

@@ -9,8 +9,14 @@ module elements_quad4
   use core_quadrature, only: gauss_abscissa
   implicit none(type, external)
   private
+  public :: quad4_nodes, quad4_unknowns, quad4_points
   public :: quad4_area, quad4_strain, quad4_add_force, quad4_add_stiffness, face_point
   public :: face_nodes, gauss_of_face, face_places
+
+  integer, parameter :: quad4_nodes = 4, quad4_unknowns = 2*quad4_nodes
+
+  !> 2 x 2 Gauss points.
+  integer, parameter :: quad4_points = 4
 
   !> First and second node of each face.
   integer, parameter :: face_nodes(2, 4) = reshape([1, 2, 2, 3, 3, 4, 4, 1], [2, 4])
@@ -25,7 +31,7 @@ contains
 
   !> Area; negative where the nodes run clockwise.
   pure function quad4_area(coordinates) result(area)
-    real(dp), intent(in) :: coordinates(2, 4)
+    real(dp), intent(in) :: coordinates(2, quad4_nodes)
     real(dp) :: area
     real(dp) :: diagonal_13(2), diagonal_24(2)
 
@@ -36,12 +42,12 @@ contains
 
   !> Strain (e11, e22, 2 e12) from the displacements (u1, v1, u2, ...) and the shape function derivatives.
   pure function quad4_strain(gradient, u) result(strain)
-    real(dp), intent(in) :: gradient(2, 4), u(8)
+    real(dp), intent(in) :: gradient(2, quad4_nodes), u(quad4_unknowns)
     real(dp) :: strain(3)
-    real(dp) :: along_x(4), along_y(4)
+    real(dp) :: along_x(quad4_nodes), along_y(quad4_nodes)
 
-    along_x = u(1:7:2)
-    along_y = u(2:8:2)
+    along_x = u(1::2)
+    along_y = u(2::2)
     strain(1) = dot_product(gradient(1, :), along_x)
     strain(2) = dot_product(gradient(2, :), along_y)
     strain(3) = dot_product(gradient(2, :), along_x) + dot_product(gradient(1, :), along_y)
@@ -49,14 +55,14 @@ contains
 
   !> Subtracts the internal force of a point from the residual.
   pure subroutine quad4_add_force(gradient, weight, stress, residual)
-    real(dp), intent(in) :: gradient(2, 4)    !< shape function derivatives, 1/length
+    real(dp), intent(in) :: gradient(2, quad4_nodes)    !< shape function derivatives, 1/length
     real(dp), intent(in) :: weight            !< volume of the point
     real(dp), intent(in) :: stress(3)         !< s11, s22, s12
-    real(dp), intent(inout) :: residual(8)
+    real(dp), intent(inout) :: residual(quad4_unknowns)
     real(dp) :: gx, gy
     integer :: a
 
-    do a = 1, 4
+    do a = 1, quad4_nodes
       gx = weight*gradient(1, a)
       gy = weight*gradient(2, a)
       residual(2*a - 1) = residual(2*a - 1) - gx*stress(1) - gy*stress(3)
@@ -66,19 +72,19 @@ contains
 
   !> Adds the stiffness of a point to the tangent.
   pure subroutine quad4_add_stiffness(gradient, weight, stiffness, tangent)
-    real(dp), intent(in) :: gradient(2, 4)    !< shape function derivatives, 1/length
+    real(dp), intent(in) :: gradient(2, quad4_nodes)    !< shape function derivatives, 1/length
     real(dp), intent(in) :: weight            !< volume of the point
     real(dp), intent(in) :: stiffness(3, 3)   !< d(stress)/d(e11, e22, 2 e12); need not be symmetric
-    real(dp), intent(inout) :: tangent(8, 8)
-    real(dp) :: by_u(3), by_v(3), gx(4), gy(4)
+    real(dp), intent(inout) :: tangent(quad4_unknowns, quad4_unknowns)
+    real(dp) :: by_u(3), by_v(3), gx(quad4_nodes), gy(quad4_nodes)
     integer :: a, b
 
     gx = weight*gradient(1, :)
     gy = weight*gradient(2, :)
-    do b = 1, 4
+    do b = 1, quad4_nodes
       by_u = stiffness(:, 1)*gradient(1, b) + stiffness(:, 3)*gradient(2, b)
       by_v = stiffness(:, 2)*gradient(2, b) + stiffness(:, 3)*gradient(1, b)
-      do a = 1, 4
+      do a = 1, quad4_nodes
         tangent(2*a - 1, 2*b - 1) = tangent(2*a - 1, 2*b - 1) + gx(a)*by_u(1) + gy(a)*by_u(3)
         tangent(2*a, 2*b - 1) = tangent(2*a, 2*b - 1) + gy(a)*by_u(2) + gx(a)*by_u(3)
         tangent(2*a - 1, 2*b) = tangent(2*a - 1, 2*b) + gx(a)*by_v(1) + gy(a)*by_v(3)

@@ -19,12 +19,12 @@ def user_element(jtype: int, *flags: str, **options: str | int) -> list[str]:
 
 
 def uel_property(jtype: int, elset: str, values: Mapping[str, float], **options: str) -> list[str]:
-    """*UEL PROPERTY with properties by name; those of other element types are passed over.
+    """*UEL PROPERTY with properties by name, 0 where none is given; those of other element types are passed over.
 
     Reals and integers follow each other on the same lines, eight a line; comments above name them.
     """
     layout = element_layouts()[jtype]
     names = [item.name for item in (*layout.reals, *layout.integers)]
-    reals = [float(values[item.name]) for item in layout.reals]
-    integers = [int(values[item.name]) for item in layout.integers]
+    reals = [float(values.get(item.name, 0.0)) for item in layout.reals]
+    integers = [int(values.get(item.name, 0)) for item in layout.integers]
     return [*captions(names), keyword("UEL PROPERTY", ELSET=elset, **options), *wrapped([*reals, *integers])]

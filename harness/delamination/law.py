@@ -90,8 +90,9 @@ def deck_properties(path: Path, elset: str | None = None) -> tuple[int, dict[str
             continue
         if elset is None or section.elset.upper() == elset.upper():
             layout = element_layouts()[definition.number]
-            values = dict(zip((item.name for item in layout.reals), section.values.tolist(), strict=True))
-            values |= dict(zip((item.name for item in layout.integers), section.integers.tolist(), strict=True))
+            # a deck may have fewer than the element knows: those that were added later are 0
+            values = dict(zip((item.name for item in layout.reals), section.values.tolist(), strict=False))
+            values |= dict(zip((item.name for item in layout.integers), section.integers.tolist(), strict=False))
             return definition.number if definition.number in NODES else STANDARD, values
         sections.append(section.elset)
     if not sections:
@@ -138,8 +139,8 @@ class LawElement:
         section = UserProperty(
             "LAW",
             PLACE,
-            np.array([float(values[item.name]) for item in layout.reals]),
-            np.array([int(values[item.name]) for item in layout.integers]),
+            np.array([float(values.get(item.name, 0.0)) for item in layout.reals]),
+            np.array([int(values.get(item.name, 0)) for item in layout.integers]),
         )
         group = ElementGroup(f"U{jtype}", np.array([1]), np.arange(layout.nodes)[None], "", section, user, PLACE)
         coordinates = np.column_stack([nodes * size, np.zeros(len(nodes))])

@@ -52,6 +52,7 @@ class ElementLayout:
     integers  JPROPS
     variables SVARS of an integration point
     points    number of integration points
+    edges     nodes, from 0, of the bottom and the top edge of an interface element: left, right, middle
     meaning   what the element is
     """
 
@@ -61,6 +62,7 @@ class ElementLayout:
     integers: tuple[Item, ...]
     variables: tuple[Item, ...]
     points: int
+    edges: tuple[tuple[int, ...], tuple[int, ...]]
     meaning: str
 
     @property
@@ -72,20 +74,23 @@ class ElementLayout:
 @cache
 def element_layouts() -> dict[int, ElementLayout]:
     """Every element type of the project by its JTYPE."""
-    tables = _tables(path_of_layout().read_text(encoding="utf-8"))
-    integers = {1: "continuum_integers", 3: "four_node_integers"}
-    integers |= {2: "standard_integers", 5: "standard_integers", 4: "eight_node_integers", 6: "eight_node_integers"}
+    return read_layouts(path_of_layout().read_text(encoding="utf-8"))
+
+
+def read_layouts(text: str) -> dict[int, ElementLayout]:
+    """Element types by their JTYPE from the text of a layout.f90."""
+    tables = _tables(text)
     layouts = {}
     for fields, meaning in tables["elements"]:
-        jtype, nodes, _, reals, _, svars = map(int, fields)
-        variables = _variables(tables["continuum_variables" if jtype == 1 else "interface_variables"])
+        jtype, family, _, nodes, points, *_ = map(int, fields)
         layouts[jtype] = ElementLayout(
             jtype=jtype,
             nodes=nodes,
-            reals=_reals(tables["reals"])[:reals],
-            integers=_integers(tables[integers[jtype]]),
-            variables=variables,
-            points=svars // len(variables),
+            reals=_reals(_of_family(tables["reals"], family)),
+            integers=_integers(_of_family(tables["integers"], family)),
+            variables=_variables(tables["continuum_variables" if jtype == 1 else "interface_variables"]),
+            points=points,
+            edges=next((_edges(row) for row, _ in tables["edges"] if int(row[0]) == jtype), ((), ())),
             meaning=meaning,
         )
     return layouts
@@ -97,14 +102,9 @@ def variables(jtype: int) -> PointVariables | None:
     if layout is None:
         return None
     names = tuple(item.name for item in layout.variables)
-    if jtype == 1:
-        return PointVariables("continuum", names, layout.points, outline=(0, 1, 2, 3))
-    edges: dict[int, tuple[tuple[int, ...], tuple[int, ...]]] = {
-        4: ((3, 2), (4, 5)),
-        5: ((0, 1, 4), (3, 2, 5)),
-        6: ((3, 2, 6), (8, 9, 12)),
-    }
-    bottom, top = edges.get(jtype, ((0, 1), (3, 2)))
+    bottom, top = layout.edges
+    if not bottom:
+        return PointVariables("continuum", names, layout.points, outline=tuple(range(layout.nodes)))
     return PointVariables("interface", names, layout.points, bottom=bottom, top=top)
 
 
@@ -137,31 +137,56 @@ def _table(title: str, unit: str, rows: list[tuple[Item, str]]) -> Iterator[str]
 
 Rows = list[tuple[list[str], str]]
 
-_POSITION = re.compile(r"integer, parameter, public :: ([pjv]_\w+) = (\d+)$")
-_TABLE = re.compile(r"type\((\w+_item)\), parameter, public :: (\w+)\((\d+)\) = \[ &$")
-_ROW = re.compile(r"(\w+_item)\((.*)\)(?:, &|\]) !< (.*)$")
+_NUMBER = re.compile(r"integer, parameter, public :: (\w+) = (\w+(?: \+ \w+)*)(?: *!.*)?$")
+_TABLE = re.compile(r"type\((\w+_item)\), parameter, public :: (\w+)\((?:(\d+):)?(\d+)\) = \[ &$")
+_ROW = re.compile(r"(\w+_item)\((.*)\)(?:, &|\])(?: !< (.*))?$")
 
 
 def _tables(text: str) -> dict[str, Rows]:
-    """Rows of each table, positions put in as numbers; ValueError where a table does not hold what it announces."""
-    positions: dict[str, str] = {}
+    """Rows of each table, numbers put in for names; ValueError where a table does not hold what it announces."""
+    numbers: dict[str, int] = {}
     tables: dict[str, Rows] = {}
     announced: dict[str, int] = {}
     rows: Rows = []
+    first = 1
+
+    def value(field: str) -> str:
+        if not all(part in numbers for part in field.split(" + ")) or field in RULES:
+            return field
+        return str(sum(numbers[part] for part in field.split(" + ")))
+
     for line in map(str.strip, text.splitlines()):
-        if match := _POSITION.match(line):
-            positions[match[1]] = match[2]
-        elif match := _TABLE.match(line):
+        if match := _TABLE.match(line):
             rows = tables[match[2]] = []
-            announced[match[2]] = int(match[3])
+            first = int(match[3] or 1)
+            announced[match[2]] = int(match[4]) - first + 1
         elif match := _ROW.match(line):
-            fields = [positions.get(field, field) for field in match[2].split(", ")]
-            if int(fields[0]) != len(rows) + 1:
-                raise ValueError(f"position {fields[0]} in row {len(rows) + 1}: {line}")
-            rows.append((fields, match[3]))
+            fields = [value(field) for field in re.sub(r"[][]", "", match[2]).split(", ")]
+            if int(fields[0]) != len(rows) + first:
+                raise ValueError(f"position {fields[0]} in row {len(rows) + first}: {line}")
+            rows.append((fields, match[3] or ""))
+        elif line.startswith("!< ") and rows and not rows[-1][1]:
+            rows[-1] = (rows[-1][0], line.removeprefix("!< "))
+        elif match := _NUMBER.match(line):
+            parts = match[2].split(" + ")
+            numbers[match[1]] = sum(numbers[part] if part in numbers else int(part) for part in parts)
     if {name: len(rows) for name, rows in tables.items()} != announced:
         raise ValueError("a table of the layout has another number of rows than it announces")
     return tables
+
+
+def _of_family(rows: Rows, family: int) -> Rows:
+    """The properties that a family has, in the order and with the positions of its decks."""
+    members = [row for row in rows if int(row[0][1]) & family]
+    return [([str(n), *fields[2:]], text) for n, (fields, text) in enumerate(members, start=1)]
+
+
+def _edges(fields: list[str]) -> tuple[tuple[int, ...], tuple[int, ...]]:
+    """Nodes of the bottom and the top edge from a row of `edges`."""
+    nodes = [int(field) for field in fields[2:]]
+    half = len(nodes) // 2
+    bottom, top = (tuple(node - 1 for node in part if node) for part in (nodes[:half], nodes[half:]))
+    return bottom, top
 
 
 def _reals(rows: Rows) -> tuple[Item, ...]:
