@@ -11,7 +11,7 @@ module abaqus_bulk_exchange
   implicit none(type, external)
   private
   public :: bulk_record, records
-  public :: store_bulk, slot_of_bulk, forget_bulk
+  public :: store_bulk, slot_of_bulk, clear_bulk_records
 
   !> Last evaluation of a quad. Stresses are (s11, s22, s12), the places on the face those of `face_places`.
   type :: bulk_record
@@ -81,9 +81,9 @@ contains
   end subroutine make_room
 
   !> Forgets everything, at the start and the end of an analysis.
-  subroutine forget_bulk()
+  subroutine clear_bulk_records()
     if (allocated(slots)) deallocate (slots, records)
     used = 0
-  end subroutine forget_bulk
+  end subroutine clear_bulk_records
 
 end module abaqus_bulk_exchange

@@ -13,7 +13,7 @@ module abaqus_check
   use abaqus_report, only: fatal
   implicit none(type, external)
   private
-  public :: call_is_good, refuse
+  public :: call_is_good, report_status
 
 contains
 
@@ -52,7 +52,7 @@ contains
         call unpack(jtype, nprops, props, njprop, jprops, values, options)
         good = reals_are_good(jtype, jelem, nprops, values)
         if (good) good = integers_are_good(jtype, jelem, njprop, options)
-        if (good .and. element%family /= continuum) good = closure_is_good(jtype, jelem, values, options)
+        if (good .and. element%family /= continuum) good = options_fit(jtype, jelem, values, options)
       end if
     end associate
 
@@ -167,9 +167,9 @@ contains
     end do
   end function integers_are_good
 
-  !> True if what the consistent closure alone can do is asked of it alone: an initial stiffness that is infinite (0), in
-  !> both directions, and friction. Nor is it asked for a PPR law that falls infinitely fast at its end.
-  function closure_is_good(jtype, jelem, values, options) result(good)
+  !> True if the properties fit CLOSURE: only the consistent law takes an infinite initial stiffness (0), in both directions,
+  !> and friction, and it takes no PPR law that falls infinitely fast at its end.
+  function options_fit(jtype, jelem, values, options) result(good)
     integer, intent(in) :: jtype, jelem
     real(dp), intent(in) :: values(:)
     integer, intent(in) :: options(:)
@@ -198,10 +198,10 @@ contains
         'below, the law falls infinitely fast at its end')
       return
     end do
-  end function closure_is_good
+  end function options_fit
 
   !> Sends the message for the status of a kernel; U4 and U6 count their quads in status%item.
-  subroutine refuse(jtype, jelem, status)
+  subroutine report_status(jtype, jelem, status)
     integer, intent(in) :: jtype, jelem
     type(status_type), intent(in) :: status
     integer :: row
@@ -240,6 +240,6 @@ contains
       call fatal(jtype, jelem, trim(adjustl(trim(side) // ' quad')) // ' ' // trim(sentence(status%code)) // &
         '; it is %R', [integer ::], [status%value])
     end select
-  end subroutine refuse
+  end subroutine report_status
 
 end module abaqus_check

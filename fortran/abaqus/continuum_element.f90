@@ -11,7 +11,7 @@ module abaqus_continuum_element
   use elements_quad4, only: quad4_nodes, quad4_unknowns, quad4_points, quad4_area, quad4_strain, quad4_add_force, &
     quad4_add_stiffness, face_point, face_nodes, gauss_of_face, face_places
   use abaqus_bulk_exchange, only: bulk_record, store_bulk
-  use abaqus_check, only: refuse
+  use abaqus_check, only: report_status
   use abaqus_report, only: fatal
   use abaqus_layout, only: continuum_variables, integer_position, p_thickness, j_plane, j_face, &
     v_e11, v_e22, v_e33, v_e12, v_s11, v_s22, v_s33, v_s12
@@ -64,7 +64,7 @@ contains
       if (.not. jacobian > 0.0_dp) then
         good = .false.
         status = status_type(inside_out, k, jacobian, 0.0_dp)
-        call refuse(1, jelem, status)
+        call report_status(1, jelem, status)
         return
       end if
       first = (k - 1)*size(continuum_variables)
@@ -75,7 +75,7 @@ contains
         field_change(i) = dot_product(shape, predef(2, i, :))
         field(i) = dot_product(shape, predef(1, i, :)) - field_change(i)
       end do
-      call ask_material(jelem, k, options(j_plane), matmul(coordinates, shape), length, state%volume(k), field, &
+      call call_material(jelem, k, options(j_plane), matmul(coordinates, shape), length, state%volume(k), field, &
         field_change, materiallib, state%strain(:, k), svars(first + 1:first + size(continuum_variables)), state%stress(:, k), &
         state%stiffness(:, :, k), work, good)
       if (.not. good) return
@@ -85,11 +85,11 @@ contains
       end if
     end do
     energy(2) = energy(2) + work
-    if (options(j_face) /= 0) call share(jelem, options(j_face), coordinates, u, area, values(p_thickness), state)
+    if (options(j_face) /= 0) call store_for_neighbours(jelem, options(j_face), coordinates, u, area, values(p_thickness), state)
   end subroutine evaluate_continuum
 
   !> Stress and stiffness of Gauss point k from the host; its strains and stresses in SVARS go from start to end values.
-  subroutine ask_material(jelem, k, plane, place, length, volume, field, field_change, materiallib, strain, variables, &
+  subroutine call_material(jelem, k, plane, place, length, volume, field, field_change, materiallib, strain, variables, &
     stress, stiffness, work, good)
     integer, intent(in) :: jelem, k, plane
     real(dp), intent(in) :: place(2)               !< of the point
@@ -143,12 +143,12 @@ contains
     variables([v_s11, v_s22, v_s12]) = stress
     variables(v_e33) = 0.0_dp
     variables(v_s33) = merge(found(3), 0.0_dp, plane == plane_strain)
-  end subroutine ask_material
+  end subroutine call_material
 
   !> Leaves stress, shape function derivatives and areas to the interface elements next door. The stress at a place on
   !> the face is that of the Gauss point next to it, carried there by the stiffness: exact in linear elasticity, without
   !> another call of the material. In the middle it is the mean of both.
-  subroutine share(jelem, face, coordinates, u, area, thickness, state)
+  subroutine store_for_neighbours(jelem, face, coordinates, u, area, thickness, state)
     integer, intent(in) :: jelem, face
     real(dp), intent(in) :: coordinates(2, quad4_nodes), u(quad4_unknowns), area, thickness
     type(gauss_state), intent(in) :: state
@@ -186,6 +186,6 @@ contains
       end if
     end do
     call store_bulk(jelem, record)
-  end subroutine share
+  end subroutine store_for_neighbours
 
 end module abaqus_continuum_element

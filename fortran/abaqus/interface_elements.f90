@@ -16,7 +16,7 @@ module abaqus_interface_elements
     j_law, j_integration, j_tangent, j_sampling, j_offset_bottom, j_offset_top, j_plane, j_closure, &
     v_x, v_y, v_sepn, v_sept, v_tn, v_tt, v_damage, v_dissi, v_dissii, v_sn, v_st, v_dmax, v_dissv, v_wn, v_wt, v_dissf, &
     v_maxn, v_maxt
-  use abaqus_check, only: refuse
+  use abaqus_check, only: report_status
   use abaqus_report, only: fatal
   use abaqus_neighbours, only: stress_of_neighbours
   implicit none(type, external)
@@ -50,7 +50,7 @@ contains
     call prepare_law(values, options, law, status)
     good = status%code == ok
     if (.not. good) then
-      call refuse(jtype, jelem, status)
+      call report_status(jtype, jelem, status)
       return
     end if
     choice = interface_options(options(j_integration), options(j_sampling), options(j_closure) == 1, &
@@ -85,7 +85,7 @@ contains
       energy = 0.0_dp
       energy([2, 4, 5]) = energies
     else
-      call refuse(jtype, jelem, status)
+      call report_status(jtype, jelem, status)
     end if
   end subroutine evaluate_interface
 
@@ -162,7 +162,7 @@ contains
       points(k)%history%damage_max = svars(first + v_dmax)
       points(k)%history%dissipated = [svars(first + v_dissii), svars(first + v_dissi)]
       points(k)%history%viscous = svars(first + v_dissv)
-      points(k)%history%rubbed = svars(first + v_dissf)
+      points(k)%history%friction_work = svars(first + v_dissf)
       points(k)%history%largest = [svars(first + v_maxt), svars(first + v_maxn)]
     end do
   end function points_from
@@ -188,7 +188,7 @@ contains
       svars(first + v_st) = points(k)%stabilisation(1)
       svars(first + v_dmax) = points(k)%history%damage_max
       svars(first + v_dissv) = points(k)%history%viscous
-      svars(first + v_dissf) = points(k)%history%rubbed
+      svars(first + v_dissf) = points(k)%history%friction_work
       svars(first + v_maxn) = points(k)%history%largest(2)
       svars(first + v_maxt) = points(k)%history%largest(1)
       svars(first + v_wn) = points(k)%history%separation(2)

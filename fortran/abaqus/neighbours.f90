@@ -6,7 +6,7 @@ module abaqus_neighbours
   use core_quadrature, only: gauss_rule
   use elements_quad4, only: face_nodes, gauss_of_face
   use elements_interface_point, only: interface_options
-  use elements_interface_bulk, only: stabilisation_type, weigh_sides, sample_face, sample_gauss
+  use elements_interface_bulk, only: stabilisation_type, nitsche_parameters, sample_face, sample_gauss
   use abaqus_layout, only: integers, integer_position, j_offset_bottom, j_offset_top
   use abaqus_bulk_exchange, only: records, slot_of_bulk
   use abaqus_report, only: fatal
@@ -33,7 +33,7 @@ contains
       call check_neighbour(jelem, offset(side), side, slot(side), coordinates, u, good)
       if (.not. good) return
     end do
-    stabilisation = weigh_sides(stabilisation, records(slot)%norm, records(slot)%area, records(slot(1))%face_length)
+    stabilisation = nitsche_parameters(stabilisation, records(slot)%norm, records(slot)%area, records(slot(1))%face_length)
     do k = 1, 2
       stress(:, k) = stabilisation%gamma_bottom*sampled(slot(1), options, 3 - k) &
         + (1.0_dp - stabilisation%gamma_bottom)*sampled(slot(2), options, k)

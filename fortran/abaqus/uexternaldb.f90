@@ -4,11 +4,11 @@
 !> before the first and after the last increment of an analysis.
 subroutine uexternaldb(lop, lrestart, time, dtime, kstep, kinc)
   use core_kinds, only: dp
-  use abaqus_bulk_exchange, only: forget_bulk
+  use abaqus_bulk_exchange, only: clear_bulk_records
   implicit none(type, external)
   integer, intent(in) :: lop, lrestart, kstep, kinc
   real(dp), intent(in) :: time(2), dtime
   integer, parameter :: analysis_starts = 0, analysis_ends = 3
 
-  if (lop == analysis_starts .or. lop == analysis_ends) call forget_bulk()
+  if (lop == analysis_starts .or. lop == analysis_ends) call clear_bulk_records()
 end subroutine uexternaldb

@@ -11,7 +11,7 @@
 !> A law is a softening curve tau(lambda) for every direction c of the separation, w = lambda c with c = (|w_tau|, w_n)/
 !> lambda, from which the traction follows as t_i = tau ratio_i c_i. It is continued towards smaller separations than that
 !> at the onset of damage, down to none; the straight line lambda/flexibility meets it at the onset. A further law is a
-!> further module with `_softening` and `_steepest`, and a line in the select cases below. The PPR law is none of these: its
+!> further module with `_softening` and `_steepest`, and a line in each select case below. The PPR law is different: its
 !> two components have a damage each, and it brings its own routines.
 module cohesive_law
   use core_kinds, only: dp

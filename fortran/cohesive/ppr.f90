@@ -260,7 +260,7 @@ contains
     state%damage_max = max(history%damage_max, damage_at(law, max(state%largest, jump)))
   end subroutine evolve_ppr
 
-  !> Recoverable traction at the start of an increment in the consistent closure, without the compression of a closed
+  !> Recoverable traction at the start of an increment in the consistent law, without the compression of a closed
   !> point. A component that has been rigid so far has what it can have of the traction there was.
   pure function ppr_start_of_increment(law, history, old_traction) result(traction)
     type(law_parameters), intent(in) :: law

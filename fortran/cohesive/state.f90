@@ -5,7 +5,7 @@ module cohesive_state
   use core_kinds, only: dp
   implicit none(type, external)
   private
-  public :: point_history, damage_state, closure_state
+  public :: point_history, damage_state, law_solution
 
   !> What a point remembers from the end of the last increment.
   type :: point_history
@@ -15,7 +15,7 @@ module cohesive_state
     real(dp) :: largest(2) = 0.0_dp      !< largest separations so far: the history of the PPR law, of no other
     real(dp) :: dissipated(2) = 0.0_dp   !< by sliding and by opening, energy/area
     real(dp) :: viscous = 0.0_dp         !< by the viscous overstress, energy/area
-    real(dp) :: rubbed = 0.0_dp          !< by friction, energy/area
+    real(dp) :: friction_work = 0.0_dp          !< by friction, energy/area
   end type point_history
 
   !> Damage at the end of the increment.
@@ -27,8 +27,8 @@ module cohesive_state
     real(dp) :: slope(2, 2)  !< derivative of `acting` by the separation, 1/length
   end type damage_state
 
-  !> Outcome of the consistent closure.
-  type :: closure_state
+  !> Solution of the consistent law in a point.
+  type :: law_solution
     real(dp) :: traction(2)        !< T, stress, tension positive
     real(dp) :: recoverable(2)     !< t: T less overstress and friction
     real(dp) :: overstress(2)      !< viscous part of T
@@ -40,6 +40,6 @@ module cohesive_state
     real(dp) :: by_trial(2, 2)     !< dT/dp
     logical :: solved              !< false where no separation was found
     integer :: steps               !< of the search for it; 0 where the damage stays
-  end type closure_state
+  end type law_solution
 
 end module cohesive_state

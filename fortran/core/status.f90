@@ -58,7 +58,7 @@ contains
     case (edges_apart)
       text = 'the two edges of the interface do not coincide'
     case (small_beta)
-      text = 'too small for the consistent closure: ' // &
+      text = 'too small for the consistent law: ' // &
         'it does not exceed the softening slope of the law'
     case default
       text = 'unknown status'

@@ -4,7 +4,7 @@
 !> the stabilisation follows (Griebel, Schweitzer 2003; Annavarapu, Hautefeuille, Dolbow 2012), for any quad.
 !>
 !> lambda is the largest value of (integral of |sigma.n|^2 over the face)/(integral of eps:D:eps over the quad) over all
-!> displacements but the rigid ones. For a constant strain it is |D| meas(Gamma)/meas(Omega) at most, which makes
+!> displacements except rigid motions. For a constant strain it is |D| meas(Gamma)/meas(Omega) at most, which makes
 !> equation (21) of 2 (gamma_1^2 lambda_1 + gamma_2^2 lambda_2).
 module elements_face_eigenvalue
   use core_kinds, only: dp
@@ -20,7 +20,7 @@ contains
   !>
   !> Neither matrix sees the rigid displacements R, so energy may be replaced by energy + c R transpose(R), which is
   !> positive definite; with L its Cholesky factor and W = inverse(L) transpose(traction), lambda is the largest
-  !> eigenvalue of transpose(W) W, which has but the size of the face.
+  !> eigenvalue of transpose(W) W, which has the size of the face only.
   pure subroutine face_eigenvalue(coordinates, energy, traction, lambda, status)
     real(dp), intent(in) :: coordinates(:, :)   !< (2, nodes), length
     real(dp), intent(in) :: energy(:, :)        !< stiffness matrix of the quad

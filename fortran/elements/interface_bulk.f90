@@ -11,7 +11,7 @@ module elements_interface_bulk
   use elements_interface_edges, only: interface_place, measure_interface
   implicit none(type, external)
   private
-  public :: stabilisation_type, weigh_sides, stabilise, bulk_operator
+  public :: stabilisation_type, nitsche_parameters, stabilise, bulk_operator
   public :: sample_middle, sample_face, sample_gauss
 
   !> Where the bulk stress is taken: where it is most accurate along the face (in its middle, or in quads of eight nodes on
@@ -24,7 +24,7 @@ module elements_interface_bulk
   !> eta of the interface in the quad below and in that above.
   real(dp), parameter :: eta_of_side(2) = [1.0_dp, -1.0_dp]
 
-  !> Parameters of the stabilisation; a zero asks for (21) or (22), a negative
+  !> Parameters of the stabilisation; a zero stands for (21) or (22), a negative
   !> beta for both from the local eigenvalue problem.
   type :: stabilisation_type
     real(dp) :: beta(2)        !< (tau, n), stress/length
@@ -37,7 +37,7 @@ contains
   !>
   !>     gamma_1 = (meas(Omega_1)/|D_1|)/(meas(Omega_1)/|D_1| + meas(Omega_2)/|D_2|),    gamma_2 = 1 - gamma_1,
   !>     beta = 2 meas(Gamma) (|D_1| gamma_1**2/meas(Omega_1) + |D_2| gamma_2**2/meas(Omega_2)).
-  pure function weigh_sides(given, norms, areas, length) result(used)
+  pure function nitsche_parameters(given, norms, areas, length) result(used)
     type(stabilisation_type), intent(in) :: given
     real(dp), intent(in) :: norms(2)   !< |D| of bottom and top, stress
     real(dp), intent(in) :: areas(2)   !< meas(Omega) of bottom and top
@@ -50,7 +50,7 @@ contains
     if (.not. given%gamma_bottom > 0.0_dp) used%gamma_bottom = softness(1)/(softness(1) + softness(2))
     where (.not. given%beta > 0.0_dp) used%beta = 2.0_dp*length &
       *(used%gamma_bottom**2/softness(1) + (1.0_dp - used%gamma_bottom)**2/softness(2))
-  end function weigh_sides
+  end function nitsche_parameters
 
   !> Beta and gamma of an interface that knows its two quads, the bottom one first among the nodes.
   pure subroutine stabilise(given, nodes, points, edges, coordinates, stiffness, used, status)
@@ -91,7 +91,7 @@ contains
         return
       end if
     end do
-    used = weigh_sides(given, norms, areas, length)
+    used = nitsche_parameters(given, norms, areas, length)
   end subroutine stabilise
 
   !> B: the matrix that takes the displacements of both quads to <sigma>.n = gamma_1 sigma_1.n + gamma_2 sigma_2.n of (18)

@@ -24,7 +24,7 @@ module elements_interface_edges
 
   !> Distance of coincident nodes, relative to the length, up to which they count as coincident: what a mesh generator
   !> that prints few digits may cause.
-  real(dp), parameter :: apart = 1.0e-4_dp
+  real(dp), parameter :: coincidence_tolerance = 1.0e-4_dp
 
 contains
 
@@ -45,8 +45,8 @@ contains
     status = status_type(ok, 0, 0.0_dp, 0.0_dp)
     if (.not. edge > 0.0_dp) then
       status = status_type(zero_length, 0, edge, 0.0_dp)
-    else if (distance > apart*edge) then
-      status = status_type(edges_apart, 0, distance, apart*edge)
+    else if (distance > coincidence_tolerance*edge) then
+      status = status_type(edges_apart, 0, distance, coincidence_tolerance*edge)
     end if
     if (status%code /= ok) return
     s = line_points(nodes, rule)

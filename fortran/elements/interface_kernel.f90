@@ -67,7 +67,7 @@ contains
       if (present(stiffness)) call stabilise(stabilisation, quad, points, edges, coordinates, stiffness, &
         used, status)
       if (status%code /= ok) return
-      if (options%consistent_closure) call check_beta(law, used%beta, status)
+      if (options%consistent_law) call check_beta(law, used%beta, status)
       if (status%code /= ok) return
     end if
 

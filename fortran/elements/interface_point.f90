@@ -5,9 +5,9 @@ module elements_interface_point
   use core_kinds, only: dp
   use core_status, only: status_type, ok, no_root
   use cohesive_parameters, only: law_parameters
-  use cohesive_state, only: point_history, damage_state, closure_state
+  use cohesive_state, only: point_history, damage_state, law_solution
   use cohesive_law, only: dissipate, evolve_damage, stiffness_of
-  use cohesive_closure, only: close_consistently, dissipate_consistently
+  use cohesive_local_solve, only: solve_law, dissipate_consistently
   use cohesive_traction, only: standard_traction, stabilised_traction
   implicit none(type, external)
   private
@@ -17,8 +17,8 @@ module elements_interface_point
   !> Options every interface element has.
   type :: interface_options
     integer :: rule                 !< gauss_rule or newton_cotes_rule
-    integer :: sampling             !< of the bulk stress; of no concern to the standard element
-    logical :: consistent_closure   !< the law has a separation of its own; likewise
+    integer :: sampling             !< of the bulk stress; the standard element ignores it
+    logical :: consistent_law   !< the law has a separation of its own; the standard element ignores it
     real(dp) :: secant_share        !< of the matrix at fixed damage in the tangent, from 0 to 1
   end type interface_options
 
@@ -57,10 +57,10 @@ contains
     call standard_traction(stiffness_of(law), jump, state%acting, state%slope, new%traction, response%by_jump)
     ! S = 1 turns the stabilised weak form into the standard one
     new%stabilisation = 1.0_dp
-    call keep_damage(law, old, jump, state, new)
+    call store_damage(law, old, jump, state, new)
   end subroutine standard_point
 
-  !> Equations (16) to (18), or the consistent closure.
+  !> Equations (16) to (18), or the consistent law.
   pure subroutine stabilised_point(law, options, dtime, beta, jump, bulk, old, new, response, status)
     type(law_parameters), intent(in) :: law
     type(interface_options), intent(in) :: options
@@ -73,16 +73,16 @@ contains
     type(point_response), intent(out) :: response
     type(status_type), intent(out) :: status          !< no_root
     type(damage_state) :: state
-    type(closure_state) :: closure
+    type(law_solution) :: solution
 
     status = status_type(ok, 0, 0.0_dp, 0.0_dp)
-    if (options%consistent_closure) then
-      call close_consistently(law, beta, bulk + beta*jump, dtime, options%secant_share, old%history, closure)
-      if (.not. closure%solved) status = status_type(no_root, 0, 0.0_dp, 0.0_dp)
-      response%by_bulk = closure%by_trial
-      response%by_jump(:, 1) = beta(1)*closure%by_trial(:, 1)
-      response%by_jump(:, 2) = beta(2)*closure%by_trial(:, 2)
-      call keep_closure(law, old, jump, closure, new)
+    if (options%consistent_law) then
+      call solve_law(law, beta, bulk + beta*jump, dtime, options%secant_share, old%history, solution)
+      if (.not. solution%solved) status = status_type(no_root, 0, 0.0_dp, 0.0_dp)
+      response%by_bulk = solution%by_trial
+      response%by_jump(:, 1) = beta(1)*solution%by_trial(:, 1)
+      response%by_jump(:, 2) = beta(2)*solution%by_trial(:, 2)
+      call store_solution(law, old, jump, solution, new)
     else
       call evolve_damage(law, old%history, jump, dtime, state)
       state%slope = (1.0_dp - options%secant_share)*state%slope
@@ -91,12 +91,12 @@ contains
       response%by_bulk = 0.0_dp
       response%by_bulk(1, 1) = 1.0_dp - new%stabilisation(1)
       response%by_bulk(2, 2) = 1.0_dp - new%stabilisation(2)
-      call keep_damage(law, old, jump, state, new)
+      call store_damage(law, old, jump, state, new)
     end if
   end subroutine stabilised_point
 
   !> State of a point whose damage is that of the displacement jump.
-  pure subroutine keep_damage(law, old, jump, state, new)
+  pure subroutine store_damage(law, old, jump, state, new)
     type(law_parameters), intent(in) :: law
     type(interface_point), intent(in) :: old
     real(dp), intent(in) :: jump(2)
@@ -110,14 +110,14 @@ contains
     new%history%damage_max = state%damage_max
     new%history%largest = state%largest
     call dissipate(law, old%history, jump, state, new%history%dissipated, new%history%viscous)
-  end subroutine keep_damage
+  end subroutine store_damage
 
-  !> State of a point of the consistent closure.
-  pure subroutine keep_closure(law, old, jump, state, new)
+  !> State of a point of the consistent law.
+  pure subroutine store_solution(law, old, jump, state, new)
     type(law_parameters), intent(in) :: law
     type(interface_point), intent(in) :: old
     real(dp), intent(in) :: jump(2)
-    type(closure_state), intent(in) :: state
+    type(law_solution), intent(in) :: state
     type(interface_point), intent(inout) :: new
 
     new%traction = state%traction
@@ -129,8 +129,8 @@ contains
     new%history%damage_max = state%damage
     new%history%largest = state%largest
     call dissipate_consistently(law, old%history, old%traction, state, new%history%dissipated, new%history%viscous, &
-      new%history%rubbed)
-  end subroutine keep_closure
+      new%history%friction_work)
+  end subroutine store_solution
 
   !> Energies of a point: stored, dissipated by damage and friction, dissipated by the viscous overstress.
   pure function point_energies(weight, point) result(energies)
@@ -139,7 +139,7 @@ contains
     real(dp) :: energies(3)
 
     energies(1) = weight*point%stored
-    energies(2) = weight*(point%history%dissipated(1) + point%history%dissipated(2) + point%history%rubbed)
+    energies(2) = weight*(point%history%dissipated(1) + point%history%dissipated(2) + point%history%friction_work)
     energies(3) = weight*point%history%viscous
   end function point_energies
 

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""Coulomb friction on the damaged share of a closed point of the consistent closure."""
+"""Coulomb friction on the damaged share of a closed point of the consistent law."""
 
 import numpy as np
 import pytest

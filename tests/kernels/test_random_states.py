@@ -42,7 +42,7 @@ def positive(low, high):
 
 @st.composite
 def properties(draw, reference, kind, closure, extra):
-    """A law that exists, of any brittleness; with the consistent closure a beta above its softening."""
+    """A law that exists, of any brittleness; with the consistent law a beta above its softening."""
     values = {"LAW": kind, "SIGMAMAX": draw(positive(1.0, 100.0)), "GIC": draw(positive(0.01, 1.0))}
     values["TAUMAX"] = values["SIGMAMAX"] * draw(positive(0.3, 3.0))
     values["GIIC"] = values["GIC"] * draw(positive(0.2, 8.0))

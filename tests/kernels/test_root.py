@@ -15,22 +15,22 @@ SOURCES = (
     *("core/kinds", "core/status", "core/root", "core/small_matrix", "cohesive/parameters", "cohesive/state"),
     *("cohesive/mode_mix", "cohesive/bilinear", "cohesive/exponential", "cohesive/ppr", "cohesive/law"),
     "cohesive/friction",
-    *("cohesive/ppr_closure", "cohesive/closure"),
+    *("cohesive/ppr_local_solve", "cohesive/local_solve"),
 )
 
 
 @pytest.fixture(scope="module")
-def closures(tmp_path_factory):
-    """The compiled `closure_steps`."""
-    folder = tmp_path_factory.mktemp("closures")
-    files = [*(str(FORTRAN / f"{name}.f90") for name in SOURCES), str(HERE / "closure_steps.f90")]
-    library = folder / "closures.so"
+def solves(tmp_path_factory):
+    """The compiled `local_solve_steps`."""
+    folder = tmp_path_factory.mktemp("solves")
+    files = [*(str(FORTRAN / f"{name}.f90") for name in SOURCES), str(HERE / "local_solve_steps.f90")]
+    library = folder / "solves.so"
     subprocess.run(["gfortran", "-O2", "-shared", "-fPIC", "-o", library, *files], cwd=folder, check=True)
-    return ctypes.CDLL(str(library)).closure_steps
+    return ctypes.CDLL(str(library)).local_solve_steps
 
 
 @pytest.mark.parametrize("law, mean, most", [(1, 3.0, 20), (2, 3.0, 20), (3, 5.0, 20)])
-def test_steps_of_the_closure(closures, law, mean, most):
+def test_steps_of_the_local_solve(solves, law, mean, most):
     """A bilinear law is a straight line in x where beta is the same in both modes: Newton's method lands on the root.
 
     The bounds leave room above what a count over 1e6 states gave once a step onto the root was kept: 2.2 and 3.9.
@@ -42,7 +42,7 @@ def test_steps_of_the_closure(closures, law, mean, most):
     beta = np.array([1e5, 1e5])
     found = [ctypes.c_int() for _ in range(4)]
     pointers = [array.ctypes.data_as(ctypes.c_void_p) for array in (np.ascontiguousarray(trials), histories, beta)]
-    closures(law, count, *pointers, *map(ctypes.byref, found))
+    solves(law, count, *pointers, *map(ctypes.byref, found))
     searches, total, largest, unsolved = (number.value for number in found)
     assert searches > count / 4
     assert unsolved == 0

@@ -12,7 +12,7 @@ from harness.delamination.mesh import TwoArmMesh
 from harness.delamination.patches import BETAS, COLLINEAR, PLIES, inclined_mesh, inclined_specimen
 from harness.delamination.steps import Increments
 
-# Sliding is soft and never gets near its strength. With the consistent closure beta has to exceed the softening slope,
+# Sliding is soft and never gets near its strength. With the consistent law beta has to exceed the softening slope,
 # in units of each direction, which a contrast of 1e7 in stiffness makes enormous: a tougher law has a flatter slope.
 LAW = replace(specimens.PATCH_LAW, toughness_2=1.0e6)
 MOVED = -0.03

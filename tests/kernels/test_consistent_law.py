@@ -20,7 +20,7 @@ OPTIONS = {
 
 
 def rigid(alpha):
-    """Properties of the consistent closure with a stiffness, 0 for an infinite one."""
+    """Properties of the consistent law with a stiffness, 0 for an infinite one."""
     return {"ALPHAN": alpha, "ALPHAT": alpha, "CLOSURE": 1}
 
 

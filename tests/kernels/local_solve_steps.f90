@@ -1,18 +1,18 @@
 ! SPDX-FileCopyrightText: The uel-harness authors
 ! SPDX-License-Identifier: BSD-3-Clause
-!> Closes a law for many trial tractions and counts the steps of its local solve.
-subroutine closure_steps(kind, count, trials, histories, beta, searches, total, most, unsolved) bind(c)
+!> Solves a law for many trial tractions and counts the steps.
+subroutine local_solve_steps(kind, count, trials, histories, beta, searches, total, most, unsolved) bind(c)
   use, intrinsic :: iso_c_binding, only: c_double, c_int
-  use cohesive_closure, only: close_consistently
+  use cohesive_local_solve, only: solve_law
   use cohesive_parameters, only: law_parameters
-  use cohesive_state, only: closure_state, point_history
+  use cohesive_state, only: law_solution, point_history
   implicit none(type, external)
   integer(c_int), value :: kind, count
   real(c_double), intent(in) :: trials(2, count), histories(count), beta(2)
   integer(c_int), intent(out) :: searches   !< trials for which a root is sought
   integer(c_int), intent(out) :: total, most, unsolved
   type(law_parameters) :: law
-  type(closure_state) :: state
+  type(law_solution) :: state
   type(point_history) :: history
   integer :: i
 
@@ -30,10 +30,10 @@ subroutine closure_steps(kind, count, trials, histories, beta, searches, total, 
   unsolved = 0
   do i = 1, count
     history%damage = histories(i)
-    call close_consistently(law, beta, trials(:, i), 1.0_c_double, 0.0_c_double, history, state)
+    call solve_law(law, beta, trials(:, i), 1.0_c_double, 0.0_c_double, history, state)
     if (state%steps > 0) searches = searches + 1
     total = total + state%steps
     most = max(most, state%steps)
     if (.not. state%solved) unsolved = unsolved + 1
   end do
-end subroutine closure_steps
+end subroutine local_solve_steps

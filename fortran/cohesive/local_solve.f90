@@ -1,6 +1,6 @@
 ! SPDX-FileCopyrightText: The uel-harness authors
 ! SPDX-License-Identifier: BSD-3-Clause
-!> The consistent stabilised law: the cohesive law has a separation w of its own, closed in the integration point.
+!> The consistent stabilised law: the cohesive law has a separation w of its own, solved for in the integration point.
 !>
 !> The paper evaluates the damage of (16) at the displacement jump g. With a stiff law the jump is dominated by the gap of
 !> Nitsche's method, zero only to the order of the element size. Here, with the trial traction p = <sigma>.n + beta g,
@@ -13,26 +13,26 @@
 !> b_1 = b_2. T depends on p alone.
 !>
 !> Components are in the order (tau, n). The interface is closed where p_n < 0: the normal stiffness is not damaged there.
-module cohesive_closure
+module cohesive_local_solve
   use core_kinds, only: dp
   use core_root, only: root_search, search_between, searching, advance
   use core_small_matrix, only: invert
   use cohesive_parameters, only: law_parameters, ppr_law
-  use cohesive_state, only: point_history, closure_state
+  use cohesive_state, only: point_history, law_solution
   use cohesive_law, only: softening
-  use cohesive_friction, only: rub
+  use cohesive_friction, only: coulomb_friction
   use cohesive_ppr, only: ppr_start_of_increment
-  use cohesive_ppr_closure, only: close_ppr
+  use cohesive_ppr_local_solve, only: solve_ppr_law
   implicit none(type, external)
   private
-  public :: close_consistently, dissipate_consistently
+  public :: solve_law, dissipate_consistently
 
   !> The scalar equation: b, and p/ratio without its compressive part.
-  type :: closure_equation
+  type :: law_equation
     real(dp) :: b(2)         !< (beta + viscous part)/ratio, stress/length
     real(dp) :: least        !< smaller one of b
     real(dp) :: driving(2)   !< absolute value of p/ratio, stress
-  end type closure_equation
+  end type law_equation
 
 contains
 
@@ -42,21 +42,21 @@ contains
   !> eta = viscosity k (1 - D_old) ratio, with the softening stiffness k, leaves failed points alone. A lag of the damage
   !> will not do: a point of infinite alpha that is not damaged does not open, and one that does not open has no damage
   !> to catch up with. In an increment of no duration a viscous law keeps its damage.
-  pure subroutine close_consistently(law, beta, trial, dtime, secant_share, history, state)
+  pure subroutine solve_law(law, beta, trial, dtime, secant_share, history, state)
     type(law_parameters), intent(in) :: law
     real(dp), intent(in) :: beta(2)              !< stress/length, (tau, n)
     real(dp), intent(in) :: trial(2)             !< p, stress
     real(dp), intent(in) :: dtime                !< duration of the increment
     real(dp), intent(in) :: secant_share         !< of the tangent at fixed damage in `by_trial`, from 0 to 1
     type(point_history), intent(in) :: history
-    type(closure_state), intent(out) :: state
-    type(closure_equation) :: equation
+    type(law_solution), intent(out) :: state
+    type(law_equation) :: equation
     real(dp), dimension(2) :: viscous, old, p, stiff, soft
     real(dp) :: x, friction_slope
     logical :: closed, grows, sticks
 
     if (law%kind == ppr_law) then
-      call close_ppr(law, beta, trial, dtime, secant_share, history, state)
+      call solve_ppr_law(law, beta, trial, dtime, secant_share, history, state)
       return
     end if
     old = opening_part(history%separation)
@@ -69,7 +69,7 @@ contains
     equation%least = minval(equation%b)
     x = at_damage(law, equation%least, history%damage)
     call shares(law, beta, equation, closed, x, stiff, soft)
-    call rub(law, history%damage, merge(p(2)*stiff(2), 0.0_dp, closed), p(1), &
+    call coulomb_friction(law, history%damage, merge(p(2)*stiff(2), 0.0_dp, closed), p(1), &
       old(1)/max(soft(1), tiny(1.0_dp)), sticks, state%friction, friction_slope)
     p(1) = p(1) - state%friction
     equation%driving = [abs(p(1)), max(0.0_dp, p(2))]/law%ratio
@@ -79,7 +79,7 @@ contains
     grows = history%damage < 1.0_dp .and. .not. sticks .and. (dtime > 0.0_dp .or. .not. law%viscosity > 0.0_dp)
     state%solved = .true.
     state%steps = 0
-    if (grows) call find_root(law, equation, x, grows, state%solved, state%steps)
+    if (grows) call solve_for_damage(law, equation, x, grows, state%solved, state%steps)
     if (grows) then
       ! where it is nearly 1, rounding would let it fall
       state%damage = max(history%damage, damage_of(law, equation%least, x))
@@ -101,13 +101,13 @@ contains
     ! friction takes from p_tau what it adds to T_tau
     if (sticks) state%by_trial(1, 1) = 1.0_dp
     if (closed) state%by_trial(1, 2) = friction_slope*stiff(2)*(1.0_dp - state%by_trial(1, 1))
-  end subroutine close_consistently
+  end subroutine solve_law
 
   !> t and ratio w as shares of p, the damage being that of x.
   pure subroutine shares(law, beta, equation, closed, x, stiff, soft)
     type(law_parameters), intent(in) :: law
     real(dp), intent(in) :: beta(2)
-    type(closure_equation), intent(in) :: equation
+    type(law_equation), intent(in) :: equation
     logical, intent(in) :: closed
     real(dp), intent(in) :: x
     real(dp), intent(out) :: stiff(2)   !< t_i/p_i
@@ -124,7 +124,7 @@ contains
   !> Puts the slopes of growing damage into a share of dT/dp.
   pure subroutine blend_loading(law, equation, x, shear, closed, viscous, share, by_trial)
     type(law_parameters), intent(in) :: law
-    type(closure_equation), intent(in) :: equation
+    type(law_equation), intent(in) :: equation
     real(dp), intent(in) :: x
     real(dp), intent(in) :: shear                   !< p_tau
     logical, intent(in) :: closed
@@ -140,13 +140,13 @@ contains
     by_trial = (1.0_dp - share)*by_trial + share*loading
   end subroutine blend_loading
 
-  !> Finds x where the damage of the law is that which opens the law to the separation at this damage.
+  !> Finds x at which the damage of the law belongs to the separation that this damage gives.
   !>
   !> h(x) = 1 - x min b - tau(lambda(x), c(x)) x/lambda, (K - tau/lambda) x with K = 1/x - min b, falls from a positive
   !> value, if the damage grows at all, to one that is not positive at failure.
-  pure subroutine find_root(law, equation, x, grows, solved, steps)
+  pure subroutine solve_for_damage(law, equation, x, grows, solved, steps)
     type(law_parameters), intent(in) :: law
-    type(closure_equation), intent(in) :: equation
+    type(law_equation), intent(in) :: equation
     real(dp), intent(inout) :: x         !< at the damage so far; at the damage of the end of the increment
     logical, intent(out) :: grows        !< false if the damage stays
     logical, intent(out) :: solved       !< false if the root was not found
@@ -158,11 +158,11 @@ contains
     steps = 0
     grows = maxval(equation%driving) > 0.0_dp
     if (.not. grows) return
-    call closure_function(law, equation, x, h, slope)
+    call law_residual(law, equation, x, h, slope)
     grows = h > 0.0_dp
     if (.not. grows) return
     upper = 1.0_dp/equation%least
-    call closure_function(law, equation, upper, at_failure, not_used)
+    call law_residual(law, equation, upper, at_failure, not_used)
     if (at_failure >= 0.0_dp) then
       x = upper
       return
@@ -171,17 +171,17 @@ contains
     do
       call advance(search, -h, -slope)
       if (.not. searching(search)) exit
-      call closure_function(law, equation, search%x, h, slope)
+      call law_residual(law, equation, search%x, h, slope)
     end do
     x = search%x
     solved = search%found
     steps = search%steps
-  end subroutine find_root
+  end subroutine solve_for_damage
 
-  !> h of `find_root` and its derivative.
-  pure subroutine closure_function(law, equation, x, h, slope)
+  !> h of `solve_for_damage` and its derivative.
+  pure subroutine law_residual(law, equation, x, h, slope)
     type(law_parameters), intent(in) :: law
-    type(closure_equation), intent(in) :: equation
+    type(law_equation), intent(in) :: equation
     real(dp), intent(in) :: x
     real(dp), intent(out) :: h, slope
     real(dp), dimension(2) :: direction, excess
@@ -195,11 +195,11 @@ contains
     mean = excess(1)*direction(1)**2 + excess(2)*direction(2)**2
     turn = (excess(2) - excess(1))*direction(1)*direction(2)
     slope = -equation%least - by_separation*(1.0_dp - x*mean) - (by_angle*turn + traction*mean)/length
-  end subroutine closure_function
+  end subroutine law_residual
 
   !> Direction c of the separation at x, and lambda/x.
   pure subroutine direction_at(equation, x, length, direction)
-    type(closure_equation), intent(in) :: equation
+    type(law_equation), intent(in) :: equation
     real(dp), intent(in) :: x
     real(dp), intent(out) :: length         !< stress
     real(dp), intent(out) :: direction(2)
@@ -213,7 +213,7 @@ contains
   !> p_i/ratio_i = tau c_i + b_i lambda c_i.
   pure subroutine slopes_of_loading(law, equation, x, shear, of_traction, of_separation)
     type(law_parameters), intent(in) :: law
-    type(closure_equation), intent(in) :: equation
+    type(law_equation), intent(in) :: equation
     real(dp), intent(in) :: x
     real(dp), intent(in) :: shear                 !< p_tau, for its sign
     real(dp), intent(out) :: of_traction(2, 2)    !< dt/dp
@@ -298,14 +298,14 @@ contains
 
   !> Energies dissipated up to the end of an increment, per area: by the trapezoidal rule (t0 w1 - t1 w0)/2, as in
   !> `dissipate`; by backward Euler what the overstress and the friction work.
-  pure subroutine dissipate_consistently(law, history, old_traction, state, dissipated, viscous, rubbed)
+  pure subroutine dissipate_consistently(law, history, old_traction, state, dissipated, viscous, friction_work)
     type(law_parameters), intent(in) :: law
     type(point_history), intent(in) :: history
     real(dp), intent(in) :: old_traction(2)    !< T at the start of the increment
-    type(closure_state), intent(in) :: state
+    type(law_solution), intent(in) :: state
     real(dp), intent(out) :: dissipated(2)     !< by sliding and by opening
     real(dp), intent(out) :: viscous
-    real(dp), intent(out) :: rubbed            !< by friction
+    real(dp), intent(out) :: friction_work            !< by friction
     real(dp), dimension(2) :: w0, w1, t0, t1
     real(dp) :: k, flexible
 
@@ -324,8 +324,8 @@ contains
     end if
     dissipated = history%dissipated
     if (state%damage > history%damage) dissipated = dissipated + 0.5_dp*(opening_part(t0)*w1 - opening_part(t1)*w0)
-    rubbed = history%rubbed + state%friction*(w1(1) - w0(1))
+    friction_work = history%friction_work + state%friction*(w1(1) - w0(1))
     viscous = history%viscous + dot_product(state%overstress, w1 - w0)
   end subroutine dissipate_consistently
 
-end module cohesive_closure
+end module cohesive_local_solve

@@ -1,20 +1,20 @@
 ! SPDX-FileCopyrightText: The uel-harness authors
 ! SPDX-License-Identifier: BSD-3-Clause
-!> The consistent closure t(w; history) + beta w = p of the PPR law, in two unknowns; components in the order (tau, n).
+!> The consistent stabilised law t(w; history) + beta w = p with the PPR law, in two unknowns; components in the order (tau, n).
 !>
 !> With a sufficient beta, `check_ppr_beta`, the left side is strongly monotone in w, with history and for infinite
 !> stiffness too: w_n follows from w_tau by one equation that rises with w_n, and what is left rises with w_tau.
 !> Both are solved by core_root.
-module cohesive_ppr_closure
+module cohesive_ppr_local_solve
   use core_kinds, only: dp
   use core_root, only: root_search, search_between, searching, advance
   use cohesive_parameters, only: law_parameters
-  use cohesive_state, only: point_history, closure_state
+  use cohesive_state, only: point_history, law_solution
   use cohesive_ppr, only: ppr_component, component_at, damage_at
-  use cohesive_friction, only: rub
+  use cohesive_friction, only: coulomb_friction
   implicit none(type, external)
   private
-  public :: close_ppr
+  public :: solve_ppr_law
 
   !> The equations t_i + b_i w_i = driving_i, and how far their solution is.
   type :: ppr_equations
@@ -25,7 +25,7 @@ module cohesive_ppr_closure
     type(ppr_component) :: parts(2)   !< at the separations
     real(dp) :: w(2)                  !< absolute value of the separations, length
     logical :: grows(2)               !< beyond the largest separation so far
-    logical :: held(2)                !< rigid, without a separation
+    logical :: rigid(2)                !< rigid, without a separation
     logical :: solved                 !< both roots were found
     integer :: steps                  !< of the search for w_tau, or of that for w_n where w_tau does not grow
   end type ppr_equations
@@ -34,16 +34,16 @@ contains
 
   !> Traction, separation and damage for a trial traction, and the derivative of the traction by it.
   !>
-  !> Viscosity, contact and friction are those of the other laws, `close_consistently`; the overstress is that of
+  !> Viscosity, contact and friction are those of the other laws, `solve_law`; the overstress is that of
   !> eta_i = viscosity k_i (1 - DAMAGE), k_i = strength_i**2/(2 G_i).
-  pure subroutine close_ppr(law, beta, trial, dtime, secant_share, history, state)
+  pure subroutine solve_ppr_law(law, beta, trial, dtime, secant_share, history, state)
     type(law_parameters), intent(in) :: law
     real(dp), intent(in) :: beta(2)              !< stress/length, (tau, n)
     real(dp), intent(in) :: trial(2)             !< p, stress
     real(dp), intent(in) :: dtime                !< duration of the increment
     real(dp), intent(in) :: secant_share         !< of the tangent at fixed damage in `by_trial`, from 0 to 1
     type(point_history), intent(in) :: history
-    type(closure_state), intent(out) :: state
+    type(law_solution), intent(out) :: state
     type(ppr_equations) :: equations
     real(dp), dimension(2) :: viscous, old, p, secants
     real(dp) :: stiff, rest, friction_slope
@@ -63,7 +63,8 @@ contains
 
     rest = 0.0_dp
     if (law%friction > 0.0_dp) rest = trial_of_rest(law, equations, p(1), old(1))
-    call rub(law, history%damage, merge(p(2)*stiff, 0.0_dp, closed), p(1), rest, sticks, state%friction, friction_slope)
+    call coulomb_friction(law, history%damage, merge(p(2)*stiff, 0.0_dp, closed), p(1), rest, sticks, &
+      state%friction, friction_slope)
     p(1) = p(1) - state%friction
     equations%fixed(1) = equations%fixed(1) .or. sticks
     equations%driving(1) = abs(p(1))
@@ -78,10 +79,10 @@ contains
     state%separation = [sign(equations%w(1), p(1)), equations%w(2)]
     if (sticks) state%separation(1) = old(1)
     state%recoverable = p - equations%b*state%separation
-    where (.not. equations%held) state%recoverable = secants*state%separation
+    where (.not. equations%rigid) state%recoverable = secants*state%separation
     state%overstress = viscous*(state%separation - old)
     state%stabilisation = 0.0_dp
-    where (.not. equations%held) state%stabilisation = beta/(secants + beta)
+    where (.not. equations%rigid) state%stabilisation = beta/(secants + beta)
     call derive(equations, beta, viscous, sign(1.0_dp, p(1)), secants, secant_share, state%by_trial)
     if (closed) then
       state%separation(2) = law%flexibility*stiff*p(2)
@@ -94,7 +95,7 @@ contains
     ! friction takes from p_tau what it adds to T_tau
     if (sticks) state%by_trial(1, 1) = 1.0_dp
     if (closed) state%by_trial(1, 2) = friction_slope*stiff*(1.0_dp - state%by_trial(1, 1))
-  end subroutine close_ppr
+  end subroutine solve_ppr_law
 
   !> p_tau at which w_tau stays as it was, without friction; of a rigid point the nearest one.
   pure function trial_of_rest(law, equations, p, old) result(rest)
@@ -123,16 +124,16 @@ contains
     equations%solved = .true.
     equations%steps = 0
     equations%parts(1) = component_at(law, 1, equations%largest(1))
-    call open_normally(law, equations)
-    call stay(law, equations, 1)
+    call solve_for_opening(law, equations)
+    call try_without_growth(law, equations, 1)
     if (.not. equations%grows(1)) return
 
-    search = search_of(law, equations, 1)
+    search = search_for(law, equations, 1)
     do while (searching(search))
       equations%w(1) = search%x
       equations%parts(1) = component_at(law, 1, search%x)
-      call open_normally(law, equations)
-      call miss(equations, 1, residual, slope)
+      call solve_for_opening(law, equations)
+      call equation_residual(equations, 1, residual, slope)
       if (equations%grows(2)) slope = slope - cross(equations, 1)*cross(equations, 2)/normal_slope(equations)
       call advance(search, residual, slope)
     end do
@@ -141,37 +142,37 @@ contains
   end subroutine solve
 
   !> Solves for w_n, the other component being what it is.
-  pure subroutine open_normally(law, equations)
+  pure subroutine solve_for_opening(law, equations)
     type(law_parameters), intent(in) :: law
     type(ppr_equations), intent(inout) :: equations
     type(root_search) :: search
     real(dp) :: residual, slope
 
     equations%parts(2) = component_at(law, 2, equations%largest(2))
-    call stay(law, equations, 2)
+    call try_without_growth(law, equations, 2)
     if (.not. equations%grows(2)) return
 
-    search = search_of(law, equations, 2)
+    search = search_for(law, equations, 2)
     do while (searching(search))
       equations%w(2) = search%x
       equations%parts(2) = component_at(law, 2, search%x)
-      call miss(equations, 2, residual, slope)
+      call equation_residual(equations, 2, residual, slope)
       call advance(search, residual, slope)
     end do
     equations%solved = equations%solved .and. search%found
     equations%steps = search%steps
-  end subroutine open_normally
+  end subroutine solve_for_opening
 
   !> Separation of component i at its largest separation so far, and whether it has to grow beyond it.
-  pure subroutine stay(law, equations, i)
+  pure subroutine try_without_growth(law, equations, i)
     type(law_parameters), intent(in) :: law
     type(ppr_equations), intent(inout) :: equations
     integer, intent(in) :: i
     real(dp) :: share
 
     share = equations%parts(3 - i)%share
-    equations%held(i) = .not. law%flexibility > 0.0_dp .and. .not. equations%largest(i) > 0.0_dp
-    if (equations%held(i)) then
+    equations%rigid(i) = .not. law%flexibility > 0.0_dp .and. .not. equations%largest(i) > 0.0_dp
+    if (equations%rigid(i)) then
       equations%w(i) = 0.0_dp
       equations%grows(i) = equations%driving(i) > equations%parts(i)%traction*share
     else
@@ -179,12 +180,12 @@ contains
       equations%grows(i) = equations%w(i) > equations%largest(i)
     end if
     equations%grows(i) = equations%grows(i) .and. .not. equations%fixed(i)
-    if (equations%grows(i)) equations%held(i) = .false.
-  end subroutine stay
+    if (equations%grows(i)) equations%rigid(i) = .false.
+  end subroutine try_without_growth
 
   !> The search for w_i that grows: the secant, or the strength of a rigid one, is not greater than it was, nor less than
   !> nothing. The root of a stiff law is smaller by orders of magnitude than that of a soft one.
-  pure function search_of(law, equations, i) result(search)
+  pure function search_for(law, equations, i) result(search)
     type(law_parameters), intent(in) :: law
     type(ppr_equations), intent(in) :: equations
     integer, intent(in) :: i
@@ -196,10 +197,10 @@ contains
     if (.not. law%flexibility > 0.0_dp) lower = max(equations%largest(i), &
       (equations%driving(i) - equations%parts(i)%traction*equations%parts(3 - i)%share)/equations%b(i))
     search = search_between(lower, upper, upper, geometric=.true.)
-  end function search_of
+  end function search_for
 
   !> t_i + b_i w_i - driving_i and its derivative by w_i.
-  pure subroutine miss(equations, i, residual, slope)
+  pure subroutine equation_residual(equations, i, residual, slope)
     type(ppr_equations), intent(in) :: equations
     integer, intent(in) :: i
     real(dp), intent(out) :: residual, slope
@@ -207,7 +208,7 @@ contains
     residual = equations%parts(i)%traction*equations%parts(3 - i)%share + equations%b(i)*equations%w(i) &
       - equations%driving(i)
     slope = equations%parts(i)%slope*equations%parts(3 - i)%share + equations%b(i)
-  end subroutine miss
+  end subroutine equation_residual
 
   !> Derivative of t_n + b_n w_n by w_n.
   pure function normal_slope(equations) result(slope)
@@ -215,7 +216,7 @@ contains
     real(dp) :: slope
     real(dp) :: residual
 
-    call miss(equations, 2, residual, slope)
+    call equation_residual(equations, 2, residual, slope)
   end function normal_slope
 
   !> Derivative of t_i by the other separation.
@@ -243,7 +244,7 @@ contains
     do i = 1, 2
       ! without a separation, T is p
       by_trial(i, i) = 1.0_dp
-      if (.not. equations%held(i)) by_trial(i, i) = (secants(i) + viscous(i))/(secants(i) + equations%b(i))
+      if (.not. equations%rigid(i)) by_trial(i, i) = (secants(i) + viscous(i))/(secants(i) + equations%b(i))
     end do
     if (.not. any(equations%grows) .or. secant_share >= 1.0_dp) return
 
@@ -254,10 +255,10 @@ contains
     end do
     by_trial = secant_share*by_trial
     associate (blend => 1.0_dp - secant_share)
-      if (any(equations%held)) then
+      if (any(equations%rigid)) then
         do i = 1, 2
-          if (equations%held(i)) by_trial(i, i) = 1.0_dp
-          if (.not. equations%held(i)) by_trial(i, i) = by_trial(i, i) &
+          if (equations%rigid(i)) by_trial(i, i) = 1.0_dp
+          if (.not. equations%rigid(i)) by_trial(i, i) = by_trial(i, i) &
             + blend*(a(i, i) + viscous(i))/(a(i, i) + equations%b(i))
         end do
       else
@@ -272,4 +273,4 @@ contains
     end associate
   end subroutine derive
 
-end module cohesive_ppr_closure
+end module cohesive_ppr_local_solve
