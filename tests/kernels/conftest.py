@@ -49,12 +49,12 @@ def library(request, tmp_path_factory):
 class Element:
     """One element, or `copies` of it with consecutive labels; its state is that of the last committed increment.
 
-    Arrays of copies have one axis more, the first.
+    Arrays of copies have one axis more, the first. `layouts` are those of a library other than the installed one.
     """
 
-    def __init__(self, library, jtype, coordinates, *, label=1, copies=None, definition=None, **values):
-        layout = element_layouts()[jtype]
-        given = {**DEFAULTS[jtype], **values}
+    def __init__(self, library, jtype, coordinates, *, label=1, copies=None, definition=None, layouts=None, **values):
+        layout = (layouts or element_layouts())[jtype]
+        given = {**DEFAULTS.get(jtype, LAW), **values}
         self.names = [item.name for item in layout.variables]
         self.points = layout.points
         reals = [float(given.pop(item.name, 0.0)) for item in layout.reals]
@@ -133,6 +133,12 @@ def element(library):
         return Element(library, jtype, coordinates, **values)
 
     return make
+
+
+@pytest.fixture
+def element_of():
+    """Make an element of any library: element_of(library, jtype, coordinates, NAME=value, ...)."""
+    return Element
 
 
 @pytest.fixture(scope="session")

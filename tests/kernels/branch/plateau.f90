@@ -1,0 +1,58 @@
+! SPDX-FileCopyrightText: The uel-harness authors
+! SPDX-License-Identifier: BSD-3-Clause
+!> A law of the tests: the traction stays at the strength on a share s of the way from the onset to failure, and falls on a
+!> line from there. Components in the order (tau, n).
+!>
+!> With the measures f and e of `cohesive_mode_mix`, the onset is at c = flexibility/f, failure at u with (u - c)(1 + s) =
+!> f/e - c, by which the area under the curve is 1/(2 e). s = 0 is the bilinear law.
+module cohesive_plateau
+  use core_kinds, only: dp
+  use cohesive_parameters, only: law_parameters
+  use cohesive_mode_mix, only: measure_onset, measure_energy, least_reserve
+  implicit none(type, external)
+  private
+  public :: plateau_softening, plateau_steepest
+
+contains
+
+  !> Softening curve along a direction of the separation, with its derivatives.
+  pure subroutine plateau_softening(law, separation, direction, traction, by_separation, by_direction)
+    type(law_parameters), intent(in) :: law
+    real(dp), intent(in) :: separation         !< lambda, length
+    real(dp), intent(in) :: direction(2)       !< c, not negative, of unit length
+    real(dp), intent(out) :: traction          !< tau, stress; zero after failure
+    real(dp), intent(out) :: by_separation     !< stress/length
+    real(dp), intent(out) :: by_direction(2)   !< by c, its components taken as independent
+    real(dp) :: f, e, onset, failure, fall, f_slope(2), e_slope(2), onset_slope(2), failure_slope(2), fall_slope(2)
+
+    call measure_onset(law, direction, f, f_slope)
+    call measure_energy(law, direction, e, e_slope)
+    onset = law%flexibility/f
+    failure = onset + (f/e - onset)/(1.0_dp + law%plateau)
+    fall = (1.0_dp - law%plateau)*(failure - onset)
+    traction = 1.0_dp/f
+    by_separation = 0.0_dp
+    by_direction = -f_slope/f**2
+    if (separation <= failure - fall) return
+
+    traction = max(0.0_dp, (failure - separation)/(f*fall))
+    by_direction = 0.0_dp
+    if (.not. traction > 0.0_dp) return
+    by_separation = -1.0_dp/(f*fall)
+    onset_slope = -onset*f_slope/f
+    failure_slope = onset_slope + (f_slope/e - f*e_slope/e**2 - onset_slope)/(1.0_dp + law%plateau)
+    fall_slope = (1.0_dp - law%plateau)*(failure_slope - onset_slope)
+    by_direction = failure_slope/(f*fall) - traction*(f_slope/f + fall_slope/fall)
+  end subroutine plateau_softening
+
+  !> Largest softening slope -d tau/d lambda of all directions.
+  pure function plateau_steepest(law) result(slope)
+    type(law_parameters), intent(in) :: law
+    real(dp) :: slope   !< stress/length
+    real(dp) :: reserve, share
+
+    call least_reserve(law, reserve, share)
+    slope = (1.0_dp + law%plateau)/((1.0_dp - law%plateau)*(reserve - law%flexibility))
+  end function plateau_steepest
+
+end module cohesive_plateau

@@ -1,0 +1,232 @@
+# SPDX-FileCopyrightText: The uel-harness authors
+# SPDX-License-Identifier: BSD-3-Clause
+"""What CONTRIBUTING says of adding a cohesive law and an interface element, done on a copy of the kernels.
+
+The law is branch/plateau.f90, with a property of its own; the element is U2 with the nodes of its top edge from left to
+right. Existing decks give what they gave.
+"""
+
+import importlib.util
+import re
+import shutil
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from harness import usersub
+from harness.errors import KernelError
+from harness.usersub.layout import element_layouts, read_layouts
+
+ROOT = Path(__file__).parents[2]
+BRANCH = Path(__file__).parent / "branch"
+
+LAW = {
+    "cohesive/parameters.f90": [
+        (
+            "mixed_bilinear_law, exponential_law, ppr_law\n",
+            "mixed_bilinear_law, exponential_law, ppr_law, plateau_law\n",
+        ),
+        (
+            "  integer, parameter :: ppr_law = 4\n",
+            "  integer, parameter :: ppr_law = 4\n  integer, parameter :: plateau_law = 5\n",
+        ),
+        (
+            "    ! of the PPR law alone\n",
+            "    real(dp) :: plateau = 0.0_dp    !< share of the plateau\n    ! of the PPR law alone\n",
+        ),
+    ],
+    "cohesive/law.f90": [
+        ("bilinear_law, exponential_law, ppr_law\n", "bilinear_law, exponential_law, ppr_law, plateau_law\n"),
+        (
+            "  use cohesive_ppr,",
+            "  use cohesive_plateau, only: plateau_softening, plateau_steepest\n  use cohesive_ppr,",
+        ),
+        (
+            "      slope = exponential_steepest(law)\n",
+            "      slope = exponential_steepest(law)\n    case (plateau_law)\n      slope = plateau_steepest(law)\n",
+        ),
+        (
+            "      call exponential_softening(law, separation, direction, traction, by_separation, by_direction)\n",
+            "      call exponential_softening(law, separation, direction, traction, by_separation, by_direction)\n"
+            "    case (plateau_law)\n"
+            "      call plateau_softening(law, separation, direction, traction, by_separation, by_direction)\n",
+        ),
+    ],
+    "abaqus/layout.f90": [
+        ("'LAW', 1, 4)", "'LAW', 1, 5)"),
+        (
+            "public :: p_top_angle = 33\n",
+            "public :: p_top_angle = 33\n  integer, parameter, public :: p_plateau = 34\n",
+        ),
+        ("public :: reals(33)", "public :: reals(34)"),
+        (
+            "'ANGLE TOP', 'degree', any_value)] !< of material axis 1 from x, counter-clockwise\n",
+            "'ANGLE TOP', 'degree', any_value), & !< of material axis 1 from x, counter-clockwise\n"
+            "    real_item(p_plateau, interfaces, 'PLATEAU', '1', below_one)] !< share of the plateau (LAW 5)\n",
+        ),
+    ],
+    "abaqus/interface_elements.f90": [
+        ("    p_shapen, p_shapet,", "    p_plateau, p_shapen, p_shapet,"),
+        ("    law%eta = values(p_eta)\n", "    law%eta = values(p_eta)\n    law%plateau = values(p_plateau)\n"),
+    ],
+    "meson.build": [("  'cohesive/ppr.f90',\n", "  'cohesive/plateau.f90',\n  'cohesive/ppr.f90',\n")],
+}
+"""Edits of a file: what is there, what takes its place. The file of the law itself is new."""
+
+ELEMENT = {
+    "abaqus/layout.f90": [
+        ("public :: elements(6)", "public :: elements(7)"),
+        (
+            "33, 6)] !< stabilised cohesive interface of eight-node quads",
+            "33, 6), & !< stabilised cohesive interface of eight-node quads",
+        ),
+        (
+            "\n\n  type(edges_item), parameter, public :: edges(2:6)",
+            "\n    element_item(7, standard, 2, 4, 2, 13, 3)] !< U2, left to right\n\n"
+            "  type(edges_item), parameter, public :: edges(2:7)",
+        ),
+        (
+            "[9, 10, 13])] !< as U4, with middles\n",
+            "[9, 10, 13]), & !< as U4, with middles\n    edges_item(7, 0, [1, 2, 0], [3, 4, 0])] !< left to right\n",
+        ),
+    ],
+}
+
+FLAT = np.array([[0.0, 0.0], [1.0, 0.0], [1.0, 0.0], [0.0, 0.0]])
+ALPHA, STRENGTH, TOUGHNESS, SHARE = 2e4, 30.0, 0.26, 0.4
+
+
+def edited(text, edits):
+    """The text with the edits; each place has to be there once."""
+    for old, new in edits:
+        assert text.count(old) == 1, old
+        text = text.replace(old, new)
+    return text
+
+
+@pytest.fixture(scope="module")
+def branch(tmp_path_factory):
+    """A copy of the kernels with the law and the element: its library and its layouts."""
+    folder = tmp_path_factory.mktemp("branch")
+    shutil.copytree(ROOT / "fortran", folder / "fortran", ignore=shutil.ignore_patterns("host", "*.md", "*.csv"))
+    for edits in (LAW, ELEMENT):
+        for name, changes in edits.items():
+            file = folder / "fortran" / name
+            file.write_text(edited(file.read_text(), changes))
+    shutil.copy(BRANCH / "plateau.f90", folder / "fortran" / "cohesive")
+    spec = importlib.util.spec_from_file_location("amalgamate", ROOT / "fortran" / "amalgamate.py")
+    amalgamate = importlib.util.module_from_spec(spec)
+    spec.loader.exec_module(amalgamate)
+    build = (folder / "fortran" / "meson.build").read_text()
+    names = re.findall(r"^  '(\w+/\w+\.f90)',$", build, re.MULTILINE)
+    (folder / "branch.for").write_text(amalgamate.amalgamate([folder / "fortran" / name for name in names]))
+    library = usersub.load(folder / "branch.for", job="branch", output_dir=folder / "job")
+    yield library, read_layouts((folder / "fortran/abaqus/layout.f90").read_text())
+    library.close()
+
+
+def opened(gap, nodes=(2, 3)):
+    """(4, 2) displacements of U2 that part its edges by (tau, n)."""
+    u = np.zeros((4, 2))
+    u[list(nodes)] = gap
+    return u
+
+
+def test_positions_of_existing_decks_stay(branch):
+    _, layouts = branch
+    for jtype, before in element_layouts().items():
+        after = layouts[jtype]
+        assert after.reals[: len(before.reals)] == before.reals
+        assert [i.name for i in after.reals[len(before.reals) :]] == (["PLATEAU"] if jtype > 1 else [])
+        assert [i.name for i in after.integers] == [i.name for i in before.integers]
+        assert after.svars == before.svars
+
+
+@pytest.mark.parametrize("law", [1, 2, 3, 4])
+@pytest.mark.parametrize("jtype, closure", [(2, 0), (4, 0), (4, 1)])
+def test_existing_decks_give_what_they_gave(branch, element_of, library, interface, jtype, law, closure):
+    """With the PROPERTIES of before, and with those of the branch."""
+    options = {"CLOSURE": 1, "BETAN": 1e5, "BETAT": 1e5} if closure else {}
+    nodes = interface.four if jtype == 2 else interface.eight
+    installed, layouts = element_layouts(), branch[1]
+    variants = [(library, installed), (branch[0], installed), (branch[0], layouts)]
+    items = [element_of(where, jtype, nodes, layouts=known, LAW=law, ETA=1.4, **options) for where, known in variants]
+    for number, name in enumerate(("elastic", "softening", "sliding", "mixed")):
+        u = interface.displacements(len(nodes), *interface.states[name], number)
+        expected, *others = [(*item.advance(u), *item.state.values()) for item in items]
+        for found in others:
+            for a, b in zip(found, expected, strict=True):
+                np.testing.assert_allclose(a, b, rtol=1e-10, atol=1e-12 * abs(b).max())
+
+
+def test_other_counts_of_properties_are_refused(branch, element_of):
+    for count in (12, 15):
+        item = element_of(branch[0], 2, FLAT, definition={"properties": count})
+        with pytest.raises(KernelError, match=rf"PROPERTIES = {count}, 13 to 14 is expected"):
+            item.evaluate(np.zeros(8))
+
+
+def test_the_property_has_the_last_position(branch, element_of):
+    for jtype, position in ((2, 14), (3, 18), (4, 34), (5, 14), (6, 34)):
+        layout = branch[1][jtype]
+        assert (layout.reals[-1].name, layout.reals[-1].position) == ("PLATEAU", position)
+    item = element_of(branch[0], 2, FLAT, layouts=branch[1], LAW=5, PLATEAU=1.0)
+    with pytest.raises(KernelError, match=r"PROPS\(14\) PLATEAU = 1.0.*expected is zero or a value between 0 and 1"):
+        item.evaluate(np.zeros(8))
+
+
+def test_the_law_has_its_plateau_and_its_area(branch, element_of):
+    """G = strength (onset + (failure - onset)(1 + share))/2."""
+    item = element_of(branch[0], 2, FLAT, layouts=branch[1], LAW=5, PLATEAU=SHARE, ALPHAT=ALPHA)
+    onset = STRENGTH / ALPHA
+    failure = onset + (2 * TOUGHNESS / STRENGTH - onset) / (1 + SHARE)
+    end = onset + SHARE * (failure - onset)
+    gaps = np.linspace(0, 1.1 * failure, 1001)[1:]
+    tractions = []
+    for gap in gaps:
+        item.advance(opened((0, gap)))
+        tractions.append(item.state["TN"][0])
+    curve = np.interp(gaps, [0, onset, end, failure, 2 * failure], [0, STRENGTH, STRENGTH, 0, 0])
+    np.testing.assert_allclose(tractions, curve, atol=1e-9 * STRENGTH)
+    # a step across a corner of the curve is not exact
+    assert item.state["DISSI"][0] == pytest.approx(TOUGHNESS, rel=1e-4)
+
+
+@pytest.mark.parametrize("closure", [0, 1])
+@pytest.mark.parametrize("size", [0.003, 0.008, 0.012])
+def test_the_tangent_of_the_law(branch, element_of, interface, size, closure):
+    """On the plateau and where it falls, in mixed mode, in both ways to take the law."""
+    options = {"CLOSURE": 1, "BETAN": 1e5, "BETAT": 1e5} if closure else {}
+    jtype, nodes = (4, interface.eight) if closure else (2, interface.four)
+    item = element_of(branch[0], jtype, nodes, layouts=branch[1], LAW=5, PLATEAU=SHARE, ETA=1.4, **options)
+    u = interface.displacements(len(nodes), (0.5 * size, size), (0.6 * size, 0.9 * size), 3).ravel()
+    _, tangent = item.evaluate(u)
+    step = 1e-4 * size
+    for along in np.eye(u.size):
+        samples = [item.evaluate(u + n * step * along)[0] for n in (-2, -1, 1, 2)]
+        slope = (samples[0] - 8 * samples[1] + 8 * samples[2] - samples[3]) / (12 * step)
+        np.testing.assert_allclose(-slope, tangent @ along, atol=1e-6 * abs(tangent).max())
+
+
+def test_the_element_is_u2_in_another_order(branch, element_of):
+    u = opened((0.004, 0.003))
+    order = [0, 1, 3, 2]
+    dofs = np.array([[2 * n, 2 * n + 1] for n in order]).ravel()
+    expected = element_of(branch[0], 2, FLAT, layouts=branch[1]).evaluate(u)
+    found = element_of(branch[0], 7, FLAT[order], layouts=branch[1]).evaluate(u[order])
+    np.testing.assert_allclose(found[0], expected[0][dofs], rtol=1e-12)
+    np.testing.assert_allclose(found[1], expected[1][np.ix_(dofs, dofs)], rtol=1e-12)
+
+
+@pytest.mark.parametrize(
+    "row, edits, more",
+    [
+        ("cohesive law", LAW, {"fortran/cohesive/LAW.f90", "fortran/README.md"}),
+        ("interface element between edges", ELEMENT, {"fortran/README.md"}),
+    ],
+)
+def test_contributing_names_these_files(row, edits, more):
+    text = (ROOT / "CONTRIBUTING.md").read_text()
+    (line,) = [line for line in text.splitlines() if line.startswith(f"| {row} |")]
+    assert set(re.findall(r"`(fortran/[^`]+)`", line)) == {f"fortran/{name}" for name in edits} | more
