@@ -223,6 +223,16 @@ subroutine host_set_expansion(number, expansion)
   material%expansion = expansion
 end subroutine host_set_expansion
 
+!> Compliance (11, 22, 33, 12, 13, 23; engineering shear) of E1, E2, E3, nu12, nu13, nu23, G12, G13, G23.
+subroutine host_compliance(constants, compliance)
+  use host_dependence, only: compliance_of
+  use host_kinds, only: dp
+  implicit none (type, external)
+  real(dp), intent(in) :: constants(9)
+  real(dp), intent(out) :: compliance(6, 6)
+  compliance = compliance_of(constants)
+end subroutine host_compliance
+
 !> Let the elastic constants of a material depend on temperature and field variables.
 subroutine host_set_dependence(number, constants, turn, table, rows, columns)
   use host_kinds, only: dp, i4

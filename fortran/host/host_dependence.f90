@@ -9,7 +9,7 @@ module host_dependence
   use host_kinds, only: dp
   implicit none (type, external)
   private
-  public :: dependence_t, elastic_matrices
+  public :: dependence_t, elastic_matrices, compliance_of
 
   type :: dependence_t
     integer :: constants = 0              !< 2: Young's modulus and Poisson's ratio; 9: engineering constants

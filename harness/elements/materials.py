@@ -88,7 +88,7 @@ def define_fields(
         count = _COUNTS[elastic.type]
         rows = [_engineering(elastic, tuple(row[:count]), tensor) for row in elastic.table.tolist()]
         for row in rows:
-            _check_definite(elastic, _compliance_of(row))
+            _check_definite(elastic, _binding.compliance(row))
         if elastic.type is ElasticType.ISOTROPIC:
             # the shear modulus is not linear in both constants
             rows = [(row[0], row[3]) for row in rows]
@@ -176,7 +176,7 @@ def _compliance(elastic: Elastic, tensor: Tensor) -> FloatArray:
         stiffness = _orthotropic(c) if elastic.type is ElasticType.ORTHOTROPIC else _anisotropic(c)
         _check_definite(elastic, stiffness)
         return _inverse(stiffness, elastic)
-    compliance = _compliance_of(_engineering(elastic, c, tensor))
+    compliance = _binding.compliance(_engineering(elastic, c, tensor))
     _check_definite(elastic, compliance)
     return compliance
 
@@ -202,14 +202,6 @@ def _engineering(elastic: Elastic, c: tuple[float, ...], tensor: Tensor) -> tupl
     if min(*moduli, *shear) <= 0:
         raise DeckError(elastic.source, f"*ELASTIC, TYPE={elastic.type}: moduli must be positive, found {min(c):g}")
     return (*moduli, *ratios, *shear)
-
-
-def _compliance_of(engineering: tuple[float, ...]) -> FloatArray:
-    moduli, ratios, shear = engineering[:3], engineering[3:6], engineering[6:]
-    compliance = np.diag(1 / np.array([*moduli, *shear]))
-    for (i, j), nu in zip(((0, 1), (0, 2), (1, 2)), ratios, strict=True):
-        compliance[i, j] = compliance[j, i] = -nu / moduli[i]
-    return compliance
 
 
 def _check_isotropic(elastic: Elastic, young: float, nu: float) -> None:

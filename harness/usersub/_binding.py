@@ -223,6 +223,11 @@ def set_expansion(number: int, expansion: float) -> None:
     _host.host_set_expansion(number, expansion)
 
 
+def compliance(constants: Sequence[float]) -> FloatArray:
+    """Compliance (6, 6) of E1, E2, E3, nu12, nu13, nu23, G12, G13, G23; 11, 22, 33, 12, 13, 23, engineering shear."""
+    return _host.host_compliance(np.array(constants))
+
+
 def set_dependence(number: int, constants: int, turn: FloatArray, table: FloatArray) -> None:
     """Let the elastic constants of a material depend on temperature and field variables.
 
