@@ -23,13 +23,11 @@ contains
     integer, intent(in) :: jtype, jelem, ndofel, nsvars, nprops, mcrd, nnode, njprop, ndload, lflags(*)
     real(dp), intent(in) :: props(*)
     integer, intent(in) :: jprops(*)
-    real(dp), intent(out) :: values(size(reals))         !< properties by their rows in the layout
+    real(dp), intent(out) :: values(size(reals))         !< properties by their rows in the layout, if the counts fit
     integer, intent(out) :: options(size(integers))
     logical :: good
 
     good = .false.
-    values = 0.0_dp
-    options = 0
     associate (element => elements(jtype))
       if (.not. count_fits('NODES = %I', nnode, element%nodes, element%nodes)) return
       if (.not. count_fits('number of unknowns %I', ndofel, unknowns_of(jtype), unknowns_of(jtype))) return

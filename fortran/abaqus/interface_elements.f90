@@ -67,8 +67,8 @@ contains
         call integrate_interface(n, nodes, quad, law, choice, thickness, xy, u, dtime, with_tangent, old, new, residual, tangent, &
           energies, status)
       case (next_to_quads)
-        call stress_of_neighbours(jelem, options([j_offset_bottom, j_offset_top]), choice, xy, reshape(u, [2, 4]), stabilisation, &
-          stress, good)
+        call stress_of_neighbours(jelem, options([j_offset_bottom, j_offset_top]), choice, xy, reshape(u, [2, size(u)/2]), &
+          stabilisation, stress, good)
         if (.not. good) return
         call integrate_interface(n, nodes, quad, law, choice, thickness, xy, u, dtime, with_tangent, old, new, residual, tangent, &
           energies, status, stabilisation, neighbours=stress)
