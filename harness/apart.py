@@ -11,6 +11,7 @@ import sys
 from collections.abc import Sequence
 from importlib import import_module
 
+from harness import sanitizer
 from harness.errors import tell_error
 from harness.interrupts import held, raise_interrupts
 from harness.slate import open_slate
@@ -19,6 +20,7 @@ from harness.slate import open_slate
 def work(descriptor: int, module: str, words: Sequence[str]) -> int:
     """Call the function, with where user code is on the slate; returns the exit code."""
     slate = open_slate(descriptor)
+    sanitizer.forget()
     try:
         raise_interrupts()
         with held():  # an interrupt within an import may come out as another error

@@ -12,7 +12,7 @@ import sys
 from collections.abc import Callable, Sequence
 from pathlib import Path
 
-from harness import isolation
+from harness import isolation, sanitizer
 from harness.errors import FAILURES, drop_output, tell, tell_failure
 
 # options of the `abaqus` command and what they are here; None: accepted and without effect on one machine
@@ -52,7 +52,8 @@ def main(arguments: Sequence[str] | None = None) -> int:
         options.apart = arguments is None and not getattr(options, "same_process", True)
         if options.apart and options.function is run_job:
             stem = (options.output_dir or Path()) / (options.job or options.deck.stem)
-            return isolation.supervise(words, stem, options.call_limit)
+            sanitized = options.debug and sanitizer.applies_to(options.user or ())
+            return isolation.supervise(words, stem, options.call_limit, sanitized=sanitized)
         code = int(options.function(options))
         if sys.stdout is not None:
             sys.stdout.flush()

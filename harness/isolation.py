@@ -15,6 +15,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import IO, Final
 
+from harness import sanitizer
 from harness.errors import tell_error
 from harness.interrupts import ENDS, collected, describe_interrupt
 from harness.slate import Slate, Within, new_slate
@@ -63,12 +64,13 @@ class End:
     interrupted: bool = False
 
 
-def supervise(words: Sequence[str], stem: Path, call_limit: float) -> int:
+def supervise(words: Sequence[str], stem: Path, call_limit: float, *, sanitized: bool = False) -> int:
     """Run `uel` with these words, a subcommand first, in a process of its own; returns the exit code.
 
-    stem is the folder and name of the job. A run that ends without closing its files gets them closed here.
+    stem is the folder and name of the job; sanitized: see `run_apart`. A run that ends without closing its files gets
+    them closed here.
     """
-    end = run_apart("harness.cli", [words[0], SAME_PROCESS, *words[1:]], call_limit)
+    end = run_apart("harness.cli", [words[0], SAME_PROCESS, *words[1:]], call_limit, sanitized=sanitized)
     if end.finished:
         return end.code
     from harness.output.broken import close_broken  # noqa: PLC0415 (numpy, after the process has begun)
@@ -84,19 +86,28 @@ def run_apart(
     words: Sequence[str],
     call_limit: float,
     *,
+    sanitized: bool = False,
     errors: IO[str] | None = None,
     meanwhile: Callable[[], None] | None = None,
 ) -> End:
     """Call `main` of a module with words in a process that user code may end, and that is ended if it hangs.
 
     call_limit: seconds that one call of a user routine may take, 0: any; the process itself holds it as far as it can.
+    sanitized: debug builds have AddressSanitizer in it; where that is not possible, a message says why.
     errors: where its messages go, by default to those of this process. meanwhile: is called now and then.
     """
     _take_all_stack()
+    variables = None
+    if sanitized:
+        try:
+            variables = sanitizer.environment()
+        except sanitizer.NoSanitizerError as error:
+            tell_error(str(error))
     descriptor, slate = new_slate()
     with collected() as signals:
         process = subprocess.Popen(
             [sys.executable, "-m", "harness.apart", str(descriptor), module, *words],
+            env=variables,
             stderr=errors,
             pass_fds=[descriptor],
             preexec_fn=_prepare,  # noqa: PLW1509 (takes no lock: two calls of the system)

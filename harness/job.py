@@ -65,7 +65,8 @@ def run(
         Seconds that one call of a user routine may take; 0: any.
     debug
         Compile the user's files with run-time checks, and stop where a NaN or an infinity is made: errors have file and
-        line. Slower, and a local variable without a value is no zero but an error.
+        line. Slower, and a local variable without a value is no zero but an error. With AddressSanitizer where its
+        runtime was loaded before all else, as the command `uel` does (harness/sanitizer.py).
     quiet
         No progress display.
 

@@ -92,3 +92,21 @@ subroutine host_exchange_room(room)
   call set_guard_room(entries)
   room(1) = int(entries, i4)
 end subroutine host_exchange_room
+
+!> 1 where the runtime of AddressSanitizer is in this process, else 0.
+subroutine host_sanitizing(present)
+  use host_kinds, only: i4
+  use host_protect, only: sanitizing
+  implicit none (type, external)
+  integer(i4), intent(out) :: present
+  present = sanitizing()
+end subroutine host_sanitizing
+
+!> A library that is built with AddressSanitizer is called from now on (begins /= 0), or no longer.
+subroutine host_sanitize(begins)
+  use host_kinds, only: i4
+  use host_protect, only: sanitize
+  implicit none (type, external)
+  integer(i4), intent(in) :: begins
+  call sanitize(begins)
+end subroutine host_sanitize

@@ -28,6 +28,8 @@ static int32_t count;
 static intptr_t interrupted(const void *context)
 {
     const ucontext_t *machine = context;
+    if (!context)
+        return 0;
 #if defined(__x86_64__) && defined(__linux__)
     return (intptr_t)machine->uc_mcontext.gregs[REG_RIP];
 #elif defined(__aarch64__) && defined(__linux__)
@@ -48,7 +50,8 @@ void uel_host_prepare_frames(void)
         prepared = backtrace(one, 1) >= 0;
 }
 
-// Innermost first: where the signal came, then, an instruction back, what the calls around it return to.
+// Innermost first: where the signal came, then, an instruction back, what the calls around it return to. Without the context
+// of a signal, the latter alone.
 void uel_host_keep_frames(const void *context)
 {
     void *address[MOST];

@@ -1,12 +1,12 @@
 ! SPDX-FileCopyrightText: The uel-harness authors
 ! SPDX-License-Identifier: BSD-3-Clause
-!> Fortran view of protect.c, frames.c, sma_arrays.c, inputs.c and stack.c.
+!> Fortran view of protect.c, frames.c, sanitizer.c, sma_arrays.c, inputs.c and stack.c.
 module host_protect
-  use, intrinsic :: iso_c_binding, only: c_double, c_funptr, c_int, c_int32_t, c_int64_t, c_ptr
+  use, intrinsic :: iso_c_binding, only: c_char, c_double, c_funptr, c_int, c_int32_t, c_int64_t, c_ptr
   implicit none (type, external)
   private
   public :: protect, escape, clear_arrays, begin_call, limit_calls, trap, take_frames, watch, take_changes, &
-            fill_stack, exchange_around, take_outside, allocated_bytes, attempt, share, loading
+            fill_stack, exchange_around, take_outside, allocated_bytes, attempt, share, loading, sanitizing, sanitize, fence
 
   integer, parameter :: most_frames = 64   !< as in frames.c
 
@@ -69,6 +69,26 @@ module host_protect
       integer(c_int64_t), intent(out) :: address(most_frames)
       integer(c_int32_t), intent(out) :: count
     end subroutine take_frames
+
+    !> 1 where the runtime of AddressSanitizer is in this process, else 0.
+    function sanitizing() bind(c, name='uel_host_sanitizing') result(present)
+      import :: c_int32_t
+      integer(c_int32_t) :: present
+    end function sanitizing
+
+    !> A library that is built with AddressSanitizer is called from now on (begins /= 0), or no longer.
+    subroutine sanitize(begins) bind(c, name='uel_host_sanitize')
+      import :: c_int32_t
+      integer(c_int32_t), value :: begins
+    end subroutine sanitize
+
+    !> Such a library may not touch the entries before and behind an array, which has a number from 0.
+    subroutine fence(slot, name, array, entries, before, behind) bind(c, name='uel_host_fence')
+      import :: c_char, c_double, c_int32_t
+      integer(c_int32_t), value :: slot, entries, before, behind
+      character(kind=c_char), intent(in) :: name(6)
+      real(c_double), intent(in) :: array(*)
+    end subroutine fence
 
     !> Drop the arrays of SMAIntArrayCreate and its like.
     subroutine clear_arrays() bind(c, name='uel_host_clear_arrays')

@@ -7,6 +7,7 @@
 module host_workspace
   use, intrinsic :: iso_c_binding, only: c_intptr_t, c_loc
   use host_kinds, only: dp, guard_bits, i4, i8, unset_bits
+  use host_protect, only: fence
   implicit none (type, external)
   private
   public :: workspace_t, arrays, n_arrays, lay_out, exchange_marks, arm_guards, find_damage, fill, same_bits, all_finite
@@ -46,6 +47,7 @@ contains
       do k = 1, n_arrays
         work%memory(work%start(k):work%start(k) + length(k) - 1) = 0
       end do
+      call fence_arrays(work)
       return
     end if
     if (allocated(work%memory)) deallocate (work%memory)
@@ -61,7 +63,18 @@ contains
     end do
     work%length = length
     call arm_guards(work)
+    call fence_arrays(work)
   end subroutine lay_out
+
+  !> The guards are out of bounds for AddressSanitizer, where it is used.
+  subroutine fence_arrays(work)
+    type(workspace_t), intent(in) :: work
+    integer :: k
+    do k = 1, n_arrays
+      call fence(int(k - 1, i4), arrays(k), work%memory(work%start(k)), int(work%length(k), i4), int(before, i4), &
+                 int(work%behind(k), i4))
+    end do
+  end subroutine fence_arrays
 
   !> Exchange what the guards of each array hold, and as the last what entries hold that are not set.
   subroutine exchange_marks(work, marks)

@@ -6,6 +6,8 @@
 // Arguments that are no arrays of the driver's workspace, whose guards find writes outside these, are passed with room
 // around them, which holds what a check asks for and is looked at as well.
 
+#define _GNU_SOURCE
+#include <dlfcn.h>
 #include <stdint.h>
 #include <stdlib.h>
 #include <string.h>
@@ -184,6 +186,9 @@ static void look_around(void *const *given, int count, const size_t *length)
 // Bytes that are allocated now; below 0 where the C library does not say.
 int64_t uel_host_allocated(void)
 {
+    size_t (*sanitizers)(void) = dlsym(RTLD_DEFAULT, "__sanitizer_get_current_allocated_bytes");
+    if (sanitizers)
+        return (int64_t)sanitizers();
 #if defined(__GLIBC__) && __GLIBC_PREREQ(2, 33)
     const struct mallinfo2 now = mallinfo2();
     return (int64_t)(now.uordblks + now.hblkhd);

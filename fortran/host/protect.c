@@ -34,6 +34,9 @@ void uel_host_place(char routine[16], int32_t place[4]);
 void uel_host_prepare_frames(void);
 void uel_host_keep_frames(const void *context);
 
+// sanitizer.c
+void uel_host_clear_stack(const char *from, const char *to);
+
 // exceptions.c
 void uel_host_watch_exceptions(void);
 
@@ -51,12 +54,13 @@ enum { OUTSIDE, IN_CALL, LOADING };
 static struct slate own;
 static struct slate *slate = &own;
 
-enum { STACK = 1000, INVALID, DIVISION, OVERFLOW };
+enum { STACK = 1000, INVALID, DIVISION, OVERFLOW, OVERRUN };
 
 static sigjmp_buf landing;
 static pthread_t thread;            // in which the call is
 static volatile int reason;         // the signal, or one of the enumeration above; 0 for XIT
 static volatile sig_atomic_t armed = 0;
+static char overrun[256];           // what AddressSanitizer has found in the call; '' for nothing
 static int registered = 0;          // at_exit is
 
 static const int caught[] = {SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT, SIGALRM};
@@ -104,6 +108,9 @@ static void describe(int signal, char *text, size_t size)
         break;
     case SIGALRM:
         snprintf(text, size, "the call does not return within %g s, the limit for one call (--call-limit)", limit);
+        break;
+    case OVERRUN:
+        snprintf(text, size, "%s", overrun);
         break;
     default:
         snprintf(text, size, "XIT or STOP");
@@ -178,9 +185,21 @@ static void catch(int signal, siginfo_t *info, void *context)
             (uintptr_t)(stack_at_entry - address) < size.rlim_cur + (1 << 24))
             signal = STACK;
     }
-    uel_host_keep_frames(context);
+    if (!overrun[0])
+        uel_host_keep_frames(context);
     reason = signal;
     siglongjmp(landing, 1);
+}
+
+// A finding of AddressSanitizer ends the call; from within its runtime, which cannot be left, where it returns.
+void uel_host_overrun(const char *text, int at_once)
+{
+    if (!armed || !slate->within || overrun[0])
+        return;
+    snprintf(overrun, sizeof overrun, "%s", text);
+    uel_host_keep_frames(NULL);
+    if (at_once && pthread_equal(pthread_self(), thread))
+        siglongjmp(landing, 1);
 }
 
 static void guard(void)
@@ -266,17 +285,29 @@ void uel_host_loading(int begins)
     uel_host_watch_exceptions();
 }
 
+// The runtime of AddressSanitizer does that itself only where the stack is small.
+static void clear_stack(void)
+{
+    struct rlimit size;
+    getrlimit(RLIMIT_STACK, &size);
+    if (size.rlim_cur != RLIM_INFINITY && size.rlim_cur < (uintptr_t)stack_at_entry)
+        uel_host_clear_stack(stack_at_entry - size.rlim_cur, stack_at_entry);
+}
+
 // Runs routine(context) for so many seconds (0: any); 0 if it returned, 1 if it was left.
 static int run(void (*routine)(void *), void *context, double seconds)
 {
     char here;
     stack_at_entry = &here;
     reason = 0;
+    overrun[0] = 0;
     watched = -1;
     waited = 0;
     allowed = seconds;
     if (sigsetjmp(landing, 1)) {
         leave();
+        clear_stack();
+        reason = overrun[0] ? OVERRUN : reason;
         return 1;
     }
     uel_host_prepare_frames();
@@ -288,7 +319,8 @@ static int run(void (*routine)(void *), void *context, double seconds)
         set_clock(tick);
     routine(context);
     leave();
-    return 0;
+    reason = overrun[0] ? OVERRUN : 0;
+    return reason != 0;
 }
 
 // Runs routine(context); 0 if it returned, 1 if it was left, with a message in the queue unless by XIT, 2 if that was

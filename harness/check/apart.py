@@ -15,6 +15,7 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import Any, Final, TypeVar
 
+from harness import sanitizer
 from harness.check.examine import Examination, examine
 from harness.check.finding import failed
 from harness.check.progress import Running, Snapshot
@@ -56,8 +57,9 @@ def examine_apart(
 
     call_limit: seconds that one call of a user routine may take. Raises UelError, also where no check had begun.
     """
+    sanitized = sanitizer.applies_to(user)
     try:
-        return call_apart(examine, deck, user, call_limit=call_limit, tell=tell, **options)
+        return call_apart(examine, deck, user, call_limit=call_limit, tell=tell, sanitized=sanitized, **options)
     except EndedError as end:
         running, outcome = end.snapshot.running, end.snapshot.outcome
         if running is None or not running.check:
@@ -73,9 +75,13 @@ def call_apart(
     *arguments: Any,
     call_limit: float = CALL_LIMIT,
     tell: Tell | None = None,
+    sanitized: bool = False,
     **options: Any,
 ) -> T:
-    """What a function returns in a process of its own; it takes `progress`. Raises UelError, and EndedError."""
+    """What a function returns in a process of its own; it takes `progress`. Raises UelError, and EndedError.
+
+    sanitized: debug builds have AddressSanitizer, where that is possible.
+    """
     with tempfile.TemporaryDirectory() as folder:
         file, messages = Path(folder) / "snapshot", Path(folder) / "messages"
         task = Path(folder) / "task"
@@ -88,8 +94,9 @@ def call_apart(
 
         with messages.open("w", encoding="utf-8") as stream:
             words = [str(task), str(file)]
+            look = meanwhile if tell else None
             end = run_apart(
-                "harness.check.worker", words, call_limit, errors=stream, meanwhile=meanwhile if tell else None
+                "harness.check.worker", words, call_limit, sanitized=sanitized, errors=stream, meanwhile=look
             )
         sys.stderr.write(messages.read_text("utf-8", errors="replace"))
         snapshot = _snapshot(file)

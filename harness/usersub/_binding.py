@@ -359,6 +359,16 @@ def trap(on: bool) -> bool:
     return bool(_host.host_trap(int(on)))
 
 
+def sanitizing() -> bool:
+    """Whether the runtime of AddressSanitizer is in this process, see harness/sanitizer.py."""
+    return bool(_host.host_sanitizing())
+
+
+def sanitize(on: bool) -> None:
+    """A library that is built with AddressSanitizer is called from now on, or no longer."""
+    _host.host_sanitize(int(on))
+
+
 def take_frames() -> list[int]:
     """Addresses of the calls that the last signal has ended, innermost first; forgets them."""
     addresses, count = _host.host_take_frames()

@@ -27,6 +27,7 @@ from harness.usersub.languages import (
     FORTRAN,
     FREE,
     LANGUAGES,
+    SANITIZED,
     SILENT,
     ZERO_LOCALS,
     ZEROS,
@@ -50,12 +51,18 @@ Flags = Mapping[Language, tuple[str, ...]]
 
 
 def build(
-    files: Sequence[Path], include: Sequence[Path] = (), *, zero_locals: bool = False, debug: bool = False
+    files: Sequence[Path],
+    include: Sequence[Path] = (),
+    *,
+    zero_locals: bool = False,
+    debug: bool = False,
+    sanitized: bool = False,
 ) -> Built:
     """Shared library of the files, compiled in their order; include: folders besides the sources' own.
 
     zero_locals: local variables of Fortran that are given no value are zero. debug: with run-time checks, and NaN in
-    such variables unless they are zero. Raises CompileError with the compiler's first error.
+    such variables unless they are zero; sanitized: and with AddressSanitizer. Raises CompileError with the compiler's
+    first error.
     """
     began = time.time()
     compilers = {language_of(file): language_of(file).program(file) for file in files}
@@ -64,7 +71,8 @@ def build(
     flags: Flags = {FORTRAN: (ZERO_LOCALS, SILENT)} if zero_locals else {}
     if debug:
         last = {language: (ZEROS[language], SILENT) if zero_locals else (SILENT,) for language in LANGUAGES}
-        flags = {language: (*language.checks, *last[language]) for language in LANGUAGES}
+        more = SANITIZED if sanitized else ()
+        flags = {language: (*language.checks, *more, *last[language]) for language in LANGUAGES}
     forms = [str(is_free_form(file, _read(file))) for file in files]
     given = [flag for more in flags.values() for flag in more]
     name = f"{files[0].stem}-{_key(compilers.values(), [*given, *forms, *texts])}"

@@ -78,6 +78,12 @@ FORTRAN: Final = Language(
     "apt install gfortran, dnf install gcc-gfortran",
     ("-lgfortran",),
 )
+SANITIZED: Final = (
+    *("-fsanitize=address", "-fsanitize-recover=address"),
+    # always in line, with what fortran/host/sanitizer.c takes the place of
+    "--param=asan-instrumentation-with-call-threshold=2000000000",
+)
+"""Flags of all compilers for a debug build with AddressSanitizer."""
 ZERO_LOCALS: Final = "-finit-local-zero"
 """Flag of gfortran with which local variables that are given no value are zero, not what an earlier call has left."""
 C: Final = Language(

@@ -46,10 +46,12 @@ class Library:
     entry_points              names of all user routines found
     """
 
-    def __init__(self, name: str, file: Path, handle: ctypes.CDLL, inbox: Inbox) -> None:
+    def __init__(self, name: str, file: Path, handle: ctypes.CDLL, inbox: Inbox, *, sanitized: bool = False) -> None:
         self.name = name
         self.file = file
         self._handle = handle  # keeps the library loaded
+        self._sanitized = sanitized
+        _binding.sanitize(sanitized)
         self._inbox = inbox
         addresses = {entry: _address(handle, entry) for entry in ENTRY_POINTS}
         self.entry_points = tuple(entry for entry, address in addresses.items() if address)
@@ -138,6 +140,8 @@ class Library:
 
     def close(self) -> None:
         """End of the job: disconnect units 6 and 7."""
+        if self._sanitized:
+            _binding.sanitize(False)
         self._inbox.close()
 
 
@@ -155,13 +159,14 @@ def load(
     None gives the project's own kernels. INCLUDE lines are looked up in the folders of the sources and of the deck.
     zero_locals: local variables of Fortran that are given no value are zero, as many public user elements take them to
     be; a check wants to see that they are not. debug: with run-time checks, which end a call with file and line, and
-    NaN in such variables. Raises CompileError.
+    NaN in such variables; with AddressSanitizer, where its runtime is in this process. Raises CompileError.
     """
     files = [] if user is None else [user] if isinstance(user, Path) else list(user)
     include = () if deck is None else (deck.resolve().parent,)
-    built = _shared_library(files, include, zero_locals=zero_locals, debug=debug)
+    sanitized = debug and _binding.sanitizing()
+    built = _shared_library(files, include, zero_locals=zero_locals, debug=debug, sanitized=sanitized)
     name = _name_of(files)
-    library = Library(name, built.library, _open(built.library, name), Inbox(job, output_dir))
+    library = Library(name, built.library, _open(built.library, name), Inbox(job, output_dir), sanitized=sanitized)
     for note in built.notes:
         library.warn(f"an extension of Abaqus' compiler, written in standard Fortran in a copy: {note}")
     return library
@@ -173,7 +178,7 @@ def _name_of(files: Sequence[Path]) -> str:
     return f"{files[0]}{others}" if files else "the project's kernels"
 
 
-def _shared_library(files: Sequence[Path], include: Sequence[Path], *, zero_locals: bool, debug: bool) -> Built:
+def _shared_library(files: Sequence[Path], include: Sequence[Path], **how: bool) -> Built:
     if not files:
         return Built(path_of_kernels(), ())
     for file in files:
@@ -185,7 +190,7 @@ def _shared_library(files: Sequence[Path], include: Sequence[Path], *, zero_loca
         if len(files) > 1:
             raise CompileError(files[0], "a shared library cannot be combined with other files")
         return Built(files[0], ())
-    return build(files, include, zero_locals=zero_locals, debug=debug)
+    return build(files, include, **how)
 
 
 def _open(shared: Path, name: str) -> ctypes.CDLL:

@@ -14,11 +14,15 @@ from typing import Final
 _STOPS: Final = ("stop_string", "stop_numeric", "error_stop_string", "error_stop_numeric", "exit_i4")
 _ERRORS: Final = ("runtime_error_at", "runtime_error", "os_error_at")
 
+_FINDINGS: Final = [f"{verb}{size}" for verb in ("load", "store") for size in ("1", "2", "4", "8", "16", "_n")]
+
 FLAGS: Final = (
     "-shared",
     "-Wl,-Bsymbolic",
     # they end the process; the host's versions end the call (fortran/host/stops.c, runtime_errors.c)
     *(f"-Wl,--wrap=_gfortran_{name}" for name in (*_STOPS, *_ERRORS)),
+    # so does what AddressSanitizer finds (sanitizer.c)
+    *(f"-Wl,--wrap=__asan_report_{finding}_noabort" for finding in _FINDINGS),
     # and so does exit in C
     *(f"-Wl,--wrap={name}" for name in ("exit", "_exit", "_Exit", "quick_exit")),
 )
