@@ -13,7 +13,7 @@ from collections.abc import Callable, Sequence
 from pathlib import Path
 
 from harness import isolation, sanitizer
-from harness.errors import FAILURES, drop_output, tell, tell_failure
+from harness.errors import FAILURES, UsageError, drop_output, tell, tell_failure
 
 # options of the `abaqus` command and what they are here; None: accepted and without effect on one machine
 ABAQUS_OPTIONS = {
@@ -51,7 +51,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
         # in this process where a program calls, or a debugger
         options.apart = arguments is None and not getattr(options, "same_process", True)
         if options.apart and options.function is run_job:
-            stem = (options.output_dir or Path()) / (options.job or options.deck.stem)
+            stem = (options.output_dir or Path()) / (options.deck.stem if options.job is None else options.job)
             sanitized = options.debug and sanitizer.applies_to(options.user or ())
             return isolation.supervise(words, stem, options.call_limit, sanitized=sanitized)
         code = int(options.function(options))
@@ -66,6 +66,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
             error.filename = "standard output"
             drop_output()
         tell_failure(error)
+        return 2 if isinstance(error, UsageError) else 1
     return 1
 
 

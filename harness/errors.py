@@ -28,6 +28,10 @@ class UelError(Exception):
     """Base of every error with a message for the user."""
 
 
+class UsageError(UelError):
+    """A word of the command line, or an argument of a function, is none that is expected."""
+
+
 def in_words(error: BaseException) -> str:
     """What went wrong, for a user: of an error of ours, of the system, of memory, or an interrupt."""
     if isinstance(error, UelError):

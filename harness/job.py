@@ -82,7 +82,7 @@ def run(
         stays readable. Its notes are the first warnings before it.
     """
     deck = Path(deck)
-    stem = job_stem(job or deck.stem, output_dir)
+    stem = job_stem(deck.stem if job is None else job, output_dir)
     files = [user] if isinstance(user, str | Path) else user or ()
     stem.parent.mkdir(parents=True, exist_ok=True)
     started = time.perf_counter()

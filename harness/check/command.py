@@ -6,6 +6,7 @@ from __future__ import annotations
 
 import argparse
 import os
+import stat
 import sys
 from collections.abc import Iterator
 from contextlib import contextmanager
@@ -60,12 +61,22 @@ def check(options: argparse.Namespace, console: Console, *, apart: bool) -> int:
     except UelError as error:
         print(f"uel: {error}", file=sys.stderr)
         if options.json:
-            options.json.write_text(error_as_json(error), encoding="utf-8")
+            _write(options.json, error_as_json(error))
         return CODES[Conclusion.NOTHING]
     console.print(told)
-    if options.json:
-        options.json.write_text(as_json(outcome), encoding="utf-8")
+    if options.json and not _write(options.json, as_json(outcome)):
+        return CODES[Conclusion.NOTHING]
     return CODES[conclusion]
+
+
+def _write(file: Path, findings: str) -> bool:
+    """Write the findings for other programs; where that fails, say so."""
+    try:
+        file.write_text(findings, encoding="utf-8")
+    except OSError as error:
+        print(f"uel: --json {file}: {error.strerror}", file=sys.stderr)
+        return False
+    return True
 
 
 def _clear(file: Path | None, *, shuffle: bool) -> None:
@@ -75,12 +86,14 @@ def _clear(file: Path | None, *, shuffle: bool) -> None:
     if shuffle:
         raise UelError("--json is for the table of all checks, which --shuffle does not make")
     try:
-        file.unlink(missing_ok=True)
         # before the checks, which take their time
-        file.touch()
-        file.unlink()
-    except OSError as error:
-        raise UelError(f"--json {file}: {error.strerror}") from None
+        with file.open("a", encoding="utf-8"):
+            pass
+        # a device, or a link to one, stays: /dev/stdout
+        if stat.S_ISREG(file.lstat().st_mode):
+            file.unlink()
+    except (OSError, ValueError) as error:
+        raise UelError(f"--json {file}: {getattr(error, 'strerror', error)}") from None
 
 
 @contextmanager

@@ -23,7 +23,7 @@ from harness.delamination.blocks import Interface, Specimen, interface_values
 from harness.delamination.materials import PLY_0, TABLE_2
 from harness.delamination.mesh import two_arms
 from harness.elements import Call, build_blocks
-from harness.errors import Source, UelError
+from harness.errors import Source, UelError, UsageError
 from harness.model.arrays import FloatArray
 from harness.model.mesh import ElementGroup, Mesh
 from harness.model.model import Model
@@ -70,11 +70,11 @@ def given_properties(words: Iterable[str]) -> dict[str, float]:
     for word in words:
         name, equals, value = word.upper().partition("=")
         if not equals or name not in known:
-            raise UelError(f"'{word}': expected is NAME=VALUE with a name of {', '.join(sorted(known))}")
+            raise UsageError(f"'{word}': expected is NAME=VALUE with a name of {', '.join(sorted(known))}")
         try:
             given[name] = float(value)
         except ValueError:
-            raise UelError(f"'{word}': '{value}' is no number") from None
+            raise UsageError(f"'{word}': '{value}' is no number") from None
     return given
 
 

@@ -19,7 +19,7 @@ from rich.table import Table
 from harness import usersub
 from harness.delamination import law
 from harness.delamination.law import Curve, LawElement
-from harness.errors import UelError
+from harness.errors import UsageError
 from harness.model.arrays import FloatArray
 from harness.output.lock import job_stem, locked
 from harness.output.plots import COLOURS, STYLE
@@ -117,7 +117,7 @@ def path_points(text: str) -> FloatArray:
     except ValueError:
         points = np.zeros(0)
     if points.ndim != 2 or points.shape[1] != 2 or not np.isfinite(points).all():
-        raise UelError(f"'{text}': expected are points NORMAL,TANGENTIAL with blanks between them")
+        raise UsageError(f"'{text}': expected are points NORMAL,TANGENTIAL with blanks between them")
     return points
 
 

@@ -12,13 +12,13 @@ from collections.abc import Iterator
 from contextlib import contextmanager, suppress
 from pathlib import Path
 
-from harness.errors import UelError
+from harness.errors import UelError, UsageError
 
 
 def job_stem(job: str, folder: str | Path | None) -> Path:
-    """Folder and name of a job; raises UelError where the name is none."""
+    """Folder and name of a job; raises UsageError where the name is none."""
     if not job or job in (".", "..") or "/" in job or "\0" in job:
-        raise UelError(
+        raise UsageError(
             f"'{job}' is no name of a job: expected a file name without folders (--output-dir takes the folder)"
         )
     return Path(folder or ".") / job

@@ -8,7 +8,7 @@ import re
 from pathlib import Path
 from typing import Final
 
-from harness.errors import UelError
+from harness.errors import UelError, UsageError
 
 TEMPLATE: Final = Path(__file__).with_name("template")
 PLACEHOLDER: Final = "my_uel"
@@ -24,7 +24,7 @@ def create(target: Path) -> list[Path]:
     """
     name = target.name
     if _NAME.fullmatch(name) is None:
-        raise UelError(f"'{name}' cannot be the name of an element: expected letters, digits and _, a letter first")
+        raise UsageError(f"'{name}' cannot be the name of an element: expected letters, digits and _, a letter first")
     if target.exists():
         raise UelError(f"{target} exists already")
     written = []

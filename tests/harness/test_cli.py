@@ -256,9 +256,32 @@ def test_numbers_that_make_no_sense(words: str, expected: str, capsys: pytest.Ca
     assert expected in capsys.readouterr().err
 
 
+@pytest.mark.parametrize(
+    ("words", "message"),
+    [
+        ("law GIC=much", "'GIC=much': 'MUCH' is no number"),
+        ("new 1st", "'1st' cannot be the name of an element"),
+        ("check a.inp --skip tangents", "no check is called 'tangents'"),
+    ],
+)
+def test_words_that_are_not_known(
+    words: str, message: str, tmp_path: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Wrong usage, with the exit code of an option that is not known."""
+    monkeypatch.chdir(tmp_path)
+    assert main(words.split()) == 2
+    assert message in capsys.readouterr().err
+
+
+def test_solver_that_is_not_known(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    words = ["run", str(FLAT), "--solver", "lapack", "--quiet", "--output-dir", str(tmp_path)]
+    assert main(words) == 2
+    assert "unknown linear solver 'lapack'; known are auto" in capsys.readouterr().err
+
+
 @pytest.mark.parametrize("path", ["nan,1", "inf,0", "1", "1,2,3", "a,b", ""])
 def test_path_that_is_none(path: str, capsys: pytest.CaptureFixture[str], tmp_path: Path) -> None:
-    assert main(["law", "--path", path, "--output-dir", str(tmp_path)]) == 1
+    assert main(["law", "--path", path, "--output-dir", str(tmp_path)]) == 2
     assert f"uel: '{path}': expected are points NORMAL,TANGENTIAL with blanks between them" in capsys.readouterr().err
 
 

@@ -183,5 +183,5 @@ def test_command_writes_data_and_pictures(tmp_path, capsys):
 def test_command_takes_a_path_and_says_what_is_wrong(tmp_path: Path, capsys):
     assert main(["law", "--path", "0.01,0.01", "--element", "U6", "--output-dir", str(tmp_path)]) == 0
     assert (tmp_path / "law.csv").read_text().startswith("CURVE,TIME,X,Y,SEPN,SEPT,TN,TT,")
-    assert main(["law", "--path", "nowhere", "--output-dir", str(tmp_path)]) == 1
+    assert main(["law", "--path", "nowhere", "--output-dir", str(tmp_path)]) == 2
     assert capsys.readouterr().err.startswith("uel: 'nowhere': expected are points")

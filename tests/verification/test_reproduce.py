@@ -301,7 +301,7 @@ def test_missing_runs_are_named() -> None:
 
 
 def test_unknown_case_is_named(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    assert cli.main(["reproduce", "dbc", "--output-dir", str(tmp_path)]) == 1
+    assert cli.main(["reproduce", "dbc", "--output-dir", str(tmp_path)]) == 2
     expected = "uel: no case 'dbc'; there are law, patch, dcb, enf, frmm, sensitivity"
     assert expected in capsys.readouterr().err
 

@@ -27,7 +27,7 @@ from harness.delamination.reproduce.page import Content, number, write_page
 from harness.delamination.reproduce.patch_cases import PatchCase, patch_cases
 from harness.delamination.reproduce.runs import AnyCase, Runs, run_cases
 from harness.delamination.reproduce.tables import all_tables
-from harness.errors import UelError
+from harness.errors import UsageError
 
 PARTS = ("law", "patch", *PROBLEMS, "sensitivity")
 
@@ -62,7 +62,7 @@ def reproduce(
     """
     for part in parts:
         if part not in PARTS:
-            raise UelError(f"no case '{part}'; there are {', '.join(PARTS)}")
+            raise UsageError(f"no case '{part}'; there are {', '.join(PARTS)}")
     chosen = [part for part in PARTS if not parts or part in parts]
     place = folder / ("quick" if quick else "full")
     runs = run_cases(_cases(chosen, quick=quick), place, workers or os.cpu_count() or 1, console)

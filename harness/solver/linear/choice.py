@@ -17,7 +17,7 @@ from typing import Final
 import numpy as np
 from numpy.typing import NDArray
 
-from harness.errors import UelError
+from harness.errors import UsageError
 from harness.model.arrays import FloatArray
 from harness.solver.linear.band import BandSolver
 from harness.solver.linear.base import LinearSolver, Pattern
@@ -120,9 +120,9 @@ def choose(
     if name == "auto":
         return _quickest(pattern, name_of)
     if name not in SOLVERS:
-        raise UelError(f"unknown linear solver '{name}'; known are auto, {', '.join(SOLVERS)}")
+        raise UsageError(f"unknown linear solver '{name}'; known are auto, {', '.join(SOLVERS)}")
     if obstacle := _obstacle(name):
-        raise UelError(f"linear solver '{name}' cannot be used: {obstacle}")
+        raise UsageError(f"linear solver '{name}' cannot be used: {obstacle}")
     return SOLVERS[name](pattern, name_of)
 
 

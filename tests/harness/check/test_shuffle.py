@@ -146,6 +146,19 @@ def test_run_that_fails_to_converge_is_checked_up_to_there(chain, capsys):
     assert "The run ended early: TOO MANY INCREMENTS" in capsys.readouterr().out
 
 
+def test_run_without_convergence_has_not_passed(chain, tmp_path, capsys):
+    """INC= of the deck is the author's own choice; an increment that diverges is none."""
+    deck, user = chain(0), tmp_path / "diverges.f"
+    last = f"{SPRINGS + 1}, 1, "
+    deck.write_text(deck.read_text().replace(f"{last}1, 0.8", f"*CLOAD\n{last}0.8"))
+    text = COUNTER.read_text().replace("../uel.inc", str(COUNTER.parents[1] / "uel.inc"))
+    user.write_text(text.replace("      end\n", "      amatrx = 0.1d0*amatrx\n      end\n"))
+    assert main(["check", str(deck), "--user", str(user), "--shuffle"]) == 1
+    printed = " ".join(capsys.readouterr().out.split())
+    assert "The run ended early: " in printed
+    assert "the same in any order" in printed
+
+
 def test_deck_that_does_not_run_in_the_order_of_abaqus(tmp_path, capsys):
     for path in PATCH.glob("flat_*.inp"):
         (tmp_path / path.name).write_text(path.read_text().replace("30., 60., 0.26", "-30., 60., 0.26"))

@@ -176,6 +176,23 @@ def test_folder_of_the_json_file_is_looked_for_first(springs, tmp_path, capsys, 
     assert re.search("--json is for the table of all checks, which --shuffle does not make", capsys.readouterr().err)
 
 
+def test_json_that_is_no_file_stays(springs, tmp_path):
+    """As /dev/stdout, a link to a device."""
+    link = tmp_path / "stdout"
+    link.symlink_to("/dev/null")
+    assert main(["check", *map(str, springs()), "--json", str(link)]) == 0
+    assert link.is_symlink()
+
+
+def test_json_that_cannot_be_written_in_the_end(springs, tmp_path, capsys):
+    if not Path("/dev/full").exists():
+        pytest.skip("no /dev/full")
+    link = tmp_path / "found.json"
+    link.symlink_to("/dev/full")
+    assert main(["check", *map(str, springs()), "--json", str(link)]) == 2
+    assert f"uel: --json {link}: No space left on device" in capsys.readouterr().err
+
+
 def test_nothing_is_cut_without_a_terminal(springs, capsys, monkeypatch):
     """Findings are longer than 80 columns, and stand in one line each."""
     monkeypatch.delenv("COLUMNS", raising=False)

@@ -66,7 +66,7 @@ def test_its_tests_can_fail(project):
 @pytest.mark.parametrize("name", ["1st", "a-b", "a b", ".", "é"])
 def test_name_that_is_none(tmp_path, monkeypatch, capsys, name):
     monkeypatch.chdir(tmp_path)
-    assert main(["new", name]) == 1
+    assert main(["new", name]) == 2
     assert "cannot be the name of an element: expected letters, digits and _" in capsys.readouterr().err
 
 
