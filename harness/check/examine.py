@@ -21,9 +21,11 @@ from harness.usersub import ARRAYS, AS_GOOD_AS_ZERO, UNSET, marks
 LENIENT: Final = {UNSET: 0.0, **dict.fromkeys(ARRAYS, AS_GOOD_AS_ZERO)}
 """Entries not set are zero, and guards as good as zero, so that one mistake does not hide all others."""
 
-IDLE: Final = (
-    "RHS and AMATRX are zero at all states that were tried: take a deck in which these elements resist something, and "
-    "look for a factor that is zero"
+IDLE: Final = "RHS and AMATRX are zero at all states that were tried"
+IDLE_ADVICE: Final = (
+    "Look for entries of AMATRX and RHS that are set to zero and never filled, a factor that is zero (a misspelt "
+    "variable, a property that *UEL PROPERTY does not give), and a request, LFLAGS(3) = 1, that is not answered. If "
+    "the deck asks nothing of these elements, take one in which they resist something."
 )
 
 ENDLESS: Final = (
@@ -163,7 +165,8 @@ def _run(check: Check, subject: Subject, before: Mapping[str, Finding]) -> Findi
             f"no call of an element by itself returns: {subject.refusal}; take a deck in which one does, or mend that"
         )
     if check.forces and subject.idle:
-        return not_applicable(IDLE)
+        told = any(other.forces and other.name in before for other in CHECKS)
+        return not_applicable(IDLE) if told else failed(IDLE, IDLE_ADVICE)
     try:
         return check.function(subject)
     except KernelError as error:

@@ -56,6 +56,17 @@ SPRINGS = """\
 """
 
 
+HELD = ("1, 1\n*CLOAD", "1, 1\n3, 1\n*CLOAD")
+"""Node 3, too, at the boundary: what acts there need not hold it."""
+
+LEAVES = """\
+      integer, save :: last = 0
+      if (jtype == 2 .and. last /= 1) call xit
+      last = jtype
+"""
+NEEDS_A_NEIGHBOUR = SPRING.replace("      rhs(1,1) = ", LEAVES + "      rhs(1,1) = ", 1)
+
+
 @pytest.fixture
 def springs(tmp_path):
     """Deck of two springs of two types in a row, and their UEL."""
@@ -83,7 +94,8 @@ def test_element_that_does_nothing(tmp_path, capsys, monkeypatch, old, new):
     printed = capsys.readouterr().out
     assert re.search(r"run .*FAILED .*ended after 0 increments: .*my_uel.inp:\d+: singular system matrix", printed)
     assert "U1 run: AMATRX of the elements there is zero, or does not hold the node" in printed
-    assert re.search("tangent .* RHS and AMATRX are zero at all states that were tried: take a deck in which", printed)
+    assert re.search("tangent .* FAILED .* RHS and AMATRX are zero at all states that were tried", printed)
+    assert "U1 tangent: Look for entries of AMATRX and RHS that are set to zero and never filled" in printed
 
 
 def test_type_without_stiffness_is_blamed(springs):
@@ -128,14 +140,13 @@ def test_fewer_increments_than_asked_for(springs):
 
 
 def test_type_that_nothing_is_known_of(springs, tmp_path, capsys, monkeypatch):
-    """U2 has no force, and its node is held by nothing that acts on it: exit code 2."""
-    deck, user = springs("0., 1.", node=2)
-    text = deck.read_text()
-    deck.write_text(text.replace("1, 1\n*CLOAD", "1, 1\n3, 1\n*CLOAD"))
+    """U2 needs a call of U1 before each of its own; the check of the order, which finds that, is left out."""
+    deck, user = springs()
+    user.write_text(NEEDS_A_NEIGHBOUR)
     file = tmp_path / "found.json"
     monkeypatch.delenv("COLUMNS", raising=False)
-    assert main(["check", str(deck), str(user), "--json", str(file)]) == 2
-    said = "U2: nothing was looked at: RHS and AMATRX are zero at all states that were tried: take a deck in which"
+    assert main(["check", str(deck), str(user), "--json", str(file), "--skip", "order"]) == 2
+    said = "U2: nothing was looked at: no call of an element by itself returns"
     assert said in capsys.readouterr().out
     data = json.loads(file.read_text())
     assert (data["conclusion"], data["passed"]) == ("nothing looked at", False)
@@ -143,6 +154,30 @@ def test_type_that_nothing_is_known_of(springs, tmp_path, capsys, monkeypatch):
     assert (first["conclusion"], second["conclusion"]) == ("passed", "nothing looked at")
     assert "tangent" in first["looked_at"]
     assert "tangent" not in second["looked_at"]
+
+
+ZERO = "      amatrx = 0\n      end\n"
+
+
+@pytest.mark.parametrize("lost", [ZERO, "      rhs(1:2,1) = 0\n" + ZERO], ids=["AMATRX", "RHS and AMATRX"])
+@pytest.mark.parametrize("all_of_them", [True, False], ids=["all elements", "other elements carry the load"])
+def test_matrices_that_are_zero(springs, capsys, monkeypatch, lost, all_of_them):
+    """They fail, with advice, also where the run of the deck gets to its end."""
+    deck, user = springs(node=2)
+    deck.write_text(deck.read_text().replace(*HELD))
+    zero = lost if all_of_them else "".join(f"      if (jtype == 2) {row.strip()}\n" for row in lost.splitlines()[:-1])
+    user.write_text(SPRING.replace("      end\n", zero if all_of_them else f"{zero}      end\n"))
+    monkeypatch.delenv("COLUMNS", raising=False)
+    assert main(["check", str(deck), str(user)]) == 1
+    report = examine(deck, user).types[-1]
+    assert (report.type, report.conclusion) == ("U2", Conclusion.FAILED)
+    tangent = report.findings["tangent"]
+    assert tangent.verdict is Verdict.FAILED
+    if lost != ZERO:
+        assert tangent.message == "RHS and AMATRX are zero at all states that were tried"
+        assert "AMATRX and RHS that are set to zero and never filled" in tangent.advice
+        assert report.findings["patch"].verdict is Verdict.NOT_APPLICABLE
+    assert tangent.advice in capsys.readouterr().out
 
 
 def test_all_checks_of_forces_left_out(springs):
@@ -207,13 +242,19 @@ def test_nothing_is_cut_without_a_terminal(springs, capsys, monkeypatch):
 
 
 def test_plugin_tells_where_nothing_was_looked_at(springs, tmp_path):
-    """As a test that fails, beside those of the other type, which pass."""
-    deck, user = springs("0., 1.", node=2)
-    text = deck.read_text()
-    deck.write_text(text.replace("1, 1\n*CLOAD", "1, 1\n3, 1\n*CLOAD"))
+    """As a test that fails, beside those of the other type, which pass; without the check of the order."""
+    deck, user = springs()
+    user.write_text(NEEDS_A_NEIGHBOUR)
+    (tmp_path / "conftest.py").write_text(
+        "from harness.check import examine, plugin\n"
+        "def look(deck, user, **options):\n"
+        "    options.pop('call_limit', None)\n"
+        "    return examine.examine(deck, user, skip=['order'], **options)\n"
+        "plugin.examine_apart = look\n"
+    )
     command = [sys.executable, "-m", "pytest", "-p", "no:cacheprovider", "--rootdir", str(tmp_path)]
     command += ["--deck", str(deck), "--uel", str(user)]
     result = subprocess.run(command, cwd=tmp_path, capture_output=True, text=True, check=False)
     assert result.returncode == pytest.ExitCode.TESTS_FAILED
-    assert re.search("U2: nothing was looked at: RHS and AMATRX are zero", result.stdout)
+    assert re.search("U2: nothing was looked at: no call of an element by itself returns", result.stdout)
     assert re.search(r"1 failed, \d+ passed", result.stdout)
