@@ -121,7 +121,8 @@ static void summarise(const char *report, char *text, size_t size)
             return;
         }
     }
-    snprintf(text, size, "it %s where no variable is (%.*s)", verb(writes), (int)strcspn(kind, " \n"), kind);
+    const char *where = !strncmp(kind, "dynamic-stack", 13) ? "outside a local array" : "where no variable is";
+    snprintf(text, size, "it %s %s", verb(writes), where);
 }
 
 // An entry of an array of the host at an address; false where that is in none of their guards.

@@ -65,10 +65,19 @@ FORTRAN = f"""\
         call fill(h, k + 3)
       case (9)
         call add(energy, 9, total)
+      case (11)
+        call spend(k, total)
       case (10)
         rhs(1,1) = 5/(k - 4)        ! zero
       end select
       rhs(1,1) = rhs(1,1) + 1d-30*total
+      end
+
+      subroutine spend(k, total)
+      include 'aba_param.inc'
+      dimension w(k)
+      w = 0
+      call add(w, k + 1, total)
       end
 
       subroutine grow(k)
@@ -157,6 +166,7 @@ CASES = [
     ("my_uel.for", 7, "freed", "", "it reads memory that has been freed"),
     ("my_uel.for", 8, "fill", "FILL", r"it writes outside an allocated array \(32 bytes\)"),
     ("my_uel.for", 9, "add", "ADD", "it reads outside ENERGY: entry 9 of 8"),
+    ("my_uel.for", 11, "add", "ADD", "it reads outside a local array"),
     ("my_uel.for", 10, "zero", "", "division of an integer by zero"),
     ("my_uel.c", 1, "property", "", "it reads outside PROPS: entry 2 of 1"),
     ("my_uel.c", 2, "table", "", r"it writes outside the variable 'table' \(24 bytes\)"),
@@ -197,7 +207,7 @@ def said(variables, tmp_path_factory):
     folder = tmp_path_factory.mktemp("sanitizer")
     for name, text in SOURCES.items():
         (folder / name).write_text(text)
-    for way in range(11):
+    for way in range(12):
         (folder / f"{way}.inp").write_text(DECK.format(way=way))
     runs = [run for name, way, *_ in CASES for run in ((name, way, True), ("my_uel.for", 0, True))]
     runs += [("my_uel.c", 0, True), ("my_uel.for", 6, False), ("my_uel.for", 1, False)]
