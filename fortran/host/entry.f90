@@ -119,16 +119,17 @@ end subroutine host_take_message
 
 !> Name and folder of the job, for GETJOBNAME and GETOUTDIR; units 6 and 7 go to the two files named, shared arrays go.
 subroutine host_open_job(name, directory, file6, file7, status)
-  use host_context, only: job_name, output_directory
+  use host_context, only: job_name, names_cut, output_directory
   use host_kinds, only: i4
   use host_protect, only: clear_arrays
   use host_units, only: connect_units
   implicit none (type, external)
-  character(len=256), intent(in) :: name, directory
+  character(len=4096), intent(in) :: name, directory
   character(len=2048), intent(in) :: file6, file7
   integer(i4), intent(out) :: status          !< of connect_units
   job_name = name
   output_directory = directory
+  names_cut = .false.
   call clear_arrays()
   call connect_units(file6, file7, status)
 end subroutine host_open_job
@@ -296,7 +297,7 @@ end subroutine host_define_user_material
 
 !> Call UVARM at all material points of a block of built-in elements.
 subroutine host_uvarm_pass(address, names, axes, counts, place, clock, labels, coords, svars, history, uvar, left, element, &
-                           mcrd, nnode, variables, points, values, nuvarm, m)
+                           point, mcrd, nnode, variables, points, values, nuvarm, m)
   use, intrinsic :: iso_c_binding, only: c_intptr_t
   use host_context, only: current
   use host_kinds, only: dp, i4, i8
@@ -313,7 +314,7 @@ subroutine host_uvarm_pass(address, names, axes, counts, place, clock, labels, c
   real(dp), intent(in), target :: coords(mcrd, nnode, m), svars(variables, points, m), history(values, points, m)
   real(dp), intent(inout), target :: uvar(nuvarm, points, m)
   integer(i4), intent(out) :: left            !< 1 if the routine ended the analysis
-  integer(i4), intent(out) :: element         !< of the last call
+  integer(i4), intent(out) :: element, point  !< of the last call
   type(uvarm_pass_t) :: pass
   pass%address = transfer(int(address, c_intptr_t), pass%address)
   pass%material = names(1)
@@ -332,10 +333,11 @@ subroutine host_uvarm_pass(address, names, axes, counts, place, clock, labels, c
   pass%uvar => uvar
   call run_uvarm(pass, left)
   element = current%element
+  point = current%point
 end subroutine host_uvarm_pass
 
 !> Call SDVINI at all points of a block.
-subroutine host_sdvini_pass(address, solid, labels, coords, statev, left, element, mcrd, nnode, nstatv, points, m)
+subroutine host_sdvini_pass(address, solid, labels, coords, statev, left, element, point, mcrd, nnode, nstatv, points, m)
   use, intrinsic :: iso_c_binding, only: c_intptr_t
   use host_context, only: current
   use host_kinds, only: dp, i4, i8
@@ -348,7 +350,7 @@ subroutine host_sdvini_pass(address, solid, labels, coords, statev, left, elemen
   real(dp), intent(in), target :: coords(mcrd, nnode, m)
   real(dp), intent(inout), target :: statev(nstatv, points, m)
   integer(i4), intent(out) :: left            !< 1 if the routine ended the analysis
-  integer(i4), intent(out) :: element         !< of the last call
+  integer(i4), intent(out) :: element, point  !< of the last call
   type(sdvini_pass_t) :: pass
   pass%address = transfer(int(address, c_intptr_t), pass%address)
   pass%solid = solid /= 0
@@ -357,6 +359,7 @@ subroutine host_sdvini_pass(address, solid, labels, coords, statev, left, elemen
   pass%statev => statev
   call run_sdvini(pass, left)
   element = current%element
+  point = current%point
 end subroutine host_sdvini_pass
 
 !> Call DISP (2 rows of places) or DLOAD (3) at all places.

@@ -5,7 +5,7 @@ module host_context
   use host_kinds, only: dp, i4
   implicit none (type, external)
   private
-  public :: call_context, current, heat_t, job_name, output_directory
+  public :: call_context, current, heat_t, job_name, names_cut, output_directory
 
   !> What UMAT says about heat at the end of the increment; directions of the stresses, shear strains twice.
   type :: heat_t
@@ -43,6 +43,7 @@ module host_context
   end type call_context
 
   type(call_context), save :: current
-  character(len=256), save :: job_name = ' '
-  character(len=256), save :: output_directory = ' '
+  character(len=4096), save :: job_name = ' '
+  character(len=4096), save :: output_directory = ' '
+  logical, save :: names_cut(2) = .false.   !< job name, output directory: a user routine took a part of it
 end module host_context

@@ -4,10 +4,10 @@
 module host_messages
   use, intrinsic :: iso_c_binding, only: c_char, c_int32_t, c_null_char
   use host_kinds, only: dp, i4
-  use host_context, only: current
+  use host_context, only: current, names_cut
   implicit none (type, external)
   private
-  public :: message_t, add_message, take_message, substitute
+  public :: message_t, add_message, pass_name, take_message, substitute
 
   integer, parameter :: text_length = 2048
 
@@ -66,6 +66,23 @@ contains
     routine = transfer(current%routine, routine)
     place = [current%element, current%step, current%increment, current%iteration]
   end subroutine get_place
+
+  !> A name for a user routine, as much as its variable takes (CHARACTER*256, as Abaqus has it), and its length; a warning
+  !> where that is not all, once for each of names_cut.
+  subroutine pass_name(number, what, name, variable, length)
+    integer, intent(in) :: number
+    character(len=*), intent(in) :: what, name
+    character(len=*), intent(out) :: variable
+    integer(i4), intent(out) :: length
+    character(len=240) :: text
+    variable = name
+    length = int(min(len_trim(name), len(variable)), i4)
+    if (len_trim(name) <= len(variable) .or. names_cut(number)) return
+    names_cut(number) = .true.
+    write (text, '(2a,i0,a,i0,a)') what, ' has ', len_trim(name), ' characters, of which the variable takes ', len(variable), &
+      ' (CHARACTER*256 in Abaqus); what goes by the part that is left is elsewhere'
+    call add_message(-1_i4, trim(text))
+  end subroutine pass_name
 
   !> Oldest message not yet taken; level 0 when there is none.
   subroutine take_message(message)

@@ -36,22 +36,22 @@ end subroutine stdb_abqerr
 subroutine getjobname(jobname, lenjobname)
   use host_context, only: job_name
   use host_kinds, only: i4
+  use host_messages, only: pass_name
   implicit none (type, external)
   character(len=*), intent(out) :: jobname
   integer(i4), intent(out) :: lenjobname
-  jobname = job_name
-  lenjobname = len_trim(job_name)
+  call pass_name(1, 'GETJOBNAME: the name of the job', job_name, jobname, lenjobname)
 end subroutine getjobname
 
 !> Folder of the output files, and its length.
 subroutine getoutdir(outdir, lenoutdir)
   use host_context, only: output_directory
   use host_kinds, only: i4
+  use host_messages, only: pass_name
   implicit none (type, external)
   character(len=*), intent(out) :: outdir
   integer(i4), intent(out) :: lenoutdir
-  outdir = output_directory
-  lenoutdir = len_trim(output_directory)
+  call pass_name(2, 'GETOUTDIR: the name of the output directory', output_directory, outdir, lenoutdir)
 end subroutine getoutdir
 
 !> Number of MPI processes: always one here.

@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from harness.elements.call import BlockReport, Call, Distributed, Motion, Predefined
-from harness.elements.faults import ERRORS, distortion, material_point, write_outside, wrong_entry
+from harness.elements.faults import ERRORS, at_point, distortion, material_point, write_outside, wrong_entry
 from harness.elements.fields import FIELD_NAMES, field_of
 from harness.elements.procedure import Procedure
 from harness.elements.watch import Watch
@@ -266,11 +266,11 @@ class Block:
     def call_sdvini(self, address: int) -> None:
         """Let SDVINI set the initial state. Raises KernelError where it ends the analysis."""
         state = np.ascontiguousarray(self._initial_state())
-        element = (
-            _binding.sdvini(address, self._arrays, state, solid=self.group.definition is None) if state.size else 0
-        )
+        built_in = self.group.definition is None
+        element, point = _binding.sdvini(address, self._arrays, state, solid=built_in) if state.size else (0, 0)
         if element:
-            raise KernelError(element, self.group.type, f"SDVINI {self._library.stop_reason()}")
+            at = at_point("SDVINI", point) if built_in else "SDVINI "
+            raise KernelError(element, self.group.type, at + self._library.stop_reason())
         self._begin(state)
 
     def _initial_state(self) -> FloatArray:
@@ -326,7 +326,7 @@ class Block:
         assert given is not None
         start = call.step_time - call.time_increment, call.total_time - call.time_increment, call.time_increment
         place = call.step, call.increment
-        element = _binding.uvarm(
+        element, point = _binding.uvarm(
             given.address,
             given.names,
             given.axes,
@@ -338,7 +338,8 @@ class Block:
             uvar,
         )
         if element:
-            raise KernelError(element, self.group.type, f"UVARM {self._library.stop_reason()}")
+            why = f"{at_point('UVARM', point)}{self._library.stop_reason()}"
+            raise KernelError(element, self.group.type, f"{why} (step {call.step}, increment {call.increment})")
 
     def _error(self, outcome: Outcome, nrhs: int, call: Call) -> ElementError:
         element = int(self.group.labels[outcome.position]) if outcome.position >= 0 else 0

@@ -38,7 +38,12 @@ def material_point(outcome: Outcome) -> str:
     """The beginning of a sentence where UMAT, or USDFLD (-index), has ended the call, else ''."""
     if not outcome.index:
         return ""
-    return f"{'UMAT' if outcome.index > 0 else 'USDFLD'} at integration point {abs(outcome.index)} "
+    return at_point("UMAT" if outcome.index > 0 else "USDFLD", abs(outcome.index))
+
+
+def at_point(routine: str, point: int) -> str:
+    """The beginning of a sentence on a user routine of material points; point from 1."""
+    return f"{routine} at integration point {point} "
 
 
 def distortion(outcome: Outcome) -> str:

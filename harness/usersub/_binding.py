@@ -256,8 +256,8 @@ def uvarm(
     arrays: BlockArrays,
     hidden: int,
     uvar: FloatArray,
-) -> int:
-    """Call UVARM at the points of a block; returns the element at which it ended the analysis, 0 if it did not.
+) -> tuple[int, int]:
+    """Call UVARM at the points of a block; returns element and point at which it ended the analysis, 0 if it did not.
 
     names are of the material and its orientation, axes its directions in rows, counts the stress components and
     NSTATV, place step and increment, clock the times at the start and the time increment; the last `hidden` SVARS are
@@ -266,19 +266,19 @@ def uvarm(
     m, points, _ = uvar.shape
     svars = np.ascontiguousarray(arrays.svars[:, : arrays.svars.shape[1] - hidden]).reshape(m, points, -1)
     history = arrays.history if arrays.history.shape[1] == points else np.zeros((m, points, 1))
-    left, element = _host.host_uvarm_pass(
+    left, element, point = _host.host_uvarm_pass(
         address, _padded(names), axes, counts, place, clock, arrays.labels, arrays.coords.T, svars.T, history.T, uvar.T
     )
-    return element if left else 0
+    return (element, point) if left else (0, 0)
 
 
-def sdvini(address: int, arrays: BlockArrays, statev: FloatArray, *, solid: bool) -> int:
-    """Call SDVINI at the points of a block; returns the element at which it ended the analysis, 0 if it did not.
+def sdvini(address: int, arrays: BlockArrays, statev: FloatArray, *, solid: bool) -> tuple[int, int]:
+    """Call SDVINI at the points of a block; returns element and point at which it ended the analysis, 0 if it did not.
 
     statev (m, points, NSTATV), contiguous, is changed; solid: built-in elements with integration points.
     """
-    left, element = _host.host_sdvini_pass(address, int(solid), arrays.labels, arrays.coords.T, statev.T)
-    return element if left else 0
+    left, element, point = _host.host_sdvini_pass(address, int(solid), arrays.labels, arrays.coords.T, statev.T)
+    return (element, point) if left else (0, 0)
 
 
 def user_values(address: int, asked: UserValues, values: FloatArray) -> int:

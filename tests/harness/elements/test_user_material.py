@@ -101,7 +101,10 @@ def test_xit_in_umat_and_uvarm(run):
         KernelError, match=r"element 1 \(type CPE4\): UMAT at integration point 1 stopped the analysis \(XIT\)"
     ):
         run(USER.format(2))
-    with pytest.raises(KernelError, match=r"element 99 \(type CPE4\): UVARM stopped the analysis \(XIT\)"):
+    message = (
+        r"element 99 \(type CPE4\): UVARM at integration point 1 stopped the analysis \(XIT\).* \(step 1, increment 2\)"
+    )
+    with pytest.raises(KernelError, match=message):
         run(USER.format(0), last=99)
 
 

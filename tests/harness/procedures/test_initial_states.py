@@ -142,3 +142,6 @@ def test_sdvini_is_needed(run, tmp_path):
 def test_sdvini_may_end_the_analysis(run):
     with pytest.raises(KernelError, match=r"element 66 \(type U1\): SDVINI stopped the analysis"):
         run(BY_SDVINI, other=66)
+    message = r"element 67 \(type CPS4\): SDVINI at integration point 3 stopped the analysis"
+    with pytest.raises(KernelError, match=message):
+        run(BY_SDVINI, SQUARE.replace("\n7,", "\n67,"), end=2)

@@ -17,10 +17,10 @@ def load(tmp_path):
     """Load a text as user routines; the file's name decides its form."""
     loaded = []
 
-    def load(text, name="user.f", *, deck=None):
+    def load(text, name="user.f", *, deck=None, output_dir=None):
         file = tmp_path / name
         file.write_text(text)
-        loaded.append(usersub.load(file, job="job", output_dir=tmp_path / "out", deck=deck))
+        loaded.append(usersub.load(file, job="job", output_dir=output_dir or tmp_path / "out", deck=deck))
         return loaded[-1]
 
     yield load

@@ -120,6 +120,24 @@ def test_names_of_the_job(load, tmp_path):
     assert (tmp_path / "out" / "made.txt").exists()
 
 
+@pytest.mark.parametrize(("declarations", "variable"), [("", "text"), ("      character*600 wide", "wide")])
+def test_output_folder_with_a_long_name(load, tmp_path, declarations, variable):
+    """CHARACTER*256 takes a part of it, with one warning; a longer variable takes all."""
+    folder = tmp_path / "/".join(["d" * 150, "e" * 150])
+    size = len(str(folder.resolve()))
+    body = f"      call getoutdir({variable},k)\n" + say("%I", "k")
+    loaded = load(program(body, declarations=declarations), output_dir=folder)
+    notes, warnings = [], []
+    for _ in range(2):
+        loaded.external_database(0, 0, (0.0, 0.0), 0.0, 0, 0)
+        messages = loaded.messages()
+        notes += [m.text for m in messages if m.kind == "note"]
+        warnings += [m.text for m in messages if m.kind == "warning"]
+    assert notes == [str(size if declarations else 256)] * 2
+    told = f"GETOUTDIR: the name of the output directory has {size} characters, of which the variable takes 256 "
+    assert [text.startswith(told) for text in warnings] == ([] if declarations else [True])
+
+
 def test_environment_variable(load, monkeypatch):
     monkeypatch.setenv("UEL_TEST", "value")
     assert said(load(program("      call getenvvar('UEL_TEST',text,k)\n      word = text\n" + say("%S %I", "k")))) == [
