@@ -2,15 +2,15 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Run Abaqus decks with Abaqus user elements, without Abaqus."""
 
-from typing import TYPE_CHECKING, Any
-
+# without imports: until `main` takes interrupts, Python shows a traceback
+TYPE_CHECKING = False
 if TYPE_CHECKING:
     from harness.job import run
 
 __all__ = ["run"]
 
 
-def __getattr__(name: str) -> Any:
+def __getattr__(name: str) -> object:
     """Load numpy and scipy where something is run: the command takes an interrupt from its first moment on."""
     if name != "run":
         raise AttributeError(f"module 'harness' has no attribute '{name}'")

@@ -10,13 +10,14 @@ if signal.getsignal(signal.SIGINT) is signal.default_int_handler:
     signal.signal(signal.SIGINT, signal.SIG_DFL)
 
 from harness.cli import main
+from harness.interrupts import take_interrupts
 
 
 def command() -> int:
     """Take interrupts, and run the command; returns the exit code."""
     if signal.getsignal(signal.SIGINT) is signal.SIG_DFL:
         try:
-            signal.signal(signal.SIGINT, signal.default_int_handler)
+            take_interrupts()
             return main()
         except KeyboardInterrupt:
             return 1

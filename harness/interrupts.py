@@ -4,12 +4,15 @@
 
 from __future__ import annotations
 
+import os
 import signal
 import threading
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from types import FrameType
 from typing import Any, Final
+
+from harness.errors import tell_error
 
 ENDS: Final = (signal.SIGINT, signal.SIGTERM, signal.SIGHUP)
 """From the keyboard, from a batch system, from a terminal that is closed."""
@@ -31,6 +34,20 @@ class Interrupted(KeyboardInterrupt):
 def describe_interrupt(signum: int) -> str:
     """What a signal did to a run: the end of a sentence."""
     return _WORDS[signal.Signals(signum)]
+
+
+def take_interrupts() -> None:
+    """Let SIGINT raise KeyboardInterrupt; within an import, which may make another error of it, end the process."""
+
+    def end(_: int, frame: FrameType | None) -> None:
+        while frame is not None:
+            if frame.f_code.co_filename.startswith("<frozen importlib"):
+                tell_error("interrupted")
+                os._exit(1)
+            frame = frame.f_back
+        raise KeyboardInterrupt
+
+    signal.signal(signal.SIGINT, end)
 
 
 class _State:
