@@ -47,6 +47,10 @@ def main(arguments: Sequence[str] | None = None) -> int:
         elif words[:1] == ["law"]:
             # properties may stand anywhere between the options
             words[1:] = sorted(words[1:], key=lambda word: word.startswith("-") or "=" not in word)
+        for word in words:
+            if word.startswith("-") and word.endswith("=--"):
+                # argparse takes two dashes away
+                parser.error(f"argument {word.removesuffix('=--')}: expected one argument, found '--'")
         options = parser.parse_args(words)
         # in this process where a program calls, or a debugger
         options.apart = arguments is None and not getattr(options, "same_process", True)

@@ -10,6 +10,7 @@ Nitsche's compliance.
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from itertools import pairwise
@@ -57,6 +58,10 @@ BACK: Final = 20
 Properties = Mapping[str, float]
 
 
+LARGEST: Final = 1 << 31
+"""What JPROPS do not hold."""
+
+
 def standard_properties() -> dict[str, float]:
     """Properties of the paper's interface (tables 1 and 2), of every element type."""
     mesh = two_arms(np.array([0.0, 1.0]), 1.0, 1, crack=0.0)
@@ -65,7 +70,9 @@ def standard_properties() -> dict[str, float]:
 
 def given_properties(words: Iterable[str]) -> dict[str, float]:
     """Properties from words NAME=VALUE; blanks in a name as in the layout. UelError names what is not known."""
-    known = {item.name for layout in element_layouts().values() for item in (*layout.reals, *layout.integers)}
+    layouts = element_layouts().values()
+    integers = {item.name for layout in layouts for item in layout.integers}
+    known = integers | {item.name for layout in layouts for item in layout.reals}
     given = {}
     for word in words:
         name, equals, value = word.upper().partition("=")
@@ -74,7 +81,11 @@ def given_properties(words: Iterable[str]) -> dict[str, float]:
         try:
             given[name] = float(value)
         except ValueError:
-            raise UsageError(f"'{word}': '{value}' is no number") from None
+            given[name] = math.nan
+        if not math.isfinite(given[name]):
+            raise UsageError(f"'{word}': '{value}' is no number")
+        if name in integers and not (given[name].is_integer() and abs(given[name]) < LARGEST):
+            raise UsageError(f"'{word}': '{value}' is no whole number below {LARGEST}")
     return given
 
 
@@ -253,6 +264,9 @@ def opening(
 
 def reach_of(library: Library, values: Properties, angle: float) -> float:
     """Separation at an angle (degrees) at which a thousandth of the strength is left of the traction."""
+    for name in ("SIGMAMAX", "TAUMAX", "GIC", "GIIC"):
+        if not values[name] > 0.0:
+            raise UelError(f"{name} = {values[name]:g}: expected a number above 0, from which the reach follows")
     direction = np.array([np.cos(np.radians(angle)), np.sin(np.radians(angle))])
     stiff = {name: values[name] or RIGID * values["SIGMAMAX"] ** 2 / values["GIC"] for name in ("ALPHAN", "ALPHAT")}
     # in one increment, which viscosity would hold back

@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """The command: exit codes, messages without tracebacks, Abaqus' spelling, and what a killed run leaves."""
 
+import os
 import re
 import subprocess
 import sys
@@ -244,6 +245,8 @@ def test_missing_deck(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> Non
         ("run a.inp --call-limit nan", "--call-limit: expected a number of 0 or more, found 'nan'"),
         ("run a.inp --call-limit inf", "--call-limit: expected a number of 0 or more, found 'inf'"),
         ("run a.inp --call-limit=-1", "--call-limit: expected a number of 0 or more, found '-1'"),
+        ("run a.inp --call-limit=--", "--call-limit: expected one argument, found '--'"),
+        ("run a.inp --user=--", "--user: expected one argument, found '--'"),
         ("check a.inp --seed 0", "--seed: expected a whole number from 1, found '0'"),
         ("check a.inp --seed 99999999999999", "--seed: expected a whole number from 1, found '99999999999999'"),
         ("check a.inp --increments 1.5", "--increments: expected a whole number from 1, found '1.5'"),
@@ -260,6 +263,10 @@ def test_numbers_that_make_no_sense(words: str, expected: str, capsys: pytest.Ca
     ("words", "message"),
     [
         ("law GIC=much", "'GIC=much': 'MUCH' is no number"),
+        ("law GIC=nan", "'GIC=nan': 'NAN' is no number"),
+        ("law LAW=1e400", "'LAW=1e400': '1E400' is no number"),
+        ("law LAW=1.5", "'LAW=1.5': '1.5' is no whole number below 2147483648"),
+        ("law LAW=99999999999999999999", "is no whole number below 2147483648"),
         ("new 1st", "'1st' cannot be the name of an element"),
         ("check a.inp --skip tangents", "no check is called 'tangents'"),
     ],
@@ -271,6 +278,12 @@ def test_words_that_are_not_known(
     monkeypatch.chdir(tmp_path)
     assert main(words.split()) == 2
     assert message in capsys.readouterr().err
+
+
+@pytest.mark.parametrize("name", ["SIGMAMAX", "TAUMAX", "GIC", "GIIC"])
+def test_law_without_a_strength(name: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["law", f"{name}=0", "--output-dir", str(tmp_path)]) == 1
+    assert f"uel: {name} = 0: expected a number above 0, from which the reach follows" in capsys.readouterr().err
 
 
 def test_solver_that_is_not_known(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
@@ -292,6 +305,41 @@ def test_command_loads_little_before_it_can_be_interrupted() -> None:
     )
     result = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True, check=True)
     assert result.stdout == "[]\n"
+
+
+def test_package_loads_nothing_before_interrupts_are_taken() -> None:
+    """`harness.__main__` lets them end the process, but `harness` comes first."""
+    program = "import sys; before = set(sys.modules); import harness; print(sorted(set(sys.modules) - before))"
+    # an editable installation has a finder that loads more
+    result = subprocess.run(
+        [sys.executable, "-S", "-c", program], capture_output=True, text=True, check=True, cwd=Path(__file__).parents[2]
+    )
+    assert result.stdout == "['harness']\n"
+
+
+@pytest.mark.parametrize("late", [False, True], ids=["within an import", "elsewhere"])
+def test_interrupt_within_an_import_ends_the_process(tmp_path: Path, late: bool) -> None:
+    """There it would come out as any error, or with a traceback of Python's own."""
+    (tmp_path / "slow.py").write_text(
+        "import os, signal\n"
+        "def interrupt(): os.kill(os.getpid(), signal.SIGINT); sum(range(1000))\n"
+        "class Odd:\n"
+        "    def __set_name__(self, owner, name):\n"
+        f"        {'pass' if late else 'interrupt()'}\n"
+        "class Owner: odd = Odd()\n"
+    )
+    program = (
+        "import sys; from harness.interrupts import take_interrupts; take_interrupts()\n"
+        "try:\n    import slow; slow.interrupt()\n"
+        "except KeyboardInterrupt: print('caught', flush=True); sys.exit(3)\n"
+    )
+    environment = {**os.environ, "PYTHONPATH": str(tmp_path)}
+    command = [sys.executable, "-c", program]
+    result = subprocess.run(command, capture_output=True, text=True, check=False, env=environment)
+    if late:
+        assert (result.returncode, result.stdout) == (3, "caught\n")
+    else:
+        assert (result.returncode, result.stdout, result.stderr) == (1, "", "uel: interrupted\n")
 
 
 def test_solvers(capsys: pytest.CaptureFixture[str]) -> None:
