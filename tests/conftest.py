@@ -1,8 +1,18 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""Examples of hypothesis: the same in every run, whatever the machine; others with --hypothesis-profile=other."""
+"""What the tests take from their surroundings: nothing.
+
+Examples of hypothesis are the same in every run, whatever the machine; others with --hypothesis-profile=other.
+"""
+
+import signal
 
 from hypothesis import settings
+
+# they come ignored in the background of a shell and behind nohup, and runs that tests interrupt would not end
+for each, handler in {signal.SIGINT: signal.default_int_handler, signal.SIGHUP: signal.SIG_DFL}.items():
+    if signal.getsignal(each) == signal.SIG_IGN:
+        signal.signal(each, handler)
 
 # no deadline: another program may take the processor for a while
 settings.register_profile("same", deadline=None, derandomize=True)

@@ -95,3 +95,10 @@ def test_the_page_takes_rows(matrix: ModuleType) -> None:
     columns = next(line for line in page.split(matrix.BEGIN)[0].splitlines() if line.startswith("| Python"))
     assert columns.count("|") == 9
     assert "| 1 | `make a` |" in matrix.written(page, "| 1 | `make a` |")
+
+
+def test_in_the_background_interrupts_are_taken() -> None:
+    """Of a shell, or behind nohup, where SIGINT and SIGHUP come ignored: runs that tests interrupt would never end."""
+    code = "import conftest, signal as s; print(*(s.getsignal(n) is s.SIG_IGN for n in (s.SIGINT, s.SIGHUP)))"
+    ignoring = ["sh", "-c", 'trap "" INT HUP; exec "$@"', "sh", sys.executable, "-c", code]
+    assert subprocess.run(ignoring, cwd=HERE, capture_output=True, text=True, check=True).stdout == "False False\n"
