@@ -77,7 +77,8 @@ RIGHT = {
     "      svars(1) = max(svars(1), min(10*abs(eps), 0.5d0))",
     "viscous damage": VISCOUS_DAMAGE,
     "Kelvin, with constants for the state at the start": "old = svars(1)\n"
-    "      if (kstep == 1 .and. kinc <= 1) old = 0\n      s = 100*eps + 5*per*(eps - old)\n      t = 100 + 5*per\n      svars(1) = eps",
+    "      if (kstep == 1 .and. kinc <= 1) old = 0\n"
+    "      s = 100*eps + 5*per*(eps - old)\n      t = 100 + 5*per\n      svars(1) = eps",
     "Kelvin, which needs a state in SVARS after the first increment": "old = svars(1) - 1\n"
     "      if (kstep == 1 .and. kinc <= 1) old = 0\n      if (old == -1) call xit\n"
     "      s = 100*eps + 5*per*(eps - old)\n      t = 100 + 5*per\n      svars(1) = eps + 1",
