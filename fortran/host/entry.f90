@@ -11,6 +11,7 @@ subroutine host_evaluate(address, material, tensor, jtype, symmetric, want_matri
                          ndofel, nsvars, nprops, njprop, mcrd, nnode, m, n, nrhs, nnz, values, points, most, nfield, nrate, &
                          mload, mfield)
   use, intrinsic :: iso_c_binding, only: c_funptr, c_intptr_t
+  use host_context, only: initial_stresses
   use host_driver, only: block_t, run_block
   use host_kinds, only: dp, i4, i8
   implicit none (type, external)
@@ -44,7 +45,7 @@ subroutine host_evaluate(address, material, tensor, jtype, symmetric, want_matri
   block%jtype = jtype
   block%symmetric = symmetric /= 0
   block%want_matrix = want_matrix /= 0
-  block%want_residual = any(lflags(3) == [1, 5, 6, 100])
+  block%want_residual = any(lflags(3) == [1_i4, 5_i4, 6_i4, 100_i4, initial_stresses])
   block%kstep = kstep
   block%kinc = kinc
   block%guards = guards
@@ -233,6 +234,17 @@ subroutine host_compliance(constants, compliance)
   real(dp), intent(out) :: compliance(6, 6)
   compliance = compliance_of(constants)
 end subroutine host_compliance
+
+!> Give points of a material that is not of UMAT a history for initial stresses.
+subroutine host_set_prestressed(number)
+  use host_kinds, only: i4
+  use host_materials, only: find_material, material_t
+  implicit none (type, external)
+  integer(i4), intent(in) :: number
+  type(material_t), pointer :: material
+  material => find_material(number)
+  material%prestressed = .true.
+end subroutine host_set_prestressed
 
 !> Let the elastic constants of a material depend on temperature and field variables.
 subroutine host_set_dependence(number, constants, turn, table, rows, columns)

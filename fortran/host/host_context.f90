@@ -5,7 +5,10 @@ module host_context
   use host_kinds, only: dp, i4
   implicit none (type, external)
   private
-  public :: call_context, current, heat_t, job_name, names_cut, output_directory
+  public :: call_context, current, heat_t, initial_stresses, job_name, names_cut, output_directory
+
+  !> LFLAGS(3) of the host's own pass before an analysis, in which built-in elements take the stresses that SVARS hold.
+  integer(i4), parameter :: initial_stresses = -1
 
   !> What UMAT says about heat at the end of the increment; directions of the stresses, shear strains twice.
   type :: heat_t

@@ -12,6 +12,7 @@
 !> transfer analysis).
 module host_coupled
   use core_small_matrix, only: invert
+  use host_context, only: initial_stresses
   use host_coupling, only: coupling_t, thermal_points
   use host_kinds, only: dp, i4
   use host_shape, only: radius_of, rule_of, rule_t
@@ -46,7 +47,7 @@ contains
                        predef, npredf, lflags, jprops, materiallib, coupling)
     rhs(:n) = force
     amatrx(:n, :n) = stiffness
-    if (lflags(3) == 3 .or. lflags(3) == 4) return
+    if (any(lflags(3) == [3_i4, 4_i4, initial_stresses])) return
     now = coords
     if (lflags(2) /= 0) now = now + reshape(u(:n), [int(mcrd), int(nnode)])
     associate (t => u(n + 1:), dt => du(n + 1:), thickness => merge(props(1), 1.0_dp, mcrd == 2), axisymmetric => jprops(2) > mcrd)

@@ -3,7 +3,7 @@
 !> The element loop: one pass over a block of like elements, with gather, guards, checks and scatter.
 module host_driver
   use, intrinsic :: iso_c_binding, only: c_f_pointer, c_f_procpointer, c_funloc, c_funptr, c_loc, c_ptr
-  use host_context, only: current
+  use host_context, only: current, initial_stresses
   use host_interfaces, only: uel_procedure, uelmat_procedure
   use host_kinds, only: dp, i4, i8
   use host_protect, only: begin_call, protect
@@ -262,11 +262,11 @@ contains
     end associate
   end subroutine call_element
 
-  !> Calls whose SVARS and ENERGY are kept: the normal one, and that for the initial acceleration, as the example of UEL in
-  !> the User Subroutines Guide needs for the forces at the start of the first increment.
+  !> Calls whose SVARS and ENERGY are kept: the normal one, that for initial stresses, and that for the initial acceleration,
+  !> as the example of UEL in the User Subroutines Guide needs for the forces at the start of the first increment.
   elemental logical function keeps_state(request)
     integer(i4), intent(in) :: request   !< LFLAGS(3)
-    keeps_state = request == 1 .or. request == 6
+    keeps_state = any(request == [1_i4, 6_i4, initial_stresses])
   end function keeps_state
 
   !> The call itself; scalars are copies, so that a user routine that changes them changes nothing else.

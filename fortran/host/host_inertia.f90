@@ -5,6 +5,7 @@
 !> In dynamic steps the operator of Hilber, Hughes and Taylor needs the forces of the last two increments: they are kept
 !> as state, as in the example of UEL in the Abaqus User Subroutines Guide.
 module host_inertia
+  use host_context, only: initial_stresses
   use host_kinds, only: dp, i4
   use host_shape, only: radius_of, rule_of, rule_t
   implicit none (type, external)
@@ -73,7 +74,7 @@ contains
     real(dp) :: force(n), alpha
     logical :: dynamic
     dynamic = is_dynamic(lflags(1))
-    if (any(lflags(3) == [1, 6])) then
+    if (any(lflags(3) == [1_i4, 6_i4, initial_stresses])) then
       old(:, 2) = merge(rhs, old(:, 1), lflags(3) == 6)
       force = old(:, 1)
       old(:, 1) = rhs

@@ -13,7 +13,8 @@ module host_kinematics
   use host_shape, only: radius_of, rule_of, rule_t
   implicit none (type, external)
   private
-  public :: gradients, mean_gradients, strain_matrix, average_volume_strain, point_position, rotation_of, rotated
+  public :: components, gradients, mean_gradients, strain_matrix, average_volume_strain, point_position, rotation_of, &
+            rotated
 
 contains
 
@@ -145,6 +146,14 @@ contains
       end do
     end do
   end subroutine average_volume_strain
+
+  !> Places of m strains (three in the plane: 11, 22, 12) among n components.
+  pure function components(m, n) result(place)
+    integer, intent(in) :: m, n
+    integer :: place(m), k
+    place = [(k, k=1, m)]
+    if (m == 3 .and. n > 3) place(3) = 4
+  end function components
 
   !> Coordinates of an integration point.
   function point_position(points, point, x) result(place)

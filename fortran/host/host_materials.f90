@@ -8,7 +8,7 @@ module host_materials
   use host_context, only: current
   use host_dependence, only: dependence_t, elastic_matrices
   use host_kinds, only: dp, i4
-  use host_kinematics, only: rotated
+  use host_kinematics, only: components, rotated
   use host_messages, only: add_message
   use host_mises, only: mises_plane_stress, mises_solid
   use host_protect, only: escape
@@ -19,7 +19,8 @@ module host_materials
   public :: material_t, define, find_material, stress_update, elastic_energy, thickness_strain, history_values, &
             has_fields, set_constants
 
-  !> Values of the history of a point of a plastic material: plastic strain (6), equivalent plastic strain.
+  !> Values of the history of a point of a plastic or prestressed material: strain without stress (6), which is the plastic
+  !> one less the elastic one of the initial stress, and equivalent plastic strain.
   integer, parameter :: history_values = 7
 
   !> PNEWDT where the equations of a point are not solved: as Abaqus cuts back where an increment diverges.
@@ -34,6 +35,7 @@ module host_materials
     logical :: turned = .false.                    !< axes are not the global ones
     real(dp), allocatable :: yield(:, :)           !< (k, 2) yield stress, plastic strain; absent: elastic
     real(dp) :: young = 0, poisson = 0             !< of a plastic material, which is isotropic
+    logical :: prestressed = .false.               !< it has a history for initial stresses
     real(dp) :: expansion = 0                      !< thermal strain per change of temperature
     type(user_material_t), allocatable :: user     !< of UMAT; then nothing above counts but ntens
     integer :: variables = 0                       !< field variables, at least
@@ -112,19 +114,13 @@ contains
     real(dp), intent(out) :: tangent(material%ntens, material%ntens)
     logical, intent(out) :: valid
     real(dp) :: old(history_values)
-    integer :: i, j, n
+    integer :: n
     logical :: solved
     character(len=120) :: text
     valid = .true.
     n = material%ntens
-    if (.not. (allocated(material%yield) .or. allocated(material%user))) then
-      stress = 0
-      do j = 1, n
-        do i = 1, n
-          tangent(i, j) = material%stiffness(i, j)
-          stress(i) = stress(i) + material%stiffness(i, j)*strain(j)
-        end do
-      end do
+    if (.not. (allocated(material%yield) .or. allocated(material%user) .or. material%prestressed)) then
+      call linear(material, strain, stress, tangent)
       return
     end if
     valid = associated(current%history)
@@ -139,7 +135,10 @@ contains
     ! plastic strains turn with the material
     if (current%finite) old(:6) = rotated(6, old(:6), current%rotation, 2.0_dp)
     associate (new => current%history_trial(:, point))
-      if (n == 3) then
+      if (.not. allocated(material%yield)) then
+        new(:history_values) = old
+        call linear(material, strain - old(components(n, 6)), stress, tangent)
+      else if (n == 3) then
         call mises_plane_stress(material%young, material%poisson, material%yield, old, strain, stress, tangent, new, solved)
         if (.not. solved) then
           write (text, '(a,i0)') '*PLASTIC: the return to the yield surface is not solved at integration point ', point
@@ -151,6 +150,21 @@ contains
       end if
     end associate
   end subroutine stress_update
+
+  !> Linear elasticity.
+  pure subroutine linear(material, strain, stress, tangent)
+    type(material_t), intent(in) :: material
+    real(dp), intent(in) :: strain(material%ntens)
+    real(dp), intent(out) :: stress(material%ntens), tangent(material%ntens, material%ntens)
+    integer :: i, j
+    stress = 0
+    do j = 1, material%ntens
+      do i = 1, material%ntens
+        tangent(i, j) = material%stiffness(i, j)
+        stress(i) = stress(i) + material%stiffness(i, j)*strain(j)
+      end do
+    end do
+  end subroutine linear
 
   !> Elastic strain energy per volume, after stress_update of the point.
   real(dp) function elastic_energy(material, point, stress)
@@ -176,6 +190,6 @@ contains
     integer(i4), intent(in) :: point
     real(dp), intent(in) :: stress(3)
     thickness_strain = dot_product(material%thickness, stress)
-    if (allocated(material%yield)) thickness_strain = thickness_strain + current%history_trial(3, point)
+    if (allocated(material%yield) .or. material%prestressed) thickness_strain = thickness_strain + current%history_trial(3, point)
   end function thickness_strain
 end module host_materials

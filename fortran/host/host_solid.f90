@@ -20,13 +20,14 @@
 !> increments.
 module host_solid
   use core_small_matrix, only: cofactors, determinant
-  use host_context, only: current
+  use host_context, only: current, initial_stresses
   use host_coupling, only: add_heat_source, coupling_t, set_temperature
   use host_hourglass, only: has_hourglass_modes, resist_hourglass
   use host_inertia, only: is_dynamic, mass_matrix, respond
+  use host_initial_stress, only: begin_point
   use host_kinds, only: dp, i4
-  use host_kinematics, only: average_volume_strain, gradients, mean_gradients, point_position, rotated, rotation_of, &
-                             strain_matrix
+  use host_kinematics, only: average_volume_strain, components, gradients, mean_gradients, point_position, rotated, &
+                             rotation_of, strain_matrix
   use host_materials, only: elastic_energy, find_material, has_fields, material_t, set_constants, stress_update, thickness_strain
   use host_shape, only: radius_of, rule_of, rule_t
   use host_usdfld, only: call_usdfld
@@ -74,8 +75,8 @@ contains
     rhs(1:n*nrhs) = 0
     amatrx(1:n*n) = 0
     if (lflags(3) /= 3 .and. lflags(3) /= 4) then
-      call integrate(dim, direct, direct + 2*dim - 3, nodes, points, lflags(2) /= 0, material, props(1), props(3), &
-                     jprops(3) /= 0, coords, int(npredf), predef, u, du, rhs, amatrx, svars, energy, &
+      call integrate(dim, direct, direct + 2*dim - 3, nodes, points, lflags(3) == initial_stresses, lflags(2) /= 0, material, &
+                     props(1), props(3), jprops(3) /= 0, coords, int(npredf), predef, u, du, rhs, amatrx, svars, energy, &
                      coupling)
     end if
     call respond(n, lflags, params, dtime, v, a, mass, old, rhs, amatrx, energy(1))
@@ -88,11 +89,11 @@ contains
     values_of_point = merge(8, 12, dim == 2)
   end function values_of_point
 
-  !> Force, tangent, state and energies.
-  subroutine integrate(dim, direct, strains, nodes, points, finite, material, thickness, hourglass, enhanced, x, fields, &
-                       predef, u, du, force, stiffness, svars, energy, coupling)
+  !> Force, tangent, state and energies; begins: of the initial stresses, without a tangent.
+  subroutine integrate(dim, direct, strains, nodes, points, begins, finite, material, thickness, hourglass, enhanced, x, &
+                       fields, predef, u, du, force, stiffness, svars, energy, coupling)
     integer, intent(in) :: dim, direct, strains, nodes, points, fields
-    logical, intent(in) :: finite, enhanced
+    logical, intent(in) :: begins, finite, enhanced
     type(material_t), intent(inout) :: material
     real(dp), intent(in) :: thickness, hourglass, x(dim, nodes), predef(2, fields, nodes), u(dim, nodes), du(dim, nodes)
     real(dp), intent(inout) :: force(dim*nodes), stiffness(dim*nodes, dim*nodes), svars(values_of_point(dim), points)
@@ -133,7 +134,7 @@ contains
         call interpolate(dim, nodes, points, p, fields, predef, material%variables)
         if (present(coupling)) call set_temperature(coupling, dim, direct, points, p, now)
       end if
-      if (allocated(material%user_field)) then
+      if (allocated(material%user_field) .and. .not. begins) then
         call call_usdfld(material%user_field, material%ntens, int(p, i4), material%axes, svars(:, p))
       end if
       if (allocated(material%dependence)) call set_constants(material, p)
@@ -146,10 +147,16 @@ contains
         call find_strain(dim*nodes, strains, b(:, :, p), u, strain)
       end if
       weight = volume(p)*merge(thickness, 1.0_dp, dim == 2)
-      call point_update(dim, strains, material, int(p, i4), weight, finite, strain, thermal, svars(:, p), stress, modulus, &
-                        elastic, work)
+      if (begins) then
+        call begin_point(material, int(p, i4), weight, svars(:, p), stress, elastic)
+        modulus = 0
+        work = elastic
+      else
+        call point_update(dim, strains, material, int(p, i4), weight, finite, strain, thermal, svars(:, p), stress, modulus, &
+                          elastic, work)
+      end if
       if (finite .and. material%ntens == 3) weight = weight*exp(svars(3, p))
-      if (present(coupling) .and. allocated(material%user)) then
+      if (present(coupling) .and. allocated(material%user) .and. .not. begins) then
         call add_heat_source(coupling, weight, b(:, :, p), components(strains, material%ntens))
       end if
       if (finite) call add_geometric(dim, direct, strains, nodes, g(:, :, p), stress, weight, modulus, stiffness)
@@ -316,14 +323,6 @@ contains
       end do
     end do
   end subroutine find_deformation
-
-  !> Places of m strains (three in the plane: 11, 22, 12) among n components.
-  pure function components(m, n) result(place)
-    integer, intent(in) :: m, n
-    integer :: place(m), k
-    place = [(k, k=1, m)]
-    if (m == 3 .and. n > 3) place(3) = 4
-  end function components
 
   !> Stress and tangent of a point (11, 22, 12 in the plane); its state and its part of the energies. strain is the total
   !> one in small displacements, that of the increment in large ones; thermal: at the start and end of the increment.

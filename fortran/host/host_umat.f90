@@ -12,10 +12,10 @@ module host_umat
   use host_kinematics, only: rotated
   implicit none (type, external)
   private
-  public :: user_material_t, call_umat, direct_components, head, outputs, strain_energy
+  public :: user_material_t, call_umat, direct_components, head, outputs, strain_energy, stress_place
 
-  !> Values of the history before STATEV, and among them the place of SSE.
-  integer, parameter :: head = 15, strain_energy = 13
+  !> Values of the history before STATEV, and among them the places of STRESS and SSE.
+  integer, parameter :: head = 15, stress_place = 7, strain_energy = 13
 
   !> Arrays that UMAT writes to.
   integer, parameter :: outputs = 5
@@ -79,7 +79,7 @@ contains
     character(len=len(current%routine)) :: routine
     call c_f_procpointer(material%umat, umat)
     stran = old(:ntens)
-    stress = old(7:6 + ntens)
+    stress = old(stress_place:stress_place + ntens - 1)
     call lay_out_guarded(work, [ntens, ntens**2, ntens, ntens, size(new) - head])
     drot = identity
     dfgrd0 = identity
@@ -146,6 +146,6 @@ contains
     current%routine = routine
     current%pnewdt = min(current%pnewdt, pnewdt)
     new(:ntens) = strain
-    new(7:6 + ntens) = stress
+    new(stress_place:stress_place + ntens - 1) = stress
   end subroutine call_umat
 end module host_umat

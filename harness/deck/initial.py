@@ -13,13 +13,16 @@ from harness.deck.blocks import Block
 from harness.deck.flatten import FlatMesh
 from harness.deck.problems import Problems
 from harness.deck.user_elements import LARGEST_DOF
-from harness.model.steps import InitialSolution, InitialValue
+from harness.model.steps import InitialSolution, InitialStress, InitialValue
 
 TEMPERATURE = 11
 """First of the dofs that are temperatures."""
 
 
 MOST_FIELDS = 1000
+
+MOST_COMPONENTS = 6
+"""Components of a stress."""
 
 
 def field_number(block: Block) -> int:
@@ -41,6 +44,8 @@ def read_initial_values(blocks: Iterable[Block], kind: str, flat: FlatMesh, prob
             continue
         if block.options.flag("USER"):
             problems.add(block.source, "*INITIAL CONDITIONS: USER is for TYPE=SOLUTION")
+        if block.options.given("UNBALANCED STRESS") or block.options.flag("GEOSTATIC"):
+            problems.add(block.source, "*INITIAL CONDITIONS: GEOSTATIC and UNBALANCED STRESS are for TYPE=STRESS")
         for row in block.rows():
             with problems.gather():
                 nodes = flat.nodes(row.name(0, "node or node set"), row.source)
@@ -58,6 +63,37 @@ def read_initial_values(blocks: Iterable[Block], kind: str, flat: FlatMesh, prob
                     values = {TEMPERATURE + k: row.real(1 + k, "temperature", 0.0) for k in range(count)}
                 found += [InitialValue(nodes, dof, value, row.source) for dof, value in values.items()]
     return found
+
+
+def read_initial_stresses(blocks: Iterable[Block], flat: FlatMesh, problems: Problems) -> list[InitialStress]:
+    """Entries of all *INITIAL CONDITIONS, TYPE=STRESS: element or set and components of the stress."""
+    found: list[InitialStress] = []
+    for block in blocks:
+        if block.name != "INITIAL CONDITIONS" or block.options.text("TYPE") != "STRESS":
+            continue
+        with problems.gather():
+            _check_stress(block)
+            # UNBALANCED STRESS=RAMP is the default (Keywords Guide, *INITIAL CONDITIONS)
+            ramped = block.options.text("UNBALANCED STRESS") != "STEP"
+            if found and found[0].ramped != ramped:
+                raise block.error(f"UNBALANCED STRESS is one for the whole model, and another at {found[0].source}")
+            for row in block.rows():
+                row.at_most(1 + MOST_COMPONENTS)
+                elements = flat.elements(row.name(0, "element or element set"), row.source)
+                values = np.array([row.real(k, "stress", 0.0) for k in range(1, len(row))])
+                found.append(InitialStress(elements, values, ramped, row.source))
+    return found
+
+
+def _check_stress(block: Block) -> None:
+    """Refuse what gives stresses in other ways. Raises DeckError."""
+    expected = "expected the components of the stress after each element or set"
+    if block.options.flag("GEOSTATIC"):
+        raise block.error(f"GEOSTATIC: stresses that vary with the elevation are not supported; {expected}")
+    if block.options.flag("USER"):
+        raise block.error(f"USER: SIGINI is not called; {expected}")
+    if not any(True for _ in block.rows()):
+        raise block.error(f"TYPE=STRESS has no data lines; {expected}")
 
 
 def read_initial_solutions(blocks: Iterable[Block], flat: FlatMesh, problems: Problems) -> list[InitialSolution]:

@@ -219,19 +219,28 @@ INITIAL = (
                 Kind.CHOICE,
                 "what is given; TEMPERATURE is for dof 11 and a predefined field",
                 required=True,
-                choices=("VELOCITY", "TEMPERATURE", "FIELD", "SOLUTION"),
+                choices=("VELOCITY", "TEMPERATURE", "FIELD", "SOLUTION", "STRESS"),
                 refused=(
                     *("ACOUSTIC STATIC PRESSURE", "CONCENTRATION", "HARDENING", "PLASTIC STRAIN"),
                     *("PORE PRESSURE", "RATIO", "REF COORDINATE", "ROTATING VELOCITY", "SATURATION"),
-                    *("SPECIFIC ENERGY", "STRESS", "UNBALANCED STRESS"),
+                    "SPECIFIC ENERGY",
                 ),
             ),
             Option("INPUT", Kind.FILE, "file that holds the data lines"),
             Option("VARIABLE", Kind.INTEGER, "number of the field variable (1)"),
             Option("USER", doc="state variables by SDVINI, with TYPE=SOLUTION"),
-            *refused("FILE", "GEOSTATIC", "REBAR", "SECTION POINTS", "UNBALANCED STRESS"),
+            Option("GEOSTATIC", doc="stresses by elevation: refused, with TYPE=STRESS"),
+            Option(
+                "UNBALANCED STRESS",
+                Kind.CHOICE,
+                "what of initial stresses is not in equilibrium takes effect in the course of the first step (RAMP, "
+                "the default) or at once",
+                choices=("RAMP", "STEP"),
+            ),
+            *refused("FILE", "REBAR", "SECTION POINTS"),
         ),
         "node or set, dof, velocity; or node or set, temperatures of dofs 11, 12, ...; or node or set, value of field; "
-        "or element or set, state variables",
+        "or element or set, state variables; or element or set, stress components of a built-in continuum element (11, "
+        "22, 33, 12, 13, 23; 11, 22, 12 in plane stress), in the directions of *ORIENTATION",
     ),
 )

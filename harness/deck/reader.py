@@ -13,7 +13,7 @@ from harness.deck.constraints import ConstraintReader
 from harness.deck.damage import read_controls
 from harness.deck.flatten import FlatMesh
 from harness.deck.groups import make_groups
-from harness.deck.initial import read_initial_solutions, read_initial_values
+from harness.deck.initial import read_initial_solutions, read_initial_stresses, read_initial_values
 from harness.deck.lexer import read_blocks
 from harness.deck.prescribed import Prescription, read_equations
 from harness.deck.problems import Problems
@@ -56,6 +56,7 @@ def read_deck(path: Path) -> Model:
         tuple(read_initial_values(structure.root, kind, flat, problems)) for kind in kinds
     )
     solutions = read_initial_solutions(structure.root, flat, problems)
+    stresses = read_initial_stresses(structure.root, flat, problems)
     equations = read_equations(flat, problems)
     constraints = ConstraintReader(flat, groups, problems)
     steps = read_steps(structure.steps, prescription, RequestReader(flat, problems), problems)
@@ -76,6 +77,7 @@ def read_deck(path: Path) -> Model:
         initial_temperatures=temperatures,
         initial_fields=fields,
         initial_solutions=tuple(solutions),
+        initial_stresses=tuple(stresses),
         ignored=tuple(structure.ignored),
         warnings=problems.warnings,
     )

@@ -26,6 +26,8 @@ from harness.usersub.faults import Entries, Fault, Guards
 NORMAL: Final = 1
 MASS: Final = 4
 """LFLAGS(3) of a normal call, and of one for the mass matrix."""
+INITIAL_STRESSES: Final = -1
+"""That of the host's own pass for initial stresses (fortran/host/host_context.f90)."""
 
 _PLASTIC: Final = 3
 """Index of ENERGY(4)."""
@@ -101,8 +103,7 @@ class Block:
     @property
     def elastic(self) -> bool:
         """Whether it is of built-in elements whose state is linear in the displacements where these are small."""
-        procedure = self._procedure
-        return self.group.definition is None and procedure.material > 0 and procedure.history[0] == 1
+        return self._procedure.linear
 
     def bind(self, equations: NDArray[np.int32], scatter: NDArray[np.int32]) -> None:
         """Tell where the unknowns are.
@@ -263,6 +264,25 @@ class Block:
         state[rows, :, : len(values)] = values
         self._begin(state)
 
+    def set_stress(self, rows: IntArray, values: FloatArray) -> None:
+        """Initial stress at all points of elements (rows of the block); `begin_stressed` lets the material take it.
+
+        Raises ValueError where the elements take none, or have fewer components; zeros beyond those are left out.
+        """
+        try:
+            self._procedure.set_stress(self._arrays.svars, rows, values)
+        except ValueError as error:
+            raise ValueError(f"elements of type {self.group.type} {error}") from None
+
+    def begin_stressed(self, call: Call, u: FloatArray, residual: FloatArray) -> None:
+        """Let the material take the stresses of `set_stress`, and add minus their nodal forces into residual (n,).
+
+        Raises KernelError.
+        """
+        lflags = (call.lflags[0], 0, INITIAL_STRESSES, 0, 0)
+        self.evaluate(replace(call, lflags=lflags), u, np.zeros_like(u), residual, None)
+        self._keep_trial()
+
     def call_sdvini(self, address: int) -> None:
         """Let SDVINI set the initial state. Raises KernelError where it ends the analysis."""
         state = np.ascontiguousarray(self._initial_state())
@@ -290,13 +310,18 @@ class Block:
 
         Raises KernelError where UVARM ends the analysis.
         """
+        self._keep_trial()
+        arrays = self._arrays
+        self._watch.state(self._last, arrays.svars, arrays.energy)
+        if self._uvar is not None and self._last is not None:
+            self._call_uvarm(self._last, self._uvar)
+
+    def _keep_trial(self) -> None:
+        """The state of the last pass that keeps one becomes the committed one."""
         arrays = self._arrays
         arrays.svars[:] = arrays.svars_trial
         arrays.energy[:] = arrays.energy_trial
         arrays.history[:] = arrays.history_trial
-        self._watch.state(self._last, arrays.svars, arrays.energy)
-        if self._uvar is not None and self._last is not None:
-            self._call_uvarm(self._last, self._uvar)
 
     def state(self, index: int) -> ElementState:
         """Committed state, copied; index: of the group in the model."""

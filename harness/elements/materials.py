@@ -29,7 +29,7 @@ class Tensor(IntEnum):
 
 
 HISTORY_VALUES: Final = 7
-"""Values of the history of a point of a plastic material (fortran/host/host_materials.f90)."""
+"""Values of the history of a point of a plastic or prestressed material (fortran/host/host_materials.f90)."""
 USER_HISTORY_VALUES: Final = 15
 """Those of a point of a user material besides STATEV (fortran/host/host_umat.f90)."""
 
@@ -47,11 +47,12 @@ _COUNTS: Final = {
 }
 
 
-def history_values(material: Material) -> int:
-    """Values of the history of a point; 1 for a material without one."""
+def history_values(material: Material, *, prestressed: bool = False) -> int:
+    """Values of the history of a point, which may have an initial stress; 1 for a material without one."""
     if material.user is not None:
         return USER_HISTORY_VALUES + state_variables(material)
-    return (1 if material.plastic is None else HISTORY_VALUES) + state_variables(material)
+    kept = material.plastic is not None or prestressed
+    return (HISTORY_VALUES if kept else 1) + state_variables(material)
 
 
 def state_variables(material: Material) -> int:

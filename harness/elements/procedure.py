@@ -6,6 +6,8 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
+import numpy as np
+
 from harness.model.arrays import FloatArray, IntArray
 
 
@@ -22,6 +24,9 @@ class Procedure:
     tensor    stress components of the material: 3 plane stress, 4 plane strain, 6 three-dimensional; 0 without one
     mcrd      coordinates per node
     damages   ENERGY(4) is dissipated by damage, not by plasticity
+    linear    the state of built-in elements is linear in the displacements where these are small
+    stress    places of the stress components of a point, in Abaqus' order, among its SVARS, of which the last one is
+              S12 or S23; none: the elements take no initial stress
     """
 
     address: int
@@ -38,6 +43,24 @@ class Procedure:
     density: int = -1
     uvarm: OutputVariables | None = None
     damages: bool = False
+    linear: bool = False
+    stress: tuple[int, ...] = ()
+
+    def set_stress(self, svars: FloatArray, rows: IntArray, values: FloatArray) -> None:
+        """Write the stress at all points of elements, rows of their SVARS (elements, svars).
+
+        Raises ValueError where there is no such stress or component; zeros beyond those are left out.
+        """
+        if not self.stress:
+            raise ValueError("take no initial stress")
+        count = len(self.stress)
+        if values[count:].any():
+            names = {3: "S11, S22, S12", 4: "S11, S22, S33, S12"}[count]
+            raise ValueError(f"have {names}: component {count + 1} is not zero")
+        given = np.zeros(count)
+        given[: len(values)] = values[:count]
+        states = svars[:, : svars.shape[1] - self.hidden].reshape(len(svars), -1, self.stress[-1] + 1)
+        states[np.ix_(rows, np.arange(states.shape[1]), np.array(self.stress))] = given
 
 
 @dataclass(frozen=True, slots=True)

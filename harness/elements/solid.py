@@ -110,6 +110,9 @@ def solid_procedure(model: Model, group: ElementGroup, section: SolidSection, li
     hourglass = _hourglass_stiffness(group, kind, section)
     _warn_of_enhanced(model, group, kind, library)
     number = define_material(material, orientation, kind.tensor, section.source, library)
+    prestressed = _is_prestressed(model, group, material)
+    if prestressed:
+        _binding.set_prestressed(number)
     define_fields(number, material, orientation, kind.tensor, library)
     if material.expansion:
         _binding.set_expansion(number, material.expansion)
@@ -126,10 +129,38 @@ def solid_procedure(model: Model, group: ElementGroup, section: SolidSection, li
         jprops=np.array([kind.points, kind.direct, kind.hourglass_control and section.controls.enhanced]),
         material=number,
         tensor=int(kind.tensor),
-        history=history_of(material, kind.points),
+        history=history_of(material, kind.points, prestressed=prestressed),
         statev=state_variables(material),
         uvarm=_output_variables(section, kind.points, library),
+        linear=history_values(material) == 1,
+        stress=_places_of_stress(kind),
     )
+
+
+def _places_of_stress(kind: Solid) -> tuple[int, ...]:
+    """The components that the element library of Abaqus lists: 11, 22, 12 in plane stress, which has no 33."""
+    names = _COMPONENTS[kind.dimension]
+    return tuple(
+        len(names) + k for k, name in enumerate(names) if not (kind.tensor is Tensor.PLANE_STRESS and name == "33")
+    )
+
+
+def _is_prestressed(model: Model, group: ElementGroup, material: Material) -> bool:
+    """Whether elements of the group have an initial stress that a built-in material has to keep. Raises DeckError."""
+    first = 0
+    for other in model.groups:
+        if other is group:
+            break
+        first += len(other.labels)
+    last = first + len(group.labels)
+    entries = model.initial_stresses
+    found = next((e for e in entries if ((e.elements >= first) & (e.elements < last)).any()), None)
+    if found is None or material.user is not None:
+        return False
+    if material.user_field is not None and material.elastic is not None and material.elastic.table is not None:
+        message = "is not supported where the constants of *ELASTIC depend on what USDFLD gives"
+        raise DeckError(found.source, f"*INITIAL CONDITIONS, TYPE=STRESS {message} (material {material.name})")
+    return True
 
 
 def _orientation(model: Model, group: ElementGroup, section: SolidSection, library: Library) -> Orientation | None:
@@ -176,9 +207,9 @@ def _check_radii(model: Model, group: ElementGroup) -> None:
         raise DeckError(group.source, f"{message}; coordinate 1 of axisymmetric elements must not be negative")
 
 
-def history_of(material: Material, points: int) -> tuple[int, int]:
-    """Values and points of the material history of an element."""
-    values = history_values(material)
+def history_of(material: Material, points: int, *, prestressed: bool = False) -> tuple[int, int]:
+    """Values and points of the material history of an element, which may have an initial stress."""
+    values = history_values(material, prestressed=prestressed)
     return values, points if values > 1 else 1
 
 

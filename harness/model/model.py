@@ -10,7 +10,7 @@ from pathlib import Path
 from harness.errors import Source
 from harness.model.arrays import IntArray
 from harness.model.mesh import ElementGroup, Mesh
-from harness.model.steps import Boundary, InitialSolution, InitialValue, Step
+from harness.model.steps import Boundary, InitialSolution, InitialStress, InitialValue, Step
 
 
 @dataclass(frozen=True, slots=True)
@@ -32,6 +32,7 @@ class Model:
     initial_temperatures  TYPE=TEMPERATURE, for unknowns that are temperatures, and as a predefined field
     initial_fields        TYPE=FIELD; their dof is the number of the field
     initial_solutions     TYPE=SOLUTION
+    initial_stresses      TYPE=STRESS
     ignored    keywords that cannot change the solution, with their places: listed once in .dat
     warnings   places where the deck is odd but understood
     """
@@ -49,5 +50,6 @@ class Model:
     initial_temperatures: tuple[InitialValue, ...] = ()
     initial_fields: tuple[InitialValue, ...] = ()
     initial_solutions: tuple[InitialSolution, ...] = ()
+    initial_stresses: tuple[InitialStress, ...] = ()
     ignored: tuple[tuple[str, Source], ...] = ()
     warnings: tuple[str, ...] = ()

@@ -192,6 +192,19 @@ class InitialSolution:
 
 
 @dataclass(frozen=True, slots=True)
+class InitialStress:
+    """One *INITIAL CONDITIONS, TYPE=STRESS: elements (positions in the model) and components in Abaqus' order.
+
+    ramped  what of the stresses is not in equilibrium takes effect in the course of the first step, else at once
+    """
+
+    elements: IntArray
+    values: FloatArray
+    ramped: bool
+    source: Source
+
+
+@dataclass(frozen=True, slots=True)
 class NodeRequest:
     """*NODE OUTPUT (history) or *NODE PRINT: variables as Abaqus names them (U, U2, RF2, CF1, ...).
 

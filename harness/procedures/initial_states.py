@@ -1,14 +1,20 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""*INITIAL CONDITIONS, TYPE=SOLUTION: state variables of elements at the start of the analysis."""
+"""*INITIAL CONDITIONS of elements: their state variables (TYPE=SOLUTION) and stresses (TYPE=STRESS)."""
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator
 
-from harness.elements import Block
+import numpy as np
+
+from harness.assembly import System
+from harness.elements import Block, Call
 from harness.errors import DeckError
+from harness.model.arrays import IntArray
 from harness.model.model import Model
+from harness.model.records import Warned
+from harness.procedures.state import State
 
 
 def set_initial_states(blocks: Iterable[Block], model: Model, sdvini: int | None) -> None:
@@ -24,10 +30,48 @@ def set_initial_states(blocks: Iterable[Block], model: Model, sdvini: int | None
                 assert sdvini is not None
                 block.call_sdvini(sdvini)
                 continue
-            rows = entry.elements - block.first
-            rows = rows[(rows >= 0) & (rows < len(block.group.labels))]
+            rows = _rows(block, entry.elements)
             try:
                 if len(rows):
                     block.initialise(rows, entry.values)
             except ValueError as error:
                 raise DeckError(entry.source, f"*INITIAL CONDITIONS, TYPE=SOLUTION: {error}") from None
+
+
+def set_initial_stresses(system: System, model: Model, state: State) -> Iterator[Warned]:
+    """Set the initial stresses, and in the state the nodal forces that keep them in equilibrium.
+
+    Raises DeckError, and KernelError from elements inside out.
+    """
+    stressed: dict[int, Block] = {}
+    for entry in model.initial_stresses:
+        for block in system.blocks:
+            rows = _rows(block, entry.elements)
+            if not len(rows):
+                continue
+            if block.group.definition is not None:
+                message = f"user elements ({block.group.type}) are not told of initial stresses, in Abaqus neither"
+                yield Warned(f"{entry.source}: *INITIAL CONDITIONS, TYPE=STRESS has no effect: {message}")
+                continue
+            try:
+                block.set_stress(rows, entry.values)
+            except ValueError as error:
+                raise DeckError(entry.source, f"*INITIAL CONDITIONS, TYPE=STRESS: {error}") from None
+            stressed[block.first] = block
+    if not stressed:
+        return
+    call = Call((1, 0, 1, 0, 0), 1, 0, 0.0, 0.0, 0.0, 0.0, predefined=state.predefined)
+    residual = np.zeros(len(system))
+    for block in stressed.values():
+        block.begin_stressed(call, state.displacement, residual)
+    if model.initial_stresses[0].ramped:
+        # Analysis User's Guide, Initial conditions: stresses of opposite sign are added at first, and ramped off in the
+        # first step. They are nodal forces here, and their work is external work, so that ETOTAL is constant
+        state.unbalanced = state.external = -residual
+
+
+def _rows(block: Block, elements: IntArray) -> IntArray:
+    """Those of elements (positions in the model) that are of a block, as its rows."""
+    rows = elements - block.first
+    found: IntArray = rows[(rows >= 0) & (rows < len(block.group.labels))]
+    return found

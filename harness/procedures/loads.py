@@ -310,13 +310,15 @@ class Slots:
         return np.searchsorted(self._sorted, self._keys(places, kind))
 
 
-def released_reactions(reaction: FloatArray, prescribed: IntArray, step: Step) -> Variation:
-    """Reactions of degrees of freedom that the step releases: applied as loads that fade.
+def fading_forces(reaction: FloatArray, prescribed: IntArray, step: Step, unbalanced: FloatArray) -> Variation:
+    """Forces that fade in a step: reactions of degrees of freedom that it releases, and `unbalanced` ones.
 
-    reaction (n,) is that at the end of the previous step, prescribed the unknowns prescribed in this one.
+    reaction (n,) is that at the end of the previous step, prescribed the unknowns prescribed in this one. unbalanced
+    (n,) keeps initial stresses in equilibrium at the start; it fades whatever AMPLITUDE= of the step is.
     """
     released = reaction.copy()
     released[prescribed] = 0.0
     if step.amplitude != "RAMP":
         released[:] = 0.0
-    return Variation(released, -released, step.procedure.period)
+    fading = released + unbalanced
+    return Variation(fading, -fading, step.procedure.period)

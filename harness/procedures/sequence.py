@@ -18,7 +18,7 @@ from harness.model.steps import Boundary, Load, Step
 from harness.procedures.dynamic import DynamicStep
 from harness.procedures.frequency import FrequencyStep
 from harness.procedures.heat_transfer import HeatTransferStep, StabilizedHeatTransferStep
-from harness.procedures.initial_states import set_initial_states
+from harness.procedures.initial_states import set_initial_states, set_initial_stresses
 from harness.procedures.loads import find_unknowns
 from harness.procedures.path import EnergyStep, RiksStep
 from harness.procedures.perturbation import PerturbationStep
@@ -70,6 +70,7 @@ def run_steps(
     state = State.start(system, model)
     user.external_database(0, 0, (0.0, 0.0), 0.0, 1, 0)
     set_initial_states(system.blocks, model, user.sdvini)
+    yield from set_initial_stresses(system, model, state)
     yield from _unused(system.dofs, "*BOUNDARY", model.boundaries)
     try:
         for step in model.steps:

@@ -29,7 +29,8 @@ class State:
 
     displacement, reaction, load  (n,) U, RF, CF
     velocity, acceleration  (n,) V, A
-    external   (n,) all forces on the nodes that are not of elements: load, fading reactions of released dofs, reaction
+    external   (n,) all forces on the nodes that are not of elements: load, fading forces, reaction
+    unbalanced  (n,) forces that keep initial stresses in equilibrium, until the first step lets them fade
     work       external work so far
     energy     (8,) sum of ENERGY
     damage     dissipated by the damage of built-in elements
@@ -49,6 +50,7 @@ class State:
     amplitudes: UserAmplitudes
     velocity: FloatArray
     acceleration: FloatArray
+    unbalanced: FloatArray
     constraints: Constraints | None = None
     solver: Factoriser | None = None
     majoriser: Majoriser = field(default_factory=Majoriser)
@@ -70,14 +72,14 @@ class State:
         loads = AllLoads(system, model)
         conditions = Conditions(model)
         given = boundaries, loads, conditions, UserAmplitudes(model)
-        return cls(temperature, zero, zero, zero, *given, velocity, zero, predefined=conditions.initial())
+        return cls(temperature, zero, zero, zero, *given, velocity, zero, zero, predefined=conditions.initial())
 
     def come_to_rest(self) -> None:
         """No velocities and accelerations: a step begins that has none."""
         self.velocity = self.acceleration = np.zeros_like(self.displacement)
 
     def accept(self, converged: Iterate, load: FloatArray, released: FloatArray) -> None:
-        """Take over a converged increment; load and released (fading reactions) are those of its end."""
+        """Take over a converged increment; load and released (fading forces) are those of its end."""
         assert self.constraints is not None
         reaction = self.constraints.reactions(converged.residual)
         external = load + released + reaction

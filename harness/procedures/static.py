@@ -42,7 +42,7 @@ from harness.procedures.incrementation import (
     refused,
 )
 from harness.procedures.limit import PASSED, LimitLoad
-from harness.procedures.loads import released_reactions
+from harness.procedures.loads import fading_forces
 from harness.procedures.state import State
 from harness.procedures.unheld import UNLOADED, UnheldSolver
 from harness.solver.descent import ITERATIONS, SINGULAR, Descent
@@ -76,7 +76,7 @@ class UserRoutines(GivesValues, Protocol):
 class Reached:
     """End of a converged increment.
 
-    load, released  (n,) loads and fading reactions
+    load, released  (n,) loads and fading forces
     size            change of the step time
     load_factor     where it is part of the solution
     """
@@ -117,7 +117,8 @@ class StaticStep:
         if len(state.boundaries.by_user) and user.disp is None:
             source = state.boundaries.sources[int(state.boundaries.by_user[0])]
             raise DeckError(source, "*BOUNDARY, USER needs DISP, which the job does not have")
-        self._released = released_reactions(state.reaction, unknowns, step)
+        self._released = fading_forces(state.reaction, unknowns, step, state.unbalanced)
+        state.unbalanced = np.zeros_like(state.unbalanced)
         constraints = state.constraints
         self._choice = ""
         if constraints is None or state.solver is None or not constraints.matches(unknowns, model.equations):

@@ -228,6 +228,11 @@ def compliance(constants: Sequence[float]) -> FloatArray:
     return _host.host_compliance(np.array(constants))
 
 
+def set_prestressed(number: int) -> None:
+    """Give points of a material of the host's library, not one of UMAT, a history for initial stresses."""
+    _host.host_set_prestressed(number)
+
+
 def set_dependence(number: int, constants: int, turn: FloatArray, table: FloatArray) -> None:
     """Let the elastic constants of a material depend on temperature and field variables.
 

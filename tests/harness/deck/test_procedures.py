@@ -149,7 +149,7 @@ def test_initial_temperatures_of_further_dofs(read):
     "lines, message",
     [
         ("*INITIAL CONDITIONS, TYPE=VELOCITY\n1, 11, 1.", r":10: \*INITIAL CONDITIONS: dof 11 has no velocity"),
-        ("*INITIAL CONDITIONS, TYPE=STRESS\n1, 1.", r":9: \*INITIAL CONDITIONS, TYPE=STRESS is not supported"),
+        ("*INITIAL CONDITIONS, TYPE=RATIO\n1, 1.", r":9: \*INITIAL CONDITIONS, TYPE=RATIO is not supported"),
         ("*INITIAL CONDITIONS, TYPE=TEMPERATURE\n7, 1.", ":10: .*7"),
     ],
 )

@@ -11,7 +11,7 @@ from harness.errors import Source
 from harness.model.amplitude import Amplitude, AmplitudeType
 from harness.model.procedures import Static
 from harness.model.steps import Boundary, Load, Step
-from harness.procedures.loads import Boundaries, Loads, released_reactions
+from harness.procedures.loads import Boundaries, Loads, fading_forces
 
 SOURCE = Source("loads.inp", 3)
 N = 4
@@ -175,7 +175,17 @@ def test_curves_of_loads_go_on_in_total_time_only():
 
 def test_reactions_of_released_dofs_fade():
     reaction = np.array([1.0, -2.0, 0.0, 0.0])
-    variation = released_reactions(reaction, np.array([0]), step())
+    none = np.zeros(4)
+    variation = fading_forces(reaction, np.array([0]), step(), none)
     assert history(variation, 0) == [0.0, 0.0, 0.0]
     assert history(variation, 1) == [-2.0, -1.0, 0.0]
-    assert history(released_reactions(reaction, np.array([0]), step(amplitude="STEP")), 1) == [0.0, 0.0, 0.0]
+    assert history(fading_forces(reaction, np.array([0]), step(amplitude="STEP"), none), 1) == [0.0, 0.0, 0.0]
+
+
+@pytest.mark.parametrize("amplitude", ["RAMP", "STEP"])
+def test_forces_of_initial_stresses_fade_over_the_step(amplitude):
+    """Also where the dof is prescribed, and whatever the amplitude of the loads is."""
+    none, forces = np.zeros(4), np.array([4.0, -2.0, 0.0, 0.0])
+    variation = fading_forces(none, np.array([0]), step(amplitude=amplitude), forces)
+    assert history(variation, 0) == [4.0, 2.0, 0.0]
+    assert history(variation, 1) == [-2.0, -1.0, 0.0]
