@@ -216,9 +216,10 @@ OUTPUT = (
             Option(
                 "POSITION",
                 Kind.CHOICE,
-                "where; with any other choice than the default .dat warns, and has values at integration points",
+                "where; values of built-in continuum elements are extrapolated, of others .dat has those at the "
+                "points and warns",
                 default="INTEGRATION POINTS",
-                choices=("INTEGRATION POINTS", "CENTROIDAL", "NODES", "AVERAGED AT NODES"),
+                choices=("INTEGRATION POINTS", "CENTROIDAL", "CENTROID", "NODES", "AVERAGED AT NODES"),
             ),
             *ignored("DIRECTIONS", "LAST MODE", "LOCALDIR", "MODE", "REBAR", "SUMMARY", "TOTALS"),
         ),

@@ -17,10 +17,9 @@ from harness.deck.user_elements import LARGEST_DOF
 from harness.model.arrays import IntArray
 from harness.model.nodal import COMPONENTS
 from harness.model.records import ENERGIES
-from harness.model.steps import ElementRequest, NodeRequest, OutputRequests
+from harness.model.steps import ElementRequest, NodeRequest, OutputRequests, Position
 
 PRESELECTED_NODAL = ("U", "RF", "CF")
-AT_POINTS = "INTEGRATION POINTS"
 NEVER = 0
 _OUTPUT_TIMES = ("NUMBER INTERVAL", "TIME INTERVAL", "TIME POINTS")
 
@@ -143,12 +142,11 @@ class RequestReader:
         name, frequency = block.options.text("ELSET"), _frequency(block)
         count = sum(len(owner.elements) for owner in self._flat.owners)
         elements = self._flat.elements(name, block.source) if name else np.arange(count)
-        position = block.options.text("POSITION")
-        if position != AT_POINTS:
-            message = f"*EL PRINT, POSITION={position}: values at the integration points are printed instead"
-            self._problems.warn(block.source, message)
+        given = block.options.text("POSITION")
+        # Abaqus takes CENTROID too, in a public deck with its .dat file
+        position = Position.CENTROID if given == "CENTROID" else Position(given)
         tables = [_variables(row.fields) for row in block.rows()] if frequency != NEVER else []
-        requests = [ElementRequest(name, elements, variables, frequency) for variables in tables]
+        requests = [ElementRequest(name, elements, variables, frequency, position) for variables in tables]
         self._requests = replace(self._requests, element_print=(*self._requests.element_print, *requests))
 
     def _energy_print(self, block: Block) -> None:

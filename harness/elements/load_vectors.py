@@ -26,7 +26,7 @@ _HEX = (
     *((0, -1, -1), (1, 0, -1), (0, 1, -1), (-1, 0, -1), (0, -1, 1), (1, 0, 1), (0, 1, 1), (-1, 0, 1)),
     *((-1, -1, 0), (1, -1, 0), (1, 1, 0), (-1, 1, 0)),
 )
-_NODES: Final = {1: np.array(_LINE), 2: np.array(_QUAD), 3: np.array(_HEX)}
+NODES: Final = {1: np.array(_LINE), 2: np.array(_QUAD), 3: np.array(_HEX)}
 """Parent coordinates of the nodes, by dimension: corners, then the middles of the edges."""
 
 
@@ -121,7 +121,7 @@ def _rule(dimension: int, nodes: int, *, axisymmetric: bool) -> tuple[FloatArray
     # counted along the first direction first
     points = np.array(list(product(places, repeat=dimension)))[:, ::-1]
     weights = np.array([np.prod(w) for w in product(line, repeat=dimension)])
-    shapes, derivatives = _serendipity(_NODES[dimension][:nodes], points, middle=middle)
+    shapes, derivatives = _serendipity(NODES[dimension][:nodes], points, middle=middle)
     return shapes, derivatives, weights
 
 

@@ -219,6 +219,15 @@ class NodeRequest:
     sensor: str = ""
 
 
+class Position(StrEnum):
+    """Where the values of *EL PRINT are."""
+
+    POINTS = "INTEGRATION POINTS"
+    CENTROID = "CENTROIDAL"
+    NODES = "NODES"
+    AVERAGED = "AVERAGED AT NODES"
+
+
 @dataclass(frozen=True, slots=True)
 class ElementRequest:
     """*EL PRINT: variables as Abaqus names them (S, S11, E, SDV, SDV3, ...); elements are positions in the model."""
@@ -227,6 +236,7 @@ class ElementRequest:
     elements: IntArray
     variables: tuple[str, ...]
     frequency: int = 1
+    position: Position = Position.POINTS
 
 
 @dataclass(frozen=True, slots=True)

@@ -18,7 +18,14 @@ from harness.model.steps import ElementRequest, NodeRequest
 from harness.output.formats import TextFile, program
 from harness.output.schedule import Schedule
 from harness.output.step_header import completed, procedure
-from harness.output.tables import element_tables, energy_table, missing_variables, node_tables, used_nodes
+from harness.output.tables import (
+    element_tables,
+    energy_table,
+    missing_variables,
+    node_tables,
+    not_extrapolated,
+    used_nodes,
+)
 from harness.output.wording import remark
 
 _USER_ELEMENT_OUTPUT = (
@@ -69,19 +76,19 @@ class DataFile:
         )
         energies = ""
         if self._energies.due(step.output.energy_print, record, last=last):
-            energies = energy_table(record.solution)
+            energies = energy_table(record.solution, record.total_time)
         if not nodes and not elements and not energies:
             return
         text = (
             f"\n\n                                INCREMENT{record.increment:6d} SUMMARY\n\n\n"
             f"{completed(record, step.procedure.period)}"
         )
+        if energies:
+            text += f"\n\n                    E N E R G Y   O U T P U T\n{energies}"
         if elements:
             text += f"\n\n                             E L E M E N T   O U T P U T\n{elements}"
         if nodes:
             text += f"\n\n                                N O D E   O U T P U T\n{nodes}"
-        if energies:
-            text += f"\n\n                              E N E R G Y   O U T P U T\n{energies}"
         self._file.write(text)
 
     def modes(self, record: ModesFound) -> None:
@@ -104,6 +111,10 @@ class DataFile:
         requests += [(f"*NODE PRINT, NSET={request.nset}", request) for request in output.node_print]
         requests += [(f"*EL PRINT, ELSET={request.elset}", request) for request in output.element_print]
         for place, request in requests:
+            if isinstance(request, ElementRequest):
+                for element_type in not_extrapolated(request, self._model):
+                    text = f"ELEMENTS OF TYPE {element_type} HAVE VALUES AT THE INTEGRATION POINTS ALONE"
+                    self.remark("WARNING", f"{place}, POSITION={request.position}: {text}")
             for name in missing_variables(request, self._model, record.solution, index):
                 self.remark("WARNING", f"{place}: {name} IS NOT AVAILABLE AND IS LEFT OUT")
 

@@ -1,6 +1,7 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""Tables of *NODE PRINT and *EL PRINT in the .dat file, laid out as Abaqus prints them.
+"""Tables of *NODE PRINT and *EL PRINT in the .dat file, laid out as Abaqus prints them: as in the .dat file of
+a public patch test.
 
 Lines whose values are all zero are left out of a table, as Abaqus does, but count for MAXIMUM and MINIMUM. Values at
 nodes have eight significant digits, their extremes and all values of elements five or four.
@@ -14,12 +15,13 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from harness.elements.extrapolation import at_centroid, at_nodes
 from harness.model.arrays import FloatArray, IntArray, first_largest
 from harness.model.mesh import ElementGroup, Mesh
 from harness.model.model import Model
 from harness.model.nodal import NodalIndex
 from harness.model.records import ElementState, Solution
-from harness.model.steps import ElementRequest, NodeRequest
+from harness.model.steps import ElementRequest, NodeRequest, Position
 from harness.output.cells import is_solid
 from harness.output.formats import exponential, general
 from harness.output.points import point_values
@@ -31,7 +33,10 @@ _COORDINATES = ("COOR1", "COOR2", "COOR3")
 
 @dataclass(frozen=True, slots=True)
 class _Table:
-    """Columns of values (rows, columns) with the heads of lines and columns."""
+    """Columns of values (rows, columns) with the heads of lines and columns.
+
+    indent, where  of the extremes, and the head of the line below that says where they are
+    """
 
     title: str
     head: str
@@ -57,7 +62,7 @@ class _Table:
         ):
             extremes = np.take_along_axis(self.values, best[None, :], axis=0)[0]
             text += f"\n{f' {name}':<{self.indent}}{_row(extremes.tolist())}\n"
-            text += f"{f' {self.where}':<{self.indent - 1}}" + "".join(f"{self.labels[k]:>12}" for k in best) + "\n"
+            text += self.where + "".join(f"{self.labels[k]:>12}" for k in best) + "\n"
         if self.totals:
             text += f"\n{' TOTAL':<{self.indent}}{_row(self.values.sum(axis=0).tolist())}\n"
         return text
@@ -99,7 +104,7 @@ def node_tables(request: NodeRequest, model: Model, solution: Solution, index: N
                 [f"{label:>11}    " for label in labels],
                 labels,
                 np.stack([columns[name] for name in part], axis=1),
-                "AT NODE",
+                " AT NODE      ",
                 exponential,
                 request.totals,
             )
@@ -131,16 +136,37 @@ def element_tables(request: ElementRequest, model: Model, solution: Solution) ->
     text = ""
     for group, inside, state in _chosen(request, model, solution):
         for names, values in _element_values(group, state, inside, request.variables):
-            text += _element_table(request, group, inside, names, values)
+            text += _element_table(request, model.mesh, group, inside, names, values)
     return text
 
 
-def energy_table(solution: Solution) -> str:
+ENERGIES = {
+    "ALLSE": "RECOVERABLE STRAIN ENERGY",
+    "ALLKE": "KINETIC ENERGY",
+    "ALLWK": "EXTERNAL WORK",
+    "ALLPD": "PLASTIC DISSIPATION",
+    "ALLCD": "CREEP DISSIPATION",
+    "ALLVD": "VISCOUS DISSIPATION (IN DAMPERS ETC)",
+    "ALLSD": "STATIC DISSIPATION (STABILIZATION)",
+    "ALLAE": "ENERGY TO CONTROL SPURIOUS MODES",
+    "ALLDMD": "DAMAGE DISSIPATION",
+    "ALLIE": "TOTAL STRAIN ENERGY (STRESS POWER)",
+    "ETOTAL": "ENERGY BALANCE",
+}
+"""Energies of *ENERGY PRINT in the words and the order of Abaqus."""
+
+
+def energy_table(solution: Solution, total_time: float) -> str:
     """Energies of the whole model, '' where the procedure has none."""
-    if not solution.energies:
+    names = [name for name in ENERGIES if name in solution.energies]
+    if not names:
         return ""
-    lines = (f"          {name:<10}{_short(value)}".rstrip() for name, value in sorted(solution.energies.items()))
-    return "\n\n   THE FOLLOWING TABLE IS PRINTED FOR THE WHOLE MODEL\n\n" + "\n".join(lines) + "\n"
+    lines = [f"            {ENERGIES[name]:<43}{general(solution.energies[name], 13, 6)}" for name in names]
+    time = general(total_time, 15, 6)
+    return (
+        f"\n\n            THE FOLLOWING TABLE IS PRINTED FOR THE WHOLE MODEL AT T ={time}\n\n\n"
+        "            APPROXIMATE ENERGY TOTALS -\n\n" + "\n".join(lines) + "\n"
+    )
 
 
 def missing_variables(
@@ -161,6 +187,19 @@ def missing_variables(
     ]
 
 
+def not_extrapolated(request: ElementRequest, model: Model) -> list[str]:
+    """Element types of a request whose values are at the integration points, where it asks for another position."""
+    if request.position is Position.POINTS:
+        return []
+    first, types = 0, []
+    for group in model.groups:
+        inside = (request.elements >= first) & (request.elements < first + len(group.labels))
+        first += len(group.labels)
+        if inside.any() and at_nodes(group.type) is None:
+            types.append(group.type)
+    return list(dict.fromkeys(types))
+
+
 def _chosen(
     request: ElementRequest, model: Model, solution: Solution
 ) -> list[tuple[ElementGroup, IntArray, ElementState]]:
@@ -176,14 +215,34 @@ def _chosen(
     return chosen
 
 
+@dataclass(frozen=True, slots=True)
+class _Layout:
+    """Table of one position as Abaqus prints it: end of its title, head of the lines, note below it, and widths."""
+
+    title: str
+    head: str
+    note: int
+    indent: int
+    where: str
+
+
+_LAYOUTS = {
+    Position.POINTS: _Layout("AT THE INTEGRATION POINTS", "    ELEMENT  PT FOOT-       ", 16, 22, " ELEMENT          "),
+    Position.CENTROID: _Layout("AT THE CENTROID OF THE ELEMENT", "    ELEMENT  FOOT-   ", 13, 16, " ELEMENT       "),
+    Position.NODES: _Layout("AT THE NODES", "    ELEMENT         ND   FOOT-   ", 25, 23, " ELEMENT              "),
+    Position.AVERAGED: _Layout("AVERAGED AT THE NODES", "       NODE  FOOT-   ", 13, 16, "  NODE      "),
+}
+
+
 def _element_table(
-    request: ElementRequest, group: ElementGroup, inside: IntArray, names: list[str], values: FloatArray
+    request: ElementRequest, mesh: Mesh, group: ElementGroup, inside: IntArray, names: list[str], values: FloatArray
 ) -> str:
-    """Tables of values (elements, points, names)."""
-    labels = group.labels[inside].tolist()
-    points = range(1, values.shape[1] + 1)
-    title = f"   THE FOLLOWING TABLE IS PRINTED FOR ELEMENTS WITH TYPE {group.type} AT THE INTEGRATION POINTS" + (
-        f" AND BELONGING TO ELEMENT SET {request.elset}" if request.elset else ""
+    """Tables of values (elements, points, names), at the points or at the position that the request asks for."""
+    position, lines, labels, values = _at_position(request.position, mesh, group, inside, values)
+    layout = _LAYOUTS[position]
+    which = f"ELEMENTS WITH TYPE {group.type} {layout.title}"
+    title = "   THE FOLLOWING TABLE IS PRINTED FOR " + (
+        f"{which} AND BELONGING TO ELEMENT SET {request.elset}" if request.elset else f"ALL {which}"
     )
     text = ""
     for start in range(0, len(names), COLUMNS):
@@ -191,17 +250,48 @@ def _element_table(
         text += str(
             _Table(
                 title,
-                "    ELEMENT  PT FOOT-" + "".join(f"{name:>10}  " for name in part) + "\n                NOTE",
-                22,
+                layout.head + "".join(f"{name:<12}" for name in part) + f"\n{'':{layout.note}}NOTE",
+                layout.indent,
                 part,
-                [f"{label:12d}{point:4d}      " for label in labels for point in points],
-                [str(label) for label in labels for _ in points],
-                values[:, :, start : start + COLUMNS].reshape(-1, len(part)),
-                "ELEMENT",
+                lines,
+                labels,
+                values[:, start : start + COLUMNS],
+                layout.where,
                 _short,
             )
         )
     return text
+
+
+def _at_position(
+    position: Position, mesh: Mesh, group: ElementGroup, inside: IntArray, values: FloatArray
+) -> tuple[Position, list[str], list[str], FloatArray]:
+    """Position, heads of lines, labels for extremes, and values (lines, names), from those (elements, points, names).
+
+    Values of elements that are not extrapolated are those at the points.
+    """
+    elements, nodes = group.labels[inside].tolist(), group.nodes[inside]
+    matrix = at_centroid(group.type) if position is Position.CENTROID else at_nodes(group.type)
+    if position is Position.POINTS or matrix is None:
+        points = range(1, values.shape[1] + 1)
+        lines = [f"{label:12d}{point:4d}       " for label in elements for point in points]
+        labels = [str(label) for label in elements for _ in points]
+        return Position.POINTS, lines, labels, values.reshape(-1, values.shape[2])
+    found = np.einsum("np,epv->env", matrix, values)
+    flat = found.reshape(-1, found.shape[2])
+    if position is Position.CENTROID:
+        return position, [f"{label:12d}     " for label in elements], [str(label) for label in elements], flat
+    if position is Position.NODES:
+        names = mesh.labels[nodes].tolist()
+        lines = [f"{label:12d}{name:11d}       " for label, row in zip(elements, names, strict=True) for name in row]
+        return position, lines, [str(label) for label in elements for _ in names[0]], flat
+    used, place = np.unique(nodes, return_inverse=True)
+    mean = np.zeros((len(used), flat.shape[1]))
+    np.add.at(mean, place.ravel(), flat)
+    mean /= np.bincount(place.ravel())[:, None]
+    order = np.argsort(mesh.labels[used], kind="stable")
+    labels = [_label(mesh, node) for node in used[order].tolist()]
+    return position, [f"{label:>12}     " for label in labels], labels, mean[order]
 
 
 def _element_values(

@@ -12,7 +12,7 @@ import pytest
 from harness.errors import DeckError
 from harness.model.model import Model
 from harness.model.procedures import Riks, Static
-from harness.model.steps import Controls, FieldControls, LineSearchControls, Step, TimeControls
+from harness.model.steps import Controls, FieldControls, LineSearchControls, Position, Step, TimeControls
 
 Read = Callable[[str], Model]
 FLAT = Path(__file__).with_name("flat.inp").read_text()
@@ -235,13 +235,30 @@ def test_several_outputs_in_a_step_add_up(read: Read) -> None:
     assert output.history_frequency == 1
 
 
-@pytest.mark.parametrize("position", ["CENTROIDAL", "NODES", "AVERAGED AT NODES"])
-def test_positions_of_element_tables_are_warned_of(read: Read, position: str) -> None:
-    text = MODEL + "*STEP\n*STATIC\n*EL PRINT, POSITION={}\nS\n*END STEP\n"
-    assert read(text.format(position)).warnings == (
-        f"deck.inp:43: *EL PRINT, POSITION={position}: values at the integration points are printed instead",
+@pytest.mark.parametrize(
+    ("given", "position"),
+    [
+        ("", Position.POINTS),
+        (", POSITION=INTEGRATION POINTS", Position.POINTS),
+        (", POSITION=CENTROIDAL", Position.CENTROID),
+        (", POSITION=centroid", Position.CENTROID),
+        (", POSITION=NODES", Position.NODES),
+        (", POSITION=AVERAGED AT NODES", Position.AVERAGED),
+    ],
+)
+def test_positions_of_element_tables(read: Read, given: str, position: Position) -> None:
+    model = read(MODEL + f"*STEP\n*STATIC\n*EL PRINT{given}\nS\n*END STEP\n")
+    assert not model.warnings
+    (request,) = model.steps[0].output.element_print
+    assert request.position is position
+
+
+def test_an_unknown_position_is_refused(read: Read) -> None:
+    message = (
+        r"deck\.inp:43: \*EL PRINT, POSITION=FACES: expected one of INTEGRATION POINTS, CENTROIDAL, CENTROID, NODES, "
     )
-    assert read(text.format("INTEGRATION POINTS")).warnings == ()
+    with pytest.raises(DeckError, match=message):
+        read(MODEL + "*STEP\n*STATIC\n*EL PRINT, POSITION=FACES\nS\n*END STEP\n")
 
 
 def test_energies_are_printed_where_asked_for(read: Read) -> None:

@@ -128,20 +128,20 @@ def test_a_table_of_integration_points(model: Model, records: Records) -> None:
         "    ELEMENT  PT FOOT-       S11         S22         S12",
         "                NOTE",
         "",
-        "           1   1         101.0       102.0       103.0",
-        "           1   2         105.0       106.0       107.0",
-        "           1   3         109.0       110.0       111.0",
-        "           1   4         113.0       114.0       115.0",
-        "           2   1         201.0       202.0       203.0",
-        "           2   2         205.0       206.0       207.0",
-        "           2   3         209.0       210.0       211.0",
-        "           2   4         213.0       214.0       215.0",
+        "           1   1          101.0       102.0       103.0",
+        "           1   2          105.0       106.0       107.0",
+        "           1   3          109.0       110.0       111.0",
+        "           1   4          113.0       114.0       115.0",
+        "           2   1          201.0       202.0       203.0",
+        "           2   2          205.0       206.0       207.0",
+        "           2   3          209.0       210.0       211.0",
+        "           2   4          213.0       214.0       215.0",
         "",
         " MAXIMUM                 213.0       214.0       215.0",
-        " ELEMENT                        2           2           2",
+        " ELEMENT                     2           2           2",
         "",
         " MINIMUM                 101.0       102.0       103.0",
-        " ELEMENT                        1           1           1",
+        " ELEMENT                     1           1           1",
     ]
 
 
@@ -174,8 +174,8 @@ def test_state_variables_of_built_in_elements_are_those_of_umat(model: Model, re
     named = replace(done.solution.elements[0], variables=PointVariables("continuum", ("S11", "SDV1", "SDV2", "X"), 4))
     solution = replace(done.solution, elements=(named, *done.solution.elements[1:]))
     text = element_tables(request, built_in, solution)
-    assert "    ELEMENT  PT FOOT-      SDV1        SDV2" in lines(text)
-    assert "           1   2         105.0       106.0" in lines(text)
+    assert "    ELEMENT  PT FOOT-       SDV1        SDV2" in lines(text)
+    assert "           1   2          105.0       106.0" in lines(text)
     assert missing_variables(replace(request, variables=("SDV2", "SDV3")), built_in, solution, index) == ["SDV3"]
 
 
@@ -186,8 +186,12 @@ def test_energies_of_the_model(with_requests: Requests, records: Records, tmp_pa
         if isinstance(record, IncrementDone):
             file.increment(record, last=record.increment == 4)
     found = lines((tmp_path / "job.dat").read_text())
-    assert found.count("                              E N E R G Y   O U T P U T") == 2
-    assert [line.split() for line in found if "ALLSE" in line] == [["ALLSE", "6.2500E-02"], ["ALLSE", "1.000"]]
+    assert found.count("                    E N E R G Y   O U T P U T") == 2
+    assert [line for line in found if "STRAIN ENERGY" in line] == [
+        "            RECOVERABLE STRAIN ENERGY                   6.250000E-02",
+        "            RECOVERABLE STRAIN ENERGY                    1.00000",
+    ]
+    assert "            THE FOLLOWING TABLE IS PRINTED FOR THE WHOLE MODEL AT T =    1.00000" in found
 
 
 def test_the_deck_is_echoed_with_line_numbers(model: Model, tmp_path: Path) -> None:

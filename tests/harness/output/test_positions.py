@@ -1,0 +1,185 @@
+# SPDX-FileCopyrightText: The uel-harness authors
+# SPDX-License-Identifier: BSD-3-Clause
+"""*EL PRINT, POSITION=: tables laid out as in a public .dat file of Abaqus, of a plane strain patch test; values of
+fields that vary in the elements."""
+
+import re
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import harness
+from harness.elements.extrapolation import at_centroid, at_nodes
+from harness.elements.load_vectors import NODES
+from harness.elements.solid import COUPLED, SOLIDS
+
+PATCH = """*NODE, NSET=ALL
+10, 0., 0.
+20, 0.24, 0.
+30, 0.24, 0.12
+40, 0., 0.12
+50, 0.1, 0.
+60, 0.14, 0.12
+*ELEMENT, TYPE={type}, ELSET=EALL
+1, 10, 50, 60, 40
+2, 50, 20, 30, 60
+*ELSET, ELSET=FIRST
+1
+*SOLID SECTION, ELSET=EALL, MATERIAL=A
+0.001
+*MATERIAL, NAME=A
+*ELASTIC
+1.E6, 0.25
+*STEP
+*STATIC
+1., 1.
+*BOUNDARY
+10, 1, 2
+20, 1, 1, 0.24E-3
+20, 2, 2, 0.12E-3
+30, 1, 1, 0.3E-3
+30, 2, 2, 0.24E-3
+40, 1, 1, 0.06E-3
+40, 2, 2, 0.12E-3
+50, 1, 1, 0.1E-3
+50, 2, 2, 0.05E-3
+60, 1, 1, 0.2E-3
+60, 2, 2, 0.19E-3
+{request}
+S
+*END STEP
+"""
+
+
+@pytest.fixture
+def table(tmp_path):
+    def table(request, type="CPE4"):
+        deck = tmp_path / "patch.inp"
+        deck.write_text(PATCH.format(type=type, request=request))
+        harness.run(deck, output_dir=tmp_path)
+        text = (tmp_path / "patch.dat").read_text()
+        assert text.count("THE FOLLOWING TABLE") == 1
+        return [line.rstrip() for line in text[text.index("   THE FOLLOWING") :].splitlines()]
+
+    return table
+
+
+VALUES = "      1600.       1600.       800.0       400.0"
+
+
+def test_a_table_at_the_nodes_of_the_elements(table):
+    """Strains 1e-3, 1e-3, shear 1e-3 with E = 1e6, nu = 0.25: S11 = S22 = 1600, S33 = 800, S12 = 400."""
+    found = table("*EL PRINT, POSITION=NODES")
+    assert found[:13] == [
+        "   THE FOLLOWING TABLE IS PRINTED FOR ALL ELEMENTS WITH TYPE CPE4 AT THE NODES",
+        "",
+        "    ELEMENT         ND   FOOT-   S11         S22         S33         S12",
+        "                         NOTE",
+        "",
+        *(f"           1{node:11d}    {VALUES}" for node in (10, 50, 60, 40)),
+        *(f"           2{node:11d}    {VALUES}" for node in (50, 20, 30, 60)),
+    ]
+    assert found[14] == " MAXIMUM            " + VALUES
+    assert found[15].startswith(" ELEMENT                         ")
+    assert found[15][33:34] in "12" and found[15][45:46] in "12"
+
+
+def test_a_table_of_averages_at_the_nodes(table):
+    found = table("*EL PRINT, POSITION=AVERAGED AT NODES")
+    assert found[:11] == [
+        "   THE FOLLOWING TABLE IS PRINTED FOR ALL ELEMENTS WITH TYPE CPE4 AVERAGED AT THE NODES",
+        "",
+        "       NODE  FOOT-   S11         S22         S33         S12",
+        "             NOTE",
+        "",
+        *(f"{node:12d}  {VALUES}" for node in (10, 20, 30, 40, 50, 60)),
+    ]
+    assert found[12] == " MAXIMUM     " + VALUES
+    assert re.fullmatch(r"  NODE {16}\d\d {10}\d\d {10}\d\d {10}\d\d", found[13])
+
+
+@pytest.mark.parametrize("position", ["CENTROIDAL", "CENTROID"])
+def test_a_table_at_the_centroid(table, position):
+    found = table(f"*EL PRINT, ELSET=FIRST, POSITION={position}")
+    assert found[:10] == [
+        "   THE FOLLOWING TABLE IS PRINTED FOR ELEMENTS WITH TYPE CPE4 AT THE CENTROID OF THE ELEMENT AND BELONGING TO "
+        "ELEMENT SET FIRST",
+        "",
+        "    ELEMENT  FOOT-   S11         S22         S33         S12",
+        "             NOTE",
+        "",
+        f"           1  {VALUES}",
+        "",
+        f" MAXIMUM     {VALUES}",
+        " ELEMENT                  1           1           1           1",
+        "",
+    ]
+
+
+def test_elements_of_other_types_have_values_at_the_points_and_a_warning(tmp_path):
+    deck = tmp_path / "user.inp"
+    deck.write_text(
+        "*NODE\n1, 0.\n2, 1.\n*USER ELEMENT, TYPE=U1, NODES=2, COORDINATES=1, PROPERTIES=1\n1\n"
+        "*ELEMENT, TYPE=U1, ELSET=ALL\n1, 1, 2\n*UEL PROPERTY, ELSET=ALL\n1.\n"
+        "*STEP\n*STATIC\n1., 1.\n*BOUNDARY\n1, 1\n2, 1, 1, 0.1\n*EL PRINT, POSITION=NODES\nSDV\n*END STEP\n"
+    )
+    spring = Path(__file__).parents[1] / "elements" / "spring.f"
+    harness.run(deck, spring, output_dir=tmp_path)
+    text = " ".join((tmp_path / "user.dat").read_text().split())
+    assert "TABLE IS PRINTED FOR ALL ELEMENTS WITH TYPE U1 AT THE INTEGRATION POINTS" in text
+    warning = "*EL PRINT, ELSET=, POSITION=NODES: ELEMENTS OF TYPE U1 HAVE VALUES AT THE INTEGRATION POINTS ALONE"
+    assert warning in text
+
+
+def parents(kind):
+    """Parent coordinates of the nodes."""
+    if kind.nodes == 6:
+        return np.array([[0, 0], [1, 0], [0, 1], [0.5, 0], [0.5, 0.5], [0, 0.5]])
+    return NODES[kind.dimension][: kind.nodes]
+
+
+@pytest.mark.parametrize("type", sorted(SOLIDS | COUPLED))
+def test_a_field_that_the_points_resolve_is_exact_at_nodes_and_centroid(type):
+    """Gauss points: 1, linear in each direction, or quadratic; in Abaqus' order, along the first direction first."""
+    kind = (SOLIDS | COUPLED)[type]
+    degree = 0 if kind.points == 1 else 1 if kind.nodes == 6 else round(kind.points ** (1 / kind.dimension)) - 1
+
+    def field(x):
+        return (
+            sum((k + 2.0) * x[..., k] ** p for k in range(kind.dimension) for p in range(1, degree + 1)) + 0 * x[..., 0]
+        )
+
+    if kind.points == 1:
+        points = np.zeros((1, kind.dimension))
+    elif kind.nodes == 6:
+        points = np.array([[1, 1], [4, 1], [1, 4]]) / 6
+    else:
+        line = np.polynomial.legendre.leggauss(degree + 1)[0]
+        grids = np.meshgrid(*[line] * kind.dimension, indexing="ij")
+        points = np.stack([grid.ravel(order="F") for grid in grids], axis=1)
+    centre = np.full((1, 2), 1 / 3) if kind.nodes == 6 else np.zeros((1, kind.dimension))
+    np.testing.assert_allclose(at_nodes(type) @ field(points), field(parents(kind)), atol=1e-12)
+    np.testing.assert_allclose(at_centroid(type) @ field(points), field(centre), atol=1e-12)
+    np.testing.assert_allclose(at_nodes(type).sum(axis=1), 1.0, atol=1e-12)
+
+
+def test_averages_are_over_the_elements_of_the_set_at_a_node(tmp_path):
+    """Quads side by side, stretched by 1e-3 and by 0.24e-3 over 0.14."""
+    deck = tmp_path / "pair.inp"
+    quads = PATCH.format(type="CPS4", request="*EL PRINT, POSITION=AVERAGED AT NODES\nS11\n*EL PRINT, POSITION=NODES")
+    held = (
+        "*BOUNDARY\nALL, 2\n10, 1\n40, 1\n50, 1, 1, 0.1E-3\n60, 1, 1, 0.14E-3\n20, 1, 1, 0.34E-3\n30, 1, 1, 0.34E-3\n"
+    )
+    start, end = quads.index("*BOUNDARY"), quads.index("*EL PRINT")
+    quads = quads[:start] + held + quads[end:]
+    deck.write_text(
+        quads.replace("1.E6, 0.25", "1.E6, 0.").replace("60, 0.14,", "60, 0.1,").replace("0.14E-3", "0.1E-3")
+    )
+    harness.run(deck, output_dir=tmp_path)
+    text = (tmp_path / "pair.dat").read_text()
+    averages = text.split("AVERAGED AT THE NODES\n")[1].split("MAXIMUM")[0]
+    found = {int(a): float(b) for a, b in re.findall(r"^ +(\d+) +(\S+) *$", averages, re.MULTILINE)}
+    outer = 0.24e-3 / 0.14 * 1e6
+    inner = (1000 + outer) / 2
+    assert found == pytest.approx({10: 1000, 40: 1000, 20: outer, 30: outer, 50: inner, 60: inner}, rel=1e-3)
