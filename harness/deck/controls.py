@@ -10,7 +10,7 @@ from typing import TypeVar
 from harness.deck.blocks import Block, Row
 from harness.model.steps import Controls, FieldControls, LineSearchControls, TimeControls
 
-FIELD_LINES = (("r_n", "c_n", "q_0", "q_u", "r_p", "eps", "c_eps", "r_l"),)
+FIELD_LINES = (("r_n", "c_n", "q_0", "q_u", "r_p", "eps", "c_eps", "r_l"), ("c_f", "eps_l"))
 TIME_LINES = (
     # the last three are counts of contact iterations, of which there are none
     ("i_0", "i_r", "i_p", "i_c", "i_l", "i_g", "i_s", "i_a", "i_j", "i_t", "", "", ""),

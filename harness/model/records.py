@@ -40,7 +40,10 @@ class Largest:
 
 @dataclass(frozen=True, slots=True)
 class FieldCheck:
-    """Convergence check of one field, as a block of the message file prints it."""
+    """Convergence check of one field, as a block of the message file prints it.
+
+    converted  the time average flux is that of forces or moments, of the other of the two
+    """
 
     field: str
     average_flux: float
@@ -50,6 +53,7 @@ class FieldCheck:
     correction: Largest
     verdict: Verdict
     estimated_correction: float | None = None
+    converted: bool = False
 
 
 @dataclass(frozen=True, slots=True)

@@ -18,7 +18,8 @@ class FieldControls:
     """*CONTROLS, PARAMETERS=FIELD; names and defaults of the Abaqus manual.
 
     r_n residual, c_n correction, q_0 initial and q_u user-defined average flux (0: not given), r_p residual after
-    i_p iterations, eps zero flux, c_eps correction at zero flux, r_l residual of a linear increment.
+    i_p iterations, eps zero flux, c_eps correction at zero flux, r_l residual of a linear increment, c_f field
+    conversion ratio, eps_l zero flux beside the time average of the largest one.
     """
 
     r_n: float = 5e-3
@@ -29,6 +30,8 @@ class FieldControls:
     eps: float = 1e-5
     c_eps: float = 1e-3
     r_l: float = 1e-8
+    c_f: float = 1.0
+    eps_l: float = 1e-5
 
 
 @dataclass(frozen=True, slots=True)

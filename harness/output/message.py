@@ -137,7 +137,7 @@ class MessageFile:
         flux = words.flux
         text = (
             f"\n{f' AVERAGE {flux}':<34}{general(check.average_flux)}   {f'TIME AVG. {flux}':<19} "
-            f"{general(check.time_average_flux)}\n"
+            f"{general(check.time_average_flux)}{_origin(check)}\n"
         )
         text += self._largest(f" LARGEST RESIDUAL {flux}", f" ALL {flux:<9} RESIDUALS ARE ZERO", check.residual)
         quantity = words.quantity
@@ -178,6 +178,13 @@ class MessageFile:
             + f"       TOTAL CPU TIME (SEC) ={general(cpu, 13, 5)}\n"
             + f"       WALLCLOCK TIME (SEC) ={general(wall, 13, 5)}\n"
         )
+
+
+def _origin(check: FieldCheck) -> str:
+    """Where a time average comes from that is not one of the field's own flux."""
+    if not check.converted:
+        return ""
+    return f" FROM {'MOMENT' if check.field == 'force' else 'FORCE'} FIELD"
 
 
 def _verdict(verdict: Verdict, words: FieldWords) -> str:

@@ -209,6 +209,8 @@ def _field(words: FieldWords, controls: FieldControls) -> str:
         (f"CRITERION FOR RESIDUAL {flux} WHEN THERE IS ZERO FLUX", controls.eps),
         (f"CRITERION FOR {quantity}CORRECTION WHEN THERE IS ZERO FLUX", controls.c_eps),
         (f"CRITERION FOR RESIDUAL {flux} FOR A LINEAR INCREMENT", controls.r_l),
+        ("FIELD CONVERSION RATIO", controls.c_f),
+        (f"CRITERION FOR ZERO {flux} REL. TO TIME AVRG. MAX. {words.flux}", controls.eps_l),
     ]
     return f" CONVERGENCE TOLERANCE PARAMETERS FOR {words.flux}\n" + "".join(_row(*row) for row in rows)
 

@@ -112,7 +112,7 @@ class FluxHistory:
 
     def floor(self, controls: FieldControls) -> float:
         """Element nodal force that counts as zero in the next increment; -1 before any flux was seen in the step."""
-        return controls.eps * self.peaks / self.count if self.count else -1.0
+        return controls.eps_l * self.peaks / self.count if self.count else -1.0
 
     def leaves_out(self, peak: float) -> bool:
         """Whether element forces below the floor are no terms of the average, where the largest one is `peak`."""
@@ -121,6 +121,14 @@ class FluxHistory:
     def next_step(self, controls: FieldControls) -> FluxHistory:
         """History at the start of the next step: q_0 where given, else the time average of this step."""
         return FluxHistory(controls.q_0 if controls.q_0 > 0.0 else self._mean())
+
+    def unknown(self, controls: FieldControls) -> bool:
+        """Whether no converged increment has carried flux, and the controls say nothing of it."""
+        return not (self.count or controls.q_0 or controls.q_u) and self.initial == INITIAL_FLUX
+
+    def seen(self, q: float, controls: FieldControls) -> bool:
+        """Whether there is flux, in the current increment by its average q, or in an earlier one of the step."""
+        return self.count > 0 or self._carries(q, controls)
 
     def _mean(self) -> float:
         return self.total / self.count if self.count else self.initial

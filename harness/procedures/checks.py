@@ -11,12 +11,13 @@ from dataclasses import dataclass, field
 import numpy as np
 from numpy.typing import NDArray
 
-from harness.assembly import Constraints, DofMap
+from harness.assembly import Constraints, DofMap, System
 from harness.elements import FIELD_NAMES
 from harness.model.arrays import FloatArray, IntArray, first_largest
+from harness.model.mesh import Mesh
 from harness.model.records import FieldCheck, Largest, Verdict
 from harness.model.steps import Controls, FieldControls
-from harness.procedures.acceptance import INITIAL_FLUX, Check, FluxHistory, estimated_correction, judge
+from harness.procedures.acceptance import Check, FluxHistory, estimated_correction, judge
 from harness.procedures.incrementation import Abandoned, judge_rate, out_of_iterations
 from harness.solver.newton import Iterate
 
@@ -29,6 +30,8 @@ CONTROLLED_AS = dict(
 )
 """FIELD= of *CONTROLS by field."""
 
+ROTATIONS = range(4, 7)
+"""Dofs that are rotations."""
 
 Positions = IntArray | slice
 """Where in a vector the entries of a field are; a slice where they are all of it, which is much quicker."""
@@ -38,8 +41,9 @@ Positions = IntArray | slice
 class FieldChecker:
     """Checks of one field: where its unknowns are, its controls, and what earlier iterations and increments gave.
 
-    unknowns  unknowns of the field
-    free      positions of its free unknowns in the reduced vector
+    unknowns   unknowns of the field
+    free       positions of its free unknowns in the reduced vector
+    average    its time average flux in the last check, which is that of another field where it is `converted`
     """
 
     number: int
@@ -50,6 +54,8 @@ class FieldChecker:
     residuals: list[float] = field(default_factory=list)
     flux: float = 0.0
     peak: float = 0.0
+    average: float = 0.0
+    converted: bool = False
 
     @property
     def name(self) -> str:
@@ -58,12 +64,21 @@ class FieldChecker:
 
 
 class Checker:
-    """Convergence checks of the increments of one step."""
+    """Convergence checks of the increments of one step.
+
+    length  characteristic length of elements with rotations, which makes forces of moments; 0 without
+    """
 
     def __init__(
-        self, dofs: DofMap, constraints: Constraints, controls: Controls, histories: Sequence[FluxHistory]
+        self,
+        dofs: DofMap,
+        constraints: Constraints,
+        controls: Controls,
+        histories: Sequence[FluxHistory],
+        length: float = 0.0,
     ) -> None:
         self._dofs = dofs
+        self._length = length
         self._constraints = constraints
         self._free = constraints.free
         self._time = controls.time
@@ -101,6 +116,9 @@ class Checker:
 
     def check(self, state: Iterate) -> tuple[FieldCheck, ...]:
         """Checks of all fields after an iteration."""
+        for checked in self.fields:
+            self._take_flux(checked, state)
+        self._convert()
         return tuple(self._check(k, checked, state) for k, checked in enumerate(self.fields))
 
     def give_up(self, iteration: int, checks: Sequence[FieldCheck]) -> Abandoned | None:
@@ -116,15 +134,15 @@ class Checker:
     def accepted_as_zero(self, checks: Sequence[FieldCheck]) -> Iterator[FieldCheck]:
         """Checks of which it is Abaqus' initial time average flux alone that accepts them, not the flux there is."""
         for checked, check in zip(self.fields, checks, strict=True):
-            controls, history = checked.controls, checked.history
-            assumed = not (history.count or controls.q_0 or controls.q_u) and history.initial == INITIAL_FLUX
+            controls = checked.controls
+            assumed = checked.history.unknown(controls) and not checked.converted
             left = abs(check.residual.value) > controls.r_n * check.average_flux > 0.0
             if check.verdict is Verdict.ZERO_FLUX and assumed and left:
                 yield check
 
     def time_averages(self) -> dict[str, float]:
         """Time average flux of each field after the last check."""
-        return {field.name: field.history.average(field.flux, field.controls) for field in self.fields}
+        return {field.name: field.average for field in self.fields}
 
     def largest_ratio(self, residual: FloatArray, tolerances: Mapping[str, float]) -> float:
         """Largest residual over its tolerance, of the fields that have one."""
@@ -140,7 +158,8 @@ class Checker:
     def converged(self) -> None:
         """Take the last fluxes into the time average."""
         for checked in self.fields:
-            checked.history = checked.history.converged(checked.flux, checked.controls, checked.peak)
+            if not checked.converted:
+                checked.history = checked.history.converged(checked.flux, checked.controls, checked.peak)
 
     def histories(self, before: Sequence[FluxHistory]) -> list[FluxHistory]:
         """Flux histories by field number, at the end of the step."""
@@ -149,13 +168,36 @@ class Checker:
             after[checked.number] = checked.history
         return after
 
-    def _check(self, k: int, checked: FieldChecker, state: Iterate) -> FieldCheck:
+    def _take_flux(self, checked: FieldChecker, state: Iterate) -> None:
+        """Average flux of a field after an iteration, and its time average."""
         evaluation = state.evaluation
         checked.peak = float(evaluation.largest[checked.number])
         leaves_out = checked.history.leaves_out(checked.peak)
         count = (evaluation.flux_count if leaves_out else evaluation.entries)[checked.number]
         checked.flux = float(evaluation.flux[checked.number] / count) if count else 0.0
-        time_average = checked.history.average(checked.flux, checked.controls)
+        checked.average, checked.converted = checked.history.average(checked.flux, checked.controls), False
+
+    def _convert(self) -> None:
+        """Where forces count as zero beside moments over a length, take these for their time average, and the reverse.
+
+        Else forces that are rounding errors of moments would be measured with themselves. What Abaqus says of it: the
+        field conversion ratio scales the relationship between two active fields when one is of negligible magnitude,
+        and message files have FROM MOMENT FIELD. Inferred are the length, that of elements with rotations, and when it
+        is done: no increment had forces, and they count as zero by the criterion for zero flux.
+        """
+        force, moment = (next((c for c in self.fields if c.name == name), None) for name in ("force", "moment"))
+        if force is None or moment is None or not self._length:
+            return
+        for checked, other, length in ((force, moment, 1 / self._length), (moment, force, self._length)):
+            controls = checked.controls
+            if other.converted or not other.history.seen(other.flux, other.controls):
+                continue
+            average = controls.c_f * length * other.average
+            if checked.history.unknown(controls) and checked.flux <= controls.eps * average:
+                checked.average, checked.converted = average, True
+
+    def _check(self, k: int, checked: FieldChecker, state: Iterate) -> FieldCheck:
+        time_average = checked.average
         residual = self._find(state.reduced, checked.free, self._free)
         increment = self._find(state.increment, checked.unknowns)
         correction = self._find(state.correction, checked.unknowns)
@@ -179,6 +221,7 @@ class Checker:
             correction=correction,
             verdict=judge(check, checked.controls, self._time.i_p),
             estimated_correction=estimated_correction(check),
+            converted=checked.converted,
         )
 
     def _find(self, vector: FloatArray, positions: Positions, unknowns: IntArray | None = None) -> Largest:
@@ -190,6 +233,21 @@ class Checker:
         position = k if isinstance(positions, slice) else int(positions[k])
         unknown = position if unknowns is None else int(unknowns[position])
         return Largest(float(chosen[k]), int(self._dofs.node[unknown]), int(self._dofs.dof[unknown]))
+
+
+def length_of_moments(system: System, mesh: Mesh) -> float:
+    """Characteristic length of elements with rotations: the mean distance of nodes that follow each other; 0 without.
+
+    Abaqus prints a CHARACTERISTIC ELEMENT LENGTH and does not say how it is made: 1 for squares of edge 1, 9.764E-04
+    for hexahedra whose edges are 9.771E-04 in the mean.
+    """
+    total, count = 0.0, 0
+    for block in system.blocks:
+        if any(dof in ROTATIONS for _, dof in block.unknowns):
+            places = mesh.coordinates[block.group.nodes]
+            distances = np.linalg.norm(places - np.roll(places, 1, axis=1), axis=2)
+            total, count = total + float(distances.sum()), count + distances.size
+    return total / count if count else 0.0
 
 
 def _positions(mask: NDArray[np.bool_]) -> Positions:

@@ -31,7 +31,7 @@ from harness.model.records import (
 )
 from harness.model.steps import Step
 from harness.model.user_values import GivesValues, UserValues
-from harness.procedures.checks import Checker
+from harness.procedures.checks import Checker, length_of_moments
 from harness.procedures.extrapolation import Extrapolation
 from harness.procedures.incrementation import (
     DISTORTED,
@@ -134,7 +134,8 @@ class StaticStep:
         if fallback:
             self._descent = Descent(system, constraints, state.solver, line_search, state.majoriser)
         self._newton = Newton(system, constraints, state.solver, line_search)
-        self._checker = Checker(system.dofs, constraints, step.controls, state.flux)
+        length = length_of_moments(system, model.mesh)
+        self._checker = Checker(system.dofs, constraints, step.controls, state.flux, length)
         self._extrapolation = Extrapolation(step.extrapolation)
         self._limit = LimitLoad()
         # size of the last increment, where its response was linear

@@ -151,6 +151,7 @@ TIME = "*CONTROLS, PARAMETERS=TIME INCREMENTATION"
             Controls(default=FieldControls(0.01, 0.02, 3.0, 4.0, 0.05, 6e-5, 7e-3, 8e-8)),
         ),
         (f"{FIELD}\n, 1.\n", Controls(default=FieldControls(c_n=1.0))),
+        (f"{FIELD}\n\n0.5, 1e-6\n", Controls(default=FieldControls(c_f=0.5, eps_l=1e-6))),
         (f"{FIELD}, FIELD=DISP\n.01\n", Controls(fields={"DISPLACEMENT": FieldControls(r_n=0.01)})),
         (
             f"{FIELD}, FIELD=ROTATION\n.01, 1.\n{FIELD}\n.02\n",
@@ -196,7 +197,8 @@ def test_controls_stay_in_later_steps(read: Read) -> None:
         (f"{FIELD}\n-.01", r"deck.inp:44: \*CONTROLS: R_N = -0.01 must not be negative"),
         (f"{TIME}\n4.5", r"deck.inp:44: \*CONTROLS: I_0: '4.5' is not an integer"),
         (f"{FIELD}\n{'1,' * 9}", r"deck.inp:44: \*CONTROLS: 9 entries where at most 8 are read"),
-        (f"{FIELD}\n1\n2", r"deck.inp:45: \*CONTROLS: data line 2 is not supported"),
+        (f"{FIELD}\n1\n2\n3", r"deck.inp:46: \*CONTROLS: data line 3 is not supported"),
+        (f"{FIELD}\n1\n1., 1e-5, 1e-8", r"deck.inp:45: \*CONTROLS: 3 entries where at most 2 are read"),
         ("*CONTROLS, RESET\n1", r"deck.inp:43: \*CONTROLS: RESET takes no data lines"),
         ("*CONTROLS\n1", r"deck.inp:43: \*CONTROLS: data lines need PARAMETERS="),
         ("*CONTROLS", r"deck.inp:43: \*CONTROLS: needs ANALYSIS, PARAMETERS or RESET"),

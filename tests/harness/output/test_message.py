@@ -276,6 +276,8 @@ def test_controls_of_the_deck_are_printed(model: Model, tmp_path: Path) -> None:
     assert "     CRITERION FOR RESIDUAL FORCE     FOR A NONLINEAR PROBLEM          1.000E-02" in lines
     assert "     CRITERION FOR RESIDUAL MOMENT    FOR A NONLINEAR PROBLEM          2.000E-02" in lines
     assert "     TIME AVERAGE MOMENT IS SET TO                                      3.00" in lines
+    assert "     FIELD CONVERSION RATIO                                             1.00" in lines
+    assert "     CRITERION FOR ZERO FORCE     REL. TO TIME AVRG. MAX. FORCE        1.000E-05" in lines
     assert "     FIRST EQUILIBRIUM ITERATION FOR CONSECUTIVE DIVERGENCE CHECK              8" in lines
     assert "     MAXIMUM NUMBER OF LINE SEARCH ITERATIONS                                  4" in lines
     assert " CONVERGENCE TOLERANCE PARAMETERS FOR HEAT FLUX" not in lines

@@ -67,8 +67,8 @@ def test_zeros_are_terms_in_the_first_increment_alone(tmp_path):
     assert averages == pytest.approx([175 / 525, 1050 / 525, 1575 / 525, 2100 / 525])
 
 
-def test_floor_is_the_zero_flux_criterion_times_the_largest_force():
-    controls = FieldControls(eps=1e-3)
+def test_floor_is_the_criterion_beside_the_largest_force():
+    controls = FieldControls(eps_l=1e-3)
     history = FluxHistory()
     assert history.floor(controls) == -1.0
     history = history.converged(2.0, controls, 20.0).converged(4.0, controls, 40.0)
