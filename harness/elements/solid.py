@@ -112,6 +112,10 @@ def solid_procedure(model: Model, group: ElementGroup, section: SolidSection, li
     number = define_material(material, orientation, kind.tensor, section.source, library)
     prestressed = _is_prestressed(model, group, material)
     if prestressed:
+        given = section.orientation
+        if orientation is None and given is not None and not is_global(given):
+            message = "*ORIENTATION with NLGEOM is not supported where elements have initial stresses, which it turns"
+            raise DeckError(section.source, message)
         _binding.set_prestressed(number)
     define_fields(number, material, orientation, kind.tensor, library)
     if material.expansion:

@@ -42,6 +42,8 @@ class DataFile:
         self._file = TextFile(path)
         self._warnings = 0
         self._index: NodalIndex | None = None
+        # step whose requests were compared with what there is; the last increment of a step may come twice
+        self._looked_at = 0
         requests = [
             request for step in model.steps for request in (*step.output.node_print, *step.output.element_print)
         ]
@@ -62,7 +64,8 @@ class DataFile:
         step = self._model.steps[record.step - 1]
         if self._index is None:
             self._index = NodalIndex(len(self._model.mesh.labels), record.solution)
-        if record.increment == 1:
+        if record.step != self._looked_at:
+            self._looked_at = record.step
             self._missing(record, self._index)
         nodes = "".join(
             node_tables(request, self._model, record.solution, self._index, nlgeom=step.nlgeom)

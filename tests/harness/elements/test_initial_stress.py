@@ -178,6 +178,17 @@ def test_stresses_are_in_the_directions_of_the_orientation(run):
     np.testing.assert_allclose(result.field("E11"), -STRAIN, rtol=1e-9)
 
 
+def test_directions_that_nlgeom_leaves_out_are_refused(run):
+    """Those of an isotropic material do not matter for it, but for the stresses they do."""
+    turned = "*ORIENTATION, NAME=TURNED\n0., 1., 0., -1., 0., 0.\n"
+    given = {"orientation": ", ORIENTATION=TURNED", "step": ", NLGEOM"}
+    message = r"bar\.inp:10: \*ORIENTATION with NLGEOM is not supported where elements have initial stresses"
+    with pytest.raises(DeckError, match=message):
+        run(lines=turned, **given)
+    same = turned.replace("0., 1., 0., -1., 0., 0.", "1., 0., 0., 0., 1., 0.")
+    np.testing.assert_allclose(run(clamped=True, lines=same, **given).field("S11"), STRESS, rtol=1e-9)
+
+
 @pytest.mark.parametrize("step", ["", ", NLGEOM"])
 @pytest.mark.parametrize("type", BARS)
 def test_a_plastic_bar_yields_earlier(run, type, step):

@@ -183,3 +183,12 @@ def test_averages_are_over_the_elements_of_the_set_at_a_node(tmp_path):
     outer = 0.24e-3 / 0.14 * 1e6
     inner = (1000 + outer) / 2
     assert found == pytest.approx({10: 1000, 40: 1000, 20: outer, 30: outer, 50: inner, 60: inner}, rel=1e-3)
+
+
+def test_what_is_not_there_is_named_once_in_a_step_of_one_increment(tmp_path):
+    deck = tmp_path / "patch.inp"
+    deck.write_text(PATCH.format(type="CPE4", request="*EL PRINT\nSDV\n*EL PRINT"))
+    harness.run(deck, output_dir=tmp_path)
+    text = (tmp_path / "patch.dat").read_text()
+    assert text.count("SDV IS NOT AVAILABLE AND IS LEFT OUT") == 1
+    assert "WITH      1 WARNING MESSAGES ON THE DAT FILE" in text
