@@ -224,10 +224,11 @@ class Block:
             return
         given, self._arrays.props = self._arrays.props, self._arrays.props.copy()
         self._arrays.props[place] = 1.0
-        zero = np.zeros(unknowns)
-        lflags = (*call.lflags[:2], MASS, *call.lflags[3:])
-        self.evaluate(replace(call, lflags=lflags), zero, zero, zero.copy(), matrix)
-        self._arrays.props = given
+        zero, lflags = np.zeros(unknowns), (*call.lflags[:2], MASS, *call.lflags[3:])
+        try:
+            self.evaluate(replace(call, lflags=lflags), zero, zero, zero.copy(), matrix)
+        finally:
+            self._arrays.props = given
 
     def bare_loop(self, call: Call, u: FloatArray, du: FloatArray, residual: FloatArray) -> None:
         """Only call the elements, from a plain Fortran loop over the block: the limit of speed."""

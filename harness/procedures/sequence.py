@@ -72,6 +72,7 @@ def run_steps(
     set_initial_states(system.blocks, model, user.sdvini)
     yield from set_initial_stresses(system, model, state)
     yield from _unused(system.dofs, "*BOUNDARY", model.boundaries)
+    running: StaticStep | PerturbationStep | None = None
     try:
         for step in model.steps:
             yield StepStarted(step.number)
@@ -87,11 +88,12 @@ def run_steps(
             yield from running.run()
             user.external_database(6, 0, *running.reached)
     except ConvergenceError:
-        user.external_database(3, 0, *running.reached)
+        if running is not None:
+            user.external_database(3, 0, *running.reached)
         raise
     except SingularMatrixError as error:
         raise error.in_step(step.source) from None
-    if model.steps:
+    if running is not None:
         user.external_database(3, 0, *running.reached)
 
 

@@ -2,12 +2,15 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Quadratic elements: polynomials and modes without energy; and a stack of quads with U5 or U6 in between."""
 
+from dataclasses import replace
+
 import meshio
 import numpy as np
 import pytest
 
 import harness
 from harness.delamination.kernels import uel_property, user_element
+from harness.errors import KernelError
 from harness.output import read_interface
 
 E, NU, ALPHA = 1000.0, 0.3, 2.0e4
@@ -115,6 +118,23 @@ def test_mass_of_a_triangle(solid_group, bound, load, call):
     c = np.array([[32, 16, 16], [16, 32, 16], [16, 16, 32]])
     expected = 2.0 * 0.42 / 180 * np.block([[a, b], [b.T, c]])
     np.testing.assert_allclose(matrix.toarray()[::2, ::2], expected, rtol=1e-9, atol=1e-12)
+
+
+def test_mass_that_fails_leaves_the_properties(solid_group, bound, load, call, monkeypatch):
+    """The mass of unit density is asked for with a density of one, which no later call must see."""
+    block, matrix = bound(
+        solid_group("CPS6", np.arange(6)[None], 2.0), np.column_stack([TRIANGLE, np.zeros(6)]), load(None)
+    )
+    with monkeypatch.context() as broken:
+        broken.setattr("harness.usersub._binding.evaluate", _fail)
+        with pytest.raises(KernelError, match="fails"):
+            block.artificial_mass(call, 12, matrix.data)
+    block.evaluate(replace(call, lflags=(1, 0, 4, 0, 0)), np.zeros(12), np.zeros(12), np.zeros(12), matrix.data)
+    assert not matrix.data.any()
+
+
+def _fail(*_):
+    raise KernelError(101, "CPS6", "fails")
 
 
 @pytest.mark.parametrize(("element_type", "rank"), [("CPS8", 13), ("CPS8R", 12), ("CPE8", 13), ("CPE8R", 12)])
