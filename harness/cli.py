@@ -268,7 +268,7 @@ def from_abaqus(parser: argparse.ArgumentParser, words: list[str]) -> list[str]:
 def run_job(options: argparse.Namespace) -> int:
     """`uel run`."""
     from harness.job import MOST_REPEATED, run  # noqa: PLC0415 (keeps the other commands quick)
-    from harness.model.procedures import PERTURBATION_TIME  # noqa: PLC0415
+    from harness.model.perturbations import PERTURBATION_TIME  # noqa: PLC0415
 
     result = run(
         options.deck,

@@ -2,12 +2,16 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Rules of the layout that import-linter cannot see."""
 
+import ast
+import inspect
 import re
 import subprocess
 import sys
 from pathlib import Path
 
 import pytest
+
+from harness.model import perturbations, procedures
 
 ROOT = Path(__file__).parents[1]
 TRACKED = [
@@ -62,6 +66,51 @@ def test_below_abaqus_everything_is_pure(path: Path) -> None:
         line for line in code_lines(path) if re.match(r"^(?!\s*end\b)[\w\s()=*,]*\b(subroutine|function)\b", line)
     ]
     assert [line for line in procedures if not re.search(r"\b(pure|elemental)\b", line)] == []
+
+
+REGISTRY = Path("harness/procedures/registry.py")
+PROCEDURES = {
+    name
+    for module in (procedures, perturbations)
+    for name, kind in inspect.getmembers(module, inspect.isclass)
+    if issubclass(kind, procedures.Procedure)
+}
+
+
+def asked_for(code: str) -> set[str]:
+    """Procedures by whose class a file decides something: isinstance, issubclass, type(...) ==, and case patterns."""
+    asking: list[ast.AST] = []
+    for node in ast.walk(ast.parse(code)):
+        match node:
+            case ast.Call(func=ast.Name(id="isinstance" | "issubclass"), args=[_, kinds]):
+                asking.append(kinds)
+            case ast.Compare(left=ast.Call(func=ast.Name(id="type")), comparators=kinds):
+                asking += kinds
+            case ast.MatchClass(cls=kind):
+                asking.append(kind)
+    words = {word for part in asking for word in re.findall(r"\w+", ast.unparse(part))}
+    return words & PROCEDURES
+
+
+@pytest.mark.parametrize(
+    "code, found",
+    [
+        ("isinstance(step.procedure, Dynamic)", {"Dynamic"}),
+        ("isinstance(p, Frequency | procedures.Static)", {"Frequency", "Static"}),
+        ("if type(p) in (Visco, int): pass", {"Visco"}),
+        ("match p:\n  case SteadyState(): pass", {"SteadyState"}),
+        ("Dynamic(); isinstance(p, int); p.inertia", set()),
+    ],
+)
+def test_questions_for_a_procedure_are_found(code: str, found: set[str]) -> None:
+    assert asked_for(code) == found
+
+
+def test_the_registry_alone_asks_which_procedure_a_step_has() -> None:
+    """Elsewhere a procedure says of itself what it is: inertia, linear, harmonic and so on."""
+    files = [path for path in TRACKED if path.parts[0] == "harness" and path.suffix == ".py" and path != REGISTRY]
+    asking = {str(path): asked_for((ROOT / path).read_text()) for path in files}
+    assert {path: names for path, names in asking.items() if names} == {}
 
 
 def test_fortran_order() -> None:

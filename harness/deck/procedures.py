@@ -16,17 +16,16 @@ import numpy as np
 from harness.deck.blocks import Block, Row
 from harness.deck.prescribed import Prescription
 from harness.deck.structure import Scope
+from harness.model.perturbations import Frequency, StaticPerturbation, SteadyState
 from harness.model.procedures import (
+    CoupledTemperatureDisplacement,
     Dynamic,
-    Frequency,
     HeatTransfer,
     Integrator,
     Procedure,
     Riks,
     Stabilize,
     Static,
-    StaticPerturbation,
-    SteadyState,
     Visco,
 )
 
@@ -189,9 +188,9 @@ def _read_heat_transfer(block: Block, _: Prescription) -> HeatTransfer:
         end_change = row.real(4, "rate of temperature change", 0.0) if row is not None else 0.0
         if end_change <= 0:
             raise block.error("END=SS needs a positive rate of temperature change, entry 5 of the data line")
-    return HeatTransfer(
+    kind = HeatTransfer if block.name == HeatTransfer.keyword else CoupledTemperatureDisplacement
+    return kind(
         *_read_times(block, direct=fixed),
-        coupled=block.name != "HEAT TRANSFER",
         steady=steady,
         largest_change=largest_change or math.inf,
         end_change=end_change,

@@ -18,8 +18,7 @@ from harness.deck.procedures import read_procedure
 from harness.deck.requests import RequestReader
 from harness.deck.structure import Scope
 from harness.model.amplitude import UserAmplitude
-from harness.model.procedures import Dynamic, Frequency, LinearPerturbation, Procedure, StaticPerturbation, SteadyState
-from harness.model.records import MODAL
+from harness.model.procedures import Procedure
 from harness.model.steps import DistributedLoad, ElementLoad, LoadKind, Step
 
 MOST_INCREMENTS = 100
@@ -62,13 +61,9 @@ def read_steps(
         )
         with problems.gather():
             procedure = read_procedure(scope, prescription)
-            if isinstance(procedure, Frequency):
-                output = replace(output, history_energies=MODAL)
-            elif isinstance(procedure, StaticPerturbation):
-                output = replace(output, history_energies=("ALLSE", "ALLWK"))
-            elif isinstance(procedure, SteadyState):
-                output = replace(output, history_energies=())
-            check_parts(scope.blocks, problems, harmonic=isinstance(procedure, SteadyState))
+            if procedure.energies is not None:
+                output = replace(output, history_energies=procedure.energies)
+            check_parts(scope.blocks, problems, harmonic=procedure.harmonic)
             increments = options.integer("INC", MOST_INCREMENTS)
             if increments < 1:
                 raise scope.head.error(f"INC={increments} must be positive")
@@ -102,7 +97,7 @@ def read_steps(
             )
     _check_followers(steps, problems)
     for step in steps:
-        if isinstance(step.procedure, StaticPerturbation | SteadyState):
+        if step.procedure.linear and step.procedure.loaded:
             _check_perturbation(step, problems)
     return tuple(steps)
 
@@ -117,7 +112,7 @@ def _check_perturbation(step: Step, problems: Problems) -> None:
     for load in (*step.element_loads, *step.surface_loads):
         if load.type.jltyp:
             problems.add(load.source, "loads by DLOAD are not supported in a linear perturbation")
-    if isinstance(step.procedure, SteadyState):
+    if step.procedure.harmonic:
         for given in step.distributed:
             problems.add(given.source, "harmonic loads on user elements are not supported")
         if any(isinstance(amplitude, UserAmplitude) for amplitude in step.amplitudes):
@@ -142,7 +137,7 @@ def _check_followers(steps: Sequence[Step], problems: Problems) -> None:
     nonlinear = next((step for step in steps if step.nlgeom), None)
     if nonlinear is None:
         return
-    linear = next((step for step in steps if isinstance(step.procedure, LinearPerturbation)), None)
+    linear = next((step for step in steps if step.procedure.linear), None)
     for load in (load for step in steps for load in (*step.element_loads, *step.surface_loads) if load.type.follows):
         message = f"load type {load.type.kind} turns with the surface, which is not supported with NLGEOM"
         if load.type.kind is not LoadKind.PRESSURE or load.type.jltyp:
@@ -176,7 +171,7 @@ def _is_new(blocks: list[Block], problems: Problems) -> bool:
 
 def _extrapolation(scope: Scope, procedure: Procedure) -> str:
     kind = scope.head.options.text("EXTRAPOLATION")
-    if kind == "VELOCITY PARABOLIC" and not isinstance(procedure, Dynamic):
+    if kind == "VELOCITY PARABOLIC" and not procedure.inertia:
         raise scope.head.error("EXTRAPOLATION=VELOCITY PARABOLIC needs velocities, thus *DYNAMIC")
     return kind
 

@@ -13,7 +13,6 @@ from harness.elements.procedure import Procedure
 from harness.errors import DeckError
 from harness.model.mesh import ElementGroup
 from harness.model.model import Model
-from harness.model.procedures import Dynamic
 from harness.model.properties import CohesiveSection, Damage, DamageEvolution
 from harness.model.records import PointVariables
 from harness.usersub import _binding
@@ -34,7 +33,7 @@ def cohesive_procedure(model: Model, group: ElementGroup, section: CohesiveSecti
     """What the driver calls for a group of cohesive elements. Raises DeckError."""
     nodes, dimension = COHESIVE[group.type]
     for step in model.steps:
-        for refused, what in ((step.nlgeom, "NLGEOM"), (isinstance(step.procedure, Dynamic), "*DYNAMIC")):
+        for refused, what in ((step.nlgeom, "NLGEOM"), (step.procedure.inertia, f"*{step.procedure.keyword}")):
             if refused:
                 raise DeckError(step.source, f"{what} is not supported with elements of type {group.type}")
     reals, integers = cohesive_properties(section, dimension)

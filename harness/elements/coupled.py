@@ -14,7 +14,6 @@ from harness.elements.solid import COUPLED, solid_procedure
 from harness.errors import DeckError
 from harness.model.mesh import ElementGroup
 from harness.model.model import Model
-from harness.model.procedures import HeatTransfer
 from harness.model.properties import SolidSection
 from harness.usersub import Library, _binding
 
@@ -33,10 +32,10 @@ def coupled_procedure(model: Model, group: ElementGroup, section: SolidSection, 
     transient = False
     for step in model.steps:
         procedure = step.procedure
-        if not (isinstance(procedure, HeatTransfer) and procedure.coupled):
+        if not (procedure.temperatures and procedure.displacements):
             message = f"elements of type {group.type} are supported in *COUPLED TEMPERATURE-DISPLACEMENT steps only"
             raise DeckError(step.source, message)
-        transient = transient or not procedure.steady
+        transient = transient or procedure.stores_heat
     needed = [("*CONDUCTIVITY", material.conductivity)]
     if transient:
         needed += [("*DENSITY", material.density), ("*SPECIFIC HEAT", material.specific_heat)]

@@ -13,7 +13,6 @@ from harness.elements.procedure import Procedure
 from harness.errors import DeckError
 from harness.model.mesh import ElementGroup
 from harness.model.model import Model
-from harness.model.procedures import Dynamic
 from harness.model.properties import ElasticType, MassSection, SolidSection, SpringSection
 from harness.model.records import PointVariables
 from harness.usersub import _binding
@@ -38,7 +37,7 @@ def discrete_unknowns(model: Model, group: ElementGroup) -> tuple[tuple[int, int
 def discrete_procedure(model: Model, group: ElementGroup, unknowns: int) -> Procedure:
     """What the driver calls for a group. Raises DeckError."""
     kind = _KINDS[group.type]
-    dynamic = any(isinstance(step.procedure, Dynamic) for step in model.steps)
+    dynamic = any(step.procedure.inertia for step in model.steps)
     hidden = 2 * unknowns if dynamic else 0
     return Procedure(
         address=_binding.discrete_address(),

@@ -23,7 +23,6 @@ from harness.elements.procedure import OutputVariables, Procedure
 from harness.errors import DeckError
 from harness.model.mesh import ElementGroup
 from harness.model.model import Model
-from harness.model.procedures import Dynamic
 from harness.model.properties import ElasticType, Material, Orientation, SolidSection
 from harness.model.records import PointVariables
 from harness.usersub import Library, _binding
@@ -102,7 +101,7 @@ def solid_procedure(model: Model, group: ElementGroup, section: SolidSection, li
     kind, material = solid_of(group), section.material
     if kind.axisymmetric:
         _check_radii(model, group)
-    dynamic = next((step for step in model.steps if isinstance(step.procedure, Dynamic)), None)
+    dynamic = next((step for step in model.steps if step.procedure.inertia), None)
     if dynamic is not None and not material.density:
         message = f"material {material.name} has no *DENSITY, which elements of type {group.type} need in *DYNAMIC"
         raise DeckError(material.source, message)

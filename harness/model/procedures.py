@@ -1,13 +1,23 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""Procedures of a step: what *STATIC, *DYNAMIC, *FREQUENCY, *HEAT TRANSFER and so on say."""
+"""Procedures of a step: what *STATIC, *VISCO, *DYNAMIC and *HEAT TRANSFER say; `perturbations` has the linear ones.
+
+A procedure carries all that others ask of it, so that nobody asks which one it is: whether there is inertia, which
+fields have equations, whether it is linear or harmonic, LFLAGS(1), how its progress counts, and its head in .msg and
+.dat. `harness.procedures.registry` has what runs it.
+"""
 
 from __future__ import annotations
 
 import math
 from abc import ABC, abstractmethod
+from collections.abc import Iterator
 from dataclasses import dataclass, field
 from enum import StrEnum
+from typing import ClassVar
+
+HeadLine = str | tuple[str, float | str]
+"""A line of the head of a step in .msg and .dat: words, or words and a value."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -43,7 +53,30 @@ class Procedure(ABC):
     """Initial increment, period, smallest and largest increment of a step; direct = fixed increments.
 
     With `riks` these are arc lengths, the period is their scale alone, and the step ends where `riks` says.
+
+    keyword       that gives the procedure
+    title         what .msg and .dat call it
+    inertia       V and A go with U: elements need a mass, and loads work against it
+    displacements, temperatures  which of the two have equations of their own
+    linear        a linear perturbation of the state at the end of the last general step, in which no time passes
+    harmonic      loads and results are complex amplitudes, over frequency
+    loaded        loads and prescribed values of the step act
+    unsymmetric   matrices are stored and solved as unsymmetric ones, UNSYMM or not
+    growth        name of the control D_M that bounds the growth from one increment to the next
+    energies      of the whole model in the history output; None: those that the step asks for
     """
+
+    keyword: ClassVar[str]
+    title: ClassVar[str]
+    inertia: ClassVar[bool] = False
+    displacements: ClassVar[bool] = True
+    temperatures: ClassVar[bool] = False
+    linear: ClassVar[bool] = False
+    harmonic: ClassVar[bool] = False
+    loaded: ClassVar[bool] = True
+    unsymmetric: ClassVar[bool] = False
+    growth: ClassVar[str] = "d_m"
+    energies: ClassVar[tuple[str, ...] | None] = None
 
     initial: float = 1.0
     period: float = 1.0
@@ -59,19 +92,61 @@ class Procedure(ABC):
         """LFLAGS(1), which tells user elements the procedure."""
 
     @property
-    def growth(self) -> str:
-        """Name of the control D_M that bounds the growth from one increment to the next."""
-        return "d_m"
+    def params(self) -> tuple[float, float, float]:
+        """PARAMS of the calls."""
+        return 0.0, 0.0, 0.0
 
     @property
     def default_amplitude(self) -> str:
         """How loads vary where neither they nor *STEP name an amplitude: RAMP or STEP."""
         return "RAMP"
 
+    @property
+    def full_title(self) -> str:
+        """The title, with what the step is in addition."""
+        return self.title
+
+    @property
+    def stores_heat(self) -> bool:
+        """Whether elements store heat."""
+        return False
+
+    @property
+    def extent(self) -> tuple[str, float]:
+        """What the step runs through, for its progress, and how far."""
+        return "time", self.period
+
+    def head(self) -> Iterator[HeadLine]:
+        """What .msg and .dat say of it at the start of the step."""
+        if self.riks is not None:
+            yield from self._arc_lengths(self.riks)
+        elif self.direct:
+            yield from ("FIXED TIME INCREMENTS", ("TIME INCREMENT IS", self.initial), ("TIME PERIOD IS", self.period))
+        else:
+            yield "AUTOMATIC TIME CONTROL WITH -"
+            yield "A SUGGESTED INITIAL TIME INCREMENT OF", self.initial
+            yield "AND A TOTAL TIME PERIOD OF", self.period
+            yield "THE MINIMUM TIME INCREMENT ALLOWED IS", self.minimum
+            yield "THE MAXIMUM TIME INCREMENT ALLOWED IS", self.maximum
+
+    def _arc_lengths(self, riks: Riks) -> Iterator[HeadLine]:
+        yield f"{'FIXED' if self.direct else 'AUTOMATIC'} ARC LENGTH CONTROL (RIKS METHOD) WITH -"
+        yield "AN INITIAL ARC LENGTH INCREMENT OF", self.initial
+        yield "A TOTAL ARC LENGTH SCALE FACTOR OF", self.period
+        if not self.direct:
+            yield "THE MINIMUM ARC LENGTH INCREMENT ALLOWED IS", self.minimum
+        if math.isfinite(self.maximum) and not self.direct:
+            yield "THE MAXIMUM ARC LENGTH INCREMENT ALLOWED IS", self.maximum
+        if riks.largest_factor is not None:
+            yield "THE MAXIMUM LOAD PROPORTIONALITY FACTOR IS", riks.largest_factor
+
 
 @dataclass(frozen=True, slots=True)
 class Static(Procedure):
     """*STATIC."""
+
+    keyword: ClassVar = "STATIC"
+    title: ClassVar = "STATIC ANALYSIS"
 
     @property
     def lflag(self) -> int:
@@ -82,6 +157,9 @@ class Static(Procedure):
 @dataclass(frozen=True, slots=True)
 class Visco(Procedure):
     """*VISCO: a static step on a real time scale."""
+
+    keyword: ClassVar = "VISCO"
+    title: ClassVar = "VISCO ANALYSIS"
 
     @property
     def lflag(self) -> int:
@@ -111,6 +189,11 @@ class Dynamic(Procedure):
     half_force            the same as a force (HAFTOL); 0: not given
     """
 
+    keyword: ClassVar = "DYNAMIC"
+    title: ClassVar = "DYNAMIC ANALYSIS"
+    inertia: ClassVar = True
+    growth: ClassVar = "d_m_dyn"
+
     alpha: float = -0.05
     beta: float = 0.275625
     gamma: float = 0.55
@@ -120,9 +203,9 @@ class Dynamic(Procedure):
     half_force: float = 0.0
 
     @property
-    def growth(self) -> str:
-        """That of dynamic steps."""
-        return "d_m_dyn"
+    def params(self) -> tuple[float, float, float]:
+        """Of the integrator."""
+        return self.alpha, self.beta, self.gamma
 
     @property
     def lflag(self) -> int:
@@ -134,95 +217,72 @@ class Dynamic(Procedure):
         """Loads are there at once, but ramp where the step looks for a static state."""
         return "RAMP" if self.integrator is Integrator.BACKWARD_EULER else "STEP"
 
-
-PERTURBATION_TIME = 1e-36
-"""Period of a perturbation step, in which no time passes."""
-
-
-@dataclass(frozen=True, slots=True)
-class LinearPerturbation(Procedure):
-    """A linear step about the state at the end of the last general one, in which no time passes."""
-
-    initial: float = PERTURBATION_TIME
-    period: float = PERTURBATION_TIME
-    minimum: float = PERTURBATION_TIME
-    maximum: float = PERTURBATION_TIME
-    direct: bool = True
-
-
-@dataclass(frozen=True, slots=True)
-class StaticPerturbation(LinearPerturbation):
-    """*STATIC in a step with PERTURBATION."""
-
-    @property
-    def lflag(self) -> int:
-        """1."""
-        return 1
-
-
-@dataclass(frozen=True, slots=True)
-class Frequency(LinearPerturbation):
-    """*FREQUENCY.
-
-    number           of eigenvalues; 0: all up to `highest`
-    lowest, highest  frequencies of interest, cycles per time
-    by_mass          shapes have unit generalized mass; the largest displacement is one otherwise
-    """
-
-    number: int = 0
-    lowest: float = -math.inf
-    highest: float = math.inf
-    by_mass: bool = False
-
-    @property
-    def lflag(self) -> int:
-        """41."""
-        return 41
-
-
-@dataclass(frozen=True, slots=True)
-class SteadyState(LinearPerturbation):
-    """*STEADY STATE DYNAMICS, DIRECT: the response to harmonic loads.
-
-    frequencies  cycles per time, in the order in which they are run through
-    undamped     REAL ONLY: damping is left out
-    """
-
-    frequencies: tuple[float, ...] = ()
-    undamped: bool = False
-
-    @property
-    def lflag(self) -> int:
-        """95."""
-        return 95
+    def head(self) -> Iterator[HeadLine]:
+        """Increments, integrator, and how accurate it has to be."""
+        # without arguments super() does not find the class that slots=True makes
+        yield from Procedure.head(self)
+        if self.integrator is Integrator.HHT:
+            yield "NUMERICAL DAMPING CONTROL PARAMETER (ALPHA) IS", self.alpha
+            yield from (("BETA", self.beta), ("GAMMA", self.gamma))
+        if self.half_force:
+            yield "HALF-INCREMENT RESIDUAL TOLERANCE IS", self.half_force
+        elif math.isfinite(self.half_increment):
+            yield "HALF-INCREMENT SCALE FACTOR IS", self.half_increment
 
 
 @dataclass(frozen=True, slots=True)
 class HeatTransfer(Procedure):
-    """*HEAT TRANSFER, and *COUPLED TEMPERATURE-DISPLACEMENT where displacements are `coupled`.
+    """*HEAT TRANSFER.
 
     steady          STEADY STATE: time is a scale for loads
     largest_change  DELTMX, largest change of temperature in an increment; inf: not limited
     end_change      END=SS: the step ends where no temperature changes faster than this; 0: with the period
     """
 
-    coupled: bool = False
+    keyword: ClassVar = "HEAT TRANSFER"
+    title: ClassVar = "HEAT TRANSFER"
+    displacements: ClassVar = False
+    temperatures: ClassVar = True
+    growth: ClassVar = "d_m_diff"
+    flags: ClassVar = 30
+
     steady: bool = False
     largest_change: float = math.inf
     end_change: float = 0.0
 
     @property
-    def growth(self) -> str:
-        """That of diffusion."""
-        return "d_m_diff"
-
-    @property
     def lflag(self) -> int:
-        """31 or 71 steady, 32 or 72 transient, 33 or 73 with fixed increments."""
-        kind = 1 if self.steady else 3 if self.direct else 2
-        return (70 if self.coupled else 30) + kind
+        """31 steady, 32 transient, 33 with fixed increments; 71 to 73 with displacements."""
+        return self.flags + (1 if self.steady else 3 if self.direct else 2)
 
     @property
     def default_amplitude(self) -> str:
         """Loads are there at once, but ramp to a steady state."""
         return "RAMP" if self.steady else "STEP"
+
+    @property
+    def full_title(self) -> str:
+        """Steady state or transient."""
+        return f"{'STEADY STATE' if self.steady else 'TRANSIENT'} {self.title}"
+
+    @property
+    def stores_heat(self) -> bool:
+        """Unless it is steady."""
+        return not self.steady
+
+    def head(self) -> Iterator[HeadLine]:
+        """Increments, and how accurate they have to be."""
+        yield from Procedure.head(self)
+        if math.isfinite(self.largest_change):
+            yield "MAXIMUM TEMPERATURE CHANGE IN AN INCREMENT IS", self.largest_change
+
+
+@dataclass(frozen=True, slots=True)
+class CoupledTemperatureDisplacement(HeatTransfer):
+    """*COUPLED TEMPERATURE-DISPLACEMENT."""
+
+    keyword: ClassVar = "COUPLED TEMPERATURE-DISPLACEMENT"
+    title: ClassVar = "COUPLED TEMPERATURE-DISPLACEMENT"
+    displacements: ClassVar = True
+    unsymmetric: ClassVar = True
+    flags: ClassVar = 70

@@ -20,7 +20,6 @@ import numpy as np
 from harness.model.arrays import FloatArray, IntArray
 from harness.model.model import Model
 from harness.model.nodal import PHASE, Component, NodalIndex
-from harness.model.procedures import SteadyState
 from harness.model.records import ENERGIES, MODAL, IncrementDone, Solution
 from harness.model.steps import NodeRequest
 from harness.output.formats import TextFile
@@ -68,7 +67,7 @@ class HistoryFile:
         for step in self._model.steps:
             columns: list[_Column] = []
             for request in step.output.history_nodes:
-                columns += self._nodal(request, index, harmonic=isinstance(step.procedure, SteadyState))
+                columns += self._nodal(request, index, harmonic=step.procedure.harmonic)
             for name in step.output.history_energies:
                 if name in ENERGIES or name in MODAL:
                     columns.append(_Column(name))

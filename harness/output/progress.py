@@ -8,7 +8,6 @@ from rich.console import Console
 from rich.progress import BarColumn, Progress, TaskID, TextColumn, TimeElapsedColumn
 
 from harness.model.model import Model
-from harness.model.procedures import Frequency, LinearPerturbation, Procedure, SteadyState
 from harness.model.records import (
     AttemptAbandoned,
     AttemptStarted,
@@ -53,7 +52,7 @@ class ProgressDisplay:
         if isinstance(record, StepStarted):
             self._step = record.step
             self._cutbacks = 0
-            what, total = _extent(self._model.steps[record.step - 1].procedure)
+            what, total = self._model.steps[record.step - 1].procedure.extent
             self._task = self._progress.add_task(
                 "", total=total, what=what, step=record.step, increment=1, iteration=0, ratio="-", cutbacks=0
             )
@@ -67,7 +66,7 @@ class ProgressDisplay:
             self._cutbacks += 1
             self._progress.update(self._task, cutbacks=self._cutbacks)
         elif isinstance(record, IncrementDone):
-            linear = isinstance(self._model.steps[record.step - 1].procedure, LinearPerturbation)
+            linear = self._model.steps[record.step - 1].procedure.linear
             self._progress.update(self._task, completed=record.increment if linear else record.step_time)
 
     def close(self) -> None:
@@ -84,12 +83,3 @@ class ProgressDisplay:
             if check.time_average_flux > 0.0
         ]
         return f"{max(ratios):.1e}" if ratios else "-"
-
-
-def _extent(procedure: Procedure) -> tuple[str, float]:
-    """What a step runs through, and how far: time, modes, or frequencies of a harmonic response."""
-    if isinstance(procedure, SteadyState):
-        return "frequency", len(procedure.frequencies)
-    if isinstance(procedure, Frequency):
-        return "mode", procedure.number or 1
-    return ("increment", 1) if isinstance(procedure, LinearPerturbation) else ("time", procedure.period)

@@ -4,19 +4,9 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Iterable
 
-from harness.model.procedures import (
-    Dynamic,
-    Frequency,
-    HeatTransfer,
-    Integrator,
-    LinearPerturbation,
-    Procedure,
-    SteadyState,
-    Visco,
-)
+from harness.model.procedures import HeadLine, Procedure
 from harness.model.records import HarmonicResponse, IncrementDone, ModeShape
 from harness.model.steps import Controls, FieldControls, Step, TimeControls
 from harness.output.formats import general
@@ -39,101 +29,24 @@ def controls_of(field: str, controls: Controls) -> FieldControls:
 
 def procedure(step: Step) -> str:
     """Kind of the step and its time incrementation."""
-    static = step.procedure
-    title = " ".join(_title(static))
+    given = step.procedure
     lines = [
-        f"                        S T E P  {step.number:6d}     {title}",
+        f"                        S T E P  {step.number:6d}     {' '.join(given.full_title)}",
         "",
         "",
         f"          {step.title}".rstrip(),
         "",
+        *map(_head_line, given.head()),
     ]
-    if isinstance(static, Frequency):
-        lines += _frequency(static)
-    elif isinstance(static, SteadyState):
-        lines += _steady_state(static)
-    elif isinstance(static, LinearPerturbation):
-        lines += ["          A LINEAR PERTURBATION ABOUT THE BASE STATE"]
-    elif static.riks is not None:
-        lines += _riks(static)
-    elif static.direct:
-        lines += [
-            "          FIXED TIME INCREMENTS",
-            f"          TIME INCREMENT IS                                  {general(static.initial)}",
-            f"          TIME PERIOD IS                                     {general(static.period)}",
-        ]
-    else:
-        lines += [
-            "     AUTOMATIC TIME CONTROL WITH -",
-            f"          A SUGGESTED INITIAL TIME INCREMENT OF              {general(static.initial)}",
-            f"          AND A TOTAL TIME PERIOD OF                         {general(static.period)}",
-            f"          THE MINIMUM TIME INCREMENT ALLOWED IS              {general(static.minimum)}",
-            f"          THE MAXIMUM TIME INCREMENT ALLOWED IS              {general(static.maximum)}",
-        ]
-    return "\n".join([*lines, *_accuracy(static), "", ""])
+    return "\n".join([*lines, "", ""])
 
 
-def _title(given: Procedure) -> str:
-    if isinstance(given, Dynamic):
-        return "DYNAMIC ANALYSIS"
-    if isinstance(given, Frequency):
-        return "CALCULATION OF EIGENVALUES FOR NATURAL FREQUENCIES"
-    if isinstance(given, SteadyState):
-        return "DIRECT SOLUTION STEADY STATE DYNAMIC ANALYSIS"
-    if isinstance(given, HeatTransfer):
-        kind = "STEADY STATE" if given.steady else "TRANSIENT"
-        return f"{kind} COUPLED TEMPERATURE-DISPLACEMENT" if given.coupled else f"{kind} HEAT TRANSFER"
-    return "VISCO ANALYSIS" if isinstance(given, Visco) else "STATIC ANALYSIS"
-
-
-def _accuracy(given: Procedure) -> list[str]:
-    """What the integration over time depends on."""
-    rows: list[tuple[str, float]] = []
-    if isinstance(given, Dynamic) and given.integrator is Integrator.HHT:
-        rows = [("NUMERICAL DAMPING CONTROL PARAMETER (ALPHA) IS", given.alpha)]
-        rows += [("BETA", given.beta), ("GAMMA", given.gamma)]
-    if isinstance(given, Dynamic) and given.half_force:
-        rows.append(("HALF-INCREMENT RESIDUAL TOLERANCE IS", given.half_force))
-    elif isinstance(given, Dynamic) and math.isfinite(given.half_increment):
-        rows.append(("HALF-INCREMENT SCALE FACTOR IS", given.half_increment))
-    if isinstance(given, HeatTransfer) and math.isfinite(given.largest_change):
-        rows.append(("MAXIMUM TEMPERATURE CHANGE IN AN INCREMENT IS", given.largest_change))
-    return [f"          {words:<51}{general(value)}" for words, value in rows]
-
-
-def _frequency(given: Frequency) -> list[str]:
-    lines = [f"          NUMBER OF EIGENVALUES                              {given.number or 'ALL':>10}"]
-    if math.isfinite(given.highest):
-        lines.append(f"          HIGHEST FREQUENCY OF INTEREST (CYCLES/TIME)        {general(given.highest)}")
-    if math.isfinite(given.lowest):
-        lines.append(f"          LOWEST FREQUENCY OF INTEREST (CYCLES/TIME)         {general(given.lowest)}")
-    normalized = "UNIT GENERALIZED MASS" if given.by_mass else "UNIT MAXIMUM DISPLACEMENT"
-    return [*lines, f"          EIGENVECTORS ARE NORMALIZED TO {normalized}"]
-
-
-def _steady_state(given: SteadyState) -> list[str]:
-    lines = [
-        f"          NUMBER OF FREQUENCIES                              {len(given.frequencies):>10}",
-        f"          LOWEST FREQUENCY (CYCLES/TIME)                     {general(min(given.frequencies))}",
-        f"          HIGHEST FREQUENCY (CYCLES/TIME)                    {general(max(given.frequencies))}",
-    ]
-    return [*lines, "          DAMPING IS LEFT OUT"] if given.undamped else lines
-
-
-def _riks(static: Procedure) -> list[str]:
-    lines = [
-        f"     {'FIXED' if static.direct else 'AUTOMATIC'} ARC LENGTH CONTROL (RIKS METHOD) WITH -",
-        f"          AN INITIAL ARC LENGTH INCREMENT OF                 {general(static.initial)}",
-        f"          A TOTAL ARC LENGTH SCALE FACTOR OF                 {general(static.period)}",
-    ]
-    if not static.direct:
-        lines.append(f"          THE MINIMUM ARC LENGTH INCREMENT ALLOWED IS        {general(static.minimum)}")
-    if math.isfinite(static.maximum) and not static.direct:
-        lines.append(f"          THE MAXIMUM ARC LENGTH INCREMENT ALLOWED IS        {general(static.maximum)}")
-    if static.riks is not None and static.riks.largest_factor is not None:
-        factor = general(static.riks.largest_factor)
-        lines.append(f"          THE MAXIMUM LOAD PROPORTIONALITY FACTOR IS         {factor}")
-    return lines
+def _head_line(line: HeadLine) -> str:
+    """A line of the head of a step; what others belong to stands farther out."""
+    if isinstance(line, str):
+        return f"{' ' * (5 if line.endswith('WITH -') else 10)}{line}"
+    words, value = line
+    return f"          {words:<51}{value if isinstance(value, str) else general(value)}"
 
 
 def completed(record: IncrementDone, period: float) -> str:
@@ -158,7 +71,7 @@ def completed(record: IncrementDone, period: float) -> str:
 
 def tolerances(step: Step, fields: Iterable[str]) -> str:
     """Everything that the convergence checks and the time incrementation of the step depend on."""
-    if isinstance(step.procedure, LinearPerturbation):
+    if step.procedure.linear:
         return ""
     blocks = [_field(FIELDS[name], controls_of(name, step.controls)) for name in fields]
     blocks.append(_time(step.controls.time, step.procedure))
@@ -175,7 +88,7 @@ def tolerances(step: Step, fields: Iterable[str]) -> str:
     options = [f"     THE MAXIMUM NUMBER OF INCREMENTS IN THIS STEP IS{step.increments:24d}\n"]
     if step.nlgeom:
         options.append("          LARGE DISPLACEMENT THEORY WILL BE USED\n")
-    if step.unsymmetric or (isinstance(step.procedure, HeatTransfer) and step.procedure.coupled):
+    if step.unsymmetric or step.procedure.unsymmetric:
         options.append("          UNSYMMETRIC MATRIX STORAGE AND SOLUTION WILL BE USED\n")
     kind = (
         "EXTRAPOLATION WILL NOT" if step.extrapolation in ("NO", "NONE") else f"{step.extrapolation} EXTRAPOLATION WILL"

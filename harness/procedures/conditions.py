@@ -15,7 +15,6 @@ from numpy.typing import NDArray
 from harness.elements import Distributed, Predefined
 from harness.model.arrays import FloatArray, IntArray
 from harness.model.model import Model
-from harness.model.procedures import HeatTransfer
 from harness.model.steps import Load, Step
 from harness.procedures.loads import Loads, Slots, Variation
 
@@ -33,7 +32,7 @@ class Conditions:
         self._active = np.zeros(len(self._slots), dtype=bool)
         numbers = [entry.dof for step in model.steps for entry in step.fields]
         starts = list(model.initial_fields)
-        if model.steps and not isinstance(model.steps[0].procedure, HeatTransfer):
+        if model.steps and not model.steps[0].procedure.temperatures:
             temperatures = [entry for entry in model.initial_temperatures if entry.dof == FIRST_TEMPERATURE]
             starts += [replace(entry, dof=0) for entry in temperatures]
         count = max([*numbers, *(start.dof for start in starts)], default=-1) + 1

@@ -13,16 +13,13 @@ import math
 import numpy as np
 from scipy import sparse
 
-from harness.assembly import System
 from harness.errors import DeckError
 from harness.model.arrays import FloatArray, first_largest
-from harness.model.model import Model
-from harness.model.procedures import Frequency
+from harness.model.perturbations import Frequency
 from harness.model.records import ModesFound, ModeShape, Record
-from harness.model.steps import Step
+from harness.procedures.context import MASS
 from harness.procedures.perturbation import PerturbationStep
-from harness.procedures.state import State
-from harness.procedures.static import MASS, UserRoutines
+from harness.procedures.setting import Setting
 from harness.solver.eigen import Pair, UnstableError, lowest_eigenvalues
 
 STIFFNESS = 2
@@ -37,17 +34,8 @@ _LAST_DISPLACEMENT = 3
 class FrequencyStep(PerturbationStep):
     """One step of natural frequencies."""
 
-    def __init__(
-        self,
-        system: System,
-        model: Model,
-        step: Step,
-        procedure: Frequency,
-        state: State,
-        solver: str,
-        user: UserRoutines,
-    ) -> None:
-        super().__init__(system, model, step, state, solver, user)
+    def __init__(self, setting: Setting, procedure: Frequency) -> None:
+        super().__init__(setting)
         self._procedure = procedure
 
     def _solve(self) -> list[Record]:

@@ -8,18 +8,16 @@ Elements integrate over time by themselves; the step limits the change of temper
 from __future__ import annotations
 
 import math
+from collections.abc import Iterable
 
 import numpy as np
 
-from harness.assembly import System
 from harness.elements import FIELD_NAMES
-from harness.model.model import Model
 from harness.model.procedures import HeatTransfer
-from harness.model.steps import Step
+from harness.model.records import Record
+from harness.procedures.context import StepContext
 from harness.procedures.incrementation import Accuracy
-from harness.procedures.stabilized import StabilizedStep
-from harness.procedures.state import State
-from harness.procedures.static import Reached, StaticStep, UserRoutines
+from harness.procedures.parts import Part
 from harness.solver.newton import Iterate
 
 CHANGES_TOO_FAST = "THE TEMPERATURE CHANGES BY MORE THAN DELTMX IN THE INCREMENT."
@@ -27,44 +25,31 @@ CHANGES_TOO_FAST = "THE TEMPERATURE CHANGES BY MORE THAN DELTMX IN THE INCREMENT
 _TEMPERATURE = FIELD_NAMES.index("temperature")
 
 
-class HeatTransferStep(StaticStep):
-    """One step with temperatures."""
+class TemperatureChange(Part):
+    """Limits of the change of temperature: in an increment, and at the end of the step."""
 
-    def __init__(
-        self,
-        system: System,
-        model: Model,
-        step: Step,
-        state: State,
-        solver: str,
-        user: UserRoutines,
-        *,
-        fallback: bool = False,
-    ) -> None:
-        super().__init__(system, model, step, state, solver, user, fallback=fallback)
-        assert state.constraints is not None
-        assert isinstance(step.procedure, HeatTransfer)
-        self._procedure = step.procedure
-        free = state.constraints.free
-        self._temperatures = free[system.dofs.field[free] == _TEMPERATURE]
+    def __init__(self, context: StepContext, procedure: HeatTransfer) -> None:
+        self._procedure = procedure
+        free = context.constraints.free
+        self._temperatures = free[context.system.dofs.field[free] == _TEMPERATURE]
         self._rate = math.inf
 
     def _warming(self, last: Iterate) -> float:
         """Largest change of a temperature that is not prescribed."""
         return float(np.abs(last.increment[self._temperatures]).max(initial=0.0))
 
-    def _accuracy(self, last: Iterate, size: float) -> Accuracy | None:
+    def accuracy(self, last: Iterate, size: float) -> Accuracy | None:
+        """The change over DELTMX."""
         if self._procedure.steady or math.isinf(self._procedure.largest_change):
             return None
         return Accuracy(self._warming(last) / self._procedure.largest_change, CHANGES_TOO_FAST)
 
-    def _reach(self, last: Iterate, size: float) -> Reached:
+    def converged(self, last: Iterate, size: float) -> Iterable[Record]:
+        """The rate that END=SS looks at."""
         self._rate = self._warming(last) / size
-        return super()._reach(last, size)
+        return ()
 
-    def _finished(self) -> bool:
-        return super()._finished() or self._rate < self._procedure.end_change
-
-
-class StabilizedHeatTransferStep(HeatTransferStep, StabilizedStep):
-    """One step with temperatures and viscous forces."""
+    @property
+    def finished(self) -> bool:
+        """With END=SS: nothing changes any more."""
+        return self._rate < self._procedure.end_change

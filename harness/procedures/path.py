@@ -1,187 +1,147 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""Static steps whose load factor is unknown: *STATIC, RIKS, and energy control.
-
-The step goes from the state at its start, load factor (LPF) 0, to what it prescribes, LPF 1: forces and displacements
-are P_0 + LPF (P_ref - P_0). The length of the path takes the place of time in the sizes of increments and in what
-elements are told.
-"""
+"""What the increments of a general step run along: time, or (in `load_factor`) a path whose load factor is unknown."""
 
 from __future__ import annotations
 
-import math
-from abc import abstractmethod
-from collections.abc import Iterator
-from dataclasses import replace
+from abc import ABC, abstractmethod
+from collections.abc import Iterable, Iterator, Sequence
+from dataclasses import dataclass
 
-from harness.assembly import System
-from harness.errors import DeckError
 from harness.model.arrays import FloatArray
-from harness.model.model import Model
-from harness.model.records import Noted, Record
-from harness.model.steps import Boundary, ElementLoad, Load, Step
+from harness.model.records import FieldCheck, Record, Verdict
+from harness.procedures.context import StepContext
+from harness.procedures.extrapolation import Extrapolation
 from harness.procedures.incrementation import IncrementControl
-from harness.procedures.state import State
-from harness.procedures.static import Reached, StaticStep, UserRoutines
-from harness.solver.arclength import ArcLength
-from harness.solver.dissipation import Dissipation
-from harness.solver.newton import Iterate
-from harness.solver.path import Control, PathFollower, PathIncrement, PathIterate
-
-EXTRAPOLATED = 0.01
-"""Fraction of the last increment that an increment starts from: it tells the elements which way they go."""
-
-ROUNDING = 1e-12
-"""A load factor this close to 1 is 1."""
-
-REMAINDER = 1e-6
-"""A rest of the load factor below this fraction of an increment is joined to it."""
+from harness.procedures.parts import Part
+from harness.solver.descent import Descent
+from harness.solver.newton import Increment, Iterate, Newton
 
 
-class PathStep(StaticStep):
-    """One step along a path.
+@dataclass(frozen=True, slots=True)
+class Reached:
+    """End of a converged increment.
 
-    nrhs   NRHS of its passes
-    scale  step time at LPF = 1
+    load, released  (n,) loads and fading forces
+    size            change of the step time
+    load_factor     where it is part of the solution
     """
 
-    nrhs = 1
-    scale = 1.0
+    load: FloatArray
+    released: FloatArray
+    step_time: float
+    total_time: float
+    size: float
+    load_factor: float | None = None
 
-    def __init__(self, system: System, model: Model, step: Step, state: State, solver: str, user: UserRoutines) -> None:
-        """Raises DeckError where an amplitude governs what the step prescribes."""
-        super().__init__(system, model, step, state, solver, user)
-        entries: tuple[Boundary | Load | ElementLoad, ...]
-        entries = (*step.boundaries, *step.loads, *step.element_loads, *step.surface_loads)
-        source = next((entry.source for entry in entries if entry.amplitude), step.source)
-        if self._prescribed.curves or self._load.curves or self._amplitudes.courses:
-            raise DeckError(source, "an amplitude has no meaning in a step whose load factor is part of the solution")
-        if self._load.turning:
-            message = (
-                "pressures that turn with the surface (NLGEOM) are not supported in a step whose load factor is unknown"
-            )
-            raise DeckError(step.source, message)
-        if len(state.boundaries.by_user) or self._load.by_user:
-            raise DeckError(step.source, "DISP and DLOAD have no meaning in a step whose load factor is unknown")
-        assert state.constraints is not None and state.solver is not None
-        self._control = IncrementControl(replace(step.procedure, period=math.inf), step.controls.time)
-        self._follower = PathFollower(system, state.constraints, state.solver)
-        period, unknowns = step.procedure.period, state.boundaries.unknowns
-        self._prescribed_rate = (self._prescribed.at(period, 0.0) - state.displacement)[unknowns]
-        self._loads = state.load, self._load.at(period, 0.0)
-        self._fading = self._released.at(0.0, 0.0), self._released.at(period, 0.0)
-        self._factor, self._length = 0.0, 0.0
-        self._last: tuple[FloatArray, float, float] | None = None
 
-    @abstractmethod
-    def _control_of(self, given: PathIncrement, size: float) -> Control:
-        """What fixes the load factor in an increment."""
+class Path(ABC):
+    """The increments' way through a step.
+
+    control  sizes of increments along it
+    """
+
+    def __init__(self, context: StepContext, control: IncrementControl) -> None:
+        self.control = control
+        self._context = context
 
     @property
-    def _times(self) -> tuple[float, float]:
-        return self._time, self._start + self._length
+    def search(self) -> Descent | None:
+        """The fall-back where Newton's method fails, if there is one."""
+        return None
 
-    def _begin(self, increment: int, size: float) -> tuple[Iterator[Iterate], bool]:
-        guess = None
-        if self._last is not None:
-            last, factor, length = self._last
-            part = EXTRAPOLATED * size / length
-            guess = part * last, part * factor
-        end = self._length + size
-        load, released = self._loads_at(self._factor)
-        given = PathIncrement(
-            call=self._call(increment, size, end, self._start + end),
-            displacement=self._state.displacement,
-            guess=guess,
-            load=load + released,
-            load_rate=self._loads[1] - self._loads[0] + self._fading[1] - self._fading[0],
-            prescribed_rate=self._prescribed_rate,
-            nrhs=self.nrhs,
+    @property
+    @abstractmethod
+    def finished(self) -> bool:
+        """Whether the end of the step is reached."""
+
+    def start(self) -> Iterable[Record]:
+        """What there is to say before the first increment."""
+        return ()
+
+    def end(self, size: float) -> float:
+        """Step time at the end of an increment of this size, as far as it is known before."""
+        return self._context.step_time + size
+
+    @abstractmethod
+    def begin(self, size: float) -> tuple[Iterator[Iterate], bool]:
+        """Iterates of an attempt, and whether they start from an extrapolation."""
+
+    @abstractmethod
+    def reach(self, last: Iterate, size: float, checks: Sequence[FieldCheck]) -> Reached:
+        """Where a converged increment ends; the step time of the context is that from now on."""
+
+
+class TimePath(Path):
+    """Increments of time, by Newton's method.
+
+    The parts of the step add to what the end of an increment prescribes. With `fallback` a search goes downhill where
+    Newton's method fails.
+    """
+
+    def __init__(self, context: StepContext, parts: Sequence[Part], *, fallback: bool = False) -> None:
+        step = context.step
+        super().__init__(context, IncrementControl(step.procedure, step.controls.time))
+        self._parts = parts
+        given = context.system, context.constraints, context.solver, step.controls.line_search
+        self._newton = Newton(*given)
+        self._descent = Descent(*given, context.state.majoriser) if fallback else None
+        self._extrapolation = Extrapolation(step.extrapolation)
+        # size of the last increment, where its response was linear
+        self._linear: float | None = None
+
+    @property
+    def search(self) -> Descent | None:
+        """The fall-back; none in a part of an increment, where the equilibrium near by is wanted and no other."""
+        return None if self.control.in_parts else self._descent
+
+    @property
+    def finished(self) -> bool:
+        """At the end of the period, or where UAMP concludes the step."""
+        return self.control.finished(self._context.step_time) or self._context.amplitudes.concluded
+
+    def end(self, size: float) -> float:
+        """The period, where rounding alone keeps the sum of the increments from it."""
+        end = self._context.step_time + size
+        return self._context.step.procedure.period if self.control.finished(end) else end
+
+    def begin(self, size: float) -> tuple[Iterator[Iterate], bool]:
+        """From the state at the start, or an extrapolation."""
+        given = self._given(size)
+        if self.search is not None:
+            return self.search.iterates(given), given.guess is not None
+        # Abaqus does not form the matrix anew where the response was linear in the increment before; its public message
+        # files show that for increments of one size
+        again = self._linear == size and self.control.attempts == 1
+        return self._newton.iterates(given, same_matrix=again), given.guess is not None
+
+    def _given(self, size: float) -> Increment:
+        """What the end of the increment prescribes."""
+        context, end = self._context, self.end(size)
+        displacement = context.state.displacement
+        context.load.increment = context.increment
+        given = Increment(
+            call=context.call(size, end, context.start + end),
+            displacement=displacement,
+            guess=self._extrapolation.guess(size),
+            prescribed=(context.prescribed_at(end) - displacement)[context.unknowns],
+            load=context.load_at(end),
         )
-        return self._follower.iterates(given, self._control_of(given, size)), guess is not None
+        for part in self._parts:
+            given = part.given(given, size)
+        return given
 
-    def _loads_at(self, factor: float) -> tuple[FloatArray, FloatArray]:
-        """Loads and fading reactions."""
-        (load, full), (released, rest) = self._loads, self._fading
-        return load + factor * (full - load), released + factor * (rest - released)
-
-    def _reach(self, last: Iterate, size: float) -> Reached:
-        assert isinstance(last, PathIterate)
-        self._last = last.increment, last.factor, size
-        self._factor += last.factor
-        if abs(self._factor - 1.0) < ROUNDING:
-            self._factor = 1.0
-        self._length += size
-        self._time = self._factor * self.scale
-        load, released = self._loads_at(self._factor)
-        change = last.factor * self.scale
-        return Reached(load, released, self._time, self._start + self._length, change, self._factor)
+    def reach(self, last: Iterate, size: float, checks: Sequence[FieldCheck]) -> Reached:
+        """The end of the increment."""
+        self._linear = size if _is_linear(checks) else None
+        context, end = self._context, self.end(size)
+        total = context.start + end
+        self._extrapolation.converged(last.increment, size)
+        context.step_time = end
+        return Reached(context.load.at(end, total), context.released.at(end, total), end, total, size)
 
 
-class RiksStep(PathStep):
-    """*STATIC, RIKS. Where the step gives no end, it ends with its last increment."""
-
-    nrhs = 2
-
-    def __init__(self, system: System, model: Model, step: Step, state: State, solver: str, user: UserRoutines) -> None:
-        super().__init__(system, model, step, state, solver, user)
-        assert step.procedure.riks is not None
-        self._riks = step.procedure.riks
-        self._arc = ArcLength()
-        self._monitored = -1
-        if self._riks.node >= 0:
-            self._monitored = int(system.dofs.find(self._riks.node, self._riks.dof))
-            if self._monitored < 0:
-                name = system.dofs.mesh.name(self._riks.node)
-                raise DeckError(
-                    step.source, f"*STATIC, RIKS ends with dof {self._riks.dof} of node {name}, which no element uses"
-                )
-        self._crossed = False
-
-    def _finished(self) -> bool:
-        if self._crossed:
-            return True
-        endless = self._riks.largest_factor is None and self._monitored < 0
-        return endless and self._increment == self._step.increments
-
-    def _control_of(self, given: PathIncrement, size: float) -> Control:
-        self._arc.length = size / self._step.procedure.period
-        return self._arc
-
-    def _reach(self, last: Iterate, size: float) -> Reached:
-        before = self._state.displacement
-        reached = super()._reach(last, size)
-        assert reached.load_factor is not None
-        self._arc.converged(last.increment, reached.size)
-        largest = self._riks.largest_factor
-        self._crossed = largest is not None and reached.load_factor >= largest
-        if self._monitored >= 0:
-            u = float(before[self._monitored])
-            to_go, way = self._riks.value - u, float(last.increment[self._monitored])
-            self._crossed = self._crossed or (way != 0.0 and 0.0 <= to_go / way <= 1.0)
-        return reached
-
-
-class EnergyStep(PathStep):
-    """A step under energy control, up to LPF = 1; sizes of increments are those of *STATIC."""
-
-    def __init__(self, system: System, model: Model, step: Step, state: State, solver: str, user: UserRoutines) -> None:
-        super().__init__(system, model, step, state, solver, user)
-        self.scale = step.procedure.period
-        assert state.constraints is not None
-        self._energy = Dissipation(state.constraints)
-
-    def run(self) -> Iterator[Record]:
-        """Records of the step, the first of which says how it runs."""
-        yield Noted("ENERGY CONTROL: THE STEP TIME FOLLOWS FROM THE DISSIPATED ENERGY AND FALLS IN SNAP-BACKS")
-        yield from super().run()
-
-    def _finished(self) -> bool:
-        return self._factor >= 1.0
-
-    def _control_of(self, given: PathIncrement, size: float) -> Control:
-        state, share, left = self._state, size / self.scale, 1.0 - self._factor
-        if share < left <= share * (1.0 + REMAINDER):
-            share = left
-        self._energy.start(given, state.external, state.reaction, size=share, left=left)
-        return self._energy
+def _is_linear(checks: Sequence[FieldCheck]) -> bool:
+    """Whether the response was linear in an increment that these checks accept: as far as there are fluxes."""
+    verdicts = {check.verdict for check in checks}
+    return Verdict.LINEAR in verdicts and verdicts <= {Verdict.LINEAR, Verdict.ZERO_FLUX}

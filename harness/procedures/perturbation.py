@@ -13,10 +13,9 @@ from dataclasses import replace
 
 import numpy as np
 
-from harness.assembly import Constraints, Evaluation, System
+from harness.assembly import Constraints, Evaluation
 from harness.elements import Call
 from harness.model.arrays import FloatArray
-from harness.model.model import Model
 from harness.model.records import (
     AttemptStarted,
     ElementState,
@@ -27,9 +26,8 @@ from harness.model.records import (
     StepDone,
     Warned,
 )
-from harness.model.steps import Step
-from harness.procedures.state import State
-from harness.procedures.static import NORMAL, UserRoutines, choose_solver
+from harness.procedures.context import NORMAL
+from harness.procedures.setting import Setting, choose_solver
 from harness.solver.linear import LinearSolver
 
 BASE_FORCES = (
@@ -47,14 +45,12 @@ OUTPUT = 100
 class PerturbationStep:
     """One linear step; what it does is that of a subclass."""
 
-    def __init__(self, system: System, model: Model, step: Step, state: State, solver: str, user: UserRoutines) -> None:
-        self._system = system
-        self._step = step
-        self._state = state
-        self._user = user
-        unknowns = state.boundaries.in_perturbation(step)
-        self._constraints = Constraints(system, unknowns, model.equations, state.boundaries.sources)
-        self._solver = self._choose_solver(solver)
+    def __init__(self, setting: Setting) -> None:
+        self._system, self._step, self._state, self._user = setting.system, setting.step, setting.state, setting.user
+        boundaries = setting.state.boundaries
+        unknowns = boundaries.in_perturbation(setting.step)
+        self._constraints = Constraints(setting.system, unknowns, setting.model.equations, boundaries.sources)
+        self._solver = self._choose_solver(setting.solver)
         self._increment = 1
 
     @property

@@ -12,20 +12,14 @@ from harness.assembly import DofMap, System
 from harness.elements import Call
 from harness.errors import ConvergenceError, SingularMatrixError
 from harness.model.model import Model
-from harness.model.procedures import Dynamic, Frequency, HeatTransfer, LinearPerturbation, SteadyState
 from harness.model.records import Noted, Record, StepStarted, Warned
 from harness.model.steps import Boundary, Load, Step
-from harness.procedures.dynamic import DynamicStep
-from harness.procedures.frequency import FrequencyStep
-from harness.procedures.heat_transfer import HeatTransferStep, StabilizedHeatTransferStep
+from harness.procedures.context import MASS
 from harness.procedures.initial_states import set_initial_states, set_initial_stresses
 from harness.procedures.loads import find_unknowns
-from harness.procedures.path import EnergyStep, RiksStep
-from harness.procedures.perturbation import PerturbationStep
-from harness.procedures.stabilized import StabilizedStep
+from harness.procedures.registry import run_of
+from harness.procedures.setting import Setting, StepRun, UserRoutines
 from harness.procedures.state import State
-from harness.procedures.static import MASS, StaticStep, UserRoutines
-from harness.procedures.steady_state import SteadyStateStep
 
 
 def run_steps(
@@ -72,7 +66,7 @@ def run_steps(
     set_initial_states(system.blocks, model, user.sdvini)
     yield from set_initial_stresses(system, model, state)
     yield from _unused(system.dofs, "*BOUNDARY", model.boundaries)
-    running: StaticStep | PerturbationStep | None = None
+    running: StepRun | None = None
     try:
         for step in model.steps:
             yield StepStarted(step.number)
@@ -82,9 +76,10 @@ def run_steps(
             if step is model.steps[0]:
                 _mass_pass(system, step)
             yield from map(Noted, step.notes)
-            if not isinstance(step.procedure, Dynamic | LinearPerturbation):
+            if not (step.procedure.inertia or step.procedure.linear):
                 state.come_to_rest()
-            running = _start(system, model, step, state, solver, user, fallback=fallback, energy_control=energy_control)
+            setting = Setting(system, model, step, state, user, solver, fallback, energy_control)
+            running = run_of(step.procedure, setting)
             yield from running.run()
             user.external_database(6, 0, *running.reached)
     except ConvergenceError:
@@ -95,45 +90,6 @@ def run_steps(
         raise error.in_step(step.source) from None
     if running is not None:
         user.external_database(3, 0, *running.reached)
-
-
-def _start(
-    system: System,
-    model: Model,
-    step: Step,
-    state: State,
-    solver: str,
-    user: UserRoutines,
-    *,
-    fallback: bool,
-    energy_control: bool,
-) -> StaticStep | PerturbationStep:
-    """What runs a step. Raises DeckError."""
-    procedure = step.procedure
-    if isinstance(procedure, Dynamic):
-        return DynamicStep(system, model, step, procedure, state, solver, user)
-    if isinstance(procedure, LinearPerturbation):
-        return _start_linear(system, model, step, state, solver, user)
-    if procedure.riks:
-        return RiksStep(system, model, step, state, solver, user)
-    if energy_control and not isinstance(procedure, HeatTransfer):
-        return EnergyStep(system, model, step, state, solver, user)
-    plain, stabilized = StaticStep, StabilizedStep
-    if isinstance(procedure, HeatTransfer):
-        plain, stabilized = HeatTransferStep, StabilizedHeatTransferStep
-    kind = plain if procedure.stabilize is None else stabilized
-    return kind(system, model, step, state, solver, user, fallback=fallback)
-
-
-def _start_linear(
-    system: System, model: Model, step: Step, state: State, solver: str, user: UserRoutines
-) -> PerturbationStep:
-    procedure = step.procedure
-    if isinstance(procedure, Frequency):
-        return FrequencyStep(system, model, step, procedure, state, solver, user)
-    if isinstance(procedure, SteadyState):
-        return SteadyStateStep(system, model, step, procedure, state, solver, user)
-    return PerturbationStep(system, model, step, state, solver, user)
 
 
 def _mass_pass(system: System, step: Step) -> None:

@@ -15,76 +15,58 @@ from dataclasses import replace
 
 import numpy as np
 
-from harness.assembly import System
-from harness.model.model import Model
-from harness.model.records import IncrementDone, Noted, Record, Warned
-from harness.model.steps import Step
-from harness.procedures.state import State
-from harness.procedures.static import Reached, StaticStep, UserRoutines
+from harness.model.procedures import Stabilize
+from harness.model.records import Noted, Record, Warned
+from harness.procedures.context import StepContext
+from harness.procedures.parts import Part
 from harness.solver.newton import Increment, Iterate
 
 NOTHING_DAMPED = "STABILIZE HAS NO EFFECT: THE MODEL HAS NO BUILT-IN ELEMENTS WITH A MASS"
 
 
-class StabilizedStep(StaticStep):
-    """One static step with viscous forces."""
+class ViscousForces(Part):
+    """Viscous forces on the artificial mass."""
 
-    def __init__(
-        self,
-        system: System,
-        model: Model,
-        step: Step,
-        state: State,
-        solver: str,
-        user: UserRoutines,
-        *,
-        fallback: bool = False,
-    ) -> None:
-        super().__init__(system, model, step, state, solver, user, fallback=fallback)
-        assert step.procedure.stabilize is not None
-        self._given_damping = step.procedure.stabilize
-        self._factor = self._given_damping.factor
-        self._mass = system.artificial_mass(self._call(1, 0.0, 0.0, self._start))
-        self._force = np.zeros(len(system))
-        self._notes: list[str] = []
+    def __init__(self, context: StepContext, damping: Stabilize) -> None:
+        self._context = context
+        self._damping = damping
+        self._factor = damping.factor
+        self._mass = context.system.artificial_mass(context.call(0.0, 0.0, context.start))
+        self._force = np.zeros(len(context.system))
 
-    def run(self) -> Iterator[Record]:
-        """Records of the step, with the damping factor where it is chosen."""
+    def start(self) -> Iterator[Record]:
+        """The damping factor where it is given, or a warning where nothing is damped."""
         if not self._mass.any():
             yield Warned(NOTHING_DAMPED)
         elif self._factor:
             yield Noted(f"STABILIZE: THE DAMPING FACTOR IS {self._factor:.4g}")
-        for record in super().run():
-            yield record
-            if isinstance(record, IncrementDone):
-                yield from map(Noted, self._notes)
-                self._notes = []
 
-    def _given(self, increment: int, size: float) -> Increment:
-        given = super()._given(increment, size)
+    def given(self, given: Increment, size: float) -> Increment:
+        """With the viscous matrix."""
         if not self._factor:
             return given
         return replace(given, damping=self._factor / size * self._mass)
 
-    def _reach(self, last: Iterate, size: float) -> Reached:
-        flow = self._system.matrix(self._mass) @ last.increment / size
+    def converged(self, last: Iterate, size: float) -> Iterator[Record]:
+        """Add up what is dissipated; the factor where it is chosen or reduced."""
+        state = self._context.state
+        flow = self._context.system.matrix(self._mass) @ last.increment / size
         force = self._factor * flow
-        state = self._state
         # the trapezoidal rule of the external work
         state.stabilization += 0.5 * float((self._force + force) @ last.increment)
         self._force = force
         elastic, change = last.evaluation.energy[1], last.evaluation.energy - state.energy
+        limit = self._damping.limit
         if not self._factor:
-            self._choose(float(abs(change[1:7].sum())), float(flow @ last.increment))
-        elif self._given_damping.limit and state.stabilization > self._given_damping.limit * elastic > 0.0:
-            self._change(self._factor * self._given_damping.limit * float(elastic) / state.stabilization)
-        return super()._reach(last, size)
+            yield from self._choose(float(abs(change[1:7].sum())), float(flow @ last.increment))
+        elif limit and state.stabilization > limit * elastic > 0.0:
+            yield self._change(self._factor * limit * float(elastic) / state.stabilization)
 
-    def _choose(self, energy: float, dissipated: float) -> None:
+    def _choose(self, energy: float, dissipated: float) -> Iterator[Record]:
         """Factor from the first increment: its internal energy, and what it would dissipate with a factor of one."""
         if energy > 0.0 and dissipated > 0.0:
-            self._change(self._given_damping.fraction * energy / dissipated)
+            yield self._change(self._damping.fraction * energy / dissipated)
 
-    def _change(self, factor: float) -> None:
+    def _change(self, factor: float) -> Noted:
         self._factor = factor
-        self._notes.append(f"STABILIZE: THE DAMPING FACTOR IS {factor:.4g} FROM THE NEXT INCREMENT ON")
+        return Noted(f"STABILIZE: THE DAMPING FACTOR IS {factor:.4g} FROM THE NEXT INCREMENT ON")

@@ -17,17 +17,15 @@ from typing import Final, TypeVar
 
 import numpy as np
 
-from harness.assembly import System
 from harness.elements import Call
 from harness.model.arrays import ComplexArray, FloatArray
-from harness.model.model import Model
-from harness.model.procedures import SteadyState
+from harness.model.perturbations import SteadyState
 from harness.model.records import HarmonicResponse, Record, Solution
 from harness.model.steps import Boundary, ElementLoad, Load, Step
+from harness.procedures.context import MASS
 from harness.procedures.frequency import STIFFNESS
 from harness.procedures.perturbation import PerturbationStep
-from harness.procedures.state import State
-from harness.procedures.static import MASS, UserRoutines
+from harness.procedures.setting import Setting
 from harness.solver.harmonic import ComplexSolver
 from harness.solver.linear import LinearSolver
 
@@ -43,19 +41,10 @@ Entry = TypeVar("Entry", Boundary, Load, ElementLoad)
 class SteadyStateStep(PerturbationStep):
     """One step of harmonic responses, each an increment."""
 
-    def __init__(
-        self,
-        system: System,
-        model: Model,
-        step: Step,
-        procedure: SteadyState,
-        state: State,
-        solver: str,
-        user: UserRoutines,
-    ) -> None:
+    def __init__(self, setting: Setting, procedure: SteadyState) -> None:
         self._procedure = procedure
         self._complex: ComplexSolver | None = None
-        super().__init__(system, model, step, state, solver, user)
+        super().__init__(setting)
 
     def _choose_solver(self, name: str) -> LinearSolver:
         if self._procedure.undamped:

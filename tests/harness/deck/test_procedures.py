@@ -7,7 +7,15 @@ import math
 import pytest
 
 from harness.errors import DeckError
-from harness.model.procedures import Dynamic, HeatTransfer, Integrator, Stabilize, Static, Visco
+from harness.model.procedures import (
+    CoupledTemperatureDisplacement,
+    Dynamic,
+    HeatTransfer,
+    Integrator,
+    Stabilize,
+    Static,
+    Visco,
+)
 
 HEAD = """*NODE, NSET=ALL
 1, 0., 0.
@@ -74,12 +82,12 @@ def step(read):
         ),
         (
             "*COUPLED TEMPERATURE-DISPLACEMENT, DELTMX=5.\n0.5, 1.",
-            HeatTransfer(0.5, 1.0, 1e-5, 1.0, coupled=True, largest_change=5.0),
+            CoupledTemperatureDisplacement(0.5, 1.0, 1e-5, 1.0, largest_change=5.0),
             "STEP",
         ),
         (
             "*COUPLED TEMPERATURE-DISPLACEMENT, STEADY STATE\n0.5, 1.",
-            HeatTransfer(0.5, 1.0, 1e-5, 1.0, coupled=True, steady=True),
+            CoupledTemperatureDisplacement(0.5, 1.0, 1e-5, 1.0, steady=True),
             "RAMP",
         ),
     ],

@@ -10,7 +10,8 @@ import pytest
 from rich.console import Console
 
 from harness.model.model import Model
-from harness.model.procedures import Frequency, Procedure, StaticPerturbation, SteadyState
+from harness.model.perturbations import Frequency, StaticPerturbation, SteadyState
+from harness.model.procedures import Procedure
 from harness.model.records import AttemptAbandoned, IncrementDone, Record, Solution, StepStarted
 from harness.output.progress import ProgressDisplay
 

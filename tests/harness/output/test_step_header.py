@@ -5,7 +5,7 @@
 import pytest
 
 from harness.errors import Source
-from harness.model.procedures import Dynamic, HeatTransfer, Procedure, Visco
+from harness.model.procedures import CoupledTemperatureDisplacement, Dynamic, HeatTransfer, Procedure, Visco
 from harness.model.steps import Step
 from harness.output.step_header import procedure, tolerances
 
@@ -36,7 +36,10 @@ def head(given: Procedure) -> str:
                 "MAX. TIME INCREMENT INCREASE FACTOR ALLOWED                       2.000",
             ],
         ),
-        (HeatTransfer(coupled=True, steady=True), ["S T E A D Y   S T A T E   C O U P L E D   T E M P E R A T U R E"]),
+        (
+            CoupledTemperatureDisplacement(steady=True),
+            ["S T E A D Y   S T A T E   C O U P L E D   T E M P E R A T U R E"],
+        ),
     ],
 )
 def test_what_the_head_says(given: Procedure, lines: list[str]) -> None:

@@ -138,7 +138,7 @@ def test_where_newtons_method_does_the_fallback_changes_nothing(bench):
 
 def test_search_without_end_is_cut_back(bench, monkeypatch):
     """Nothing carries the load: no equilibrium, and the error is that of a run without the fall-back."""
-    monkeypatch.setattr("harness.procedures.static.ITERATIONS", 20)
+    monkeypatch.setattr("harness.procedures.general.ITERATIONS", 20)
     step = bench.step(static=Static(1.0, 1.0), boundaries=(bench.fix(0),), loads=(bench.force(1, 3.0),))
     result = bench.run([(0, 1, 6, (STIFFNESS, PEAK, END))], [step], fallback=True)
     assert "HAS NOT CONVERGED" in result.abandoned[0].reason

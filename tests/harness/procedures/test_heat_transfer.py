@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from harness.job import run
-from harness.model.procedures import HeatTransfer, Visco
+from harness.model.procedures import CoupledTemperatureDisplacement, HeatTransfer, Visco
 from harness.model.records import Verdict
 from harness.procedures.heat_transfer import CHANGES_TOO_FAST
 
@@ -113,9 +113,9 @@ def test_temperature_dependent_conductance_converges_quadratically(bench, conduc
         (HeatTransfer(steady=True), 31),
         (HeatTransfer(largest_change=1e9), 32),
         (HeatTransfer(direct=True), 33),
-        (HeatTransfer(coupled=True, steady=True), 71),
-        (HeatTransfer(coupled=True, largest_change=1e9), 72),
-        (HeatTransfer(coupled=True, direct=True), 73),
+        (CoupledTemperatureDisplacement(steady=True), 71),
+        (CoupledTemperatureDisplacement(largest_change=1e9), 72),
+        (CoupledTemperatureDisplacement(direct=True), 73),
         (Visco(), 21),
     ],
 )

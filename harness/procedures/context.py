@@ -1,0 +1,119 @@
+# SPDX-FileCopyrightText: The uel-harness authors
+# SPDX-License-Identifier: BSD-3-Clause
+"""What the parts of a general step share: what the step prescribes, its constraints, its checks, its calls."""
+
+from __future__ import annotations
+
+from functools import partial
+
+import numpy as np
+
+from harness.assembly import Constraints
+from harness.elements import Call
+from harness.errors import DeckError
+from harness.model.arrays import FloatArray, IntArray
+from harness.model.user_values import UserValues
+from harness.procedures.checks import Checker, length_of_moments
+from harness.procedures.loads import fading_forces
+from harness.procedures.setting import Setting, choose_solver
+from harness.procedures.unheld import UnheldSolver
+from harness.solver.newton import Factoriser
+
+NORMAL, MASS = 1, 4
+"""LFLAGS(3): a normal call, and the mass matrix alone."""
+
+
+class StepContext:
+    """One general step as far as its procedure does not matter.
+
+    start       total time at the start of the step
+    step_time   at the start of the increment; the total time is that of the state
+    increment   number of the increment that runs
+    choice      which linear solver was chosen and why; '' where that of the last step goes on
+    """
+
+    constraints: Constraints
+    solver: Factoriser
+
+    def __init__(self, setting: Setting, *, fallback: bool = False) -> None:
+        """Takes over the step's prescribed values and loads; symbolic work is done again only where they differ.
+
+        Raises DeckError.
+        """
+        self.system, self.step, self.state, self.user = setting.system, setting.step, setting.state, setting.user
+        system, step, state, user = self.system, self.step, self.state, self.user
+        self.prescribed = state.boundaries.start_step(step, state.displacement, state.total_time)
+        self.load = state.loads.start_step(step, state.total_time, user)
+        self.conditions = state.conditions.start_step(step, state.total_time)
+        self.amplitudes = state.amplitudes.start_step(step, system.dofs, state, user)
+        if len(state.boundaries.by_user) and user.disp is None:
+            source = state.boundaries.sources[int(state.boundaries.by_user[0])]
+            raise DeckError(source, "*BOUNDARY, USER needs DISP, which the job does not have")
+        self.released = fading_forces(state.reaction, self.unknowns, step, state.unbalanced)
+        state.unbalanced = np.zeros_like(state.unbalanced)
+        self.choice = ""
+        self._constrain(setting, fallback=fallback)
+        length = length_of_moments(system, setting.model.mesh)
+        self.checker = Checker(system.dofs, self.constraints, step.controls, state.flux, length)
+        self.start, self.step_time, self.increment = state.total_time, 0.0, 0
+
+    def _constrain(self, setting: Setting, *, fallback: bool) -> None:
+        """Constraints and linear solver of the step, those of the last one if they are the same."""
+        state, equations = self.state, setting.model.equations
+        constraints, solver = state.constraints, state.solver
+        if constraints is None or solver is None or not constraints.matches(self.unknowns, equations):
+            constraints = Constraints(self.system, self.unknowns, equations, state.boundaries.sources)
+            chosen = choose_solver(setting.solver, constraints)
+            # the search has an answer of its own to a singular matrix
+            solver = chosen if fallback else UnheldSolver(chosen)
+            self.choice = f"LINEAR SOLVER {chosen.name.upper()}: {chosen.reason}"
+            state.majoriser.use(self.system, constraints, partial(choose_solver, setting.solver, constraints))
+        state.constraints = self.constraints = constraints
+        state.solver = self.solver = solver
+
+    @property
+    def unknowns(self) -> IntArray:
+        """Those that are prescribed."""
+        return self.state.boundaries.unknowns
+
+    @property
+    def times(self) -> tuple[float, float]:
+        """Step and total time at the start of the increment."""
+        return self.step_time, self.state.total_time
+
+    def load_at(self, step_time: float) -> FloatArray:
+        """Loads and fading forces (n,)."""
+        total = self.start + step_time
+        return self.load.at(step_time, total) + self.released.at(step_time, total)
+
+    def prescribed_at(self, step_time: float) -> FloatArray:
+        """Prescribed values (n,), those of DISP among them."""
+        time = step_time, self.start + step_time
+        values, by_user = self.prescribed.at(*time), self.state.boundaries.by_user
+        if len(by_user):
+            dofs = self.system.dofs
+            nodes = dofs.node[by_user]
+            places = np.stack([dofs.mesh.labels[nodes], dofs.dof[by_user]], axis=1).astype(np.int32)
+            coords = dofs.mesh.coordinates[nodes]
+            asked = UserValues("DISP", self.step.number, self.increment, time, places, coords, values[by_user])
+            values[by_user] = self.user.user_values(asked)
+        return values
+
+    def call(self, size: float, step_time: float, total_time: float) -> Call:
+        """Arguments of the passes of an increment that ends at these times."""
+        step, end = self.step, (step_time, total_time)
+        distributed, predefined = self.conditions.at(self.times, end)
+        return Call(
+            lflags=(step.procedure.lflag, int(step.nlgeom), NORMAL, 0, 0),
+            step=step.number,
+            # what is asked before the first increment belongs to it
+            increment=max(self.increment, 1),
+            step_time=step_time,
+            total_time=total_time,
+            time_increment=size,
+            period=step.procedure.period,
+            params=step.procedure.params,
+            distributed=self.load.with_pressures(distributed, self.times, end),
+            predefined=predefined,
+            flux_floor=self.checker.flux_floor,
+        )

@@ -1,0 +1,216 @@
+# SPDX-FileCopyrightText: The uel-harness authors
+# SPDX-License-Identifier: BSD-3-Clause
+"""General steps: increments of a step, each in equilibrium by Newton's method, along a path and with the parts that the
+procedure adds.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Generator, Iterator, Sequence
+
+from harness.errors import ConvergenceError, DistortionError, IncrementsUsedUpError, SingularMatrixError
+from harness.model.records import (
+    AttemptAbandoned,
+    AttemptStarted,
+    FieldCheck,
+    IncrementDone,
+    IterationDone,
+    Noted,
+    Record,
+    SearchHelped,
+    StepDone,
+    Warned,
+)
+from harness.procedures.context import StepContext
+from harness.procedures.incrementation import DISTORTED, TOO_MANY_INCREMENTS, Abandoned, Accuracy, refused
+from harness.procedures.limit import PASSED, LimitLoad
+from harness.procedures.parts import Part
+from harness.procedures.path import Path
+from harness.procedures.unheld import UNLOADED, UnheldSolver
+from harness.solver.descent import ITERATIONS, SINGULAR
+from harness.solver.newton import Iterate
+
+SEARCH_TOO_LONG = f"THE DESCENT SEARCH HAS NOT CONVERGED IN {ITERATIONS} ITERATIONS."
+
+SMALL_FLUX = (
+    "THE AVERAGE {1} FLUX {0.average_flux:.3G} COUNTS AS ZERO BESIDE {0.time_average_flux:G}, WHICH IS TAKEN FOR "
+    "ITS TIME AVERAGE UNTIL A LARGER ONE IS SEEN, AS IN ABAQUS: THE LARGEST RESIDUAL {0.residual.value:.3G} IS "
+    "ACCEPTED. OTHER UNITS, OR AN INITIAL TIME AVERAGE FLUX (*CONTROLS, PARAMETERS=FIELD), MAKE RESULTS ACCURATE"
+)
+
+
+class GeneralStep:
+    """One general step: what is common to all, the path of its increments, and the parts of its procedure."""
+
+    def __init__(self, context: StepContext, path: Path, parts: Sequence[Part] = ()) -> None:
+        self._context = context
+        self._path = path
+        self._parts = parts
+        self._system, self._step, self._state = context.system, context.step, context.state
+        self._user, self._checker, self._control = context.user, context.checker, path.control
+        self._limit = LimitLoad()
+        self._warned = False
+        self._small: set[str] = set()
+
+    @property
+    def reached(self) -> tuple[tuple[float, float], float, int, int]:
+        """Step and total time, no time increment, step and increment, as UEXTERNALDB gets them at the end."""
+        return self._context.times, 0.0, self._step.number, self._context.increment
+
+    def run(self) -> Iterator[Record]:
+        """Records of the step. Raises ConvergenceError, KernelError, SingularMatrixError."""
+        context, cutbacks, iterations = self._context, 0, 0
+        beginning: tuple[Part | Path, ...] = (*self._parts, self._path)
+        for part in beginning:
+            yield from part.start()
+        if context.choice:
+            yield Noted(context.choice)
+        while not (self._path.finished or any(p.finished for p in self._parts)):
+            if context.increment == self._step.increments:
+                limit = f"step {self._step.number}, INC={self._step.increments}"
+                raise IncrementsUsedUpError(f"{TOO_MANY_INCREMENTS} ({limit})")
+            context.increment += 1
+            converged = False
+            while not converged:
+                converged, spent = yield from self._attempt(context.increment)
+                cutbacks += not converged
+                iterations += spent
+        if context.amplitudes.concluded:
+            for given in (self._state.boundaries, self._state.loads, self._state.conditions):
+                given.conclude(context.step_time)
+        self._state.flux = self._checker.histories(self._state.flux)
+        yield StepDone(self._step.number, context.increment, cutbacks, iterations)
+
+    def _attempt(self, increment: int) -> Generator[Record, None, tuple[bool, int]]:
+        """One attempt at an increment; returns whether it converged, and its iterations."""
+        context, number, size = self._context, self._step.number, self._control.attempt(self._context.step_time)
+        times = context.times
+        yield AttemptStarted(number, increment, self._control.attempts, *times, size)
+        self._user.external_database(1, 0, times, size, number, increment)
+        end = self._path.end(size)
+        context.amplitudes.attempt(increment, (end, context.start + end), size, self._control.attempts - 1)
+        iterates, extrapolated = self._path.begin(size)
+        iteration, passes, abandoned = 0, 0, None
+        while abandoned is None:
+            try:
+                state = next(iterates)
+            except DistortionError as error:
+                # the solve before the pass that failed counts too
+                iteration = passes
+                yield Warned(f"EXCESSIVE DISTORTION IN SOLID (CONTINUUM) ELEMENTS: {error}")
+                abandoned = Abandoned(self._step.controls.time.d_h, DISTORTED, str(error))
+                break
+            except SingularMatrixError:
+                if not self._control.in_parts:
+                    raise
+                abandoned = Abandoned(self._step.controls.time.d_f, SINGULAR)
+                break
+            iteration, passes = state.iteration, passes + 1
+            yield from self._unheld()
+            abandoned = refused(state.evaluation.pnewdt)
+            if abandoned is None and iteration == 0:
+                self._checker.start(state, extrapolated=extrapolated)
+            elif abandoned is None:
+                checks = self._checker.check(state)
+                yield IterationDone(iteration, checks, state.line_search)
+                if all(check.verdict.accepted for check in checks):
+                    accuracy = self._accuracy(state, size)
+                    abandoned = self._control.too_inaccurate(accuracy) or self._passed_limit(state, size)
+                    if abandoned is None:
+                        yield from self._small_flux(checks)
+                        yield from self._help(increment, iteration)
+                        yield from self._converge(state, size, accuracy, checks)
+                        return True, iteration
+                else:
+                    abandoned = self._give_up(iteration, checks)
+        yield from self._abandon(abandoned, increment, iteration, size)
+        return False, iteration
+
+    def _unheld(self) -> Iterator[Warned]:
+        """Say once in the step that a part of the model moves freely."""
+        solver = self._context.solver
+        if isinstance(solver, UnheldSolver) and solver.free is not None and not self._warned:
+            self._warned = True
+            yield Warned(UNLOADED.format(solver.free))
+
+    def _small_flux(self, checks: Sequence[FieldCheck]) -> Iterator[Noted]:
+        """Say once in the step that forces count as zero, and are in no equilibrium, for Abaqus' default alone."""
+        for check in self._checker.accepted_as_zero(checks):
+            if check.field not in self._small:
+                self._small.add(check.field)
+                yield Noted(SMALL_FLUX.format(check, check.field.upper()))
+
+    def _accuracy(self, last: Iterate, size: float) -> Accuracy | None:
+        """How accurate the integration over time is, by the strictest part; None where nothing measures it."""
+        found = [accuracy for part in self._parts if (accuracy := part.accuracy(last, size)) is not None]
+        return max(found, key=lambda accuracy: accuracy.measure, default=None)
+
+    @property
+    def _helped(self) -> bool:
+        """Whether the descent search took over in this attempt."""
+        return self._path.search is not None and bool(self._path.search.reason)
+
+    def _passed_limit(self, last: Iterate, size: float) -> Abandoned | None:
+        """Take the increment in parts where the search passed the largest load in it."""
+        external = -last.evaluation.residual
+        if not self._helped or not self._limit.passed(self._state.external, external, last.increment, size):
+            return None
+        in_parts = self._control.part(self._context.step_time + size)
+        return Abandoned(self._step.controls.time.d_f, PASSED) if in_parts else None
+
+    def _give_up(self, iteration: int, checks: Sequence[FieldCheck]) -> Abandoned | None:
+        """Whether to abandon the attempt; with the fall-back the search takes over instead, and is given its time."""
+        search = self._path.search
+        if search is None:
+            return self._checker.give_up(iteration, checks)
+        if not search.reason:
+            abandoned = self._checker.give_up(iteration, checks)
+            if abandoned is not None:
+                search.take_over(iteration + 1, abandoned.reason)
+        return Abandoned(self._step.controls.time.d_c, SEARCH_TOO_LONG) if iteration >= ITERATIONS else None
+
+    def _help(self, increment: int, iterations: int) -> Iterator[SearchHelped]:
+        """Say that Newton's method alone did not do."""
+        search = self._path.search
+        if search is not None and search.reason:
+            yield SearchHelped(self._step.number, increment, search.since, iterations, search.reason)
+
+    def _converge(
+        self, last: Iterate, size: float, accuracy: Accuracy | None, checks: Sequence[FieldCheck]
+    ) -> Iterator[Record]:
+        """Commit what the last pass left, and choose the next increment."""
+        context, number, attempt = self._context, self._step.number, self._control.attempts
+        self._system.commit()
+        remarks = [remark for part in self._parts for remark in part.converged(last, size)]
+        reached = self._path.reach(last, size, checks)
+        self._limit.converged(self._state.external, -last.evaluation.residual, last.increment, size)
+        self._state.accept(last, reached.load, reached.released)
+        self._checker.converged()
+        context.amplitudes.converged()
+        self._control.converged(last.iteration, last.evaluation.pnewdt, searched=self._helped, accuracy=accuracy)
+        self._state.total_time = reached.total_time
+        times = reached.step_time, reached.total_time
+        self._state.predefined = context.conditions.at(times, times)[1]
+        self._user.external_database(2, 0, times, size, number, context.increment)
+        yield IncrementDone(
+            number,
+            context.increment,
+            attempt,
+            last.iteration,
+            *times,
+            reached.size,
+            self._state.solution(self._system),
+            0.0 if context.amplitudes.concluded else self._control.following(context.step_time),
+            reached.load_factor,
+        )
+        yield from remarks
+
+    def _abandon(self, abandoned: Abandoned, increment: int, iterations: int, size: float) -> Iterator[Record]:
+        """Report the attempt; raise ConvergenceError where no other is left."""
+        number, attempt = self._step.number, self._control.attempts
+        following, error = self._control.abandon(abandoned)
+        times = self._context.times
+        yield AttemptAbandoned(number, increment, attempt, iterations, *times, size, following, abandoned.reason)
+        if error:
+            cause = f": {abandoned.cause}" if abandoned.cause else ""
+            raise ConvergenceError(f"{error} (step {number}, increment {increment}, attempt {attempt}){cause}")

@@ -1,0 +1,192 @@
+# SPDX-FileCopyrightText: The uel-harness authors
+# SPDX-License-Identifier: BSD-3-Clause
+"""Paths of static steps whose load factor is unknown: *STATIC, RIKS, and energy control.
+
+The step goes from the state at its start, load factor (LPF) 0, to what it prescribes, LPF 1: forces and displacements
+are P_0 + LPF (P_ref - P_0). The length of the path takes the place of time in the sizes of increments and in what
+elements are told.
+"""
+
+from __future__ import annotations
+
+import math
+from abc import abstractmethod
+from collections.abc import Iterable, Iterator, Sequence
+from dataclasses import replace
+
+from harness.errors import DeckError
+from harness.model.arrays import FloatArray
+from harness.model.procedures import Riks
+from harness.model.records import FieldCheck, Noted, Record
+from harness.model.steps import Boundary, ElementLoad, Load
+from harness.procedures.context import StepContext
+from harness.procedures.incrementation import IncrementControl
+from harness.procedures.path import Path, Reached
+from harness.solver.arclength import ArcLength
+from harness.solver.dissipation import Dissipation
+from harness.solver.newton import Iterate
+from harness.solver.path import Control, PathFollower, PathIncrement, PathIterate
+
+EXTRAPOLATED = 0.01
+"""Fraction of the last increment that an increment starts from: it tells the elements which way they go."""
+
+ROUNDING = 1e-12
+"""A load factor this close to 1 is 1."""
+
+REMAINDER = 1e-6
+"""A rest of the load factor below this fraction of an increment is joined to it."""
+
+
+class LoadFactorPath(Path):
+    """Increments along a path on which the load factor is one more unknown.
+
+    nrhs   NRHS of its passes
+    scale  step time at LPF = 1
+    """
+
+    nrhs = 1
+    scale = 1.0
+
+    def __init__(self, context: StepContext) -> None:
+        """Raises DeckError where an amplitude governs what the step prescribes."""
+        step, state = context.step, context.state
+        super().__init__(context, IncrementControl(replace(step.procedure, period=math.inf), step.controls.time))
+        _check(context)
+        self._follower = PathFollower(context.system, context.constraints, context.solver)
+        period = step.procedure.period
+        self._prescribed_rate = (context.prescribed.at(period, 0.0) - state.displacement)[context.unknowns]
+        self._loads = state.load, context.load.at(period, 0.0)
+        self._fading = context.released.at(0.0, 0.0), context.released.at(period, 0.0)
+        self._factor, self._length = 0.0, 0.0
+        self._last: tuple[FloatArray, float, float] | None = None
+
+    @abstractmethod
+    def _control_of(self, given: PathIncrement, size: float) -> Control:
+        """What fixes the load factor in an increment."""
+
+    def begin(self, size: float) -> tuple[Iterator[Iterate], bool]:
+        """From the state at the start, or a little way on as the last increment went."""
+        context, guess = self._context, None
+        if self._last is not None:
+            last, factor, length = self._last
+            part = EXTRAPOLATED * size / length
+            guess = part * last, part * factor
+        end = self._length + size
+        load, released = self._loads_at(self._factor)
+        given = PathIncrement(
+            call=context.call(size, end, context.start + end),
+            displacement=context.state.displacement,
+            guess=guess,
+            load=load + released,
+            load_rate=self._loads[1] - self._loads[0] + self._fading[1] - self._fading[0],
+            prescribed_rate=self._prescribed_rate,
+            nrhs=self.nrhs,
+        )
+        return self._follower.iterates(given, self._control_of(given, size)), guess is not None
+
+    def _loads_at(self, factor: float) -> tuple[FloatArray, FloatArray]:
+        """Loads and fading reactions."""
+        (load, full), (released, rest) = self._loads, self._fading
+        return load + factor * (full - load), released + factor * (rest - released)
+
+    def reach(self, last: Iterate, size: float, checks: Sequence[FieldCheck]) -> Reached:
+        """The load factor, and the length so far."""
+        assert isinstance(last, PathIterate)
+        self._last = last.increment, last.factor, size
+        self._factor += last.factor
+        if abs(self._factor - 1.0) < ROUNDING:
+            self._factor = 1.0
+        self._length += size
+        self._context.step_time = step_time = self._factor * self.scale
+        load, released = self._loads_at(self._factor)
+        change = last.factor * self.scale
+        return Reached(load, released, step_time, self._context.start + self._length, change, self._factor)
+
+
+def _check(context: StepContext) -> None:
+    """Raise DeckError where what the step prescribes is not in proportion to the load factor."""
+    step = context.step
+    entries: tuple[Boundary | Load | ElementLoad, ...]
+    entries = (*step.boundaries, *step.loads, *step.element_loads, *step.surface_loads)
+    source = next((entry.source for entry in entries if entry.amplitude), step.source)
+    if context.prescribed.curves or context.load.curves or context.amplitudes.courses:
+        raise DeckError(source, "an amplitude has no meaning in a step whose load factor is part of the solution")
+    if context.load.turning:
+        message = (
+            "pressures that turn with the surface (NLGEOM) are not supported in a step whose load factor is unknown"
+        )
+        raise DeckError(step.source, message)
+    if len(context.state.boundaries.by_user) or context.load.by_user:
+        raise DeckError(step.source, "DISP and DLOAD have no meaning in a step whose load factor is unknown")
+
+
+class RiksPath(LoadFactorPath):
+    """*STATIC, RIKS. Where the step gives no end, it ends with its last increment."""
+
+    nrhs = 2
+
+    def __init__(self, context: StepContext, riks: Riks) -> None:
+        super().__init__(context)
+        self._riks = riks
+        self._arc = ArcLength()
+        self._monitored = -1
+        if riks.node >= 0:
+            dofs = context.system.dofs
+            self._monitored = int(dofs.find(riks.node, riks.dof))
+            if self._monitored < 0:
+                name = dofs.mesh.name(riks.node)
+                raise DeckError(
+                    context.step.source, f"*STATIC, RIKS ends with dof {riks.dof} of node {name}, which no element uses"
+                )
+        self._crossed = False
+
+    @property
+    def finished(self) -> bool:
+        """Where the step says, or with its last increment."""
+        if self._crossed:
+            return True
+        endless = self._riks.largest_factor is None and self._monitored < 0
+        return endless and self._context.increment == self._context.step.increments
+
+    def _control_of(self, given: PathIncrement, size: float) -> Control:
+        self._arc.length = size / self._context.step.procedure.period
+        return self._arc
+
+    def reach(self, last: Iterate, size: float, checks: Sequence[FieldCheck]) -> Reached:
+        """Whether the end that the step gives is crossed."""
+        before = self._context.state.displacement
+        reached = super().reach(last, size, checks)
+        assert reached.load_factor is not None
+        self._arc.converged(last.increment, reached.size)
+        largest = self._riks.largest_factor
+        self._crossed = largest is not None and reached.load_factor >= largest
+        if self._monitored >= 0:
+            u = float(before[self._monitored])
+            to_go, way = self._riks.value - u, float(last.increment[self._monitored])
+            self._crossed = self._crossed or (way != 0.0 and 0.0 <= to_go / way <= 1.0)
+        return reached
+
+
+class EnergyPath(LoadFactorPath):
+    """Energy control, up to LPF = 1; sizes of increments are those of *STATIC."""
+
+    def __init__(self, context: StepContext) -> None:
+        super().__init__(context)
+        self.scale = context.step.procedure.period
+        self._energy = Dissipation(context.constraints)
+
+    def start(self) -> Iterable[Record]:
+        """How the step runs."""
+        yield Noted("ENERGY CONTROL: THE STEP TIME FOLLOWS FROM THE DISSIPATED ENERGY AND FALLS IN SNAP-BACKS")
+
+    @property
+    def finished(self) -> bool:
+        """With all of the load."""
+        return self._factor >= 1.0
+
+    def _control_of(self, given: PathIncrement, size: float) -> Control:
+        state, share, left = self._context.state, size / self.scale, 1.0 - self._factor
+        if share < left <= share * (1.0 + REMAINDER):
+            share = left
+        self._energy.start(given, state.external, state.reaction, size=share, left=left)
+        return self._energy

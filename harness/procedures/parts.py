@@ -1,0 +1,36 @@
+# SPDX-FileCopyrightText: The uel-harness authors
+# SPDX-License-Identifier: BSD-3-Clause
+"""What a procedure adds to the increments of a general step: integration in time, damping, a limit of accuracy."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+
+from harness.model.records import Record
+from harness.procedures.incrementation import Accuracy
+from harness.solver.newton import Increment, Iterate
+
+
+class Part:
+    """A part of a general step. Each method leaves things as they are where a part has no say in them."""
+
+    def start(self) -> Iterable[Record]:
+        """Begin the step, before its first increment. Raises KernelError, SingularMatrixError."""
+        return ()
+
+    def given(self, given: Increment, size: float) -> Increment:
+        """What the end of an increment of this size prescribes, with what the part adds."""
+        return given
+
+    def accuracy(self, last: Iterate, size: float) -> Accuracy | None:
+        """How accurate the integration over time is in an increment that is in equilibrium; None: not measured."""
+        return None
+
+    def converged(self, last: Iterate, size: float) -> Iterable[Record]:
+        """Take a converged increment, while the state is still that of its start; records that follow it."""
+        return ()
+
+    @property
+    def finished(self) -> bool:
+        """Whether the part ends the step."""
+        return False

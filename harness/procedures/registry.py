@@ -1,0 +1,77 @@
+# SPDX-FileCopyrightText: The uel-harness authors
+# SPDX-License-Identifier: BSD-3-Clause
+"""What runs a step, by its procedure: the one place that asks which procedure a step has.
+
+A general step is put together here from a path and parts. A further procedure is registered like those below.
+"""
+
+from __future__ import annotations
+
+from functools import singledispatch
+
+from harness.model.perturbations import Frequency, StaticPerturbation, SteadyState
+from harness.model.procedures import Dynamic, HeatTransfer, Procedure, Static, Visco
+from harness.procedures.context import StepContext
+from harness.procedures.dynamic import ImplicitIntegration
+from harness.procedures.frequency import FrequencyStep
+from harness.procedures.general import GeneralStep
+from harness.procedures.heat_transfer import TemperatureChange
+from harness.procedures.load_factor import EnergyPath, RiksPath
+from harness.procedures.parts import Part
+from harness.procedures.path import TimePath
+from harness.procedures.perturbation import PerturbationStep
+from harness.procedures.setting import Setting, StepRun
+from harness.procedures.stabilized import ViscousForces
+from harness.procedures.steady_state import SteadyStateStep
+
+
+@singledispatch
+def run_of(procedure: Procedure, setting: Setting) -> StepRun:
+    """What runs a step of this procedure. Raises DeckError."""
+    raise TypeError(f"nothing runs {type(procedure).__name__}")
+
+
+@run_of.register
+def _(procedure: Static | Visco, setting: Setting) -> StepRun:
+    if procedure.riks is not None:
+        context = StepContext(setting)
+        return GeneralStep(context, RiksPath(context, procedure.riks))
+    if setting.energy_control:
+        context = StepContext(setting)
+        return GeneralStep(context, EnergyPath(context))
+    return _in_time(StepContext(setting, fallback=setting.fallback), fallback=setting.fallback)
+
+
+@run_of.register
+def _(procedure: Dynamic, setting: Setting) -> StepRun:
+    context = StepContext(setting)
+    return _in_time(context, ImplicitIntegration(context, procedure))
+
+
+@run_of.register
+def _(procedure: HeatTransfer, setting: Setting) -> StepRun:
+    context = StepContext(setting, fallback=setting.fallback)
+    return _in_time(context, TemperatureChange(context, procedure), fallback=setting.fallback)
+
+
+@run_of.register
+def _(_: StaticPerturbation, setting: Setting) -> StepRun:
+    return PerturbationStep(setting)
+
+
+@run_of.register
+def _(procedure: Frequency, setting: Setting) -> StepRun:
+    return FrequencyStep(setting, procedure)
+
+
+@run_of.register
+def _(procedure: SteadyState, setting: Setting) -> StepRun:
+    return SteadyStateStep(setting, procedure)
+
+
+def _in_time(context: StepContext, *parts: Part, fallback: bool = False) -> GeneralStep:
+    """A step of increments of time, damped where it says so."""
+    damping = context.step.procedure.stabilize
+    if damping is not None:
+        parts = (*parts, ViscousForces(context, damping))
+    return GeneralStep(context, TimePath(context, parts, fallback=fallback), parts)

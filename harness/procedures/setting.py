@@ -1,0 +1,70 @@
+# SPDX-FileCopyrightText: The uel-harness authors
+# SPDX-License-Identifier: BSD-3-Clause
+"""What a step is run with, and what the sequence of steps asks of what runs it."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from typing import Protocol
+
+from harness.assembly import Constraints, System
+from harness.model.model import Model
+from harness.model.records import Record
+from harness.model.steps import Step
+from harness.model.user_values import GivesValues
+from harness.procedures.state import State
+from harness.solver.linear import LinearSolver, choose
+
+
+class UserRoutines(GivesValues, Protocol):
+    """The part of a loaded library that a procedure calls; sdvini: its address, None without the routine."""
+
+    sdvini: int | None
+
+    def external_database(
+        self, lop: int, lrestart: int, time: tuple[float, float], dtime: float, step: int, increment: int
+    ) -> None:
+        """Call UEXTERNALDB if there is one."""
+
+
+@dataclass(frozen=True, slots=True)
+class Setting:
+    """What a step is run with.
+
+    state           at the end of the last step; the step carries it on
+    solver          name of a linear solver
+    fallback        search downhill where Newton's method fails
+    energy_control  the load factor of a static step is unknown too
+    """
+
+    system: System
+    model: Model
+    step: Step
+    state: State
+    user: UserRoutines
+    solver: str = "auto"
+    fallback: bool = False
+    energy_control: bool = False
+
+
+class StepRun(Protocol):
+    """What runs a step."""
+
+    @property
+    def reached(self) -> tuple[tuple[float, float], float, int, int]:
+        """Step and total time, no time increment, step and increment, as UEXTERNALDB gets them at the end."""
+
+    def run(self) -> Iterator[Record]:
+        """Records of the step. Raises ConvergenceError, KernelError, SingularMatrixError, DeckError."""
+
+
+def choose_solver(name: str, constraints: Constraints) -> LinearSolver:
+    """Linear solver for the matrices of free unknowns; name as `harness.solver.linear.choose` takes it."""
+    return choose(
+        name,
+        constraints.reduced_indptr,
+        constraints.reduced_indices,
+        coordinates=constraints.coordinates,
+        name_of=constraints.name_of,
+    )
