@@ -95,7 +95,7 @@ class System:
         energy, damage = np.zeros(8), 0.0
         pnewdt = np.inf
         for block in self.blocks:
-            kept = columns if block.group.definition or not call.lflags[3] else np.zeros_like(columns)
+            kept = columns if block.group.definition or not call.flags.linear else np.zeros_like(columns)
             report = block.evaluate(call, u, du, kept if nrhs > 1 else kept[0], data, motion)
             flux += report.flux
             count += report.flux_count

@@ -16,20 +16,15 @@ import numpy as np
 from harness import usersub
 from harness.assembly import Evaluation, System
 from harness.deck import read_deck
-from harness.elements import Block, Call, Motion, build_blocks
+from harness.elements import Block, Call, Flags, Motion, Request, build_blocks
 from harness.errors import ConvergenceError, ElementError, IncrementsUsedUpError, KernelError, NotFiniteError, UelError
 from harness.model.arrays import FloatArray, IntArray
 from harness.model.model import Model
+from harness.model.procedures import Static
 from harness.model.records import AttemptAbandoned, IncrementDone
 from harness.procedures import run_steps
 from harness.solver.threads import one_blas_thread
 from harness.usersub import Library, names_line, trap
-
-NORMAL: Final = 1
-"""LFLAGS(3) of a normal call."""
-
-STATIC: Final = 1
-"""LFLAGS(1) of *STATIC."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -46,7 +41,7 @@ class Pass:
     @property
     def normal(self) -> bool:
         """RHS and AMATRX of an iteration of a general step are asked for; in a linear one RHS is a change."""
-        return self.call.lflags[2] == NORMAL and not self.call.lflags[3] and self.matrix
+        return self.call.flags.request is Request.NORMAL and not self.call.flags.linear and self.matrix
 
 
 @dataclass(frozen=True, slots=True)
@@ -207,7 +202,7 @@ def record(
 def _general(events: Sequence[Event]) -> Pass:
     """A static call in the state of the last one of all, for decks whose steps are linear perturbations."""
     last = [event for event in events if isinstance(event, Pass)][-1]
-    call = replace(last.call, lflags=(STATIC, last.call.lflags[1], NORMAL, 0, 0))
+    call = replace(last.call, flags=Flags(Static().lflag, last.call.flags.nlgeom))
     return replace(last, call=call, matrix=True, du=np.zeros_like(last.du), nrhs=1)
 
 

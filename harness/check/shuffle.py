@@ -22,13 +22,11 @@ from rich.text import Text
 
 from harness.check.recording import Pass, Recording, record
 from harness.check.replay import Elements, Results, abaqus_order, replay
+from harness.elements import Request
 from harness.errors import KernelError
 
 ORDERS: Final = 3
 """Replays with random orders."""
-
-MASS: Final = 4
-"""LFLAGS(3) of the mass matrix, which a static analysis asks for and does not use."""
 
 THREADS: Final = "run on one thread and in one process (no cpus= above 1)"
 
@@ -108,7 +106,8 @@ def _compare(
     for position, error in found.refusals.items():
         verdict = verdicts[str(elements.types[position])]
         verdict.refusal = verdict.refusal or error
-    if call.lflags[2] != MASS:
+    # a static analysis asks for the mass matrix, and does not use it
+    if call.flags.request is not Request.MASS:
         for kind, count in zip(*np.unique(elements.types[found.called], return_counts=True), strict=True):
             verdicts[str(kind)].calls += int(count)
     # bits, so that -0.0 and NaN are told apart too
@@ -128,7 +127,7 @@ def _compare(
 def report(outcome: Shuffled) -> Group:
     """Table of the verdicts, and what to do about those that are bad."""
     recording = outcome.recording
-    passes = sum(isinstance(event, Pass) and event.call.lflags[2] != MASS for event in recording.events)
+    passes = sum(isinstance(event, Pass) and event.call.flags.request is not Request.MASS for event in recording.events)
     title = f"{recording.model.deck.name}: {ORDERS} random orders (seed {outcome.seed}) against Abaqus' order"
     caption = f"increments: {recording.increments}; calls of each element in each order: {passes}"
     table = Table("type", "elements", "calls compared", "verdict", "first difference", title=title, caption=caption)

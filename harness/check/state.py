@@ -11,11 +11,12 @@ import numpy as np
 
 from harness.check.recording import Pass
 from harness.check.single import Returned, Single
-from harness.elements import Call, Motion
+from harness.elements import Call, Motion, Request
 from harness.errors import KernelError
 from harness.model.arrays import FloatArray
+from harness.model.procedures import Dynamic
 
-DYNAMIC: Final = 11, 12
+DYNAMIC: Final = tuple(Dynamic(direct=direct).lflag for direct in (False, True))
 """LFLAGS(1) of *DYNAMIC: V and A go with U."""
 
 CHANGES: Final = 1e-3, 1.0, 1e3, -1e-3, -1.0, -1e3
@@ -97,15 +98,14 @@ class State:
         """The state with other arguments that are common to all elements, fields of Call."""
         return replace(self, call=replace(self.call, **changes))
 
-    def asked(self, request: int) -> State:
+    def asked(self, request: Request) -> State:
         """The state with another LFLAGS(3)."""
-        lflags = self.call.lflags
-        return self.called(lflags=(*lflags[:2], request, *lflags[3:]))
+        return replace(self, call=self.call.asking(request))
 
     @property
     def dynamic(self) -> bool:
         """V and A go with U."""
-        return self.call.lflags[0] in DYNAMIC
+        return self.call.flags.procedure in DYNAMIC
 
     def with_svars(self, svars: FloatArray) -> State:
         """The state with other state variables (nsvars,) at the start of the increment."""

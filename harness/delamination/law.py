@@ -23,7 +23,7 @@ from harness.deck import read_deck
 from harness.delamination.blocks import Interface, Specimen, interface_values
 from harness.delamination.materials import PLY_0, TABLE_2
 from harness.delamination.mesh import two_arms
-from harness.elements import Call, build_blocks
+from harness.elements import Call, Flags, build_blocks
 from harness.errors import Source, UelError, UsageError
 from harness.model.arrays import FloatArray
 from harness.model.mesh import ElementGroup, Mesh
@@ -189,7 +189,7 @@ class LawElement:
         return np.array(u[:, ::-1]).ravel()
 
     def _traction(self, u: FloatArray, dtime: float) -> FloatArray:
-        call = Call((1, 0, 1, 0, 0), 1, 1, self._time, self._time, dtime, 1.0)
+        call = Call(Flags(1), 1, 1, self._time, self._time, dtime, 1.0)
         rhs = np.zeros(len(u))
         self._block.evaluate(call, u, u - self._u, rhs, np.zeros(len(u) ** 2))
         tangential, normal = -rhs.reshape(-1, 2)[self._top].sum(axis=0) / self._area

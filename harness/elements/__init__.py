@@ -7,16 +7,20 @@ from harness.elements.build import build_blocks
 from harness.elements.call import BlockReport, Call, Distributed, Motion, Predefined
 from harness.elements.fields import FIELD_NAMES, field_of
 from harness.elements.pressure import PressureBlock
+from harness.elements.request import Damping, Flags, Request
 
 __all__ = [
     "FIELD_NAMES",
     "Block",
     "BlockReport",
     "Call",
+    "Damping",
     "Distributed",
+    "Flags",
     "Motion",
     "Predefined",
     "PressureBlock",
+    "Request",
     "build_blocks",
     "field_of",
 ]

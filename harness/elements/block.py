@@ -14,6 +14,7 @@ from harness.elements.call import BlockReport, Call, Distributed, Motion, Predef
 from harness.elements.faults import ERRORS, at_point, distortion, material_point, write_outside, wrong_entry
 from harness.elements.fields import FIELD_NAMES, field_of
 from harness.elements.procedure import Procedure
+from harness.elements.request import Flags, Request
 from harness.elements.watch import Watch
 from harness.errors import ElementError, KernelError
 from harness.model.arrays import FloatArray, IntArray
@@ -22,12 +23,6 @@ from harness.model.records import ElementState, PointVariables
 from harness.usersub import Library, _binding
 from harness.usersub.exchange import BlockArrays, LoadArrays, Outcome
 from harness.usersub.faults import Entries, Fault, Guards
-
-NORMAL: Final = 1
-MASS: Final = 4
-"""LFLAGS(3) of a normal call, and of one for the mass matrix."""
-INITIAL_STRESSES: Final = -1
-"""That of the host's own pass for initial stresses (fortran/host/host_context.f90)."""
 
 _PLASTIC: Final = 3
 """Index of ENERGY(4)."""
@@ -158,7 +153,7 @@ class Block:
         outcome = _binding.evaluate(
             self._scalars(call),
             self._options(call, assemble=matrix is not None),
-            call.flags,
+            call.flags.lflags,
             self._arrays,
             u,
             du,
@@ -224,15 +219,15 @@ class Block:
             return
         given, self._arrays.props = self._arrays.props, self._arrays.props.copy()
         self._arrays.props[place] = 1.0
-        zero, lflags = np.zeros(unknowns), (*call.lflags[:2], MASS, *call.lflags[3:])
+        zero = np.zeros(unknowns)
         try:
-            self.evaluate(replace(call, lflags=lflags), zero, zero, zero.copy(), matrix)
+            self.evaluate(call.asking(Request.MASS), zero, zero, zero.copy(), matrix)
         finally:
             self._arrays.props = given
 
     def bare_loop(self, call: Call, u: FloatArray, du: FloatArray, residual: FloatArray) -> None:
         """Only call the elements, from a plain Fortran loop over the block: the limit of speed."""
-        _binding.bare_loop(self._scalars(call), call.flags, self._arrays, u, du, residual)
+        _binding.bare_loop(self._scalars(call), call.flags.lflags, self._arrays, u, du, residual)
 
     def _scalars(self, call: Call) -> _binding.Scalars:
         return {
@@ -280,8 +275,8 @@ class Block:
 
         Raises KernelError.
         """
-        lflags = (call.lflags[0], 0, INITIAL_STRESSES, 0, 0)
-        self.evaluate(replace(call, lflags=lflags), u, np.zeros_like(u), residual, None)
+        flags = Flags(call.flags.procedure, request=Request.INITIAL_STRESSES)
+        self.evaluate(replace(call, flags=flags), u, np.zeros_like(u), residual, None)
         self._keep_trial()
 
     def call_sdvini(self, address: int) -> None:

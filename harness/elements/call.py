@@ -4,16 +4,14 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
-from typing import Final, Self
+from dataclasses import dataclass, field, replace
+from typing import Self
 
 import numpy as np
 
+from harness.elements.request import Damping, Flags, Request
 from harness.model.arrays import FloatArray, IntArray
 from harness.usersub.exchange import Outcome
-
-COUPLED_TEMPERATURE: Final = (71, 72, 73)
-"""LFLAGS(1) of *COUPLED TEMPERATURE-DISPLACEMENT: steady, transient, with fixed increments."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -47,16 +45,18 @@ class Predefined:
 class Call:
     """Arguments common to all elements in one pass.
 
-    lflags       LFLAGS(1..5)
-    damping      LFLAGS(7), where LFLAGS(3) asks for a damping matrix: 1 the viscous, 2 the structural one
+    flags        LFLAGS
     step, increment  KSTEP, KINC
     iteration    equilibrium iteration, for messages; 0 before the first solve
     flux_floor   (fields,) element nodal force above which an entry is a term of the average flux; None: all entries are
     params       PARAMS: alpha, beta and gamma of a dynamic step
     step_time, total_time  at the end of the increment (Abaqus' manual leaves open which end TIME holds)
+    unsymmetric  AMATRX of UEL counts as it is, UNSYMM or not, as in coupled temperature-displacement steps: Abaqus 2023
+                 says in their message file that it uses unsymmetric storage, and a public element without UNSYMM there
+                 meets its residuals in one iteration, which it does not with (A + A^T)/2
     """
 
-    lflags: tuple[int, int, int, int, int]
+    flags: Flags
     step: int
     increment: int
     step_time: float
@@ -68,26 +68,21 @@ class Call:
     predefined: Predefined | None = None
     flux_floor: FloatArray | None = None
     iteration: int = 0
-    damping: int = 0
+    unsymmetric: bool = False
+
+    def asking(self, request: Request, damping: Damping = Damping.NONE) -> Self:
+        """The same call for something else."""
+        return replace(self, flags=self.flags.asking(request, damping))
 
     @property
-    def flags(self) -> tuple[int, ...]:
-        """LFLAGS(1..7)."""
-        return (*self.lflags, 0, self.damping)
+    def extrapolated(self) -> Self:
+        """The same call, the first of an increment that starts from an extrapolation."""
+        return replace(self, flags=replace(self.flags, extrapolated=True))
 
     @property
     def place(self) -> str:
         """Step, increment and iteration, for messages."""
         return f"step {self.step}, increment {self.increment}, iteration {self.iteration}"
-
-    @property
-    def unsymmetric(self) -> bool:
-        """Whether AMATRX of UEL counts as it is, UNSYMM or not: in coupled temperature-displacement steps.
-
-        Abaqus 2023 says in their message file that it uses unsymmetric storage, and a public element without UNSYMM
-        there meets its residuals in one iteration, which it does not with (A + A^T)/2.
-        """
-        return self.lflags[0] in COUPLED_TEMPERATURE
 
 
 @dataclass(frozen=True, slots=True)

@@ -9,7 +9,7 @@ from functools import partial
 import numpy as np
 
 from harness.assembly import Constraints
-from harness.elements import Call
+from harness.elements import Call, Flags
 from harness.errors import DeckError
 from harness.model.arrays import FloatArray, IntArray
 from harness.model.user_values import UserValues
@@ -18,9 +18,6 @@ from harness.procedures.loads import fading_forces
 from harness.procedures.setting import Setting, choose_solver
 from harness.procedures.unheld import UnheldSolver
 from harness.solver.newton import Factoriser
-
-NORMAL, MASS = 1, 4
-"""LFLAGS(3): a normal call, and the mass matrix alone."""
 
 
 class StepContext:
@@ -104,7 +101,7 @@ class StepContext:
         step, end = self.step, (step_time, total_time)
         distributed, predefined = self.conditions.at(self.times, end)
         return Call(
-            lflags=(step.procedure.lflag, int(step.nlgeom), NORMAL, 0, 0),
+            flags=Flags.of(step),
             step=step.number,
             # what is asked before the first increment belongs to it
             increment=max(self.increment, 1),
@@ -113,6 +110,7 @@ class StepContext:
             time_increment=size,
             period=step.procedure.period,
             params=step.procedure.params,
+            unsymmetric=step.procedure.unsymmetric,
             distributed=self.load.with_pressures(distributed, self.times, end),
             predefined=predefined,
             flux_floor=self.checker.flux_floor,

@@ -15,17 +15,14 @@ from functools import partial
 import numpy as np
 
 from harness.assembly import Evaluation
-from harness.elements import Motion
+from harness.elements import Motion, Request
 from harness.model.arrays import FloatArray
 from harness.model.procedures import Dynamic, Integrator
 from harness.model.records import Record
 from harness.procedures.context import StepContext
 from harness.procedures.incrementation import Accuracy
 from harness.procedures.parts import Part
-from harness.solver.newton import RESIDUAL_ONLY, Increment, Iterate
-
-INITIAL_ACCELERATION = 6
-"""LFLAGS(3) of the pass for mass and residual at the start of the step."""
+from harness.solver.newton import Increment, Iterate
 
 HALF_INCREMENT = "THE HALF-INCREMENT RESIDUAL IS LARGER THAN ITS TOLERANCE."
 
@@ -58,8 +55,7 @@ class ImplicitIntegration(Part):
     def _accelerate(self) -> None:
         """Solve M a = P - I for the accelerations at the start; unknowns without mass have none."""
         context, state, constraints = self._context, self._context.state, self._context.constraints
-        call = context.call(0.0, 0.0, context.start)
-        call = replace(call, lflags=(*call.lflags[:2], INITIAL_ACCELERATION, *call.lflags[3:]))
+        call = context.call(0.0, 0.0, context.start).asking(Request.INITIAL_ACCELERATION)
         motion = Motion(state.velocity, np.zeros_like(state.velocity))
         still = np.zeros_like(state.displacement)
         evaluation = context.system.evaluate(call, state.displacement, still, motion=motion)
@@ -121,9 +117,8 @@ class ImplicitIntegration(Part):
         velocity = 0.75 / size * last.increment + 0.25 * state.velocity - size / 8 * state.acceleration
         acceleration = 0.5 * (state.acceleration + end.acceleration)
         call = context.call(size, context.step_time + half, context.start + context.step_time + half)
-        call = replace(call, lflags=(*call.lflags[:2], RESIDUAL_ONLY, *call.lflags[3:]))
-        motion = Motion(velocity, acceleration)
-        return context.system.evaluate(call, state.displacement + increment, increment, matrix=False, motion=motion)
+        motion, at = Motion(velocity, acceleration), state.displacement + increment
+        return context.system.evaluate(call.asking(Request.RESIDUAL), at, increment, matrix=False, motion=motion)
 
     def converged(self, last: Iterate, size: float) -> Iterable[Record]:
         """Velocities and accelerations at the end."""

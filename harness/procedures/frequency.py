@@ -13,17 +13,14 @@ import math
 import numpy as np
 from scipy import sparse
 
+from harness.elements import Request
 from harness.errors import DeckError
 from harness.model.arrays import FloatArray, first_largest
 from harness.model.perturbations import Frequency
 from harness.model.records import ModesFound, ModeShape, Record
-from harness.procedures.context import MASS
 from harness.procedures.perturbation import PerturbationStep
 from harness.procedures.setting import Setting
 from harness.solver.eigen import Pair, UnstableError, lowest_eigenvalues
-
-STIFFNESS = 2
-"""LFLAGS(3) of a call for the stiffness alone."""
 
 FIRST = 10
 """Eigenvalues that are looked for first where their number is not given."""
@@ -56,7 +53,7 @@ class FrequencyStep(PerturbationStep):
     def _modes(self) -> tuple[FloatArray, FloatArray]:
         """Eigenvalues, and vectors (n, k) of all unknowns: as many as asked for, or more than the frequencies hold."""
         pattern = self._constraints.reduced_indptr, self._constraints.reduced_indices
-        pair = Pair(*pattern, self._matrix(STIFFNESS), self._matrix(MASS))
+        pair = Pair(*pattern, self._matrix(Request.STIFFNESS), self._matrix(Request.MASS))
         if not np.any(pair.mass):
             raise DeckError(self._step.source, "*FREQUENCY: no element has mass (*DENSITY, *MASS, LFLAGS(3) = 4)")
         size = len(pair)
@@ -73,7 +70,7 @@ class FrequencyStep(PerturbationStep):
                 return values, np.array([self._constraints.expand(vector, none) for vector in vectors.T]).T
             count = min(2 * count, size)
 
-    def _matrix(self, request: int) -> FloatArray:
+    def _matrix(self, request: Request) -> FloatArray:
         """CSR values of the symmetric part of a matrix of the free unknowns."""
         evaluation = self._pass(request)
         assert evaluation.data is not None

@@ -9,7 +9,7 @@ from collections.abc import Iterable, Iterator
 import numpy as np
 
 from harness.assembly import System
-from harness.elements import Block, Call
+from harness.elements import Block, Call, Flags
 from harness.errors import DeckError
 from harness.model.arrays import IntArray
 from harness.model.model import Model
@@ -60,7 +60,7 @@ def set_initial_stresses(system: System, model: Model, state: State) -> Iterator
             stressed[block.first] = block
     if not stressed:
         return
-    call = Call((1, 0, 1, 0, 0), 1, 0, 0.0, 0.0, 0.0, 0.0, predefined=state.predefined)
+    call = Call(Flags(1), 1, 0, 0.0, 0.0, 0.0, 0.0, predefined=state.predefined)
     residual = np.zeros(len(system))
     for block in stressed.values():
         block.begin_stressed(call, state.displacement, residual)

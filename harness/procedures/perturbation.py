@@ -14,7 +14,7 @@ from dataclasses import replace
 import numpy as np
 
 from harness.assembly import Constraints, Evaluation
-from harness.elements import Call
+from harness.elements import Call, Flags, Request
 from harness.model.arrays import FloatArray
 from harness.model.records import (
     AttemptStarted,
@@ -26,7 +26,6 @@ from harness.model.records import (
     StepDone,
     Warned,
 )
-from harness.procedures.context import NORMAL
 from harness.procedures.setting import Setting, choose_solver
 from harness.solver.linear import LinearSolver
 
@@ -37,9 +36,6 @@ BASE_FORCES = (
 
 ROUNDING = 1e-8
 """Of the average force of the elements."""
-
-OUTPUT = 100
-"""LFLAGS(3) of a call for what a perturbation changes: DU is the perturbation."""
 
 
 class PerturbationStep:
@@ -83,7 +79,7 @@ class PerturbationStep:
 
     def _solve(self) -> list[Record]:
         """What the step finds: the response to its loads and prescribed values."""
-        evaluation = self._pass(NORMAL)
+        evaluation = self._pass(Request.NORMAL)
         assert evaluation.data is not None
         constraints, step = self._constraints, self._step
         load = self._state.loads.in_perturbation(step)
@@ -94,7 +90,7 @@ class PerturbationStep:
         self._solver.factorise(constraints.reduce(evaluation.data))
         change = constraints.expand(self._solver.solve(constraints.reduce_vector(missing)), prescribed)
         internal = stiffness @ change
-        self._pass(OUTPUT, change)
+        self._pass(Request.PERTURBATION, change)
         work = 0.5 * float(change @ internal)
         solution = self._solution(change, {"ALLSE": work, "ALLWK": work})
         reaction = constraints.reactions(external - internal)
@@ -109,16 +105,16 @@ class PerturbationStep:
         largest = float(np.abs(evaluation.residual).max(initial=0.0))
         return not self._step.distributed and largest > ROUNDING * float(evaluation.flux.sum()) / count
 
-    def _pass(self, request: int, change: FloatArray | None = None) -> Evaluation:
+    def _pass(self, request: Request, change: FloatArray | None = None) -> Evaluation:
         """A pass over the elements in the base state, for the matrix too unless a perturbation is given."""
         at = self._state.displacement
         du = np.zeros_like(at) if change is None else change
         return self._system.evaluate(self._call(request), at, du, matrix=change is None)
 
-    def _call(self, request: int) -> Call:
+    def _call(self, request: Request) -> Call:
         step, period = self._step, self._step.procedure.period
         return Call(
-            lflags=(step.procedure.lflag, int(step.nlgeom), request, 1, 0),
+            flags=Flags.of(step, request),
             step=step.number,
             increment=self._increment,
             step_time=0.0,
@@ -146,7 +142,7 @@ class PerturbationStep:
         """Change of strain and stress of elastic built-in elements in small displacements; others are left out."""
         if self._step.nlgeom:
             return ()
-        call = self._call(NORMAL)
+        call = self._call(Request.NORMAL)
         end, scratch = self._state.displacement + change, np.zeros_like(change)
         found = []
         for k, block in enumerate(self._system.blocks):

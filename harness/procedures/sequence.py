@@ -5,16 +5,16 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
+from dataclasses import replace
 
 import numpy as np
 
 from harness.assembly import DofMap, System
-from harness.elements import Call
+from harness.elements import Call, Flags, Request
 from harness.errors import ConvergenceError, SingularMatrixError
 from harness.model.model import Model
 from harness.model.records import Noted, Record, StepStarted, Warned
 from harness.model.steps import Boundary, Load, Step
-from harness.procedures.context import MASS
 from harness.procedures.initial_states import set_initial_states, set_initial_stresses
 from harness.procedures.loads import find_unknowns
 from harness.procedures.registry import run_of
@@ -97,8 +97,17 @@ def _mass_pass(system: System, step: Step) -> None:
 
     It belongs to increment 1, but no time passes.
     """
+    procedure = step.procedure
     call = Call(
-        (step.procedure.lflag, int(step.nlgeom), MASS, 0, 0), step.number, 1, 0.0, 0.0, 0.0, step.procedure.period
+        # it is not one of the calls of a linear step, where the first one is
+        replace(Flags.of(step, Request.MASS), linear=False),
+        step=step.number,
+        increment=1,
+        step_time=0.0,
+        total_time=0.0,
+        time_increment=0.0,
+        period=procedure.period,
+        unsymmetric=procedure.unsymmetric,
     )
     zero = np.zeros(len(system))
     system.evaluate(call, zero, zero, matrix=False)

@@ -13,27 +13,19 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Iterator
 from dataclasses import replace
-from typing import Final, TypeVar
+from typing import TypeVar
 
 import numpy as np
 
-from harness.elements import Call
+from harness.elements import Call, Damping, Request
 from harness.model.arrays import ComplexArray, FloatArray
 from harness.model.perturbations import SteadyState
 from harness.model.records import HarmonicResponse, Record, Solution
 from harness.model.steps import Boundary, ElementLoad, Load, Step
-from harness.procedures.context import MASS
-from harness.procedures.frequency import STIFFNESS
 from harness.procedures.perturbation import PerturbationStep
 from harness.procedures.setting import Setting
 from harness.solver.harmonic import ComplexSolver
 from harness.solver.linear import LinearSolver
-
-DAMPING: Final = 3
-"""LFLAGS(3) of a call for a damping matrix."""
-
-VISCOUS, STRUCTURAL = 1, 2
-"""LFLAGS(7): which one."""
 
 Entry = TypeVar("Entry", Boundary, Load, ElementLoad)
 
@@ -88,19 +80,22 @@ class SteadyStateStep(PerturbationStep):
 
     def _dynamic_stiffness(self, rate: complex) -> ComplexArray:
         """(nnz,) CSR values of K + rate C + rate^2 M + i S over all unknowns."""
-        data = self._matrix(STIFFNESS) + rate**2 * self._matrix(MASS)
+        data = self._matrix(Request.STIFFNESS) + rate**2 * self._matrix(Request.MASS)
         if not self._procedure.undamped:
-            data += rate * self._matrix(DAMPING, VISCOUS) + 1j * self._matrix(DAMPING, STRUCTURAL)
+            viscous, structural = (
+                self._matrix(Request.DAMPING, kind) for kind in (Damping.VISCOUS, Damping.STRUCTURAL)
+            )
+            data += rate * viscous + 1j * structural
         return data
 
-    def _matrix(self, request: int, damping: int = 0) -> FloatArray:
+    def _matrix(self, request: Request, damping: Damping = Damping.NONE) -> FloatArray:
         """(nnz,) CSR values of a matrix of the elements in the base state."""
-        call, at = replace(self._call(request), damping=damping), self._state.displacement
+        call, at = self._call(request).asking(request, damping), self._state.displacement
         evaluation = self._system.evaluate(call, at, np.zeros_like(at))
         assert evaluation.data is not None
         return evaluation.data.copy()
 
-    def _call(self, request: int) -> Call:
+    def _call(self, request: Request) -> Call:
         return replace(super()._call(request), step_time=self._frequency)
 
     def _given(self, read: Callable[[Step], FloatArray]) -> ComplexArray:

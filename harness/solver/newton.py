@@ -11,14 +11,10 @@ from typing import Protocol
 import numpy as np
 
 from harness.assembly import Constraints, Evaluation, System
-from harness.elements import Call, Motion
+from harness.elements import Call, Motion, Request
 from harness.model.arrays import FloatArray
 from harness.model.steps import LineSearchControls
 from harness.solver.linesearch import search
-
-RESIDUAL_ONLY = 5
-"""LFLAGS(3) of a pass that line search makes: RHS alone, the state is not kept."""
-
 
 ROUNDING = 16 * float(np.finfo(float).eps)
 """Relative error of differences of prescribed displacements."""
@@ -103,7 +99,7 @@ class Newton:
         if given.guess is None:
             increment, first = np.zeros_like(given.displacement), call
         else:
-            increment, first = self._rounded(given, given.guess), replace(call, lflags=(*call.lflags[:4], 1))
+            increment, first = self._rounded(given, given.guess), call.extrapolated
         state = self._evaluate(first, given, 0, increment, np.zeros_like(increment))
         yield state
         missing = given.prescribed - increment[self._constraints.prescribed]
@@ -162,8 +158,7 @@ class Newton:
 
     def _trial(self, given: Increment, increment: FloatArray) -> Evaluation:
         """A pass for the residual alone."""
-        call = replace(given.call, lflags=(*given.call.lflags[:2], RESIDUAL_ONLY, *given.call.lflags[3:]))
-        return self._pass(call, given, increment, matrix=False)
+        return self._pass(given.call.asking(Request.RESIDUAL), given, increment, matrix=False)
 
     def _pass(self, call: Call, given: Increment, increment: FloatArray, *, matrix: bool = True) -> Evaluation:
         motion = given.motion and given.motion(increment)

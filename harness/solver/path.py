@@ -90,7 +90,7 @@ class PathFollower:
         increment, factor = np.zeros_like(given.displacement), 0.0
         if given.guess is not None:
             increment, factor = given.guess
-            first = replace(first, lflags=(*first.lflags[:4], 1))
+            first = first.extrapolated
         state = self._evaluate(first, given, 0, increment, np.zeros_like(increment), factor)
         yield state
         while True:

@@ -25,7 +25,7 @@ from scipy.sparse.linalg import splu
 from harness import usersub
 from harness.assembly import Constraints, System
 from harness.deck import read_deck
-from harness.elements import Block, Call, build_blocks
+from harness.elements import Block, Call, Flags, build_blocks
 from harness.model.arrays import FloatArray
 from harness.model.model import Model
 from harness.model.records import IncrementDone, IterationDone
@@ -202,7 +202,7 @@ def main() -> int:
         seconds = time.perf_counter() - start
         console.print(f"DCB-ref: deck read and system built in {seconds:.2f} s, {len(system)} unknowns")
         done = run(system, model, library, options.increments)
-        call = Call((1, 0, 1, 0, 0), 1, options.increments + 1, 1.0, 1.0, 0.01, 1.0)
+        call = Call(Flags(1), 1, options.increments + 1, 1.0, 1.0, 0.01, 1.0)
         elements = Elements(system, call, done.displacement)
         good = elements.report(console)
         good &= Iterations(system, model, call, done.displacement).report(console, elements, done)

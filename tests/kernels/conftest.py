@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 from harness import usersub
-from harness.elements import Call, build_blocks
+from harness.elements import Call, Flags, Request, build_blocks
 from harness.errors import Source
 from harness.model.mesh import ElementGroup, Mesh
 from harness.model.model import Model
@@ -97,8 +97,8 @@ class Element:
 
     def evaluate(self, u, *, du=None, dtime=1.0, request=1, flags=(1, 0, 0, 0), increment=1):
         """RHS and AMATRX at u; flags are LFLAGS(1), (2), (4), (5)."""
-        lflags = (flags[0], flags[1], request, flags[2], flags[3])
-        call = Call(lflags, 1, increment, step_time=dtime, total_time=dtime, time_increment=dtime, period=1.0)
+        told = Flags(flags[0], bool(flags[1]), Request(request), bool(flags[2]), bool(flags[3]))
+        call = Call(told, 1, increment, step_time=dtime, total_time=dtime, time_increment=dtime, period=1.0)
         u = np.ascontiguousarray(u, dtype=float).ravel()
         du = u if du is None else np.ascontiguousarray(du, dtype=float).ravel()
         rhs, amatrx = np.zeros(u.size), np.zeros(u.size * self.n)

@@ -5,7 +5,7 @@
 import numpy as np
 import pytest
 
-from harness.elements import Call, build_blocks
+from harness.elements import Call, Flags, build_blocks
 from harness.errors import Source
 from harness.model.mesh import ElementGroup, Mesh
 from harness.model.model import Model
@@ -71,7 +71,7 @@ def test_same_as_the_built_in_quad(element, library):
     mesh = Mesh(np.arange(1, 5), np.column_stack([DISTORTED, np.zeros(4)]), ("",) * 4)
     (block,) = build_blocks(Model(SOURCE.file, "", mesh, (group,), ()), library)
     block.bind(np.arange(8, dtype=np.int32)[None], np.arange(64, dtype=np.int32).reshape(1, 8, 8))
-    call = Call((1, 0, 1, 0, 0), 1, 1, step_time=1.0, total_time=1.0, time_increment=1.0, period=1.0)
+    call = Call(Flags(1), 1, 1, step_time=1.0, total_time=1.0, time_increment=1.0, period=1.0)
     expected, matrix = np.zeros(8), np.zeros(64)
     block.evaluate(call, u, u, expected, matrix)
     block.commit()

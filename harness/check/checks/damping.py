@@ -13,12 +13,9 @@ from harness.check.choice import first_largest
 from harness.check.finding import Finding, failed, passed
 from harness.check.state import State
 from harness.check.subject import Subject
-from harness.elements import Motion
+from harness.elements import Damping, Flags, Motion, Request
 from harness.model.arrays import FloatArray
 from harness.usersub import UNSET, marks
-
-VISCOUS, STRUCTURAL = 1, 2
-"""LFLAGS(7)."""
 
 TOLERANCE: Final = 1e-9
 """Of the largest entry."""
@@ -27,13 +24,11 @@ SLOPE: Final = 1e-6
 """Of the largest entry: central differences by velocities."""
 
 
-def check_damping(
-    subject: Subject, state: State, moving: State | None, lflags: tuple[int, int, int, int, int]
-) -> Finding:
+def check_damping(subject: Subject, state: State, moving: State | None, flags: Flags) -> Finding:
     """The damping matrices in the base state; in a state of *DYNAMIC, if there is one, against velocities."""
     stiffness = state.evaluate().amatrx
-    viscous, structural = (_matrix(state, lflags, kind) for kind in (VISCOUS, STRUCTURAL))
-    for kind, matrix in ((VISCOUS, viscous), (STRUCTURAL, structural)):
+    viscous, structural = (_matrix(state, flags, kind) for kind in (Damping.VISCOUS, Damping.STRUCTURAL))
+    for kind, matrix in ((Damping.VISCOUS, viscous), (Damping.STRUCTURAL, structural)):
         if matrix.any() and _agree(matrix, stiffness):
             return failed(
                 f"{state}: AMATRX with LFLAGS(3) = 3 and LFLAGS(7) = {kind} is that with LFLAGS(3) = 1, the stiffness",
@@ -53,13 +48,13 @@ def check_damping(
                 f"{state}: the {name} damping matrix has no positive eigenvalue",
                 "Look at its sign: AMATRX is minus the derivative of the force on the nodes by their velocities.",
             )
-    wrong = _against_velocities(subject, moving, lflags) if moving is not None else None
+    wrong = _against_velocities(subject, moving, flags) if moving is not None else None
     return wrong or passed("damping (3)" if viscous.any() or structural.any() else "no damping (3)")
 
 
-def _against_velocities(subject: Subject, state: State, lflags: tuple[int, int, int, int, int]) -> Finding | None:
+def _against_velocities(subject: Subject, state: State, flags: Flags) -> Finding | None:
     """A finding where the viscous matrix is not what RHS of a dynamic call loses with V, over 1 + alpha."""
-    viscous = _matrix(state, lflags, VISCOUS)
+    viscous = _matrix(state, flags, Damping.VISCOUS)
     slope = _slope(subject, state) / (1.0 + state.call.params[0])
     row, column = np.unravel_index(first_largest(np.abs(viscous - slope)), slope.shape)
     deviation = float(abs(viscous[row, column] - slope[row, column]))
@@ -73,9 +68,9 @@ def _against_velocities(subject: Subject, state: State, lflags: tuple[int, int, 
     )
 
 
-def _matrix(state: State, lflags: tuple[int, int, int, int, int], kind: int) -> FloatArray:
+def _matrix(state: State, flags: Flags, kind: Damping) -> FloatArray:
     with marks({UNSET: float("nan")}):
-        return state.called(lflags=lflags, damping=kind).evaluate().amatrx
+        return state.called(flags=flags.asking(Request.DAMPING, kind)).evaluate().amatrx
 
 
 def _agree(one: FloatArray, other: FloatArray) -> bool:

@@ -12,6 +12,7 @@ from harness.check.finding import Finding, failed, not_applicable, passed
 from harness.check.single import first_difference
 from harness.check.state import State
 from harness.check.subject import Subject
+from harness.elements import Request
 from harness.errors import KernelError, OutsideError
 from harness.usersub import UNSET, around, marks, room, writes_outside
 
@@ -28,8 +29,11 @@ WHOLES: Final = "JPROPS", "LFLAGS", "JDLTYP"
 INTEGERS: Final = 1, 7, -290000
 """What is put around those of whole numbers."""
 
-REQUESTS: Final = 2, 3, 4, 5, 6
-"""LFLAGS(3) besides that of a normal call."""
+REQUESTS: Final = (
+    *(Request.STIFFNESS, Request.DAMPING, Request.MASS),
+    *(Request.RESIDUAL, Request.INITIAL_ACCELERATION),
+)
+"""Of general steps, besides normal calls."""
 
 ROOM: Final = 20000
 """Entries behind each array where writes are looked for: what is far beyond one does not reach the next."""

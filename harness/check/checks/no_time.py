@@ -6,10 +6,10 @@ from __future__ import annotations
 
 from collections.abc import Callable
 
-from harness.check.checks.requests import INITIAL
 from harness.check.finding import Finding, failed, passed
 from harness.check.state import State
 from harness.check.subject import Subject
+from harness.elements import Request
 from harness.errors import KernelError, OutsideError
 from harness.usersub import writes_outside
 
@@ -36,7 +36,7 @@ def _check(subject: Subject, outside: Callable[[], dict[str, int]]) -> Finding:
         still.evaluate()
         known |= outside()
         # in dynamic steps that is the call for the accelerations at the start; AMATRX of others is divided by DTIME
-        first = still.asked(INITIAL) if state.dynamic else still
+        first = still.asked(Request.INITIAL_ACCELERATION) if state.dynamic else still
         for name, called in (
             ("DTIME = 0", first.called(time_increment=0.0)),
             ("KINC = 0", still.called(increment=0)),

@@ -13,9 +13,7 @@ from harness.check.choice import first_largest
 from harness.check.finding import Finding, failed, passed
 from harness.check.state import State
 from harness.check.subject import Subject
-
-NORMAL, OUTPUT = 1, 100
-"""LFLAGS(3): for the solution, and for output once it is known."""
+from harness.elements import Flags, Request
 
 TOLERANCE: Final = 1e-6
 """Of the largest force."""
@@ -27,22 +25,22 @@ ADVICE: Final = (
 )
 
 
-def check_perturbation(subject: Subject, states: list[State], lflags: tuple[int, int, int, int, int]) -> Finding:
+def check_perturbation(subject: Subject, states: list[State], flags: Flags) -> Finding:
     """RHS without loads on the element, at each of the states as a base state."""
-    known = lflags[2] == OUTPUT
+    known = flags.request is Request.PERTURBATION
     change = (subject.scales if known else 0.0) * np.linspace(-1.0, 1.0, len(subject.scales))
     for state in states:
         still = replace(state, du=np.zeros_like(state.u)).called(distributed=None)
         forces = still.evaluate()
-        linear = replace(still.called(lflags=lflags), du=change)
+        linear = replace(still.called(flags=flags), du=change)
         found, expected = linear.evaluate().rhs[0], -forces.amatrx @ change
         row = first_largest(np.abs(found - expected))
         deviation = float(abs(found[row] - expected[row]))
         if deviation > TOLERANCE * max(float(np.abs(forces.rhs[0]).max()), float(np.abs(expected).max()), 1e-300):
             return failed(
-                f"{state}: RHS({row + 1}) is {found[row]:.6g} with LFLAGS(3) = {lflags[2]} and LFLAGS(4) = 1, not "
+                f"{state}: RHS({row + 1}) is {found[row]:.6g} with LFLAGS(3) = {flags.request} and LFLAGS(4) = 1, not "
                 f"{expected[row]:.6g}",
                 ADVICE,
                 figure=deviation,
             )
-    return passed(f"linear step ({lflags[2]})")
+    return passed(f"linear step ({flags.request})")

@@ -8,11 +8,11 @@ from collections.abc import Iterable
 from contextlib import suppress
 from typing import Final
 
-from harness.check.checks.requests import RESIDUAL
 from harness.check.finding import Finding, failed, passed
 from harness.check.single import first_difference
 from harness.check.state import State
 from harness.check.subject import Subject
+from harness.elements import Request
 from harness.errors import KernelError
 
 ADVICE: Final = (
@@ -31,7 +31,7 @@ RESIDUALS: Final = (
 def check(subject: Subject) -> Finding:
     """As in the iterations of an increment: other U in between, SVARS on entry always those of its start."""
     others = subject.states[0], subject.states[-1], *subject.random[:2]
-    alone = [other.asked(RESIDUAL) for other in others]
+    alone = [other.asked(Request.RESIDUAL) for other in others]
     for between, what, advice in (
         (others, "after others than in the run", ADVICE),
         (alone, "after calls with LFLAGS(3) = 5", RESIDUALS),

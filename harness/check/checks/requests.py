@@ -11,25 +11,19 @@ from typing import Final
 import numpy as np
 
 from harness.check.checks.damping import check_damping
-from harness.check.checks.perturbation import NORMAL, OUTPUT, check_perturbation
+from harness.check.checks.perturbation import check_perturbation
 from harness.check.choice import first_largest
 from harness.check.finding import Finding, Verdict, failed, not_applicable, passed
 from harness.check.recording import Pass
 from harness.check.state import DYNAMIC, State
 from harness.check.subject import Subject
-from harness.elements import Motion
+from harness.elements import Damping, Flags, Motion, Request
 from harness.model.arrays import FloatArray
+from harness.model.perturbations import Frequency, SteadyState
 from harness.usersub import UNSET, marks
 
-STIFFNESS: Final = 2
-DAMPING: Final = 3
-MASS: Final = 4
-RESIDUAL: Final = 5
-INITIAL: Final = 6
-"""Mass and residual, for the accelerations at the start of a dynamic step."""
-
-FREQUENCY, STEADY_STATE = 41, 95
-"""LFLAGS(1) of *FREQUENCY and *STEADY STATE DYNAMICS."""
+PERTURBATIONS: Final = Frequency().lflag, SteadyState().lflag
+"""LFLAGS(1) of procedures that ask for the mass matrix alone."""
 
 TOLERANCE: Final = 1e-9
 """Of the largest entry."""
@@ -53,29 +47,32 @@ def check(subject: Subject) -> Finding:
 
 
 def _findings(subject: Subject) -> Iterator[Finding]:
-    asked = {event.call.lflags[:4]: event.call.lflags for event in subject.recording.events if isinstance(event, Pass)}
-    requests = {(lflags[0], lflags[2]) for lflags in asked}
+    given = [event.call.flags for event in subject.recording.events if isinstance(event, Pass)]
+    # the first pass of an increment, and the two of damping, are asked for as the others are
+    asked = list(dict.fromkeys(replace(flags, extrapolated=False, damping=Damping.NONE) for flags in given))
+    requests = {(flags.procedure, flags.request) for flags in asked}
     moving = [state for state in subject.states if state.dynamic]
     static = [state for state in subject.all_states if not state.dynamic]
-    if static and any(request == RESIDUAL and kind not in DYNAMIC for kind, request in requests):
+    if static and any(request is Request.RESIDUAL and kind not in DYNAMIC for kind, request in requests):
         yield _residual(static)
     if moving:
         yield _mass(subject, moving[0])
         if moving[0].call.params[0]:
             yield _weights(subject, moving)
-        if any((kind, RESIDUAL) in requests for kind in DYNAMIC):
+        if any((kind, Request.RESIDUAL) in requests for kind in DYNAMIC):
             yield _half_increment(subject, moving[0])
     # perturbations start from the last state of the steps before
     base = [state.part(0.0) for state in subject.states if not state.dynamic][-1:]
-    for (kind, _, request, linear), lflags in asked.items():
-        if linear and request in (NORMAL, OUTPUT):
-            yield check_perturbation(subject, static, lflags)
-        if base and request == STIFFNESS:
-            yield _stiffness(base[0], lflags)
-        if base and request == MASS and kind in (FREQUENCY, STEADY_STATE):
-            yield _mass_alone(base[0], lflags)
-        if base and request == DAMPING:
-            yield check_damping(subject, base[0], moving[0] if moving else None, lflags)
+    for flags in asked:
+        request = flags.request
+        if flags.linear and request in (Request.NORMAL, Request.PERTURBATION):
+            yield check_perturbation(subject, static, flags)
+        if base and request is Request.STIFFNESS:
+            yield _stiffness(base[0], flags)
+        if base and request is Request.MASS and flags.procedure in PERTURBATIONS:
+            yield _mass_alone(base[0], flags)
+        if base and request is Request.DAMPING:
+            yield check_damping(subject, base[0], moving[0] if moving else None, flags)
 
 
 def _residual(states: list[State]) -> Finding:
@@ -83,7 +80,7 @@ def _residual(states: list[State]) -> Finding:
     for state in states:
         normal = state.evaluate().rhs[0]
         with marks({UNSET: float("nan")}):
-            alone = state.asked(RESIDUAL).evaluate(matrix=False).rhs[0]
+            alone = state.asked(Request.RESIDUAL).evaluate(matrix=False).rhs[0]
         deviation = np.abs(alone - normal)
         row = first_largest(deviation)
         if deviation[row] > TOLERANCE * max(float(np.abs(normal).max()), 1e-300):
@@ -100,7 +97,7 @@ def _half_increment(subject: Subject, state: State) -> Finding:
 
     Both hold -M A + (1 + alpha) G(U); terms of earlier increments differ, and are the same before and after a change.
     """
-    alone = state.asked(RESIDUAL)
+    alone = state.asked(Request.RESIDUAL)
     # no rigid-body motion
     uneven = np.linspace(-1.0, 1.0, len(subject.scales))
     shift, accelerations = uneven * subject.scales, uneven * _accelerations(subject, state)
@@ -134,7 +131,10 @@ def _weights(subject: Subject, states: list[State]) -> Finding:
         alpha = state.call.params[0]
         here = replace(state.quiet(), du=np.zeros_like(state.u)).called(distributed=None)
         there = here.carried(shift)
-        initial = there.asked(INITIAL).evaluate().rhs[0] - here.asked(INITIAL).evaluate().rhs[0]
+        initial = (
+            there.asked(Request.INITIAL_ACCELERATION).evaluate().rhs[0]
+            - here.asked(Request.INITIAL_ACCELERATION).evaluate().rhs[0]
+        )
         if not np.abs(initial).max() > LINEAR * float(np.abs(there.evaluate().rhs[0]).max()):
             continue
         normal = there.evaluate().rhs[0] - here.evaluate().rhs[0]
@@ -159,8 +159,8 @@ def _weights(subject: Subject, states: list[State]) -> Finding:
 def _mass(subject: Subject, state: State) -> Finding:
     """The mass matrix of a dynamic step: that by which RHS falls with accelerations, however it is asked for."""
     with marks({UNSET: float("nan")}):
-        mass = state.asked(MASS).evaluate().amatrx
-        initial = state.asked(INITIAL).evaluate().amatrx
+        mass = state.asked(Request.MASS).evaluate().amatrx
+        initial = state.asked(Request.INITIAL_ACCELERATION).evaluate().amatrx
     heaviest = max(float(np.abs(mass).max()), float(np.abs(initial).max()))
     inertia = _inertia(subject, state, heaviest)
     size = float(np.abs(inertia).max())
@@ -189,10 +189,10 @@ def _mass(subject: Subject, state: State) -> Finding:
     return wrong or passed("mass (4 and 6)")
 
 
-def _mass_alone(state: State, lflags: tuple[int, int, int, int, int]) -> Finding:
+def _mass_alone(state: State, flags: Flags) -> Finding:
     """The mass matrix for eigenfrequencies and harmonic responses."""
     with marks({UNSET: float("nan")}):
-        mass = state.called(lflags=lflags).evaluate().amatrx
+        mass = state.called(flags=flags).evaluate().amatrx
     if not mass.any():
         return passed("no mass (4)")
     if np.abs(mass - state.evaluate().amatrx).max() <= TOLERANCE * np.abs(mass).max():
@@ -223,11 +223,11 @@ def _indefinite(state: State, mass: FloatArray) -> Finding | None:
     return None
 
 
-def _stiffness(state: State, lflags: tuple[int, int, int, int, int]) -> Finding:
+def _stiffness(state: State, flags: Flags) -> Finding:
     """The stiffness alone, for a perturbation of the state that the steps before have left."""
     normal = state.evaluate().amatrx
     with marks({UNSET: float("nan")}):
-        alone = state.called(lflags=lflags).evaluate().amatrx
+        alone = state.called(flags=flags).evaluate().amatrx
     row, column = np.unravel_index(first_largest(np.abs(alone - normal)), alone.shape)
     deviation = float(abs(alone[row, column] - normal[row, column]))
     if deviation > TOLERANCE * max(float(np.abs(normal).max()), 1e-300):

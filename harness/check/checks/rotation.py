@@ -43,7 +43,7 @@ def check(subject: Subject) -> Finding:
 
 def _judge(state: State, first: float, small: float, finite: float) -> Finding:
     """Finding for the largest relative forces of infinitesimal, of small and of finite rotations."""
-    nlgeom = state.call.lflags[1] != 0
+    nlgeom = state.call.flags.nlgeom
     degrees = round(float(np.degrees(ANGLE)))
     if finite <= TOLERANCE:
         return passed(f"a rotation by {degrees} degrees turns the forces with it, to {finite:.1e}", finite, TOLERANCE)

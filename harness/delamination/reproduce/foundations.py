@@ -25,7 +25,7 @@ from harness.delamination.patches import PLIES, plane_stress, stabilisation
 from harness.delamination.reproduce.basics import swing
 from harness.delamination.reproduce.findings import Evidence
 from harness.delamination.reproduce.patch_cases import PatchCase, uniform_cases
-from harness.elements import Call, build_blocks
+from harness.elements import Call, Flags, build_blocks
 from harness.model.arrays import FloatArray
 from harness.usersub import Library
 
@@ -170,7 +170,7 @@ def _stiffness(case: PatchCase) -> FloatArray:
     with closing(_own_elements()) as library:
         system = System(model.mesh, build_blocks(model, library, strict=False), model.equations)
         rest = np.zeros(len(system))
-        data = system.evaluate(Call((1, 0, 1, 0, 0), 1, 1, 0.0, 0.0, 0.0, 1.0), rest, rest).data
+        data = system.evaluate(Call(Flags(1), 1, 1, 0.0, 0.0, 0.0, 1.0), rest, rest).data
         assert data is not None
         matrix = system.matrix(data).toarray()
     held = [system.dofs.find(entry.nodes, entry.dof) for entry in (*model.boundaries, *model.steps[0].boundaries)]

@@ -7,7 +7,7 @@ from collections.abc import Callable
 import numpy as np
 import pytest
 
-from harness.elements import BlockReport, Call
+from harness.elements import BlockReport, Call, Flags
 from harness.errors import Source
 from harness.model.mesh import ElementGroup, Mesh
 from harness.model.properties import UserProperty
@@ -47,7 +47,7 @@ class LinearBlock:
 
 @pytest.fixture
 def call() -> Call:
-    return Call((1, 0, 1, 0, 0), 1, 1, 1.0, 1.0, 1.0, 1.0)
+    return Call(Flags(1), 1, 1, 1.0, 1.0, 1.0, 1.0)
 
 
 @pytest.fixture

@@ -11,6 +11,7 @@ import pytest
 from harness.check.examine import examine
 from harness.check.finding import Verdict
 from harness.check.recording import Pass, record
+from harness.elements import Flags, Request
 
 QUAD = Path(__file__).parent / "quad.f"
 OSCILLATORS = Path(__file__).parents[1] / "procedures" / "oscillators.f"
@@ -173,7 +174,10 @@ def test_requests_for_eigenfrequencies(patch, monkeypatch, mistake, message, adv
     def recorded(*arguments, **options):
         recording = record(*arguments, **options)
         last = [event for event in recording.events if isinstance(event, Pass)][-1]
-        calls = [replace(last.call, lflags=(41, 0, request, 1, 0)) for request in (2, 4)]
+        calls = [
+            replace(last.call, flags=Flags(41, request=request, linear=True))
+            for request in (Request.STIFFNESS, Request.MASS)
+        ]
         return replace(recording, events=(*recording.events, *(replace(last, call=call) for call in calls)))
 
     monkeypatch.setattr("harness.check.recording.record", recorded)

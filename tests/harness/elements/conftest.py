@@ -10,7 +10,7 @@ import pytest
 import scipy.sparse as sp
 
 from harness import usersub
-from harness.elements import Call, build_blocks
+from harness.elements import Call, Flags, build_blocks
 from harness.elements.solid import SOLIDS
 from harness.errors import Source
 from harness.model.mesh import ElementGroup, Mesh
@@ -31,7 +31,7 @@ SOURCE = Source("test.inp", 7)
 
 @pytest.fixture
 def call():
-    return Call((1, 0, 1, 0, 0), step=1, increment=1, step_time=1.0, total_time=1.0, time_increment=1.0, period=1.0)
+    return Call(Flags(1), step=1, increment=1, step_time=1.0, total_time=1.0, time_increment=1.0, period=1.0)
 
 
 @pytest.fixture
@@ -113,7 +113,7 @@ def forces_of(solid_group, bound, load, call):
         group = solid_group(element_type, elements, 1.0, elastic=elastic)
         group = replace(group, section=replace(group.section, **options))
         block, matrix = bound(group, nodes, load(None))
-        now = replace(call, lflags=(1, int(nlgeom), 1, 0, 0))
+        now = replace(call, flags=Flags(1, nlgeom))
 
         def evaluate(u):
             u = np.asarray(u, dtype=float)[:, : SOLIDS[element_type].dimension]

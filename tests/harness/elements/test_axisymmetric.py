@@ -10,6 +10,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from harness.elements import Request
 from harness.elements.solid import HOURGLASS_FRACTION, SOLIDS
 from harness.errors import DeckError, Source
 from harness.model.properties import Elastic, ElasticType, Orientation, Plastic
@@ -186,7 +187,7 @@ def test_mass(ring, call, element_type):
     of the mass about the axis, density times the integral of 2 pi r^2."""
     nodes, block, matrix = ring(element_type, patch_of(element_type), inner=2.0)
     zero = np.zeros(nodes.size)
-    block.evaluate(replace(call, lflags=(1, 0, 4, 0, 0)), zero, zero, zero.copy(), matrix.data)
+    block.evaluate(call.asking(Request.MASS), zero, zero, zero.copy(), matrix.data)
     mass = matrix.toarray()
     along = np.tile([0.0, 1.0], len(nodes))
     assert along @ mass @ along == pytest.approx(DENSITY * volume(2.0), rel=1e-12)
@@ -206,7 +207,7 @@ def test_frequency_of_a_thin_ring(ring, call, element_type):
     zero = np.zeros(nodes.size)
     for request in (2, 4):
         matrix.data[:] = 0
-        block.evaluate(replace(call, lflags=(1, 0, request, 0, 0)), zero, zero, zero.copy(), matrix.data)
+        block.evaluate(call.asking(Request(request)), zero, zero, zero.copy(), matrix.data)
         matrices.append(matrix.toarray())
     growth = np.tile([1.0, 0.0], len(nodes))
     square = (growth @ matrices[0] @ growth) / (growth @ matrices[1] @ growth)

@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 
 import harness
+from harness.elements import Flags, Request
 from harness.errors import DeckError, KernelError, Source
 from harness.model.mesh import ElementGroup
 from harness.model.properties import Elastic, ElasticType, MassSection, Material, Plastic, SolidSection, SpringSection
@@ -55,7 +56,7 @@ def test_truss(element, call):
 def test_truss_with_large_displacements(element, call):
     """Stress E ln(l/L) on the area A L/l; tangent against differences."""
     block, matrix = element("T3D2", truss())
-    call = replace(call, lflags=(1, 1, 1, 0, 0))
+    call = replace(call, flags=Flags(1, nlgeom=True))
     u, residual = np.array([0, 0, 0, 0.9, -0.4, 1.3]), np.zeros(6)
     block.evaluate(call, u, u, residual, matrix.data)
     now = LINE[1] + u[3:]
@@ -125,7 +126,7 @@ def test_truss_needs_isotropic_elasticity(element):
 
 def test_mass_call(element, call):
     block, matrix = element("MASS", MassSection("ALL", 2.5, SOURCE), np.array([[0.0, 0, 0]]))
-    block.evaluate(replace(call, lflags=(1, 0, 4, 0, 0)), np.zeros(2), np.zeros(2), np.zeros(2), matrix.data)
+    block.evaluate(call.asking(Request.MASS), np.zeros(2), np.zeros(2), np.zeros(2), matrix.data)
     np.testing.assert_allclose(matrix.toarray(), 2.5 * np.eye(2))
 
 

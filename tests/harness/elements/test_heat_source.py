@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 
 import harness
+from harness.elements import Flags
 from harness.elements.solid import COUPLED, SOLIDS
 from harness.errors import Source
 from harness.model.mesh import ElementGroup
@@ -193,7 +194,7 @@ def test_tangent_is_the_derivative_of_the_residual(load, bound, call, element_ty
     section = SolidSection("ALL", material, None, THICKNESS, SOURCE, hourglass=1.0)
     group = ElementGroup(element_type, np.array([101]), np.arange(kind.nodes)[None], "", section, None, SOURCE)
     block, matrix = bound(group, nodes, load("heat.f"))
-    call = replace(call, lflags=(lflag, 0, 1, 0, 0))
+    call = replace(call, flags=Flags(lflag), unsymmetric=True)
     used = np.array([11 * node + dof - 1 for node, dof in block.unknowns])
     u, n = np.zeros(matrix.shape[0]), matrix.shape[0]
     u[used] = random.uniform(-0.1, 0.1, len(used))

@@ -8,6 +8,7 @@ from itertools import pairwise
 import numpy as np
 import pytest
 
+from harness.elements import Flags
 from harness.errors import DistortionError, Source
 from harness.model.mesh import ElementGroup
 from harness.model.properties import Elastic, ElasticType, Material, Plastic, SolidSection, UserMaterial
@@ -29,7 +30,7 @@ class Element:
     def __init__(self, block, matrix, nodes, call):
         self.block, self.matrix, self.nodes = block, matrix, nodes
         self.dimension = matrix.shape[0] // len(nodes)
-        self.call = replace(call, lflags=(1, 1, 1, 0, 0))
+        self.call = replace(call, flags=Flags(1, nlgeom=True))
         self.u = np.zeros(matrix.shape[0])
 
     def evaluate(self, u):

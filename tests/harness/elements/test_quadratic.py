@@ -2,14 +2,13 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Quadratic elements: polynomials and modes without energy; and a stack of quads with U5 or U6 in between."""
 
-from dataclasses import replace
-
 import meshio
 import numpy as np
 import pytest
 
 import harness
 from harness.delamination.kernels import uel_property, user_element
+from harness.elements import Request
 from harness.errors import KernelError
 from harness.output import read_interface
 
@@ -129,7 +128,7 @@ def test_mass_that_fails_leaves_the_properties(solid_group, bound, load, call, m
         broken.setattr("harness.usersub._binding.evaluate", _fail)
         with pytest.raises(KernelError, match="fails"):
             block.artificial_mass(call, 12, matrix.data)
-    block.evaluate(replace(call, lflags=(1, 0, 4, 0, 0)), np.zeros(12), np.zeros(12), np.zeros(12), matrix.data)
+    block.evaluate(call.asking(Request.MASS), np.zeros(12), np.zeros(12), np.zeros(12), matrix.data)
     assert not matrix.data.any()
 
 

@@ -2,11 +2,10 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Built-in plane elements: patch test, rigid body, tangent."""
 
-from dataclasses import replace
-
 import numpy as np
 import pytest
 
+from harness.elements import Request
 from harness.errors import KernelError, Source
 from harness.model.properties import Elastic, ElasticType, Orientation, Plastic
 
@@ -121,7 +120,7 @@ def test_calls_for_other_matrices_leave_nothing(patch, call):
     """Mass and damping calls get zeros, and the state stays."""
     block, matrix = patch("CPS4")
     u = displacement(STRAIN)
-    block.evaluate(replace(call, lflags=(1, 0, 4, 0, 0)), u, u, np.zeros(18), matrix.data)
+    block.evaluate(call.asking(Request.MASS), u, u, np.zeros(18), matrix.data)
     block.commit()
     assert not matrix.data.any()
     assert not block.state(0).svars.any()

@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 from scipy.linalg import eigh
 
+from harness.elements import Request
 from harness.elements.solid import HOURGLASS_FRACTION, SOLIDS
 from harness.errors import KernelError, Source
 from harness.model.properties import Elastic, ElasticType, Orientation, Plastic
@@ -196,7 +197,7 @@ def test_mass_of_rigid_and_linear_motions(solid_group, bound, load, call, elemen
     group = replace(group, section=replace(group.section, material=material))
     block, matrix = bound(group, nodes, load(None))
     n = kind.nodes * kind.dimension
-    block.evaluate(replace(call, lflags=(1, 0, 4, 0, 0)), np.zeros(n), np.zeros(n), np.zeros(n), matrix.data)
+    block.evaluate(call.asking(Request.MASS), np.zeros(n), np.zeros(n), np.zeros(n), matrix.data)
     mass = matrix.toarray()
     volume = {3: 0.5, 4: 1 / 6}.get(kind.nodes, 1.0) if kind.nodes == kind.dimension + 1 else 1.0
     total = DENSITY * volume * (2.0 if kind.dimension == 2 else 1.0)
@@ -227,7 +228,7 @@ def test_frequencies_of_a_cantilever(solid_group, bound, load, call):
     matrices = []
     for request in (2, 4):
         matrix.data[:] = 0
-        block.evaluate(replace(call, lflags=(1, 0, request, 0, 0)), zero, zero, zero.copy(), matrix.data)
+        block.evaluate(call.asking(Request(request)), zero, zero, zero.copy(), matrix.data)
         matrices.append(matrix.toarray())
     # the middle node of an element without one has no stiffness
     free = [dof for dof in range(6, n) if matrices[0][dof, dof]]

@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 
 import harness
+from harness.elements import Flags, Request
 from harness.errors import KernelError
 
 HERE = Path(__file__).parent
@@ -32,7 +33,7 @@ def run(load, user_group, bound, call):
         group = user_group(np.array([[0, 1], [1, 2]]), SPRING, properties=(10.0,), integers=(option,), variables=2)
         block, matrix = bound(group, ROW, library)
         u = np.array([0.0, 0.1, 0.3])
-        call_ = replace(call, lflags=(1, 0, lflag, 0, 0), increment=4)
+        call_ = replace(call.asking(Request(lflag)), increment=4)
         residual = np.zeros(3)
         report = block.evaluate(call_, u, u, residual, matrix.data if assemble else None)
         return library, block, report
@@ -77,7 +78,7 @@ def test_state_variables_start_from_the_committed_ones(springs, call):
 def test_only_calls_at_ends_of_increments_are_kept(springs, call, lflag):
     block, matrix = springs
     residual, u = np.zeros(3), np.array([0.0, 0.1, 0.3])
-    block.evaluate(replace(call, lflags=(1, 0, lflag, 0, 0)), u, u, residual, matrix.data)
+    block.evaluate(call.asking(Request(lflag)), u, u, residual, matrix.data)
     block.commit()
     # the forces at the start of a dynamic step are left in SVARS by the call for the initial acceleration
     assert block.state(0).svars.any() == (lflag == 6)
@@ -104,7 +105,13 @@ def test_arguments(load, user_group, bound, call, coordinates, dofs, mcrd):
     size = matrix.shape[0]
     u, du = 1.0 + np.arange(size), 0.1 + np.arange(size)
     given = replace(
-        call, lflags=(2, 1, 1, 0, 1), step=3, increment=4, step_time=0.5, total_time=2.5, time_increment=0.1
+        call,
+        flags=Flags(2, nlgeom=True, extrapolated=True),
+        step=3,
+        increment=4,
+        step_time=0.5,
+        total_time=2.5,
+        time_increment=0.1,
     )
     block.evaluate(replace(given, period=0.8), u, du, np.zeros(size), matrix.data)
     block.commit()

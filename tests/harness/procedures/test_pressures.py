@@ -11,7 +11,7 @@ import harness
 from harness import usersub
 from harness.assembly import System
 from harness.deck import read_deck
-from harness.elements import Call, Distributed, build_blocks
+from harness.elements import Call, Distributed, Flags, build_blocks
 from harness.errors import DeckError
 
 YOUNG, NU, DENSITY = 1000.0, 0.25, 2.0
@@ -80,7 +80,9 @@ def test_stiffness_of_pressures(tmp_path, element_type):
     system = System(model.mesh, build_blocks(model, library), model.equations)
     faces = np.array([block.first for block in system.pressures])
     pressures = np.linspace(3, 5, len(faces))
-    call = Call((1, 1, 1, 0, 0), step=1, increment=1, step_time=1.0, total_time=1.0, time_increment=1.0, period=1.0)
+    call = Call(
+        Flags(1, nlgeom=True), step=1, increment=1, step_time=1.0, total_time=1.0, time_increment=1.0, period=1.0
+    )
     loaded = replace(call, distributed=Distributed(faces, np.ones_like(faces), pressures, pressures))
     rng = np.random.default_rng(1)
     u = 0.1 * rng.normal(size=len(system))

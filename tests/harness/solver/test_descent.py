@@ -6,14 +6,14 @@ import numpy as np
 import pytest
 
 from harness.assembly import Evaluation
-from harness.elements import Call
+from harness.elements import Call, Flags
 from harness.errors import SingularMatrixError
 from harness.model.steps import LineSearchControls
 from harness.solver import descent
 from harness.solver.descent import Descent, Majoriser
 from harness.solver.newton import Increment
 
-CALL = Call((1, 0, 1, 0, 0), 1, 1, 1.0, 1.0, 1.0, 1.0)
+CALL = Call(Flags(1), 1, 1, 1.0, 1.0, 1.0, 1.0)
 
 
 class Landscape:
@@ -27,7 +27,7 @@ class Landscape:
         self.passes = []
 
     def evaluate(self, call, u, du, *, matrix=True, motion=None):
-        self.passes.append(call.lflags[2])
+        self.passes.append(call.flags.request)
         data = np.array(self._hessian(*u), dtype=float).ravel() if matrix else None
         residual = -np.array(self._gradient(*u), dtype=float)
         return Evaluation(residual, data, np.abs(residual), np.ones(1, dtype=np.int64), np.inf, np.zeros(8))

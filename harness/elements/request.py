@@ -1,0 +1,76 @@
+# SPDX-FileCopyrightText: The uel-harness authors
+# SPDX-License-Identifier: BSD-3-Clause
+"""LFLAGS: what elements are told of the step, and what a call asks them for."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from enum import IntEnum
+from typing import Self
+
+from harness.model.steps import Step
+
+
+class Request(IntEnum):
+    """LFLAGS(3): what a call asks for.
+
+    NORMAL                RHS and AMATRX of an iteration
+    STIFFNESS, DAMPING, MASS  AMATRX alone: the stiffness, the damping matrix of LFLAGS(7), the mass matrix
+    RESIDUAL              RHS alone, of a state that is not kept: line search, half of an increment of *DYNAMIC
+    INITIAL_ACCELERATION  RHS and the mass matrix, at the start of a dynamic step
+    PERTURBATION          RHS of a linear step once DU, the perturbation, is known
+    INITIAL_STRESSES      the host's own, of built-in elements alone: RHS and the state for the stresses that are given
+    """
+
+    NORMAL = 1
+    STIFFNESS = 2
+    DAMPING = 3
+    MASS = 4
+    RESIDUAL = 5
+    INITIAL_ACCELERATION = 6
+    PERTURBATION = 100
+    INITIAL_STRESSES = -1
+
+
+class Damping(IntEnum):
+    """LFLAGS(7): which damping matrix, where one is asked for."""
+
+    NONE = 0
+    VISCOUS = 1
+    STRUCTURAL = 2
+
+
+@dataclass(frozen=True, slots=True)
+class Flags:
+    """What LFLAGS say, each by its name.
+
+    procedure     LFLAGS(1), `Procedure.lflag`
+    nlgeom        LFLAGS(2), large displacements
+    request       LFLAGS(3)
+    linear        LFLAGS(4), a perturbation of a base state
+    extrapolated  LFLAGS(5), the first pass of an increment that starts from an extrapolation
+    damping       LFLAGS(7)
+    """
+
+    procedure: int
+    nlgeom: bool = False
+    request: Request = Request.NORMAL
+    linear: bool = False
+    extrapolated: bool = False
+    damping: Damping = Damping.NONE
+
+    @classmethod
+    def of(cls, step: Step, request: Request = Request.NORMAL, damping: Damping = Damping.NONE) -> Self:
+        """Those of a step."""
+        procedure = step.procedure
+        return cls(procedure.lflag, step.nlgeom, request, procedure.linear, damping=damping)
+
+    def asking(self, request: Request, damping: Damping = Damping.NONE) -> Self:
+        """The same but for the request."""
+        return replace(self, request=request, damping=damping)
+
+    @property
+    def lflags(self) -> tuple[int, ...]:
+        """LFLAGS(1..7)."""
+        told = self.procedure, self.nlgeom, self.request, self.linear, self.extrapolated, 0, self.damping
+        return tuple(map(int, told))
