@@ -188,11 +188,11 @@ class _Lexer:
             self._open = previous
             self._include(read_options(keyword, fields[1:], source).text("INPUT"), source, stack)
             return
-        self._open = Block(keyword, Options({}), source)
+        self._open = Block(keyword, Options(keyword), source)
         self.blocks.append(self._open)
         # a block with a wrong option stays, so that one wrong *STEP does not condemn all that follows
         self._open.options = options = _options(keyword, fields[1:], source)
-        if options.text("INPUT"):
+        if options.known("INPUT") and options.given("INPUT"):
             self._include(options.text("INPUT"), source, stack)
 
     def _include(self, name: str, source: Source, stack: tuple[Path, ...]) -> None:
@@ -224,7 +224,7 @@ class _Lexer:
 
 def _options(keyword: Keyword, fields: list[str], source: Source) -> Options:
     """Options of a keyword; those of an ignored one are not looked at."""
-    return read_options(keyword, fields, source) if keyword.options or keyword.support == "read" else Options({})
+    return read_options(keyword, fields, source) if keyword.options or keyword.support == "read" else Options(keyword)
 
 
 def _continues(header: str, line: str) -> bool:

@@ -85,7 +85,7 @@ class Prescription:
             row.at_most(3)
             nodes = self.flat.nodes(row.name(0, "node or node set"), row.source)
             dof = 11 if block.name == "CFLUX" and row.blank(1) else _dof(row, 1)
-            imaginary = block.options.flag("IMAGINARY")
+            imaginary = block.options.known("IMAGINARY") and block.options.flag("IMAGINARY")
             found.append(Load(nodes, dof, row.real(2, "value", 0.0), amplitude, row.source, imaginary))
         return found
 

@@ -184,7 +184,7 @@ def _read_heat_transfer(block: Block, _: Prescription) -> HeatTransfer:
     # without a largest change of temperature a transient step has fixed increments
     fixed = not steady and not largest_change
     end_change, row = 0.0, _only_row(block)
-    if options.text("END") == "SS":
+    if options.known("END") and options.text("END") == "SS":
         end_change = row.real(4, "rate of temperature change", 0.0) if row is not None else 0.0
         if end_change <= 0:
             raise block.error("END=SS needs a positive rate of temperature change, entry 5 of the data line")
@@ -194,7 +194,7 @@ def _read_heat_transfer(block: Block, _: Prescription) -> HeatTransfer:
         steady=steady,
         largest_change=largest_change or math.inf,
         end_change=end_change,
-        stabilize=_read_stabilize(block),
+        stabilize=_read_stabilize(block) if options.known("STABILIZE") else None,
     )
 
 

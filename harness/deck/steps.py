@@ -125,7 +125,8 @@ def _check_perturbation(step: Step, problems: Problems) -> None:
 def check_parts(blocks: list[Block], problems: Problems, *, harmonic: bool) -> None:
     """REAL and IMAGINARY are parts of what is harmonic, and exclude each other."""
     for block in blocks:
-        real, imaginary = block.options.flag("REAL"), block.options.flag("IMAGINARY")
+        options = block.options
+        real, imaginary = (options.known(part) and options.flag(part) for part in ("REAL", "IMAGINARY"))
         if (real or imaginary) and not harmonic:
             problems.add(block.source, f"*{block.name}: REAL and IMAGINARY are for *STEADY STATE DYNAMICS")
         elif real and imaginary:

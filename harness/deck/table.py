@@ -5,7 +5,7 @@
 from __future__ import annotations
 
 import re
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from enum import StrEnum
 from functools import lru_cache
 
@@ -83,29 +83,49 @@ def ignored(*names: str) -> tuple[Option, ...]:
 
 @dataclass(frozen=True, slots=True)
 class Options:
-    """Options of one keyword line, checked against the table; names are those of the table."""
+    """Options of one keyword line, checked against the table; names are those of the table.
 
-    values: dict[str, str]
+    Each look-up raises LookupError for an option that the keyword does not have, or that is of another kind: that is a
+    mistake of the reader, not of the deck.
+    """
+
+    keyword: Keyword
+    values: dict[str, str] = field(default_factory=dict)
+
+    def known(self, name: str) -> bool:
+        """True where the keyword has this option, for what is read of several keywords."""
+        return any(option.name == name and option.support is Support.READ for option in self.keyword.options)
 
     def flag(self, name: str) -> bool:
         """True where the flag or switch is on."""
-        return self.values.get(name, "NO") != "NO"
+        return (self._value(name, Kind.FLAG, Kind.SWITCH) or "NO") != "NO"
 
     def given(self, name: str) -> bool:
         """True where the option is on the line."""
-        return name in self.values
+        return self._value(name, *Kind) is not None
 
     def text(self, name: str) -> str:
         """Name, choice or file; the default, or '', where the option is absent."""
-        return self.values.get(name, "")
+        return self._value(name, Kind.NAME, Kind.CHOICE, Kind.FILE) or ""
 
     def real(self, name: str, default: float) -> float:
         """Real value."""
-        return read_real(self.values[name]) if name in self.values else default
+        value = self._value(name, Kind.REAL)
+        return default if value is None else read_real(value)
 
     def integer(self, name: str, default: int) -> int:
         """Integer value."""
-        return read_integer(self.values[name]) if name in self.values else default
+        value = self._value(name, Kind.INTEGER)
+        return default if value is None else read_integer(value)
+
+    def _value(self, name: str, *kinds: Kind) -> str | None:
+        """What the line, or the default, says; None for nothing."""
+        for option in self.keyword.options:
+            if option.name == name and option.kind in kinds and option.support is Support.READ:
+                return self.values.get(name)
+        raise LookupError(
+            f"*{self.keyword.name} has no option {name} of kind {' or '.join(kinds)} in the keyword table"
+        )
 
 
 @lru_cache(4096)
@@ -148,7 +168,7 @@ def read_options(keyword: Keyword, fields: list[str], source: Source) -> Options
             raise DeckError(source, f"*{keyword.name} needs the option {option.name}")
         if option.default:
             values.setdefault(option.name, option.default)
-    return Options(values)
+    return Options(keyword, values)
 
 
 def _find_option(keyword: Keyword, name: str, source: Source) -> Option:

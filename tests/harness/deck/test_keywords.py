@@ -2,9 +2,16 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """The keyword table and the page made from it."""
 
+import ast
+from collections.abc import Callable, Iterator
+
+import pytest
+
 from harness.deck.abaqus_names import ABAQUS_KEYWORDS
 from harness.deck.keywords import KEYWORDS, MARKDOWN, markdown
+from harness.deck.table import Keyword, Kind, Option, Options, Support, Where, read_options, refused
 from harness.deck.user_elements import BUILT_IN_NODES
+from harness.errors import Source
 
 
 def test_page_is_current() -> None:
@@ -19,6 +26,74 @@ def test_options_have_one_entry_each() -> None:
     for keyword in KEYWORDS.values():
         names = [option.name for option in keyword.options]
         assert len(names) == len(set(names)), keyword.name
+
+
+KEYWORD = Keyword(
+    "STATIC",
+    "",
+    Where.STEP,
+    (Option("DIRECT"), Option("FACTOR", Kind.REAL), Option("TYPE", Kind.CHOICE, choices=("A", "B")), *refused("CREEP")),
+)
+READ = read_options(KEYWORD, ["DIRECT", "FACTOR=2.", "TYPE=B"], Source("deck.inp", 1))
+
+
+def test_options_that_the_table_has() -> None:
+    assert READ.flag("DIRECT")
+    assert READ.real("FACTOR", 1.0) == 2.0
+    assert READ.text("TYPE") == "B"
+    assert READ.given("FACTOR")
+    assert [READ.known(name) for name in ("DIRECT", "RIKS", "CREEP")] == [True, False, False]
+    assert Options(KEYWORD).real("FACTOR", 1.0) == 1.0
+
+
+@pytest.mark.parametrize(
+    "ask, name",
+    [
+        (READ.flag, "RIKS"),
+        (READ.given, "RIKS"),
+        (READ.text, "INPUT"),
+        (READ.text, "CREEP"),
+        (READ.flag, "FACTOR"),
+        (lambda name: READ.integer(name, 1), "FACTOR"),
+        (lambda name: READ.real(name, 1.0), "TYPE"),
+    ],
+)
+def test_an_option_that_the_table_does_not_have_is_no_silent_default(ask: Callable[[str], object], name: str) -> None:
+    with pytest.raises(LookupError, match=rf"\*STATIC has no option {name} of kind .* in the keyword table"):
+        ask(name)
+
+
+KINDS = {
+    "flag": {Kind.FLAG, Kind.SWITCH},
+    "given": set(Kind),
+    "known": set(Kind),
+    "text": {Kind.NAME, Kind.CHOICE, Kind.FILE},
+    "real": {Kind.REAL},
+    "integer": {Kind.INTEGER},
+}
+
+
+def look_ups(code: str) -> Iterator[tuple[str, str]]:
+    """Look-ups of options by literal names: flag, real, ... and the name."""
+    for node in ast.walk(ast.parse(code)):
+        match node:
+            case ast.Call(func=ast.Attribute(value=owner, attr=how), args=[ast.Constant(value=str(name)), *_]) if (
+                how in KINDS and ast.unparse(owner).endswith("options")
+            ):
+                yield how, name
+
+
+def test_every_option_that_a_reader_asks_for_is_in_the_table() -> None:
+    """Also where no test reads such a deck."""
+    table = {
+        (option.name, option.kind)
+        for keyword in KEYWORDS.values()
+        for option in keyword.options
+        if option.support is Support.READ
+    }
+    asked = {pair for path in MARKDOWN.parent.glob("*.py") for pair in look_ups(path.read_text())}
+    assert len(asked) > 60
+    assert {(how, name) for how, name in asked if not any((name, kind) in table for kind in KINDS[how])} == set()
 
 
 def test_page_names_all_built_in_elements() -> None:
