@@ -150,6 +150,13 @@ class Block:
         """Data lines, blank ones too, where a blank line stands for defaults."""
         return (self.row(index) for index in range(len(self.lines)))
 
+    def only_row(self) -> Row | None:
+        """The data line of a keyword that has one, None where it is left out; DeckError where there are several."""
+        rows = list(self.all_rows())
+        if len(rows) > 1:
+            raise rows[1].error("a second data line, where one is read")
+        return rows[0] if rows else None
+
     def error(self, message: str) -> DeckError:
         """An error at the keyword line."""
         return DeckError(self.source, f"*{self.name}: {message}")

@@ -10,8 +10,9 @@ import numpy as np
 
 from harness.deck.blocks import Block, Row
 from harness.deck.initial import field_number
-from harness.deck.prescribed import Prescription
+from harness.deck.prescribed import HARMONIC, LOAD, Prescription
 from harness.deck.surfaces import face_nodes
+from harness.deck.table import Keyword, Kind, Option, Where, refused
 from harness.model.mesh import ElementGroup
 from harness.model.steps import DistributedLoad, ElementLoad, Load, LoadKind, LoadType
 
@@ -134,3 +135,50 @@ def read_fields(block: Block, prescription: Prescription) -> list[Load]:
         nodes = prescription.flat.nodes(row.name(0, "node or node set"), row.source)
         found.append(Load(nodes, number, row.real(1, "value", 0.0), amplitude, row.source))
     return found
+
+
+KEYWORDS = (
+    Keyword(
+        "DLOAD",
+        "Distributed loads on elements.",
+        Where.STEP,
+        (
+            *LOAD,
+            *HARMONIC,
+            *refused(
+                *("CONSTANT RESULTANT", "CYCLIC MODE", "FOLLOWER", "LOAD CASE", "ORIENTATION", "REF NODE"),
+                "REGION TYPE",
+            ),
+        ),
+        "element or set, Un or UnNU (user elements), Pn, BX, BY, BZ, BR (CAX) or GRAV (built-in continuum elements; "
+        "with NU, as in P2NU, by DLOAD), magnitude; GRAV: direction",
+    ),
+    Keyword(
+        "DSLOAD",
+        "Distributed loads on surfaces of built-in continuum elements; with NLGEOM tractions that turn with them are "
+        "refused. As those of *DLOAD they are nodal forces, which CF in the output holds too, but for pressures with "
+        "NLGEOM, which act on the present surface.",
+        Where.STEP,
+        (
+            *LOAD,
+            Option("FOLLOWER", Kind.SWITCH, "TRVEC and TRSHR turn with the surface (YES)"),
+            *HARMONIC,
+            *refused("CONSTANT RESULTANT", "CYCLIC MODE", "LOAD CASE", "ORIENTATION", "REF NODE"),
+        ),
+        "surface, P, TRVEC or TRSHR, magnitude; TRVEC, TRSHR: direction",
+    ),
+    Keyword(
+        "TEMPERATURE",
+        "Temperature as a predefined field.",
+        Where.STEP,
+        (*LOAD, *refused("ABSOLUTE EXTERIOR TOLERANCE", "BSTEP", "DRIVING ELSETS", "ESTEP", "FILE", "USER")),
+        "node or set, temperature",
+    ),
+    Keyword(
+        "FIELD",
+        "Predefined field variable.",
+        Where.STEP,
+        (Option("VARIABLE", Kind.INTEGER, "number of the field variable (1)"), *LOAD, *refused("FILE", "USER")),
+        "node or set, value",
+    ),
+)

@@ -4,152 +4,11 @@
 
 from __future__ import annotations
 
-from harness.deck.keywords_procedure import INITIAL, PROCEDURE
+from harness.deck import controls, distributed, prescribed, procedures, steps
+from harness.deck.keywords_procedure import INITIAL
 from harness.deck.table import Keyword, Kind, Option, Support, Where, ignored, refused
 
-OP = Option("OP", Kind.CHOICE, "NEW removes what earlier steps prescribed", default="MOD", choices=("MOD", "NEW"))
 FREQUENCY = Option("FREQUENCY", Kind.INTEGER, "every k-th increment (1); 0 never")
-AMPLITUDE = Option("AMPLITUDE", Kind.NAME, "amplitude; without it that of *STEP, but displacements always ramp")
-
-HARMONIC = (
-    Option("REAL", doc="real part of what is harmonic, in *STEADY STATE DYNAMICS; so is what says neither"),
-    Option("IMAGINARY", doc="imaginary part of what is harmonic, in *STEADY STATE DYNAMICS"),
-)
-
-_LOAD = (
-    OP,
-    Option("AMPLITUDE", Kind.NAME, "amplitude; without it that of *STEP"),
-    Option("INPUT", Kind.FILE, "file that holds the data lines"),
-)
-
-CONTROLS = (
-    Keyword(
-        "CONTROLS",
-        "Solution controls; blank entries keep their value, later steps keep the controls. CONSTRAINTS is about hybrid "
-        "elements, couplings and contact, of which there are none.",
-        Where.STEP,
-        (
-            Option("ANALYSIS", Kind.CHOICE, "I_0 = 8, I_R = 10", choices=("DISCONTINUOUS",)),
-            Option(
-                "PARAMETERS",
-                Kind.CHOICE,
-                "what the data lines set",
-                choices=("FIELD", "TIME INCREMENTATION", "LINE SEARCH", "CONSTRAINTS"),
-            ),
-            Option(
-                "FIELD",
-                Kind.CHOICE,
-                "field the values are for; all fields unless given",
-                default="GLOBAL",
-                choices=(
-                    *("GLOBAL", "DISPLACEMENT", "ROTATION", "TEMPERATURE", "PORE FLUID PRESSURE"),
-                    *("ELECTRICAL POTENTIAL", "CONCENTRATION", "HYDROSTATIC FLUID PRESSURE", "MATERIAL FLOW"),
-                    *("PRESSURE LAGRANGE MULTIPLIER", "VOLUMETRIC LAGRANGE MULTIPLIER"),
-                ),
-            ),
-            Option("RESET", doc="all controls back to their defaults"),
-            *refused("TYPE"),
-        ),
-        "the values of the manual's data lines",
-    ),
-)
-
-PRESCRIBED = (
-    Keyword(
-        "BOUNDARY",
-        "Prescribed values of dofs.",
-        Where.ANY,
-        (
-            OP,
-            AMPLITUDE,
-            Option(
-                "TYPE",
-                Kind.CHOICE,
-                "what is prescribed",
-                choices=("DISPLACEMENT", "VELOCITY"),
-                refused=("ACCELERATION",),
-            ),
-            Option("INPUT", Kind.FILE, "file that holds the data lines"),
-            Option("USER", doc="DISP gives the values"),
-            Option("FIXED", doc="values stay what they are at the start of the step"),
-            *HARMONIC,
-            *ignored("REGION TYPE"),
-            *refused(
-                *("BASE NAME", "LOAD CASE", "PHANTOM", "SCALE", "STEP", "SUBMODEL", "BLOCKING", "TIMESCALE"),
-            ),
-        ),
-        "node or set, first dof, last dof, value; or node or set, XSYMM, YSYMM, ZSYMM, XASYMM, YASYMM, ZASYMM, "
-        "PINNED or ENCASTRE",
-    ),
-    Keyword(
-        "CLOAD",
-        "Concentrated loads.",
-        Where.STEP,
-        (
-            *_LOAD,
-            *HARMONIC,
-            *ignored("REGION TYPE"),
-            *refused("CYCLIC MODE", "FOLLOWER", "LOAD CASE", "SUBMODEL"),
-        ),
-        "node or set, dof, value",
-    ),
-    Keyword(
-        "CFLUX",
-        "Concentrated heat fluxes; with *CLOAD in the same step both take the same OP.",
-        Where.STEP,
-        (
-            *_LOAD,
-            *ignored("REGION TYPE"),
-        ),
-        "node or set, dof (11), value",
-    ),
-)
-
-DISTRIBUTED = (
-    Keyword(
-        "DLOAD",
-        "Distributed loads on elements.",
-        Where.STEP,
-        (
-            *_LOAD,
-            *HARMONIC,
-            *refused(
-                *("CONSTANT RESULTANT", "CYCLIC MODE", "FOLLOWER", "LOAD CASE", "ORIENTATION", "REF NODE"),
-                "REGION TYPE",
-            ),
-        ),
-        "element or set, Un or UnNU (user elements), Pn, BX, BY, BZ, BR (CAX) or GRAV (built-in continuum elements; "
-        "with NU, as in P2NU, by DLOAD), magnitude; GRAV: direction",
-    ),
-    Keyword(
-        "DSLOAD",
-        "Distributed loads on surfaces of built-in continuum elements; with NLGEOM tractions that turn with them are "
-        "refused. As those of *DLOAD they are nodal forces, which CF in the output holds too, but for pressures with "
-        "NLGEOM, which act on the present surface.",
-        Where.STEP,
-        (
-            *_LOAD,
-            Option("FOLLOWER", Kind.SWITCH, "TRVEC and TRSHR turn with the surface (YES)"),
-            *HARMONIC,
-            *refused("CONSTANT RESULTANT", "CYCLIC MODE", "LOAD CASE", "ORIENTATION", "REF NODE"),
-        ),
-        "surface, P, TRVEC or TRSHR, magnitude; TRVEC, TRSHR: direction",
-    ),
-    Keyword(
-        "TEMPERATURE",
-        "Temperature as a predefined field.",
-        Where.STEP,
-        (*_LOAD, *refused("ABSOLUTE EXTERIOR TOLERANCE", "BSTEP", "DRIVING ELSETS", "ESTEP", "FILE", "USER")),
-        "node or set, temperature",
-    ),
-    Keyword(
-        "FIELD",
-        "Predefined field variable.",
-        Where.STEP,
-        (Option("VARIABLE", Kind.INTEGER, "number of the field variable (1)"), *_LOAD, *refused("FILE", "USER")),
-        "node or set, value",
-    ),
-)
 
 OUTPUT = (
     Keyword(
@@ -269,11 +128,12 @@ _IGNORED = {
 }
 
 STEP_KEYWORDS = (
-    *PROCEDURE,
+    *steps.KEYWORDS,
+    *procedures.KEYWORDS,
     *INITIAL,
-    *CONTROLS,
-    *PRESCRIBED,
-    *DISTRIBUTED,
+    *controls.KEYWORDS,
+    *prescribed.KEYWORDS,
+    *distributed.KEYWORDS,
     *OUTPUT,
     *(Keyword(name, doc, Where.ANY, support=Support.IGNORED) for name, doc in _IGNORED.items()),
 )

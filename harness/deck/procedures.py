@@ -1,6 +1,7 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""The procedure of a step: *STATIC, *DYNAMIC, *FREQUENCY, *STEADY STATE DYNAMICS, *HEAT TRANSFER and so on.
+"""The procedure of a step: *STATIC, *VISCO, *DYNAMIC, *HEAT TRANSFER, *COUPLED TEMPERATURE-DISPLACEMENT, and the table
+of all procedures, with the linear ones of `perturbations`.
 
 Defaults are those of the Abaqus Keywords Guide; zero or blank stands for the default everywhere.
 """
@@ -11,12 +12,11 @@ import math
 from collections.abc import Callable
 from dataclasses import replace
 
-import numpy as np
-
 from harness.deck.blocks import Block, Row
+from harness.deck.perturbations import PERTURBATIONS, read_static_perturbation
 from harness.deck.prescribed import Prescription
 from harness.deck.structure import Scope
-from harness.model.perturbations import Frequency, StaticPerturbation, SteadyState
+from harness.deck.table import Keyword, Kind, Option, Where, ignored, refused
 from harness.model.procedures import (
     CoupledTemperatureDisplacement,
     Dynamic,
@@ -39,46 +39,27 @@ _LARGEST = {"TRANSIENT FIDELITY": 0.01, "MODERATE DISSIPATION": 0.1, "QUASI-STAT
 Times = tuple[float, float, float, float, bool]
 """The first entries of `Procedure`."""
 
-_ALWAYS_LINEAR = "FREQUENCY", "STEADY STATE DYNAMICS"
-"""Procedures of steps that are linear perturbations, whether these say so or not."""
-
-_POINTS, _MOST_POINTS = 20, 100_000
-"""Frequencies of a range: where their number is not given, and how many there can be."""
-
 HALF_INCREMENT_FACTOR = 1e4
 """HALFINC SCALE FACTOR of a model without contact."""
 
 
 def read_procedure(scope: Scope, prescription: Prescription) -> Procedure:
     """The procedure of a step; DeckError where it has none or several."""
-    blocks = [block for block in scope.blocks if block.name in _READERS]
+    readers = {keyword.name: read for keyword, read in PROCEDURES}
+    blocks = [block for block in scope.blocks if block.name in readers]
     if not blocks:
         raise scope.head.error("the step has no procedure such as *STATIC")
     if len(blocks) > 1:
         raise blocks[1].error(f"the step has a procedure already, at {blocks[0].source}")
-    if scope.head.options.flag("PERTURBATION") and blocks[0].name not in _ALWAYS_LINEAR:
-        return _read_perturbation(blocks[0])
-    return _READERS[blocks[0].name](blocks[0], prescription)
-
-
-def _read_perturbation(block: Block) -> StaticPerturbation:
-    if block.name != "STATIC":
-        raise block.error("is no procedure of a step with PERTURBATION: *STATIC, *FREQUENCY, *STEADY STATE DYNAMICS")
-    if any(block.options.given(name) for name in ("DIRECT", "RIKS", "STABILIZE")):
-        raise block.error("DIRECT, RIKS and STABILIZE have no meaning in a step with PERTURBATION")
-    return StaticPerturbation()
-
-
-def _only_row(block: Block) -> Row | None:
-    rows = list(block.all_rows())
-    if len(rows) > 1:
-        raise rows[1].error("a second data line, where one is read")
-    return rows[0] if rows else None
+    always_linear = [keyword.name for keyword, _ in PERTURBATIONS]
+    if scope.head.options.flag("PERTURBATION") and blocks[0].name not in always_linear:
+        return read_static_perturbation(blocks[0])
+    return readers[blocks[0].name](blocks[0], prescription)
 
 
 def _read_times(block: Block, *, largest: float = 1.0, direct: bool = False, along_path: bool = False) -> Times:
     """Increments and period of the data line; `largest` increment as a fraction of the period."""
-    row = _only_row(block)
+    row = block.only_row()
     entries = [0.0] * 4
     if row is not None:
         names = ("initial increment", "period", "smallest increment", "largest increment")
@@ -103,7 +84,7 @@ def _read_times(block: Block, *, largest: float = 1.0, direct: bool = False, alo
 
 def _read_static(block: Block, prescription: Prescription) -> Static:
     along_path = block.options.flag("RIKS")
-    row = _only_row(block)
+    row = block.only_row()
     if row is not None:
         row.at_most(8 if along_path else 4)
     times = _read_times(block, direct=block.options.flag("DIRECT"), along_path=along_path)
@@ -183,7 +164,7 @@ def _read_heat_transfer(block: Block, _: Prescription) -> HeatTransfer:
         raise block.error(f"DELTMX={largest_change:g} must not be negative")
     # without a largest change of temperature a transient step has fixed increments
     fixed = not steady and not largest_change
-    end_change, row = 0.0, _only_row(block)
+    end_change, row = 0.0, block.only_row()
     if options.known("END") and options.text("END") == "SS":
         end_change = row.real(4, "rate of temperature change", 0.0) if row is not None else 0.0
         if end_change <= 0:
@@ -198,59 +179,129 @@ def _read_heat_transfer(block: Block, _: Prescription) -> HeatTransfer:
     )
 
 
-def _read_frequency(block: Block, _: Prescription) -> Frequency:
-    row = _only_row(block)
-    number, lowest, highest = 0, -math.inf, math.inf
-    if row is not None:
-        number = row.integer(0, "number of eigenvalues", 0)
-        lowest = row.real(1, "lowest frequency", lowest)
-        highest = row.real(2, "highest frequency", highest)
-        if any(not row.blank(index) for index in range(3, len(row))):
-            raise row.error("a shift point and sizes of blocks are not supported")
-    if number < 0 or not (number or math.isfinite(highest)):
-        raise block.error("needs a number of eigenvalues, or a highest frequency")
-    if lowest >= highest:
-        raise block.error(f"the lowest frequency {lowest:g} is not below the highest, {highest:g}")
-    by_mass = block.options.text("NORMALIZATION") == "MASS"
-    return Frequency(number=number, lowest=lowest, highest=highest, by_mass=by_mass)
+_TIMES = "initial increment, period (1), smallest increment, largest increment"
+_DIRECT = Option("DIRECT", doc="fixed increments")
+_HEAT = (
+    Option("STEADY STATE", doc="no storage of heat: time is a scale for loads"),
+    Option("DELTMX", Kind.REAL, "largest change of temperature in an increment; without it increments are fixed"),
+)
+_STABILIZE = (
+    Option(
+        "STABILIZE",
+        Kind.REAL,
+        "viscous forces on the masses of built-in elements; fraction of energy that they dissipate at first",
+        bare="0.0002",
+    ),
+    Option("FACTOR", Kind.REAL, "damping factor in place of the fraction"),
+    Option("ALLSDTOL", Kind.REAL, "largest ratio of ALLSD to ALLSE (0.05; 0 with FACTOR: no limit)", bare="0.05"),
+    Option(
+        "CONTINUE",
+        Kind.CHOICE,
+        "factors of the step before",
+        default="NO",
+        choices=("NO",),
+        refused=("YES",),
+        bare="YES",
+    ),
+)
 
+PROCEDURES: tuple[tuple[Keyword, Callable[[Block, Prescription], Procedure]], ...] = (
+    (
+        Keyword(
+            "STATIC",
+            "Static stress analysis.",
+            Where.STEP,
+            (
+                Option("DIRECT", doc="fixed increments"),
+                Option("RIKS", doc="the load factor is part of the solution; increments are arc lengths"),
+                *_STABILIZE,
+                *refused("ADIABATIC", "FULLY PLASTIC", "LONG TERM"),
+            ),
+            "initial increment, period (1), smallest increment, largest increment; with RIKS also the largest load "
+            "proportionality factor, and a node, its dof and the displacement that ends the step",
+        ),
+        _read_static,
+    ),
+    (
+        Keyword(
+            "VISCO",
+            "Static stress analysis on a real time scale.",
+            Where.STEP,
+            (
+                _DIRECT,
+                *ignored("CETOL"),
+                *refused("CREEP", "FACTOR", "STABILIZE", "ALLSDTOL", "CONTINUE"),
+            ),
+            _TIMES,
+        ),
+        _read_visco,
+    ),
+    (
+        Keyword(
+            "DYNAMIC",
+            "Dynamic analysis by implicit integration.",
+            Where.STEP,
+            (
+                _DIRECT,
+                Option(
+                    "APPLICATION",
+                    Kind.CHOICE,
+                    "sets the integrator and the largest increment: 1/100, 1/10 and all of the period",
+                    default="TRANSIENT FIDELITY",
+                    choices=("TRANSIENT FIDELITY", "MODERATE DISSIPATION", "QUASI-STATIC"),
+                ),
+                Option(
+                    "TIME INTEGRATOR",
+                    Kind.CHOICE,
+                    "Hilber, Hughes and Taylor with alpha -0.05 or -0.41421, or backward Euler",
+                    choices=("HHT-TF", "HHT-MD", "BWE"),
+                ),
+                Option("ALPHA", Kind.REAL, "-0.5 to 0: numerical damping"),
+                Option("BETA", Kind.REAL, "of the integrator, (1 - alpha)^2/4"),
+                Option("GAMMA", Kind.REAL, "of the integrator, 1/2 - alpha"),
+                Option("INITIAL", Kind.SWITCH, "compute accelerations at the start; YES for transient fidelity"),
+                Option("HAFTOL", Kind.REAL, "tolerance of the half-increment residual, a force"),
+                Option("HALFINC SCALE FACTOR", Kind.REAL, "the same over the time average force (10000)"),
+                Option("NOHAF", doc="no half-increment residual"),
+                *ignored("IMPACT", "INCREMENTATION"),
+                *refused("ADIABATIC", "EXPLICIT", "SUBSPACE", "SINGULAR MASS", "NONLINEAR MODE"),
+            ),
+            _TIMES,
+        ),
+        _read_dynamic,
+    ),
+    (
+        Keyword(
+            "HEAT TRANSFER",
+            "Uncoupled heat transfer, for user elements with dof 11 and up.",
+            Where.STEP,
+            (
+                *_HEAT,
+                Option("END", Kind.CHOICE, "end of a transient step", choices=("PERIOD", "SS")),
+                *refused("MXDEM"),
+            ),
+            _TIMES + "; rate of temperature change that ends a step with END=SS",
+        ),
+        _read_heat_transfer,
+    ),
+    (
+        Keyword(
+            "COUPLED TEMPERATURE-DISPLACEMENT",
+            "Temperatures and displacements together, for user elements with dof 11 and up, CPE4T, C3D8T and so on.",
+            Where.STEP,
+            (
+                *_HEAT,
+                *_STABILIZE,
+                Option("CREEP", Kind.CHOICE, "no material here creeps: accepted and without effect", choices=("NONE",)),
+                *ignored("CETOL"),
+                *refused("ELECTRICAL"),
+            ),
+            _TIMES,
+        ),
+        _read_heat_transfer,
+    ),
+    *PERTURBATIONS,
+)
+"""Keywords and their readers."""
 
-def _read_steady_state(block: Block, _: Prescription) -> SteadyState:
-    logarithmic = block.options.text("FREQUENCY SCALE") == "LOGARITHMIC"
-    frequencies = [frequency for row in block.rows() for frequency in _read_range(row, logarithmic=logarithmic)]
-    if not frequencies:
-        raise block.error("needs a data line with a frequency, or the limits of a range of frequencies")
-    return SteadyState(frequencies=tuple(frequencies), undamped=block.options.flag("REAL ONLY"))
-
-
-def _read_range(row: Row, *, logarithmic: bool) -> list[float]:
-    """Frequencies of a data line, closer to the ends of the range the larger the bias parameter."""
-    row.at_most(4)
-    lowest, highest = row.real(0, "lower limit of the frequency range"), row.real(1, "upper limit", 0.0)
-    number, bias = row.integer(2, "number of points", _POINTS), row.real(3, "bias parameter", 1.0) or 1.0
-    if lowest < 0 or (lowest == 0 and logarithmic and highest):
-        raise row.error(f"frequency {lowest:g} must be positive (from 0 on with FREQUENCY SCALE=LINEAR)")
-    if not highest:
-        return [lowest]
-    if highest <= lowest:
-        raise row.error(f"the upper limit {highest:g} is not above the lower one, {lowest:g}")
-    if bias < 0:
-        raise row.error(f"bias parameter {bias:g} must be positive")
-    if number > _MOST_POINTS:
-        raise row.error(f"number of points {number} is above {_MOST_POINTS}")
-    # Abaqus Analysis User's Guide, "Direct-solution steady-state dynamic analysis", the bias parameter
-    place = np.linspace(-1.0, 1.0, number if number > 1 else _POINTS)
-    place = 0.5 + 0.5 * np.sign(place) * np.abs(place) ** (1.0 / bias)
-    inside = lowest * (highest / lowest) ** place if logarithmic else lowest + (highest - lowest) * place
-    return [lowest, *inside[1:-1].tolist(), highest]
-
-
-_READERS: dict[str, Callable[[Block, Prescription], Procedure]] = {
-    "STATIC": _read_static,
-    "VISCO": _read_visco,
-    "DYNAMIC": _read_dynamic,
-    "FREQUENCY": _read_frequency,
-    "STEADY STATE DYNAMICS": _read_steady_state,
-    "HEAT TRANSFER": _read_heat_transfer,
-    "COUPLED TEMPERATURE-DISPLACEMENT": _read_heat_transfer,
-}
+KEYWORDS = tuple(keyword for keyword, _ in PROCEDURES)

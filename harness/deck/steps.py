@@ -17,6 +17,7 @@ from harness.deck.problems import Problems
 from harness.deck.procedures import read_procedure
 from harness.deck.requests import RequestReader
 from harness.deck.structure import Scope
+from harness.deck.table import Keyword, Kind, Option, Where, ignored, refused
 from harness.model.amplitude import UserAmplitude
 from harness.model.procedures import Procedure
 from harness.model.steps import DistributedLoad, ElementLoad, LoadKind, Step
@@ -183,3 +184,55 @@ def _notes(scope: Scope) -> Iterator[str]:
         if block.name == "SOLUTION TECHNIQUE":
             kind = block.options.text("TYPE")
             yield f"*SOLUTION TECHNIQUE, TYPE={kind} ({block.source}): NEWTON'S METHOD WITH THE FULL MATRIX IS USED"
+
+
+KEYWORDS = (
+    Keyword(
+        "STEP",
+        "Begin a step.",
+        Where.ANY,
+        (
+            Option("NAME", Kind.NAME, "name"),
+            Option("INC", Kind.INTEGER, "largest number of increments (100)"),
+            Option("NLGEOM", Kind.SWITCH, "large displacements, from this step on"),
+            Option(
+                "EXTRAPOLATION",
+                Kind.CHOICE,
+                "first guess of an increment",
+                default="LINEAR",
+                choices=("LINEAR", "PARABOLIC", "VELOCITY PARABOLIC", "NO"),
+            ),
+            Option("UNSYMM", Kind.SWITCH, "unsymmetric matrix storage and solution"),
+            Option(
+                "AMPLITUDE",
+                Kind.CHOICE,
+                "default time variation; RAMP unless given, STEP in transient procedures",
+                choices=("RAMP", "STEP"),
+            ),
+            *ignored("CONVERT SDI", "SOLVER"),
+            Option(
+                "PERTURBATION",
+                doc="a linear step about the last state: *STATIC, and *FREQUENCY and *STEADY STATE DYNAMICS always",
+            ),
+            *refused("DSA", "SUBDIVIDE"),
+        ),
+        "title",
+    ),
+    Keyword("END STEP", "End a step.", Where.STEP),
+    Keyword(
+        "SOLUTION TECHNIQUE",
+        "Newton's method with the full matrix, whatever is asked for: .msg says so.",
+        Where.STEP,
+        (
+            Option(
+                "TYPE",
+                Kind.CHOICE,
+                "technique",
+                default="QUASI-NEWTON",
+                choices=("QUASI-NEWTON", "SEPARATED", "UNSYMMETRIC"),
+            ),
+            *ignored("REFORM KERNEL"),
+        ),
+        "ignored",
+    ),
+)
