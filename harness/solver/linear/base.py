@@ -51,10 +51,16 @@ class Pattern:
 class LinearSolver(ABC):
     """Factorises matrices of one pattern.
 
-    reason  why this solver was chosen, a phrase for the message file
+    name         by which it is asked for
+    module, distribution  that have to be there: to import, and to install
+    widest_band  half bandwidth up to which the band solver beats it, measured as in `choice`
+    reason       why this solver was chosen, a phrase for the message file
     """
 
     name: ClassVar[str]
+    module: ClassVar[str] = "scipy"
+    distribution: ClassVar[str] = "scipy"
+    widest_band: ClassVar[int] = 0
 
     def __init__(self, pattern: Pattern, name_of: Callable[[int], tuple[str, int]] | None = None) -> None:
         """Symbolic work. `name_of` gives node name and dof of an unknown, for the message of a singular matrix."""

@@ -29,38 +29,17 @@ from harness.solver.linear.superlu import SuperLUSolver
 SOLVERS: Final[dict[str, type[LinearSolver]]] = {
     solver.name: solver for solver in (BandSolver, PardisoSolver, MumpsSolver, SuperLUSolver)
 }
-"""By name, in the order in which `auto` asks for them."""
+"""By name. `auto` takes the band solver for narrow models, else the first other one that is installed.
 
-REQUIRES: Final = {
-    "band": ("scipy", "scipy"),
-    "pardiso": ("pypardiso", "pypardiso"),
-    "mumps": ("mumps", "python-mumps"),
-    "superlu": ("scipy", "scipy"),
-}
-"""Module to import and distribution to install of each solver."""
-
-WIDEST_BAND: Final = {"pardiso": 75, "mumps": 120, "superlu": 200}
-"""Half bandwidth up to which the band solver beats another one.
-
-Time of the band solver per unknown grows with the square of the half bandwidth alone, that of the others hardly.
-Measured, one thread, factorisation and solution in ms, plane quads with an interface:
+How narrow they have to be, `widest_band`, is measured: the time of the band solver per unknown grows with the square of
+the half bandwidth alone, that of the others hardly. One thread, factorisation and solution in ms, plane quads with an
+interface (MUMPS lies between the others):
 
     unknowns, half bandwidth   10k, 71   10k, 135   40k, 71   40k, 135   40k, 263   163k, 71
     band                             9         17        46         89        221        226
     pardiso                         11         11        46         57         63        237
     superlu                         22         25       100        136        169        420
-
-MUMPS lies between them.
 """
-
-NOTES: Final = {
-    "band": "auto, half bandwidth up to "
-    + ", ".join(f"{width} (against {name})" for name, width in WIDEST_BAND.items())
-    + ", as in slender bodies",
-    "pardiso": "auto, wider models",
-    "mumps": "auto, wider models without pardiso",
-    "superlu": "auto, wider models without pardiso and mumps",
-}
 
 LARGEST_BAND: Final = 2**31
 """Largest band storage in bytes."""
@@ -79,15 +58,25 @@ class Availability:
 def available() -> list[Availability]:
     """All solvers, in the order in which `auto` asks for them."""
     rows = []
-    for name in SOLVERS:
-        obstacle = _obstacle(name)
+    for name, solver in SOLVERS.items():
+        obstacle = _obstacle(solver)
         try:
-            release = version(REQUIRES[name][1])
+            release = version(solver.distribution)
         except PackageNotFoundError:
             release = ""
-        note = NOTES[name] + (f" ({obstacle})" if obstacle else "")
+        note = _when(solver) + (f" ({obstacle})" if obstacle else "")
         rows.append(Availability(name, not obstacle, release, note))
     return rows
+
+
+def _when(solver: type[LinearSolver]) -> str:
+    """When `auto` takes a solver."""
+    others = [other for other in SOLVERS.values() if other is not BandSolver]
+    if solver is BandSolver:
+        widths = ", ".join(f"{other.widest_band} (against {other.name})" for other in others)
+        return f"auto, half bandwidth up to {widths}, as in slender bodies"
+    first = [other.name for other in others[: others.index(solver)]]
+    return "auto, wider models" + (f" without {' and '.join(first)}" if first else "")
 
 
 def choose(
@@ -103,7 +92,7 @@ def choose(
     Parameters
     ----------
     name
-        'auto', 'band', 'pardiso', 'mumps' or 'superlu'.
+        'auto', or one of SOLVERS.
     indptr, indices
         Symmetric pattern, columns ascending in each row.
     coordinates
@@ -121,7 +110,7 @@ def choose(
         return _quickest(pattern, name_of)
     if name not in SOLVERS:
         raise UsageError(f"unknown linear solver '{name}'; known are auto, {', '.join(SOLVERS)}")
-    if obstacle := _obstacle(name):
+    if obstacle := _obstacle(SOLVERS[name]):
         raise UsageError(f"linear solver '{name}' cannot be used: {obstacle}")
     return SOLVERS[name](pattern, name_of)
 
@@ -129,26 +118,27 @@ def choose(
 def _quickest(pattern: Pattern, name_of: Callable[[int], tuple[str, int]] | None) -> LinearSolver:
     ordering = narrowest(pattern)
     # looking for a package takes no time, loading MKL half a second, which a narrow model is spared
-    likely = next(name for name in SOLVERS if name != "band" and find_spec(REQUIRES[name][0]))
+    others = [solver for solver in SOLVERS.values() if solver is not BandSolver]
+    likely = next(solver for solver in others if find_spec(solver.module))
     if _band_is_quicker(pattern, ordering, likely):
         band = BandSolver(pattern, name_of, ordering)
         band.reason = f"half bandwidth {ordering.width} of {pattern.size} unknowns, {ordering.method}"
         return band
-    usable = next(name for name in SOLVERS if name != "band" and not _obstacle(name))
-    solver = SOLVERS[usable](pattern, name_of)
+    usable = next(solver for solver in others if not _obstacle(solver))
+    solver = usable(pattern, name_of)
     solver.reason = f"half bandwidth {ordering.width} of {pattern.size} unknowns is too wide for the band solver"
     return solver
 
 
-def _band_is_quicker(pattern: Pattern, ordering: BandOrdering, other: str) -> bool:
+def _band_is_quicker(pattern: Pattern, ordering: BandOrdering, other: type[LinearSolver]) -> bool:
     storage = 8 * pattern.size * (3 * ordering.width + 1)
-    return ordering.width <= WIDEST_BAND[other] and storage <= LARGEST_BAND
+    return ordering.width <= other.widest_band and storage <= LARGEST_BAND
 
 
 @cache
-def _obstacle(name: str) -> str:
+def _obstacle(solver: type[LinearSolver]) -> str:
     """Why a solver cannot be used, '' if it can."""
-    module, distribution = REQUIRES[name]
+    module, distribution = solver.module, solver.distribution
     try:
         # numpy tells at length on stderr where a module was built for another version of it; the error says it too
         with redirect_stderr(io.StringIO()):

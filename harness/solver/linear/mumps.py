@@ -17,6 +17,9 @@ class MumpsSolver(LinearSolver):
     """MUMPS, the analysis kept between factorisations."""
 
     name: ClassVar[str] = "mumps"
+    module: ClassVar[str] = "mumps"
+    distribution: ClassVar[str] = "python-mumps"
+    widest_band: ClassVar[int] = 120
 
     def __init__(self, pattern: Pattern, name_of: Callable[[int], tuple[str, int]] | None = None) -> None:
         super().__init__(pattern, name_of)

@@ -25,6 +25,9 @@ class PardisoSolver(LinearSolver):
     """PARDISO, the analysis kept between factorisations."""
 
     name: ClassVar[str] = "pardiso"
+    module: ClassVar[str] = "pypardiso"
+    distribution: ClassVar[str] = "pypardiso"
+    widest_band: ClassVar[int] = 75
 
     def __init__(self, pattern: Pattern, name_of: Callable[[int], tuple[str, int]] | None = None) -> None:
         super().__init__(pattern, name_of)

@@ -33,6 +33,7 @@ class SuperLUSolver(LinearSolver):
     """
 
     name: ClassVar[str] = "superlu"
+    widest_band: ClassVar[int] = 200
 
     def __init__(self, pattern: Pattern, name_of: Callable[[int], tuple[str, int]] | None = None) -> None:
         super().__init__(pattern, name_of)

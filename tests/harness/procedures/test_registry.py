@@ -1,15 +1,21 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""What runs a step, by its procedure; and a procedure of a test's own, from its parts."""
+"""What runs a step, by its procedure; and a procedure, with its keyword, of the tests' own."""
 
 import inspect
 import math
+import re
 from dataclasses import dataclass, replace
 from typing import ClassVar
 
 import numpy as np
 import pytest
 
+import harness
+from harness.deck.keywords import KEYWORDS
+from harness.deck.procedures import PROCEDURES
+from harness.deck.table import Keyword, Kind, Option, Where
+from harness.errors import DeckError
 from harness.model import perturbations, procedures
 from harness.model.procedures import Procedure
 from harness.model.records import Noted
@@ -20,7 +26,7 @@ from harness.procedures.path import TimePath
 from harness.procedures.registry import run_of
 from harness.procedures.setting import Setting, StepRun
 
-PROCEDURES = [
+KINDS = [
     kind
     for module in (procedures, perturbations)
     for _, kind in inspect.getmembers(module, inspect.isclass)
@@ -28,7 +34,7 @@ PROCEDURES = [
 ]
 
 
-@pytest.mark.parametrize("kind", PROCEDURES)
+@pytest.mark.parametrize("kind", KINDS)
 def test_every_procedure_has_what_runs_it(kind):
     assert run_of.dispatch(kind) is not run_of.dispatch(object)
     assert kind.keyword
@@ -45,7 +51,11 @@ def test_procedure_that_nothing_runs():
 
 @dataclass(frozen=True, slots=True)
 class Relaxation(Procedure):
-    """A step with a dashpot of 10 at its last node, which ends where nothing moves faster than `slowest`."""
+    """A step with a dashpot of 10 at each dof, which ends where nothing moves faster than `slowest`.
+
+    It is what CONTRIBUTING says of adding a procedure, done once: this description, the part and the entry in the
+    registry below it, and the keyword with its reader.
+    """
 
     keyword: ClassVar = "RELAXATION"
     title: ClassVar = "RELAXATION"
@@ -53,16 +63,23 @@ class Relaxation(Procedure):
 
     slowest: float = 0.0
 
+    def head(self):
+        yield "SLOWEST RATE", self.slowest
 
-class Dashpot(Part):
-    def __init__(self, procedure):
-        self._slowest, self._rate = procedure.slowest, math.inf
+
+class Dashpots(Part):
+    def __init__(self, context, procedure):
+        self._context, self._slowest, self._rate = context, procedure.slowest, math.inf
 
     def given(self, given, size):
-        return replace(given, damping=np.array([0.0, 0.0, 0.0, 10.0 / size]))
+        system = self._context.system
+        positions = system.matrix(np.arange(len(system.indices))).diagonal()
+        damping = np.zeros(len(system.indices))
+        damping[positions] = 10.0 / size
+        return replace(given, damping=damping)
 
     def converged(self, last, size):
-        self._rate = abs(last.increment[1]) / size
+        self._rate = abs(last.increment).max() / size
         return [Noted(f"RATE {self._rate:.6f}")]
 
     @property
@@ -72,18 +89,52 @@ class Dashpot(Part):
 
 @run_of.register
 def relax(procedure: Relaxation, setting: Setting) -> StepRun:
-    context, parts = StepContext(setting), (Dashpot(procedure),)
+    context = StepContext(setting)
+    parts = (Dashpots(context, procedure),)
     return GeneralStep(context, TimePath(context, parts), parts)
 
 
-def test_procedure_of_its_own_from_a_path_and_a_part(bench):
+def read(block, _):
+    return Relaxation(1.0, 100.0, 1.0, 1.0, slowest=block.options.real("SLOWEST", 0.1))
+
+
+RELAXATION = Keyword("RELAXATION", "Viscous.", Where.STEP, (Option("SLOWEST", Kind.REAL, "rate that ends the step"),))
+DECK = """*NODE
+1, 0.
+2, 1.
+*ELEMENT, TYPE=SPRINGA, ELSET=S
+1, 1, 2
+*SPRING, ELSET=S
+
+2.
+*BOUNDARY
+1, 1, 3
+2, 2, 3
+*STEP, AMPLITUDE=STEP
+A step of its own
+*RELAXATION, SLOWEST=0.05
+*CLOAD
+2, 1, 1.
+*END STEP
+"""
+
+
+def test_procedure_and_keyword_of_its_own(tmp_path, monkeypatch):
     """Spring of stiffness 2 and dashpot under a force of 1: 10 u' + 2 u = 1 by backward Euler in steps of 1."""
-    relaxation = Relaxation(1.0, 100.0, 1.0, 1.0, slowest=0.05)
-    step = bench.step(static=relaxation, amplitude="STEP", boundaries=(bench.fix(0),), loads=(bench.force(1, 1.0),))
-    run = bench.run([(0, 1, 1, (2.0, 0.0))], [step])
-    assert run.error is None
+    monkeypatch.setitem(KEYWORDS, RELAXATION.name, RELAXATION)
+    monkeypatch.setattr("harness.deck.procedures.PROCEDURES", (*PROCEDURES, (RELAXATION, read)))
+    deck = tmp_path / "relaxation.inp"
+    deck.write_text(DECK)
+    result = harness.run(deck, output_dir=tmp_path, quiet=True)
     rates = [1.0 / 12.0]
     while rates[-1] >= 0.05:
         rates.append((1.0 - 2.0 * sum(rates)) / 12.0)
-    assert run.last.displacement[1] == pytest.approx(sum(rates), rel=1e-9)
-    assert [noted.message for noted in run.of(Noted)][1:] == [f"RATE {rate:.6f}" for rate in rates]
+    assert result.status[-1].step_time == len(rates)
+    message = (tmp_path / "relaxation.msg").read_text()
+    assert re.findall(r"NOTE: RATE (\S+)", message) == [f"{rate:.6f}" for rate in rates]
+    assert re.search(r"R E L A X A T I O N\s+A step of its own\s+SLOWEST RATE +5.000E-02", message)
+    deck.write_text(DECK.replace("SLOWEST", "SLOW"))
+    assert harness.run(deck, output_dir=tmp_path, quiet=True).status[-1].step_time == len(rates)
+    deck.write_text(DECK.replace("SLOWEST", "SLOWLY"))
+    with pytest.raises(DeckError, match=r"relaxation.inp:14: \*RELAXATION: unknown option SLOWLY"):
+        harness.run(deck, output_dir=tmp_path, quiet=True)

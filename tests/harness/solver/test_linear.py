@@ -5,11 +5,13 @@
 import numpy as np
 import pytest
 from scipy import sparse
+from scipy.linalg import lu_factor, lu_solve
 from scipy.sparse.linalg import splu
 
 from harness.errors import SingularMatrixError, UelError
-from harness.solver.linear import available, choose, singular
+from harness.solver.linear import LinearSolver, available, choose, singular
 from harness.solver.linear.base import Pattern
+from harness.solver.linear.choice import SOLVERS
 from harness.solver.linear.ordering import narrowest
 
 INSTALLED = [row.name for row in available() if row.installed]
@@ -317,10 +319,39 @@ def test_named_solver_is_taken_and_unknown_names_are_refused() -> None:
         solver_for("lapack", matrix, coordinates)
 
 
+class DenseSolver(LinearSolver):
+    """LAPACK's general solver: what CONTRIBUTING says of adding a linear solver, done once."""
+
+    name = "dense"
+
+    def _factorise(self, data):
+        self._factors = lu_factor(self.pattern.matrix(data).toarray())
+        return float(np.abs(np.diag(self._factors[0])).min())
+
+    def _solve(self, rhs):
+        return lu_solve(self._factors, rhs)
+
+
+def test_solver_of_its_own_takes_one_entry(monkeypatch) -> None:
+    monkeypatch.setitem(SOLVERS, DenseSolver.name, DenseSolver)
+    matrix, coordinates = clamped(4, 1)
+    rhs = np.linspace(-1.0, 2.0, matrix.shape[0])
+    solver = solver_for("dense", matrix, coordinates)
+    solver.factorise(matrix.data)
+    np.testing.assert_allclose(solver.solve(rhs), np.linalg.solve(matrix.toarray(), rhs), rtol=1e-9)
+    row = available()[-1]
+    assert (row.name, row.installed) == ("dense", True)
+    assert row.note == "auto, wider models without pardiso and mumps and superlu"
+    with pytest.raises(UelError, match="known are auto, band, pardiso, mumps, superlu, dense"):
+        solver_for("lapack", matrix, coordinates)
+
+
 def test_solver_that_is_not_installed_is_refused(monkeypatch) -> None:
     from harness.solver.linear import choice  # noqa: PLC0415
 
-    monkeypatch.setattr(choice, "_obstacle", lambda name: "python-mumps is not installed" if name == "mumps" else "")
+    monkeypatch.setattr(
+        choice, "_obstacle", lambda solver: f"{solver.distribution} is not installed" * (solver.name == "mumps")
+    )
     matrix, coordinates = clamped(4, 1)
     with pytest.raises(UelError, match="linear solver 'mumps' cannot be used: python-mumps is not installed"):
         solver_for("mumps", matrix, coordinates)
