@@ -12,7 +12,7 @@ PYTEST_ARGS ?=
 SELECT ?= not long
 # processes that share the tests
 WORKERS ?= auto
-# what tests/machine.py makes of the processor and how many cores it takes; WORKERS=0 for all tests in one process
+# what tests/programs/machine.py makes of the processor, how many cores it takes; WORKERS=0 for all in one process
 PROCESSOR ?= this
 CORES ?= all
 # a number: tests come in a random order, and hypothesis takes other examples; with WORKERS=0 the same run each time
@@ -24,7 +24,7 @@ INSTALLED := $(VENV)/.installed
 RUN := PATH="$(CURDIR)/$(BIN):$$PATH"
 # the processes share the cores: one thread of linear algebra each
 PYTEST = $(RUN) OPENBLAS_NUM_THREADS=1 OMP_NUM_THREADS=1 MKL_NUM_THREADS=1 \
-	$(BIN)/python tests/machine.py --processor $(PROCESSOR) --cores $(CORES) $(BIN)/pytest \
+	$(BIN)/python tests/programs/machine.py --processor $(PROCESSOR) --cores $(CORES) $(BIN)/pytest \
 	-n $(WORKERS) --maxprocesses 16 --dist worksteal \
 	$(if $(SEED),-p randomly --randomly-seed=$(SEED) --hypothesis-profile=other --hypothesis-seed=$(SEED))
 
@@ -35,7 +35,7 @@ help:
 	@sed -n 's/^# make/make/p' $(firstword $(MAKEFILE_LIST))
 	@echo 'make test-all    the quick tests and the long ones'
 	@echo 'make test-debug  the quick tests on kernels with run-time checks'
-	@echo 'make test-matrix both, on clean clones, as on several machines: tests/matrix.py'
+	@echo 'make test-matrix both, on clean clones, as on several machines: tests/programs/matrix.py'
 	@echo 'make bench       speed ratios, measured in one run'
 	@echo 'make lint        what CI checks before the tests'
 	@echo 'make decks       write the decks of abaqus_inputs again'
@@ -66,10 +66,10 @@ test-debug:
 	@$(MAKE) --no-print-directory test VENV=.venv-debug MESON_ARGS='-Dbuildtype=debug' SELECT='not long and not nan'
 
 test-matrix:
-	$(PYTHON) tests/matrix.py
+	$(PYTHON) tests/programs/matrix.py
 
 bench: $(INSTALLED)
-	$(RUN) $(BIN)/python tests/benchmarks/bench.py
+	$(RUN) $(BIN)/python tests/programs/benchmarks/bench.py
 
 lint: $(INSTALLED)
 	$(RUN) $(BIN)/ruff check .

@@ -40,7 +40,7 @@ def test_import_order() -> None:
     """
     linter = (
         "import sys; sys.meta_path = [f for f in sys.meta_path if type(f).__name__ != 'MesonpyMetaFinder'];"
-        "sys.path.insert(0, '.'); from importlinter.cli import lint_imports;"
+        "from importlinter.cli import lint_imports;"
         "sys.exit(lint_imports(no_cache=True))"
     )
     result = subprocess.run([sys.executable, "-c", linter], cwd=ROOT, capture_output=True, text=True, check=False)
@@ -148,6 +148,16 @@ def test_fortran_without_ieee_modules() -> None:
 def test_every_source_carries_the_licence() -> None:
     sources = [path for path in TRACKED if path.suffix in {".py", ".f90", ".c", ".build"} or path.name == "Makefile"]
     assert [path for path in sources if "SPDX-License-Identifier: BSD-3-Clause" not in (ROOT / path).read_text()] == []
+
+
+def test_programs_have_their_place() -> None:
+    """What a person runs stands in tests/programs; pytest's configuration alone says where shared modules are."""
+    tests = [path for path in TRACKED if path.parts[0] == "tests" and path.suffix == ".py"]
+    programs = [path for path in tests if re.search(r"^if __name__ ==", (ROOT / path).read_text(), re.MULTILINE)]
+    assert len(programs) > 5
+    assert [path for path in programs if path.parts[1] != "programs"] == []
+    changed = re.compile(r"\bsys\.path\.(insert|append|remove)\(|\bsys\.path *[+=]")
+    assert [path for path in tests if changed.search((ROOT / path).read_text())] == []
 
 
 def test_files_stay_small() -> None:

@@ -2,13 +2,13 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Other machines: what machine.py makes of this one, and the runs and rows of matrix.py."""
 
-import importlib.util
 import json
 import subprocess
 import sys
 from pathlib import Path
-from types import ModuleType
 
+import machine
+import matrix
 import pytest
 
 HERE = Path(__file__).parent
@@ -19,40 +19,27 @@ print(json.dumps([len(os.sched_getaffinity(0)), os.environ.get("OPENBLAS_CORETYP
 """
 
 
-@pytest.fixture(scope="module")
-def matrix() -> ModuleType:
-    spec = importlib.util.spec_from_file_location("matrix", HERE / "matrix.py")
-    assert spec and spec.loader
-    module = importlib.util.module_from_spec(spec)
-    # dataclasses look their module up
-    sys.modules[spec.name] = module
-    spec.loader.exec_module(module)
-    return module
-
-
-def machine(*words: str) -> subprocess.CompletedProcess[str]:
-    return subprocess.run(
-        [sys.executable, str(HERE / "machine.py"), *words], capture_output=True, text=True, check=False
-    )
+def on(*words: str) -> subprocess.CompletedProcess[str]:
+    return subprocess.run([sys.executable, machine.__file__, *words], capture_output=True, text=True, check=False)
 
 
 def test_an_older_processor_with_one_core() -> None:
-    found = machine("--processor", "Nehalem", "--cores", "1", sys.executable, "-c", SEEN)
+    found = on("--processor", "Nehalem", "--cores", "1", sys.executable, "-c", SEEN)
     assert json.loads(found.stdout) == [1, "Nehalem", []], found.stderr
 
 
 def test_this_machine_is_left_as_it_is() -> None:
     command = [sys.executable, "-c", SEEN]
-    assert machine(*command).stdout == subprocess.run(command, capture_output=True, text=True, check=True).stdout
+    assert on(*command).stdout == subprocess.run(command, capture_output=True, text=True, check=True).stdout
 
 
 def test_without_a_command() -> None:
-    found = machine("--processor", "Haswell")
+    found = on("--processor", "Haswell")
     assert found.returncode == 2
     assert "no command" in found.stderr
 
 
-def test_every_value_occurs_in_each_target(matrix: ModuleType) -> None:
+def test_every_value_occurs_in_each_target() -> None:
     given = (["3.11", "3.12"], ["this", "Haswell", "Nehalem"], ["all", "1"], ["1", "2", "3"])
     found = matrix.configurations(["test-all", "test-debug"], *given)
     assert len(found) == 6
@@ -63,7 +50,7 @@ def test_every_value_occurs_in_each_target(matrix: ModuleType) -> None:
     assert len({(c.python, c.processor, c.cores) for c in found}) == 6
 
 
-def test_commands_have_no_folder_of_this_machine(matrix: ModuleType) -> None:
+def test_commands_have_no_folder_of_this_machine() -> None:
     command = matrix.Configuration("test-all", sys.executable, "this", "1", "2").command
     version = f"{sys.version_info[0]}.{sys.version_info[1]}"
     assert command == f"make test-all PYTHON=python{version} PROCESSOR=this CORES=1 WORKERS=0 SEED=2"
@@ -79,18 +66,18 @@ def test_commands_have_no_folder_of_this_machine(matrix: ModuleType) -> None:
         ("7 passed in 1.00s\nSegmentation fault\n", 139, ("**7 passed**", "0 min 1 s")),
     ],
 )
-def test_outcome(matrix: ModuleType, output: str, code: int, expected: tuple[str, str]) -> None:
+def test_outcome(output: str, code: int, expected: tuple[str, str]) -> None:
     assert matrix.outcome(output, code) == expected
 
 
-def test_a_row_replaces_that_of_its_command(matrix: ModuleType) -> None:
+def test_a_row_replaces_that_of_its_command() -> None:
     page = f"before\n{matrix.BEGIN}\n{matrix.END}\nafter\n"
     for row in ("| 1 | `make a` |", "| 2 | `make ab` |", "| 3 | `make a` |"):
         page = matrix.written(page, row)
     assert page == f"before\n{matrix.BEGIN}\n| 3 | `make a` |\n| 2 | `make ab` |\n{matrix.END}\nafter\n"
 
 
-def test_the_page_takes_rows(matrix: ModuleType) -> None:
+def test_the_page_takes_rows() -> None:
     page = (HERE.parent / "CONTRIBUTING.md").read_text(encoding="utf-8")
     columns = next(line for line in page.split(matrix.BEGIN)[0].splitlines() if line.startswith("| Python"))
     assert columns.count("|") == 9

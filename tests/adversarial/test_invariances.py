@@ -5,25 +5,14 @@
 import subprocess
 import sys
 from dataclasses import replace
-from pathlib import Path
 
+import invariances
 import numpy as np
 import pytest
 
-HERE = Path(__file__).parent
-
-
-@pytest.fixture(scope="module")
-def invariances():
-    sys.path.insert(0, str(HERE))
-    import invariances  # noqa: PLC0415
-
-    yield invariances
-    sys.path.remove(str(HERE))
-
 
 @pytest.fixture
-def case(invariances, tmp_path):
+def case(tmp_path):
     return {case.name: case for case in invariances.cases(tmp_path)}.__getitem__
 
 
@@ -31,14 +20,14 @@ SHORT = ("delamination, user elements", "dynamic", "frequency", "large displacem
 
 
 @pytest.mark.parametrize("name", SHORT)
-def test_units_numbers_and_threads(invariances, case, tmp_path, name):
+def test_units_numbers_and_threads(case, tmp_path, name):
     rows = list(invariances.examine(case(name), tmp_path / "runs", seeds=1, threads=(2,)))
     assert len(rows) == 5
     assert [row for row in rows if row[1] > row[2]] == []
 
 
 @pytest.mark.parametrize("name", [*SHORT[:2], "delamination, COH2D4"])
-def test_units_of_powers_of_two_change_no_bit(invariances, case, tmp_path, name):
+def test_units_of_powers_of_two_change_no_bit(case, tmp_path, name):
     """What is left of a difference then is an absolute tolerance, not rounding."""
     units = invariances.Units("2^-10 of it", 2.0**-10, 2.0**10, 2.0**4)
     one, other = (
@@ -47,7 +36,7 @@ def test_units_of_powers_of_two_change_no_bit(invariances, case, tmp_path, name)
     assert invariances.difference(case(name), one, other, units) == 0.0
 
 
-def test_differences_are_seen(invariances, case, tmp_path):
+def test_differences_are_seen(case, tmp_path):
     beam = case("large displacements")
     one = invariances.solve(beam, tmp_path / "one")
     assert invariances.difference(beam, one, one) == 0.0
@@ -63,7 +52,7 @@ def test_differences_are_seen(invariances, case, tmp_path):
 
 
 def test_command():
-    command = [sys.executable, str(HERE / "invariances.py"), "--seeds", "1", "heat"]
+    command = [sys.executable, invariances.__file__, "--seeds", "1", "heat"]
     result = subprocess.run(command, capture_output=True, text=True, check=False)
     assert result.returncode == 0, result.stderr
     assert len(result.stdout.splitlines()) == 7

@@ -9,10 +9,10 @@ from pathlib import Path
 import pytest
 
 HERE = Path(__file__).parent
+PROGRAMS = HERE.parent / "programs" / "fuzz"
 DECK = HERE.parent / "harness" / "deck" / "flat.inp"
 BROKEN = """\
 import os, sys, time
-sys.path.insert(0, {folder!r})
 import fuzz, trial
 fuzz.SECONDS = fuzz.WAIT = 1
 
@@ -45,16 +45,17 @@ def fuzz(*arguments):
 @pytest.mark.nan
 @pytest.mark.parametrize("count", [1000, pytest.param(50_000, marks=pytest.mark.long)])
 def test_damaged_decks_run_or_end_with_an_error_that_names_the_place(tmp_path, count):
-    result = fuzz(HERE / "fuzz.py", "--count", count, "--seed", 20, "--output", tmp_path / "findings")
+    result = fuzz(PROGRAMS / "fuzz.py", "--count", count, "--seed", 20, "--output", tmp_path / "findings")
     assert result.returncode == 0, result.stdout + result.stderr
     assert f"{count} trials of" in result.stdout
     assert not (tmp_path / "findings").exists()
 
 
-def test_findings_are_seen_and_kept(tmp_path):
+def test_findings_are_seen_and_kept(tmp_path, monkeypatch):
     """A process that ends is replaced, and the trials go on."""
     script = tmp_path / "broken.py"
-    script.write_text(BROKEN.format(folder=str(HERE)))
+    script.write_text(BROKEN)
+    monkeypatch.setenv("PYTHONPATH", str(PROGRAMS))
     result = fuzz(script, "--count", 6, "--output", tmp_path / "findings", DECK)
     assert result.returncode == 1, result.stdout + result.stderr
     for line in ("2 too much memory", "2 timeout", "1 exit code -6", "1 exit code 3"):
@@ -65,6 +66,6 @@ def test_findings_are_seen_and_kept(tmp_path):
 
 
 def test_one_trial_is_made_again():
-    result = fuzz(HERE / "fuzz.py", "--case", 7, DECK)
+    result = fuzz(PROGRAMS / "fuzz.py", "--case", 7, DECK)
     assert result.returncode == 0, result.stderr
     assert result.stdout.startswith(f"{DECK}\nrefused\n")

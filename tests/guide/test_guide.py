@@ -3,16 +3,11 @@
 """The guide does what it says: its files, its changes to them, and the outputs of its commands."""
 
 import re
-import sys
 from math import exp, hypot
-from pathlib import Path
-
-import pytest
-from scipy.optimize import brentq
-
-sys.path.insert(0, str(Path(__file__).parent))
 
 import guide
+import pytest
+from scipy.optimize import brentq
 
 
 @pytest.fixture(autouse=True)

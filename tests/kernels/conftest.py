@@ -2,12 +2,12 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Single elements of the project's kernels, driven as a job would drive them."""
 
-import importlib.util
 from pathlib import Path
 from typing import ClassVar
 
 import numpy as np
 import pytest
+import reference as independent
 
 from harness import usersub
 from harness.elements import Call, Flags, Request, build_blocks
@@ -144,10 +144,7 @@ def element_of():
 @pytest.fixture(scope="session")
 def reference():
     """Module reference.py of this folder."""
-    spec = importlib.util.spec_from_file_location("reference", Path(__file__).with_name("reference.py"))
-    module = importlib.util.module_from_spec(spec)
-    spec.loader.exec_module(module)
-    return module
+    return independent
 
 
 @pytest.fixture(scope="session")

@@ -8,15 +8,11 @@ import sys
 from dataclasses import replace
 from pathlib import Path
 
+import kirigami
+import measure
 import numpy as np
 import pytest
 from scipy.optimize import minimize
-
-HERE = Path(__file__).parent
-sys.path.insert(0, str(HERE))
-
-import kirigami  # noqa: E402 (scripts beside this file)
-import measure  # noqa: E402
 
 FOLDER = os.environ.get("UEL_PUBLIC", "")
 
@@ -133,5 +129,5 @@ def test_figures_are_made_again():
     absent = measure.missing(Path(FOLDER), measure.rows()["kirigami"])
     if absent:
         pytest.skip(f"{FOLDER} has no {absent[0]}")
-    result = subprocess.run([sys.executable, str(HERE / "kirigami.py"), FOLDER], capture_output=True, check=False)
+    result = subprocess.run([sys.executable, kirigami.__file__, FOLDER], capture_output=True, check=False)
     assert result.returncode == 0, result.stdout

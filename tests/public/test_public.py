@@ -8,14 +8,13 @@ import sys
 import tomllib
 from pathlib import Path
 
+import check_table
+import measure
 import pytest
+import table
 
 HERE = Path(__file__).parent
-sys.path.insert(0, str(HERE))
-
-import check_table  # noqa: E402 (scripts beside this file)
-import measure  # noqa: E402
-import table  # noqa: E402
+PROGRAM = Path(table.__file__)
 
 FOLDER = os.environ.get("UEL_PUBLIC", "")
 
@@ -27,7 +26,7 @@ def test_row_agrees(name):
     absent = measure.missing(Path(FOLDER), measure.rows()[name])
     if absent:
         pytest.skip(f"{FOLDER} has no {measure.rows()[name]['folder']}/{absent[0]}")
-    command = [sys.executable, str(HERE / "table.py"), FOLDER, name]
+    command = [sys.executable, str(PROGRAM), FOLDER, name]
     result = subprocess.run(command, capture_output=True, text=True, check=False)
     assert result.returncode == 0, result.stderr
 

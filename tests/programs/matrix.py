@@ -17,15 +17,15 @@ import tempfile
 from dataclasses import dataclass
 from pathlib import Path
 
-ROOT = Path(__file__).parents[1]
+ROOT = Path(__file__).parents[2]
 LOGS = ROOT / "build" / "matrix"
-BEGIN, END = "<!-- rows of tests/matrix.py -->", "<!-- end of the rows -->"
+BEGIN, END = "<!-- rows of tests/programs/matrix.py -->", "<!-- end of the rows -->"
 SUMMARY = re.compile(r"^=* ?(\d+ (?:passed|failed|errors?|skipped|deselected).*) in (\d+)\.\d+s\b", re.MULTILINE)
 
 
 @dataclass(frozen=True)
 class Configuration:
-    """A run: a target of make, the Python, what tests/machine.py makes of the machine, and the order of the tests."""
+    """A run: a target of make, the Python, what machine.py makes of the machine, and the order of the tests."""
 
     target: str
     python: str

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""Damaged decks: `python tests/fuzz/fuzz.py [--count N] [--seed S] [--workers W] [FOLDER ...]`.
+"""Damaged decks: `python tests/programs/fuzz/fuzz.py [--count N] [--seed S] [--workers W] [FOLDER ...]`.
 
 Takes the decks of the folders (the project's own by default), damages each trial's deck, and has the harness read it;
 one in ten it checks and builds as well, and tries one increment of a small model. A traceback, an end of the process,
@@ -37,7 +37,7 @@ os.environ.update(OPENBLAS_NUM_THREADS="1", OMP_NUM_THREADS="1", MKL_NUM_THREADS
 import trial
 from corpus import Corpus
 
-ROOT = Path(__file__).parents[2]
+ROOT = Path(__file__).parents[3]
 OWN_DECKS = (ROOT / "abaqus_inputs", ROOT / "tests")
 SECONDS = 10
 """Of processor time, so that a busy machine makes no findings."""

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""What must not change a result: `python tests/adversarial/invariances.py [--seeds N] [CASE ...]`.
+"""What must not change a result: `python tests/programs/adversarial/invariances.py [--seeds N] [CASE ...]`.
 
 The same deck in other units, with other numbers of nodes and elements, once more, and with other threads of BLAS. The
 histories and the last displacements are compared, and the iterations of each increment; the table has the largest
@@ -43,7 +43,7 @@ from harness import job
 from harness.deck import read_deck
 from harness.output import Result
 
-ROOT = Path(__file__).parents[2]
+ROOT = Path(__file__).parents[3]
 UNITS = (Units("m, kg, s (Pa)", 1e-3, 1e3, 1.0), Units("mm, kg, ms (GPa)", 1.0, 1e3, 1e3))
 """The decks are in mm, t, s (MPa)."""
 UNIT_LIMIT, LABEL_LIMIT = 1e-9, 1e-11

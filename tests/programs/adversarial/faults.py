@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Does `uel check` find the mistakes of faults.toml, and let the elements pass into which they are put?
 
-    python tests/adversarial/faults.py [WORD ...]
+    python tests/programs/adversarial/faults.py [WORD ...]
 
 tries the faults and right elements in whose names a word occurs (all of them) and prints which checks fail. It ends
 with 1 if a right element fails, or more faults than MISSED are not found.
@@ -30,7 +30,7 @@ from harness.errors import UelError
 
 HERE: Final = Path(__file__).parent
 ELEMENTS: Final = HERE / "elements"
-HEAD: Final = HERE.parent / "harness" / "uel.inc"
+HEAD: Final = HERE.parents[1] / "harness" / "uel.inc"
 
 MISSED: Final = 2
 """Of all faults: what may stay unfound."""

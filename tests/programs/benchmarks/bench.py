@@ -33,7 +33,7 @@ from harness.procedures import run_steps
 from harness.solver.linear import available, choose
 from harness.solver.threads import one_blas_thread
 
-DECK = Path(__file__).parents[2] / "abaqus_inputs" / "dcb_ref" / "dcb_ref.inp"
+DECK = Path(__file__).parents[3] / "abaqus_inputs" / "dcb_ref" / "dcb_ref.inp"
 LARGEST_ITERATION = 1.5
 """Bound of a Newton iteration over one SuperLU factorisation and solution of its own matrix."""
 LARGEST_DRIVER = 1.15

@@ -1,6 +1,8 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""What `uel check` finds in public user elements: `python tests/public/check_table.py FOLDER [-o FILE] [ROW ...]`.
+"""What `uel check` finds in public user elements.
+
+    python tests/programs/public/check_table.py FOLDER [-o FILE] [ROW ...]
 
 FOLDER is that of table.py. Each row is checked once for each of its decks, and for as long as `--seconds` says.
 """
@@ -22,9 +24,9 @@ HEAD = """\
 # What the checker finds in public user elements
 
 `uel check` on codes that others wrote for Abaqus, with their decks, unmodified. Their files are not part of this
-repository; `python tests/public/check_table.py FOLDER -o harness/check/public-uels.md` writes this page from a folder
-of checkouts, by [the manifest](../../tests/public/manifest.toml). A finding is not always a mistake: an approximate
-AMATRX can be meant, and an axisymmetric element resists translation. [What each check looks at](README.md).
+repository; `python tests/programs/public/check_table.py FOLDER -o harness/check/public-uels.md` writes this page from a
+folder of checkouts, by [the manifest](../../tests/programs/public/manifest.toml). A finding is not always a mistake: an
+approximate AMATRX can be meant, and an axisymmetric element resists translation. [What each check looks at](README.md).
 
 | code | deck | type | passed | failed | cause, where it was looked for |
 |---|---|---|---|---|---|

@@ -1,6 +1,8 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""Table of public user elements that run here unmodified: `python tests/public/table.py FOLDER [-o FILE] [ROW ...]`.
+"""Table of public user elements that run here unmodified.
+
+    python tests/programs/public/table.py FOLDER [-o FILE] [ROW ...]
 
 FOLDER holds a checkout of each public repository of manifest.toml, under the repository's name. Nothing of theirs is
 in this repository.
@@ -24,12 +26,12 @@ HEAD = """\
 # Public user elements, unmodified
 
 Codes that others wrote for Abaqus, with their decks, run by this harness as they are. Their files are not part of this
-repository; `python tests/public/table.py FOLDER -o harness/usersub/public-uels.md` writes this page from a folder of
-checkouts, by [the manifest](../../tests/public/manifest.toml). Grade of the expected value: **T** theory, **A** real
-Abaqus, **M** the stored result of another code, **B** this harness' built-in element of the same formulation in place
-of the user's, run beside it (it shows that both are driven alike), **Q** an independent quick host: for small strains
-(plausibility only), or [kirigami.py](../../tests/public/kirigami.py), which takes the element's energy density and
-nothing else of it.
+repository; `python tests/programs/public/table.py FOLDER -o harness/usersub/public-uels.md` writes this page from a
+folder of checkouts, by [the manifest](../../tests/programs/public/manifest.toml). Grade of the expected value: **T**
+theory, **A** real Abaqus, **M** the stored result of another code, **B** this harness' built-in element of the same
+formulation in place of the user's, run beside it (it shows that both are driven alike), **Q** an independent quick
+host: for small strains (plausibility only), or [kirigami.py](../../tests/programs/public/kirigami.py), which takes the
+element's energy density and nothing else of it.
 
 | code | deck | quantity | our figure | expected | grade | verdict |
 |---|---|---|---|---|---|---|

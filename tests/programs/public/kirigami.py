@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""Independent host for the kirigami rows of manifest.toml: `python tests/public/kirigami.py FOLDER`.
+"""Independent host for the kirigami rows of manifest.toml: `python tests/programs/public/kirigami.py FOLDER`.
 
 It solves the boundary value problem of the public deck without the harness and without the user element, and prints
 the figures that are the expected values of those rows; exit code 1 if the manifest has others. FOLDER is that of

@@ -1,6 +1,8 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""Does what the guide says: `python tests/guide/guide.py` prints it with the outputs as they are, `--write` keeps them.
+"""Does what the guide says: `python tests/programs/guide/guide.py` prints it with the outputs as they are.
+
+With `--write` it keeps them.
 
 Code blocks that name a file after their language are that file; `diff` blocks change it, `console` blocks are commands
 behind `$` with their output.
@@ -21,7 +23,7 @@ from pathlib import Path
 
 from harness.cli import main as uel
 
-GUIDE = Path(__file__).parents[2] / "harness" / "project" / "ten-minutes.md"
+GUIDE = Path(__file__).parents[3] / "harness" / "project" / "ten-minutes.md"
 COLUMNS = "110"
 _BLOCK = re.compile(r"^```(?P<language>\w+)(?: (?P<file>\S+))?\n(?P<body>.*?)^```$", re.MULTILINE | re.DOTALL)
 

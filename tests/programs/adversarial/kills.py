@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""Runs that are killed at random moments, several at once: `python tests/adversarial/kills.py --count 200`.
+"""Runs that are killed at random moments, several at once: `python tests/programs/adversarial/kills.py --count 200`.
 
 Each run gets a signal, as its parent, its child or both. Then its files are read, and the same job runs again, to its
 end.
@@ -25,7 +25,7 @@ from readable import complaints
 from harness.output import Result
 from harness.output.status import NOT_COMPLETED
 
-SOURCE = Path(__file__).parents[2] / "abaqus_inputs" / "patch_horizontal"
+SOURCE = Path(__file__).parents[3] / "abaqus_inputs" / "patch_horizontal"
 SIGNALS = (signal.SIGKILL, signal.SIGTERM, signal.SIGINT, signal.SIGHUP)
 TARGETS = ("parent", "child", "group")
 INCREMENTS = 60
