@@ -11,6 +11,9 @@ module host_tensors
   private
   public :: to_matrix, to_components, eigen, cross
 
+  !> Routines that are called at integration points.
+  character(len=6), parameter :: of_a_point(4) = [character(len=6) :: 'SDVINI', 'UMAT', 'USDFLD', 'UVARM']
+
 contains
 
   !> Symmetric matrix of a stored tensor.
@@ -52,10 +55,12 @@ contains
     real(dp), intent(out) :: values(3), vectors(3, 3)
     logical :: good
     character(len=120) :: text
+    character(len=40) :: place
     call eigenvalues(to_matrix(s, lstr, ndi, nshr), values, good, vectors)
     if (good) return
-    write (text, '(3a,i0)') 'in ', trim(current%routine), ': a tensor without principal values, NaN or infinite, at point ', &
-      current%point
+    place = ''
+    if (any(current%routine == of_a_point)) write (place, '(a,i0)') ' at integration point ', current%point
+    write (text, '(4a)') 'in ', trim(current%routine), trim(place), ': a tensor without principal values, NaN or infinite'
     call add_message(-1_i4, text)
   end subroutine eigen
 

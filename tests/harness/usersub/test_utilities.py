@@ -153,7 +153,7 @@ def test_tensors_without_principal_values_are_warned_of(load, routine, value):
     library.external_database(0, 0, (0.0, 0.0), 0.0, 0, 0)
     (message,) = library.messages()
     assert message.kind == "warning"
-    assert "in UEXTERNALDB: a tensor without principal values, NaN or infinite, at point 0" in message.text
+    assert message.text == "in UEXTERNALDB: a tensor without principal values, NaN or infinite"
 
 
 @pytest.mark.parametrize("header", ["", "SMAAspUserSubroutines.hdr", "SMAAspUserUtilities.hdr"])
