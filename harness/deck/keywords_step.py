@@ -89,6 +89,7 @@ OUTPUT = (
         "Table of the energies of the whole model in .dat.",
         Where.STEP,
         (FREQUENCY, *refused("ELSET")),
+        "ignored, with a warning: all energies are printed",
     ),
     Keyword(
         "MONITOR",

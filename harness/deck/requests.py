@@ -150,6 +150,9 @@ class RequestReader:
         self._requests = replace(self._requests, element_print=(*self._requests.element_print, *requests))
 
     def _energy_print(self, block: Block) -> None:
+        row = next(block.rows(), None)
+        if row is not None:
+            self._problems.warn(row.source, "*ENERGY PRINT takes no data lines; all energies are printed")
         self._requests = replace(self._requests, energy_print=_frequency(block))
 
     def _monitor(self, block: Block) -> None:

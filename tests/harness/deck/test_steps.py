@@ -269,6 +269,13 @@ def test_energies_are_printed_where_asked_for(read: Read) -> None:
     assert steps(read, "*ENERGY PRINT, FREQUENCY=3")[0].output.energy_print == 3
 
 
+def test_variables_below_energy_print_are_warned_of(read: Read) -> None:
+    """Public decks have them there, and run in Abaqus."""
+    model = read(MODEL + "*STEP\n*STATIC\n*ENERGY PRINT\nCOORD\n*END STEP\n")
+    assert model.steps[0].output.energy_print == 1
+    assert model.warnings == ("deck.inp:44: *ENERGY PRINT takes no data lines; all energies are printed",)
+
+
 def test_requests_stay_until_replaced(read: Read) -> None:
     body = "*OUTPUT, FIELD, FREQUENCY=6\n*OUTPUT, HISTORY\n*NODE OUTPUT, NSET=TOP\nU1\n"
     body += "*NODE PRINT, NSET=TOP\nU\n*EL PRINT\nS"
