@@ -318,7 +318,7 @@ subroutine host_uvarm_pass(address, names, axes, counts, place, clock, labels, c
   integer(i8), intent(in) :: address
   character(len=80), intent(in) :: names(2)   !< of the material and its orientation
   real(dp), intent(in) :: axes(3, 3)          !< rows: material directions
-  integer(i4), intent(in) :: counts(2)        !< stress components, STATEV
+  integer(i4), intent(in) :: counts(3)        !< stress components, STATEV, family of the elements
   integer(i4), intent(in) :: place(2)         !< step, increment
   real(dp), intent(in) :: clock(3)            !< step time, total time at the start of the increment, time increment
   integer(i4), intent(in) :: mcrd, nnode, variables, points, values, nuvarm, m
@@ -334,6 +334,7 @@ subroutine host_uvarm_pass(address, names, axes, counts, place, clock, labels, c
   pass%axes = axes
   pass%tensor = counts(1)
   pass%statev = counts(2)
+  pass%family = counts(3)
   pass%kstep = place(1)
   pass%kinc = place(2)
   pass%time = clock(:2)
@@ -349,14 +350,14 @@ subroutine host_uvarm_pass(address, names, axes, counts, place, clock, labels, c
 end subroutine host_uvarm_pass
 
 !> Call SDVINI at all points of a block.
-subroutine host_sdvini_pass(address, solid, labels, coords, statev, left, element, point, mcrd, nnode, nstatv, points, m)
+subroutine host_sdvini_pass(address, family, labels, coords, statev, left, element, point, mcrd, nnode, nstatv, points, m)
   use, intrinsic :: iso_c_binding, only: c_intptr_t
   use host_context, only: current
   use host_kinds, only: dp, i4, i8
   use host_sdvini, only: run_sdvini, sdvini_pass_t
   implicit none (type, external)
   integer(i8), intent(in) :: address
-  integer(i4), intent(in) :: solid            !< 1: built-in elements with integration points
+  integer(i4), intent(in) :: family           !< of built-in elements with integration points, else 0
   integer(i4), intent(in) :: mcrd, nnode, nstatv, points, m
   integer(i4), intent(in), target :: labels(m)
   real(dp), intent(in), target :: coords(mcrd, nnode, m)
@@ -365,7 +366,7 @@ subroutine host_sdvini_pass(address, solid, labels, coords, statev, left, elemen
   integer(i4), intent(out) :: element, point  !< of the last call
   type(sdvini_pass_t) :: pass
   pass%address = transfer(int(address, c_intptr_t), pass%address)
-  pass%solid = solid /= 0
+  pass%family = family
   pass%labels => labels
   pass%coords => coords
   pass%statev => statev
@@ -441,7 +442,7 @@ subroutine host_uamp_call(address, name, clock, props, svars, info, sensors, nam
   define = arguments%define
 end subroutine host_uamp_call
 
-!> Address of the built-in plane continuum elements.
+!> Address of the built-in continuum elements.
 subroutine host_solid_address(address)
   use, intrinsic :: iso_c_binding, only: c_funloc, c_intptr_t
   use host_kinds, only: i8

@@ -17,6 +17,7 @@ module host_cohesive
   use host_kinds, only: dp, i4
   use host_messages, only: add_message
   use host_protect, only: escape
+  use host_shape, only: line2, quad4
   use host_tensors, only: cross
   use host_traction_separation, only: cohesive_law, cohesive_point, fine, n_law_integers, n_law_reals, read_law, &
                                       update_point
@@ -25,7 +26,7 @@ module host_cohesive
   public :: cohesive_uel
 
   integer, parameter :: p_thickness = 1, p_width = 2, p_law = 3
-  integer, parameter :: j_deletion = 1, j_law = 2
+  integer, parameter :: j_family = 1, j_deletion = 2, j_law = 3
 
 contains
 
@@ -44,12 +45,13 @@ contains
     if (.not. any(lflags(3) == stiffness_wanted)) return
     points = nnode/2
     law = read_law(props(p_law:p_law + n_law_reals - 1), jprops(j_law:j_law + n_law_integers - 1))
-    call integrate(int(mcrd), points, int(nsvars)/points, law, props(p_thickness), props(p_width), &
+    call integrate(int(jprops(j_family)), int(mcrd), points, int(nsvars)/points, law, props(p_thickness), props(p_width), &
                    jprops(j_deletion) /= 0, dtime, coords, u, rhs, amatrx, svars, energy)
   end subroutine cohesive_uel
 
   !> Residual, tangent, state and energies.
-  subroutine integrate(n, points, per_point, law, thickness, width, deletion, dtime, x, u, rhs, stiffness, svars, energy)
+  subroutine integrate(family, n, points, per_point, law, thickness, width, deletion, dtime, x, u, rhs, stiffness, svars, energy)
+    integer, intent(in) :: family        !< of the faces (host_shape)
     integer, intent(in) :: n, points, per_point
     type(cohesive_law), intent(in) :: law
     real(dp), intent(in) :: thickness, width, dtime, x(n, 2*points), u(n, 2*points)
@@ -67,8 +69,8 @@ contains
     if (.not. removed) energy(3:4) = 0
     do p = 1, points
       bottom = p
-      top = merge(5 - p, p + 4, n == 2)
-      call measure(n, points, p, x, frame, area)
+      top = opposite(family, points, p)
+      call measure(family, n, points, p, x, frame, area)
       distance = thickness
       if (.not. thickness > 0) distance = dot_product(frame(1, :), x(:, top) - x(:, bottom))
       if (.not. distance > 0) call stop_with('THICKNESS=GEOMETRY: the thickness between the faces is', distance, p)
@@ -100,6 +102,13 @@ contains
     end do
     svars(per_point, :) = merge(0, 1, removed .or. failed)
   end subroutine integrate
+
+  !> Node of the top face that lies over one of the bottom face.
+  pure integer function opposite(family, points, node)
+    integer, intent(in) :: family, points, node
+    opposite = points + node
+    if (family == line2) opposite = 2*points + 1 - node
+  end function opposite
 
   !> True for an element that was deleted: STATUS is 0, and so is the damage of one that has never been called.
   pure logical function is_removed(n, svars)
@@ -133,8 +142,8 @@ contains
   end subroutine put_point
 
   !> Rows n, s, t of the frame of a corner of the mid-surface, and its area (its length in the plane).
-  subroutine measure(n, points, point, x, frame, area)
-    integer, intent(in) :: n, points, point
+  subroutine measure(family, n, points, point, x, frame, area)
+    integer, intent(in) :: family, n, points, point
     real(dp), intent(in) :: x(n, 2*points)
     real(dp), intent(out) :: frame(3, n), area
     integer, parameter :: before(4) = [2, 1, 4, 3], beside(4) = [4, 3, 2, 1]
@@ -143,14 +152,16 @@ contains
     real(dp) :: middle(n, points), a(3), b(3)
     integer :: p
     do p = 1, points
-      middle(:, p) = 0.5_dp*(x(:, p) + x(:, merge(5 - p, p + 4, n == 2)))
+      middle(:, p) = 0.5_dp*(x(:, p) + x(:, opposite(family, points, p)))
     end do
     frame = 0
-    if (n == 2) then
+    area = 0
+    select case (family)
+    case (line2)
       a(:2) = middle(:, 2) - middle(:, 1)
       area = 0.5_dp*norm2(a(:2))
       if (area > 0) frame(1:2, :) = reshape([-a(2), a(1), a(1), a(2)], [2, 2])/(2*area)
-    else
+    case (quad4)
       a = along(point)*(middle(:, before(point)) - middle(:, point))
       b = across(point)*(middle(:, beside(point)) - middle(:, point))
       frame(1, :) = cross(a, b)
@@ -163,7 +174,10 @@ contains
         frame(2, :) = a/norm2(a)
         frame(3, :) = cross(frame(1, :), frame(2, :))
       end if
-    end if
+    case default
+      call add_message(-3_i4, 'cohesive elements between faces of this family are not known to the host')
+      call escape()
+    end select
     if (.not. area > 0) call stop_with('the area of the mid-surface is', area, point)
   end subroutine measure
 

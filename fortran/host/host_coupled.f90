@@ -4,8 +4,9 @@
 !> UELMAT: a continuum element (host_solid), and heat conduction with temperatures at its corners.
 !>
 !> The unknowns are the displacements of all nodes, then the temperatures of the corners. PROPS go on with conductivity and
-!> specific heat. Without thermal expansion the two parts see each other through what UMAT says of heat (host_coupling), and
-!> through the change of shape, which the tangent leaves out.
+!> specific heat, JPROPS with the integration points and the family of the temperatures. Without thermal expansion the two
+!> parts see each other through what UMAT says of heat (host_coupling), and through the change of shape, which the tangent
+!> leaves out.
 !>
 !> Heat is conducted through the present shape (Fourier's law, isotropic). It is stored by the initial mass, over time by
 !> backward differences, at the corners in elements with straight edges, as in Abaqus (Theory Guide, Uncoupled heat
@@ -13,9 +14,9 @@
 module host_coupled
   use core_small_matrix, only: invert
   use host_context, only: initial_stresses
-  use host_coupling, only: coupling_t, thermal_points
+  use host_coupling, only: coupling_t
   use host_kinds, only: dp, i4
-  use host_shape, only: radius_of, rule_of, rule_t
+  use host_shape, only: is_quadratic, radius_of, rule_of, rule_t
   use host_solid, only: solid_element
   implicit none (type, external)
   private
@@ -39,6 +40,8 @@ contains
     n = mcrd*nnode
     rhs = 0
     amatrx = 0
+    coupling%geometry => rule_of(int(jprops(1)), int(jprops(6)))
+    coupling%field => rule_of(int(jprops(7)), int(jprops(6)))
     coupling%temperature => u(n + 1:)
     coupling%increment => du(n + 1:)
     coupling%heat => rhs(n + 1:)
@@ -50,30 +53,28 @@ contains
     if (any(lflags(3) == [3_i4, 4_i4, initial_stresses])) return
     now = coords
     if (lflags(2) /= 0) now = now + reshape(u(:n), [int(mcrd), int(nnode)])
-    associate (t => u(n + 1:), dt => du(n + 1:), thickness => merge(props(1), 1.0_dp, mcrd == 2), axisymmetric => jprops(2) > mcrd)
-      call conduct(int(mcrd), int(nnode), size(t), int(jprops(1)), axisymmetric, thickness*props(4), now, t, rhs(n + 1:), &
+    associate (t => u(n + 1:), dt => du(n + 1:), thickness => merge(props(1), 1.0_dp, mcrd == 2), axisymmetric => jprops(3) > mcrd)
+      call conduct(coupling%geometry, coupling%field, axisymmetric, thickness*props(4), now, t, rhs(n + 1:), &
                    amatrx(n + 1:, n + 1:))
       if (lflags(1) /= steady_state .and. dtime > 0) then
-        call store(int(mcrd), int(nnode), size(t), int(jprops(1)), axisymmetric, thickness*props(2)*props(5)/dtime, coords, dt, &
+        call store(coupling%geometry, coupling%field, axisymmetric, thickness*props(2)*props(5)/dtime, coords, dt, &
                    rhs(n + 1:), amatrx(n + 1:, n + 1:))
       end if
     end associate
   end subroutine coupled_uelmat
 
   !> Heat that flows into the corners by conduction, and its tangent.
-  subroutine conduct(dim, nodes, corners, points, axisymmetric, conductivity, x, t, heat, tangent)
-    integer, intent(in) :: dim, nodes, corners, points
+  pure subroutine conduct(geometry, field, axisymmetric, conductivity, x, t, heat, tangent)
+    type(rule_t), intent(in) :: geometry, field   !< of the shape, and of the temperatures
     logical, intent(in) :: axisymmetric
     real(dp), intent(in) :: conductivity   !< times thickness or 2 pi
-    real(dp), intent(in) :: x(dim, nodes), t(corners)
-    real(dp), intent(inout) :: heat(corners), tangent(corners, corners)
-    real(dp) :: g(corners, dim), matrix(corners, corners), inverse(dim, dim), determinant
-    type(rule_t), pointer :: geometry, field
+    real(dp), intent(in) :: x(geometry%dim, geometry%nodes), t(field%nodes)
+    real(dp), intent(inout) :: heat(field%nodes), tangent(field%nodes, field%nodes)
+    real(dp) :: g(field%nodes, field%dim), matrix(field%nodes, field%nodes), inverse(field%dim, field%dim), determinant
     integer :: p
-    call rules(dim, nodes, corners, points, axisymmetric, geometry, field)
     matrix = 0
     do p = 1, field%points
-      call invert(dim, matmul(x, geometry%dn(:, :, p)), inverse, determinant)
+      call invert(field%dim, matmul(x, geometry%dn(:, :, p)), inverse, determinant)
       g = matmul(field%dn(:, :, p), inverse)
       determinant = determinant*radius_of(geometry, p, axisymmetric, x)
       matrix = matrix + conductivity*field%weight(p)*determinant*matmul(g, transpose(g))
@@ -83,40 +84,27 @@ contains
   end subroutine conduct
 
   !> Heat that the corners take to become warmer, and its tangent.
-  subroutine store(dim, nodes, corners, points, axisymmetric, capacity, x, dt, heat, tangent)
-    integer, intent(in) :: dim, nodes, corners, points
+  pure subroutine store(geometry, field, axisymmetric, capacity, x, dt, heat, tangent)
+    type(rule_t), intent(in) :: geometry, field
     logical, intent(in) :: axisymmetric
     real(dp), intent(in) :: capacity   !< per volume, times thickness or 2 pi, over the time increment
-    real(dp), intent(in) :: x(dim, nodes), dt(corners)
-    real(dp), intent(inout) :: heat(corners), tangent(corners, corners)
-    real(dp) :: matrix(corners, corners), inverse(dim, dim), determinant, weight
-    type(rule_t), pointer :: geometry, field
+    real(dp), intent(in) :: x(geometry%dim, geometry%nodes), dt(field%nodes)
+    real(dp), intent(inout) :: heat(field%nodes), tangent(field%nodes, field%nodes)
+    real(dp) :: matrix(field%nodes, field%nodes), inverse(field%dim, field%dim), determinant, weight
     integer :: k, p
-    call rules(dim, nodes, corners, points, axisymmetric, geometry, field)
     matrix = 0
     do p = 1, field%points
-      call invert(dim, matmul(x, geometry%dn(:, :, p)), inverse, determinant)
+      call invert(field%dim, matmul(x, geometry%dn(:, :, p)), inverse, determinant)
       weight = capacity*field%weight(p)*determinant*radius_of(geometry, p, axisymmetric, x)
-      do k = 1, corners
-        if (nodes == corners) then
-          matrix(k, k) = matrix(k, k) + weight*field%n(k, p)
-        else
+      do k = 1, field%nodes
+        if (is_quadratic(geometry)) then
           matrix(:, k) = matrix(:, k) + weight*field%n(k, p)*field%n(:, p)
+        else
+          matrix(k, k) = matrix(k, k) + weight*field%n(k, p)
         end if
       end do
     end do
     heat = heat - matmul(matrix, dt)
     tangent = tangent + matrix
   end subroutine store
-
-  !> Integration points with the functions of the shape and of the temperature.
-  subroutine rules(dim, nodes, corners, points, axisymmetric, geometry, field)
-    integer, intent(in) :: dim, nodes, corners, points
-    logical, intent(in) :: axisymmetric
-    type(rule_t), pointer, intent(out) :: geometry, field
-    integer :: count
-    count = thermal_points(dim, nodes, points, axisymmetric)
-    geometry => rule_of(dim, nodes, count)
-    field => rule_of(dim, corners, count)
-  end subroutine rules
 end module host_coupled

@@ -10,10 +10,10 @@ module host_coupling
   use host_context, only: current
   use host_kinds, only: dp
   use host_kinematics, only: gradients
-  use host_shape, only: rule_of, rule_t
+  use host_shape, only: rule_t
   implicit none (type, external)
   private
-  public :: coupling_t, thermal_points, set_temperature, add_heat_source
+  public :: coupling_t, set_temperature, add_heat_source
 
   !> Corners of an element: their temperatures, and their part of its equations. The arrays belong to the caller.
   type :: coupling_t
@@ -22,42 +22,30 @@ module host_coupling
     real(dp), pointer :: heat(:) => null()          !< that flows into the corners
     !> Tangent of all unknowns, temperatures behind the displacements; the part of the displacements alone stays.
     real(dp), pointer :: tangent(:, :) => null()
+    !> Points of the integrals over temperatures, of the shape and of the temperatures.
+    type(rule_t), pointer :: geometry => null(), field => null()
     real(dp) :: shape(8) = 0                        !< of the temperatures, in the point of set_temperature
   end type coupling_t
 
 contains
 
-  !> Points of the integrals over temperatures. One would not feel all temperatures of a quadrilateral or hexahedron: these
-  !> have two in each direction at least. Nor would it tell the corners of a triangle about an axis apart, which have
-  !> different radii.
-  pure integer function thermal_points(dim, nodes, points, axisymmetric)
-    integer, intent(in) :: dim, nodes, points   !< points: of the stresses
-    logical, intent(in) :: axisymmetric
-    thermal_points = points
-    if (nodes >= 2**dim) thermal_points = max(points, 2**dim)
-    if (axisymmetric .and. nodes == 3) thermal_points = 3
-  end function thermal_points
-
   !> Give UMAT the temperature of a point, at the start of the increment and its change. The only point of an element stands
   !> for all of it, and has the mean.
-  subroutine set_temperature(coupling, dim, direct, points, point, x)
+  subroutine set_temperature(coupling, direct, points, point, x)
     type(coupling_t), intent(inout) :: coupling
-    integer, intent(in) :: dim, direct, points, point
+    integer, intent(in) :: direct, points, point   !< points: of the stresses
     real(dp), intent(in) :: x(:, :)             !< (dimension, nodes) of the present shape
-    type(rule_t), pointer :: rule
     real(dp) :: g(size(x, 2), direct), volume, total
-    integer :: corners, count, p
+    integer :: corners, p
     corners = size(coupling%temperature)
-    count = thermal_points(dim, size(x, 2), points, direct > dim)
-    rule => rule_of(dim, corners, count)
-    if (count == points) then
-      coupling%shape(:corners) = rule%n(:, point)
+    if (coupling%field%points == points) then
+      coupling%shape(:corners) = coupling%field%n(:, point)
     else
       total = 0
       coupling%shape = 0
-      do p = 1, count
-        call gradients(dim, direct, size(x, 2), count, p, x, g, volume)
-        coupling%shape(:corners) = coupling%shape(:corners) + volume*rule%n(:, p)
+      do p = 1, coupling%field%points
+        call gradients(coupling%geometry, direct, p, x, g, volume)
+        coupling%shape(:corners) = coupling%shape(:corners) + volume*coupling%field%n(:, p)
         total = total + volume
       end do
       coupling%shape = coupling%shape/total

@@ -8,8 +8,9 @@
 !> 2  SPRINGA: PROPS hold force and elongation in turn, ascending; SVARS elongation, force.
 !> 3  SPRING1, SPRING2: the same between the first unknown and the second, or the ground; SVARS as SPRINGA.
 !> 4  MASS: PROPS(1).
-!> 5  pressure on a face of a continuum element: PROPS(1) thickness or 2 pi, JPROPS as in add_pressure: 1 about an axis,
-!>    outward. The loads of the call are pressures, with NLGEOM on the present face; ENERGY(8) is their work.
+!> 5  pressure on a face of a continuum element: PROPS(1) thickness or 2 pi; JPROPS family and integration points of the face
+!>    (host_shape), 1 about an axis, outward as in add_pressure. The loads of the call are pressures, with NLGEOM on the
+!>    present face; ENERGY(8) is their work.
 !>
 !> In dynamic analyses SVARS go on with the forces of the last two increments, those of pressures always.
 module host_discrete
@@ -19,6 +20,7 @@ module host_discrete
   use host_mises, only: radial_return, yield_stress
   use host_pressure, only: add_pressure
   use host_protect, only: escape
+  use host_shape, only: rule_of, rule_t
   implicit none (type, external)
   private
   public :: discrete_uel
@@ -55,10 +57,13 @@ contains
       case (spring)
         call dof_spring(n, int(nprops), props, u, svars, rhs, amatrx, energy)
       case (face)
-        call press(int(mcrd), int(nnode), lflags(2) /= 0, jprops(1) /= 0, int(jprops(2)), props(1), sum(adlmag(1:ndload)), coords, &
-                   u, rhs, amatrx)
+        call press(rule_of(int(jprops(1)), int(jprops(2))), n, lflags(2) /= 0, jprops(3) /= 0, int(jprops(4)), props(1), &
+                   sum(adlmag(1:ndload)), coords, u, rhs, amatrx)
         energy(8) = -0.5_dp*dot_product(rhs(1:n) + old(:, 1), du(1:n))
-      case default   ! a mass has no force of its own
+      case (mass_point)   ! has no force of its own
+      case default
+        call add_message(-3_i4, 'discrete elements of this kind are not known to the host')
+        call escape()
       end select
     end if
     call respond(n, lflags, params, dtime, v, a, mass, old, rhs, amatrx, energy(1))
@@ -66,15 +71,16 @@ contains
   end subroutine discrete_uel
 
   !> Force and stiffness of a pressure: in small displacements on the initial face.
-  subroutine press(dim, nodes, finite, axisymmetric, outward, depth, pressure, x, u, force, stiffness)
-    integer, intent(in) :: dim, nodes, outward
+  pure subroutine press(rule, n, finite, axisymmetric, outward, depth, pressure, x, u, force, stiffness)
+    type(rule_t), intent(in) :: rule
+    integer, intent(in) :: n, outward     !< n: number of displacements
     logical, intent(in) :: finite, axisymmetric
-    real(dp), intent(in) :: depth, pressure, x(dim*nodes), u(dim*nodes)
-    real(dp), intent(inout) :: force(dim*nodes), stiffness(dim*nodes, dim*nodes)
+    real(dp), intent(in) :: depth, pressure, x(n), u(n)
+    real(dp), intent(inout) :: force(n), stiffness(n, n)
     if (finite) then
-      call add_pressure(dim, nodes, axisymmetric, outward, depth, pressure, x + u, force, stiffness)
+      call add_pressure(rule, axisymmetric, outward, depth, pressure, x + u, force, stiffness)
     else
-      call add_pressure(dim, nodes, axisymmetric, outward, depth, pressure, x, force, stiffness)
+      call add_pressure(rule, axisymmetric, outward, depth, pressure, x, force, stiffness)
       stiffness = 0
     end if
   end subroutine press

@@ -25,7 +25,7 @@
 !> numbers is inferred from its manual, which names enhanced assumed strains; there are no results to compare with.
 module host_hourglass
   use host_kinds, only: dp
-  use host_shape, only: hourglass_shapes, rule_of, rule_t
+  use host_shape, only: hourglass_shapes, is_multilinear, rule_t
   implicit none (type, external)
   private
   public :: has_hourglass_modes, resist_hourglass
@@ -36,27 +36,29 @@ module host_hourglass
 contains
 
   !> Whether displacements other than rigid ones leave the points of an element without strain.
-  pure logical function has_hourglass_modes(dim, nodes, points)
-    integer, intent(in) :: dim, nodes, points
-    has_hourglass_modes = points == 1 .and. nodes == 2**dim
+  pure logical function has_hourglass_modes(rule)
+    type(rule_t), intent(in) :: rule
+    has_hourglass_modes = rule%points == 1 .and. is_multilinear(rule)
   end function has_hourglass_modes
 
   !> Add force and tangent of the hourglass control; its energy.
-  subroutine resist_hourglass(dim, b, volume, parameter, enhanced, finite, x, u, force, stiffness, energy)
-    integer, intent(in) :: dim
-    real(dp), intent(in) :: b(2**dim, dim), volume    !< mean gradients and volume before any displacement
+  pure subroutine resist_hourglass(rule, b, volume, parameter, enhanced, finite, x, u, force, stiffness, energy)
+    type(rule_t), intent(in) :: rule                  !< of one point
+    real(dp), intent(in) :: b(rule%nodes, rule%dim), volume    !< mean gradients and volume before any displacement
     real(dp), intent(in) :: parameter                 !< hourglass stiffness parameter of the total stiffness
     real(dp), intent(in) :: enhanced(:)               !< or else Young's modulus and Poisson's ratio; none: total stiffness
     logical, intent(in) :: finite                     !< large displacements
-    real(dp), intent(in) :: x(dim, 2**dim), u(dim, 2**dim)
-    real(dp), intent(inout) :: force(dim, 2**dim), stiffness(dim*2**dim, dim*2**dim), energy
-    real(dp) :: h(2**dim, modes_of(dim)), gamma(2**dim, modes_of(dim)), q(dim, modes_of(dim))
-    real(dp) :: k(dim, modes_of(dim), dim, modes_of(dim))
+    real(dp), intent(in) :: x(rule%dim, rule%nodes), u(rule%dim, rule%nodes)
+    real(dp), intent(inout) :: force(rule%dim, rule%nodes), stiffness(rule%dim*rule%nodes, rule%dim*rule%nodes), energy
+    real(dp), dimension(rule%nodes, modes_of(rule%dim)) :: h, gamma
+    real(dp) :: q(rule%dim, modes_of(rule%dim)), k(rule%dim, modes_of(rule%dim), rule%dim, modes_of(rule%dim))
+    integer :: dim
+    dim = rule%dim
     h = hourglass_shapes(dim)
     gamma = h - matmul(b, matmul(x, h))
     q = matmul(u, gamma)
     if (size(enhanced) > 0) then
-      call enhanced_stiffness(dim, volume, enhanced(1), enhanced(2), x, k)
+      call enhanced_stiffness(dim, volume, enhanced(1), enhanced(2), matmul(x, rule%dn(:, :, 1)), k)
     else
       call total_stiffness(dim, volume*parameter, b, dot_product(h(:, 1), gamma(:, 1)), k)
     end if
@@ -150,17 +152,15 @@ contains
     end do
   end subroutine total_stiffness
 
-  !> Stiffness of assumed strains, isotropic; the edges are those of the parallelogram in the middle.
-  subroutine enhanced_stiffness(dim, volume, young, poisson, x, k)
+  !> Stiffness of assumed strains, isotropic.
+  pure subroutine enhanced_stiffness(dim, volume, young, poisson, edge, k)
     integer, intent(in) :: dim
     real(dp), intent(in) :: volume, young     !< in plane strain Young's modulus over 1 - nu^2, which is that along an edge
-    real(dp), intent(in) :: poisson, x(dim, 2**dim)
+    real(dp), intent(in) :: poisson
+    real(dp), intent(in) :: edge(dim, dim)    !< of the parallelogram in the middle
     real(dp), intent(out) :: k(dim*modes_of(dim), dim*modes_of(dim))
-    type(rule_t), pointer :: rule
-    real(dp) :: edge(dim, dim), strain(3, dim*modes_of(dim)), plane(3, 3), along(1, dim*modes_of(dim))
+    real(dp) :: strain(3, dim*modes_of(dim)), plane(3, 3), along(1, dim*modes_of(dim))
     integer :: i, j, across
-    rule => rule_of(dim, 2**dim, 1)
-    edge = matmul(x, rule%dn(:, :, 1))
     k = 0
     if (dim == 2) then
       do i = 1, dim

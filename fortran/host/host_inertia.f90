@@ -7,7 +7,7 @@
 module host_inertia
   use host_context, only: initial_stresses
   use host_kinds, only: dp, i4
-  use host_shape, only: radius_of, rule_of, rule_t
+  use host_shape, only: is_quadratic, radius_of, rule_t
   implicit none (type, external)
   private
   public :: is_dynamic, mass_matrix, respond
@@ -22,35 +22,28 @@ contains
 
   !> Mass matrix: lumped in elements with straight edges, consistent in those with middle nodes, as in Abaqus, and
   !> always fully integrated.
-  subroutine mass_matrix(dim, nodes, axisymmetric, density, x, mass)
-    integer, intent(in) :: dim, nodes
+  pure subroutine mass_matrix(rule, axisymmetric, density, x, mass)
+    type(rule_t), intent(in) :: rule   !< that integrates it fully
     logical, intent(in) :: axisymmetric
     real(dp), intent(in) :: density    !< per volume; in the plane per area; in axisymmetric elements times 2 pi
-    real(dp), intent(in) :: x(dim, nodes)
-    real(dp), intent(out) :: mass(dim*nodes, dim*nodes)
-    type(rule_t), pointer :: rule
-    real(dp) :: weight, at_nodes(nodes, nodes)
-    integer :: i, k, p, points
-    logical :: lumped
-    lumped = nodes <= 2**dim
-    points = merge(1, merge(2, 3, lumped)**dim, nodes == dim + 1)
-    if (dim == 2 .and. nodes == 6) points = 6
-    if (axisymmetric .and. nodes == 3) points = 3
-    rule => rule_of(dim, nodes, points)
+    real(dp), intent(in) :: x(rule%dim, rule%nodes)
+    real(dp), intent(out) :: mass(rule%dim*rule%nodes, rule%dim*rule%nodes)
+    real(dp) :: weight, at_nodes(rule%nodes, rule%nodes)
+    integer :: i, k, p
     at_nodes = 0
-    do p = 1, points
-      weight = density*rule%weight(p)*determinant(dim, matmul(x, rule%dn(:, :, p)))*radius_of(rule, p, axisymmetric, x)
-      do k = 1, nodes
-        if (lumped) then
-          at_nodes(k, k) = at_nodes(k, k) + weight*rule%n(k, p)
-        else
+    do p = 1, rule%points
+      weight = density*rule%weight(p)*determinant(rule%dim, matmul(x, rule%dn(:, :, p)))*radius_of(rule, p, axisymmetric, x)
+      do k = 1, rule%nodes
+        if (is_quadratic(rule)) then
           at_nodes(:, k) = at_nodes(:, k) + weight*rule%n(k, p)*rule%n(:, p)
+        else
+          at_nodes(k, k) = at_nodes(k, k) + weight*rule%n(k, p)
         end if
       end do
     end do
     mass = 0
-    do i = 1, dim
-      mass(i::dim, i::dim) = at_nodes
+    do i = 1, rule%dim
+      mass(i::rule%dim, i::rule%dim) = at_nodes
     end do
   end subroutine mass_matrix
 

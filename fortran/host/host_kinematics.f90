@@ -21,20 +21,19 @@ contains
   !> Derivatives of the shape functions by the coordinates in a point, where the element is axisymmetric also the
   !> functions over the radius; and the volume of the point. Leaves the pass where the element is inside out: a displaced
   !> one is too distorted, which a smaller increment may mend, an initial one is an error of the mesh.
-  subroutine gradients(dim, direct, nodes, points, point, x, g, volume)
-    integer, intent(in) :: dim, direct, nodes, points, point
-    real(dp), intent(in) :: x(dim, nodes)
-    real(dp), intent(out) :: g(nodes, direct), volume
-    type(rule_t), pointer :: rule
+  subroutine gradients(rule, direct, point, x, g, volume)
+    type(rule_t), intent(in) :: rule
+    integer, intent(in) :: direct, point
+    real(dp), intent(in) :: x(rule%dim, rule%nodes)
+    real(dp), intent(out) :: g(rule%nodes, direct), volume
     real(dp) :: determinant, radius
     character(len=160) :: text
-    rule => rule_of(dim, nodes, points)
-    radius = radius_of(rule, point, direct > dim, x)
-    if (dim == 2) then
-      call plane_gradients(nodes, x, rule%dn(:, :, point), g(:, :2), determinant)
-      if (direct > dim) g(:, 3) = rule%n(:, point)/radius
+    radius = radius_of(rule, point, direct > rule%dim, x)
+    if (rule%dim == 2) then
+      call plane_gradients(rule%nodes, x, rule%dn(:, :, point), g(:, :2), determinant)
+      if (direct > rule%dim) g(:, 3) = rule%n(:, point)/radius
     else
-      call space_gradients(nodes, x, rule%dn(:, :, point), g, determinant)
+      call space_gradients(rule%nodes, x, rule%dn(:, :, point), g, determinant)
     end if
     volume = rule%weight(point)*determinant*radius
     if (determinant > 0 .and. radius > 0) return
@@ -44,7 +43,7 @@ contains
     end if
     write (text, '(a,i0,a,es10.2,a)') 'the element is inside out at its integration point ', point, &
       ' (Jacobian', determinant*radius, '); its nodes must run counter-clockwise'
-    if (dim == 3) text = trim(text)//' as seen from its other side'
+    if (rule%dim == 3) text = trim(text)//' as seen from its other side'
     call add_message(-3_i4, trim(text))
     call escape()
   end subroutine gradients
@@ -90,16 +89,19 @@ contains
 
   !> Mean of the gradients over the volume of a four- or eight-node element, and the volume: the uniform strain of
   !> D.P. Flanagan, T. Belytschko, Int. J. for Numerical Methods in Engineering 17 (1981) 679.
-  subroutine mean_gradients(dim, direct, x, g, volume)
-    integer, intent(in) :: dim, direct
-    real(dp), intent(in) :: x(dim, 2**dim)
-    real(dp), intent(out) :: g(2**dim, direct), volume
-    real(dp) :: part(2**dim, direct), weight
+  subroutine mean_gradients(family, direct, x, g, volume)
+    integer, intent(in) :: family, direct
+    real(dp), intent(in) :: x(:, :)                !< (dimension, nodes)
+    real(dp), intent(out) :: g(:, :), volume       !< (nodes, direct)
+    real(dp) :: part(size(g, 1), size(g, 2)), weight
+    type(rule_t), pointer :: rule
     integer :: point
+    ! as many points as nodes: two in each direction
+    rule => rule_of(family, size(x, 2))
     g = 0
     volume = 0
-    do point = 1, 2**dim
-      call gradients(dim, direct, 2**dim, 2**dim, point, x, part, weight)
+    do point = 1, rule%points
+      call gradients(rule, direct, point, x, part, weight)
       g = g + weight*part
       volume = volume + weight
     end do
@@ -156,12 +158,11 @@ contains
   end function components
 
   !> Coordinates of an integration point.
-  function point_position(points, point, x) result(place)
-    integer, intent(in) :: points, point
+  pure function point_position(rule, point, x) result(place)
+    type(rule_t), intent(in) :: rule
+    integer, intent(in) :: point
     real(dp), intent(in) :: x(:, :)     !< (dimension, nodes)
     real(dp) :: place(3)
-    type(rule_t), pointer :: rule
-    rule => rule_of(size(x, 1), size(x, 2), points)
     place = 0
     place(:size(x, 1)) = matmul(x, rule%n(:, point))
   end function point_position

@@ -3,7 +3,7 @@
 !> Pressure on a face of a continuum element that turns and grows with the face.
 module host_pressure
   use host_kinds, only: dp
-  use host_shape, only: radius_of, rule_of, rule_t
+  use host_shape, only: radius_of, rule_t
   use host_tensors, only: cross
   implicit none (type, external)
   private
@@ -13,46 +13,37 @@ contains
 
   !> Add the force that holds a pressure, and its change with the displacements. Nodes are corners, then middles of edges;
   !> outward is 1 where the normal of their order (to the right of an edge) points out of the element, else -1.
-  subroutine add_pressure(dim, nodes, axisymmetric, outward, depth, pressure, x, force, stiffness)
-    integer, intent(in) :: dim, nodes, outward
+  pure subroutine add_pressure(rule, axisymmetric, outward, depth, pressure, x, force, stiffness)
+    type(rule_t), intent(in) :: rule     !< of the face
+    integer, intent(in) :: outward
     logical, intent(in) :: axisymmetric
     real(dp), intent(in) :: depth        !< thickness, or 2 pi; 1 in space
-    real(dp), intent(in) :: pressure, x(dim, nodes)
-    real(dp), intent(inout) :: force(dim, nodes), stiffness(dim, nodes, dim, nodes)
-    type(rule_t), pointer :: rule
-    real(dp) :: along(dim, dim - 1), change(dim, dim), radius, weight
-    integer :: i, j, k, p
-    rule => rule_of(dim - 1, nodes, points_of(dim, nodes))
+    real(dp), intent(in) :: pressure, x(rule%dim + 1, rule%nodes)
+    real(dp), intent(inout) :: force(rule%dim + 1, rule%nodes)
+    real(dp), intent(inout) :: stiffness(rule%dim + 1, rule%nodes, rule%dim + 1, rule%nodes)
+    real(dp) :: along(rule%dim + 1, rule%dim), change(rule%dim + 1, rule%dim + 1), radius, weight
+    integer :: dim, i, j, k, p
+    dim = rule%dim + 1
     do p = 1, rule%points
       along = matmul(x, rule%dn(:, :, p))
       radius = radius_of(rule, p, axisymmetric, x)
       weight = outward*depth*pressure*rule%weight(p)
       associate (n => rule%n(:, p), dn => rule%dn(:, :, p), normal => area_of(dim, along))
-        do k = 1, nodes
+        do k = 1, rule%nodes
           force(:, k) = force(:, k) + weight*radius*n(k)*normal
         end do
-        do j = 1, nodes
+        do j = 1, rule%nodes
           do i = 1, dim
             change(:, i) = radius*area_change(dim, along, i, dn(j, :))
           end do
           if (axisymmetric) change(:, 1) = change(:, 1) + n(j)*normal
-          do k = 1, nodes
+          do k = 1, rule%nodes
             stiffness(:, k, :, j) = stiffness(:, k, :, j) + weight*n(k)*change
           end do
         end do
       end associate
     end do
   end subroutine add_pressure
-
-  !> Integration points of a face: a line of 2 or 3 nodes, a triangle of 3, a quadrilateral of 4 or 8.
-  pure integer function points_of(dim, nodes)
-    integer, intent(in) :: dim, nodes
-    if (dim == 2) then
-      points_of = nodes
-    else
-      points_of = merge(1, merge(4, 9, nodes == 4), nodes == 3)
-    end if
-  end function points_of
 
   !> Normal times area per parent area, from the derivatives of the position.
   pure function area_of(dim, along) result(area)

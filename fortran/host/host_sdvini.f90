@@ -8,6 +8,7 @@ module host_sdvini
   use host_kinds, only: dp, i4
   use host_kinematics, only: point_position
   use host_protect, only: begin_call, protect
+  use host_shape, only: rule_of
   implicit none (type, external)
   private
   public :: sdvini_pass_t, run_sdvini
@@ -23,7 +24,7 @@ module host_sdvini
   !> One pass over a block. Arrays belong to the caller.
   type :: sdvini_pass_t
     type(c_funptr) :: address
-    logical :: solid = .false.                                     !< built-in elements
+    integer :: family = 0                                          !< of built-in elements (host_shape), else 0
     integer(i4), pointer, contiguous :: labels(:) => null()
     real(dp), pointer, contiguous :: coords(:, :, :) => null()     !< (mcrd, nnode, m)
     real(dp), pointer, contiguous :: statev(:, :, :) => null()     !< (NSTATV, points, m)
@@ -56,8 +57,8 @@ contains
         current%point = point
         call begin_call(current%element)
         coords = 0
-        if (pass%solid) then
-          coords = point_position(size(pass%statev, 2), int(point), pass%coords(:, :, e))
+        if (pass%family > 0) then
+          coords = point_position(rule_of(pass%family, size(pass%statev, 2)), int(point), pass%coords(:, :, e))
         else
           coords(:size(pass%coords, 1)) = sum(pass%coords(:, :, e), dim=2)/size(pass%coords, 2)
         end if

@@ -1,14 +1,21 @@
 ! SPDX-FileCopyrightText: The uel-harness authors
 ! SPDX-License-Identifier: BSD-3-Clause
-!> Shape functions and integration points of the built-in continuum elements and their faces: lines of 2 and 3 nodes,
-!> triangles of 3 and 6, quadrilaterals of 4 and 8, tetrahedra of 4, hexahedra of 8 and 20, numbered as in Abaqus.
+!> Shape functions and integration points of the built-in continuum elements and their faces.
+!>
+!> A family is a cell with its interpolation. Families have the numbers of harness/model/element_types.py, and nodes in the
+!> order of Abaqus: corners, then the middles of the edges. What else there is to know of an element type stands there.
 module host_shape
-  use host_kinds, only: dp
+  use host_kinds, only: dp, i4
+  use host_messages, only: add_message
+  use host_protect, only: escape
   implicit none (type, external)
   private
-  public :: rule_t, rule_of, radius_of, hourglass_shapes
+  public :: line2, quad4, rule_t, rule_of, find_rule, is_quadratic, is_multilinear, radius_of, hourglass_shapes
 
-  !> Parent coordinates of the nodes: corners, then the middles of the edges.
+  integer, parameter :: line2 = 1, line3 = 2, tri3 = 3, tri6 = 4, quad4 = 5, quad8 = 6, tet4 = 7, hex8 = 8, hex20 = 9
+  integer, parameter :: families = hex20, most_points = 27
+
+  !> Parent coordinates of the nodes of lines, quadrilaterals and hexahedra.
   integer, parameter :: line(3) = [-1, 1, 0]
   integer, parameter :: quad(2, 8) = reshape([-1, -1, 1, -1, 1, 1, -1, 1, 0, -1, 1, 0, 0, 1, -1, 0], [2, 8])
   integer, parameter :: hex(3, 20) = reshape([ &
@@ -16,42 +23,102 @@ module host_shape
     0, -1, -1, 1, 0, -1, 0, 1, -1, -1, 0, -1, 0, -1, 1, 1, 0, 1, 0, 1, 1, -1, 0, 1, &
     -1, -1, 0, 1, -1, 0, 1, 1, 0, -1, 1, 0], [3, 20])
 
-  !> Integration points of an element type, points counted along the first direction first.
+  !> Integration points of a family, counted along the first direction first.
   type :: rule_t
-    integer :: dim = 0, nodes = 0, points = 0
+    integer :: family = 0, dim = 0, nodes = 0, corners = 0, points = 0
     real(dp), allocatable :: weight(:)      !< (points)
     real(dp), allocatable :: n(:, :)        !< (nodes, points) shape functions
     real(dp), allocatable :: dn(:, :, :)    !< (nodes, dim, points) their derivatives by the parent coordinates
   end type rule_t
 
-  !> Rules asked for so far: they are the same for all elements of a type.
-  integer, parameter :: most = 32
-  type(rule_t), save, target :: rules(most)
-  integer, save :: known = 0
+  !> Rules asked for so far, by family and number of points.
+  type(rule_t), save, target :: rules(families, most_points)
 
 contains
 
-  !> The rule of an element type.
-  function rule_of(dim, nodes, points) result(rule)
-    integer, intent(in) :: dim, nodes, points
+  !> The rule of a family. Leaves the pass where there is none.
+  function rule_of(family, points) result(rule)
+    integer, intent(in) :: family, points
     type(rule_t), pointer :: rule
-    real(dp) :: parent(dim)
-    integer :: k, p
-    do k = 1, known
-      rule => rules(k)
-      if (rule%nodes == nodes .and. rule%points == points .and. rule%dim == dim) return
-    end do
-    known = known + 1
-    rule => rules(known)
-    rule%dim = dim
-    rule%nodes = nodes
-    rule%points = points
-    allocate (rule%weight(points), rule%n(nodes, points), rule%dn(nodes, dim, points))
-    do p = 1, points
-      call integration_point(dim, nodes, points, p, parent, rule%weight(p))
-      call shape_functions(dim, nodes, parent, rule%n(:, p), rule%dn(:, :, p))
-    end do
+    character(len=80) :: text
+    call find_rule(family, points, rule)
+    if (associated(rule)) return
+    write (text, '(a,i0,a,i0,a)') 'family ', family, ' with ', points, ' integration points is not known to the host'
+    call add_message(-3_i4, trim(text))
+    call escape()
   end function rule_of
+
+  !> The rule of a family, not associated where there is none.
+  subroutine find_rule(family, points, rule)
+    integer, intent(in) :: family, points
+    type(rule_t), pointer, intent(out) :: rule
+    real(dp), allocatable :: parent(:, :), weight(:)
+    integer :: dim, nodes, p
+    logical :: known
+    nullify (rule)
+    if (min(family, points) < 1 .or. family > families .or. points > most_points) return
+    if (.not. allocated(rules(family, points)%weight)) then
+      dim = sizes_of(family, 1)
+      nodes = sizes_of(family, 2)
+      allocate (parent(dim, points), weight(points))
+      call integration_points(family, points, parent, weight, known)
+      if (.not. known) return
+      associate (new => rules(family, points))
+        new%family = family
+        new%dim = dim
+        new%nodes = nodes
+        new%corners = sizes_of(family, 3)
+        new%points = points
+        allocate (new%n(nodes, points), new%dn(nodes, dim, points))
+        do p = 1, points
+          call shape_functions(family, parent(:, p), new%n(:, p), new%dn(:, :, p))
+        end do
+        call move_alloc(weight, new%weight)
+      end associate
+    end if
+    rule => rules(family, points)
+  end subroutine find_rule
+
+  !> Dimension, nodes or corners of a family.
+  pure integer function sizes_of(family, which)
+    integer, intent(in) :: family, which
+    integer :: sizes(3)
+    select case (family)
+    case (line2)
+      sizes = [1, 2, 2]
+    case (line3)
+      sizes = [1, 3, 2]
+    case (tri3)
+      sizes = [2, 3, 3]
+    case (tri6)
+      sizes = [2, 6, 3]
+    case (quad4)
+      sizes = [2, 4, 4]
+    case (quad8)
+      sizes = [2, 8, 4]
+    case (tet4)
+      sizes = [3, 4, 4]
+    case (hex8)
+      sizes = [3, 8, 8]
+    case (hex20)
+      sizes = [3, 20, 8]
+    case default
+      sizes = 0
+    end select
+    sizes_of = sizes(which)
+  end function sizes_of
+
+  !> Whether there are nodes in the middle of the edges.
+  pure logical function is_quadratic(rule)
+    type(rule_t), intent(in) :: rule
+    is_quadratic = rule%nodes > rule%corners
+  end function is_quadratic
+
+  !> Quadrilaterals of four and hexahedra of eight nodes.
+  pure logical function is_multilinear(rule)
+    type(rule_t), intent(in) :: rule
+    is_multilinear = any(rule%family == [quad4, hex8])
+  end function is_multilinear
 
   !> Distance of a point from the axis (direction 2) where the element is axisymmetric, else 1.
   pure real(dp) function radius_of(rule, point, axisymmetric, x)
@@ -63,107 +130,138 @@ contains
     if (axisymmetric) radius_of = dot_product(x(1, :), rule%n(:, point))
   end function radius_of
 
-  !> Parent coordinates and weight of a point.
-  pure subroutine integration_point(dim, nodes, points, point, parent, weight)
-    integer, intent(in) :: dim, nodes, points, point
-    real(dp), intent(out) :: parent(dim), weight
-    real(dp), parameter :: two = 1/sqrt(3.0_dp), three = sqrt(0.6_dp), middle = 8.0_dp/9, outer = 5.0_dp/9
-    integer :: i, k, rest, along
-    if (nodes == dim + 1 .and. points == 1) then
-      parent = 1.0_dp/nodes
-      weight = merge(0.5_dp, 1.0_dp/6, dim == 2)
-      return
-    end if
-    if (dim == 2 .and. (nodes == 3 .or. nodes == 6)) then
-      call triangle_point(points, point, parent, weight)
-      return
-    end if
-    along = nint(real(points, dp)**(1.0_dp/dim))
-    rest = point - 1
-    weight = 1
-    do i = 1, dim
-      k = mod(rest, along)
-      rest = rest/along
-      select case (along)
-      case (1)
-        parent(i) = 0
-        weight = 2*weight
-      case (2)
-        parent(i) = (2*k - 1)*two
-      case default
-        parent(i) = (k - 1)*three
-        weight = weight*merge(middle, outer, k == 1)
-      end select
-    end do
-  end subroutine integration_point
+  !> Parent coordinates (dimension, points) and weights; known is false where a family has no such rule.
+  pure subroutine integration_points(family, points, parent, weight, known)
+    integer, intent(in) :: family, points
+    real(dp), intent(out) :: parent(:, :), weight(:)
+    logical, intent(out) :: known
+    select case (family)
+    case (line2, line3, quad4, quad8, hex8, hex20)
+      call gauss_points(parent, weight, known)
+    case (tri3, tri6)
+      call triangle_points(points, parent, weight, known)
+    case (tet4)
+      known = points == 1
+      parent = 0.25_dp
+      weight = 1.0_dp/6
+    case default
+      known = .false.
+    end select
+  end subroutine integration_points
 
-  !> A point of a triangle: of three, exact for polynomials of degree 2, or of six for those of degree 4 (D.A. Dunavant,
+  !> One, two or three Gauss points in each direction.
+  pure subroutine gauss_points(parent, weight, known)
+    real(dp), intent(out) :: parent(:, :), weight(:)
+    logical, intent(out) :: known
+    real(dp), parameter :: two = 1/sqrt(3.0_dp), three = sqrt(0.6_dp), middle = 8.0_dp/9, outer = 5.0_dp/9
+    integer :: along, i, k, p, rest
+    along = nint(real(size(weight), dp)**(1.0_dp/size(parent, 1)))
+    known = along <= 3 .and. along**size(parent, 1) == size(weight)
+    do p = 1, size(weight)
+      rest = p - 1
+      weight(p) = 1
+      do i = 1, size(parent, 1)
+        k = mod(rest, along)
+        rest = rest/along
+        select case (along)
+        case (1)
+          parent(i, p) = 0
+          weight(p) = 2*weight(p)
+        case (2)
+          parent(i, p) = (2*k - 1)*two
+        case default
+          parent(i, p) = (k - 1)*three
+          weight(p) = weight(p)*merge(middle, outer, k == 1)
+        end select
+      end do
+    end do
+  end subroutine gauss_points
+
+  !> Points of a triangle: its middle, three, exact for polynomials of degree 2, or six for those of degree 4 (D.A. Dunavant,
   !> Int. J. for Numerical Methods in Engineering 21 (1985) 1129).
-  pure subroutine triangle_point(points, point, parent, weight)
-    integer, intent(in) :: points, point
-    real(dp), intent(out) :: parent(2), weight
+  pure subroutine triangle_points(points, parent, weight, known)
+    integer, intent(in) :: points
+    real(dp), intent(out) :: parent(:, :), weight(:)
+    logical, intent(out) :: known
     real(dp), parameter :: near(3) = [1.0_dp/6, 0.445948490915965_dp, 0.091576213509771_dp]
     real(dp), parameter :: area(3) = [1.0_dp/3, 0.223381589678011_dp, 0.109951743655322_dp]
-    integer :: kind
-    kind = 1
-    if (points == 6) kind = merge(2, 3, point <= 3)
-    weight = 0.5_dp*area(kind)
-    parent = near(kind)
-    if (mod(point, 3) == 2) parent(1) = 1 - 2*near(kind)
-    if (mod(point, 3) == 0) parent(2) = 1 - 2*near(kind)
-  end subroutine triangle_point
-
-  !> Quadratic functions of a triangle: corners, then the middles of the edges.
-  pure subroutine triangle_functions(parent, n, dn)
-    real(dp), intent(in) :: parent(2)
-    real(dp), intent(out) :: n(6), dn(6, 2)
-    real(dp), parameter :: slope(3, 2) = reshape([-1.0_dp, 1.0_dp, 0.0_dp, -1.0_dp, 0.0_dp, 1.0_dp], [3, 2])
-    real(dp) :: area(3)
-    integer :: k, next
-    area = [1 - sum(parent), parent]
-    do k = 1, 3
-      next = mod(k, 3) + 1
-      n(k) = area(k)*(2*area(k) - 1)
-      dn(k, :) = (4*area(k) - 1)*slope(k, :)
-      n(3 + k) = 4*area(k)*area(next)
-      dn(3 + k, :) = 4*(area(k)*slope(next, :) + area(next)*slope(k, :))
+    integer :: kind, p
+    known = any(points == [1, 3, 6])
+    parent = 1.0_dp/3
+    weight = 0.5_dp
+    if (points == 1) return
+    do p = 1, points
+      kind = 1
+      if (points == 6) kind = merge(2, 3, p <= 3)
+      weight(p) = 0.5_dp*area(kind)
+      parent(:, p) = near(kind)
+      if (mod(p, 3) == 2) parent(1, p) = 1 - 2*near(kind)
+      if (mod(p, 3) == 0) parent(2, p) = 1 - 2*near(kind)
     end do
-  end subroutine triangle_functions
+  end subroutine triangle_points
 
   !> Shape functions and their derivatives by the parent coordinates.
-  pure subroutine shape_functions(dim, nodes, parent, n, dn)
-    integer, intent(in) :: dim, nodes
-    real(dp), intent(in) :: parent(dim)
-    real(dp), intent(out) :: n(nodes), dn(nodes, dim)
+  pure subroutine shape_functions(family, parent, n, dn)
+    integer, intent(in) :: family
+    real(dp), intent(in) :: parent(:)
+    real(dp), intent(out) :: n(:), dn(:, :)
     integer :: k
-    if (nodes == dim + 1 .and. dim > 1) then
-      n = [1 - sum(parent), parent]
+    select case (family)
+    case (line2, line3)
+      do k = 1, size(n)
+        call node_function(1, line(k:k), family == line3, parent, n(k), dn(k, :))
+      end do
+    case (quad4, quad8)
+      do k = 1, size(n)
+        call node_function(2, quad(:, k), family == quad8, parent, n(k), dn(k, :))
+      end do
+    case (hex8, hex20)
+      do k = 1, size(n)
+        call node_function(3, hex(:, k), family == hex20, parent, n(k), dn(k, :))
+      end do
+    case (tri3, tet4)
+      call simplex_functions(parent, n, dn)
+    case (tri6)
+      call quadratic_simplex(parent, n, dn)
+    case default   ! there are no points of other families
+      n = 0
       dn = 0
-      dn(1, :) = -1
-      do k = 1, dim
-        dn(k + 1, k) = 1
-      end do
-    else if (dim == 2 .and. nodes == 6) then
-      call triangle_functions(parent, n, dn)
-    else
-      do k = 1, nodes
-        call node_function(dim, node_at(dim, k), nodes > 2**dim, parent, n(k), dn(k, :))
-      end do
-    end if
+    end select
   end subroutine shape_functions
 
-  pure function node_at(dim, k) result(place)
-    integer, intent(in) :: dim, k
-    integer :: place(dim)
-    select case (dim)
-    case (1)
-      place = line(k)
-    case (2)
-      place = quad(:, k)
-    case default
-      place = hex(:, k)
-    end select
-  end function node_at
+  !> Linear functions of a triangle or tetrahedron.
+  pure subroutine simplex_functions(parent, n, dn)
+    real(dp), intent(in) :: parent(:)
+    real(dp), intent(out) :: n(:), dn(:, :)
+    integer :: k
+    n = [1 - sum(parent), parent]
+    dn = 0
+    dn(1, :) = -1
+    do k = 1, size(parent)
+      dn(k + 1, k) = 1
+    end do
+  end subroutine simplex_functions
+
+  !> Quadratic functions of a triangle.
+  pure subroutine quadratic_simplex(parent, n, dn)
+    real(dp), intent(in) :: parent(:)
+    real(dp), intent(out) :: n(:), dn(:, :)
+    integer, parameter :: ends(2, 3) = reshape([1, 2, 2, 3, 3, 1], [2, 3])
+    real(dp) :: linear(size(parent) + 1), slope(size(parent) + 1, size(parent))
+    integer :: corners, k
+    call simplex_functions(parent, linear, slope)
+    corners = size(linear)
+    do k = 1, corners
+      n(k) = linear(k)*(2*linear(k) - 1)
+      dn(k, :) = (4*linear(k) - 1)*slope(k, :)
+    end do
+    do k = 1, size(n) - corners
+      associate (a => ends(1, k), b => ends(2, k))
+        n(corners + k) = 4*linear(a)*linear(b)
+        dn(corners + k, :) = 4*(linear(a)*slope(b, :) + linear(b)*slope(a, :))
+      end associate
+    end do
+  end subroutine quadratic_simplex
 
   !> One function: a product over the directions, times a sum where there are middle nodes (serendipity family).
   pure subroutine node_function(dim, place, serendipity, parent, n, dn)

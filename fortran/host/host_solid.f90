@@ -1,13 +1,13 @@
 ! SPDX-FileCopyrightText: The uel-harness authors
 ! SPDX-License-Identifier: BSD-3-Clause
-!> Built-in continuum elements CPS3, CPS4, CPS4R, CPS6, CPS8 and CPS8R, CPE and CAX (axisymmetric) likewise, C3D4, C3D8,
-!> C3D8R, C3D20 and C3D20R, as a procedure with the arguments of UELMAT.
+!> Built-in continuum elements (CPS, CPE, CAX, C3D) as a procedure with the arguments of UELMAT. What types there are is in
+!> harness/model/element_types.py.
 !>
-!> JPROPS(1) is the number of integration points, JPROPS(2) that of direct strains (host_kinematics). CPE4, CAX4 and C3D8
-!> replace the volume strain of the points by its mean over the element, as Abaqus does. Elements of one point have the
-!> uniform strain, and with four or eight nodes hourglass control (host_hourglass): enhanced where JPROPS(3) is not zero,
-!> else with the stiffness parameter PROPS(3). PROPS(1) is the thickness, of axisymmetric elements the angle 2 pi; PROPS(2)
-!> is the density.
+!> JPROPS: family of the element (host_shape), integration points, direct strains (host_kinematics), enhanced hourglass
+!> control, integration points of the mass. CPE4, CAX4 and C3D8 replace the volume strain of the points by its mean over the
+!> element, as Abaqus does. CPS4R, CPE4R, CAX4R and C3D8R have the uniform strain and hourglass control (host_hourglass):
+!> enhanced where JPROPS(4) is not zero, else with the stiffness parameter PROPS(3). PROPS(1) is the thickness, of
+!> axisymmetric elements the angle 2 pi; PROPS(2) is the density.
 !>
 !> Large displacements: Cauchy stress, turned and extended increment by increment with the strain and the rotation at the
 !> middle of the increment (Jaumann rate; Hughes and Winget). The tangent leaves out the change of the volume and of the
@@ -29,7 +29,7 @@ module host_solid
   use host_kinematics, only: average_volume_strain, components, gradients, mean_gradients, point_position, rotated, &
                              rotation_of, strain_matrix
   use host_materials, only: elastic_energy, find_material, has_fields, material_t, set_constants, stress_update, thickness_strain
-  use host_shape, only: radius_of, rule_of, rule_t
+  use host_shape, only: is_multilinear, is_quadratic, radius_of, rule_of, rule_t
   use host_usdfld, only: call_usdfld
   implicit none (type, external)
   private
@@ -57,27 +57,27 @@ contains
     real(dp) :: rhs(*), amatrx(*), svars(*), energy(*), props(*), coords(*), u(*), du(*), v(*), a(*), params(*), dtime, predef(*)
     type(coupling_t), intent(inout), optional :: coupling
     type(material_t), pointer :: material
+    type(rule_t), pointer :: rule
     real(dp) :: mass(ndofel, ndofel), old(ndofel, 2)
-    integer :: dim, direct, nodes, points, first, last, n
-    dim = mcrd
-    nodes = nnode
-    points = jprops(1)
-    direct = jprops(2)
+    integer :: dim, direct, first, last, n
+    rule => rule_of(int(jprops(1)), int(jprops(2)))
+    dim = rule%dim
+    direct = jprops(3)
     n = ndofel
     material => find_material(materiallib)
-    first = points*values_of_point(dim) + 1
+    first = rule%points*values_of_point(dim) + 1
     last = first + 2*n - 1
     old = 0
     if (nsvars >= last) old = reshape(svars(first:last), [n, 2])
     if (any(lflags(3) == [4, 6]) .or. is_dynamic(lflags(1))) then
-      call mass_matrix(dim, nodes, direct > dim, props(2)*merge(props(1), 1.0_dp, dim == 2), coords, mass)
+      call mass_matrix(rule_of(int(jprops(1)), int(jprops(5))), direct > dim, props(2)*merge(props(1), 1.0_dp, dim == 2), &
+                       coords, mass)
     end if
     rhs(1:n*nrhs) = 0
     amatrx(1:n*n) = 0
     if (lflags(3) /= 3 .and. lflags(3) /= 4) then
-      call integrate(dim, direct, direct + 2*dim - 3, nodes, points, lflags(3) == initial_stresses, lflags(2) /= 0, material, &
-                     props(1), props(3), jprops(3) /= 0, coords, int(npredf), predef, u, du, rhs, amatrx, svars, energy, &
-                     coupling)
+      call integrate(rule, direct, direct + 2*dim - 3, lflags(3) == initial_stresses, lflags(2) /= 0, material, props(1), &
+                     props(3), jprops(4) /= 0, coords, int(npredf), predef, u, du, rhs, amatrx, svars, energy, coupling)
     end if
     call respond(n, lflags, params, dtime, v, a, mass, old, rhs, amatrx, energy(1))
     if (nsvars >= last) svars(first:last) = reshape(old, [2*n])
@@ -90,55 +90,60 @@ contains
   end function values_of_point
 
   !> Force, tangent, state and energies; begins: of the initial stresses, without a tangent.
-  subroutine integrate(dim, direct, strains, nodes, points, begins, finite, material, thickness, hourglass, enhanced, x, &
-                       fields, predef, u, du, force, stiffness, svars, energy, coupling)
-    integer, intent(in) :: dim, direct, strains, nodes, points, fields
+  subroutine integrate(rule, direct, strains, begins, finite, material, thickness, hourglass, enhanced, x, fields, predef, u, &
+                       du, force, stiffness, svars, energy, coupling)
+    type(rule_t), intent(in) :: rule
+    integer, intent(in) :: direct, strains, fields
     logical, intent(in) :: begins, finite, enhanced
     type(material_t), intent(inout) :: material
-    real(dp), intent(in) :: thickness, hourglass, x(dim, nodes), predef(2, fields, nodes), u(dim, nodes), du(dim, nodes)
-    real(dp), intent(inout) :: force(dim*nodes), stiffness(dim*nodes, dim*nodes), svars(values_of_point(dim), points)
-    real(dp), intent(inout) :: energy(8)
+    real(dp), intent(in) :: thickness, hourglass, predef(2, fields, rule%nodes)
+    real(dp), dimension(rule%dim, rule%nodes), intent(in) :: x, u, du
+    real(dp), intent(inout) :: force(rule%dim*rule%nodes), stiffness(rule%dim*rule%nodes, rule%dim*rule%nodes)
+    real(dp), intent(inout) :: svars(values_of_point(rule%dim), rule%points), energy(8)
     type(coupling_t), intent(inout), optional :: coupling
-    real(dp) :: now(dim, nodes), g(nodes, direct, points), b(dim*nodes, strains, points), volume(points)
-    real(dp) :: g_mid(nodes, direct, points), b_mid(dim*nodes, strains, points), volume_mid(points), weight, elastic, work
-    real(dp) :: g_start(nodes, direct), volume_start, deformation(3, 3, 2, points)
-    real(dp) :: strain(strains), stress(strains), modulus(strains, strains), thermal(2)
+    real(dp), dimension(rule%nodes, direct, rule%points) :: g, g_mid
+    real(dp), dimension(rule%dim*rule%nodes, strains, rule%points) :: b, b_mid
+    real(dp), dimension(rule%points) :: volume, volume_mid
+    real(dp) :: now(rule%dim, rule%nodes), g_start(rule%nodes, direct), volume_start, deformation(3, 3, 2, rule%points)
+    real(dp) :: strain(strains), stress(strains), modulus(strains, strains), thermal(2), weight, elastic, work
     logical :: averaged
-    integer :: p
+    integer :: dim, nodes, p
+    dim = rule%dim
+    nodes = rule%nodes
     ! full integration of elements with straight edges locks where volume is kept, but not in plane stress
-    averaged = points > 1 .and. nodes == 2**dim .and. material%ntens /= 3
+    averaged = rule%points > 1 .and. is_multilinear(rule) .and. material%ntens /= 3
     now = x
     if (finite) now = x + u
     ! the first pass of an analysis, without displacements, sees the initial shape
     current%deformed = finite .and. any(abs(u) > 0)
-    call all_gradients(dim, direct, strains, nodes, points, averaged, now, g, b, volume)
-    if (finite) call all_gradients(dim, direct, strains, nodes, points, averaged, now - 0.5_dp*du, g_mid, b_mid, volume_mid)
+    call all_gradients(rule, direct, strains, averaged, now, g, b, volume)
+    if (finite) call all_gradients(rule, direct, strains, averaged, now - 0.5_dp*du, g_mid, b_mid, volume_mid)
     g_start = g(:, :, 1)
     volume_start = volume(1)
-    if (finite .and. has_hourglass_modes(dim, nodes, points)) then
-      call mean_gradients(dim, direct, x, g_start, volume_start)
+    if (finite .and. has_hourglass_modes(rule)) then
+      call mean_gradients(rule%family, direct, x, g_start, volume_start)
       if (direct == 3) then
-        call carry(dim, direct, strains, g_start, u, g(:, :, 1), b(:, :, 1))
-        call carry(dim, direct, strains, g_start, u - 0.5_dp*du, g_mid(:, :, 1), b_mid(:, :, 1))
+        call carry(dim, direct, strains, nodes, g_start, u, g(:, :, 1), b(:, :, 1))
+        call carry(dim, direct, strains, nodes, g_start, u - 0.5_dp*du, g_mid(:, :, 1), b_mid(:, :, 1))
       end if
     end if
     elastic = 0
     work = energy(2) + energy(4)
-    if (has_fields(material)) current%length = size_of(dim, direct, nodes, points, now, volume)
+    if (has_fields(material)) current%length = size_of(rule, direct, now, volume)
     current%finite = finite
-    if (finite .and. allocated(material%user)) call find_deformation(dim, direct, nodes, points, averaged, x, u, du, deformation)
+    if (finite .and. allocated(material%user)) call find_deformation(rule, direct, averaged, x, u, du, deformation)
     thermal = 0
-    do p = 1, points
+    do p = 1, rule%points
       if (has_fields(material)) then
-        current%place = point_position(points, p, now)
-        call interpolate(dim, nodes, points, p, fields, predef, material%variables)
-        if (present(coupling)) call set_temperature(coupling, dim, direct, points, p, now)
+        current%place = point_position(rule, p, now)
+        call interpolate(rule, p, fields, predef, material%variables)
+        if (present(coupling)) call set_temperature(coupling, direct, rule%points, p, now)
       end if
       if (allocated(material%user_field) .and. .not. begins) then
         call call_usdfld(material%user_field, material%ntens, int(p, i4), material%axes, svars(:, p))
       end if
       if (allocated(material%dependence)) call set_constants(material, p)
-      if (abs(material%expansion) > 0) thermal = thermal_strain(dim, nodes, points, p, fields, material%expansion, predef)
+      if (abs(material%expansion) > 0) thermal = thermal_strain(rule, p, fields, material%expansion, predef)
       if (finite) then
         current%rotation = rotation_of(gradient_of(dim, direct, nodes, du, g_mid(:, :, p)))
         call find_strain(dim*nodes, strains, b_mid(:, :, p), du, strain)
@@ -172,8 +177,8 @@ contains
     if (allocated(current%fields)) deallocate (current%fields)
     energy(2) = elastic
     energy(4) = work - elastic
-    if (has_hourglass_modes(dim, nodes, points)) then
-      call resist_hourglass(dim, g_start(:, :dim), volume_start*merge(thickness, 1.0_dp, dim == 2), hourglass, &
+    if (has_hourglass_modes(rule)) then
+      call resist_hourglass(rule, g_start(:, :dim), volume_start*merge(thickness, 1.0_dp, dim == 2), hourglass, &
                             enhanced_constants(material, enhanced), finite, x, u, force, stiffness, energy(6))
     end if
   end subroutine integrate
@@ -194,24 +199,22 @@ contains
   end function enhanced_constants
 
   !> A line across the element in its plane or in space, half of it where there are nodes in the middle of the edges.
-  function size_of(dim, direct, nodes, points, x, volume) result(length)
-    integer, intent(in) :: dim, direct, nodes, points
-    real(dp), intent(in) :: x(dim, nodes), volume(points)
+  pure function size_of(rule, direct, x, volume) result(length)
+    type(rule_t), intent(in) :: rule
+    integer, intent(in) :: direct
+    real(dp), intent(in) :: x(rule%dim, rule%nodes), volume(rule%points)
     real(dp) :: length
-    type(rule_t), pointer :: rule
     integer :: p
-    rule => rule_of(dim, nodes, points)
-    length = sum([(volume(p)/radius_of(rule, p, direct > dim, x), p=1, points)])**(1.0_dp/dim)
-    if (nodes > 2**dim) length = length/2
+    length = sum([(volume(p)/radius_of(rule, p, direct > rule%dim, x), p=1, rule%points)])**(1.0_dp/rule%dim)
+    if (is_quadratic(rule)) length = length/2
   end function size_of
 
   !> Temperature and field variables of a point; of the latter as many as the material has, at least.
-  subroutine interpolate(dim, nodes, points, point, fields, predef, least)
-    integer, intent(in) :: dim, nodes, points, point, fields, least
-    real(dp), intent(in) :: predef(2, fields, nodes)
-    type(rule_t), pointer :: rule
+  subroutine interpolate(rule, point, fields, predef, least)
+    type(rule_t), intent(in) :: rule
+    integer, intent(in) :: point, fields, least
+    real(dp), intent(in) :: predef(2, fields, rule%nodes)
     integer :: k
-    rule => rule_of(dim, nodes, points)
     if (allocated(current%fields)) deallocate (current%fields)
     allocate (current%fields(max(fields - 1, least + 1), 2), source=0.0_dp)
     do k = 1, fields - 1
@@ -221,12 +224,11 @@ contains
   end subroutine interpolate
 
   !> Thermal strain at the start and at the end of the increment.
-  function thermal_strain(dim, nodes, points, point, fields, expansion, predef) result(strain)
-    integer, intent(in) :: dim, nodes, points, point, fields
-    real(dp), intent(in) :: expansion, predef(2, fields, nodes)
-    real(dp) :: strain(2), change(nodes)
-    type(rule_t), pointer :: rule
-    rule => rule_of(dim, nodes, points)
+  pure function thermal_strain(rule, point, fields, expansion, predef) result(strain)
+    type(rule_t), intent(in) :: rule
+    integer, intent(in) :: point, fields
+    real(dp), intent(in) :: expansion, predef(2, fields, rule%nodes)
+    real(dp) :: strain(2), change(rule%nodes)
     change = predef(1, 1, :) - predef(1, fields, :)
     strain(2) = expansion*dot_product(change, rule%n(:, point))
     strain(1) = strain(2) - expansion*dot_product(predef(2, 1, :), rule%n(:, point))
@@ -243,39 +245,51 @@ contains
   end subroutine find_strain
 
   !> Gradients, strain matrices and volumes of all points.
-  subroutine all_gradients(dim, direct, strains, nodes, points, averaged, x, g, b, volume)
-    integer, intent(in) :: dim, direct, strains, nodes, points
+  subroutine all_gradients(rule, direct, strains, averaged, x, g, b, volume)
+    type(rule_t), intent(in) :: rule
+    integer, intent(in) :: direct, strains
     logical, intent(in) :: averaged
-    real(dp), intent(in) :: x(dim, nodes)
-    real(dp), intent(out) :: g(nodes, direct, points), b(dim*nodes, strains, points), volume(points)
+    real(dp), intent(in) :: x(rule%dim, rule%nodes)
+    real(dp), intent(out) :: g(rule%nodes, direct, rule%points), b(rule%dim*rule%nodes, strains, rule%points)
+    real(dp), intent(out) :: volume(rule%points)
     integer :: p
-    do p = 1, points
-      if (points == 1 .and. nodes == 2**dim) then
-        call mean_gradients(dim, direct, x, g(:, :, p), volume(p))
-      else
-        call gradients(dim, direct, nodes, points, p, x, g(:, :, p), volume(p))
-      end if
-      call strain_matrix(dim, direct, nodes, g(:, :, p), b(:, :, p))
+    do p = 1, rule%points
+      call point_gradients(rule, direct, p, x, g(:, :, p), volume(p))
+      call strain_matrix(rule%dim, direct, rule%nodes, g(:, :, p), b(:, :, p))
     end do
-    if (averaged) call average_volume_strain(direct, dim*nodes, strains, points, volume, b)
+    if (averaged) call average_volume_strain(direct, rule%dim*rule%nodes, strains, rule%points, volume, b)
   end subroutine all_gradients
+
+  !> Gradients and volume of a point: those at the point, or their mean where the only one stands for all of a
+  !> quadrilateral or hexahedron.
+  subroutine point_gradients(rule, direct, point, x, g, volume)
+    type(rule_t), intent(in) :: rule
+    integer, intent(in) :: direct, point
+    real(dp), intent(in) :: x(rule%dim, rule%nodes)
+    real(dp), intent(out) :: g(rule%nodes, direct), volume
+    if (has_hourglass_modes(rule)) then
+      call mean_gradients(rule%family, direct, x, g, volume)
+    else
+      call gradients(rule, direct, point, x, g, volume)
+    end if
+  end subroutine point_gradients
 
   !> With large displacements elements of one point take the shape of the strain from the mean deformation gradient
   !> F = 1 + u g_start, so that the gradients are those before any displacement times its inverse; and its volume from
   !> the mean of the gradients now, the difference in equal parts to the directions of the displacements. So does Abaqus
   !> R2018x (reactions of C3D8RT and CAX4RT); in the plane the two are the same.
-  pure subroutine carry(dim, direct, strains, g_start, u, g, b)
-    integer, intent(in) :: dim, direct, strains
-    real(dp), intent(in) :: g_start(2**dim, direct), u(dim, 2**dim)
-    real(dp), intent(inout) :: g(2**dim, direct), b(dim, 2**dim, strains)     !< on entry the mean now
-    real(dp) :: f(3, 3), c(3, 3), change(dim, 2**dim)
+  pure subroutine carry(dim, direct, strains, nodes, g_start, u, g, b)
+    integer, intent(in) :: dim, direct, strains, nodes
+    real(dp), intent(in) :: g_start(nodes, direct), u(dim, nodes)
+    real(dp), intent(inout) :: g(nodes, direct), b(dim, nodes, strains)     !< on entry the mean now
+    real(dp) :: f(3, 3), c(3, 3), change(dim, nodes)
     integer :: i
     change = sum(b(:, :, :direct), 3)
-    f = identity + gradient_of(dim, direct, 2**dim, u, g_start)
+    f = identity + gradient_of(dim, direct, nodes, u, g_start)
     c = cofactors(f)/determinant(f)
     g(:, :dim) = matmul(g_start(:, :dim), transpose(c(:dim, :dim)))
     if (direct > dim) g(:, direct) = g_start(:, direct)/f(3, 3)
-    call strain_matrix(dim, direct, 2**dim, g, b)
+    call strain_matrix(dim, direct, nodes, g, b)
     change = (change - sum(b(:, :, :direct), 3))/dim
     do i = 1, dim
       b(:, :, i) = b(:, :, i) + change
@@ -294,30 +308,27 @@ contains
 
   !> Deformation gradients of all points at both ends of the increment, for UMAT; with the mean change of volume where it
   !> is averaged.
-  subroutine find_deformation(dim, direct, nodes, points, averaged, x, u, du, f)
-    integer, intent(in) :: dim, direct, nodes, points
+  subroutine find_deformation(rule, direct, averaged, x, u, du, f)
+    type(rule_t), intent(in) :: rule
+    integer, intent(in) :: direct
     logical, intent(in) :: averaged
-    real(dp), intent(in) :: x(dim, nodes), u(dim, nodes), du(dim, nodes)
-    real(dp), intent(out) :: f(3, 3, 2, points)
-    real(dp) :: g(nodes, direct), volume, total, swept(2)
+    real(dp), dimension(rule%dim, rule%nodes), intent(in) :: x, u, du
+    real(dp), intent(out) :: f(3, 3, 2, rule%points)
+    real(dp) :: g(rule%nodes, direct), volume, total, swept(2)
     integer :: p, k
     total = 0
     swept = 0
-    do p = 1, points
-      if (points == 1 .and. nodes == 2**dim) then
-        call mean_gradients(dim, direct, x, g, volume)
-      else
-        call gradients(dim, direct, nodes, points, p, x, g, volume)
-      end if
-      f(:, :, 1, p) = identity + gradient_of(dim, direct, nodes, u - du, g)
-      f(:, :, 2, p) = identity + gradient_of(dim, direct, nodes, u, g)
+    do p = 1, rule%points
+      call point_gradients(rule, direct, p, x, g, volume)
+      f(:, :, 1, p) = identity + gradient_of(rule%dim, direct, rule%nodes, u - du, g)
+      f(:, :, 2, p) = identity + gradient_of(rule%dim, direct, rule%nodes, u, g)
       total = total + volume
       do k = 1, 2
         swept(k) = swept(k) + volume*determinant(f(:, :, k, p))
       end do
     end do
     if (.not. averaged) return
-    do p = 1, points
+    do p = 1, rule%points
       do k = 1, 2
         f(:direct, :direct, k, p) = f(:direct, :direct, k, p)*(swept(k)/total/determinant(f(:, :, k, p)))**(1.0_dp/direct)
       end do

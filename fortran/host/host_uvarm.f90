@@ -7,6 +7,7 @@ module host_uvarm
   use host_kinds, only: dp, i4
   use host_protect, only: begin_call, protect
   use host_kinematics, only: point_position
+  use host_shape, only: rule_of
   use host_umat, only: direct_components
   implicit none (type, external)
   private
@@ -28,6 +29,7 @@ module host_uvarm
     character(len=80) :: material = ' ', orientation = ' '
     real(dp) :: axes(3, 3) = 0            !< rows: directions of the material
     integer(i4) :: tensor = 0, statev = 0, kstep = 0, kinc = 0
+    integer :: family = 0                 !< of the elements (host_shape)
     real(dp) :: time(2) = 0, dtime = 0    !< start of the increment
     integer(i4), pointer, contiguous :: labels(:) => null()
     real(dp), pointer, contiguous :: coords(:, :, :) => null()     !< (mcrd, nnode, m)
@@ -85,7 +87,7 @@ contains
     t = direct
     time = pass%time
     dtime = pass%dtime
-    coord = point_position(size(pass%uvar, 2), int(point), x)
+    coord = point_position(rule_of(pass%family, size(pass%uvar, 2)), int(point), x)
     cmname = pass%material
     orname = pass%orientation
     nuvarm = size(uvar, kind=i4)

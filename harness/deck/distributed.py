@@ -13,21 +13,13 @@ from harness.deck.initial import field_number
 from harness.deck.prescribed import HARMONIC, LOAD, Prescription
 from harness.deck.surfaces import face_nodes
 from harness.deck.table import Keyword, Kind, Option, Where, refused
+from harness.model.element_types import BODY_FORCES, ContinuumType, Direction
 from harness.model.mesh import ElementGroup
 from harness.model.steps import DistributedLoad, ElementLoad, Load, LoadKind, LoadType
 
-Direction = tuple[float, float, float]
 _USER_LOAD = re.compile(r"U([1-9]\d{0,3})(NU)?")
 _BY_DLOAD = re.compile(r"(P\d|B[XYZR])NU")
 _NO_DIRECTION: Direction = (0.0, 0.0, 0.0)
-_PLANE_BODY: dict[str, Direction] = {"BX": (1.0, 0.0, 0.0), "BY": (0.0, 1.0, 0.0)}
-_BODY: dict[str, dict[str, Direction]] = {
-    "CPS": _PLANE_BODY,
-    "CPE": _PLANE_BODY,
-    "CAX": {"BR": (1.0, 0.0, 0.0), "BZ": (0.0, 1.0, 0.0)},
-    "C3D": _PLANE_BODY | {"BZ": (0.0, 0.0, 1.0)},
-}
-"""Directions of body forces by the beginnings of the names of continuum elements."""
 _SURFACE = ("P", "TRVEC", "TRSHR")
 
 
@@ -45,9 +37,9 @@ def read_distributed(block: Block, prescription: Prescription) -> list[Distribut
             given = label.removesuffix("NU") if by_user else label
             kind, face, direction = _volume_load(row, given)
             for group, positions in prescription.surfaces.by_group(elements):
-                _check_solid(row, label, group)
+                solid = _solid(row, label, group)
                 if kind is LoadKind.BODY:
-                    direction = _body_direction(row, given, group)
+                    direction = _body_direction(row, given, solid)
                 jltyp = _jltyp(face, direction) if by_user else 0
                 nodes = face_nodes(group, face, row.source, block.name) if face else ()
                 kept = LoadType(kind, nodes, direction, follows=kind is LoadKind.PRESSURE, jltyp=jltyp)
@@ -70,8 +62,9 @@ def _jltyp(face: str, direction: Direction) -> int:
 def _volume_load(row: Row, label: str) -> tuple[LoadKind, str, Direction]:
     """Kind, face ('' for a volume) and direction of a load type of *DLOAD; body forces have it by element."""
     match = re.fullmatch(r"P(\d)", label)
-    if match is None and label != "GRAV" and not any(label in body for body in _BODY.values()):
-        supported = "Un and UnNU on user elements; Pn, BX, BY, BZ, BR, those with NU, and GRAV on built-in solids"
+    if match is None and label != "GRAV" and label not in BODY_FORCES:
+        forces = ", ".join(BODY_FORCES)
+        supported = f"Un and UnNU on user elements; Pn, {forces}, those with NU, and GRAV on built-in solids"
         raise row.error(f"load type {label} is not supported (supported: {supported})")
     row.at_most(6 if label == "GRAV" else 3)
     if label == "GRAV":
@@ -81,10 +74,10 @@ def _volume_load(row: Row, label: str) -> tuple[LoadKind, str, Direction]:
     return LoadKind.PRESSURE, f"S{match[1]}", _NO_DIRECTION
 
 
-def _body_direction(row: Row, label: str, group: ElementGroup) -> Direction:
-    known = _BODY[group.type[:3]]
+def _body_direction(row: Row, label: str, solid: ContinuumType) -> Direction:
+    known = solid.body_forces
     if label not in known:
-        raise row.error(f"load type {label} on elements of type {group.type}, whose body forces are {', '.join(known)}")
+        raise row.error(f"load type {label} on elements of type {solid.name}, whose body forces are {', '.join(known)}")
     return known[label]
 
 
@@ -103,7 +96,7 @@ def read_surface_loads(block: Block, prescription: Prescription) -> list[Element
         magnitude = row.real(2, "magnitude", 0.0)
         for elements, face, place in prescription.surfaces.faces(row.name(0, "surface"), row.source):
             for group, positions in prescription.surfaces.by_group(elements):
-                _check_solid(row, label, group)
+                _solid(row, label, group)
                 nodes = face_nodes(group, face, place, "SURFACE")
                 kept = LoadType(kind, nodes, direction, follows=follower or kind is LoadKind.PRESSURE)
                 found.append(ElementLoad(positions, kept, magnitude, amplitude, row.source, imaginary))
@@ -120,9 +113,12 @@ def _direction(row: Row, label: str) -> Direction:
     return x, y, z
 
 
-def _check_solid(row: Row, label: str, group: ElementGroup) -> None:
-    if group.definition is not None or not group.type.startswith(tuple(_BODY)):
+def _solid(row: Row, label: str, group: ElementGroup) -> ContinuumType:
+    """The type of a group of continuum elements. Raises DeckError for others."""
+    kind = group.built_in
+    if not isinstance(kind, ContinuumType):
         raise row.error(f"load type {label} on elements of type {group.type}, which are no built-in continuum elements")
+    return kind
 
 
 def read_fields(block: Block, prescription: Prescription) -> list[Load]:

@@ -5,6 +5,9 @@
 from __future__ import annotations
 
 from harness.deck.table import Keyword, Kind, Option, Where, ignored, refused
+from harness.model.element_types import HOURGLASS_CONTROLLED
+
+_CONTROLLED = ", ".join(HOURGLASS_CONTROLLED)
 
 COHESIVE = (
     Keyword(
@@ -36,8 +39,8 @@ COHESIVE = (
     ),
     Keyword(
         "SECTION CONTROLS",
-        "Deletion, largest damage and viscosity of cohesive elements; hourglass control of CPS4R, CPE4R, CAX4R, "
-        "C3D8R and those with temperatures. STIFFNESS is that of *HOURGLASS STIFFNESS. ENHANCED is the assumed "
+        f"Deletion, largest damage and viscosity of cohesive elements; hourglass control of {_CONTROLLED} "
+        "and those with temperatures. STIFFNESS is that of *HOURGLASS STIFFNESS. ENHANCED is the assumed "
         "strain stabilization of Belytschko and Bindeman (1991, 1993), with which rectangles and bricks bend "
         "exactly; that Abaqus has the same numbers is inferred from its manual, which names the method, and a "
         "warning says so. It takes *ELASTIC, TYPE=ISOTROPIC that depends on nothing, and no axisymmetric elements.",

@@ -5,6 +5,7 @@
 from __future__ import annotations
 
 from harness.deck.table import Keyword, Kind, Option, Support, Where, ignored, refused
+from harness.model.element_types import HOURGLASS_CONTROLLED
 
 _ELSET = Option("ELSET", Kind.NAME, "element set", required=True)
 _REF_NODE = Option("REF NODE", Kind.NAME, "reference node, or set of one node", required=True)
@@ -25,11 +26,11 @@ DISCRETE = (
     Keyword("MASS", "Point masses.", Where.MODEL, (_ELSET, *refused("ALPHA", "ORIENTATION", "TYPE")), "mass"),
     Keyword(
         "HOURGLASS STIFFNESS",
-        "Hourglass stiffness parameter r of CPS4R, CPE4R, CAX4R, C3D8R and those with temperatures, of the *SOLID "
-        "SECTION before. With mean gradients B and volume V before any displacement the stiffness per squared "
-        "hourglass displacement q is r V sum(B^2)/16 in the plane, in direction i of space 0.2357 r V sum(B_i^2); "
-        "with NLGEOM F^T q takes the place of q, F the mean deformation gradient. Results of Abaqus R2018x and "
-        "2024 show it for square CPS4R, skewed CAX4RT and skewed C3D8RT; for CPE4R and skewed CPS4R it is inferred "
+        f"Hourglass stiffness parameter r of {', '.join(HOURGLASS_CONTROLLED)} and those with temperatures, "
+        "of the *SOLID SECTION before. With mean gradients B and volume V before any displacement the stiffness per "
+        "squared hourglass displacement q is r V sum(B^2)/16 in the plane, in direction i of space 0.2357 r V "
+        "sum(B_i^2); with NLGEOM F^T q takes the place of q, F the mean deformation gradient. Results of Abaqus R2018x "
+        "and 2024 show it for square CPS4R, skewed CAX4RT and skewed C3D8RT; for CPE4R and skewed CPS4R it is inferred "
         "from CAX4RT.",
         Where.MODEL,
         data="stiffness parameter in place of 0.005 times the shear modulus; further entries are not read",

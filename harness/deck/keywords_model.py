@@ -7,6 +7,7 @@ from __future__ import annotations
 from harness.deck.keywords_cohesive import COHESIVE, DAMAGE
 from harness.deck.keywords_constraint import CONSTRAINTS, DISCRETE
 from harness.deck.table import Keyword, Kind, Option, Where, ignored, refused
+from harness.model.element_types import BUILT_IN
 
 INPUT = Option("INPUT", Kind.FILE, "file that holds the data lines")
 NAME = Option("NAME", Kind.NAME, "name", required=True)
@@ -66,10 +67,7 @@ MESH = (
             Option(
                 "TYPE",
                 Kind.NAME,
-                "Un; or built in: CPS3, CPS4, CPS4R, CPS6, CPS8, CPS8R, CPE3, CPE4, CPE4R, CPE6, CPE8, CPE8R, CAX3, "
-                "CAX4, CAX4R, CAX6, CAX8, CAX8R, C3D4, C3D8, C3D8R, C3D20, C3D20R, CPS3T, CPS4T, CPS4RT, CPS8T, "
-                "CPS8RT, CPE3T, CPE4T, CPE4RT, CPE8T, CPE8RT, CAX3T, CAX4T, CAX4RT, CAX8T, CAX8RT, C3D4T, C3D8T, "
-                "C3D8RT, C3D20T, C3D20RT, COH2D4, COH3D8, T2D2, T3D2, SPRING1, SPRING2, SPRINGA, MASS",
+                f"Un; or built in: {', '.join(BUILT_IN)}",
                 required=True,
             ),
             Option("ELSET", Kind.NAME, "set that takes the elements"),

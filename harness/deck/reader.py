@@ -87,5 +87,5 @@ def _active_dofs(groups: tuple[ElementGroup, ...]) -> frozenset[int]:
     """Dofs that some element uses."""
     used: set[int] = set()
     for group in groups:
-        used |= dofs_of(group.type, group.definition)
+        used |= dofs_of(group)
     return frozenset(used)

@@ -13,27 +13,8 @@ from harness.deck.flatten import FlatMesh
 from harness.deck.problems import nearest
 from harness.errors import DeckError, Source
 from harness.model.arrays import IntArray
+from harness.model.element_types import ContinuumType
 from harness.model.mesh import ElementGroup
-
-_QUAD: dict[str, tuple[int, ...]] = {"S1": (0, 1, 4), "S2": (1, 2, 5), "S3": (2, 3, 6), "S4": (3, 0, 7)}
-_HEX: dict[str, tuple[int, ...]] = {
-    "S1": (0, 1, 2, 3, 8, 9, 10, 11),
-    "S2": (4, 5, 6, 7, 12, 13, 14, 15),
-    "S3": (0, 1, 5, 4, 8, 17, 12, 16),
-    "S4": (1, 2, 6, 5, 9, 18, 13, 17),
-    "S5": (2, 3, 7, 6, 10, 19, 14, 18),
-    "S6": (3, 0, 4, 7, 11, 16, 15, 19),
-}
-_FACES: dict[tuple[int, int], dict[str, tuple[int, ...]]] = {
-    (2, 3): {"S1": (0, 1), "S2": (1, 2), "S3": (2, 0)},
-    (2, 6): {"S1": (0, 1, 3), "S2": (1, 2, 4), "S3": (2, 0, 5)},
-    (2, 4): _QUAD,
-    (2, 8): _QUAD,
-    (3, 4): {"S1": (0, 1, 2), "S2": (0, 1, 3), "S3": (1, 2, 3), "S4": (0, 2, 3)},
-    (3, 8): _HEX,
-    (3, 20): _HEX,
-}
-"""Nodes of the faces of continuum elements by dimension and number of nodes; middle nodes where there are some."""
 
 
 class Surfaces:
@@ -111,11 +92,11 @@ class Surfaces:
 
 def face_nodes(group: ElementGroup, face: str, source: Source, keyword: str) -> tuple[int, ...]:
     """Local nodes of a face of the elements of a group: corners, then middles of edges. Raises DeckError."""
-    count = group.nodes.shape[1]
+    kind = group.built_in
     faces = {}
-    if group.definition is None:
-        faces = _FACES.get((3 if group.type.startswith("C3D") else 2, count), {})
+    if isinstance(kind, ContinuumType):
+        faces = {f"S{number}": nodes for number, nodes in enumerate(kind.family.faces, start=1)}
     if face not in faces:
         known = ", ".join(faces) or "none"
         raise DeckError(source, f"*{keyword}: elements of type {group.type} have no face {face} (faces: {known})")
-    return tuple(node for node in faces[face] if node < count)
+    return faces[face]

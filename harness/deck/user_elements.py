@@ -12,25 +12,10 @@ from harness.deck.abaqus_elements import is_abaqus_element
 from harness.deck.blocks import Block
 from harness.deck.problems import nearest
 from harness.errors import DeckError, Source
+from harness.model.element_types import BUILT_IN
 from harness.model.mesh import ElementGroup
 from harness.model.properties import SpringSection, UserElement
 
-PLANE = ("CPS", "CPE", "CAX")
-"""Beginnings of the names of continuum elements that lie in a plane, CAX around direction 2."""
-_PLANE_NODES = {"3": 3, "4": 4, "4R": 4, "6": 6, "8": 8, "8R": 8}
-_SOLID_NODES = {
-    **{f"{kind}{name}": nodes for kind in PLANE for name, nodes in _PLANE_NODES.items()},
-    **{"C3D4": 4, "C3D8": 8, "C3D8R": 8, "C3D20": 20, "C3D20R": 20},
-}
-_COUPLED_NODES = {f"{name}T": nodes for name, nodes in _SOLID_NODES.items() if nodes != 6}
-"""Continuum elements with temperatures at their corners."""
-COHESIVE_NODES = {"COH2D4": 4, "COH3D8": 8}
-BUILT_IN_NODES = {
-    **_SOLID_NODES,
-    **_COUPLED_NODES,
-    **COHESIVE_NODES,
-    **{"T2D2": 2, "T3D2": 2, "SPRING1": 1, "SPRING2": 2, "SPRINGA": 2, "MASS": 1},
-}
 _USER_TYPE = re.compile(r"U([1-9]\d{0,3})")
 LARGEST_DOF = 30
 MOST_NODES = 10_000
@@ -49,29 +34,19 @@ class ElementType:
     @property
     def nodes(self) -> int:
         """Nodes per element."""
-        return self.definition.nodes if self.definition else BUILT_IN_NODES[self.name]
+        return self.definition.nodes if self.definition else BUILT_IN[self.name].nodes
 
     @property
     def section(self) -> str:
         """Keyword that gives its properties."""
-        if self.definition:
-            return "UEL PROPERTY"
-        if self.name in COHESIVE_NODES:
-            return "COHESIVE SECTION"
-        return next((keyword for keyword in ("SPRING", "MASS") if self.name.startswith(keyword)), "SOLID SECTION")
+        return "UEL PROPERTY" if self.definition else BUILT_IN[self.name].section
 
 
-def dofs_of(name: str, definition: UserElement | None) -> set[int]:
-    """Dofs of an element type."""
-    if definition is not None:
-        return {dof for _, dof in definition.dofs}
-    displacements = {1, 2} if name.startswith((*PLANE, "COH2D", "T2D")) else {1, 2, 3}
-    return displacements | {11} if name in _COUPLED_NODES else displacements
-
-
-def _corners(name: str) -> int:
-    """Corners of a built-in element, whose nodes come first."""
-    return min(BUILT_IN_NODES[name], 4 if name.startswith(PLANE) else 8)
+def dofs_of(group: ElementGroup) -> set[int]:
+    """Dofs of the type of a group."""
+    if group.definition is not None:
+        return {dof for _, dof in group.definition.dofs}
+    return set(BUILT_IN[group.type].dofs(0))
 
 
 def dofs_by_node(count: int, groups: Sequence[ElementGroup]) -> list[set[int]]:
@@ -84,9 +59,7 @@ def dofs_by_node(count: int, groups: Sequence[ElementGroup]) -> list[set[int]]:
             elif isinstance(group.section, SpringSection) and group.section.dofs:
                 dofs = {group.section.dofs[local]}
             else:
-                dofs = dofs_of(group.type, None)
-                if local >= _corners(group.type):
-                    dofs -= {11}
+                dofs = set(BUILT_IN[group.type].dofs(local))
             for node in group.nodes[:, local].tolist():
                 found[node] |= dofs
     return found
@@ -94,17 +67,17 @@ def dofs_by_node(count: int, groups: Sequence[ElementGroup]) -> list[set[int]]:
 
 def find_type(name: str, definitions: Definitions, source: Source) -> ElementType:
     """The element type of a name; DeckError where it is neither built in nor defined."""
-    if name in BUILT_IN_NODES:
+    if name in BUILT_IN:
         return ElementType(name, None)
     if name in definitions:
         return ElementType(name, definitions[name])
     if _USER_TYPE.fullmatch(name):
         defined = ", ".join(definitions) or "none"
         raise DeckError(source, f"element type {name} is not defined by *USER ELEMENT (defined: {defined})")
-    supported = f"(supported: {', '.join(BUILT_IN_NODES)} and user elements)"
+    supported = f"(supported: {', '.join(BUILT_IN)} and user elements)"
     if is_abaqus_element(name):
         raise DeckError(source, f"element type {name} of Abaqus is not supported here {supported}")
-    hint = nearest(name, [*BUILT_IN_NODES, *definitions])
+    hint = nearest(name, [*BUILT_IN, *definitions])
     raise DeckError(source, f"element type {name} is not supported {supported}{hint}")
 
 

@@ -282,10 +282,9 @@ class Block:
     def call_sdvini(self, address: int) -> None:
         """Let SDVINI set the initial state. Raises KernelError where it ends the analysis."""
         state = np.ascontiguousarray(self._initial_state())
-        built_in = self.group.definition is None
-        element, point = _binding.sdvini(address, self._arrays, state, solid=built_in) if state.size else (0, 0)
+        element, point = _binding.sdvini(address, self._arrays, state, self._procedure.family) if state.size else (0, 0)
         if element:
-            at = at_point("SDVINI", point) if built_in else "SDVINI "
+            at = at_point("SDVINI", point) if self.group.definition is None else "SDVINI "
             raise KernelError(element, self.group.type, at + self._library.stop_reason())
         self._begin(state)
 
@@ -351,7 +350,7 @@ class Block:
             given.address,
             given.names,
             given.axes,
-            (self._procedure.tensor, self._procedure.statev),
+            (self._procedure.tensor, self._procedure.statev, self._procedure.family),
             place,
             start,
             self._arrays,

@@ -9,14 +9,15 @@ from itertools import pairwise
 from typing import Final
 
 from harness.elements.block import Block
-from harness.elements.cohesive import COHESIVE, cohesive_procedure, cohesive_variables
-from harness.elements.coupled import coupled_procedure, coupled_unknowns
-from harness.elements.discrete import DISCRETE, discrete_procedure, discrete_unknowns, discrete_variables
-from harness.elements.materials import Tensor, define_material, refuse_fields
+from harness.elements.cohesive import cohesive_procedure, cohesive_variables
+from harness.elements.coupled import coupled_procedure
+from harness.elements.discrete import discrete_procedure, discrete_unknowns, discrete_variables
+from harness.elements.materials import define_material, refuse_fields
 from harness.elements.pressure import pressure_blocks
 from harness.elements.procedure import Procedure
-from harness.elements.solid import COUPLED, SOLIDS, history_of, solid_of, solid_procedure, solid_variables
+from harness.elements.solid import history_of, solid_procedure, solid_variables
 from harness.errors import DeckError, all_of
+from harness.model.element_types import BUILT_IN, CohesiveType, ContinuumType, DiscreteType, Tensor
 from harness.model.mesh import ElementGroup
 from harness.model.model import Model
 from harness.model.properties import CohesiveSection, SolidSection, UserElement, UserProperty
@@ -62,18 +63,22 @@ def _too_large(group: ElementGroup) -> DeckError:
 
 def _block_of(model: Model, group: ElementGroup, library: Library, *, strict: bool, zeros: bool) -> Block:
     material = getattr(group.section, "material", None)
-    if material is not None and material.expansion and group.type not in SOLIDS:
+    kind = group.built_in
+    if material is not None and material.expansion and not (isinstance(kind, ContinuumType) and not kind.coupled):
         message = f"*EXPANSION (material {material.name}) is not supported for elements of type {group.type}"
         raise DeckError(group.section.source, message)
     if group.definition is not None:
         return _user_block(model, group, group.definition, library, strict=strict, zeros=zeros)
-    for types, make in ((SOLIDS | COUPLED, _solid_block), (COHESIVE, _cohesive_block), (DISCRETE, _discrete_block)):
-        if group.type in types:
-            return make(model, group, library)
-    built_in = [*SOLIDS, *COUPLED, *COHESIVE, *DISCRETE]
-    near = get_close_matches(group.type.upper(), built_in, n=1)
+    match kind:
+        case ContinuumType():
+            return _solid_block(model, group, kind, library)
+        case CohesiveType():
+            return _cohesive_block(model, group, kind, library)
+        case DiscreteType():
+            return _discrete_block(model, group, library)
+    near = get_close_matches(group.type.upper(), BUILT_IN, n=1)
     hint = f"; did you mean {near[0]}?" if near else ""
-    message = f"element type {group.type} is not supported (built in are {', '.join(built_in)}){hint}"
+    message = f"element type {group.type} is not supported (built in are {', '.join(BUILT_IN)}){hint}"
     raise DeckError(group.source, message)
 
 
@@ -122,16 +127,18 @@ MOST_POINTS: Final = 64
 """Points of a plastic material per user element where *USER ELEMENT does not give INTEGRATION=."""
 
 
-def _solid_block(model: Model, group: ElementGroup, library: Library) -> Block:
-    section, kind, coupled = group.section, solid_of(group), group.type in COUPLED
+def _solid_block(model: Model, group: ElementGroup, kind: ContinuumType, library: Library) -> Block:
+    section, coupled = group.section, kind.coupled
     if not isinstance(section, SolidSection):
         raise DeckError(section.source, f"elements of type {group.type} take *SOLID SECTION")
     _check_nodes(group, kind.nodes)
     if coupled:
-        procedure, unknowns = coupled_procedure(model, group, section, library), coupled_unknowns(group)
+        procedure = coupled_procedure(model, group, section, library)
     else:
         procedure = solid_procedure(model, group, section, library)
-        unknowns = tuple((node, dof) for node in range(kind.nodes) for dof in range(1, kind.dimension + 1))
+    # displacements of all nodes, then temperatures of the corners
+    unknowns = tuple((node, dof) for node in range(kind.nodes) for dof in range(1, kind.dimension + 1))
+    unknowns += tuple((node, 11) for node in range(kind.corners) if coupled)
     return Block(
         group,
         model.mesh.coordinates,
@@ -145,21 +152,20 @@ def _solid_block(model: Model, group: ElementGroup, library: Library) -> Block:
     )
 
 
-def _cohesive_block(model: Model, group: ElementGroup, library: Library) -> Block:
+def _cohesive_block(model: Model, group: ElementGroup, kind: CohesiveType, library: Library) -> Block:
     section = group.section
-    nodes, dimension = COHESIVE[group.type]
     if not isinstance(section, CohesiveSection):
         raise DeckError(section.source, f"elements of type {group.type} take *COHESIVE SECTION")
-    _check_nodes(group, nodes)
+    _check_nodes(group, kind.nodes)
     return Block(
         group,
         model.mesh.coordinates,
-        tuple((node, dof) for node in range(nodes) for dof in range(1, dimension + 1)),
+        tuple((node, dof) for node in range(kind.nodes) for dof in kind.dofs(node)),
         cohesive_procedure(model, group, section),
         library,
         # damage that depends on the mode mix
         unsymmetric=True,
-        variables=cohesive_variables(section, nodes, dimension),
+        variables=cohesive_variables(section, kind),
     )
 
 

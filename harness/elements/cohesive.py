@@ -11,14 +11,12 @@ import numpy as np
 from harness.elements.materials import refuse_fields
 from harness.elements.procedure import Procedure
 from harness.errors import DeckError
+from harness.model.element_types import COHESIVE, CohesiveType
 from harness.model.mesh import ElementGroup
 from harness.model.model import Model
 from harness.model.properties import CohesiveSection, Damage, DamageEvolution
 from harness.model.records import PointVariables
 from harness.usersub import _binding
-
-COHESIVE: Final = {"COH2D4": (4, 2), "COH3D8": (8, 3)}
-"""Cohesive elements: nodes, dimensions."""
 
 # in the order of the cases of fortran/host/host_traction_separation.f90
 _CRITERIA: Final = ("", "MAXS", "QUADS", "MAXE", "QUADE")
@@ -31,25 +29,26 @@ Triple = tuple[float, float, float]
 
 def cohesive_procedure(model: Model, group: ElementGroup, section: CohesiveSection) -> Procedure:
     """What the driver calls for a group of cohesive elements. Raises DeckError."""
-    nodes, dimension = COHESIVE[group.type]
+    kind = COHESIVE[group.type]
     for step in model.steps:
         for refused, what in ((step.nlgeom, "NLGEOM"), (step.procedure.inertia, f"*{step.procedure.keyword}")):
             if refused:
                 raise DeckError(step.source, f"{what} is not supported with elements of type {group.type}")
-    reals, integers = cohesive_properties(section, dimension)
+    reals, integers = cohesive_properties(section, kind.dimension)
     return Procedure(
-        address=_binding.cohesive_address(),
-        jtype=nodes,
-        mcrd=dimension,
-        svars=nodes // 2 * (5 * dimension + 5),
+        address=_binding.address_of("cohesive"),
+        jtype=kind.nodes,
+        mcrd=kind.dimension,
+        svars=kind.face.nodes * (5 * kind.dimension + 5),
         props=np.array(reals),
-        jprops=np.array(integers),
+        jprops=np.array([kind.face.number, *integers]),
         damages=True,
     )
 
 
-def cohesive_variables(section: CohesiveSection, nodes: int, dimension: int) -> PointVariables:
+def cohesive_variables(section: CohesiveSection, kind: CohesiveType) -> PointVariables:
     """SVARS of a point: the names of the project's interface elements where they have one, else those of Abaqus."""
+    dimension = kind.dimension
     places = ("X", "Y", "Z")[:dimension]
     directions = ("N", "T") if dimension == 2 else ("N", "S", "T")
     tensor = ("22", "12") if dimension == 2 else ("33", "13", "23")
@@ -65,15 +64,11 @@ def cohesive_variables(section: CohesiveSection, nodes: int, dimension: int) -> 
     )
     aliases = tuple((f"S{component}", f"T{direction}") for component, direction in zip(tensor, directions, strict=True))
     aliases += (("SDEG", "DAMAGE"),) + ((("DMICRT", criterion),) if damage else ())
-    half = nodes // 2
-    bottom, top = tuple(range(half)), tuple(range(half, nodes))
-    if dimension == 2:
-        top = top[::-1]
-    return PointVariables("interface", names, half, bottom=bottom, top=top, aliases=aliases)
+    return PointVariables("interface", names, kind.face.nodes, bottom=kind.bottom, top=kind.top, aliases=aliases)
 
 
 def cohesive_properties(section: CohesiveSection, dimension: int) -> tuple[list[float], list[int]]:
-    """PROPS and JPROPS.
+    """PROPS, and JPROPS behind the family of the faces.
 
     PROPS: constitutive thickness (0: from the nodes), width, Enn, Ess, Ett, onset (3), evolution (3), exponent,
     viscosity, largest damage. JPROPS: deletion, then criterion, evolution, softening and mixed mode behaviour, each as

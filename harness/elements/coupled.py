@@ -10,19 +10,12 @@ import numpy as np
 
 from harness.elements.materials import refuse_fields
 from harness.elements.procedure import Procedure
-from harness.elements.solid import COUPLED, solid_procedure
+from harness.elements.solid import solid_of, solid_procedure
 from harness.errors import DeckError
 from harness.model.mesh import ElementGroup
 from harness.model.model import Model
 from harness.model.properties import SolidSection
 from harness.usersub import Library, _binding
-
-
-def coupled_unknowns(group: ElementGroup) -> tuple[tuple[int, int], ...]:
-    """(local node, dof) of each unknown: displacements of all nodes, then temperatures of the corners."""
-    kind = COUPLED[group.type]
-    displacements = tuple((node, dof) for node in range(kind.nodes) for dof in range(1, kind.dimension + 1))
-    return displacements + tuple((node, 11) for node in range(kind.corners))
 
 
 def coupled_procedure(model: Model, group: ElementGroup, section: SolidSection, library: Library) -> Procedure:
@@ -45,4 +38,11 @@ def coupled_procedure(model: Model, group: ElementGroup, section: SolidSection, 
             raise DeckError(material.source, message)
     solid = solid_procedure(model, group, section, library)
     thermal = [material.conductivity, material.specific_heat]
-    return replace(solid, address=_binding.coupled_address(), props=np.concatenate([solid.props, thermal]))
+    kind = solid_of(group)
+    points = np.array([kind.thermal_points, kind.family.linear.number])
+    return replace(
+        solid,
+        address=_binding.address_of("coupled"),
+        props=np.concatenate([solid.props, thermal]),
+        jprops=np.concatenate([solid.jprops, points]),
+    )

@@ -11,17 +11,15 @@ import numpy as np
 from harness.elements.materials import refuse_fields
 from harness.elements.procedure import Procedure
 from harness.errors import DeckError
+from harness.model.element_types import DISCRETE, DiscreteKind
 from harness.model.mesh import ElementGroup
 from harness.model.model import Model
 from harness.model.properties import ElasticType, MassSection, SolidSection, SpringSection
 from harness.model.records import PointVariables
 from harness.usersub import _binding
 
-_KINDS: Final = {"T2D2": 1, "T3D2": 1, "SPRINGA": 2, "SPRING1": 3, "SPRING2": 3, "MASS": 4}
-DISCRETE: Final = tuple(_KINDS)
-"""Types of these elements; _KINDS is the JTYPE of fortran/host/host_discrete.f90."""
-
-_STATES: Final = {1: 4, 2: 2, 3: 2, 4: 2}
+_STATES: Final = {DiscreteKind.TRUSS: 4, DiscreteKind.AXIAL_SPRING: 2, DiscreteKind.SPRING: 2, DiscreteKind.MASS: 2}
+"""SVARS of an element."""
 
 
 def discrete_unknowns(model: Model, group: ElementGroup) -> tuple[tuple[int, int], ...]:
@@ -29,23 +27,25 @@ def discrete_unknowns(model: Model, group: ElementGroup) -> tuple[tuple[int, int
     section = group.section
     if isinstance(section, SpringSection) and section.dofs:
         return tuple(enumerate(section.dofs))
-    solid = group.type == "T3D2" or bool(np.ptp(model.mesh.coordinates[:, 2]) > 0.0)
-    dimension = 2 if group.type == "T2D2" or not solid else 3
+    kind = DISCRETE[group.type]
+    dimension = kind.dimension
+    if kind.kind is not DiscreteKind.TRUSS and not np.ptp(model.mesh.coordinates[:, 2]) > 0.0:
+        dimension = 2
     return tuple((node, dof) for node in range(group.nodes.shape[1]) for dof in range(1, dimension + 1))
 
 
 def discrete_procedure(model: Model, group: ElementGroup, unknowns: int) -> Procedure:
     """What the driver calls for a group. Raises DeckError."""
-    kind = _KINDS[group.type]
+    kind = DISCRETE[group.type].kind
     dynamic = any(step.procedure.inertia for step in model.steps)
     hidden = 2 * unknowns if dynamic else 0
     return Procedure(
-        address=_binding.discrete_address(),
+        address=_binding.address_of("discrete"),
         jtype=kind,
-        mcrd=unknowns // 2 if kind <= 2 else 3,
+        mcrd=unknowns // 2 if kind in (DiscreteKind.TRUSS, DiscreteKind.AXIAL_SPRING) else 3,
         svars=_STATES[kind] + hidden,
         hidden=hidden,
-        density=2 if kind == 1 else -1,
+        density=2 if kind is DiscreteKind.TRUSS else -1,
         props=_properties(group, dynamic=dynamic),
         jprops=np.zeros(0, dtype=np.int64),
     )
@@ -53,7 +53,7 @@ def discrete_procedure(model: Model, group: ElementGroup, unknowns: int) -> Proc
 
 def discrete_variables(group: ElementGroup) -> PointVariables | None:
     """Meaning of the state variables: strain and stress of a truss; those of springs have no name in Abaqus' output."""
-    if _KINDS[group.type] != 1:
+    if DISCRETE[group.type].kind is not DiscreteKind.TRUSS:
         return None
     return PointVariables("continuum", ("E11", "S11", "PE11", "PEEQ"), 1)
 

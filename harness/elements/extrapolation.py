@@ -4,64 +4,77 @@
 
 The Abaqus Analysis User's Guide says that values are extrapolated, and not how. Here it is the polynomial in parent
 coordinates that has the values of the points: constant from one point, linear in each direction from two, quadratic
-from three; linear from the three of a triangle.
+from three; linear from the three of a triangle and the four of a tetrahedron.
 """
 
 from __future__ import annotations
 
 from itertools import product
-from typing import Final
 
 import numpy as np
 
-from harness.elements.load_vectors import NODES
-from harness.elements.solid import COUPLED, SOLIDS, Solid
-from harness.model.arrays import FloatArray
-
-_LINE: Final = {1: (0.0,), 2: (-1 / 3**0.5, 1 / 3**0.5), 3: (-(0.6**0.5), 0.0, 0.6**0.5)}
-"""Integration points along a direction (fortran/host/host_shape.f90)."""
-_TRIANGLE: Final = np.array([[0, 0], [1, 0], [0, 1], [0.5, 0], [0.5, 0.5], [0, 0.5]])
-_TRIANGLE_POINTS: Final = np.array([[1, 1], [4, 1], [1, 4]]) / 6
-"""Parent coordinates of nodes and integration points."""
+from harness.model.arrays import FloatArray, IntArray
+from harness.model.element_types import BUILT_IN, ContinuumType, Family
+from harness.usersub import _binding
 
 
 def at_nodes(type: str) -> FloatArray | None:
     """(nodes, points) matrix from values at the points of a type to those at the nodes; None for other elements."""
-    kind = (SOLIDS | COUPLED).get(type)
-    if kind is None:
+    kind = BUILT_IN.get(type)
+    if not isinstance(kind, ContinuumType):
         return None
-    if kind.points == 1:
-        return np.ones((kind.nodes, 1))
-    return _interpolation(kind, _TRIANGLE if _is_triangle(kind) else NODES[kind.dimension][: kind.nodes])
+    return _interpolation(kind, _places(kind.family))
 
 
 def at_centroid(type: str) -> FloatArray | None:
     """(1, points) matrix from values at the points of a type to that at the centroid; None for other elements."""
-    kind = (SOLIDS | COUPLED).get(type)
-    if kind is None:
+    kind = BUILT_IN.get(type)
+    if not isinstance(kind, ContinuumType):
         return None
-    if kind.points == 1:
-        return np.ones((1, 1))
-    return _interpolation(kind, np.full((1, 2), 1 / 3) if _is_triangle(kind) else np.zeros((1, kind.dimension)))
+    return _interpolation(kind, _places(kind.family)[: kind.corners].mean(axis=0, keepdims=True))
 
 
-def _is_triangle(kind: Solid) -> bool:
-    return kind.nodes == 6
-
-
-def _interpolation(kind: Solid, places: FloatArray) -> FloatArray:
+def _interpolation(kind: ContinuumType, places: FloatArray) -> FloatArray:
     """(places, points) values at places of the polynomials that are one at a point and zero at the others."""
-    if _is_triangle(kind):
-        points, powers = _TRIANGLE_POINTS, np.array([[0, 0], [1, 0], [0, 1]])
-    else:
-        along = round(kind.points ** (1 / kind.dimension))
-        # counted along the first direction first
-        points = np.array(list(product(_LINE[along], repeat=kind.dimension)))[:, ::-1]
-        powers = np.array(list(product(range(along), repeat=kind.dimension)))
+    family = kind.family
+    _, shapes, _ = _binding.integration_rule(family.number, kind.points, family.nodes, family.dimension)
+    points, powers = shapes @ _places(family), _powers(family, kind.points)
     return np.asarray(np.linalg.solve(_monomials(points, powers).T, _monomials(places, powers).T).T, dtype=np.float64)
 
 
-def _monomials(places: FloatArray, powers: FloatArray) -> FloatArray:
+def _places(family: Family) -> FloatArray:
+    """(nodes, dimension) parent coordinates of the nodes."""
+    square = np.array([[-1.0, -1], [1, -1], [1, 1], [-1, 1]])
+    simplex = np.vstack([np.zeros(family.dimension), np.eye(family.dimension)])
+    if family.corners == family.dimension + 1:
+        corners = simplex
+    elif family.dimension == 2:
+        corners = square
+    else:
+        base = square if family.corners == 8 else simplex[:3, :2]
+        corners = np.array([(*place, side) for side in (-1.0, 1.0) for place in base])
+    places = np.vstack([corners, np.zeros((family.nodes - family.corners, family.dimension))])
+    for face in family.faces:
+        ends = face[: family.face_family(face).corners]
+        for k, middle in enumerate(face[len(ends) :]):
+            places[middle] = (places[ends[k]] + places[ends[(k + 1) % len(ends)]]) / 2
+    return places
+
+
+def _powers(family: Family, points: int) -> IntArray:
+    """(points, dimension) powers of the coordinates in the terms of the polynomial."""
+    if family.corners == 2**family.dimension:
+        return np.array(list(product(range(round(points ** (1 / family.dimension))), repeat=family.dimension)))
+    if family.corners == family.dimension + 1:
+        return np.vstack([np.zeros((1, family.dimension), dtype=np.int64), np.eye(family.dimension, dtype=np.int64)])[
+            :points
+        ]
+    # a wedge: of the triangle, and across
+    of_triangle = [(0, 0), (1, 0), (0, 1)][: 3 if points > 2 else 1]
+    return np.array([(*powers, k) for powers in of_triangle for k in range(points // len(of_triangle))])
+
+
+def _monomials(places: FloatArray, powers: IntArray) -> FloatArray:
     """(places, terms) products of powers of the coordinates."""
     terms: FloatArray = np.prod(np.asarray(places)[:, None, :] ** powers[None], axis=-1)
     return terms

@@ -4,7 +4,6 @@
 
 from __future__ import annotations
 
-from itertools import product
 from typing import Final
 
 import numpy as np
@@ -12,22 +11,14 @@ import numpy as np
 from harness.elements.solid import section_depth, solid_of
 from harness.errors import DeckError
 from harness.model.arrays import FloatArray, IntArray
+from harness.model.element_types import ContinuumType, Face, Family
 from harness.model.mesh import ElementGroup
 from harness.model.properties import SolidSection
 from harness.model.steps import ElementLoad, LoadKind
+from harness.usersub import _binding
 
 SMALLEST_SINE: Final = 1e-10
 """Sine of the angle between a direction and a face's normal below which the direction has no part in the face."""
-
-_LINE = ((-1,), (1,), (0,))
-_QUAD = ((-1, -1), (1, -1), (1, 1), (-1, 1), (0, -1), (1, 0), (0, 1), (-1, 0))
-_HEX = (
-    *((-1, -1, -1), (1, -1, -1), (1, 1, -1), (-1, 1, -1), (-1, -1, 1), (1, -1, 1), (1, 1, 1), (-1, 1, 1)),
-    *((0, -1, -1), (1, 0, -1), (0, 1, -1), (-1, 0, -1), (0, -1, 1), (1, 0, 1), (0, 1, 1), (-1, 0, 1)),
-    *((-1, -1, 0), (1, -1, 0), (1, 1, 0), (-1, 1, 0)),
-)
-NODES: Final = {1: np.array(_LINE), 2: np.array(_QUAD), 3: np.array(_HEX)}
-"""Parent coordinates of the nodes, by dimension: corners, then the middles of the edges."""
 
 
 def unit_forces(
@@ -45,8 +36,10 @@ def unit_forces(
     local = list(load.type.face) or list(range(group.nodes.shape[1]))
     nodes = group.nodes[rows]
     x = coordinates[nodes[:, local], :dimension]
-    along = dimension - 1 if load.type.face else dimension
-    shapes, derivatives, weights = _rule(along, len(local), axisymmetric=kind.axisymmetric)
+    if load.type.face:
+        weights, shapes, derivatives = _face_rule(kind, load.type.face)
+    else:
+        weights, shapes, derivatives = _rule(kind.family, kind.body_points)
     # (elements, points, dimension, along) derivatives of the position
     tangents = np.einsum("mkd,pka->mpda", x, derivatives)
     scale = section_depth(group, section) if dimension == 2 else 1.0
@@ -67,10 +60,11 @@ def unit_forces(
 
 def outward_sign(group: ElementGroup, row: int, face: tuple[int, ...], coordinates: FloatArray) -> int:
     """1 where the normal of the order of a face's nodes, to the right of an edge, points out of an element, else -1."""
-    dimension = solid_of(group).dimension
+    kind = solid_of(group)
+    dimension = kind.dimension
     nodes = group.nodes[row]
     x = coordinates[nodes[list(face)], :dimension]
-    _, derivatives, _ = _rule(dimension - 1, len(face), axisymmetric=False)
+    _, _, derivatives = _face_rule(kind, face)
     area = _normal(np.einsum("kd,pka->pda", x, derivatives)).sum(axis=0)
     return 1 if area @ (x.mean(axis=0) - coordinates[nodes, :dimension].mean(axis=0)) > 0 else -1
 
@@ -106,48 +100,11 @@ def _normal(tangents: FloatArray) -> FloatArray:
     return np.asarray(np.cross(tangents[..., 0], tangents[..., 1]))
 
 
-def _rule(dimension: int, nodes: int, *, axisymmetric: bool) -> tuple[FloatArray, FloatArray, FloatArray]:
-    """Shape functions (points, nodes), derivatives (points, nodes, dimension), weights of a line, face or volume.
-
-    Axisymmetric triangles of 3 nodes have points for a force that varies as the radius does.
-    """
-    if dimension == 2 and (nodes == 6 or (nodes == 3 and axisymmetric)):
-        return _triangle(nodes)
-    if nodes == dimension + 1 and dimension > 1:
-        derivatives = np.vstack([-np.ones(dimension), np.eye(dimension)])
-        return np.full((1, nodes), 1.0 / nodes), derivatives[None], np.array([1.0 / (2 if dimension == 2 else 6)])
-    middle = nodes > 2**dimension
-    places, line = np.polynomial.legendre.leggauss(3 if middle else 2)
-    # counted along the first direction first
-    points = np.array(list(product(places, repeat=dimension)))[:, ::-1]
-    weights = np.array([np.prod(w) for w in product(line, repeat=dimension)])
-    shapes, derivatives = _serendipity(NODES[dimension][:nodes], points, middle=middle)
-    return shapes, derivatives, weights
+def _face_rule(kind: ContinuumType, face: Face) -> tuple[FloatArray, FloatArray, FloatArray]:
+    family = kind.family.face_family(face)
+    return _rule(family, family.full_points)
 
 
-def _triangle(nodes: int) -> tuple[FloatArray, FloatArray, FloatArray]:
-    """Linear or quadratic functions at three points, for which integrals of quadratic ones are exact."""
-    slope = np.array([[-1.0, -1.0], [1.0, 0.0], [0.0, 1.0]])
-    area = np.full((3, 3), 1 / 6) + np.eye(3) / 2
-    weights = np.full(3, 1 / 6)
-    if nodes == 3:
-        return area, np.tile(slope, (3, 1, 1)), weights
-    following = np.roll(area, -1, axis=1)
-    shapes = np.hstack([area * (2 * area - 1), 4 * area * following])
-    corners = (4 * area - 1)[:, :, None] * slope
-    middles = 4 * (area[:, :, None] * np.roll(slope, -1, axis=0) + following[:, :, None] * slope)
-    return shapes, np.concatenate([corners, middles], axis=1), weights
-
-
-def _serendipity(nodes: FloatArray, points: FloatArray, *, middle: bool) -> tuple[FloatArray, FloatArray]:
-    """Functions of the serendipity family: a product over the directions, times a sum in the corners if `middle`."""
-    x, a = points[:, None, :], nodes[None].astype(np.float64)
-    factor = np.where(a == 0, 1 - x**2, (1 + a * x) / 2)
-    slope = np.where(a == 0, -2 * x, a / 2)
-    corner = middle & (nodes != 0).all(axis=1)
-    total = np.where(corner, (a * x).sum(axis=-1) - (nodes.shape[1] - 1), 1.0)
-    derivatives = np.empty((len(points), *nodes.shape))
-    for k in range(nodes.shape[1]):
-        others = np.delete(factor, k, axis=-1).prod(axis=-1)
-        derivatives[..., k] = others * (slope[..., k] * total + np.where(corner, factor[..., k] * a[..., k], 0.0))
-    return factor.prod(axis=-1) * total, derivatives
+def _rule(family: Family, points: int) -> tuple[FloatArray, FloatArray, FloatArray]:
+    """Weights (points,), shape functions (points, nodes), their derivatives (points, nodes, dimension)."""
+    return _binding.integration_rule(family.number, points, family.nodes, family.dimension)

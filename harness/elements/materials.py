@@ -2,31 +2,21 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Materials of the deck as the host's material library wants them: stiffness in global axes, per state of stress.
 
-Stress components: three-dimensional 11, 22, 33, 12, 13, 23; plane strain 11, 22, 33, 12; plane stress 11, 22, 12.
-Shear strains are engineering strains. The constants' meaning is that of the *ELASTIC data line (Abaqus Analysis User's
-Guide, Linear elastic behavior).
+Stress components are those of Tensor in harness/model/element_types.py; shear strains are engineering strains. The
+constants' meaning is that of the *ELASTIC data line (Abaqus Analysis User's Guide, Linear elastic behavior).
 """
 
 from __future__ import annotations
 
-from enum import IntEnum
 from typing import Final
 
 import numpy as np
 
 from harness.errors import DeckError, Source
 from harness.model.arrays import FloatArray
+from harness.model.element_types import Tensor
 from harness.model.properties import Elastic, ElasticType, Material, Orientation, UserMaterial
 from harness.usersub import Library, _binding
-
-
-class Tensor(IntEnum):
-    """State of stress, by its number of components."""
-
-    PLANE_STRESS = 3
-    PLANE_STRAIN = 4
-    SOLID = 6
-
 
 HISTORY_VALUES: Final = 7
 """Values of the history of a point of a plastic or prestressed material (fortran/host/host_materials.f90)."""

@@ -16,14 +16,12 @@ from harness.elements.load_vectors import outward_sign
 from harness.elements.procedure import Procedure
 from harness.elements.solid import section_depth, solid_of
 from harness.model.arrays import FloatArray, IntArray
+from harness.model.element_types import DiscreteKind
 from harness.model.mesh import ElementGroup
 from harness.model.model import Model
 from harness.model.properties import SolidSection
 from harness.model.steps import LoadType
 from harness.usersub import Library, _binding
-
-FACE = 5
-"""JTYPE of a face in fortran/host/host_discrete.f90."""
 
 
 class PressureBlock(Block):
@@ -48,14 +46,15 @@ class PressureBlock(Block):
         section = parent.section
         assert isinstance(section, SolidSection)
         kind, nodes = solid_of(parent), parent.nodes[rows][:, list(load.face)]
+        face, outward = kind.family.face_family(load.face), outward_sign(parent, int(rows[0]), load.face, coordinates)
         unknowns = tuple((node, dof) for node in range(nodes.shape[1]) for dof in range(1, kind.dimension + 1))
         procedure = Procedure(
-            address=_binding.discrete_address(),
-            jtype=FACE,
+            address=_binding.address_of("discrete"),
+            jtype=DiscreteKind.FACE,
             mcrd=kind.dimension,
             svars=2 * len(unknowns),
             props=np.array([section_depth(parent, section) if kind.dimension == 2 else 1.0]),
-            jprops=np.array([kind.axisymmetric, outward_sign(parent, int(rows[0]), load.face, coordinates)]),
+            jprops=np.array([face.number, face.full_points, kind.axisymmetric, outward]),
         )
         group = replace(parent, labels=parent.labels[rows], nodes=nodes)
         super().__init__(group, coordinates, unknowns, procedure, library, unsymmetric=True, variables=None)

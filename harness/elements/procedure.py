@@ -23,6 +23,7 @@ class Procedure:
     hidden    SVARS at the end that are no state of a point, which output does not see
     tensor    stress components of the material: 3 plane stress, 4 plane strain, 6 three-dimensional; 0 without one
     mcrd      coordinates per node
+    family    number of the family of continuum elements (harness/model/element_types.py), 0 for others
     damages   ENERGY(4) is dissipated by damage, not by plasticity
     linear    the state of built-in elements is linear in the displacements where these are small
     stress    places of the stress components of a point, in Abaqus' order, among its SVARS, of which the last one is
@@ -42,6 +43,7 @@ class Procedure:
     hidden: int = 0
     density: int = -1
     uvarm: OutputVariables | None = None
+    family: int = 0
     damages: bool = False
     linear: bool = False
     stress: tuple[int, ...] = ()

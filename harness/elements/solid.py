@@ -4,13 +4,11 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from typing import Final
 
 import numpy as np
 
 from harness.elements.materials import (
-    Tensor,
     define_fields,
     define_material,
     directions,
@@ -21,6 +19,7 @@ from harness.elements.materials import (
 )
 from harness.elements.procedure import OutputVariables, Procedure
 from harness.errors import DeckError
+from harness.model.element_types import ContinuumType, Tensor
 from harness.model.mesh import ElementGroup
 from harness.model.model import Model
 from harness.model.properties import ElasticType, Material, Orientation, SolidSection
@@ -34,61 +33,11 @@ SMALLEST_RADIUS: Final = 1e-9
 """Radius, over the largest one of a group, below which a node is on the axis."""
 
 
-@dataclass(frozen=True, slots=True)
-class Solid:
-    """A built-in element type: nodes, integration points, state of stress.
-
-    axisymmetric elements have the stresses of plane strain, 33 around the axis; direction 1 is the radius.
-    """
-
-    nodes: int
-    points: int
-    tensor: Tensor
-    axisymmetric: bool = False
-
-    @property
-    def dimension(self) -> int:
-        """2 or 3."""
-        return 3 if self.tensor is Tensor.SOLID else 2
-
-    @property
-    def direct(self) -> int:
-        """Direct strains by the displacements: 2 in the plane, 3 in space and where there is one around the axis."""
-        return 3 if self.axisymmetric else self.dimension
-
-    @property
-    def corners(self) -> int:
-        """Nodes that are no middle of an edge; they come first."""
-        return min(self.nodes, 4 if self.dimension == 2 else 8)
-
-    @property
-    def hourglass_control(self) -> bool:
-        """True where displacements other than rigid ones leave its only point without strain."""
-        return self.points == 1 and self.nodes == 2**self.dimension
-
-
-_PLANE = {"3": (3, 1), "4": (4, 4), "4R": (4, 1), "6": (6, 3), "8": (8, 9), "8R": (8, 4)}
-SOLIDS: Final = {
-    **{f"CPS{name}": Solid(*counts, Tensor.PLANE_STRESS) for name, counts in _PLANE.items()},
-    **{f"CPE{name}": Solid(*counts, Tensor.PLANE_STRAIN) for name, counts in _PLANE.items()},
-    **{f"CAX{name}": Solid(*counts, Tensor.PLANE_STRAIN, axisymmetric=True) for name, counts in _PLANE.items()},
-    "C3D4": Solid(4, 1, Tensor.SOLID),
-    "C3D8": Solid(8, 8, Tensor.SOLID),
-    "C3D8R": Solid(8, 1, Tensor.SOLID),
-    "C3D20": Solid(20, 27, Tensor.SOLID),
-    "C3D20R": Solid(20, 8, Tensor.SOLID),
-}
-"""Built-in continuum elements by their names."""
-
-COUPLED: Final = {f"{name}T": kind for name, kind in SOLIDS.items() if kind.nodes != 6}
-"""The same with temperatures at their corners."""
-
-_COMPONENTS: Final = {2: ("11", "22", "33", "12"), 3: ("11", "22", "33", "12", "13", "23")}
-
-
-def solid_of(group: ElementGroup) -> Solid:
-    """The type of a group of solids, with temperatures or without."""
-    return (SOLIDS | COUPLED)[group.type]
+def solid_of(group: ElementGroup) -> ContinuumType:
+    """The type of a group of continuum elements, with temperatures or without."""
+    kind = group.built_in
+    assert isinstance(kind, ContinuumType)
+    return kind
 
 
 def section_depth(group: ElementGroup, section: SolidSection) -> float:
@@ -119,17 +68,19 @@ def solid_procedure(model: Model, group: ElementGroup, section: SolidSection, li
     define_fields(number, material, orientation, kind.tensor, library)
     if material.expansion:
         _binding.set_expansion(number, material.expansion)
+    enhanced = kind.hourglass_control and section.controls.enhanced
     unknowns = kind.dimension * kind.nodes
     hidden = 2 * unknowns if dynamic is not None else 0
     return Procedure(
-        address=_binding.solid_address(),
+        address=_binding.address_of("solid"),
         jtype=kind.nodes,
         mcrd=kind.dimension,
-        svars=kind.points * 2 * len(_COMPONENTS[kind.dimension]) + hidden,
+        svars=kind.points * 2 * len(kind.components) + hidden,
         hidden=hidden,
         density=1,
         props=np.array([section_depth(group, section), material.density, hourglass]),
-        jprops=np.array([kind.points, kind.direct, kind.hourglass_control and section.controls.enhanced]),
+        jprops=np.array([kind.family.number, kind.points, kind.direct, enhanced, kind.mass_points]),
+        family=kind.family.number,
         material=number,
         tensor=int(kind.tensor),
         history=history_of(material, kind.points, prestressed=prestressed),
@@ -140,9 +91,9 @@ def solid_procedure(model: Model, group: ElementGroup, section: SolidSection, li
     )
 
 
-def _places_of_stress(kind: Solid) -> tuple[int, ...]:
+def _places_of_stress(kind: ContinuumType) -> tuple[int, ...]:
     """The components that the element library of Abaqus lists: 11, 22, 12 in plane stress, which has no 33."""
-    names = _COMPONENTS[kind.dimension]
+    names = kind.components
     return tuple(
         len(names) + k for k, name in enumerate(names) if not (kind.tensor is Tensor.PLANE_STRESS and name == "33")
     )
@@ -189,12 +140,11 @@ def _orientation(model: Model, group: ElementGroup, section: SolidSection, libra
 def solid_variables(group: ElementGroup, procedure: Procedure) -> PointVariables:
     """Meaning of the state variables of a group of solids."""
     kind = solid_of(group)
-    names = tuple(f"{letter}{component}" for letter in "ES" for component in _COMPONENTS[kind.dimension])
+    names = tuple(f"{letter}{component}" for letter in "ES" for component in kind.components)
     names = *names, *_numbered("SDV", procedure.statev)
     if procedure.uvarm is not None:
         names = *names, *_numbered("UVARM", procedure.uvarm.count)
-    outline = tuple(range(kind.nodes)) if kind.dimension == 2 else ()
-    return PointVariables("continuum", names, kind.points, outline=outline)
+    return PointVariables("continuum", names, kind.points)
 
 
 def _check_radii(model: Model, group: ElementGroup) -> None:
@@ -216,7 +166,7 @@ def history_of(material: Material, points: int, *, prestressed: bool = False) ->
     return values, points if values > 1 else 1
 
 
-def _hourglass_stiffness(group: ElementGroup, kind: Solid, section: SolidSection) -> float:
+def _hourglass_stiffness(group: ElementGroup, kind: ContinuumType, section: SolidSection) -> float:
     """Parameter of the total stiffness; 0 where there is none. Raises DeckError."""
     controls, elastic = section.controls, section.material.elastic
     if not kind.hourglass_control:
@@ -235,7 +185,7 @@ def _hourglass_stiffness(group: ElementGroup, kind: Solid, section: SolidSection
     return controls.hourglass * HOURGLASS_FRACTION * shear_modulus(elastic, kind.tensor)
 
 
-def _check_enhanced(group: ElementGroup, kind: Solid, section: SolidSection) -> None:
+def _check_enhanced(group: ElementGroup, kind: ContinuumType, section: SolidSection) -> None:
     """Raise DeckError where there is no enhanced hourglass control for the elements or the material."""
     elastic = section.material.elastic
     if kind.axisymmetric:
@@ -248,7 +198,7 @@ def _check_enhanced(group: ElementGroup, kind: Solid, section: SolidSection) -> 
     raise DeckError(section.source, message)
 
 
-def _warn_of_enhanced(model: Model, group: ElementGroup, kind: Solid, library: Library) -> None:
+def _warn_of_enhanced(model: Model, group: ElementGroup, kind: ContinuumType, library: Library) -> None:
     """Say, once for a section, what the enhanced hourglass control stands on."""
     section = group.section
     if not (isinstance(section, SolidSection) and section.controls.enhanced and kind.hourglass_control):

@@ -8,6 +8,7 @@ from dataclasses import dataclass
 
 from harness.errors import Source
 from harness.model.arrays import FloatArray, IntArray
+from harness.model.element_types import BUILT_IN, BuiltInType
 from harness.model.properties import Section, UserElement
 
 
@@ -50,3 +51,8 @@ class ElementGroup:
     section: Section
     definition: UserElement | None
     source: Source
+
+    @property
+    def built_in(self) -> BuiltInType | None:
+        """The type in the table of built-in elements; None for user elements, and for a name that is not in it."""
+        return None if self.definition else BUILT_IN.get(self.type)

@@ -6,9 +6,9 @@ Which cell an element becomes:
 
 - an interface of the project, or a cohesive element: a line of 2 or 3 nodes along its bottom edge, or its bottom face;
   a continuum element of the project: its outline;
-- a built-in element, or a user's own element: by its number of nodes, with the node order of Abaqus' own elements
-  (2D: 3, 4, 6, 8 nodes; 3D: 4, 6, 8, 10, 15, 20; a line of 2 or 3). Abaqus does not know either what a user element
-  looks like;
+- a built-in continuum element: the cell of its family (harness/model/element_types.py);
+- a user's own element, a truss or a spring: by its number of nodes, the cell of a family in the plane or in space, or
+  else a line, with the node order of Abaqus' own elements. Abaqus does not know either what a user element looks like;
 - a user element with any other number of nodes: a vertex at each of its nodes, all with the values of the element.
 """
 
@@ -19,24 +19,12 @@ from dataclasses import dataclass
 import numpy as np
 
 from harness.model.arrays import FloatArray, IntArray
+from harness.model.element_types import FAMILIES, CohesiveType, ContinuumType, Family
 from harness.model.mesh import ElementGroup
 from harness.model.model import Model
 from harness.model.records import ElementState, PointVariables
 from harness.output.points import point_values
 
-_PLANE = {1: "vertex", 2: "line", 3: "triangle", 4: "quad", 6: "triangle6", 8: "quad8"}
-_SOLID = {
-    1: "vertex",
-    2: "line",
-    3: "line3",
-    4: "tetra",
-    6: "wedge",
-    8: "hexahedron",
-    10: "tetra10",
-    15: "wedge15",
-    20: "hexahedron20",
-}
-_FACE = {2: "line", 3: "line3", 4: "quad"}
 _COORDINATES = ("X", "Y", "Z")
 
 
@@ -51,17 +39,26 @@ class Cells:
 
 def cells_of(group: ElementGroup, variables: PointVariables | None, *, solid: bool) -> Cells:
     """Cells of a group; `solid`: the model is three-dimensional."""
-    nodes = group.nodes
-    if variables is not None and variables.kind == "interface":
+    nodes, kind = group.nodes, group.built_in
+    if isinstance(kind, ContinuumType):
+        family: Family | None = kind.family
+    elif variables is not None and variables.kind == "interface":
         nodes = nodes[:, list(variables.bottom)]
-        return Cells(_FACE[nodes.shape[1]], nodes, np.arange(len(nodes)))
-    if variables is not None and variables.outline:
+        family = kind.face if isinstance(kind, CohesiveType) else _family(nodes.shape[1], 1, 2)
+    elif variables is not None and variables.outline:
         nodes = nodes[:, list(variables.outline)]
+        family = _family(nodes.shape[1], 2)
+    else:
+        family = _family(nodes.shape[1], 3 if solid else 2, 1)
     elements, count = nodes.shape
-    kind = (_SOLID if solid and nodes is group.nodes else _PLANE).get(count)
-    if kind is None:
+    if family is None:
         return Cells("vertex", nodes.reshape(-1, 1), np.repeat(np.arange(elements), count))
-    return Cells(kind, nodes, np.arange(elements))
+    return Cells(family.cell, nodes, np.arange(elements))
+
+
+def _family(nodes: int, *dimensions: int) -> Family | None:
+    """The family of a number of nodes, in the first of the dimensions that has one."""
+    return next((FAMILIES[found, nodes] for found in dimensions if (found, nodes) in FAMILIES), None)
 
 
 def is_solid(model: Model) -> bool:

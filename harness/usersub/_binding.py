@@ -10,7 +10,7 @@ from __future__ import annotations
 import os
 import sys
 from collections.abc import Sequence
-from typing import Final, TypedDict
+from typing import Final, Literal, TypedDict
 
 import numpy as np
 from numpy.typing import NDArray
@@ -255,7 +255,7 @@ def uvarm(
     address: int,
     names: tuple[str, str],
     axes: FloatArray,
-    counts: tuple[int, int],
+    counts: tuple[int, int, int],
     place: tuple[int, int],
     clock: tuple[float, float, float],
     arrays: BlockArrays,
@@ -264,9 +264,9 @@ def uvarm(
 ) -> tuple[int, int]:
     """Call UVARM at the points of a block; returns element and point at which it ended the analysis, 0 if it did not.
 
-    names are of the material and its orientation, axes its directions in rows, counts the stress components and
-    NSTATV, place step and increment, clock the times at the start and the time increment; the last `hidden` SVARS are
-    of no point; uvar (m, points, NUVARM).
+    names are of the material and its orientation, axes its directions in rows, counts the stress components, NSTATV
+    and the number of the family, place step and increment, clock the times at the start and the time increment; the
+    last `hidden` SVARS are of no point; uvar (m, points, NUVARM).
     """
     m, points, _ = uvar.shape
     svars = np.ascontiguousarray(arrays.svars[:, : arrays.svars.shape[1] - hidden]).reshape(m, points, -1)
@@ -277,12 +277,12 @@ def uvarm(
     return (element, point) if left else (0, 0)
 
 
-def sdvini(address: int, arrays: BlockArrays, statev: FloatArray, *, solid: bool) -> tuple[int, int]:
+def sdvini(address: int, arrays: BlockArrays, statev: FloatArray, family: int) -> tuple[int, int]:
     """Call SDVINI at the points of a block; returns element and point at which it ended the analysis, 0 if it did not.
 
-    statev (m, points, NSTATV), contiguous, is changed; solid: built-in elements with integration points.
+    statev (m, points, NSTATV), contiguous, is changed; family: its number for built-in elements, else 0.
     """
-    left, element, point = _host.host_sdvini_pass(address, int(solid), arrays.labels, arrays.coords.T, statev.T)
+    left, element, point = _host.host_sdvini_pass(address, family, arrays.labels, arrays.coords.T, statev.T)
     return (element, point) if left else (0, 0)
 
 
@@ -315,24 +315,26 @@ def _padded(names: Sequence[str]) -> NDArray[np.bytes_]:
     return np.array([name.ljust(80) for name in names], dtype="S80")
 
 
-def solid_address() -> int:
-    """Address of the built-in plane continuum elements, called like UELMAT."""
-    return int(_host.host_solid_address())
+def integration_rule(family: int, points: int, nodes: int, dimension: int) -> tuple[FloatArray, FloatArray, FloatArray]:
+    """Weights (points,), shape functions (points, nodes) and their derivatives (points, nodes, dimension) of a family.
+
+    The derivatives are by the parent coordinates. Raises ValueError where the host does not have such a rule.
+    """
+    weights, shapes, slopes = np.zeros(points), np.zeros((points, nodes)), np.zeros((points, dimension, nodes))
+    if not _host.host_rule(family, weights, shapes.T, slopes.T):
+        raise ValueError(f"the host has no family {family} of {nodes} nodes with {points} integration points")
+    return weights, shapes, slopes.transpose(0, 2, 1)
 
 
-def coupled_address() -> int:
-    """Address of the built-in coupled temperature-displacement elements, called like UELMAT."""
-    return int(_host.host_coupled_address())
-
-
-def cohesive_address() -> int:
-    """Address of the built-in cohesive elements, called like UEL."""
-    return int(_host.host_cohesive_address())
-
-
-def discrete_address() -> int:
-    """Address of the built-in trusses, springs and masses, called like UEL."""
-    return int(_host.host_discrete_address())
+def address_of(elements: Literal["solid", "coupled", "cohesive", "discrete"]) -> int:
+    """Address of built-in elements: solid and coupled ones are called like UELMAT, the others like UEL."""
+    address = {
+        "solid": _host.host_solid_address,
+        "coupled": _host.host_coupled_address,
+        "cohesive": _host.host_cohesive_address,
+        "discrete": _host.host_discrete_address,
+    }
+    return int(address[elements]())
 
 
 def take_messages() -> list[RawMessage]:

@@ -5,7 +5,7 @@
 import pytest
 
 from harness.deck.abaqus_elements import is_abaqus_element
-from harness.deck.user_elements import BUILT_IN_NODES
+from harness.model.element_types import BUILT_IN
 
 NAMES = """
 CPE3E CPE4H CPE4I CPE4IH CPE4RH CPE4RHT CPE4P CPE4RPH CPE6M CPE6MHT CPE8RHT CPE8RPH CPEG4I CPS4I CPS6MT CPS8RE CAX4I
@@ -20,7 +20,7 @@ DASHPOT1 GAPUNI GAPSPHER DCOUP3D ITSUNI JOINTC
 """
 
 
-@pytest.mark.parametrize("name", [*NAMES.split(), *BUILT_IN_NODES])
+@pytest.mark.parametrize("name", [*NAMES.split(), *BUILT_IN])
 def test_elements_of_abaqus(name):
     assert is_abaqus_element(name)
     assert is_abaqus_element(name.lower())

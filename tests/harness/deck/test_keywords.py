@@ -10,8 +10,8 @@ import pytest
 from harness.deck.abaqus_names import ABAQUS_KEYWORDS
 from harness.deck.keywords import KEYWORDS, MARKDOWN, markdown
 from harness.deck.table import Keyword, Kind, Option, Options, Support, Where, read_options, refused
-from harness.deck.user_elements import BUILT_IN_NODES
 from harness.errors import Source
+from harness.model.element_types import BUILT_IN
 
 
 def test_page_is_current() -> None:
@@ -98,4 +98,4 @@ def test_every_option_that_a_reader_asks_for_is_in_the_table() -> None:
 
 def test_page_names_all_built_in_elements() -> None:
     doc = next(option.doc for option in KEYWORDS["ELEMENT"].options if option.name == "TYPE")
-    assert doc.partition("built in: ")[2].split(", ") == list(BUILT_IN_NODES)
+    assert doc.partition("built in: ")[2].split(", ") == list(BUILT_IN)

@@ -11,8 +11,8 @@ import scipy.sparse as sp
 
 from harness import usersub
 from harness.elements import Call, Flags, build_blocks
-from harness.elements.solid import SOLIDS
 from harness.errors import Source
+from harness.model.element_types import CONTINUUM
 from harness.model.mesh import ElementGroup, Mesh
 from harness.model.model import Model
 from harness.model.properties import (
@@ -116,7 +116,7 @@ def forces_of(solid_group, bound, load, call):
         now = replace(call, flags=Flags(1, nlgeom))
 
         def evaluate(u):
-            u = np.asarray(u, dtype=float)[:, : SOLIDS[element_type].dimension]
+            u = np.asarray(u, dtype=float)[:, : CONTINUUM[element_type].dimension]
             residual = np.zeros(u.size)
             matrix.data[:] = 0
             report = block.evaluate(now, u.ravel(), u.ravel(), residual, matrix.data)

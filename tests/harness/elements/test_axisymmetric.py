@@ -11,12 +11,13 @@ import numpy as np
 import pytest
 
 from harness.elements import Request
-from harness.elements.solid import HOURGLASS_FRACTION, SOLIDS
+from harness.elements.solid import HOURGLASS_FRACTION
 from harness.errors import DeckError, Source
+from harness.model.element_types import CONTINUUM
 from harness.model.properties import Elastic, ElasticType, Orientation, Plastic
 
 E, NU, DENSITY = 1000.0, 0.3, 3.0
-TYPES = [name for name in SOLIDS if name.startswith("CAX")]
+TYPES = [name for name in CONTINUUM if name.startswith("CAX")]
 # an irregular patch of quadrilaterals around one inner node
 PATCH = np.array([[0, 0], [0.5, 0], [1, 0], [0, 0.5], [0.6, 0.45], [1, 0.4], [0, 1], [0.4, 1], [1, 1]], dtype=float)
 QUADS = np.array([[0, 1, 4, 3], [1, 2, 5, 4], [3, 4, 7, 6], [4, 5, 8, 7]])
@@ -35,14 +36,14 @@ def with_middles(nodes, corners):
 
 def patch_of(element_type):
     """Nodes and elements of the patch."""
-    count = SOLIDS[element_type].nodes
+    count = CONTINUUM[element_type].nodes
     nodes, elements = PATCH, TRIANGLES if count in (3, 6) else QUADS
     return with_middles(nodes, elements) if count > 4 else (nodes, elements)
 
 
 def single(element_type):
     """Nodes and the one element."""
-    count = SOLIDS[element_type].nodes
+    count = CONTINUUM[element_type].nodes
     corners = 3 if count in (3, 6) else 4
     nodes, elements = SINGLE[:corners], np.arange(corners)[None]
     return with_middles(nodes, elements) if count > 4 else (nodes, elements)
@@ -193,7 +194,7 @@ def test_mass(ring, call, element_type):
     assert along @ mass @ along == pytest.approx(DENSITY * volume(2.0), rel=1e-12)
     by_node = (mass @ along)[1::2]
     assert by_node @ nodes[:, 0] == pytest.approx(DENSITY * 2 * np.pi * (3**3 - 2**3) / 3, rel=1e-12)
-    if SOLIDS[element_type].nodes <= 4:
+    if CONTINUUM[element_type].nodes <= 4:
         np.testing.assert_allclose(mass, np.diag(np.diag(mass)))
 
 

@@ -9,10 +9,10 @@ import pytest
 from scipy.integrate import quad
 
 import harness
-from harness.elements.solid import COUPLED, SOLIDS
 from harness.errors import ConvergenceError, DeckError
+from harness.model.element_types import CONTINUUM, COUPLED
 
-TYPES = [name for name in SOLIDS if name.startswith("CAX")]
+TYPES = [name for name in CONTINUUM if name.startswith("CAX")]
 INNER, OUTER, PRESSURE, YOUNG, DENSITY = 1.0, 2.0, 10.0, 1000.0, 3.0
 
 UMAT = Path(__file__).with_name("components.f")
@@ -29,7 +29,7 @@ DLOAD = """      SUBROUTINE DLOAD(F,KSTEP,KINC,TIME,NOEL,NPT,LAYER,KSPT,
 
 def strip(element_type, count, height, inner=INNER, outer=OUTER):
     """Nodes and elements between two radii, `count` quadrilaterals or twice as many triangles along the radius."""
-    nodes_each = (SOLIDS | COUPLED)[element_type].nodes
+    nodes_each = (CONTINUUM | COUPLED)[element_type].nodes
     fine = 2 if nodes_each > 4 else 1
     rows = fine + 1
     radii, heights = np.linspace(inner, outer, fine * count + 1), np.linspace(0, height, rows)

@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 
 import harness
-from harness.elements.solid import COUPLED
 from harness.errors import DeckError
+from harness.model.element_types import COUPLED
 
 CONDUCTIVITY, DENSITY, HEAT, THICKNESS = 3.0, 2.0, 0.7, 0.5
 MATERIAL = f"""*MATERIAL, NAME=M

@@ -111,6 +111,13 @@ def test_spring_between_dofs(element, call):
     assert report.energy[1] == pytest.approx(0.5 * 8 * 0.3**2)
 
 
+def test_kind_that_the_host_does_not_know(element, call):
+    block, matrix = element("SPRINGA", SpringSection("ALL", (), np.array([1.0]), SOURCE))
+    block._procedure = replace(block._procedure, jtype=99)
+    with pytest.raises(KernelError, match=r"element 7 \(type SPRINGA\): .*of this kind are not known to the host"):
+        block.evaluate(call, np.zeros(6), np.zeros(6), np.zeros(6), matrix.data)
+
+
 def test_nodes_in_the_same_place(element, call):
     block, matrix = element("SPRINGA", SpringSection("ALL", (), np.array([1.0]), SOURCE), np.ones((2, 3)))
     with pytest.raises(KernelError, match=r"element 7 \(type SPRINGA\): .*both nodes are in the same place"):

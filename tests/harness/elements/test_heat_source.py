@@ -10,8 +10,8 @@ import pytest
 
 import harness
 from harness.elements import Flags
-from harness.elements.solid import COUPLED, SOLIDS
 from harness.errors import Source
+from harness.model.element_types import CONTINUUM, COUPLED
 from harness.model.mesh import ElementGroup
 from harness.model.properties import Material, SolidSection, UserMaterial
 
@@ -23,7 +23,7 @@ CONDUCTIVITY, THICKNESS, SIDE = 3.0, 0.5, 0.4
 
 def bar(element_type, count):
     """Nodes and elements of a bar along direction 1, or 2 about an axis; corners along it are sorted."""
-    kind = (SOLIDS | COUPLED)[element_type]
+    kind = (CONTINUUM | COUPLED)[element_type]
     quadratic = kind.nodes > 2**kind.dimension
     x = np.linspace(0.0, 1.0, count * (2 if quadratic else 1) + 1)
     square = np.array([[0, 0], [1, 0], [1, 1], [0, 1]])

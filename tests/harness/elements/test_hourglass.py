@@ -6,8 +6,9 @@ import numpy as np
 import pytest
 from scipy.optimize import approx_fprime
 
-from harness.elements.solid import HOURGLASS_FRACTION, SOLIDS
+from harness.elements.solid import HOURGLASS_FRACTION
 from harness.errors import Source
+from harness.model.element_types import CONTINUUM
 from harness.model.properties import SectionControls
 
 SOURCE = Source("test.inp", 1)
@@ -252,7 +253,7 @@ def test_energy_does_not_change_with_a_rotation(forces_of, element_type, control
 def test_force_and_tangent_are_derivatives_of_the_energy(forces_of, control_of, element_type, controls, nlgeom):
     """To ENERGY(6), which is ALLAE."""
     nodes = shape(element_type)
-    parameter, dimension = None if controls.enhanced else 7.0, SOLIDS[element_type].dimension
+    parameter, dimension = None if controls.enhanced else 7.0, CONTINUUM[element_type].dimension
     u = np.random.default_rng(7).normal(size=(len(nodes), dimension)) * 0.1
     options = {"controls": controls} if controls.enhanced else {"hourglass": parameter}
     solid = forces_of(element_type, nodes, nlgeom=nlgeom, **options)

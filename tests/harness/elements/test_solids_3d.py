@@ -9,8 +9,9 @@ import pytest
 from scipy.linalg import eigh
 
 from harness.elements import Request
-from harness.elements.solid import HOURGLASS_FRACTION, SOLIDS
+from harness.elements.solid import HOURGLASS_FRACTION
 from harness.errors import KernelError, Source
+from harness.model.element_types import CONTINUUM
 from harness.model.properties import Elastic, ElasticType, Orientation, Plastic
 
 SOURCE = Source("test.inp", 1)
@@ -93,7 +94,7 @@ def test_only_rigid_bodies_are_free(patch, call, element_type):
 @pytest.mark.parametrize("element_type, free", [("C3D4", 6), ("C3D8", 6), ("C3D8R", 6), ("C3D20", 6), ("C3D20R", 12)])
 def test_modes_of_a_single_element(solid_group, bound, load, call, element_type, free):
     """C3D20R alone has six modes beside the rigid ones, as 8 points times 6 strains for 60 unknowns leave."""
-    nodes = np.vstack([CUBE, CUBE[EDGES].mean(axis=1)])[: SOLIDS[element_type].nodes]
+    nodes = np.vstack([CUBE, CUBE[EDGES].mean(axis=1)])[: CONTINUUM[element_type].nodes]
     if element_type == "C3D4":
         nodes = CUBE[[0, 1, 3, 4]]
     block, matrix = bound(solid_group(element_type, np.arange(len(nodes))[None], 1.0), nodes, load(None))
@@ -142,7 +143,7 @@ def test_hourglass_energy(solid_group, bound, load, call, element_type):
     In the plane Abaqus has volume, squares of both directions and the mean hourglass displacement, 1 here; in space
     0.2357, volume, squares of the direction and the sum of the hourglass displacement, 8 (test_hourglass.py).
     """
-    d = SOLIDS[element_type].dimension
+    d = CONTINUUM[element_type].dimension
     nodes = (2 * CUBE - 1)[: 2**d] * [1, 1, d - 2]
     block, matrix = bound(solid_group(element_type, np.arange(2**d)[None], 1.0), nodes, load(None))
     u = np.outer(nodes[:, 0] * nodes[:, 1], np.eye(d)[0]).ravel()
@@ -182,11 +183,11 @@ DENSITY = 3.0
 
 # the mass of six-node triangles is in test_quadratic.py, that about an axis in test_axisymmetric.py
 @pytest.mark.parametrize(
-    "element_type", sorted(name for name, kind in SOLIDS.items() if kind.nodes != 6 and not kind.axisymmetric)
+    "element_type", sorted(name for name, kind in CONTINUUM.items() if kind.nodes != 6 and not kind.axisymmetric)
 )
 def test_mass_of_rigid_and_linear_motions(solid_group, bound, load, call, element_type):
     """Translations have the whole mass; a consistent mass is exact for linear velocities, a lumped one is diagonal."""
-    kind = SOLIDS[element_type]
+    kind = CONTINUUM[element_type]
     corners = CUBE if kind.dimension == 3 else CUBE[:4]
     edges = EDGES if kind.dimension == 3 else EDGES[:4]
     nodes = np.vstack([corners, corners[edges].mean(axis=1)])[: kind.nodes]

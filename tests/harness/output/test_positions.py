@@ -10,9 +10,8 @@ import numpy as np
 import pytest
 
 import harness
-from harness.elements.extrapolation import at_centroid, at_nodes
-from harness.elements.load_vectors import NODES
-from harness.elements.solid import COUPLED, SOLIDS
+from harness.elements.extrapolation import _places, at_centroid, at_nodes
+from harness.model.element_types import CONTINUUM, COUPLED
 
 PATCH = """*NODE, NSET=ALL
 10, 0., 0.
@@ -136,13 +135,13 @@ def parents(kind):
     """Parent coordinates of the nodes."""
     if kind.nodes == 6:
         return np.array([[0, 0], [1, 0], [0, 1], [0.5, 0], [0.5, 0.5], [0, 0.5]])
-    return NODES[kind.dimension][: kind.nodes]
+    return _places(kind.family)
 
 
-@pytest.mark.parametrize("type", sorted(SOLIDS | COUPLED))
+@pytest.mark.parametrize("type", sorted(CONTINUUM | COUPLED))
 def test_a_field_that_the_points_resolve_is_exact_at_nodes_and_centroid(type):
     """Gauss points: 1, linear in each direction, or quadratic; in Abaqus' order, along the first direction first."""
-    kind = (SOLIDS | COUPLED)[type]
+    kind = (CONTINUUM | COUPLED)[type]
     degree = 0 if kind.points == 1 else 1 if kind.nodes == 6 else round(kind.points ** (1 / kind.dimension)) - 1
 
     def field(x):

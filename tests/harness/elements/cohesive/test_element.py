@@ -2,10 +2,13 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Cohesive elements: frame and forces, unloading, compression, deletion, what is wrong with them."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
 from harness.errors import KernelError
+from harness.model.element_types import COHESIVE
 from harness.model.properties import SectionControls
 
 TYPES = ("COH2D4", "COH3D8")
@@ -126,3 +129,12 @@ def test_names_in_the_output(layer):
     }
     assert (variables.bottom, variables.top) == ((0, 1, 2, 3), (4, 5, 6, 7))
     assert (layer().block.variables.bottom, layer().block.variables.top) == ((0, 1), (3, 2))
+
+
+def test_faces_that_the_host_does_not_know(layer, monkeypatch):
+    kind = COHESIVE["COH2D4"]
+    monkeypatch.setitem(COHESIVE, "COH2D4", replace(kind, face=replace(kind.face, number=99)))
+    with pytest.raises(
+        KernelError, match=r"101 \(type COH2D4\): .*between faces of this family are not known to the host"
+    ):
+        layer().move(np.array([1e-4, 0.0]))

@@ -1,0 +1,22 @@
+! SPDX-FileCopyrightText: The uel-harness authors
+! SPDX-License-Identifier: BSD-3-Clause
+!> Procedures Python calls (through f2py) for shape functions and integration points; entry.f90 has the others.
+
+!> Shape functions and integration points of a family; known is 0 where there are none, or of other sizes.
+subroutine host_rule(family, weight, n, dn, known, points, nodes, dim)
+  use host_kinds, only: dp, i4
+  use host_shape, only: find_rule, rule_t
+  implicit none (type, external)
+  integer(i4), intent(in) :: family, points, nodes, dim
+  real(dp), intent(inout) :: weight(points), n(nodes, points), dn(nodes, dim, points)
+  integer(i4), intent(out) :: known
+  type(rule_t), pointer :: rule
+  known = 0
+  call find_rule(int(family), int(points), rule)
+  if (.not. associated(rule)) return
+  if (rule%nodes /= nodes .or. rule%dim /= dim) return
+  known = 1
+  weight = rule%weight
+  n = rule%n
+  dn = rule%dn
+end subroutine host_rule

@@ -1,0 +1,306 @@
+# SPDX-FileCopyrightText: The uel-harness authors
+# SPDX-License-Identifier: BSD-3-Clause
+"""The table of built-in element types: the reader, sections, elements, surfaces, loads and output take them from here.
+
+A type belongs to a family, which is a cell with its interpolation; faces belong to families too. A new continuum
+element is a row of CONTINUUM and, where its family is new, a row of the families, with its functions and integration
+points in fortran/host/host_shape.f90, which knows families by their numbers.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from enum import IntEnum
+from typing import Final
+
+Face = tuple[int, ...]
+
+
+@dataclass(frozen=True, slots=True)
+class Family:
+    """A cell with its interpolation.
+
+    Nodes have the order of Abaqus, which is also that of meshio: corners, then the middles of edges.
+
+    number       in fortran/host/host_shape.f90
+    dimension    of the cell: 1 line, 2 face, 3 volume
+    nodes        of which `corners` are corners
+    full_points  integration points of the mass, and of loads on the cell where it is a face
+    body_points  integration points of loads on the volume
+    cell         its name in meshio, for field output
+    faces        local nodes (from 0) of the faces S1, S2, ...: corners, then middles of edges
+    """
+
+    number: int
+    dimension: int
+    nodes: int
+    corners: int
+    full_points: int
+    body_points: int
+    cell: str
+    faces: tuple[Face, ...] = ()
+
+    def face_family(self, face: Face) -> Family:
+        """The family of one of its faces."""
+        return FAMILIES[self.dimension - 1, len(face)]
+
+    @property
+    def linear(self) -> Family:
+        """The family of its corners alone."""
+        return FAMILIES[self.dimension, self.corners]
+
+
+def _faces(nodes: int, *faces: Face) -> tuple[Face, ...]:
+    """Faces of the first nodes: those of a linear cell from those of the quadratic one."""
+    return tuple(tuple(node for node in face if node < nodes) for face in faces)
+
+
+_TRIANGLE: Final = ((0, 1, 3), (1, 2, 4), (2, 0, 5))
+_QUADRILATERAL: Final = ((0, 1, 4), (1, 2, 5), (2, 3, 6), (3, 0, 7))
+_TETRAHEDRON: Final = ((0, 1, 2), (0, 1, 3), (1, 2, 3), (0, 2, 3))
+_HEXAHEDRON: Final = (
+    (0, 1, 2, 3, 8, 9, 10, 11),
+    (4, 5, 6, 7, 12, 13, 14, 15),
+    (0, 1, 5, 4, 8, 17, 12, 16),
+    (1, 2, 6, 5, 9, 18, 13, 17),
+    (2, 3, 7, 6, 10, 19, 14, 18),
+    (3, 0, 4, 7, 11, 16, 15, 19),
+)
+
+# number, dimension, nodes, corners, full_points, body_points, cell, faces
+LINE2: Final = Family(1, 1, 2, 2, 2, 2, "line")
+LINE3: Final = Family(2, 1, 3, 2, 3, 3, "line3")
+TRI3: Final = Family(3, 2, 3, 3, 1, 1, "triangle", _faces(3, *_TRIANGLE))
+TRI6: Final = Family(4, 2, 6, 3, 6, 3, "triangle6", _TRIANGLE)
+QUAD4: Final = Family(5, 2, 4, 4, 4, 4, "quad", _faces(4, *_QUADRILATERAL))
+QUAD8: Final = Family(6, 2, 8, 4, 9, 9, "quad8", _QUADRILATERAL)
+TET4: Final = Family(7, 3, 4, 4, 1, 1, "tetra", _TETRAHEDRON)
+HEX8: Final = Family(8, 3, 8, 8, 8, 8, "hexahedron", _faces(8, *_HEXAHEDRON))
+HEX20: Final = Family(9, 3, 20, 8, 27, 27, "hexahedron20", _HEXAHEDRON)
+_CELLS: Final = (
+    Family(0, 3, 6, 6, 0, 0, "wedge"),
+    Family(0, 3, 10, 4, 0, 0, "tetra10"),
+    Family(0, 3, 15, 6, 0, 0, "wedge15"),
+)
+"""Cells of user elements alone, without an interpolation in the host."""
+
+FAMILIES: Final = {
+    (family.dimension, family.nodes): family
+    for family in (LINE2, LINE3, TRI3, TRI6, QUAD4, QUAD8, TET4, HEX8, HEX20, *_CELLS)
+}
+"""Families by the dimension of the cell and its nodes."""
+
+
+class Tensor(IntEnum):
+    """State of stress, by its number of components.
+
+    These are 11, 22, 12 in plane stress, 11, 22, 33, 12 in plane strain, and 11, 22, 33, 12, 13, 23 in space.
+    """
+
+    PLANE_STRESS = 3
+    PLANE_STRAIN = 4
+    SOLID = 6
+
+
+Direction = tuple[float, float, float]
+_PLANE_FORCES: Final[dict[str, Direction]] = {"BX": (1.0, 0.0, 0.0), "BY": (0.0, 1.0, 0.0)}
+_AXISYMMETRIC_FORCES: Final[dict[str, Direction]] = {"BR": (1.0, 0.0, 0.0), "BZ": (0.0, 1.0, 0.0)}
+_SPACE_FORCES: Final[dict[str, Direction]] = _PLANE_FORCES | {"BZ": (0.0, 0.0, 1.0)}
+BODY_FORCES: Final = ("BX", "BY", "BZ", "BR")
+"""Labels of body forces in *DLOAD."""
+
+
+@dataclass(frozen=True, slots=True)
+class ContinuumType:
+    """A continuum element.
+
+    points        integration points of the stiffness
+    axisymmetric  the stresses of plane strain, with 33 around the axis; direction 1 is the radius, 2 the axis
+    coupled       with temperatures at the corners
+    """
+
+    name: str
+    family: Family
+    points: int
+    tensor: Tensor
+    axisymmetric: bool = False
+    coupled: bool = False
+
+    @property
+    def section(self) -> str:
+        """Keyword that gives its properties."""
+        return "SOLID SECTION"
+
+    @property
+    def nodes(self) -> int:
+        """Nodes per element."""
+        return self.family.nodes
+
+    @property
+    def corners(self) -> int:
+        """Nodes that are no middle of an edge; they come first."""
+        return self.family.corners
+
+    @property
+    def dimension(self) -> int:
+        """2 or 3."""
+        return self.family.dimension
+
+    @property
+    def direct(self) -> int:
+        """Direct strains by the displacements: 2 in the plane, 3 in space and where there is one around the axis."""
+        return 3 if self.axisymmetric else self.dimension
+
+    @property
+    def components(self) -> tuple[str, ...]:
+        """Components of stress and strain in the output."""
+        return ("11", "22", "33", "12", "13", "23")[: 2 * self.dimension]
+
+    @property
+    def body_forces(self) -> dict[str, Direction]:
+        """Directions of the body forces of *DLOAD."""
+        if self.dimension == 3:
+            return _SPACE_FORCES
+        return _AXISYMMETRIC_FORCES if self.axisymmetric else _PLANE_FORCES
+
+    @property
+    def hourglass_control(self) -> bool:
+        """True where displacements other than rigid ones leave its only point without strain."""
+        return self.points == 1 and self.family in (QUAD4, HEX8)
+
+    @property
+    def mass_points(self) -> int:
+        """Integration points of the mass."""
+        return self._over_radius(self.family.full_points)
+
+    @property
+    def body_points(self) -> int:
+        """Integration points of loads on the volume."""
+        return self._over_radius(self.family.body_points)
+
+    @property
+    def thermal_points(self) -> int:
+        """Integration points of conduction and heat capacity: those of the stiffness, or enough for the corners."""
+        return max(self.points, self._over_radius(self.family.linear.full_points))
+
+    def _over_radius(self, points: int) -> int:
+        # one point would not tell the corners of a triangle about an axis apart, which have different radii
+        return 3 if self.axisymmetric and self.family is TRI3 else points
+
+    def dofs(self, node: int) -> tuple[int, ...]:
+        """Dofs of a local node, from 0."""
+        displacements = tuple(range(1, self.dimension + 1))
+        return (*displacements, 11) if self.coupled and node < self.corners else displacements
+
+
+@dataclass(frozen=True, slots=True)
+class CohesiveType:
+    """A cohesive element between two faces of a family.
+
+    bottom, top  local nodes of the faces, from 0; opposite ones have the same place
+    """
+
+    name: str
+    face: Family
+    bottom: Face
+    top: Face
+
+    @property
+    def section(self) -> str:
+        """Keyword that gives its properties."""
+        return "COHESIVE SECTION"
+
+    @property
+    def nodes(self) -> int:
+        """Nodes per element."""
+        return 2 * self.face.nodes
+
+    @property
+    def dimension(self) -> int:
+        """2 or 3."""
+        return self.face.dimension + 1
+
+    def dofs(self, node: int) -> tuple[int, ...]:
+        """Dofs of a local node, from 0."""
+        del node
+        return tuple(range(1, self.dimension + 1))
+
+
+class DiscreteKind(IntEnum):
+    """What a discrete element is; values are JTYPE of fortran/host/host_discrete.f90."""
+
+    TRUSS = 1
+    AXIAL_SPRING = 2
+    SPRING = 3
+    MASS = 4
+    FACE = 5
+
+
+@dataclass(frozen=True, slots=True)
+class DiscreteType:
+    """A truss, spring or mass; its nodes have the displacements 1 to `dimension`, those of springs one dof of these.
+
+    section  keyword that gives its properties
+    """
+
+    name: str
+    kind: DiscreteKind
+    nodes: int
+    dimension: int
+    section: str
+
+    def dofs(self, node: int) -> tuple[int, ...]:
+        """Dofs of a local node, from 0."""
+        del node
+        return tuple(range(1, self.dimension + 1))
+
+
+BuiltInType = ContinuumType | CohesiveType | DiscreteType
+
+_PLANE: Final = {"3": (TRI3, 1), "4": (QUAD4, 4), "4R": (QUAD4, 1), "6": (TRI6, 3), "8": (QUAD8, 9), "8R": (QUAD8, 4)}
+_SPACE: Final = {"4": (TET4, 1), "8": (HEX8, 8), "8R": (HEX8, 1), "20": (HEX20, 27), "20R": (HEX20, 8)}
+_UNCOUPLED: Final = ("CPS6", "CPE6", "CAX6")
+"""Those that have no relative with temperatures here."""
+
+CONTINUUM: Final = {
+    kind.name: kind
+    for kind in (
+        *(ContinuumType(f"CPS{name}", *row, Tensor.PLANE_STRESS) for name, row in _PLANE.items()),
+        *(ContinuumType(f"CPE{name}", *row, Tensor.PLANE_STRAIN) for name, row in _PLANE.items()),
+        *(ContinuumType(f"CAX{name}", *row, Tensor.PLANE_STRAIN, axisymmetric=True) for name, row in _PLANE.items()),
+        *(ContinuumType(f"C3D{name}", *row, Tensor.SOLID) for name, row in _SPACE.items()),
+    )
+}
+"""Continuum elements by their names."""
+
+COUPLED: Final = {
+    f"{name}T": replace(kind, name=f"{name}T", coupled=True)
+    for name, kind in CONTINUUM.items()
+    if name not in _UNCOUPLED
+}
+"""The same with temperatures at their corners."""
+
+COHESIVE: Final = {
+    "COH2D4": CohesiveType("COH2D4", LINE2, (0, 1), (3, 2)),
+    "COH3D8": CohesiveType("COH3D8", QUAD4, (0, 1, 2, 3), (4, 5, 6, 7)),
+}
+"""Cohesive elements by their names."""
+
+DISCRETE: Final = {
+    kind.name: kind
+    for kind in (
+        DiscreteType("T2D2", DiscreteKind.TRUSS, 2, 2, "SOLID SECTION"),
+        DiscreteType("T3D2", DiscreteKind.TRUSS, 2, 3, "SOLID SECTION"),
+        DiscreteType("SPRING1", DiscreteKind.SPRING, 1, 3, "SPRING"),
+        DiscreteType("SPRING2", DiscreteKind.SPRING, 2, 3, "SPRING"),
+        DiscreteType("SPRINGA", DiscreteKind.AXIAL_SPRING, 2, 3, "SPRING"),
+        DiscreteType("MASS", DiscreteKind.MASS, 1, 3, "MASS"),
+    )
+}
+"""Trusses, springs and masses by their names."""
+
+BUILT_IN: Final[dict[str, BuiltInType]] = {**CONTINUUM, **COUPLED, **COHESIVE, **DISCRETE}
+"""All built-in elements by their names."""
+
+HOURGLASS_CONTROLLED: Final = tuple(name for name, kind in CONTINUUM.items() if kind.hourglass_control)
+"""Names of elements with hourglass control."""
