@@ -6,6 +6,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from reference_cells import CUBE, affine, integral, nodes_of, patch_of
 from scipy.linalg import eigh
 
 from harness.elements import Request
@@ -15,43 +16,14 @@ from harness.model.element_types import CONTINUUM
 from harness.model.properties import Elastic, ElasticType, Orientation, Plastic
 
 SOURCE = Source("test.inp", 1)
-# R.H. MacNeal, R.L. Harder, A proposed standard set of problems to test finite element accuracy, Finite Elements in
-# Analysis and Design 1 (1985) 3: a cube of seven hexahedra, E 1e6, nu 0.25
-CUBE = np.array([[0.0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0], [0, 0, 1], [1, 0, 1], [1, 1, 1], [0, 1, 1]])
-INNER = np.array(
-    [
-        *([0.249, 0.342, 0.192], [0.826, 0.288, 0.288], [0.850, 0.649, 0.263], [0.273, 0.750, 0.230]),
-        *([0.320, 0.186, 0.643], [0.677, 0.305, 0.683], [0.788, 0.693, 0.644], [0.165, 0.745, 0.702]),
-    ]
-)
-CORNERS = np.vstack([CUBE, INNER])
-FACES = [[0, 3, 2, 1], [4, 5, 6, 7], [0, 1, 5, 4], [1, 2, 6, 5], [2, 3, 7, 6], [3, 0, 4, 7]]
-# each hexahedron between a face of the cube and the same face of the inner one
-HEXAHEDRA = np.array([[*range(8, 16)], *([k + 8 for k in face] + face for face in FACES)])
-SPLIT = np.array([[0, 1, 3, 4], [1, 2, 3, 6], [4, 6, 5, 1], [4, 7, 6, 3], [1, 3, 4, 6]])
-EDGES = np.array([*([0, 1], [1, 2], [2, 3], [3, 0], [4, 5], [5, 6], [6, 7], [7, 4]), *([0, 4], [1, 5], [2, 6], [3, 7])])
 MATERIAL = Elastic(ElasticType.ISOTROPIC, (1e6, 0.25), SOURCE)
-TYPES = ["C3D4", "C3D8", "C3D8R", "C3D20", "C3D20R"]
-
-
-def mesh(element_type):
-    """Nodes and elements of the cube."""
-    hexahedra = HEXAHEDRA
-    if element_type == "C3D4":
-        # a split of each hexahedron alone: its volume is that of the five parts only where faces are plane
-        return CUBE, SPLIT
-    if "20" not in element_type:
-        return CORNERS, hexahedra
-    pairs = hexahedra[:, EDGES].reshape(-1, 2)
-    edges, inverse = np.unique(np.sort(pairs, axis=1), axis=0, return_inverse=True)
-    middles = CORNERS[edges].mean(axis=1)
-    return np.vstack([CORNERS, middles]), np.hstack([hexahedra, len(CORNERS) + inverse.reshape(-1, 12)])
+TYPES = [name for name, kind in CONTINUUM.items() if kind.dimension == 3]
 
 
 @pytest.fixture
 def patch(solid_group, bound, load):
     def patch(element_type, **material):
-        nodes, elements = mesh(element_type)
+        nodes, elements = patch_of(CONTINUUM[element_type].family.cell)
         material = {"elastic": MATERIAL} | material
         return nodes, *bound(solid_group(element_type, elements, 1.0, **material), nodes, load(None))
 
@@ -91,16 +63,16 @@ def test_only_rigid_bodies_are_free(patch, call, element_type):
     assert np.linalg.matrix_rank(k, tol=1e-9 * abs(k).max()) == n - 6
 
 
-@pytest.mark.parametrize("element_type, free", [("C3D4", 6), ("C3D8", 6), ("C3D8R", 6), ("C3D20", 6), ("C3D20R", 12)])
-def test_modes_of_a_single_element(solid_group, bound, load, call, element_type, free):
-    """C3D20R alone has six modes beside the rigid ones, as 8 points times 6 strains for 60 unknowns leave."""
-    nodes = np.vstack([CUBE, CUBE[EDGES].mean(axis=1)])[: CONTINUUM[element_type].nodes]
-    if element_type == "C3D4":
-        nodes = CUBE[[0, 1, 3, 4]]
+@pytest.mark.parametrize("element_type", TYPES)
+def test_modes_of_a_single_element(solid_group, bound, load, call, element_type):
+    """None beside the rigid ones, but in C3D20R: 8 points times 6 strains for 60 unknowns leave six more."""
+    kind = CONTINUUM[element_type]
+    nodes, _ = affine(kind.family.cell)
     block, matrix = bound(solid_group(element_type, np.arange(len(nodes))[None], 1.0), nodes, load(None))
     n = nodes.size
     block.evaluate(call, np.zeros(n), np.zeros(n), np.zeros(n), matrix.data)
     k = matrix.toarray()
+    free = 12 if element_type == "C3D20R" else 6
     assert np.linalg.matrix_rank(k, tol=1e-9 * abs(k).max()) == n - free
 
 
@@ -181,36 +153,31 @@ def test_inside_out(solid_group, bound, load, call):
 DENSITY = 3.0
 
 
-# the mass of six-node triangles is in test_quadratic.py, that about an axis in test_axisymmetric.py
-@pytest.mark.parametrize(
-    "element_type", sorted(name for name, kind in CONTINUUM.items() if kind.nodes != 6 and not kind.axisymmetric)
-)
+@pytest.mark.parametrize("element_type", [name for name, kind in CONTINUUM.items() if not kind.axisymmetric])
 def test_mass_of_rigid_and_linear_motions(solid_group, bound, load, call, element_type):
     """Translations have the whole mass; a consistent mass is exact for linear velocities, a lumped one is diagonal."""
     kind = CONTINUUM[element_type]
-    corners = CUBE if kind.dimension == 3 else CUBE[:4]
-    edges = EDGES if kind.dimension == 3 else EDGES[:4]
-    nodes = np.vstack([corners, corners[edges].mean(axis=1)])[: kind.nodes]
-    if kind.nodes == kind.dimension + 1:
-        nodes = CUBE[[0, 1, 3, 4]][: kind.nodes]
+    cell, d = kind.family.cell, kind.dimension
+    nodes, scale = affine(cell)
     group = solid_group(element_type, np.arange(kind.nodes)[None], 2.0)
     material = replace(group.section.material, density=DENSITY)
     group = replace(group, section=replace(group.section, material=material))
-    block, matrix = bound(group, nodes, load(None))
-    n = kind.nodes * kind.dimension
+    block, matrix = bound(group, np.pad(nodes, ((0, 0), (0, 3 - d))), load(None))
+    n = kind.nodes * d
     block.evaluate(call.asking(Request.MASS), np.zeros(n), np.zeros(n), np.zeros(n), matrix.data)
     mass = matrix.toarray()
-    volume = {3: 0.5, 4: 1 / 6}.get(kind.nodes, 1.0) if kind.nodes == kind.dimension + 1 else 1.0
-    total = DENSITY * volume * (2.0 if kind.dimension == 2 else 1.0)
-    for direction in np.eye(kind.dimension):
+    factor = DENSITY * scale * (2.0 if d == 2 else 1.0)
+    for direction in np.eye(d):
         v = np.tile(direction, kind.nodes)
-        assert v @ mass @ v == pytest.approx(total, rel=1e-12)
-    if kind.nodes > 2**kind.dimension:
-        v = np.outer(nodes[:, 0], np.eye(kind.dimension)[0]).ravel()
-        assert v @ mass @ v == pytest.approx(total / 3, rel=1e-12)
+        assert v @ mass @ v == pytest.approx(factor * integral(cell, (0,) * d), rel=1e-12)
+    if kind.nodes > kind.corners:
+        # parent coordinates are linear in those of the element
+        v = np.outer(nodes_of(cell)[:, 0], np.eye(d)[0]).ravel()
+        assert v @ mass @ v == pytest.approx(factor * integral(cell, (2, *(0,) * (d - 1))), rel=1e-12)
         assert eigh(mass, eigvals_only=True).min() > 0
     else:
         np.testing.assert_allclose(mass, np.diag(np.diag(mass)))
+        np.testing.assert_allclose(np.diag(mass), factor * integral(cell, (0,) * d) / kind.nodes, rtol=1e-12)
 
 
 def test_frequencies_of_a_cantilever(solid_group, bound, load, call):

@@ -8,8 +8,10 @@ from pathlib import Path
 import meshio
 import numpy as np
 import pytest
+from reference_cells import nodes_of
 
 from harness.errors import Source
+from harness.model.element_types import CONTINUUM
 from harness.model.mesh import ElementGroup, Mesh
 from harness.model.model import Model
 from harness.model.properties import UserProperty
@@ -65,6 +67,35 @@ def test_user_elements_are_drawn_by_their_number_of_nodes(nodes: int, solid: boo
     assert cells.type == kind
     assert cells.nodes.tolist() == group.nodes.tolist()
     assert cells.element.tolist() == [0, 1]
+
+
+VTK_EDGES = {
+    # ends of the edges whose middles follow the corners (VTK's file formats)
+    **{"triangle6": [(0, 1), (1, 2), (2, 0)], "quad8": [(0, 1), (1, 2), (2, 3), (3, 0)]},
+    "tetra10": [(0, 1), (1, 2), (2, 0), (0, 3), (1, 3), (2, 3)],
+    "hexahedron20": [
+        *((0, 1), (1, 2), (2, 3), (3, 0), (4, 5), (5, 6), (6, 7), (7, 4)),
+        *((0, 4), (1, 5), (2, 6), (3, 7)),
+    ],
+}
+
+
+@pytest.mark.parametrize("name", CONTINUUM)
+def test_built_in_elements_are_drawn_as_cells_of_vtk(name: str, tmp_path: Path) -> None:
+    """The file has the nodes of the element in the order of VTK: corners, then the middles of its edges."""
+    cell = CONTINUUM[name].family.cell
+    points = nodes_of(cell)
+    group = replace(group_of(np.arange(len(points))[None]), type=name, definition=None)
+    cells = cells_of(group, None, solid=points.shape[1] == 3)
+    drawn = meshio.Mesh(np.pad(points, ((0, 0), (0, 3 - points.shape[1]))), [(cells.type, cells.nodes)])
+    meshio.vtu.write(tmp_path / "cell.vtu", drawn)
+    (block,) = meshio.read(tmp_path / "cell.vtu").cells
+    assert block.type == cell
+    corners = len(points) - len(VTK_EDGES.get(cell, []))
+    x = points[block.data[0]]
+    np.testing.assert_array_equal(x[:corners], points[:corners])
+    middles = [x[list(edge)].mean(axis=0) for edge in VTK_EDGES.get(cell, [])]
+    np.testing.assert_allclose(x[corners:], np.reshape(middles, (-1, points.shape[1])))
 
 
 def test_user_elements_of_another_kind_are_drawn_as_their_nodes() -> None:

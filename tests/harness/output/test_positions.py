@@ -8,9 +8,10 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from reference_cells import CORNERS, nodes_of, shape_of
 
 import harness
-from harness.elements.extrapolation import _places, at_centroid, at_nodes
+from harness.elements.extrapolation import at_centroid, at_nodes
 from harness.model.element_types import CONTINUUM, COUPLED
 
 PATCH = """*NODE, NSET=ALL
@@ -131,35 +132,39 @@ def test_elements_of_other_types_have_values_at_the_points_and_a_warning(tmp_pat
     assert warning in text
 
 
-def parents(kind):
-    """Parent coordinates of the nodes."""
-    if kind.nodes == 6:
-        return np.array([[0, 0], [1, 0], [0, 1], [0.5, 0], [0.5, 0.5], [0, 0.5]])
-    return _places(kind.family)
-
-
 @pytest.mark.parametrize("type", sorted(CONTINUUM | COUPLED))
 def test_a_field_that_the_points_resolve_is_exact_at_nodes_and_centroid(type):
     """Gauss points: 1, linear in each direction, or quadratic; in Abaqus' order, along the first direction first."""
     kind = (CONTINUUM | COUPLED)[type]
-    degree = 0 if kind.points == 1 else 1 if kind.nodes == 6 else round(kind.points ** (1 / kind.dimension)) - 1
-
-    def field(x):
-        return (
-            sum((k + 2.0) * x[..., k] ** p for k in range(kind.dimension) for p in range(1, degree + 1)) + 0 * x[..., 0]
-        )
-
+    shape = shape_of(kind.family.cell)
+    triangle = np.array([[1, 1], [4, 1], [1, 4]]) / 6
+    # degree in each direction, and the points
+    near, far = (5 - 5**0.5) / 20, (5 + 3 * 5**0.5) / 20
+    known = {
+        ("triangle", 3): ([1, 1], triangle),
+        ("tetra", 4): ([1, 1, 1], np.vstack([np.full(3, near), np.full((3, 3), near) + (far - near) * np.eye(3)])),
+        ("wedge", 2): ([0, 0, 1], np.array([[1 / 3, 1 / 3, z] for z in (-(3**-0.5), 3**-0.5)])),
+        ("wedge", 9): ([1, 1, 2], np.array([[*place, z] for z in (-(0.6**0.5), 0.0, 0.6**0.5) for place in triangle])),
+    }
     if kind.points == 1:
-        points = np.zeros((1, kind.dimension))
-    elif kind.nodes == 6:
-        points = np.array([[1, 1], [4, 1], [1, 4]]) / 6
+        degrees, points = [0] * kind.dimension, CORNERS[shape].mean(axis=0, keepdims=True)
+    elif (shape, kind.points) in known:
+        degrees, points = known[shape, kind.points]
     else:
-        line = np.polynomial.legendre.leggauss(degree + 1)[0]
+        along = round(kind.points ** (1 / kind.dimension))
+        degrees, line = [along - 1] * kind.dimension, np.polynomial.legendre.leggauss(along)[0]
         grids = np.meshgrid(*[line] * kind.dimension, indexing="ij")
         points = np.stack([grid.ravel(order="F") for grid in grids], axis=1)
-    centre = np.full((1, 2), 1 / 3) if kind.nodes == 6 else np.zeros((1, kind.dimension))
-    np.testing.assert_allclose(at_nodes(type) @ field(points), field(parents(kind)), atol=1e-12)
-    np.testing.assert_allclose(at_centroid(type) @ field(points), field(centre), atol=1e-12)
+
+    def field(x):
+        return 1.0 + sum((k + 2.0) * x[..., k] ** p for k, degree in enumerate(degrees) for p in range(1, degree + 1))
+
+    def values(x):
+        return np.broadcast_to(field(x), len(x))
+
+    centre = CORNERS[shape].mean(axis=0, keepdims=True)
+    np.testing.assert_allclose(at_nodes(type) @ values(points), values(nodes_of(kind.family.cell)), atol=1e-12)
+    np.testing.assert_allclose(at_centroid(type) @ values(points), values(centre), atol=1e-12)
     np.testing.assert_allclose(at_nodes(type).sum(axis=1), 1.0, atol=1e-12)
 
 

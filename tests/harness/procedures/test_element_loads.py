@@ -4,9 +4,11 @@
 
 import numpy as np
 import pytest
+from reference_cells import FACES, affine, area_vector, face_of, integral, shape_of, share_of_nodes
 
 import harness
 from harness.errors import DeckError, UelError
+from harness.model.element_types import CONTINUUM
 
 THICKNESS, DENSITY = 0.5, 3.0
 TYPES = {
@@ -103,6 +105,69 @@ def test_loads_of_the_volume(forces, element_type):
     down = np.eye(dimension)[1] * -9.8
     check(element_type, forces(element_type, "*DLOAD\nBODY, GRAV, 9.8, 0., -2."), DENSITY * down, volume, middle)
     check(element_type, forces(element_type, "*DLOAD\nBODY, BX, 7."), np.eye(dimension)[0] * 7, volume, middle)
+
+
+PLAIN = [name for name, kind in CONTINUUM.items() if not kind.axisymmetric]
+
+
+def copies(element_type, loads, options=""):
+    """Deck of separate copies of an element in one place, one for each load; all displacements are held."""
+    kind = CONTINUUM[element_type]
+    nodes, _ = affine(kind.family.cell)
+    lines, elements, surfaces = ["*NODE, NSET=ALL"], [f"*ELEMENT, TYPE={element_type}, ELSET=BODY"], []
+    for copy in range(len(loads)):
+        first = copy * kind.nodes + 1
+        lines += [", ".join([str(first + k), *map(repr, x)]) for k, x in enumerate(nodes.tolist())]
+        numbers = [str(copy + 1), *(str(first + k) for k in range(kind.nodes))]
+        elements += [", ".join(numbers[:12]) + "," * (len(numbers) > 12), ", ".join(numbers[12:])]
+        surfaces += [f"*SURFACE, NAME=FACE{copy + 1}", f"{copy + 1}, S{copy + 1}"]
+    lines += [line for line in elements if line] + surfaces * any("DSLOAD" in load for load in loads)
+    lines += ["*SOLID SECTION, ELSET=BODY, MATERIAL=M", f"{THICKNESS}", "*MATERIAL, NAME=M", "*ELASTIC", "1000., 0.3"]
+    lines += ["*DENSITY", f"{DENSITY}", f"*STEP{options}", "*STATIC", "*BOUNDARY", "ALL, 1, 3", *loads]
+    lines += ["*OUTPUT, HISTORY", "*NODE OUTPUT, NSET=ALL", "RF", "*END STEP", ""]
+    return "\n".join(lines)
+
+
+def forces_of_copies(folder, element_type, loads, options=""):
+    """Forces (copies, nodes, dimension) of the loads at the end."""
+    (folder / "copies.inp").write_text(copies(element_type, loads, options))
+    history = harness.run(folder / "copies.inp", output_dir=folder).history
+    kind = CONTINUUM[element_type]
+    names = [[f"RF{d}[ALL:{k}]" for d in range(1, kind.dimension + 1)] for k in range(1, len(loads) * kind.nodes + 1)]
+    found = -np.array([[history[name][-1] for name in of_node] for of_node in names])
+    return found.reshape(len(loads), kind.nodes, kind.dimension)
+
+
+@pytest.mark.parametrize("options", ["", ", NLGEOM"])
+@pytest.mark.parametrize("keyword", ["DLOAD", "DSLOAD"])
+@pytest.mark.parametrize("element_type", PLAIN)
+def test_consistent_forces_of_a_pressure(tmp_path, element_type, keyword, options):
+    """On each face of Abaqus, - p times its area in the direction out of the element, in the shares of its nodes."""
+    cell = CONTINUUM[element_type].family.cell
+    nodes, _ = affine(cell)
+    count = len(FACES[shape_of(cell)])
+    loads = [
+        f"*DLOAD\n{k}, P{k}, 4." if keyword == "DLOAD" else f"*DSLOAD\nFACE{k}, P, 4." for k in range(1, count + 1)
+    ]
+    found = forces_of_copies(tmp_path, element_type, loads, options)
+    for number in range(count):
+        face, shares = face_of(cell, number)
+        corners = nodes[list(FACES[shape_of(cell)][number])]
+        area = area_vector(corners) * (THICKNESS if len(corners) == 2 else 1.0)
+        area *= np.sign(area @ (corners.mean(axis=0) - nodes.mean(axis=0)))
+        expected = np.zeros_like(nodes)
+        expected[face] = -4.0 * np.outer(shares, area)
+        np.testing.assert_allclose(found[number], expected, atol=1e-12)
+
+
+@pytest.mark.parametrize("element_type", PLAIN)
+def test_consistent_forces_of_loads_of_the_volume(tmp_path, element_type):
+    kind = CONTINUUM[element_type]
+    cell, d = kind.family.cell, kind.dimension
+    volume = affine(cell)[1] * integral(cell, (0,) * d) * (THICKNESS if d == 2 else 1.0)
+    found = forces_of_copies(tmp_path, element_type, ["*DLOAD\n1, GRAV, 9.8, 0., -2.", "*DLOAD\n2, BX, 7."])
+    for forces, force in zip(found, (-9.8 * DENSITY * np.eye(d)[1], 7.0 * np.eye(d)[0]), strict=True):
+        np.testing.assert_allclose(forces, volume * np.outer(share_of_nodes(cell), force), atol=1e-12)
 
 
 TRIANGLE = """*NODE, NSET=ALL

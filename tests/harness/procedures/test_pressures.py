@@ -6,6 +6,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from reference_cells import unit_cell
 
 import harness
 from harness import usersub
@@ -13,12 +14,11 @@ from harness.assembly import System
 from harness.deck import read_deck
 from harness.elements import Call, Distributed, Flags, build_blocks
 from harness.errors import DeckError
+from harness.model.element_types import CONTINUUM
 
 YOUNG, NU, DENSITY = 1000.0, 0.25, 2.0
 SQUARE = np.array([[0.0, 0], [1, 0], [1, 1], [0, 1]])
-CUBE = np.array([[x, y, z] for z in (0.0, 1.0) for x, y in ((0, 0), (1, 0), (1, 1), (0, 1))])
 SIDES = [[0, 1], [1, 2], [2, 3], [3, 0]]
-EDGES = [*SIDES, [4, 5], [5, 6], [6, 7], [7, 4], [0, 4], [1, 5], [2, 6], [3, 7]]
 NODES = {
     "CPS4": SQUARE,
     "CPE4": SQUARE,
@@ -26,11 +26,9 @@ NODES = {
     "CAX4": SQUARE,
     "CPE8R": np.vstack([SQUARE, SQUARE[SIDES].mean(axis=1)]),
     "CAX8": np.vstack([SQUARE, SQUARE[SIDES].mean(axis=1)]),
-    "C3D4": CUBE[[0, 1, 3, 4]],
-    "C3D8": CUBE,
-    "C3D20R": np.vstack([CUBE, CUBE[EDGES].mean(axis=1)]),
+    **{name: unit_cell(kind.family.cell)[0] for name, kind in CONTINUUM.items() if kind.dimension == 3},
 }
-FACES = {name: 6 if name.startswith("C3D") else 4 for name in NODES} | {"C3D4": 4, "CPE3": 3}
+FACES = {name: len(CONTINUUM[name].family.faces) for name in NODES}
 THICKNESS = 0.5
 
 
