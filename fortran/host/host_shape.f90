@@ -12,8 +12,8 @@ module host_shape
   private
   public :: line2, quad4, rule_t, rule_of, find_rule, is_quadratic, is_multilinear, radius_of, hourglass_shapes
 
-  integer, parameter :: line2 = 1, line3 = 2, tri3 = 3, tri6 = 4, quad4 = 5, quad8 = 6, tet4 = 7, hex8 = 8, hex20 = 9
-  integer, parameter :: families = hex20, most_points = 27
+  integer, parameter :: line2 = 1, line3 = 2, tri3 = 3, tri6 = 4, quad4 = 5, quad8 = 6, tet4 = 7, hex8 = 8, hex20 = 9, tet10 = 10
+  integer, parameter :: families = tet10, most_points = 27
 
   !> Parent coordinates of the nodes of lines, quadrilaterals and hexahedra.
   integer, parameter :: line(3) = [-1, 1, 0]
@@ -102,6 +102,8 @@ contains
       sizes = [3, 8, 8]
     case (hex20)
       sizes = [3, 20, 8]
+    case (tet10)
+      sizes = [3, 10, 4]
     case default
       sizes = 0
     end select
@@ -140,10 +142,8 @@ contains
       call gauss_points(parent, weight, known)
     case (tri3, tri6)
       call triangle_points(points, parent, weight, known)
-    case (tet4)
-      known = points == 1
-      parent = 0.25_dp
-      weight = 1.0_dp/6
+    case (tet4, tet10)
+      call tetrahedron_points(points, parent, weight, known)
     case default
       known = .false.
     end select
@@ -200,6 +200,52 @@ contains
     end do
   end subroutine triangle_points
 
+  !> Points of a tetrahedron: its middle; four, exact for polynomials of degree 2, the first near node 1, and so on; or
+  !> fifteen for those of degree 5 (A.H. Stroud, Approximate Calculation of Multiple Integrals, 1971, T3: 5-1).
+  pure subroutine tetrahedron_points(points, parent, weight, known)
+    integer, intent(in) :: points
+    real(dp), intent(out) :: parent(:, :), weight(:)
+    logical, intent(out) :: known
+    real(dp), parameter :: four = (5 - sqrt(5.0_dp))/20, root = sqrt(15.0_dp)
+    real(dp), parameter :: near(2) = [(7 - root)/34, (7 + root)/34], edge = (5 - root)/20
+    real(dp), parameter :: volume(2) = [2665 + 14*root, 2665 - 14*root]/37800
+    real(dp) :: corner(4)
+    integer :: i, j, k
+    known = any(points == [1, 4, 15])
+    parent = 0.25_dp
+    weight = 1.0_dp/6
+    select case (points)
+    case (4)
+      weight = 1.0_dp/24
+      do k = 1, 4
+        corner = four
+        corner(k) = 1 - 3*four
+        parent(:, k) = corner(2:)
+      end do
+    case (15)
+      weight(1) = 16.0_dp/(6*135)
+      do i = 1, 2
+        do k = 1, 4
+          corner = near(i)
+          corner(k) = 1 - 3*near(i)
+          parent(:, 4*i - 3 + k) = corner(2:)
+          weight(4*i - 3 + k) = volume(i)/6
+        end do
+      end do
+      k = 9
+      do i = 1, 3
+        do j = i + 1, 4
+          k = k + 1
+          corner = edge
+          corner([i, j]) = 0.5_dp - edge
+          parent(:, k) = corner(2:)
+          weight(k) = 10.0_dp/(6*189)
+        end do
+      end do
+    case default   ! the middle
+    end select
+  end subroutine tetrahedron_points
+
   !> Shape functions and their derivatives by the parent coordinates.
   pure subroutine shape_functions(family, parent, n, dn)
     integer, intent(in) :: family
@@ -221,7 +267,7 @@ contains
       end do
     case (tri3, tet4)
       call simplex_functions(parent, n, dn)
-    case (tri6)
+    case (tri6, tet10)
       call quadratic_simplex(parent, n, dn)
     case default   ! there are no points of other families
       n = 0
@@ -242,11 +288,11 @@ contains
     end do
   end subroutine simplex_functions
 
-  !> Quadratic functions of a triangle.
+  !> Quadratic functions of a triangle or tetrahedron.
   pure subroutine quadratic_simplex(parent, n, dn)
     real(dp), intent(in) :: parent(:)
     real(dp), intent(out) :: n(:), dn(:, :)
-    integer, parameter :: ends(2, 3) = reshape([1, 2, 2, 3, 3, 1], [2, 3])
+    integer, parameter :: ends(2, 6) = reshape([1, 2, 2, 3, 3, 1, 1, 4, 2, 4, 3, 4], [2, 6])
     real(dp) :: linear(size(parent) + 1), slope(size(parent) + 1, size(parent))
     integer :: corners, k
     call simplex_functions(parent, linear, slope)

@@ -20,7 +20,7 @@ RULES = sorted(
 )
 DEGREES = {
     # polynomials that a number of points integrates exactly, in each direction of cells with parallel faces
-    **{("triangle", 1): 1, ("triangle", 3): 2, ("triangle", 6): 4, ("tetra", 1): 1},
+    **{("triangle", 1): 1, ("triangle", 3): 2, ("triangle", 6): 4, ("tetra", 1): 1, ("tetra", 4): 2, ("tetra", 15): 5},
     **{(shape, n**d): 2 * n - 1 for shape, d in (("line", 1), ("quad", 2), ("hexahedron", 3)) for n in (1, 2, 3)},
 }
 
