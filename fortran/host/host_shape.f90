@@ -13,7 +13,7 @@ module host_shape
   public :: line2, quad4, rule_t, rule_of, find_rule, is_quadratic, is_multilinear, radius_of, hourglass_shapes
 
   integer, parameter :: line2 = 1, line3 = 2, tri3 = 3, tri6 = 4, quad4 = 5, quad8 = 6, tet4 = 7, hex8 = 8, hex20 = 9, tet10 = 10
-  integer, parameter :: families = tet10, most_points = 27
+  integer, parameter :: wedge6 = 11, wedge15 = 12, families = wedge15, most_points = 27
 
   !> Parent coordinates of the nodes of lines, quadrilaterals and hexahedra.
   integer, parameter :: line(3) = [-1, 1, 0]
@@ -104,6 +104,10 @@ contains
       sizes = [3, 20, 8]
     case (tet10)
       sizes = [3, 10, 4]
+    case (wedge6)
+      sizes = [3, 6, 6]
+    case (wedge15)
+      sizes = [3, 15, 6]
     case default
       sizes = 0
     end select
@@ -144,6 +148,8 @@ contains
       call triangle_points(points, parent, weight, known)
     case (tet4, tet10)
       call tetrahedron_points(points, parent, weight, known)
+    case (wedge6, wedge15)
+      call wedge_points(points, parent, weight, known)
     case default
       known = .false.
     end select
@@ -246,6 +252,28 @@ contains
     end select
   end subroutine tetrahedron_points
 
+  !> Points of a wedge: those of a triangle, one layer after the other at two or three Gauss points across.
+  pure subroutine wedge_points(points, parent, weight, known)
+    integer, intent(in) :: points
+    real(dp), intent(out) :: parent(:, :), weight(:)
+    logical, intent(out) :: known
+    real(dp), allocatable :: triangle(:, :), area(:), across(:, :), height(:)
+    integer :: first, k, layers
+    layers = 2
+    if (mod(points, 3) == 0 .and. points > 6) layers = 3
+    allocate (triangle(2, points/layers), area(points/layers), across(1, layers), height(layers))
+    call gauss_points(across, height, known)
+    call triangle_points(size(area), triangle, area, known)
+    known = known .and. layers*size(area) == points
+    if (.not. known) return
+    do k = 1, layers
+      first = (k - 1)*size(area)
+      parent(:2, first + 1:first + size(area)) = triangle
+      parent(3, first + 1:first + size(area)) = across(1, k)
+      weight(first + 1:first + size(area)) = height(k)*area
+    end do
+  end subroutine wedge_points
+
   !> Shape functions and their derivatives by the parent coordinates.
   pure subroutine shape_functions(family, parent, n, dn)
     integer, intent(in) :: family
@@ -269,6 +297,10 @@ contains
       call simplex_functions(parent, n, dn)
     case (tri6, tet10)
       call quadratic_simplex(parent, n, dn)
+    case (wedge6)
+      call wedge_functions(parent, n, dn)
+    case (wedge15)
+      call quadratic_wedge(parent, n, dn)
     case default   ! there are no points of other families
       n = 0
       dn = 0
@@ -308,6 +340,52 @@ contains
       end associate
     end do
   end subroutine quadratic_simplex
+
+  !> Functions of a wedge: linear ones of the triangle 1-2-3 and of the third coordinate.
+  pure subroutine wedge_functions(parent, n, dn)
+    real(dp), intent(in) :: parent(:)
+    real(dp), intent(out) :: n(:), dn(:, :)
+    real(dp) :: linear(3), slope(3, 2)
+    integer :: first, side
+    call simplex_functions(parent(:2), linear, slope)
+    do side = -1, 1, 2
+      first = merge(0, 3, side < 0)
+      n(first + 1:first + 3) = linear*(1 + side*parent(3))/2
+      dn(first + 1:first + 3, :2) = slope*(1 + side*parent(3))/2
+      dn(first + 1:first + 3, 3) = side*linear/2
+    end do
+  end subroutine wedge_functions
+
+  !> Functions of a wedge with middles of the edges: of both triangles, then of the edges between them.
+  pure subroutine quadratic_wedge(parent, n, dn)
+    real(dp), intent(in) :: parent(:)
+    real(dp), intent(out) :: n(:), dn(:, :)
+    real(dp) :: linear(3), slope(3, 2), of_triangle(6), its_slope(6, 2), across, by_third
+    integer :: corner, edge, side
+    call simplex_functions(parent(:2), linear, slope)
+    call quadratic_simplex(parent(:2), of_triangle, its_slope)
+    do side = -1, 1, 2
+      corner = merge(0, 3, side < 0)
+      edge = corner + 6
+      across = (1 + side*parent(3))/2
+      by_third = 0.5_dp*side
+      n(corner + 1:corner + 3) = of_triangle(:3)*across
+      n(edge + 1:edge + 3) = of_triangle(4:)*across
+      dn(corner + 1:corner + 3, :2) = its_slope(:3, :)*across
+      dn(edge + 1:edge + 3, :2) = its_slope(4:, :)*across
+      dn(corner + 1:corner + 3, 3) = of_triangle(:3)*by_third
+      dn(edge + 1:edge + 3, 3) = of_triangle(4:)*by_third
+    end do
+    across = 1 - parent(3)**2
+    by_third = -2*parent(3)
+    n(13:) = linear*across
+    dn(13:, :2) = slope*across
+    dn(13:, 3) = linear*by_third
+    ! a corner is half of a middle away from the functions that are linear across
+    n(:6) = n(:6) - [n(13:), n(13:)]/2
+    dn(:3, :) = dn(:3, :) - dn(13:, :)/2
+    dn(4:6, :) = dn(4:6, :) - dn(13:, :)/2
+  end subroutine quadratic_wedge
 
   !> One function: a product over the directions, times a sum where there are middle nodes (serendipity family).
   pure subroutine node_function(dim, place, serendipity, parent, n, dn)

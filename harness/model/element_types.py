@@ -58,6 +58,13 @@ def _faces(nodes: int, *faces: Face) -> tuple[Face, ...]:
 _TRIANGLE: Final = ((0, 1, 3), (1, 2, 4), (2, 0, 5))
 _QUADRILATERAL: Final = ((0, 1, 4), (1, 2, 5), (2, 3, 6), (3, 0, 7))
 _TETRAHEDRON: Final = ((0, 1, 2, 4, 5, 6), (0, 1, 3, 4, 8, 7), (1, 2, 3, 5, 9, 8), (0, 2, 3, 6, 9, 7))
+_WEDGE: Final = (
+    (0, 1, 2, 6, 7, 8),
+    (3, 5, 4, 11, 10, 9),
+    (0, 3, 4, 1, 12, 9, 13, 6),
+    (1, 4, 5, 2, 13, 10, 14, 7),
+    (2, 5, 3, 0, 14, 11, 12, 8),
+)
 _HEXAHEDRON: Final = (
     (0, 1, 2, 3, 8, 9, 10, 11),
     (4, 5, 6, 7, 12, 13, 14, 15),
@@ -78,15 +85,12 @@ TET4: Final = Family(7, 3, 4, 4, 1, 1, "tetra", _faces(4, *_TETRAHEDRON))
 HEX8: Final = Family(8, 3, 8, 8, 8, 8, "hexahedron", _faces(8, *_HEXAHEDRON))
 HEX20: Final = Family(9, 3, 20, 8, 27, 27, "hexahedron20", _HEXAHEDRON)
 TET10: Final = Family(10, 3, 10, 4, 15, 15, "tetra10", _TETRAHEDRON)
-_CELLS: Final = (
-    Family(0, 3, 6, 6, 0, 0, "wedge"),
-    Family(0, 3, 15, 6, 0, 0, "wedge15"),
-)
-"""Cells of user elements alone, without an interpolation in the host."""
+WEDGE6: Final = Family(11, 3, 6, 6, 6, 6, "wedge", _faces(6, *_WEDGE))
+WEDGE15: Final = Family(12, 3, 15, 6, 18, 18, "wedge15", _WEDGE)
 
 FAMILIES: Final = {
     (family.dimension, family.nodes): family
-    for family in (LINE2, LINE3, TRI3, TRI6, QUAD4, QUAD8, TET4, HEX8, HEX20, TET10, *_CELLS)
+    for family in (LINE2, LINE3, TRI3, TRI6, QUAD4, QUAD8, TET4, HEX8, HEX20, TET10, WEDGE6, WEDGE15)
 }
 """Families by the dimension of the cell and its nodes."""
 
@@ -259,10 +263,10 @@ BuiltInType = ContinuumType | CohesiveType | DiscreteType
 
 _PLANE: Final = {"3": (TRI3, 1), "4": (QUAD4, 4), "4R": (QUAD4, 1), "6": (TRI6, 3), "8": (QUAD8, 9), "8R": (QUAD8, 4)}
 _SPACE: Final = {
-    **{"4": (TET4, 1), "8": (HEX8, 8), "8R": (HEX8, 1), "10": (TET10, 4)},
-    **{"20": (HEX20, 27), "20R": (HEX20, 8)},
+    **{"4": (TET4, 1), "6": (WEDGE6, 2), "8": (HEX8, 8), "8R": (HEX8, 1)},
+    **{"10": (TET10, 4), "15": (WEDGE15, 9), "20": (HEX20, 27), "20R": (HEX20, 8)},
 }
-_UNCOUPLED: Final = ("CPS6", "CPE6", "CAX6", "C3D10")
+_UNCOUPLED: Final = ("CPS6", "CPE6", "CAX6", "C3D6", "C3D10", "C3D15")
 """Those that have no relative with temperatures here."""
 
 CONTINUUM: Final = {

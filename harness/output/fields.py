@@ -21,6 +21,7 @@ from xml.sax.saxutils import escape
 
 import meshio
 import numpy as np
+from meshio._mesh import topological_dimension
 
 from harness.errors import UelError
 from harness.model.arrays import FloatArray, IntArray
@@ -31,6 +32,8 @@ from harness.output.cells import Cells, cell_values, cells_of, is_solid
 from harness.output.schedule import Schedule
 
 Values = TypeVar("Values")
+# meshio 5.3.5 writes and reads this cell, but lacks its dimension, and ends with a KeyError
+topological_dimension.setdefault("wedge15", 3)
 _ENTRY = re.compile(r'<DataSet timestep="([^"]+)" part="0" file="([^"]*step(\d+)_increment(\d+)\.vtu)"/>')
 
 

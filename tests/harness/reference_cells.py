@@ -17,6 +17,7 @@ CORNERS = {
     "triangle": SIMPLEX[:3, :2],
     "quad": SQUARE,
     "tetra": SIMPLEX,
+    "wedge": np.array([(*corner, r) for r in (-1.0, 1.0) for corner in SIMPLEX[:3, :2]]),
     "hexahedron": np.array([(*corner, r) for r in (-1.0, 1.0) for corner in SQUARE]),
 }
 """Parent coordinates."""
@@ -27,6 +28,7 @@ EDGES = {
     "triangle": TRIANGLE_EDGES,
     "quad": SQUARE_EDGES,
     "tetra": [*TRIANGLE_EDGES, (0, 3), (1, 3), (2, 3)],
+    "wedge": [*TRIANGLE_EDGES, (3, 4), (4, 5), (5, 3), (0, 3), (1, 4), (2, 5)],
     "hexahedron": [*SQUARE_EDGES, (4, 5), (5, 6), (6, 7), (7, 4), *((k, k + 4) for k in range(4))],
 }
 """Ends of the edges in the order of their middles."""
@@ -34,15 +36,16 @@ FACES = {
     "triangle": TRIANGLE_EDGES,
     "quad": SQUARE_EDGES,
     "tetra": [(0, 1, 2), (0, 3, 1), (1, 3, 2), (2, 3, 0)],
+    "wedge": [(0, 1, 2), (3, 5, 4), (0, 3, 4, 1), (1, 4, 5, 2), (2, 5, 3, 0)],
     "hexahedron": [(0, 1, 2, 3), (4, 7, 6, 5), (0, 4, 5, 1), (1, 5, 6, 2), (2, 6, 7, 3), (3, 7, 4, 0)],
 }
 """Corners of the faces."""
 SHARES = {
-    # parts of a constant load: of a corner, of a middle of an edge (O.C. Zienkiewicz, R.L. Taylor, The Finite Element
-    # Method, and by integration of the functions)
+    # parts of a constant load: of a corner, of a middle of an edge, in wedges of one between the triangles (O.C.
+    # Zienkiewicz, R.L. Taylor, The Finite Element Method, and by integration of the functions)
     **{"line": (1 / 2,), "line3": (1 / 6, 2 / 3), "triangle": (1 / 3,), "triangle6": (0.0, 1 / 3)},
     **{"quad": (1 / 4,), "quad8": (-1 / 12, 1 / 3), "tetra": (1 / 4,), "tetra10": (-1 / 20, 1 / 5)},
-    **{"hexahedron": (1 / 8,), "hexahedron20": (-1 / 8, 1 / 6)},
+    **{"hexahedron": (1 / 8,), "hexahedron20": (-1 / 8, 1 / 6), "wedge": (1 / 6,), "wedge15": (-1 / 9, 1 / 6, 2 / 9)},
 }
 
 
@@ -66,7 +69,8 @@ def nodes_of(cell):
 def share_of_nodes(cell):
     """Parts of a constant load (nodes,) in an undistorted cell."""
     shape, shares = shape_of(cell), SHARES[cell]
-    return np.repeat(shares, [len(CORNERS[shape]), len(EDGES[shape])][: len(shares)])
+    counts = [6, 6, 3] if shape == "wedge" else [len(CORNERS[shape]), len(EDGES[shape])]
+    return np.repeat(shares, counts[: len(shares)])
 
 
 def face_of(cell, number):
@@ -86,6 +90,8 @@ def integral(cell, powers):
     """Of a product of powers of the parent coordinates over the cell."""
     if shape_of(cell) in ("triangle", "tetra"):
         return np.prod([factorial(power) for power in powers]) / factorial(sum(powers) + len(powers))
+    if shape_of(cell) == "wedge":
+        return integral("triangle", powers[:2]) * integral("line", powers[2:])
     return np.prod([(1 - (-1) ** (power + 1)) / (power + 1) for power in powers])
 
 
@@ -135,7 +141,19 @@ def _tetrahedra():
     return nodes, [(a, c, b, 8) if turn else (a, b, c, 8) for (a, b, c), turn in zip(halves, turned, strict=True)]
 
 
-PATCHES = {"quad": _square_and_inner, "triangle": _triangles, "hexahedron": _hexahedra, "tetra": _tetrahedra}
+def _wedges():
+    # two layers of triangles between three levels, with a line of nodes inside that is bent
+    levels = [np.column_stack([CUBE[:4, :2], np.full(4, z)]) for z in (0.0, 0.5, 1.0)]
+    inside = [[0.45, 0.4, 0.0], MIDDLE, [0.55, 0.5, 1.0]]
+    _, triangles = _triangles()
+    nodes = np.vstack([np.vstack([level, middle]) for level, middle in zip(levels, inside, strict=True)])
+    return nodes, [tuple(k + 5 * (layer + up) for up in (0, 1) for k in t) for layer in (0, 1) for t in triangles]
+
+
+PATCHES = {
+    **{"quad": _square_and_inner, "triangle": _triangles},
+    **{"hexahedron": _hexahedra, "tetra": _tetrahedra, "wedge": _wedges},
+}
 
 
 def patch_of(cell):

@@ -14,6 +14,7 @@ from harness.elements.solid import HOURGLASS_FRACTION
 from harness.errors import KernelError, Source
 from harness.model.element_types import CONTINUUM
 from harness.model.properties import Elastic, ElasticType, Orientation, Plastic
+from harness.usersub import _binding
 
 SOURCE = Source("test.inp", 1)
 MATERIAL = Elastic(ElasticType.ISOTROPIC, (1e6, 0.25), SOURCE)
@@ -65,15 +66,39 @@ def test_only_rigid_bodies_are_free(patch, call, element_type):
 
 @pytest.mark.parametrize("element_type", TYPES)
 def test_modes_of_a_single_element(solid_group, bound, load, call, element_type):
-    """None beside the rigid ones, but in C3D20R: 8 points times 6 strains for 60 unknowns leave six more."""
+    """None beside the rigid ones but in two types.
+
+    C3D20R has six: 8 points times 6 strains for 60 unknowns. C3D6 has one: its 2 points lie on the line through the
+    middles of both triangles, and see no twist of these against each other. It needs a neighbour, which stops it.
+    """
     kind = CONTINUUM[element_type]
     nodes, _ = affine(kind.family.cell)
     block, matrix = bound(solid_group(element_type, np.arange(len(nodes))[None], 1.0), nodes, load(None))
     n = nodes.size
     block.evaluate(call, np.zeros(n), np.zeros(n), np.zeros(n), matrix.data)
     k = matrix.toarray()
-    free = 12 if element_type == "C3D20R" else 6
+    free = {"C3D20R": 12, "C3D6": 7}.get(element_type, 6)
     assert np.linalg.matrix_rank(k, tol=1e-9 * abs(k).max()) == n - free
+
+
+@pytest.mark.parametrize("element_type", [name for name in TYPES if CONTINUUM[name].nodes > CONTINUUM[name].corners])
+def test_quadratic_displacements(solid_group, bound, load, call, element_type):
+    """Strains, point by point, of u = (x^2, x y + z^2, y z); their energy to the rule of the points."""
+    family, points = CONTINUUM[element_type].family, CONTINUUM[element_type].points
+    nodes, scale = affine(family.cell)
+    block, matrix = bound(solid_group(element_type, np.arange(family.nodes)[None], 1.0), nodes, load(None))
+    x, y, z = nodes.T
+    u = 1e-3 * np.column_stack([x * x, x * y + z * z, y * z]).ravel()
+    residual = np.zeros(u.size)
+    report = block.evaluate(call, u, u, residual, matrix.data)
+    block.commit()
+    weights, shapes, _ = _binding.integration_rule(family.number, points, family.nodes, 3)
+    x, y, z = (shapes @ nodes).T
+    strain = 1e-3 * np.column_stack([2 * x, x, y, y, 0 * x, 3 * z])
+    values = block.state(0).svars.reshape(points, 12)
+    np.testing.assert_allclose(values[:, :6], strain, rtol=1e-11, atol=1e-15)
+    assert report.energy[1] == pytest.approx(0.5 * scale * weights @ (strain * values[:, 6:]).sum(axis=1), rel=1e-11)
+    np.testing.assert_allclose(matrix @ u, -residual, atol=1e-12 * abs(residual).max())
 
 
 @pytest.mark.parametrize("element_type", TYPES)

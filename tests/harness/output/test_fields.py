@@ -57,7 +57,10 @@ def test_continuum_and_interface_are_in_one_file(model: Model, records: Records,
         (6, False, "triangle6"),
         (8, False, "quad8"),
         (4, True, "tetra"),
+        (6, True, "wedge"),
         (8, True, "hexahedron"),
+        (10, True, "tetra10"),
+        (15, True, "wedge15"),
         (20, True, "hexahedron20"),
     ],
 )
@@ -73,6 +76,7 @@ VTK_EDGES = {
     # ends of the edges whose middles follow the corners (VTK's file formats)
     **{"triangle6": [(0, 1), (1, 2), (2, 0)], "quad8": [(0, 1), (1, 2), (2, 3), (3, 0)]},
     "tetra10": [(0, 1), (1, 2), (2, 0), (0, 3), (1, 3), (2, 3)],
+    "wedge15": [(0, 1), (1, 2), (2, 0), (3, 4), (4, 5), (5, 3), (0, 3), (1, 4), (2, 5)],
     "hexahedron20": [
         *((0, 1), (1, 2), (2, 3), (3, 0), (4, 5), (5, 6), (6, 7), (7, 4)),
         *((0, 4), (1, 5), (2, 6), (3, 7)),
