@@ -19,16 +19,16 @@ from harness.deck.user_elements import MOST_VALUES, read_count
 from harness.errors import DeckError, Source
 from harness.model.amplitude import Amplitude, AmplitudeType, UserAmplitude
 from harness.model.arrays import FloatArray
-from harness.model.properties import Elastic, ElasticType, Material, Orientation, Plastic, UserMaterial
+from harness.model.properties import (
+    Elastic,
+    ElasticType,
+    Material,
+    Orientation,
+    Plastic,
+    UserMaterial,
+    isotropic_fault,
+)
 
-_CONSTANTS = {
-    ElasticType.ISOTROPIC: 2,
-    ElasticType.ENGINEERING_CONSTANTS: 9,
-    ElasticType.LAMINA: 6,
-    ElasticType.ORTHOTROPIC: 9,
-    ElasticType.ANISOTROPIC: 21,
-    ElasticType.TRACTION: 3,
-}
 MATERIAL_OPTIONS = (
     *("ELASTIC", "PLASTIC", "DENSITY", "CONDUCTIVITY", "SPECIFIC HEAT", "EXPANSION"),
     *("USER MATERIAL", "DEPVAR", "USER OUTPUT VARIABLES", "USER DEFINED FIELD"),
@@ -109,7 +109,7 @@ def _read_constant(block: Block, what: str, *, positive: bool = True) -> float:
 
 def _read_elastic(block: Block) -> Elastic:
     kind = ElasticType(block.options.text("TYPE"))
-    count = _CONSTANTS[kind]
+    count = kind.constants
     rows = list(block.rows())
     if not rows:
         raise block.error("needs a data line")
@@ -130,8 +130,8 @@ def _read_elastic(block: Block) -> Elastic:
 
 
 def _check_isotropic(row: Row, young: float, poisson: float) -> None:
-    if not (young > 0 and -1 < poisson <= 0.5):
-        raise row.error(f"E = {young:g}, nu = {poisson:g}: expected E > 0 and -1 < nu <= 0.5")
+    if fault := isotropic_fault(young, poisson):
+        raise row.error(fault)
 
 
 def _read_dependence(block: Block, kind: ElasticType, count: int, fields: int) -> FloatArray:

@@ -15,7 +15,7 @@ import numpy as np
 from harness.errors import DeckError, Source
 from harness.model.arrays import FloatArray
 from harness.model.element_types import Tensor
-from harness.model.properties import Elastic, ElasticType, Material, Orientation, UserMaterial
+from harness.model.properties import Elastic, ElasticType, Material, Orientation, UserMaterial, isotropic_fault
 from harness.usersub import Library, _binding
 
 HISTORY_VALUES: Final = 7
@@ -28,13 +28,6 @@ PARALLEL: Final = 1e-9
 
 _PAIRS: Final = ((0, 0), (1, 1), (2, 2), (0, 1), (0, 2), (1, 2))
 _COMPONENTS: Final = {Tensor.PLANE_STRESS: [0, 1, 3], Tensor.PLANE_STRAIN: [0, 1, 2, 3], Tensor.SOLID: list(range(6))}
-_COUNTS: Final = {
-    ElasticType.ISOTROPIC: 2,
-    ElasticType.ENGINEERING_CONSTANTS: 9,
-    ElasticType.LAMINA: 6,
-    ElasticType.ORTHOTROPIC: 9,
-    ElasticType.ANISOTROPIC: 21,
-}
 
 
 def history_values(material: Material, *, prestressed: bool = False) -> int:
@@ -76,7 +69,7 @@ def define_fields(
     axes, name = directions(orientation)
     elastic = material.elastic
     if elastic is not None and elastic.table is not None:
-        count = _COUNTS[elastic.type]
+        count = elastic.type.constants
         rows = [_engineering(elastic, tuple(row[:count]), tensor) for row in elastic.table.tolist()]
         for row in rows:
             _check_definite(elastic, _binding.compliance(row))
@@ -159,7 +152,7 @@ def _isotropic_constants(elastic: Elastic) -> tuple[float, float]:
 def _compliance(elastic: Elastic, tensor: Tensor) -> FloatArray:
     """(6, 6) compliance in the material's axes; DeckError unless it is positive definite."""
     c = elastic.constants
-    count = _COUNTS[elastic.type]
+    count = elastic.type.constants
     alone = elastic.type is ElasticType.ISOTROPIC and len(c) == 1
     if len(c) != count and not alone:
         raise DeckError(elastic.source, f"*ELASTIC, TYPE={elastic.type} needs {count} constants, found {len(c)}")
@@ -196,10 +189,11 @@ def _engineering(elastic: Elastic, c: tuple[float, ...], tensor: Tensor) -> tupl
 
 
 def _check_isotropic(elastic: Elastic, young: float, nu: float) -> None:
-    if young <= 0:
-        raise DeckError(elastic.source, f"*ELASTIC: Young's modulus must be positive, found {young:g}")
-    if not -1 < nu < 0.5:
-        raise DeckError(elastic.source, f"*ELASTIC: Poisson's ratio must be between -1 and 0.5, found {nu:g}")
+    fault = isotropic_fault(young, nu)
+    if nu == 0.5:
+        fault = "nu = 0.5 needs hybrid elements, which are not supported; expected nu < 0.5 for continuum elements"
+    if fault:
+        raise DeckError(elastic.source, f"*ELASTIC: {fault}")
 
 
 def _check_definite(elastic: Elastic, matrix: FloatArray) -> None:

@@ -6,6 +6,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field
 from enum import StrEnum
+from typing import Final
 
 import numpy as np
 
@@ -22,6 +23,31 @@ class ElasticType(StrEnum):
     ORTHOTROPIC = "ORTHOTROPIC"
     ANISOTROPIC = "ANISOTROPIC"
     TRACTION = "TRACTION"
+
+    @property
+    def constants(self) -> int:
+        """Number of its constants."""
+        return _CONSTANTS[self]
+
+
+_CONSTANTS: Final = {
+    ElasticType.ISOTROPIC: 2,
+    ElasticType.ENGINEERING_CONSTANTS: 9,
+    ElasticType.LAMINA: 6,
+    ElasticType.ORTHOTROPIC: 9,
+    ElasticType.ANISOTROPIC: 21,
+    ElasticType.TRACTION: 3,
+}
+
+
+def isotropic_fault(young: float, poisson: float) -> str:
+    """What is wrong with the constants of an isotropic material, '' where nothing is.
+
+    A Poisson's ratio of 0.5 is an incompressible material, which trusses can have.
+    """
+    if young > 0 and -1 < poisson <= 0.5:
+        return ""
+    return f"E = {young:g}, nu = {poisson:g}: expected E > 0 and -1 < nu <= 0.5"
 
 
 @dataclass(frozen=True, slots=True)

@@ -30,8 +30,8 @@ def element(bound, load):
     return element
 
 
-def truss(plastic=None):
-    material = Material("M", SOURCE, Elastic(ElasticType.ISOTROPIC, (E, 0.3), SOURCE), plastic, DENSITY)
+def truss(plastic=None, poisson=0.3):
+    material = Material("M", SOURCE, Elastic(ElasticType.ISOTROPIC, (E, poisson), SOURCE), plastic, DENSITY)
     return SolidSection("ALL", material, None, AREA, SOURCE)
 
 
@@ -44,8 +44,9 @@ def pull(block, matrix, call, elongation, along=ALONG):
     return -residual[n:], matrix.toarray(), report
 
 
-def test_truss(element, call):
-    block, matrix = element("T3D2", truss())
+@pytest.mark.parametrize("poisson", [0.3, 0.5])
+def test_truss(element, call, poisson):
+    block, matrix = element("T3D2", truss(poisson=poisson))
     force, k, report = pull(block, matrix, call, 0.03)
     np.testing.assert_allclose(force, E * AREA * 0.01 * ALONG, rtol=1e-12)
     one = E * AREA / LENGTH * np.outer(ALONG, ALONG)
