@@ -16,6 +16,7 @@ from harness.deck.numbers import LARGEST_INTEGER
 from harness.deck.problems import Problems
 from harness.deck.user_elements import LARGEST_DOF, ElementType
 from harness.errors import DeckError
+from harness.model.element_types import BUILT_IN, DISCRETE, DiscreteKind
 from harness.model.properties import (
     CohesiveSection,
     ElasticType,
@@ -30,7 +31,7 @@ from harness.model.properties import (
     UserProperty,
 )
 
-SECTION_KEYWORDS = {"SOLID SECTION", "COHESIVE SECTION", "UEL PROPERTY", "SPRING", "MASS"}
+SECTION_KEYWORDS = {"UEL PROPERTY", *(kind.section for kind in BUILT_IN.values())}
 
 
 def make_section(
@@ -82,7 +83,8 @@ def _spring(block: Block, kind: ElementType) -> SpringSection:
     rows = list(block.all_rows())
     if len(rows) < 2:
         raise block.error("needs a line with dofs, blank for SPRINGA, and the stiffness on the next")
-    count = {"SPRING1": 1, "SPRING2": 2}.get(kind.name, 0)
+    # SPRING1 and SPRING2; SPRINGA acts along its line
+    count = kind.nodes if DISCRETE[kind.name].kind is DiscreteKind.SPRING else 0
     dofs = tuple(rows[0].integer(k, "dof") for k in range(count))
     if any(not 1 <= dof <= LARGEST_DOF for dof in dofs):
         raise rows[0].error(f"a dof is a number from 1 to {LARGEST_DOF}")
