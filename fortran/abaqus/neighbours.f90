@@ -5,6 +5,7 @@ module abaqus_neighbours
   use core_kinds, only: dp
   use core_quadrature, only: gauss_rule
   use elements_quad4, only: face_nodes, gauss_of_face
+  use elements_interface_edges, only: coincidence_tolerance
   use elements_interface_point, only: interface_options
   use elements_interface_bulk, only: stabilisation_type, nitsche_parameters, sample_face, sample_gauss
   use abaqus_layout, only: integers, integer_position, j_offset_bottom, j_offset_top
@@ -68,7 +69,7 @@ contains
     logical, intent(out) :: good
     integer, parameter :: rows(2) = [j_offset_bottom, j_offset_top]
     integer, parameter :: shared(2, 2) = reshape([2, 1, 4, 3], [2, 2])
-    real(dp), parameter :: place_tolerance = 1.0e-6_dp, round_off = 16.0_dp*epsilon(1.0_dp)
+    real(dp), parameter :: round_off = 16.0_dp*epsilon(1.0_dp)
     integer :: nodes(2), position
     character(len=40) :: property
 
@@ -83,7 +84,7 @@ contains
     end if
     nodes = face_nodes(:, records(slot)%face)
     if (any(abs(records(slot)%coordinates(:, nodes) - coordinates(:, shared(:, side))) &
-      > place_tolerance*records(slot)%face_length)) then
+      > coincidence_tolerance*records(slot)%face_length)) then
       call fatal(3, jelem, trim(property) // ': bulk element %I is no neighbour, its face %I does not lie on ' // &
         'that edge of the interface', [position, offset, jelem + offset, records(slot)%face], [real(dp) ::])
       return

@@ -12,7 +12,7 @@ module elements_interface_edges
   use core_status, only: status_type, zero_length, edges_apart, ok
   implicit none(type, external)
   private
-  public :: interface_place, measure_interface, jump_operator, separation_at
+  public :: interface_place, measure_interface, jump_operator, separation_at, coincidence_tolerance
 
   !> An integration point of the interface.
   type :: interface_place

@@ -33,13 +33,13 @@ def start_of_analysis(library):
 class Sandwich:
     """Two quads and the interface between them; quads may start with any node, so that any face is the interface."""
 
-    def __init__(self, element, interface, *, turns=(0, 0), labels=(BOTTOM, TOP), faces=None, **options):
+    def __init__(self, element, interface, *, turns=(0, 0), labels=(BOTTOM, TOP), faces=None, shift=0.0, **options):
         self.interface = interface
         # turning the numbering back by k nodes turns the face on by k: bottom face 3, top face 1
         self.orders = [np.roll([0, 1, 2, 3], turns[0]), np.roll([4, 5, 6, 7], turns[1])]
         faces = faces or [(2 + turns[0]) % 4 + 1, turns[1] % 4 + 1]
         self.quads = [
-            element(1, interface.eight[order], label=label, FACE=face)
+            element(1, interface.eight[order] + shift, label=label, FACE=face)
             for order, label, face in zip(self.orders, labels, faces, strict=True)
         ]
         offsets = {"OFFSETBOTTOM": labels[0] - INTERFACE, "OFFSETTOP": labels[1] - INTERFACE}
@@ -126,6 +126,20 @@ def test_quad_that_does_not_share(element, interface):
 def test_wrong_neighbour(element, interface, changes, message):
     sandwich = Sandwich(element, interface, **changes)
     with pytest.raises(KernelError, match=message):
+        sandwich.evaluate(np.zeros((8, 2)))
+
+
+@pytest.mark.parametrize(("part", "neighbour"), [(0.5e-4, True), (1.5e-4, False)])
+def test_quads_lie_on_the_interface_as_closely_as_its_edges_on_each_other(element, interface, part, neighbour):
+    """To a part of 1e-4 of the length, which a mesh generator that prints few digits may leave."""
+    left, right = interface.edge
+    sandwich = Sandwich(
+        element, interface, shift=part * np.linalg.norm(np.subtract(right, left)) * np.array([1.0, 0.0])
+    )
+    if neighbour:
+        assert np.isfinite(sandwich.evaluate(np.zeros((8, 2)))[0]).all()
+        return
+    with pytest.raises(KernelError, match=r"bulk element 11 is no neighbour"):
         sandwich.evaluate(np.zeros((8, 2)))
 
 
