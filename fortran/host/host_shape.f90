@@ -5,6 +5,7 @@
 !> A family is a cell with its interpolation. Families have the numbers of harness/model/element_types.py, and nodes in the
 !> order of Abaqus: corners, then the middles of the edges. What else there is to know of an element type stands there.
 module host_shape
+  use core_serendipity, only: serendipity_functions
   use host_kinds, only: dp, i4
   use host_messages, only: add_message
   use host_protect, only: escape
@@ -16,7 +17,7 @@ module host_shape
   integer, parameter :: wedge6 = 11, wedge15 = 12, families = wedge15, most_points = 27
 
   !> Parent coordinates of the nodes of lines, quadrilaterals and hexahedra.
-  integer, parameter :: line(3) = [-1, 1, 0]
+  integer, parameter :: line(1, 3) = reshape([-1, 1, 0], [1, 3])
   integer, parameter :: quad(2, 8) = reshape([-1, -1, 1, -1, 1, 1, -1, 1, 0, -1, 1, 0, 0, 1, -1, 0], [2, 8])
   integer, parameter :: hex(3, 20) = reshape([ &
     -1, -1, -1, 1, -1, -1, 1, 1, -1, -1, 1, -1, -1, -1, 1, 1, -1, 1, 1, 1, 1, -1, 1, 1, &
@@ -279,20 +280,13 @@ contains
     integer, intent(in) :: family
     real(dp), intent(in) :: parent(:)
     real(dp), intent(out) :: n(:), dn(:, :)
-    integer :: k
     select case (family)
     case (line2, line3)
-      do k = 1, size(n)
-        call node_function(1, line(k:k), family == line3, parent, n(k), dn(k, :))
-      end do
+      call serendipity_functions(1, size(n), line(:, :size(n)), parent, n, dn)
     case (quad4, quad8)
-      do k = 1, size(n)
-        call node_function(2, quad(:, k), family == quad8, parent, n(k), dn(k, :))
-      end do
+      call serendipity_functions(2, size(n), quad(:, :size(n)), parent, n, dn)
     case (hex8, hex20)
-      do k = 1, size(n)
-        call node_function(3, hex(:, k), family == hex20, parent, n(k), dn(k, :))
-      end do
+      call serendipity_functions(3, size(n), hex(:, :size(n)), parent, n, dn)
     case (tri3, tet4)
       call simplex_functions(parent, n, dn)
     case (tri6, tet10)
@@ -386,36 +380,6 @@ contains
     dn(:3, :) = dn(:3, :) - dn(13:, :)/2
     dn(4:6, :) = dn(4:6, :) - dn(13:, :)/2
   end subroutine quadratic_wedge
-
-  !> One function: a product over the directions, times a sum where there are middle nodes (serendipity family).
-  pure subroutine node_function(dim, place, serendipity, parent, n, dn)
-    integer, intent(in) :: dim, place(dim)
-    logical, intent(in) :: serendipity
-    real(dp), intent(in) :: parent(dim)
-    real(dp), intent(out) :: n, dn(dim)
-    real(dp) :: factor(dim), slope(dim), total, others
-    integer :: i, j
-    logical :: corner
-    corner = all(place /= 0)
-    where (place == 0)
-      factor = 1 - parent**2
-      slope = -2*parent
-    else where
-      factor = (1 + place*parent)/2
-      slope = 0.5_dp*place
-    end where
-    total = 1
-    if (serendipity .and. corner) total = sum(place*parent) - (dim - 1)
-    n = product(factor)*total
-    do i = 1, dim
-      others = 1
-      do j = 1, dim
-        if (j /= i) others = others*factor(j)
-      end do
-      dn(i) = slope(i)*others*total
-      if (serendipity .and. corner) dn(i) = dn(i) + product(factor)*place(i)
-    end do
-  end subroutine node_function
 
   !> Patterns of displacement without strain in the middle of an element of 4 or 8 nodes, 1 and -1 at the nodes:
   !> xy; and yz, xz, xy, xyz.
