@@ -4,7 +4,7 @@
 
 import numpy as np
 import pytest
-from reference_cells import FACES, affine, area_vector, face_of, integral, shape_of, share_of_nodes
+from reference_cells import FACES, affine, area_vector, face_of, integral, patch_of, shape_of, share_of_nodes
 
 import harness
 from harness.errors import DeckError, UelError
@@ -168,6 +168,44 @@ def test_consistent_forces_of_loads_of_the_volume(tmp_path, element_type):
     found = forces_of_copies(tmp_path, element_type, ["*DLOAD\n1, GRAV, 9.8, 0., -2.", "*DLOAD\n2, BX, 7."])
     for forces, force in zip(found, (-9.8 * DENSITY * np.eye(d)[1], 7.0 * np.eye(d)[0]), strict=True):
         np.testing.assert_allclose(forces, volume * np.outer(share_of_nodes(cell), force), atol=1e-12)
+
+
+@pytest.mark.parametrize("element_type", PLAIN)
+def test_body_pulled_at_one_side(tmp_path, element_type):
+    """A unit square or cube of distorted elements under a traction of 4 on x = 1: stress 4 everywhere, u = 4 x/E."""
+    kind = CONTINUUM[element_type]
+    cell, d = kind.family.cell, kind.dimension
+    nodes, elements = patch_of(cell)
+    corners = FACES[shape_of(cell)]
+    loaded = [
+        (e, f)
+        for e, row in enumerate(elements)
+        for f, face in enumerate(corners)
+        if (nodes[row[list(face)], 0] == 1).all()
+    ]
+    lines = ["*NODE, NSET=ALL", *(", ".join([str(k), *map(repr, x)]) for k, x in enumerate(nodes.tolist(), start=1))]
+    lines += [f"*ELEMENT, TYPE={element_type}, ELSET=BODY"]
+    for k, row in enumerate((elements + 1).tolist(), start=1):
+        lines += [f"{k}, " + ", ".join(map(str, row[:9])) + "," * (len(row) > 9), ", ".join(map(str, row[9:]))]
+    lines += ["*SURFACE, NAME=SIDE", *(f"{e + 1}, S{f + 1}" for e, f in loaded)]
+    lines += ["*SOLID SECTION, ELSET=BODY, MATERIAL=M", f"{THICKNESS}", "*MATERIAL, NAME=M", "*ELASTIC", "1000., 0."]
+    lines += ["*STEP", "*STATIC", "*BOUNDARY"]
+    lines += [f"{k}, {axis + 1}" for axis in range(d) for k in np.flatnonzero(nodes[:, axis] == 0) + 1]
+    lines += [
+        "*DSLOAD",
+        "SIDE, TRVEC, 4., 1.",
+        "*OUTPUT, HISTORY",
+        "*NODE OUTPUT, NSET=ALL",
+        "U",
+        "*OUTPUT, FIELD",
+        "*ELEMENT OUTPUT",
+        "S",
+    ]
+    (tmp_path / "pull.inp").write_text("\n".join(line for line in [*lines, "*END STEP"] if line) + "\n")
+    result = harness.run(tmp_path / "pull.inp", output_dir=tmp_path)
+    found = [[result.history[f"U{axis + 1}[ALL:{k + 1}]"][-1] for axis in range(d)] for k in range(len(nodes))]
+    np.testing.assert_allclose(found, np.outer(nodes[:, 0] * 4e-3, np.eye(d)[0]), atol=1e-14)
+    np.testing.assert_allclose(result.field("S11"), 4.0, rtol=1e-11)
 
 
 TRIANGLE = """*NODE, NSET=ALL
