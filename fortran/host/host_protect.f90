@@ -6,7 +6,8 @@ module host_protect
   implicit none (type, external)
   private
   public :: protect, escape, clear_arrays, begin_call, limit_calls, trap, take_frames, watch, take_changes, &
-            fill_stack, exchange_around, take_outside, allocated_bytes, attempt, share, loading, sanitizing, sanitize, fence
+            fill_stack, exchange_around, take_outside, allocated_bytes, attempt, share, loading, sanitizing, sanitize, fence, &
+            open_fences
 
   integer, parameter :: most_frames = 64   !< as in frames.c
 
@@ -89,6 +90,10 @@ module host_protect
       character(kind=c_char), intent(in) :: name(6)
       real(c_double), intent(in) :: array(*)
     end subroutine fence
+
+    !> Let the host look at the guards, and write them.
+    subroutine open_fences() bind(c, name='uel_host_open_fences')
+    end subroutine open_fences
 
     !> Drop the arrays of SMAIntArrayCreate and its like.
     subroutine clear_arrays() bind(c, name='uel_host_clear_arrays')

@@ -55,6 +55,16 @@ void uel_host_fence(int32_t slot, const char name[6], const double *array, int32
     poison(fence->behind, fence->to, 1);
 }
 
+// The host looks at the guards, or writes them.
+void uel_host_open_fences(void)
+{
+    if (!on)
+        return;
+    for (int k = 0; k < FENCES; k++)
+        poison(fences[k].from, fences[k].to, 0);
+    memset(fences, 0, sizeof fences);
+}
+
 // The stack below a call that was left is nobody's again: its variables were fenced too.
 void uel_host_clear_stack(const char *from, const char *to)
 {
@@ -167,10 +177,8 @@ void uel_host_sanitize(int32_t begins)
     if (nowhere < 0 && (nowhere = open("/dev/null", O_WRONLY | O_CLOEXEC)) >= 0)
         print_to((void *)(intptr_t)nowhere);
     call_back(reported);
-    for (int k = 0; !begins && k < FENCES; k++) {
-        poison(fences[k].from, fences[k].to, 0);
-        memset(&fences[k], 0, sizeof fences[k]);
-    }
+    if (!begins)
+        uel_host_open_fences();
     on = begins;
 }
 
