@@ -230,6 +230,7 @@ def test_right_element_raises_no_alarm(said, name):
     assert said[f"{name} 0 True"] == ""
 
 
+@pytest.mark.nan
 def test_ordinary_build_in_the_same_process_is_as_anywhere(said):
     assert re.search(r"writes outside SVARS.*the run goes on", said["my_uel.for 6 False"])
     assert re.search(r"reads outside PROPS.*the run goes on", said["my_uel.for 1 False"])
