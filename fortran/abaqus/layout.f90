@@ -282,7 +282,7 @@ contains
     integer, intent(in) :: jtype
     integer :: number
 
-    number = count(iand(reals%families, elements(jtype)%family) /= 0)
+    number = real_position(jtype, size(reals))
   end function reals_of
 
   !> Number of integer properties that Un may have, I PROPERTIES of *USER ELEMENT.
@@ -290,7 +290,7 @@ contains
     integer, intent(in) :: jtype
     integer :: number
 
-    number = count(iand(integers%families, elements(jtype)%family) /= 0)
+    number = integer_position(jtype, size(integers))
   end function integers_of
 
   !> Position in PROPS of the property in a row of `reals`.

@@ -47,7 +47,7 @@ contains
     case (late_secant)
       text = 'too small for its stiffness: the secant of the PPR law has to fall from the origin on'
     case (no_root)
-      text = 'the equation of its point is not solved within the largest number of steps'
+      text = 'the equation of its point is not solved: NaN, or more steps than are allowed'
     case (not_positive_definite)
       text = 'the elastic constants are not positive definite'
     case (inside_out)

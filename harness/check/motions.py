@@ -9,6 +9,7 @@ from typing import Final
 
 import numpy as np
 
+from harness.check.finding import Finding, not_applicable
 from harness.check.state import State
 from harness.check.subject import Subject, diagonal
 from harness.model.arrays import FloatArray
@@ -151,3 +152,14 @@ NO_BODY: Final = "fewer than two nodes with displacements in all directions of C
 AT_REST: Final = "the run has no state without displacements: begin the deck with an increment without loads"
 
 INERTIA: Final = "inertia that is made of DU, not of A: take a deck with a static step"
+
+
+def body_at_rest(subject: Subject) -> tuple[State, Body] | Finding:
+    """The first state without displacements and its body, or the finding that the element has none, or inertia of DU."""
+    state = next(iter(subject.resting), None)
+    if state is None:
+        return not_applicable(AT_REST)
+    body = body_of(subject, state)
+    if body is None:
+        return not_applicable(NO_BODY)
+    return not_applicable(INERTIA) if makes_inertia(state, body) else (state, body)

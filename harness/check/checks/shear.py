@@ -10,7 +10,7 @@ from typing import Final
 import numpy as np
 
 from harness.check.finding import Finding, failed, not_applicable, passed
-from harness.check.motions import AT_REST, INERTIA, NO_BODY, Body, body_of, makes_inertia
+from harness.check.motions import Body, body_at_rest
 from harness.check.state import State
 from harness.check.subject import Subject
 from harness.model.arrays import FloatArray
@@ -24,14 +24,10 @@ EQUAL: Final = 1e-6
 
 def check(subject: Subject) -> Finding:
     """Where extensions in all directions are alike, shear is not a factor of 2 or 4 away from an isotropic material."""
-    state = next(iter(subject.resting), None)
-    if state is None:
-        return not_applicable(AT_REST)
-    body = body_of(subject, state)
-    if body is None:
-        return not_applicable(NO_BODY)
-    if makes_inertia(state, body):
-        return not_applicable(INERTIA)
+    found = body_at_rest(subject)
+    if isinstance(found, Finding):
+        return found
+    state, body = found
     planes = list(combinations(range(body.dimensions), 2))
     moduli = _moduli(subject, state, body, planes)
     isotropic = _isotropic(moduli, body.dimensions)

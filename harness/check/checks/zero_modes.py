@@ -10,7 +10,7 @@ from typing import Final
 import numpy as np
 
 from harness.check.finding import Finding, failed, not_applicable, passed
-from harness.check.motions import AT_REST, INERTIA, NO_BODY, Body, body_of, makes_inertia
+from harness.check.motions import Body, body_at_rest
 from harness.check.state import State
 from harness.check.subject import Subject
 from harness.model.arrays import FloatArray
@@ -33,14 +33,10 @@ class _Stiffness:
 
 def check(subject: Subject) -> Finding:
     """Eigenvalues of the symmetric part of AMATRX for the displacements, at rest."""
-    state = next(iter(subject.resting), None)
-    if state is None:
-        return not_applicable(AT_REST)
-    body = body_of(subject, state)
-    if body is None:
-        return not_applicable(NO_BODY)
-    if makes_inertia(state, body):
-        return not_applicable(INERTIA)
+    found = body_at_rest(subject)
+    if isinstance(found, Finding):
+        return found
+    state, body = found
     chosen = body.displacement | body.turning.any(axis=0)
     name, limit, matrix = "AMATRX", TOLERANCE, state.evaluate().amatrx
     if state.dynamic:
