@@ -155,7 +155,7 @@ INERTIA: Final = "inertia that is made of DU, not of A: take a deck with a stati
 
 
 def body_at_rest(subject: Subject) -> tuple[State, Body] | Finding:
-    """The first state without displacements and its body, or the finding that the element has none, or inertia of DU."""
+    """The first state without displacements and its body, or the finding that there is none, or inertia of DU."""
     state = next(iter(subject.resting), None)
     if state is None:
         return not_applicable(AT_REST)

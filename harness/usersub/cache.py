@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Compiled user files in the user's cache folder, each with a list of what the compiler has read for it.
 
-An entry is two files: the library, and a list in JSON with its hash, what was changed to compile it, and the hash of
+An entry is two files: the library, and a list in JSON with its hash, what is to be told of it, and the hash of
 every file read, by its place in the search folders. It is taken only where all of them agree; what is damaged, or not
 the user's alone, is as good as not there. The list is written last, and its name is the hash of what it holds, so that
 processes at once do not disturb each other.
@@ -34,7 +34,7 @@ _BETWEEN: Final = re.compile(r"(?<!\\)\s+")
 
 @dataclass(frozen=True, slots=True)
 class Built:
-    """A shared library, and what was changed to compile it, a sentence each."""
+    """A shared library, and what is to be told of it: what was changed to compile it, and warnings, a sentence each."""
 
     library: Path
     notes: tuple[str, ...]

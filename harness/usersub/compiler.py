@@ -18,7 +18,7 @@ from typing import Final
 
 from harness.errors import CompileError
 from harness.files import read_whole
-from harness.usersub import cache, linker, mending
+from harness.usersub import cache, linker, ranks
 from harness.usersub.cache import Built
 from harness.usersub.diagnostics import first_error
 from harness.usersub.headers import HEADERS
@@ -29,8 +29,6 @@ from harness.usersub.languages import (
     LANGUAGES,
     SANITIZED,
     SILENT,
-    ZERO_LOCALS,
-    ZEROS,
     Language,
     is_free_form,
     language_of,
@@ -45,6 +43,7 @@ _SEARCH_VARIABLES: Final = (
 """What changes where compilers look for files."""
 _INCLUDE = re.compile(r"^\s*#?\s*include\s*['\"<]([^'\">]+)['\">]", re.IGNORECASE | re.MULTILINE)
 _WHOLE: Final = re.compile(r"assumed[- ]size array '(\w+)'", re.IGNORECASE)
+_EXTENSION: Final = "an extension of Abaqus' compiler, written in standard Fortran in a copy"
 
 Flags = Mapping[Language, tuple[str, ...]]
 """What a compiler gets besides the flags of its language."""
@@ -68,11 +67,7 @@ def build(
     compilers = {language_of(file): language_of(file).program(file) for file in files}
     folders = _folders(files, include)
     headers, texts, sources = _scan(files, folders)
-    flags: Flags = {FORTRAN: (ZERO_LOCALS, SILENT)} if zero_locals else {}
-    if debug:
-        last = {language: (ZEROS[language], SILENT) if zero_locals else (SILENT,) for language in LANGUAGES}
-        more = SANITIZED if sanitized else ()
-        flags = {language: (*language.checks, *more, *last[language]) for language in LANGUAGES}
+    flags = {language: _flags(language, zero_locals, debug, sanitized) for language in LANGUAGES}
     forms = [str(is_free_form(file, _read(file))) for file in files]
     given = [flag for more in flags.values() for flag in more]
     name = f"{files[0].stem}-{_key(compilers.values(), [*given, *forms, *texts])}"
@@ -90,6 +85,15 @@ def build(
             return cache.keep_for_now(name, library, notes)
         known = {file.resolve() for paths in sources.values() for file in paths}
         return cache.keep(name, library, notes, [file for file in read if file.resolve() not in known], folders)
+
+
+def _flags(language: Language, zero_locals: bool, debug: bool, sanitized: bool) -> tuple[str, ...]:
+    """What the compiler of a language gets besides what it always gets."""
+    checks = (*language.checks, *(SANITIZED if sanitized else ())) if debug else ()
+    # C without checks leaves what is there, as its compiler does for Abaqus
+    zeros = (language.zeros,) if zero_locals and (debug or language is FORTRAN) else ()
+    # gfortran tells of constants that are passed for arrays though no warnings are asked for
+    return (*checks, *zeros, *(() if language is FORTRAN else (SILENT,)))
 
 
 @dataclass(frozen=True, slots=True)
@@ -117,7 +121,7 @@ def listen(files: Sequence[Path], include: Sequence[Path] = ()) -> Opinion:
         flags = {language: language.warnings for language in LANGUAGES}
         _, _, warnings = _objects(files, folders, supply, sources, Path(work), flags)
         undeclared = _without_implicit_types(files, folders, supply, Path(work))
-    texts = {name: _read(paths[0]) for name, paths in sources.items()}
+    texts = _texts(sources)
     return Opinion(warnings, undeclared, texts, free)
 
 
@@ -153,6 +157,11 @@ def _read(file: Path) -> str:
     return text.replace("\r\n", "\n").replace("\r", "\n")
 
 
+def _texts(sources: Mapping[str, Sequence[Path]]) -> dict[str, str]:
+    """Texts of files by bare name."""
+    return {name: _read(paths[0]) for name, paths in sources.items()}
+
+
 def _key(compilers: Iterable[str], texts: Sequence[str]) -> str:
     """What a result depends on as far as it is known before compiling, hashed."""
     versions = [
@@ -161,9 +170,9 @@ def _key(compilers: Iterable[str], texts: Sequence[str]) -> str:
     ]
     flags = [*FIXED, *FREE, *linker.FLAGS, *(flag for language in LANGUAGES for flag in language.flags)]
     found_through = [f"{name}={os.environ.get(name)}" for name in _SEARCH_VARIABLES]
-    repairs_text = _read(Path(mending.__file__))
+    told = [_read(Path(__file__).with_name(name)) for name in ("mending.py", "ranks.py", "diagnostics.py")]
     machine = [platform.machine(), linker.bundled_lapack(), *found_through]
-    parts = [*versions, *flags, *machine, repairs_text, *HEADERS.values(), *texts]
+    parts = [*versions, *flags, *machine, *told, *HEADERS.values(), *texts]
     return hashlib.sha256("\0".join(parts).encode()).hexdigest()[:16]
 
 
@@ -239,8 +248,9 @@ def _compile(
     *,
     open_bounds: bool,
 ) -> tuple[Path, list[str]]:
-    """Library in the folder work, and what was changed to compile it; beside it the compilers list what they read."""
-    objects, notes, _ = _objects(files, folders, supply, sources, work, flags, open_bounds=open_bounds)
+    """Library in the folder work, and what is to be told; beside it the compilers list what they read."""
+    objects, notes, said = _objects(files, folders, supply, sources, work, flags, open_bounds=open_bounds)
+    notes += dict.fromkeys(ranks.constants_for_arrays(said, _texts(sources)))
     library = work / "user.so"
     language, libraries = linking([language_of(file) for file in files])
     libraries += linker.lapack_flags(objects, language.compiler)
@@ -260,7 +270,7 @@ def _objects(
     *,
     open_bounds: bool = False,
 ) -> tuple[list[Path], list[str], str]:
-    """Object files, what was changed to compile them, and what the compilers say."""
+    """Object files, what was changed to compile them, and the compilers' output."""
     headers, texts = _supplied(supply, work / "include")
     for path, text in texts.items():
         path.write_text(text, encoding="latin-1")
@@ -271,7 +281,7 @@ def _objects(
     for number, file in enumerate(files):
         language = language_of(file)
         output = work / f"{number}.o"
-        command = [language.compiler, *language.flags, *flags.get(language, (SILENT,)), *search, "-o", str(output)]
+        command = [language.compiler, *language.flags, *flags[language], *search, "-o", str(output)]
         command += ["-MD", "-MF", f"{number}.d"]
         if language is FORTRAN:
             command += [*(FREE if is_free_form(file, _read(file)) else FIXED), f"-J{work}"]
@@ -343,8 +353,7 @@ def _compile_one(
             return notes, errors
         changed = [_mend(repair, sources, copies, notes) for repair in repairs(errors)]
         if not any(changed):
-            texts = {name: _read(paths[0]) for name, paths in sources.items()}
-            raise CompileError(file, first_error(errors, texts))
+            raise CompileError(file, first_error(errors, _texts(sources)))
 
 
 def _mend(repair: Repair, sources: dict[str, list[Path]], copies: dict[str, str], notes: list[str]) -> bool:
@@ -355,7 +364,7 @@ def _mend(repair: Repair, sources: dict[str, list[Path]], copies: dict[str, str]
     if mended is None:
         return False
     copies[repair.file] = mended
-    notes.append(f"{repair.file}, line {repair.line}: {repair.note}")
+    notes.append(f"{_EXTENSION}: {repair.file}, line {repair.line}: {repair.note}")
     return True
 
 

@@ -1,11 +1,11 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""The compiler's first error as a message, with what to do where the file counts on another compiler."""
+"""What the compilers say: the first error as a message, with what to do where another compiler is meant; warnings."""
 
 from __future__ import annotations
 
 import re
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from pathlib import Path
 from typing import Final
 
@@ -15,6 +15,9 @@ _ERROR = re.compile(r"(?:Fatal )?Error: ")
 # gcc and g++ begin with all of it, the source follows
 _C_ERROR = re.compile(r"^(?P<file>[^:\n]+):(?P<line>\d+):(?P<column>\d+): (?:fatal )?error: (?P<sentence>.*)$")
 _C_CONTEXT = re.compile(r"^ *\d* \| ")
+_PLACE: Final = re.compile(r"^(?P<file>[^\s:][^:\n]*):(?P<line>\d+):(?P<column>\d+):\s*(?P<rest>.*)$")
+_WARNING: Final = re.compile(r"^(?:Warning|Error): (?P<text>.*?)(?: \[(?P<option>-W[\w=+-]+)\])?$")
+_C_WARNING: Final = re.compile(r"^warning: (?P<text>.*?)(?: \[(?P<option>-W[\w=+-]+)\])?$")
 
 _HINTS: Final = (
     (
@@ -126,3 +129,25 @@ def _looks_free(text: str) -> bool:
     lines = [line for line in text.splitlines() if line.strip() and line[0] not in "cC*!#dD"]
     early = [line for line in lines if not line[:5].strip().isdigit() and line[:5].strip() and "\t" not in line[:6]]
     return len(early) > len(lines) / 4
+
+
+def warnings_of(output: str) -> Iterator[tuple[str, int, int, str, str]]:
+    """Bare file name, line, column, text and option of each message of gfortran, gcc or g++."""
+    place: re.Match[str] | None = None
+    for row in output.splitlines():
+        if found := _PLACE.match(row):
+            if said := _C_WARNING.match(found["rest"]):
+                yield (*_where(found), said["text"], said["option"] or "")
+            elif not found["rest"] and place is None:
+                # the first of several places is (1)
+                place = found
+        elif said := _WARNING.match(row):
+            if place is not None:
+                yield (*_where(place), said["text"], said["option"] or "")
+            place = None
+        elif row.startswith("note: "):
+            place = None
+
+
+def _where(place: re.Match[str]) -> tuple[str, int, int]:
+    return Path(place["file"]).name, int(place["line"]), int(place["column"])

@@ -19,6 +19,7 @@ class Language:
     """A language: endings of its files in lower case, its compiler, flags, and how to get and to link it.
 
     checks   flags of a debug build: run-time checks, and values that betray themselves in variables that get none
+    zeros    flag with which local variables that are given no value are zero, not what an earlier call has left
     warnings flags with which the compiler tells what it suspects
     runtime  libraries that the objects need where another language's compiler links them
     """
@@ -27,6 +28,7 @@ class Language:
     compiler: str
     flags: tuple[str, ...]
     checks: tuple[str, ...]
+    zeros: str
     warnings: tuple[str, ...]
     install: str
     runtime: tuple[str, ...]
@@ -51,6 +53,7 @@ _C_DEBUG: Final = (
     # what they find is a trap in the code: it needs no library
     *("-fsanitize=bounds,null,vla-bound", "-fsanitize-undefined-trap-on-error"),
 )
+_C_ZEROS: Final = "-ftrivial-auto-var-init=zero"
 _WARNINGS: Final = ("-Wall", "-Wextra", "-Wno-unused-variable", "-Wno-unused-function", "-Wno-unused-but-set-variable")
 _C_WARNINGS: Final = (*_WARNINGS, "-Wno-unused-parameter", "-Wno-sign-compare", "-Wno-misleading-indentation")
 FORTRAN: Final = Language(
@@ -69,6 +72,7 @@ FORTRAN: Final = Language(
         "-fcheck=bounds,do,mem,pointer,bits",
         *("-finit-real=snan", "-finit-integer=-1431655766", "-finit-logical=true", "-finit-derived"),
     ),
+    "-finit-local-zero",
     (
         *_WARNINGS,
         # argument lists are Abaqus'; the rest is style
@@ -84,22 +88,19 @@ SANITIZED: Final = (
     "--param=asan-instrumentation-with-call-threshold=2000000000",
 )
 """Flags of all compilers for a debug build with AddressSanitizer."""
-ZERO_LOCALS: Final = "-finit-local-zero"
-"""Flag of gfortran with which local variables that are given no value are zero, not what an earlier call has left."""
 C: Final = Language(
-    (".c",), "gcc", (*_COMMON, "-x", "c"), _C_DEBUG, _C_WARNINGS, "apt install gcc, dnf install gcc", ()
+    (".c",), "gcc", (*_COMMON, "-x", "c"), _C_DEBUG, _C_ZEROS, _C_WARNINGS, "apt install gcc, dnf install gcc", ()
 )
 CPP: Final = Language(
     (".cpp", ".cc", ".cxx"),
     "g++",
     (*_COMMON, "-x", "c++"),
     _C_DEBUG,
+    _C_ZEROS,
     _C_WARNINGS,
     "apt install g++, dnf install gcc-c++",
     ("-lstdc++",),
 )
-ZEROS: Final = {FORTRAN: ZERO_LOCALS, C: "-ftrivial-auto-var-init=zero", CPP: "-ftrivial-auto-var-init=zero"}
-"""The same for a debug build, which has other values there."""
 LANGUAGES: Final = (FORTRAN, C, CPP)
 SUFFIXES: Final = tuple(suffix for language in LANGUAGES for suffix in language.suffixes)
 

@@ -168,7 +168,7 @@ def load(
     name = _name_of(files)
     library = Library(name, built.library, _open(built.library, name), Inbox(job, output_dir), sanitized=sanitized)
     for note in built.notes:
-        library.warn(f"an extension of Abaqus' compiler, written in standard Fortran in a copy: {note}")
+        library.warn(note)
     return library
 
 

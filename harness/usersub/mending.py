@@ -16,8 +16,8 @@ from typing import Final
 
 
 def _error(message: str) -> re.Pattern[str]:
-    """What gfortran writes of an error: the place, the lines that it shows, the message."""
-    place = r"^(?P<file>[^\n]+?):(?P<line>\d+):(?P<column>\d+):\n(?:(?!.*Error:).*\n)*?"
+    """What gfortran writes of an error, among warnings: the place, the lines that it shows, the message."""
+    place = r"^(?P<file>[^\n]+?):(?P<line>\d+):(?P<column>\d+):\n(?:(?!.*(?:Error|Warning):).*\n)*?"
     return re.compile(f"{place}Error: {message}", re.MULTILINE)
 
 

@@ -17,19 +17,17 @@ from pathlib import Path
 from typing import Final
 
 from harness.errors import CompileError
+from harness.usersub import ranks
 from harness.usersub.compiler import Opinion, build, listen
+from harness.usersub.diagnostics import warnings_of
 from harness.usersub.units import Unit, unit_at, units
 
-_PLACE: Final = re.compile(r"^(?P<file>[^\s:][^:\n]*):(?P<line>\d+):(?P<column>\d+):\s*(?P<rest>.*)$")
-_MESSAGE: Final = re.compile(r"^(?:Warning|Error): (?P<text>.*?)(?: \[(?P<option>-W[\w=+-]+)\])?$")
-_C_WARNING: Final = re.compile(r"^warning: (?P<text>.*?)(?: \[(?P<option>-W[\w=+-]+)\])?$")
 _CHECKED: Final = re.compile(rb"At line (\d+) of file ([^\0]+)\0")
 
 _BOUNDS: Final = re.compile(r"Array reference at \(1\) is out of bounds \((-?\d+) ([<>]) (-?\d+)\) in dimension (\d+)")
 _TYPES: Final = re.compile(
     r"Type mismatch in argument '(\w+)' at \(1\); passed (REAL|INTEGER)\((\d+)\) to (REAL|INTEGER)\((\d+)\)"
 )
-_RANK: Final = re.compile(r"Rank mismatch in argument '(\w+)' at \(1\) \(rank-(\d+) and scalar\)")
 _UNDECLARED: Final = re.compile(r"Symbol '(\w+)' at \(1\) has no IMPLICIT type")
 _NEAR: Final = 0.8
 """Likeness of two names, one of which may be the other misspelt."""
@@ -115,13 +113,13 @@ class _Told:
 
     def warnings(self) -> Iterator[Suspicion]:
         """What is wrong, or deserves a look."""
-        for file, line, column, text, option in _messages(self._opinion.warnings):
+        for file, line, column, text, option in warnings_of(self._opinion.warnings):
             if judged := self._judge(file, line, column, text, option):
                 yield self._at(file, line, *judged)
 
     def misspelt(self) -> Iterator[Suspicion]:
         """Names that are declared nowhere and stand in their routine once."""
-        for file, line, _, text, _ in _messages(self._opinion.undeclared):
+        for file, line, _, text, _ in warnings_of(self._opinion.undeclared):
             found = _UNDECLARED.search(text)
             unit = unit_at(self._units.get(file, []), line)
             if found is None or unit is None or not unit.single(found[1]):
@@ -138,7 +136,7 @@ class _Told:
     def single_precision(self) -> Iterator[Suspicion]:
         """Constants that lose digits on their way into a variable of double precision: one message a file."""
         found: dict[str, list[tuple[int, str]]] = {}
-        for file, line, _, _, option in _messages(self._opinion.warnings):
+        for file, line, _, _, option in warnings_of(self._opinion.warnings):
             if option == "-Wconversion-extra":
                 for constant in _CONSTANT.findall(self._code(file, line)):
                     if (line, constant) not in found.setdefault(file, []) and _loses_digits(constant):
@@ -159,12 +157,10 @@ class _Told:
             # a real array that a routine takes for integers is a work array, as in LAPACK
             certain = found[3] != found[5] and found[4] == "REAL"
             return f"{given} is passed for the argument '{found[1]}', which is {taken}", "use one type in both", certain
-        if found := _RANK.search(text):
-            hint = "it reads the memory behind it, which holds something else: pass an array"
-            # behind a variable may lie what is meant, behind a constant are other constants
-            constant = self._is_constant(file, line, column)
+        if argument := ranks.array_wanted(text):
+            constant = ranks.is_constant(self._opinion.texts.get(file, ""), line, column)
             what = "a constant" if constant else "a single value"
-            return f"{what} is passed for the argument '{found[1]}', which is an array", hint, constant
+            return f"{what} is passed for the argument '{argument}', which is an array", ranks.HINT, constant
         if option == "-Wuninitialized":
             name = found[0] if (found := re.match(r"'\w+'", text)) else "a local variable"
             return f"{name} is used before it has a value", "", True
@@ -196,14 +192,6 @@ class _Told:
                 return name[1].lower() if name else ""
         return ""
 
-    def _is_constant(self, file: str, line: int, column: int) -> bool:
-        """Whether a number, or the name of a PARAMETER, stands at a column, from 1, or behind it."""
-        found = re.match(r"[\s(,]*[-+]?(?:\.?\d|([a-z]\w*)\s*[,)])", self._row(file, line)[column - 1 :], re.IGNORECASE)
-        if found is None or found[1] is None:
-            return found is not None
-        named = re.compile(rf"^\s*[^!c*\n]*\bparameter\b[^!\n]*\b{found[1]}\s*=", re.IGNORECASE)
-        return any(named.match(row) for row in self._lines.get(file, []))
-
     def _row(self, file: str, line: int) -> str:
         rows = self._lines.get(file, [])
         return rows[line - 1] if 1 <= line <= len(rows) else ""
@@ -213,28 +201,6 @@ class _Told:
 
     def _at(self, file: str, line: int, sentence: str, hint: str, certain: bool) -> Suspicion:
         return Suspicion(file, line, sentence, " ".join(self._row(file, line).split()), hint, certain)
-
-
-def _messages(output: str) -> Iterator[tuple[str, int, int, str, str]]:
-    """Bare file name, line, column, text and option of each message of gfortran, gcc or g++."""
-    place: re.Match[str] | None = None
-    for row in output.splitlines():
-        if found := _PLACE.match(row):
-            if said := _C_WARNING.match(found["rest"]):
-                yield (*_where(found), said["text"], said["option"] or "")
-            elif not found["rest"] and place is None:
-                # the first of several places is (1)
-                place = found
-        elif said := _MESSAGE.match(row):
-            if place is not None:
-                yield (*_where(place), said["text"], said["option"] or "")
-            place = None
-        elif row.startswith("note: "):
-            place = None
-
-
-def _where(place: re.Match[str]) -> tuple[str, int, int]:
-    return Path(place["file"]).name, int(place["line"]), int(place["column"])
 
 
 def _loses_digits(constant: str) -> bool:
