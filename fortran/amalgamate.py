@@ -26,7 +26,7 @@ TITLE = """\
 !
 !   abaqus job=NAME user=FILE
 !
-! Written from the free-form sources of the project; mend those, not
+! Written from the free-form sources of the project; edit those, not
 ! this file.
 """
 

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""Errors that are the user's to mend: each message is complete in itself and is printed without a traceback."""
+"""Errors that the user can fix: each message is complete in itself and is printed without a traceback."""
 
 from __future__ import annotations
 

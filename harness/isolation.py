@@ -73,10 +73,10 @@ def supervise(words: Sequence[str], stem: Path, call_limit: float, *, sanitized:
     end = run_apart("harness.cli", [words[0], SAME_PROCESS, *words[1:]], call_limit, sanitized=sanitized)
     if end.finished:
         return end.code
-    from harness.output.broken import close_broken  # noqa: PLC0415 (numpy, after the process has begun)
+    from harness.output.verdict import close_ended_run  # noqa: PLC0415 (numpy, after the process has begun)
 
     reason = f"the run was {end.reason}" + (f", {end.place}" if end.place else "")
-    close_broken(stem, reason)
+    close_ended_run(stem, reason)
     tell_error(f"{reason}; the output written so far is readable")
     return 1
 

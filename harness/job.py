@@ -11,18 +11,18 @@ from pathlib import Path
 from typing import Final
 
 from harness import usersub
-from harness.assembly import ForgivingSystem
+from harness.assembly import TolerantSystem
 from harness.deck import read_deck
 from harness.errors import ConvergenceError, ElementError, UelError, in_words
 from harness.interrupts import held
 from harness.model.model import Model
 from harness.output import JobOutput, Result
-from harness.output.broken import forget_verdict, write_verdict
 from harness.output.lock import job_stem, locked
+from harness.output.verdict import forget_verdict, write_verdict
 from harness.procedures import run_steps
 from harness.procedures.incrementation import FIXED_TOO_LARGE, TOO_MANY_INCREMENTS
 from harness.solver.threads import one_blas_thread
-from harness.usersub import Library, marks
+from harness.usersub import Library, guard_values
 
 MOST_REPEATED: Final = 3
 """Warnings that an error brings along."""
@@ -119,8 +119,8 @@ def _analyse(
 ) -> None:
     """Run all steps, with their records in the files, which are closed at the end, whatever that is."""
     try:
-        system = ForgivingSystem(model, library)
-        with one_blas_thread(), marks({}):
+        system = TolerantSystem(model, library)
+        with one_blas_thread(), guard_values({}):
             for record in run_steps(system, model, library, solver, fallback=fallback, energy_control=energy_control):
                 with held():
                     _pass_on(library, output)

@@ -95,13 +95,13 @@ subroutine host_evaluate(address, material, tensor, jtype, symmetric, want_matri
 end subroutine host_evaluate
 
 !> Exchange what the guards of each array (as host_workspace orders them) and, last, entries that are not set hold.
-subroutine host_exchange_marks(marks)
-  use host_driver, only: set_marks
+subroutine host_exchange_guard_values(values)
+  use host_driver, only: set_guard_values
   use host_kinds, only: dp
   implicit none (type, external)
-  real(dp), intent(inout) :: marks(12)
-  call set_marks(marks)
-end subroutine host_exchange_marks
+  real(dp), intent(inout) :: values(12)
+  call set_guard_values(values)
+end subroutine host_exchange_guard_values
 
 !> Oldest message of a user routine; level 0 if none is left.
 subroutine host_take_message(level, place, text)

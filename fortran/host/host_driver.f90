@@ -7,12 +7,12 @@ module host_driver
   use host_interfaces, only: uel_procedure, uelmat_procedure
   use host_kinds, only: dp, i4, i8
   use host_protect, only: begin_call, protect
-  use host_workspace, only: all_finite, arm_guards, exchange_marks, fill, find_damage, i_a, i_amatrx, i_coords, i_du, &
+  use host_workspace, only: all_finite, arm_guards, exchange_guard_values, fill, find_damage, i_a, i_amatrx, i_coords, i_du, &
                             i_energy, i_predef, i_props, i_rhs, i_svars, i_u, i_v, lay_out, n_arrays, same_bits, &
                             set_room, workspace_t
   implicit none (type, external)
   private
-  public :: block_t, run_block, set_marks, set_guard_room
+  public :: block_t, run_block, set_guard_values, set_guard_room
   public :: fault_none, fault_left, fault_outside, fault_unset, fault_not_finite, fault_endless, fault_distorted
 
   integer(i4), parameter :: fault_none = 0        !< all went well
@@ -114,11 +114,11 @@ contains
     current%iteration = 0
   end subroutine run_block
 
-  !> Exchange what guards and entries that are not set hold, see exchange_marks.
-  subroutine set_marks(marks)
-    real(dp), intent(inout) :: marks(n_arrays + 1)
-    call exchange_marks(work, marks)
-  end subroutine set_marks
+  !> Exchange what guards and entries that are not set hold, see exchange_guard_values.
+  subroutine set_guard_values(values)
+    real(dp), intent(inout) :: values(n_arrays + 1)
+    call exchange_guard_values(work, values)
+  end subroutine set_guard_values
 
   !> Exchange the fewest entries of the guard behind each array.
   subroutine set_guard_room(room)

@@ -51,7 +51,7 @@ contains
     call fill(total + room, mark, work%memory)
   end subroutine lay_out_guarded
 
-  !> Warn of writes outside the arrays by the call that has returned, once for each array, and mend the guards.
+  !> Warn of writes outside the arrays by the call that has returned, once for each array, and restore the guards.
   subroutine warn_of_writes(work, names, sizes, point, reported)
     type(guarded_t), intent(inout) :: work
     character(len=*), intent(in) :: names(:)

@@ -10,7 +10,7 @@ module host_workspace
   use host_protect, only: fence, open_fences
   implicit none (type, external)
   private
-  public :: workspace_t, arrays, n_arrays, lay_out, exchange_marks, arm_guards, find_damage, fill, same_bits, all_finite
+  public :: workspace_t, arrays, n_arrays, lay_out, exchange_guard_values, arm_guards, find_damage, fill, same_bits, all_finite
   public :: first_difference, set_room
   public :: i_rhs, i_amatrx, i_svars, i_energy, i_props, i_coords, i_u, i_du, i_v, i_a, i_predef
 
@@ -76,16 +76,16 @@ contains
   end subroutine fence_arrays
 
   !> Exchange what the guards of each array hold, and as the last what entries hold that are not set.
-  subroutine exchange_marks(work, marks)
+  subroutine exchange_guard_values(work, values)
     type(workspace_t), intent(inout) :: work
-    real(dp), intent(inout) :: marks(n_arrays + 1)
+    real(dp), intent(inout) :: values(n_arrays + 1)
     integer(i8) :: given(n_arrays + 1)
-    given = transfer(marks, given)
-    marks = transfer([work%guard, work%unset], marks)
+    given = transfer(values, given)
+    values = transfer([work%guard, work%unset], values)
     work%guard = given(:n_arrays)
     work%unset = given(n_arrays + 1)
     if (allocated(work%memory)) call arm_guards(work)
-  end subroutine exchange_marks
+  end subroutine exchange_guard_values
 
   !> Exchange the fewest entries of the guard behind each array.
   subroutine set_room(work, room)

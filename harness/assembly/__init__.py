@@ -4,7 +4,7 @@
 
 from harness.assembly.constraints import Constraints
 from harness.assembly.dofs import DofMap
-from harness.assembly.forgiving import ForgivingSystem
 from harness.assembly.system import Evaluation, System
+from harness.assembly.tolerant import TolerantSystem
 
-__all__ = ["Constraints", "DofMap", "Evaluation", "ForgivingSystem", "System"]
+__all__ = ["Constraints", "DofMap", "Evaluation", "System", "TolerantSystem"]

@@ -11,7 +11,7 @@ from typing import Self
 import numpy as np
 from numpy.typing import NDArray
 
-from harness.elements import Block, field_of
+from harness.elements import ElementBlock, field_of
 from harness.model.arrays import FloatArray, IntArray
 from harness.model.mesh import Mesh
 from harness.model.model import Equation
@@ -34,7 +34,7 @@ class DofMap:
     _base: int
 
     @classmethod
-    def build(cls, mesh: Mesh, blocks: Sequence[Block], equations: Sequence[Equation] = ()) -> Self:
+    def build(cls, mesh: Mesh, blocks: Sequence[ElementBlock], equations: Sequence[Equation] = ()) -> Self:
         """Collect the unknowns of elements, and of *EQUATION, whose reference nodes need not belong to an element."""
         nodes = [np.zeros(0, dtype=np.int64)]
         dofs = [np.zeros(0, dtype=np.int64)]
@@ -64,7 +64,7 @@ class DofMap:
         known = (self._keys[found] == keys) & (np.asarray(dof) < self._base)
         return np.asarray(np.where(known, found, -1), dtype=np.int64)
 
-    def equations_of(self, block: Block) -> NDArray[np.int32]:
+    def equations_of(self, block: ElementBlock) -> NDArray[np.int32]:
         """(m, element unknowns) the unknowns of each element of a block."""
         columns = [self.find(block.group.nodes[:, local], dof) for local, dof in block.unknowns]
         return np.stack(columns, axis=1).astype(np.int32)

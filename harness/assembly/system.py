@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from scipy import sparse
 
 from harness.assembly.dofs import DofMap
-from harness.elements import FIELD_NAMES, Block, Call, Motion, PressureBlock
+from harness.elements import FIELD_NAMES, Call, ElementBlock, Motion, PressureBlock
 from harness.model.arrays import ComplexArray, FloatArray, IntArray
 from harness.model.mesh import Mesh
 from harness.model.model import Equation
@@ -56,7 +56,7 @@ class System:
     indices  (nnz,) columns, ascending in each row, int32; every diagonal entry is there and the pattern is symmetric
     """
 
-    def __init__(self, mesh: Mesh, blocks: Sequence[Block], equations: Sequence[Equation] = ()) -> None:
+    def __init__(self, mesh: Mesh, blocks: Sequence[ElementBlock], equations: Sequence[Equation] = ()) -> None:
         self.blocks = tuple(block for block in blocks if not isinstance(block, PressureBlock))
         self.pressures = tuple(block for block in blocks if isinstance(block, PressureBlock))
         self.dofs = DofMap.build(mesh, self.blocks, equations)

@@ -9,7 +9,7 @@ from typing import Final
 
 import numpy as np
 
-from harness.check.state import State
+from harness.check.state import ElementState
 from harness.errors import KernelError
 from harness.model.arrays import FloatArray
 
@@ -34,7 +34,7 @@ class Differences:
     smooth: np.ndarray
 
 
-def differences(state: State, scales: FloatArray) -> Differences:
+def differences(state: ElementState, scales: FloatArray) -> Differences:
     """Difference RHS by every unknown, in steps of parts of its scale (n,). Raises KernelError at the state itself."""
     n = len(state.u)
     here = state.evaluate(matrix=False).rhs[0]
@@ -46,7 +46,9 @@ def differences(state: State, scales: FloatArray) -> Differences:
     return Differences(matrix, error, smooth)
 
 
-def _column(state: State, here: FloatArray, column: int, scale: float) -> tuple[FloatArray, FloatArray, bool] | None:
+def _column(
+    state: ElementState, here: FloatArray, column: int, scale: float
+) -> tuple[FloatArray, FloatArray, bool] | None:
     """The column with the smallest error, of several steps."""
     best, least, before = None, np.inf, None
     shift = np.zeros(len(state.u))

@@ -16,7 +16,7 @@ from harness.check.recording import Recording, record_leniently
 from harness.check.shuffle import TypeVerdict, shuffle_recording
 from harness.check.subject import Subject, subject_of
 from harness.errors import CallLimitError, KernelError, UelError
-from harness.usersub import ARRAYS, AS_GOOD_AS_ZERO, UNSET, marks
+from harness.usersub import ARRAYS, AS_GOOD_AS_ZERO, UNSET, guard_values
 
 LENIENT: Final = {UNSET: 0.0, **dict.fromkeys(ARRAYS, AS_GOOD_AS_ZERO)}
 """Entries not set are zero, and guards as good as zero, so that one mistake does not hide all others."""
@@ -118,7 +118,7 @@ def examine(
         if name not in known:
             raise UelError(f"no check is called '{name}'; there are {', '.join(known)}")
     checks = [check for check in CHECKS if check.name not in skip]
-    with marks(LENIENT):
+    with guard_values(LENIENT):
         progress(Running("the run of the deck"), None)
         recording = record_leniently(deck, files, increments)
         users = {group.type for group in recording.model.groups if group.definition is not None}
@@ -162,7 +162,7 @@ def _run(check: Check, subject: Subject, before: Mapping[str, Finding]) -> Findi
         return not_applicable(f"nothing to be learnt from it while '{check.unless}' fails")
     if check.calls and not subject.states:
         return not_applicable(
-            f"no call of an element by itself returns: {subject.refusal}; take a deck in which one does, or mend that"
+            f"no call of an element by itself returns: {subject.refusal}; take a deck in which one does, or fix that"
         )
     if check.forces and subject.idle:
         told = any(other.forces and other.name in before for other in CHECKS)

@@ -10,7 +10,7 @@ from typing import Final
 import numpy as np
 
 from harness.check.finding import Finding, not_applicable
-from harness.check.state import State
+from harness.check.state import ElementState
 from harness.check.subject import Subject, diagonal
 from harness.model.arrays import FloatArray
 
@@ -91,7 +91,7 @@ class Body:
         return found
 
 
-def body_of(subject: Subject, state: State) -> Body | None:
+def body_of(subject: Subject, state: ElementState) -> Body | None:
     """The element of a state as a body; None where fewer than two nodes move in all COORDINATES= directions."""
     points = subject.coordinates(state)
     dofs, local = subject.dofs, subject.local_nodes
@@ -128,7 +128,7 @@ def _with_own_rotations(subject: Subject, body: Body) -> Body:
     return body
 
 
-def makes_inertia(state: State, body: Body) -> bool:
+def makes_inertia(state: ElementState, body: Body) -> bool:
     """Whether, in a dynamic step, a translation within the increment makes forces without V and A: inertia of DU."""
     if not state.dynamic:
         return False
@@ -142,7 +142,7 @@ def makes_inertia(state: State, body: Body) -> bool:
     return False
 
 
-def _elsewhere(state: State, motion: FloatArray) -> tuple[State, State]:
+def _elsewhere(state: ElementState, motion: FloatArray) -> tuple[ElementState, ElementState]:
     """The state of an element that has moved within the increment, and of one that was there all the time."""
     return state.moved(motion), state.carried(motion)
 
@@ -154,7 +154,7 @@ AT_REST: Final = "the run has no state without displacements: begin the deck wit
 INERTIA: Final = "inertia that is made of DU, not of A: take a deck with a static step"
 
 
-def body_at_rest(subject: Subject) -> tuple[State, Body] | Finding:
+def body_at_rest(subject: Subject) -> tuple[ElementState, Body] | Finding:
     """The first state without displacements and its body, or the finding that there is none, or inertia of DU."""
     state = next(iter(subject.resting), None)
     if state is None:

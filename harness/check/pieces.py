@@ -8,11 +8,11 @@ from collections.abc import Iterator
 from dataclasses import replace
 
 from harness.check.single import Returned
-from harness.check.state import State
+from harness.check.state import ElementState
 from harness.elements import Call
 
 
-def in_pieces(state: State, ends: list[float]) -> Iterator[Returned]:
+def in_pieces(state: ElementState, ends: list[float]) -> Iterator[Returned]:
     """Make the increment of a state in parts that end at these shares of it; yields what each part returns.
 
     Shares above 1 go on at the rates of the increment: displacements, time, loads and fields.

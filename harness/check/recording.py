@@ -16,7 +16,7 @@ import numpy as np
 from harness import usersub
 from harness.assembly import Evaluation, System
 from harness.deck import read_deck
-from harness.elements import Block, Call, Flags, Motion, Request, build_blocks
+from harness.elements import Call, ElementBlock, Flags, Motion, Request, build_blocks
 from harness.errors import ConvergenceError, ElementError, IncrementsUsedUpError, KernelError, NotFiniteError, UelError
 from harness.model.arrays import FloatArray, IntArray
 from harness.model.model import Model
@@ -209,7 +209,7 @@ def _general(events: Sequence[Event]) -> Pass:
 class _RecordedSystem(System):
     """A system that keeps what its elements are called with."""
 
-    def __init__(self, model: Model, blocks: Sequence[Block], events: list[Event]) -> None:
+    def __init__(self, model: Model, blocks: Sequence[ElementBlock], events: list[Event]) -> None:
         super().__init__(model.mesh, blocks, model.equations)
         self._events = events
 

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from harness.elements import Block, Call, Motion
+from harness.elements import Call, ElementBlock, Motion
 from harness.model.arrays import FloatArray
 
 
@@ -57,7 +57,7 @@ def entry(index: int, n: int, columns: int, svars: int) -> str:
 class Single:
     """An element in a block of its own, with unknowns of its own."""
 
-    def __init__(self, block: Block) -> None:
+    def __init__(self, block: ElementBlock) -> None:
         n = len(block.unknowns)
         self.block = block
         # what it returns is not added to anything, and AMATRX is not made symmetric

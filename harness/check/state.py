@@ -24,7 +24,7 @@ CHANGES: Final = 1e-3, 1.0, 1e3, -1e-3, -1.0, -1e3
 
 
 @dataclass(frozen=True, slots=True)
-class State:
+class ElementState:
     """The arguments of a call of one element, which is in its state at the start of the increment.
 
     u, du, motion  (n,) of the element: estimate of the end of the increment, the increment, velocity and acceleration
@@ -48,32 +48,32 @@ class State:
         """Make the call. Raises KernelError."""
         return self.single.evaluate(self.call, self.u, self.du, self.motion, matrix=matrix, nrhs=self.nrhs)
 
-    def moved(self, shift: FloatArray) -> State:
+    def moved(self, shift: FloatArray) -> ElementState:
         """The state with another end of the increment, U and DU + shift (n,); in dynamics V and A follow."""
         rates = self._rates()
         motion = Motion(self.motion.velocity + rates[0] * shift, self.motion.acceleration + rates[1] * shift)
         return replace(self, u=self.u + shift, du=self.du + shift, motion=motion)
 
-    def moved_on(self, shift: FloatArray) -> State:
+    def moved_on(self, shift: FloatArray) -> ElementState:
         """An increment of its own by shift (n,) from the end of this one; the element is in the state of its start."""
         return replace(self.moved(shift), du=shift)
 
-    def carried(self, shift: FloatArray) -> State:
+    def carried(self, shift: FloatArray) -> ElementState:
         """The state of an element that was elsewhere all the time: U + shift (n,)."""
         return replace(self, u=self.u + shift)
 
-    def part(self, share: float) -> State:
+    def part(self, share: float) -> ElementState:
         """The state at this share of the increment of displacements."""
         return replace(self, u=self.u - (1.0 - share) * self.du, du=share * self.du)
 
-    def settled(self) -> State:
+    def settled(self) -> ElementState:
         """The next increment, in which nothing moves."""
         still = replace(self, single=self.single.twin(strict=False))
         still.evaluate()
         still.single.block.commit()
         return replace(still, du=np.zeros_like(self.u))
 
-    def later(self) -> State:
+    def later(self) -> ElementState:
         """The same motion one increment later: in the first one an element may take constants for its state."""
         call = self.call
         return self.called(
@@ -82,23 +82,23 @@ class State:
             total_time=call.total_time + call.time_increment,
         )
 
-    def quiet(self) -> State:
+    def quiet(self) -> ElementState:
         """In a dynamic step the state without velocities and accelerations, whatever moves; else the state itself."""
         if not self.dynamic:
             return self
         zero = Motion(np.zeros(len(self.u)), np.zeros(len(self.u)))
         return replace(self, motion=zero, inertia=False)
 
-    def still(self) -> State:
+    def still(self) -> ElementState:
         """The state at the start of the increment, at rest and without loads on the element."""
         zero = Motion(np.zeros(len(self.u)), np.zeros(len(self.u)))
         return replace(self.part(0.0), motion=zero).called(distributed=None)
 
-    def called(self, **changes: Any) -> State:
+    def called(self, **changes: Any) -> ElementState:
         """The state with other arguments that are common to all elements, fields of Call."""
         return replace(self, call=replace(self.call, **changes))
 
-    def asked(self, request: Request) -> State:
+    def asked(self, request: Request) -> ElementState:
         """The state with another LFLAGS(3)."""
         return replace(self, call=self.call.asking(request))
 
@@ -107,7 +107,7 @@ class State:
         """V and A go with U."""
         return self.call.flags.procedure in DYNAMIC
 
-    def with_svars(self, svars: FloatArray) -> State:
+    def with_svars(self, svars: FloatArray) -> ElementState:
         """The state with other state variables (nsvars,) at the start of the increment."""
         single = self.single.twin(strict=False)
         single.block.initialise(np.array([0]), svars)
@@ -125,7 +125,7 @@ class State:
                 return True
         return False
 
-    def strictly(self) -> State:
+    def strictly(self) -> ElementState:
         """The state of a copy for which a write outside an array is an error."""
         return replace(self, single=self.single.twin(strict=True))
 
@@ -138,10 +138,12 @@ class State:
         return gamma / (beta * call.time_increment), 1.0 / (beta * call.time_increment**2)
 
 
-def state_of(single: Single, made: Pass, equations: np.ndarray) -> State:
+def state_of(single: Single, made: Pass, equations: np.ndarray) -> ElementState:
     """A call of the run, with a copy of the element as it is now."""
     call = made.call
     n = len(equations)
     motion = made.motion.at(equations) if made.motion else Motion(np.zeros(n), np.zeros(n))
     origin = f"step {call.step}, increment {call.increment}, iteration {call.iteration}"
-    return State(single.twin(strict=False), call, made.u[equations], made.du[equations], motion, made.nrhs, origin)
+    return ElementState(
+        single.twin(strict=False), call, made.u[equations], made.du[equations], motion, made.nrhs, origin
+    )

@@ -18,7 +18,7 @@ from harness.check.recording import Pass, Recording
 from harness.check.replay import Elements, Results, abaqus_order, replay
 from harness.check.shuffle import TypeVerdict
 from harness.check.single import Returned
-from harness.check.state import State, state_of
+from harness.check.state import ElementState, state_of
 from harness.errors import KernelError
 from harness.model.arrays import FloatArray
 from harness.model.mesh import ElementGroup
@@ -50,7 +50,7 @@ class Patch:
     """A node inside of elements of one type, with the states of these elements in the first pass."""
 
     node: int
-    states: tuple[State, ...]
+    states: tuple[ElementState, ...]
 
 
 @dataclass(frozen=True, slots=True)
@@ -74,9 +74,9 @@ class Subject:
     recording: Recording
     definition: UserElement
     elements: int
-    states: tuple[State, ...]
+    states: tuple[ElementState, ...]
     returned: tuple[Returned, ...]
-    random: tuple[State, ...]
+    random: tuple[ElementState, ...]
     scales: FloatArray
     order: TypeVerdict
     patches: tuple[Patch, ...]
@@ -84,16 +84,16 @@ class Subject:
     refusal: str
     strange: str
     _differences: dict[int, Differences] = field(default_factory=dict)
-    _quiet: dict[int, State] = field(default_factory=dict)
+    _quiet: dict[int, ElementState] = field(default_factory=dict)
     _magnitudes: list[FloatArray] = field(default_factory=list)
 
-    def differences(self, state: State) -> Differences:
+    def differences(self, state: ElementState) -> Differences:
         """Of RHS at one of the states. Raises KernelError."""
         if id(state) not in self._differences:
             self._differences[id(state)] = differences(state, self.scales)
         return self._differences[id(state)]
 
-    def stiffness(self, state: State) -> FloatArray:
+    def stiffness(self, state: ElementState) -> FloatArray:
         """(n, n) magnitudes: the larger of AMATRX and of the differences of RHS, so that either may be wrong.
 
         Without inertia these are the differences: AMATRX of a dynamic step holds mass. Else they are no less than a
@@ -106,7 +106,7 @@ class Subject:
         largest: FloatArray = np.maximum.reduce([np.abs(state.evaluate().amatrx), found, YIELDING * others])
         return largest
 
-    def quiet(self, state: State) -> State:
+    def quiet(self, state: ElementState) -> ElementState:
         """One of the states without inertia, see `State.quiet`; the same one each time."""
         return self._quiet.setdefault(id(state), state.quiet())
 
@@ -135,12 +135,12 @@ class Subject:
         return True
 
     @property
-    def all_states(self) -> tuple[State, ...]:
+    def all_states(self) -> tuple[ElementState, ...]:
         """From the run, then random ones."""
         return self.states + self.random
 
     @property
-    def resting(self) -> list[State]:
+    def resting(self) -> list[ElementState]:
         """States of the first pass of the run, before anything has happened, in which nothing is displaced.
 
         In a dynamic step without inertia.
@@ -158,7 +158,7 @@ class Subject:
         """(n,) dof of each unknown, as Abaqus numbers them."""
         return np.array([dof for _, dof in self.definition.dofs])
 
-    def coordinates(self, state: State) -> FloatArray:
+    def coordinates(self, state: ElementState) -> FloatArray:
         """(nodes, COORDINATES=) of the element of a state."""
         nodes = state.single.block.group.nodes[0]
         return self.recording.model.mesh.coordinates[nodes, : self.definition.coordinates]
@@ -178,7 +178,7 @@ def subject_of(recording: Recording, kind: str, order: TypeVerdict, seed: int) -
     made = [event for event in recording.events if isinstance(event, Pass) and event.normal]
     chosen = {id(made[k]) for k in np.unique(np.linspace(0, len(made) - 1, PASSES).astype(int))}
     group = next(group for group in recording.model.groups if group.type == kind)
-    states: list[tuple[State, Returned]] = []
+    states: list[tuple[ElementState, Returned]] = []
     refusals: list[str] = []
     patches: tuple[Patch, ...] = ()
     strange = ""
@@ -225,7 +225,7 @@ def _patches(recording: Recording, group: ElementGroup, elements: Elements, made
     )
 
 
-def _states(elements: Elements, kind: str, made: Pass, last: Pass) -> Iterator[tuple[State, Returned]]:
+def _states(elements: Elements, kind: str, made: Pass, last: Pass) -> Iterator[tuple[ElementState, Returned]]:
     """Of the most deformed element of a type, of others, and of one with a load, with what they return now."""
     positions = np.flatnonzero(elements.types == kind)
     dofs = np.array([dof for _, dof in elements.singles[positions[0]].block.unknowns])
@@ -240,7 +240,7 @@ def _states(elements: Elements, kind: str, made: Pass, last: Pass) -> Iterator[t
             yield state, state.evaluate()
 
 
-def _error_of(state: State) -> str:
+def _error_of(state: ElementState) -> str:
     """Why a call ends the analysis; '' where it returns."""
     try:
         state.evaluate()
@@ -263,7 +263,7 @@ def deformations(u: FloatArray, dofs: np.ndarray) -> FloatArray:
 def _subject(
     recording: Recording,
     group: ElementGroup,
-    called: list[tuple[State, Returned]],
+    called: list[tuple[ElementState, Returned]],
     order: TypeVerdict,
     seed: int,
     patches: tuple[Patch, ...],
@@ -298,6 +298,6 @@ def _subject(
     )
 
 
-def _shaken(state: State, scales: FloatArray, rng: np.random.Generator) -> State:
+def _shaken(state: ElementState, scales: FloatArray, rng: np.random.Generator) -> ElementState:
     shift = scales * rng.uniform(-0.5, 0.5, len(scales))
     return replace(state.moved(shift), origin=f"random displacements added to {state.origin}")

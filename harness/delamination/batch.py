@@ -106,7 +106,7 @@ def _sources() -> bytes:
 
 
 @dataclass(frozen=True, slots=True)
-class Outcome:
+class RunOutcome:
     """A run and how it ended: `stopped` says why it went no further, empty for a run that finished."""
 
     result: Result
@@ -114,7 +114,7 @@ class Outcome:
     seconds: float
 
 
-def run_deck(deck: Deck, folder: Path, *, fallback: bool, fields: bool = False) -> Outcome:
+def run_deck(deck: Deck, folder: Path, *, fallback: bool, fields: bool = False) -> RunOutcome:
     """Write a deck, run it.
 
     Parameters
@@ -139,7 +139,7 @@ def run_deck(deck: Deck, folder: Path, *, fallback: bool, fields: bool = False) 
         stopped = str(error)
     if not fields:
         shutil.rmtree(place / f"{deck.name}_vtu", ignore_errors=True)
-    return Outcome(Result(place / deck.name), stopped, time.perf_counter() - started)
+    return RunOutcome(Result(place / deck.name), stopped, time.perf_counter() - started)
 
 
 def run_all(

@@ -112,7 +112,7 @@ def deck_properties(path: Path, elset: str | None = None) -> tuple[int, dict[str
 
 
 @dataclass(frozen=True, slots=True)
-class Curve:
+class LawCurve:
     """One path.
 
     label    as in the legend
@@ -289,7 +289,7 @@ def reach_of(library: Library, values: Properties, angle: float) -> float:
     return far
 
 
-def drive(element: LawElement, label: str, path: FloatArray, duration: float = 1.0) -> Curve:
+def drive(element: LawElement, label: str, path: FloatArray, duration: float = 1.0) -> LawCurve:
     """Tractions along a path, in increments of equal duration."""
     rows = []
     work, before, old = 0.0, np.zeros(2), np.zeros(2)
@@ -300,4 +300,4 @@ def drive(element: LawElement, label: str, path: FloatArray, duration: float = 1
         before, old = traction, separation
         point = element.variables()
         rows.append({"TIME": number * dtime, **point, "TN": traction[0], "TT": traction[1], "WORK": work})
-    return Curve(label, {name: np.array([row[name] for row in rows]) for name in rows[0]})
+    return LawCurve(label, {name: np.array([row[name] for row in rows]) for name in rows[0]})

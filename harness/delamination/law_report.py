@@ -18,7 +18,7 @@ from rich.table import Table
 
 from harness import usersub
 from harness.delamination import law
-from harness.delamination.law import Curve, LawElement
+from harness.delamination.law import LawCurve, LawElement
 from harness.errors import UsageError
 from harness.model.arrays import FloatArray
 from harness.output.lock import job_stem, locked
@@ -63,7 +63,7 @@ class Exploration:
     units: tuple[str, str] = ("", "")
 
 
-def explore(asked: Exploration) -> tuple[list[Curve], list[Path]]:
+def explore(asked: Exploration) -> tuple[list[LawCurve], list[Path]]:
     """Drive the element, write JOB.csv and JOB.png, and JOB_surface.png if asked for; the curves and the files."""
     stem = job_stem(asked.job, asked.output_dir)
     asked.output_dir.mkdir(parents=True, exist_ok=True)
@@ -71,7 +71,7 @@ def explore(asked: Exploration) -> tuple[list[Curve], list[Path]]:
         return _explore(asked)
 
 
-def _explore(asked: Exploration) -> tuple[list[Curve], list[Path]]:
+def _explore(asked: Exploration) -> tuple[list[LawCurve], list[Path]]:
     jtype, values = law.STANDARD, law.standard_properties()
     if asked.deck is not None:
         jtype, from_deck = law.deck_properties(asked.deck, asked.elset)
@@ -81,7 +81,7 @@ def _explore(asked: Exploration) -> tuple[list[Curve], list[Path]]:
     library = usersub.load(None, job=asked.job, output_dir=asked.output_dir)
     try:
 
-        def curve(label: str, path: FloatArray) -> Curve:
+        def curve(label: str, path: FloatArray) -> LawCurve:
             return law.drive(LawElement(library, jtype, values), label, path, asked.duration)
 
         def reach(angle: float) -> float:
@@ -121,7 +121,7 @@ def path_points(text: str) -> FloatArray:
     return points
 
 
-def write_csv(curves: Sequence[Curve], path: Path) -> None:
+def write_csv(curves: Sequence[LawCurve], path: Path) -> None:
     """One line per increment: the label of the curve, then its columns."""
     with path.open("w", newline="", encoding="utf-8") as file:
         writer = csv.writer(file)
@@ -131,7 +131,7 @@ def write_csv(curves: Sequence[Curve], path: Path) -> None:
                 writer.writerow([curve.label, *(f"{value:.10g}" for value in row)])
 
 
-def summary(curves: Sequence[Curve]) -> Table:
+def summary(curves: Sequence[LawCurve]) -> Table:
     """Largest tractions, work and dissipation of each curve."""
     table = Table("curve", "max TN", "max TT", "work", "dissipated I", "dissipated II", "damage")
     for curve in curves:
@@ -152,7 +152,7 @@ def _with_unit(words: str, unit: str) -> str:
     return f"{words} [{unit}]" if unit else words
 
 
-def draw_curves(curves: Sequence[Curve], path: Path, units: tuple[str, str]) -> None:
+def draw_curves(curves: Sequence[LawCurve], path: Path, units: tuple[str, str]) -> None:
     """Normal traction over opening and tangential traction over sliding."""
     with mpl.rc_context(STYLE):
         figure = Figure(figsize=(7.0, 3.2), layout="constrained")
@@ -173,7 +173,7 @@ def draw_curves(curves: Sequence[Curve], path: Path, units: tuple[str, str]) -> 
         figure.savefig(path, dpi=200)
 
 
-def draw_surface(curves: Sequence[Curve], path: Path, units: tuple[str, str]) -> None:
+def draw_surface(curves: Sequence[LawCurve], path: Path, units: tuple[str, str]) -> None:
     """Both tractions over opening and sliding, from curves of equally many increments, one per angle."""
     grids = {name: np.array([curve.columns[name] for curve in curves]) for name in ("SEPN", "SEPT", "TN", "TT")}
     with mpl.rc_context(STYLE | {"axes.grid": False}):

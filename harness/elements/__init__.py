@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Blocks of like elements: Python sees blocks, never single elements."""
 
-from harness.elements.block import Block
+from harness.elements.block import ElementBlock
 from harness.elements.build import build_blocks
 from harness.elements.call import BlockReport, Call, Distributed, Motion, Predefined
 from harness.elements.fields import FIELD_NAMES, field_of
@@ -11,11 +11,11 @@ from harness.elements.request import Damping, Flags, Request
 
 __all__ = [
     "FIELD_NAMES",
-    "Block",
     "BlockReport",
     "Call",
     "Damping",
     "Distributed",
+    "ElementBlock",
     "Flags",
     "Motion",
     "Predefined",

@@ -13,8 +13,8 @@ from numpy.typing import NDArray
 from harness.elements.call import BlockReport, Call, Distributed, Motion, Predefined
 from harness.elements.faults import ERRORS, at_point, distortion, material_point, write_outside, wrong_entry
 from harness.elements.fields import FIELD_NAMES, field_of
-from harness.elements.procedure import Procedure
 from harness.elements.request import Flags, Request
+from harness.elements.routine import Routine
 from harness.elements.watch import Watch
 from harness.errors import ElementError, KernelError
 from harness.model.arrays import FloatArray, IntArray
@@ -32,7 +32,7 @@ _AT_REST = Motion(np.zeros(1), np.zeros(1))
 _NO_LOADS = LoadArrays(np.zeros(1, np.int32), np.zeros((1, 1), np.int32), np.zeros((1, 1, 2)))
 
 
-class Block:
+class ElementBlock:
     """Elements of one group: their committed and trial state, and one pass over them.
 
     unknowns     (local node, dof) of each element unknown, in the order of U and RHS
@@ -49,7 +49,7 @@ class Block:
         group: ElementGroup,
         coordinates: FloatArray,
         unknowns: tuple[tuple[int, int], ...],
-        procedure: Procedure,
+        routine: Routine,
         library: Library,
         *,
         unsymmetric: bool,
@@ -62,23 +62,23 @@ class Block:
         self.unsymmetric = unsymmetric
         self.variables = variables
         self._coordinates = coordinates
-        self._procedure = procedure
+        self._routine = routine
         self._library = library
         self.first = 0
         self._guards = Guards.STOP if strict else Guards.NOTICE
         self._entries = Entries.NOTICE if zeros else Entries.STOP
         self._noticed: Outcome | None = None
         m, n = len(group.labels), len(unknowns)
-        svars = np.zeros((m, procedure.svars))
+        svars = np.zeros((m, routine.svars))
         energy = np.zeros((m, 8))
-        history = np.zeros((m, procedure.history[1], procedure.history[0]))
+        history = np.zeros((m, routine.history[1], routine.history[0]))
         self._arrays = BlockArrays(
             labels=group.labels.astype(np.int32),
-            jprops=procedure.jprops.astype(np.int32),
+            jprops=routine.jprops.astype(np.int32),
             equations=np.zeros((m, n), dtype=np.int32),
             map=np.zeros((m, n, n), dtype=np.int32),
-            props=np.ascontiguousarray(procedure.props, dtype=np.float64),
-            coords=np.ascontiguousarray(coordinates[group.nodes, : procedure.mcrd]),
+            props=np.ascontiguousarray(routine.props, dtype=np.float64),
+            coords=np.ascontiguousarray(coordinates[group.nodes, : routine.mcrd]),
             svars=svars,
             svars_trial=svars.copy(),
             energy=energy,
@@ -86,7 +86,7 @@ class Block:
             history=history,
             history_trial=history.copy(),
         )
-        self._uvar = np.zeros((m, procedure.uvarm.points, procedure.uvarm.count)) if procedure.uvarm else None
+        self._uvar = np.zeros((m, routine.uvarm.points, routine.uvarm.count)) if routine.uvarm else None
         self._last: Call | None = None
         self._watch = Watch(group, library)
         fields = np.array([field_of(dof) for _, dof in unknowns])
@@ -98,7 +98,7 @@ class Block:
     @property
     def elastic(self) -> bool:
         """Whether it is of built-in elements whose state is linear in the displacements where these are small."""
-        return self._procedure.linear
+        return self._routine.linear
 
     def bind(self, equations: NDArray[np.int32], scatter: NDArray[np.int32]) -> None:
         """Tell where the unknowns are.
@@ -110,15 +110,15 @@ class Block:
         # the driver walks AMATRX by columns
         self._arrays.map = np.ascontiguousarray(scatter.transpose(0, 2, 1) + 1, dtype=np.int32)
 
-    def split(self, *, strict: bool = True) -> list[Block]:
+    def split(self, *, strict: bool = True) -> list[ElementBlock]:
         """Its elements, each in an unbound block of its own and in its committed state, for calls in any order."""
         group = self.group
         parts = [
-            Block(
+            ElementBlock(
                 replace(group, labels=group.labels[k : k + 1], nodes=group.nodes[k : k + 1]),
                 self._coordinates,
                 self.unknowns,
-                self._procedure,
+                self._routine,
                 self._library,
                 unsymmetric=self.unsymmetric,
                 variables=self.variables,
@@ -176,7 +176,7 @@ class Block:
             raise self._error(outcome, residual.ndim, call)
         self._watch.pnewdt(call, outcome.pnewdt)
         energy, damage = outcome.energy, 0.0
-        if self._procedure.damages:
+        if self._routine.damages:
             damage, energy[_PLASTIC] = float(energy[_PLASTIC]), 0.0
         return BlockReport.of(outcome, self._by_field, len(self.group.labels), energy, damage)
 
@@ -214,7 +214,7 @@ class Block:
 
         unknowns: of the system.
         """
-        place = self._procedure.density
+        place = self._routine.density
         if place < 0:
             return
         given, self._arrays.props = self._arrays.props, self._arrays.props.copy()
@@ -231,9 +231,9 @@ class Block:
 
     def _scalars(self, call: Call) -> _binding.Scalars:
         return {
-            "address": self._procedure.address,
-            "material": self._procedure.material,
-            "jtype": self._procedure.jtype,
+            "address": self._routine.address,
+            "material": self._routine.material,
+            "jtype": self._routine.jtype,
             "kstep": call.step,
             "kinc": call.increment,
             "time": (call.step_time, call.total_time),
@@ -241,9 +241,9 @@ class Block:
             "period": call.period,
         }
 
-    def _options(self, call: Call, *, assemble: bool) -> _binding.Options:
+    def _options(self, call: Call, *, assemble: bool) -> _binding.PassOptions:
         return {
-            "tensor": self._procedure.tensor,
+            "tensor": self._routine.tensor,
             "symmetric": not (self.unsymmetric or (call.unsymmetric and self.group.definition)),
             "want_matrix": assemble,
             "guards": self._guards,
@@ -266,7 +266,7 @@ class Block:
         Raises ValueError where the elements take none, or have fewer components; zeros beyond those are left out.
         """
         try:
-            self._procedure.set_stress(self._arrays.svars, rows, values)
+            self._routine.set_stress(self._arrays.svars, rows, values)
         except ValueError as error:
             raise ValueError(f"elements of type {self.group.type} {error}") from None
 
@@ -282,7 +282,7 @@ class Block:
     def call_sdvini(self, address: int) -> None:
         """Let SDVINI set the initial state. Raises KernelError where it ends the analysis."""
         state = np.ascontiguousarray(self._initial_state())
-        element, point = _binding.sdvini(address, self._arrays, state, self._procedure.family) if state.size else (0, 0)
+        element, point = _binding.sdvini(address, self._arrays, state, self._routine.family) if state.size else (0, 0)
         if element:
             at = at_point("SDVINI", point) if self.group.definition is None else "SDVINI "
             raise KernelError(element, self.group.type, at + self._library.stop_reason())
@@ -293,7 +293,7 @@ class Block:
         if self.group.definition is not None:
             return self._arrays.svars[:, None, :]
         history = self._arrays.history
-        return history[:, :, history.shape[2] - self._procedure.statev :]
+        return history[:, :, history.shape[2] - self._routine.statev :]
 
     def _begin(self, state: FloatArray) -> None:
         """Make it the committed and the trial state."""
@@ -331,8 +331,8 @@ class Block:
 
     def _extended(self, svars: FloatArray, history: FloatArray) -> FloatArray:
         """Copy of SVARS without the hidden ones, with STATEV and UVAR behind those of each point."""
-        svars = svars[:, : svars.shape[1] - self._procedure.hidden]
-        statev, points = self._procedure.statev, self._procedure.history[1]
+        svars = svars[:, : svars.shape[1] - self._routine.hidden]
+        statev, points = self._routine.statev, self._routine.history[1]
         parts = [history[:, :, history.shape[2] - statev :]] if statev else []
         if self._uvar is not None:
             parts.append(self._uvar)
@@ -342,7 +342,7 @@ class Block:
         return np.concatenate([svars.reshape(len(svars), points, -1), *parts], axis=2).reshape(len(svars), -1)
 
     def _call_uvarm(self, call: Call, uvar: FloatArray) -> None:
-        given = self._procedure.uvarm
+        given = self._routine.uvarm
         assert given is not None
         start = call.step_time - call.time_increment, call.total_time - call.time_increment, call.time_increment
         place = call.step, call.increment
@@ -350,11 +350,11 @@ class Block:
             given.address,
             given.names,
             given.axes,
-            (self._procedure.tensor, self._procedure.statev, self._procedure.family),
+            (self._routine.tensor, self._routine.statev, self._routine.family),
             place,
             start,
             self._arrays,
-            self._procedure.hidden,
+            self._routine.hidden,
             uvar,
         )
         if element:
@@ -386,9 +386,9 @@ class Block:
 
     def _outside(self, outcome: Outcome, nrhs: int) -> str:
         sizes = {
-            "SVARS": f"{self._procedure.svars} (VARIABLES=)",
-            "PROPS": f"{len(self._procedure.props)} (PROPERTIES=)",
-            "COORDS": str(self._procedure.mcrd * self.group.nodes.shape[1]),
+            "SVARS": f"{self._routine.svars} (VARIABLES=)",
+            "PROPS": f"{len(self._routine.props)} (PROPERTIES=)",
+            "COORDS": str(self._routine.mcrd * self.group.nodes.shape[1]),
             "PREDEF": str(2 * self.group.nodes.shape[1]),
         }
         return write_outside(outcome, len(self.unknowns), nrhs, sizes)

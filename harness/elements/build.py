@@ -8,14 +8,14 @@ from difflib import get_close_matches
 from itertools import pairwise
 from typing import Final
 
-from harness.elements.block import Block
-from harness.elements.cohesive import cohesive_procedure, cohesive_variables
-from harness.elements.coupled import coupled_procedure
-from harness.elements.discrete import discrete_procedure, discrete_unknowns, discrete_variables
+from harness.elements.block import ElementBlock
+from harness.elements.cohesive import cohesive_routine, cohesive_variables
+from harness.elements.coupled import coupled_routine
+from harness.elements.discrete import discrete_routine, discrete_unknowns, discrete_variables
 from harness.elements.materials import define_material, refuse_fields
 from harness.elements.pressure import pressure_blocks
-from harness.elements.procedure import Procedure
-from harness.elements.solid import history_of, solid_procedure, solid_variables
+from harness.elements.routine import Routine
+from harness.elements.solid import history_of, solid_routine, solid_variables
 from harness.errors import DeckError, all_of
 from harness.model.element_types import BUILT_IN, CohesiveType, ContinuumType, DiscreteType, Tensor
 from harness.model.mesh import ElementGroup
@@ -32,13 +32,13 @@ TENSORS: Final = {
 """TENSOR= of *USER ELEMENT; TWOD has the components of plane strain."""
 
 
-def build_blocks(model: Model, library: Library, *, strict: bool = True, zeros: bool = False) -> list[Block]:
+def build_blocks(model: Model, library: Library, *, strict: bool = True, zeros: bool = False) -> list[ElementBlock]:
     """One block per group of the model, in the same order, then those of faces. Raises DeckError that names all places.
 
     strict: a user element that writes outside an array is an error, else a warning; zeros: one that leaves an entry of
     RHS or AMATRX unset is a warning, and the entry zero, else an error.
     """
-    blocks: list[Block] = []
+    blocks: list[ElementBlock] = []
     errors: dict[str, DeckError] = {}
     for group in model.groups:
         try:
@@ -61,7 +61,7 @@ def _too_large(group: ElementGroup) -> DeckError:
     return DeckError(source, f"there is not enough memory for {len(group.labels)} elements of type {group.type}{cause}")
 
 
-def _block_of(model: Model, group: ElementGroup, library: Library, *, strict: bool, zeros: bool) -> Block:
+def _block_of(model: Model, group: ElementGroup, library: Library, *, strict: bool, zeros: bool) -> ElementBlock:
     material = getattr(group.section, "material", None)
     kind = group.built_in
     if material is not None and material.expansion and not (isinstance(kind, ContinuumType) and not kind.coupled):
@@ -84,7 +84,7 @@ def _block_of(model: Model, group: ElementGroup, library: Library, *, strict: bo
 
 def _user_block(
     model: Model, group: ElementGroup, definition: UserElement, library: Library, *, strict: bool, zeros: bool
-) -> Block:
+) -> ElementBlock:
     section = group.section
     if not isinstance(section, UserProperty):
         raise DeckError(section.source, f"user elements ({group.type}) take *UEL PROPERTY")
@@ -98,7 +98,7 @@ def _user_block(
         tensor = _tensor(definition, section)
         material = define_material(section.material, section.orientation, tensor, section.source, library)
         history = history_of(section.material, definition.integration or MOST_POINTS)
-    procedure = Procedure(
+    routine = Routine(
         address=address,
         jtype=definition.number,
         mcrd=mcrd,
@@ -110,11 +110,11 @@ def _user_block(
         history=history,
     )
     variables = library.variables(definition.number)
-    return Block(
+    return ElementBlock(
         group,
         model.mesh.coordinates,
         definition.dofs,
-        procedure,
+        routine,
         library,
         unsymmetric=definition.unsymmetric,
         variables=variables,
@@ -127,41 +127,41 @@ MOST_POINTS: Final = 64
 """Points of a plastic material per user element where *USER ELEMENT does not give INTEGRATION=."""
 
 
-def _solid_block(model: Model, group: ElementGroup, kind: ContinuumType, library: Library) -> Block:
+def _solid_block(model: Model, group: ElementGroup, kind: ContinuumType, library: Library) -> ElementBlock:
     section, coupled = group.section, kind.coupled
     if not isinstance(section, SolidSection):
         raise DeckError(section.source, f"elements of type {group.type} take *SOLID SECTION")
     _check_nodes(group, kind.nodes)
     if coupled:
-        procedure = coupled_procedure(model, group, section, library)
+        routine = coupled_routine(model, group, section, library)
     else:
-        procedure = solid_procedure(model, group, section, library)
+        routine = solid_routine(model, group, section, library)
     # displacements of all nodes, then temperatures of the corners
     unknowns = tuple((node, dof) for node in range(kind.nodes) for dof in range(1, kind.dimension + 1))
     unknowns += tuple((node, 11) for node in range(kind.corners) if coupled)
-    return Block(
+    return ElementBlock(
         group,
         model.mesh.coordinates,
         unknowns,
-        procedure,
+        routine,
         library,
         # the elastic and the plastic tangent are symmetric; Abaqus stores the matrix of coupled steps as unsymmetric,
         # UNSYMM or not (Analysis User's Guide, Fully coupled thermal-stress analysis), as what UMAT says of heat needs
         unsymmetric=section.material.user is not None and (coupled or section.material.user.unsymmetric),
-        variables=solid_variables(group, procedure),
+        variables=solid_variables(group, routine),
     )
 
 
-def _cohesive_block(model: Model, group: ElementGroup, kind: CohesiveType, library: Library) -> Block:
+def _cohesive_block(model: Model, group: ElementGroup, kind: CohesiveType, library: Library) -> ElementBlock:
     section = group.section
     if not isinstance(section, CohesiveSection):
         raise DeckError(section.source, f"elements of type {group.type} take *COHESIVE SECTION")
     _check_nodes(group, kind.nodes)
-    return Block(
+    return ElementBlock(
         group,
         model.mesh.coordinates,
         tuple((node, dof) for node in range(kind.nodes) for dof in kind.dofs(node)),
-        cohesive_procedure(model, group, section),
+        cohesive_routine(model, group, section),
         library,
         # damage that depends on the mode mix
         unsymmetric=True,
@@ -169,13 +169,13 @@ def _cohesive_block(model: Model, group: ElementGroup, kind: CohesiveType, libra
     )
 
 
-def _discrete_block(model: Model, group: ElementGroup, library: Library) -> Block:
+def _discrete_block(model: Model, group: ElementGroup, library: Library) -> ElementBlock:
     unknowns = discrete_unknowns(model, group)
-    return Block(
+    return ElementBlock(
         group,
         model.mesh.coordinates,
         unknowns,
-        discrete_procedure(model, group, len(unknowns)),
+        discrete_routine(model, group, len(unknowns)),
         library,
         unsymmetric=False,
         variables=discrete_variables(group),

@@ -9,7 +9,7 @@ from typing import Final
 import numpy as np
 
 from harness.elements.materials import refuse_fields
-from harness.elements.procedure import Procedure
+from harness.elements.routine import Routine
 from harness.errors import DeckError
 from harness.model.element_types import COHESIVE, CohesiveType
 from harness.model.mesh import ElementGroup
@@ -27,7 +27,7 @@ _MIXED_MODES: Final = ("", "BK", "POWER LAW")
 Triple = tuple[float, float, float]
 
 
-def cohesive_procedure(model: Model, group: ElementGroup, section: CohesiveSection) -> Procedure:
+def cohesive_routine(model: Model, group: ElementGroup, section: CohesiveSection) -> Routine:
     """What the driver calls for a group of cohesive elements. Raises DeckError."""
     kind = COHESIVE[group.type]
     for step in model.steps:
@@ -35,7 +35,7 @@ def cohesive_procedure(model: Model, group: ElementGroup, section: CohesiveSecti
             if refused:
                 raise DeckError(step.source, f"{what} is not supported with elements of type {group.type}")
     reals, integers = cohesive_properties(section, kind.dimension)
-    return Procedure(
+    return Routine(
         address=_binding.address_of("cohesive"),
         jtype=kind.nodes,
         mcrd=kind.dimension,

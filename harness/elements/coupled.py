@@ -9,8 +9,8 @@ from dataclasses import replace
 import numpy as np
 
 from harness.elements.materials import refuse_fields
-from harness.elements.procedure import Procedure
-from harness.elements.solid import solid_of, solid_procedure
+from harness.elements.routine import Routine
+from harness.elements.solid import solid_of, solid_routine
 from harness.errors import DeckError
 from harness.model.mesh import ElementGroup
 from harness.model.model import Model
@@ -18,7 +18,7 @@ from harness.model.properties import SolidSection
 from harness.usersub import Library, _binding
 
 
-def coupled_procedure(model: Model, group: ElementGroup, section: SolidSection, library: Library) -> Procedure:
+def coupled_routine(model: Model, group: ElementGroup, section: SolidSection, library: Library) -> Routine:
     """What the driver calls for a group of solids with temperatures. Raises DeckError."""
     material = section.material
     refuse_fields(material, f"elements of type {group.type}")
@@ -36,7 +36,7 @@ def coupled_procedure(model: Model, group: ElementGroup, section: SolidSection, 
         if not value:
             message = f"material {material.name} has no {keyword}, which elements of type {group.type} need"
             raise DeckError(material.source, message)
-    solid = solid_procedure(model, group, section, library)
+    solid = solid_routine(model, group, section, library)
     thermal = [material.conductivity, material.specific_heat]
     kind = solid_of(group)
     points = np.array([kind.thermal_points, kind.family.linear.number])

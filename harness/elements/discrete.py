@@ -9,7 +9,7 @@ from typing import Final
 import numpy as np
 
 from harness.elements.materials import refuse_fields
-from harness.elements.procedure import Procedure
+from harness.elements.routine import Routine
 from harness.errors import DeckError
 from harness.model.element_types import DISCRETE, DiscreteKind
 from harness.model.mesh import ElementGroup
@@ -34,12 +34,12 @@ def discrete_unknowns(model: Model, group: ElementGroup) -> tuple[tuple[int, int
     return tuple((node, dof) for node in range(group.nodes.shape[1]) for dof in range(1, dimension + 1))
 
 
-def discrete_procedure(model: Model, group: ElementGroup, unknowns: int) -> Procedure:
+def discrete_routine(model: Model, group: ElementGroup, unknowns: int) -> Routine:
     """What the driver calls for a group. Raises DeckError."""
     kind = DISCRETE[group.type].kind
     dynamic = any(step.procedure.inertia for step in model.steps)
     hidden = 2 * unknowns if dynamic else 0
-    return Procedure(
+    return Routine(
         address=_binding.address_of("discrete"),
         jtype=kind,
         mcrd=unknowns // 2 if kind in (DiscreteKind.TRUSS, DiscreteKind.AXIAL_SPRING) else 3,

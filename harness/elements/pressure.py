@@ -11,9 +11,9 @@ from dataclasses import replace
 
 import numpy as np
 
-from harness.elements.block import Block
+from harness.elements.block import ElementBlock
 from harness.elements.load_vectors import outward_sign
-from harness.elements.procedure import Procedure
+from harness.elements.routine import Routine
 from harness.elements.solid import section_depth, solid_of
 from harness.model.arrays import FloatArray, IntArray
 from harness.model.element_types import DiscreteKind
@@ -24,7 +24,7 @@ from harness.model.steps import LoadType
 from harness.usersub import Library, _binding
 
 
-class PressureBlock(Block):
+class PressureBlock(ElementBlock):
     """Faces of elements of one group that pressures of one type may act on.
 
     elements  (m,) their positions in the model
@@ -48,7 +48,7 @@ class PressureBlock(Block):
         kind, nodes = solid_of(parent), parent.nodes[rows][:, list(load.face)]
         face, outward = kind.family.face_family(load.face), outward_sign(parent, int(rows[0]), load.face, coordinates)
         unknowns = tuple((node, dof) for node in range(nodes.shape[1]) for dof in range(1, kind.dimension + 1))
-        procedure = Procedure(
+        routine = Routine(
             address=_binding.address_of("discrete"),
             jtype=DiscreteKind.FACE,
             mcrd=kind.dimension,
@@ -57,7 +57,7 @@ class PressureBlock(Block):
             jprops=np.array([face.number, face.full_points, kind.axisymmetric, outward]),
         )
         group = replace(parent, labels=parent.labels[rows], nodes=nodes)
-        super().__init__(group, coordinates, unknowns, procedure, library, unsymmetric=True, variables=None)
+        super().__init__(group, coordinates, unknowns, routine, library, unsymmetric=True, variables=None)
         self.elements, self.load, self.surface = elements, load, surface
 
 

@@ -17,7 +17,7 @@ from harness.elements.materials import (
     shear_modulus,
     state_variables,
 )
-from harness.elements.procedure import OutputVariables, Procedure
+from harness.elements.routine import OutputVariables, Routine
 from harness.errors import DeckError
 from harness.model.element_types import ContinuumType, Tensor
 from harness.model.mesh import ElementGroup
@@ -45,7 +45,7 @@ def section_depth(group: ElementGroup, section: SolidSection) -> float:
     return 2 * np.pi if solid_of(group).axisymmetric else section.thickness
 
 
-def solid_procedure(model: Model, group: ElementGroup, section: SolidSection, library: Library) -> Procedure:
+def solid_routine(model: Model, group: ElementGroup, section: SolidSection, library: Library) -> Routine:
     """What the driver calls for a group of solids. Raises DeckError."""
     kind, material = solid_of(group), section.material
     if kind.axisymmetric:
@@ -71,7 +71,7 @@ def solid_procedure(model: Model, group: ElementGroup, section: SolidSection, li
     enhanced = kind.hourglass_control and section.controls.enhanced
     unknowns = kind.dimension * kind.nodes
     hidden = 2 * unknowns if dynamic is not None else 0
-    return Procedure(
+    return Routine(
         address=_binding.address_of("solid"),
         jtype=kind.nodes,
         mcrd=kind.dimension,
@@ -137,13 +137,13 @@ def _orientation(model: Model, group: ElementGroup, section: SolidSection, libra
     return None
 
 
-def solid_variables(group: ElementGroup, procedure: Procedure) -> PointVariables:
+def solid_variables(group: ElementGroup, routine: Routine) -> PointVariables:
     """Meaning of the state variables of a group of solids."""
     kind = solid_of(group)
     names = tuple(f"{letter}{component}" for letter in "ES" for component in kind.components)
-    names = *names, *_numbered("SDV", procedure.statev)
-    if procedure.uvarm is not None:
-        names = *names, *_numbered("UVARM", procedure.uvarm.count)
+    names = *names, *_numbered("SDV", routine.statev)
+    if routine.uvarm is not None:
+        names = *names, *_numbered("UVARM", routine.uvarm.count)
     return PointVariables("continuum", names, kind.points)
 
 

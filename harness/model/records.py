@@ -13,7 +13,7 @@ import numpy as np
 from harness.model.arrays import FloatArray, IntArray
 
 
-class Verdict(StrEnum):
+class Convergence(StrEnum):
     """Outcome of the convergence check of one field in one iteration."""
 
     LINEAR = "linear"
@@ -26,7 +26,7 @@ class Verdict(StrEnum):
     @property
     def accepted(self) -> bool:
         """True where the field is in equilibrium."""
-        return self not in (Verdict.NOT_ACHIEVED, Verdict.CORRECTION_TOO_LARGE)
+        return self not in (Convergence.NOT_ACHIEVED, Convergence.CORRECTION_TOO_LARGE)
 
 
 @dataclass(frozen=True, slots=True)
@@ -51,7 +51,7 @@ class FieldCheck:
     residual: Largest
     increment: Largest
     correction: Largest
-    verdict: Verdict
+    verdict: Convergence
     estimated_correction: float | None = None
     converted: bool = False
 

@@ -15,7 +15,7 @@ from harness.model.nodal import NodalIndex
 from harness.model.properties import UserElement
 from harness.model.records import IncrementDone, ModesFound, StepStarted
 from harness.model.steps import ElementRequest, NodeRequest
-from harness.output.formats import TextFile, program
+from harness.output.formats import TextFile, program, remark
 from harness.output.schedule import Schedule
 from harness.output.step_header import completed, procedure
 from harness.output.tables import (
@@ -26,7 +26,6 @@ from harness.output.tables import (
     not_extrapolated,
     used_nodes,
 )
-from harness.output.wording import remark
 
 _USER_ELEMENT_OUTPUT = (
     "ABAQUS SUPPORTS NO ELEMENT OUTPUT FOR USER ELEMENTS. HERE FIELD OUTPUT HAS THE VARIABLES OF THE PROJECT'S OWN "

@@ -1,11 +1,12 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""Numbers as Abaqus prints them, and text files that a killed run leaves readable."""
+"""Numbers, notes and warnings as Abaqus prints them, and text files that a killed run leaves readable."""
 
 from __future__ import annotations
 
 import math
 import os
+import textwrap
 from importlib.metadata import PackageNotFoundError, version
 from pathlib import Path
 
@@ -78,3 +79,13 @@ class TextFile:
     def close(self) -> None:
         """Close the file; it is not written to again."""
         os.close(self._descriptor)
+
+
+def remark(kind: str, text: str) -> str:
+    """A note, warning or error (`kind` NOTE, WARNING, ERROR) with lines as long as Abaqus', continued under the text.
+
+    Notes and warnings of Abaqus are in upper case; names and paths are left as they are.
+    """
+    head = f" ***{kind}: "
+    lines = textwrap.wrap(text, 80 - len(head), break_long_words=False, break_on_hyphens=False) or [""]
+    return "\n".join([head + lines[0], *(" " * len(head) + line for line in lines[1:])]) + "\n"

@@ -16,6 +16,7 @@ from harness.model.model import Model
 from harness.model.records import (
     AttemptAbandoned,
     AttemptStarted,
+    Convergence,
     FieldCheck,
     IncrementDone,
     IterationDone,
@@ -23,11 +24,10 @@ from harness.model.records import (
     SearchHelped,
     StepDone,
     StepStarted,
-    Verdict,
 )
-from harness.output.formats import TextFile, general, program
+from harness.output.field_terms import FIELDS, FieldTerms, fields_of
+from harness.output.formats import TextFile, general, program, remark
 from harness.output.step_header import completed, procedure, tolerances
-from harness.output.wording import FIELDS, FieldWords, fields_of, remark
 
 
 class MessageFile:
@@ -133,7 +133,7 @@ class MessageFile:
         self._file.close()
 
     def _check(self, check: FieldCheck) -> str:
-        words = FIELDS.get(check.field) or FieldWords(check.field.upper(), check.field.upper(), range(0))
+        words = FIELDS.get(check.field) or FieldTerms(check.field.upper(), check.field.upper(), range(0))
         flux = words.flux
         text = (
             f"\n{f' AVERAGE {flux}':<34}{general(check.average_flux)}   {f'TIME AVG. {flux}':<19} "
@@ -147,7 +147,7 @@ class MessageFile:
         text += self._largest(
             f" LARGEST CORRECTION TO {quantity}", f" ALL CORRECTION TO {quantity:<9}ARE ZERO", check.correction
         )
-        if check.verdict is Verdict.ACCEPTED_ESTIMATE and check.estimated_correction is not None:
+        if check.verdict is Convergence.ACCEPTED_ESTIMATE and check.estimated_correction is not None:
             text += f"{f' ESTIMATE OF {quantity:<9}CORRECTION':<34}{general(check.estimated_correction)}\n"
         return text + f"{_verdict(check.verdict, words)}\n"
 
@@ -187,14 +187,14 @@ def _origin(check: FieldCheck) -> str:
     return f" FROM {'MOMENT' if check.field == 'force' else 'FORCE'} FIELD"
 
 
-def _verdict(verdict: Verdict, words: FieldWords) -> str:
+def _verdict(verdict: Convergence, words: FieldTerms) -> str:
     """Sentence of a verdict."""
     flux, quantity = f"{words.flux:<9}", f"{words.quantity:<9}"
     return {
-        Verdict.LINEAR: f"          THE {flux} EQUILIBRIUM RESPONSE WAS LINEAR IN THIS INCREMENT",
-        Verdict.ZERO_FLUX: f"          THERE IS ZERO {flux} EVERYWHERE",
-        Verdict.NOT_ACHIEVED: f"          {flux} EQUILIBRIUM NOT ACHIEVED WITHIN TOLERANCE.",
-        Verdict.CONVERGED: f"          THE {flux} EQUILIBRIUM EQUATIONS HAVE CONVERGED",
-        Verdict.ACCEPTED_ESTIMATE: f" {flux} EQUILIB. ACCEPTED BASED ON SMALL RESIDUAL AND ESTIMATED CORRECTION",
-        Verdict.CORRECTION_TOO_LARGE: f"          {quantity}CORRECTION TOO LARGE COMPARED TO {quantity}INCREMENT",
+        Convergence.LINEAR: f"          THE {flux} EQUILIBRIUM RESPONSE WAS LINEAR IN THIS INCREMENT",
+        Convergence.ZERO_FLUX: f"          THERE IS ZERO {flux} EVERYWHERE",
+        Convergence.NOT_ACHIEVED: f"          {flux} EQUILIBRIUM NOT ACHIEVED WITHIN TOLERANCE.",
+        Convergence.CONVERGED: f"          THE {flux} EQUILIBRIUM EQUATIONS HAVE CONVERGED",
+        Convergence.ACCEPTED_ESTIMATE: f" {flux} EQUILIB. ACCEPTED BASED ON SMALL RESIDUAL AND ESTIMATED CORRECTION",
+        Convergence.CORRECTION_TOO_LARGE: f"          {quantity}CORRECTION TOO LARGE COMPARED TO {quantity}INCREMENT",
     }[verdict]

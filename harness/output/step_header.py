@@ -9,8 +9,8 @@ from collections.abc import Iterable
 from harness.model.procedures import HeadLine, Procedure
 from harness.model.records import HarmonicResponse, IncrementDone, ModeShape
 from harness.model.steps import Controls, FieldControls, Step, TimeControls
+from harness.output.field_terms import FIELDS, FieldTerms
 from harness.output.formats import general
-from harness.output.wording import FIELDS, FieldWords
 
 # *CONTROLS, FIELD= names a field by its conjugate quantity
 CONTROL_NAMES = {
@@ -106,7 +106,7 @@ def _row(words: str, value: float) -> str:
     return f"     {words:<64}{general(value)}\n"
 
 
-def _field(words: FieldWords, controls: FieldControls) -> str:
+def _field(words: FieldTerms, controls: FieldControls) -> str:
     flux, quantity = f"{words.flux:<9}", f"{words.quantity:<9}"
     rows = [
         (f"CRITERION FOR RESIDUAL {flux} FOR A NONLINEAR PROBLEM", controls.r_n),

@@ -10,7 +10,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from harness.model.records import Verdict
+from harness.model.records import Convergence
 from harness.model.steps import FieldControls
 
 INITIAL_FLUX = 1e-2
@@ -22,7 +22,7 @@ SMALL_PEAK = 0.1
 
 
 @dataclass(frozen=True, slots=True)
-class Check:
+class FieldMeasures:
     """What decides on one field in one iteration; all values are magnitudes.
 
     q, q_time   average flux and its time average
@@ -41,19 +41,19 @@ class Check:
     iteration: int
 
 
-def residual_tolerance(check: Check, controls: FieldControls, i_p: int) -> float:
+def residual_tolerance(check: FieldMeasures, controls: FieldControls, i_p: int) -> float:
     """Largest residual that counts as equilibrium: R_n q~, and R_P q~ after I_P iterations."""
     return (controls.r_n if check.iteration <= i_p else controls.r_p) * check.q_time
 
 
-def estimated_correction(check: Check) -> float | None:
+def estimated_correction(check: FieldMeasures) -> float | None:
     """Correction expected of one more iteration, c r_i / r_(i-1); None without an earlier residual."""
     if not check.r_previous:
         return None
     return check.c * check.r / check.r_previous
 
 
-def judge(check: Check, controls: FieldControls, i_p: int) -> Verdict:
+def judge(check: FieldMeasures, controls: FieldControls, i_p: int) -> Convergence:
     """Verdict on one field.
 
     Parameters
@@ -67,19 +67,19 @@ def judge(check: Check, controls: FieldControls, i_p: int) -> Verdict:
     """
     zero = controls.eps * check.q_time
     if check.q <= zero and (check.r <= zero or check.c <= controls.c_eps * check.du):
-        return Verdict.ZERO_FLUX
+        return Convergence.ZERO_FLUX
     if check.r <= controls.r_l * check.q_time:
         # later iterations are printed as converged, even where the correction is as large as the increment
-        return Verdict.LINEAR if check.iteration == 1 else Verdict.CONVERGED
+        return Convergence.LINEAR if check.iteration == 1 else Convergence.CONVERGED
     if check.r > residual_tolerance(check, controls, i_p):
-        return Verdict.NOT_ACHIEVED
+        return Convergence.NOT_ACHIEVED
     allowed = controls.c_n * check.du
     if check.c <= allowed:
-        return Verdict.CONVERGED
+        return Convergence.CONVERGED
     estimate = estimated_correction(check)
     if estimate is not None and estimate <= allowed:
-        return Verdict.ACCEPTED_ESTIMATE
-    return Verdict.CORRECTION_TOO_LARGE
+        return Convergence.ACCEPTED_ESTIMATE
+    return Convergence.CORRECTION_TOO_LARGE
 
 
 @dataclass(frozen=True, slots=True)

@@ -15,9 +15,9 @@ from harness.assembly import Constraints, DofMap, System
 from harness.elements import FIELD_NAMES
 from harness.model.arrays import FloatArray, IntArray, first_largest
 from harness.model.mesh import Mesh
-from harness.model.records import FieldCheck, Largest, Verdict
+from harness.model.records import Convergence, FieldCheck, Largest
 from harness.model.steps import Controls, FieldControls
-from harness.procedures.acceptance import Check, FluxHistory, estimated_correction, judge
+from harness.procedures.acceptance import FieldMeasures, FluxHistory, estimated_correction, judge
 from harness.procedures.incrementation import Abandoned, judge_rate, out_of_iterations
 from harness.solver.newton import Iterate
 
@@ -124,7 +124,7 @@ class Checker:
     def give_up(self, iteration: int, checks: Sequence[FieldCheck]) -> Abandoned | None:
         """Whether the attempt is to be abandoned after these checks, none of which need have failed."""
         for checked, check in zip(self.fields, checks, strict=True):
-            if check.verdict is Verdict.NOT_ACHIEVED:
+            if check.verdict is Convergence.NOT_ACHIEVED:
                 tolerance = checked.controls.r_n * check.time_average_flux
                 abandoned = judge_rate(iteration, checked.residuals, tolerance, self._time)
                 if abandoned is not None:
@@ -137,7 +137,7 @@ class Checker:
             controls = checked.controls
             assumed = checked.history.unknown(controls) and not checked.converted
             left = abs(check.residual.value) > controls.r_n * check.average_flux > 0.0
-            if check.verdict is Verdict.ZERO_FLUX and assumed and left:
+            if check.verdict is Convergence.ZERO_FLUX and assumed and left:
                 yield check
 
     def time_averages(self) -> dict[str, float]:
@@ -203,7 +203,7 @@ class Checker:
         correction = self._find(state.correction, checked.unknowns)
         previous = checked.residuals[-1] if checked.residuals else self._start[k]
         checked.residuals.append(abs(residual.value))
-        check = Check(
+        check = FieldMeasures(
             q=checked.flux,
             q_time=time_average,
             r=abs(residual.value),

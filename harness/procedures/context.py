@@ -16,7 +16,7 @@ from harness.model.user_values import UserValues
 from harness.procedures.checks import Checker, length_of_moments
 from harness.procedures.loads import fading_forces
 from harness.procedures.setting import Setting, choose_solver
-from harness.procedures.unheld import UnheldSolver
+from harness.procedures.unconstrained import UnconstrainedSolver
 from harness.solver.newton import Factoriser
 
 
@@ -62,7 +62,7 @@ class StepContext:
             constraints = Constraints(self.system, self.unknowns, equations, state.boundaries.sources)
             chosen = choose_solver(setting.solver, constraints)
             # the search has an answer of its own to a singular matrix
-            solver = chosen if fallback else UnheldSolver(chosen)
+            solver = chosen if fallback else UnconstrainedSolver(chosen)
             self.choice = f"LINEAR SOLVER {chosen.name.upper()}: {chosen.reason}"
             state.majoriser.use(self.system, constraints, partial(choose_solver, setting.solver, constraints))
         state.constraints = self.constraints = constraints

@@ -25,7 +25,7 @@ from harness.model.arrays import FloatArray, IntArray
 from harness.model.model import Model
 from harness.model.steps import ElementLoad, Load, Step
 from harness.model.user_values import GivesValues, UserValues
-from harness.procedures.loads import Curve, Loads, Slots, Variation
+from harness.procedures.loads import Loads, ScaledUnknowns, Slots, Variation
 
 
 @dataclass(slots=True)
@@ -39,7 +39,7 @@ class StepLoads:
     increment: int = 0
 
     @property
-    def curves(self) -> tuple[Curve, ...]:
+    def curves(self) -> tuple[ScaledUnknowns, ...]:
         """What varies along an amplitude."""
         return (*self.concentrated.curves, *(curve for load in self.distributed for curve in load.magnitudes.curves))
 

@@ -26,7 +26,7 @@ from harness.procedures.incrementation import DISTORTED, TOO_MANY_INCREMENTS, Ab
 from harness.procedures.limit import PASSED, LimitLoad
 from harness.procedures.parts import Part
 from harness.procedures.path import Path
-from harness.procedures.unheld import UNLOADED, UnheldSolver
+from harness.procedures.unconstrained import UNLOADED, UnconstrainedSolver
 from harness.solver.descent import ITERATIONS, SINGULAR
 from harness.solver.newton import Iterate
 
@@ -106,7 +106,7 @@ class GeneralStep:
                 abandoned = Abandoned(self._step.controls.time.d_f, SINGULAR)
                 break
             iteration, passes = state.iteration, passes + 1
-            yield from self._unheld()
+            yield from self._warn_unconstrained()
             abandoned = refused(state.evaluation.pnewdt)
             if abandoned is None and iteration == 0:
                 self._checker.start(state, extrapolated=extrapolated)
@@ -126,10 +126,10 @@ class GeneralStep:
         yield from self._abandon(abandoned, increment, iteration, size)
         return False, iteration
 
-    def _unheld(self) -> Iterator[Warned]:
+    def _warn_unconstrained(self) -> Iterator[Warned]:
         """Say once in the step that a part of the model moves freely."""
         solver = self._context.solver
-        if isinstance(solver, UnheldSolver) and solver.free is not None and not self._warned:
+        if isinstance(solver, UnconstrainedSolver) and solver.free is not None and not self._warned:
             self._warned = True
             yield Warned(UNLOADED.format(solver.free))
 

@@ -9,15 +9,15 @@ from collections.abc import Iterable, Iterator
 import numpy as np
 
 from harness.assembly import System
-from harness.elements import Block, Call, Flags
+from harness.elements import Call, ElementBlock, Flags
 from harness.errors import DeckError
 from harness.model.arrays import IntArray
 from harness.model.model import Model
 from harness.model.records import Warned
-from harness.procedures.state import State
+from harness.procedures.state import ConvergedState
 
 
-def set_initial_states(blocks: Iterable[Block], model: Model, sdvini: int | None) -> None:
+def set_initial_states(blocks: Iterable[ElementBlock], model: Model, sdvini: int | None) -> None:
     """Set the state variables that the deck gives, by themselves or by SDVINI (its address; None without it).
 
     Raises DeckError, and KernelError where SDVINI ends the analysis.
@@ -38,12 +38,12 @@ def set_initial_states(blocks: Iterable[Block], model: Model, sdvini: int | None
                 raise DeckError(entry.source, f"*INITIAL CONDITIONS, TYPE=SOLUTION: {error}") from None
 
 
-def set_initial_stresses(system: System, model: Model, state: State) -> Iterator[Warned]:
+def set_initial_stresses(system: System, model: Model, state: ConvergedState) -> Iterator[Warned]:
     """Set the initial stresses, and in the state the nodal forces that keep them in equilibrium.
 
     Raises DeckError, and KernelError from elements inside out.
     """
-    stressed: dict[int, Block] = {}
+    stressed: dict[int, ElementBlock] = {}
     for entry in model.initial_stresses:
         for block in system.blocks:
             rows = _rows(block, entry.elements)
@@ -70,7 +70,7 @@ def set_initial_stresses(system: System, model: Model, state: State) -> Iterator
         state.unbalanced = state.external = -residual
 
 
-def _rows(block: Block, elements: IntArray) -> IntArray:
+def _rows(block: ElementBlock, elements: IntArray) -> IntArray:
     """Those of elements (positions in the model) that are of a block, as its rows."""
     rows = elements - block.first
     found: IntArray = rows[(rows >= 0) & (rows < len(block.group.labels))]

@@ -33,7 +33,7 @@ _LAST_ROTATION = 7
 
 
 @dataclass(frozen=True, slots=True)
-class Curve:
+class ScaledUnknowns:
     """Unknowns whose values are `magnitude` times an amplitude."""
 
     unknowns: IntArray
@@ -45,9 +45,9 @@ class Curve:
         factor = self.amplitude.value(step_time, total_time)
         return factor if self.amplitude.absolute else self.magnitude * factor
 
-    def without(self, unknowns: IntArray) -> Curve:
+    def without(self, unknowns: IntArray) -> ScaledUnknowns:
         """The same curve for fewer unknowns."""
-        return Curve(self.unknowns[~np.isin(self.unknowns, unknowns)], self.magnitude, self.amplitude)
+        return ScaledUnknowns(self.unknowns[~np.isin(self.unknowns, unknowns)], self.magnitude, self.amplitude)
 
 
 @dataclass(frozen=True, slots=True)
@@ -102,7 +102,7 @@ class Variation:
     base: FloatArray
     slope: FloatArray
     period: float
-    curves: tuple[Curve, ...] = ()
+    curves: tuple[ScaledUnknowns, ...] = ()
     courses: tuple[Course, ...] = ()
 
     def at(self, step_time: float, total_time: float) -> FloatArray:
@@ -136,7 +136,7 @@ class Boundaries:
         """model_data: *BOUNDARY before the first step, all of them zero."""
         self._dofs = dofs
         self._active = np.zeros(len(dofs), dtype=bool)
-        self._curves: tuple[Curve, ...] = ()
+        self._curves: tuple[ScaledUnknowns, ...] = ()
         self._courses: tuple[Course, ...] = ()
         self._period = 1.0
         self._by_user = np.zeros(len(dofs), dtype=bool)
@@ -175,7 +175,7 @@ class Boundaries:
             elif entry.fixed:
                 base[unknowns] = displacement[unknowns]
             elif entry.amplitude is not None:
-                curves.append(Curve(unknowns, entry.magnitude, entry.amplitude))
+                curves.append(ScaledUnknowns(unknowns, entry.magnitude, entry.amplitude))
             elif step.amplitude == "RAMP" or entry.dof <= _LAST_ROTATION:
                 base[unknowns] = displacement[unknowns]
                 slope[unknowns] = entry.magnitude - displacement[unknowns]
@@ -243,7 +243,7 @@ class Loads:
         reached = self.reached(total_time)
         given = [(entry, find_unknowns(self._dofs, entry)[0]) for entry in entries]
         anew = np.concatenate([np.zeros(0, dtype=np.int64), *(unknowns for _, unknowns in given)])
-        curves: list[Curve] = []
+        curves: list[ScaledUnknowns] = []
         if new:
             held, start = self._initial.copy(), reached.copy()
         else:
@@ -260,7 +260,7 @@ class Loads:
             if entry.amplitude is None:
                 np.add.at(target, unknowns, entry.magnitude)
             else:
-                curves.append(Curve(unknowns, entry.magnitude, entry.amplitude))
+                curves.append(ScaledUnknowns(unknowns, entry.magnitude, entry.amplitude))
                 start[unknowns] = 0.0
         if step.amplitude != "RAMP":
             start = target

@@ -9,7 +9,7 @@ from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
 
 from harness.model.arrays import FloatArray
-from harness.model.records import FieldCheck, Record, Verdict
+from harness.model.records import Convergence, FieldCheck, Record
 from harness.procedures.context import StepContext
 from harness.procedures.extrapolation import Extrapolation
 from harness.procedures.incrementation import IncrementControl
@@ -144,4 +144,4 @@ class TimePath(Path):
 def _is_linear(checks: Sequence[FieldCheck]) -> bool:
     """Whether the response was linear in an increment that these checks accept: as far as there are fluxes."""
     verdicts = {check.verdict for check in checks}
-    return Verdict.LINEAR in verdicts and verdicts <= {Verdict.LINEAR, Verdict.ZERO_FLUX}
+    return Convergence.LINEAR in verdicts and verdicts <= {Convergence.LINEAR, Convergence.ZERO_FLUX}

@@ -19,7 +19,7 @@ from harness.procedures.initial_states import set_initial_states, set_initial_st
 from harness.procedures.loads import find_unknowns
 from harness.procedures.registry import run_of
 from harness.procedures.setting import Setting, StepRun, UserRoutines
-from harness.procedures.state import State
+from harness.procedures.state import ConvergedState
 
 
 def run_steps(
@@ -61,7 +61,7 @@ def run_steps(
     KernelError, SingularMatrixError, DeckError
         From the elements, the linear solver, and over-constrained models.
     """
-    state = State.start(system, model)
+    state = ConvergedState.start(system, model)
     user.external_database(0, 0, (0.0, 0.0), 0.0, 1, 0)
     set_initial_states(system.blocks, model, user.sdvini)
     yield from set_initial_stresses(system, model, state)

@@ -13,7 +13,7 @@ from harness.model.model import Model
 from harness.model.records import Record
 from harness.model.steps import Step
 from harness.model.user_values import GivesValues
-from harness.procedures.state import State
+from harness.procedures.state import ConvergedState
 from harness.solver.linear import LinearSolver, choose
 
 
@@ -41,7 +41,7 @@ class Setting:
     system: System
     model: Model
     step: Step
-    state: State
+    state: ConvergedState
     user: UserRoutines
     solver: str = "auto"
     fallback: bool = False

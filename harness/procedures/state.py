@@ -24,7 +24,7 @@ from harness.solver.newton import Factoriser, Iterate
 
 
 @dataclass(slots=True)
-class State:
+class ConvergedState:
     """State at the end of the last converged increment.
 
     displacement, reaction, load  (n,) U, RF, CF

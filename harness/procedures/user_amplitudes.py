@@ -25,7 +25,7 @@ from harness.model.user_values import AskedAmplitude, GivesValues
 
 
 class NodalState(Protocol):
-    """Nodal values at the end of the last increment, as `State` has them, and the total time."""
+    """Nodal values at the end of the last increment, as `ConvergedState` has them, and the total time."""
 
     displacement: FloatArray
     velocity: FloatArray

@@ -9,10 +9,10 @@ himself. What is on the slate (harness/slate.py) tells another process where tha
 """
 
 from harness.usersub._binding import allocated, limit_calls, share_slate, trap
+from harness.usersub.guards import ARRAYS, AS_GOOD_AS_ZERO, UNSET, guard_values, room, set_guard_values
 from harness.usersub.inputs import Change, around, local_variables, watched_inputs, writes_outside
 from harness.usersub.languages import is_source
 from harness.usersub.library import Library, load
-from harness.usersub.marks import ARRAYS, AS_GOOD_AS_ZERO, UNSET, marks, room, set_marks
 from harness.usersub.messages import Message
 from harness.usersub.places import names_line
 from harness.usersub.suspicions import Suspicion, suspicions
@@ -27,14 +27,14 @@ __all__ = [
     "Suspicion",
     "allocated",
     "around",
+    "guard_values",
     "is_source",
     "limit_calls",
     "load",
     "local_variables",
-    "marks",
     "names_line",
     "room",
-    "set_marks",
+    "set_guard_values",
     "share_slate",
     "suspicions",
     "trap",

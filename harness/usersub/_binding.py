@@ -44,7 +44,7 @@ class Scalars(TypedDict):
     period: float
 
 
-class Options(TypedDict):
+class PassOptions(TypedDict):
     """Those that a plain loop has no use for."""
 
     tensor: int
@@ -61,7 +61,7 @@ _watching = False
 
 def evaluate(
     scalars: Scalars,
-    options: Options,
+    options: PassOptions,
     lflags: tuple[int, ...],
     arrays: BlockArrays,
     u: FloatArray,
@@ -122,9 +122,9 @@ def evaluate(
     )
 
 
-def exchange_marks(marks: FloatArray) -> None:
+def exchange_guard_values(values: FloatArray) -> None:
     """Exchange what the guards of each of ARRAYS hold and, last, what RHS and AMATRX hold before a call."""
-    _host.host_exchange_marks(marks)
+    _host.host_exchange_guard_values(values)
 
 
 def exchange_room(entries: int) -> int:

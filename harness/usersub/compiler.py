@@ -20,6 +20,7 @@ from harness.errors import CompileError
 from harness.files import read_whole
 from harness.usersub import cache, linker, ranks
 from harness.usersub.cache import Built
+from harness.usersub.compatibility import Repair, hidden_types, repairs
 from harness.usersub.diagnostics import first_error
 from harness.usersub.headers import HEADERS
 from harness.usersub.languages import (
@@ -34,7 +35,6 @@ from harness.usersub.languages import (
     language_of,
     linking,
 )
-from harness.usersub.mending import Repair, hidden_types, repairs
 from harness.usersub.units import with_open_bounds, without_implicit
 
 _SEARCH_VARIABLES: Final = (
@@ -170,7 +170,7 @@ def _key(compilers: Iterable[str], texts: Sequence[str]) -> str:
     ]
     flags = [*FIXED, *FREE, *linker.FLAGS, *(flag for language in LANGUAGES for flag in language.flags)]
     found_through = [f"{name}={os.environ.get(name)}" for name in _SEARCH_VARIABLES]
-    told = [_read(Path(__file__).with_name(name)) for name in ("mending.py", "ranks.py", "diagnostics.py")]
+    told = [_read(Path(__file__).with_name(name)) for name in ("compatibility.py", "ranks.py", "diagnostics.py")]
     machine = [platform.machine(), linker.bundled_lapack(), *found_through]
     parts = [*versions, *flags, *machine, *told, *HEADERS.values(), *texts]
     return hashlib.sha256("\0".join(parts).encode()).hexdigest()[:16]
@@ -286,7 +286,7 @@ def _objects(
         if language is FORTRAN:
             command += [*(FREE if is_free_form(file, _read(file)) else FIXED), f"-J{work}"]
         compile_ = _compile_opened if language is FORTRAN and open_bounds else _compile_one
-        noted, output_text = compile_(command, file, sources, work / f"mended{number}")
+        noted, output_text = compile_(command, file, sources, work / f"changed{number}")
         notes += noted
         said += output_text
         objects.append(output)
@@ -332,14 +332,14 @@ def _compile_one(
 ) -> tuple[list[str], str]:
     """Compile a file, in copies in the folder where there are changed texts, by bare name.
 
-    What gfortran refuses of Abaqus' compiler is mended in such copies. Returns what was, and what the compiler says.
+    What gfortran refuses of Abaqus' compiler is changed in such copies. Returns what was, and what the compiler says.
     The compiler runs beside the folder: it takes module files of the current folder before those just made.
     """
     copies = dict(changed_texts or {})
     notes: list[str] = []
     if language_of(file) is FORTRAN:
         for repair in hidden_types(_read(file), file.name):
-            _mend(repair, sources, copies, notes)
+            _repair(repair, sources, copies, notes)
     while True:
         if copies:
             copies.setdefault(file.name, _read(file))
@@ -351,19 +351,19 @@ def _compile_one(
         errors = compiled.stderr
         if not compiled.returncode:
             return notes, errors
-        changed = [_mend(repair, sources, copies, notes) for repair in repairs(errors)]
+        changed = [_repair(repair, sources, copies, notes) for repair in repairs(errors)]
         if not any(changed):
             raise CompileError(file, first_error(errors, _texts(sources)))
 
 
-def _mend(repair: Repair, sources: dict[str, list[Path]], copies: dict[str, str], notes: list[str]) -> bool:
+def _repair(repair: Repair, sources: dict[str, list[Path]], copies: dict[str, str], notes: list[str]) -> bool:
     """Change the copy of a file, which is made where there is none; whether that could be done."""
     if len(sources.get(repair.file, [])) != 1:
         return False
-    mended = repair.apply(copies.get(repair.file) or _read(sources[repair.file][0]))
-    if mended is None:
+    changed = repair.apply(copies.get(repair.file) or _read(sources[repair.file][0]))
+    if changed is None:
         return False
-    copies[repair.file] = mended
+    copies[repair.file] = changed
     notes.append(f"{_EXTENSION}: {repair.file}, line {repair.line}: {repair.note}")
     return True
 

@@ -13,8 +13,8 @@ from pathlib import Path
 import pytest
 
 from harness.isolation import supervise
-from harness.output.broken import close_broken
 from harness.output.status import read_status
+from harness.output.verdict import close_ended_run
 
 CRASHES = Path(__file__).parent / "usersub" / "crashes.cpp"
 LONG_RUN = Path(__file__).parents[2] / "abaqus_inputs" / "dcb" / "dcb_u4_1e8.inp"
@@ -188,8 +188,8 @@ def test_a_run_that_ends_well_or_closes_its_files_is_left_alone(tmp_path: Path) 
     deck.write_text(DECK.format(way=0))
     assert supervise(["run", str(deck), "--user", str(USER), "--quiet", "--output-dir", str(tmp_path)], deck, 60.0) == 0
     before = (tmp_path / "crash.sta").read_text()
-    close_broken(tmp_path / "crash", "nothing")
-    close_broken(tmp_path / "absent", "nothing")
+    close_ended_run(tmp_path / "crash", "nothing")
+    close_ended_run(tmp_path / "absent", "nothing")
     assert (tmp_path / "crash.sta").read_text() == before
 
 

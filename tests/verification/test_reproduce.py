@@ -20,8 +20,8 @@ from harness.delamination.beams import RIGID_ROOT, growth
 from harness.delamination.materials import PLY_0, PLY_90, TABLE_2
 from harness.delamination.patches import ANGLE, COLLINEAR, COLUMNS, inclined_mesh, stabilisation
 from harness.delamination.reproduce import command, convergence, curves, findings, parameters, patch_cases, sensitivity
-from harness.delamination.reproduce.cases import LONGER, PROBLEMS, Case, longer_cases, paper_cases
-from harness.delamination.reproduce.claims import Claim, Number, Verdict, judge, read_claims
+from harness.delamination.reproduce.cases import LONGER, PROBLEMS, PaperCase, longer_cases, paper_cases
+from harness.delamination.reproduce.claims import Claim, JudgedClaim, Number, judge, read_claims
 from harness.delamination.reproduce.convergence import Steady
 from harness.delamination.reproduce.curves import to_line
 from harness.delamination.reproduce.findings import Evidence
@@ -49,14 +49,14 @@ def test_cases_are_there_once() -> None:
 
 @pytest.mark.parametrize("problem", PROBLEMS)
 def test_quick_decks_are_coarser(problem: str) -> None:
-    fine, coarse = (Case(problem, "0/90", "consistent", "inf", coarse=coarse) for coarse in (False, True))
+    fine, coarse = (PaperCase(problem, "0/90", "consistent", "inf", coarse=coarse) for coarse in (False, True))
     assert np.diff(coarse.mesh().x).min() == pytest.approx(4.0 / 3.0 * np.diff(fine.mesh().x).min(), rel=1e-4)
     assert CRACK in coarse.mesh().x
     assert 2 * coarse.increment_count == fine.increment_count
 
 
 def test_deck_of_a_variation() -> None:
-    case = Case("enf", "0/90", "stabilised", "1e8", increments=50, beta=2.0, sampling=1, newton_cotes=True)
+    case = PaperCase("enf", "0/90", "stabilised", "1e8", increments=50, beta=2.0, sampling=1, newton_cotes=True)
     text = case.files()[f"{case.name}.inp"]
     names = [n.strip() for line in text.splitlines() if line.startswith("** ") for n in line[3:].split(",")]
     start = names.index("THICKNESS", names.index("ALPHAN") - 1)
@@ -71,7 +71,7 @@ def test_deck_of_a_variation() -> None:
 
 
 def test_rows_and_weight_of_a_deck() -> None:
-    case = Case("dcb", "0/90", "consistent_bk", "1e6", rows=8, weight=0.5)
+    case = PaperCase("dcb", "0/90", "consistent_bk", "1e6", rows=8, weight=0.5)
     assert case.name == "dcb_0_90_consistent_bk_1e6_rows8_weight0p5"
     mesh, usual = case.mesh(), replace(case, rows=4).mesh()
     assert mesh.rows == (8, 8)
@@ -264,7 +264,7 @@ def test_numbers_of_the_full_meshes() -> None:
 def test_page_is_one_file(tmp_path: Path) -> None:
     picture = tmp_path / "a.png"
     picture.write_bytes(b"\x89PNG")
-    verdicts = [Verdict(claim(1.0, 2.0, "9"), 3.0, (("more", 4.0),)), Verdict(claim(1.0, None), 3.0, ())]
+    verdicts = [JudgedClaim(claim(1.0, 2.0, "9"), 3.0, (("more", 4.0),)), JudgedClaim(claim(1.0, None), 3.0, ())]
     table = Table("Loads & ends", "text", ("a", "b"), [["1", "<2"]], picture)
     page = write_page(Content(["how"], {"9": picture}, verdicts, [table]), tmp_path / "index.html").read_text()
     assert "1 of 2 statements reproduced (50%)" in page

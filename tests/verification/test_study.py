@@ -11,17 +11,17 @@ import pytest
 
 from harness.delamination.study import cases as study
 from harness.delamination.study.__main__ import main
-from harness.delamination.study.cases import Case, all_cases, select
+from harness.delamination.study.cases import StudyCase, all_cases, select
 from harness.delamination.study.criteria import check, index_ratios
 from harness.delamination.study.digests import ratios, variations, viscosity
 from harness.delamination.study.reference import FOLDER, ReferenceRun, reference_of
-from harness.delamination.study.rows import Row
+from harness.delamination.study.rows import StudyRow
 from harness.delamination.study.runner import reference_store, row_store
 from harness.delamination.study.tables import csv_table, markdown_tables
 from harness.errors import UelError
 
-CASE = Case("frmm", "0/0", "1e6", "paper", "structured", "newton")
-GOOD = Row(
+CASE = StudyCase("frmm", "0/0", "1e6", "paper", "structured", "newton")
+GOOD = StudyRow(
     reached=1.0,
     stopped="",
     increments=100,
@@ -78,7 +78,7 @@ def test_selection() -> None:
 
 @pytest.mark.parametrize("specimen", study.KINDS)
 def test_decks(specimen: str) -> None:
-    files = Case(specimen, "0/90", "inf", "consistent", "perturbed", "newton").files()
+    files = StudyCase(specimen, "0/90", "inf", "consistent", "perturbed", "newton").files()
     deck = next(text for name, text in files.items() if name.endswith("_newton.inp"))
     # a hundredth of the displacement at most, no controls of the solution, no viscosity
     assert "*STATIC\n0.01, 1., 1e-07, 0.01\n" in deck
@@ -99,7 +99,7 @@ def test_decks(specimen: str) -> None:
 
 
 def test_laws() -> None:
-    case = Case("dcb", "0/0", "inf", "consistent", "structured", "fallback", "bk")
+    case = StudyCase("dcb", "0/0", "inf", "consistent", "structured", "fallback", "bk")
     assert case.name == "dcb_0-0_inf_consistent_structured_fallback_bk"
     assert replace(case, law=study.OWN_LAW).name == "dcb_0-0_inf_consistent_structured_fallback"
     decks = [c.files()[f"{c.name}.inp"].splitlines() for c in (case, replace(case, law="ppr"))]
@@ -111,8 +111,8 @@ def test_laws() -> None:
     ]
 
 
-def consistent(specimen: str = "enf", stiffness: str = "1e8", mesh: str = "perturbed", layup: str = "0/0") -> Case:
-    return Case(specimen, layup, stiffness, "consistent", mesh, "newton")
+def consistent(specimen: str = "enf", stiffness: str = "1e8", mesh: str = "perturbed", layup: str = "0/0") -> StudyCase:
+    return StudyCase(specimen, layup, stiffness, "consistent", mesh, "newton")
 
 
 @pytest.mark.parametrize(
@@ -126,8 +126,8 @@ def consistent(specimen: str = "enf", stiffness: str = "1e8", mesh: str = "pertu
         (consistent(), replace(GOOD, peak_t=59.0), "largest shear", "59.00 MPa of 60"),
     ],
 )
-def test_criteria_of_single_rows(case: Case, row: Row, words: str, found: str) -> None:
-    def verdict(of: Row) -> tuple[str, ...]:
+def test_criteria_of_single_rows(case: StudyCase, row: StudyRow, words: str, found: str) -> None:
+    def verdict(of: StudyRow) -> tuple[str, ...]:
         return next(v.failures for v in check({case: of}) if words in v.criterion)
 
     assert verdict(GOOD) == ()
@@ -186,7 +186,7 @@ def test_tables() -> None:
 
 
 def test_digests() -> None:
-    case = Case("enf", "0/0", "1e8", "consistent", "perturbed", "fallback")
+    case = StudyCase("enf", "0/0", "1e8", "consistent", "perturbed", "fallback")
     standard = replace(case, element="standard")
     rows = {standard: replace(GOOD, variation_t=300.0, difference_t=float("nan")), case: GOOD}
     assert variations(rows)[2:] == ["| enf [0/0] | perturbed | tangential | 100 | 300 | - |  |  | 100 | 50 |"]
@@ -205,7 +205,7 @@ def test_digests() -> None:
 
 
 def test_ratios_of_the_indices() -> None:
-    plain = Case("enf", "0/0", "1e6", "consistent", "structured", "fallback")
+    plain = StudyCase("enf", "0/0", "1e6", "consistent", "structured", "fallback")
     stiff, rigid = (replace(plain, stiffness=name, mesh="perturbed") for name in ("1e8", "inf"))
     rows = {plain: GOOD, stiff: replace(GOOD, index_t=1.05), rigid: replace(GOOD, index_t=0.9)}
     assert ratios(rows)[2:] == ["| enf | tangential |  |  | 0.900 to 1.050 |  |  | 1.000 |"]
@@ -219,7 +219,7 @@ def test_rows_are_kept_until_their_deck_changes(tmp_path: Path, monkeypatch: pyt
     assert row_store(tmp_path).get(CASE) is None
 
 
-def put_reference(case: Case, folder: Path) -> None:
+def put_reference(case: StudyCase, folder: Path) -> None:
     """A reference of the case that is kept as if it had run: no traction, at the end."""
     reference = reference_of(case)
     reference_store(folder).put(reference, ReferenceRun("", 1.0))

@@ -11,16 +11,16 @@ import pytest
 from harness.delamination.batch import run_deck
 from harness.delamination.measures import peak_load
 from harness.delamination.study.blend import Beam, described
-from harness.delamination.study.cases import SOLUTIONS, Case, all_cases
+from harness.delamination.study.cases import SOLUTIONS, StudyCase, all_cases
 from harness.delamination.study.criteria import check
-from harness.delamination.study.rows import Row, measure
+from harness.delamination.study.rows import StudyRow, measure
 from harness.delamination.study.tables import csv_table, markdown_tables
 
 PAGE = Path(__file__).parents[2] / "fortran" / "study.md"
 # regression: quick rows
 SAMPLE = (
-    Case("frmm", "0/0", "1e6", "standard", "structured", "fallback"),
-    Case("frmm", "0/0", "inf", "consistent", "perturbed", "fallback"),
+    StudyCase("frmm", "0/0", "1e6", "standard", "structured", "fallback"),
+    StudyCase("frmm", "0/0", "inf", "consistent", "perturbed", "fallback"),
 )
 
 
@@ -29,11 +29,11 @@ def committed() -> dict[str, dict[str, str]]:
     with PAGE.with_suffix(".csv").open(encoding="utf-8") as file:
         lines = list(csv.DictReader(file))
     names = ("specimen", "layup", "stiffness", "element", "mesh", "solution", "law")
-    return {Case(*(line[name] for name in names)).name: line for line in lines}
+    return {StudyCase(*(line[name] for name in names)).name: line for line in lines}
 
 
 @pytest.mark.parametrize("case", SAMPLE, ids=lambda case: case.name)
-def test_sample_of_the_table(case: Case, tmp_path: Path) -> None:
+def test_sample_of_the_table(case: StudyCase, tmp_path: Path) -> None:
     fallback, _ = SOLUTIONS[case.solution]
     outcome = run_deck(case, tmp_path, fallback=fallback)
     row = measure(case, outcome.result, outcome.stopped, outcome.seconds, []).to_json()
@@ -53,7 +53,7 @@ def test_a_share_of_the_secant_matrix_carries_newtons_method_past_a_snap(tmp_pat
     assert alone.stopped and "stops at" in described(alone)
     assert not helped.stopped and "stops at" not in described(helped)
     # the same equilibria: the row with the fall-back
-    row = committed()[Case("dcb", "0/0", "inf", "consistent", "perturbed", "fallback").name]
+    row = committed()[StudyCase("dcb", "0/0", "inf", "consistent", "perturbed", "fallback").name]
     assert peak_load(helped.result) == pytest.approx(float(row["peak_load"]), rel=5e-3)
 
 
@@ -66,7 +66,9 @@ def test_page_says_what_the_rows_say() -> None:
     lines = committed()
     kinds = {"str": str, "int": int, "float": float}
     rows = {
-        case: Row(**{field.name: kinds[str(field.type)](lines[case.name][field.name]) for field in fields(Row)})
+        case: StudyRow(
+            **{field.name: kinds[str(field.type)](lines[case.name][field.name]) for field in fields(StudyRow)}
+        )
         for case in all_cases()
     }
     assert csv_table(rows) == PAGE.with_suffix(".csv").read_text(encoding="utf-8")

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from harness.delamination.oscillation import total_variation
-from harness.delamination.study.cases import Case
+from harness.delamination.study.cases import StudyCase
 from harness.delamination.study.reference import restricted
 from harness.delamination.study.refinement import Bonded, bonded, facet_means, on_facets, turned
 from harness.delamination.study.rows import (
@@ -22,7 +22,7 @@ from harness.delamination.study.rows import (
 )
 from harness.output.status import StatusRow
 
-CASE = Case("frmm", "0/0", "1e6", "paper", "structured", "newton")
+CASE = StudyCase("frmm", "0/0", "1e6", "paper", "structured", "newton")
 
 
 class Run:

@@ -11,11 +11,11 @@ import numpy as np
 
 from harness.check.choice import first_largest
 from harness.check.finding import Finding, failed, passed
-from harness.check.state import State
+from harness.check.state import ElementState
 from harness.check.subject import Subject
 from harness.elements import Damping, Flags, Motion, Request
 from harness.model.arrays import FloatArray
-from harness.usersub import UNSET, marks
+from harness.usersub import UNSET, guard_values
 
 TOLERANCE: Final = 1e-9
 """Of the largest entry."""
@@ -24,7 +24,7 @@ SLOPE: Final = 1e-6
 """Of the largest entry: central differences by velocities."""
 
 
-def check_damping(subject: Subject, state: State, moving: State | None, flags: Flags) -> Finding:
+def check_damping(subject: Subject, state: ElementState, moving: ElementState | None, flags: Flags) -> Finding:
     """The damping matrices in the base state; in a state of *DYNAMIC, if there is one, against velocities."""
     stiffness = state.evaluate().amatrx
     viscous, structural = (_matrix(state, flags, kind) for kind in (Damping.VISCOUS, Damping.STRUCTURAL))
@@ -52,7 +52,7 @@ def check_damping(subject: Subject, state: State, moving: State | None, flags: F
     return wrong or passed("damping (3)" if viscous.any() or structural.any() else "no damping (3)")
 
 
-def _against_velocities(subject: Subject, state: State, flags: Flags) -> Finding | None:
+def _against_velocities(subject: Subject, state: ElementState, flags: Flags) -> Finding | None:
     """A finding where the viscous matrix is not what RHS of a dynamic call loses with V, over 1 + alpha."""
     viscous = _matrix(state, flags, Damping.VISCOUS)
     slope = _slope(subject, state) / (1.0 + state.call.params[0])
@@ -68,8 +68,8 @@ def _against_velocities(subject: Subject, state: State, flags: Flags) -> Finding
     )
 
 
-def _matrix(state: State, flags: Flags, kind: Damping) -> FloatArray:
-    with marks({UNSET: float("nan")}):
+def _matrix(state: ElementState, flags: Flags, kind: Damping) -> FloatArray:
+    with guard_values({UNSET: float("nan")}):
         return state.called(flags=flags.asking(Request.DAMPING, kind)).evaluate().amatrx
 
 
@@ -77,14 +77,14 @@ def _agree(one: FloatArray, other: FloatArray) -> bool:
     return bool(np.abs(one - other).max() <= TOLERANCE * np.abs(one).max())
 
 
-def _slope(subject: Subject, state: State) -> FloatArray:
+def _slope(subject: Subject, state: ElementState) -> FloatArray:
     """(n, n) -dRHS/dV."""
     steps = subject.scales / max(state.call.time_increment, 1e-300)
     columns = [(_sped(state, -step) - _sped(state, step)) / (2 * step.sum()) for step in np.diag(steps)]
     return np.array(columns).T
 
 
-def _sped(state: State, shift: FloatArray) -> FloatArray:
+def _sped(state: ElementState, shift: FloatArray) -> FloatArray:
     """RHS with other velocities, and nothing else."""
     motion = Motion(state.motion.velocity + shift, state.motion.acceleration)
     column: FloatArray = replace(state, motion=motion).evaluate(matrix=False).rhs[0]

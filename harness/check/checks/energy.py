@@ -11,7 +11,7 @@ import numpy as np
 from harness.check.checks.rest import MECHANICAL
 from harness.check.choice import exceeds
 from harness.check.finding import Finding, failed, not_applicable, passed
-from harness.check.state import State
+from harness.check.state import ElementState
 from harness.check.subject import NOT_MOVING, Subject
 
 SHARES: Final = 1.0, 0.1, 0.01, 0.001
@@ -83,19 +83,19 @@ def _reason_against(subject: Subject) -> str:
     return ""
 
 
-def _on_entry(state: State) -> tuple[float, float]:
+def _on_entry(state: ElementState) -> tuple[float, float]:
     """Energy on entry, and what a call without displacements makes of it."""
     start = state.part(0.0).evaluate().energy[STORED].sum()
     return float(state.single.energy[STORED].sum()), float(start)
 
 
-def _depends_on_time(state: State) -> bool:
+def _depends_on_time(state: ElementState) -> bool:
     here = state.evaluate().rhs[0]
     slower = state.called(time_increment=3.0 * state.call.time_increment).evaluate().rhs[0]
     return bool(np.abs(slower - here).max() > 1e-9 * np.abs(here).max())
 
 
-def _stored_and_work(state: State, share: float) -> tuple[float, float] | None:
+def _stored_and_work(state: ElementState, share: float) -> tuple[float, float] | None:
     """Growth of the energy and work of the internal forces over a part of the increment; None where both are "
     "nothing."""
     start, end = state.part(0.0).evaluate(), state.part(share).evaluate()

@@ -12,7 +12,7 @@ from typing import Final
 import numpy as np
 
 from harness.check.finding import Finding, failed, not_applicable, passed
-from harness.check.state import CHANGES, State
+from harness.check.state import CHANGES, ElementState
 from harness.check.subject import Subject, diagonal
 from harness.errors import KernelError
 from harness.model.arrays import FloatArray
@@ -63,7 +63,7 @@ def check(subject: Subject) -> Finding:
     return _judge((subject.states[0], subject.states[-1], *subject.random[-1:]), unwritten)
 
 
-def _judge(states: tuple[State, ...], unwritten: np.ndarray) -> Finding:
+def _judge(states: tuple[ElementState, ...], unwritten: np.ndarray) -> Finding:
     """Finding for state variables (nsvars,) that no call on the way has written."""
     if any(state.depends_on(~unwritten) for state in states):
         return passed("RHS depends on state variables that are written")
@@ -84,7 +84,7 @@ def _judge(states: tuple[State, ...], unwritten: np.ndarray) -> Finding:
     return failed(message, advice, entries=names)
 
 
-def _tried(subject: Subject) -> Iterator[tuple[State, bool]]:
+def _tried(subject: Subject) -> Iterator[tuple[ElementState, bool]]:
     """States with zeros that are negative, which any sum changes, and whether displacements are large.
 
     Those of the run, and increments of ever larger displacements, the last of which are in a later step.
@@ -111,7 +111,7 @@ def _negative_zeros(svars: FloatArray) -> FloatArray:
     return np.where(svars == 0.0, -0.0, svars)
 
 
-def _writes(state: State, places: list[int]) -> bool:
+def _writes(state: ElementState, places: list[int]) -> bool:
     """Whether a call returns another value of a state variable than on entry, where this is far from the usual ones."""
     for place, value in product(places, CHANGES):
         given = state.single.svars

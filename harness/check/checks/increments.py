@@ -10,7 +10,7 @@ import numpy as np
 
 from harness.check.finding import Finding, failed, not_applicable, passed
 from harness.check.pieces import in_pieces
-from harness.check.state import State
+from harness.check.state import ElementState
 from harness.check.subject import NOT_MOVING, Subject
 from harness.model.arrays import FloatArray
 
@@ -52,7 +52,7 @@ def check(subject: Subject) -> Finding:
     return passed(f"forces change by {100 * largest:.2g} % when the increment is made in two, less in more", largest)
 
 
-def _in_pieces(state: State, pieces: int) -> FloatArray:
+def _in_pieces(state: ElementState, pieces: int) -> FloatArray:
     """Forces at the end of the increment, made in equal parts from its start."""
     *_, last = in_pieces(state, [k / pieces for k in range(1, pieces + 1)])
     forces: FloatArray = last.rhs[0]

@@ -10,7 +10,7 @@ from typing import Final
 import numpy as np
 
 from harness.check.finding import Finding, failed, not_applicable, passed
-from harness.check.state import State
+from harness.check.state import ElementState
 from harness.check.subject import Subject
 from harness.errors import KernelError
 
@@ -21,7 +21,7 @@ TWICE: Final = 2.0
 def check(subject: Subject) -> Finding:
     """RHS changes with the magnitude of each load of type Un that the deck puts on an element."""
     changes: dict[int, bool] = {}
-    where: dict[int, State] = {}
+    where: dict[int, ElementState] = {}
     for state in subject.states:
         for kind in _kinds(state):
             changes[kind] = changes.get(kind, False) or _changes(state, kind)
@@ -42,7 +42,7 @@ def check(subject: Subject) -> Finding:
     return failed(message, advice, entries=names)
 
 
-def _mine(state: State) -> np.ndarray:
+def _mine(state: ElementState) -> np.ndarray:
     """(loads,) True for those on the element of a state that have a magnitude."""
     loads = state.call.distributed
     if loads is None:
@@ -51,13 +51,13 @@ def _mine(state: State) -> np.ndarray:
     return mine
 
 
-def _kinds(state: State) -> list[int]:
+def _kinds(state: ElementState) -> list[int]:
     """Types of these loads."""
     loads = state.call.distributed
     return [] if loads is None else sorted(set(loads.kinds[_mine(state)].tolist()))
 
 
-def _changes(state: State, kind: int) -> bool:
+def _changes(state: ElementState, kind: int) -> bool:
     """Whether RHS depends on loads of a type."""
     loads = state.call.distributed
     assert loads is not None

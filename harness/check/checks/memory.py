@@ -10,11 +10,11 @@ from typing import Final
 
 from harness.check.finding import Finding, failed, not_applicable, passed
 from harness.check.single import first_difference
-from harness.check.state import State
+from harness.check.state import ElementState
 from harness.check.subject import Subject
 from harness.elements import Request
 from harness.errors import KernelError, OutsideError
-from harness.usersub import UNSET, around, marks, room, writes_outside
+from harness.usersub import UNSET, around, guard_values, room, writes_outside
 
 READ: Final = "PROPS", "SVARS", "ENERGY", "COORDS", "U", "DU", "V", "A", "PREDEF"
 """Arrays beyond which an element might read."""
@@ -47,7 +47,7 @@ OUTSIDE: Final = (
 def check_filled(subject: Subject) -> Finding:
     """RHS and AMATRX hold NaN before the call, and none after it."""
     for state in subject.states:
-        with marks({UNSET: float("nan")}):
+        with guard_values({UNSET: float("nan")}):
             try:
                 state.evaluate()
             except KernelError as error:
@@ -78,7 +78,7 @@ def check_outside(subject: Subject) -> Finding:
     return passed(f"nothing is written outside the arguments at {len(subject.states)} states")
 
 
-def _requests(state: State) -> Iterator[tuple[str, State]]:
+def _requests(state: ElementState) -> Iterator[tuple[str, ElementState]]:
     """The call itself, then with all that Abaqus may ask for; with what it is. See no_time.py for KINC = 0."""
     yield "", state
     for request in REQUESTS:
@@ -114,7 +114,7 @@ def _poisons() -> Iterator[tuple[str, AbstractContextManager[None]]]:
     """Arrays, with what lies around them."""
     for array in READ:
         for poison in POISONS:
-            yield array, marks({array: poison})
+            yield array, guard_values({array: poison})
     for array in REALS:
         for poison in POISONS:
             yield array, around({array: poison})

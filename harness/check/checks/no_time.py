@@ -7,7 +7,7 @@ from __future__ import annotations
 from collections.abc import Callable
 
 from harness.check.finding import Finding, failed, passed
-from harness.check.state import State
+from harness.check.state import ElementState
 from harness.check.subject import Subject
 from harness.elements import Request
 from harness.errors import KernelError, OutsideError
@@ -20,7 +20,7 @@ def check(subject: Subject) -> Finding:
         return _check(subject, outside)
 
 
-def _whole(state: State) -> State:
+def _whole(state: ElementState) -> ElementState:
     """The state for which a write outside arrays is an error; the given one where it makes such a write anyway."""
     strict = state.strictly()
     try:

@@ -24,7 +24,7 @@ SINGULAR: Final = (
 )
 
 DIVERGED: Final = (
-    "Where `tangent` fails, mend AMATRX first. Else look at PNEWDT, at the state that the increments begin with (check "
+    "Where `tangent` fails, fix AMATRX first. Else look at PNEWDT, at the state that the increments begin with (check "
     "`state`), and whether the deck asks for more than the element can do: `uel run` writes the residuals of all "
     "iterations to .msg."
 )
@@ -42,7 +42,7 @@ def check(subject: Subject) -> Finding:
     if failure is None:
         return failed("the deck has no increment", "Give it a step with an increment that moves the elements.")
     if not _concerns(failure, subject.type, recording.model):
-        return not_applicable(f"it was ended by another type of element, which is to be mended first: {failure}")
+        return not_applicable(f"it was ended by another type of element, which is to be fixed first: {failure}")
     if isinstance(failure, ElementError) and failure.element_type == subject.type:
         return failed(str(failure), OF_AN_ELEMENT)
     advice = OTHERWISE

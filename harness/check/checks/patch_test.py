@@ -11,7 +11,7 @@ import numpy as np
 from harness.check.choice import exceeds
 from harness.check.finding import Finding, failed, not_applicable, passed
 from harness.check.motions import INERTIA, NO_BODY, Body, body_of, makes_inertia
-from harness.check.state import State
+from harness.check.state import ElementState
 from harness.check.subject import Subject
 from harness.model.arrays import FloatArray
 
@@ -58,7 +58,7 @@ def check(subject: Subject) -> Finding:
     return failed(message, advice, figure=figure, limit=TOLERANCE)
 
 
-def _forces(state: State, body: Body, node: int, gradient: tuple[int, int], strain: float) -> FloatArray:
+def _forces(state: ElementState, body: Body, node: int, gradient: tuple[int, int], strain: float) -> FloatArray:
     """Forces of an element at a node for a displacement gradient of this size alone."""
     i, j = gradient
     moved = body.displacement & (body.axis == i)

@@ -11,7 +11,7 @@ import numpy as np
 
 from harness.check.choice import first_largest
 from harness.check.finding import Finding, failed, passed
-from harness.check.state import State
+from harness.check.state import ElementState
 from harness.check.subject import Subject
 from harness.elements import Flags, Request
 
@@ -25,7 +25,7 @@ ADVICE: Final = (
 )
 
 
-def check_perturbation(subject: Subject, states: list[State], flags: Flags) -> Finding:
+def check_perturbation(subject: Subject, states: list[ElementState], flags: Flags) -> Finding:
     """RHS without loads on the element, at each of the states as a base state."""
     known = flags.request is Request.PERTURBATION
     change = (subject.scales if known else 0.0) * np.linspace(-1.0, 1.0, len(subject.scales))

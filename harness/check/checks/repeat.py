@@ -10,7 +10,7 @@ from typing import Final
 
 from harness.check.finding import Finding, failed, passed
 from harness.check.single import first_difference
-from harness.check.state import State
+from harness.check.state import ElementState
 from harness.check.subject import Subject
 from harness.elements import Request
 from harness.errors import KernelError
@@ -43,7 +43,7 @@ def check(subject: Subject) -> Finding:
     return passed(f"the same bits as in the run at {len(subject.states)} states, after other calls")
 
 
-def _call(states: Iterable[State]) -> None:
+def _call(states: Iterable[ElementState]) -> None:
     """What they return does not matter."""
     for state in states:
         with suppress(KernelError):

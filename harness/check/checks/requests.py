@@ -15,12 +15,12 @@ from harness.check.checks.perturbation import check_perturbation
 from harness.check.choice import first_largest
 from harness.check.finding import Finding, Verdict, failed, not_applicable, passed
 from harness.check.recording import Pass
-from harness.check.state import DYNAMIC, State
+from harness.check.state import DYNAMIC, ElementState
 from harness.check.subject import Subject
 from harness.elements import Damping, Flags, Motion, Request
 from harness.model.arrays import FloatArray
 from harness.model.perturbations import Frequency, SteadyState
-from harness.usersub import UNSET, marks
+from harness.usersub import UNSET, guard_values
 
 PERTURBATIONS: Final = Frequency().lflag, SteadyState().lflag
 """LFLAGS(1) of procedures that ask for the mass matrix alone."""
@@ -75,11 +75,11 @@ def _findings(subject: Subject) -> Iterator[Finding]:
             yield check_damping(subject, base[0], moving[0] if moving else None, flags)
 
 
-def _residual(states: list[State]) -> Finding:
+def _residual(states: list[ElementState]) -> Finding:
     """The residual alone in a static step."""
     for state in states:
         normal = state.evaluate().rhs[0]
-        with marks({UNSET: float("nan")}):
+        with guard_values({UNSET: float("nan")}):
             alone = state.asked(Request.RESIDUAL).evaluate(matrix=False).rhs[0]
         deviation = np.abs(alone - normal)
         row = first_largest(deviation)
@@ -92,7 +92,7 @@ def _residual(states: list[State]) -> Finding:
     return passed("residual only (5)")
 
 
-def _half_increment(subject: Subject, state: State) -> Finding:
+def _half_increment(subject: Subject, state: ElementState) -> Finding:
     """The residual at half an increment of a dynamic step: by U and A it changes as that of a normal call does.
 
     Both hold -M A + (1 + alpha) G(U); terms of earlier increments differ, and are the same before and after a change.
@@ -106,7 +106,7 @@ def _half_increment(subject: Subject, state: State) -> Finding:
         ("A", lambda one: _accelerated(one, accelerations)),
     ):
         normal = changed(state).evaluate().rhs[0] - state.evaluate().rhs[0]
-        with marks({UNSET: float("nan")}):
+        with guard_values({UNSET: float("nan")}):
             half = changed(alone).evaluate(matrix=False).rhs[0] - alone.evaluate(matrix=False).rhs[0]
         row = first_largest(np.abs(half - normal))
         if abs(half[row] - normal[row]) > LINEAR * max(float(np.abs(normal).max()), 1e-300):
@@ -121,7 +121,7 @@ def _half_increment(subject: Subject, state: State) -> Finding:
     return passed("half-increment residual (5)")
 
 
-def _weights(subject: Subject, states: list[State]) -> Finding:
+def _weights(subject: Subject, states: list[ElementState]) -> Finding:
     """The weights of the operator of Hilber, Hughes and Taylor: (1 + alpha) G less alpha times the G before.
 
     G is what RHS with LFLAGS(3) = 6 falls by where U changes; elements that do not answer that are not judged.
@@ -156,9 +156,9 @@ def _weights(subject: Subject, states: list[State]) -> Finding:
     return passed("weights of alpha")
 
 
-def _mass(subject: Subject, state: State) -> Finding:
+def _mass(subject: Subject, state: ElementState) -> Finding:
     """The mass matrix of a dynamic step: that by which RHS falls with accelerations, however it is asked for."""
-    with marks({UNSET: float("nan")}):
+    with guard_values({UNSET: float("nan")}):
         mass = state.asked(Request.MASS).evaluate().amatrx
         initial = state.asked(Request.INITIAL_ACCELERATION).evaluate().amatrx
     heaviest = max(float(np.abs(mass).max()), float(np.abs(initial).max()))
@@ -189,9 +189,9 @@ def _mass(subject: Subject, state: State) -> Finding:
     return wrong or passed("mass (4 and 6)")
 
 
-def _mass_alone(state: State, flags: Flags) -> Finding:
+def _mass_alone(state: ElementState, flags: Flags) -> Finding:
     """The mass matrix for eigenfrequencies and harmonic responses."""
-    with marks({UNSET: float("nan")}):
+    with guard_values({UNSET: float("nan")}):
         mass = state.called(flags=flags).evaluate().amatrx
     if not mass.any():
         return passed("no mass (4)")
@@ -203,7 +203,7 @@ def _mass_alone(state: State, flags: Flags) -> Finding:
     return _indefinite(state, mass) or passed("mass (4)")
 
 
-def _indefinite(state: State, mass: FloatArray) -> Finding | None:
+def _indefinite(state: ElementState, mass: FloatArray) -> Finding | None:
     """A finding where a mass matrix is not symmetric, or has negative eigenvalues."""
     size = float(np.abs(mass).max())
     if np.abs(mass - mass.T).max() > TOLERANCE * size:
@@ -223,10 +223,10 @@ def _indefinite(state: State, mass: FloatArray) -> Finding | None:
     return None
 
 
-def _stiffness(state: State, flags: Flags) -> Finding:
+def _stiffness(state: ElementState, flags: Flags) -> Finding:
     """The stiffness alone, for a perturbation of the state that the steps before have left."""
     normal = state.evaluate().amatrx
-    with marks({UNSET: float("nan")}):
+    with guard_values({UNSET: float("nan")}):
         alone = state.called(flags=flags).evaluate().amatrx
     row, column = np.unravel_index(first_largest(np.abs(alone - normal)), alone.shape)
     deviation = float(abs(alone[row, column] - normal[row, column]))
@@ -240,17 +240,17 @@ def _stiffness(state: State, flags: Flags) -> Finding:
     return passed("stiffness only (2)")
 
 
-def _accelerations(subject: Subject, state: State) -> FloatArray:
+def _accelerations(subject: Subject, state: ElementState) -> FloatArray:
     """(n,) accelerations of the displacements of the run within an increment."""
     return subject.scales / max(state.call.time_increment, 1e-300) ** 2
 
 
-def _accelerated(state: State, shift: FloatArray) -> State:
+def _accelerated(state: ElementState, shift: FloatArray) -> ElementState:
     """With other accelerations, and nothing else."""
     return replace(state, motion=Motion(state.motion.velocity, state.motion.acceleration + shift))
 
 
-def _inertia(subject: Subject, state: State, heaviest: float) -> FloatArray:
+def _inertia(subject: Subject, state: ElementState, heaviest: float) -> FloatArray:
     """(n, n) -dRHS/dA, in which RHS is linear; heaviest: mass by which the change of RHS is above its rounding."""
     here = state.evaluate().rhs[0]
     steps = np.maximum(_accelerations(subject, state), float(np.abs(here).max()) / heaviest if heaviest else 0.0)

@@ -9,7 +9,7 @@ from pathlib import Path
 from typing import Final
 
 from harness.check.finding import Finding, failed, not_applicable, passed
-from harness.check.state import State
+from harness.check.state import ElementState
 from harness.check.subject import Subject
 from harness.usersub import allocated
 
@@ -52,7 +52,7 @@ def check(subject: Subject) -> Finding:
     return passed(f"{CALLS} equal calls leave no file open and no memory allocated")
 
 
-def _call(state: State) -> None:
+def _call(state: ElementState) -> None:
     for _ in range(CALLS):
         state.evaluate()
 

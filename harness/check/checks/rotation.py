@@ -11,7 +11,7 @@ import numpy as np
 from harness.check.checks.translation import relative
 from harness.check.finding import Finding, failed, not_applicable, passed
 from harness.check.motions import AT_REST, INERTIA, NO_BODY, Body, body_of, makes_inertia
-from harness.check.state import State
+from harness.check.state import ElementState
 from harness.check.subject import Subject
 from harness.errors import KernelError
 from harness.model.arrays import FloatArray
@@ -41,7 +41,7 @@ def check(subject: Subject) -> Finding:
     return _judge(states[0], first, small, max(_turned(subject, *pair) for pair in known))
 
 
-def _judge(state: State, first: float, small: float, finite: float) -> Finding:
+def _judge(state: ElementState, first: float, small: float, finite: float) -> Finding:
     """Finding for the largest relative forces of infinitesimal, of small and of finite rotations."""
     nlgeom = state.call.flags.nlgeom
     degrees = round(float(np.degrees(ANGLE)))
@@ -90,13 +90,13 @@ def _says(share: float) -> str:
     return f"makes forces of {100 * share:.3g} % of what the stiffness would make of it"
 
 
-def _forces(state: State) -> FloatArray:
+def _forces(state: ElementState) -> FloatArray:
     """RHS (n,) without loads on the element, which need not turn with it."""
     forces: FloatArray = state.called(distributed=None).evaluate().rhs[0]
     return forces
 
 
-def _linear(subject: Subject, state: State, body: Body, angle: float | None) -> float:
+def _linear(subject: Subject, state: ElementState, body: Body, angle: float | None) -> float:
     """Largest relative force of the rotations without second-order terms, by default as large as the run's strains."""
     here, largest = _forces(state), 0.0
     angle = angle or float(subject.scales[body.displacement].max()) / body.size
@@ -106,7 +106,7 @@ def _linear(subject: Subject, state: State, body: Body, angle: float | None) -> 
     return largest
 
 
-def _turned(subject: Subject, state: State, body: Body) -> float:
+def _turned(subject: Subject, state: ElementState, body: Body) -> float:
     """Largest relative deviation of the forces from the turned ones, for finite rotations; infinite without forces."""
     here, largest = _forces(state), 0.0
     for motion, turn in body.rotations(float(ANGLE)):

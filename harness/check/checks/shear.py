@@ -11,7 +11,7 @@ import numpy as np
 
 from harness.check.finding import Finding, failed, not_applicable, passed
 from harness.check.motions import Body, body_at_rest
-from harness.check.state import State
+from harness.check.state import ElementState
 from harness.check.subject import Subject
 from harness.model.arrays import FloatArray
 
@@ -49,7 +49,7 @@ def _isotropic(moduli: FloatArray, count: int) -> float:
     return shear if alike and shear > EQUAL * size else 0.0
 
 
-def _judge(state: State, isotropic: float, moduli: dict[tuple[int, int], float]) -> Finding:
+def _judge(state: ElementState, isotropic: float, moduli: dict[tuple[int, int], float]) -> Finding:
     """Finding for the shear moduli in the planes of two directions."""
     for (i, j), modulus in moduli.items():
         for factor in MISTAKES:
@@ -66,7 +66,7 @@ def _judge(state: State, isotropic: float, moduli: dict[tuple[int, int], float])
     return passed("shear and extensions are not a factor of 2 or 4 away from an isotropic material")
 
 
-def _moduli(subject: Subject, state: State, body: Body, planes: list[tuple[int, int]]) -> FloatArray:
+def _moduli(subject: Subject, state: ElementState, body: Body, planes: list[tuple[int, int]]) -> FloatArray:
     """Work of unit strains, the normal ones and then the engineering shears, on the forces of each other."""
     matrix = subject.differences(state).matrix if state.dynamic else state.evaluate().amatrx
     fields = []

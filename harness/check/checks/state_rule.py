@@ -13,7 +13,7 @@ from harness.check.checks.tangent import kinds
 from harness.check.choice import first_largest
 from harness.check.finding import Finding, failed, not_applicable, passed
 from harness.check.pieces import in_pieces
-from harness.check.state import State
+from harness.check.state import ElementState
 from harness.check.subject import NOT_MOVING, Subject
 from harness.errors import KernelError
 from harness.model.arrays import FloatArray
@@ -86,7 +86,7 @@ def check(subject: Subject) -> Finding:
     return passed(f"increments begin with the forces of the end of the last one, to {largest:.1e}", largest, TOLERANCE)
 
 
-def _has_history(state: State) -> bool:
+def _has_history(state: ElementState) -> bool:
     """Whether RHS depends on SVARS, in this increment or, as they are now, in the next one."""
     every = np.ones(len(state.single.svars))
     try:
@@ -96,7 +96,7 @@ def _has_history(state: State) -> bool:
         return True
 
 
-def _without_time(subject: Subject, state: State) -> Finding | None:
+def _without_time(subject: Subject, state: ElementState) -> Finding | None:
     """A finding where forces depend on DU, which is no rate, and on no state to which it could be added."""
     fast, slow = (
         replace(state, du=share * state.du).called(time_increment=share * state.call.time_increment)
@@ -125,12 +125,12 @@ def _without_time(subject: Subject, state: State) -> Finding | None:
     return failed(message, advice, figure=float(abs(change[row])) / size, limit=TOLERANCE)
 
 
-def _without_history(state: State) -> State:
+def _without_history(state: ElementState) -> ElementState:
     """Without the forces of earlier increments, which *DYNAMIC weighs by alpha."""
     return state.called(params=(0.0, *state.call.params[1:]))
 
 
-def _jump(subject: Subject, state: State, parts: int, beyond: float) -> _Jump:
+def _jump(subject: Subject, state: ElementState, parts: int, beyond: float) -> _Jump:
     """At the end of the increment, made in equal parts, with another part behind them."""
     *_, last, next_one = in_pieces(state, [*(k / parts for k in range(1, parts + 1)), 1.0 + beyond / parts])
     before, after = last.rhs[0], next_one.rhs[0]

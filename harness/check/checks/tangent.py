@@ -12,7 +12,7 @@ import numpy as np
 from harness.check.choice import exceeds, ranked
 from harness.check.differences import Differences
 from harness.check.finding import Finding, failed, not_applicable, passed
-from harness.check.state import State
+from harness.check.state import ElementState
 from harness.check.subject import Subject
 from harness.model.arrays import FloatArray
 
@@ -30,7 +30,7 @@ SHOWN: Final = 6
 class _Worst:
     """The state with the largest deviation: AMATRX, differences and (n, n) deviations over the scale of each entry."""
 
-    state: State
+    state: ElementState
     amatrx: FloatArray
     found: Differences
     deviation: FloatArray
@@ -128,7 +128,7 @@ def _concerned(worst: _Worst, dofs: np.ndarray) -> str:
     return f"All are derivatives of RHS {' and '.join(of)}. "
 
 
-def _advice_on_zero(state: State, subject: Subject) -> str:
+def _advice_on_zero(state: ElementState, subject: Subject) -> str:
     if state.u.any() or not any(other.evaluate().amatrx.any() for other in subject.all_states):
         return "AMATRX is zero: fill it with -dRHS/dU where LFLAGS(3) is 1."
     return (

@@ -11,7 +11,7 @@ from typing import Final
 import numpy as np
 
 from harness.check.finding import Finding, failed, not_applicable, passed
-from harness.check.state import State
+from harness.check.state import ElementState
 from harness.check.static_memory import Variable, variables_of
 from harness.check.subject import Subject
 from harness.errors import KernelError
@@ -54,14 +54,16 @@ def check(subject: Subject) -> Finding:
     return failed(message, advice, entries=tuple(common))
 
 
-def _growing(subject: Subject, state: State, seed: int) -> Iterator[State]:
+def _growing(subject: Subject, state: ElementState, seed: int) -> Iterator[ElementState]:
     """Ever larger random displacements: what keeps the largest value of all calls changes too."""
     rng = np.random.default_rng(seed)
     for number in range(ROUNDS):
         yield state.moved(GROWTH**number * subject.scales * rng.uniform(-1.0, 1.0, len(subject.scales)))
 
 
-def _changes(variables: list[Variable], mine: Iterator[State], theirs: Iterator[State]) -> tuple[Changes, Changes]:
+def _changes(
+    variables: list[Variable], mine: Iterator[ElementState], theirs: Iterator[ElementState]
+) -> tuple[Changes, Changes]:
     """What calls of either change, made in turn."""
     changed: tuple[Changes, Changes] = {}, {}
     before = [variable.bytes() for variable in variables]

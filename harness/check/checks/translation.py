@@ -12,7 +12,7 @@ import numpy as np
 from harness.check.choice import exceeds, first_largest
 from harness.check.finding import Finding, failed, not_applicable, passed
 from harness.check.motions import NO_BODY, body_of
-from harness.check.state import State
+from harness.check.state import ElementState
 from harness.check.subject import Subject
 from harness.model.arrays import FloatArray
 
@@ -47,7 +47,7 @@ def check(subject: Subject) -> Finding:
     return failed(message, advice, figure=figure, limit=TOLERANCE)
 
 
-def _added(subject: Subject, state: State, motion: FloatArray) -> tuple[float, int, float]:
+def _added(subject: Subject, state: ElementState, motion: FloatArray) -> tuple[float, int, float]:
     """Largest force that a motion adds, over what the stiffness makes of its parts, the row, and the force."""
     here = state.evaluate()
     # in dynamics an element may make inertia of DU: then it was elsewhere all the time

@@ -11,7 +11,7 @@ import numpy as np
 
 from harness.check.finding import Finding, failed, not_applicable, passed
 from harness.check.motions import Body, body_at_rest
-from harness.check.state import State
+from harness.check.state import ElementState
 from harness.check.subject import Subject
 from harness.model.arrays import FloatArray
 
@@ -56,7 +56,7 @@ def check(subject: Subject) -> Finding:
     return _judge(state, stiffness, int(np.linalg.matrix_rank(rigid)), interface=body.coincident)
 
 
-def _judge(state: State, stiffness: _Stiffness, expected: int, *, interface: bool) -> Finding:
+def _judge(state: ElementState, stiffness: _Stiffness, expected: int, *, interface: bool) -> Finding:
     """Finding for the number of rigid-body motions that are expected; interface: nodes lie on each other."""
     name, limit, matrix = stiffness.name, stiffness.limit, stiffness.matrix
     if not matrix.any():

@@ -17,7 +17,7 @@ from harness.delamination.mesh import TwoArmMesh
 from harness.delamination.patches import PLIES, stabilisation
 from harness.delamination.specimens import ARM_HEIGHT, ARMS, CRACK
 from harness.delamination.steps import Increments
-from harness.delamination.study.cases import BUMP, KINDS, STIFFNESSES, Kind
+from harness.delamination.study.cases import BUMP, KINDS, STIFFNESSES, MeshedSpecimen
 
 PARTS = 25
 """Profiles are written at the end of so many equal parts of the displacement: the same moments for all runs."""
@@ -31,7 +31,7 @@ PROBLEMS = {name: KINDS[name]._replace(displacement=ends) for name, ends in ENDS
 """The specimens, on the meshes of the study."""
 
 
-def _longer(crack: float) -> Kind:
+def _longer(crack: float) -> MeshedSpecimen:
     """The fixed-ratio specimen with a longer crack, displaced as much as the crack's growth takes by beam theory."""
     base = PROBLEMS["frmm"]
     reach = ((crack + ARMS.correction) / (CRACK + ARMS.correction)) ** 2
@@ -82,7 +82,7 @@ COMPARATORS = {
 
 
 @dataclass(frozen=True, slots=True)
-class Case:
+class PaperCase:
     """One run.
 
     problem, layup, element, stiffness   keys of PROBLEMS or LONGER, LAYUPS, ELEMENTS or COMPARATORS, STIFFNESSES
@@ -132,7 +132,7 @@ class Case:
         return "_".join(words).replace(".", "p")
 
     @property
-    def kind(self) -> Kind:
+    def kind(self) -> MeshedSpecimen:
         """The specimen."""
         return _SPECIMENS[self.problem]
 
@@ -209,45 +209,45 @@ class Case:
         )
 
 
-def paper_cases(problem: str, *, coarse: bool = False) -> list[Case]:
+def paper_cases(problem: str, *, coarse: bool = False) -> list[PaperCase]:
     """Runs of a specimen: both layups, the paper's two methods and the consistent one, three stiffnesses, both meshes.
 
     With `coarse`, the perturbed mesh where the paper shows it: [0/0] at 1e8.
     """
     return [
-        Case(problem, layup, element, stiffness, perturbed, coarse)
+        PaperCase(problem, layup, element, stiffness, perturbed, coarse)
         for layup, element, perturbed, stiffness in itertools.product(LAYUPS, ELEMENTS, (False, True), SHOWN)
         if not (coarse and perturbed) or (layup, stiffness) == ("0/0", "1e8")
     ]
 
 
-def comparator_cases(problem: str, *, coarse: bool = False) -> list[Case]:
+def comparator_cases(problem: str, *, coarse: bool = False) -> list[PaperCase]:
     """Runs with the built-in element and with its criterion; the built-in one also at the softest stiffness.
 
     With `coarse`, its criterion in the consistent element alone, and where the layup mixes the modes.
     """
     few = (("0/0", "COH2D4"), ("0/90", "COH2D4"), ("0/90", "consistent_bk"))
     pairs = few if coarse else itertools.product(LAYUPS, COMPARATORS)
-    cases = [Case(problem, layup, element, "1e6", coarse=coarse) for layup, element in pairs]
-    return [*cases, Case(problem, "0/0", "COH2D4", "1e4", coarse=coarse)]
+    cases = [PaperCase(problem, layup, element, "1e6", coarse=coarse) for layup, element in pairs]
+    return [*cases, PaperCase(problem, "0/0", "COH2D4", "1e4", coarse=coarse)]
 
 
-def longer_cases(*, coarse: bool = False) -> list[Case]:
+def longer_cases(*, coarse: bool = False) -> list[PaperCase]:
     """Fixed-ratio specimens with longer cracks, whose mode ratio comes near to that of plain beams.
 
     With `coarse`, the shorter one alone.
     """
-    cases = [Case(problem, "0/0", "consistent", "1e6", coarse=coarse) for problem in LONGER]
+    cases = [PaperCase(problem, "0/0", "consistent", "1e6", coarse=coarse) for problem in LONGER]
     return cases[:1] if coarse else cases
 
 
-def secant_cases(*, coarse: bool = False) -> list[Case]:
+def secant_cases(*, coarse: bool = False) -> list[PaperCase]:
     """The paper's way to a solution, section 3.2: secant, small increments; the default residual, and a hundredfold.
 
     With the latter as many increments as the other runs have, too.
     """
     bases = [
-        Case("dcb", "0/0", "stabilised", stiffness, coarse=coarse, secant=True, increments=SECANT_INCREMENTS)
+        PaperCase("dcb", "0/0", "stabilised", stiffness, coarse=coarse, secant=True, increments=SECANT_INCREMENTS)
         for stiffness in ("1e6", "1e8")
     ]
     relaxed = [replace(base, tolerance=SECANT_TOLERANCE) for base in bases]

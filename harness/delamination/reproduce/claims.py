@@ -75,7 +75,7 @@ class Claim:
 
 
 @dataclass(frozen=True, slots=True)
-class Verdict:
+class JudgedClaim:
     """A claim with our numbers."""
 
     claim: Claim
@@ -131,7 +131,7 @@ def _number(entry: Mapping[str, object], place: str) -> Number:
     return Number(str(entry["number"]), measure, arguments, bool(entry.get("full", False)))
 
 
-def judge(claim: Claim, evidence: Evidence) -> Verdict:
+def judge(claim: Claim, evidence: Evidence) -> JudgedClaim:
     """Our numbers for a claim."""
     also = [number for number in claim.also if not (number.full and evidence.coarse)]
-    return Verdict(claim, claim.number.of(evidence), tuple((number.text, number.of(evidence)) for number in also))
+    return JudgedClaim(claim, claim.number.of(evidence), tuple((number.text, number.of(evidence)) for number in also))

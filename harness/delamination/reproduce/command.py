@@ -15,13 +15,13 @@ from rich.table import Table as TerminalTable
 from harness.delamination.reproduce import convergence, drawings, figures, sensitivity
 from harness.delamination.reproduce.cases import (
     PROBLEMS,
-    Case,
+    PaperCase,
     comparator_cases,
     longer_cases,
     paper_cases,
     secant_cases,
 )
-from harness.delamination.reproduce.claims import Verdict, judge, read_claims
+from harness.delamination.reproduce.claims import JudgedClaim, judge, read_claims
 from harness.delamination.reproduce.findings import Evidence
 from harness.delamination.reproduce.page import Content, number, write_page
 from harness.delamination.reproduce.patch_cases import PatchCase, patch_cases
@@ -34,7 +34,7 @@ PARTS = ("law", "patch", *PROBLEMS, "sensitivity")
 
 def reproduce(
     parts: Sequence[str], folder: Path, *, quick: bool, console: Console, workers: int | None = None
-) -> list[Verdict]:
+) -> list[JudgedClaim]:
     """Run the command.
 
     Parameters
@@ -127,17 +127,17 @@ def _figures(parts: Sequence[str], runs: Runs, folder: Path, *, quick: bool) -> 
             drawn[figure] = drawings.draw_square(squares, folder / f"figure_{int(figure):02d}.png", zoom)
     beams = {"dcb": ("7", (32.0, 44.0)), "enf": ("12", (30.0, 42.0)), "frmm": ("17", (32.0, 44.0))}
     for problem in (part for part in parts if part in PROBLEMS):
-        case = Case(problem, "0/0", "stabilised", "1e8", coarse=quick)
+        case = PaperCase(problem, "0/0", "stabilised", "1e8", coarse=quick)
         figure, tip = beams[problem]
         drawn[figure] = drawings.draw_beam(runs.deck(case), folder / f"figure_{int(figure):02d}.png", tip)
         drawn |= figures.problem_figures(runs, problem, coarse=quick, folder=folder)
         if problem == "dcb":
-            cross = Case(problem, "0/90", "stabilised", "1e8", coarse=quick)
+            cross = PaperCase(problem, "0/90", "stabilised", "1e8", coarse=quick)
             drawn["1"] = drawings.draw_domain(runs.deck(cross), folder / "figure_01.png")
     return drawn
 
 
-def _write_csv(verdicts: Sequence[Verdict], path: Path) -> None:
+def _write_csv(verdicts: Sequence[JudgedClaim], path: Path) -> None:
     with path.open("w", newline="", encoding="utf-8") as file:
         writer = csv.writer(file)
         writer.writerow(["id", "section", "figure", "number", "value", "wanted", "reproduced"])
@@ -147,7 +147,7 @@ def _write_csv(verdicts: Sequence[Verdict], path: Path) -> None:
             writer.writerow([*words, f"{verdict.value:.6g}", claim.limits, "yes" if verdict.reproduced else "no"])
 
 
-def _summary(verdicts: Sequence[Verdict]) -> TerminalTable:
+def _summary(verdicts: Sequence[JudgedClaim]) -> TerminalTable:
     good = sum(verdict.reproduced for verdict in verdicts)
     table = TerminalTable("statement", "our number", "wanted", "verdict", title=f"{good} of {len(verdicts)} reproduced")
     for verdict in verdicts:

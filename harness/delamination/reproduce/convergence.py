@@ -16,7 +16,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from harness.delamination.reproduce.cases import Case
+from harness.delamination.reproduce.cases import PaperCase
 from harness.delamination.reproduce.curves import curve_distance
 from harness.delamination.reproduce.runs import Run, Runs
 
@@ -67,9 +67,9 @@ class Steady:
     spent: float
 
 
-def curves(problem: str, *, coarse: bool) -> list[tuple[Case, Case]]:
+def curves(problem: str, *, coarse: bool) -> list[tuple[PaperCase, PaperCase]]:
     """COH2D4 and our element with its criterion on finer quads and with a larger beta; with `coarse`, on one mesh."""
-    base = Case(problem, "0/90", "COH2D4", "1e6", coarse=coarse)
+    base = PaperCase(problem, "0/90", "COH2D4", "1e6", coarse=coarse)
     built_in = [(replace(base, rows=rows), factor) for rows, factor in (MESHES[:1] if coarse else MESHES)]
     return [(case, replace(case, element="consistent_bk", beta=factor)) for case, factor in built_in]
 
@@ -91,12 +91,12 @@ def curve_rows(runs: Runs, problem: str, *, coarse: bool) -> list[list[str]]:
     return lines
 
 
-def pairs(*, coarse: bool) -> list[tuple[Case, Case]]:
+def pairs(*, coarse: bool) -> list[tuple[PaperCase, PaperCase]]:
     """COH2D4 and our element with its criterion, on equal meshes; ours with a larger beta and equal weights too.
 
     With `coarse`, on one mesh with beta and weights by (21) and (22).
     """
-    base = Case("dcb", "0/90", "COH2D4", "1e6", coarse=coarse)
+    base = PaperCase("dcb", "0/90", "COH2D4", "1e6", coarse=coarse)
     ours = replace(base, element="consistent_bk")
     if coarse:
         return [(base, ours)]
@@ -107,7 +107,7 @@ def pairs(*, coarse: bool) -> list[tuple[Case, Case]]:
     return [*((case, replace(case, element=ours.element)) for case in built_in), *((base, case) for case in variants)]
 
 
-def _sized(case: Case, size: float) -> Case:
+def _sized(case: PaperCase, size: float) -> PaperCase:
     return case if size == case.element_size else replace(case, size=size)
 
 

@@ -13,7 +13,7 @@ import numpy as np
 from harness.delamination.beams import RIGID_ROOT, growth
 from harness.delamination.law_report import Exploration, explore
 from harness.delamination.patches import COLLINEAR, PLIES
-from harness.delamination.reproduce.cases import AROUND, ELEMENTS, MOMENTS, SHOWN, Case
+from harness.delamination.reproduce.cases import AROUND, ELEMENTS, MOMENTS, SHOWN, PaperCase
 from harness.delamination.reproduce.patch_cases import METHODS, NODES, PatchCase
 from harness.delamination.reproduce.runs import Profile, Runs
 from harness.output.plots import Curve, Panel, grid
@@ -61,7 +61,7 @@ def _patch_panel(runs: Runs, case: PatchCase) -> Panel:
     return Panel(f"[{case.layup}], {'perturbed interface' if case.moved else straight}", curves, X, TRACTIONS["TN"])
 
 
-def draw_loads(runs: Runs, base: Case, path: Path) -> Path:
+def draw_loads(runs: Runs, base: PaperCase, path: Path) -> Path:
     """Figures 8, 13, 18: load over displacement of the stabilised method, [0/0] with theory, [0/90] with COH2D4."""
     panels = []
     for layup in ("0/0", "0/90"):
@@ -86,7 +86,7 @@ def _theory(problem: str) -> list[Curve]:
     ]
 
 
-def draw_profiles(runs: Runs, base: Case, names: Sequence[str], path: Path) -> Path:
+def draw_profiles(runs: Runs, base: PaperCase, names: Sequence[str], path: Path) -> Path:
     """Figures 9, 11, 14, 16, 19, 20: tractions and damage by stiffness; a column for each method."""
     moment = MOMENTS[base.problem, base.layup]
     middle = front(runs[replace(base, element="standard", stiffness="1e6")].at(moment))
@@ -103,7 +103,7 @@ def draw_profiles(runs: Runs, base: Case, names: Sequence[str], path: Path) -> P
     return grid(rows, path, share_y=True)
 
 
-def draw_perturbed(runs: Runs, base: Case, name: str, path: Path) -> Path:
+def draw_perturbed(runs: Runs, base: PaperCase, name: str, path: Path) -> Path:
     """Figures 10, 15: traction on the perturbed mesh; below, close to the front."""
     moment = MOMENTS[base.problem, base.layup]
     rows: list[list[Panel]] = [[], []]
@@ -136,7 +136,7 @@ def _profile_panel(
 
 def problem_figures(runs: Runs, problem: str, *, coarse: bool, folder: Path) -> dict[str, Path]:
     """All result figures of a specimen by the paper's numbers."""
-    base = Case(problem, "0/0", "stabilised", "1e8", coarse=coarse)
+    base = PaperCase(problem, "0/0", "stabilised", "1e8", coarse=coarse)
     cross = replace(base, layup="0/90")
 
     def at(number: int) -> Path:

@@ -16,7 +16,7 @@ import numpy as np
 from harness.delamination.materials import TABLE_2
 from harness.delamination.measures import rice_ratio
 from harness.delamination.oscillation import total_variation
-from harness.delamination.reproduce.cases import AROUND, MOMENTS, PROBLEMS, Case
+from harness.delamination.reproduce.cases import AROUND, MOMENTS, PROBLEMS, PaperCase
 from harness.delamination.reproduce.runs import Profile, Run, Runs
 from harness.delamination.specimens import ARMS
 from harness.delamination.study.rows import STRENGTHS, bonded_part, damage_variation
@@ -33,9 +33,9 @@ class Evidence:
 
     def run(self, problem: str, layup: str, element: str, stiffness: str, *, perturbed: bool = False) -> Run:
         """Run of a delamination test."""
-        return self.runs[Case(problem, layup, element, stiffness, perturbed, self.coarse)]
+        return self.runs[PaperCase(problem, layup, element, stiffness, perturbed, self.coarse)]
 
-    def case(self, case: Case) -> Run:
+    def case(self, case: PaperCase) -> Run:
         """Run of a case on these meshes."""
         return self.runs[replace(case, coarse=self.coarse)]
 

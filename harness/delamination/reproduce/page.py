@@ -10,7 +10,7 @@ from dataclasses import dataclass
 from html import escape
 from pathlib import Path
 
-from harness.delamination.reproduce.claims import Verdict
+from harness.delamination.reproduce.claims import JudgedClaim
 
 CAPTIONS = {
     "1": "The two domains and the interface between them.",
@@ -82,7 +82,7 @@ class Content:
 
     how: Sequence[str]
     figures: Mapping[str, Path]
-    verdicts: Sequence[Verdict]
+    verdicts: Sequence[JudgedClaim]
     tables: Sequence[Table]
 
 
@@ -116,7 +116,7 @@ def _head(how: Sequence[str]) -> list[str]:
     ]
 
 
-def _summary(verdicts: Sequence[Verdict]) -> list[str]:
+def _summary(verdicts: Sequence[JudgedClaim]) -> list[str]:
     good = sum(verdict.reproduced for verdict in verdicts)
     share = f" ({good / len(verdicts):.0%})" if verdicts else ""
     lines = [f"<p><b>{good} of {len(verdicts)} statements reproduced{share}.</b></p>"]
@@ -140,7 +140,7 @@ def _picture(path: Path, caption: str) -> str:
     return f"<figure>{image}<figcaption>{escape(caption)}</figcaption></figure>"
 
 
-def _verdict_table(verdicts: Iterable[Verdict]) -> list[str]:
+def _verdict_table(verdicts: Iterable[JudgedClaim]) -> list[str]:
     lines = [
         '<div class="scroll"><table><tr><th>The paper</th><th>Our number</th><th></th>'
         "<th>Wanted</th><th>Verdict</th></tr>"

@@ -11,7 +11,7 @@ import numpy as np
 
 from harness.delamination.oscillation import total_variation
 from harness.delamination.reproduce.basics import swing
-from harness.delamination.reproduce.cases import PROBLEMS, Case
+from harness.delamination.reproduce.cases import PROBLEMS, PaperCase
 from harness.delamination.reproduce.curves import theory_distance
 from harness.delamination.reproduce.findings import Evidence, closed_stretch, moment, profile_distance, variation
 from harness.delamination.reproduce.patch_cases import PatchCase
@@ -21,7 +21,8 @@ from harness.delamination.study.rows import STRENGTHS, bonded_part
 def strength_effect(evidence: Evidence, problem: str, strength: float) -> float:
     """Relative change of the peak load when both strengths are multiplied by a factor; infinite stiffness, [0/0]."""
     peaks = [
-        evidence.case(Case(problem, "0/0", "consistent", "inf", strength=factor)).peak[0] for factor in (strength, 1.0)
+        evidence.case(PaperCase(problem, "0/0", "consistent", "inf", strength=factor)).peak[0]
+        for factor in (strength, 1.0)
     ]
     return abs(peaks[0] / peaks[1] - 1.0)
 
@@ -152,14 +153,14 @@ def zone_share(evidence: Evidence, strength: float) -> float:
     """Points in the process zone of the DCB with both strengths multiplied, over those without; infinite stiffness."""
     counts = []
     for factor in (strength, 1.0):
-        damage = moment(evidence.case(Case("dcb", "0/0", "consistent", "inf", strength=factor)))["DAMAGE"]
+        damage = moment(evidence.case(PaperCase("dcb", "0/0", "consistent", "inf", strength=factor)))["DAMAGE"]
         counts.append(np.count_nonzero((damage > 0.0) & (damage < 1.0)))
     return counts[0] / counts[1]
 
 
 def newton_cotes_gain(evidence: Evidence) -> float:
     """Largest variation of the standard method's t_n with Gauss points over that with Newton-Cotes points, DCB, 1e8."""
-    gauss = Case("dcb", "0/0", "standard", "1e8")
+    gauss = PaperCase("dcb", "0/0", "standard", "1e8")
     worst = []
     for case in (gauss, replace(gauss, newton_cotes=True)):
         worst.append(max(total_variation(profile["TN"]) for profile in evidence.case(case).bonded))

@@ -13,7 +13,7 @@ import numpy as np
 from rich.console import Console
 
 from harness.delamination.batch import Store, complete, run_deck
-from harness.delamination.reproduce.cases import Case
+from harness.delamination.reproduce.cases import PaperCase
 from harness.delamination.reproduce.patch_cases import PatchCase
 from harness.delamination.study.rows import bonded_part
 from harness.errors import UelError
@@ -21,7 +21,7 @@ from harness.model.arrays import FloatArray
 from harness.output import Result
 from harness.output.status import StatusRow
 
-AnyCase = Case | PatchCase
+AnyCase = PaperCase | PatchCase
 Profile = dict[str, FloatArray]
 
 
@@ -61,7 +61,7 @@ class Run:
     Loads and displacements are positive in the direction of loading and start at 0, before the first increment.
     """
 
-    def __init__(self, case: Case, entry: Entry, folder: Path) -> None:
+    def __init__(self, case: PaperCase, entry: Entry, folder: Path) -> None:
         self.case = case
         self.entry = entry
         self._result = Result(folder / case.name / case.name)
@@ -161,7 +161,7 @@ class Runs:
         """The deck that was run."""
         return self._folder / case.name / f"{case.name}.inp"
 
-    def __getitem__(self, case: Case) -> Run:
+    def __getitem__(self, case: PaperCase) -> Run:
         """Run of a delamination test."""
         run = self._read.get(case)
         if run is None:

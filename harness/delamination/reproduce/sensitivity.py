@@ -10,7 +10,7 @@ from functools import cache
 from pathlib import Path
 
 from harness.delamination.oscillation import total_variation
-from harness.delamination.reproduce.cases import QUICK_SIZES, Case
+from harness.delamination.reproduce.cases import QUICK_SIZES, PaperCase
 from harness.delamination.reproduce.runs import Run, Runs
 from harness.delamination.study.cases import STIFFNESSES
 from harness.delamination.study.rows import damage_variation
@@ -39,23 +39,23 @@ class Study:
 
     title: str
     parameter: str
-    variants: dict[str, list[tuple[str, Case]]]
+    variants: dict[str, list[tuple[str, PaperCase]]]
     number: bool
     advice: str
 
-    def cases(self) -> list[Case]:
+    def cases(self) -> list[PaperCase]:
         """All its cases."""
         return [case for pairs in self.variants.values() for _, case in pairs]
 
 
-def _bases(problem: str, methods: Sequence[tuple[str, str]], *, coarse: bool) -> dict[str, Case]:
+def _bases(problem: str, methods: Sequence[tuple[str, str]], *, coarse: bool) -> dict[str, PaperCase]:
     return {
-        f"{problem.upper()}, {element} {stiffness}": Case(problem, "0/0", element, stiffness, coarse=coarse)
+        f"{problem.upper()}, {element} {stiffness}": PaperCase(problem, "0/0", element, stiffness, coarse=coarse)
         for element, stiffness in methods
     }
 
 
-def _sized(case: Case, size: float) -> Case:
+def _sized(case: PaperCase, size: float) -> PaperCase:
     return case if size == case.element_size else replace(case, size=size)
 
 
@@ -65,7 +65,7 @@ def _possible(element: str, *, coarse: bool) -> set[str]:
     return set(STIFFNESSES) - without[element]
 
 
-def _divided(case: Case, increments: int) -> Case:
+def _divided(case: PaperCase, increments: int) -> PaperCase:
     return case if increments == case.increment_count else replace(case, increments=increments)
 
 
@@ -98,7 +98,7 @@ def studies(*, coarse: bool) -> list[Study]:
             "stiffness (N/mm³)",
             {
                 f"{problem.upper()}, {element}": [
-                    (name, Case(problem, "0/0", element, name, coarse=coarse))
+                    (name, PaperCase(problem, "0/0", element, name, coarse=coarse))
                     for name in STIFFNESSES
                     if name in _possible(element, coarse=coarse)
                 ]

@@ -16,7 +16,7 @@ from harness.delamination.reproduce.cases import (
     ELEMENTS,
     LONGER,
     PROBLEMS,
-    Case,
+    PaperCase,
     comparator_cases,
     longer_cases,
     paper_cases,
@@ -125,7 +125,7 @@ def _loads(problem: str, evidence: Evidence) -> Table:
 def _mode_ratios(evidence: Evidence) -> Table:
     head = ("initial crack (mm)", "crack (mm)", "G_I/G_II from the tractions", "off corrected beam theory", "off 4/3")
     rows = []
-    for case in (Case("frmm", "0/0", "consistent", "1e6"), *longer_cases(coarse=evidence.coarse)):
+    for case in (PaperCase("frmm", "0/0", "consistent", "1e6"), *longer_cases(coarse=evidence.coarse)):
         measures = (findings.crack_length, findings.mode_ratio, findings.theory_mode_ratio)
         length, ratio, theory = (measure(evidence, case.element, problem=case.problem) for measure in measures)
         start = LONGER.get(case.problem, CRACK)

@@ -13,10 +13,10 @@ from pathlib import Path
 from rich.console import Console
 
 from harness.delamination.batch import complete
-from harness.delamination.study.cases import Case, all_cases, select
+from harness.delamination.study.cases import StudyCase, all_cases, select
 from harness.delamination.study.criteria import check
 from harness.delamination.study.reference import FOLDER, ReferenceRun, reference_of, run_reference
-from harness.delamination.study.rows import Row
+from harness.delamination.study.rows import StudyRow
 from harness.delamination.study.runner import reference_store, row_store, run_case
 from harness.delamination.study.tables import csv_table, markdown_tables, verdict_table
 from harness.errors import UelError
@@ -64,7 +64,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
     return 0
 
 
-def _rows(cases: Sequence[Case], folder: Path, workers: int, console: Console) -> dict[Case, Row]:
+def _rows(cases: Sequence[StudyCase], folder: Path, workers: int, console: Console) -> dict[StudyCase, StudyRow]:
     """Rows of all cases, in their order; those that the folder does not hold are computed, after their references."""
     missing = [case for case in cases if row_store(folder).get(case) is None]
     complete(
@@ -91,7 +91,7 @@ def _reference_end(run: ReferenceRun) -> str:
     return f"reference, {run.stopped or 'finished'}"
 
 
-def _end(row: Row) -> str:
+def _end(row: StudyRow) -> str:
     end = "finished" if row.finished else f"stopped at {row.reached:.0%}"
     counts = f"{row.increments} increments, {row.iterations} iterations, {row.cutbacks} cutbacks"
     return f"{end}, {counts}, peak {row.peak_load:.2f} N"

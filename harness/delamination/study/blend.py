@@ -18,7 +18,7 @@ from pathlib import Path
 from rich.console import Console
 from rich.table import Table
 
-from harness.delamination.batch import Outcome, run_deck
+from harness.delamination.batch import RunOutcome, run_deck
 from harness.delamination.blocks import Interface
 from harness.delamination.materials import TABLE_2
 from harness.delamination.measures import iterations, peak_load
@@ -54,7 +54,7 @@ class Beam:
         return deck_files(self.name, f"BLEND {self.share:g}", KIND, "0/0", mesh, interface)
 
 
-def described(outcome: Outcome) -> str:
+def described(outcome: RunOutcome) -> str:
     """Increments / cutbacks / iterations, peak load (N), and where it stopped."""
     result = outcome.result
     increments, cutbacks = len(result.history["time"]), sum(line.cutback for line in result.status)

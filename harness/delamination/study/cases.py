@@ -25,7 +25,7 @@ INCREMENTS = Increments(initial=0.01, smallest=1e-7, largest=0.01, limit=1000, f
 FIELD_EVERY = 10
 
 
-class Kind(NamedTuple):
+class MeshedSpecimen(NamedTuple):
     """A specimen on a mesh.
 
     title         in words
@@ -49,13 +49,13 @@ class Kind(NamedTuple):
 
 _ENDS = {"0/0": 3.0, "0/90": 6.0}
 KINDS = {
-    "dcb": Kind(
+    "dcb": MeshedSpecimen(
         "double cantilever beam", 0.125, _ENDS, specimens.dcb_mesh, specimens.dcb_deck, "LOAD_TOP", 1.0, ("TN",)
     ),
-    "dcb025": Kind(
+    "dcb025": MeshedSpecimen(
         "double cantilever beam, 0.25 mm", 0.25, _ENDS, specimens.dcb_mesh, specimens.dcb_deck, "LOAD_TOP", 1.0, ("TN",)
     ),
-    "enf": Kind(
+    "enf": MeshedSpecimen(
         "end-notched flexure",
         0.25,
         {"0/0": 4.0, "0/90": 6.0},
@@ -65,7 +65,7 @@ KINDS = {
         -1.0,
         ("TT",),
     ),
-    "frmm": Kind(
+    "frmm": MeshedSpecimen(
         "fixed-ratio mixed mode",
         0.125,
         {"0/0": 6.0, "0/90": 6.0},
@@ -93,7 +93,7 @@ OWN_LAW = "linear"
 
 
 @dataclass(frozen=True, slots=True)
-class Case:
+class StudyCase:
     """One row; every entry is a key of the table of its name."""
 
     specimen: str
@@ -111,7 +111,7 @@ class Case:
         return "_".join(words[:-1] if self.law == OWN_LAW else words)
 
     @property
-    def kind(self) -> Kind:
+    def kind(self) -> MeshedSpecimen:
         """The specimen."""
         return KINDS[self.specimen]
 
@@ -133,7 +133,9 @@ class Case:
         return deck_files(self.name, title, kind, self.layup, mesh, interface)
 
 
-def deck_files(name: str, title: str, kind: Kind, layup: str, mesh: TwoArmMesh, interface: Interface) -> dict[str, str]:
+def deck_files(
+    name: str, title: str, kind: MeshedSpecimen, layup: str, mesh: TwoArmMesh, interface: Interface
+) -> dict[str, str]:
     """Deck `NAME.inp` of a specimen with the displacement and the increments of the study, and its mesh files."""
     top, bottom = LAYUPS[layup]
     specimen = Specimen("mesh", mesh, interface, specimens.WIDTH, bottom, top)
@@ -153,16 +155,16 @@ TABLES: dict[str, Iterable[str]] = {
 }
 
 
-def all_cases() -> list[Case]:
+def all_cases() -> list[StudyCase]:
     """All rows: an infinite stiffness is the consistent law's alone, and has the rows with viscosity and other laws.
 
     The fall-back is not asked of the standard element at 1e12: of its oscillations it makes tens of thousands of
     iterations, and no end.
     """
-    return [case for entries in itertools.product(*TABLES.values()) if _is_row(case := Case(*entries))]
+    return [case for entries in itertools.product(*TABLES.values()) if _is_row(case := StudyCase(*entries))]
 
 
-def _is_row(case: Case) -> bool:
+def _is_row(case: StudyCase) -> bool:
     if case.law != OWN_LAW:
         plain = (case.layup, case.mesh, case.stiffness, case.element) == ("0/0", "structured", "inf", "consistent")
         return plain and case.specimen in ("dcb", "frmm") and case.solution in ("newton", "fallback", "viscous3e-4")
@@ -173,7 +175,7 @@ def _is_row(case: Case) -> bool:
     return case.solution not in VISCOSITIES
 
 
-def select(cases: Iterable[Case], words: Sequence[str]) -> list[Case]:
+def select(cases: Iterable[StudyCase], words: Sequence[str]) -> list[StudyCase]:
     """Cases that agree with the words: words of one table are alternatives, those of different tables add up.
 
     Raises

@@ -12,8 +12,8 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
 
 from harness.delamination.materials import TABLE_2
-from harness.delamination.study.cases import KINDS, OWN_LAW, Case
-from harness.delamination.study.rows import Row, loading_mode
+from harness.delamination.study.cases import KINDS, OWN_LAW, StudyCase
+from harness.delamination.study.rows import StudyRow, loading_mode
 
 MEAN_ITERATIONS = {"dcb": 6.0, "enf": 3.0, "frmm": 3.0}
 """Iterations per increment. The coarse mesh of the double cantilever beam is not judged, here and by its index."""
@@ -28,11 +28,11 @@ STIFFEST = ("1e8", "1e12", "inf")
 JUDGED = ("fallback", "newton")
 """Solutions."""
 
-Rows = Mapping[Case, Row]
+Rows = Mapping[StudyCase, StudyRow]
 
 
 @dataclass(frozen=True, slots=True)
-class Verdict:
+class JudgedCriterion:
     """One criterion: how many rows it was judged on, and those that fail it, each with what was found."""
 
     criterion: str
@@ -45,7 +45,7 @@ class Verdict:
         return not self.failures
 
 
-def check(rows: Rows) -> list[Verdict]:
+def check(rows: Rows) -> list[JudgedCriterion]:
     """All criteria that there are rows for, for each kind of solution."""
     verdicts = []
     for solution in JUDGED:
@@ -69,18 +69,20 @@ def check(rows: Rows) -> list[Verdict]:
     return verdicts
 
 
-def _each(criterion: str, rows: Rows, failure: Callable[[Case, Row], str | None]) -> Verdict:
+def _each(criterion: str, rows: Rows, failure: Callable[[StudyCase, StudyRow], str | None]) -> JudgedCriterion:
     """Verdict from a function of one row: what is wrong, empty if nothing is, None if the row is not to be judged."""
     texts = {case: failure(case, row) for case, row in rows.items()}
     judged = {case: text for case, text in texts.items() if text is not None}
-    return Verdict(criterion, len(judged), tuple(f"{case.name}: {text}" for case, text in judged.items() if text))
+    return JudgedCriterion(
+        criterion, len(judged), tuple(f"{case.name}: {text}" for case, text in judged.items() if text)
+    )
 
 
-def _unfinished(_: Case, row: Row) -> str:
+def _unfinished(_: StudyCase, row: StudyRow) -> str:
     return "" if row.finished else f"{row.reached:.1%}, {row.stopped}"
 
 
-def _slow(case: Case, row: Row) -> str | None:
+def _slow(case: StudyCase, row: StudyRow) -> str | None:
     limit = MEAN_ITERATIONS.get(case.specimen)
     if limit is None or not row.finished:
         return None
@@ -88,24 +90,24 @@ def _slow(case: Case, row: Row) -> str | None:
     return "" if mean <= limit else f"{mean:.2f}"
 
 
-def _cut_back(_: Case, row: Row) -> str:
+def _cut_back(_: StudyCase, row: StudyRow) -> str:
     return "" if row.cutbacks <= CUTBACKS else str(row.cutbacks)
 
 
-def _unsteady_damage(case: Case, row: Row) -> str | None:
+def _unsteady_damage(case: StudyCase, row: StudyRow) -> str | None:
     if case.layup != "0/0" or case.specimen == "frmm":
         return None
     return "" if abs(row.damage_variation - 1.0) <= DAMAGE_TOLERANCE else f"{row.damage_variation:.4f}"
 
 
-def _shear(case: Case, row: Row) -> str | None:
+def _shear(case: StudyCase, row: StudyRow) -> str | None:
     if case.specimen != "enf" or case.layup != "0/0":
         return None
     strength = TABLE_2.strength_shear
     return "" if abs(row.peak_t / strength - 1.0) <= SHEAR_TOLERANCE else f"{row.peak_t:.2f} MPa of {strength:g}"
 
 
-def _peak_loads(rows: Rows) -> Verdict:
+def _peak_loads(rows: Rows) -> JudgedCriterion:
     groups: dict[tuple[str, str, str], dict[str, float]] = {}
     for case, row in rows.items():
         if case.stiffness in STIFF and row.finished:
@@ -118,10 +120,10 @@ def _peak_loads(rows: Rows) -> Verdict:
             found = ", ".join(f"{name} {peak:.2f}" for name, peak in peaks.items())
             failures.append(f"{' '.join(group)}: {spread:.2%} ({found})")
     criterion = f"consistent element: peak loads within {PEAK_SPREAD:.1%} over all stiffnesses from 1e6 on"
-    return Verdict(criterion, len(compared), tuple(failures))
+    return JudgedCriterion(criterion, len(compared), tuple(failures))
 
 
-def index_ratios(case: Case, rows: Rows, quantity: str = "index") -> dict[str, float] | None:
+def index_ratios(case: StudyCase, rows: Rows, quantity: str = "index") -> dict[str, float] | None:
     """`index` or `error` of a case over that of the structured mesh at 1e6, by traction of the loading mode.
 
     None if that row, or its index, is not there.
@@ -135,17 +137,17 @@ def index_ratios(case: Case, rows: Rows, quantity: str = "index") -> dict[str, f
     return None if any(math.isnan(ratio) for ratio in ratios.values()) else ratios
 
 
-def is_stiff_on_bumps(case: Case) -> bool:
+def is_stiff_on_bumps(case: StudyCase) -> bool:
     """Whether the row is one of those whose index is compared with that of the structured mesh at 1e6."""
     return case.mesh == "perturbed" and case.stiffness in STIFFEST and case.layup == "0/0"
 
 
-def _is_judged(case: Case) -> bool:
+def _is_judged(case: StudyCase) -> bool:
     return is_stiff_on_bumps(case) and case.specimen in MEAN_ITERATIONS
 
 
-def _oscillation(criterion: str, rows: Rows) -> Verdict:
-    def failure(case: Case, _: Row) -> str | None:
+def _oscillation(criterion: str, rows: Rows) -> JudgedCriterion:
+    def failure(case: StudyCase, _: StudyRow) -> str | None:
         ratios = index_ratios(case, rows) if _is_judged(case) else None
         if ratios is None:
             return None
@@ -154,11 +156,11 @@ def _oscillation(criterion: str, rows: Rows) -> Verdict:
     return _each(f"{criterion} at most {INDEX_RATIO} of that on the structured one at 1e6, [0/0]", rows, failure)
 
 
-def _standard_fails(rows: Rows) -> Verdict:
+def _standard_fails(rows: Rows) -> JudgedCriterion:
     """The same criterion is no gift: the standard element does not hold it."""
     own = {case: row for case, row in rows.items() if case.element == "standard"}
 
-    def failure(case: Case, _: Row) -> str | None:
+    def failure(case: StudyCase, _: StudyRow) -> str | None:
         ratios = index_ratios(case, own) if _is_judged(case) else None
         if ratios is None:
             return None

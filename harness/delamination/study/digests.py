@@ -7,14 +7,14 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
 
-from harness.delamination.study.cases import ELEMENTS, VISCOSITIES, Case
+from harness.delamination.study.cases import ELEMENTS, VISCOSITIES, StudyCase
 from harness.delamination.study.criteria import index_ratios, is_stiff_on_bumps
-from harness.delamination.study.rows import Row
+from harness.delamination.study.rows import StudyRow
 
 STIFFNESS = "1e8"
 TRACTIONS = {"TN": ("n", "normal"), "TT": ("t", "tangential")}
 
-Rows = Mapping[Case, Row]
+Rows = Mapping[StudyCase, StudyRow]
 
 
 def line(cells: Sequence[str]) -> str:
@@ -48,7 +48,7 @@ def variations(rows: Rows) -> list[str]:
     return [*head(["specimen", "mesh", "traction", "real", *columns]), *lines]
 
 
-def _number(row: Row | None, name: str) -> str:
+def _number(row: StudyRow | None, name: str) -> str:
     return "" if row is None else f"{getattr(row, name):.0f}".replace("nan", "-")
 
 
@@ -94,7 +94,7 @@ def viscosity(rows: Rows) -> list[str]:
     return [*head(["specimen", "mesh", "law", "viscosity", *columns]), *lines]
 
 
-def _cost(row: Row, exact: Row) -> list[str]:
+def _cost(row: StudyRow, exact: StudyRow) -> list[str]:
     counts = [str(row.increments), str(row.iterations), str(row.cutbacks)]
     if not row.finished:
         return [*counts, f"stops at {row.reached:.1%}", "", "", ""]

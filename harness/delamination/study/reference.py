@@ -23,7 +23,7 @@ from harness.delamination.batch import run_deck
 from harness.delamination.blocks import Interface
 from harness.delamination.materials import TABLE_2
 from harness.delamination.mesh import refined
-from harness.delamination.study.cases import ELEMENTS, KINDS, MESHES, STIFFNESSES, Case, deck_files
+from harness.delamination.study.cases import ELEMENTS, KINDS, MESHES, STIFFNESSES, StudyCase, deck_files
 from harness.model.arrays import FloatArray
 from harness.output import Result
 
@@ -36,7 +36,7 @@ Profile = dict[str, FloatArray]
 
 
 @dataclass(frozen=True, slots=True)
-class Reference:
+class StudyReference:
     """Reference of all rows of a specimen, layup and mesh; every entry is a key of the table of its name."""
 
     specimen: str
@@ -80,19 +80,19 @@ class ReferenceRun:
         return cls(**entries)  # type: ignore[arg-type]
 
 
-def reference_of(case: Case) -> Reference:
+def reference_of(case: StudyCase) -> StudyReference:
     """Reference that a row is compared with."""
-    return Reference(case.specimen, case.layup, case.mesh)
+    return StudyReference(case.specimen, case.layup, case.mesh)
 
 
-def run_reference(reference: Reference, folder: Path) -> ReferenceRun:
+def run_reference(reference: StudyReference, folder: Path) -> ReferenceRun:
     """Run a reference in a folder of its name below `folder`, with the fall-back."""
     outcome = run_deck(reference, folder, fallback=True)
     return ReferenceRun(outcome.stopped, outcome.seconds)
 
 
 @lru_cache(maxsize=2)
-def real_profiles(reference: Reference, folder: Path) -> list[Profile]:
+def real_profiles(reference: StudyReference, folder: Path) -> list[Profile]:
     """Profiles of a reference that has run in `folder`, at the points of the mesh that is not refined."""
     profiles = Result(folder / reference.name / reference.name).interfaces()
     return [restricted(profile, reference.factor) for profile in profiles]

@@ -12,7 +12,7 @@ import numpy as np
 from harness.delamination.materials import TABLE_2
 from harness.delamination.measures import dissipated
 from harness.delamination.oscillation import error_index, oscillation_index, raw_index, total_variation
-from harness.delamination.study.cases import INCREMENTS, Case, Kind
+from harness.delamination.study.cases import INCREMENTS, MeshedSpecimen, StudyCase
 from harness.delamination.study.reference import Profile
 from harness.model.arrays import FloatArray
 from harness.output import Result
@@ -25,7 +25,7 @@ STRENGTHS = {"TN": TABLE_2.strength_normal, "TT": TABLE_2.strength_shear}
 
 
 @dataclass(frozen=True, slots=True)
-class Row:
+class StudyRow:
     """Numbers of one row. All are those until the run stopped, where it did.
 
     reached      part of the final displacement
@@ -92,12 +92,12 @@ class Row:
         return asdict(self)
 
     @classmethod
-    def from_json(cls, entries: Mapping[str, object]) -> Row:
+    def from_json(cls, entries: Mapping[str, object]) -> StudyRow:
         """Row of the entries that `to_json` gave."""
         return cls(**entries)  # type: ignore[arg-type]
 
 
-def measure(case: Case, result: Result, stopped: str, seconds: float, real: list[Profile]) -> Row:
+def measure(case: StudyCase, result: Result, stopped: str, seconds: float, real: list[Profile]) -> StudyRow:
     """Row of a case from the files of its run, and the profiles of its reference."""
     history = result.history
     kind = case.kind
@@ -107,7 +107,7 @@ def measure(case: Case, result: Result, stopped: str, seconds: float, real: list
     snaps = {k + 1 for k in np.flatnonzero(drops > SNAP * load[peak]).tolist()}
     lost = float(history["ALLWK"][-1] - history["ALLSE"][-1])
     spent = float(dissipated(result)[-1])
-    return Row(
+    return StudyRow(
         reached=float(displacement[-1]) / case.displacement,
         stopped=stopped,
         increments=len(load),
@@ -206,6 +206,6 @@ def dissipation_error(profile: Profile) -> float:
     return float(np.mean(spent[failed])) - 1.0 if failed.any() else 0.0
 
 
-def loading_mode(kind: Kind, row: Row, quantity: str) -> dict[str, float]:
+def loading_mode(kind: MeshedSpecimen, row: StudyRow, quantity: str) -> dict[str, float]:
     """`index`, `error` or `raw` of each traction of the loading mode."""
     return {name: float(getattr(row, f"{quantity}_{name[1].lower()}")) for name in kind.modes}

@@ -7,14 +7,14 @@ from __future__ import annotations
 from pathlib import Path
 
 from harness.delamination.batch import Store, run_deck
-from harness.delamination.study.cases import SOLUTIONS, Case
+from harness.delamination.study.cases import SOLUTIONS, StudyCase
 from harness.delamination.study.reference import FOLDER, ReferenceRun, real_profiles, reference_of
-from harness.delamination.study.rows import Row, measure
+from harness.delamination.study.rows import StudyRow, measure
 
 
-def row_store(folder: Path) -> Store[Row]:
+def row_store(folder: Path) -> Store[StudyRow]:
     """Rows by the name of their case, in rows.json."""
-    return Store(folder / "rows.json", Row.from_json)
+    return Store(folder / "rows.json", StudyRow.from_json)
 
 
 def reference_store(folder: Path) -> Store[ReferenceRun]:
@@ -22,7 +22,7 @@ def reference_store(folder: Path) -> Store[ReferenceRun]:
     return Store(folder / "references.json", ReferenceRun.from_json)
 
 
-def run_case(case: Case, folder: Path) -> Row:
+def run_case(case: StudyCase, folder: Path) -> StudyRow:
     """Run the deck of a case in a folder of its name below `folder`, and measure what came out.
 
     The reference has to have run, in its folder beside `folder`.

@@ -31,7 +31,7 @@ STIFFNESS = 1.0e8
 
 
 @dataclass(frozen=True, slots=True)
-class Outcome:
+class SamplingResult:
     """A run: total variation of the tangential traction (MPa) and load (N) at the end, iterations."""
 
     variation: float
@@ -39,7 +39,7 @@ class Outcome:
     iterations: int
 
 
-def flexure(sampling: int, displacement: float, folder: Path, size: float | None = None) -> Outcome:
+def flexure(sampling: int, displacement: float, folder: Path, size: float | None = None) -> SamplingResult:
     """End-notched flexure [0/0], stiffness 1e8 N/mm^3, consistent element, 100 increments, Abaqus' default controls.
 
     Parameters
@@ -65,7 +65,7 @@ def flexure(sampling: int, displacement: float, folder: Path, size: float | None
         (folder / file).write_text(content, encoding="ascii")
     result = run(folder / name, output_dir=folder)
     profile, load = result.interface(), result.history[f"RF2[{kind.load}]"]
-    return Outcome(total_variation(profile["TT"]), kind.sign * float(load[-1]), iterations(result))
+    return SamplingResult(total_variation(profile["TT"]), kind.sign * float(load[-1]), iterations(result))
 
 
 def main(arguments: Sequence[str] | None = None) -> int:

@@ -11,10 +11,10 @@ from dataclasses import asdict
 
 from rich.table import Table
 
-from harness.delamination.study.cases import KINDS, OWN_LAW, Case
-from harness.delamination.study.criteria import Verdict
+from harness.delamination.study.cases import KINDS, OWN_LAW, StudyCase
+from harness.delamination.study.criteria import JudgedCriterion
 from harness.delamination.study.digests import head, line, ratios, variations, viscosity
-from harness.delamination.study.rows import Row
+from harness.delamination.study.rows import StudyRow
 
 SHOWN = 4
 """Failures of a criterion that are named; the rest is counted."""
@@ -80,7 +80,7 @@ HEAD = (
 )
 
 
-def csv_table(rows: Mapping[Case, Row]) -> str:
+def csv_table(rows: Mapping[StudyCase, StudyRow]) -> str:
     """All rows with all their entries."""
     out = io.StringIO()
     lines = [asdict(case) | asdict(row) for case, row in rows.items()]
@@ -90,7 +90,7 @@ def csv_table(rows: Mapping[Case, Row]) -> str:
     return out.getvalue()
 
 
-def markdown_tables(rows: Mapping[Case, Row], verdicts: Sequence[Verdict]) -> str:
+def markdown_tables(rows: Mapping[StudyCase, StudyRow], verdicts: Sequence[JudgedCriterion]) -> str:
     """A page: verdicts, the digests, then a table for each specimen and layup."""
     parts = [INTRODUCTION, "## Criteria\n", *_markdown_verdicts(verdicts)]
     for text, digest in ((BUMPS, variations(rows)), (RATIOS, ratios(rows)), (VISCOSITY, viscosity(rows))):
@@ -108,7 +108,7 @@ def markdown_tables(rows: Mapping[Case, Row], verdicts: Sequence[Verdict]) -> st
     return "\n".join(parts) + "\n"
 
 
-def _cells(case: Case, row: Row) -> list[str]:
+def _cells(case: StudyCase, row: StudyRow) -> list[str]:
     return [
         *(case.stiffness, case.element, case.mesh, case.solution),
         *(str(row.increments), str(row.iterations), _mean(row), str(row.cutbacks)),
@@ -123,12 +123,12 @@ def _cells(case: Case, row: Row) -> list[str]:
     ]
 
 
-def _mean(row: Row) -> str:
+def _mean(row: StudyRow) -> str:
     mean = f"{row.iterations_per_increment:.2f}"
     return f"{mean} + {row.snap_iterations} in {row.snaps} snap" + "s" * (row.snaps > 1) if row.snaps else mean
 
 
-def _markdown_verdicts(verdicts: Sequence[Verdict]) -> list[str]:
+def _markdown_verdicts(verdicts: Sequence[JudgedCriterion]) -> list[str]:
     lines = head(["criterion", "rows", "holds"])
     for verdict in verdicts:
         failed = "; ".join(_named(verdict))
@@ -136,12 +136,12 @@ def _markdown_verdicts(verdicts: Sequence[Verdict]) -> list[str]:
     return lines
 
 
-def _named(verdict: Verdict) -> list[str]:
+def _named(verdict: JudgedCriterion) -> list[str]:
     more = len(verdict.failures) - SHOWN
     return [*verdict.failures[:SHOWN], *([f"and {more} more"] if more > 0 else [])]
 
 
-def verdict_table(verdicts: Sequence[Verdict]) -> Table:
+def verdict_table(verdicts: Sequence[JudgedCriterion]) -> Table:
     """Verdicts for a terminal."""
     table = Table("criterion", "rows", "holds")
     table.add_column("fails", overflow="fold")

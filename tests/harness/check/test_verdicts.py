@@ -106,7 +106,7 @@ def test_type_without_stiffness_is_blamed(springs):
     assert second.verdict is Verdict.FAILED
     assert re.search(r"after 0 increments: .*springs.inp:\d+: singular system matrix at node 3, dof 1", second.message)
     assert first.verdict is Verdict.NOT_APPLICABLE
-    assert re.search("ended by another type of element, which is to be mended first: .*singular", first.message)
+    assert re.search("ended by another type of element, which is to be fixed first: .*singular", first.message)
 
 
 def test_run_that_does_not_converge(springs):
@@ -115,7 +115,7 @@ def test_run_that_does_not_converge(springs):
         run = report.findings["run"]
         assert run.verdict is Verdict.FAILED
         assert re.search("the run of the deck ended after 0 increments: .*step 1, increment 1, attempt", run.message)
-        assert re.search("Where `tangent` fails, mend AMATRX first", run.advice)
+        assert re.search("Where `tangent` fails, fix AMATRX first", run.advice)
 
 
 def test_xit_in_a_later_increment(springs):

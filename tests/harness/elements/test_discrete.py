@@ -114,7 +114,7 @@ def test_spring_between_dofs(element, call):
 
 def test_kind_that_the_host_does_not_know(element, call):
     block, matrix = element("SPRINGA", SpringSection("ALL", (), np.array([1.0]), SOURCE))
-    block._procedure = replace(block._procedure, jtype=99)
+    block._routine = replace(block._routine, jtype=99)
     with pytest.raises(KernelError, match=r"element 7 \(type SPRINGA\): .*of this kind are not known to the host"):
         block.evaluate(call, np.zeros(6), np.zeros(6), np.zeros(6), matrix.data)
 

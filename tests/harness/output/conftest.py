@@ -18,6 +18,7 @@ from harness.model.procedures import Static
 from harness.model.properties import UserElement, UserProperty
 from harness.model.records import (
     AttemptStarted,
+    Convergence,
     ElementState,
     FieldCheck,
     IncrementDone,
@@ -28,7 +29,6 @@ from harness.model.records import (
     Solution,
     StepDone,
     StepStarted,
-    Verdict,
 )
 from harness.model.steps import NodeRequest, OutputRequests, Step
 
@@ -95,7 +95,7 @@ def solution(time: float) -> Solution:
     )
 
 
-def check(verdict: Verdict = Verdict.CONVERGED) -> FieldCheck:
+def check(verdict: Convergence = Convergence.CONVERGED) -> FieldCheck:
     return FieldCheck(
         "force", 12.2, 6.33, Largest(-749.0, 6, 1), Largest(-5.576e-3, 2, 2), Largest(9.15e-6, 3, 2), verdict
     )
@@ -109,7 +109,7 @@ def increments(
     before = 0.0
     for number, time in enumerate(times, 1):
         yield AttemptStarted(step, number, 1, before, start + before, time - before)
-        yield IterationDone(1, (check(Verdict.NOT_ACHIEVED),))
+        yield IterationDone(1, (check(Convergence.NOT_ACHIEVED),))
         yield IterationDone(2, (check(),))
         yield IncrementDone(step, number, 1, 2, time, start + time, time - before, solution(time))
         before = time

@@ -15,6 +15,7 @@ from harness.model.procedures import Static
 from harness.model.records import (
     AttemptAbandoned,
     AttemptStarted,
+    Convergence,
     FieldCheck,
     IncrementDone,
     IterationDone,
@@ -22,7 +23,6 @@ from harness.model.records import (
     Record,
     SearchHelped,
     StepStarted,
-    Verdict,
 )
 from harness.model.steps import Controls, FieldControls, LineSearchControls, TimeControls
 from harness.output.message import MessageFile
@@ -59,7 +59,7 @@ def test_an_iteration_that_is_not_in_equilibrium(labelled: Model, tmp_path: Path
         Largest(-8.61, 3, 1),
         Largest(0.692, 0, 2),
         Largest(-5.576e-3, 5, 2),
-        Verdict.NOT_ACHIEVED,
+        Convergence.NOT_ACHIEVED,
     )
     assert written(labelled, tmp_path, iteration(check)) == [
         "",
@@ -77,7 +77,7 @@ def test_an_iteration_that_is_not_in_equilibrium(labelled: Model, tmp_path: Path
 def test_two_fields_and_an_instance(labelled: Model, tmp_path: Path) -> None:
     mesh = Mesh(labelled.mesh.labels, labelled.mesh.coordinates, ("CUBE_ASSEMBLY",) * 8)
     force = FieldCheck(
-        "force", 0.997, 0.997, Largest(-1.581e-7, 5, 1), Largest(-5.582e-3, 6, 3), NONE, Verdict.CONVERGED
+        "force", 0.997, 0.997, Largest(-1.581e-7, 5, 1), Largest(-5.582e-3, 6, 3), NONE, Convergence.CONVERGED
     )
     heat = FieldCheck(
         "temperature",
@@ -86,7 +86,7 @@ def test_two_fields_and_an_instance(labelled: Model, tmp_path: Path) -> None:
         Largest(-3.933e-6, 1, 11),
         Largest(100.0, 0, 11),
         Largest(-9.896e-3, 1, 11),
-        Verdict.CORRECTION_TOO_LARGE,
+        Convergence.CORRECTION_TOO_LARGE,
     )
     lines = written(replace(labelled, mesh=mesh), tmp_path, iteration(force, heat, number=2))
     assert lines[4:] == [
@@ -112,11 +112,11 @@ def test_two_fields_and_an_instance(labelled: Model, tmp_path: Path) -> None:
 @pytest.mark.parametrize(
     ("verdict", "lines"),
     [
-        (Verdict.LINEAR, ["          THE FORCE     EQUILIBRIUM RESPONSE WAS LINEAR IN THIS INCREMENT"]),
-        (Verdict.ZERO_FLUX, ["          THERE IS ZERO FORCE     EVERYWHERE"]),
-        (Verdict.CORRECTION_TOO_LARGE, ["          DISP.    CORRECTION TOO LARGE COMPARED TO DISP.    INCREMENT"]),
+        (Convergence.LINEAR, ["          THE FORCE     EQUILIBRIUM RESPONSE WAS LINEAR IN THIS INCREMENT"]),
+        (Convergence.ZERO_FLUX, ["          THERE IS ZERO FORCE     EVERYWHERE"]),
+        (Convergence.CORRECTION_TOO_LARGE, ["          DISP.    CORRECTION TOO LARGE COMPARED TO DISP.    INCREMENT"]),
         (
-            Verdict.ACCEPTED_ESTIMATE,
+            Convergence.ACCEPTED_ESTIMATE,
             [
                 " ESTIMATE OF DISP.    CORRECTION   -1.444E-04",
                 " FORCE     EQUILIB. ACCEPTED BASED ON SMALL RESIDUAL AND ESTIMATED CORRECTION",
@@ -124,7 +124,7 @@ def test_two_fields_and_an_instance(labelled: Model, tmp_path: Path) -> None:
         ),
     ],
 )
-def test_verdicts(labelled: Model, tmp_path: Path, verdict: Verdict, lines: list[str]) -> None:
+def test_verdicts(labelled: Model, tmp_path: Path, verdict: Convergence, lines: list[str]) -> None:
     check = FieldCheck("force", 0.0, 0.01, NONE, NONE, NONE, verdict, estimated_correction=-1.444e-4)
     assert written(labelled, tmp_path, iteration(check))[4:] == [
         " AVERAGE FORCE                       0.00       TIME AVG. FORCE       1.000E-02",
@@ -143,7 +143,7 @@ def test_moments_have_their_own_words(labelled: Model, tmp_path: Path) -> None:
         Largest(-3.273e-3, 2, 5),
         Largest(1.598e-2, 1, 5),
         Largest(1.598e-2, 1, 5),
-        Verdict.CORRECTION_TOO_LARGE,
+        Convergence.CORRECTION_TOO_LARGE,
     )
     assert written(labelled, tmp_path, iteration(check))[4:] == [
         " AVERAGE MOMENT                      1.12       TIME AVG. MOMENT       1.90",
@@ -284,7 +284,7 @@ def test_controls_of_the_deck_are_printed(model: Model, tmp_path: Path) -> None:
 
 
 def test_line_searches_beyond_the_full_correction_are_printed_and_counted(model: Model, tmp_path: Path) -> None:
-    check = FieldCheck("force", 1.0, 1.0, NONE, NONE, NONE, Verdict.CONVERGED)
+    check = FieldCheck("force", 1.0, 1.0, NONE, NONE, NONE, Convergence.CONVERGED)
     file = MessageFile(tmp_path / "job.msg", model)
     file.iteration(IterationDone(1, (check,), line_search=(1.0, 0.345)))
     file.iteration(IterationDone(2, (check,), line_search=(1.0,)))

@@ -11,9 +11,9 @@ from pathlib import Path
 
 import pytest
 
-from harness.model.records import Verdict
+from harness.model.records import Convergence
 from harness.model.steps import FieldControls
-from harness.procedures.acceptance import Check, FluxHistory, judge, residual_tolerance
+from harness.procedures.acceptance import FieldMeasures, FluxHistory, judge, residual_tolerance
 
 DATA = Path(__file__).parents[2] / "data"
 I_P = 9
@@ -43,7 +43,7 @@ def checks_of(rows):
         key = row["run"], row["field"]
         iteration = int(row["iteration"])
         residual = abs(float(row["largest_residual"]))
-        check = Check(
+        check = FieldMeasures(
             q=float(row["average_flux"]),
             q_time=float(row["time_average_flux"]),
             r=residual,
@@ -96,7 +96,7 @@ def test_a_start_residual_turns_the_hidden_rows_into_the_printed_verdict():
         limit = check.c * check.r / (controls.c_n * check.du) if check.du else float("inf")
         accepted = row["verdict"] == "accepted_estimate"
         start = limit * (1.01 if accepted else 0.99)
-        with_start = Check(check.q, check.q_time, check.r, start, check.du, check.c, 1)
+        with_start = FieldMeasures(check.q, check.q_time, check.r, start, check.du, check.c, 1)
         assert judge(with_start, controls, I_P) == row["verdict"]
 
 
@@ -133,6 +133,6 @@ def test_flux_before_any_flux_is_q_0_and_a_given_flux_replaces_the_mean():
 
 
 def test_residual_control_is_relaxed_after_i_p_iterations():
-    check = Check(q=1.0, q_time=1.0, r=0.01, r_previous=1.0, du=1.0, c=1e-3, iteration=9)
-    assert judge(check, FieldControls(), I_P) is Verdict.NOT_ACHIEVED
-    assert judge(replace(check, iteration=10), FieldControls(), I_P) is Verdict.CONVERGED
+    check = FieldMeasures(q=1.0, q_time=1.0, r=0.01, r_previous=1.0, du=1.0, c=1e-3, iteration=9)
+    assert judge(check, FieldControls(), I_P) is Convergence.NOT_ACHIEVED
+    assert judge(replace(check, iteration=10), FieldControls(), I_P) is Convergence.CONVERGED

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from harness.assembly import Evaluation
-from harness.model.records import Largest, Verdict
+from harness.model.records import Convergence, Largest
 from harness.model.steps import Controls, FieldControls, TimeControls
 from harness.procedures import incrementation
 from harness.procedures.acceptance import FluxHistory
@@ -79,13 +79,13 @@ def test_controls_by_field():
     under_test = checker(Controls(fields={"TEMPERATURE": FieldControls(r_n=0.05, c_n=1.0)}))
     under_test.start(iterate(0, [0, 0, 0]), extrapolated=False)
     force, temperature = under_test.check(iterate(1, [0.1, 0.1, 0.1]))
-    assert force.verdict is Verdict.NOT_ACHIEVED
-    assert temperature.verdict is Verdict.CONVERGED
+    assert force.verdict is Convergence.NOT_ACHIEVED
+    assert temperature.verdict is Convergence.CONVERGED
 
 
 def test_the_residual_of_the_start_serves_only_after_an_extrapolation():
     """Correction 0.2 of an increment 3, residual 0.01: the estimate 0.2 x 0.01/1 is below 0.03."""
-    for extrapolated, verdict in ((True, Verdict.ACCEPTED_ESTIMATE), (False, Verdict.CORRECTION_TOO_LARGE)):
+    for extrapolated, verdict in ((True, Convergence.ACCEPTED_ESTIMATE), (False, Convergence.CORRECTION_TOO_LARGE)):
         under_test = checker()
         under_test.start(iterate(0, [1.0, 1.0, 1.0]), extrapolated=extrapolated)
         force, _ = under_test.check(iterate(1, [0.01, 0.01, 0.01]))

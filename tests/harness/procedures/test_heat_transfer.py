@@ -9,7 +9,7 @@ import pytest
 
 from harness.job import run
 from harness.model.procedures import CoupledTemperatureDisplacement, HeatTransfer, Visco
-from harness.model.records import Verdict
+from harness.model.records import Convergence
 from harness.procedures.heat_transfer import CHANGES_TOO_FAST
 
 G, C = 2.0, 0.5
@@ -40,7 +40,7 @@ def test_steady_state_is_linear_between_prescribed_temperatures(bench, conduct):
     assert result.last.reaction == pytest.approx([-flux, 0.0, flux])
     ((check,),) = result.iterations()
     assert check.field == "temperature"
-    assert check.verdict is Verdict.LINEAR
+    assert check.verdict is Convergence.LINEAR
 
 
 def test_transient_with_fixed_increments_is_backward_euler(bench, conduct):

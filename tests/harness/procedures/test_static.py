@@ -8,7 +8,7 @@ import pytest
 from harness.errors import ConvergenceError, KernelError, SingularMatrixError, Source
 from harness.model.amplitude import Amplitude, AmplitudeType
 from harness.model.procedures import Static
-from harness.model.records import AttemptStarted, IterationDone, StepDone, StepStarted, Verdict, Warned
+from harness.model.records import AttemptStarted, Convergence, IterationDone, StepDone, StepStarted, Warned
 from harness.model.steps import Controls, FieldControls, LineSearchControls, TimeControls
 
 SOURCE = Source("springs.inp", 1)
@@ -20,7 +20,7 @@ def test_linear_spring_takes_one_iteration(bench):
     result = bench.run([LINEAR], [bench.step(boundaries=(bench.fix(0), bench.fix(1, 0.5)))])
     assert result.error is None
     (checks,) = result.iterations()
-    assert [check.verdict for check in checks] == [Verdict.LINEAR]
+    assert [check.verdict for check in checks] == [Convergence.LINEAR]
     assert result.last.displacement == pytest.approx([0.0, 0.5])
     assert result.last.reaction == pytest.approx([-1.0, 1.0])
     assert checks[0].average_flux == pytest.approx(1.0)
@@ -53,7 +53,7 @@ def test_matrix_is_taken_again_after_a_linear_increment(bench, sizes):
     assert result.error is None
     ends = [done.step_time for done in result.increments]
     blocks = result.iterations()
-    linear = [block[-1].verdict is Verdict.LINEAR for block in blocks]
+    linear = [block[-1].verdict is Convergence.LINEAR for block in blocks]
     found = [abs(check.residual.value) for block in blocks for check in block]
     wanted = newton_with_old_matrices(ends, [len(block) for block in blocks], linear)
     assert found == pytest.approx(wanted, rel=1e-3, abs=1e-14)
@@ -143,8 +143,8 @@ def test_extrapolation_starts_the_next_increment_where_the_last_points(bench):
     assert second[0].correction.value == pytest.approx(
         with_it.last.displacement[1] - 2 * with_it.increments[0].solution.displacement[1], rel=1e-3
     )
-    assert first[0].verdict is Verdict.CORRECTION_TOO_LARGE
-    assert second[0].verdict is Verdict.ACCEPTED_ESTIMATE
+    assert first[0].verdict is Convergence.CORRECTION_TOO_LARGE
+    assert second[0].verdict is Convergence.ACCEPTED_ESTIMATE
     assert second[0].estimated_correction is not None
     assert len(without.iterations()[1]) == 2
 

@@ -161,7 +161,7 @@ def monolithic(columns: int, rows: int):
     return hold(matrix, coordinates, coordinates[:, 0] == columns * 0.5)
 
 
-def unheld(case: str, stiffness: float):
+def unconstrained(case: str, stiffness: float):
     matrix, coordinates = beam(60, 2, stiffness)
     dof = np.arange(len(coordinates)) % 2
     end = coordinates[:, 0] == coordinates[:, 0].max()
@@ -181,7 +181,7 @@ def unheld(case: str, stiffness: float):
     [("nothing held", (1, 2)), ("free along 1", (1,)), ("free along 2", (2,)), ("free to turn", (2,))],
 )
 def test_body_that_is_not_held_is_named(name, stiffness, case, dofs) -> None:
-    matrix, coordinates, free = unheld(case, stiffness)
+    matrix, coordinates, free = unconstrained(case, stiffness)
     solver = solver_for(name, matrix, coordinates, name_of=lambda k: (str(free[k] // 2 + 1), int(free[k]) % 2 + 1))
     with pytest.raises(SingularMatrixError, match=r"singular system matrix at node \d+, dof \d: .* not held") as raised:
         solver.factorise(matrix.data)

@@ -174,7 +174,7 @@ def test_first_error_with_its_line_and_column(load):
 
 
 def test_what_gfortran_refuses_is_shown(load):
-    """.eqv. binds less than .and.: this comparison cannot be mended without a thought."""
+    """.eqv. binds less than .and.: this comparison has no single meaning."""
     body = "      logical a, b\n      a = .true.\n      b = .true.\n      if (a .eq. .true. .and. b) a = b\n"
     with pytest.raises(CompileError, match=r"Logicals must be .* \(user.f, line 8(?s:.*)Hint: Abaqus' compiler takes"):
         load(database(body))

@@ -53,7 +53,7 @@ def test_debug_build_says_it_too(tmp_path):
     library.close()
 
 
-def test_warning_before_an_error_does_not_keep_it_from_being_mended(load, tmp_path):
+def test_warning_before_an_error_does_not_keep_it_from_being_repaired(load, tmp_path):
     """Logicals compared with .eq. behind the call: gfortran tells of both in one output."""
     call = "call fill(b, 0.d0)"
     body = f"      real*8 b(3)\n      logical flag\n      flag = .true.\n      b = 0\n      {call}\n"

@@ -25,7 +25,7 @@ from scipy.sparse.linalg import splu
 from harness import usersub
 from harness.assembly import Constraints, System
 from harness.deck import read_deck
-from harness.elements import Block, Call, Flags, build_blocks
+from harness.elements import Call, ElementBlock, Flags, build_blocks
 from harness.model.arrays import FloatArray
 from harness.model.model import Model
 from harness.model.records import IncrementDone, IterationDone
@@ -98,7 +98,7 @@ class Elements:
         self.rows = [(block, *self._measure(block)) for block in system.blocks]
         self.assembled = least(lambda: system.evaluate(call, u, np.zeros_like(u)))
 
-    def _measure(self, block: Block) -> list[float]:
+    def _measure(self, block: ElementBlock) -> list[float]:
         u, zero, call = self._u, np.zeros_like(self._u), self._call
         return least_of(
             lambda: block.evaluate(call, u, zero, self._residual, self._data),

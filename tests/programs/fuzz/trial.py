@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """One damaged deck through the harness: read, and some of them build, with one attempt at an increment if small.
 
-A trial is good if the deck runs, or ends with an error that is the user's to mend and names its place. The kernels are
+A trial is good if the deck runs, or ends with an error that the user can fix and that names its place. The kernels are
 the project's own, whatever the deck was written for. What a model does after its first attempt is not looked at: a
 deck that is still valid may be as long as it likes.
 """

@@ -19,14 +19,14 @@ from typing import Any
 import numpy as np
 
 from harness import usersub
-from harness.assembly import ForgivingSystem
+from harness.assembly import TolerantSystem
 from harness.deck import read_deck
 from harness.errors import UelError
 from harness.model.model import Model
 from harness.model.records import AttemptAbandoned, IncrementDone, Solution
 from harness.output.status import read_status
 from harness.procedures import run_steps
-from harness.usersub import marks
+from harness.usersub import guard_values
 
 MANIFEST = Path(__file__).with_name("manifest.toml")
 Row = dict[str, Any]
@@ -110,8 +110,8 @@ def _records(root: Path, row: Row) -> Iterator[tuple[Model, Any]]:
         sources = [root / name for name in row["sources"]] or None
         library = usersub.load(sources, job="job", output_dir=Path(output), deck=deck, zero_locals=True)
         try:
-            with marks({}):
-                for record in run_steps(ForgivingSystem(model, library), model, library):
+            with guard_values({}):
+                for record in run_steps(TolerantSystem(model, library), model, library):
                     library.messages()
                     yield model, record
         finally:

@@ -154,10 +154,10 @@ def whole_bound(text: str, line: int) -> str | None:
         bounds = row[found.end() + 1 : last]
         pieces += [row[end : found.end() + 1], *(_whole(bound, names) for bound in re.split("([,:])", bounds))]
         end = last
-    mended = "".join(pieces) + row[end:]
-    if mended == row:
+    changed = "".join(pieces) + row[end:]
+    if changed == row:
         return None
-    lines[line - 1] = mended
+    lines[line - 1] = changed
     return "".join(lines)
 
 
@@ -201,10 +201,10 @@ def type_constants(text: str, line: int) -> str | None:
         kinds.setdefault(kind, []).append(name)
     typed = "; ".join(f"{kind} {', '.join(names)}" for kind, names in kinds.items())
     values = ", ".join(f"{name}={value}" for name, _, value in constants)
-    mended = f"{row[: len(row) - len(row.lstrip())]}{typed}; parameter ({values})"
-    if len(mended) > _LONGEST:
+    changed = f"{row[: len(row) - len(row.lstrip())]}{typed}; parameter ({values})"
+    if len(changed) > _LONGEST:
         return None
-    lines[line - 1] = f"{mended}\n"
+    lines[line - 1] = f"{changed}\n"
     return "".join(lines)
 
 

@@ -8,7 +8,7 @@ from scipy import sparse
 
 import harness
 from harness.errors import SingularMatrixError
-from harness.procedures.unheld import UnheldSolver
+from harness.procedures.unconstrained import UnconstrainedSolver
 from harness.solver.linear import choose
 
 YOUNG, PULL = 1000.0, 3.0
@@ -124,7 +124,7 @@ def test_a_soft_part_beside_what_moves_freely():
     """Two springs in a row, the one that is held a million times softer, beside a spring with two free ends."""
     soft = 1e-6
     matrix = sparse.csr_array([[1 + soft, -1, 0, 0], [-1, 1, 0, 0], [0, 0, 1, -1], [0, 0, -1, 1]])
-    solver = UnheldSolver(choose("superlu", matrix.indptr, matrix.indices))
+    solver = UnconstrainedSolver(choose("superlu", matrix.indptr, matrix.indices))
     solver.factorise(matrix.data)
     found = solver.solve(np.array([0.0, 3.0, 0.0, 0.0]))
     np.testing.assert_allclose(found, [3.0 / soft, 3.0 / soft + 3.0, 0.0, 0.0], rtol=1e-6)

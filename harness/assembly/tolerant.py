@@ -12,35 +12,35 @@ from harness.elements import Call, build_blocks
 from harness.errors import NotFiniteError
 from harness.model.arrays import FloatArray
 from harness.model.model import Model
-from harness.usersub import ARRAYS, AS_GOOD_AS_ZERO, Library, marks, set_marks
+from harness.usersub import ARRAYS, AS_GOOD_AS_ZERO, Library, guard_values, set_guard_values
 
 
-class ForgivingSystem(System):
+class TolerantSystem(System):
     """A system whose elements may read outside their arrays: where that makes NaN, zeros lie there from then on."""
 
     def __init__(self, model: Model, library: Library) -> None:
         super().__init__(model.mesh, build_blocks(model, library, strict=False, zeros=True), model.equations)
         self._library = library
-        self._forgiven = False
+        self._tolerated = False
 
     def evaluate(self, call: Call, u: FloatArray, du: FloatArray, **options: Any) -> Evaluation:
         """As that of a system; what elements read outside is a warning, once."""
         try:
             return super().evaluate(call, u, du, **options)
         except NotFiniteError as error:
-            culprits = () if self._forgiven else self._read_outside(call, u, du, options)
+            culprits = () if self._tolerated else self._read_outside(call, u, du, options)
             if not culprits:
                 raise
-            self._forgiven = True
+            self._tolerated = True
             where = culprits[0] if len(culprits) == 1 else "its arrays"
             self._library.warn(f"{error}: it reads outside {where}, see uel check; the run goes on with zeros there")
-        set_marks(dict.fromkeys(ARRAYS, AS_GOOD_AS_ZERO))
+        set_guard_values(dict.fromkeys(ARRAYS, AS_GOOD_AS_ZERO))
         return super().evaluate(call, u, du, **options)
 
     def _read_outside(self, call: Call, u: FloatArray, du: FloatArray, options: dict[str, Any]) -> tuple[str, ...]:
         """The array outside which a zero in place of NaN lets the pass through; all of them where several do."""
         for names in (*((name,) for name in ARRAYS), ARRAYS):
-            with marks(dict.fromkeys(names, AS_GOOD_AS_ZERO)), suppress(NotFiniteError):
+            with guard_values(dict.fromkeys(names, AS_GOOD_AS_ZERO)), suppress(NotFiniteError):
                 super().evaluate(call, u, du, **options)
                 return names
         return ()

@@ -8,10 +8,9 @@ import os
 from contextlib import suppress
 from pathlib import Path
 
-from harness.output.formats import TextFile
+from harness.output.formats import TextFile, remark
 from harness.output.lock import LockedError, locked
 from harness.output.status import COMPLETED, NOT_COMPLETED, head
-from harness.output.wording import remark
 
 _TEXTS = (".sta", ".msg", ".dat", "_history.csv", "_interface.csv")
 
@@ -29,7 +28,7 @@ def forget_verdict(stem: Path) -> None:
         file.close()
 
 
-def close_broken(stem: Path, reason: str) -> None:
+def close_ended_run(stem: Path, reason: str) -> None:
     """As `write_verdict`, of a run that another process made; not where one more of this name has begun."""
     with suppress(LockedError, OSError), locked(stem):
         write_verdict(stem, reason)

@@ -30,7 +30,7 @@ REFINEMENTS = 3
 UNLOADED = "{}. NO FORCE ACTS ON WHAT MOVES FREELY: IT IS GIVEN SMALL DISPLACEMENTS"
 
 
-class UnheldSolver:
+class UnconstrainedSolver:
     """A linear solver that bears singular matrices where the right-hand side has a solution all the same.
 
     free  error of the last matrix, None if it is regular

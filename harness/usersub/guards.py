@@ -20,16 +20,16 @@ ARRAYS: Final = _binding.ARRAYS
 
 
 AS_GOOD_AS_ZERO: Final = 1e-300
-"""What a guard holds where reading it is forgiven; a zero that is written there is still noticed."""
+"""What a guard holds where reading it is tolerated; a zero that is written there is still noticed."""
 
 
-def set_marks(values: Mapping[str, float]) -> None:
-    """Let guards hold other values until the `marks` around the call ends."""
+def set_guard_values(values: Mapping[str, float]) -> None:
+    """Let guards hold other values until the `guard_values` around the call ends."""
     held = np.zeros(len(ARRAYS) + 1)
-    _binding.exchange_marks(held)
+    _binding.exchange_guard_values(held)
     for name, value in values.items():
         held[[*ARRAYS, UNSET].index(name)] = value
-    _binding.exchange_marks(held)
+    _binding.exchange_guard_values(held)
 
 
 @contextmanager
@@ -43,7 +43,7 @@ def room(entries: int) -> Iterator[None]:
 
 
 @contextmanager
-def marks(values: Mapping[str, float]) -> Iterator[None]:
+def guard_values(values: Mapping[str, float]) -> Iterator[None]:
     """Let guards of some arrays (by their names in ARRAYS), or UNSET, hold other values, and give back what they held.
 
     A guard reports a write only where it changes the bits of the guard.
@@ -51,12 +51,12 @@ def marks(values: Mapping[str, float]) -> Iterator[None]:
     names = [*ARRAYS, UNSET]
     # an exchange with anything tells what is there
     held = np.zeros(len(names))
-    _binding.exchange_marks(held)
+    _binding.exchange_guard_values(held)
     chosen = held.copy()
     for name, value in values.items():
         chosen[names.index(name)] = value
-    _binding.exchange_marks(chosen)
+    _binding.exchange_guard_values(chosen)
     try:
         yield
     finally:
-        _binding.exchange_marks(held)
+        _binding.exchange_guard_values(held)

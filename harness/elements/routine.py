@@ -12,7 +12,7 @@ from harness.model.arrays import FloatArray, IntArray
 
 
 @dataclass(frozen=True, slots=True)
-class Procedure:
+class Routine:
     """What the driver calls for a block, and with which constants.
 
     material  number of the material in the host, 0 without one (then UEL is called, else UELMAT)
