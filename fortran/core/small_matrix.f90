@@ -9,14 +9,18 @@ module core_small_matrix
 
 contains
 
-  !> Determinant of a 3 x 3 matrix.
+  !> Determinant of a matrix of two or three rows.
   pure function determinant(a) result(value)
-    real(dp), intent(in) :: a(3, 3)
+    real(dp), intent(in) :: a(:, :)
     real(dp) :: value
 
-    value = a(1, 1)*(a(2, 2)*a(3, 3) - a(2, 3)*a(3, 2)) &
-      - a(1, 2)*(a(2, 1)*a(3, 3) - a(2, 3)*a(3, 1)) &
-      + a(1, 3)*(a(2, 1)*a(3, 2) - a(2, 2)*a(3, 1))
+    if (size(a, 1) == 2) then
+      value = a(1, 1)*a(2, 2) - a(1, 2)*a(2, 1)
+    else
+      value = a(1, 1)*(a(2, 2)*a(3, 3) - a(2, 3)*a(3, 2)) &
+        - a(1, 2)*(a(2, 1)*a(3, 3) - a(2, 3)*a(3, 1)) &
+        + a(1, 3)*(a(2, 1)*a(3, 2) - a(2, 2)*a(3, 1))
+    end if
   end function determinant
 
   !> Cofactors of a 3 x 3 matrix: the inverse is their transpose over the determinant.

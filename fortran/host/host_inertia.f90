@@ -5,6 +5,7 @@
 !> In dynamic steps the operator of Hilber, Hughes and Taylor needs the forces of the last two increments: they are kept
 !> as state, as in the example of UEL in the Abaqus User Subroutines Guide.
 module host_inertia
+  use core_small_matrix, only: determinant
   use host_context, only: initial_stresses
   use host_kinds, only: dp, i4
   use host_shape, only: is_quadratic, radius_of, rule_t
@@ -32,7 +33,7 @@ contains
     integer :: i, k, p
     at_nodes = 0
     do p = 1, rule%points
-      weight = density*rule%weight(p)*determinant(rule%dim, matmul(x, rule%dn(:, :, p)))*radius_of(rule, p, axisymmetric, x)
+      weight = density*rule%weight(p)*determinant(matmul(x, rule%dn(:, :, p)))*radius_of(rule, p, axisymmetric, x)
       do k = 1, rule%nodes
         if (is_quadratic(rule)) then
           at_nodes(:, k) = at_nodes(:, k) + weight*rule%n(k, p)*rule%n(:, p)
@@ -46,16 +47,6 @@ contains
       mass(i::rule%dim, i::rule%dim) = at_nodes
     end do
   end subroutine mass_matrix
-
-  pure real(dp) function determinant(dim, a)
-    integer, intent(in) :: dim
-    real(dp), intent(in) :: a(dim, dim)
-    determinant = a(1, 1)*a(2, 2) - a(1, 2)*a(2, 1)
-    if (dim == 3) then
-      determinant = determinant*a(3, 3) + (a(1, 2)*a(2, 3) - a(1, 3)*a(2, 2))*a(3, 1) &
-                    - (a(1, 1)*a(2, 3) - a(1, 3)*a(2, 1))*a(3, 2)
-    end if
-  end function determinant
 
   !> RHS and AMATRX, which hold internal force and stiffness on entry. mass is used by dynamic steps and where it is asked
   !> for; old: forces of the last two increments, changed where the call keeps state; kinetic: ENERGY(1).
