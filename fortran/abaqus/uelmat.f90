@@ -35,7 +35,7 @@ subroutine uelmat(rhs, amatrx, svars, energy, ndofel, nrhs, nsvars, props, nprop
   good = call_is_good(jtype, jelem, ndofel, nsvars, nprops, mcrd, nnode, njprop, ndload, lflags, props, jprops, &
     values, options)
   if (.not. good) return
-  ! neither damping nor mass: those matrices try_without_growth zero
+  ! neither damping nor mass: those matrices stay zero
   if (lflags(3) == 3 .or. lflags(3) == 4) return
 
   n = size(state)
