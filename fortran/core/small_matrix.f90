@@ -1,11 +1,11 @@
 ! SPDX-FileCopyrightText: The uel-harness authors
 ! SPDX-License-Identifier: BSD-3-Clause
-!> Determinants and inverses of matrices of two or three rows.
+!> Determinants and inverses of small matrices.
 module core_small_matrix
   use core_kinds, only: dp
   implicit none(type, external)
   private
-  public :: determinant, cofactors, invert
+  public :: determinant, cofactors, invert, invert_general
 
 contains
 
@@ -59,5 +59,34 @@ contains
       inverse = 0.0_dp
     end if
   end subroutine invert
+
+  !> Inverse of a matrix of any size, by Gauss and Jordan with row pivots.
+  pure subroutine invert_general(matrix, inverse, good)
+    real(dp), intent(in) :: matrix(:, :)
+    real(dp), intent(out) :: inverse(size(matrix, 1), size(matrix, 1))   !< zero where the matrix is singular
+    logical, intent(out) :: good                                         !< false where it is, or an entry is NaN
+    real(dp) :: a(size(matrix, 1), 2*size(matrix, 1)), row(2*size(matrix, 1))
+    integer :: i, k, n, pivot
+
+    n = size(matrix, 1)
+    a = 0.0_dp
+    a(:, :n) = matrix
+    do i = 1, n
+      a(i, n + i) = 1.0_dp
+    end do
+    inverse = 0.0_dp
+    do k = 1, n
+      pivot = k - 1 + maxloc(abs(a(k:, k)), dim=1)
+      good = abs(a(pivot, k)) > 0.0_dp
+      if (.not. good) return
+      row = a(pivot, :)/a(pivot, k)
+      a(pivot, :) = a(k, :)
+      a(k, :) = row
+      do i = 1, n
+        if (i /= k) a(i, :) = a(i, :) - a(i, k)*row
+      end do
+    end do
+    inverse = a(:, n + 1:)
+  end subroutine invert_general
 
 end module core_small_matrix

@@ -16,7 +16,7 @@ module host_materials
   use host_usdfld, only: user_field_t
   implicit none (type, external)
   private
-  public :: material_t, define, find_material, stress_update, elastic_energy, thickness_strain, history_values, &
+  public :: material_t, define, find_material, stress_update, not_solved, elastic_energy, thickness_strain, history_values, &
             has_fields, set_constants
 
   !> Values of the history of a point of a plastic or prestressed material: strain without stress (6), which is the plastic
@@ -142,14 +142,20 @@ contains
         call mises_plane_stress(material%young, material%poisson, material%yield, old, strain, stress, tangent, new, solved)
         if (.not. solved) then
           write (text, '(a,i0)') '*PLASTIC: the return to the yield surface is not solved at integration point ', point
-          call add_message(-1_i4, text)
-          current%pnewdt = min(current%pnewdt, smaller)
+          call not_solved(text)
         end if
       else
         call mises_solid(material%young, material%poisson, material%yield, n, old, strain, stress, tangent, new)
       end if
     end associate
   end subroutine stress_update
+
+  !> Warn that a local solve has not come to its end, and ask for a smaller increment.
+  subroutine not_solved(text)
+    character(len=*), intent(in) :: text
+    call add_message(-1_i4, text)
+    current%pnewdt = min(current%pnewdt, smaller)
+  end subroutine not_solved
 
   !> Linear elasticity.
   pure subroutine linear(material, strain, stress, tangent)

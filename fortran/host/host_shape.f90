@@ -11,7 +11,8 @@ module host_shape
   use host_protect, only: escape
   implicit none (type, external)
   private
-  public :: line2, quad4, rule_t, rule_of, find_rule, is_quadratic, is_multilinear, radius_of, hourglass_shapes
+  public :: line2, quad4, rule_t, rule_of, find_rule, is_quadratic, is_multilinear, radius_of, hourglass_shapes, &
+            parent_place
 
   integer, parameter :: line2 = 1, line3 = 2, tri3 = 3, tri6 = 4, quad4 = 5, quad8 = 6, tet4 = 7, hex8 = 8, hex20 = 9, tet10 = 10
   integer, parameter :: wedge6 = 11, wedge15 = 12, families = wedge15, most_points = 27
@@ -126,6 +127,18 @@ contains
     type(rule_t), intent(in) :: rule
     is_multilinear = any(rule%family == [quad4, hex8])
   end function is_multilinear
+
+  !> Parent coordinates of a point of a quadrilateral of four or a hexahedron of eight nodes.
+  pure function parent_place(rule, point) result(place)
+    type(rule_t), intent(in) :: rule
+    integer, intent(in) :: point
+    real(dp) :: place(rule%dim)
+    if (rule%dim == 2) then
+      place = matmul(quad(:, :4), rule%n(:, point))
+    else
+      place = matmul(hex(:, :8), rule%n(:, point))
+    end if
+  end function parent_place
 
   !> Distance of a point from the axis (direction 2) where the element is axisymmetric, else 1.
   pure real(dp) function radius_of(rule, point, axisymmetric, x)

@@ -6,8 +6,8 @@
 !> JPROPS: family of the element (host_shape), integration points, direct strains (host_kinematics), enhanced hourglass
 !> control, integration points of the mass. CPE4, CAX4 and C3D8 replace the volume strain of the points by its mean over the
 !> element, as Abaqus does. CPS4R, CPE4R, CAX4R and C3D8R have the uniform strain and hourglass control (host_hourglass):
-!> enhanced where JPROPS(4) is not zero, else with the stiffness parameter PROPS(3). PROPS(1) is the thickness, of
-!> axisymmetric elements the angle 2 pi; PROPS(2) is the density.
+!> enhanced where JPROPS(4) is not zero, else with the stiffness parameter PROPS(3). JPROPS(6) is the number of incompatible
+!> modes (host_incompatible). PROPS(1) is the thickness, of axisymmetric elements the angle 2 pi; PROPS(2) is the density.
 !>
 !> Large displacements: Cauchy stress, turned and extended increment by increment with the strain and the rotation at the
 !> middle of the increment (Jaumann rate; Hughes and Winget). The tangent leaves out the change of the volume and of the
@@ -17,18 +17,21 @@
 !>
 !> SVARS hold, for each point, E11 E22 E33 E12 S11 S22 S33 S12, in space with 13 and 23 after 12, in the directions of
 !> *ORIENTATION where the section has one, as Abaqus prints them; in dynamic analyses then the forces of the last two
-!> increments.
+!> increments; last the incompatible modes.
 module host_solid
   use core_small_matrix, only: cofactors, determinant
   use host_context, only: current, initial_stresses
   use host_coupling, only: add_heat_source, coupling_t, set_temperature
+  use host_forces, only: add_axisymmetric_point, add_geometric, add_plane_point, add_space_point
   use host_hourglass, only: has_hourglass_modes, resist_hourglass
+  use host_incompatible, only: condense, find_change, mode_strains
   use host_inertia, only: is_dynamic, mass_matrix, respond
   use host_initial_stress, only: begin_point
   use host_kinds, only: dp, i4
   use host_kinematics, only: average_volume_strain, components, gradients, mean_gradients, point_position, rotated, &
                              rotation_of, strain_matrix
-  use host_materials, only: elastic_energy, find_material, has_fields, material_t, set_constants, stress_update, thickness_strain
+  use host_materials, only: elastic_energy, find_material, has_fields, material_t, not_solved, set_constants, &
+                            stress_update, thickness_strain
   use host_shape, only: is_multilinear, is_quadratic, radius_of, rule_of, rule_t
   use host_usdfld, only: call_usdfld
   implicit none (type, external)
@@ -59,10 +62,11 @@ contains
     type(material_t), pointer :: material
     type(rule_t), pointer :: rule
     real(dp) :: mass(ndofel, ndofel), old(ndofel, 2)
-    integer :: dim, direct, first, last, n
+    integer :: dim, direct, first, last, modes, n
     rule => rule_of(int(jprops(1)), int(jprops(2)))
     dim = rule%dim
     direct = jprops(3)
+    modes = jprops(6)
     n = ndofel
     material => find_material(materiallib)
     first = rule%points*values_of_point(dim) + 1
@@ -76,8 +80,14 @@ contains
     rhs(1:n*nrhs) = 0
     amatrx(1:n*n) = 0
     if (lflags(3) /= 3 .and. lflags(3) /= 4) then
-      call integrate(rule, direct, direct + 2*dim - 3, lflags(3) == initial_stresses, lflags(2) /= 0, material, props(1), &
-                     props(3), jprops(4) /= 0, coords, int(npredf), predef, u, du, rhs, amatrx, svars, energy, coupling)
+      if (modes > 0) then
+        call integrate_with_modes(rule, direct + 2*dim - 3, modes, lflags(3) == initial_stresses, material, props(1), coords, &
+                                  int(npredf), predef, u, du, rhs, amatrx, svars, svars(nsvars - modes + 1:nsvars), energy)
+      else
+        call integrate(rule, direct, direct + 2*dim - 3, modes, lflags(3) == initial_stresses, lflags(2) /= 0, material, &
+                       props(1), props(3), jprops(4) /= 0, coords, int(npredf), predef, u, du, rhs, amatrx, svars, energy, &
+                       coupling)
+      end if
     end if
     call respond(n, lflags, params, dtime, v, a, mass, old, rhs, amatrx, energy(1))
     if (nsvars >= last) svars(first:last) = reshape(old, [2*n])
@@ -89,29 +99,72 @@ contains
     values_of_point = merge(8, 12, dim == 2)
   end function values_of_point
 
-  !> Force, tangent, state and energies; begins: of the initial stresses, without a tangent.
-  subroutine integrate(rule, direct, strains, begins, finite, material, thickness, hourglass, enhanced, x, fields, predef, u, &
-                       du, force, stiffness, svars, energy, coupling)
+  !> The same with incompatible modes, in small displacements: they are sought at the displacements of the nodes.
+  subroutine integrate_with_modes(rule, strains, modes, begins, material, thickness, x, fields, predef, u, du, force, &
+                                  stiffness, svars, alpha, energy)
     type(rule_t), intent(in) :: rule
-    integer, intent(in) :: direct, strains, fields
+    integer, intent(in) :: strains, modes, fields
+    logical, intent(in) :: begins
+    type(material_t), intent(inout) :: material
+    real(dp), intent(in) :: thickness, predef(2, fields, rule%nodes)
+    real(dp), dimension(rule%dim*rule%nodes), intent(in) :: x, u, du
+    real(dp), intent(inout) :: force(rule%dim*rule%nodes), stiffness(rule%dim*rule%nodes, rule%dim*rule%nodes)
+    real(dp), intent(inout) :: svars(values_of_point(rule%dim)*rule%points), alpha(modes), energy(8)
+    integer, parameter :: most_passes = 30
+    real(dp), dimension(rule%dim*rule%nodes + modes) :: all_force
+    real(dp), dimension(rule%dim*rule%nodes + modes, rule%dim*rule%nodes + modes) :: all_stiffness
+    real(dp) :: b(modes, strains, rule%points), change(modes), svars_start(size(svars)), energy_start(8)
+    integer :: pass
+    logical :: settled, good
+    call mode_strains(rule, x, modes, strains, b)
+    svars_start = svars
+    energy_start = energy
+    do pass = 1, most_passes
+      svars = svars_start
+      energy = energy_start
+      all_force = 0
+      all_stiffness = 0
+      call integrate(rule, rule%dim, strains, modes, begins, .false., material, thickness, 0.0_dp, .false., x, fields, predef, &
+                     u, du, all_force, all_stiffness, svars, energy, alpha=alpha, by_modes=b)
+      if (begins) then
+        force = all_force(:size(force))
+        return
+      end if
+      call find_change([u, alpha], all_force, all_stiffness, change, settled, good)
+      if (settled .or. .not. good) exit
+      alpha = alpha + change
+    end do
+    if (.not. (settled .and. good)) call not_solved('the incompatible modes are not in equilibrium')
+    call condense(all_force, all_stiffness, force, stiffness)
+  end subroutine integrate_with_modes
+
+  !> Force, tangent, state and energies; begins: of the initial stresses, without a tangent. The unknowns are those of the
+  !> nodes, then the incompatible modes.
+  subroutine integrate(rule, direct, strains, modes, begins, finite, material, thickness, hourglass, enhanced, x, fields, &
+                       predef, u, du, force, stiffness, svars, energy, coupling, alpha, by_modes)
+    type(rule_t), intent(in) :: rule
+    integer, intent(in) :: direct, strains, modes, fields
     logical, intent(in) :: begins, finite, enhanced
     type(material_t), intent(inout) :: material
     real(dp), intent(in) :: thickness, hourglass, predef(2, fields, rule%nodes)
     real(dp), dimension(rule%dim, rule%nodes), intent(in) :: x, u, du
-    real(dp), intent(inout) :: force(rule%dim*rule%nodes), stiffness(rule%dim*rule%nodes, rule%dim*rule%nodes)
+    real(dp), dimension(rule%dim*rule%nodes + modes), intent(inout) :: force
+    real(dp), dimension(rule%dim*rule%nodes + modes, rule%dim*rule%nodes + modes), intent(inout) :: stiffness
     real(dp), intent(inout) :: svars(values_of_point(rule%dim), rule%points), energy(8)
     type(coupling_t), intent(inout), optional :: coupling
+    real(dp), intent(in), optional :: alpha(modes), by_modes(modes, strains, rule%points)   !< modes, and strains by them
     real(dp), dimension(rule%nodes, direct, rule%points) :: g, g_mid
     real(dp), dimension(rule%dim*rule%nodes, strains, rule%points) :: b, b_mid
     real(dp), dimension(rule%points) :: volume, volume_mid
+    real(dp) :: by_unknowns(rule%dim*rule%nodes + modes, strains)
     real(dp) :: now(rule%dim, rule%nodes), g_start(rule%nodes, direct), volume_start, deformation(3, 3, 2, rule%points)
     real(dp) :: strain(strains), stress(strains), modulus(strains, strains), thermal(2), weight, elastic, work
     logical :: averaged
     integer :: dim, nodes, p
     dim = rule%dim
     nodes = rule%nodes
-    ! full integration of elements with straight edges locks where volume is kept, but not in plane stress
-    averaged = rule%points > 1 .and. is_multilinear(rule) .and. material%ntens /= 3
+    ! full integration of elements with straight edges locks where volume is kept, but not in plane stress; modes see to it
+    averaged = rule%points > 1 .and. is_multilinear(rule) .and. material%ntens /= 3 .and. modes == 0
     now = x
     if (finite) now = x + u
     ! the first pass of an analysis, without displacements, sees the initial shape
@@ -150,6 +203,7 @@ contains
         if (allocated(material%user)) current%deformation = deformation(:, :, :, p)
       else
         call find_strain(dim*nodes, strains, b(:, :, p), u, strain)
+        if (modes > 0) strain = strain + matmul(alpha, by_modes(:, :, p))
       end if
       weight = volume(p)*merge(thickness, 1.0_dp, dim == 2)
       if (begins) then
@@ -165,13 +219,15 @@ contains
         call add_heat_source(coupling, weight, b(:, :, p), components(strains, material%ntens))
       end if
       if (finite) call add_geometric(dim, direct, strains, nodes, g(:, :, p), stress, weight, modulus, stiffness)
+      by_unknowns(:dim*nodes, :) = b(:, :, p)
+      if (modes > 0) by_unknowns(dim*nodes + 1:, :) = by_modes(:, :, p)
       select case (strains)
       case (3)
-        call add_plane_point(2*nodes, b(:, :, p), weight*stress, weight*modulus, force, stiffness)
+        call add_plane_point(2*nodes + modes, by_unknowns, weight*stress, weight*modulus, force, stiffness)
       case (4)
-        call add_axisymmetric_point(2*nodes, b(:, :, p), weight*stress, weight*modulus, force, stiffness)
+        call add_axisymmetric_point(2*nodes, by_unknowns, weight*stress, weight*modulus, force, stiffness)
       case default
-        call add_space_point(3*nodes, b(:, :, p), weight*stress, weight*modulus, force, stiffness)
+        call add_space_point(3*nodes + modes, by_unknowns, weight*stress, weight*modulus, force, stiffness)
       end select
     end do
     if (allocated(current%fields)) deallocate (current%fields)
@@ -391,93 +447,4 @@ contains
     state(:n) = e_new
     state(n + 1:) = t_new
   end subroutine point_update
-
-  !> Force and tangent of a point in the plane; its volume is in stress and modulus. Sizes that are known here make this
-  !> and the next two, which are most of the work, quick.
-  pure subroutine add_plane_point(n, b, stress, modulus, force, stiffness)
-    integer, intent(in) :: n
-    real(dp), intent(in) :: b(n, 3), stress(3), modulus(3, 3)
-    real(dp), intent(inout) :: force(n), stiffness(n, n)
-    real(dp) :: db(3)
-    integer :: i, j
-    do j = 1, n
-      force(j) = force(j) + b(j, 1)*stress(1) + b(j, 2)*stress(2) + b(j, 3)*stress(3)
-      db = modulus(:, 1)*b(j, 1) + modulus(:, 2)*b(j, 2) + modulus(:, 3)*b(j, 3)
-      do i = 1, n
-        stiffness(i, j) = stiffness(i, j) + b(i, 1)*db(1) + b(i, 2)*db(2) + b(i, 3)*db(3)
-      end do
-    end do
-  end subroutine add_plane_point
-
-  !> The same in an axisymmetric element.
-  pure subroutine add_axisymmetric_point(n, b, stress, modulus, force, stiffness)
-    integer, intent(in) :: n
-    real(dp), intent(in) :: b(n, 4), stress(4), modulus(4, 4)
-    real(dp), intent(inout) :: force(n), stiffness(n, n)
-    real(dp) :: db(4)
-    integer :: i, j
-    do j = 1, n
-      force(j) = force(j) + b(j, 1)*stress(1) + b(j, 2)*stress(2) + b(j, 3)*stress(3) + b(j, 4)*stress(4)
-      db = modulus(:, 1)*b(j, 1) + modulus(:, 2)*b(j, 2) + modulus(:, 3)*b(j, 3) + modulus(:, 4)*b(j, 4)
-      do i = 1, n
-        stiffness(i, j) = stiffness(i, j) + b(i, 1)*db(1) + b(i, 2)*db(2) + b(i, 3)*db(3) + b(i, 4)*db(4)
-      end do
-    end do
-  end subroutine add_axisymmetric_point
-
-  !> The same in space.
-  pure subroutine add_space_point(n, b, stress, modulus, force, stiffness)
-    integer, intent(in) :: n
-    real(dp), intent(in) :: b(n, 6), stress(6), modulus(6, 6)
-    real(dp), intent(inout) :: force(n), stiffness(n, n)
-    real(dp) :: db(6)
-    integer :: i, j, k
-    do j = 1, n
-      db = 0
-      do k = 1, 6
-        force(j) = force(j) + b(j, k)*stress(k)
-        db = db + modulus(:, k)*b(j, k)
-      end do
-      do i = 1, n
-        stiffness(i, j) = stiffness(i, j) + b(i, 1)*db(1) + b(i, 2)*db(2) + b(i, 3)*db(3) &
-                          + b(i, 4)*db(4) + b(i, 5)*db(5) + b(i, 6)*db(6)
-      end do
-    end do
-  end subroutine add_space_point
-
-  !> Change of the force where a stress that turns with the material keeps its size: sigma : (grad dv^T grad du) to the
-  !> stiffness, - 2 sigma : (dD dD) to the modulus.
-  pure subroutine add_geometric(dim, direct, m, nodes, g, stress, volume, modulus, stiffness)
-    integer, intent(in) :: dim, direct, m, nodes      !< m: number of strains
-    real(dp), intent(in) :: g(nodes, direct), stress(m), volume
-    real(dp), intent(inout) :: modulus(m, m), stiffness(dim*nodes, dim*nodes)
-    integer, parameter :: first(3) = [1, 1, 2], second(3) = [2, 3, 3]
-    real(dp) :: full(direct, direct), basis(direct, direct, m), between(nodes, nodes)
-    integer :: i, j
-    basis = 0
-    full = 0
-    do i = 1, direct
-      basis(i, i, i) = 1
-      full(i, i) = stress(i)
-    end do
-    do i = direct + 1, m
-      basis(first(i - direct), second(i - direct), i) = 0.5_dp
-      basis(second(i - direct), first(i - direct), i) = 0.5_dp
-      full(first(i - direct), second(i - direct)) = stress(i)
-      full(second(i - direct), first(i - direct)) = stress(i)
-    end do
-    do j = 1, m
-      do i = 1, m
-        modulus(i, j) = modulus(i, j) - 2*sum(transpose(basis(:, :, i))*matmul(full, basis(:, :, j)))
-      end do
-    end do
-    between = volume*matmul(g(:, :dim), matmul(full(:dim, :dim), transpose(g(:, :dim))))
-    do i = 1, dim
-      stiffness(i::dim, i::dim) = stiffness(i::dim, i::dim) + between
-    end do
-    if (direct == dim) return
-    do i = 1, nodes
-      stiffness(1::2, 2*i - 1) = stiffness(1::2, 2*i - 1) + volume*full(3, 3)*g(i, 3)*g(:, 3)
-    end do
-  end subroutine add_geometric
 end module host_solid

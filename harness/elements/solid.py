@@ -54,6 +54,9 @@ def solid_routine(model: Model, group: ElementGroup, section: SolidSection, libr
     if dynamic is not None and not material.density:
         message = f"material {material.name} has no *DENSITY, which elements of type {group.type} need in *DYNAMIC"
         raise DeckError(material.source, message)
+    nonlinear = next((step for step in model.steps if step.nlgeom), None)
+    if kind.incompatible and nonlinear is not None:
+        raise DeckError(nonlinear.source, f"NLGEOM is not supported for elements of type {group.type}")
     orientation = _orientation(model, group, section, library)
     hourglass = _hourglass_stiffness(group, kind, section)
     _warn_of_enhanced(model, group, kind, library)
@@ -70,7 +73,7 @@ def solid_routine(model: Model, group: ElementGroup, section: SolidSection, libr
         _binding.set_expansion(number, material.expansion)
     enhanced = kind.hourglass_control and section.controls.enhanced
     unknowns = kind.dimension * kind.nodes
-    hidden = 2 * unknowns if dynamic is not None else 0
+    hidden = (2 * unknowns if dynamic is not None else 0) + kind.modes
     return Routine(
         address=_binding.address_of("solid"),
         jtype=kind.nodes,
@@ -79,7 +82,7 @@ def solid_routine(model: Model, group: ElementGroup, section: SolidSection, libr
         hidden=hidden,
         density=1,
         props=np.array([section_depth(group, section), material.density, hourglass]),
-        jprops=np.array([kind.family.number, kind.points, kind.direct, enhanced, kind.mass_points]),
+        jprops=np.array([kind.family.number, kind.points, kind.direct, enhanced, kind.mass_points, kind.modes]),
         family=kind.family.number,
         material=number,
         tensor=int(kind.tensor),

@@ -121,6 +121,7 @@ class ContinuumType:
     points        integration points of the stiffness
     axisymmetric  the stresses of plane strain, with 33 around the axis; direction 1 is the radius, 2 the axis
     coupled       with temperatures at the corners
+    incompatible  with incompatible modes
     """
 
     name: str
@@ -129,6 +130,7 @@ class ContinuumType:
     tensor: Tensor
     axisymmetric: bool = False
     coupled: bool = False
+    incompatible: bool = False
 
     @property
     def section(self) -> str:
@@ -171,6 +173,14 @@ class ContinuumType:
     def hourglass_control(self) -> bool:
         """True where displacements other than rigid ones leave its only point without strain."""
         return self.points == 1 and self.family in (QUAD4, HEX8)
+
+    @property
+    def modes(self) -> int:
+        """Incompatible modes: one of each displacement along each direction, and those of the volume."""
+        if not self.incompatible:
+            return 0
+        of_volume = {Tensor.PLANE_STRESS: 0, Tensor.PLANE_STRAIN: 1, Tensor.SOLID: 4}
+        return self.dimension**2 + of_volume[self.tensor]
 
     @property
     def mass_points(self) -> int:
@@ -266,7 +276,7 @@ _SPACE: Final = {
     **{"4": (TET4, 1), "6": (WEDGE6, 2), "8": (HEX8, 8), "8R": (HEX8, 1)},
     **{"10": (TET10, 4), "15": (WEDGE15, 9), "20": (HEX20, 27), "20R": (HEX20, 8)},
 }
-_UNCOUPLED: Final = ("CPS6", "CPE6", "CAX6", "C3D6", "C3D10", "C3D15")
+_UNCOUPLED: Final = ("CPS4I", "CPE4I", "C3D8I", "CPS6", "CPE6", "CAX6", "C3D6", "C3D10", "C3D15")
 """Those that have no relative with temperatures here."""
 
 CONTINUUM: Final = {
@@ -276,6 +286,9 @@ CONTINUUM: Final = {
         *(ContinuumType(f"CPE{name}", *row, Tensor.PLANE_STRAIN) for name, row in _PLANE.items()),
         *(ContinuumType(f"CAX{name}", *row, Tensor.PLANE_STRAIN, axisymmetric=True) for name, row in _PLANE.items()),
         *(ContinuumType(f"C3D{name}", *row, Tensor.SOLID) for name, row in _SPACE.items()),
+        ContinuumType("CPS4I", QUAD4, 4, Tensor.PLANE_STRESS, incompatible=True),
+        ContinuumType("CPE4I", QUAD4, 4, Tensor.PLANE_STRAIN, incompatible=True),
+        ContinuumType("C3D8I", HEX8, 8, Tensor.SOLID, incompatible=True),
     )
 }
 """Continuum elements by their names."""

@@ -21,7 +21,7 @@ SQUARE = np.array([[0.0, 0, 0], [1, 0, 0], [1.2, 0.9, 0], [0.1, 1, 0]])
 CUBE = np.array([[0.0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0], [0, 0, 1], [1, 0, 1], [1, 1, 1], [0, 1, 1]])
 EIGHT = np.vstack([SQUARE, (SQUARE + np.roll(SQUARE, -1, axis=0)) / 2])
 NODES = {"CPS3": SQUARE[:3], "CPE3": SQUARE[:3]}
-SPACE = [name for name, kind in CONTINUUM.items() if kind.dimension == 3]
+SPACE = [name for name, kind in CONTINUUM.items() if kind.dimension == 3 and not kind.modes]
 NODES |= {name: unit_cell(CONTINUUM[name].family.cell)[0] for name in SPACE} | {"C3D8": CUBE, "C3D8R": CUBE}
 NODES |= {"CAX3": SQUARE[:3], "CAX8": EIGHT, "CAX8R": EIGHT}
 AXISYMMETRIC = ["CAX3", "CAX4", "CAX4R", "CAX8", "CAX8R"]

@@ -1,0 +1,194 @@
+# SPDX-FileCopyrightText: The uel-harness authors
+# SPDX-License-Identifier: BSD-3-Clause
+"""Elements with incompatible modes: exact bending, published beams, nearly incompressible material, plasticity."""
+
+import numpy as np
+import pytest
+
+import harness
+from harness.errors import DeckError
+from harness.model.element_types import CONTINUUM
+
+SQUARE = np.array([[0, 0], [1, 0], [1, 1], [0, 1]])
+CUBE = np.vstack([np.pad(SQUARE, ((0, 0), (0, 1))), np.pad(SQUARE, ((0, 0), (0, 1)), constant_values=1)])
+CORNERS = {2: SQUARE, 3: CUBE}
+
+
+def grid(*axes):
+    """Nodes and elements of rectangles or bricks between these coordinates."""
+    nodes = np.stack(np.meshgrid(*axes, indexing="ij"), axis=-1).reshape(-1, len(axes))
+    sizes = [len(axis) for axis in axes]
+    step = np.array([np.prod(sizes[k + 1 :], dtype=int) for k in range(len(axes))])
+    first = np.stack(np.meshgrid(*[np.arange(n - 1) for n in sizes], indexing="ij"), axis=-1).reshape(-1, len(axes))
+    elements = first @ step
+    return np.pad(nodes, ((0, 0), (0, 3 - len(axes)))), elements[:, None] + CORNERS[len(axes)] @ step
+
+
+def test_as_many_modes_as_abaqus_has():
+    """Internal variables that the Abaqus Elements Guide lists: four, five and thirteen."""
+    assert {name: kind.modes for name, kind in CONTINUUM.items() if kind.modes} == {"CPS4I": 4, "CPE4I": 5, "C3D8I": 13}
+
+
+@pytest.mark.parametrize("nu", [0.0, 0.3, 0.4999])
+@pytest.mark.parametrize("element_type", ["CPS4I", "CPE4I"])
+def test_rectangles_bend_exactly(forces_of, element_type, nu):
+    """u = (xy, -x^2/2 - m y^2/2) is bending by E11 = y alone, with m = nu and E, in plane strain nu/(1 - nu) and
+    E/(1 - nu^2): no force within, and the energy of the beam."""
+    young = 1000.0
+    ratio, modulus = (nu, young) if element_type == "CPS4I" else (nu / (1 - nu), young / (1 - nu**2))
+    nodes, elements = grid(np.array([0.0, 1.0, 4.0]), np.array([-0.3, 0.1, 0.4]))
+    x, y, _ = nodes.T
+    u = np.column_stack([x * y, -(x**2 + ratio * y**2) / 2])
+    force, _, energy = forces_of(element_type, nodes, elements=elements, young=young, nu=nu)(u)
+    assert energy[1] == pytest.approx(modulus / 2 * 4 * (0.4**3 + 0.3**3) / 3, rel=1e-9)
+    np.testing.assert_allclose(force[(x > 0) & (x < 4)], 0.0, atol=1e-7)
+    np.testing.assert_allclose(force[:, 1], 0.0, atol=1e-7)
+
+
+@pytest.mark.parametrize("nu", [0.0, 0.3, 0.4999])
+@pytest.mark.parametrize("axis", [0, 1, 2])
+def test_bricks_bend_exactly(forces_of, axis, nu):
+    """Bending by E11 = y alone, the section bent as well: u = (xy, -x^2/2 - nu (y^2 - z^2)/2, -nu y z)."""
+    young = 1000.0
+    nodes, elements = grid(np.array([0.0, 1.0, 4.0]), np.array([-0.3, 0.1, 0.4]), np.array([-0.2, 0.3, 0.5]))
+    x, y, z = nodes[:, np.roll([0, 1, 2], -axis)].T
+    u = np.column_stack([x * y, -(x**2 + nu * (y**2 - z**2)) / 2, -nu * y * z])[:, np.roll([0, 1, 2], axis)]
+    force, _, energy = forces_of("C3D8I", nodes, elements=elements, young=young, nu=nu)(u)
+    second_moment = np.ptp(z) * (y.max() ** 3 - y.min() ** 3) / 3
+    assert energy[1] == pytest.approx(young / 2 * np.ptp(x) * second_moment, rel=1e-8)
+    inside = (x > x.min()) & (x < x.max())
+    np.testing.assert_allclose(force[inside], 0.0, atol=1e-6)
+
+
+def slender_beam(shift):
+    """Six elements along 6 x 0.2; the lines between them lean by so much."""
+    nodes, elements = grid(np.arange(7.0), np.array([0.0, 0.2]))
+    x, y, _ = nodes.T
+    inner = (x > 0) & (x < 6)
+    moved = x + np.where(inner, np.sign(y - 0.1) * 0.1 * shift(x), 0.0)
+    return np.column_stack([moved, y, 0 * x]), elements
+
+
+def solve(forces_of, element_type, nodes, elements, fixed, load, **material):
+    """Displacements (nodes, directions) under nodal loads."""
+    dimension = CONTINUUM[element_type].dimension
+    _, stiffness, _ = forces_of(element_type, nodes, elements=elements, **material)(np.zeros((len(nodes), dimension)))
+    free = np.repeat(~fixed, dimension)
+    u = np.zeros(free.size)
+    u[free] = np.linalg.solve(stiffness[np.ix_(free, free)], load[:, :dimension].ravel()[free])
+    return u.reshape(-1, dimension)
+
+
+def shared(nodes, chosen, total, direction):
+    """A force in equal parts at some nodes."""
+    load = np.zeros((len(nodes), 3))
+    load[chosen, direction] = total / chosen.sum()
+    return load
+
+
+SHAPES = {"rectangles": lambda x: 0 * x, "parallelograms": lambda x: 0 * x + 1, "trapezoids": lambda x: (-1) ** x}
+
+
+@pytest.mark.parametrize(
+    ("shape", "published"), [("rectangles", 0.993), ("parallelograms", 0.632), ("trapezoids", 0.052)]
+)
+def test_slender_cantilever(forces_of, shape, published):
+    """The thin beam of R.H. MacNeal, R.L. Harder, Finite Elements in Analysis and Design 1 (1985) 3, under a shear
+    force, over 0.1081. Values of T.H.H. Pian and K. Sumihara's element, which is the same in parallelograms,
+    in X.-M. Chen, S. Cen, Y.-Q. Long, Z.-H. Yao, Computers and Structures 82 (2004) 35."""
+    nodes, elements = slender_beam(SHAPES[shape])
+    tip = nodes[:, 0] == 6
+    # the beam is 0.1 thick, the section 1
+    load = shared(nodes, tip, 10.0, 1)
+    u = solve(forces_of, "CPS4I", nodes, elements, nodes[:, 0] == 0, load, young=1e7)
+    assert u[tip, 1].mean() / 0.1081 == pytest.approx(published, abs=6e-4)
+
+
+def test_cook_membrane(forces_of):
+    """R.D. Cook, J. of the Structural Division 100 (1974) 1851: 23.96 in the limit at the middle of the end;
+    within 0.5 % on 16 x 16 elements."""
+    parent, elements = grid(*[np.linspace(0, 1, 17)] * 2)
+    xi, eta, _ = parent.T
+    nodes = np.column_stack([48 * xi, 44 * xi + eta * (44 - 28 * xi), 0 * xi])
+    end = xi == 1
+    load = shared(nodes, end, 1.0, 1)
+    ends = end & ((eta == 0) | (eta == 1))
+    load[end] *= 17 / 16
+    load[ends] /= 2
+    u = solve(forces_of, "CPS4I", nodes, elements, xi == 0, load, young=1.0, nu=1 / 3)
+    assert u[end & (eta == 0.5), 1].item() == pytest.approx(23.96, rel=5e-3)
+
+
+@pytest.mark.parametrize(("direction", "theory"), [(1, 0.001754), (2, 0.005424)])
+def test_twisted_beam(forces_of, direction, theory):
+    """MacNeal and Harder's beam, turned by 90 degrees along its length: 12 x 1.1 x 0.32 in 12 x 2 x 1 bricks; within
+    1.5 % of their values by beam theory, for a force along the thickness and along the width of the end."""
+    nodes, elements = grid(np.linspace(0, 12, 13), np.array([-0.55, 0.0, 0.55]), np.array([-0.16, 0.16]))
+    x, y, z = nodes.T
+    angle = np.pi / 2 * x / 12
+    # the end lies with its width along z
+    turned = np.column_stack([x, y * np.cos(angle) - z * np.sin(angle), y * np.sin(angle) + z * np.cos(angle)])
+    tip = x == 12
+    load = shared(nodes, tip, 1.0, direction)
+    u = solve(forces_of, "C3D8I", turned, elements, x == 0, load, young=29e6, nu=0.22)
+    assert u[tip, direction].mean() == pytest.approx(theory, rel=1.5e-2)
+
+
+PLATE = """*HEADING
+beam of CPS4I
+*NODE
+1, 0., 0.
+2, 2., 0.
+3, 4., 0.
+11, 0., 1.
+12, 2., 1.
+13, 4., 1.
+*NSET, NSET=END
+13
+*ELEMENT, TYPE={type}, ELSET=ALL
+1, 1, 2, 12, 11
+2, 2, 3, 13, 12
+*SOLID SECTION, ELSET=ALL, MATERIAL=M
+1.
+*MATERIAL, NAME=M
+*ELASTIC
+1000., 0.3
+*PLASTIC
+5., 0.
+25., 1.
+*STEP, INC=20{nlgeom}
+*STATIC
+0.1, 1., 1e-5, 0.1
+*BOUNDARY
+1, 1, 2
+11, 1
+13, 1, 1, -0.1
+3, 1, 1, 0.1
+*OUTPUT, HISTORY
+*NODE OUTPUT, NSET=END
+RF1
+*END STEP
+"""
+
+
+@pytest.mark.parametrize("element_type", ["CPS4I", "CPE4I"])
+def test_plastic_bending(tmp_path, element_type):
+    """A beam bent by its ends far beyond yield: Newton's method converges fast, as the modes are in equilibrium in each
+    pass, and the moment lies between the elastic limit and the largest plastic moment."""
+    deck = tmp_path / "bent.inp"
+    deck.write_text(
+        PLATE.format(type=element_type, nlgeom="").replace("*ELEMENT,", "*NSET, NSET=END\n13\n*ELEMENT,", 1)
+    )
+    result = harness.run(deck, output_dir=tmp_path)
+    assert result.completed
+    assert max(line.total_iterations for line in result.status) <= 5
+    moment = abs(result.history["RF1[END]"][-1])
+    # of a rectangle of height 1: sigma_y/6 and sigma_y/4; plane strain hardens it by 2/sqrt(3)
+    assert 5.0 / 6 < moment < 2 / np.sqrt(3) * 25.0 / 4
+
+
+def test_large_displacements_are_refused(tmp_path):
+    deck = tmp_path / "large.inp"
+    deck.write_text(PLATE.format(type="CPS4I", nlgeom=", NLGEOM"))
+    with pytest.raises(DeckError, match=r"large.inp:\d+: NLGEOM is not supported for elements of type CPS4I"):
+        harness.run(deck, output_dir=tmp_path)
