@@ -53,6 +53,7 @@ def take_interrupts() -> None:
 class _State:
     held = False
     waiting = 0
+    complete = False
 
 
 def raise_interrupts() -> None:
@@ -63,7 +64,7 @@ def raise_interrupts() -> None:
             signal.signal(each, signal.SIG_IGN)
         if _State.held:
             _State.waiting = signum
-        else:
+        elif not _State.complete:
             raise Interrupted(signum)
 
     _handle(end)
@@ -82,6 +83,12 @@ def held() -> Iterator[None]:
     if _State.waiting:
         signum, _State.waiting = _State.waiting, 0
         raise Interrupted(signum)
+
+
+def complete() -> None:
+    """Forget such a signal, and let later ones have no effect: the files of the run say that it has completed."""
+    _State.complete = True
+    _State.waiting = 0
 
 
 @contextmanager

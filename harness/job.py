@@ -14,7 +14,7 @@ from harness import usersub
 from harness.assembly import TolerantSystem
 from harness.deck import read_deck
 from harness.errors import ConvergenceError, ElementError, UelError, in_words
-from harness.interrupts import held
+from harness.interrupts import complete, held
 from harness.model.model import Model
 from harness.output import JobOutput, Result
 from harness.output.lock import job_stem, locked
@@ -128,6 +128,7 @@ def _analyse(
         with held():
             _pass_on(library, output)
             output.close(None)
+            complete()
     except BaseException as error:
         with held(), suppress(OSError):
             _pass_on(library, output)

@@ -159,6 +159,35 @@ def test_signal_between_calls_ends_the_run_at_once(tmp_path: Path) -> None:
     assert "***ERROR: ended by a user or the system" in (tmp_path / f"{LONG_RUN.stem}.msg").read_text()
 
 
+LATE_SIGNAL = """
+import os, signal, sys
+from harness import cli, interrupts, output
+interrupts.raise_interrupts()
+close = output.JobOutput.close
+def send():
+    os.kill(os.getpid(), signal.SIGHUP)
+def closing(job, error):
+    close(job, error)
+    {during}
+output.JobOutput.close = closing
+from harness import job
+whole = job.Result
+job.Result = lambda *args, **more: ({after}, whole(*args, **more))[1]
+sys.exit(cli.main(["run", "--same-process", sys.argv[1], "--output-dir", sys.argv[2]]))
+"""
+
+
+@pytest.mark.parametrize(("during", "after"), [("send()", "None"), ("None", "send()")])
+def test_signal_after_the_verdict_ends_nothing(tmp_path: Path, during: str, after: str) -> None:
+    """The run has completed, as its files say."""
+    deck = LONG_RUN.parents[1] / "patch_horizontal" / "flat_u2.inp"
+    script = LATE_SIGNAL.format(during=during, after=after)
+    command = [sys.executable, "-c", script, str(deck), str(tmp_path)]
+    done = subprocess.run(command, capture_output=True, text=True, check=False)
+    assert (done.returncode, "flat_u2: completed" in done.stdout + done.stderr) == (0, True), done.stderr
+    assert (tmp_path / "flat_u2.sta").read_text().endswith(" THE ANALYSIS HAS COMPLETED SUCCESSFULLY\n")
+
+
 def wait_for(file: Path, text: str, process: subprocess.Popen[str]) -> None:
     """Wait until a file of a run has a text."""
     began = time.monotonic()
