@@ -184,7 +184,7 @@ QUANTITIES: dict[str, Callable[[Result], float]] = {
     function.__name__: function
     for function in (
         *(peak_load, peak_opening, final_load, final_displacement, theory_deviation, dissipation_ratio, energy_error),
-        *(enf_deviation, frmm_deviation, frmm_mode_ratio),
+        *(enf_deviation, frmm_deviation, frmm_mode_ratio, cutbacks),
         *(traction_mean, traction_deviation, traction_lowest, traction_highest, traction_variation, damage_variation),
     )
 }

@@ -5,7 +5,8 @@
 A file holds a table `[[value]]` for each quantity:
 
 decks      decks it holds for
-quantity   name in `harness.delamination.measures`, or a column of the history, whose last value is meant
+quantity   name in `harness.delamination.measures`, or a column of the history, or RF3[SET] for the sum over a node set;
+           of columns the last value is meant, or that at the time `at`
 against    deck to compare with, where the quantity is a comparison
 value, unit
 relative, absolute  tolerance, one of them
@@ -25,7 +26,10 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import NamedTuple
 
+import numpy as np
+
 from harness.delamination.measures import COMPARISONS, QUANTITIES
+from harness.model.arrays import FloatArray
 from harness.output import Result
 
 ENTRIES = {"decks", "quantity", "value", "unit", "why", "kind", "source"}
@@ -39,6 +43,7 @@ class Reference:
     deck: Path
     quantity: str
     against: Path | None
+    at: float | None
     value: float
     tolerance: float
     unit: str
@@ -53,7 +58,21 @@ class Reference:
             return COMPARISONS[self.quantity](result, run(self.against))
         if self.quantity in QUANTITIES:
             return QUANTITIES[self.quantity](result)
-        return float(result.history[self.quantity][-1])
+        history = result.history
+        columns = [name for name in history if name == self.quantity or name.startswith(f"{self.quantity[:-1]}:")]
+        if not columns:
+            raise KeyError(self.quantity)
+        row = self._row(history["time"])
+        return float(sum(history[name][row] for name in columns))
+
+    def _row(self, times: FloatArray) -> int:
+        """The increment that is meant. ValueError where none ends at its time."""
+        if self.at is None:
+            return -1
+        found = np.flatnonzero(np.isclose(times, self.at, rtol=1e-9))
+        if not found.size:
+            raise ValueError(f"{self.deck.name}: no increment ends at {self.at}")
+        return int(found[0])
 
 
 class References(NamedTuple):
@@ -86,9 +105,9 @@ def read_references(folder: Path) -> References:
 def _reference(folder: Path, entry: dict[str, object], deck: str, place: str) -> Reference:
     given = set(entry)
     tolerances = given & {"relative", "absolute"}
-    if given - tolerances - {"against"} != ENTRIES or len(tolerances) != 1:
+    if given - tolerances - {"against", "at"} != ENTRIES or len(tolerances) != 1:
         wanted = ", ".join(sorted(ENTRIES))
-        raise ValueError(f"{place}: expected {wanted}, and relative or absolute; against is optional")
+        raise ValueError(f"{place}: expected {wanted}, and relative or absolute; against and at are optional")
     if entry["kind"] not in KINDS:
         raise ValueError(f"{place}: kind '{entry['kind']}' is none of {', '.join(KINDS)}")
     value = float(str(entry["value"]))
@@ -96,5 +115,6 @@ def _reference(folder: Path, entry: dict[str, object], deck: str, place: str) ->
     against = folder / str(entry["against"]) if "against" in given else None
     if against is not None and entry["quantity"] not in COMPARISONS:
         raise ValueError(f"{place}: no comparison of that name; there are {', '.join(COMPARISONS)}")
+    at = float(str(entry["at"])) if "at" in given else None
     texts = (str(entry[key]) for key in ("unit", "why", "kind", "source"))
-    return Reference(folder / deck, str(entry["quantity"]), against, value, tolerance, *texts)
+    return Reference(folder / deck, str(entry["quantity"]), against, at, value, tolerance, *texts)

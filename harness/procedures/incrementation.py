@@ -48,8 +48,10 @@ class Abandoned:
 
 
 ALIKE = 1e-6
-"""Relative difference of residuals that is no growth: those of two states that follow each other in turn differ by
-rounding, on which it must not depend how the attempt ends."""
+"""Relative difference of residuals that counts as none.
+
+Residuals of two states that take turns differ by rounding, on which the end of an attempt must not depend. They
+diverge: Abaqus cuts the increment to a quarter there (abaqus_inputs/dcb_3d)."""
 
 
 def judge_rate(
@@ -69,10 +71,10 @@ def judge_rate(
     Returns
     -------
     Abandoned | None
-        From iteration I_0: the residuals of two iterations in a row above that of the one before. From I_R: more than
-        I_C iterations needed if the residual goes on falling by the factor of the last iteration.
+        From iteration I_0: the residuals of two iterations in a row not below that of the one before. From I_R: more
+        than I_C iterations needed if the residual goes on falling by the factor of the last iteration.
     """
-    if iteration >= controls.i_0 and len(residuals) > 2 and min(residuals[-2:]) > (1.0 + ALIKE) * residuals[-3]:
+    if iteration >= controls.i_0 and len(residuals) > 2 and min(residuals[-2:]) > (1.0 - ALIKE) * residuals[-3]:
         return Abandoned(controls.d_f, DIVERGING)
     if iteration >= controls.i_r and len(residuals) > 1:
         needed = math.inf

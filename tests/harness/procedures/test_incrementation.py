@@ -100,8 +100,9 @@ def test_diverging_from_i_0():
     growing = [1.0, 2.0, 3.0]
     assert judge_rate(3, growing, 1e-3, DEFAULT) is None
     assert judge_rate(4, [1.0, 1.0, 2.0, 1.5], 1e-3, DEFAULT) == Abandoned(0.25, incrementation.DIVERGING)
-    # two states that follow each other in turn
-    assert judge_rate(4, [1.0, 2.0, 1.0 + 1e-9], 1e-3, DEFAULT) == judge_rate(4, [1.0, 2.0, 1.0], 1e-3, DEFAULT) is None
+    # two states that take turns
+    for last in (1.0, 1.0 + 1e-9, 1.0 - 1e-9):
+        assert judge_rate(4, [1.0, 2.0, last], 1e-3, DEFAULT) == Abandoned(0.25, incrementation.DIVERGING)
     assert judge_rate(4, [1.0, 1.0, 2.0, 0.9], 1e-3, DEFAULT) is None
     assert judge_rate(4, [1.0, 1.0, 2.0, 1.5], 1e-3, TimeControls(i_0=8)) is None
 

@@ -26,7 +26,11 @@ NODES = {
     "CAX4": SQUARE,
     "CPE8R": np.vstack([SQUARE, SQUARE[SIDES].mean(axis=1)]),
     "CAX8": np.vstack([SQUARE, SQUARE[SIDES].mean(axis=1)]),
-    **{name: unit_cell(kind.family.cell)[0] for name, kind in CONTINUUM.items() if kind.dimension == 3},
+    **{
+        name: unit_cell(kind.family.cell)[0]
+        for name, kind in CONTINUUM.items()
+        if kind.dimension == 3 and not kind.modes
+    },
 }
 FACES = {name: len(CONTINUUM[name].family.faces) for name in NODES}
 THICKNESS = 0.5

@@ -42,6 +42,8 @@ def test_prescribed_value_reaches_free_nodes_in_the_first_iteration(bench):
 def test_matrix_is_taken_again_after_a_linear_increment(bench, sizes):
     """Newton's method on f = d + d^3/100 for one unknown, done here with the matrix that each solve is to take.
 
+    It does not depend on the sizes of the increments.
+
     Residuals as in a public message file of Abaqus, of a cube that hardens: rounding after a new matrix, thousandths to
     millionths of the force after the old one, in turns.
     """
@@ -67,7 +69,7 @@ def newton_with_old_matrices(ends, iterations, linear):
     residuals = []
     d = start = step = size = slope = 0.0
     for k, end in enumerate(ends):
-        same = k > 0 and linear[k - 1] and abs(end - start - size) < 1e-12
+        same = k > 0 and linear[k - 1]
         step = step * (end - start) / size if size else 0.0
         size = end - start
         for iteration in range(iterations[k]):
@@ -258,8 +260,8 @@ def test_newton_cycles_without_line_search(bench):
     """f = sqrt(d), no load: from d = 1 full corrections jump between 1 and -1."""
     result = bench.run([ROOT], pull_and_release(bench))
     assert isinstance(result.error, ConvergenceError)
-    assert result.abandoned[0].iterations == 8
-    assert "SLOW" in result.abandoned[0].reason
+    assert result.abandoned[0].iterations == 4
+    assert "DIVERGING" in result.abandoned[0].reason
 
 
 def test_line_search_ends_the_cycle(bench):

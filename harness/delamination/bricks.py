@@ -1,0 +1,90 @@
+# SPDX-FileCopyrightText: The uel-harness authors
+# SPDX-License-Identifier: BSD-3-Clause
+"""Double cantilever beam in space: bricks and COH3D8, as a public model of which the results of Abaqus are known."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from harness.delamination.keywords import integer_table, keyword, node_block, node_set, text
+from harness.model.arrays import IntArray
+
+LENGTH, WIDTH, HEIGHT, CRACK = 60.0, 4.0, 2.0, 20.0
+"""Length, width, height of an arm and length of the crack, mm."""
+
+BRICKS = (30, 2, 2)
+"""Of an arm: along, across, through its height."""
+
+OPENING = 2.5
+"""Distance of the tip lines at the end, mm; the step time is the opening."""
+
+_AROUND = np.array([[0, 0], [0, 1], [1, 1], [1, 0]])
+"""Corners of a face counter-clockwise, across and along."""
+
+
+def bricks_files() -> dict[str, str]:
+    """The deck."""
+    along, across, height = BRICKS
+    # by arm (bottom, top), height, width and length
+    labels = 1 + np.arange(2 * (height + 1) * (across + 1) * (along + 1)).reshape(2, height + 1, across + 1, along + 1)
+    axes = [np.linspace(0.0, size, count + 1) for size, count in zip((LENGTH, WIDTH, HEIGHT), BRICKS, strict=True)]
+    z, y, x = np.meshgrid(*reversed(axes), indexing="ij")
+    places = np.array([np.stack([x, y, z + shift], axis=-1) for shift in (-HEIGHT, 0.0)])
+    arms = np.concatenate([np.hstack([_faces(arm[k]), _faces(arm[k + 1])]) for arm in labels for k in range(height)])
+    tip = round(CRACK / LENGTH * along)
+    interface = np.hstack([_faces(labels[0, -1, :, tip:]), _faces(labels[1, 0, :, tip:])])
+    lines = [
+        "*HEADING",
+        "Double cantilever beam of C3D8 and COH3D8, bilinear law with BK",
+        "** right end clamped; the left ends of the outer faces are pulled apart, the crack runs to the right",
+        "** written by python -m harness.delamination.decks; units N, mm, MPa",
+        *node_block(labels.ravel(), places.reshape(-1, 3)),
+        *_elements("C3D8", "ARMS", arms, 1),
+        *_elements("COH3D8", "INTERFACE", interface, 1 + len(arms)),
+        *node_set("CLAMPED", labels[..., -1].ravel()),
+        *node_set("TOP", labels[1, -1, :, 0]),
+        *node_set("BOTTOM", labels[0, 0, :, 0]),
+        "*SOLID SECTION, ELSET=ARMS, MATERIAL=ARM",
+        "*MATERIAL, NAME=ARM",
+        "*ELASTIC",
+        "70000., 0.3",
+        "*COHESIVE SECTION, ELSET=INTERFACE, MATERIAL=INTERFACE, RESPONSE=TRACTION SEPARATION",
+        "*MATERIAL, NAME=INTERFACE",
+        "*ELASTIC, TYPE=TRACTION",
+        "1.e4, 1.e4, 1.e4",
+        "*DAMAGE INITIATION, CRITERION=QUADS",
+        "30., 30., 30.",
+        "*DAMAGE EVOLUTION, TYPE=ENERGY, MIXED MODE BEHAVIOR=BK, POWER=1.",
+        "0.5, 0.5, 0.5",
+        "*STEP, INC=1000",
+        "*STATIC",
+        f"0.01, {OPENING}, 1.e-10, 0.1",
+        "*BOUNDARY",
+        "CLAMPED, 1, 3",
+        f"TOP, 3, 3, {OPENING / 2}",
+        f"BOTTOM, 3, 3, {-OPENING / 2}",
+        "*OUTPUT, FIELD, FREQUENCY=10",
+        "*NODE OUTPUT",
+        "U, RF",
+        "*ELEMENT OUTPUT",
+        "S, SDEG",
+        "*OUTPUT, HISTORY",
+        "*NODE OUTPUT, NSET=TOP",
+        "U3, RF3",
+        "*ENERGY OUTPUT",
+        "ALLIE, ALLDMD, ALLWK",
+        "*END STEP",
+    ]
+    return {"dcb_3d.inp": text(lines)}
+
+
+def _faces(layer: IntArray) -> IntArray:
+    """Corners of the faces between the nodes of a layer (across, along), counter-clockwise from above."""
+    across, along = layer.shape
+    corners = [layer[j : across - 1 + j, i : along - 1 + i].ravel() for j, i in _AROUND]
+    return np.stack(corners, axis=-1)
+
+
+def _elements(kind: str, name: str, nodes: IntArray, first: int) -> list[str]:
+    numbered = np.hstack([np.arange(first, first + len(nodes))[:, None], nodes])
+    return [keyword("ELEMENT", TYPE=kind, ELSET=name), *integer_table(numbered).splitlines()]
