@@ -8,7 +8,7 @@ from dataclasses import dataclass, field, fields, replace
 from typing import TypeVar
 
 from harness.deck.blocks import Block, Row
-from harness.deck.table import Keyword, Kind, Option, Where, refused
+from harness.deck.table import Keyword, Option, Where, one_of, refused
 from harness.model.steps import Controls, FieldControls, LineSearchControls, TimeControls
 
 FIELD_LINES = (("r_n", "c_n", "q_0", "q_u", "r_p", "eps", "c_eps", "r_l"), ("c_f", "eps_l"))
@@ -103,23 +103,19 @@ KEYWORDS = (
         "elements, couplings and contact, of which there are none.",
         Where.STEP,
         (
-            Option("ANALYSIS", Kind.CHOICE, "I_0 = 8, I_R = 10", choices=("DISCONTINUOUS",)),
-            Option(
-                "PARAMETERS",
-                Kind.CHOICE,
-                "what the data lines set",
-                choices=("FIELD", "TIME INCREMENTATION", "LINE SEARCH", "CONSTRAINTS"),
+            one_of("ANALYSIS", "I_0 = 8, I_R = 10", ("DISCONTINUOUS",)),
+            one_of(
+                "PARAMETERS", "what the data lines set", ("FIELD", "TIME INCREMENTATION", "LINE SEARCH", "CONSTRAINTS")
             ),
-            Option(
+            one_of(
                 "FIELD",
-                Kind.CHOICE,
                 "field the values are for; all fields unless given",
-                default="GLOBAL",
-                choices=(
+                (
                     *("GLOBAL", "DISPLACEMENT", "ROTATION", "TEMPERATURE", "PORE FLUID PRESSURE"),
                     *("ELECTRICAL POTENTIAL", "CONCENTRATION", "HYDROSTATIC FLUID PRESSURE", "MATERIAL FLOW"),
                     *("PRESSURE LAGRANGE MULTIPLIER", "VOLUMETRIC LAGRANGE MULTIPLIER"),
                 ),
+                default="GLOBAL",
             ),
             Option("RESET", doc="all controls back to their defaults"),
             *refused("TYPE"),

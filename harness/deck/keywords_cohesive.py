@@ -4,7 +4,7 @@
 
 from __future__ import annotations
 
-from harness.deck.table import Keyword, Kind, Option, Where, ignored, refused
+from harness.deck.table import Keyword, Kind, Option, Where, ignored, one_of, refused
 from harness.model.element_types import HOURGLASS_CONTROLLED
 
 _CONTROLLED = ", ".join(HOURGLASS_CONTROLLED)
@@ -17,20 +17,12 @@ COHESIVE = (
         (
             Option("ELSET", Kind.NAME, "element set", required=True),
             Option("MATERIAL", Kind.NAME, "material", required=True),
-            Option(
-                "RESPONSE",
-                Kind.CHOICE,
-                "response",
-                required=True,
-                choices=("TRACTION SEPARATION",),
-                refused=("CONTINUUM", "GASKET"),
-            ),
-            Option(
+            one_of("RESPONSE", "response", ("TRACTION SEPARATION",), required=True, refused=("CONTINUUM", "GASKET")),
+            one_of(
                 "THICKNESS",
-                Kind.CHOICE,
                 "constitutive thickness: of the data line or of the nodes",
+                ("SPECIFIED", "GEOMETRY"),
                 default="SPECIFIED",
-                choices=("SPECIFIED", "GEOMETRY"),
             ),
             Option("CONTROLS", Kind.NAME, "section controls"),
             *refused("HALF", "ORIENTATION", "STACK DIRECTION", "SYMMETRIC"),
@@ -50,12 +42,11 @@ COHESIVE = (
             Option("ELEMENT DELETION", Kind.SWITCH, "delete failed elements, unless they are in compression (YES)"),
             Option("MAX DEGRADATION", Kind.REAL, "largest damage (1)"),
             Option("VISCOSITY", Kind.REAL, "relaxation time of the damage (0)"),
-            Option(
+            one_of(
                 "HOURGLASS",
-                Kind.CHOICE,
                 "hourglass control",
+                ("STIFFNESS", "ENHANCED"),
                 default="STIFFNESS",
-                choices=("STIFFNESS", "ENHANCED"),
                 refused=("COMBINED", "RELAX STIFFNESS", "VISCOUS"),
             ),
             *ignored("DISTORTION CONTROL", "KINEMATIC SPLIT", "LENGTH RATIO", "SECOND ORDER ACCURACY"),
@@ -70,12 +61,11 @@ DAMAGE = (
         "Onset of damage in a traction-separation response.",
         Where.MODEL,
         (
-            Option(
+            one_of(
                 "CRITERION",
-                Kind.CHOICE,
                 "criterion",
+                ("MAXS", "QUADS", "MAXE", "QUADE"),
                 required=True,
-                choices=("MAXS", "QUADS", "MAXE", "QUADE"),
                 refused=(
                     *(
                         "DUCTILE",
@@ -100,35 +90,14 @@ DAMAGE = (
         "Evolution of damage after its onset.",
         Where.MODEL,
         (
-            Option(
-                "TYPE",
-                Kind.CHOICE,
-                "what is given",
-                required=True,
-                choices=("DISPLACEMENT", "ENERGY"),
-                refused=("HYSTERESIS ENERGY",),
-            ),
-            Option(
-                "SOFTENING",
-                Kind.CHOICE,
-                "softening",
-                default="LINEAR",
-                choices=("LINEAR", "EXPONENTIAL"),
-                refused=("TABULAR",),
-            ),
-            Option(
-                "MIXED MODE BEHAVIOR",
-                Kind.CHOICE,
-                "fracture energy in mixed mode",
-                choices=("BK", "POWER LAW"),
-                refused=("TABULAR",),
-            ),
-            Option(
+            one_of("TYPE", "what is given", ("DISPLACEMENT", "ENERGY"), required=True, refused=("HYSTERESIS ENERGY",)),
+            one_of("SOFTENING", "softening", ("LINEAR", "EXPONENTIAL"), default="LINEAR", refused=("TABULAR",)),
+            one_of("MIXED MODE BEHAVIOR", "fracture energy in mixed mode", ("BK", "POWER LAW"), refused=("TABULAR",)),
+            one_of(
                 "MODE MIX RATIO",
-                Kind.CHOICE,
                 "measure of the mode mix",
+                ("ENERGY",),
                 default="ENERGY",
-                choices=("ENERGY",),
                 refused=("ACCUMULATED ENERGY", "TRACTION"),
             ),
             Option("POWER", Kind.REAL, "exponent of MIXED MODE BEHAVIOR"),

@@ -4,7 +4,7 @@
 
 from __future__ import annotations
 
-from harness.deck.table import Keyword, Kind, Option, Support, Where, ignored, refused
+from harness.deck.table import Keyword, Kind, Option, Support, Where, ignored, one_of, refused
 from harness.model.element_types import HOURGLASS_CONTROLLED
 
 _ELSET = Option("ELSET", Kind.NAME, "element set", required=True)
@@ -44,15 +44,14 @@ CONSTRAINTS = (
         Where.MODEL,
         (
             Option("NAME", Kind.NAME, "name", required=True),
-            Option(
+            one_of(
                 "TYPE",
-                Kind.CHOICE,
                 "what it is made of; constraints use ELEMENT and NODE",
-                default="ELEMENT",
-                choices=(
+                (
                     *("ELEMENT", "NODE", "CUTTING SURFACE", "CYLINDER", "EULERIAN MATERIAL", "REVOLUTION", "SEGMENTS"),
                     *("USER", "XFEM"),
                 ),
+                default="ELEMENT",
             ),
             *ignored("INTERNAL", "DEFINITION", "TRIM", "FILLET RADIUS", "COMBINE", "CROP", "NO OFFSET", "NO THICK"),
         ),

@@ -6,7 +6,7 @@ from __future__ import annotations
 
 from harness.deck.keywords_cohesive import COHESIVE, DAMAGE
 from harness.deck.keywords_constraint import CONSTRAINTS, DISCRETE
-from harness.deck.table import Keyword, Kind, Option, Where, ignored, refused
+from harness.deck.table import Keyword, Kind, Option, Where, ignored, one_of, refused
 from harness.model.element_types import BUILT_IN
 
 INPUT = Option("INPUT", Kind.FILE, "file that holds the data lines")
@@ -48,7 +48,7 @@ MESH = (
         Where.MODEL,
         (
             Option("NSET", Kind.NAME, "set that takes the nodes"),
-            Option("SYSTEM", Kind.CHOICE, "R: rectangular", choices=("R",), refused=("C", "S")),
+            one_of("SYSTEM", "R: rectangular", ("R",), refused=("C", "S")),
             INPUT,
         ),
         "node, x, y, z",
@@ -64,12 +64,7 @@ MESH = (
         "Define elements by their nodes.",
         Where.MODEL,
         (
-            Option(
-                "TYPE",
-                Kind.NAME,
-                f"Un; or built in: {', '.join(BUILT_IN)}",
-                required=True,
-            ),
+            Option("TYPE", Kind.NAME, f"Un; or built in: {', '.join(BUILT_IN)}", required=True),
             Option("ELSET", Kind.NAME, "set that takes the elements"),
             INPUT,
             *refused("FILE", "OFFSET", "SOLID ELEMENT NUMBERING"),
@@ -110,7 +105,7 @@ MESH = (
         Where.MODEL,
         (
             Option("NSET", Kind.NAME, "set that takes the nodes"),
-            Option("LINE", Kind.CHOICE, "shape of the line", choices=("S",), refused=("C", "P")),
+            one_of("LINE", "shape of the line", ("S",), refused=("C", "P")),
             *refused("SYSTEM"),
         ),
         "first node, last node, increment",
@@ -119,10 +114,7 @@ MESH = (
         "NFILL",
         "Fill the region between two node sets with lines of nodes.",
         Where.MODEL,
-        (
-            Option("NSET", Kind.NAME, "set that takes the nodes"),
-            *refused("BIAS", "SINGULAR", "TWO STEP"),
-        ),
+        (Option("NSET", Kind.NAME, "set that takes the nodes"), *refused("BIAS", "SINGULAR", "TWO STEP")),
         "first set, second set, number of intervals, increment of node numbers",
     ),
     Keyword(
@@ -168,7 +160,7 @@ PROPERTIES = (
             Option("VARIABLES", Kind.INTEGER, "number of solution-dependent variables (1)"),
             Option("UNSYMM", doc="the matrix is unsymmetric"),
             Option("INTEGRATION", Kind.INTEGER, "material points, with UELMAT"),
-            Option("TENSOR", Kind.CHOICE, "tensors, with UELMAT", choices=("THREED", "TWOD", "PSTRAIN", "PSTRESS")),
+            one_of("TENSOR", "tensors, with UELMAT", ("THREED", "TWOD", "PSTRAIN", "PSTRESS")),
             *refused("LINEAR", "FILE", "OLD ELEMENT", "STEP"),
         ),
         "dofs at the first node; then node position, dofs from that node on",
@@ -211,12 +203,11 @@ PROPERTIES = (
         "Linear elasticity.",
         Where.MODEL,
         (
-            Option(
+            one_of(
                 "TYPE",
-                Kind.CHOICE,
                 "symmetry",
+                ("ISOTROPIC", "ENGINEERING CONSTANTS", "LAMINA", "ORTHOTROPIC", "ANISOTROPIC", "TRACTION"),
                 default="ISOTROPIC",
-                choices=("ISOTROPIC", "ENGINEERING CONSTANTS", "LAMINA", "ORTHOTROPIC", "ANISOTROPIC", "TRACTION"),
                 refused=("COUPLED TRACTION", "SHEAR", "SHORT FIBER", "BILAMINA"),
             ),
             Option("DEPENDENCIES", Kind.INTEGER, "number of field variables"),
@@ -231,12 +222,11 @@ PROPERTIES = (
         "Mises plasticity with isotropic hardening.",
         Where.MODEL,
         (
-            Option(
+            one_of(
                 "HARDENING",
-                Kind.CHOICE,
                 "hardening",
+                ("ISOTROPIC",),
                 default="ISOTROPIC",
-                choices=("ISOTROPIC",),
                 refused=("KINEMATIC", "COMBINED", "JOHNSON COOK", "USER"),
             ),
             *refused("DATA TYPE", "DEPENDENCIES", "NUMBER BACKSTRESSES", "PROPERTIES", "RATE", "SCALESTRESS"),
@@ -250,7 +240,7 @@ PROPERTIES = (
         (
             Option("CONSTANTS", Kind.INTEGER, "number of constants", required=True),
             Option("UNSYMM", doc="DDSDDE is unsymmetric"),
-            Option("TYPE", Kind.CHOICE, "what the user routine gives", choices=("MECHANICAL",), refused=("THERMAL",)),
+            one_of("TYPE", "what the user routine gives", ("MECHANICAL",), refused=("THERMAL",)),
             *refused("HYBRID FORMULATION"),
         ),
         "constants, eight to a line; what a line leaves out is zero",
@@ -275,10 +265,7 @@ PROPERTIES = (
         "CONDUCTIVITY",
         "Thermal conductivity.",
         Where.MODEL,
-        (
-            Option("TYPE", Kind.CHOICE, "symmetry", choices=("ISO",), refused=("ORTHO", "ANISO")),
-            *refused("DEPENDENCIES", "PORE FLUID"),
-        ),
+        (one_of("TYPE", "symmetry", ("ISO",), refused=("ORTHO", "ANISO")), *refused("DEPENDENCIES", "PORE FLUID")),
         "conductivity",
     ),
     Keyword(
@@ -287,7 +274,7 @@ PROPERTIES = (
         "without temperatures of their own.",
         Where.MODEL,
         (
-            Option("TYPE", Kind.CHOICE, "symmetry", choices=("ISO",), refused=("ORTHO", "ANISO")),
+            one_of("TYPE", "symmetry", ("ISO",), refused=("ORTHO", "ANISO")),
             *refused("DEPENDENCIES", "FIELD", "PORE FLUID", "USER", "ZERO"),
         ),
         "expansion coefficient",
@@ -299,18 +286,11 @@ PROPERTIES = (
         Where.MODEL,
         (
             NAME,
-            Option(
-                "DEFINITION",
-                Kind.CHOICE,
-                "how the points are given",
-                choices=("COORDINATES",),
-                refused=("NODES", "OFFSET TO NODES"),
-            ),
-            Option(
+            one_of("DEFINITION", "how the points are given", ("COORDINATES",), refused=("NODES", "OFFSET TO NODES")),
+            one_of(
                 "SYSTEM",
-                Kind.CHOICE,
                 "kind of axes",
-                choices=("RECTANGULAR",),
+                ("RECTANGULAR",),
                 refused=("CYLINDRICAL", "SPHERICAL", "USER", "Z RECTANGULAR"),
             ),
             *refused("LOCAL DIRECTIONS"),
@@ -323,26 +303,18 @@ PROPERTIES = (
         Where.ANY,
         (
             NAME,
-            Option(
+            one_of(
                 "DEFINITION",
-                Kind.CHOICE,
                 "kind of curve",
+                ("TABULAR", "EQUALLY SPACED", "SMOOTH STEP", "PERIODIC", "DECAY", "USER"),
                 default="TABULAR",
-                choices=("TABULAR", "EQUALLY SPACED", "SMOOTH STEP", "PERIODIC", "DECAY", "USER"),
                 refused=(
                     *("ACTUATOR", "BUBBLE", "FILM", "MODULATED", "PSD DEFINITION", "RAMP"),
                     *("SOLUTION DEPENDENT", "SPECTRUM"),
                 ),
             ),
-            Option(
-                "TIME",
-                Kind.CHOICE,
-                "which time",
-                default="STEP TIME",
-                choices=("STEP TIME", "TOTAL TIME"),
-                refused=("NORMALIZED",),
-            ),
-            Option("VALUE", Kind.CHOICE, "what the values are", default="RELATIVE", choices=("RELATIVE", "ABSOLUTE")),
+            one_of("TIME", "which time", ("STEP TIME", "TOTAL TIME"), default="STEP TIME", refused=("NORMALIZED",)),
+            one_of("VALUE", "what the values are", ("RELATIVE", "ABSOLUTE"), default="RELATIVE"),
             Option("INPUT", Kind.FILE, "file that holds the data lines"),
             Option("PROPERTIES", Kind.INTEGER, "number of properties that UAMP gets (0), with DEFINITION=USER"),
             Option("VARIABLES", Kind.INTEGER, "number of state variables of UAMP (1), with DEFINITION=USER"),

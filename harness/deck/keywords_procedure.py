@@ -4,7 +4,7 @@
 
 from __future__ import annotations
 
-from harness.deck.table import Keyword, Kind, Option, Where, refused
+from harness.deck.table import Keyword, Kind, Option, Where, one_of, refused
 
 INITIAL = (
     Keyword(
@@ -12,12 +12,11 @@ INITIAL = (
         "Values at the start of the analysis.",
         Where.MODEL,
         (
-            Option(
+            one_of(
                 "TYPE",
-                Kind.CHOICE,
                 "what is given; TEMPERATURE is for dof 11 and a predefined field",
+                ("VELOCITY", "TEMPERATURE", "FIELD", "SOLUTION", "STRESS"),
                 required=True,
-                choices=("VELOCITY", "TEMPERATURE", "FIELD", "SOLUTION", "STRESS"),
                 refused=(
                     *("ACOUSTIC STATIC PRESSURE", "CONCENTRATION", "HARDENING", "PLASTIC STRAIN"),
                     *("PORE PRESSURE", "RATIO", "REF COORDINATE", "ROTATING VELOCITY", "SATURATION"),
@@ -28,12 +27,11 @@ INITIAL = (
             Option("VARIABLE", Kind.INTEGER, "number of the field variable (1)"),
             Option("USER", doc="state variables by SDVINI, with TYPE=SOLUTION"),
             Option("GEOSTATIC", doc="stresses by elevation: refused, with TYPE=STRESS"),
-            Option(
+            one_of(
                 "UNBALANCED STRESS",
-                Kind.CHOICE,
                 "what of initial stresses is not in equilibrium takes effect in the course of the first step (RAMP, "
                 "the default) or at once",
-                choices=("RAMP", "STEP"),
+                ("RAMP", "STEP"),
             ),
             *refused("FILE", "REBAR", "SECTION POINTS"),
         ),

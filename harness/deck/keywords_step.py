@@ -6,7 +6,7 @@ from __future__ import annotations
 
 from harness.deck import controls, distributed, prescribed, procedures, steps
 from harness.deck.keywords_procedure import INITIAL
-from harness.deck.table import Keyword, Kind, Option, Support, Where, ignored, refused
+from harness.deck.table import Keyword, Kind, Option, Support, Where, ignored, one_of, refused
 
 FREQUENCY = Option("FREQUENCY", Kind.INTEGER, "every k-th increment (1); 0 never")
 
@@ -19,13 +19,11 @@ OUTPUT = (
             Option("FIELD", doc="field output, written to .vtu"),
             Option("HISTORY", doc="history output, written to .csv"),
             FREQUENCY,
-            Option(
-                "OP", Kind.CHOICE, "what becomes of earlier requests", default="NEW", choices=("NEW", "ADD", "REPLACE")
-            ),
+            one_of("OP", "what becomes of earlier requests", ("NEW", "ADD", "REPLACE"), default="NEW"),
             Option("NUMBER INTERVAL", Kind.INTEGER, "number of output times in the step"),
             Option("TIME INTERVAL", Kind.REAL, "time between outputs"),
             Option("TIME MARKS", Kind.SWITCH, "whether increments end at the output times", default="YES"),
-            Option("VARIABLE", Kind.CHOICE, "default variables", choices=("ALL", "PRESELECT")),
+            one_of("VARIABLE", "default variables", ("ALL", "PRESELECT")),
             Option("TIME POINTS", Kind.NAME, "output times"),
             Option("SENSOR", doc="UAMP reads the variable, which is one component of one node, by NAME"),
             Option("NAME", Kind.NAME, "of a sensor"),
@@ -38,7 +36,7 @@ OUTPUT = (
         Where.STEP,
         (
             Option("NSET", Kind.NAME, "node set"),
-            Option("VARIABLE", Kind.CHOICE, "default variables", choices=("ALL", "PRESELECT")),
+            one_of("VARIABLE", "default variables", ("ALL", "PRESELECT")),
             *ignored("EXTERIOR", "TRACER SET"),
         ),
         "variables",
@@ -48,7 +46,7 @@ OUTPUT = (
         "Energies of the whole model, of the *OUTPUT, HISTORY before.",
         Where.STEP,
         (
-            Option("VARIABLE", Kind.CHOICE, "default variables", choices=("ALL", "PRESELECT")),
+            one_of("VARIABLE", "default variables", ("ALL", "PRESELECT")),
             *ignored("ELSET", "PER ELEMENT SET", "PER SECTION"),
         ),
         "variables",
@@ -72,13 +70,12 @@ OUTPUT = (
         (
             Option("ELSET", Kind.NAME, "element set"),
             FREQUENCY,
-            Option(
+            one_of(
                 "POSITION",
-                Kind.CHOICE,
                 "where; values of built-in continuum elements are extrapolated, of others .dat has those at the "
                 "points and warns",
+                ("INTEGRATION POINTS", "CENTROIDAL", "CENTROID", "NODES", "AVERAGED AT NODES"),
                 default="INTEGRATION POINTS",
-                choices=("INTEGRATION POINTS", "CENTROIDAL", "CENTROID", "NODES", "AVERAGED AT NODES"),
             ),
             *ignored("DIRECTIONS", "LAST MODE", "LOCALDIR", "MODE", "REBAR", "SUMMARY", "TOTALS"),
         ),

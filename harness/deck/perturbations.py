@@ -10,7 +10,7 @@ import numpy as np
 
 from harness.deck.blocks import Block, Row
 from harness.deck.prescribed import Prescription
-from harness.deck.table import Keyword, Kind, Option, Where, ignored, refused
+from harness.deck.table import Keyword, Option, Where, ignored, one_of, refused
 from harness.model.perturbations import Frequency, StaticPerturbation, SteadyState
 
 _POINTS, _MOST_POINTS = 20, 100_000
@@ -80,20 +80,12 @@ PERTURBATIONS = (
             "Natural frequencies about the state at the end of the last general step.",
             Where.STEP,
             (
-                Option(
-                    "EIGENSOLVER",
-                    Kind.CHOICE,
-                    "how",
-                    default="LANCZOS",
-                    choices=("LANCZOS",),
-                    refused=("SUBSPACE", "AMS"),
-                ),
-                Option(
+                one_of("EIGENSOLVER", "how", ("LANCZOS",), default="LANCZOS", refused=("SUBSPACE", "AMS")),
+                one_of(
                     "NORMALIZATION",
-                    Kind.CHOICE,
                     "of the shapes: largest displacement, or generalized mass, of one",
+                    ("DISPLACEMENT", "MASS"),
                     default="DISPLACEMENT",
-                    choices=("DISPLACEMENT", "MASS"),
                 ),
                 *ignored("ACOUSTIC COUPLING", "NUMBER INTERVAL", "SIM"),
                 *refused(
@@ -112,19 +104,12 @@ PERTURBATIONS = (
             Where.STEP,
             (
                 Option("DIRECT", doc="by the matrices of the model, not by its modes", required=True),
-                Option(
-                    "FREQUENCY SCALE",
-                    Kind.CHOICE,
-                    "of the points of a range",
-                    default="LOGARITHMIC",
-                    choices=("LOGARITHMIC", "LINEAR"),
-                ),
-                Option(
+                one_of("FREQUENCY SCALE", "of the points of a range", ("LOGARITHMIC", "LINEAR"), default="LOGARITHMIC"),
+                one_of(
                     "INTERVAL",
-                    Kind.CHOICE,
                     "what the points divide",
+                    ("RANGE",),
                     default="RANGE",
-                    choices=("RANGE",),
                     refused=("EIGENFREQUENCY", "SPREAD"),
                 ),
                 Option("REAL ONLY", doc="leave damping out"),

@@ -15,7 +15,7 @@ from harness.deck.catalogue import look_up
 from harness.deck.flatten import FlatMesh, Owner
 from harness.deck.problems import Problems, nearest
 from harness.deck.surfaces import Surfaces
-from harness.deck.table import Keyword, Kind, Option, Where, ignored, refused, unquote
+from harness.deck.table import Keyword, Kind, Option, Where, ignored, one_of, refused, unquote
 from harness.deck.user_elements import LARGEST_DOF
 from harness.errors import DeckError, Source
 from harness.model.amplitude import Amplitude
@@ -206,7 +206,7 @@ def _expand(terms: list[tuple[IntArray, int, float]], source: Source) -> list[Eq
     ]
 
 
-OP = Option("OP", Kind.CHOICE, "NEW removes what earlier steps prescribed", default="MOD", choices=("MOD", "NEW"))
+OP = one_of("OP", "NEW removes what earlier steps prescribed", ("MOD", "NEW"), default="MOD")
 AMPLITUDE = Option("AMPLITUDE", Kind.NAME, "amplitude; without it that of *STEP, but displacements always ramp")
 
 HARMONIC = (
@@ -228,21 +228,13 @@ KEYWORDS = (
         (
             OP,
             AMPLITUDE,
-            Option(
-                "TYPE",
-                Kind.CHOICE,
-                "what is prescribed",
-                choices=("DISPLACEMENT", "VELOCITY"),
-                refused=("ACCELERATION",),
-            ),
+            one_of("TYPE", "what is prescribed", ("DISPLACEMENT", "VELOCITY"), refused=("ACCELERATION",)),
             Option("INPUT", Kind.FILE, "file that holds the data lines"),
             Option("USER", doc="DISP gives the values"),
             Option("FIXED", doc="values stay what they are at the start of the step"),
             *HARMONIC,
             *ignored("REGION TYPE"),
-            *refused(
-                *("BASE NAME", "LOAD CASE", "PHANTOM", "SCALE", "STEP", "SUBMODEL", "BLOCKING", "TIMESCALE"),
-            ),
+            *refused(*("BASE NAME", "LOAD CASE", "PHANTOM", "SCALE", "STEP", "SUBMODEL", "BLOCKING", "TIMESCALE")),
         ),
         "node or set, first dof, last dof, value; or node or set, XSYMM, YSYMM, ZSYMM, XASYMM, YASYMM, ZASYMM, "
         "PINNED or ENCASTRE",
@@ -251,22 +243,14 @@ KEYWORDS = (
         "CLOAD",
         "Concentrated loads.",
         Where.STEP,
-        (
-            *LOAD,
-            *HARMONIC,
-            *ignored("REGION TYPE"),
-            *refused("CYCLIC MODE", "FOLLOWER", "LOAD CASE", "SUBMODEL"),
-        ),
+        (*LOAD, *HARMONIC, *ignored("REGION TYPE"), *refused("CYCLIC MODE", "FOLLOWER", "LOAD CASE", "SUBMODEL")),
         "node or set, dof, value",
     ),
     Keyword(
         "CFLUX",
         "Concentrated heat fluxes; with *CLOAD in the same step both take the same OP.",
         Where.STEP,
-        (
-            *LOAD,
-            *ignored("REGION TYPE"),
-        ),
+        (*LOAD, *ignored("REGION TYPE")),
         "node or set, dof (11), value",
     ),
 )

@@ -16,7 +16,7 @@ from harness.deck.blocks import Block, Row
 from harness.deck.perturbations import PERTURBATIONS, read_static_perturbation
 from harness.deck.prescribed import Prescription
 from harness.deck.structure import Scope
-from harness.deck.table import Keyword, Kind, Option, Where, ignored, refused
+from harness.deck.table import Keyword, Kind, Option, Where, ignored, one_of, refused
 from harness.model.procedures import (
     CoupledTemperatureDisplacement,
     Dynamic,
@@ -194,15 +194,7 @@ _STABILIZE = (
     ),
     Option("FACTOR", Kind.REAL, "damping factor in place of the fraction"),
     Option("ALLSDTOL", Kind.REAL, "largest ratio of ALLSD to ALLSE (0.05; 0 with FACTOR: no limit)", bare="0.05"),
-    Option(
-        "CONTINUE",
-        Kind.CHOICE,
-        "factors of the step before",
-        default="NO",
-        choices=("NO",),
-        refused=("YES",),
-        bare="YES",
-    ),
+    one_of("CONTINUE", "factors of the step before", ("NO",), default="NO", refused=("YES",), bare="YES"),
 )
 
 PROCEDURES: tuple[tuple[Keyword, Callable[[Block, Prescription], Procedure]], ...] = (
@@ -227,11 +219,7 @@ PROCEDURES: tuple[tuple[Keyword, Callable[[Block, Prescription], Procedure]], ..
             "VISCO",
             "Static stress analysis on a real time scale.",
             Where.STEP,
-            (
-                _DIRECT,
-                *ignored("CETOL"),
-                *refused("CREEP", "FACTOR", "STABILIZE", "ALLSDTOL", "CONTINUE"),
-            ),
+            (_DIRECT, *ignored("CETOL"), *refused("CREEP", "FACTOR", "STABILIZE", "ALLSDTOL", "CONTINUE")),
             _TIMES,
         ),
         _read_visco,
@@ -243,18 +231,16 @@ PROCEDURES: tuple[tuple[Keyword, Callable[[Block, Prescription], Procedure]], ..
             Where.STEP,
             (
                 _DIRECT,
-                Option(
+                one_of(
                     "APPLICATION",
-                    Kind.CHOICE,
                     "sets the integrator and the largest increment: 1/100, 1/10 and all of the period",
+                    ("TRANSIENT FIDELITY", "MODERATE DISSIPATION", "QUASI-STATIC"),
                     default="TRANSIENT FIDELITY",
-                    choices=("TRANSIENT FIDELITY", "MODERATE DISSIPATION", "QUASI-STATIC"),
                 ),
-                Option(
+                one_of(
                     "TIME INTEGRATOR",
-                    Kind.CHOICE,
                     "Hilber, Hughes and Taylor with alpha -0.05 or -0.41421, or backward Euler",
-                    choices=("HHT-TF", "HHT-MD", "BWE"),
+                    ("HHT-TF", "HHT-MD", "BWE"),
                 ),
                 Option("ALPHA", Kind.REAL, "-0.5 to 0: numerical damping"),
                 Option("BETA", Kind.REAL, "of the integrator, (1 - alpha)^2/4"),
@@ -275,11 +261,7 @@ PROCEDURES: tuple[tuple[Keyword, Callable[[Block, Prescription], Procedure]], ..
             "HEAT TRANSFER",
             "Uncoupled heat transfer, for user elements with dof 11 and up.",
             Where.STEP,
-            (
-                *_HEAT,
-                Option("END", Kind.CHOICE, "end of a transient step", choices=("PERIOD", "SS")),
-                *refused("MXDEM"),
-            ),
+            (*_HEAT, one_of("END", "end of a transient step", ("PERIOD", "SS")), *refused("MXDEM")),
             _TIMES + "; rate of temperature change that ends a step with END=SS",
         ),
         _read_heat_transfer,
@@ -292,7 +274,7 @@ PROCEDURES: tuple[tuple[Keyword, Callable[[Block, Prescription], Procedure]], ..
             (
                 *_HEAT,
                 *_STABILIZE,
-                Option("CREEP", Kind.CHOICE, "no material here creeps: accepted and without effect", choices=("NONE",)),
+                one_of("CREEP", "no material here creeps: accepted and without effect", ("NONE",)),
                 *ignored("CETOL"),
                 *refused("ELECTRICAL"),
             ),

@@ -17,7 +17,7 @@ from harness.deck.problems import Problems
 from harness.deck.procedures import read_procedure
 from harness.deck.requests import RequestReader
 from harness.deck.structure import Scope
-from harness.deck.table import Keyword, Kind, Option, Where, ignored, refused
+from harness.deck.table import Keyword, Kind, Option, Where, ignored, one_of, refused
 from harness.model.amplitude import UserAmplitude
 from harness.model.procedures import Procedure
 from harness.model.steps import DistributedLoad, ElementLoad, LoadKind, Step
@@ -195,19 +195,15 @@ KEYWORDS = (
             Option("NAME", Kind.NAME, "name"),
             Option("INC", Kind.INTEGER, "largest number of increments (100)"),
             Option("NLGEOM", Kind.SWITCH, "large displacements, from this step on"),
-            Option(
+            one_of(
                 "EXTRAPOLATION",
-                Kind.CHOICE,
                 "first guess of an increment",
+                ("LINEAR", "PARABOLIC", "VELOCITY PARABOLIC", "NO"),
                 default="LINEAR",
-                choices=("LINEAR", "PARABOLIC", "VELOCITY PARABOLIC", "NO"),
             ),
             Option("UNSYMM", Kind.SWITCH, "unsymmetric matrix storage and solution"),
-            Option(
-                "AMPLITUDE",
-                Kind.CHOICE,
-                "default time variation; RAMP unless given, STEP in transient procedures",
-                choices=("RAMP", "STEP"),
+            one_of(
+                "AMPLITUDE", "default time variation; RAMP unless given, STEP in transient procedures", ("RAMP", "STEP")
             ),
             *ignored("CONVERT SDI", "SOLVER"),
             Option(
@@ -224,13 +220,7 @@ KEYWORDS = (
         "Newton's method with the full matrix, whatever is asked for: .msg says so.",
         Where.STEP,
         (
-            Option(
-                "TYPE",
-                Kind.CHOICE,
-                "technique",
-                default="QUASI-NEWTON",
-                choices=("QUASI-NEWTON", "SEPARATED", "UNSYMMETRIC"),
-            ),
+            one_of("TYPE", "technique", ("QUASI-NEWTON", "SEPARATED", "UNSYMMETRIC"), default="QUASI-NEWTON"),
             *ignored("REFORM KERNEL"),
         ),
         "ignored",

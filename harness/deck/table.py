@@ -71,6 +71,20 @@ class Keyword:
     support: Support = Support.READ
 
 
+def one_of(
+    name: str,
+    doc: str,
+    choices: tuple[str, ...],
+    *,
+    default: str = "",
+    required: bool = False,
+    refused: tuple[str, ...] = (),
+    bare: str = "",
+) -> Option:
+    """An option whose value is one of these choices."""
+    return Option(name, Kind.CHOICE, doc, required, default, choices, refused, bare=bare)
+
+
 def refused(*names: str) -> tuple[Option, ...]:
     """Options that Abaqus knows and that would change the solution."""
     return tuple(Option(name, support=Support.REFUSED) for name in names)
