@@ -16,6 +16,7 @@ from harness.deck.blocks import Block, Row
 from harness.deck.flatten import FlatMesh, Owner
 from harness.deck.problems import Problems
 from harness.deck.surfaces import Surfaces
+from harness.deck.table import INPUT, NAME, Keyword, Kind, Option, Where, ignored, refused
 from harness.deck.user_elements import dofs_by_node
 from harness.errors import DeckError, Source
 from harness.model.arrays import IntArray
@@ -214,3 +215,61 @@ def _spacing(points: np.ndarray) -> float:
         return 1.0
     distance, _ = cKDTree(points).query(points, k=2)
     return float(distance[:, 1].max())
+
+
+_REF_NODE = Option("REF NODE", Kind.NAME, "reference node, or set of one node", required=True)
+
+KEYWORDS = (
+    Keyword(
+        "MPC",
+        "Multi-point constraints; the first node is eliminated. Sets stand for their nodes in order.",
+        Where.MODEL,
+        (INPUT, *refused("MODE", "USER")),
+        "TIE, PIN or BEAM and two nodes; or LINEAR and three",
+    ),
+    Keyword(
+        "COUPLING",
+        "Couple the nodes of a surface to a reference node, as *KINEMATIC after it says.",
+        Where.MODEL,
+        (
+            Option("CONSTRAINT NAME", Kind.NAME, "name", required=True),
+            _REF_NODE,
+            Option("SURFACE", Kind.NAME, "surface", required=True),
+            *refused("ALPHA", "INFLUENCE RADIUS", "ORIENTATION"),
+        ),
+    ),
+    Keyword("KINEMATIC", "Dofs that *COUPLING couples.", Where.MODEL, data="first dof, last dof; none: all"),
+    Keyword(
+        "KINEMATIC COUPLING",
+        "Couple nodes to a reference node.",
+        Where.MODEL,
+        (_REF_NODE, *refused("ORIENTATION")),
+        "node or set, first dof, last dof",
+    ),
+    Keyword(
+        "RIGID BODY",
+        "Nodes that move with a reference node.",
+        Where.MODEL,
+        (
+            _REF_NODE,
+            Option("ELSET", Kind.NAME, "elements that are rigid"),
+            Option("PIN NSET", Kind.NAME, "nodes whose displacements follow"),
+            Option("TIE NSET", Kind.NAME, "nodes whose displacements and rotations follow"),
+            *ignored("ISOTHERMAL"),
+            *refused("ANALYTICAL SURFACE", "POSITION"),
+        ),
+    ),
+    Keyword(
+        "TIE",
+        "Tie surfaces with matching nodes: all dofs of the first one follow the second.",
+        Where.MODEL,
+        (
+            NAME,
+            Option("POSITION TOLERANCE", Kind.REAL, "largest distance of nodes that are tied"),
+            Option("NO ROTATION", doc="rotations stay free"),
+            *ignored("ADJUST", "CONSTRAINT RATIO", "NO THICKNESS", "TYPE"),
+            *refused("CYCLIC SYMMETRY", "TIED NSET"),
+        ),
+        "first (secondary) surface, second (main) surface",
+    ),
+)

@@ -9,7 +9,7 @@ import re
 import numpy as np
 
 from harness.deck.blocks import Block, Row
-from harness.deck.initial import field_number
+from harness.deck.initial import FIELD_NUMBER, field_number
 from harness.deck.prescribed import HARMONIC, LOAD, Prescription
 from harness.deck.surfaces import face_nodes
 from harness.deck.table import Keyword, Kind, Option, Where, refused
@@ -174,7 +174,7 @@ KEYWORDS = (
         "FIELD",
         "Predefined field variable.",
         Where.STEP,
-        (Option("VARIABLE", Kind.INTEGER, "number of the field variable (1)"), *LOAD, *refused("FILE", "USER")),
+        (FIELD_NUMBER, *LOAD, *refused("FILE", "USER")),
         "node or set, value",
     ),
 )

@@ -126,7 +126,7 @@ class FlatMesh:
             "ELEMENT": mesh.read_element,
             "NSET": mesh.read_set,
             "ELSET": mesh.read_set,
-            **{keyword: partial(make, mesh) for keyword, make in GENERATORS.items()},
+            **{keyword.name: partial(make, mesh) for keyword, make in GENERATORS},
         }
         for block in blocks:
             if block.name in readers:

@@ -9,8 +9,9 @@ from collections.abc import Callable
 import numpy as np
 
 from harness.deck.blocks import Block, Row
-from harness.deck.local_mesh import LARGEST_LABEL, ElementRun, LocalMesh, Members
+from harness.deck.local_mesh import LARGEST_LABEL, TAKES_ELEMENTS, TAKES_NODES, ElementRun, LocalMesh, Members
 from harness.deck.placement import read_placement
+from harness.deck.table import Keyword, Kind, Option, Where, one_of, refused
 from harness.errors import Source
 from harness.model.arrays import FloatArray, IntArray
 
@@ -96,9 +97,54 @@ def generate_elements(mesh: LocalMesh, block: Block) -> None:
         mesh.add_to_set(mesh.elsets, block.options.text("ELSET"), [Members("", labels, row.source)])
 
 
-GENERATORS: dict[str, Callable[[LocalMesh, Block], None]] = {
-    "NGEN": generate_nodes,
-    "NFILL": fill_nodes,
-    "NCOPY": copy_nodes,
-    "ELGEN": generate_elements,
-}
+GENERATORS: tuple[tuple[Keyword, Callable[[LocalMesh, Block], None]], ...] = (
+    (
+        Keyword(
+            "NGEN",
+            "Generate nodes on a line between two nodes.",
+            Where.MODEL,
+            (TAKES_NODES, one_of("LINE", "shape of the line", ("S",), refused=("C", "P")), *refused("SYSTEM")),
+            "first node, last node, increment",
+        ),
+        generate_nodes,
+    ),
+    (
+        Keyword(
+            "NFILL",
+            "Fill the region between two node sets with lines of nodes.",
+            Where.MODEL,
+            (TAKES_NODES, *refused("BIAS", "SINGULAR", "TWO STEP")),
+            "first set, second set, number of intervals, increment of node numbers",
+        ),
+        fill_nodes,
+    ),
+    (
+        Keyword(
+            "NCOPY",
+            "Copy a node set.",
+            Where.MODEL,
+            (
+                Option("CHANGE NUMBER", Kind.INTEGER, "added to the node numbers", required=True),
+                Option("OLD SET", Kind.NAME, "set to copy", required=True),
+                Option("NEW SET", Kind.NAME, "set that takes the copies"),
+                Option("SHIFT", doc="translate and rotate the copies", required=True),
+                *refused("MULTIPLE", "POLE", "REFLECT"),
+            ),
+            "translation; then two points of an axis and an angle in degrees",
+        ),
+        copy_nodes,
+    ),
+    (
+        Keyword(
+            "ELGEN",
+            "Generate elements from a master element, in rows, rows of rows and layers.",
+            Where.MODEL,
+            (TAKES_ELEMENTS, *refused("ALL NODES")),
+            "master element, then count, node increment, element increment of each direction",
+        ),
+        generate_elements,
+    ),
+)
+"""Keywords and their readers."""
+
+KEYWORDS = tuple(keyword for keyword, _ in GENERATORS)

@@ -10,14 +10,16 @@ from dataclasses import replace
 import numpy as np
 
 from harness.deck.blocks import Block
-from harness.deck.catalogue import read_orientations
 from harness.deck.flatten import FlatMesh, Owner
 from harness.deck.local_mesh import ElementRun
+from harness.deck.placement import read_orientations
 from harness.deck.problems import Problems
 from harness.deck.sections import SECTION_KEYWORDS, make_section
+from harness.deck.table import Keyword, Where
 from harness.deck.user_elements import ElementType
 from harness.errors import DeckError, Source
 from harness.model.arrays import IntArray
+from harness.model.element_types import HOURGLASS_CONTROLLED
 from harness.model.mesh import ElementGroup
 from harness.model.properties import Material, Orientation, Section, SectionControls, SolidSection
 
@@ -193,3 +195,18 @@ def _source(flat: FlatMesh, position: int) -> Source:
     label = int(owner.elements[position - owner.element_offset])
     run = owner.mesh.runs[owner.mesh.run_of[label]]
     return run.source(int(np.flatnonzero(run.labels == label)[0]))
+
+
+KEYWORDS = (
+    Keyword(
+        "HOURGLASS STIFFNESS",
+        f"Hourglass stiffness parameter r of {', '.join(HOURGLASS_CONTROLLED)} and those with temperatures, "
+        "of the *SOLID SECTION before. With mean gradients B and volume V before any displacement the stiffness per "
+        "squared hourglass displacement q is r V sum(B^2)/16 in the plane, in direction i of space 0.2357 r V "
+        "sum(B_i^2); with NLGEOM F^T q takes the place of q, F the mean deformation gradient. Results of Abaqus R2018x "
+        "and 2024 show it for square CPS4R, skewed CAX4RT and skewed C3D8RT; for CPE4R and skewed CPS4R it is inferred "
+        "from CAX4RT.",
+        Where.MODEL,
+        data="stiffness parameter in place of 0.005 times the shear modulus; further entries are not read",
+    ),
+)

@@ -1,35 +1,42 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""The keyword table, look-up in it, and its Markdown form."""
+"""The keyword table, put together from the files that read the keywords, and its Markdown form."""
 
 from __future__ import annotations
 
 from pathlib import Path
 
-from harness.deck.abaqus_names import ABAQUS_KEYWORDS
-from harness.deck.keywords_model import MODEL_KEYWORDS
-from harness.deck.keywords_step import STEP_KEYWORDS
-from harness.deck.problems import nearest
+from harness.deck import (
+    amplitudes,
+    constraints,
+    controls,
+    damage,
+    distributed,
+    generation,
+    groups,
+    ignored,
+    initial,
+    lexer,
+    local_mesh,
+    materials,
+    placement,
+    prescribed,
+    procedures,
+    requests,
+    sections,
+    steps,
+    structure,
+    surfaces,
+    user_elements,
+)
 from harness.deck.table import Keyword, Kind, Option, Support, compact
-from harness.errors import DeckError, Source
 
-KEYWORDS = {compact(keyword.name): keyword for keyword in (*MODEL_KEYWORDS, *STEP_KEYWORDS)}
+_FILES = (
+    *(structure, lexer, placement, local_mesh, generation, user_elements, surfaces, constraints, materials, damage),
+    *(sections, groups, amplitudes, initial, steps, procedures, controls, prescribed, distributed, requests, ignored),
+)
+KEYWORDS: dict[str, Keyword] = {compact(keyword.name): keyword for file in _FILES for keyword in file.KEYWORDS}
 MARKDOWN = Path(__file__).with_name("keywords.md")
-_ABAQUS = {compact(name): name for name in ABAQUS_KEYWORDS}
-
-
-def find_keyword(name: str, source: Source) -> Keyword:
-    """Keyword of this name, or the only one of Abaqus that begins like this; DeckError says whether Abaqus has it."""
-    wanted = compact(name)
-    begins = [full for full in _ABAQUS if full.startswith(wanted)] if wanted not in _ABAQUS else []
-    if len(begins) == 1:
-        wanted = begins[0]
-    if wanted in KEYWORDS:
-        return KEYWORDS[wanted]
-    if wanted in _ABAQUS:
-        raise DeckError(source, f"*{_ABAQUS[wanted]} is not supported")
-    known = {keyword.name for keyword in KEYWORDS.values()} | ABAQUS_KEYWORDS
-    raise DeckError(source, f"unknown keyword *{name.strip()}{nearest(name.strip().upper(), known)}")
 
 
 def markdown() -> str:

@@ -7,14 +7,26 @@ from __future__ import annotations
 import bisect
 import codecs
 import re
+from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
 
 from harness.deck.blocks import Block
 from harness.deck.expressions import Value, assign, find
-from harness.deck.keywords import find_keyword
 from harness.deck.problems import Problems
-from harness.deck.table import Keyword, Options, compact, read_options, split_fields
+from harness.deck.table import (
+    Keyword,
+    Kind,
+    Option,
+    Options,
+    Where,
+    compact,
+    find_keyword,
+    ignored,
+    read_options,
+    refused,
+    split_fields,
+)
 from harness.errors import DeckError, Source
 from harness.files import read_whole
 
@@ -27,9 +39,12 @@ _COMMENT = re.compile(r"(?<=[\s,])\*\*")
 _PARAMETER = re.compile(r"<\s*([A-Za-z_]\w*)\s*>")
 
 
-def read_blocks(deck: Path, problems: Problems) -> list[Block]:
-    """Keyword blocks of a deck in order. What is wrong goes to `problems`; DeckError if the deck cannot be read."""
-    lexer = _Lexer(deck, problems)
+def read_blocks(deck: Path, keywords: Mapping[str, Keyword], problems: Problems) -> list[Block]:
+    """Keyword blocks of a deck in order, read against the keyword table.
+
+    What is wrong goes to `problems`; DeckError if the deck cannot be read.
+    """
+    lexer = _Lexer(deck, keywords, problems)
     start = Source(str(deck), 1)
     lines = _load(deck, start)
     if not any(line and not line.startswith("**") for line in lines):
@@ -71,9 +86,10 @@ class _Header:
 class _Lexer:
     """Walks the lines of a deck and of its includes; `open` is the block that takes data lines."""
 
-    def __init__(self, deck: Path, problems: Problems) -> None:
+    def __init__(self, deck: Path, keywords: Mapping[str, Keyword], problems: Problems) -> None:
         self.blocks: list[Block] = []
         self._folder = deck.parent
+        self._keywords = keywords
         self._problems = problems
         self._parameters: dict[str, Value] = {}
         self._open: Block | None = None
@@ -97,7 +113,7 @@ class _Lexer:
             if not line.startswith("**"):
                 self.close()
                 header = _Header(line, Source(file, number))
-                number = self._continue(header, lines, number)
+                number = self._join(header, lines, number)
                 with self._problems.gather():
                     self._keyword(header, stack)
 
@@ -164,18 +180,31 @@ class _Lexer:
 
         return _PARAMETER.sub(value, line)
 
-    def _continue(self, header: _Header, lines: list[str], number: int) -> int:
+    def _join(self, header: _Header, lines: list[str], number: int) -> int:
         """Join the lines that continue a keyword line; returns the number of lines taken."""
         while header.text.endswith(",") and number < len(lines):
             ahead = number
             while ahead < len(lines) - 1 and lines[ahead].startswith("**"):
                 ahead += 1
             line = lines[ahead]
-            if not _continues(header.text, line):
+            if not self._continues(header.text, line):
                 break
             header.text += line
             number = ahead + 1
         return number
+
+    def _continues(self, header: str, line: str) -> bool:
+        """Whether a line goes on with a keyword line that ends in a comma, or is its first data line."""
+        if not line or line.startswith("*"):
+            return False
+        first = split_fields(line)[0]
+        if "=" in first:
+            return True
+        try:
+            keyword = find_keyword(self._keywords, split_fields(header[1:])[0], Source("", 0))
+        except DeckError:
+            return False
+        return any(compact(option.name) == compact(first) for option in keyword.options)
 
     def _keyword(self, header: _Header, stack: tuple[Path, ...]) -> None:
         """Open the block of a keyword line, or read the file it includes."""
@@ -183,7 +212,7 @@ class _Lexer:
         source = header.source
         text = self._substitute(header.text, source)
         fields = split_fields(text[1:])
-        keyword = find_keyword(fields[0], source)
+        keyword = find_keyword(self._keywords, fields[0], source)
         if keyword.name == "INCLUDE":
             self._open = previous
             self._include(read_options(keyword, fields[1:], source).text("INPUT"), source, stack)
@@ -227,15 +256,18 @@ def _options(keyword: Keyword, fields: list[str], source: Source) -> Options:
     return read_options(keyword, fields, source) if keyword.options or keyword.support == "read" else Options(keyword)
 
 
-def _continues(header: str, line: str) -> bool:
-    """Whether a line goes on with a keyword line that ends in a comma, or is its first data line."""
-    if not line or line.startswith("*"):
-        return False
-    first = split_fields(line)[0]
-    if "=" in first:
-        return True
-    try:
-        keyword = find_keyword(split_fields(header[1:])[0], Source("", 0))
-    except DeckError:
-        return False
-    return any(compact(option.name) == compact(first) for option in keyword.options)
+KEYWORDS = (
+    Keyword(
+        "INCLUDE",
+        "Read another file in this place: sought beside the deck, then beside the including file.",
+        Where.ANY,
+        (Option("INPUT", Kind.FILE, "file", required=True), *refused("PASSWORD")),
+    ),
+    Keyword(
+        "PARAMETER",
+        "Define parameters; <name> on any later line stands for the value.",
+        Where.ANY,
+        (*ignored("INDEPENDENT"), *refused("DEPENDENT", "TABLE")),
+        "name = arithmetic expression in Python's spelling",
+    ),
+)

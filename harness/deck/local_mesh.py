@@ -13,10 +13,11 @@ from harness.deck.blocks import Block, Row
 from harness.deck.numbers import integer_table, is_integer, read_integer, real_table
 from harness.deck.placement import IDENTITY, read_system
 from harness.deck.problems import nearest
-from harness.deck.table import split_fields, unquote
+from harness.deck.table import INPUT, Keyword, Kind, Option, Where, ignored, one_of, refused, split_fields, unquote
 from harness.deck.user_elements import Definitions, ElementType, find_type
 from harness.errors import DeckError, Source
 from harness.model.arrays import FloatArray, IntArray
+from harness.model.element_types import BUILT_IN
 
 LARGEST_LABEL = 999_999_999
 MOST_GENERATED = {"nodes": 1_000_000, "elements": 1_000_000, "numbers": 10_000_000}
@@ -335,3 +336,59 @@ def _read_nodes(block: Block) -> tuple[IntArray, FloatArray, Callable[[int], Sou
         row.at_most(7)
         points[index] = [row.real(column, f"coordinate {column}", 0.0) for column in (1, 2, 3)]
     return found, points, lambda index: rows[index].source
+
+
+TAKES_NODES = Option("NSET", Kind.NAME, "set that takes the nodes")
+TAKES_ELEMENTS = Option("ELSET", Kind.NAME, "set that takes the elements")
+_GENERATE = Option("GENERATE", doc="data lines are first, last, increment")
+_INSTANCE = Option("INSTANCE", Kind.NAME, "instance the labels belong to")
+
+KEYWORDS = (
+    Keyword(
+        "NODE",
+        "Define nodes by coordinates.",
+        Where.MODEL,
+        (TAKES_NODES, one_of("SYSTEM", "R: rectangular", ("R",), refused=("C", "S")), INPUT),
+        "node, x, y, z",
+    ),
+    Keyword(
+        "ELEMENT",
+        "Define elements by their nodes.",
+        Where.MODEL,
+        (
+            Option("TYPE", Kind.NAME, f"Un; or built in: {', '.join(BUILT_IN)}", required=True),
+            TAKES_ELEMENTS,
+            INPUT,
+            *refused("FILE", "OFFSET", "SOLID ELEMENT NUMBERING"),
+        ),
+        "element, nodes; continued on further lines where a line ends before the last node",
+    ),
+    Keyword(
+        "NSET",
+        "Define or extend a node set.",
+        Where.MODEL,
+        (
+            Option("NSET", Kind.NAME, "set", required=True),
+            _GENERATE,
+            Option("ELSET", Kind.NAME, "take the nodes of these elements"),
+            _INSTANCE,
+            Option("UNSORTED", doc="keep the order, which counts in *EQUATION"),
+            INPUT,
+            *ignored("INTERNAL"),
+        ),
+        "nodes and node sets",
+    ),
+    Keyword(
+        "ELSET",
+        "Define or extend an element set.",
+        Where.MODEL,
+        (
+            Option("ELSET", Kind.NAME, "set", required=True),
+            _GENERATE,
+            _INSTANCE,
+            INPUT,
+            *ignored("INTERNAL", "UNSORTED"),
+        ),
+        "elements and element sets",
+    ),
+)

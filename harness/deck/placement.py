@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""Translation followed by rotation about an axis, as *INSTANCE and *NCOPY give them."""
+"""Rectangular systems: placements, as *INSTANCE, *NCOPY and *SYSTEM give them, and the axes of *ORIENTATION."""
 
 from __future__ import annotations
 
@@ -10,9 +10,13 @@ from dataclasses import dataclass
 import numpy as np
 
 from harness.deck.blocks import Block, Row
+from harness.deck.problems import Problems
+from harness.deck.table import NAME, Keyword, Where, one_of, refused
 from harness.model.arrays import FloatArray
+from harness.model.properties import Orientation
 
 SMALLEST_LENGTH = 1e-10
+SMALLEST_SINE = 1e-10
 
 
 @dataclass(frozen=True, slots=True)
@@ -92,3 +96,67 @@ def _read_rotation(row: Row) -> tuple[FloatArray, FloatArray]:
     angle = math.radians(row.real(6, "angle", 0.0))
     cross = np.array([[0, -z, y], [z, 0, -x], [-y, x, 0]])
     return start, np.eye(3) + math.sin(angle) * cross + (1 - math.cos(angle)) * cross @ cross
+
+
+def read_orientations(blocks: list[Block], problems: Problems) -> dict[str, Orientation]:
+    """Orientations of *ORIENTATION."""
+    found: dict[str, Orientation] = {}
+    for block in blocks:
+        if block.name == "ORIENTATION":
+            with problems.gather():
+                name = block.options.text("NAME")
+                if name in found:
+                    raise block.error(f"{name} is defined already, at {found[name].source}")
+                found[name] = Orientation(name, _read_axes(block), block.source)
+    return found
+
+
+def _read_axes(block: Block) -> FloatArray:
+    """Rows are the local directions: a on the first, b in the plane of the first two, c the origin."""
+    rows = list(block.rows())
+    if not 1 <= len(rows) <= 2:
+        raise block.error("needs a data line with the points a, b and c, and may have one with a rotation")
+    rows[0].at_most(9)
+    a, b, c = np.array([rows[0].real(index, "coordinate", 0.0) for index in range(9)]).reshape(3, 3)
+    third = np.cross(a - c, b - c)
+    if np.linalg.norm(third) <= SMALLEST_SINE * np.linalg.norm(a - c) * np.linalg.norm(b - c):
+        raise rows[0].error("the points a, b and c are on one line")
+    axes = np.array([a - c, np.cross(third, a - c), third])
+    axes /= np.linalg.norm(axes, axis=1)[:, None]
+    if len(rows) == 2:
+        axis = rows[1].integer(0, "axis", 1)
+        if axis not in (1, 2, 3):
+            raise rows[1].error(f"axis {axis} is not 1, 2 or 3")
+        angle = math.radians(rows[1].real(1, "angle", 0.0))
+        first, second = axis % 3, (axis + 1) % 3
+        turned = [math.cos(angle) * axes[first] + math.sin(angle) * axes[second]]
+        turned += [-math.sin(angle) * axes[first] + math.cos(angle) * axes[second]]
+        axes[first], axes[second] = turned
+    return axes
+
+
+KEYWORDS = (
+    Keyword(
+        "SYSTEM",
+        "Rectangular system in which the nodes that follow are given; without data lines the global one.",
+        Where.MODEL,
+        data="origin, point on the local x-axis; then a point of the local x-y plane",
+    ),
+    Keyword(
+        "ORIENTATION",
+        "Local rectangular axes from three points, with an additional rotation.",
+        Where.MODEL,
+        (
+            NAME,
+            one_of("DEFINITION", "how the points are given", ("COORDINATES",), refused=("NODES", "OFFSET TO NODES")),
+            one_of(
+                "SYSTEM",
+                "kind of axes",
+                ("RECTANGULAR",),
+                refused=("CYLINDRICAL", "SPHERICAL", "USER", "Z RECTANGULAR"),
+            ),
+            *refused("LOCAL DIRECTIONS"),
+        ),
+        "a (on the 1-axis), b (in the 1-2 plane), c (origin); then axis number and angle in degrees",
+    ),
+)

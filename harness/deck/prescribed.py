@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""*BOUNDARY, *CLOAD and *EQUATION."""
+"""*BOUNDARY, *CLOAD, *CFLUX and *EQUATION."""
 
 from __future__ import annotations
 
@@ -11,11 +11,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from harness.deck.blocks import Block, Row
-from harness.deck.catalogue import look_up
 from harness.deck.flatten import FlatMesh, Owner
-from harness.deck.problems import Problems, nearest
+from harness.deck.problems import Problems, look_up, nearest
 from harness.deck.surfaces import Surfaces
-from harness.deck.table import Keyword, Kind, Option, Where, ignored, one_of, refused, unquote
+from harness.deck.table import INPUT, Keyword, Kind, Option, Where, ignored, one_of, refused, unquote
 from harness.deck.user_elements import LARGEST_DOF
 from harness.errors import DeckError, Source
 from harness.model.amplitude import Amplitude
@@ -214,11 +213,7 @@ HARMONIC = (
     Option("IMAGINARY", doc="imaginary part of what is harmonic, in *STEADY STATE DYNAMICS"),
 )
 
-LOAD = (
-    OP,
-    Option("AMPLITUDE", Kind.NAME, "amplitude; without it that of *STEP"),
-    Option("INPUT", Kind.FILE, "file that holds the data lines"),
-)
+LOAD = (OP, Option("AMPLITUDE", Kind.NAME, "amplitude; without it that of *STEP"), INPUT)
 
 KEYWORDS = (
     Keyword(
@@ -229,7 +224,7 @@ KEYWORDS = (
             OP,
             AMPLITUDE,
             one_of("TYPE", "what is prescribed", ("DISPLACEMENT", "VELOCITY"), refused=("ACCELERATION",)),
-            Option("INPUT", Kind.FILE, "file that holds the data lines"),
+            INPUT,
             Option("USER", doc="DISP gives the values"),
             Option("FIXED", doc="values stay what they are at the start of the step"),
             *HARMONIC,
@@ -252,5 +247,12 @@ KEYWORDS = (
         Where.STEP,
         (*LOAD, *ignored("REGION TYPE")),
         "node or set, dof (11), value",
+    ),
+    Keyword(
+        "EQUATION",
+        "Linear constraint between dofs; the first term is eliminated. A set stands for its nodes in order.",
+        Where.MODEL,
+        (INPUT,),
+        "number of terms; then node or set, dof, coefficient of each term",
     ),
 )

@@ -5,14 +5,18 @@
 from __future__ import annotations
 
 import difflib
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Mapping
 from contextlib import contextmanager
+from typing import TypeVar
 
 from harness.errors import DeckError, Source, all_of
 
 MOST_REPORTED = 50
 _LONGEST_WORD = 80
 """Characters of a word for which the nearest one is sought; the longest keyword has half as many."""
+
+
+Entry = TypeVar("Entry")
 
 
 class Problems:
@@ -59,3 +63,10 @@ def nearest(word: str, known: Iterable[str]) -> str:
         return ""
     found = difflib.get_close_matches(word, list(known), n=1, cutoff=0.6)
     return f"; did you mean {found[0]}?" if found else ""
+
+
+def look_up(known: Mapping[str, Entry], name: str, what: str, source: Source) -> Entry:
+    """Entry of a name; DeckError that names the nearest one."""
+    if name not in known:
+        raise DeckError(source, f"unknown {what} {name}{nearest(name, known)}")
+    return known[name]

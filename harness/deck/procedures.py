@@ -204,13 +204,13 @@ PROCEDURES: tuple[tuple[Keyword, Callable[[Block, Prescription], Procedure]], ..
             "Static stress analysis.",
             Where.STEP,
             (
-                Option("DIRECT", doc="fixed increments"),
+                _DIRECT,
                 Option("RIKS", doc="the load factor is part of the solution; increments are arc lengths"),
                 *_STABILIZE,
                 *refused("ADIABATIC", "FULLY PLASTIC", "LONG TERM"),
             ),
-            "initial increment, period (1), smallest increment, largest increment; with RIKS also the largest load "
-            "proportionality factor, and a node, its dof and the displacement that ends the step",
+            f"{_TIMES}; with RIKS also the largest load proportionality factor, and a node, its dof and the "
+            "displacement that ends the step",
         ),
         _read_static,
     ),
@@ -262,7 +262,7 @@ PROCEDURES: tuple[tuple[Keyword, Callable[[Block, Prescription], Procedure]], ..
             "Uncoupled heat transfer, for user elements with dof 11 and up.",
             Where.STEP,
             (*_HEAT, one_of("END", "end of a transient step", ("PERIOD", "SS")), *refused("MXDEM")),
-            _TIMES + "; rate of temperature change that ends a step with END=SS",
+            f"{_TIMES}; rate of temperature change that ends a step with END=SS",
         ),
         _read_heat_transfer,
     ),

@@ -8,18 +8,20 @@ from pathlib import Path
 
 import numpy as np
 
-from harness.deck.catalogue import read_amplitudes, read_materials
+from harness.deck.amplitudes import read_amplitudes
 from harness.deck.constraints import ConstraintReader
 from harness.deck.damage import read_controls
 from harness.deck.flatten import FlatMesh
 from harness.deck.groups import make_groups
 from harness.deck.initial import read_initial_solutions, read_initial_stresses, read_initial_values
+from harness.deck.keywords import KEYWORDS
 from harness.deck.lexer import read_blocks
+from harness.deck.materials import read_materials
 from harness.deck.prescribed import Prescription, read_equations
 from harness.deck.problems import Problems
 from harness.deck.requests import RequestReader
 from harness.deck.steps import check_parts, read_steps
-from harness.deck.structure import sort_blocks
+from harness.deck.structure import read_heading, sort_blocks
 from harness.deck.surfaces import Surfaces
 from harness.deck.user_elements import dofs_of
 from harness.errors import DeckError, Source
@@ -31,7 +33,7 @@ from harness.model.steps import Boundary
 def read_deck(path: Path) -> Model:
     """Read an Abaqus input deck; DeckError, one file:line per line, for all that is wrong or not supported."""
     problems = Problems()
-    blocks = read_blocks(path, problems)
+    blocks = read_blocks(path, KEYWORDS, problems)
     structure = sort_blocks(blocks, problems)
     problems.check()
     materials = read_materials(structure.root, problems)
@@ -62,10 +64,9 @@ def read_deck(path: Path) -> Model:
     steps = read_steps(structure.steps, prescription, RequestReader(flat, problems), problems)
     related = constraints.read(steps)
     problems.check()
-    headings = [line for block in blocks if block.name == "HEADING" for line in block.lines if line]
     return Model(
         deck=path,
-        heading=" ".join(headings[:1]),
+        heading=read_heading(blocks),
         mesh=flat.mesh,
         groups=groups,
         steps=steps,

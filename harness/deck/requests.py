@@ -12,7 +12,7 @@ import numpy as np
 from harness.deck.blocks import Block
 from harness.deck.flatten import FlatMesh
 from harness.deck.problems import Problems
-from harness.deck.table import compact
+from harness.deck.table import Keyword, Kind, Option, Where, compact, ignored, one_of, refused
 from harness.deck.user_elements import LARGEST_DOF
 from harness.model.arrays import IntArray
 from harness.model.nodal import COMPONENTS
@@ -189,3 +189,91 @@ def _frequency(block: Block) -> int:
     if frequency < 0:
         raise block.error(f"FREQUENCY={frequency} must not be negative")
     return frequency
+
+
+_NSET = Option("NSET", Kind.NAME, "node set")
+_FREQUENCY = Option("FREQUENCY", Kind.INTEGER, "every k-th increment (1); 0 never")
+_VARIABLE = one_of("VARIABLE", "default variables", ("ALL", "PRESELECT"))
+
+KEYWORDS = (
+    Keyword(
+        "OUTPUT",
+        "Begin output requests; without any, history and field output are those Abaqus preselects.",
+        Where.STEP,
+        (
+            Option("FIELD", doc="field output, written to .vtu"),
+            Option("HISTORY", doc="history output, written to .csv"),
+            _FREQUENCY,
+            one_of("OP", "what becomes of earlier requests", ("NEW", "ADD", "REPLACE"), default="NEW"),
+            Option("NUMBER INTERVAL", Kind.INTEGER, "number of output times in the step"),
+            Option("TIME INTERVAL", Kind.REAL, "time between outputs"),
+            Option("TIME MARKS", Kind.SWITCH, "whether increments end at the output times", default="YES"),
+            _VARIABLE,
+            Option("TIME POINTS", Kind.NAME, "output times"),
+            Option("SENSOR", doc="UAMP reads the variable, which is one component of one node, by NAME"),
+            Option("NAME", Kind.NAME, "of a sensor"),
+            *ignored("DIAGNOSTICS", "FILTER", "MODE LIST"),
+        ),
+    ),
+    Keyword(
+        "NODE OUTPUT",
+        "Nodal variables of the *OUTPUT before.",
+        Where.STEP,
+        (_NSET, _VARIABLE, *ignored("EXTERIOR", "TRACER SET")),
+        "variables",
+    ),
+    Keyword(
+        "ENERGY OUTPUT",
+        "Energies of the whole model, of the *OUTPUT, HISTORY before.",
+        Where.STEP,
+        (_VARIABLE, *ignored("ELSET", "PER ELEMENT SET", "PER SECTION")),
+        "variables",
+    ),
+    Keyword(
+        "NODE PRINT",
+        "Table of nodal variables in .dat.",
+        Where.STEP,
+        (
+            _NSET,
+            _FREQUENCY,
+            Option("TOTALS", Kind.SWITCH, "print the sum of each column"),
+            *ignored("GLOBAL", "MODE", "LAST MODE", "SUMMARY"),
+        ),
+        "variables, one table a line",
+    ),
+    Keyword(
+        "EL PRINT",
+        "Table of element variables in .dat.",
+        Where.STEP,
+        (
+            Option("ELSET", Kind.NAME, "element set"),
+            _FREQUENCY,
+            one_of(
+                "POSITION",
+                "where; values of built-in continuum elements are extrapolated, of others .dat has those at the "
+                "points and warns",
+                ("INTEGRATION POINTS", "CENTROIDAL", "CENTROID", "NODES", "AVERAGED AT NODES"),
+                default="INTEGRATION POINTS",
+            ),
+            *ignored("DIRECTIONS", "LAST MODE", "LOCALDIR", "MODE", "REBAR", "SUMMARY", "TOTALS"),
+        ),
+        "variables, one table a line",
+    ),
+    Keyword(
+        "ENERGY PRINT",
+        "Table of the energies of the whole model in .dat.",
+        Where.STEP,
+        (_FREQUENCY, *refused("ELSET")),
+        "ignored, with a warning: all energies are printed",
+    ),
+    Keyword(
+        "MONITOR",
+        "Dof whose value .sta prints.",
+        Where.STEP,
+        (
+            Option("NODE", Kind.NAME, "node, or set of one node", required=True),
+            Option("DOF", Kind.INTEGER, "dof", required=True),
+            *ignored("FREQUENCY"),
+        ),
+    ),
+)

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""*SOLID SECTION, *COHESIVE SECTION and *UEL PROPERTY, made for the element type they are used with."""
+"""*SOLID SECTION, *COHESIVE SECTION, *UEL PROPERTY, *SPRING and *MASS, made for the element type they are used with."""
 
 from __future__ import annotations
 
@@ -11,12 +11,12 @@ from itertools import pairwise
 import numpy as np
 
 from harness.deck.blocks import PER_LINE, Block, Row
-from harness.deck.catalogue import look_up
 from harness.deck.numbers import LARGEST_INTEGER
-from harness.deck.problems import Problems
+from harness.deck.problems import Problems, look_up
+from harness.deck.table import Keyword, Kind, Option, Where, one_of, refused
 from harness.deck.user_elements import LARGEST_DOF, ElementType
 from harness.errors import DeckError
-from harness.model.element_types import BUILT_IN, DISCRETE, DiscreteKind
+from harness.model.element_types import DISCRETE, DiscreteKind
 from harness.model.properties import (
     CohesiveSection,
     ElasticType,
@@ -30,8 +30,6 @@ from harness.model.properties import (
     UserElement,
     UserProperty,
 )
-
-SECTION_KEYWORDS = {"UEL PROPERTY", *(kind.section for kind in BUILT_IN.values())}
 
 
 def make_section(
@@ -181,3 +179,70 @@ def _user_property(
         material,
         orientation,
     )
+
+
+_ELSET = Option("ELSET", Kind.NAME, "element set", required=True)
+_MATERIAL = Option("MATERIAL", Kind.NAME, "material", required=True)
+_ORIENTATION = Option("ORIENTATION", Kind.NAME, "orientation of the material")
+_CONTROLS = Option("CONTROLS", Kind.NAME, "section controls")
+
+KEYWORDS = (
+    Keyword(
+        "UEL PROPERTY",
+        "Properties of user elements; with MATERIAL=, UELMAT is called.",
+        Where.MODEL,
+        (
+            _ELSET,
+            Option("MATERIAL", Kind.NAME, "material for MATERIAL_LIB_MECH"),
+            _ORIENTATION,
+            *refused("ALPHA", "BETA"),
+        ),
+        "real properties, then integer properties, eight to a line; what a line leaves out is zero",
+    ),
+    Keyword(
+        "SOLID SECTION",
+        "Section of built-in continuum elements. Axisymmetric ones (CAX) take no notice of the thickness: forces, "
+        "masses and energies are those of the whole circumference.",
+        Where.MODEL,
+        (
+            _ELSET,
+            _MATERIAL,
+            _ORIENTATION,
+            _CONTROLS,
+            *refused("COMPOSITE", "LAYUP", "ORDER", "REF NODE", "STACK DIRECTION", "SYMMETRIC"),
+        ),
+        "thickness (1)",
+    ),
+    Keyword(
+        "COHESIVE SECTION",
+        "Section of cohesive elements.",
+        Where.MODEL,
+        (
+            _ELSET,
+            _MATERIAL,
+            one_of("RESPONSE", "response", ("TRACTION SEPARATION",), required=True, refused=("CONTINUUM", "GASKET")),
+            one_of(
+                "THICKNESS",
+                "constitutive thickness: of the data line or of the nodes",
+                ("SPECIFIED", "GEOMETRY"),
+                default="SPECIFIED",
+            ),
+            _CONTROLS,
+            *refused("HALF", "ORIENTATION", "STACK DIRECTION", "SYMMETRIC"),
+        ),
+        "constitutive thickness (1), width out of the plane (1)",
+    ),
+    Keyword(
+        "SPRING",
+        "Stiffness of SPRING1, SPRING2 and SPRINGA.",
+        Where.MODEL,
+        (
+            _ELSET,
+            Option("NONLINEAR", doc="force and elongation in place of the stiffness; constant outside the table"),
+            *refused("COMPLEX STIFFNESS", "DEPENDENCIES", "ORIENTATION", "RTOL"),
+        ),
+        "dof at the first node, dof at the second (SPRING2), blank for SPRINGA; then stiffness, or force, elongation",
+    ),
+    Keyword("MASS", "Point masses.", Where.MODEL, (_ELSET, *refused("ALPHA", "ORIENTATION", "TYPE")), "mass"),
+)
+SECTION_KEYWORDS = {keyword.name for keyword in KEYWORDS}

@@ -8,7 +8,7 @@ from dataclasses import dataclass, field
 
 from harness.deck.blocks import Block
 from harness.deck.problems import Problems, nearest
-from harness.deck.table import Support, Where
+from harness.deck.table import NAME, Keyword, Kind, Option, Support, Where, ignored, refused
 from harness.errors import DeckError, Source
 
 _ENDS = {"END PART": "PART", "END ASSEMBLY": "ASSEMBLY", "END INSTANCE": "INSTANCE", "END STEP": "STEP"}
@@ -44,6 +44,11 @@ class Structure:
     instances: dict[str, Scope] = field(default_factory=dict)
     steps: list[Scope] = field(default_factory=list)
     ignored: list[tuple[str, Source]] = field(default_factory=list)
+
+
+def read_heading(blocks: list[Block]) -> str:
+    """First line of the *HEADING keywords of a deck, '' without any."""
+    return next((line for block in blocks if block.name == "HEADING" for line in block.lines if line), "")
 
 
 def sort_blocks(blocks: list[Block], problems: Problems) -> Structure:
@@ -142,3 +147,20 @@ def _check_instances(structure: Structure, problems: Problems) -> None:
     for name, scope in structure.parts.items():
         if name not in used:
             problems.warn(scope.head.source, f"part {name} has no instance and is left out")
+
+
+KEYWORDS = (
+    Keyword("HEADING", "Title of the job.", Where.ANY, (*ignored("SPARSE", "UNSYMM"),), "free text"),
+    Keyword("PART", "Begin a part.", Where.MODEL, (NAME,)),
+    Keyword("END PART", "End a part.", Where.MODEL),
+    Keyword("ASSEMBLY", "Begin the assembly.", Where.MODEL, (NAME,)),
+    Keyword("END ASSEMBLY", "End the assembly.", Where.MODEL),
+    Keyword(
+        "INSTANCE",
+        "Place a part in the assembly; may hold nodes, elements and sets of its own.",
+        Where.MODEL,
+        (NAME, Option("PART", Kind.NAME, "part", required=True), *refused("INSTANCE", "LIBRARY")),
+        "translation; then two points of an axis and an angle in degrees (rotation follows translation)",
+    ),
+    Keyword("END INSTANCE", "End an instance.", Where.MODEL),
+)

@@ -11,6 +11,7 @@ import numpy as np
 from harness.deck.blocks import Block
 from harness.deck.flatten import FlatMesh
 from harness.deck.problems import nearest
+from harness.deck.table import NAME, Keyword, Where, ignored, one_of
 from harness.errors import DeckError, Source
 from harness.model.arrays import IntArray
 from harness.model.element_types import ContinuumType
@@ -100,3 +101,26 @@ def face_nodes(group: ElementGroup, face: str, source: Source, keyword: str) -> 
         known = ", ".join(faces) or "none"
         raise DeckError(source, f"*{keyword}: elements of type {group.type} have no face {face} (faces: {known})")
     return faces[face]
+
+
+KEYWORDS = (
+    Keyword(
+        "SURFACE",
+        "Define a surface, of which constraints use the nodes.",
+        Where.MODEL,
+        (
+            NAME,
+            one_of(
+                "TYPE",
+                "what it is made of; constraints use ELEMENT and NODE",
+                (
+                    *("ELEMENT", "NODE", "CUTTING SURFACE", "CYLINDER", "EULERIAN MATERIAL", "REVOLUTION", "SEGMENTS"),
+                    *("USER", "XFEM"),
+                ),
+                default="ELEMENT",
+            ),
+            *ignored("INTERNAL", "DEFINITION", "TRIM", "FILLET RADIUS", "COMBINE", "CROP", "NO OFFSET", "NO THICK"),
+        ),
+        "set or element, face (S1, S2, ...); or node set or node",
+    ),
+)

@@ -5,10 +5,12 @@
 from __future__ import annotations
 
 import re
+from collections.abc import Mapping
 from dataclasses import dataclass, field
 from enum import StrEnum
 from functools import lru_cache
 
+from harness.deck.abaqus_names import ABAQUS_KEYWORDS
 from harness.deck.numbers import read_integer, read_real
 from harness.deck.problems import nearest
 from harness.errors import DeckError, Source
@@ -69,6 +71,10 @@ class Keyword:
     options: tuple[Option, ...] = ()
     data: str = ""
     support: Support = Support.READ
+
+
+INPUT = Option("INPUT", Kind.FILE, "file that holds the data lines")
+NAME = Option("NAME", Kind.NAME, "name", required=True)
 
 
 def one_of(
@@ -163,6 +169,23 @@ def split_fields(line: str) -> list[str]:
 def unquote(name: str) -> str:
     """A name without its quotes, in upper case and with single blanks: names are compared like this."""
     return " ".join(name.replace('"', "").split()).upper()
+
+
+_ABAQUS = {compact(name): name for name in ABAQUS_KEYWORDS}
+
+
+def find_keyword(keywords: Mapping[str, Keyword], name: str, source: Source) -> Keyword:
+    """Keyword of this name, or the only one of Abaqus that begins like this; DeckError says whether Abaqus has it."""
+    wanted = compact(name)
+    begins = [full for full in _ABAQUS if full.startswith(wanted)] if wanted not in _ABAQUS else []
+    if len(begins) == 1:
+        wanted = begins[0]
+    if wanted in keywords:
+        return keywords[wanted]
+    if wanted in _ABAQUS:
+        raise DeckError(source, f"*{_ABAQUS[wanted]} is not supported")
+    known = {keyword.name for keyword in keywords.values()} | ABAQUS_KEYWORDS
+    raise DeckError(source, f"unknown keyword *{name.strip()}{nearest(name.strip().upper(), known)}")
 
 
 def read_options(keyword: Keyword, fields: list[str], source: Source) -> Options:

@@ -11,6 +11,7 @@ from dataclasses import dataclass
 from harness.deck.abaqus_elements import is_abaqus_element
 from harness.deck.blocks import Block
 from harness.deck.problems import nearest
+from harness.deck.table import Keyword, Kind, Option, Where, one_of, refused
 from harness.errors import DeckError, Source
 from harness.model.element_types import BUILT_IN
 from harness.model.mesh import ElementGroup
@@ -144,3 +145,25 @@ def _read_dofs(block: Block, nodes: int) -> tuple[tuple[int, int], ...]:
     if not found:
         raise block.error("no node has a dof")
     return tuple(found)
+
+
+KEYWORDS = (
+    Keyword(
+        "USER ELEMENT",
+        "Introduce a user element type.",
+        Where.MODEL,
+        (
+            Option("TYPE", Kind.NAME, "Un, 0 < n < 10000", required=True),
+            Option("NODES", Kind.INTEGER, "nodes per element", required=True),
+            Option("COORDINATES", Kind.INTEGER, "largest coordinate used (1)"),
+            Option("PROPERTIES", Kind.INTEGER, "number of real properties (0)"),
+            Option("I PROPERTIES", Kind.INTEGER, "number of integer properties (0)"),
+            Option("VARIABLES", Kind.INTEGER, "number of solution-dependent variables (1)"),
+            Option("UNSYMM", doc="the matrix is unsymmetric"),
+            Option("INTEGRATION", Kind.INTEGER, "material points, with UELMAT"),
+            one_of("TENSOR", "tensors, with UELMAT", ("THREED", "TWOD", "PSTRAIN", "PSTRESS")),
+            *refused("LINEAR", "FILE", "OLD ELEMENT", "STEP"),
+        ),
+        "dofs at the first node; then node position, dofs from that node on",
+    ),
+)

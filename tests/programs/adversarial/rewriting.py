@@ -10,6 +10,7 @@ from pathlib import Path
 from random import Random
 
 from harness.deck.blocks import Block, Row
+from harness.deck.keywords import KEYWORDS
 from harness.deck.lexer import read_blocks
 from harness.deck.problems import Problems
 
@@ -101,7 +102,7 @@ def permuted(deck: Path, seed: int) -> Labels:
 def blocks(deck: Path) -> list[Block]:
     """Keyword blocks of a deck, included files in their place."""
     problems = Problems()
-    found = read_blocks(deck, problems)
+    found = read_blocks(deck, KEYWORDS, problems)
     problems.check()
     return found
 

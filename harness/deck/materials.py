@@ -1,52 +1,26 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""Materials, orientations and amplitudes, by name."""
+"""*MATERIAL and the options that follow it."""
 
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
 from dataclasses import replace
-from itertools import pairwise
-from typing import TypeVar
 
 import numpy as np
 
 from harness.deck.blocks import PER_LINE, Block, Row
-from harness.deck.damage import DAMAGE_KEYWORDS, extend_damage
-from harness.deck.problems import Problems, nearest
-from harness.deck.user_elements import MOST_VALUES, read_count
-from harness.errors import DeckError, Source
-from harness.model.amplitude import Amplitude, AmplitudeType, UserAmplitude
+from harness.deck.damage import DAMAGE, extend_damage
+from harness.deck.problems import Problems
+from harness.deck.table import NAME, Keyword, Kind, Option, Where, ignored, one_of, refused
+from harness.deck.user_elements import read_count
 from harness.model.arrays import FloatArray
-from harness.model.properties import (
-    Elastic,
-    ElasticType,
-    Material,
-    Orientation,
-    Plastic,
-    UserMaterial,
-    isotropic_fault,
-)
+from harness.model.properties import Elastic, ElasticType, Material, Plastic, UserMaterial, isotropic_fault
 
-MATERIAL_OPTIONS = (
-    *("ELASTIC", "PLASTIC", "DENSITY", "CONDUCTIVITY", "SPECIFIC HEAT", "EXPANSION"),
-    *("USER MATERIAL", "DEPVAR", "USER OUTPUT VARIABLES", "USER DEFINED FIELD"),
-    *DAMAGE_KEYWORDS,
-)
 DEPENDENT = (ElasticType.ISOTROPIC, ElasticType.LAMINA, ElasticType.ENGINEERING_CONSTANTS)
 """Those whose constants may depend on temperature and fields."""
 MOST_FIELDS = 1000
-SMALLEST_SINE = 1e-10
 MOST_VARIABLES = 1_000_000
-Entry = TypeVar("Entry")
-
-
-def look_up(known: Mapping[str, Entry], name: str, what: str, source: Source) -> Entry:
-    """Entry of a name; DeckError that names the nearest one."""
-    if name not in known:
-        raise DeckError(source, f"unknown {what} {name}{nearest(name, known)}")
-    return known[name]
 
 
 def read_materials(blocks: list[Block], problems: Problems) -> dict[str, Material]:
@@ -198,132 +172,96 @@ def _read_plastic(block: Block) -> Plastic:
     return Plastic(np.array(table), block.source)
 
 
-def read_orientations(blocks: list[Block], problems: Problems) -> dict[str, Orientation]:
-    """Orientations of *ORIENTATION."""
-    found: dict[str, Orientation] = {}
-    for block in blocks:
-        if block.name == "ORIENTATION":
-            with problems.gather():
-                name = block.options.text("NAME")
-                if name in found:
-                    raise block.error(f"{name} is defined already, at {found[name].source}")
-                found[name] = Orientation(name, _read_axes(block), block.source)
-    return found
+_ISOTROPIC = one_of("TYPE", "symmetry", ("ISO",), refused=("ORTHO", "ANISO"))
 
+_OPTIONS = (
+    Keyword(
+        "ELASTIC",
+        "Linear elasticity.",
+        Where.MODEL,
+        (
+            one_of(
+                "TYPE",
+                "symmetry",
+                ("ISOTROPIC", "ENGINEERING CONSTANTS", "LAMINA", "ORTHOTROPIC", "ANISOTROPIC", "TRACTION"),
+                default="ISOTROPIC",
+                refused=("COUPLED TRACTION", "SHEAR", "SHORT FIBER", "BILAMINA"),
+            ),
+            Option("DEPENDENCIES", Kind.INTEGER, "number of field variables"),
+            *ignored("MODULI"),
+            *refused("COMPRESSION FACTOR"),
+        ),
+        "constants in the order of the type; those of continuum elements may depend on temperature and fields, "
+        "which follow, eight values to a line",
+    ),
+    Keyword(
+        "PLASTIC",
+        "Mises plasticity with isotropic hardening.",
+        Where.MODEL,
+        (
+            one_of(
+                "HARDENING",
+                "hardening",
+                ("ISOTROPIC",),
+                default="ISOTROPIC",
+                refused=("KINEMATIC", "COMBINED", "JOHNSON COOK", "USER"),
+            ),
+            *refused("DATA TYPE", "DEPENDENCIES", "NUMBER BACKSTRESSES", "PROPERTIES", "RATE", "SCALESTRESS"),
+        ),
+        "yield stress, plastic strain",
+    ),
+    Keyword(
+        "USER MATERIAL",
+        "Material of UMAT. RPL, DRPLDT, DRPLDE and DDSDDT count in coupled temperature-displacement elements.",
+        Where.MODEL,
+        (
+            Option("CONSTANTS", Kind.INTEGER, "number of constants", required=True),
+            Option("UNSYMM", doc="DDSDDE is unsymmetric"),
+            one_of("TYPE", "what the user routine gives", ("MECHANICAL",), refused=("THERMAL",)),
+            *refused("HYBRID FORMULATION"),
+        ),
+        "constants, eight to a line; what a line leaves out is zero",
+    ),
+    Keyword(
+        "DEPVAR",
+        "Number of state variables (STATEV) of a material point.",
+        Where.MODEL,
+        (*ignored("DELETE"),),
+        "number of variables; then number, name, description of variables, which are not read",
+    ),
+    Keyword("USER DEFINED FIELD", "USDFLD gives the field variables of continuum elements.", Where.MODEL),
+    Keyword(
+        "USER OUTPUT VARIABLES",
+        "Number of variables that UVARM gives at a material point.",
+        Where.MODEL,
+        data="number of variables",
+    ),
+    Keyword("DENSITY", "Mass density.", Where.MODEL, refused("DEPENDENCIES", "PORE FLUID"), "density"),
+    Keyword(
+        "CONDUCTIVITY",
+        "Thermal conductivity.",
+        Where.MODEL,
+        (_ISOTROPIC, *refused("DEPENDENCIES", "PORE FLUID")),
+        "conductivity",
+    ),
+    Keyword(
+        "EXPANSION",
+        "Thermal expansion from the initial temperature on (*INITIAL CONDITIONS, *TEMPERATURE), of continuum elements "
+        "without temperatures of their own.",
+        Where.MODEL,
+        (_ISOTROPIC, *refused("DEPENDENCIES", "FIELD", "PORE FLUID", "USER", "ZERO")),
+        "expansion coefficient",
+    ),
+    Keyword("SPECIFIC HEAT", "Specific heat.", Where.MODEL, refused("DEPENDENCIES", "PORE FLUID"), "specific heat"),
+)
+MATERIAL_OPTIONS = {keyword.name for keyword in (*_OPTIONS, *DAMAGE)}
 
-def _read_axes(block: Block) -> FloatArray:
-    """Rows are the local directions: a on the first, b in the plane of the first two, c the origin."""
-    rows = list(block.rows())
-    if not 1 <= len(rows) <= 2:
-        raise block.error("needs a data line with the points a, b and c, and may have one with a rotation")
-    rows[0].at_most(9)
-    a, b, c = np.array([rows[0].real(index, "coordinate", 0.0) for index in range(9)]).reshape(3, 3)
-    third = np.cross(a - c, b - c)
-    if np.linalg.norm(third) <= SMALLEST_SINE * np.linalg.norm(a - c) * np.linalg.norm(b - c):
-        raise rows[0].error("the points a, b and c are on one line")
-    axes = np.array([a - c, np.cross(third, a - c), third])
-    axes /= np.linalg.norm(axes, axis=1)[:, None]
-    if len(rows) == 2:
-        axis = rows[1].integer(0, "axis", 1)
-        if axis not in (1, 2, 3):
-            raise rows[1].error(f"axis {axis} is not 1, 2 or 3")
-        angle = math.radians(rows[1].real(1, "angle", 0.0))
-        first, second = axis % 3, (axis + 1) % 3
-        turned = [math.cos(angle) * axes[first] + math.sin(angle) * axes[second]]
-        turned += [-math.sin(angle) * axes[first] + math.cos(angle) * axes[second]]
-        axes[first], axes[second] = turned
-    return axes
-
-
-def read_amplitudes(blocks: list[Block], problems: Problems) -> dict[str, Amplitude]:
-    """Amplitudes of *AMPLITUDE."""
-    found: dict[str, Amplitude] = {}
-    for block in blocks:
-        if block.name == "AMPLITUDE":
-            with problems.gather():
-                name = block.options.text("NAME")
-                if name in found:
-                    raise block.error(f"{name} is defined already, at {found[name].source}")
-                found[name] = _read_amplitude(block, name)
-    return found
-
-
-def _read_amplitude(block: Block, name: str) -> Amplitude:
-    options = block.options
-    spaced = options.text("DEFINITION") == "EQUALLY SPACED"
-    if not spaced and (options.given("FIXED INTERVAL") or options.given("BEGIN")):
-        raise block.error("FIXED INTERVAL and BEGIN are for DEFINITION=EQUALLY SPACED")
-    kind = AmplitudeType.TABULAR if spaced else AmplitudeType(options.text("DEFINITION"))
-    total, absolute = options.text("TIME") == "TOTAL TIME", options.text("VALUE") == "ABSOLUTE"
-    if kind is AmplitudeType.USER:
-        properties, variables = _read_user(block)
-        return UserAmplitude(name, kind, properties, block.source, total, absolute, variables)
-    if options.given("PROPERTIES") or options.given("VARIABLES"):
-        raise block.error("PROPERTIES and VARIABLES are for DEFINITION=USER")
-    readers = {AmplitudeType.PERIODIC: _read_periodic, AmplitudeType.DECAY: _read_decay}
-    data = _read_spaced(block) if spaced else readers.get(kind, _read_pairs)(block)
-    if kind is AmplitudeType.SMOOTH_STEP and len(data) < 2:
-        raise block.error("SMOOTH STEP needs two points at least")
-    return Amplitude(name, kind, data, block.source, total, absolute)
-
-
-def _read_user(block: Block) -> tuple[FloatArray, int]:
-    """Properties for UAMP, and the number of its state variables."""
-    count = read_count(block, "PROPERTIES", 0, 0, MOST_VALUES)
-    values = [value for row in block.rows() for value in row.reals("property")]
-    if len(values) != count:
-        raise block.error(f"PROPERTIES={count}, and the data lines hold {len(values)}")
-    return np.array(values), read_count(block, "VARIABLES", 1, 1, MOST_VALUES)
-
-
-def _read_pairs(block: Block) -> FloatArray:
-    values: list[float] = []
-    for row in block.rows():
-        before = values[-2] if len(values) % 2 == 0 and values else None
-        values += row.reals("time or value")
-        times = ([] if before is None else [before]) + values[len(values) - len(row) :: 2]
-        if len(row) % 2:
-            raise row.error("expected pairs of time and value")
-        if any(later <= earlier for earlier, later in pairwise(times)):
-            raise row.error("times must increase")
-    if not values:
-        raise block.error("needs a data line")
-    return np.array(values).reshape(-1, 2)
-
-
-def _read_spaced(block: Block) -> FloatArray:
-    """Times and values of a curve with values at equal intervals."""
-    interval, begin = block.options.real("FIXED INTERVAL", 0.0), block.options.real("BEGIN", 0.0)
-    if interval <= 0:
-        raise block.error("DEFINITION=EQUALLY SPACED needs a positive FIXED INTERVAL")
-    values = [value for row in block.rows() for value in row.reals("value")]
-    if not values:
-        raise block.error("needs a data line")
-    return np.column_stack([begin + interval * np.arange(len(values)), values])
-
-
-def _read_decay(block: Block) -> FloatArray:
-    """Rows (A0, A), (t0, td)."""
-    row = next(block.rows(), None)
-    if row is None:
-        raise block.error("needs a data line")
-    row.at_most(4)
-    values = [row.real(index, what, 0.0) for index, what in enumerate(("A0", "A", "t0", "td"))]
-    if values[3] <= 0:
-        raise row.error(f"decay time td = {values[3]:g} must be positive")
-    return np.array(values).reshape(2, 2)
-
-
-def _read_periodic(block: Block) -> FloatArray:
-    """Rows (omega, t0), (A0, 0), then (An, Bn)."""
-    rows = list(block.rows())
-    if not rows:
-        raise block.error("needs a data line")
-    terms = rows[0].integer(0, "number of terms")
-    head = [rows[0].real(index, what, 0.0) for index, what in ((1, "omega"), (2, "t0"), (3, "A0"))]
-    values = [value for row in rows[1:] for value in row.reals("coefficient")]
-    if len(values) % 2:
-        values.append(0.0)
-    if len(values) != 2 * terms:
-        raise rows[0].error(f"{terms} terms are announced, coefficients of {len(values) / 2:g} are given")
-    return np.array([head[0], head[1], head[2], 0.0, *values]).reshape(-1, 2)
+KEYWORDS = (
+    Keyword(
+        "MATERIAL",
+        "Begin a material.",
+        Where.MODEL,
+        (NAME, *refused("RTOL", "SRATE FACTOR", "STRAIN RATE REGULARIZATION")),
+    ),
+    *_OPTIONS,
+)

@@ -1,0 +1,142 @@
+# SPDX-FileCopyrightText: The uel-harness authors
+# SPDX-License-Identifier: BSD-3-Clause
+"""*AMPLITUDE."""
+
+from __future__ import annotations
+
+from itertools import pairwise
+
+import numpy as np
+
+from harness.deck.blocks import Block
+from harness.deck.problems import Problems
+from harness.deck.table import INPUT, NAME, Keyword, Kind, Option, Where, one_of, refused
+from harness.deck.user_elements import MOST_VALUES, read_count
+from harness.model.amplitude import Amplitude, AmplitudeType, UserAmplitude
+from harness.model.arrays import FloatArray
+
+
+def read_amplitudes(blocks: list[Block], problems: Problems) -> dict[str, Amplitude]:
+    """Amplitudes of *AMPLITUDE."""
+    found: dict[str, Amplitude] = {}
+    for block in blocks:
+        if block.name == "AMPLITUDE":
+            with problems.gather():
+                name = block.options.text("NAME")
+                if name in found:
+                    raise block.error(f"{name} is defined already, at {found[name].source}")
+                found[name] = _read_amplitude(block, name)
+    return found
+
+
+def _read_amplitude(block: Block, name: str) -> Amplitude:
+    options = block.options
+    spaced = options.text("DEFINITION") == "EQUALLY SPACED"
+    if not spaced and (options.given("FIXED INTERVAL") or options.given("BEGIN")):
+        raise block.error("FIXED INTERVAL and BEGIN are for DEFINITION=EQUALLY SPACED")
+    kind = AmplitudeType.TABULAR if spaced else AmplitudeType(options.text("DEFINITION"))
+    total, absolute = options.text("TIME") == "TOTAL TIME", options.text("VALUE") == "ABSOLUTE"
+    if kind is AmplitudeType.USER:
+        properties, variables = _read_user(block)
+        return UserAmplitude(name, kind, properties, block.source, total, absolute, variables)
+    if options.given("PROPERTIES") or options.given("VARIABLES"):
+        raise block.error("PROPERTIES and VARIABLES are for DEFINITION=USER")
+    readers = {AmplitudeType.PERIODIC: _read_periodic, AmplitudeType.DECAY: _read_decay}
+    data = _read_spaced(block) if spaced else readers.get(kind, _read_pairs)(block)
+    if kind is AmplitudeType.SMOOTH_STEP and len(data) < 2:
+        raise block.error("SMOOTH STEP needs two points at least")
+    return Amplitude(name, kind, data, block.source, total, absolute)
+
+
+def _read_user(block: Block) -> tuple[FloatArray, int]:
+    """Properties for UAMP, and the number of its state variables."""
+    count = read_count(block, "PROPERTIES", 0, 0, MOST_VALUES)
+    values = [value for row in block.rows() for value in row.reals("property")]
+    if len(values) != count:
+        raise block.error(f"PROPERTIES={count}, and the data lines hold {len(values)}")
+    return np.array(values), read_count(block, "VARIABLES", 1, 1, MOST_VALUES)
+
+
+def _read_pairs(block: Block) -> FloatArray:
+    values: list[float] = []
+    for row in block.rows():
+        before = values[-2] if len(values) % 2 == 0 and values else None
+        values += row.reals("time or value")
+        times = ([] if before is None else [before]) + values[len(values) - len(row) :: 2]
+        if len(row) % 2:
+            raise row.error("expected pairs of time and value")
+        if any(later <= earlier for earlier, later in pairwise(times)):
+            raise row.error("times must increase")
+    if not values:
+        raise block.error("needs a data line")
+    return np.array(values).reshape(-1, 2)
+
+
+def _read_spaced(block: Block) -> FloatArray:
+    """Times and values of a curve with values at equal intervals."""
+    interval, begin = block.options.real("FIXED INTERVAL", 0.0), block.options.real("BEGIN", 0.0)
+    if interval <= 0:
+        raise block.error("DEFINITION=EQUALLY SPACED needs a positive FIXED INTERVAL")
+    values = [value for row in block.rows() for value in row.reals("value")]
+    if not values:
+        raise block.error("needs a data line")
+    return np.column_stack([begin + interval * np.arange(len(values)), values])
+
+
+def _read_decay(block: Block) -> FloatArray:
+    """Rows (A0, A), (t0, td)."""
+    row = next(block.rows(), None)
+    if row is None:
+        raise block.error("needs a data line")
+    row.at_most(4)
+    values = [row.real(index, what, 0.0) for index, what in enumerate(("A0", "A", "t0", "td"))]
+    if values[3] <= 0:
+        raise row.error(f"decay time td = {values[3]:g} must be positive")
+    return np.array(values).reshape(2, 2)
+
+
+def _read_periodic(block: Block) -> FloatArray:
+    """Rows (omega, t0), (A0, 0), then (An, Bn)."""
+    rows = list(block.rows())
+    if not rows:
+        raise block.error("needs a data line")
+    terms = rows[0].integer(0, "number of terms")
+    head = [rows[0].real(index, what, 0.0) for index, what in ((1, "omega"), (2, "t0"), (3, "A0"))]
+    values = [value for row in rows[1:] for value in row.reals("coefficient")]
+    if len(values) % 2:
+        values.append(0.0)
+    if len(values) != 2 * terms:
+        raise rows[0].error(f"{terms} terms are announced, coefficients of {len(values) / 2:g} are given")
+    return np.array([head[0], head[1], head[2], 0.0, *values]).reshape(-1, 2)
+
+
+KEYWORDS = (
+    Keyword(
+        "AMPLITUDE",
+        "Factor of loads and prescribed values over time.",
+        Where.ANY,
+        (
+            NAME,
+            one_of(
+                "DEFINITION",
+                "kind of curve",
+                ("TABULAR", "EQUALLY SPACED", "SMOOTH STEP", "PERIODIC", "DECAY", "USER"),
+                default="TABULAR",
+                refused=(
+                    *("ACTUATOR", "BUBBLE", "FILM", "MODULATED", "PSD DEFINITION", "RAMP"),
+                    *("SOLUTION DEPENDENT", "SPECTRUM"),
+                ),
+            ),
+            one_of("TIME", "which time", ("STEP TIME", "TOTAL TIME"), default="STEP TIME", refused=("NORMALIZED",)),
+            one_of("VALUE", "what the values are", ("RELATIVE", "ABSOLUTE"), default="RELATIVE"),
+            INPUT,
+            Option("PROPERTIES", Kind.INTEGER, "number of properties that UAMP gets (0), with DEFINITION=USER"),
+            Option("VARIABLES", Kind.INTEGER, "number of state variables of UAMP (1), with DEFINITION=USER"),
+            Option("FIXED INTERVAL", Kind.REAL, "time between values, with DEFINITION=EQUALLY SPACED"),
+            Option("BEGIN", Kind.REAL, "time of the first value (0), with DEFINITION=EQUALLY SPACED"),
+            *refused("SMOOTH", "SHIFTX", "SHIFTY", "SCALEX", "SCALEY"),
+        ),
+        "TABULAR, SMOOTH STEP: time, value pairs; PERIODIC: number of terms, omega, t0, A0; A1, B1, A2, B2 and so on; "
+        "DECAY: A0, A, t0, td; EQUALLY SPACED: values; USER: properties",
+    ),
+)

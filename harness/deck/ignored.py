@@ -1,0 +1,47 @@
+# SPDX-FileCopyrightText: The uel-harness authors
+# SPDX-License-Identifier: BSD-3-Clause
+"""Keywords that nothing reads: they cannot change the solution, and are accepted and listed."""
+
+from __future__ import annotations
+
+from harness.deck.table import NAME, Keyword, Support, Where, ignored
+
+_IGNORED = {
+    "SOLVER CONTROLS": "Controls of the iterative linear solver.",
+    "TIME POINTS": "Points in time, for output.",
+    "RESTART": "Restart files, which are not written.",
+    "PREPRINT": "What Abaqus echoes to .dat.",
+    "PRINT": "What Abaqus writes to .msg.",
+    "FILE FORMAT": "Format of the results file.",
+    "FILE OUTPUT": "Results file.",
+    "EL FILE": "Element variables in the results file.",
+    "NODE FILE": "Nodal variables in the results file.",
+    "ENERGY FILE": "Energies in the results file.",
+    "CONTACT FILE": "Contact variables in the results file.",
+    "CONTACT PRINT": "Contact variables in .dat.",
+    "CONTACT OUTPUT": "Contact variables.",
+    "ELEMENT OUTPUT": "Element variables; .vtu holds those of every element type that declares them.",
+    "INCREMENTATION OUTPUT": "Increment sizes as history output.",
+    "INTEGRATED OUTPUT": "Totals over surfaces.",
+    "INTEGRATED OUTPUT SECTION": "Surface of *INTEGRATED OUTPUT.",
+    "MODAL OUTPUT": "Modal variables.",
+    "SURFACE OUTPUT": "Surface variables.",
+    "SECTION FILE": "Section forces in the results file.",
+    "SECTION PRINT": "Section forces in .dat.",
+    "PHYSICAL CONSTANTS": "Absolute zero and the like: nothing that uses them is supported.",
+    **dict.fromkeys(
+        ("FRICTION", "SURFACE BEHAVIOR", "CONTACT DAMPING", "GAP CONDUCTANCE", "GAP HEAT GENERATION"),
+        "Contact property, after *SURFACE INTERACTION.",
+    ),
+}
+
+KEYWORDS = (
+    Keyword(
+        "SURFACE INTERACTION",
+        "Begin a contact property. Nothing uses one, since contact is refused: it is listed and left out.",
+        Where.MODEL,
+        (NAME, *ignored("DEPVAR", "PAD THICKNESS", "PROPERTIES")),
+        "not read",
+    ),
+    *(Keyword(name, doc, Where.ANY, support=Support.IGNORED) for name, doc in _IGNORED.items()),
+)
