@@ -56,7 +56,8 @@ MISTAKES = [
     (39, "undeclared", r"outside SVARS changes the result: .* is NaN", r"has VARIABLES=12 \(.*patch.inp:11\)"),
     (40, "tangent", r"iteration 0: AMATRX\(\d,\d\) is 0, differences", r"zero where U is, .* a test for U = 0"),
     (42, "undeclared", r"outside JPROPS changes the result: RHS\(1\) is", r"has I PROPERTIES=1 \(.*patch.inp:11\)"),
-    (41, "locals", r"in the memory of local variables changes the result: .*RHS\(1\) is", "-Wall -O2 names most"),
+    # what lies on the stack decides whether the run comes to its end
+    (41, "locals", r"(of local variables changes the result: .*|else element 1 .*)RHS\(1\) is", "-Wall -O2 names most"),
     (33, "inputs", "element 1, .*: DTIME is 0.5 before the call and 0.25 after it$", "passes DTIME in for information"),
     (
         34,
