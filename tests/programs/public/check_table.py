@@ -4,7 +4,7 @@
 
     python tests/programs/public/check_table.py FOLDER [-o FILE] [ROW ...]
 
-FOLDER is that of table.py. Each row is checked once for each of its decks, and for as long as `--seconds` says.
+FOLDER is that of table.py. Each row is checked once for each of its decks, for at most `--seconds` each.
 """
 
 from __future__ import annotations
@@ -26,13 +26,14 @@ HEAD = """\
 `uel check` on codes that others wrote for Abaqus, with their decks, unmodified. Their files are not part of this
 repository; `python tests/programs/public/check_table.py FOLDER -o harness/check/public-uels.md` writes this page from a
 folder of checkouts, by [the manifest](../../tests/programs/public/manifest.toml). A finding is not always a mistake: an
-approximate AMATRX can be meant, and an axisymmetric element resists translation. [What each check looks at](README.md).
+approximate AMATRX can be deliberate, and an axisymmetric element resists translation. [This page](README.md) describes
+each check.
 
-| code | deck | type | passed | failed | cause, where it was looked for |
+| code | deck | type | passed | failed | cause, where somebody looked for it |
 |---|---|---|---|---|---|
 """
 UNCHECKED = "no elements of a type defined by *USER ELEMENT"
-"""Of rows with a user material alone, which are left out."""
+"""In the error of rows that only have a user material, which are left out."""
 
 CAUSES = Path(__file__).with_name("causes.toml")
 
@@ -85,7 +86,7 @@ def lines(row: Row, found: dict[str, Any], cause: str) -> str:
 
 
 def escaped(text: str) -> str:
-    """For a cell, on one line."""
+    """Text for a cell, on one line."""
     shown = text if len(text) < 400 else f"{text[:397]}..."
     return " ".join(shown.split()).replace("|", "\\|")
 

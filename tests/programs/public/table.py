@@ -29,9 +29,9 @@ Codes that others wrote for Abaqus, with their decks, run by this harness as the
 repository; `python tests/programs/public/table.py FOLDER -o harness/usersub/public-uels.md` writes this page from a
 folder of checkouts, by [the manifest](../../tests/programs/public/manifest.toml). Grade of the expected value: **T**
 theory, **A** real Abaqus, **M** the stored result of another code, **B** this harness' built-in element of the same
-formulation in place of the user's, run beside it (it shows that both are driven alike), **Q** an independent quick
-host: for small strains (plausibility only), or [kirigami.py](../../tests/programs/public/kirigami.py), which takes the
-element's energy density and nothing else of it.
+formulation in place of the user's, in a second run (which shows that the harness drives both alike), **Q** an
+independent quick host: for small strains (plausibility only), or
+[kirigami.py](../../tests/programs/public/kirigami.py), which only uses the element's energy density.
 
 | code | deck | quantity | our figure | expected | grade | verdict |
 |---|---|---|---|---|---|---|
