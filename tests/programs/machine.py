@@ -2,8 +2,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Run a command as on another machine: `make test PROCESSOR=Nehalem CORES=1`.
 
-The processor decides which kernels OpenBLAS takes, which loops numpy, and which functions glibc has for exp, sin and
-pow: sums come in another order, and products with or without fused additions.
+The processor decides which kernels OpenBLAS uses, which loops numpy uses, and which functions glibc uses for exp, sin
+and pow: sums are in another order, and products with or without fused additions.
 """
 
 import argparse
@@ -18,11 +18,11 @@ PROCESSORS = ("this", *WITHOUT_AVX512)
 
 
 def environment(processor: str) -> dict[str, str]:
-    """Variables with which OpenBLAS, numpy and glibc calculate as on a processor, by OpenBLAS' name of it."""
+    """Variables that make OpenBLAS, numpy and glibc compute as on a processor, by its name in OpenBLAS."""
     if processor == "this":
         return {}
     found = np.show_config(mode="dicts")["SIMD Extensions"].get("found", [])
-    # on a machine that is made older already too
+    # also on a machine that already pretends to be older
     beyond = os.environ.get("NPY_DISABLE_CPU_FEATURES", "").split()
     beyond += [name for name in found if processor in WITHOUT_AVX2 or name.startswith(("X86_V4", "AVX512"))]
     missing = ["AVX512F", *(("AVX2", "FMA") if processor in WITHOUT_AVX2 else ())]
@@ -35,7 +35,7 @@ def environment(processor: str) -> dict[str, str]:
 
 def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    parser.add_argument("--processor", choices=PROCESSORS, default="this", help="what to calculate as (%(default)s)")
+    parser.add_argument("--processor", choices=PROCESSORS, default="this", help="processor to imitate (%(default)s)")
     parser.add_argument("--cores", default="all", help="how many of the cores to use (%(default)s)")
     parser.add_argument("command", nargs=argparse.REMAINDER)
     options = parser.parse_args()

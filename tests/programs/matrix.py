@@ -25,7 +25,7 @@ SUMMARY = re.compile(r"^=* ?(\d+ (?:passed|failed|errors?|skipped|deselected).*)
 
 @dataclass(frozen=True)
 class Configuration:
-    """A run: a target of make, the Python, what machine.py makes of the machine, and the order of the tests."""
+    """A run: a target of make, the Python, the machine that machine.py imitates, and the order of the tests."""
 
     target: str
     python: str
@@ -47,7 +47,7 @@ class Configuration:
 
     @property
     def version(self) -> str:
-        """Of Python, as 3.12."""
+        """The version of Python, such as 3.12."""
         say = "import sys; print('%d.%d' % sys.version_info[:2])"
         return subprocess.run([self.python, "-c", say], capture_output=True, text=True, check=True).stdout.strip()
 
@@ -55,7 +55,7 @@ class Configuration:
 def configurations(
     targets: list[str], pythons: list[str], processors: list[str], cores: list[str], seeds: list[str]
 ) -> list[Configuration]:
-    """As few runs of each target as there are values of what has most of them."""
+    """As few runs of each target as the longest list has values."""
     count = max(map(len, (pythons, processors, cores, seeds)))
     return [
         Configuration(
@@ -71,7 +71,7 @@ def configurations(
 
 
 def outcome(output: str, code: int) -> tuple[str, str]:
-    """What passed, and the time, by pytest's last summary line."""
+    """What passed, and the time, from pytest's last summary line."""
     found = SUMMARY.findall(output)
     if not found:
         return "**no tests ran**", ""
@@ -103,7 +103,7 @@ def run(configuration: Configuration, log: Path, select: str) -> tuple[str, int]
 
 
 def written(page: str, row: str) -> str:
-    """The page with a row: in place of that of the same command, else behind the others."""
+    """The page with a row: it replaces that of the same command, or follows the others."""
     before, rest = page.split(BEGIN)
     table, after = rest.split(END)
     *_, command, _ = row.split("|")
@@ -123,10 +123,12 @@ def main() -> int:
         ("seeds", "1 2 3"),
     ):
         given = os.environ.get(name.upper(), values)
-        parser.add_argument(f"--{name}", default=given, help=f"also by {name.upper()} of the environment ({given})")
+        parser.add_argument(
+            f"--{name}", default=given, help=f"also by the environment variable {name.upper()} ({given})"
+        )
     parser.add_argument("--list", action="store_true", help="print the commands and run nothing")
     parser.add_argument("--page", type=Path, help="the file that gets the rows (CONTRIBUTING.md; none with -k)")
-    parser.add_argument("-k", dest="select", default="", metavar="EXPRESSION", help="only tests that pytest -k takes")
+    parser.add_argument("-k", dest="select", default="", metavar="EXPRESSION", help="only tests that pytest -k selects")
     options = parser.parse_args()
     lists = [getattr(options, name).split() for name in ("targets", "pythons", "processors", "cores", "seeds")]
     page: Path | None = options.page or (None if options.select else ROOT / "CONTRIBUTING.md")

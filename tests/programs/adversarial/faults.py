@@ -1,11 +1,11 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""Does `uel check` find the mistakes of faults.toml, and let the elements pass into which they are put?
+"""Does `uel check` find the mistakes of faults.toml, and do the correct elements pass?
 
     python tests/programs/adversarial/faults.py [WORD ...]
 
-tries the faults and right elements in whose names a word occurs (all of them) and prints which checks fail. It ends
-with 1 if a right element fails, or more faults than MISSED are not found.
+tries the faults and correct elements whose names contain one of the words (default: all) and prints which checks fail.
+The exit code is 1 if a correct element fails, or if more faults than MISSED are not found.
 """
 
 from __future__ import annotations
@@ -33,14 +33,14 @@ ELEMENTS: Final = HERE / "elements"
 HEAD: Final = HERE.parents[1] / "harness" / "uel.inc"
 
 MISSED: Final = 2
-"""Of all faults: what may stay unfound."""
+"""How many of all faults may go unnoticed."""
 
 CALL_LIMIT: Final = 20.0
 
 
 @dataclass(frozen=True, slots=True)
 class Fault:
-    """A mistake: `old`, which stands once in the source or the deck of an element, becomes `new`."""
+    """A mistake: `old`, which occurs once in the source or the deck of an element, becomes `new`."""
 
     name: str
     element: str
@@ -50,14 +50,14 @@ class Fault:
 
 @dataclass(frozen=True, slots=True)
 class Outcome:
-    """What `uel check` makes of an element: the checks that fail, or why nothing could be checked."""
+    """The verdict of `uel check` on an element: the checks that fail, or why nothing could be checked."""
 
     failed: tuple[str, ...]
     refused: str = ""
 
     @property
     def found(self) -> bool:
-        """The author is told of a mistake."""
+        """Whether the checker reports the mistake."""
         return bool(self.failed or self.refused)
 
     def __str__(self) -> str:
@@ -70,7 +70,7 @@ def faults() -> list[Fault]:
 
 
 def elements() -> Iterator[str]:
-    """Names of the right elements."""
+    """Names of the correct elements."""
     yield "quad"
     yield from sorted(file.stem for file in ELEMENTS.glob("*.f"))
 

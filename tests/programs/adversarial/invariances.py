@@ -2,9 +2,9 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """What must not change a result: `python tests/programs/adversarial/invariances.py [--seeds N] [CASE ...]`.
 
-The same deck in other units, with other numbers of nodes and elements, once more, and with other threads of BLAS. The
-histories and the last displacements are compared, and the iterations of each increment; the table has the largest
-difference, relative to the largest value of the same kind. Exit code 1 where one is above its limit.
+The same deck runs in other units, with other node and element numbers, a second time, and with other numbers of BLAS
+threads. The program compares the histories, the last displacements and the iterations of each increment; the table has
+the largest difference, relative to the largest value of the same kind. The exit code is 1 if one exceeds its limit.
 """
 
 from __future__ import annotations
@@ -131,7 +131,7 @@ NT, RFL
 class Case:
     """A deck with a user file, and the dimensions of its *UEL PROPERTY by element set.
 
-    modes  it finds shapes, whose largest displacement is 1, and takes no time
+    modes  the results are mode shapes, whose largest displacement is 1, and there is no time
     """
 
     name: str
@@ -143,7 +143,7 @@ class Case:
 
 @dataclass(frozen=True)
 class Answer:
-    """What a run says: histories by column, displacements (nodes, 3) by number, iterations of all increments."""
+    """Results of a run: histories by column, displacements (nodes, 3) by number, iterations of all increments."""
 
     history: Mapping[str, np.ndarray]
     displacement: np.ndarray
@@ -174,7 +174,7 @@ def beam(name: str, columns: int = 10, rows: int = 2) -> str:
 
 
 def cases(folder: Path) -> Iterator[Case]:
-    """All cases; decks that are made go to the folder."""
+    """All cases; generated decks go to the folder."""
     inputs = ROOT / "abaqus_inputs"
     interface = {"INTERFACE": _INTERFACE, **dict.fromkeys(("BOTTOM", "TOP"), (LENGTH, ONE, ONE))}
     yield Case("delamination, user elements", inputs / "cohesive" / "frmm_u2.inp", None, interface)
@@ -190,7 +190,7 @@ def cases(folder: Path) -> Iterator[Case]:
 
 
 def solve(case: Case, folder: Path, units: Units = SAME, labels: Labels | None = None) -> Answer:
-    """Run a case, written again, and read what it wrote."""
+    """Run a rewritten case and read its results."""
     folder.mkdir(parents=True)
     deck = folder / "job.inp"
     deck.write_text(rewrite(case.deck, units, labels, case.properties))
@@ -198,7 +198,7 @@ def solve(case: Case, folder: Path, units: Units = SAME, labels: Labels | None =
 
 
 def answer(result: Result, deck: Path) -> Answer:
-    """What a run has written."""
+    """Results that a run has written."""
     displacement = result.field("U") if result.frames else np.zeros((0, 3))
     labels = read_deck(deck).mesh.labels
     return Answer(result.history, displacement, labels, tuple(row.iterations for row in result.status))
@@ -218,7 +218,7 @@ def dimension(column: str, case: Case) -> Dimension:
 
 
 def difference(case: Case, one: Answer, other: Answer, units: Units = SAME, labels: Labels | None = None) -> float:
-    """Largest difference, relative to the largest value of its kind; infinity where the increments are others."""
+    """Largest difference, relative to the largest value of its kind; infinity where the increments differ."""
     if one.iterations != other.iterations or one.history.keys() != other.history.keys():
         return float("inf")
     pairs: dict[Dimension, list[tuple[np.ndarray, np.ndarray]]] = {}
@@ -246,7 +246,7 @@ def same_bits(one: Answer, other: Answer) -> bool:
 
 
 def threaded(case: Case, folder: Path, threads: int) -> Answer:
-    """The case in a process whose BLAS is told to take so many threads."""
+    """Run the case in a process whose BLAS uses this many threads."""
     folder.mkdir(parents=True)
     deck = folder / "job.inp"
     deck.write_text(rewrite(case.deck, properties=case.properties))

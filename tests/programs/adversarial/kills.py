@@ -2,8 +2,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Runs that are killed at random moments, several at once: `python tests/programs/adversarial/kills.py --count 200`.
 
-Each run gets a signal, as its parent, its child or both. Then its files are read, and the same job runs again, to its
-end.
+Each run gets a signal, sent to its parent, its child or both. Then the program reads its files and runs the same job
+again, to completion.
 """
 
 from __future__ import annotations
@@ -31,7 +31,7 @@ SIGNALS = (signal.SIGKILL, signal.SIGTERM, signal.SIGINT, signal.SIGHUP)
 TARGETS = ("parent", "child", "group")
 INCREMENTS = 60
 LONGEST = 300.0
-"""Seconds after which a run is taken to hang."""
+"""Seconds after which a run counts as hanging."""
 
 _forking = threading.Lock()
 
@@ -54,7 +54,7 @@ def write_deck(folder: Path) -> Path:
 
 
 def trial(number: int, seed: int, longest: float) -> list[str]:
-    """Kill a run and look at what it leaves; returns what is wrong."""
+    """Kill a run and inspect what it leaves; returns what is wrong."""
     chance = random.Random(seed * 100003 + number)
     signum, target = chance.choice(SIGNALS), chance.choice(TARGETS)
     with tempfile.TemporaryDirectory() as name:
@@ -76,7 +76,7 @@ def trial(number: int, seed: int, longest: float) -> list[str]:
         found = complaints(stem)
         if "Traceback" in said:
             found.append("a traceback: " + said.strip().splitlines()[-1])
-        # killed with its child, a run cannot tell anything
+        # killed together with its child, a run cannot report anything
         silent = signum == signal.SIGKILL and target != "child"
         if hit and run.returncode == 1 and stem.with_suffix(".sta").exists():
             verdict = stem.with_suffix(".sta").read_text().splitlines()[-1]
@@ -99,7 +99,7 @@ def trial(number: int, seed: int, longest: float) -> list[str]:
 
 
 def _child(parent: int) -> int | None:
-    """The process of a run, by its module: importing an editable installation has another child for a moment."""
+    """The process of a run, by its module: importing an editable installation briefly starts another child."""
     with suppress(OSError):
         for word in Path(f"/proc/{parent}/task/{parent}/children").read_text().split():
             if b"harness.apart" in Path(f"/proc/{word}/cmdline").read_bytes():
@@ -108,7 +108,7 @@ def _child(parent: int) -> int | None:
 
 
 def _send(run: subprocess.Popen[str], signum: int, target: str) -> bool:
-    """Send the signal; whether the run was there to get it."""
+    """Send the signal; returns whether the run was still there to receive it."""
     receiver = _child(run.pid) if target == "child" else run.pid
     if receiver is None or run.poll() is not None:
         return False
@@ -132,7 +132,7 @@ def _settle(group: int) -> None:
 
 def main(count: int, jobs: int, seed: int, longest: float) -> int:
     """Make the trials; returns the number that found something."""
-    # what is compiled is in the cache from now on
+    # from now on the cache has the compiled files
     with tempfile.TemporaryDirectory() as name:
         command = [sys.executable, "-m", "harness.cli", "run", str(write_deck(Path(name))), "--quiet"]
         subprocess.run([*command, "--output-dir", name], check=True)
@@ -149,8 +149,8 @@ def main(count: int, jobs: int, seed: int, longest: float) -> int:
 if __name__ == "__main__":
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--count", type=int, default=200)
-    parser.add_argument("--jobs", type=int, default=3, help="runs at once")
+    parser.add_argument("--jobs", type=int, default=3, help="simultaneous runs (3)")
     parser.add_argument("--seed", type=int, default=1)
-    parser.add_argument("--longest", type=float, default=6.0, help="seconds after which a signal is sent at the latest")
+    parser.add_argument("--longest", type=float, default=6.0, help="latest time of the signal, in seconds (6)")
     asked = parser.parse_args()
     sys.exit(bool(main(asked.count, asked.jobs, asked.seed, asked.longest)))

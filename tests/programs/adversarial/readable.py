@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""Whether the files of a run that ended in any way can be read, and hold what its status file tells."""
+"""Whether the files of a run, however it ended, can be read and agree with its status file."""
 
 from __future__ import annotations
 
@@ -43,7 +43,7 @@ def complaints(stem: Path, *, outputs_each: bool = True) -> list[str]:
 
 
 def _rows(path: Path) -> list[str]:
-    """Rows of a table that are as long as its head."""
+    """Rows of a table that have as many fields as its header."""
     if not path.exists():
         return []
     with path.open(newline="", encoding="utf-8") as file:

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""A deck written again in other units, or with other numbers of nodes and elements."""
+"""Rewrite a deck in other units, or with other node and element numbers."""
 
 from __future__ import annotations
 
@@ -62,7 +62,7 @@ _LARGEST_DISPLACEMENT = 3
 
 @dataclass(frozen=True)
 class Units:
-    """What the units of length, mass and time of a deck are in those wanted; named for reports."""
+    """The units of length, mass and time of a deck, measured in the new ones; the name is for reports."""
 
     name: str
     length: float
@@ -70,7 +70,7 @@ class Units:
     time: float
 
     def factor(self, dimension: Dimension) -> float:
-        """What a number of this dimension is multiplied by."""
+        """Factor for a number of this dimension."""
         length, mass, time = dimension
         return self.length**length * self.mass**mass * self.time**time
 
@@ -80,14 +80,14 @@ SAME = Units("mm, t, s", 1.0, 1.0, 1.0)
 
 @dataclass(frozen=True)
 class Labels:
-    """New numbers of nodes and of elements by the old ones; those that are missing stay."""
+    """New node and element numbers by the old ones; missing ones stay."""
 
     nodes: Mapping[int, int]
     elements: Mapping[int, int]
 
 
 def permuted(deck: Path, seed: int) -> Labels:
-    """The numbers of a deck in another order."""
+    """The numbers of a deck, permuted."""
     random = Random(seed)
 
     def permute(name: str) -> dict[int, int]:
@@ -110,7 +110,7 @@ def blocks(deck: Path) -> list[Block]:
 def rewrite(
     deck: Path, units: Units = SAME, labels: Labels | None = None, properties: Mapping[str, Sequence[Dimension]] = {}
 ) -> str:
-    """Text of a deck of one file in other units and with other numbers.
+    """Text of the deck as one file, in other units and with other numbers.
 
     properties: dimensions of *UEL PROPERTY by element set. KeyError for a keyword whose data have no known dimensions.
     """
@@ -159,7 +159,7 @@ def _dimensions(block: Block, row: Row, properties: Mapping[str, Sequence[Dimens
 
 
 def _with_labels(name: str, fields: list[str], labels: Labels) -> list[str]:
-    """Fields with the new numbers where they are numbers of nodes or elements."""
+    """Fields with the new numbers where they are node or element numbers."""
 
     def new(field: str, numbers: Mapping[int, int]) -> str:
         return str(numbers.get(int(field), int(field))) if field.isdigit() else field

@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Speed of a Newton iteration on DCB-ref (abaqus_inputs/dcb_ref): `make bench`.
 
-Times depend on the machine, so what is judged are ratios of times measured in one run. Every time is the least of
+Times depend on the machine, so the benchmark judges ratios of times measured in one run. Every time is the shortest of
 several repetitions; only the iteration of the whole run is an average.
 """
 
@@ -41,7 +41,7 @@ LARGEST_DRIVER = 1.15
 
 
 def least_of(*functions: Callable[[], object], repetitions: int = 30) -> list[float]:
-    """Least time of a call of each function in ms; they take turns, so that other load meets all alike."""
+    """Shortest time of a call of each function in ms; they take turns, so that other load affects all alike."""
     times = np.empty((repetitions, len(functions)))
     for row in times:
         for k, function in enumerate(functions):
@@ -52,7 +52,7 @@ def least_of(*functions: Callable[[], object], repetitions: int = 30) -> list[fl
 
 
 def least(function: Callable[[], object], repetitions: int = 30) -> float:
-    """Least time of a call in ms."""
+    """Shortest time of a call in ms."""
     return least_of(function, repetitions=repetitions)[0]
 
 

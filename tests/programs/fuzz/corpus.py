@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""Decks to damage: every one of some folders with the files it includes."""
+"""Decks to damage: all decks of some folders, with the files they include."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ DECK = "deck.inp"
 _INPUT = re.compile(r"INPUT\s*=\s*\"?([^\",\s]+)", re.IGNORECASE)
 _STEP = re.compile(r"^\*\s*STEP\b", re.IGNORECASE | re.MULTILINE)
 _USUAL_SIZE = 5000
-"""Characters; a deck is drawn the less often, the larger it is, since each trial of it takes longer."""
+"""Characters; larger decks are drawn less often, since their trials take longer."""
 SHARE_OF_RUNS = 0.1
 """Of the trials; the other decks are only read, which takes a tenth of the time."""
 
@@ -32,7 +32,7 @@ class Deck:
 
     @property
     def weight(self) -> float:
-        """How often the deck is drawn."""
+        """Weight with which the deck is drawn."""
         return (1.0 + sum(map(len, self.files.values())) / _USUAL_SIZE) ** -2
 
 

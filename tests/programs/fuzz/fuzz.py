@@ -2,11 +2,12 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Damaged decks: `python tests/programs/fuzz/fuzz.py [--count N] [--seed S] [--workers W] [FOLDER ...]`.
 
-Takes the decks of the folders (the project's own by default), damages each trial's deck, and has the harness read it;
-one in ten it checks and builds as well, and tries one increment of a small model. A traceback, an end of the process,
-more than 10 s of processor time, more than 1 GiB, or an error that names no place in the deck is a finding: its deck is
-kept in the folder --output, and the exit code is 1. `--case N` makes one trial again, in this process; `--first N` goes
-on where an earlier campaign ended. A trial is the same for the same seed and number as long as the decks are.
+Takes the decks of the folders (default: the project's own), damages one for each trial, and lets the harness read it;
+for one deck in ten the harness also checks and builds the model, and tries one increment if the model is small. A
+traceback, an end of the process, more than 10 s of processor time, more than 1 GiB, or an error that names no place in
+the deck is a finding: its deck is kept in the folder --output, and the exit code is 1. `--case N` repeats one trial in
+this process; `--first N` continues where an earlier campaign ended. With the same decks, a trial is determined by the
+seed and its number.
 """
 
 from __future__ import annotations
@@ -40,14 +41,14 @@ from corpus import Corpus
 ROOT = Path(__file__).parents[3]
 OWN_DECKS = (ROOT / "abaqus_inputs", ROOT / "tests")
 SECONDS = 10
-"""Of processor time, so that a busy machine makes no findings."""
+"""Processor time, so that a busy machine causes no findings."""
 WAIT = 180
-"""Seconds after which a trial that waits for something is ended."""
+"""Seconds after which a waiting trial is ended."""
 BYTES = 1 << 30
 TRIALS_OF_A_PROCESS = 4000
-"""Each run keeps a library loaded."""
+"""Limited because each run keeps a library loaded."""
 TRIALS_OF_A_MESSAGE = 50
-"""Outcomes of a worker go to the other side together, since each message may have two processes change places."""
+"""A worker sends its outcomes in batches, since each message may cause a context switch."""
 GOOD = ("runs", "reads", "refused", "stopped")
 
 
@@ -94,8 +95,8 @@ class Findings:
 def work(
     corpus: Corpus, seed: int, numbers: Sequence[int], connection: Connection, at: Synchronized[int], trace: Path
 ) -> None:
-    """Make trials and send (number, kind, text) of some at a time; what ends this process is seen by the other side."""
-    # what is there by now stays, and need not be looked at again and again
+    """Run trials and send (number, kind, text) in batches; the other side sees what ends this process."""
+    # what exists by now stays: the garbage collector need not scan it repeatedly
     gc.freeze()
     warnings.simplefilter("ignore")
     resource.setrlimit(resource.RLIMIT_DATA, (BYTES, BYTES))
@@ -103,7 +104,7 @@ def work(
     os.dup2(os.open(os.devnull, os.O_RDONLY), 0)
     outcomes: list[tuple[int, str, str]] = []
     with tempfile.TemporaryDirectory() as folder, trace.open("w") as log:
-        # what the Fortran library prints before it ends the process goes there as well
+        # what the Fortran library prints before it ends the process goes there too
         os.dup2(log.fileno(), 2)
         faulthandler.enable(log)
         for number in (signal.SIGPROF, signal.SIGALRM):
@@ -125,14 +126,14 @@ def work(
 
 
 def start(corpus: Corpus, seed: int, numbers: Sequence[int], later: range, traces: Path) -> Worker:
-    """A process for these trials, or the first ones of those that come later."""
+    """A process for these trials, or for the first of the later ones."""
     if not numbers:
         numbers, later = later[:TRIALS_OF_A_PROCESS], later[TRIALS_OF_A_PROCESS:]
     receiving, sending = multiprocessing.Pipe(duplex=False)
     trace = traces / f"{numbers[0]}.txt"
     at = multiprocessing.Value("q", numbers[0])
     context = multiprocessing.get_context("fork")
-    # a process that has the receiving end as well would not notice that there is no parent any more
+    # a process that also holds the receiving end would not notice that its parent is gone
     process = context.Process(target=_only_sending, args=(receiving, corpus, seed, numbers, sending, at, trace))
     process.start()
     sending.close()
@@ -161,7 +162,7 @@ def trials(corpus: Corpus, seed: int, numbers: range, workers: int) -> Iterator[
                     worker.process.join()
                 running.remove(worker)
                 if worker.process.exitcode:
-                    # those before it, which were not told of, are made again
+                    # the trials before it that were not reported run again
                     worker.numbers.remove(worker.at.value)
                     yield worker.at.value, *ended(worker)
                 worker.connection.close()
@@ -181,13 +182,13 @@ def ended(worker: Worker) -> tuple[str, str]:
 def main() -> int:
     """Run the command."""
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("folders", nargs="*", type=Path, default=OWN_DECKS, metavar="FOLDER", help="with decks")
-    parser.add_argument("--count", type=int, default=1000, metavar="N", help="trials (1000)")
-    parser.add_argument("--first", type=int, default=0, metavar="N", help="number of the first one (0)")
-    parser.add_argument("--seed", type=int, default=1, metavar="S", help="of the damage (1)")
-    parser.add_argument("--workers", type=int, default=1, metavar="W", help="processes (1)")
-    parser.add_argument("--output", type=Path, default=Path("fuzz-findings"), metavar="DIR", help="(fuzz-findings)")
-    parser.add_argument("--case", type=int, metavar="N", help="make this one trial, and print what comes of it")
+    parser.add_argument("folders", nargs="*", type=Path, default=OWN_DECKS, metavar="FOLDER", help="folders with decks")
+    parser.add_argument("--count", type=int, default=1000, metavar="N", help="number of trials (1000)")
+    parser.add_argument("--first", type=int, default=0, metavar="N", help="number of the first trial (0)")
+    parser.add_argument("--seed", type=int, default=1, metavar="S", help="seed of the damage (1)")
+    parser.add_argument("--workers", type=int, default=1, metavar="W", help="number of processes (1)")
+    parser.add_argument("--output", type=Path, default=Path("fuzz-findings"), metavar="DIR", help="folder of findings")
+    parser.add_argument("--case", type=int, metavar="N", help="run only this trial and print its outcome")
     options = parser.parse_args()
     corpus = Corpus(options.folders)
     if not corpus.decks:

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""Damage to a deck: what editors, scripts, mail and hurried hands do to one, and a little worse."""
+"""Damage to a deck: what editors, scripts, mail and hurried users do to one, and a little worse."""
 
 from __future__ import annotations
 
@@ -36,7 +36,7 @@ TEXTS = (
     "**",
 )
 ODD_FILES = ("pipe", "socket", "loop", "nowhere", "folder")
-"""What is no file: a trial finds these beside its deck."""
+"""Names without a regular file behind them: a trial finds these next to its deck."""
 FILES = (
     *("deck.inp", ".", "..", "/", "/dev/zero", "/dev/stdin", "nowhere.inp", "", "~", "x" * 300, "a\0b", *ODD_FILES),
     *("/dev/random", "/dev/full", "/dev/null", "/dev/tty", "/proc/kmsg", "/proc/kcore", "/proc/self/mem", "/dev/fd/0"),
@@ -100,13 +100,13 @@ def drop_line(random: Random, lines: Lines, corpus: Sequence[Lines]) -> None:
 
 
 def double_line(random: Random, lines: Lines, corpus: Sequence[Lines]) -> None:
-    """A line is there twice, or a hundred times."""
+    """A line occurs twice, or a hundred times."""
     index = random.randrange(len(lines))
     lines[index:index] = [lines[index]] * random.choice((1, 1, 2, 100))
 
 
 def swap_lines(random: Random, lines: Lines, corpus: Sequence[Lines]) -> None:
-    """Two lines have changed places."""
+    """Two lines are swapped."""
     one, other = (random.randrange(len(lines)) for _ in range(2))
     lines[one], lines[other] = lines[other], lines[one]
 
@@ -117,13 +117,13 @@ def drop_block(random: Random, lines: Lines, corpus: Sequence[Lines]) -> None:
 
 
 def double_block(random: Random, lines: Lines, corpus: Sequence[Lines]) -> None:
-    """A keyword is there twice."""
+    """A keyword occurs twice."""
     block = _block(random, lines)
     lines[block.start : block.start] = lines[block]
 
 
 def move_block(random: Random, lines: Lines, corpus: Sequence[Lines]) -> None:
-    """A keyword stands elsewhere."""
+    """A keyword is in another place."""
     block = _block(random, lines)
     moved = lines[block]
     del lines[block]
@@ -146,7 +146,7 @@ def foreign_block(random: Random, lines: Lines, corpus: Sequence[Lines]) -> None
 
 
 def change_number(random: Random, lines: Lines, corpus: Sequence[Lines]) -> None:
-    """A number is another one, or none."""
+    """A number changes, or becomes something else."""
     candidates = _data_lines(lines) if random.random() < 0.8 else _keyword_lines(lines)
     if not candidates:
         return
@@ -159,7 +159,7 @@ def change_number(random: Random, lines: Lines, corpus: Sequence[Lines]) -> None
 
 
 def change_field(random: Random, lines: Lines, corpus: Sequence[Lines]) -> None:
-    """A field of a line is dropped, doubled, exchanged, or another one."""
+    """A field of a line is dropped, doubled, swapped or replaced."""
     index = random.randrange(len(lines))
     fields = lines[index].split(",")
     one, other = (random.randrange(len(fields)) for _ in range(2))
@@ -182,7 +182,7 @@ def change_field(random: Random, lines: Lines, corpus: Sequence[Lines]) -> None:
 
 
 def rename(random: Random, lines: Lines, corpus: Sequence[Lines]) -> None:
-    """A name, of a set for example, is another one in one place."""
+    """A name, of a set for example, differs in one place."""
     index = random.randrange(len(lines))
     found = list(_NAME.finditer(lines[index]))
     if found:
@@ -193,7 +193,7 @@ def rename(random: Random, lines: Lines, corpus: Sequence[Lines]) -> None:
 
 
 def damage_keyword(random: Random, lines: Lines, corpus: Sequence[Lines]) -> None:
-    """An option of a keyword line is lost, doubled, misspelt, or one that the keyword may take elsewhere."""
+    """An option of a keyword line is lost, doubled, misspelt, or changed, or the keyword is another one."""
     heads = _keyword_lines(lines)
     if not heads:
         return
@@ -228,7 +228,7 @@ def any_keyword(random: Random, lines: Lines, corpus: Sequence[Lines]) -> None:
 
 
 def _option(random: Random, keyword: Keyword, name: str | None = None) -> str:
-    """An option of a keyword with a value of its kind, mostly."""
+    """An option of a keyword, usually with a value of the right kind."""
     options = [option for option in keyword.options if name in (None, option.name)]
     if not options:
         return random.choice(WORDS)
@@ -247,7 +247,7 @@ def _option(random: Random, keyword: Keyword, name: str | None = None) -> str:
 
 
 def include(random: Random, lines: Lines, corpus: Sequence[Lines]) -> None:
-    """A file that includes itself, is none, or has no end."""
+    """An included file that includes itself, is not a regular file, or never ends."""
     lines.insert(random.randint(0, len(lines)), f"*INCLUDE, INPUT={random.choice(FILES)}")
 
 
@@ -259,19 +259,19 @@ def long_line(random: Random, lines: Lines, corpus: Sequence[Lines]) -> None:
 
 
 def odd_text(random: Random, lines: Lines, corpus: Sequence[Lines]) -> None:
-    """Characters that do not belong into a deck."""
+    """Characters that do not belong in a deck."""
     index = random.randrange(len(lines))
     place = random.randint(0, len(lines[index]))
     lines[index] = lines[index][:place] + random.choice(TEXTS) + lines[index][place:]
 
 
 def tabs(random: Random, lines: Lines, corpus: Sequence[Lines]) -> None:
-    """Tabs for blanks and behind commas."""
+    """Tabs instead of blanks and after commas."""
     lines[:] = [line.replace(" ", "\t") for line in lines]
 
 
 def parameter(random: Random, lines: Lines, corpus: Sequence[Lines]) -> None:
-    """A parameter with an odd expression in place of a number."""
+    """A parameter with an odd expression instead of a number."""
     statements = [f"x = {random.choice(EXPRESSIONS)}" for _ in range(random.choice((1, 1, 2, 60)))]
     lines[0:0] = ["*PARAMETER", *statements]
     candidates = _data_lines(lines)
@@ -280,7 +280,7 @@ def parameter(random: Random, lines: Lines, corpus: Sequence[Lines]) -> None:
 
 
 def continue_line(random: Random, lines: Lines, corpus: Sequence[Lines]) -> None:
-    """A line goes on in the next one, or seems to."""
+    """A line continues on the next one, or seems to."""
     index = random.randrange(len(lines))
     commas = [place for place, character in enumerate(lines[index]) if character == ","]
     if commas:
@@ -290,13 +290,13 @@ def continue_line(random: Random, lines: Lines, corpus: Sequence[Lines]) -> None
 
 
 def join_lines(random: Random, lines: Lines, corpus: Sequence[Lines]) -> None:
-    """A line end is lost."""
+    """A line break is lost."""
     index = random.randrange(len(lines))
     lines[index : index + 2] = ["".join(lines[index : index + 2])]
 
 
 def relabel(random: Random, lines: Lines, corpus: Sequence[Lines]) -> None:
-    """A number of a node or element is another one wherever it stands, up to what does not fit 32 bits."""
+    """A node or element number changes wherever it occurs, up to values that do not fit in 32 bits."""
     candidates = [index for index in _data_lines(lines) if lines[index].lstrip()[:1].isdigit()]
     if not candidates:
         return
@@ -318,7 +318,7 @@ ENCODINGS = ("utf-8",) * 12 + ("utf-8-sig", "utf-16", "utf-16-le", "utf-16-be", 
 
 
 def grow_tree(random: Random, files: dict[str, Lines]) -> None:
-    """Move runs of lines into files of their own, which the run's place includes; some trees close on themselves."""
+    """Move blocks of lines into separate files and include these in their place; some includes form a cycle."""
     for number in range(random.choice((1, 1, 2, 3, 6))):
         lines = files[random.choice(list(files))]
         start = random.randint(0, len(lines))
@@ -334,7 +334,7 @@ def grow_tree(random: Random, files: dict[str, Lines]) -> None:
 
 
 def encode(random: Random, lines: Lines) -> bytes:
-    """The bytes of a file: some are cut off, or have other line ends, encodings, or marks of them in odd places."""
+    """The bytes of a file: truncated, or with other line ends or encodings, or with byte order marks in odd places."""
     end = random.choice(("\n",) * 12 + ("\r\n", "\r", "\n\n", "\n\r"))
     raw = end.join(lines).encode(random.choice(ENCODINGS), "replace")
     if random.random() < 0.05:

@@ -3,8 +3,8 @@
 """One damaged deck through the harness: read, and some of them build, with one attempt at an increment if small.
 
 A trial is good if the deck runs, or ends with an error that the user can fix and that names its place. The kernels are
-the project's own, whatever the deck was written for. What a model does after its first attempt is not looked at: a
-deck that is still valid may be as long as it likes.
+the project's own, whatever the deck was written for. Nothing after the first attempt counts: a deck that is still valid
+may run as long as it likes.
 """
 
 from __future__ import annotations
@@ -34,7 +34,7 @@ OWN_FRAME = re.compile(r'File ".*/(harness/\S+\.py)", line (\d+)')
 
 
 def first_attempt(system: System, *arguments: Any, **options: Any) -> Iterator[Record]:
-    """Records of a run until the first attempt at an increment is over."""
+    """Records of a run up to the end of the first attempt at an increment."""
     if len(system) <= MOST_UNKNOWNS:
         for record in run_steps(system, *arguments, **options):
             yield record
@@ -43,7 +43,7 @@ def first_attempt(system: System, *arguments: Any, **options: Any) -> Iterator[R
 
 
 def make_odd_files(folder: Path) -> None:
-    """What ODD_FILES names."""
+    """Create the files of ODD_FILES."""
     os.mkfifo(folder / "pipe")
     os.mknod(folder / "socket", stat.S_IFSOCK | 0o600)
     (folder / "loop").symlink_to("loop")

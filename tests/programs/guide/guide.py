@@ -1,11 +1,11 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""Does what the guide says: `python tests/programs/guide/guide.py` prints it with the outputs as they are.
+"""Run the commands of the guide: `python tests/programs/guide/guide.py` prints it with their current outputs.
 
-With `--write` it keeps them.
+With `--write` it saves the guide with them.
 
 Code blocks that name a file after their language are that file; `diff` blocks change it, `console` blocks are commands
-behind `$` with their output.
+after `$` with their output.
 """
 
 from __future__ import annotations
@@ -29,7 +29,7 @@ _BLOCK = re.compile(r"^```(?P<language>\w+)(?: (?P<file>\S+))?\n(?P<body>.*?)^``
 
 
 def replay(text: str) -> str:
-    """The guide with the outputs that its commands have, in the current folder, which is empty."""
+    """The guide with the outputs of its commands, run in the current folder, which is empty."""
 
     def act(block: re.Match[str]) -> str:
         language, file, body = block["language"], block["file"], block["body"]
@@ -48,7 +48,7 @@ def replay(text: str) -> str:
 
 
 def _changed(text: str, diff: str) -> str:
-    """The text with the lines behind `-` replaced by those behind `+`; lines behind a blank stay, and say where."""
+    """The text with the lines after `-` replaced by those after `+`; lines after a blank stay, and say where."""
     lines = diff.splitlines(keepends=True)
     before = "".join(line[1:] for line in lines if line[0] != "+")
     after = "".join(line[1:] for line in lines if line[0] != "-")
@@ -58,7 +58,7 @@ def _changed(text: str, diff: str) -> str:
 
 
 def _output(command: str) -> str:
-    """What a command prints; `uel` runs in this process, which saves its start."""
+    """What a command prints; `uel` runs in this process, which saves its start-up time."""
     first, _, rest = command.partition(" | ")
     printed = _run_uel(first) if first.startswith("uel ") else _run_shell(first)
     if rest:

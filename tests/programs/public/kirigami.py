@@ -3,8 +3,7 @@
 """Independent host for the kirigami rows of manifest.toml: `python tests/programs/public/kirigami.py FOLDER`.
 
 It solves the boundary value problem of the public deck without the harness and without the user element, and prints
-the figures that are the expected values of those rows; exit code 1 if the manifest has others. FOLDER is that of
-table.py.
+the expected values of those rows; the exit code is 1 if the manifest has others. FOLDER is that of table.py.
 
 Model: planar kirigami with rhombic slits as a continuum of displacement u and slit angle t. With F = I + grad u, the
 deformation A = diag(cos t - alpha sin t, cos t + beta sin t) of the mechanism, G = F inv(A) and J = det G, the energy
@@ -12,14 +11,14 @@ per undeformed area is
 
     W = c0 (G:G / J - 2) + c0 (J - 1)^2 + c1 t^2 + c2 |grad t|^2
 
-A and W are those of the lines of the user element that compute them, for the model of Zheng, Tobasco, Celli and
+A and W come from the lines of the user element that compute them, for the model of Zheng, Tobasco, Celli and
 Plucinsky, arXiv:2206.00153, which its README names. Nothing else is taken from the element: forces are derivatives of
 W by complex steps, the stiffness is the difference of forces, the shape functions come from their monomials.
 
-The deck pulls one node, so that the force depends on the mesh: the same mesh and the same 3 x 3 points are used. Its
-built-in elements, of Young's modulus 1e-20, are left out. It leaves the pulled node free across the load, which makes
-the first stiffness singular (rotation about the other node); here that node does not move across, and its reaction,
-zero by symmetry, is printed.
+The deck pulls one node, so the force depends on the mesh: this program uses the same mesh and the same 3 x 3 points. It
+leaves out the built-in elements, with a Young's modulus of 1e-20. The deck leaves the pulled node free across the load,
+which makes the first stiffness singular (rotation about the other node); here that node cannot move across, and its
+reaction, zero by symmetry, is printed.
 """
 
 from __future__ import annotations
@@ -174,7 +173,7 @@ class Host:
         return np.asarray(UNDEFORMED + np.einsum("epsd,ed->eps", self._matrices, values[self._dofs]))
 
     def energy(self, values: Array) -> float:
-        """Energy of the whole."""
+        """Total energy."""
         return float(np.sum(energy(self._states(values), self.problem.properties) * self._areas))
 
     def forces(self, values: Array) -> Array:
@@ -213,7 +212,7 @@ class Host:
 
 
 def figures(deck: Path) -> dict[str, float]:
-    """What the rows are compared with, by their names, and the reaction that symmetry makes zero."""
+    """The expected values of the rows, by name, and the reaction that is zero by symmetry."""
     problem = read(deck)
     across = {int(dof): 0.0 for dof in problem.dofs("rightpt", 2)}
     host = Host(problem)
@@ -227,7 +226,7 @@ def figures(deck: Path) -> dict[str, float]:
 
 
 def main() -> int:
-    """Print the figures beside those of the manifest; 1 if they differ by more than its print."""
+    """Print the figures next to those of the manifest; returns 1 if they differ in the digits printed there."""
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("folder", type=Path)
     manifest = tomllib.loads(Path(__file__).with_name("manifest.toml").read_text("utf-8"))

@@ -36,7 +36,7 @@ ATTEMPTS = {"what": "attempts"}
 
 @dataclass
 class Outcome:
-    """What came of a row: increments and cutbacks done, the figure (None without one), and the error ('' if none).
+    """Outcome of a row: increments and cutbacks done, the figure (None without one), and the error ('' if none).
 
     expected is the figure of the row's reference run, None for a row without one.
     """
@@ -119,7 +119,7 @@ def _records(root: Path, row: Row) -> Iterator[tuple[Model, Any]]:
 
 
 def _replaced(deck: Path, pairs: list[tuple[str, str]], folder: Path) -> Path:
-    """Copy of a deck in which each text, which it has, gives way to another."""
+    """Copy of a deck in which each text, which must occur in it, is replaced."""
     text = deck.read_text("utf-8").replace("\r\n", "\n")
     for old, new in pairs:
         if old not in text:

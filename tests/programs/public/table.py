@@ -39,7 +39,7 @@ independent quick host: for small strains (plausibility only), or
 
 
 def run(folder: Path, row: Row) -> Outcome:
-    """Outcome of a row that runs in a process of its own, for as long as the row allows."""
+    """Outcome of a row that runs in its own process, for as long as the row allows."""
     absent = missing(folder, row)
     if absent:
         return Outcome(error=f"not in the folder: {absent[0]}")
@@ -60,7 +60,7 @@ def run(folder: Path, row: Row) -> Outcome:
 
 
 def verdict(row: Row, outcome: Outcome) -> tuple[bool, str]:
-    """Whether the row is as it should be, and what to say of it."""
+    """Whether the row is as expected, and the verdict."""
     if "refused" in row:
         return row["refused"] in outcome.error, f"refused: {outcome.error}" if outcome.error else "not refused"
     if outcome.error:
@@ -92,7 +92,7 @@ def line(row: Row, outcome: Outcome) -> str:
 
 
 def main() -> int:
-    """Write the table; 1 if a row is not as it should be."""
+    """Write the table; returns 1 if a row is not as expected."""
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("folder", type=Path)
     parser.add_argument("rows", nargs="*", help="names of rows (all)")

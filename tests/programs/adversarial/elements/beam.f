@@ -1,8 +1,8 @@
 ! SPDX-FileCopyrightText: The uel-harness authors
 ! SPDX-License-Identifier: BSD-3-Clause
 !
-! A beam of Bernoulli and Euler in the plane, dofs 1, 2 and 6, small rotations: PROPS Young's modulus, area, second moment of area,
-! mass by length; a load U1 is a force by length in the local direction 2. Static steps, and modes (LFLAGS(3) = 2, 4).
+! An Euler-Bernoulli beam in the plane, dofs 1, 2 and 6, small rotations: PROPS Young's modulus, area, second moment of area,
+! mass per length; a load U1 is a force per length in the local direction 2. Static steps, and modes (LFLAGS(3) = 2, 4).
       include '../../harness/uel.inc'
       dimension turn(6,6),local(6,6),mass(6,6)
       double precision local,mass

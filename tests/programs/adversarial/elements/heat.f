@@ -1,7 +1,7 @@
 ! SPDX-FileCopyrightText: The uel-harness authors
 ! SPDX-License-Identifier: BSD-3-Clause
 !
-! Conduction in a quad: PROPS conductivity, capacity by volume, thickness; a load U1 heats the volume. SVARS keep the flux at
+! Conduction in a quad: PROPS conductivity, capacity per volume, thickness; a load U1 heats the volume. SVARS keep the flux at
 ! the four points. Steady (LFLAGS(1) = 31) and transient by backward differences.
       include '../../harness/uel.inc'
       dimension shape(4),dn(4,2),dx(4,2),xj(2,2),xi(4),eta(4),flux(2),gradient(2)

@@ -1,8 +1,8 @@
 ! SPDX-FileCopyrightText: The uel-harness authors
 ! SPDX-License-Identifier: BSD-3-Clause
 !
-! A cohesive interface of no thickness between two edges, nodes 1, 2 below and 4, 3 above: PROPS stiffness, strength, separation
-! at which nothing is left, width. The separations are of equal weight, closing is elastic. SVARS of each of two points: largest
+! A cohesive interface of zero thickness between two edges, nodes 1, 2 below and 4, 3 above: PROPS stiffness, strength, separation
+! at failure, width. Both separations have the same weight, closing is elastic. SVARS of each of two points: largest
 ! separation so far, damage.
       include '../../harness/uel.inc'
       dimension jump(2,8),axes(2,2),gap(2),traction(2),d(2,2),shape(2)

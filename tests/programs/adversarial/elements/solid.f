@@ -1,7 +1,7 @@
 ! SPDX-FileCopyrightText: The uel-harness authors
 ! SPDX-License-Identifier: BSD-3-Clause
 !
-! A bar of a standard linear solid: PROPS modulus of the spring beside, modulus and time of the Maxwell branch, area. SVARS: stress
+! A bar of a standard linear solid: PROPS modulus of the parallel spring, modulus and relaxation time of the Maxwell branch, area. SVARS: stress
 ! of the Maxwell branch, which is integrated for a constant rate of strain. In the plane, small displacements.
       include '../../harness/uel.inc'
       dimension direction(2),b(4)

@@ -2,7 +2,7 @@
 ! SPDX-License-Identifier: BSD-3-Clause
 !
 ! A tetrahedron of a compressible neo-Hookean solid, total Lagrangian: PROPS shear modulus, Lame's first constant. A load U1 is a
-! force by reference volume in direction 3. SVARS: the six components of the Cauchy stress (11, 22, 33, 12, 13, 23).
+! force per reference volume in direction 3. SVARS: the six components of the Cauchy stress (11, 22, 33, 12, 13, 23).
       include '../../harness/uel.inc'
       dimension dn(4,3),dx(4,3),xj(3,3),xinv(3,3),f(3,3),finv(3,3),p(3,3),cauchy(3,3),tangent(3,3,3,3)
       data dn /-1,1,0,0, -1,0,1,0, -1,0,0,1/

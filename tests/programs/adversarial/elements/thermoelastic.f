@@ -1,7 +1,7 @@
 ! SPDX-FileCopyrightText: The uel-harness authors
 ! SPDX-License-Identifier: BSD-3-Clause
 !
-! A quad in plane stress that is heated: dofs 1, 2, 11; PROPS Young's modulus, Poisson's ratio, expansion, conductivity, capacity by
+! A heated quad in plane stress: dofs 1, 2, 11; PROPS Young's modulus, Poisson's ratio, expansion, conductivity, capacity per
 ! volume, thickness. SVARS: stresses 11, 22, 12 of each of four points.
       include '../../harness/uel.inc'
       dimension b(3,8),dn(4,2),dx(4,2),xj(2,2),xi(4),eta(4),strain(3),stress(3),d(3,3),shape(4),id(8),it(4),gradient(2)
