@@ -1,8 +1,8 @@
 ! SPDX-FileCopyrightText: The uel-harness authors
 ! SPDX-License-Identifier: BSD-3-Clause
 !
-! A bar of a standard linear solid: PROPS modulus of the parallel spring, modulus and relaxation time of the Maxwell branch, area. SVARS: stress
-! of the Maxwell branch, which is integrated for a constant rate of strain. In the plane, small displacements.
+! A bar of a standard linear solid: PROPS modulus of the parallel spring, modulus and relaxation time of the Maxwell branch,
+! area. SVARS: stress of the Maxwell branch, which is integrated for a constant rate of strain. In the plane, small displacements.
       include '../../harness/uel.inc'
       dimension direction(2),b(4)
       rhs(1:4,1) = 0
