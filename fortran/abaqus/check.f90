@@ -38,14 +38,14 @@ contains
         if (.not. count_fits('I PROPERTIES = %I', njprop, element%integers, integers_of(jtype))) return
       end if
       if (nsvars < variables_of(jtype)) then
-        call fatal(jtype, jelem, 'VARIABLES = %I, at least %I are needed', [nsvars, variables_of(jtype)], [real(dp) ::])
+        call fatal(jtype, jelem, 'VARIABLES = %I: expected at least %I', [nsvars, variables_of(jtype)], [real(dp) ::])
       else if (mcrd < element%dimension .or. mcrd > 3) then
-        call fatal(jtype, jelem, 'COORDINATES = %I, %I is expected', [mcrd, element%dimension], [real(dp) ::])
+        call fatal(jtype, jelem, 'COORDINATES = %I: expected %I', [mcrd, element%dimension], [real(dp) ::])
       else if (lflags(2) /= 0) then
-        call fatal(jtype, jelem, 'NLGEOM is on, but this element is for small displacements: give NLGEOM=NO', &
+        call fatal(jtype, jelem, 'NLGEOM is on, but this element is for small displacements: use NLGEOM=NO', &
           [integer ::], [real(dp) ::])
       else if (ndload /= 0) then
-        call fatal(jtype, jelem, 'takes no distributed load: load its nodes', [integer ::], [real(dp) ::])
+        call fatal(jtype, jelem, 'does not take distributed loads: load its nodes', [integer ::], [real(dp) ::])
       else
         call unpack(jtype, nprops, props, njprop, jprops, values, options)
         good = reals_are_good(jtype, jelem, nprops, values)
@@ -63,9 +63,9 @@ contains
       count_fits = found >= least .and. found <= most
       if (count_fits) return
       if (least == most) then
-        call fatal(jtype, jelem, '*USER ELEMENT has ' // what // ', %I is expected', [found, most], [real(dp) ::])
+        call fatal(jtype, jelem, '*USER ELEMENT has ' // what // ': expected %I', [found, most], [real(dp) ::])
       else
-        call fatal(jtype, jelem, '*USER ELEMENT has ' // what // ', %I to %I is expected', [found, least, most], [real(dp) ::])
+        call fatal(jtype, jelem, '*USER ELEMENT has ' // what // ': expected %I to %I', [found, least, most], [real(dp) ::])
       end if
     end function count_fits
 
@@ -103,7 +103,7 @@ contains
         good = abs(values(i)) <= huge(1.0_dp)
       end select
       if (good) cycle
-      call refuse_real(jtype, jelem, i, values(i), ', expected is ' // trim(expectation(reals(i)%rule)))
+      call refuse_real(jtype, jelem, i, values(i), ': expected ' // trim(expectation(reals(i)%rule)))
       return
     end do
   end function reals_are_good
@@ -159,7 +159,7 @@ contains
       if (integers(i)%highest == any_integer) cycle
       good = options(i) >= integers(i)%lowest .and. options(i) <= integers(i)%highest
       if (good) cycle
-      call fatal(jtype, jelem, 'JPROPS(%I) ' // trim(integers(i)%name) // ' = %I, expected is %I to %I', &
+      call fatal(jtype, jelem, 'JPROPS(%I) ' // trim(integers(i)%name) // ' = %I: expected %I to %I', &
         [position, options(i), integers(i)%lowest, integers(i)%highest], [real(dp) ::])
       return
     end do
@@ -182,18 +182,18 @@ contains
     do i = 1, 2
       good = infinite .or. values(alphas(i)) > 0.0_dp
       if (good) cycle
-      call refuse_real(jtype, jelem, alphas(i), values(alphas(i)), ', expected is a positive value; 0, an infinite ' // &
-        'stiffness, goes with CLOSURE = 1 and for both directions')
+      call refuse_real(jtype, jelem, alphas(i), values(alphas(i)), ': expected a positive value; 0, an infinite ' // &
+        'stiffness, requires CLOSURE = 1 and 0 in both directions')
       return
     end do
     good = consistent .or. .not. values(p_friction) > 0.0_dp
-    if (.not. good) call refuse_real(jtype, jelem, p_friction, values(p_friction), ' goes with CLOSURE = 1, else 0 is expected')
+    if (.not. good) call refuse_real(jtype, jelem, p_friction, values(p_friction), ': without CLOSURE = 1, expected 0')
     if (.not. good .or. .not. consistent .or. options(j_law) /= ppr_law) return
     do i = 1, 2
       good = values(shapes(i)) >= 2.0_dp .or. .not. values(shapes(i)) > 0.0_dp
       if (good) cycle
-      call refuse_real(jtype, jelem, shapes(i), values(shapes(i)), ': with CLOSURE = 1 zero or at least 2 is expected; ' // &
-        'below, the law falls infinitely fast at its end')
+      call refuse_real(jtype, jelem, shapes(i), values(shapes(i)), ': with CLOSURE = 1, expected zero or at least 2; ' // &
+        'below 2, the law falls infinitely fast at its end')
       return
     end do
   end function options_fit
@@ -214,15 +214,15 @@ contains
     case (too_brittle, late_secant)
       row = merge(p_gic, p_giic, status%item == 1)
       call fatal(jtype, jelem, 'PROPS(%I) ' // trim(reals(row)%name) // ' = %R, ' // trim(sentence(status%code)) // &
-        '; more than %R is expected', [real_position(jtype, row)], [status%value, status%expected])
+        '; expected more than %R', [real_position(jtype, row)], [status%value, status%expected])
     case (too_brittle_mixed)
       call fatal(jtype, jelem, 'PROPS(%I) ' // trim(reals(p_alphan)%name) // ' = %R, ' // &
-        trim(sentence(status%code)) // ' where mode II has %I per cent of the energy; more than %R is expected', &
+        trim(sentence(status%code)) // ' where mode II has %I per cent of the energy; expected more than %R', &
         [real_position(jtype, p_alphan), status%item], [status%value, status%expected])
     case (small_beta)
       row = merge(p_betan, p_betat, status%item == 1)
       call fatal(jtype, jelem, 'PROPS(%I) ' // trim(reals(row)%name) // ': beta = %R, ' // &
-        trim(sentence(status%code)) // '; more than %R is expected: give it, or with 0 refine the mesh', &
+        trim(sentence(status%code)) // '; expected more than %R: set it, or leave it 0 and refine the mesh', &
         [real_position(jtype, row)], [status%value, status%expected])
     case (no_root)
       call fatal(jtype, jelem, 'point or mode %I: ' // trim(sentence(status%code)), [status%item], [real(dp) ::])
@@ -230,9 +230,9 @@ contains
       call fatal(jtype, jelem, trim(sentence(status%code)), [integer ::], [real(dp) ::])
     case (edges_apart)
       associate (top => edges(jtype)%top, bottom => edges(jtype)%bottom)
-        call fatal(jtype, jelem, trim(sentence(status%code)) // ', node %I must lie on %I and %I on %I' // &
+        call fatal(jtype, jelem, trim(sentence(status%code)) // ': node %I must lie on %I and %I on %I' // &
           trim(merge(', and the middle nodes on each other', repeat(' ', 36), top(3) > 0)) // &
-          '; they are %R apart, at most %R is expected', [top(1), bottom(1), top(2), bottom(2)], [status%value, status%expected])
+          '; they are %R apart, expected at most %R', [top(1), bottom(1), top(2), bottom(2)], [status%value, status%expected])
       end associate
     case default
       call fatal(jtype, jelem, trim(adjustl(trim(side) // ' quad')) // ' ' // trim(sentence(status%code)) // &

@@ -125,8 +125,8 @@ contains
       field_change, size(field), length, [place, 0.0_dp])
     good = (abs(found(4) - untouched) > 0.0_dp) .eqv. (plane == plane_strain)
     if (.not. good) then
-      call fatal(1, jelem, 'JPROPS(%I) PLANE = %I, but the material has another number of stress components: ' // &
-        'give TENSOR=PSTRESS with PLANE = 0 and TENSOR=PSTRAIN with PLANE = 1', &
+      call fatal(1, jelem, 'JPROPS(%I) PLANE = %I, but the material has a different number of stress components: ' // &
+        'use TENSOR=PSTRESS with PLANE = 0 and TENSOR=PSTRAIN with PLANE = 1', &
         [integer_position(1, j_plane), plane], [real(dp) ::])
       return
     end if

@@ -140,7 +140,7 @@ contains
       good = status%code == ok
       if (.not. good) then
         call fatal(jtype, jelem, 'PROPS(%I) ' // trim(reals(ratio(side))%name) // ' = %R and its neighbours: ' // &
-          trim(sentence(status%code)) // '; %R is expected to be positive', &
+          trim(sentence(status%code)) // '; %R must be positive', &
           [real_position(jtype, ratio(side))], [values(ratio(side)), status%value])
         return
       end if

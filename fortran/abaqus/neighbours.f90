@@ -85,7 +85,7 @@ contains
     nodes = face_nodes(:, records(slot)%face)
     if (any(abs(records(slot)%coordinates(:, nodes) - coordinates(:, shared(:, side))) &
       > coincidence_tolerance*records(slot)%face_length)) then
-      call fatal(3, jelem, trim(property) // ': bulk element %I is no neighbour, its face %I does not lie on ' // &
+      call fatal(3, jelem, trim(property) // ': bulk element %I is not a neighbour: its face %I does not lie on ' // &
         'that edge of the interface', [position, offset, jelem + offset, records(slot)%face], [real(dp) ::])
       return
     end if

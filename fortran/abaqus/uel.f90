@@ -28,10 +28,10 @@ subroutine uel(rhs, amatrx, svars, energy, ndofel, nrhs, nsvars, props, nprops, 
   amatrx = 0.0_dp
   if (jtype < 2 .or. jtype > size(elements)) then
     if (jtype == 1) then
-      call fatal(jtype, jelem, 'takes its stress from a material: give MATERIAL= on *UEL PROPERTY', &
+      call fatal(jtype, jelem, 'takes its stress from a material: specify MATERIAL= on *UEL PROPERTY', &
         [integer ::], [real(dp) ::])
     else
-      call fatal(jtype, jelem, 'is no element of this file; it has U1 to U%I', [size(elements)], [real(dp) ::])
+      call fatal(jtype, jelem, 'is not an element of this file, which has U1 to U%I', [size(elements)], [real(dp) ::])
     end if
     return
   end if

@@ -28,7 +28,7 @@ subroutine uelmat(rhs, amatrx, svars, energy, ndofel, nrhs, nsvars, props, nprop
   rhs(1:ndofel, 1:nrhs) = 0.0_dp
   amatrx = 0.0_dp
   if (jtype /= 1) then
-    call fatal(jtype, jelem, 'is no element of this file with a material: give MATERIAL= for U1 only', &
+    call fatal(jtype, jelem, 'is not an element with a material: specify MATERIAL= for U1 only', &
       [integer ::], [real(dp) ::])
     return
   end if

@@ -45,13 +45,13 @@ contains
       text = 'too soft for the fracture energy in mixed mode: the separation at failure ' // &
         'does not exceed that at the onset of damage'
     case (late_secant)
-      text = 'too small for its stiffness: the secant of the PPR law has to fall from the origin on'
+      text = 'too small for its stiffness: the secant of the PPR law must decrease from the origin on'
     case (no_root)
-      text = 'the equation of its point is not solved: NaN, or more steps than are allowed'
+      text = 'the equation of this point is not solved: NaN or too many iterations'
     case (not_positive_definite)
       text = 'the elastic constants are not positive definite'
     case (inside_out)
-      text = 'inside out or degenerate: the Jacobian is not positive, ' // &
+      text = 'is inside out or degenerate: the Jacobian is not positive, ' // &
         'number the nodes counter-clockwise'
     case (zero_length)
       text = 'the interface has no length'

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The uel-harness authors
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// An exception of C++ that nothing catches ends the call as XIT does, with its type and what it says. libstdc++ comes with
+// An uncaught C++ exception ends the call as XIT does, with its type and what it says. libstdc++ comes with
 // the user's library and is not linked here: its procedures are looked up by their names in the C++ ABI.
 
 #define _GNU_SOURCE
@@ -62,7 +62,7 @@ static void terminated(void)
         const char *name = ((const char **)type)[1], *said = what(type);
         name += *name == '*';
         char *readable = demangle ? demangle(name, NULL, NULL, NULL) : NULL;
-        snprintf(text, sizeof text, "an exception of C++ that nothing catches: %s%s%.400s", readable ? readable : name,
+        snprintf(text, sizeof text, "an uncaught C++ exception: %s%s%.400s", readable ? readable : name,
                  said ? ": " : "", said ? said : "");
     } else {
         snprintf(text, sizeof text, "std::terminate without an exception");

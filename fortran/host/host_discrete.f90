@@ -102,7 +102,7 @@ contains
     integer :: i
     length = initial_length(dim, x)
     if (.not. length > 0) then
-      call add_message(-3_i4, 'both nodes are in the same place')
+      call add_message(-3_i4, 'both nodes are at the same position')
       call escape()
     end if
     along = (x(:, 2) - x(:, 1))/length

@@ -141,7 +141,7 @@ contains
       else if (n == 3) then
         call mises_plane_stress(material%young, material%poisson, material%yield, old, strain, stress, tangent, new, solved)
         if (.not. solved) then
-          write (text, '(a,i0)') '*PLASTIC: the return to the yield surface is not solved at integration point ', point
+          write (text, '(a,i0)') '*PLASTIC: the return to the yield surface does not converge at integration point ', point
           call not_solved(text)
         end if
       else

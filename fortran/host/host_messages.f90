@@ -79,8 +79,8 @@ contains
     length = int(min(len_trim(name), len(variable)), i4)
     if (len_trim(name) <= len(variable) .or. names_cut(number)) return
     names_cut(number) = .true.
-    write (text, '(2a,i0,a,i0,a)') what, ' has ', len_trim(name), ' characters, of which the variable takes ', len(variable), &
-      ' (CHARACTER*256 in Abaqus); what goes by the part that is left is elsewhere'
+    write (text, '(2a,i0,a,i0,a)') what, ' has ', len_trim(name), ' characters, but the variable holds ', len(variable), &
+      ' (CHARACTER*256 in Abaqus); the truncated name leads elsewhere'
     call add_message(-1_i4, trim(text))
   end subroutine pass_name
 

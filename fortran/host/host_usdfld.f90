@@ -86,7 +86,7 @@ contains
                 kstep, kinc, ndi, nshr, coord, jmac, jmatyp, matlayo, laccfla)
     nullify (current%values)
     if (.not. all(abs(field) <= huge(field))) then
-      call add_message(-3_i4, 'USDFLD sets a field variable to no number')
+      call add_message(-3_i4, 'USDFLD sets a field variable to NaN or infinity')
       call escape()
     end if
     current%routine = routine

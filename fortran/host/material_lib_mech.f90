@@ -24,7 +24,7 @@ subroutine material_lib_mech(materiallib, stress, ddsdde, stran, dstran, npt, dv
   integer :: n
   material => find_material(materiallib)
   if (.not. associated(material)) then
-    call add_message(-3_i4, 'MATERIAL_LIB_MECH: the first argument is not the MATERIALLIB that UELMAT was given')
+    call add_message(-3_i4, 'MATERIAL_LIB_MECH: the first argument is not the MATERIALLIB that was passed to UELMAT')
     call escape()
   end if
   n = material%ntens

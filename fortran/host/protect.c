@@ -83,31 +83,31 @@ static void describe(int signal, char *text, size_t size)
     switch (signal) {
     case SIGSEGV:
     case SIGBUS:
-        snprintf(text, size, "segmentation fault: it reads or writes where no memory is, mostly through an index outside an "
-                             "array or an argument of another type or rank");
+        snprintf(text, size, "segmentation fault: it reads or writes an invalid address, usually because of an index outside "
+                             "an array or an argument of the wrong type or rank");
         break;
     case STACK:
-        snprintf(text, size, "segmentation fault: the stack is full, through endless recursion or large local arrays");
+        snprintf(text, size, "segmentation fault: the stack is full, because of endless recursion or large local arrays");
         break;
     case SIGFPE:
         snprintf(text, size, "division of an integer by zero");
         break;
     case INVALID:
-        snprintf(text, size, "floating-point exception: the result is no number (0/0, the square root of a negative number), "
-                             "or a variable that has no value is used");
+        snprintf(text, size, "floating-point exception: the result is not a number (0/0, the square root of a negative "
+                             "number), or an uninitialised variable is used");
         break;
     case DIVISION:
         snprintf(text, size, "floating-point exception: division by zero");
         break;
     case OVERFLOW:
-        snprintf(text, size, "floating-point exception: the result is too large for a number");
+        snprintf(text, size, "floating-point exception: the result is too large to represent");
         break;
     case SIGILL:
-        snprintf(text, size, "illegal instruction: an index outside an array or the address 0 in C or C++ with run-time "
-                             "checks, a library for another processor, or a call that went astray");
+        snprintf(text, size, "illegal instruction: an index outside an array or a null pointer in C or C++ with run-time "
+                             "checks, a library for another processor, or a jump to a wrong address");
         break;
     case SIGALRM:
-        snprintf(text, size, "the call does not return within %g s, the limit for one call (--call-limit)", limit);
+        snprintf(text, size, "the call did not return within %g s, the limit for one call (--call-limit)", limit);
         break;
     case OVERRUN:
         snprintf(text, size, "%s", overrun);
@@ -152,7 +152,7 @@ static void catch(int signal, siginfo_t *info, void *context)
     if (!armed)
         return;
     if (signal == SIGABRT) {
-        say_end("abort: memory is damaged, mostly by a write outside an array");
+        say_end("abort: memory is damaged, usually by a write outside an array");
         return;  // abort() goes on and ends the process
     }
     if (!pthread_equal(pthread_self(), thread)) {

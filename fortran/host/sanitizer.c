@@ -101,7 +101,8 @@ static void summarise(const char *report, char *text, size_t size)
         return;
     }
     if (!strncmp(kind, "attempting", 10)) {
-        snprintf(text, size, inside_line(kind, "double-free") ? "it frees memory twice" : "it frees what was never allocated");
+        snprintf(text, size,
+                 inside_line(kind, "double-free") ? "it frees memory twice" : "it frees memory that was never allocated");
         return;
     }
     for (const char *line = report; line; line = strchr(line, '\n'), line += line != NULL) {
@@ -131,7 +132,8 @@ static void summarise(const char *report, char *text, size_t size)
             return;
         }
     }
-    const char *where = !strncmp(kind, "dynamic-stack", 13) ? "outside a local array" : "where no variable is";
+    const char *where =
+        !strncmp(kind, "dynamic-stack", 13) ? "outside a local array" : "at an address that belongs to no variable";
     snprintf(text, size, "it %s %s", verb(writes), where);
 }
 
@@ -189,7 +191,7 @@ static void report(const void *address, int writes, size_t size)
         find("__asan_report_error");
     if (!on || !describe)
         return;
-    snprintf(found, sizeof found, "it %s where no variable is", verb(writes));
+    snprintf(found, sizeof found, "it %s at an address that belongs to no variable", verb(writes));
     accessed = address;
     written = writes;
     describe(__builtin_return_address(0), __builtin_frame_address(0), __builtin_frame_address(0), address, writes, size, 0);

@@ -36,7 +36,7 @@ static void *access_array(enum kind kind, const int32_t *id, const char *routine
 {
     struct array *a = find(kind, *id);
     if (!a)
-        uel_host_fail(routine, *id, "there is no array of this number");
+        uel_host_fail(routine, *id, "there is no array with this number");
     return a->data;
 }
 
@@ -44,7 +44,7 @@ static int32_t size_of_array(enum kind kind, const int32_t *id, const char *rout
 {
     struct array *a = find(kind, *id);
     if (!a)
-        uel_host_fail(routine, *id, "there is no array of this number");
+        uel_host_fail(routine, *id, "there is no array with this number");
     return a->size;
 }
 

@@ -92,7 +92,7 @@ ENDS_CALL(quick_exit)
 
 // Routines of Abaqus that the host does not supply. A file may refer to them in procedures that are never called here.
 #define NOT_SUPPLIED(name, title)                                                                                      \
-    void name(void) { fatal("it calls " title ", which is not supplied here"); }
+    void name(void) { fatal("it calls " title ", which the harness does not supply"); }
 
 NOT_SUPPLIED(getvrn_, "GETVRN")
 NOT_SUPPLIED(getvrmavgatnode_, "GETVRMAVGATNODE")

@@ -60,7 +60,8 @@ contains
     if (good) return
     place = ''
     if (any(current%routine == of_a_point)) write (place, '(a,i0)') ' at integration point ', current%point
-    write (text, '(4a)') 'in ', trim(current%routine), trim(place), ': a tensor without principal values, NaN or infinite'
+    write (text, '(4a)') 'in ', trim(current%routine), trim(place), &
+      ': a tensor has no principal values, since it contains NaN or infinity'
     call add_message(-1_i4, text)
   end subroutine eigen
 

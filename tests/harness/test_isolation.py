@@ -38,7 +38,7 @@ DECK = """\
 *END STEP
 """
 WHERE = "in UEL for element 7, step 1, increment 2, iteration 0"
-ENDLESS = r"in UEL, crashes.f line \d+.*: the call does not return within 4 s, the limit for one call \(--call-limit\)"
+ENDLESS = r"in UEL, crashes.f line \d+.*: the call did not return within 4 s, the limit for one call \(--call-limit\)"
 STOPPED = r"element 7 \(type U1\): stopped the analysis{} \(step 1, increment 2, iteration 0\)"
 PLACE = STOPPED.format(": {}")
 
@@ -46,7 +46,7 @@ PLACE = STOPPED.format(": {}")
 @pytest.mark.parametrize(
     ("way", "message"),
     [
-        (1, PLACE.format(r"in UEL, crashes.f line \d+: segmentation fault: it reads or writes where no memory is.*")),
+        (1, PLACE.format(r"in UEL, crashes.f line \d+: segmentation fault: it reads or writes an invalid address.*")),
         pytest.param(
             2,
             PLACE.format(r"in UEL, crashes.f line \d+ \(ENDLESS\): segmentation fault: the stack is full.*"),
@@ -98,7 +98,7 @@ def begin(folder: Path, user: Path, way: int, *words: str) -> subprocess.Popen[s
 @pytest.mark.parametrize(
     ("way", "message"),
     [
-        (1, PLACE.format("an exception of C.. that nothing catches: std::runtime_error: no such layer")),
+        (1, PLACE.format("an uncaught C.. exception: std::runtime_error: no such layer")),
         pytest.param(2, PLACE.format("an .*: .anonymous namespace.::own_exception"), marks=pytest.mark.long),
         (3, PLACE.format(r"exit\(0\)")),
         pytest.param(4, PLACE.format(r"_exit\(0\)"), marks=pytest.mark.long),

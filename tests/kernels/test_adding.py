@@ -163,7 +163,7 @@ def test_existing_decks_give_what_they_gave(branch, element_of, library, interfa
 def test_other_counts_of_properties_are_refused(branch, element_of):
     for count in (12, 15):
         item = element_of(branch[0], 2, FLAT, definition={"properties": count})
-        with pytest.raises(KernelError, match=rf"PROPERTIES = {count}, 13 to 14 is expected"):
+        with pytest.raises(KernelError, match=rf"PROPERTIES = {count}: expected 13 to 14"):
             item.evaluate(np.zeros(8))
 
 
@@ -172,7 +172,7 @@ def test_the_property_has_the_last_position(branch, element_of):
         layout = branch[1][jtype]
         assert (layout.reals[-1].name, layout.reals[-1].position) == ("PLATEAU", position)
     item = element_of(branch[0], 2, FLAT, layouts=branch[1], LAW=5, PLATEAU=1.0)
-    with pytest.raises(KernelError, match=r"PROPS\(14\) PLATEAU = 1.0.*expected is zero or a value between 0 and 1"):
+    with pytest.raises(KernelError, match=r"PROPS\(14\) PLATEAU = 1.0.*expected zero or a value between 0 and 1"):
         item.evaluate(np.zeros(8))
 
 

@@ -149,7 +149,7 @@ def test_quad_inside_out_at_a_gauss_point(element):
     coordinates = quads(1.0, 1.0)
     coordinates[6] = [0.2, 0.3]
     item = element(4, coordinates, label=42, BETAN=-1)
-    with pytest.raises(KernelError, match="U4 element 42: top quad inside out"):
+    with pytest.raises(KernelError, match="U4 element 42: top quad is inside out"):
         item.evaluate(np.zeros(16))
 
 

@@ -19,29 +19,29 @@ NODES = {1: QUAD, 2: FLAT, 3: FLAT, 4: EIGHT}
 @pytest.mark.parametrize(
     ("jtype", "values", "message"),
     [
-        (1, {"THICKNESS": 0.0}, r"U1 element 42: PROPS\(1\) THICKNESS = 0.*, expected is a positive value"),
-        (1, {"PLANE": 2}, r"U1 element 42: JPROPS\(1\) PLANE = 2, expected is 0 to 1"),
-        (1, {"FACE": 5}, r"JPROPS\(2\) FACE = 5, expected is 0 to 4"),
-        (2, {"ALPHAN": -1.0}, r"U2 element 42: PROPS\(2\) ALPHAN = -1.*, expected is zero or a positive value"),
-        (2, {"ALPHAT": 0.0}, r"PROPS\(3\) ALPHAT = 0.*, expected is a positive value"),
-        (2, {"ALPHAN": 0.0, "ALPHAT": 0.0}, r"ALPHAN = 0.*, expected is.*positive value; 0, an infinite.* CLOSURE = 1"),
-        (4, {"ALPHAN": 0.0, "ALPHAT": 0.0}, r"ALPHAN = 0.*, expected is.*positive value; 0, an infinite.* CLOSURE = 1"),
-        (4, {"ALPHAN": 0.0, "CLOSURE": 1}, r"PROPS\(2\) ALPHAN = 0.*and for both directions"),
-        (4, {"ALPHAT": 0.0, "CLOSURE": 1}, r"PROPS\(3\) ALPHAT = 0.*and for both directions"),
+        (1, {"THICKNESS": 0.0}, r"U1 element 42: PROPS\(1\) THICKNESS = 0.*: expected a positive value"),
+        (1, {"PLANE": 2}, r"U1 element 42: JPROPS\(1\) PLANE = 2: expected 0 to 1"),
+        (1, {"FACE": 5}, r"JPROPS\(2\) FACE = 5: expected 0 to 4"),
+        (2, {"ALPHAN": -1.0}, r"U2 element 42: PROPS\(2\) ALPHAN = -1.*: expected zero or a positive value"),
+        (2, {"ALPHAT": 0.0}, r"PROPS\(3\) ALPHAT = 0.*: expected a positive value"),
+        (2, {"ALPHAN": 0.0, "ALPHAT": 0.0}, r"ALPHAN = 0.*: expected.*positive value; 0, an infinite.* CLOSURE = 1"),
+        (4, {"ALPHAN": 0.0, "ALPHAT": 0.0}, r"ALPHAN = 0.*: expected.*positive value; 0, an infinite.* CLOSURE = 1"),
+        (4, {"ALPHAN": 0.0, "CLOSURE": 1}, r"PROPS\(2\) ALPHAN = 0.*and 0 in both directions"),
+        (4, {"ALPHAT": 0.0, "CLOSURE": 1}, r"PROPS\(3\) ALPHAT = 0.*and 0 in both directions"),
         (4, {"BLEND": 1.1}, r"PROPS\(13\) BLEND = 1.1.*a value from 0 to 1"),
         (2, {"BLEND": -0.1}, r"PROPS\(13\) BLEND = -.*a value from 0 to 1"),
         (4, {"FRICTION": -0.1, "CLOSURE": 1}, r"PROPS\(17\) FRICTION = -.*zero or a positive value"),
-        (4, {"FRICTION": 0.1}, r"FRICTION = 0.1.* goes with CLOSURE = 1, else 0 is expected"),
-        (4, {"CLOSURE": 2}, r"JPROPS\(6\) CLOSURE = 2, expected is 0 to 1"),
+        (4, {"FRICTION": 0.1}, r"FRICTION = 0.1.*: without CLOSURE = 1, expected 0"),
+        (4, {"CLOSURE": 2}, r"JPROPS\(6\) CLOSURE = 2: expected 0 to 1"),
         (2, {"SIGMAMAX": -30.0}, r"PROPS\(4\) SIGMAMAX = -30.*positive"),
         (2, {"TAUMAX": 0.0}, r"PROPS\(5\) TAUMAX = 0.*positive"),
         (2, {"GIC": -0.1}, r"PROPS\(6\) GIC = -.*positive"),
         (2, {"GIIC": 0.0}, r"PROPS\(7\) GIIC = 0.*positive"),
         (2, {"VISCOSITY": -1.0}, r"PROPS\(8\) VISCOSITY = -1.*zero or a positive value"),
         pytest.param(2, {"ALPHAN": np.nan}, r"PROPS\(2\) ALPHAN = NaN", marks=pytest.mark.nan),
-        (2, {"LAW": 0}, r"JPROPS\(1\) LAW = 0, expected is 1 to 4"),
-        (2, {"INTEGRATION": 2}, r"JPROPS\(2\) INTEGRATION = 2, expected is 0 to 1"),
-        (2, {"TANGENT": -1}, r"JPROPS\(3\) TANGENT = -1, expected is 0 to 1"),
+        (2, {"LAW": 0}, r"JPROPS\(1\) LAW = 0: expected 1 to 4"),
+        (2, {"INTEGRATION": 2}, r"JPROPS\(2\) INTEGRATION = 2: expected 0 to 1"),
+        (2, {"TANGENT": -1}, r"JPROPS\(3\) TANGENT = -1: expected 0 to 1"),
         (4, {"BETAN": -2.0}, r"U4 element 42: PROPS\(14\) BETAN = -2.*zero or a positive value, or -1 in U4 and U6"),
         (3, {"BETAN": -1.0}, r"U3 element 42: PROPS\(14\) BETAN = -1.*zero or a positive value, or -1 in U4 and U6"),
         (4, {"BETAT": -0.5}, r"PROPS\(15\) BETAT = -0?.5.*zero or a positive value"),
@@ -49,8 +49,8 @@ NODES = {1: QUAD, 2: FLAT, 3: FLAT, 4: EIGHT}
         (4, {"E1 BOTTOM": 0.0}, r"PROPS\(18\) E1 BOTTOM = 0.*positive"),
         (4, {"G12 TOP": -5.0}, r"PROPS\(32\) G12 TOP = -5.*positive"),
         (4, {"NU12 TOP": np.inf}, r"PROPS\(29\) NU12 TOP = .*a finite value"),
-        (4, {"SAMPLING": 3}, r"JPROPS\(4\) SAMPLING = 3, expected is 0 to 2"),
-        (4, {"PLANE": 7}, r"JPROPS\(5\) PLANE = 7, expected is 0 to 1"),
+        (4, {"SAMPLING": 3}, r"JPROPS\(4\) SAMPLING = 3: expected 0 to 2"),
+        (4, {"PLANE": 7}, r"JPROPS\(5\) PLANE = 7: expected 0 to 1"),
     ],
     ids=lambda value: " ".join(f"{k}={v}" for k, v in value.items()) if isinstance(value, dict) else "",
 )
@@ -67,14 +67,14 @@ def test_properties_out_of_range(element, jtype, values, message, request_):
         (
             2,
             {"GIC": 0.0225},
-            r"U2 element 42: PROPS\(6\) GIC = 2.25.*E-02.*too brittle.*more than 2.25.*E-02 is expected",
+            r"U2 element 42: PROPS\(6\) GIC = 2.25.*E-02.*too brittle.*expected more than 2.25.*E-02",
         ),
-        (2, {"GIIC": 0.05}, r"PROPS\(7\) GIIC = 5.0.*E-02.*too brittle.*more than 6.0.*E-02 is expected"),
-        (4, {"ALPHAN": 1000.0}, r"U4 element 42: PROPS\(6\) GIC = 0.26.*too brittle.*more than 0.45.* is expected"),
+        (2, {"GIIC": 0.05}, r"PROPS\(7\) GIIC = 5.0.*E-02.*too brittle.*expected more than 6.0.*E-02"),
+        (4, {"ALPHAN": 1000.0}, r"U4 element 42: PROPS\(6\) GIC = 0.26.*too brittle.*expected more than 0.45"),
         (
             4,
             {"NU12 BOTTOM": 4.0},
-            r"PROPS\(21\) NU12 BOTTOM = 4.*not positive definite; -0.4.* is expected to be positive",
+            r"PROPS\(21\) NU12 BOTTOM = 4.*not positive definite; -0.4.* must be positive",
         ),
         (4, {"NU12 TOP": -4.0}, r"PROPS\(29\) NU12 TOP = -4.*not positive definite"),
         (4, {"E3 TOP": 0.0, "PLANE": 1}, r"NU12 TOP = 0.3.*not positive definite; 0"),
@@ -101,17 +101,17 @@ def test_brittleness_bound_is_sharp(element):
 @pytest.mark.parametrize(
     ("jtype", "coordinates", "message"),
     [
-        (1, QUAD[::-1], r"U1 element 42: quad inside out or degenerate.*counter-clockwise; it is -"),
-        (1, QUAD[[0, 1, 1, 0]], r"U1 element 42: quad inside out or degenerate"),
+        (1, QUAD[::-1], r"U1 element 42: quad is inside out or degenerate.*counter-clockwise; it is -"),
+        (1, QUAD[[0, 1, 1, 0]], r"U1 element 42: quad is inside out or degenerate"),
         (2, QUAD[[0, 0, 0, 0]], r"U2 element 42: the interface has no length"),
-        (2, QUAD[[0, 1, 0, 1]], r"U2 element 42: the two edges .* do not coincide, node 4 must lie on 1 and 3 on 2"),
-        (2, [*FLAT[:2], [1, 1e-3], FLAT[3]], r"they are 1.0.*E-03 apart, at most 1.0.*E-04 is expected"),
-        (4, EIGHT[[1, 0, 3, 2, 5, 4, 7, 6]], r"U4 element 42: .* quad inside out"),
-        (4, [*EIGHT[:4], *(EIGHT[4:] * [1, -1])], r"U4 element 42: top quad inside out"),
-        (4, [*(EIGHT[:4] * [1, -1]), *EIGHT[4:]], r"U4 element 42: bottom quad inside out"),
+        (2, QUAD[[0, 1, 0, 1]], r"U2 element 42: the two edges .* do not coincide: node 4 must lie on 1 and 3 on 2"),
+        (2, [*FLAT[:2], [1, 1e-3], FLAT[3]], r"they are 1.0.*E-03 apart, expected at most 1.0.*E-04"),
+        (4, EIGHT[[1, 0, 3, 2, 5, 4, 7, 6]], r"U4 element 42: .* quad is inside out"),
+        (4, [*EIGHT[:4], *(EIGHT[4:] * [1, -1])], r"U4 element 42: top quad is inside out"),
+        (4, [*(EIGHT[:4] * [1, -1]), *EIGHT[4:]], r"U4 element 42: bottom quad is inside out"),
         (4, EIGHT[[0, 1, 2, 3, 5, 4, 7, 6]], r"U4 element 42: the two edges .* node 5 must lie on 4 and 6 on 3"),
         # the quad has a positive area, but not where its stress is taken
-        (4, [*EIGHT[:4], [0, 0], [1, 0], [0.5, 3], [0.45, -0.5]], r"U4 element 42: top quad inside out"),
+        (4, [*EIGHT[:4], [0, 0], [1, 0], [0.5, 3], [0.45, -0.5]], r"U4 element 42: top quad is inside out"),
     ],
 )
 def test_geometry(element, jtype, coordinates, message):
@@ -124,13 +124,13 @@ def test_geometry(element, jtype, coordinates, message):
 @pytest.mark.parametrize(
     ("jtype", "definition", "message"),
     [
-        (1, {"properties": 2}, r"U1 element 42: \*USER ELEMENT has PROPERTIES = 2, 1 is expected"),
-        (2, {"properties": 7}, r"PROPERTIES = 7, 13 is expected"),
-        (4, {"integer_properties": 4}, r"I PROPERTIES = 4, 6 is expected"),
-        (2, {"variables": 25}, r"VARIABLES = 25, at least 36 are needed"),
-        (1, {"variables": 31}, r"VARIABLES = 31, at least 32 are needed"),
-        (2, {"dofs": tuple((node, dof) for node in range(4) for dof in (1, 2, 3))}, r"number of unknowns 12, 8 is exp"),
-        (2, {"dofs": tuple((node, 1) for node in range(4)) * 2, "coordinates": 1}, r"COORDINATES = 1, 2 is expected"),
+        (1, {"properties": 2}, r"U1 element 42: \*USER ELEMENT has PROPERTIES = 2: expected 1"),
+        (2, {"properties": 7}, r"PROPERTIES = 7: expected 13"),
+        (4, {"integer_properties": 4}, r"I PROPERTIES = 4: expected 6"),
+        (2, {"variables": 25}, r"VARIABLES = 25: expected at least 36"),
+        (1, {"variables": 31}, r"VARIABLES = 31: expected at least 32"),
+        (2, {"dofs": tuple((node, dof) for node in range(4) for dof in (1, 2, 3))}, r"unknowns 12: expected 8"),
+        (2, {"dofs": tuple((node, 1) for node in range(4)) * 2, "coordinates": 1}, r"COORDINATES = 1: expected 2"),
     ],
 )
 def test_counts(element, jtype, definition, message):
@@ -142,32 +142,32 @@ def test_counts(element, jtype, definition, message):
 def test_wrong_number_of_nodes(element):
     dofs = tuple((node, dof) for node in range(2) for dof in (1, 2)) * 2
     item = element(2, FLAT[:2], label=42, definition={"nodes": 2, "dofs": dofs})
-    with pytest.raises(KernelError, match=r"U2 element 42: \*USER ELEMENT has NODES = 2, 4 is expected"):
+    with pytest.raises(KernelError, match=r"U2 element 42: \*USER ELEMENT has NODES = 2: expected 4"):
         item.evaluate(np.zeros(item.n))
 
 
 def test_large_displacements_are_refused(element):
     item = element(2, FLAT, label=42)
-    with pytest.raises(KernelError, match=r"U2 element 42: NLGEOM is on.*give NLGEOM=NO"):
+    with pytest.raises(KernelError, match=r"U2 element 42: NLGEOM is on.*use NLGEOM=NO"):
         item.evaluate(np.zeros(8), flags=(1, 1, 0, 0))
 
 
 def test_state_of_stress_of_the_material_must_fit(element):
     for plane, tensor in ((0, "PSTRAIN"), (1, "PSTRESS")):
         item = element(1, QUAD, label=42, PLANE=plane, definition={"tensor": tensor})
-        with pytest.raises(KernelError, match=rf"JPROPS\(1\) PLANE = {plane}, but the material has another number"):
+        with pytest.raises(KernelError, match=rf"JPROPS\(1\) PLANE = {plane}, but the material has a different number"):
             item.evaluate(np.zeros(8))
 
 
 def test_unknown_types(library, element):
     item = element(2, FLAT, label=42)
     item.block._procedure = replace(item.block._procedure, jtype=9)
-    with pytest.raises(KernelError, match="U9 element 42: is no element of this file; it has U1 to U6"):
+    with pytest.raises(KernelError, match="U9 element 42: is not an element of this file, which has U1 to U6"):
         item.evaluate(np.zeros(8))
     item.block._procedure = replace(item.block._procedure, jtype=1)
-    with pytest.raises(KernelError, match="U1 element 42: takes its stress from a material: give MATERIAL="):
+    with pytest.raises(KernelError, match="U1 element 42: takes its stress from a material: specify MATERIAL="):
         item.evaluate(np.zeros(8))
     quad = element(1, QUAD, label=42)
     quad.block._procedure = replace(quad.block._procedure, jtype=2)
-    with pytest.raises(KernelError, match="U2 element 42: is no element of this file with a material"):
+    with pytest.raises(KernelError, match="U2 element 42: is not an element with a material"):
         quad.evaluate(np.zeros(8))

@@ -79,7 +79,7 @@ def test_call_that_does_not_return(patch):
     assert code == 1
     (report,) = json.loads((deck.parent / "findings.json").read_text())["types"]
     limit = "within 1 s, the limit for one call (--call-limit)"
-    place = f"the call does not return {limit} (step 1, increment 1, iteration 0)"
+    place = f"the call did not return {limit} (step 1, increment 1, iteration 0)"
     where = r"element 1 \(type U1\): stopped the analysis: in UEL, quad.f line \d+: "
     assert re.fullmatch(where + re.escape(place), report["findings"]["rotation"]["message"])
     assert (

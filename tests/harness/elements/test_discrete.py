@@ -121,7 +121,7 @@ def test_kind_that_the_host_does_not_know(element, call):
 
 def test_nodes_in_the_same_place(element, call):
     block, matrix = element("SPRINGA", SpringSection("ALL", (), np.array([1.0]), SOURCE), np.ones((2, 3)))
-    with pytest.raises(KernelError, match=r"element 7 \(type SPRINGA\): .*both nodes are in the same place"):
+    with pytest.raises(KernelError, match=r"element 7 \(type SPRINGA\): .*both nodes are at the same position"):
         pull(block, matrix, call, 0.1, np.array([1.0, 0]))
 
 

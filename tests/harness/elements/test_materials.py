@@ -319,7 +319,7 @@ def test_points_are_counted(point):
 
 
 def test_materiallib_is_passed_on(point):
-    with pytest.raises(KernelError, match="the first argument is not the MATERIALLIB that UELMAT was given"):
+    with pytest.raises(KernelError, match="the first argument is not the MATERIALLIB that was passed to UELMAT"):
         point(ISOTROPIC, "PSTRESS", integers=(1, 1))([0, 0, 0])
 
 
@@ -331,4 +331,4 @@ def test_a_return_that_is_not_solved_asks_for_a_smaller_increment(point):
     assert respond.report.pnewdt == 0.25
     (message,) = respond.library.messages()
     assert (message.kind, message.element) == ("warning", 101)
-    assert message.text == "*PLASTIC: the return to the yield surface is not solved at integration point 1"
+    assert message.text == "*PLASTIC: the return to the yield surface does not converge at integration point 1"

@@ -154,7 +154,7 @@ def test_matrix_is_symmetrised_unless_unsymmetric(load, user_group, bound, call,
         ),
         (10, r"element 102 \(type U1\): stopped the analysis: STOP 'no more'"),
         (11, r"element 102 \(type U1\): stopped the analysis: STOP 7"),
-        (13, r"element 102 \(type U1\): stopped the analysis: it calls GETVRN, which is not supplied here"),
+        (13, r"element 102 \(type U1\): stopped the analysis: it calls GETVRN, which the harness does not supply"),
         (15, r"element 102 \(type U1\): stopped the analysis \(XIT\) without a message"),
     ],
 )

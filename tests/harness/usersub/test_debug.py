@@ -156,12 +156,13 @@ def fail(tmp_path):
 
 
 INVALID = (
-    r"floating-point exception: the result is no number \(0/0, the square root of a negative number\), or a variable"
+    r"floating-point exception: the result is not a number \(0/0, the square root of a negative number\), "
+    "or an uninitialised variable"
 )
 SIGNALS = [
     (4, "zero", "division of an integer by zero"),
-    (5, "segmentation", "segmentation fault: it reads or writes where no memory is"),
-    (6, "endless", "the call does not return"),
+    (5, "segmentation", "segmentation fault: it reads or writes an invalid address"),
+    (6, "endless", "the call did not return"),
 ]
 
 
@@ -180,7 +181,7 @@ def test_debug_run_names_the_line(fail, name, way, word, message):
     ("way", "word", "message"),
     [
         (1, "overrun", "index '4' of dimension 1 of array 'd' above upper bound of 3"),
-        (2, "unset", f"{INVALID} that has no value is used"),
+        (2, "unset", f"{INVALID} is used"),
         (8, "twice", "attempting to allocate already allocated variable 'room'"),
     ],
 )

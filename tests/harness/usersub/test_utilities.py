@@ -134,7 +134,7 @@ def test_output_folder_with_a_long_name(load, tmp_path, declarations, variable):
         notes += [m.text for m in messages if m.kind == "note"]
         warnings += [m.text for m in messages if m.kind == "warning"]
     assert notes == [str(size if declarations else 256)] * 2
-    told = f"GETOUTDIR: the name of the output directory has {size} characters, of which the variable takes 256 "
+    told = f"GETOUTDIR: the name of the output directory has {size} characters, but the variable holds 256 "
     assert [text.startswith(told) for text in warnings] == ([] if declarations else [True])
 
 
@@ -153,7 +153,7 @@ def test_tensors_without_principal_values_are_warned_of(load, routine, value):
     library.external_database(0, 0, (0.0, 0.0), 0.0, 0, 0)
     (message,) = library.messages()
     assert message.kind == "warning"
-    assert message.text == "in UEXTERNALDB: a tensor without principal values, NaN or infinite"
+    assert message.text == "in UEXTERNALDB: a tensor has no principal values, since it contains NaN or infinity"
 
 
 @pytest.mark.parametrize("header", ["", "SMAAspUserSubroutines.hdr", "SMAAspUserUtilities.hdr"])
@@ -215,7 +215,7 @@ def test_shared_arrays_grow_and_keep_what_they_hold(load):
     )
     library = load(program(body, header="SMAAspUserArrays.hdr", declarations=SHARED))
     with pytest.raises(
-        UelError, match=r"stopped the analysis: smaIntArrayAccess\(1\): there is no array of this number"
+        UelError, match=r"stopped the analysis: smaIntArrayAccess\(1\): there is no array with this number"
     ):
         said(library)
     assert next(m.text for m in library.messages()) == "26 5"
@@ -225,7 +225,7 @@ def test_shared_arrays_of_one_job_are_not_there_in_the_next(load):
     create = "      pn = SMAIntArrayCreate(3,2,4)\n"
     access = "      pn = SMAIntArrayAccess(3)\n"
     said(load(program(create, header="SMAAspUserArrays.hdr", declarations=SHARED)))
-    with pytest.raises(UelError, match="there is no array of this number"):
+    with pytest.raises(UelError, match="there is no array with this number"):
         said(load(program(access, header="SMAAspUserArrays.hdr", declarations=SHARED)))
 
 
