@@ -161,13 +161,13 @@ def test_state_of_stress_of_the_material_must_fit(element):
 
 def test_unknown_types(library, element):
     item = element(2, FLAT, label=42)
-    item.block._procedure = replace(item.block._procedure, jtype=9)
+    item.block._routine = replace(item.block._routine, jtype=9)
     with pytest.raises(KernelError, match="U9 element 42: is not an element of this file, which has U1 to U6"):
         item.evaluate(np.zeros(8))
-    item.block._procedure = replace(item.block._procedure, jtype=1)
+    item.block._routine = replace(item.block._routine, jtype=1)
     with pytest.raises(KernelError, match="U1 element 42: takes its stress from a material: specify MATERIAL="):
         item.evaluate(np.zeros(8))
     quad = element(1, QUAD, label=42)
-    quad.block._procedure = replace(quad.block._procedure, jtype=2)
+    quad.block._routine = replace(quad.block._routine, jtype=2)
     with pytest.raises(KernelError, match="U2 element 42: is not an element with a material"):
         quad.evaluate(np.zeros(8))
