@@ -1,7 +1,7 @@
 ! SPDX-FileCopyrightText: The uel-harness authors
 ! SPDX-License-Identifier: BSD-3-Clause
-!> The shared module of the paper's section 3.1: what the continuum quads next to an interface (U1 with FACE) leave for
-!> the four-node stabilised interface elements (U3), by element number.
+!> The shared module of the paper's section 3.1: what the continuum quads next to an interface (U1 with FACE) store for the
+!> four-node stabilised interface elements (U3), by element number.
 !>
 !> It holds the last evaluation of each quad, so the quads must be called before the interface element in every
 !> iteration (lower element numbers), on one thread and in one process.
@@ -34,7 +34,7 @@ module abaqus_bulk_exchange
 
 contains
 
-  !> Slot of an element in `records`, 0 if it has left nothing.
+  !> Slot of an element in `records`, 0 if it has stored nothing.
   function slot_of_bulk(jelem) result(slot)
     integer, intent(in) :: jelem
     integer :: slot

@@ -1,6 +1,6 @@
 ! SPDX-FileCopyrightText: The uel-harness authors
 ! SPDX-License-Identifier: BSD-3-Clause
-!> Checks of what an element is called with: counts, ranges of the properties, kind of analysis.
+!> Checks of the arguments of an element: counts, ranges of the properties, kind of analysis.
 module abaqus_check
   use core_kinds, only: dp
   use core_status, only: status_type, sentence, too_brittle, zero_length, edges_apart, small_beta, &
@@ -165,8 +165,8 @@ contains
     end do
   end function integers_are_good
 
-  !> True if the properties fit CLOSURE: only the consistent law takes an infinite initial stiffness (0), in both directions,
-  !> and friction, and it takes no PPR law that falls infinitely fast at its end.
+  !> True if the properties fit CLOSURE: only the consistent law allows an infinite initial stiffness (0), in both directions, and
+  !> friction, but not a PPR law that falls infinitely fast at its end.
   function options_fit(jtype, jelem, values, options) result(good)
     integer, intent(in) :: jtype, jelem
     real(dp), intent(in) :: values(:)

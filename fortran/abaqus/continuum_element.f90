@@ -19,10 +19,10 @@ module abaqus_continuum_element
   private
   public :: evaluate_continuum
 
-  !> Stands in a stress component that a material of plane stress must not write, and one of plane strain must.
+  !> Marks a stress component that a plane stress material must not write and a plane strain material must.
   real(dp), parameter :: untouched = -huge(1.0_dp)
 
-  !> What the four Gauss points have when the stress is known.
+  !> Data of the four Gauss points once the stress is known.
   type :: gauss_state
     real(dp) :: gradient(2, quad4_nodes, quad4_points), strain(3, quad4_points), stress(3, quad4_points)
     real(dp) :: stiffness(3, 3, quad4_points), volume(quad4_points)
@@ -32,8 +32,8 @@ contains
 
   !> Evaluates U1; `good` is false after a message.
   !>
-  !> ENERGY(2) grows by the work of the stress, by the trapezoidal rule: the strain energy of an elastic material, to
-  !> which the work of any inelastic strain is added, as the material does not tell them apart.
+  !> ENERGY(2) grows by the work of the stress, by the trapezoidal rule: the strain energy of an elastic material; for an inelastic
+  !> one it includes the work of the inelastic strain, since the material does not separate the two.
   subroutine evaluate_continuum(jelem, values, options, coordinates, u, predef, npredf, materiallib, with_tangent, &
     svars, energy, residual, tangent, good)
     integer, intent(in) :: jelem
@@ -107,7 +107,7 @@ contains
       0.0_dp, 0.0_dp, 1.0_dp], [3, 3])
     ! components among those of the material: 11, 22, 12 in plane stress, 11, 22, 33, 12 in plane strain
     integer, parameter :: in_plane(3, 0:1) = reshape([1, 2, 3, 1, 2, 4], [3, 2])
-    ! room for what a host might write if TENSOR is not what PLANE says
+    ! room for what a host may write if TENSOR does not match PLANE
     real(dp) :: start(6), change(6), found(6), matrix(36), old_stress(3)
     integer :: i, j, n, at(3)
     external :: material_lib_mech
@@ -145,7 +145,7 @@ contains
     variables(v_s33) = merge(found(3), 0.0_dp, plane == plane_strain)
   end subroutine call_material
 
-  !> Leaves stress, shape function derivatives and areas to the interface elements next door. The stress at a place on
+  !> Stores stress, shape function derivatives and areas for the adjacent interface elements. The stress at a place on
   !> the face is that of the Gauss point next to it, carried there by the stiffness: exact in linear elasticity, without
   !> another call of the material. In the middle it is the mean of both.
   subroutine store_for_neighbours(jelem, face, coordinates, u, area, thickness, state)

@@ -5,11 +5,11 @@
 !> the elements are here too.
 !>
 !> A row of `reals` or `integers` says which families of elements have it; its position in the deck is the number of rows
-!> up to it that the family has. New rows go to the end of the table, where they are the last of each family that has them:
-!> no position of an existing deck moves. A deck that has no value for them gives 0, and keeps the PROPERTIES that
-!> `elements` says.
+!> up to it that the family has. New rows go to the end of the table, where they are the last of each family that has them: no
+!> position in an existing deck moves. In a deck without a value for them they are 0, and its PROPERTIES stays what `elements` says.
 !>
-!> harness/usersub/layout.py reads this file line by line: one row a line, its meaning after the row, there or on the next line.
+!> harness/usersub/layout.py reads this file line by line: one row per line, its meaning after the row, on the same or the next
+!> line.
 module abaqus_layout
   use, intrinsic :: iso_c_binding, only: c_int
   use core_kinds, only: dp
@@ -19,7 +19,7 @@ module abaqus_layout
   public :: unknowns_of, variables_of, reals_of, integers_of, real_position, integer_position, unpack
   public :: delamination_layout_version
 
-  !> What a real property may be. A property that may be zero is 0 where the deck leaves it out.
+  !> Permitted values of a real property. A property that may be zero is 0 if the deck leaves it out.
   integer, parameter, public :: positive = 1
   integer, parameter, public :: not_negative = 2
   integer, parameter, public :: below_one = 3       ! 0 <= value < 1
@@ -34,7 +34,7 @@ module abaqus_layout
   integer, parameter, public :: continuum = 1
   integer, parameter, public :: standard = 2
   integer, parameter, public :: next_to_quads = 4    ! stabilised, with the stress of U1 next to it
-  integer, parameter, public :: self_contained = 8   ! stabilised, with quads of its own
+  integer, parameter, public :: self_contained = 8   ! stabilised, with its own quads
   integer, parameter, public :: stabilised = next_to_quads + self_contained
   integer, parameter, public :: interfaces = standard + stabilised
   integer, parameter, public :: every_family = continuum + interfaces
@@ -64,7 +64,7 @@ module abaqus_layout
   end type variable_item
 
   !> An element type Un. `reals` and `integers` are the PROPERTIES and I PROPERTIES of decks from before rows were added to
-  !> the tables of properties: the fewest there may be.
+  !> the tables of properties: the minimum counts.
   type :: element_item
     integer :: jtype, family, dimension, nodes, points, reals, integers
   end type element_item
@@ -174,8 +174,9 @@ module abaqus_layout
     integer_item(j_sampling, stabilised, 'SAMPLING', 0, 2), &
       !< bulk stress: 0 middle of the face (U6: line), 1 face, 2 nearest Gauss point
     integer_item(j_offset_bottom, next_to_quads, 'OFFSETBOTTOM', -any_integer, any_integer), &
-      !< number of the quad below less its own
-    integer_item(j_offset_top, next_to_quads, 'OFFSETTOP', -any_integer, any_integer), & !< number of the quad above less its own
+      !< element number of the quad below minus its own
+    integer_item(j_offset_top, next_to_quads, 'OFFSETTOP', -any_integer, any_integer), &
+      !< element number of the quad above minus its own
     integer_item(j_plane, continuum + self_contained, 'PLANE', 0, 1), & !< 0 plane stress, 1 plane strain
     integer_item(j_face, continuum, 'FACE', 0, 4), & !< face along a four-node stabilised interface (U3), as Abaqus counts; 0 none
     integer_item(j_closure, stabilised, 'CLOSURE', 0, 1)] !< damage at 0 the displacement jump, 1 a separation of its own

@@ -1,6 +1,6 @@
 ! SPDX-FileCopyrightText: The uel-harness authors
 ! SPDX-License-Identifier: BSD-3-Clause
-!> Stops the analysis with a message: the only place where a kernel speaks.
+!> Stops the analysis with a message: the only place where a kernel prints.
 module abaqus_report
   use core_kinds, only: dp
   implicit none(type, external)
@@ -9,7 +9,7 @@ module abaqus_report
 
 contains
 
-  !> Message through STDB_ABQERR, then XIT. A host that lets XIT return gets the control back.
+  !> Message through STDB_ABQERR, then XIT. If the host lets XIT return, so does this routine.
   subroutine fatal(jtype, jelem, text, integers, reals)
     integer, intent(in) :: jtype                !< n of the element type Un
     integer, intent(in) :: jelem                !< element number

@@ -2,10 +2,10 @@
 ! SPDX-License-Identifier: BSD-3-Clause
 !> Entry point of Abaqus/Standard for the continuum quad U1.
 !>
-!> Everything is declared, so that ABA_PARAM.INC and its implicit typing are not needed. RHS and AMATRX are filled
-!> entirely, whatever they hold on entry. SVARS and ENERGY change only in calls whose values are kept, LFLAGS(3) = 1 of
-!> a general step. In a linear one (LFLAGS(4) = 1) RHS is what a perturbation changes: nothing without loads of the
-!> elements, and -AMATRX DU once it is known (LFLAGS(3) = 100).
+!> Everything is declared, so that ABA_PARAM.INC and its implicit typing are not needed. The routine sets every entry of RHS and
+!> AMATRX, whatever they hold on entry. SVARS and ENERGY change only in calls whose values are kept, LFLAGS(3) = 1 of a general
+!> step. In a linear step (LFLAGS(4) = 1) RHS is the effect of the perturbation: zero without loads on the elements, and -AMATRX DU
+!> once DU is known (LFLAGS(3) = 100).
 subroutine uelmat(rhs, amatrx, svars, energy, ndofel, nrhs, nsvars, props, nprops, coords, mcrd, nnode, u, du, v, a, &
   jtype, time, dtime, kstep, kinc, jelem, params, ndload, jdltyp, adlmag, predef, npredf, lflags, mlvarx, ddlmag, &
   mdload, pnewdt, jprops, njprop, period, materiallib)

@@ -1,7 +1,7 @@
 ! SPDX-FileCopyrightText: The uel-harness authors
 ! SPDX-License-Identifier: BSD-3-Clause
-!> Entry point of Abaqus/Standard at the start and end of analysis, step and increment: the shared module is emptied
-!> before the first and after the last increment of an analysis.
+!> Entry point of Abaqus/Standard at the start and end of analysis, step and increment: it clears the shared module before the first
+!> and after the last increment of an analysis.
 subroutine uexternaldb(lop, lrestart, time, dtime, kstep, kinc)
   use core_kinds, only: dp
   use abaqus_bulk_exchange, only: clear_bulk_records

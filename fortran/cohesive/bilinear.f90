@@ -1,14 +1,14 @@
 ! SPDX-FileCopyrightText: The uel-harness authors
 ! SPDX-License-Identifier: BSD-3-Clause
-!> Bilinear mixed-mode laws: with the linear energy criterion the paper's, equations (9) to (11), with that of Benzeggagh
-!> and Kenane or the power law the one of Abaqus' cohesive elements with SOFTENING=LINEAR; components in the order (tau, n).
+!> Bilinear mixed-mode laws: with the linear energy criterion, the paper's law, equations (9) to (11); with that of Benzeggagh and
+!> Kenane or the power law, the law of Abaqus' cohesive elements with SOFTENING=LINEAR; components in the order (tau, n).
 !>
 !> With the measures f and e of `cohesive_mode_mix`, softening starts at tau f = 1 and ends at lambda = f/e; the straight
 !> line between the two is tau = (f - lambda e)/(f**2 - e flexibility).
 !>
 !> Abaqus, after Camanho and Davila, NASA/TM-2002-211737, gives the separation at failure as 2 G_c/T_eff with an effective
-!> traction T_eff at the onset. Here that is the component of the traction along the separation, so that the area under the
-!> curve is G_c for unlike stiffnesses too; for like ones it is the size of the traction.
+!> traction T_eff at the onset. Here that is the component of the traction along the separation, so that the area under the curve is
+!> G_c for unequal stiffnesses too; for equal ones it is the magnitude of the traction.
 module cohesive_bilinear
   use core_kinds, only: dp
   use cohesive_parameters, only: law_parameters

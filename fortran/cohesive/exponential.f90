@@ -7,7 +7,7 @@
 !> with the triangle before the onset, is 1/(2 e).
 !>
 !> For infinite stiffness it is the law of Wells and Sluys, Int. J. for Numerical Methods in Engineering 50 (2001) 2667-2682,
-!> t = strength exp(-strength w/G_c). The damage tends to 1 and never gets there.
+!> t = strength exp(-strength w/G_c). The damage tends to 1 but never reaches it.
 module cohesive_exponential
   use core_kinds, only: dp
   use cohesive_parameters, only: law_parameters

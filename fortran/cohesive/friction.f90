@@ -12,8 +12,8 @@ contains
 
   !> Friction on the damaged share D of a point in contact, D at the start of the increment: |friction| <= mu D |T_n|.
   !>
-  !> It sticks where this holds with w_tau as it was, else it slides. Beta is the stiffness of sticking too: no further one
-  !> is needed.
+  !> The point sticks if this holds with w_tau unchanged; otherwise it slides. Beta is also the stiffness of sticking: no other is
+  !> needed.
   pure subroutine coulomb_friction(law, damage, pressed, p, held, sticks, friction, slope)
     type(law_parameters), intent(in) :: law
     real(dp), intent(in) :: damage

@@ -2,17 +2,17 @@
 ! SPDX-License-Identifier: BSD-3-Clause
 !> Damage of an interface point, whatever the law: envelope, history, viscous regularisation, energies.
 !>
-!> Sign note on the paper, which defines the jump as u(2) - u(1) with n from Omega(2) to Omega(1), and yet takes
-!> max(0, delta_n) as the opening: both cannot hold. Here "bottom" is Omega(2), "top" is Omega(1), n points from bottom
-!> to top, the separation is u_top - u_bottom (opening positive), and the traction is sigma.n (tension positive).
+!> Note on signs: the paper defines the jump as u(2) - u(1) with n from Omega(2) to Omega(1), yet takes max(0, delta_n) as the
+!> opening: the two contradict each other. Here "bottom" is Omega(2), "top" is Omega(1), n points from bottom to top, the separation
+!> is u_top - u_bottom (opening positive), and the traction is sigma.n (tension positive).
 !>
 !> Components are in the order (tau, n) of equation (8).
 !>
 !> A law is a softening curve tau(lambda) for every direction c of the separation, w = lambda c with c = (|w_tau|, w_n)/
 !> lambda, from which the traction follows as t_i = tau ratio_i c_i. It is continued towards smaller separations than that
-!> at the onset of damage, down to none; the straight line lambda/flexibility meets it at the onset. A further law is a
-!> further module with `_softening` and `_steepest`, and a line in each select case below. The PPR law is different: its
-!> two components have a damage each, and it brings its own routines.
+!> at the onset of damage, down to none; the straight line lambda/flexibility meets it at the onset. To add a law, add a module with
+!> `_softening` and `_steepest` and a line in each select case below. The PPR law is different: each of its components has its own
+!> damage, and it brings its own routines.
 module cohesive_law
   use core_kinds, only: dp
   use core_status, only: status_type, ok, small_beta
@@ -28,7 +28,7 @@ module cohesive_law
 
 contains
 
-  !> Checks what the ranges of the single parameters cannot say; status%item is 1 for mode I, 2 for mode II.
+  !> Checks what the ranges of single parameters cannot express; status%item is 1 for mode I, 2 for mode II.
   pure subroutine check_law(law, status)
     type(law_parameters), intent(in) :: law
     type(status_type), intent(out) :: status
@@ -40,7 +40,7 @@ contains
     end if
   end subroutine check_law
 
-  !> Demands that beta exceeds the softening slope, without which a separation does not follow from the trial traction.
+  !> Demands that beta exceeds the softening slope; otherwise the trial traction does not determine the separation.
   !>
   !> Along a fixed direction tau + b lambda grows with lambda if b exceeds the steepest slope k. Where b = beta/ratio differs
   !> between the two components, the direction changes with the damage; for the bilinear law the root stays the only one
@@ -132,11 +132,11 @@ contains
 
   !> Damage at the end of an increment.
   !>
-  !> The envelope's damage never heals: d = max over time of (9). Below it the response is secant to the origin and the
-  !> slope is zero; on it, the slope is that of further loading.
+  !> The damage of the envelope never heals: d = max over time of (9). Below it the response follows the secant to the origin and
+  !> the slope is zero; on it, the slope is that of further loading.
   !>
   !> The damage that acts follows d with the relaxation time `viscosity`, d_v' = (d - d_v)/viscosity, integrated by
-  !> backward Euler; an increment of no duration leaves it as it is.
+  !> backward Euler; an increment of zero duration leaves it unchanged.
   pure subroutine evolve_damage(law, history, separation, dtime, state)
     type(law_parameters), intent(in) :: law
     type(point_history), intent(in) :: history

@@ -1,6 +1,6 @@
 ! SPDX-FileCopyrightText: The uel-harness authors
 ! SPDX-License-Identifier: BSD-3-Clause
-!> The consistent stabilised law: the cohesive law has a separation w of its own, solved for in the integration point.
+!> The consistent stabilised law: the cohesive law has its own separation w, solved for at the integration point.
 !>
 !> The paper evaluates the damage of (16) at the displacement jump g. With a stiff law the jump is dominated by the gap of
 !> Nitsche's method, zero only to the order of the element size. Here, with the trial traction p = <sigma>.n + beta g,
@@ -8,7 +8,7 @@
 !>     t(w; history) + beta w = p,      T = t(w; history).
 !>
 !> Before the onset of damage, t = alpha w, this is (16). With the secant stiffness K of t_i = K ratio_i w_i and
-!> b = beta/ratio, w_i = p_i/(ratio_i (K + b_i)), so that one scalar is sought. It is x = 1/(K + min b), which runs from
+!> b = beta/ratio, w_i = p_i/(ratio_i (K + b_i)), so there is one scalar unknown. It is x = 1/(K + min b), which runs from
 !> 1/(alpha_n + b), or 0 for an infinite alpha, to 1/b at failure; in it a bilinear law is a straight line wherever
 !> b_1 = b_2. T depends on p alone.
 !>
@@ -39,9 +39,9 @@ contains
   !> Traction, separation and damage for a trial traction, and the derivative of the traction by it.
   !>
   !> Viscosity adds the overstress eta dw/dt, by backward Euler: beta and p become beta + eta/dt and p + eta w_old/dt. Its
-  !> eta = viscosity k (1 - D_old) ratio, with the softening stiffness k, leaves failed points alone. A lag of the damage
-  !> will not do: a point of infinite alpha that is not damaged does not open, and one that does not open has no damage
-  !> to catch up with. In an increment of no duration a viscous law keeps its damage.
+  !> eta = viscosity k (1 - D_old) ratio, with the softening stiffness k, vanishes at failed points. A lag of the damage cannot
+  !> work: an undamaged point with infinite alpha does not open, and one that does not open has no damage to catch up with. In an
+  !> increment of zero duration a viscous law keeps its damage.
   pure subroutine solve_law(law, beta, trial, dtime, secant_share, history, state)
     type(law_parameters), intent(in) :: law
     real(dp), intent(in) :: beta(2)              !< stress/length, (tau, n)
@@ -81,7 +81,7 @@ contains
     state%steps = 0
     if (grows) call solve_for_damage(law, equation, x, grows, state%solved, state%steps)
     if (grows) then
-      ! where it is nearly 1, rounding would let it fall
+      ! where it is nearly 1, rounding could make it decrease
       state%damage = max(history%damage, damage_of(law, equation%least, x))
       call shares(law, beta, equation, closed, x, stiff, soft)
     end if
@@ -98,12 +98,12 @@ contains
     state%by_trial(2, 2) = stiff(2) + viscous(2)*soft(2)
     if (grows .and. secant_share < 1.0_dp) call blend_loading(law, equation, x, p(1), closed, viscous, &
       1.0_dp - secant_share, state%by_trial)
-    ! friction takes from p_tau what it adds to T_tau
+    ! friction subtracts from p_tau what it adds to T_tau
     if (sticks) state%by_trial(1, 1) = 1.0_dp
     if (closed) state%by_trial(1, 2) = friction_slope*stiff(2)*(1.0_dp - state%by_trial(1, 1))
   end subroutine solve_law
 
-  !> t and ratio w as shares of p, the damage being that of x.
+  !> t and ratio w as shares of p, for the damage at x.
   pure subroutine shares(law, beta, equation, closed, x, stiff, soft)
     type(law_parameters), intent(in) :: law
     real(dp), intent(in) :: beta(2)
@@ -121,7 +121,7 @@ contains
     end if
   end subroutine shares
 
-  !> Puts the slopes of growing damage into a share of dT/dp.
+  !> Adds the slopes of growing damage to a share of dT/dp.
   pure subroutine blend_loading(law, equation, x, shear, closed, viscous, share, by_trial)
     type(law_parameters), intent(in) :: law
     type(law_equation), intent(in) :: equation
@@ -142,8 +142,8 @@ contains
 
   !> Finds x at which the damage of the law belongs to the separation that this damage gives.
   !>
-  !> h(x) = 1 - x min b - tau(lambda(x), c(x)) x/lambda, (K - tau/lambda) x with K = 1/x - min b, falls from a positive
-  !> value, if the damage grows at all, to one that is not positive at failure.
+  !> h(x) = 1 - x min b - tau(lambda(x), c(x)) x/lambda, (K - tau/lambda) x with K = 1/x - min b, decreases from a positive value,
+  !> if the damage grows at all, to one that is not positive at failure.
   pure subroutine solve_for_damage(law, equation, x, grows, solved, steps)
     type(law_parameters), intent(in) :: law
     type(law_equation), intent(in) :: equation
@@ -246,7 +246,7 @@ contains
   !> Damage D = (1 - K/alpha) k/(K + k) at x, k the softening stiffness.
   !>
   !> 1 - K/alpha jumps to 1 where alpha is large or infinite. D does not: under opening, a bilinear law has dissipated the
-  !> fraction D of its fracture energy, at any alpha. It is a function of K alone, which never grows, so D never falls.
+  !> fraction D of its fracture energy, at any alpha. It is a function of K alone, which never grows, so D never decreases.
   pure function damage_of(law, least, x) result(damage)
     type(law_parameters), intent(in) :: law
     real(dp), intent(in) :: least, x
@@ -297,7 +297,7 @@ contains
   end function opening_part
 
   !> Energies dissipated up to the end of an increment, per area: by the trapezoidal rule (t0 w1 - t1 w0)/2, as in
-  !> `dissipate`; by backward Euler what the overstress and the friction work.
+  !> `dissipate`; and by backward Euler for the overstress and the friction.
   pure subroutine dissipate_consistently(law, history, old_traction, state, dissipated, viscous, friction_work)
     type(law_parameters), intent(in) :: law
     type(point_history), intent(in) :: history

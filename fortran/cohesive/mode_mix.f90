@@ -6,7 +6,7 @@
 !> the energy is B_i = ratio_i c_i**2/rho with rho = sum_i ratio_i c_i**2. A law needs two measures of the direction:
 !>
 !>   f = sqrt(sum_i (ratio_i c_i/strength_i)**2), the quadratic stress criterion: onset at tau f = 1, (10) of the paper
-!>   e = rho/(2 G_c(B)): the area under the curve of tau over lambda has to be 1/(2 e), and a line ends at lambda = f/e
+!>   e = rho/(2 G_c(B)): the area under the curve of tau over lambda must be 1/(2 e), and a straight line ends at lambda = f/e
 !>
 !> G_c follows Benzeggagh and Kenane, G_Ic + (G_IIc - G_Ic) B_tau**eta, or the power law
 !> (B_n/G_Ic)**p + (B_tau/G_IIc)**p = 1/G_c**p, with p = 1 the linear criterion, (11). These and the onset are what Abaqus'
@@ -93,7 +93,7 @@ contains
     rise = law%toughness(1) - law%toughness(2)
     toughness = law%toughness(2) + rise*share**law%eta
     e = 0.5_dp*rho/toughness
-    ! of the fracture energy; with eta < 1 its first factor is infinite where the last one vanishes
+    ! of the fracture energy; with eta < 1 its first factor is infinite when the last one vanishes
     by_direction = 0.0_dp
     if (share > 0.0_dp) by_direction = rise*law%eta*share**(law%eta - 1.0_dp) &
       *(2.0_dp/rho)*[(1.0_dp - share)*weighted(1), -share*weighted(2)]
@@ -120,20 +120,20 @@ contains
     end if
   end subroutine check_mode_mix
 
-  !> Less than the least reserve, and nearly always enough, since interfaces are stiff: the least fracture energy times the
-  !> least of the linear function in `least_reserve`.
+  !> A lower bound of the reserve, and nearly always enough, since interfaces are stiff: the smallest fracture energy times the
+  !> minimum of the linear function in `least_reserve`.
   pure function below_reserve(law) result(bound)
     type(law_parameters), intent(in) :: law
     real(dp) :: bound
 
     bound = 2.0_dp*minval(law%toughness)*minval(law%ratio/law%strength**2)
-    ! below the exponent 1 the power law dips under both pure modes, for equal ones by 2**(1 - 1/p)
+    ! for exponents below 1 the power law dips below both pure modes, for equal ones by 2**(1 - 1/p)
     if (.not. law%eta > 0.0_dp) bound = bound*min(1.0_dp, 2.0_dp**(1.0_dp - 1.0_dp/law%power))
   end function below_reserve
 
-  !> Least value of f**2/e over all mode mixes, and the share of mode II in the energy where it is.
+  !> Minimum of f**2/e over all mode mixes, and the share of mode II in the energy at which it occurs.
   !>
-  !> It has to exceed the flexibility: the separations at failure and onset are f/e and flexibility/f. As a function of the
+  !> It must exceed the flexibility: the separations at failure and onset are f/e and flexibility/f. As a function of the
   !> share it is 2 G_c(B) sum_i B_i ratio_i/strength_i**2, which for the linear criterion lies between its values in the
   !> pure modes. Otherwise a scan finds the valley, and a golden section its floor: after so many cuts the share is right to
   !> 6e-5, and the reserve, which is flat there, to the square of it.

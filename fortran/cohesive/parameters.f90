@@ -1,6 +1,6 @@
 ! SPDX-FileCopyrightText: The uel-harness authors
 ! SPDX-License-Identifier: BSD-3-Clause
-!> What every cohesive law is described by; components in the order (tau, n).
+!> The parameters that describe every cohesive law; components in the order (tau, n).
 module cohesive_parameters
   use core_kinds, only: dp
   implicit none(type, external)
@@ -13,8 +13,8 @@ module cohesive_parameters
   integer, parameter :: exponential_law = 3
   integer, parameter :: ppr_law = 4
 
-  !> Parameters of a law. The initial stiffness is alpha_i = ratio_i/flexibility, so that an infinite one has a finite
-  !> description: laws are written in the flexibility.
+  !> Parameters of a law. The initial stiffness is alpha_i = ratio_i/flexibility: laws use the flexibility, which stays finite for
+  !> an infinite stiffness.
   type :: law_parameters
     integer :: kind           !< one of the above
     real(dp) :: flexibility   !< 1/alpha_n, length/stress; 0 for a law that is rigid up to the onset of damage

@@ -12,17 +12,17 @@
 !>     psi = G_i - F_i (G_i - G_j (1 - F_j)),    G_i <= G_j,
 !>     t_i = -G_i F_i' c_j,    c_j = max(0, 1 - max(1, G_j/G_i) (1 - F_j)).
 !>
-!> -G_i F_i' is the curve of a pure mode: it has the strength for its peak and G_i for its area. c_j is what the other
-!> component leaves of it. It vanishes from the conjugate final separation of the paper on.
+!> -G_i F_i' is the curve of a pure mode: its peak is the strength and its area is G_i. c_j is the share that the other component
+!> leaves of it. It vanishes from the paper's conjugate final separation on.
 !>
-!> The paper describes the rise by the slope indicator lambda = (separation at the peak)/final. Here the slope of the curve
-!> at the origin is the initial stiffness, m and lambda follow from it.
+!> The paper describes the rise by the slope indicator lambda = (separation at the peak)/final. Here the slope of the curve at the
+!> origin is the initial stiffness; m and lambda follow from it.
 !>
 !> History: the largest separation so far of each component. Unloading is secant to the origin in both components, with
 !> secants K_i = t_i/w_i at the largest separations of both. Park and Paulino, Engineering Fracture Mechanics 93 (2012)
-!> 239-262, take the secant of a component at its own largest separation and the coupling at the present one of the other,
-!> by which a sliding that goes back heals the opening. Here no secant ever grows, so no path gains energy. Where
-!> both separations grow, the two are the same.
+!> 239-262, take the secant of a component at its own largest separation and the coupling at the current separation of the other, so
+!> that sliding back heals the opening. Here no secant ever grows, so no path gains energy. While both separations grow, the two are
+!> the same.
 module cohesive_ppr
   use core_kinds, only: dp
   use core_root, only: root_search, search_between, searching, advance
@@ -40,20 +40,20 @@ module cohesive_ppr
     real(dp) :: secant     !< of the curve of its pure mode, stress/length; huge where it is rigid
     real(dp) :: traction   !< of that curve, stress
     real(dp) :: slope      !< of that curve, stress/length
-    real(dp) :: share      !< c: what it leaves of the other component
+    real(dp) :: share      !< c: the share that it leaves of the other component
     real(dp) :: by_share   !< derivative of c, 1/length
   end type ppr_component
 
-  !> Half the width of the bracket of log(m): exponents up to which the law is told from one that is too soft.
+  !> Half the width of the bracket of log(m): beyond these exponents the law counts as too soft.
   real(dp), parameter :: widest = 30.0_dp
 
 contains
 
-  !> Puts the exponents of the rise and the final separations.
+  !> Sets the exponents of the rise and the final separations.
   !>
   !> With k the initial stiffness, G k/strength**2 = a (a/m + 1)/q**2 and the product q = final strength/G of the
-  !> paper, a function of m. Solved for log(m), from m = strength**2/(G k), its limit for a large stiffness. For
-  !> the derivative: q is what makes the peak the strength, so it does not depend on where the peak is.
+  !> paper, a function of m. Solved for log(m), from m = strength**2/(G k), its limit for a large stiffness. For the derivative: q
+  !> makes the peak equal to the strength, so it does not depend on the position of the peak.
   pure subroutine prepare_ppr(law, status)
     type(law_parameters), intent(inout) :: law
     type(status_type), intent(out) :: status   !< no_root: item 1 for mode I, 2 for mode II
@@ -73,7 +73,7 @@ contains
           peak = peak_of(a, m)
           q = final_of(a, m)
           rises = (m - 1.0_dp)*a*peak/(m + a*peak) - m*log(1.0_dp + a*peak/m)
-          ! the slope is 1 where the law is stiff and not far from it elsewhere
+          ! the slope is 1 for a stiff law and close to it otherwise
           call advance(search, -log(a*(a/m + 1.0_dp)/(wanted*q**2)), -(a/(a + m) + 2.0_dp*rises))
         end do
         if (.not. search%found) status = status_type(no_root, 3 - i, law%toughness(i), 0.0_dp)
@@ -103,8 +103,8 @@ contains
     final = a*peak*(1.0_dp - peak)**(a - 1.0_dp)*(a/m + 1.0_dp)*(1.0_dp + a*peak/m)**(m - 1.0_dp)
   end function final_of
 
-  !> Demands that the secant falls from the origin on, as it does if and only if m <= a: a law that is softer has its
-  !> steepest secant on the way.
+  !> Demands that the secant decreases from the origin on, as it does if and only if m <= a: a softer law has its steepest secant
+  !> elsewhere.
   pure subroutine check_ppr(law, status)
     type(law_parameters), intent(in) :: law
     type(status_type), intent(out) :: status   !< late_secant: item 1 for mode I, 2 for mode II, value and bound of G_c
@@ -121,7 +121,7 @@ contains
     end do
   end subroutine check_ppr
 
-  !> Demands a beta with which one separation belongs to a trial traction: one that makes t + beta w strongly monotone,
+  !> Demands a beta for which each trial traction has one separation: one that makes t + beta w strongly monotone,
   !> (beta_n - s_n) (beta_tau - s_tau) > o**2 with the largest softening slopes s and coupling o = max |dt_n/dw_tau|.
   pure subroutine check_ppr_beta(law, beta, status)
     type(law_parameters), intent(in) :: law
@@ -146,7 +146,7 @@ contains
 
   !> Bound of the softening slope of a pure mode, a >= 2: the largest value of (a - 1) traction/(final - w).
   !>
-  !> It is the slope without a term that goes against it; it is exact for a = 2 and for infinite stiffness.
+  !> It is the slope without a term of opposite sign; it is exact for a = 2 and for infinite stiffness.
   pure function steepest_of(law, i) result(slope)
     type(law_parameters), intent(in) :: law
     integer, intent(in) :: i
@@ -200,7 +200,7 @@ contains
   end function component_at
 
   !> DAMAGE: 1 - (1 - x_tau)(1 - x_n) with the largest separations over the final ones. It is 0 before the first separation
-  !> and 1 once nothing is left of either component.
+  !> and 1 once neither component has any traction left.
   pure function damage_at(law, largest) result(damage)
     type(law_parameters), intent(in) :: law
     real(dp), intent(in) :: largest(2)
@@ -225,7 +225,7 @@ contains
 
   !> Damage at the end of an increment, of a law that is not rigid, at the displacement jump.
   !>
-  !> The largest separations follow the present ones where these exceed them, with VISCOSITY by backward Euler.
+  !> The largest separations follow the current ones where these exceed them, with VISCOSITY by backward Euler.
   pure subroutine evolve_ppr(law, history, separation, fraction, state)
     type(law_parameters), intent(in) :: law
     type(point_history), intent(in) :: history
@@ -261,7 +261,7 @@ contains
   end subroutine evolve_ppr
 
   !> Recoverable traction at the start of an increment in the consistent law, without the compression of a closed
-  !> point. A component that has been rigid so far has what it can have of the traction there was.
+  !> point. A component that has been rigid so far gets as much of the previous traction as it can carry.
   pure function ppr_start_of_increment(law, history, old_traction) result(traction)
     type(law_parameters), intent(in) :: law
     type(point_history), intent(in) :: history

@@ -3,7 +3,7 @@
 !> The consistent stabilised law t(w; history) + beta w = p with the PPR law, in two unknowns; components in the order (tau, n).
 !>
 !> With a sufficient beta, `check_ppr_beta`, the left side is strongly monotone in w, with history and for infinite
-!> stiffness too: w_n follows from w_tau by one equation that rises with w_n, and what is left rises with w_tau.
+!> stiffness too: w_n follows from w_tau by one equation that increases with w_n, and the other equation then increases with w_tau.
 !> Both are solved by core_root.
 module cohesive_ppr_local_solve
   use core_kinds, only: dp
@@ -16,7 +16,7 @@ module cohesive_ppr_local_solve
   private
   public :: solve_ppr_law
 
-  !> The equations t_i + b_i w_i = driving_i, and how far their solution is.
+  !> The equations t_i + b_i w_i = driving_i, and the state of their solution.
   type :: ppr_equations
     real(dp) :: b(2)                  !< beta and viscous part, stress/length
     real(dp) :: driving(2)            !< absolute value of p without its compressive part, stress
@@ -92,12 +92,12 @@ contains
       state%by_trial(2, 1) = 0.0_dp
     end if
     state%traction = state%recoverable + state%overstress + [state%friction, 0.0_dp]
-    ! friction takes from p_tau what it adds to T_tau
+    ! friction subtracts from p_tau what it adds to T_tau
     if (sticks) state%by_trial(1, 1) = 1.0_dp
     if (closed) state%by_trial(1, 2) = friction_slope*stiff*(1.0_dp - state%by_trial(1, 1))
   end subroutine solve_ppr_law
 
-  !> p_tau at which w_tau stays as it was, without friction; of a rigid point the nearest one.
+  !> p_tau at which w_tau does not change, without friction; for a rigid point the nearest one.
   pure function trial_of_rest(law, equations, p, old) result(rest)
     type(law_parameters), intent(in) :: law
     type(ppr_equations), intent(in) :: equations
@@ -141,7 +141,7 @@ contains
     equations%steps = search%steps
   end subroutine solve
 
-  !> Solves for w_n, the other component being what it is.
+  !> Solves for w_n, with the other component fixed.
   pure subroutine solve_for_opening(law, equations)
     type(law_parameters), intent(in) :: law
     type(ppr_equations), intent(inout) :: equations
@@ -163,7 +163,7 @@ contains
     equations%steps = search%steps
   end subroutine solve_for_opening
 
-  !> Separation of component i at its largest separation so far, and whether it has to grow beyond it.
+  !> Separation of component i at its largest separation so far, and whether it must grow beyond it.
   pure subroutine try_without_growth(law, equations, i)
     type(law_parameters), intent(in) :: law
     type(ppr_equations), intent(inout) :: equations
@@ -183,8 +183,8 @@ contains
     if (equations%grows(i)) equations%rigid(i) = .false.
   end subroutine try_without_growth
 
-  !> The search for w_i that grows: the secant, or the strength of a rigid one, is not greater than it was, nor less than
-  !> nothing. The root of a stiff law is smaller by orders of magnitude than that of a soft one.
+  !> The search for w_i that grows: the secant, or the strength of a rigid component, is neither larger than before nor negative.
+  !> The root of a stiff law is orders of magnitude smaller than that of a soft one.
   pure function search_for(law, equations, i) result(search)
     type(law_parameters), intent(in) :: law
     type(ppr_equations), intent(in) :: equations
@@ -242,7 +242,7 @@ contains
 
     by_trial = 0.0_dp
     do i = 1, 2
-      ! without a separation, T is p
+      ! without separation, T is p
       by_trial(i, i) = 1.0_dp
       if (.not. equations%rigid(i)) by_trial(i, i) = (secants(i) + viscous(i))/(secants(i) + equations%b(i))
     end do

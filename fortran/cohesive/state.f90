@@ -1,6 +1,6 @@
 ! SPDX-FileCopyrightText: The uel-harness authors
 ! SPDX-License-Identifier: BSD-3-Clause
-!> What an interface point remembers and what an increment makes of it; components in the order (tau, n).
+!> What an interface point remembers and what an increment computes from it; components in the order (tau, n).
 module cohesive_state
   use core_kinds, only: dp
   implicit none(type, external)

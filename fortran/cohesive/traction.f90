@@ -32,9 +32,9 @@ contains
 
   !> T = (1 - S) <sigma>.n + S K g with K = alpha (1 - d) and S = beta/(K + beta), equations (16) and (17).
   !>
-  !> Written with the trial traction p = <sigma>.n + beta g it is T = p K/(K + beta). The interface is closed where
-  !> p_n < 0: there the opened and the closed branch meet, whereas the sign of g_n, zero only to the order of the
-  !> element size, would make the iteration chatter. A closed interface keeps its undamaged normal stiffness.
+  !> Written with the trial traction p = <sigma>.n + beta g it is T = p K/(K + beta). The interface is closed where p_n < 0: the
+  !> open and the closed branch meet at p_n = 0, whereas the sign of g_n, zero only to the order of the element size, would make the
+  !> iteration chatter. A closed interface keeps its undamaged normal stiffness.
   pure subroutine stabilised_traction(stiffness, beta, separation, bulk, damage, slope, traction, stabilisation, &
     tangent)
     real(dp), intent(in) :: stiffness(2)        !< alpha, stress/length

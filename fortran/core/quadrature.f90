@@ -10,7 +10,7 @@ module core_quadrature
 
   real(dp), parameter :: gauss_abscissa = 0.577350269189625764509148780501957_dp
 
-  !> Outer Gauss points of the rule of three.
+  !> Outer points of the three-point Gauss rule.
   real(dp), parameter :: outer_abscissa = 0.774596669241483377035853079956480_dp
 
   !> 2 x 2 Gauss points (xi, eta) in the order Abaqus numbers them in CPS4; every weight is 1.

@@ -1,7 +1,7 @@
 ! SPDX-FileCopyrightText: The uel-harness authors
 ! SPDX-License-Identifier: BSD-3-Clause
-!> The root of a function of one variable that rises in a bracket: Newton's method, and where its step leaves the bracket,
-!> the middle. The caller evaluates the function, so that nothing has to be passed through:
+!> The root of an increasing function of one variable in a bracket: Newton's method, and bisection where its step leaves the
+!> bracket. The caller evaluates the function, so nothing has to be passed through:
 !>
 !>     search = search_between(lower, upper, start)
 !>     do while (searching(search))
@@ -9,23 +9,22 @@
 !>       call advance(search, value, slope)
 !>     end do
 !>
-!> After it `search%found` says whether x is the root to rounding. It is not where the steps have run out, or where the
-!> function was NaN.
+!> Afterwards `search%found` says whether x is the root up to rounding. It is not if the steps have run out or the function was NaN.
 module core_root
   use core_kinds, only: dp
   implicit none(type, external)
   private
   public :: root_search, search_between, searching, advance
 
-  !> A bisection of two numbers of one sign and any magnitude ends after some 60 steps.
+  !> A bisection between two numbers of the same sign and any magnitude ends after about 60 steps.
   integer, parameter :: most_steps = 100
 
   !> Relative change of x below which the next one would be rounding.
   real(dp), parameter :: rounding = 2.0_dp*epsilon(1.0_dp)
 
-  !> A search under way.
+  !> State of a search.
   type :: root_search
-    real(dp) :: x                  !< where the function is wanted next; the root, once found
+    real(dp) :: x                  !< where to evaluate the function next; the root, once found
     integer :: steps = 0           !< evaluations of the function so far
     logical :: found = .false.
     logical :: failed = .false.    !< the function was NaN
@@ -35,7 +34,7 @@ module core_root
 
 contains
 
-  !> A search that begins at `start`. geometric: the bracket is positive, and its ends may differ by orders of magnitude.
+  !> A search that starts at `start`. geometric: the bracket is positive, and its ends may differ by orders of magnitude.
   pure function search_between(lower, upper, start, geometric) result(search)
     real(dp), intent(in) :: lower, upper, start
     logical, intent(in) :: geometric
@@ -47,7 +46,7 @@ contains
     search%geometric = geometric
   end function search_between
 
-  !> Whether the function is wanted at x.
+  !> Whether the search needs the function at x.
   pure function searching(search) result(wanted)
     type(root_search), intent(in) :: search
     logical :: wanted
@@ -71,7 +70,7 @@ contains
       if (.not. search%found) search%failed = .true.
       return
     end if
-    ! a step that is longer than the bracket is not taken, and never overflows
+    ! a step longer than the bracket is rejected, and never overflows
     if (abs(value) < slope*(search%upper - search%lower)) then
       new = search%x - value/slope
       ! before the bracket is looked at: a step onto the root ends at the end of the bracket from which it came

@@ -9,8 +9,8 @@ module core_rotation
 
 contains
 
-  !> Frame of a line: rows tau (from start to finish) and n (tau turned by +90 degrees), and its length.
-  !> The frame of a line without length is zero.
+  !> Frame of a line: rows tau (from start to finish) and n (tau rotated by +90 degrees), and its length. The frame of a line of
+  !> zero length is zero.
   pure subroutine line_frame(start, finish, frame, length)
     real(dp), intent(in) :: start(2), finish(2)
     real(dp), intent(out) :: frame(2, 2)

@@ -1,7 +1,6 @@
 ! SPDX-FileCopyrightText: The uel-harness authors
 ! SPDX-License-Identifier: BSD-3-Clause
-!> Shape functions of lines, quads and hexahedra with nodes in the corners and, in the serendipity family, in the middles of
-!> the edges.
+!> Shape functions of lines, quads and hexahedra with corner nodes and, in the serendipity family, midside nodes.
 module core_serendipity
   use core_kinds, only: dp
   use core_shape_functions, only: to_position
@@ -9,16 +8,16 @@ module core_serendipity
   private
   public :: serendipity_functions, quad8_gradient
 
-  !> Parent coordinates of the nodes of the quad: corners counter-clockwise, then the middles of the edges 1-2, 2-3, 3-4, 4-1.
+  !> Parent coordinates of the nodes of the quad: corners counter-clockwise, then the midside nodes of the edges 1-2, 2-3, 3-4, 4-1.
   integer, parameter :: quad_places(2, 8) = reshape([-1, -1, 1, -1, 1, 1, -1, 1, 0, -1, 1, 0, 0, 1, -1, 0], [2, 8])
 
 contains
 
-  !> Shape functions and their derivatives by the parent coordinates: a product over the directions, times a sum in the
-  !> corners where there are middle nodes.
+  !> Shape functions and their derivatives by the parent coordinates: a product over the directions, times a sum at corners if there
+  !> are midside nodes.
   pure subroutine serendipity_functions(dim, nodes, places, parent, n, dn)
     integer, intent(in) :: dim                  !< 1 to 3
-    integer, intent(in) :: nodes                !< with middles if more than 2**dim
+    integer, intent(in) :: nodes                !< with midside nodes if more than 2**dim
     integer, intent(in) :: places(dim, nodes)   !< parent coordinates of the nodes: -1, 0 or 1
     real(dp), intent(in) :: parent(dim)         !< of the point
     real(dp), intent(out) :: n(nodes), dn(nodes, dim)
@@ -26,7 +25,7 @@ contains
     call evaluate(dim, nodes, places, parent, n, dn)
   end subroutine serendipity_functions
 
-  !> The same, for this file alone: a compiler may make a quick copy of it for the sizes of a call.
+  !> The same, private to this file: a compiler may specialise it for the sizes of a call.
   pure subroutine evaluate(dim, nodes, places, parent, n, dn)
     integer, intent(in) :: dim, nodes, places(dim, nodes)
     real(dp), intent(in) :: parent(dim)

@@ -1,6 +1,6 @@
 ! SPDX-FileCopyrightText: The uel-harness authors
 ! SPDX-License-Identifier: BSD-3-Clause
-!> Shape functions of the line of two or three nodes, and bilinear ones of the quad, nodes counter-clockwise.
+!> Shape functions of lines with two or three nodes and of the bilinear quad, nodes counter-clockwise.
 module core_shape_functions
   use core_kinds, only: dp
   implicit none(type, external)
@@ -12,7 +12,7 @@ module core_shape_functions
 
 contains
 
-  !> Shape functions of a line of two nodes, its ends, or of three, the middle last, at s in (-1, 1).
+  !> Shape functions of a line with two nodes (its ends) or three (the middle one last), at s in (-1, 1).
   pure function line_shape(nodes, s) result(shape)
     integer, intent(in) :: nodes
     real(dp), intent(in) :: s

@@ -1,6 +1,6 @@
 ! SPDX-FileCopyrightText: The uel-harness authors
 ! SPDX-License-Identifier: BSD-3-Clause
-!> What a pure kernel reports when its input makes no sense, and the sentence for each code.
+!> What a pure kernel reports for invalid input, and the sentence for each code.
 module core_status
   use core_kinds, only: dp
   implicit none(type, external)
@@ -14,7 +14,7 @@ module core_status
     integer :: code = 0            !< ok, or one of the codes below
     integer :: item = 0            !< which mode (1 normal), quad (1 bottom, 2 top), point, share in per cent
     real(dp) :: value = 0.0_dp     !< what was found
-    real(dp) :: expected = 0.0_dp  !< the bound it misses
+    real(dp) :: expected = 0.0_dp  !< the bound that it violates
   end type status_type
 
   integer, parameter :: ok = 0

@@ -9,7 +9,7 @@ module core_symmetric
 
 contains
 
-  !> Puts the lower Cholesky factor L of a positive definite matrix L transpose(L) in its place, zero above the diagonal.
+  !> Replaces a positive definite matrix L transpose(L) by its lower Cholesky factor L, zero above the diagonal.
   pure subroutine lower_factor(matrix, good)
     real(dp), intent(inout) :: matrix(:, :)
     logical, intent(out) :: good   !< false where the matrix is not positive definite
@@ -60,7 +60,7 @@ contains
     real(dp), intent(out) :: values(size(matrix, 1))
     logical, intent(out) :: good                         !< false where the sweeps run out, or an entry is NaN or infinite
     real(dp), intent(out), optional :: vectors(:, :)     !< row i belongs to value i
-    integer, parameter :: most_sweeps = 30   ! convergence is quadratic: six or so do
+    integer, parameter :: most_sweeps = 30   ! convergence is quadratic: about six suffice
     real(dp) :: a(size(matrix, 1), size(matrix, 1)), negligible
     integer :: sweep, p, q
 
@@ -93,7 +93,7 @@ contains
   pure subroutine rotate(p, q, a, vectors)
     integer, intent(in) :: p, q
     real(dp), intent(inout) :: a(:, :)
-    real(dp), intent(inout), optional :: vectors(:, :)   !< rows turn along
+    real(dp), intent(inout), optional :: vectors(:, :)   !< rows that rotate along
     real(dp) :: cotangent, t, c, s
 
     cotangent = (a(q, q) - a(p, p))/(2.0_dp*a(p, q))   ! of twice the angle
@@ -105,7 +105,7 @@ contains
     if (present(vectors)) call turn(c, s, vectors(p, :), vectors(q, :))
   end subroutine rotate
 
-  !> Turns two vectors in their plane.
+  !> Rotates two vectors in their plane.
   pure subroutine turn(c, s, x, y)
     real(dp), intent(in) :: c, s   !< cosine and sine
     real(dp), intent(inout) :: x(:), y(:)

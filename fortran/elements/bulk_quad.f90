@@ -1,6 +1,6 @@
 ! SPDX-FileCopyrightText: The uel-harness authors
 ! SPDX-License-Identifier: BSD-3-Clause
-!> The quad of four or eight nodes beside an interface: traction from its displacements, area, local eigenvalue.
+!> A four- or eight-node quad next to an interface: traction from its displacements, area, local eigenvalue.
 !>
 !> The interface is the edge eta = 1 of the quad below it and eta = -1 of that above; xi grows along it.
 module elements_bulk_quad
@@ -37,7 +37,7 @@ contains
     end do
   end subroutine quad_traction
 
-  !> Area; by 3 x 3 points where there are eight nodes.
+  !> Area; with 3 x 3 points if there are eight nodes.
   pure subroutine quad_area(nodes, coordinates, area, status)
     integer, intent(in) :: nodes
     real(dp), intent(in) :: coordinates(2, nodes)
@@ -116,7 +116,7 @@ contains
     end do
   end subroutine strain_energy
 
-  !> Derivatives of the shape functions by x and y; the status has the Jacobian for its value.
+  !> Derivatives of the shape functions by x and y; the value of the status is the Jacobian.
   pure subroutine gradient_at(nodes, coordinates, point, gradient, status)
     integer, intent(in) :: nodes
     real(dp), intent(in) :: coordinates(2, nodes), point(2)

@@ -1,7 +1,7 @@
 ! SPDX-FileCopyrightText: The uel-harness authors
 ! SPDX-License-Identifier: BSD-3-Clause
-!> How large the traction on a face can be for the elastic energy of its quad: the local eigenvalue problem from which
-!> the stabilisation follows (Griebel, Schweitzer 2003; Annavarapu, Hautefeuille, Dolbow 2012), for any quad.
+!> Bound of the traction on a face by the elastic energy of its quad: the local eigenvalue problem that gives the stabilisation
+!> (Griebel, Schweitzer 2003; Annavarapu, Hautefeuille, Dolbow 2012), for any quad.
 !>
 !> lambda is the largest value of (integral of |sigma.n|^2 over the face)/(integral of eps:D:eps over the quad) over all
 !> displacements except rigid motions. For a constant strain it is |D| meas(Gamma)/meas(Omega) at most, which makes
@@ -16,11 +16,11 @@ module elements_face_eigenvalue
 
 contains
 
-  !> Largest eigenvalue of transpose(traction) traction v = lambda energy v with the rigid displacements left out.
+  !> Largest eigenvalue of transpose(traction) traction v = lambda energy v, rigid displacements excluded.
   !>
   !> Neither matrix sees the rigid displacements R, so energy may be replaced by energy + c R transpose(R), which is
   !> positive definite; with L its Cholesky factor and W = inverse(L) transpose(traction), lambda is the largest
-  !> eigenvalue of transpose(W) W, which has the size of the face only.
+  !> eigenvalue of transpose(W) W, which only has the size of the face.
   pure subroutine face_eigenvalue(coordinates, energy, traction, lambda, status)
     real(dp), intent(in) :: coordinates(:, :)   !< (2, nodes), length
     real(dp), intent(in) :: energy(:, :)        !< stiffness matrix of the quad

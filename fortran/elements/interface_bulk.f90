@@ -1,7 +1,7 @@
 ! SPDX-FileCopyrightText: The uel-harness authors
 ! SPDX-License-Identifier: BSD-3-Clause
-!> What a stabilised interface takes from the bulk on both sides: the weighted stress <sigma>.n, and from its stiffness
-!> beta and gamma.
+!> What a stabilised interface takes from the bulk on both sides: the weighted stress <sigma>.n, and beta and gamma from its
+!> stiffness.
 module elements_interface_bulk
   use core_kinds, only: dp
   use core_quadrature, only: gauss_rule, gauss_abscissa, outer_abscissa
@@ -14,9 +14,9 @@ module elements_interface_bulk
   public :: stabilisation_type, nitsche_parameters, stabilise, bulk_operator
   public :: sample_middle, sample_face, sample_gauss
 
-  !> Where the bulk stress is taken: where it is most accurate along the face (in its middle, or in quads of eight nodes on
-  !> the line through two points), at the face with the xi of the point, or in the Gauss point of the quad next to it. In
-  !> a quad the stress varies spuriously along xi; only the first is free of it.
+  !> Where to take the bulk stress: where it is most accurate along the face (in its middle, or in eight-node quads on the line
+  !> through two points), on the face at the xi of the point, or at the nearest Gauss point of the quad. In a quad the stress varies
+  !> spuriously along xi; only the first option avoids this.
   integer, parameter :: sample_middle = 0
   integer, parameter :: sample_face = 1
   integer, parameter :: sample_gauss = 2
@@ -33,7 +33,7 @@ module elements_interface_bulk
 
 contains
 
-  !> Puts (21) and (22) where beta and gamma are not given: with the stiffness norm |D| and meas(Omega) of both sides,
+  !> Uses (21) and (22) where beta and gamma are not given: with the stiffness norm |D| and meas(Omega) of both sides,
   !>
   !>     gamma_1 = (meas(Omega_1)/|D_1|)/(meas(Omega_1)/|D_1| + meas(Omega_2)/|D_2|),    gamma_2 = 1 - gamma_1,
   !>     beta = 2 meas(Gamma) (|D_1| gamma_1**2/meas(Omega_1) + |D_2| gamma_2**2/meas(Omega_2)).
@@ -126,9 +126,9 @@ contains
     end do
   end subroutine bulk_operator
 
-  !> Points (xi, eta) of a quad whose stresses, in these shares, are taken for the place s of its edge: the edge itself, the
-  !> next Gauss point, or where the stress of the edge is most accurate (Barlow 1976), which in a quad of four nodes is
-  !> its middle, in one of eight the line through xi = +-1/sqrt(3).
+  !> Points (xi, eta) of a quad whose stresses, in these shares, stand for the position s on its edge: the edge itself, the nearest
+  !> Gauss point, or where the stress of the edge is most accurate (Barlow 1976): the middle in a four-node quad, the line through
+  !> xi = +-1/sqrt(3) in an eight-node one.
   pure subroutine sample(sampling, nodes, s, eta, points, shares)
     integer, intent(in) :: sampling, nodes
     real(dp), intent(in) :: s, eta

@@ -2,8 +2,8 @@
 ! SPDX-License-Identifier: BSD-3-Clause
 !> The integration points of an interface between two coincident edges of two or three nodes: frame, area and jump operator.
 !>
-!> The tangent tau runs along the mid-line of the original coordinates, n is tau turned by +90 degrees: bottom to top. The
-!> edges may be curved: each point has a frame of its own.
+!> The tangent tau runs along the mid-line of the original coordinates, n is tau rotated by +90 degrees: bottom to top. The edges
+!> may be curved: each point has its own frame.
 module elements_interface_edges
   use core_kinds, only: dp
   use core_quadrature, only: line_points, line_weights
@@ -22,8 +22,7 @@ module elements_interface_edges
     real(dp) :: length        !< of the interface that it stands for
   end type interface_place
 
-  !> Distance of coincident nodes, relative to the length, up to which they count as coincident: what a mesh generator
-  !> that prints few digits may cause.
+  !> Distance, relative to the length, up to which nodes count as coincident: a mesh generator that prints few digits may cause it.
   real(dp), parameter :: coincidence_tolerance = 1.0e-4_dp
 
 contains
@@ -53,7 +52,7 @@ contains
     w = line_weights(nodes, rule)
     do k = 1, nodes
       slope = matmul(middle, line_slope(nodes, s(k)))
-      ! a middle node that is too near to an end turns the edge back
+      ! a middle node too close to an end folds the edge back
       along = dot_product(slope, middle(:, 2) - middle(:, 1))
       if (.not. along > 0.0_dp) then
         status = status_type(zero_length, 0, along, 0.0_dp)

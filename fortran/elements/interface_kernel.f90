@@ -24,9 +24,9 @@ contains
 
   !> Residual (external minus internal force), tangent and state at the end of the increment.
   !>
-  !> Without stabilisation it is the standard element. The stabilised one takes the bulk stress from quads of its own, for
-  !> which it is given their stiffness, or from its neighbours. Then its tangent is that at constant bulk stress, since
-  !> what depends on it involves nodes that the element does not own.
+  !> Without stabilisation it is the standard element. The stabilised one takes the bulk stress from its own quads, whose stiffness
+  !> it receives, or from its neighbours. In the latter case its tangent holds the bulk stress constant, since the derivative of
+  !> that stress involves nodes that the element does not own.
   pure subroutine integrate_interface(points, edges, quad, law, options, thickness, coordinates, u, dtime, with_tangent, old, new, &
     residual, tangent, energies, status, stabilisation, stiffness, neighbours)
     integer, intent(in) :: points                             !< integration points, and nodes of an edge

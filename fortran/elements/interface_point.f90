@@ -1,6 +1,6 @@
 ! SPDX-FileCopyrightText: The uel-harness authors
 ! SPDX-License-Identifier: BSD-3-Clause
-!> What happens at one integration point of an interface, of any element: traction, its derivatives, state, energies.
+!> One integration point of any interface element: traction, its derivatives, state, energies.
 module elements_interface_point
   use core_kinds, only: dp
   use core_status, only: status_type, ok, no_root
@@ -18,7 +18,7 @@ module elements_interface_point
   type :: interface_options
     integer :: rule                 !< gauss_rule or newton_cotes_rule
     integer :: sampling             !< of the bulk stress; the standard element ignores it
-    logical :: consistent_law   !< the law has a separation of its own; the standard element ignores it
+    logical :: consistent_law   !< the law has its own separation; the standard element ignores it
     real(dp) :: secant_share        !< of the matrix at fixed damage in the tangent, from 0 to 1
   end type interface_options
 

@@ -1,6 +1,6 @@
 ! SPDX-FileCopyrightText: The uel-harness authors
 ! SPDX-License-Identifier: BSD-3-Clause
-!> Four-node bilinear quad in the plane, small strain: what a point adds to the element, and the points of a face.
+!> Four-node bilinear quad in the plane, small strain: the contribution of a point to the element, and the points of a face.
 !>
 !> Faces are those of Abaqus: face 1 from node 1 to node 2, face 2 from 2 to 3, face 3 from 3 to 4, face 4 from 4 to 1.
 !> A place on a face is t in (-1, 1) from its first to its second node.
@@ -24,7 +24,7 @@ module elements_quad4
   !> Gauss points next to the first and to the second node of each face.
   integer, parameter :: gauss_of_face(2, 4) = reshape([1, 2, 2, 4, 4, 3, 3, 1], [2, 4])
 
-  !> Places on a face where an interface may want the stress: ends, Gauss points, middle.
+  !> Positions on a face where an interface may need the stress: ends, Gauss points, middle.
   real(dp), parameter :: face_places(5) = [-1.0_dp, -gauss_abscissa, 0.0_dp, gauss_abscissa, 1.0_dp]
 
 contains

@@ -1,7 +1,7 @@
 ! SPDX-FileCopyrightText: The uel-harness authors
 ! SPDX-License-Identifier: BSD-3-Clause
-!> The same calls as host_evaluate makes, in a plain loop: what the driver is measured against. As any loop over the
-!> elements of a mesh it gathers U and DU, sets SVARS and ENERGY to their start values, and adds RHS to the residual.
+!> The same calls as in host_evaluate, in a plain loop: the benchmark for the driver. Like any loop over the elements of a mesh, it
+!> gathers U and DU, sets SVARS and ENERGY to their start values, and adds RHS to the residual.
 subroutine host_bare_loop(address, material, jtype, kstep, kinc, lflags, time, dtime, period, labels, jprops, equations, &
                           props, coords, u, du, svars, svars_trial, energy, energy_trial, residual, amatrx, ndofel, &
                           nsvars, nprops, njprop, mcrd, nnode, m, n)
@@ -21,7 +21,7 @@ subroutine host_bare_loop(address, material, jtype, kstep, kinc, lflags, time, d
   procedure(uel_procedure), pointer :: uel
   procedure(uelmat_procedure), pointer :: uelmat
   type(c_funptr) :: pointer
-  ! what the element may change
+  ! arguments that the element may change
   integer(i4) :: jdltyp(1), place(4), sizes(8), integers
   real(dp) :: clock(4), rates(ndofel), u_element(ndofel), du_element(ndofel), rhs(ndofel), params(3), load(1), &
               predef(2*nnode), pnewdt

@@ -16,14 +16,14 @@ subroutine host_evaluate(address, material, tensor, jtype, symmetric, want_matri
   use host_kinds, only: dp, i4, i8
   implicit none (type, external)
   integer(i8), intent(in) :: address          !< of UEL or UELMAT
-  integer(i4), intent(in) :: material         !< number of it in the host; 0: UEL is called, else UELMAT
+  integer(i4), intent(in) :: material         !< its number in the host; with 0 UEL is called, otherwise UELMAT
   integer(i4), intent(in) :: tensor, jtype, kstep, kinc
   integer(i4), intent(in) :: symmetric, want_matrix   !< 0 or 1
   integer(i4), intent(in) :: guards, entries, iteration
   integer(i4), intent(in) :: lflags(7)
   real(dp), intent(in) :: time(2), dtime, period, params(3)
   integer(i4), intent(in) :: ndofel, nsvars, nprops, njprop, mcrd, nnode, m, n, nrhs, nnz, values, points, most, nfield
-  integer(i4), intent(in) :: nrate            !< n, or 1 where nothing moves
+  integer(i4), intent(in) :: nrate            !< n, or 1 if nothing moves
   integer(i4), intent(in) :: mload, mfield    !< m, or 1 if all elements have the same loads, the same fields
   integer(i4), intent(in), target :: labels(m), jprops(njprop), equations(ndofel, m), map(ndofel, ndofel, m)
   real(dp), intent(in), target :: props(nprops), coords(mcrd, nnode, m), u(n), du(n), v(nrate), a(nrate), svars(nsvars, m), &
@@ -94,7 +94,7 @@ subroutine host_evaluate(address, material, tensor, jtype, symmetric, want_matri
   item = block%index
 end subroutine host_evaluate
 
-!> Exchange what the guards of each array (as host_workspace orders them) and, last, entries that are not set hold.
+!> Swap the values that the guards of each array (in the order of host_workspace) and, last, unset entries hold.
 subroutine host_exchange_guard_values(values)
   use host_driver, only: set_guard_values
   use host_kinds, only: dp
@@ -118,7 +118,7 @@ subroutine host_take_message(level, place, text)
   text = message%text
 end subroutine host_take_message
 
-!> Name and folder of the job, for GETJOBNAME and GETOUTDIR; units 6 and 7 go to the two files named, shared arrays go.
+!> Name and folder of the job, for GETJOBNAME and GETOUTDIR; units 6 and 7 go to the two named files, shared arrays are dropped.
 subroutine host_open_job(name, directory, file6, file7, status)
   use host_context, only: job_name, names_cut, output_directory
   use host_kinds, only: i4
@@ -144,7 +144,7 @@ subroutine host_limit_calls(seconds)
   call limit_calls(seconds)
 end subroutine host_limit_calls
 
-!> Let another process see where user code is, in a file that both have open; failed is 1 if that is not possible.
+!> Let another process see where user code is, through a file that both have open; failed is 1 if that is not possible.
 subroutine host_share(file, failed)
   use, intrinsic :: iso_c_binding, only: c_int
   use host_kinds, only: i4
@@ -165,8 +165,8 @@ subroutine host_loading(begins)
   call loading(int(begins, c_int))
 end subroutine host_loading
 
-!> Write out what user routines have printed to units 6 and 7; with `finish` the units are closed too. lost is 1 where a
-!> call that was left has them locked.
+!> Flush what user routines have printed to units 6 and 7; with `finish` the units are also closed. lost is 1 if a call that was
+!> left has them locked.
 subroutine host_flush(finish, lost)
   use host_kinds, only: i4
   use host_units, only: flush_units
@@ -225,7 +225,7 @@ subroutine host_set_expansion(number, expansion)
   material%expansion = expansion
 end subroutine host_set_expansion
 
-!> Compliance (11, 22, 33, 12, 13, 23; engineering shear) of E1, E2, E3, nu12, nu13, nu23, G12, G13, G23.
+!> Compliance (11, 22, 33, 12, 13, 23; engineering shear) from E1, E2, E3, nu12, nu13, nu23, G12, G13, G23.
 subroutine host_compliance(constants, compliance)
   use host_dependence, only: compliance_of
   use host_kinds, only: dp
@@ -235,7 +235,7 @@ subroutine host_compliance(constants, compliance)
   compliance = compliance_of(constants)
 end subroutine host_compliance
 
-!> Give points of a material that is not of UMAT a history for initial stresses.
+!> Give the points of a material other than UMAT a history for initial stresses.
 subroutine host_set_prestressed(number)
   use host_kinds, only: i4
   use host_materials, only: find_material, material_t

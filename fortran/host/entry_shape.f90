@@ -2,7 +2,7 @@
 ! SPDX-License-Identifier: BSD-3-Clause
 !> Procedures Python calls (through f2py) for shape functions and integration points; entry.f90 has the others.
 
-!> Shape functions and integration points of a family; known is 0 where there are none, or of other sizes.
+!> Shape functions and integration points of a family; known is 0 if there are none, or if their sizes differ.
 subroutine host_rule(family, weight, n, dn, known, points, nodes, dim)
   use host_kinds, only: dp, i4
   use host_shape, only: find_rule, rule_t

@@ -13,7 +13,7 @@ subroutine host_watch(address, with_material, watched)
   watched = watch(address, with_material)
 end subroutine host_watch
 
-!> First entry of each argument that was changed since the last look (0: none), and its values before and after.
+!> First entry of each argument that changed since the last query (0: none), and its values before and after.
 subroutine host_take_changes(entries, values)
   use host_kinds, only: dp, i4
   use host_protect, only: take_changes
@@ -23,7 +23,7 @@ subroutine host_take_changes(entries, values)
   call take_changes(entries, values)
 end subroutine host_take_changes
 
-!> From now on (on /= 0) watched calls find this number where their local variables are, or do not.
+!> From now on, watched calls find this number in the memory of their local variables (on /= 0), or no longer do.
 subroutine host_fill_stack(on, number)
   use host_kinds, only: dp, i4
   use host_protect, only: fill_stack
@@ -33,7 +33,7 @@ subroutine host_fill_stack(on, number)
   call fill_stack(on, number)
 end subroutine host_fill_stack
 
-!> Exchange what lies around an argument, counted from 0, that is no array of the workspace, in watched calls.
+!> Swap the values around an argument, counted from 0, that is not an array of the workspace, in watched calls.
 subroutine host_exchange_around(argument, number)
   use host_kinds, only: dp, i4
   use host_protect, only: exchange_around
@@ -43,7 +43,7 @@ subroutine host_exchange_around(argument, number)
   call exchange_around(argument, number(1))
 end subroutine host_exchange_around
 
-!> Whether something was written outside of each argument since the last look, and the entry of the first such write.
+!> Whether something was written outside each argument since the last query, and the entry of the first such write.
 subroutine host_take_outside(found, entries)
   use host_kinds, only: i4
   use host_protect, only: take_outside
@@ -52,7 +52,7 @@ subroutine host_take_outside(found, entries)
   call take_outside(found, entries)
 end subroutine host_take_outside
 
-!> Bytes that this process has allocated; below 0 where the C library does not say.
+!> Bytes that this process has allocated; negative if the C library does not tell.
 subroutine host_allocated(bytes)
   use host_kinds, only: i8
   use host_protect, only: allocated_bytes
@@ -61,7 +61,7 @@ subroutine host_allocated(bytes)
   bytes = allocated_bytes()
 end subroutine host_allocated
 
-!> Let calls of user routines stop (on /= 0) at the operation that makes a NaN or an infinity, or not.
+!> Whether calls of user routines stop at the operation that produces a NaN or an infinity (on /= 0).
 subroutine host_trap(on, before)
   use host_kinds, only: i4
   use host_protect, only: trap
@@ -71,7 +71,7 @@ subroutine host_trap(on, before)
   before = trap(on)
 end subroutine host_trap
 
-!> Addresses of the calls that the last signal has ended, innermost first, and how many they are; forgets them.
+!> Addresses of the calls that the last signal ended, innermost first, and their number; clears them.
 subroutine host_take_frames(addresses, count)
   use host_kinds, only: i4, i8
   use host_protect, only: take_frames
@@ -81,7 +81,7 @@ subroutine host_take_frames(addresses, count)
   call take_frames(addresses, count)
 end subroutine host_take_frames
 
-!> Exchange the fewest entries of the guard behind each array of an element.
+!> Swap the minimum number of entries of the guard after each array of an element.
 subroutine host_exchange_room(room)
   use host_driver, only: set_guard_room
   use host_kinds, only: i4
@@ -93,7 +93,7 @@ subroutine host_exchange_room(room)
   room(1) = int(entries, i4)
 end subroutine host_exchange_room
 
-!> 1 where the runtime of AddressSanitizer is in this process, else 0.
+!> 1 if the runtime of AddressSanitizer is in this process, else 0.
 subroutine host_sanitizing(present)
   use host_kinds, only: i4
   use host_protect, only: sanitizing
@@ -102,7 +102,7 @@ subroutine host_sanitizing(present)
   present = sanitizing()
 end subroutine host_sanitizing
 
-!> A library that is built with AddressSanitizer is called from now on (begins /= 0), or no longer.
+!> From now on, a library built with AddressSanitizer is called (begins /= 0), or no longer.
 subroutine host_sanitize(begins)
   use host_kinds, only: i4
   use host_protect, only: sanitize

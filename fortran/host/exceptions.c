@@ -20,7 +20,7 @@ static handler before;
 
 static void *find(const char *name) { return dlsym(library, name); }
 
-// As the ABI has them: what stands before an object that was thrown, and the exceptions of a thread.
+// Defined by the ABI: the header before a thrown object, and the exceptions of a thread.
 struct thrown {
     void *type, *destructor, *handlers[2];
     struct thrown *next;
@@ -40,7 +40,7 @@ static const char *what(void *type)
     struct globals *(*globals)(void) = find("__cxa_get_globals");
     void **base = find("_ZTISt9exception");
     struct thrown *thrown = globals ? globals()->caught : NULL;
-    // an exception that is thrown again stands elsewhere
+    // a rethrown exception is stored elsewhere
     if (!base || !thrown || (thrown->header.exception_class & 0xff))
         return NULL;
     void *object = thrown + 1;
@@ -58,7 +58,7 @@ static void terminated(void)
     char *(*demangle)(const char *, char *, size_t *, int *) = find("__cxa_demangle");
     void *type = current_type ? current_type() : NULL;
     if (type) {
-        // the name follows the pointer to the virtual table, with an asterisk where it is that of one file only
+        // the name follows the pointer to the virtual table, with an asterisk if it is local to one file
         const char *name = ((const char **)type)[1], *said = what(type);
         name += *name == '*';
         char *readable = demangle ? demangle(name, NULL, NULL, NULL) : NULL;
@@ -73,7 +73,7 @@ static void terminated(void)
     abort();
 }
 
-// To be called where a library of user routines is loaded.
+// To be called when a library of user routines is loaded.
 void uel_host_watch_exceptions(void)
 {
     library = dlopen("libstdc++.so.6", RTLD_LAZY | RTLD_NOLOAD);

@@ -40,7 +40,7 @@ static intptr_t interrupted(const void *context)
 #endif
 }
 
-// Forgets what was kept. The first call loads a library, which a signal handler cannot do.
+// Clears what was kept. The first call loads a library, which a signal handler cannot do.
 void uel_host_prepare_frames(void)
 {
     static int prepared = 0;
@@ -66,7 +66,7 @@ void uel_host_keep_frames(const void *context)
         kept[count++] = (intptr_t)address[k] - ((intptr_t)address[k] != exact);
 }
 
-// Those of the last signal, and how many they are; forgets them.
+// Those of the last signal, and their number; clears them.
 void uel_host_take_frames(int64_t address[MOST], int32_t *many)
 {
     memcpy(address, kept, sizeof kept);

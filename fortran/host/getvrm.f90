@@ -2,7 +2,7 @@
 ! SPDX-License-Identifier: BSD-3-Clause
 !> GETVRM: values of the material point for which UVARM or USDFLD is running, in the directions of *ORIENTATION. S, E and
 !> LE (direct components, then shear); PE (the same, then in place 7 the equivalent plastic strain); SINV (Mises, Tresca,
-!> pressure, third invariant); SDV. jrcd = 1 for a variable that the point does not have.
+!> pressure, third invariant); SDV. jrcd = 1 if the point does not have the variable.
 subroutine getvrm(var, array, jarray, flgray, jrcd, jmac, jmatyp, matlayo, laccfla)
   use host_context, only: current
   use host_kinds, only: dp, i4

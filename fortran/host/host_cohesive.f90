@@ -2,10 +2,10 @@
 ! SPDX-License-Identifier: BSD-3-Clause
 !> Built-in cohesive elements COH2D4 and COH3D8 with traction-separation response, as a procedure with the arguments of UEL.
 !>
-!> Nodes of the bottom face, then of the top face: 1 2 and 4 3, or 1 2 3 4 and 5 6 7 8. Integration points lie in the
-!> corners of the mid-surface, so that the separation of a point is that of one pair of nodes. The normal points from
-!> bottom to top; s is the tangent from 1 to 2 in the plane, and otherwise the projection of the global 1-axis on the
-!> mid-surface (of the 3-axis where the 1-axis is within 0.1 degrees of the normal), t = n x s.
+!> Nodes of the bottom face, then of the top face: 1 2 and 4 3, or 1 2 3 4 and 5 6 7 8. Integration points lie at the corners of the
+!> mid-surface, so the separation of a point is that of one pair of nodes. The normal points from bottom to top; s is the tangent
+!> from 1 to 2 in the plane, and otherwise the projection of the global 1-axis on the mid-surface (of the 3-axis where the 1-axis is
+!> within 0.1 degrees of the normal), t = n x s.
 !>
 !> An element is deleted at the end of the increment in which the damage of all its points has reached MAX DEGRADATION with
 !> none of them in compression (Analysis User's Guide, Maximum degradation and choice of element removal).
@@ -63,7 +63,7 @@ contains
     logical :: removed, failed
     removed = is_removed(n, svars(:, 1))
     failed = deletion
-    ! what is still stored when an element is deleted is lost by its damage
+    ! deletion counts the energy that is still stored as lost by damage
     if (removed) energy(4) = energy(4) + energy(2)
     energy(2) = 0
     if (.not. removed) energy(3:4) = 0
@@ -110,7 +110,7 @@ contains
     if (family == line2) opposite = 2*points + 1 - node
   end function opposite
 
-  !> True for an element that was deleted: STATUS is 0, and so is the damage of one that has never been called.
+  !> True for a deleted element: STATUS is 0; it is also 0 before the first call, but then so is the damage.
   pure logical function is_removed(n, svars)
     integer, intent(in) :: n
     real(dp), intent(in) :: svars(5*n + 5)
@@ -131,7 +131,7 @@ contains
     point%criterion = svars(5*n + 4)
   end subroutine get_point
 
-  !> SVARS of a point but for the status.
+  !> SVARS of a point except the status.
   pure subroutine put_point(n, position, point, thickness, svars)
     integer, intent(in) :: n
     real(dp), intent(in) :: position(n), thickness

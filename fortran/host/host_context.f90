@@ -1,16 +1,16 @@
 ! SPDX-FileCopyrightText: The uel-harness authors
 ! SPDX-License-Identifier: BSD-3-Clause
-!> What the host knows about the call that is running, for the utility routines that a user's file calls.
+!> What the host knows about the current call, for the utility routines that a user's file calls.
 module host_context
   use host_kinds, only: dp, i4
   implicit none (type, external)
   private
   public :: call_context, current, heat_t, initial_stresses, job_name, names_cut, output_directory
 
-  !> LFLAGS(3) of the host's own pass before an analysis, in which built-in elements take the stresses that SVARS hold.
+  !> LFLAGS(3) of the host's own pass before an analysis, in which built-in elements take their stresses from SVARS.
   integer(i4), parameter :: initial_stresses = -1
 
-  !> What UMAT says about heat at the end of the increment; directions of the stresses, shear strains twice.
+  !> The heat terms of UMAT at the end of the increment; directions of the stresses, engineering shear strains.
   type :: heat_t
     real(dp) :: source = 0                   !< RPL, heat generated per volume and time
     real(dp) :: source_by_temperature = 0    !< DRPLDT
@@ -33,7 +33,7 @@ module host_context
     real(dp) :: pnewdt = 0        !< smallest that a user material has returned in this call
     integer(i4) :: tensor = 0     !< components of stress: 3, 4 or 6; 0 without a material
     type(heat_t) :: heat          !< of the last call of UMAT
-    logical :: deformed = .false. !< the element has left its initial shape
+    logical :: deformed = .false. !< the element is deformed
     integer :: distorted = 0      !< point at which it is inside out, negative: over the axis; 0 for none
     logical :: finite = .false.   !< large displacements: the next two are those of the point
     real(dp) :: rotation(3, 3) = 0         !< of the increment

@@ -4,9 +4,8 @@
 !> UELMAT: a continuum element (host_solid), and heat conduction with temperatures at its corners.
 !>
 !> The unknowns are the displacements of all nodes, then the temperatures of the corners. PROPS go on with conductivity and
-!> specific heat, JPROPS with the integration points and the family of the temperatures. Without thermal expansion the two
-!> parts see each other through what UMAT says of heat (host_coupling), and through the change of shape, which the tangent
-!> leaves out.
+!> specific heat, JPROPS with the integration points and the family of the temperatures. Without thermal expansion, the two parts
+!> interact through the heat terms of UMAT (host_coupling) and through the change of shape, which the tangent leaves out.
 !>
 !> Heat is conducted through the present shape (Fourier's law, isotropic). It is stored by the initial mass, over time by
 !> backward differences, at the corners in elements with straight edges, as in Abaqus (Theory Guide, Uncoupled heat
@@ -83,7 +82,7 @@ contains
     tangent = tangent + matrix
   end subroutine conduct
 
-  !> Heat that the corners take to become warmer, and its tangent.
+  !> Heat that warms the corners, and its tangent.
   pure subroutine store(geometry, field, axisymmetric, capacity, x, dt, heat, tangent)
     type(rule_t), intent(in) :: geometry, field
     logical, intent(in) :: axisymmetric

@@ -2,7 +2,7 @@
 ! SPDX-License-Identifier: BSD-3-Clause
 !> Elastic constants that depend on temperature and field variables (*ELASTIC, DEPENDENCIES=).
 !>
-!> Between the values of the table they are linear in each variable, beyond them constant (Abaqus Analysis User's Guide,
+!> They are linear in each variable between the values of the table and constant beyond them (Abaqus Analysis User's Guide,
 !> Material data definition).
 module host_dependence
   use core_symmetric, only: invert_definite

@@ -20,14 +20,14 @@ module host_driver
   integer(i4), parameter :: fault_outside = 2     !< a write outside an array
   integer(i4), parameter :: fault_unset = 3       !< an entry was not set
   integer(i4), parameter :: fault_not_finite = 4  !< an entry is NaN or infinite
-  integer(i4), parameter :: fault_endless = 5     !< a call did not return in its time
+  integer(i4), parameter :: fault_endless = 5     !< a call did not return within the time limit
 
   integer(i4), parameter :: fault_distorted = 6   !< a built-in element has turned inside out
 
   integer(i4), parameter :: guards_stop = 0       !< a write outside an array ends the pass; the element is searched for
-  integer(i4), parameter :: guards_notice = 1     !< it is noticed after the pass
-  integer(i4), parameter :: guards_search = 2     !< it is looked for after each element
-  integer(i4), parameter :: guards_ignore = 3     !< it is of no interest
+  integer(i4), parameter :: guards_notice = 1     !< it is reported after the pass
+  integer(i4), parameter :: guards_search = 2     !< each element is checked for it
+  integer(i4), parameter :: guards_ignore = 3     !< it is ignored
 
   integer(i4), parameter :: entries_stop = 0      !< an entry of RHS or AMATRX that is not set ends the pass
   integer(i4), parameter :: entries_notice = 1    !< from the first one on, and after the pass, RHS and AMATRX are zero on entry
@@ -52,7 +52,7 @@ module host_driver
     real(dp), pointer, contiguous :: props(:) => null()
     real(dp), pointer, contiguous :: coords(:, :, :) => null()     !< (mcrd, nnode, m)
     real(dp), pointer, contiguous :: u(:) => null(), du(:) => null()
-    real(dp), pointer, contiguous :: v(:) => null(), a(:) => null()   !< velocity and acceleration; (1) where nothing moves
+    real(dp), pointer, contiguous :: v(:) => null(), a(:) => null()   !< velocity and acceleration; (1) if nothing moves
     ! of the m elements, or of one that stands for all
     integer(i4), pointer, contiguous :: counts(:) => null()        !< (m) distributed loads
     integer(i4), pointer, contiguous :: kinds(:, :) => null()      !< (most, m) JDLTYP
@@ -69,7 +69,7 @@ module host_driver
     real(dp) :: pnewdt = 0                !< smallest returned, or one that is not finite
     real(dp) :: energy_sum(8) = 0
     integer(i4) :: fault = fault_none     !< one of fault_*
-    integer(i4) :: position = 0           !< element of the fault, from 1; 0 if it is not known
+    integer(i4) :: position = 0           !< element of the fault, from 1; 0 if unknown
     integer(i4) :: culprit(3) = 0         !< first element that wrote outside an array, array and entry, with guards_search
     integer(i4) :: array = 0, index = 0   !< array (number in host_workspace) and entry of the fault, or material point
     integer(i4) :: unset(3) = 0           !< element, array and entry after which entries_notice became entries_zero
@@ -77,7 +77,7 @@ module host_driver
     procedure(uelmat_procedure), pointer, nopass :: uelmat => null()
   end type block_t
 
-  !> PNEWDT on entry: so large that any value a user routine would return is smaller.
+  !> PNEWDT on entry: larger than any value that a user routine would return.
   real(dp), parameter :: untouched = 1.0e36_dp
 
   type(workspace_t), save :: work
@@ -85,8 +85,8 @@ module host_driver
 
 contains
 
-  !> Run a pass. On a fault, fault, position, array and index say what happened and the sums are worthless, except with a
-  !> block that goes on after a write outside an array: its sums are those of the pass.
+  !> Run a pass. On a fault, fault, position, array and index say what happened and the sums are invalid, except in a block that
+  !> continues after a write outside an array: its sums are those of the pass.
   subroutine run_block(block)
     type(block_t), intent(inout), target :: block
     integer :: array, index
@@ -114,19 +114,19 @@ contains
     current%iteration = 0
   end subroutine run_block
 
-  !> Exchange what guards and entries that are not set hold, see exchange_guard_values.
+  !> Swap the values of guards and unset entries, see exchange_guard_values.
   subroutine set_guard_values(values)
     real(dp), intent(inout) :: values(n_arrays + 1)
     call exchange_guard_values(work, values)
   end subroutine set_guard_values
 
-  !> Exchange the fewest entries of the guard behind each array.
+  !> Swap the minimum number of entries of the guard after each array.
   subroutine set_guard_room(room)
     integer, intent(inout) :: room
     call set_room(work, room)
   end subroutine set_guard_room
 
-  !> Workspace and context of this block, guards whole. Column 2 of DU is zero throughout.
+  !> Workspace and context of this block, with intact guards. Column 2 of DU is always zero.
   subroutine prepare(block)
     type(block_t), intent(in) :: block
     integer :: length(n_arrays), ndofel, nnode
@@ -197,14 +197,14 @@ contains
     end do
   end subroutine all_elements
 
-  !> Set the fault if an entry of RHS or AMATRX of the running element is not a number, as far as they are looked at.
+  !> Set the fault if an entry of RHS or AMATRX of the current element is not a number, as far as they are checked.
   subroutine check_results(block)
     type(block_t), intent(inout) :: block
     if (block%want_residual) call check(block, i_rhs, work%length(i_rhs))
     if (block%want_matrix .and. block%fault == fault_none) call check(block, i_amatrx, work%length(i_amatrx))
   end subroutine check_results
 
-  !> Call an element that has not set an entry again, and those after it, with RHS and AMATRX zero on entry.
+  !> Repeat the call of an element that left an entry unset, with RHS and AMATRX zero on entry; likewise for the elements after it.
   subroutine repeat_on_zeros(block, e)
     type(block_t), intent(inout) :: block
     integer, intent(in) :: e
@@ -269,7 +269,7 @@ contains
     keeps_state = any(request == [1_i4, 6_i4, initial_stresses])
   end function keeps_state
 
-  !> The call itself; scalars are copies, so that a user routine that changes them changes nothing else.
+  !> The call itself; scalars are copies, so a user routine that changes them affects nothing else.
   subroutine invoke(block, row, x, s, ndofel, nsvars, nprops)
     type(block_t), intent(inout) :: block
     integer, intent(in) :: row   !< of the element in the distributed loads
@@ -319,14 +319,14 @@ contains
                      dtime, kstep, kinc, jelem, params, ndload, jdltyp, adlmag, x(s(i_predef)), npredf, lflags, mlvarx, &
                      ddlmag, mdload, pnewdt, jprops, njprop, period)
     end if
-    ! what is no number stays, for the caller to see: no comparison finds it
+    ! a NaN stays, for the caller to see: no comparison finds it
     if (block%lflags(3) == 1 .and. all_finite(1, [block%pnewdt])) then
       block%pnewdt = min(block%pnewdt, pnewdt, current%pnewdt)
       if (.not. all_finite(1, [pnewdt])) block%pnewdt = pnewdt
     end if
   end subroutine invoke
 
-  !> Set the fault if an entry of an array of the running element is not a number.
+  !> Set the fault if an entry of an array of the current element is not a number.
   subroutine check(block, array, n)
     type(block_t), intent(inout) :: block
     integer, intent(in) :: array, n
@@ -342,8 +342,8 @@ contains
     end do
   end subroutine check
 
-  !> Name the element that wrote outside an array, by running the block again with a look after each element.
-  !> If the second run does no damage, the element stays unknown (position 0).
+  !> Find the element that wrote outside an array: run the block again and check after each element. If the second run does no
+  !> damage, the element remains unknown (position 0).
   subroutine diagnose(block, array, index)
     type(block_t), intent(inout), target :: block
     integer, intent(in) :: array, index
@@ -356,8 +356,7 @@ contains
     call arm_guards(work)
   end subroutine diagnose
 
-  !> Report damage, unless the pass has ended with another fault. Which element did it is known only where each one was
-  !> looked at.
+  !> Report damage, unless the pass has ended with another fault. The element is known only if each one was checked.
   subroutine notice(block, array, index)
     type(block_t), intent(inout) :: block
     integer, intent(in) :: array, index
@@ -373,7 +372,7 @@ contains
     end if
   end subroutine notice
 
-  !> Report what the pass has taken notice of: element, array and entry.
+  !> Report what the pass has noticed: element, array and entry.
   subroutine report(block, fault, place)
     type(block_t), intent(inout) :: block
     integer(i4), intent(in) :: fault, place(3)
@@ -396,7 +395,7 @@ contains
     end do
   end subroutine search
 
-  !> Blame the running element for damaged guards.
+  !> Attribute damaged guards to the current element.
   subroutine look(block)
     type(block_t), intent(inout) :: block
     integer :: array, index

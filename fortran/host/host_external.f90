@@ -1,6 +1,6 @@
 ! SPDX-FileCopyrightText: The uel-harness authors
 ! SPDX-License-Identifier: BSD-3-Clause
-!> UEXTERNALDB, called so that XIT in it comes back here.
+!> UEXTERNALDB, called so that XIT in it returns here.
 module host_external
   use, intrinsic :: iso_c_binding, only: c_f_pointer, c_f_procpointer, c_funloc, c_funptr, c_intptr_t, c_loc, c_ptr
   use host_context, only: current

@@ -2,9 +2,9 @@
 ! SPDX-License-Identifier: BSD-3-Clause
 !> Arrays that a user routine of material points writes to, each between guards, as those of elements are (host_workspace).
 !>
-!> The guards are looked at after each call, so that the point of a write outside an array is known; they are shorter than
-!> those of elements, because there are many more calls. They hold a number that is as good as zero: what a routine reads
-!> outside an array does not make the results NaN.
+!> The guards are checked after each call, so the point of a write outside an array is known; they are shorter than those of
+!> elements, because there are many more calls. They hold a number that is practically zero: reading outside an array does not turn
+!> the results into NaN.
 module host_guarded
   use host_context, only: current
   use host_kinds, only: dp, i4, i8
@@ -14,9 +14,9 @@ module host_guarded
   private
   public :: guarded_t, lay_out_guarded, warn_of_no_numbers, warn_of_writes
 
-  !> Entries of the guard before an array; behind it as many as the array has, within limits.
+  !> Entries of the guard before an array; the one after it has as many as the array, within limits.
   integer, parameter :: before = 8, least = 40, most = 20000
-  !> Room behind the last array: a write beyond its guard does no harm.
+  !> Space after the last array: a write beyond its guard does no harm.
   integer, parameter :: room = 20000
   integer(i8), parameter :: mark = transfer(1.0e-300_dp, 0_i8)
 
@@ -29,8 +29,8 @@ module host_guarded
 
 contains
 
-  !> Place arrays of these lengths, those that are most likely taken for too long last. Where they have these lengths
-  !> already, they hold what the last call left.
+  !> Allocate arrays of these lengths; those that users most often take for longer come last. If they already have these lengths,
+  !> they keep what the last call left.
   subroutine lay_out_guarded(work, length)
     type(guarded_t), intent(inout) :: work
     integer, intent(in) :: length(:)
@@ -51,7 +51,7 @@ contains
     call fill(total + room, mark, work%memory)
   end subroutine lay_out_guarded
 
-  !> Warn of writes outside the arrays by the call that has returned, once for each array, and restore the guards.
+  !> Warn of writes outside the arrays by the last call, once per array, and restore the guards.
   subroutine warn_of_writes(work, names, sizes, point, reported)
     type(guarded_t), intent(inout) :: work
     character(len=*), intent(in) :: names(:)
@@ -79,7 +79,7 @@ contains
     end do
   end subroutine warn_of_writes
 
-  !> Warn of arrays in which the call has left NaN or infinity, once for each.
+  !> Warn of arrays in which the call left NaN or infinity, once per array.
   subroutine warn_of_no_numbers(work, names, point, reported)
     type(guarded_t), intent(in) :: work
     character(len=*), intent(in) :: names(:)

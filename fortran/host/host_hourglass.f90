@@ -3,9 +3,9 @@
 !> Hourglass control of elements of one integration point with four or eight nodes.
 !>
 !> h is a pattern of 1 and -1 at the nodes, B the mean gradients of the shape functions over the volume V before any
-!> displacement. gamma = h - B (x h) is what of the pattern no linear displacement has, q = u gamma is the hourglass
-!> displacement (D.P. Flanagan, T. Belytschko, Int. J. for Numerical Methods in Engineering 17 (1981) 679). With large
-!> displacements F^T q takes the place of q, with the mean deformation gradient F = 1 + u B. The energy is q K q/2.
+!> displacement. gamma = h - B (x h) is the part of the pattern that is in no linear displacement, q = u gamma is the hourglass
+!> displacement (D.P. Flanagan, T. Belytschko, Int. J. for Numerical Methods in Engineering 17 (1981) 679). With large displacements
+!> F^T q takes the place of q, with the mean deformation gradient F = 1 + u B. The energy is q K q/2.
 !>
 !> Total stiffness, which is Abaqus/Standard's own choice: K is diagonal, of the parameter r (0.005 times the shear modulus
 !> unless the deck has another)
@@ -18,11 +18,11 @@
 !> (2018). For CPE4R, and CPS4R of other shapes, it is inferred.
 !>
 !> Enhanced: K is that of the assumed strains of T. Belytschko, L.P. Bindeman, Computer Methods in Applied Mechanics and
-!> Engineering 88 (1991) 311 and 105 (1993) 225, which enhanced assumed strains have in common: of a strain that is linear
-!> in a parent coordinate, the components that have the direction of this coordinate are free. The stress is uniaxial along
-!> the other edge, in space plane in the two other edges, and rectangles and bricks bend exactly. Directions are those of
-!> the edges in the middle of the element, which makes it the same in turned and in sheared elements. That Abaqus has these
-!> numbers is inferred from its manual, which names enhanced assumed strains; there are no results to compare with.
+!> Engineering 88 (1991) 311 and 105 (1993) 225, to which enhanced assumed strains reduce: of a strain that is linear in a parent
+!> coordinate, the components in the direction of this coordinate are free. The stress is uniaxial along the other edge, in space
+!> plane in the two other edges, and rectangles and bricks bend exactly. Directions are those of the edges in the middle of the
+!> element, so the result is the same in rotated and in sheared elements. That Abaqus uses these values is inferred from its manual,
+!> which names enhanced assumed strains; there are no results to compare with.
 module host_hourglass
   use host_kinds, only: dp
   use host_shape, only: hourglass_shapes, is_multilinear, rule_t
@@ -35,7 +35,7 @@ module host_hourglass
 
 contains
 
-  !> Whether displacements other than rigid ones leave the points of an element without strain.
+  !> Whether displacements other than rigid ones cause no strain at the points of an element.
   pure logical function has_hourglass_modes(rule)
     type(rule_t), intent(in) :: rule
     has_hourglass_modes = rule%points == 1 .and. is_multilinear(rule)
@@ -46,7 +46,7 @@ contains
     type(rule_t), intent(in) :: rule                  !< of one point
     real(dp), intent(in) :: b(rule%nodes, rule%dim), volume    !< mean gradients and volume before any displacement
     real(dp), intent(in) :: parameter                 !< hourglass stiffness parameter of the total stiffness
-    real(dp), intent(in) :: enhanced(:)               !< or else Young's modulus and Poisson's ratio; none: total stiffness
+    real(dp), intent(in) :: enhanced(:)               !< Young's modulus and Poisson's ratio instead; none: total stiffness
     logical, intent(in) :: finite                     !< large displacements
     real(dp), intent(in) :: x(rule%dim, rule%nodes), u(rule%dim, rule%nodes)
     real(dp), intent(inout) :: force(rule%dim, rule%nodes), stiffness(rule%dim*rule%nodes, rule%dim*rule%nodes), energy
@@ -201,7 +201,7 @@ contains
   !> the symmetric part of displacement times gradient, which is dual to the edges in their plane.
   pure subroutine strain_between(first, second, pattern_1, pattern_2, strain)
     real(dp), intent(in) :: first(3), second(3)
-    integer, intent(in) :: pattern_1, pattern_2     !< that change along the first, and along the second edge
+    integer, intent(in) :: pattern_1, pattern_2     !< that vary along the first, and along the second edge
     real(dp), intent(out) :: strain(3, 12)
     real(dp) :: axes(3, 2), g(2, 2), dual(2, 2)
     integer :: k, place

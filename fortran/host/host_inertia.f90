@@ -1,9 +1,9 @@
 ! SPDX-FileCopyrightText: The uel-harness authors
 ! SPDX-License-Identifier: BSD-3-Clause
-!> What built-in elements answer to each LFLAGS(3), from their forces, stiffness and mass.
+!> What built-in elements return for each LFLAGS(3), from their forces, stiffness and mass.
 !>
-!> In dynamic steps the operator of Hilber, Hughes and Taylor needs the forces of the last two increments: they are kept
-!> as state, as in the example of UEL in the Abaqus User Subroutines Guide.
+!> In dynamic steps the operator of Hilber, Hughes and Taylor needs the forces of the last two increments: they are kept as state
+!> variables, as in the UEL example of the Abaqus User Subroutines Guide.
 module host_inertia
   use core_small_matrix, only: determinant
   use host_context, only: initial_stresses

@@ -1,7 +1,7 @@
 ! SPDX-FileCopyrightText: The uel-harness authors
 ! SPDX-License-Identifier: BSD-3-Clause
 !> Initial stresses of the built-in continuum elements (*INITIAL CONDITIONS, TYPE=STRESS), in a pass of the host's own before
-!> the analysis. UMAT gets them in STRESS; built-in materials get the strain that is without stress.
+!> the analysis. UMAT gets them in STRESS; built-in materials get the stress-free strain.
 module host_initial_stress
   use host_context, only: current
   use host_kinds, only: dp, i4
@@ -14,8 +14,8 @@ module host_initial_stress
 
 contains
 
-  !> Make the stress that SVARS hold the initial one of the material at a point, in its history; returns the components that
-  !> belong to the strains of the element, in global directions, and adds the elastic energy.
+  !> Make the stress in SVARS the initial stress of the material at a point, in its history; returns the components that belong to
+  !> the strains of the element, in global directions, and adds the elastic energy.
   subroutine begin_point(material, point, volume, state, stress, elastic)
     type(material_t), intent(in) :: material
     integer(i4), intent(in) :: point

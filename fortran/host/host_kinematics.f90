@@ -19,8 +19,8 @@ module host_kinematics
 contains
 
   !> Derivatives of the shape functions by the coordinates in a point, where the element is axisymmetric also the
-  !> functions over the radius; and the volume of the point. Leaves the pass where the element is inside out: a displaced
-  !> one is too distorted, which a smaller increment may avoid, an initial one is an error of the mesh.
+  !> functions over the radius; and the volume of the point. Leaves the pass if the element is inside out: a deformed element is too
+  !> distorted, which a smaller increment may avoid; an undeformed one is an error in the mesh.
   subroutine gradients(rule, direct, point, x, g, volume)
     type(rule_t), intent(in) :: rule
     integer, intent(in) :: direct, point

@@ -19,11 +19,11 @@ module host_materials
   public :: material_t, define, find_material, stress_update, not_solved, elastic_energy, thickness_strain, history_values, &
             has_fields, set_constants
 
-  !> Values of the history of a point of a plastic or prestressed material: strain without stress (6), which is the plastic
-  !> one less the elastic one of the initial stress, and equivalent plastic strain.
+  !> Values of the history of a point of a plastic or prestressed material: stress-free strain (6), which is the plastic strain
+  !> minus the elastic strain of the initial stress, and equivalent plastic strain.
   integer, parameter :: history_values = 7
 
-  !> PNEWDT where the equations of a point are not solved: as Abaqus cuts back where an increment diverges.
+  !> PNEWDT if the equations of a point are not solved: Abaqus cuts back a diverging increment by the same factor.
   real(dp), parameter :: smaller = 0.25_dp
 
   type :: material_t
@@ -69,7 +69,7 @@ contains
     number = materials
   end function define
 
-  !> The material of that number, null if there is none.
+  !> The material with that number, null if there is none.
   function find_material(number) result(material)
     integer(i4), intent(in) :: number
     type(material_t), pointer :: material
@@ -77,14 +77,14 @@ contains
     if (number >= 1 .and. number <= materials) material => library(number)%material
   end function find_material
 
-  !> Whether it takes temperature and field variables.
+  !> Whether it depends on temperature and field variables.
   pure logical function has_fields(material)
     type(material_t), intent(in) :: material
     has_fields = allocated(material%user) .or. allocated(material%dependence) .or. allocated(material%user_field)
   end function has_fields
 
-  !> Elastic constants where temperature and field variables are those of current%fields at the end of the increment.
-  !> Leaves the pass where they are not positive definite.
+  !> Elastic constants for the temperature and field variables in current%fields at the end of the increment. Leaves the pass if
+  !> they are not positive definite.
   subroutine set_constants(material, point)
     type(material_t), intent(inout) :: material
     integer, intent(in) :: point                 !< from 1, for the message
@@ -132,7 +132,7 @@ contains
       return
     end if
     old = current%history(:history_values, point)
-    ! plastic strains turn with the material
+    ! plastic strains rotate with the material
     if (current%finite) old(:6) = rotated(6, old(:6), current%rotation, 2.0_dp)
     associate (new => current%history_trial(:, point))
       if (.not. allocated(material%yield)) then

@@ -1,6 +1,6 @@
 ! SPDX-FileCopyrightText: The uel-harness authors
 ! SPDX-License-Identifier: BSD-3-Clause
-!> Texts that user routines send with STDB_ABQERR, kept until Python fetches them.
+!> Messages that user routines send with STDB_ABQERR, kept until Python fetches them.
 module host_messages
   use, intrinsic :: iso_c_binding, only: c_char, c_int32_t, c_null_char
   use host_kinds, only: dp, i4
@@ -24,7 +24,7 @@ module host_messages
 
 contains
 
-  !> Append a message; the element, step and increment are those of the running call.
+  !> Append a message; the element, step and increment are those of the current call.
   subroutine add_message(level, text)
     integer(i4), intent(in) :: level
     character(len=*), intent(in) :: text
@@ -67,8 +67,8 @@ contains
     place = [current%element, current%step, current%increment, current%iteration]
   end subroutine get_place
 
-  !> A name for a user routine, as much as its variable takes (CHARACTER*256, as Abaqus has it), and its length; a warning
-  !> where that is not all, once for each of names_cut.
+  !> A name for a user routine, truncated to the length of its variable (CHARACTER*256 in Abaqus), and its length; a warning if it
+  !> is truncated, once for each of names_cut.
   subroutine pass_name(number, what, name, variable, length)
     integer, intent(in) :: number
     character(len=*), intent(in) :: what, name

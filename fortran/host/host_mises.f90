@@ -89,7 +89,7 @@ contains
     x = (q - table(k, 1))/stiffness
   end subroutine radial_return
 
-  !> Plane stress: the return stays in the plane. Where it is not solved the response is elastic.
+  !> Plane stress: the return stays in the plane. If it does not converge, the response is elastic.
   pure subroutine mises_plane_stress(young, poisson, table, old, strain, stress, tangent, new, solved)
     real(dp), intent(in) :: young, poisson, table(:, :), old(7), strain(3)
     real(dp), intent(out) :: stress(3), tangent(3, 3), new(7)
@@ -119,8 +119,8 @@ contains
     new(7) = old(7) + 2*multiplier*q/3
   end subroutine mises_plane_stress
 
-  !> Multiplier of the return: yield(plastic + 2/3 multiplier q) - q(multiplier) = 0. q falls at least as fast as with the
-  !> smaller one of its two rates, and is below the least yield stress from the upper end of the bracket on.
+  !> Multiplier of the return: yield(plastic + 2/3 multiplier q) - q(multiplier) = 0. q falls at least as fast as with the smaller
+  !> of its two rates, and is below the smallest yield stress from the upper end of the bracket on.
   pure subroutine plane_return(young, poisson, shear, table, plastic, trial, multiplier, q, slope, solved)
     real(dp), intent(in) :: young, poisson, shear, table(:, :), plastic, trial(3)
     real(dp), intent(out) :: multiplier, q, slope

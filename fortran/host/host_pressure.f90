@@ -1,6 +1,6 @@
 ! SPDX-FileCopyrightText: The uel-harness authors
 ! SPDX-License-Identifier: BSD-3-Clause
-!> Pressure on a face of a continuum element that turns and grows with the face.
+!> Pressure on a face of a continuum element that follows the rotation and the area of the face.
 module host_pressure
   use host_kinds, only: dp
   use host_shape, only: radius_of, rule_t
@@ -57,7 +57,7 @@ contains
     end if
   end function area_of
 
-  !> Its change where a node moves in direction i, whose function has the slopes dn.
+  !> Its change if a node moves in direction i, whose function has the slopes dn.
   pure function area_change(dim, along, i, dn) result(change)
     integer, intent(in) :: dim, i
     real(dp), intent(in) :: along(dim, dim - 1), dn(dim - 1)

@@ -12,7 +12,7 @@ module host_protect
   integer, parameter :: most_frames = 64   !< as in frames.c
 
   interface
-    !> A user routine is about to be called for this element (0: for none): by it the clock sees that this is another call.
+    !> A user routine is about to be called for this element (0: for none); this tells the clock that it is a new call.
     subroutine begin_call(element) bind(c, name='uel_host_begin')
       import :: c_int32_t
       integer(c_int32_t), value :: element
@@ -26,7 +26,7 @@ module host_protect
       integer(c_int) :: left
     end function protect
 
-    !> Run routine(context), statements on units 6 and 7; 1 where a call that was left has them locked, else 0.
+    !> Run routine(context), statements on units 6 and 7; 1 if a call that was left has them locked, else 0.
     function attempt(routine, context) bind(c, name='uel_host_attempt') result(lost)
       import :: c_funptr, c_int, c_ptr
       type(c_funptr), value :: routine
@@ -57,33 +57,33 @@ module host_protect
       real(c_double), value :: seconds
     end subroutine limit_calls
 
-    !> Let calls of user routines stop (on /= 0) at the operation that makes a NaN or an infinity; returns whether they did.
+    !> Whether calls of user routines stop at the operation that produces a NaN or an infinity (on /= 0); returns the old setting.
     function trap(on) bind(c, name='uel_host_trap') result(before)
       import :: c_int32_t
       integer(c_int32_t), value :: on
       integer(c_int32_t) :: before
     end function trap
 
-    !> Addresses of the calls that the last signal has ended, innermost first; forgets them.
+    !> Addresses of the calls that the last signal ended, innermost first; clears them.
     subroutine take_frames(address, count) bind(c, name='uel_host_take_frames')
       import :: c_int32_t, c_int64_t, most_frames
       integer(c_int64_t), intent(out) :: address(most_frames)
       integer(c_int32_t), intent(out) :: count
     end subroutine take_frames
 
-    !> 1 where the runtime of AddressSanitizer is in this process, else 0.
+    !> 1 if the runtime of AddressSanitizer is in this process, else 0.
     function sanitizing() bind(c, name='uel_host_sanitizing') result(present)
       import :: c_int32_t
       integer(c_int32_t) :: present
     end function sanitizing
 
-    !> A library that is built with AddressSanitizer is called from now on (begins /= 0), or no longer.
+    !> From now on, a library built with AddressSanitizer is called (begins /= 0), or no longer.
     subroutine sanitize(begins) bind(c, name='uel_host_sanitize')
       import :: c_int32_t
       integer(c_int32_t), value :: begins
     end subroutine sanitize
 
-    !> Such a library may not touch the entries before and behind an array, which has a number from 0.
+    !> Such a library must not touch the entries before and after an array, which has a number from 0.
     subroutine fence(slot, name, array, entries, before, behind) bind(c, name='uel_host_fence')
       import :: c_char, c_double, c_int32_t
       integer(c_int32_t), value :: slot, entries, before, behind
@@ -91,7 +91,7 @@ module host_protect
       real(c_double), intent(in) :: array(*)
     end subroutine fence
 
-    !> Let the host look at the guards, and write them.
+    !> Let the host read and write the guards.
     subroutine open_fences() bind(c, name='uel_host_open_fences')
     end subroutine open_fences
 
@@ -107,33 +107,33 @@ module host_protect
       integer(c_int64_t) :: watched
     end function watch
 
-    !> First entry of each argument that was changed since the last look (0: none), and its values before and after.
+    !> First entry of each argument that changed since the last query (0: none), and its values before and after.
     subroutine take_changes(entries, values) bind(c, name='uel_host_take_changes')
       import :: c_double, c_int32_t
       integer(c_int32_t), intent(out) :: entries(37)
       real(c_double), intent(out) :: values(2, 37)
     end subroutine take_changes
 
-    !> Exchange what lies around an argument, counted from 0, in watched calls.
+    !> Swap the values around an argument, counted from 0, in watched calls.
     subroutine exchange_around(argument, number) bind(c, name='uel_host_around')
       import :: c_double, c_int32_t
       integer(c_int32_t), value :: argument
       real(c_double), intent(inout) :: number
     end subroutine exchange_around
 
-    !> Whether something was written outside of each argument since the last look, and the entry of the first such write.
+    !> Whether something was written outside each argument since the last query, and the entry of the first such write.
     subroutine take_outside(found, entries) bind(c, name='uel_host_take_outside')
       import :: c_int32_t
       integer(c_int32_t), intent(out) :: found(37), entries(37)
     end subroutine take_outside
 
-    !> Bytes that this process has allocated; below 0 where the C library does not say.
+    !> Bytes that this process has allocated; negative if the C library does not tell.
     function allocated_bytes() bind(c, name='uel_host_allocated') result(bytes)
       import :: c_int64_t
       integer(c_int64_t) :: bytes
     end function allocated_bytes
 
-    !> From now on (on /= 0) a watched call finds this number where its local variables are, or does not.
+    !> From now on, a watched call finds this number in the memory of its local variables (on /= 0), or no longer does.
     subroutine fill_stack(on, number) bind(c, name='uel_host_fill_stack')
       import :: c_double, c_int32_t
       integer(c_int32_t), value :: on

@@ -3,7 +3,7 @@
 !> Shape functions and integration points of the built-in continuum elements and their faces.
 !>
 !> A family is a cell with its interpolation. Families have the numbers of harness/model/element_types.py, and nodes in the
-!> order of Abaqus: corners, then the middles of the edges. What else there is to know of an element type stands there.
+!> order of Abaqus: corners, then the midside nodes. The rest of what defines an element type is in that file.
 module host_shape
   use core_serendipity, only: serendipity_functions
   use host_kinds, only: dp, i4
@@ -33,12 +33,12 @@ module host_shape
     real(dp), allocatable :: dn(:, :, :)    !< (nodes, dim, points) their derivatives by the parent coordinates
   end type rule_t
 
-  !> Rules asked for so far, by family and number of points.
+  !> Rules requested so far, by family and number of points.
   type(rule_t), save, target :: rules(families, most_points)
 
 contains
 
-  !> The rule of a family. Leaves the pass where there is none.
+  !> The rule of a family. Leaves the pass if there is none.
   function rule_of(family, points) result(rule)
     integer, intent(in) :: family, points
     type(rule_t), pointer :: rule
@@ -50,7 +50,7 @@ contains
     call escape()
   end function rule_of
 
-  !> The rule of a family, not associated where there is none.
+  !> The rule of a family, not associated if there is none.
   subroutine find_rule(family, points, rule)
     integer, intent(in) :: family, points
     type(rule_t), pointer, intent(out) :: rule
@@ -116,7 +116,7 @@ contains
     sizes_of = sizes(which)
   end function sizes_of
 
-  !> Whether there are nodes in the middle of the edges.
+  !> Whether there are midside nodes.
   pure logical function is_quadratic(rule)
     type(rule_t), intent(in) :: rule
     is_quadratic = rule%nodes > rule%corners
@@ -140,7 +140,7 @@ contains
     end if
   end function parent_place
 
-  !> Distance of a point from the axis (direction 2) where the element is axisymmetric, else 1.
+  !> Distance of a point from the axis (direction 2) if the element is axisymmetric, else 1.
   pure real(dp) function radius_of(rule, point, axisymmetric, x)
     type(rule_t), intent(in) :: rule
     integer, intent(in) :: point
@@ -150,7 +150,7 @@ contains
     if (axisymmetric) radius_of = dot_product(x(1, :), rule%n(:, point))
   end function radius_of
 
-  !> Parent coordinates (dimension, points) and weights; known is false where a family has no such rule.
+  !> Parent coordinates (dimension, points) and weights; known is false if a family has no such rule.
   pure subroutine integration_points(family, points, parent, weight, known)
     integer, intent(in) :: family, points
     real(dp), intent(out) :: parent(:, :), weight(:)
@@ -308,7 +308,7 @@ contains
       call wedge_functions(parent, n, dn)
     case (wedge15)
       call quadratic_wedge(parent, n, dn)
-    case default   ! there are no points of other families
+    case default   ! other families have no points
       n = 0
       dn = 0
     end select
@@ -363,7 +363,7 @@ contains
     end do
   end subroutine wedge_functions
 
-  !> Functions of a wedge with middles of the edges: of both triangles, then of the edges between them.
+  !> Functions of a wedge with midside nodes: of both triangles, then of the edges between them.
   pure subroutine quadratic_wedge(parent, n, dn)
     real(dp), intent(in) :: parent(:)
     real(dp), intent(out) :: n(:), dn(:, :)
@@ -388,14 +388,14 @@ contains
     n(13:) = linear*across
     dn(13:, :2) = slope*across
     dn(13:, 3) = linear*by_third
-    ! a corner is half of a middle away from the functions that are linear across
+    ! a corner function is the linear one across minus half of that of the midside node
     n(:6) = n(:6) - [n(13:), n(13:)]/2
     dn(:3, :) = dn(:3, :) - dn(13:, :)/2
     dn(4:6, :) = dn(4:6, :) - dn(13:, :)/2
   end subroutine quadratic_wedge
 
-  !> Patterns of displacement without strain in the middle of an element of 4 or 8 nodes, 1 and -1 at the nodes:
-  !> xy; and yz, xz, xy, xyz.
+  !> Displacement patterns without strain in the middle of an element with 4 or 8 nodes, 1 and -1 at the nodes: xy; and yz, xz, xy,
+  !> xyz.
   pure function hourglass_shapes(dim) result(pattern)
     integer, intent(in) :: dim
     real(dp) :: pattern(2**dim, merge(1, 4, dim == 2))

@@ -1,7 +1,7 @@
 ! SPDX-FileCopyrightText: The uel-harness authors
 ! SPDX-License-Identifier: BSD-3-Clause
-!> Built-in continuum elements (CPS, CPE, CAX, C3D) as a procedure with the arguments of UELMAT. What types there are is in
-!> harness/model/element_types.py.
+!> Built-in continuum elements (CPS, CPE, CAX, C3D) as a procedure with the arguments of UELMAT. harness/model/element_types.py
+!> lists the types.
 !>
 !> JPROPS: family of the element (host_shape), integration points, direct strains (host_kinematics), enhanced hourglass
 !> control, integration points of the mass. CPE4, CAX4 and C3D8 replace the volume strain of the points by its mean over the
@@ -9,9 +9,9 @@
 !> enhanced where JPROPS(4) is not zero, else with the stiffness parameter PROPS(3). JPROPS(6) is the number of incompatible
 !> modes (host_incompatible). PROPS(1) is the thickness, of axisymmetric elements the angle 2 pi; PROPS(2) is the density.
 !>
-!> Large displacements: Cauchy stress, turned and extended increment by increment with the strain and the rotation at the
-!> middle of the increment (Jaumann rate; Hughes and Winget). The tangent leaves out the change of the volume and of the
-!> middle of the increment.
+!> Large displacements: Cauchy stress, rotated and updated increment by increment with the strain and the rotation at the middle of
+!> the increment (Jaumann rate; Hughes and Winget). The tangent leaves out the change of the volume and of the middle of the
+!> increment.
 !>
 !> The last of the predefined fields is the initial temperature; thermal strain is that of *EXPANSION since then.
 !>
@@ -53,7 +53,7 @@ contains
                        predef, npredf, lflags, jprops, materiallib)
   end subroutine solid_uelmat
 
-  !> The same without the arguments that it does not use; coupling: where the element has temperatures too.
+  !> The same without the unused arguments; coupling: if the element also has temperatures.
   subroutine solid_element(rhs, amatrx, svars, energy, ndofel, nrhs, nsvars, props, coords, mcrd, nnode, u, du, v, a, params, &
                            dtime, predef, npredf, lflags, jprops, materiallib, coupling)
     integer(i4) :: ndofel, nrhs, nsvars, mcrd, nnode, npredf, lflags(*), jprops(*), materiallib
@@ -163,7 +163,7 @@ contains
     integer :: dim, nodes, p
     dim = rule%dim
     nodes = rule%nodes
-    ! full integration of elements with straight edges locks where volume is kept, but not in plane stress; modes see to it
+    ! full integration of elements with straight edges locks if the volume is preserved, but not in plane stress; modes see to it
     averaged = rule%points > 1 .and. is_multilinear(rule) .and. material%ntens /= 3 .and. modes == 0
     now = x
     if (finite) now = x + u
@@ -254,7 +254,7 @@ contains
     constants = [young, poisson]
   end function enhanced_constants
 
-  !> A line across the element in its plane or in space, half of it where there are nodes in the middle of the edges.
+  !> A typical length across the element in its plane or in space, half of it if there are midside nodes.
   pure function size_of(rule, direct, x, volume) result(length)
     type(rule_t), intent(in) :: rule
     integer, intent(in) :: direct

@@ -2,16 +2,16 @@
 ! SPDX-License-Identifier: BSD-3-Clause
 !> Traction-separation response of Abaqus' cohesive elements: linear elasticity, onset and evolution of a scalar damage.
 !>
-!> Written from the manual, and from nothing of the project's own elements, which it is there to be compared with: Abaqus
-!> Analysis User's Guide, Defining the constitutive response of cohesive elements using a traction-separation description.
+!> Written from the manual alone, independently of the project's own elements, for comparison with them: Abaqus Analysis User's
+!> Guide, Defining the constitutive response of cohesive elements using a traction-separation description.
 !>
 !> Components are in the order (n, s, t), (n, s) in the plane. With g = (<delta_n>, delta_s, delta_t) the effective
 !> displacement is delta = |g|. The onset criterion f(g) = 1 is homogeneous, so that the ray of g meets it at
 !> delta_o = delta/f with the effective traction T_o = |K g|/f, and damage follows from delta, delta_o, T_o and from the
 !> fracture energy G at the mode mix of g. The mode mix is that of the energies of "the current state of deformation only,
-!> not the deformation history" (Keywords Guide, *DAMAGE EVOLUTION, MODE MIX RATIO=ENERGY, the default). How delta_o
-!> and T_o follow a mode mix that changes during damage, the manual leaves open: here they are those of the present one.
-!> The damage is the largest so far, which along a straight path is the manual's form in delta_max.
+!> not the deformation history" (Keywords Guide, *DAMAGE EVOLUTION, MODE MIX RATIO=ENERGY, the default). The manual leaves open how
+!> delta_o and T_o follow a mode mix that changes during damage: here they are those of the current one. The damage is the largest
+!> so far, which along a straight path is the manual's form in delta_max.
 module host_traction_separation
   use host_kinds, only: dp, i4
   implicit none (type, external)
@@ -71,7 +71,7 @@ contains
   end function read_law
 
   !> State of a point at the end of an increment and the derivative of the traction by the separation.
-  !> status is too_brittle with what the fracture energy falls short of its bound by in `fault`.
+  !> If status is too_brittle, `fault` is the amount by which the fracture energy falls short of its bound.
   pure subroutine update_point(law, thickness, dtime, separation, old, new, tangent, status, fault)
     type(cohesive_law), intent(in) :: law
     real(dp), intent(in) :: thickness        !< constitutive thickness: strain = separation/thickness
@@ -272,7 +272,7 @@ contains
   end function ratio
 
   !> Energies up to the end of the increment, per area: the work by the trapezoidal rule less the change of the stored
-  !> energy, of which the overstress of the regularisation works `viscous`.
+  !> energy, of which `viscous` is the work of the overstress of the regularisation.
   pure subroutine dissipate(stiffness, old, new)
     real(dp), intent(in) :: stiffness(3)
     type(cohesive_point), intent(in) :: old

@@ -56,7 +56,7 @@ contains
     nullify (running)
   end subroutine run_uamp
 
-  !> What the routine only reads is copied, so that one that changes it changes nothing else.
+  !> Inputs of the routine are copied, so a routine that changes them affects nothing else.
   subroutine invoke(context) bind(c, name='uel_host_uamp')
     type(c_ptr), value :: context
     type(uamp_call_t), pointer :: a
@@ -80,7 +80,7 @@ contains
               a%define, derivatives(1), derivatives(2), derivatives(3), derivatives(4))
   end subroutine invoke
 
-  !> Number of a sensor of the running call; the analysis ends where there is none of the name.
+  !> Number of a sensor in the current call; the analysis ends if there is no sensor with this name.
   function find_sensor(name) result(number)
     character(len=*), intent(in) :: name
     integer(i4) :: number

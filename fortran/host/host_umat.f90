@@ -59,8 +59,8 @@ contains
     if (allocated(current%fields)) field_variables = size(current%fields, 1) - 1
   end function field_variables
 
-  !> Stress and tangent at the end of the increment; the history goes from old to new, where STATEV are those to begin with.
-  !> What UMAT says about heat is in current%heat.
+  !> Stress and tangent at the end of the increment; the history goes from old to new, in which STATEV holds the start values. The
+  !> heat terms of UMAT are in current%heat.
   subroutine call_umat(material, ntens, point, strain, old, stress, tangent, new)
     type(user_material_t), intent(in) :: material
     integer, intent(in) :: ntens

@@ -1,7 +1,7 @@
 ! SPDX-FileCopyrightText: The uel-harness authors
 ! SPDX-License-Identifier: BSD-3-Clause
 !> Units 6 and 7, to which user routines print: the host's own statements on them.
-!> A call that was left inside a WRITE keeps the lock of its unit, so that these statements may not return.
+!> A call that was left inside a WRITE keeps the lock of its unit, so these statements may not return.
 module host_units
   use, intrinsic :: iso_c_binding, only: c_f_pointer, c_funloc, c_loc, c_ptr
   use host_kinds, only: i4
@@ -18,7 +18,7 @@ module host_units
 
 contains
 
-  !> Connect them to two files; status is 0, IOSTAT of the OPEN that failed, or -1 where an earlier job has them locked.
+  !> Connect them to two files; status is 0, IOSTAT of the OPEN that failed, or -1 if an earlier job has them locked.
   subroutine connect_units(file6, file7, status)
     character(len=2048), intent(in) :: file6, file7
     integer(i4), intent(out) :: status
@@ -29,7 +29,7 @@ contains
     status = files%status
   end subroutine connect_units
 
-  !> Write out what was printed to them, and close them with `finish`; lost is 1 where that is not possible, else 0.
+  !> Flush them, and close them with `finish`; lost is 1 if that is not possible, else 0.
   subroutine flush_units(finish, lost)
     logical, intent(in) :: finish
     integer(i4), intent(out) :: lost

@@ -1,7 +1,7 @@
 ! SPDX-FileCopyrightText: The uel-harness authors
 ! SPDX-License-Identifier: BSD-3-Clause
-!> USDFLD (User Subroutines Guide): field variables of a material point of built-in elements, from what GETVRM gives of
-!> the start of the increment, in each call of the element.
+!> USDFLD (User Subroutines Guide): field variables of a material point of built-in elements, from what GETVRM returns for the start
+!> of the increment, in each call of the element.
 module host_usdfld
   use, intrinsic :: iso_c_binding, only: c_f_procpointer, c_funptr
   use host_context, only: current

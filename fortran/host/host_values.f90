@@ -1,6 +1,6 @@
 ! SPDX-FileCopyrightText: The uel-harness authors
 ! SPDX-License-Identifier: BSD-3-Clause
-!> Values that user routines give at places (User Subroutines Guide): DISP for what *BOUNDARY, USER prescribes, DLOAD for
+!> Values that user routines define at given points (User Subroutines Guide): DISP for what *BOUNDARY, USER prescribes, DLOAD for
 !> nonuniform distributed loads on built-in elements.
 module host_values
   use, intrinsic :: iso_c_binding, only: c_f_pointer, c_f_procpointer, c_funloc, c_funptr, c_loc, c_ptr
@@ -72,7 +72,7 @@ contains
     end do
   end subroutine all_places
 
-  ! arguments are copies, so that a user routine that changes them changes nothing else
+  ! arguments are copies, so a user routine that changes them affects nothing else
 
   subroutine prescribe(pass, place, x, value)
     type(value_pass_t), intent(in) :: pass

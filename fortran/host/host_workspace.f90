@@ -1,9 +1,9 @@
 ! SPDX-FileCopyrightText: The uel-harness authors
 ! SPDX-License-Identifier: BSD-3-Clause
-!> Memory that a user element writes to: its arrays one behind the other, each between guards.
+!> Memory that a user element writes to: its arrays one after the other, each between guards.
 !>
-!> A write outside an array changes a guard. The guards are looked at once per block; only if one has changed does the
-!> driver go through the block again and look after each element, so detection costs next to nothing.
+!> A write outside an array changes a guard. The guards are checked once per block; only if one has changed does the driver run the
+!> block again and check after each element, so detection costs next to nothing.
 module host_workspace
   use, intrinsic :: iso_c_binding, only: c_intptr_t, c_loc
   use host_kinds, only: dp, guard_bits, i4, i8, unset_bits
@@ -20,10 +20,10 @@ module host_workspace
   character(len=6), parameter :: arrays(n_arrays) = [character(len=6) :: &
     'RHS', 'AMATRX', 'SVARS', 'ENERGY', 'PROPS', 'COORDS', 'U', 'DU', 'V', 'A', 'PREDEF']
 
-  !> Entries of a guard that belong to the array behind it; to the one before belong as many as that has, within limits, so
-  !> that a routine that takes an array for twice as large meets the guard and not the next array. A check may ask for more.
+  !> Entries of a guard that belong to the array after it. As many as the array before it has, within limits, belong to that one, so
+  !> a routine that assumes an array twice as large hits the guard and not the next array. A check may ask for more.
   integer, parameter :: before = 100, least = 100, most = 20000
-  !> Entries of a cache line: each array starts on one, or its place would decide how fast an element runs.
+  !> Entries of a cache line: each array starts on one; otherwise its position would affect the speed of an element.
   integer, parameter :: line = 8
 
   type :: workspace_t
@@ -38,7 +38,7 @@ module host_workspace
 
 contains
 
-  !> Place the arrays; `length` entries each, zero. A workspace that has these lengths and whole guards stays.
+  !> Allocate the arrays; `length` entries each, zero. A workspace with these lengths and intact guards is kept.
   subroutine lay_out(work, length)
     type(workspace_t), intent(inout), target :: work
     integer, intent(in) :: length(n_arrays)
@@ -75,7 +75,7 @@ contains
     end do
   end subroutine fence_arrays
 
-  !> Exchange what the guards of each array hold, and as the last what entries hold that are not set.
+  !> Swap the values of the guards of each array and, last, that of unset entries.
   subroutine exchange_guard_values(work, values)
     type(workspace_t), intent(inout) :: work
     real(dp), intent(inout) :: values(n_arrays + 1)
@@ -87,7 +87,7 @@ contains
     if (allocated(work%memory)) call arm_guards(work)
   end subroutine exchange_guard_values
 
-  !> Exchange the fewest entries of the guard behind each array.
+  !> Swap the minimum number of entries of the guard after each array.
   subroutine set_room(work, room)
     type(workspace_t), intent(inout) :: work
     integer, intent(inout) :: room
@@ -98,7 +98,7 @@ contains
     if (allocated(work%memory)) deallocate (work%memory)
   end subroutine set_room
 
-  !> Write the guards' patterns: what is not guard behind an array belongs to the one that follows.
+  !> Write the patterns of the guards: entries not in the guard after an array belong to the next array.
   subroutine arm_guards(work)
     type(workspace_t), intent(inout) :: work
     integer :: k, free
@@ -129,7 +129,7 @@ contains
     type(workspace_t), intent(in) :: work
     integer, intent(out) :: array, index
     integer :: k, position, front
-    ! before the first array lies all that is not in a cache line with it
+    ! everything that is not in a cache line with the first array lies before it
     front = work%start(1) - 1
     do k = 1, n_arrays
       position = first_difference(work%behind(k), work%guard(k), work%memory(work%start(k) + work%length(k)))
@@ -161,7 +161,7 @@ contains
     integer(i8) :: difference
     integer :: i
     first_difference = 0
-    ! without an exit the loop vectorises, and mostly there is nothing to find
+    ! without an exit the loop vectorises, and usually there is nothing to find
     difference = 0
     do i = 1, n
       difference = ior(difference, ieor(transfer(x(i), 1_i8), bits))

@@ -1,10 +1,10 @@
 // SPDX-FileCopyrightText: The uel-harness authors
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// Finds what a user element changes of the arguments that Abaqus passes in only: a routine with the arguments of UEL that
-// calls the real one between a copy and a comparison. The driver calls it in place of the real one while a check asks for it.
-// Arguments that are no arrays of the driver's workspace, whose guards find writes outside these, are passed with room
-// around them, which holds what a check asks for and is looked at as well.
+// Finds which input arguments of Abaqus a user element changes: a routine with the arguments of UEL that calls the real one
+// between a copy and a comparison. The driver calls it in place of the real one while a check asks for it. The guards of the
+// driver's workspace find writes outside its arrays. All other arguments are passed with room around them, which holds what
+// a check asks for and is checked as well.
 
 #define _GNU_SOURCE
 #include <dlfcn.h>
@@ -108,7 +108,7 @@ static void keep(void *const *given, int count, size_t *length)
         memcpy(to, given[k], length[k] * width(k));
 }
 
-// The first entry of each argument that is another one now; earlier findings stay.
+// The first entry of each argument that has changed; earlier findings stay.
 static void compare(void *const *given, int count, const size_t *length)
 {
     const unsigned char *before = copies;
@@ -165,7 +165,7 @@ static void surround(void **given, int count)
     }
 }
 
-// The first entry in the room around each argument that is another one now; earlier findings stay.
+// The first entry in the room around each argument that has changed; earlier findings stay.
 static void look_around(void *const *given, int count, const size_t *length)
 {
     for (int k = 0; k < count; k++) {
@@ -183,7 +183,7 @@ static void look_around(void *const *given, int count, const size_t *length)
     }
 }
 
-// Bytes that are allocated now; below 0 where the C library does not say.
+// Bytes that are allocated now; negative if the C library does not tell.
 int64_t uel_host_allocated(void)
 {
     size_t (*sanitizers)(void) = dlsym(RTLD_DEFAULT, "__sanitizer_get_current_allocated_bytes");
@@ -250,7 +250,7 @@ int64_t uel_host_watch(int64_t address, int32_t with_material)
     return (int64_t)(intptr_t)watched_uel;
 }
 
-// Exchange what lies around an argument in watched calls.
+// Swap the values around an argument in watched calls.
 void uel_host_around(int32_t argument, double *number)
 {
     const double before = around[argument];
@@ -258,7 +258,7 @@ void uel_host_around(int32_t argument, double *number)
     *number = before;
 }
 
-// Whether (1 or 0) something was written outside of each argument, and the entry of the first such write, from 1; forgets it.
+// Whether (1 or 0) something was written outside of each argument, and the entry of the first such write, from 1; clears it.
 void uel_host_take_outside(int32_t found[ARGUMENTS], int32_t entry[ARGUMENTS])
 {
     memcpy(found, outside, sizeof outside);
@@ -266,7 +266,7 @@ void uel_host_take_outside(int32_t found[ARGUMENTS], int32_t entry[ARGUMENTS])
     memset(outside, 0, sizeof outside);
 }
 
-// Entry of each argument that was changed, from 1 (0: none), with its value before and after; forgets them.
+// Entry of each argument that was changed, from 1 (0: none), with its value before and after; clears them.
 void uel_host_take_changes(int32_t entry[ARGUMENTS], double value[ARGUMENTS][2])
 {
     memcpy(entry, changed, sizeof changed);

@@ -5,11 +5,11 @@
 // say which element stopped. Fortran has no non-local exit; sigsetjmp and siglongjmp cross Fortran frames safely as
 // long as those frames hold nothing that needs undoing (at worst, what the user's file had allocated stays allocated).
 // A signal that user code raises (a wrong address, a division of integers by zero) and a call that does not return leave
-// it in the same way. After abort, which mostly says that the heap is damaged, nothing can go on: the process says where
+// it in the same way. After abort, which usually means that the heap is damaged, the process cannot continue: it says where
 // it was and ends.
 //
 // A call that is left inside a statement of input or output keeps the lock of its unit, and the next one of the unit waits
-// for ever: the host touches the units then by uel_host_attempt alone. Another process that shares the slate sees where
+// for ever: the host then touches the units only through uel_host_attempt. Another process that shares the slate sees where
 // user code is, whatever state this one is in.
 
 #define _GNU_SOURCE
@@ -125,7 +125,7 @@ void uel_host_begin(int32_t element)
     slate->place[0] = element;
 }
 
-// Why the process ends: for the one that watches it, or on the terminal where none does.
+// Why the process ends: for the one that watches it, or on the terminal if none does.
 static void say_end(const char *what)
 {
     note_place();
@@ -241,7 +241,7 @@ static void trap(int on)
         fedisableexcept(traps);
 }
 
-// Let calls from now on stop there, or not; returns whether they did before.
+// Whether calls stop there from now on; returns the old setting.
 int32_t uel_host_trap(int32_t on)
 {
     const int32_t before = trapping;
@@ -257,7 +257,7 @@ static void leave(void)
     unguard();
 }
 
-// The Fortran library ends the process where an input or output statement fails, as exit does: say where that was.
+// The Fortran library ends the process if an input or output statement fails, as exit does: say where that was.
 static void at_exit(void)
 {
     if (armed && slate->within)
@@ -344,7 +344,7 @@ int uel_host_protect(void (*routine)(void *), void *context)
     return left && reason == SIGALRM ? 2 : left;
 }
 
-// libgfortran closes its units where the process ends, and would wait for their locks.
+// libgfortran closes its units when the process ends, and would wait for their locks.
 static void leave_units(int code, void *none)
 {
     (void)none;

@@ -39,7 +39,7 @@ static void poison(const char *from, const char *to, int closed)
         set(from, (size_t)(to - from));
 }
 
-// Array number `slot` from 0 has so many entries, and those before and behind it are nobody's.
+// Array number `slot`, from 0, has this many entries; those before and after it belong to nobody.
 void uel_host_fence(int32_t slot, const char name[6], const double *array, int32_t entries, int32_t before, int32_t behind)
 {
     if (!on)
@@ -65,7 +65,7 @@ void uel_host_open_fences(void)
     memset(fences, 0, sizeof fences);
 }
 
-// The stack below a call that was left is nobody's again: its variables were fenced too.
+// The stack below a call that was left is free again: its variables were fenced too.
 void uel_host_clear_stack(const char *from, const char *to)
 {
     if (on)
@@ -137,7 +137,7 @@ static void summarise(const char *report, char *text, size_t size)
     snprintf(text, size, "it %s %s", verb(writes), where);
 }
 
-// An entry of an array of the host at an address; false where that is in none of their guards.
+// An entry of an array of the host at an address; false if it is in none of their guards.
 static int beside_array(const char *address, int writes, char *text, size_t size)
 {
     for (int k = 0; k < FENCES; k++) {
@@ -168,7 +168,7 @@ static void reported(const char *report)
         uel_host_overrun(found, 0);
 }
 
-// A library that is built with AddressSanitizer is called from now on, or no longer.
+// From now on, a library built with AddressSanitizer is called, or no longer.
 void uel_host_sanitize(int32_t begins)
 {
     void (*call_back)(void (*)(const char *)) = find("__asan_set_error_report_callback");

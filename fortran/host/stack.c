@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: The uel-harness authors
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// What local variables of a user element hold before they are given a value: the stack below the caller is filled with a
-// number, so that two calls with two numbers show whether one is used.
+// What local variables of a user element hold before they get a value: the stack below the caller is filled with a number,
+// so two calls with two numbers show whether an uninitialised variable is used.
 
 #include <stdint.h>
 

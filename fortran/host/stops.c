@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
 // Ends of the process that become ends of the call: user files are linked with --wrap for these procedures of libgfortran
-// and libc, so a STOP in a user routine, or exit in C, comes here. Errors inside libgfortran (reading a file that is not
-// there) still end the process.
+// and libc, so a STOP in a user routine, or exit in C, comes here. Errors inside libgfortran (such as reading a missing
+// file) still end the process.
 
 #include <stdbool.h>
 #include <stdint.h>

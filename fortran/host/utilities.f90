@@ -1,7 +1,7 @@
 ! SPDX-FileCopyrightText: The uel-harness authors
 ! SPDX-License-Identifier: BSD-3-Clause
-!> Ways out of a user routine, and messages: the routines of Abaqus that a user's file calls by name.
-!> None of them may be in a module, since the file refers to the plain external names.
+!> Ways out of a user routine, and messages: the routines of Abaqus that a user's file calls by name. None of them may be in a
+!> module, since the file uses the plain external names.
 
 !> End the analysis; the block driver's caller gets control back.
 subroutine xit()

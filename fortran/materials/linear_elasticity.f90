@@ -58,7 +58,7 @@ contains
     if (abs(material%angle) > 0.0_dp) call rotate(material%angle, stiffness)
   end subroutine plane_stiffness
 
-  !> Turns a plane stiffness from material axes, at angle (degrees) to the global ones, to global axes.
+  !> Rotates a plane stiffness from material axes, at an angle (degrees) to the global ones, to global axes.
   pure subroutine rotate(angle, stiffness)
     real(dp), intent(in) :: angle
     real(dp), intent(inout) :: stiffness(3, 3)

@@ -11,7 +11,7 @@ module materials_spectral_norm
 contains
 
   !> Largest singular value, from the largest root of the characteristic polynomial of transpose(a) a
-  !> (trigonometric solution of the cubic; the largest root is the one it gives without cancellation).
+  !> (trigonometric solution of the cubic, which gives the largest root without cancellation).
   pure function spectral_norm(a) result(norm)
     real(dp), intent(in) :: a(3, 3)
     real(dp) :: norm
