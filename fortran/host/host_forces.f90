@@ -9,8 +9,8 @@ module host_forces
 
 contains
 
-  !> Force and tangent of a point in the plane; its volume is in stress and modulus. Sizes that are known here make this
-  !> and the next two, which are most of the work, quick.
+  !> Force and tangent of a point in the plane; its volume is in stress and modulus. Sizes known at compile time make this and the
+  !> next two, which do most of the work, fast.
   pure subroutine add_plane_point(n, b, stress, modulus, force, stiffness)
     integer, intent(in) :: n
     real(dp), intent(in) :: b(n, 3), stress(3), modulus(3, 3)
@@ -62,7 +62,7 @@ contains
     end do
   end subroutine add_space_point
 
-  !> Change of the force where a stress that turns with the material keeps its size: sigma : (grad dv^T grad du) to the
+  !> Change of the force for a stress that rotates with the material and keeps its magnitude: sigma : (grad dv^T grad du) to the
   !> stiffness, - 2 sigma : (dD dD) to the modulus.
   pure subroutine add_geometric(dim, direct, m, nodes, g, stress, volume, modulus, stiffness)
     integer, intent(in) :: dim, direct, m, nodes      !< m: number of strains

@@ -8,12 +8,12 @@
 !>
 !>     H = sum over a of alpha_a (x) (j0/j) xi_a grad xi_a,
 !>
-!> one vector alpha_a for each direction. In plane strain and in space the volume has modes of its own, beta (j0/j) times the
-!> products of two and three parent coordinates, in equal parts in each direction, which keep nearly incompressible
-!> elements from locking. These are 4, 5 and 13 modes, as many as Abaqus has in CPS4I, CPE4I and C3D8I. Their mean is zero,
-!> so that a constant strain needs none of them, whatever the shape.
+!> one vector alpha_a for each direction. In plane strain and in space the volume has its own modes, beta (j0/j) times the products
+!> of two and three parent coordinates, in equal parts in each direction, which keep nearly incompressible elements from locking.
+!> These are 4, 5 and 13 modes, as many as CPS4I, CPE4I and C3D8I have in Abaqus. Their mean is zero, so a constant strain needs
+!> none of them, whatever the shape.
 !>
-!> The modes are in equilibrium by themselves in each pass, and their forces are condensed out.
+!> Each pass brings the modes to equilibrium and condenses out their forces.
 module host_incompatible
   use core_small_matrix, only: determinant, invert, invert_general
   use host_kinds, only: dp
@@ -23,7 +23,7 @@ module host_incompatible
   private
   public :: mode_strains, find_change, condense
 
-  !> Work of the forces on the modes, over that of all forces without regard to signs, that counts as none.
+  !> Work of the forces on the modes that counts as zero, relative to that of all forces, taken absolutely.
   real(dp), parameter :: no_work = 1e-20_dp
 
 contains
@@ -43,7 +43,7 @@ contains
     do p = 1, rule%points
       xi = parent_place(rule, p)
       ratio = at_middle/determinant(matmul(x, rule%dn(:, :, p)))
-      ! a direction is to the strain what a node is
+      ! a direction acts on the strain like a node
       call strain_matrix(dim, dim, dim, reshape([(ratio*xi*inverse(:, i), i=1, dim)], [dim, dim]), b(:dim**2, :, p))
       products = xi(1)*xi(2)
       if (dim == 3) products(2:) = [xi(2)*xi(3), xi(3)*xi(1), product(xi)]
@@ -54,8 +54,8 @@ contains
     end do
   end subroutine mode_strains
 
-  !> Change of the modes, the last unknowns, by Newton's method; `settled` where it does no work. Zero, with `good` false,
-  !> where their stiffness is singular.
+  !> Change of the modes, the last unknowns, by Newton's method; `settled` if it does no work. Zero, with `good` false, if their
+  !> stiffness is singular.
   pure subroutine find_change(unknowns, force, stiffness, change, settled, good)
     real(dp), intent(in) :: unknowns(:), force(:), stiffness(:, :)
     real(dp), intent(out) :: change(:)
@@ -68,7 +68,7 @@ contains
     settled = abs(dot_product(change, force(n + 1:))) <= no_work*dot_product(abs(unknowns), matmul(abs(stiffness), abs(unknowns)))
   end subroutine find_change
 
-  !> Force and stiffness of the nodes, whose unknowns come first, where the modes follow them.
+  !> Force and stiffness of the nodes, whose unknowns come first, if the modes follow them.
   pure subroutine condense(all_force, all_stiffness, force, stiffness)
     real(dp), intent(in) :: all_force(:), all_stiffness(:, :)
     real(dp), intent(out) :: force(:), stiffness(size(force), size(force))
