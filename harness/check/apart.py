@@ -1,9 +1,9 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""The checks in a process of their own: where user code ends it, what was found until then is kept.
+"""The checks in a separate process: if user code ends it, what was found until then is kept.
 
-The process (worker.py) writes what it has found so far to a file before each part of its work, so that it loses nothing
-but the check that was running.
+The process (worker.py) writes what it has found so far to a file before each part of its work, so that it loses only
+the check that was running.
 """
 
 from __future__ import annotations
@@ -27,12 +27,12 @@ CALL_LIMIT: Final = 60.0
 """Seconds that a call of a user routine may take."""
 
 ADVICE: Final = (
-    "The element ended the process, as it would end that of Abaqus. The Fortran library does so at an input or output "
-    "statement that fails (a file that is not there), the system where memory is damaged: look at the check 'outside'. "
-    "With --skip the checks behind this one are made."
+    "The element ended the process, as it would end that of Abaqus. The Fortran library does so when an input or "
+    "output statement fails (a missing file), the system when memory is damaged: look at the check 'outside'. With "
+    "--skip the checks after this one run."
 )
 
-INTERRUPTION: Final = "The checks behind this one were not made."
+INTERRUPTION: Final = "The checks after this one did not run."
 
 T = TypeVar("T")
 
@@ -47,15 +47,15 @@ class EndedError(UelError):
 
 
 Tell = Callable[[str], None]
-"""Is told now and then what is being done."""
+"""Gets told now and then what is being done."""
 
 
 def examine_apart(
     deck: Path, user: list[Path], *, call_limit: float = CALL_LIMIT, tell: Tell | None = None, **options: Any
 ) -> Examination:
-    """As `examine`; where user code ends the process, with what was found before, and a failure of the check that ran.
+    """As `examine`; if user code ends the process: what was found before, and a failure of the check that ran.
 
-    call_limit: seconds that one call of a user routine may take. Raises UelError, also where no check had begun.
+    call_limit: seconds that one call of a user routine may take. Raises UelError, also if no check had begun.
     """
     sanitized = sanitizer.applies_to(user)
     try:
@@ -78,7 +78,7 @@ def call_apart(
     sanitized: bool = False,
     **options: Any,
 ) -> T:
-    """What a function returns in a process of its own; it takes `progress`. Raises UelError, and EndedError.
+    """What a function returns in a separate process; it takes `progress`. Raises UelError, and EndedError.
 
     sanitized: debug builds have AddressSanitizer, where that is possible.
     """
@@ -112,7 +112,7 @@ def call_apart(
 
 
 def _snapshot(file: Path) -> Snapshot:
-    """What the process has come to."""
+    """How far the process has come."""
     if not file.exists():
         return Snapshot(Running("its start"))
     snapshot: Snapshot = pickle.loads(file.read_bytes())

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""Which of several equal values is named: the same one on every processor, whatever the last bits are."""
+"""Which of several equal values a message names: the same one on every processor, whatever the last bits are."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ EQUAL: Final = 1e-6
 
 
 def exceeds(value: float, largest: float) -> bool:
-    """Whether a value is larger than the largest one so far, by more than rounding."""
+    """Whether a value exceeds the largest one so far by more than rounding."""
     return value > (1.0 + EQUAL) * largest
 
 
@@ -26,7 +26,7 @@ def first_largest(values: FloatArray) -> int:
 
 
 def ranked(values: FloatArray) -> list[int]:
-    """Indices of values (n,) from the largest on; equal ones in their order."""
+    """Indices of values (n,), the largest first; equal ones in their order."""
     left, found = np.argsort(-values, kind="stable").tolist(), []
     while left:
         same = [index for index in left if values[index] >= (1.0 - EQUAL) * values[left[0]]]

@@ -29,13 +29,13 @@ CODES: Final = {Conclusion.PASSED: 0, Conclusion.FAILED: 1, Conclusion.NOTHING: 
 """Exit codes."""
 
 WIDEST: Final = 10_000
-"""Columns where neither a terminal nor COLUMNS says how many there are: tables are as wide as their texts."""
+"""Columns if neither a terminal nor COLUMNS gives their number: tables are as wide as their texts."""
 
 
 def check(options: argparse.Namespace, console: Console, *, apart: bool) -> int:
     """Run the checks and print what they found; returns the exit code, see CODES.
 
-    apart: in a process of its own, which user code may end; what it does is shown on a terminal.
+    apart: in a separate process, which user code may end; a terminal shows what it does.
     """
     if not console.is_terminal and "COLUMNS" not in os.environ:
         console = Console(file=console.file, width=WIDEST)
@@ -70,7 +70,7 @@ def check(options: argparse.Namespace, console: Console, *, apart: bool) -> int:
 
 
 def _write(file: Path, findings: str) -> bool:
-    """Write the findings for other programs; where that fails, say so."""
+    """Write the findings for other programs; if that fails, say so."""
     try:
         file.write_text(findings, encoding="utf-8")
     except OSError as error:
@@ -80,13 +80,13 @@ def _write(file: Path, findings: str) -> bool:
 
 
 def _clear(file: Path | None, *, shuffle: bool) -> None:
-    """Remove the findings of an earlier run: they are none of this one, however it ends. Raises UelError."""
+    """Remove the findings of an earlier run, so that they are never taken for those of this one. Raises UelError."""
     if file is None:
         return
     if shuffle:
-        raise UelError("--json is for the table of all checks, which --shuffle does not make")
+        raise UelError("--json writes the table of all checks, which --shuffle does not make")
     try:
-        # before the checks, which take their time
+        # before the checks, which take time
         with file.open("a", encoding="utf-8"):
             pass
         # a device, or a link to one, stays: /dev/stdout
@@ -98,7 +98,7 @@ def _clear(file: Path | None, *, shuffle: bool) -> None:
 
 @contextmanager
 def display(*, shown: bool, console: Console | None = None) -> Iterator[Tell | None]:
-    """What shows on a terminal what is being done; None where nothing is to be shown."""
+    """A function that shows on a terminal what is being done; None if nothing is to be shown."""
     if not shown:
         yield None
         return
@@ -109,7 +109,7 @@ def display(*, shown: bool, console: Console | None = None) -> Iterator[Tell | N
 def tell_order(
     deck: Path, user: list[Path], *, seed: int, increments: int, progress: Progress = untold
 ) -> tuple[bool, Group]:
-    """Make the check of the order alone; returns whether all passed, and the report. Raises UelError."""
+    """Check the calling order only; returns whether all passed, and the report. Raises UelError."""
     progress(Running("calls of all elements in random orders"), None)
     shuffled = shuffle(deck, user, seed=seed, increments=increments)
     return shuffled.passed, report(shuffled)

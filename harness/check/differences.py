@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""AMATRX as the difference quotients of RHS give it."""
+"""AMATRX from difference quotients of RHS."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ STEPS: Final = 10.0 ** np.arange(-2, -9, -1)
 """Steps of the differences, over the scale of an unknown."""
 
 KINK: Final = 1e-3
-"""Forward and backward differences that differ by more of the largest entry of a column belong to two branches."""
+"""Of the largest entry of a column: forward and backward differences that differ by more belong to two branches."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -53,7 +53,7 @@ def _column(
     best, least, before = None, np.inf, None
     shift = np.zeros(len(state.u))
     for step in scale * STEPS:
-        # so that the difference of the arguments is a number of the machine
+        # so that the difference of the arguments is exactly representable
         shift[column] = (state.u[column] + step) - state.u[column]
         if not shift[column]:
             break

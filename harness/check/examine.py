@@ -19,24 +19,24 @@ from harness.errors import CallLimitError, KernelError, UelError
 from harness.usersub import ARRAYS, AS_GOOD_AS_ZERO, UNSET, guard_values
 
 LENIENT: Final = {UNSET: 0.0, **dict.fromkeys(ARRAYS, AS_GOOD_AS_ZERO)}
-"""Entries not set are zero, and guards as good as zero, so that one mistake does not hide all others."""
+"""Entries that are not set are zero, and guards almost zero, so that one mistake does not hide all others."""
 
-IDLE: Final = "RHS and AMATRX are zero at all states that were tried"
+IDLE: Final = "RHS and AMATRX are zero at every state tried"
 IDLE_ADVICE: Final = (
-    "Look for entries of AMATRX and RHS that are set to zero and never filled, a factor that is zero (a misspelt "
-    "variable, a property that *UEL PROPERTY does not give), and a request, LFLAGS(3) = 1, that is not answered. If "
-    "the deck asks nothing of these elements, take one in which they resist something."
+    "Look for entries of AMATRX and RHS that are set to zero and never filled, for a factor that is zero (a misspelt "
+    "variable, a property that *UEL PROPERTY does not give), and for a request, LFLAGS(3) = 1, that is not answered. "
+    "If the deck does not load these elements, take one in which they resist something."
 )
 
 ENDLESS: Final = (
-    "A call did not return in its time (--call-limit): look for a loop that ends only where something converges, give "
-    "it a largest number of iterations, and return PNEWDT < 1 where that is not enough."
+    "A call did not return in time (--call-limit): look for a loop that ends only when something converges, give it a "
+    "largest number of iterations, and return PNEWDT < 1 if that is not enough."
 )
 
 
 @dataclass(slots=True)
 class TypeReport:
-    """Findings on one element type, by the name of the check, as far as they are made; states: how many were tried."""
+    """Findings on one element type so far, by the name of the check; states: how many were tried."""
 
     type: str
     elements: int
@@ -45,7 +45,7 @@ class TypeReport:
 
     @property
     def conclusion(self) -> Conclusion:
-        """Failed where one check failed; passed where, of the checks made, one that judges forces applied."""
+        """Failed if any check failed; passed if, of the checks made, one that judges forces applied."""
         verdicts = {name: finding.verdict for name, finding in self.findings.items()}
         if Verdict.FAILED in verdicts.values():
             return Conclusion.FAILED
@@ -59,7 +59,7 @@ class TypeReport:
 
     @property
     def unseen(self) -> str:
-        """Why nothing was looked at, as a sentence; '' where something was."""
+        """Why nothing was looked at, as a sentence; '' if something was."""
         if self.conclusion is not Conclusion.NOTHING:
             return ""
         reasons = [
@@ -72,7 +72,7 @@ class TypeReport:
 class Examination:
     """Outcome of all checks.
 
-    increments  of the deck that were run; stopped says why the run ended before those asked for
+    increments  of the deck that were run; stopped says why the run ended early
     warnings    about the deck
     """
 
@@ -108,7 +108,7 @@ def examine(
 ) -> Examination:
     """Run the first increments of a deck and check every user element type in it.
 
-    skip: names of checks that are left out. progress: is told what begins, with what has been found until then.
+    skip: names of checks to leave out. progress: gets told what begins, with what has been found until then.
     Raises UelError where nothing can be checked: the deck or the user's file is wrong, the first call of the elements
     fails, or the deck has no user elements.
     """
@@ -116,14 +116,14 @@ def examine(
     known = [check.name for check in CHECKS]
     for name in skip:
         if name not in known:
-            raise UelError(f"no check is called '{name}'; there are {', '.join(known)}")
+            raise UelError(f"unknown check '{name}'; expected one of {', '.join(known)}")
     checks = [check for check in CHECKS if check.name not in skip]
     with guard_values(LENIENT):
         progress(Running("the run of the deck"), None)
         recording = record_leniently(deck, files, increments)
         users = {group.type for group in recording.model.groups if group.definition is not None}
         if not users:
-            raise UelError(f"{deck}: no elements of a type defined by *USER ELEMENT, which are what is checked")
+            raise UelError(f"{deck}: nothing to check: no elements of a type defined by *USER ELEMENT")
         progress(Running("calls of all elements in random orders"), None)
         orders = [order for order in shuffle_recording(recording, seed, strict=False).types if order.type in users]
         types: list[TypeReport] = []
@@ -138,7 +138,7 @@ def examine(
 def _examine_type(
     recording: Recording, order: TypeVerdict, checks: Sequence[Check], outcome: Examination, progress: Progress
 ) -> None:
-    """Fill the last report. A call that does not return is waited for once: the checks behind it are not made."""
+    """Fill the last report. After a call that does not return, the remaining checks are not made."""
     report = outcome.types[-1]
     running = CHECKS[0].name
     progress(Running(f"calls of {order.type} at states of the run and random ones", running), outcome)
@@ -152,17 +152,17 @@ def _examine_type(
     except CallLimitError as error:
         report.findings[running] = failed(str(error), ENDLESS)
         for check in checks:
-            missed = not_applicable(f"not made, since a call did not return in '{running}', which comes first")
+            missed = not_applicable(f"not run, because a call did not return in '{running}', which comes first")
             report.findings.setdefault(check.name, missed)
 
 
 def _run(check: Check, subject: Subject, before: Mapping[str, Finding]) -> Finding:
     explained = before.get(check.unless)
     if explained is not None and explained.verdict is Verdict.FAILED:
-        return not_applicable(f"nothing to be learnt from it while '{check.unless}' fails")
+        return not_applicable(f"it tells nothing while '{check.unless}' fails")
     if check.calls and not subject.states:
         return not_applicable(
-            f"no call of an element by itself returns: {subject.refusal}; take a deck in which one does, or fix that"
+            f"no element returns from a call by itself: {subject.refusal}; fix that, or take a deck in which one does"
         )
     if check.forces and subject.idle:
         told = any(other.forces and other.name in before for other in CHECKS)
@@ -172,8 +172,8 @@ def _run(check: Check, subject: Subject, before: Mapping[str, Finding]) -> Findi
     except KernelError as error:
         if not subject.random:
             return not_applicable(
-                "the element ends the analysis at all displacements that are not those of the run: take a deck in "
+                "the element ends the analysis at all displacements other than those of the run: take a deck in "
                 "which it may move, and does not need calls of other elements"
             )
-        advice = "The element ended a call that this check makes: it has to return from small changes of its arguments."
+        advice = "The element ended a call that this check made: it has to return if its arguments change a little."
         return failed(str(error), advice)

@@ -29,7 +29,7 @@ class Finding:
     """Outcome of one check for one element type.
 
     message  what was found and how far it is off; for a failure with element, state and entries
-    figure   the number that was judged, its meaning is in the message; None where there is none
+    figure   the number that was judged (the message says what it is); None if there is none
     limit    of the figure
     entries  of the element's arrays that are wrong, as 'AMATRX(1,2)'
     advice   what to change; '' unless the check failed
@@ -49,7 +49,7 @@ def passed(message: str, figure: float | None = None, limit: float | None = None
 
 
 def not_applicable(reason: str) -> Finding:
-    """The check says nothing about this element; reason: why, and in which deck it would."""
+    """The check says nothing about this element; reason: why, and with which deck it would."""
     return Finding(Verdict.NOT_APPLICABLE, reason)
 
 

@@ -15,13 +15,13 @@ from harness.check.subject import Subject, diagonal
 from harness.model.arrays import FloatArray
 
 PLANES: Final = {2: ((0, 1),), 3: ((1, 2), (2, 0), (0, 1))}
-"""Axes that a rotation turns into each other, per axis of rotation, for two and three dimensions."""
+"""Axes that a rotation turns into each other, by axis of rotation, for two and three dimensions."""
 
 ROTATIONS: Final = (4, 5, 6)
 """Dofs of rotations."""
 
 ALIKE: Final = 1e-6
-"""Forces below this part of what each displacement alone would make cancel."""
+"""Of the forces that the displacements would make one by one: smaller forces cancel."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -31,7 +31,7 @@ class Body:
     points        (nodes, dimensions) coordinates
     displacement  (n,) True where an unknown is a displacement
     local, axis   (n,) local node of each unknown, and its direction from 0 (of displacements)
-    turning       (rotations, n) what unknowns that are no displacements are in unit rotations: 1 for rotations
+    turning       (rotations, n) values of the other unknowns in unit rotations: 1 for rotations
     """
 
     points: FloatArray
@@ -47,12 +47,12 @@ class Body:
 
     @property
     def size(self) -> float:
-        """Diagonal of the element; 1 where all nodes are in one place."""
+        """Diagonal of the element; 1 if all nodes coincide."""
         return diagonal(self.points)
 
     @property
     def coincident(self) -> bool:
-        """Nodes with displacements lie on each other, as those of interface elements do."""
+        """Nodes with displacements coincide, as those of interface elements do."""
         points = np.unique(self.points[np.unique(self.local[self.displacement])].round(12), axis=0)
         return len(points) < len(set(self.local[self.displacement].tolist()))
 
@@ -61,7 +61,7 @@ class Body:
         return np.where(self.displacement & (self.axis == direction), 1.0, 0.0)
 
     def small_rotations(self) -> list[FloatArray]:
-        """(n,) displacements of unit rotations about the middle of the nodes, without the terms of second order."""
+        """(n,) displacements of unit rotations about the centre of the nodes, without the terms of second order."""
         arms = self.points - self.points.mean(axis=0)
         found = []
         for number, (i, j) in enumerate(PLANES.get(self.dimensions, ())):
@@ -73,7 +73,7 @@ class Body:
         return found
 
     def rotations(self, angle: float) -> list[tuple[FloatArray, FloatArray]]:
-        """Of finite rotations: displacements (n,), and the matrix (n, n) that turns the forces."""
+        """For finite rotations: displacements (n,), and the matrix (n, n) that turns the forces."""
         arms = self.points - self.points.mean(axis=0)
         found = []
         for number, (i, j) in enumerate(PLANES.get(self.dimensions, ())):
@@ -92,7 +92,7 @@ class Body:
 
 
 def body_of(subject: Subject, state: ElementState) -> Body | None:
-    """The element of a state as a body; None where fewer than two nodes move in all COORDINATES= directions."""
+    """The element of a state as a body; None if fewer than two nodes move in all COORDINATES= directions."""
     points = subject.coordinates(state)
     dofs, local = subject.dofs, subject.local_nodes
     dimensions = points.shape[1]
@@ -108,9 +108,9 @@ def body_of(subject: Subject, state: ElementState) -> Body | None:
 
 
 def _with_own_rotations(subject: Subject, body: Body) -> Body:
-    """A body in the plane whose nodes turn too, by a dof of the author's choice (as in Cosserat continua).
+    """A plane body whose nodes also rotate, by a dof of the author's choice (as in Cosserat continua).
 
-    That dof is one whose uniform value takes the forces away that a rotation of the displacements makes at rest.
+    That dof is one whose uniform value cancels the forces that a rotation of the displacements makes at rest.
     """
     rest = next(iter(subject.resting), None)
     others = np.unique(subject.dofs[~body.displacement & ~body.turning.any(axis=0)])
@@ -143,15 +143,15 @@ def makes_inertia(state: ElementState, body: Body) -> bool:
 
 
 def _elsewhere(state: ElementState, motion: FloatArray) -> tuple[ElementState, ElementState]:
-    """The state of an element that has moved within the increment, and of one that was there all the time."""
+    """The state of an element that has moved within the increment, and of one that was there from the start."""
     return state.moved(motion), state.carried(motion)
 
 
-NO_BODY: Final = "fewer than two nodes with displacements in all directions of COORDINATES=, which it is for"
+NO_BODY: Final = "it is for elements with two or more nodes that have displacements in all directions of COORDINATES="
 
-AT_REST: Final = "the run has no state without displacements: begin the deck with an increment without loads"
+AT_REST: Final = "the run has no state without displacements: start the deck with an increment without loads"
 
-INERTIA: Final = "inertia that is made of DU, not of A: take a deck with a static step"
+INERTIA: Final = "the element computes inertia from DU, not from A: take a deck with a static step"
 
 
 def body_at_rest(subject: Subject) -> tuple[ElementState, Body] | Finding:

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""Nodes of the deck that lie inside of elements of one type: the patches of the patch test."""
+"""Nodes of the deck that are surrounded by elements of one type: the patches of the patch test."""
 
 from __future__ import annotations
 

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""An increment that is made in equal parts, each with the state that the one before has left."""
+"""An increment made in equal parts, each of which starts from the state that the one before has left."""
 
 from __future__ import annotations
 
@@ -13,9 +13,9 @@ from harness.elements import Call
 
 
 def in_pieces(state: ElementState, ends: list[float]) -> Iterator[Returned]:
-    """Make the increment of a state in parts that end at these shares of it; yields what each part returns.
+    """Make the increment of a state in parts that end at these fractions of it; yields what each part returns.
 
-    Shares above 1 go on at the rates of the increment: displacements, time, loads and fields.
+    Fractions above 1 continue at the rates of the increment: displacements, time, loads and fields.
     """
     single, before = state.single.twin(strict=False), 0.0
     for number, end in enumerate(ends):
@@ -27,7 +27,7 @@ def in_pieces(state: ElementState, ends: list[float]) -> Iterator[Returned]:
 
 
 def _part(call: Call, number: int, share: float, left: float) -> Call:
-    """Of a part of an increment: its number from 0, its size over that of the increment, what is left behind it."""
+    """The call of a part of an increment: number from 0, size over that of the increment, what is left after it."""
     loads, fields, size = call.distributed, call.predefined, call.time_increment
     return replace(
         call,

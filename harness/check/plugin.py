@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""Plugin of pytest: `pytest --uel my_uel.for --deck job.inp` makes each check of each element type a test."""
+"""Pytest plugin: `pytest --uel my_uel.for --deck job.inp` makes each check of each element type a test."""
 
 from __future__ import annotations
 
@@ -24,16 +24,16 @@ def pytest_addoption(parser: pytest.Parser) -> None:
     group = parser.getgroup("uel", "checks of Abaqus user elements")
     group.addoption("--deck", action="append", default=[], metavar="DECK.inp", help="check the user elements of a deck")
     group.addoption("--uel", action="append", default=[], metavar="FILE", help="user routines of --deck")
-    group.addoption("--uel-increments", type=int, default=3, metavar="K", help="increments of --deck that are run (3)")
-    limit = "time for one call of a user routine (60)"
+    group.addoption("--uel-increments", type=int, default=3, metavar="K", help="increments of --deck to run (3)")
+    limit = "time limit of one call of a user routine (60)"
     group.addoption("--uel-call-limit", type=float, default=CALL_LIMIT, metavar="SECONDS", help=limit)
 
 
 def pytest_configure(config: pytest.Config) -> None:
-    """Collect the decks; they come after files named on the command line or in testpaths, and without any alone."""
+    """Collect the decks, after the files named on the command line or in testpaths; without any, only the decks."""
     decks = config.getoption("--deck")
     if config.getoption("--uel") and not decks:
-        raise pytest.UsageError("--uel needs the deck of the elements: --deck job.inp")
+        raise pytest.UsageError("--uel needs a deck with the elements: --deck job.inp")
     if decks:
         sources = pytest.Config.ArgsSource
         named = config.args if config.args_source in (sources.ARGS, sources.TESTPATHS) else []
@@ -51,7 +51,7 @@ class UelDeck(pytest.File):
     """A deck, with the checks of its user elements."""
 
     def collect(self) -> Iterator[pytest.Item]:
-        """Run the checks: which element types there are only the deck knows."""
+        """Run the checks: only the deck tells which element types there are."""
         config = self.config
         try:
             users = [Path(user) for user in config.getoption("--uel")]
@@ -63,8 +63,8 @@ class UelDeck(pytest.File):
             for name, finding in report.findings.items():
                 yield UelCheck.from_parent(self, name=f"{report.type}-{name}", report=report, finding=finding)
             if report.unseen:
-                # with skipped tests alone, pytest would pass
-                missing = failed(report.unseen, "A deck that passes has to load each type of element.")
+                # if all tests were skipped, pytest would pass
+                missing = failed(report.unseen, "To pass, a deck has to load each type of element.")
                 yield UelCheck.from_parent(self, name=f"{report.type}-looked-at", report=report, finding=missing)
 
 

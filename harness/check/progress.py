@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""What is being checked at the moment, for messages about its end."""
+"""What is being checked at the moment, for messages in case it ends the process."""
 
 from __future__ import annotations
 
@@ -11,9 +11,9 @@ from typing import Any
 
 @dataclass(frozen=True, slots=True)
 class Running:
-    """A part of the work: what it is as the end of a sentence, and the check that fails where it ends the process.
+    """A part of the work: what it is, as the end of a sentence, and the check that fails if it ends the process.
 
-    check is '' before the first element type is looked at.
+    check is '' before the first element type.
     """
 
     what: str
@@ -24,7 +24,7 @@ class Running:
 
 
 Progress = Callable[[Running, Any], None]
-"""Is told what begins, and what has been found until then."""
+"""Gets told what begins, and what has been found until then."""
 
 
 def untold(running: Running, outcome: Any) -> None:
@@ -33,7 +33,7 @@ def untold(running: Running, outcome: Any) -> None:
 
 @dataclass(frozen=True, slots=True)
 class Snapshot:
-    """What a process has come to.
+    """How far a process has come.
 
     running   what it was doing; None at its end
     outcome   result, or what had been found until then

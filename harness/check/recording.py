@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""What the elements of a deck are called with: the passes of an ordinary run, kept so that they can be made again."""
+"""What the elements of a deck are called with: the passes of an ordinary run, kept so that they can be repeated."""
 
 from __future__ import annotations
 
@@ -40,7 +40,7 @@ class Pass:
 
     @property
     def normal(self) -> bool:
-        """RHS and AMATRX of an iteration of a general step are asked for; in a linear one RHS is a change."""
+        """Whether it asks for RHS and AMATRX of an iteration of a general step; in a linear one RHS is a change."""
         return self.call.flags.request is Request.NORMAL and not self.call.flags.linear and self.matrix
 
 
@@ -77,18 +77,18 @@ _ORDINARY: Final = Build()
 
 @dataclass(frozen=True, slots=True)
 class Recording:
-    """A run of a deck, as the user routines saw it.
+    """A run of a deck as the user routines saw it.
 
     user        the user's files, none for the project's elements
     events      in the order in which they happened
     equations   (m, unknowns of an element) position in U of each element unknown, per group
     increments  that converged
-    stopped     why the run ended before the increments asked for; '' if it did not, or the deck has no more
+    stopped     why the run ended before the increments asked for; '' if it did not, or if the deck has no more
     failure     error of an element that ended the run, None if none did
-    ending      error that ended it, of whatever kind; None where INC= of a step did, and all attempts converged
-    unset       error with which a run ends in which local variables without a value hold what earlier calls have left;
-                '' where it does not. Where it does, they are zero in this run and in all further calls.
-    build       with which calls are made again
+    ending      error of any kind that ended it; None where INC= of a step did, and all attempts converged
+    unset       error that ends a run in which local variables without a value hold what earlier calls have left; '' if
+                there is none. If there is one, they are zero in this run and in all further calls.
+    build       with which calls are repeated
     """
 
     model: Model
@@ -122,7 +122,7 @@ def opened(model: Model, user: Sequence[Path], build: Build = _ORDINARY) -> Iter
 
 
 def record_leniently(deck: Path, user: Sequence[Path], increments: int) -> Recording:
-    """As `record`, not strict; once more with zero in local variables without a value, where else these make NaN."""
+    """As `record`, not strict; repeated with zero in local variables without a value if these make NaN."""
     recording, error = None, None
     try:
         recording = record(deck, user, increments, strict=False)
@@ -144,7 +144,7 @@ def record_leniently(deck: Path, user: Sequence[Path], increments: int) -> Recor
 
 
 def _with_place(error: ElementError, deck: Path, user: Sequence[Path], increments: int) -> ElementError:
-    """The error with file and line, where a build that stops at the first mistake tells them."""
+    """The error with file and line, if a build that stops at the first mistake tells them."""
     if names_line(str(error)):
         return error
     told = ""
@@ -169,7 +169,7 @@ def record(
     """Run the first increments of a deck in Abaqus' order.
 
     A run that ends without convergence is recorded up to there. Raises the other errors of a run; if not strict, only
-    those before the first pass is complete, and writes outside arrays are no errors.
+    those before the first pass is complete, and writes outside arrays are not errors.
     """
     model = read_deck(deck)
     events: list[Event] = []
@@ -200,7 +200,7 @@ def record(
 
 
 def _general(events: Sequence[Event]) -> Pass:
-    """A static call in the state of the last one of all, for decks whose steps are linear perturbations."""
+    """A static call in the state of the last call, for decks whose steps are linear perturbations."""
     last = [event for event in events if isinstance(event, Pass)][-1]
     call = replace(last.call, flags=Flags(Static().lflag, last.call.flags.nlgeom))
     return replace(last, call=call, matrix=True, du=np.zeros_like(last.du), nrhs=1)
@@ -227,7 +227,7 @@ class _RecordedSystem(System):
         try:
             return super().evaluate(call, u, du, matrix=matrix, nrhs=nrhs, motion=motion)
         except KernelError:
-            # only complete passes can be made again
+            # only complete passes can be repeated
             self._events.pop()
             raise
 
@@ -237,7 +237,7 @@ class _RecordedSystem(System):
 
 
 class _RecordedRoutines:
-    """User routines that a procedure calls, kept likewise."""
+    """Keeps the calls of user routines that a procedure makes."""
 
     def __init__(self, library: Library, events: list[Event]) -> None:
         self.sdvini, self.disp, self.dload, self.uamp = library.sdvini, library.disp, library.dload, library.uamp

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""Make the calls of a recorded run again, element by element in any order, and keep what each element returns."""
+"""Repeat the calls of a recorded run, element by element in any order, and keep what each element returns."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ from harness.procedures import set_initial_states
 from harness.usersub import Library
 
 Order = Callable[[int], IntArray]
-"""From the number of elements to their positions (in Abaqus' order) in the order of calling; asked for every pass."""
+"""From the number of elements to their positions (in Abaqus' order) in calling order; called for every pass."""
 
 
 def abaqus_order(count: int) -> IntArray:
@@ -31,7 +31,7 @@ def abaqus_order(count: int) -> IntArray:
 class Results:
     """What the elements returned in one pass.
 
-    values    RHS, AMATRX, SVARS, ENERGY and PNEWDT of all elements, one behind the other; see Elements.entry
+    values    RHS, AMATRX, SVARS, ENERGY and PNEWDT of all elements, one after the other; see Elements.entry
     called    (elements,) whether the element has been called
     refusals  errors by element position; the elements of such a type are not called again
     """
@@ -43,7 +43,7 @@ class Results:
 
 
 class Elements:
-    """All elements of a model, each in a block of its own; positions are those in Abaqus' order.
+    """All elements of a model, each in its own block; positions are those in Abaqus' order.
 
     types, names  of each element; a name is the number, or INSTANCE.number
     starts        (elements + 1,) first entry of each element in Results.values
@@ -53,7 +53,7 @@ class Elements:
         self.singles: list[Single] = []
         self.equations: list[IntArray] = []
         self.library = library
-        # faces under pressure, which come behind, are no elements
+        # faces under pressure, which come last, are not elements
         blocks = build_blocks(recording.model, library, strict=strict)[: len(recording.equations)]
         for block, equations in zip(blocks, recording.equations, strict=True):
             self.singles += [Single(part) for part in block.split(strict=strict)]
@@ -96,7 +96,7 @@ class Elements:
 def replay(
     recording: Recording, order: Order, *, strict: bool = True
 ) -> Generator[tuple[Elements, Results], None, None]:
-    """Make all calls again with freshly loaded user routines; yields each pass, whose `made` is that of the run.
+    """Repeat all calls with freshly loaded user routines; yields each pass, whose `made` is that of the run.
 
     strict: an element that writes outside an array is refused.
     """
@@ -114,7 +114,7 @@ def replay(
                         set_initial_states(blocks, recording.model, library.sdvini)
                 case Pass():
                     results = _replay_pass(elements, event, order(len(elements)), refused)
-                    # the next error is to be explained by its own message
+                    # the next error gets its own message
                     library.messages()
                     yield elements, results
 

@@ -21,12 +21,12 @@ _STYLES: Final = {Verdict.PASSED: "green", Verdict.FAILED: "bold red", Verdict.N
 
 
 def table(outcome: Examination) -> Group:
-    """A table for each element type and what to change, how the run of the deck ended, warnings about the deck."""
+    """For each element type a table and what to change; then how the run ended, and warnings about the deck."""
     parts: list[Table | Text] = []
     for report in outcome.types:
         title = f"{outcome.deck.name}: {report.type}, elements: {report.elements}, states: {report.states}"
         shown = Table("check", "verdict", title=escape(title), title_justify="left")
-        # a long word, as the path of a file, goes on in the next line
+        # a long word, such as a path, continues on the next line
         shown.add_column("finding", overflow="fold")
         for name, finding in report.findings.items():
             shown.add_row(name, _cell(finding.verdict), Text(finding.message))

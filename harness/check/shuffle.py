@@ -1,11 +1,11 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""Does an element depend on the order in which elements are called?
+"""Does an element depend on the calling order?
 
 Abaqus calls user elements by ascending number on one thread, and in no fixed order on several threads or processes.
-The calls of a run are made again with the elements in random order, another one in every pass, and each element has to
+The calls of a run are repeated with the elements in random order, a new one in every pass, and each element has to
 return the same bits. The results of elements are compared, not their sums, which round differently in another order.
-Two elements at the same time, as threads call them, are not tried.
+Simultaneous calls of two elements, as threads make them, are not tried.
 """
 
 from __future__ import annotations
@@ -36,7 +36,7 @@ class TypeVerdict:
     """Outcome for one element type.
 
     elements   of this type in the model
-    calls      compared
+    calls      number of calls compared
     different  names of the elements that returned something else in a random order
     first      the first difference, as a sentence
     refusal    error with which an element ended a call, None if none did
@@ -56,7 +56,7 @@ class TypeVerdict:
 
     @property
     def verdict(self) -> str:
-        """In a few words."""
+        """The outcome in a few words."""
         if self.refusal is not None:
             return "refused, depends on the order"
         if self.different:
@@ -74,12 +74,12 @@ class Shuffled:
 
     @property
     def passed(self) -> bool:
-        """No element depends on the order, and the run converged as far as it was asked for."""
+        """No element depends on the order, and the run converged for all increments asked for."""
         return self.recording.ending is None and all(kind.passed for kind in self.types)
 
 
 def shuffle(deck: Path, user: Sequence[Path] = (), *, seed: int = 1, increments: int = 3) -> Shuffled:
-    """Replay the first increments of a deck in random orders. Raises UelError where it fails in Abaqus' order."""
+    """Replay the first increments of a deck in random orders. Raises UelError if it fails in Abaqus' order."""
     return shuffle_recording(record(deck, user, increments), seed)
 
 
@@ -106,11 +106,11 @@ def _compare(
     for position, error in found.refusals.items():
         verdict = verdicts[str(elements.types[position])]
         verdict.refusal = verdict.refusal or error
-    # a static analysis asks for the mass matrix, and does not use it
+    # a static analysis asks for the mass matrix but does not use it
     if call.flags.request is not Request.MASS:
         for kind, count in zip(*np.unique(elements.types[found.called], return_counts=True), strict=True):
             verdicts[str(kind)].calls += int(count)
-    # bits, so that -0.0 and NaN are told apart too
+    # compare bits, so that -0.0 and NaN are distinguished too
     unequal = np.flatnonzero(expected.values.view(np.int64) != found.values.view(np.int64))
     positions, firsts = np.unique(np.searchsorted(elements.starts, unequal, side="right") - 1, return_index=True)
     for position, index in zip(positions.tolist(), unequal[firsts].tolist(), strict=True):
@@ -125,7 +125,7 @@ def _compare(
 
 
 def report(outcome: Shuffled) -> Group:
-    """Table of the verdicts, and what to do about those that are bad."""
+    """Table of the verdicts, and what to do about failures."""
     recording = outcome.recording
     passes = sum(isinstance(event, Pass) and event.call.flags.request is not Request.MASS for event in recording.events)
     title = f"{recording.model.deck.name}: {ORDERS} random orders (seed {outcome.seed}) against Abaqus' order"
@@ -141,15 +141,15 @@ def report(outcome: Shuffled) -> Group:
 
 
 def advice_on_order(kind: TypeVerdict, *, ours: bool) -> str:
-    """What to change in an element that depends on the order; ours: it is one of the project's."""
+    """What to change in an element that depends on the order; ours: whether it is one of the project's."""
     if kind.refusal is None:
         return (
             f"{kind.type}: something outlives a call and is not in SVARS: look for SAVE, COMMON, module variables, and "
-            "local variables with an initial value in their declaration (which are saved); keep in SVARS what an "
+            "local variables with an initial value in their declaration (which are saved); keep in SVARS what the "
             f"element has to remember. Until then {THREADS}."
         )
     advice = (
-        f"{kind.type}: it needs what other elements leave behind when they are called: give those lower element "
+        f"{kind.type}: it depends on what calls of other elements leave: give those elements lower "
         f"numbers, and {THREADS}."
     )
-    return f"{advice} U4 is the same element without that need." if ours and kind.type == "U3" else advice
+    return f"{advice} U4 is the same element without this dependence." if ours and kind.type == "U3" else advice

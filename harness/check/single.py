@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""One element that is called by itself."""
+"""One element, called by itself."""
 
 from __future__ import annotations
 
@@ -23,14 +23,14 @@ class Returned:
     pnewdt: float
 
     def flat(self, columns: int) -> FloatArray:
-        """All values one behind the other, as `entry` counts them; RHS is filled up to so many columns."""
+        """All values one after the other, as `entry` counts them; RHS is padded to this number of columns."""
         missing = np.zeros((columns - len(self.rhs), self.rhs.shape[1]))
         parts = [self.rhs, missing, self.amatrx.T]
         return np.concatenate([part.ravel() for part in parts] + [self.svars, self.energy, [self.pnewdt]])
 
 
 def first_difference(expected: Returned, found: Returned) -> str:
-    """The first entry with other bits, as a sentence about it; '' if there is none."""
+    """The first entry whose bits differ, as a sentence; '' if there is none."""
     columns, n = expected.rhs.shape
     values = expected.flat(columns), found.flat(columns)
     unequal = np.flatnonzero(values[0].view(np.int64) != values[1].view(np.int64))
@@ -55,7 +55,7 @@ def entry(index: int, n: int, columns: int, svars: int) -> str:
 
 
 class Single:
-    """An element in a block of its own, with unknowns of its own."""
+    """An element in its own block, with its own unknowns."""
 
     def __init__(self, block: ElementBlock) -> None:
         n = len(block.unknowns)
@@ -85,13 +85,13 @@ class Single:
         return energy
 
     def twin(self, *, strict: bool) -> Single:
-        """The same element in the same committed state, to be called without effect on this one."""
+        """A copy of the element in the same committed state; calls of it do not affect this one."""
         return Single(self.block.split(strict=strict)[0])
 
     def evaluate(
         self, call: Call, u: FloatArray, du: FloatArray, motion: Motion | None, *, matrix: bool = True, nrhs: int = 1
     ) -> Returned:
-        """Call it with U, DU, V and A (n,) of its own; AMATRX is zero where it is not wanted. Raises KernelError."""
+        """Call it with its own U, DU, V and A (n,); AMATRX is zero unless it is wanted. Raises KernelError."""
         n = len(self.block.unknowns)
         # -0.0 + x has the bits of x for every x
         residual, values = np.full((nrhs, n), -0.0), np.full(n * n, -0.0)

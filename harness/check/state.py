@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""Calls of one element that the checks change and make again."""
+"""Calls of one element that the checks change and repeat."""
 
 from __future__ import annotations
 
@@ -17,10 +17,10 @@ from harness.model.arrays import FloatArray
 from harness.model.procedures import Dynamic
 
 DYNAMIC: Final = tuple(Dynamic(direct=direct).lflag for direct in (False, True))
-"""LFLAGS(1) of *DYNAMIC: V and A go with U."""
+"""LFLAGS(1) of *DYNAMIC: V and A follow U."""
 
 CHANGES: Final = 1e-3, 1.0, 1e3, -1e-3, -1.0, -1e3
-"""What a state variable is changed by, to see whether something depends on it."""
+"""Change of a state variable that shows whether something depends on it."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -49,21 +49,21 @@ class ElementState:
         return self.single.evaluate(self.call, self.u, self.du, self.motion, matrix=matrix, nrhs=self.nrhs)
 
     def moved(self, shift: FloatArray) -> ElementState:
-        """The state with another end of the increment, U and DU + shift (n,); in dynamics V and A follow."""
+        """The state with another end of the increment: shift (n,) added to U and DU; in dynamics V and A follow."""
         rates = self._rates()
         motion = Motion(self.motion.velocity + rates[0] * shift, self.motion.acceleration + rates[1] * shift)
         return replace(self, u=self.u + shift, du=self.du + shift, motion=motion)
 
     def moved_on(self, shift: FloatArray) -> ElementState:
-        """An increment of its own by shift (n,) from the end of this one; the element is in the state of its start."""
+        """A further increment, shift (n,), from the end of this one; the element keeps the state of its start."""
         return replace(self.moved(shift), du=shift)
 
     def carried(self, shift: FloatArray) -> ElementState:
-        """The state of an element that was elsewhere all the time: U + shift (n,)."""
+        """The state of an element that was elsewhere from the start: U + shift (n,)."""
         return replace(self, u=self.u + shift)
 
     def part(self, share: float) -> ElementState:
-        """The state at this share of the increment of displacements."""
+        """The state at this fraction of the increment of displacements."""
         return replace(self, u=self.u - (1.0 - share) * self.du, du=share * self.du)
 
     def settled(self) -> ElementState:
@@ -74,7 +74,7 @@ class ElementState:
         return replace(still, du=np.zeros_like(self.u))
 
     def later(self) -> ElementState:
-        """The same motion one increment later: in the first one an element may take constants for its state."""
+        """The same motion one increment later: in the first one an element may use constants as its state."""
         call = self.call
         return self.called(
             increment=call.increment + 1,
@@ -83,7 +83,7 @@ class ElementState:
         )
 
     def quiet(self) -> ElementState:
-        """In a dynamic step the state without velocities and accelerations, whatever moves; else the state itself."""
+        """In a dynamic step the state without velocities and accelerations; else the state itself."""
         if not self.dynamic:
             return self
         zero = Motion(np.zeros(len(self.u)), np.zeros(len(self.u)))
@@ -95,7 +95,7 @@ class ElementState:
         return replace(self.part(0.0), motion=zero).called(distributed=None)
 
     def called(self, **changes: Any) -> ElementState:
-        """The state with other arguments that are common to all elements, fields of Call."""
+        """The state with changed arguments that all elements share, fields of Call."""
         return replace(self, call=replace(self.call, **changes))
 
     def asked(self, request: Request) -> ElementState:
@@ -104,7 +104,7 @@ class ElementState:
 
     @property
     def dynamic(self) -> bool:
-        """V and A go with U."""
+        """V and A follow U."""
         return self.call.flags.procedure in DYNAMIC
 
     def with_svars(self, svars: FloatArray) -> ElementState:

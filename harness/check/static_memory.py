@@ -17,7 +17,7 @@ from numpy.typing import NDArray
 from harness.usersub import Library
 
 MOST: Final = 1 << 26
-"""Bytes that are looked at; beyond, larger variables are left out."""
+"""Bytes that are examined in all; larger variables are left out once they are used up."""
 
 _SYMBOL: Final = re.compile(r"^([0-9a-f]+) ([0-9a-f]+) ([bBdDC]) (\S+)$", re.MULTILINE)
 _ANY: Final = re.compile(r"^([0-9a-f]+) (?:[0-9a-f]+ )?[A-Za-z] (uel|uelmat)_$", re.MULTILINE)
@@ -25,7 +25,7 @@ _ANY: Final = re.compile(r"^([0-9a-f]+) (?:[0-9a-f]+ )?[A-Za-z] (uel|uelmat)_$",
 
 @dataclass(frozen=True, slots=True)
 class Variable:
-    """One variable: its name as the user knows it, and where it is in memory."""
+    """One variable: its name as in the user's source, and its place in memory."""
 
     name: str
     address: int

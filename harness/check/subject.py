@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""What is checked: the elements of one type, with states from the run of the deck and random ones."""
+"""The subject of the checks: the elements of one type, with states from the run of the deck and random ones."""
 
 from __future__ import annotations
 
@@ -26,28 +26,28 @@ from harness.model.properties import UserElement
 from harness.usersub import Library
 
 PASSES: Final = 5
-"""Passes of the run from which states are taken, the first and the last among them."""
+"""Number of passes of the run from which states are taken, including the first and the last."""
 
 ELEMENTS: Final = 3
-"""Elements of a type whose states are taken."""
+"""Number of elements of a type whose states are taken."""
 
 
 NOT_MOVING: Final = (
-    "nothing moves within an increment: take a deck whose first increments move these elements, or ask for more "
+    "nothing moves within an increment: take a deck whose first increments move these elements, or run more of them "
     "(--increments)"
 )
 
 PATCHES: Final = 3
-"""Nodes of the deck at which the patch test is made."""
+"""Number of nodes of the deck at which the patch test is made."""
 
 
 YIELDING: Final = 1e-4
-"""Stiffness of a state that counts, at least, over that of the others."""
+"""Least stiffness of a state, over that of the others."""
 
 
 @dataclass(frozen=True, slots=True)
 class Patch:
-    """A node inside of elements of one type, with the states of these elements in the first pass."""
+    """A node surrounded by elements of one type, with the states of these elements in the first pass."""
 
     node: int
     states: tuple[ElementState, ...]
@@ -62,8 +62,8 @@ class Subject:
     states      from the run; the first ones are of the first pass, before anything has moved
     returned    what they returned in the run
     random      the same with random displacements, as large as the deformations of the run
-    scales      (n,) what a displacement, rotation, temperature is in this run, for each unknown
-    order       what random orders of calling gave
+    scales      (n,) size of a displacement, rotation or temperature in this run, for each unknown
+    order       outcome of random calling orders
     patches     for the patch test
     library     the user routines
     refusal     why no element returns from a call by itself; '' where one does
@@ -94,10 +94,10 @@ class Subject:
         return self._differences[id(state)]
 
     def stiffness(self, state: ElementState) -> FloatArray:
-        """(n, n) magnitudes: the larger of AMATRX and of the differences of RHS, so that either may be wrong.
+        """(n, n) magnitudes: the larger of AMATRX and the differences of RHS, so that either may be wrong.
 
-        Without inertia these are the differences: AMATRX of a dynamic step holds mass. Else they are no less than a
-        part of those at the other states, so that rounding counts for nothing where an element yields.
+        Without inertia these are the differences, because AMATRX of a dynamic step includes mass. Else they are at
+        least a fraction of those at the other states, so that rounding does not count where an element yields.
         """
         found: FloatArray = np.abs(self.differences(state).matrix)
         if not state.inertia:
@@ -112,7 +112,7 @@ class Subject:
 
     @property
     def usual_forces(self) -> FloatArray:
-        """(n,) what the displacements of the run make of AMATRX, at the states of the run."""
+        """(n,) forces that AMATRX makes of the displacements of the run, at its states."""
         forces: FloatArray = self._largest() @ self.scales
         return forces
 
@@ -124,7 +124,7 @@ class Subject:
 
     @property
     def idle(self) -> bool:
-        """RHS and AMATRX are zero at all states: nothing can be said of the forces."""
+        """RHS and AMATRX are zero at all states: nothing can be said about the forces."""
         for state in self.all_states:
             try:
                 returned = state.evaluate()
@@ -141,7 +141,7 @@ class Subject:
 
     @property
     def resting(self) -> list[ElementState]:
-        """States of the first pass of the run, before anything has happened, in which nothing is displaced.
+        """States of the first pass of the run, before anything has happened, without displacements.
 
         In a dynamic step without inertia.
         """
@@ -171,9 +171,9 @@ class Subject:
 
 @contextmanager
 def subject_of(recording: Recording, kind: str, order: TypeVerdict, seed: int) -> Iterator[Subject]:
-    """A user element type of a recorded run, with user routines loaded that have just lived through the run.
+    """A user element type of a recorded run, with loaded user routines that have just been through the run.
 
-    States at which an element that needs calls of other elements cannot be called again are left out.
+    States are left out at which an element cannot be called again because it needs calls of other elements.
     """
     made = [event for event in recording.events if isinstance(event, Pass) and event.normal]
     chosen = {id(made[k]) for k in np.unique(np.linspace(0, len(made) - 1, PASSES).astype(int))}
@@ -199,7 +199,7 @@ def subject_of(recording: Recording, kind: str, order: TypeVerdict, seed: int) -
 
 
 def _strange(elements: Elements, results: Results, kind: str) -> str:
-    """The first value that an element of a type returned in a pass and that is not finite; '' if there is none."""
+    """The first value, returned by an element of a type in a pass, that is not finite; '' if there is none."""
     if not results.made.normal or np.isfinite(results.values).all():
         return ""
     wrong = np.flatnonzero(~np.isfinite(results.values))
@@ -213,7 +213,7 @@ def _strange(elements: Elements, results: Results, kind: str) -> str:
 
 
 def _patches(recording: Recording, group: ElementGroup, elements: Elements, made: Pass) -> tuple[Patch, ...]:
-    """Some of the nodes that lie inside of elements of the type."""
+    """Some of the nodes that are surrounded by elements of the type."""
     assert group.definition is not None
     found = list(patches_of(recording.model, group.type, group.definition.coordinates))
     if not found:
@@ -241,7 +241,7 @@ def _states(elements: Elements, kind: str, made: Pass, last: Pass) -> Iterator[t
 
 
 def _error_of(state: ElementState) -> str:
-    """Why a call ends the analysis; '' where it returns."""
+    """Why a call ends the analysis; '' if it returns."""
     try:
         state.evaluate()
     except KernelError as error:
@@ -250,12 +250,12 @@ def _error_of(state: ElementState) -> str:
 
 
 def diagonal(coordinates: FloatArray) -> float:
-    """Of the box around nodes (nodes, dimensions); 1 where all are in one place."""
+    """Diagonal of the box around nodes (nodes, dimensions); 1 if all coincide."""
     return float(np.linalg.norm(np.ptp(coordinates, axis=0))) or 1.0
 
 
 def deformations(u: FloatArray, dofs: np.ndarray) -> FloatArray:
-    """(n,) for each unknown how far the displacements of its dof differ from node to node."""
+    """(n,) for each unknown, by how much the displacements of its dof differ from node to node."""
     ranges = {dof: float(np.ptp(u[dofs == dof])) for dof in np.unique(dofs).tolist()}
     return np.array([ranges[dof] for dof in dofs.tolist()])
 
@@ -277,7 +277,7 @@ def _subject(
     dofs = np.array([dof for _, dof in definition.dofs])
     scales = np.max([np.zeros(len(dofs)), *(deformations(state.u, dofs) for state in states)], axis=0)
     size = diagonal(recording.model.mesh.coordinates[group.nodes[0]])
-    # where the run moves nothing: strains of 1e-4, or a thousandth of the unit of any other field
+    # if the run moves nothing: strains of 1e-4, or a thousandth of the unit of any other field
     scales = np.where(scales > 0.0, scales, np.where(dofs <= 3, 1e-4 * size, 1e-3))
     rng = np.random.default_rng(seed)
     random = tuple(shaken for state in states if not _error_of(shaken := _shaken(state, scales, rng)))

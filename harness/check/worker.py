@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""The process in which a function is called that user code may end (harness/apart.py); its words are TASK SNAPSHOT."""
+"""The separate process, which user code may end (harness/apart.py), calls a function; its words are TASK SNAPSHOT."""
 
 from __future__ import annotations
 
@@ -19,16 +19,16 @@ INTERRUPTED: Final = 130
 
 
 def main(words: Sequence[str]) -> int:
-    """Call the function of the file TASK, and keep what it comes to in the file SNAPSHOT; returns the exit code."""
+    """Call the function of the file TASK, and keep its outcome in the file SNAPSHOT; returns the exit code."""
     task, file = map(Path, words)
     function, arguments, options, call_limit = pickle.loads(task.read_bytes())
     limit_calls(call_limit)
-    # a user element that leaves files open is to be found before the system refuses it more
+    # a user element that leaves files open must be found before the system refuses to open more
     _, most = resource.getrlimit(resource.RLIMIT_NOFILE)
     resource.setrlimit(resource.RLIMIT_NOFILE, (most, most))
 
     def keep(snapshot: Snapshot) -> None:
-        # whole, or not at all
+        # written whole or not at all
         fresh = file.with_suffix(".new")
         fresh.write_bytes(pickle.dumps(snapshot))
         fresh.replace(file)

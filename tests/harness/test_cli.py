@@ -268,7 +268,7 @@ def test_numbers_that_make_no_sense(words: str, expected: str, capsys: pytest.Ca
         ("law LAW=1.5", "'LAW=1.5': '1.5' is no whole number below 2147483648"),
         ("law LAW=99999999999999999999", "is no whole number below 2147483648"),
         ("new 1st", "'1st' cannot be the name of an element"),
-        ("check a.inp --skip tangents", "no check is called 'tangents'"),
+        ("check a.inp --skip tangents", "unknown check 'tangents'"),
     ],
 )
 def test_words_that_are_not_known(

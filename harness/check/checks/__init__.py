@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""One check a file; each takes a Subject and gives a Finding."""
+"""One check per file; each takes a Subject and returns a Finding."""
 
 from __future__ import annotations
 
@@ -43,11 +43,11 @@ from harness.check.subject import Subject
 
 @dataclass(frozen=True, slots=True)
 class Check:
-    """A check: its name on the command line and in the table, and what does it.
+    """A check: its name on the command line and in the table, and its function.
 
     calls   it calls elements, so it needs a state
     forces  it judges RHS and AMATRX, so it needs one at which they are not all zero
-    unless  of another check, whose failure explains one of this check too; '' for none
+    unless  name of another check whose failure would explain one of this check too; '' for none
     """
 
     name: str

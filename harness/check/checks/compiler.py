@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""What the compiler knows of the user's files: mistakes that it is certain of, and what it suspects."""
+"""What the compiler knows about the user's files: mistakes that it is certain of, and what it suspects."""
 
 from __future__ import annotations
 
@@ -13,11 +13,11 @@ from harness.errors import CompileError
 from harness.usersub import Suspicion, is_source, suspicions
 
 MOST: Final = 5
-"""Warnings that are shown; all are in the JSON file."""
+"""Number of warnings shown; the JSON file has all."""
 
 ADVICE: Final = (
-    "The compiler is certain of these lines: they are wrong wherever they are executed. `uel run --debug` stops at the "
-    "first of them that is."
+    "The compiler is certain that these lines are wrong whenever they are executed. `uel run --debug` stops at the "
+    "first one that is."
 )
 
 
@@ -25,17 +25,17 @@ def check(subject: Subject) -> Finding:
     """It is certain of no mistake."""
     recording = subject.recording
     if not recording.user or not all(map(is_source, recording.user)):
-        return not_applicable("there are no sources of the user to compile")
+        return not_applicable("there are no user sources to compile")
     try:
         found = suspicions(recording.user, (recording.model.deck.resolve().parent,))
     except CompileError as error:
-        return not_applicable(f"with all warnings it does not compile: {error}")
+        return not_applicable(f"with all warnings on it does not compile: {error}")
     certain = [one for one in found if one.certain]
     told = [one for one in found if not one.certain]
     entries = tuple(map(str, found))
     if certain:
         return failed(_listed(certain), ADVICE, entries=entries)
-    message = f"nothing that is certain; worth a look:\n{_listed(told)}" if told else "no warnings"
+    message = f"nothing certain; worth a look:\n{_listed(told)}" if told else "no warnings"
     return Finding(Verdict.PASSED, message, entries=entries)
 
 

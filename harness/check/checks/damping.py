@@ -21,7 +21,7 @@ TOLERANCE: Final = 1e-9
 """Of the largest entry."""
 
 SLOPE: Final = 1e-6
-"""Of the largest entry: central differences by velocities."""
+"""Of the largest entry: central differences with respect to velocities."""
 
 
 def check_damping(subject: Subject, state: ElementState, moving: ElementState | None, flags: Flags) -> Finding:
@@ -31,13 +31,13 @@ def check_damping(subject: Subject, state: ElementState, moving: ElementState | 
     for kind, matrix in ((Damping.VISCOUS, viscous), (Damping.STRUCTURAL, structural)):
         if matrix.any() and _agree(matrix, stiffness):
             return failed(
-                f"{state}: AMATRX with LFLAGS(3) = 3 and LFLAGS(7) = {kind} is that with LFLAGS(3) = 1, the stiffness",
-                "Look at LFLAGS(3) at the beginning of UEL: with 3 AMATRX is damping, or zero where there is none.",
+                f"{state}: AMATRX with LFLAGS(3) = 3 and LFLAGS(7) = {kind} is the stiffness, as with 1",
+                "Test LFLAGS(3) at the beginning of UEL: with 3, AMATRX is the damping matrix, or zero without any.",
             )
     if viscous.any() and _agree(viscous, structural):
         return failed(
             f"{state}: AMATRX with LFLAGS(3) = 3 is the same for LFLAGS(7) = 1 and 2",
-            "Abaqus asks for the viscous (LFLAGS(7) = 1) and the structural damping matrix (2) and takes both: return "
+            "Abaqus asks for the viscous (LFLAGS(7) = 1) and the structural damping matrix (2) and uses both: return "
             "zero for the one that the element does not have.",
         )
     for name, matrix in (("viscous", viscous), ("structural", structural)):
@@ -46,14 +46,14 @@ def check_damping(subject: Subject, state: ElementState, moving: ElementState | 
         if size and values[-1] <= TOLERANCE * size:
             return failed(
                 f"{state}: the {name} damping matrix has no positive eigenvalue",
-                "Look at its sign: AMATRX is minus the derivative of the force on the nodes by their velocities.",
+                "Check its sign: AMATRX is minus the derivative of the nodal forces with respect to the velocities.",
             )
     wrong = _against_velocities(subject, moving, flags) if moving is not None else None
     return wrong or passed("damping (3)" if viscous.any() or structural.any() else "no damping (3)")
 
 
 def _against_velocities(subject: Subject, state: ElementState, flags: Flags) -> Finding | None:
-    """A finding where the viscous matrix is not what RHS of a dynamic call loses with V, over 1 + alpha."""
+    """A finding if the viscous matrix is not what RHS of a dynamic call loses with V, over 1 + alpha."""
     viscous = _matrix(state, flags, Damping.VISCOUS)
     slope = _slope(subject, state) / (1.0 + state.call.params[0])
     row, column = np.unravel_index(first_largest(np.abs(viscous - slope)), slope.shape)
@@ -62,8 +62,8 @@ def _against_velocities(subject: Subject, state: ElementState, flags: Flags) -> 
         return None
     return failed(
         f"{state}: AMATRX({row + 1},{column + 1}) is {viscous[row, column]:.6g} with LFLAGS(3) = 3 and LFLAGS(7) = 1; "
-        f"by V({column + 1}) G({row + 1}) of a call of *DYNAMIC falls by {slope[row, column]:.6g}",
-        "RHS of *DYNAMIC is -M A + (1 + alpha) G less alpha times the G before; the viscous damping matrix is -dG/dV.",
+        f"-dG({row + 1})/dV({column + 1}) of a call of *DYNAMIC is {slope[row, column]:.6g}",
+        "RHS of *DYNAMIC is -M A + (1 + alpha) G - alpha G_old; the viscous damping matrix is -dG/dV.",
         figure=deviation,
     )
 
@@ -85,7 +85,7 @@ def _slope(subject: Subject, state: ElementState) -> FloatArray:
 
 
 def _sped(state: ElementState, shift: FloatArray) -> FloatArray:
-    """RHS with other velocities, and nothing else."""
+    """RHS with other velocities and nothing else changed."""
     motion = Motion(state.motion.velocity + shift, state.motion.acceleration)
     column: FloatArray = replace(state, motion=motion).evaluate(matrix=False).rhs[0]
     return column

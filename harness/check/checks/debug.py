@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""The calls of the run in a build with run-time checks, in which variables without a value hold NaN."""
+"""The calls of the run in a build with run-time checks, in which uninitialised variables hold NaN."""
 
 from __future__ import annotations
 
@@ -19,14 +19,14 @@ from harness.model.arrays import FloatArray
 from harness.usersub import is_source, names_line, trap
 
 PASSES: Final = 8
-"""First passes of the run that are made again, the elements called in Abaqus' order."""
+"""Number of first passes of the run that are repeated, with the elements called in Abaqus' order."""
 
 ROUNDING: Final = 1e-9
-"""Difference of two results, over the largest entry of its kind, that no variable without a value makes."""
+"""Of the largest entry of its kind: difference of two results that has other causes than an uninitialised variable."""
 
 ADVICE: Final = (
-    "It happens in the calls of the run, where it may do no harm that shows. `uel run --debug` stops there; in Abaqus "
-    "it reads or writes other data, and results differ from machine to machine."
+    "It happens in the calls of the run, perhaps without visible harm. `uel run --debug` stops there; in Abaqus it "
+    "reads or writes other data, and results differ from machine to machine."
 )
 
 
@@ -46,14 +46,14 @@ def check(subject: Subject) -> Finding:
     """Run-time checks find nothing, and local variables without a value have no effect."""
     recording = subject.recording
     if not recording.user or not all(map(is_source, recording.user)):
-        return not_applicable("there are no sources of the user to compile")
+        return not_applicable("there are no user sources to compile")
     short = replace(recording, events=_first(recording))
     try:
         zeros = _replayed(short, subject.type, Build(zero_locals=True, debug=True))
         marked = _replayed(short, subject.type, Build(debug=True))
     except CompileError as error:
         return not_applicable(f"with run-time checks it does not compile: {error}")
-    # where an element ends calls of the ordinary build too, these may end here
+    # an element that ends calls of the ordinary build may end these too
     if zeros.refusal and (subject.order.refusal is None or names_line(str(zeros.refusal))):
         return failed(f"{zeros.refusal}{_line(short, subject.type, zeros.refusal)}", ADVICE)
     if marked.refusal and not zeros.refusal:
@@ -64,13 +64,13 @@ def check(subject: Subject) -> Finding:
 
 
 def _first(recording: Recording) -> tuple[Event, ...]:
-    """Events up to the pass that is the last one to be made again."""
+    """Events up to the last pass to be repeated."""
     places = [k for k, event in enumerate(recording.events) if isinstance(event, Pass)]
     return recording.events[: places[min(PASSES, len(places)) - 1] + 1]
 
 
 def _replayed(recording: Recording, kind: str, build: Build) -> _Replayed:
-    """The calls of the elements of a type, made again."""
+    """The repeated calls of the elements of a type."""
     values: list[FloatArray] = []
     names: list[str] = []
     with closing(replay(replace(recording, build=build), abaqus_order, strict=False)) as passes:
@@ -85,7 +85,7 @@ def _replayed(recording: Recording, kind: str, build: Build) -> _Replayed:
 
 
 def _difference(zeros: _Replayed, marked: _Replayed) -> str:
-    """Where results differ by what variables without a value hold, as a sentence; '' where they do not."""
+    """Where the content of uninitialised variables changes results, as a sentence; '' if nowhere."""
     arrays = np.array([name.partition("(")[0] for name in zeros.names])
     magnitudes = np.max([np.nanmax(np.abs(values), axis=0) for values in zeros.values], axis=0)
     scale = np.array([magnitudes[arrays == array].max() for array in arrays])
@@ -100,7 +100,7 @@ def _difference(zeros: _Replayed, marked: _Replayed) -> str:
 
 
 def _line(recording: Recording, kind: str, known: KernelError | None = None) -> str:
-    """Where calculation with NaN begins, as the end of a sentence; '' where an error is known that has a place."""
+    """Where calculation with NaN begins, as the end of a sentence; '' if the known error has a place."""
     if known is not None and names_line(str(known)):
         return ""
     trapping = trap(True)

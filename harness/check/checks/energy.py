@@ -15,21 +15,21 @@ from harness.check.state import ElementState
 from harness.check.subject import NOT_MOVING, Subject
 
 SHARES: Final = 1.0, 0.1, 0.01, 0.001
-"""Of the increment: the work is that of the trapezoidal rule, which is right for small increments."""
+"""Of the increment: the work is from the trapezoidal rule, which is accurate for small increments."""
 
 TOLERANCE: Final = 1e-2
 """Of the work."""
 
 LEAST: Final = 1e-8
-"""Work below this part of sum |force| |displacement| is what rounding makes of it."""
+"""Of sum |force| |displacement|: smaller work is rounding."""
 
 STORED: Final = slice(0, 7)
 """Entries of ENERGY that add up to the internal energy; ENERGY(8) is the work of loads."""
 
 
 ADVICE_ON_ENTRY: Final = (
-    "What an increment without displacements leaves is what was there: the elastic energy is set, not added to the "
-    "value on entry, and of dissipated energies that of the increment alone is added."
+    "An increment without displacements must not change ENERGY: set the elastic energy, do not add it to the value "
+    "on entry, and add only what this increment dissipates."
 )
 
 
@@ -57,29 +57,31 @@ def check(subject: Subject) -> Finding:
     if not judged:
         return not_applicable(f"no work is done at the states; {NOT_MOVING}")
     if figure <= TOLERANCE:
-        return passed(f"ENERGY grows by the work at {judged} states, to {100 * figure:.1e} %", figure, TOLERANCE)
+        return passed(
+            f"ENERGY grows by the work of the forces at {judged} states, to {100 * figure:.1e} %", figure, TOLERANCE
+        )
     advice = (
-        "ENERGY(2) is elastic strain energy (1/2 stress times strain, times volume), (3) to (6) take what creep, "
-        "plasticity, viscosity and stabilisation have dissipated since the start, in the increment added to the value "
-        "on entry. A factor of 2 is a forgotten 1/2. Forces that come from elsewhere (bulk elements beside an "
+        "ENERGY(2) is elastic strain energy (1/2 stress times strain, times volume); (3) to (6) hold what creep, "
+        "plasticity, viscosity and stabilisation have dissipated since the start: add the part of this increment to "
+        "the value on entry. A factor of 2 is a forgotten 1/2. Forces from elsewhere (bulk elements beside an "
         "interface) are not stored here."
     )
     return failed(message, advice, figure=figure, limit=TOLERANCE)
 
 
 def _reason_against(subject: Subject) -> str:
-    """Why work and ENERGY cannot be compared; '' if they can."""
+    """Why work and ENERGY cannot be compared, '' if they can."""
     states = subject.all_states
     if (subject.dofs > MECHANICAL).any():
-        return "dofs that are no displacements or rotations, whose work is not known: it is for mechanical elements"
+        return "dofs other than displacements and rotations, whose work is unknown: it is for mechanical elements"
     if any(state.dynamic for state in states):
-        return "a dynamic step, in which RHS holds inertia: take a deck with a static step"
+        return "a dynamic step, in which RHS includes inertia: take a deck with a static step"
     if any(state.call.distributed is not None or state.call.predefined is not None for state in states):
-        return "distributed loads or predefined fields, whose work is not known: take a deck without them"
+        return "distributed loads or predefined fields, whose work is unknown: take a deck without them"
     if not any(state.evaluate().energy[STORED].any() for state in states):
-        return "ENERGY is not set, or zero: it is for elements that set it, in a deck in which they deform"
+        return "ENERGY is not set, or zero: it is for elements that set it, in a deck that deforms them"
     if any(_depends_on_time(state) for state in states):
-        return "the forces depend on DTIME: take properties without viscosity, if there are such"
+        return "the forces depend on DTIME: take properties without viscosity, if possible"
     return ""
 
 
@@ -96,8 +98,7 @@ def _depends_on_time(state: ElementState) -> bool:
 
 
 def _stored_and_work(state: ElementState, share: float) -> tuple[float, float] | None:
-    """Growth of the energy and work of the internal forces over a part of the increment; None where both are "
-    "nothing."""
+    """Growth of the energy and work of the internal forces over a part of the increment; None if both are zero."""
     start, end = state.part(0.0).evaluate(), state.part(share).evaluate()
     forces, motion = -0.5 * (start.rhs[0] + end.rhs[0]), share * state.du
     work = float(forces @ motion)

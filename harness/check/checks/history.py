@@ -18,34 +18,33 @@ from harness.errors import KernelError
 from harness.model.arrays import FloatArray
 
 GROWTH: Final = 3.0
-"""Of random displacements from increment to increment, from those of the run to the size of the element: what yields or
-breaks at some strain does so at one of them."""
+"""Of random displacements from increment to increment, from those of the run to the size of the element: an element
+that yields or breaks at some strain does so at one of them."""
 
 ENOUGH: Final = 0.1
-"""Displacements over the size of the element with which a call has to return, without a smaller increment."""
+"""Displacements over the size of the element for which a call has to return without asking for a smaller increment."""
 
 FEWEST: Final = 4
-"""Increments where the displacements of the run are large."""
+"""Number of increments if the displacements of the run are large."""
 
 PATHS: Final = 4
-"""Random directions: half of them against the others."""
+"""Number of random directions, half of them opposite to the others."""
 
 MOVES: Final = 3
 """Largest dof that is a displacement."""
 
 SHOWN: Final = 6
-"""State variables that a message names."""
+"""Number of state variables that a message names."""
 
 
 def check(subject: Subject) -> Finding:
-    """Where RHS changes with state variables, calls write some of them.
+    """If RHS depends on state variables, calls write some of them.
 
-    All of them would be too much to ask: one that is stored as it is may be meant to change under other loads.
+    Not necessarily all: one that stays the same here may change under other loads.
     """
     if subject.library.sdvini or subject.recording.model.initial_solutions:
         return not_applicable(
-            "SVARS have initial values, which may be meant to stay: take a deck without *INITIAL CONDITIONS, "
-            "TYPE=SOLUTION"
+            "SVARS have initial values, which may be constants: take a deck without *INITIAL CONDITIONS, TYPE=SOLUTION"
         )
     unwritten, far = np.ones(subject.definition.variables, dtype=np.bool_), False
     for state, large in _tried(subject):
@@ -57,14 +56,14 @@ def check(subject: Subject) -> Finding:
         return passed("every state variable is written")
     if not far:
         return not_applicable(
-            "no call with large displacements returns, in which a state would change: take a deck in which these "
+            "no call returns with displacements large enough to change a state: take a deck in which these "
             "elements yield or break"
         )
     return _judge((subject.states[0], subject.states[-1], *subject.random[-1:]), unwritten)
 
 
 def _judge(states: tuple[ElementState, ...], unwritten: np.ndarray) -> Finding:
-    """Finding for state variables (nsvars,) that no call on the way has written."""
+    """Finding for state variables (nsvars,) that none of the calls has written."""
     if any(state.depends_on(~unwritten) for state in states):
         return passed("RHS depends on state variables that are written")
     if not any(state.depends_on(unwritten) for state in states):
@@ -77,17 +76,17 @@ def _judge(states: tuple[ElementState, ...], unwritten: np.ndarray) -> Finding:
     more = f" and {len(names) - SHOWN} more" if len(names) > SHOWN else ""
     message = f"RHS depends on {', '.join(names[:SHOWN])}{more} on entry, and no call writes any of them"
     advice = (
-        "What an increment begins with is what the last converged call has stored in SVARS: without that the element "
-        "forgets what happened, and begins each increment anew. Store the state at the end of UEL, in the entry from "
-        "which it is read. A value that is only given by *INITIAL CONDITIONS, TYPE=SOLUTION in other decks is right."
+        "An increment starts from what the last converged call stored in SVARS: without that the element forgets what "
+        "happened, and starts afresh in each increment. Store the state at the end of UEL, in the entry from which it "
+        "is read. A constant that other decks give by *INITIAL CONDITIONS, TYPE=SOLUTION fails here and is right."
     )
     return failed(message, advice, entries=names)
 
 
 def _tried(subject: Subject) -> Iterator[tuple[ElementState, bool]]:
-    """States with zeros that are negative, which any sum changes, and whether displacements are large.
+    """States with negative zeros, which any sum changes, and whether displacements are large.
 
-    Those of the run, and increments of ever larger displacements, the last of which are in a later step.
+    They are those of the run, and increments of ever larger displacements, the last of which are in a later step.
     """
     for state in subject.all_states:
         yield state.with_svars(_negative_zeros(state.single.svars)), False
@@ -112,7 +111,7 @@ def _negative_zeros(svars: FloatArray) -> FloatArray:
 
 
 def _writes(state: ElementState, places: list[int]) -> bool:
-    """Whether a call returns another value of a state variable than on entry, where this is far from the usual ones."""
+    """Whether a call changes a state variable whose value on entry is far from the usual ones."""
     for place, value in product(places, CHANGES):
         given = state.single.svars
         given[place] += value

@@ -15,19 +15,19 @@ from harness.check.subject import NOT_MOVING, Subject
 from harness.model.arrays import FloatArray
 
 PIECES: Final = 1, 2, 8, 16
-"""In how many parts the increment is made."""
+"""Numbers of parts in which the increment is made."""
 
 CLOSER: Final = 0.75
-"""The last difference over the first one, above which nothing converges."""
+"""Of the first difference: if the last one is larger, nothing converges."""
 
-DYNAMIC: Final = "a dynamic step, whose forces hold inertia: take a deck with a static step"
+DYNAMIC: Final = "a dynamic step, whose forces include inertia: take a deck with a static step"
 
 TOLERANCE: Final = 1e-6
-"""Of the largest force: smaller differences are none."""
+"""Of the largest force: smaller differences count as zero."""
 
 
 def check(subject: Subject) -> Finding:
-    """Forces after 16 increments differ from those after 8 by less than those after 2 from those after one."""
+    """The forces of 16 and of 8 increments differ by less than those of 2 and of one."""
     states = [state for state in subject.states if state.du.any() and not state.dynamic and state.call.time_increment]
     if not states:
         moves = any(state.du.any() for state in subject.states)
@@ -40,16 +40,16 @@ def check(subject: Subject) -> Finding:
         largest = max(largest, first)
         if last > max(CLOSER * first, TOLERANCE):
             message = (
-                f"{state}: the forces change by {100 * first:.3g} % when the increment is made in two, and by "
-                f"{100 * last:.3g} % when it is made in 16 and not in 8"
+                f"{state}: the forces change by {100 * first:.3g} % if the increment is made in 2 parts instead of 1, "
+                f"and by {100 * last:.3g} % if it is made in 16 instead of 8"
             )
             advice = (
-                "Smaller increments have to lead to one solution. Look for something that is added in every call "
-                "whatever DU and DTIME are, for a rate without DTIME, and for SVARS on entry that are not those of "
+                "Smaller increments have to converge to one solution. Look for something that is added in every call "
+                "regardless of DU and DTIME, for a rate without DTIME, and for SVARS on entry that are not those of "
                 "the last increment."
             )
             return failed(message, advice, figure=last, limit=CLOSER * first)
-    return passed(f"forces change by {100 * largest:.2g} % when the increment is made in two, less in more", largest)
+    return passed(f"forces change by {100 * largest:.2g} % when the increment is halved, then by less", largest)
 
 
 def _in_pieces(state: ElementState, pieces: int) -> FloatArray:

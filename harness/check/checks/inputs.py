@@ -14,7 +14,7 @@ SCALARS: Final = (
     *("NDOFEL", "NRHS", "NSVARS", "NPROPS", "MCRD", "NNODE", "JTYPE", "DTIME", "KSTEP", "KINC", "JELEM", "NDLOAD"),
     *("NPREDF", "MLVARX", "MDLOAD", "NJPROP", "PERIOD", "MATERIALLIB"),
 )
-"""Inputs that are no arrays."""
+"""Inputs that are scalars."""
 
 
 def check(subject: Subject) -> Finding:
@@ -26,13 +26,13 @@ def check(subject: Subject) -> Finding:
             for change in made():
                 changes.setdefault(change.argument, f"{state}: {_says(change)}")
     if not changes:
-        return passed(f"no argument that is passed in is changed at {len(subject.states)} states")
+        return passed(f"no input argument is changed at {len(subject.states)} states")
     first, *others = changes
-    more = f"; changed are also {', '.join(others)}" if others else ""
+    more = f"; also changed: {', '.join(others)}" if others else ""
     advice = (
-        f"Abaqus passes {', '.join(changes)} in for information, and others use the same memory. Copy it into a local "
-        "variable and change the copy. Where UEL assigns nothing to it, look at the routines that it is handed on to, "
-        "and at the declarations: an array that is declared larger than it is runs into its neighbour."
+        f"Abaqus passes {', '.join(changes)} in for information, and others use the same memory. Copy it to a local "
+        "variable and change the copy. If UEL assigns nothing to it, look at the routines that get it as an argument, "
+        "and at the declarations: an array declared larger than it is overlaps its neighbour."
     )
     return failed(f"{changes[first]}{more}", advice, entries=tuple(changes))
 

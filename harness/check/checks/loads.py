@@ -15,7 +15,7 @@ from harness.check.subject import Subject
 from harness.errors import KernelError
 
 TWICE: Final = 2.0
-"""Times the load: RHS is another one then."""
+"""Factor of the load, with which RHS has to change."""
 
 
 def check(subject: Subject) -> Finding:
@@ -28,16 +28,16 @@ def check(subject: Subject) -> Finding:
             where.setdefault(kind, state)
     if not changes:
         return not_applicable(
-            "no loads on the elements: where UEL takes loads of type Un, take a deck with *DLOAD that gives a magnitude"
+            "no loads on the elements: if UEL takes loads of type Un, take a deck with *DLOAD that gives a magnitude"
         )
     unread = [kind for kind, changed in changes.items() if not changed]
     names = tuple(f"U{kind}" for kind in unread or changes)
     if not unread:
         return passed(f"RHS changes with the magnitude of {', '.join(names)}")
-    message = f"{where[unread[0]]}: RHS stays as it is when the magnitude of {', '.join(names)} is twice as large"
+    message = f"{where[unread[0]]}: RHS does not change when the magnitude of {', '.join(names)} is doubled"
     advice = (
-        "*DLOAD of type Un comes as JDLTYP(k,1) = n with the magnitude ADLMAG(k,1), for k from 1 to NDLOAD; what it "
-        "makes of forces on the nodes belongs into RHS, with a positive sign. Or take the load out of the deck."
+        "*DLOAD of type Un arrives as JDLTYP(k,1) = n with the magnitude ADLMAG(k,1), for k from 1 to NDLOAD; add its "
+        "nodal forces to RHS, with a positive sign. Or remove the load from the deck."
     )
     return failed(message, advice, entries=names)
 

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""Local variables that are used before they have a value."""
+"""Local variables that are used before they get a value."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from harness.errors import KernelError
 from harness.usersub import local_variables
 
 NUMBERS: Final = float("nan"), 7.3, -2.9e5
-"""What they hold in turn; 0 is what they happen to hold most often."""
+"""Values they hold, one after the other; 0 is what they most often hold by chance."""
 
 
 ADVICE: Final = (
@@ -27,14 +27,14 @@ def check(subject: Subject) -> Finding:
     """What the memory of local variables held before a call has no effect."""
     if error := subject.recording.unset:
         message = (
-            f"the deck runs only where local variables without a value are zero, as in the other checks; else {error}"
+            f"the deck runs only if local variables without a value are zero, as in the other checks; else {error}"
         )
         return failed(message, ADVICE)
     for state in subject.states:
         with local_variables(0.0):
             expected = state.evaluate()
             if first_difference(expected, state.evaluate()):
-                return not_applicable("the same call returns other values anyway")
+                return not_applicable("the same call returns different values anyway")
         for number in NUMBERS:
             with local_variables(number):
                 try:
@@ -42,6 +42,6 @@ def check(subject: Subject) -> Finding:
                 except KernelError as error:
                     difference = str(error)
             if difference:
-                message = f"{state}: what is left in the memory of local variables changes the result: {difference}"
+                message = f"{state}: leftovers in the memory of local variables change the result: {difference}"
                 return failed(message, ADVICE)
-    return passed(f"what is left in memory has no effect at {len(subject.states)} states")
+    return passed(f"leftovers in memory have no effect at {len(subject.states)} states")

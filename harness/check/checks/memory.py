@@ -20,32 +20,32 @@ READ: Final = "PROPS", "SVARS", "ENERGY", "COORDS", "U", "DU", "V", "A", "PREDEF
 """Arrays beyond which an element might read."""
 
 POISONS: Final = float("nan"), 7.3, -2.9e5
-"""What is put there."""
+"""Values that are put there."""
 
 REALS: Final = "TIME", "PARAMS", "ADLMAG", "DDLMAG"
 WHOLES: Final = "JPROPS", "LFLAGS", "JDLTYP"
-"""Other arrays, around which there is 0 else."""
+"""Other arrays, otherwise surrounded by 0."""
 
 INTEGERS: Final = 1, 7, -290000
-"""What is put around those of whole numbers."""
+"""Value that is put around integer arrays."""
 
 REQUESTS: Final = (
     *(Request.STIFFNESS, Request.DAMPING, Request.MASS),
     *(Request.RESIDUAL, Request.INITIAL_ACCELERATION),
 )
-"""Of general steps, besides normal calls."""
+"""Requests of general steps besides normal calls."""
 
 ROOM: Final = 20000
-"""Entries behind each array where writes are looked for: what is far beyond one does not reach the next."""
+"""Entries after each array where writes are looked for: a write far beyond one array does not reach the next."""
 
 OUTSIDE: Final = (
-    "In Abaqus this overwrites other data, and shows as wrong results or a segmentation fault elsewhere. "
+    "In Abaqus this overwrites other data, and shows up as wrong results or a segmentation fault elsewhere. "
     "Compare VARIABLES=, PROPERTIES= and the dofs of *USER ELEMENT with the largest indices that UEL uses."
 )
 
 
 def check_filled(subject: Subject) -> Finding:
-    """RHS and AMATRX hold NaN before the call, and none after it."""
+    """RHS and AMATRX hold NaN before the call, and no NaN after it."""
     for state in subject.states:
         with guard_values({UNSET: float("nan")}):
             try:
@@ -53,14 +53,14 @@ def check_filled(subject: Subject) -> Finding:
             except KernelError as error:
                 advice = (
                     "Set RHS and AMATRX to zero at the beginning of UEL (do i = 1, ndofel; rhs(i,1) = 0; ...), then "
-                    "add to them: Abaqus does not say what they hold on entry."
+                    "add to them: Abaqus does not document what they hold on entry."
                 )
                 return failed(str(error), advice)
     return passed(f"RHS and AMATRX are set at {len(subject.states)} states")
 
 
 def check_outside(subject: Subject) -> Finding:
-    """Guards around each argument are whole after the call, whatever it asks for."""
+    """Guards around each argument are intact after the call, whatever it asks for."""
     with room(ROOM), writes_outside() as found:
         for state in subject.states:
             for what, called in _requests(state.strictly()):
@@ -79,14 +79,14 @@ def check_outside(subject: Subject) -> Finding:
 
 
 def _requests(state: ElementState) -> Iterator[tuple[str, ElementState]]:
-    """The call itself, then with all that Abaqus may ask for; with what it is. See no_time.py for KINC = 0."""
+    """The call itself, then all other requests of Abaqus, each with a description. See no_time.py for KINC = 0."""
     yield "", state
     for request in REQUESTS:
         yield f" with LFLAGS(3) = {request}", state.asked(request)
 
 
 def _sizes(subject: Subject) -> dict[str, str]:
-    """Of the arrays that are no fields of the element, for messages."""
+    """Sizes of the arrays that do not depend on the unknowns of the element, for messages."""
     sizes = {"TIME": 2, "PARAMS": 3, "LFLAGS": 7, "JPROPS": subject.definition.integer_properties}
     return {name: f" of {size}" for name, size in sizes.items()}
 
@@ -97,7 +97,7 @@ def check_undeclared(subject: Subject) -> Finding:
         with around({}):
             expected = state.evaluate()
             if first_difference(expected, state.evaluate()):
-                return not_applicable("the same call returns other values anyway")
+                return not_applicable("the same call returns different values anyway")
             for array, poisoned in _poisons():
                 with poisoned:
                     try:
@@ -135,5 +135,5 @@ def _reads(subject: Subject, message: str, array: str) -> Finding:
         **dict.fromkeys(("ADLMAG", "DDLMAG", "JDLTYP"), "it has MDLOAD rows, of which NDLOAD are loads"),
         "COORDS": f"*USER ELEMENT has COORDINATES={definition.coordinates} and NODES={definition.nodes}",
     }.get(array, f"the element has {len(definition.dofs)} unknowns")
-    advice = f"UEL reads beyond {array}: {declared} ({definition.source}). Declare more, or read less."
+    advice = f"UEL reads beyond {array}: {declared} ({definition.source}). Declare more entries, or read fewer."
     return failed(message, advice)

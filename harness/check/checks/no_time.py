@@ -15,13 +15,13 @@ from harness.usersub import writes_outside
 
 
 def check(subject: Subject) -> Finding:
-    """Both with DU = 0: Abaqus makes such calls, and does not use what they return, but they have to return."""
+    """Both with DU = 0: Abaqus makes such calls and ignores their results, but they have to return."""
     with writes_outside() as outside:
         return _check(subject, outside)
 
 
 def _whole(state: ElementState) -> ElementState:
-    """The state for which a write outside arrays is an error; the given one where it makes such a write anyway."""
+    """The state with writes outside arrays as errors; the given state if it makes such a write anyway."""
     strict = state.strictly()
     try:
         strict.evaluate()
@@ -35,7 +35,7 @@ def _check(subject: Subject, outside: Callable[[], dict[str, int]]) -> Finding:
         still, known = _whole(state.part(0.0)), outside()
         still.evaluate()
         known |= outside()
-        # in dynamic steps that is the call for the accelerations at the start; AMATRX of others is divided by DTIME
+        # in dynamic steps this is the call for the initial accelerations; AMATRX of other calls is divided by DTIME
         first = still.asked(Request.INITIAL_ACCELERATION) if state.dynamic else still
         for name, called in (
             ("DTIME = 0", first.called(time_increment=0.0)),
@@ -51,9 +51,9 @@ def _check(subject: Subject, outside: Callable[[], dict[str, int]]) -> Finding:
                 reason = str(error)
             if reason:
                 advice = (
-                    f"Abaqus calls UEL with {name} before the first increment and throws the results away: they are "
-                    "harmless unless floating-point errors stop the run, or something of them outlives the call. "
-                    "Divide by DTIME only where it is above zero, and do not take KINC for an index."
+                    f"Abaqus calls UEL with {name} before the first increment and discards the results: the call is "
+                    "harmless unless a floating-point error stops the run, or something outlives the call. "
+                    "Divide by DTIME only if it is above zero, and do not use KINC as an index."
                 )
                 return failed(f"called with {name} and DU = 0: {reason}", advice)
     return passed(f"calls with KINC = 0 and with DTIME = 0 return, at {len(subject.states)} states")

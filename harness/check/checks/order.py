@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""Independence of the order in which elements are called."""
+"""Independence of the calling order."""
 
 from __future__ import annotations
 

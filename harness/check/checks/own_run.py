@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""The run of the deck gets as far as was asked for."""
+"""The run of the deck completes the increments asked for."""
 
 from __future__ import annotations
 
@@ -12,28 +12,28 @@ from harness.errors import ConvergenceError, ElementError, SingularMatrixError, 
 from harness.model.model import Model
 
 OF_AN_ELEMENT: Final = (
-    "Run the deck with `uel run` and look at the printed messages. NaN mostly comes from a division by zero or "
+    "Run the deck with `uel run` and look at the printed messages. NaN usually comes from a division by zero or "
     "the root of a negative number at a state far from equilibrium: return PNEWDT < 1 there, and Abaqus tries a "
     "smaller increment."
 )
 
 SINGULAR: Final = (
-    "AMATRX of the elements there is zero, or does not hold the node. Look for a factor that is zero: a misspelt "
+    "AMATRX of the elements there is zero, or does not restrain the node. Look for a factor that is zero: a misspelt "
     "variable (IMPLICIT NONE, gfortran -Wall), a property that *UEL PROPERTY does not give, a thickness or weight; "
-    "then at *BOUNDARY of the deck."
+    "then check *BOUNDARY of the deck."
 )
 
 DIVERGED: Final = (
-    "Where `tangent` fails, fix AMATRX first. Else look at PNEWDT, at the state that the increments begin with (check "
+    "If `tangent` fails, fix AMATRX first. Else look at PNEWDT, at the state with which increments begin (check "
     "`state`), and whether the deck asks for more than the element can do: `uel run` writes the residuals of all "
     "iterations to .msg."
 )
 
-OTHERWISE: Final = "Run the deck with `uel run`, which has to reach its end before more can be said."
+OTHERWISE: Final = "Run the deck with `uel run`: it has to complete before more can be said."
 
 
 def check(subject: Subject) -> Finding:
-    """It converged for as many increments as were asked for, or as the deck has, and at least for one."""
+    """It converged for all increments asked for, or all that the deck has, and for at least one."""
     recording = subject.recording
     failure, done = recording.failure or recording.ending, recording.increments
     if failure is None and done:
@@ -42,7 +42,7 @@ def check(subject: Subject) -> Finding:
     if failure is None:
         return failed("the deck has no increment", "Give it a step with an increment that moves the elements.")
     if not _concerns(failure, subject.type, recording.model):
-        return not_applicable(f"it was ended by another type of element, which is to be fixed first: {failure}")
+        return not_applicable(f"another type of element ended it, fix that first: {failure}")
     if isinstance(failure, ElementError) and failure.element_type == subject.type:
         return failed(str(failure), OF_AN_ELEMENT)
     advice = OTHERWISE
@@ -54,13 +54,13 @@ def check(subject: Subject) -> Finding:
 
 
 def _concerns(failure: UelError, kind: str, model: Model) -> bool:
-    """Whether elements of a type are to blame: where no user element is, all are."""
+    """Whether elements of a type are to blame; if no user element is, all are."""
     blamed = _blamed(failure, model) & {group.type for group in model.groups if group.definition is not None}
     return not blamed or kind in blamed
 
 
 def _blamed(failure: UelError, model: Model) -> set[str]:
-    """Types of the element that failed, or of those at the node and dof that nothing holds."""
+    """Type of the element that failed, or types of those at the unconstrained node and dof."""
     if isinstance(failure, ElementError):
         return {failure.element_type}
     if not isinstance(failure, SingularMatrixError):

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""Patch test: displacements that are linear in space leave no force at a node inside of the mesh."""
+"""Patch test: displacements that are linear in space leave no force at an interior node of the mesh."""
 
 from __future__ import annotations
 
@@ -16,17 +16,17 @@ from harness.check.subject import Subject
 from harness.model.arrays import FloatArray
 
 TOLERANCE: Final = 1e-8
-"""Of the forces that the single elements make there."""
+"""Of the forces that the single elements exert there."""
 
 
 def check(subject: Subject) -> Finding:
     """At nodes of the deck, from rest, with every displacement gradient as large as the strains of the run."""
     if not subject.patches:
         return not_applicable(
-            "no node lies inside of elements of the type: take a deck with a patch of four quads, say"
+            "no node is surrounded by elements of the type: take a deck with, for example, a patch of four quads"
         )
     if any(state.call.predefined is not None for patch in subject.patches for state in patch.states):
-        return not_applicable("predefined fields, which make forces of their own: take a deck without them")
+        return not_applicable("predefined fields, which cause forces of their own: take a deck without them")
     figure, message = 0.0, ""
     for patch in subject.patches:
         bodies = [body_of(subject, state) for state in patch.states]
@@ -46,20 +46,20 @@ def check(subject: Subject) -> Finding:
                 name = subject.recording.model.mesh.name(patch.node)
                 message = (
                     f"node {name}, {patch.states[0].origin}: the forces of its {len(forces)} elements do not balance "
-                    f"for u{i + 1} = x{j + 1} times a constant, {100 * ratio:.3g} % is left"
+                    f"for u{i + 1} = x{j + 1} times a constant: {100 * ratio:.3g} % is left"
                 )
     if figure <= TOLERANCE:
         return passed(f"forces balance at {len(subject.patches)} nodes, to {figure:.1e}", figure, TOLERANCE)
     advice = (
-        "An element that does not pass does not converge to the solution. Look at the Jacobian (the elements are "
-        "distorted), at the weights and places of the integration points, and for incompatible modes at their "
+        "An element that does not pass does not converge to the solution. Check the Jacobian (the elements are "
+        "distorted), the weights and positions of the integration points and, with incompatible modes, their "
         "correction."
     )
     return failed(message, advice, figure=figure, limit=TOLERANCE)
 
 
 def _forces(state: ElementState, body: Body, node: int, gradient: tuple[int, int], strain: float) -> FloatArray:
-    """Forces of an element at a node for a displacement gradient of this size alone."""
+    """Forces of an element at a node for one component of the displacement gradient."""
     i, j = gradient
     moved = body.displacement & (body.axis == i)
     field = np.zeros(len(body.axis))

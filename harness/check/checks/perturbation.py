@@ -20,8 +20,8 @@ TOLERANCE: Final = 1e-6
 
 ADVICE: Final = (
     "In a linear step (LFLAGS(4) = 1) U is the base state. RHS is what the loads of the step on the element add "
-    "(DDLMAG), zero without; with LFLAGS(3) = 100 it is that less AMATRX times DU, the change by then. The forces "
-    "of the base state are none of it: Abaqus would take them for loads."
+    "(DDLMAG), zero without loads; with LFLAGS(3) = 100 it is that minus AMATRX times DU, the perturbation. The "
+    "forces of the base state do not belong in it: Abaqus would take them for loads."
 )
 
 

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""The same input gives the same output, whatever was called in between."""
+"""The same input gives the same output, whatever calls come in between."""
 
 from __future__ import annotations
 
@@ -19,28 +19,28 @@ ADVICE: Final = (
     "Every iteration starts from the SVARS at the start of the increment, so what a call returns may "
     "depend on its arguments alone. Look for SAVE, COMMON, module variables, local variables with an "
     "initial value in their declaration (which are saved) or without any value, and for sums over "
-    "iterations; keep in SVARS what an element has to remember."
+    "iterations; keep in SVARS what the element has to remember."
 )
 
 RESIDUALS: Final = (
-    "Abaqus throws calls with LFLAGS(3) = 5 away (line search, middle of an increment of *DYNAMIC): they leave no "
-    "trace behind, in SAVE, COMMON or modules neither."
+    "Abaqus discards calls with LFLAGS(3) = 5 (line search, middle of an increment of *DYNAMIC): they must leave no "
+    "trace, in SAVE, COMMON or modules either."
 )
 
 
 def check(subject: Subject) -> Finding:
-    """As in the iterations of an increment: other U in between, SVARS on entry always those of its start."""
+    """As in the iterations of an increment: different U in between, SVARS on entry always those of its start."""
     others = subject.states[0], subject.states[-1], *subject.random[:2]
     alone = [other.asked(Request.RESIDUAL) for other in others]
     for between, what, advice in (
-        (others, "after others than in the run", ADVICE),
+        (others, "after calls other than in the run", ADVICE),
         (alone, "after calls with LFLAGS(3) = 5", RESIDUALS),
     ):
         for state, first in zip(subject.states, subject.returned, strict=True):
             _call(between)
             if difference := first_difference(first, state.evaluate()):
-                return failed(f"{state}: the same call returns other values {what}: {difference}", advice)
-    return passed(f"the same bits as in the run at {len(subject.states)} states, after other calls")
+                return failed(f"{state}: the same call returns different values {what}: {difference}", advice)
+    return passed(f"the same bits as in the run at {len(subject.states)} states after other calls")
 
 
 def _call(states: Iterable[ElementState]) -> None:

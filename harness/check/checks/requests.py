@@ -29,26 +29,26 @@ TOLERANCE: Final = 1e-9
 """Of the largest entry."""
 
 LINEAR: Final = 1e-6
-"""Of the largest entry: differences by accelerations, and of half increments."""
+"""Of the largest entry: differences with respect to accelerations, and of half increments."""
 
 
 def check(subject: Subject) -> Finding:
-    """Each request that the deck makes is answered by what a normal call says too."""
+    """The answer to each request that the deck makes agrees with normal calls."""
     findings = list(_findings(subject))
     wrong = next((finding for finding in findings if finding.verdict is Verdict.FAILED), None)
     if wrong is not None:
         return wrong
     if not findings:
         return not_applicable(
-            "the procedures of the deck use calls with LFLAGS(3) = 1 alone: with *DYNAMIC they use 4, 5 and 6, with "
-            "*CONTROLS, PARAMETERS=LINE SEARCH 5, with *FREQUENCY 2 and 4"
+            "the procedures of the deck use calls with LFLAGS(3) = 1 only: *DYNAMIC uses 4, 5 and 6 as well, "
+            "*CONTROLS, PARAMETERS=LINE SEARCH 5, *FREQUENCY 2 and 4"
         )
     return passed(f"LFLAGS(3): {', '.join(finding.message for finding in findings)}")
 
 
 def _findings(subject: Subject) -> Iterator[Finding]:
     given = [event.call.flags for event in subject.recording.events if isinstance(event, Pass)]
-    # the first pass of an increment, and the two of damping, are asked for as the others are
+    # the first pass of an increment, and the two of damping, make the same request as the others
     asked = list(dict.fromkeys(replace(flags, extrapolated=False, damping=Damping.NONE) for flags in given))
     requests = {(flags.procedure, flags.request) for flags in asked}
     moving = [state for state in subject.states if state.dynamic]
@@ -86,14 +86,14 @@ def _residual(states: list[ElementState]) -> Finding:
         if deviation[row] > TOLERANCE * max(float(np.abs(normal).max()), 1e-300):
             return failed(
                 f"{state}: RHS({row + 1}) is {alone[row]:.6g} with LFLAGS(3) = 5, {normal[row]:.6g} with 1",
-                "With LFLAGS(3) = 5 Abaqus asks for RHS alone, in a static step (line search) the same as with 1.",
+                "With LFLAGS(3) = 5 Abaqus asks for RHS only; in a static step (line search) it is the same as with 1.",
                 figure=float(deviation[row]),
             )
     return passed("residual only (5)")
 
 
 def _half_increment(subject: Subject, state: ElementState) -> Finding:
-    """The residual at half an increment of a dynamic step: by U and A it changes as that of a normal call does.
+    """The residual at half an increment of a dynamic step: with U and A it changes as that of a normal call does.
 
     Both hold -M A + (1 + alpha) G(U); terms of earlier increments differ, and are the same before and after a change.
     """
@@ -113,18 +113,18 @@ def _half_increment(subject: Subject, state: ElementState) -> Finding:
             return failed(
                 f"{state}: when {name} changes, RHS({row + 1}) changes by {half[row]:.6g} with LFLAGS(3) = 5, by "
                 f"{normal[row]:.6g} with 1",
-                "In *DYNAMIC, LFLAGS(3) = 5 asks for the residual at half the increment, -M A + (1 + alpha) G less "
+                "In *DYNAMIC, LFLAGS(3) = 5 asks for the residual at half the increment, -M A + (1 + alpha) G - "
                 "alpha/2 times the sum of G at the start of this increment and of the one before; PARAMS(1) is alpha. "
-                "By it Abaqus chooses the next increment (HAFTOL, HALFINC SCALE FACTOR).",
+                "From it Abaqus chooses the next increment (HAFTOL, HALFINC SCALE FACTOR).",
                 figure=float(abs(half[row] - normal[row])),
             )
     return passed("half-increment residual (5)")
 
 
 def _weights(subject: Subject, states: list[ElementState]) -> Finding:
-    """The weights of the operator of Hilber, Hughes and Taylor: (1 + alpha) G less alpha times the G before.
+    """The weights of the operator of Hilber, Hughes and Taylor: (1 + alpha) G - alpha G_old.
 
-    G is what RHS with LFLAGS(3) = 6 falls by where U changes; elements that do not answer that are not judged.
+    G changes with U as RHS with LFLAGS(3) = 6 does; elements that do not answer that request are not judged.
     """
     shift = subject.scales * np.linspace(-1.0, 1.0, len(subject.scales))
     for state in states:
@@ -149,7 +149,7 @@ def _weights(subject: Subject, states: list[ElementState]) -> Finding:
                 return failed(
                     f"{state}: {what}, RHS({row + 1}) of a normal call changes by {found[row]:.6g}, not by "
                     f"{factor * initial[row]:.6g}; alpha is {alpha:g}",
-                    "RHS of *DYNAMIC is -M A - (1 + alpha) G plus alpha times the G of the last increment, which SVARS "
+                    "RHS of *DYNAMIC is -M A - (1 + alpha) G + alpha times the G of the last increment, which SVARS "
                     "keep; PARAMS(1) is alpha. With LFLAGS(3) = 6 it is -G.",
                     figure=deviation,
                 )
@@ -157,7 +157,7 @@ def _weights(subject: Subject, states: list[ElementState]) -> Finding:
 
 
 def _mass(subject: Subject, state: ElementState) -> Finding:
-    """The mass matrix of a dynamic step: that by which RHS falls with accelerations, however it is asked for."""
+    """The mass matrix of a dynamic step: -dRHS/dA, with either request."""
     with guard_values({UNSET: float("nan")}):
         mass = state.asked(Request.MASS).evaluate().amatrx
         initial = state.asked(Request.INITIAL_ACCELERATION).evaluate().amatrx
@@ -169,21 +169,21 @@ def _mass(subject: Subject, state: ElementState) -> Finding:
     if not mass.any():
         return failed(
             f"{state}: AMATRX is zero with LFLAGS(3) = 4",
-            "Return the mass matrix with LFLAGS(3) = 4 and 6, or the element has no inertia in *DYNAMIC.",
+            "Return the mass matrix with LFLAGS(3) = 4 and 6; otherwise the element has no inertia in *DYNAMIC.",
         )
     if np.abs(mass - initial).max() > TOLERANCE * np.abs(mass).max():
         return failed(
             f"{state}: AMATRX differs between LFLAGS(3) = 4 and 6 by {np.abs(mass - initial).max():.4g}",
-            "Both ask for the mass matrix; 6 asks for the residual as well, for the accelerations at the start.",
+            "Both ask for the mass matrix; 6 also asks for the residual, for the initial accelerations.",
         )
     row, column = np.unravel_index(first_largest(np.abs(mass - inertia)), mass.shape)
     deviation = float(abs(mass[row, column] - inertia[row, column]))
     wrong = _indefinite(state, mass)
     if wrong is None and deviation > LINEAR * max(size, float(np.abs(mass).max())):
         return failed(
-            f"{state}: AMATRX({row + 1},{column + 1}) is {mass[row, column]:.6g} with LFLAGS(3) = 4; by "
-            f"A({column + 1}) RHS({row + 1}) of a normal call falls by {inertia[row, column]:.6g}",
-            "In *DYNAMIC, RHS of a normal call holds -M A, with the mass matrix M that LFLAGS(3) = 4 and 6 return.",
+            f"{state}: AMATRX({row + 1},{column + 1}) is {mass[row, column]:.6g} with LFLAGS(3) = 4; "
+            f"-dRHS({row + 1})/dA({column + 1}) of a normal call is {inertia[row, column]:.6g}",
+            "In *DYNAMIC, RHS of a normal call includes -M A, with the mass matrix M that LFLAGS(3) = 4 and 6 return.",
             figure=deviation,
         )
     return wrong or passed("mass (4 and 6)")
@@ -197,14 +197,14 @@ def _mass_alone(state: ElementState, flags: Flags) -> Finding:
         return passed("no mass (4)")
     if np.abs(mass - state.evaluate().amatrx).max() <= TOLERANCE * np.abs(mass).max():
         return failed(
-            f"{state}: AMATRX with LFLAGS(3) = 4 is that with 1, the stiffness",
-            "Look at LFLAGS(3) at the beginning of UEL: with 4 AMATRX is the mass matrix, or zero without mass.",
+            f"{state}: AMATRX with LFLAGS(3) = 4 is the stiffness, as with 1",
+            "Test LFLAGS(3) at the beginning of UEL: with 4, AMATRX is the mass matrix, or zero without mass.",
         )
     return _indefinite(state, mass) or passed("mass (4)")
 
 
 def _indefinite(state: ElementState, mass: FloatArray) -> Finding | None:
-    """A finding where a mass matrix is not symmetric, or has negative eigenvalues."""
+    """A finding if a mass matrix is not symmetric, or has negative eigenvalues."""
     size = float(np.abs(mass).max())
     if np.abs(mass - mass.T).max() > TOLERANCE * size:
         return failed(
@@ -216,7 +216,7 @@ def _indefinite(state: ElementState, mass: FloatArray) -> Finding | None:
     if smallest < -TOLERANCE:
         return failed(
             f"{state}: the mass matrix has a negative eigenvalue, {smallest:.3g} of its largest entry",
-            "A mass matrix has none: look at the sign, at the Jacobian, and whether the stiffness is returned instead.",
+            "A mass matrix has none: check the sign, the Jacobian, and whether the stiffness is returned instead.",
             figure=smallest,
             limit=-TOLERANCE,
         )
@@ -224,7 +224,7 @@ def _indefinite(state: ElementState, mass: FloatArray) -> Finding | None:
 
 
 def _stiffness(state: ElementState, flags: Flags) -> Finding:
-    """The stiffness alone, for a perturbation of the state that the steps before have left."""
+    """The stiffness alone, for a perturbation of the state that earlier steps have left."""
     normal = state.evaluate().amatrx
     with guard_values({UNSET: float("nan")}):
         alone = state.called(flags=flags).evaluate().amatrx
@@ -234,7 +234,7 @@ def _stiffness(state: ElementState, flags: Flags) -> Finding:
         entry = f"AMATRX({row + 1},{column + 1})"
         return failed(
             f"{state}: {entry} is {alone[row, column]:.6g} with LFLAGS(3) = 2, {normal[row, column]:.6g} with 1",
-            "With LFLAGS(3) = 2 Abaqus asks for the stiffness alone, the AMATRX of a static call with DU = 0.",
+            "With LFLAGS(3) = 2 Abaqus asks for the stiffness only, the AMATRX of a static call with DU = 0.",
             figure=deviation,
         )
     return passed("stiffness only (2)")
@@ -246,7 +246,7 @@ def _accelerations(subject: Subject, state: ElementState) -> FloatArray:
 
 
 def _accelerated(state: ElementState, shift: FloatArray) -> ElementState:
-    """With other accelerations, and nothing else."""
+    """With other accelerations and nothing else changed."""
     return replace(state, motion=Motion(state.motion.velocity, state.motion.acceleration + shift))
 
 

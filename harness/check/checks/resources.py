@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""Files and memory that each call takes and does not give back."""
+"""Files that each call leaves open and memory that it does not free."""
 
 from __future__ import annotations
 
@@ -14,20 +14,20 @@ from harness.check.subject import Subject
 from harness.usersub import allocated
 
 CALLS: Final = 100
-"""Equal calls that are looked at, after as many at which files are opened, and memory is allocated, once for all."""
+"""Number of equal calls that are compared, after as many during which one-off files and memory are obtained."""
 
 ROUNDS: Final = 4
-"""How often: a table that grows now and then does not do so each time."""
+"""Number of comparisons: a table that grows now and then does not grow in each."""
 
 LEAST: Final = 16
-"""Bytes that the least allocation takes."""
+"""Bytes of the smallest allocation."""
 
 _OPEN: Final = Path("/dev/fd")
 """Lists the open files of this process."""
 
 
 def check(subject: Subject) -> Finding:
-    """After equal calls as many files are open, and as much memory is allocated, as before."""
+    """Equal calls change neither the number of open files nor the allocated memory."""
     if not _OPEN.is_dir():
         return not_applicable("the system does not say which files are open")
     state = subject.states[-1]
@@ -58,7 +58,7 @@ def _call(state: ElementState) -> None:
 
 
 def _files() -> dict[int, str]:
-    """Open files by their numbers; the one with which this list is read is closed again."""
+    """Open files by their numbers; the one that reads this list is closed again."""
     files = {}
     for entry in _OPEN.iterdir():
         with suppress(OSError):

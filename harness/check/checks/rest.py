@@ -15,7 +15,7 @@ from harness.check.subject import Subject
 from harness.model.arrays import FloatArray
 
 TOLERANCE: Final = 1e-9
-"""Of the forces that the displacements of the run make."""
+"""Of the forces that the displacements of the run cause."""
 
 MECHANICAL: Final = 6
 """Largest dof whose reaction is a force or a moment."""
@@ -34,17 +34,17 @@ def check(subject: Subject) -> Finding:
         ratio = float(forces[row]) / _usual(subject.stiffness(state), subject.scales)
         if exceeds(ratio, figure):
             figure = ratio
-            message = f"{state}: RHS({row + 1}) is {forces[row]:.4g} in size with U = 0, DU = 0 and no loads"
+            message = f"{state}: RHS({row + 1}) has a magnitude of {forces[row]:.4g} with U = 0, DU = 0 and no loads"
     if figure <= TOLERANCE:
         return passed(f"no forces without displacements, to {figure:.1e}", figure, TOLERANCE)
     advice = (
-        "Forces at rest move the model before it is loaded. Look for initial values that are not in SVARS yet in the "
-        "first call (SVARS are zero then), and for body forces or stresses that are always on; stresses that are "
-        "meant to be there from the start are right."
+        "Forces at rest move the model before it is loaded. Look for initial values that are not yet in SVARS in the "
+        "first call (SVARS are zero then), and for body forces or stresses that always act; initial stresses that are "
+        "meant to act fail here and are right."
     )
     return failed(message, advice, figure=figure, limit=TOLERANCE)
 
 
 def _usual(stiffness: FloatArray, scales: FloatArray) -> float:
-    """Largest force of the displacements of the run."""
+    """Largest force caused by the displacements of the run."""
     return float((stiffness @ scales).max()) or 1.0

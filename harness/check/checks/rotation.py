@@ -34,7 +34,7 @@ def check(subject: Subject) -> Finding:
     if not known:
         return not_applicable(NO_BODY if states else AT_REST)
     if known[0][1].dimensions == 1:
-        return not_applicable("one dimension: it is for elements that can turn, with COORDINATES=2 or 3")
+        return not_applicable("one dimension: it is for elements that can rotate, with COORDINATES=2 or 3")
     if any(makes_inertia(*pair) for pair in known):
         return not_applicable(INERTIA)
     first, small = (max(_linear(subject, *pair, angle) for pair in known) for angle in (TINY, None))
@@ -48,37 +48,37 @@ def _judge(state: ElementState, first: float, small: float, finite: float) -> Fi
     if finite <= TOLERANCE:
         return passed(f"a rotation by {degrees} degrees turns the forces with it, to {finite:.1e}", finite, TOLERANCE)
     if small <= TOLERANCE and not nlgeom:
-        return passed(f"linear kinematics, forces stay to {small:.1e}", small, TOLERANCE)
+        return passed(f"linear kinematics, forces unchanged to {small:.1e}", small, TOLERANCE)
     if small <= TOLERANCE:
         message = (
-            f"{state}: the step has NLGEOM, and a rotation by {degrees} degrees {_says(finite)}; the kinematics are "
+            f"{state}: the step has NLGEOM, but a rotation by {degrees} degrees {_says(finite)}; the kinematics are "
             "linear"
         )
         advice = (
-            "The element has linear kinematics: run it without NLGEOM, or let it follow LFLAGS(2) = 1 with a strain "
-            "that rotations leave at zero (Green-Lagrange, a corotational frame)."
+            "The element has linear kinematics: run it without NLGEOM, or have it respond to LFLAGS(2) = 1 with a "
+            "strain that is zero in rotations (Green-Lagrange, a corotational frame)."
         )
         return failed(message, advice, figure=finite if np.isfinite(finite) else None, limit=TOLERANCE)
     if first <= TOLERANCE:
         message = (
-            f"{state}: a rotation by {degrees} degrees in one increment {_says(finite)}, an infinitesimal one makes "
+            f"{state}: a rotation by {degrees} degrees in one increment {_says(finite)}, an infinitesimal one causes "
             "none"
         )
         advice = (
-            "The strain is right for small increments of rotation alone. Take one that no rotation changes "
-            "(Green-Lagrange, logarithmic by the polar decomposition); a rate of deformation is integrated with the "
-            "gradient at the middle of the increment, and stresses are turned (Hughes and Winget, ROTSIG)."
+            "The strain is right for small increments of rotation only. Use one that no rotation changes "
+            "(Green-Lagrange, logarithmic by polar decomposition); integrate a rate of deformation with the "
+            "gradient at the middle of the increment, and rotate stresses (Hughes and Winget, ROTSIG)."
         )
         return failed(message, advice, figure=finite if np.isfinite(finite) else None, limit=TOLERANCE)
     message = (
-        f"{state}: a small rigid rotation {_says(first)}, and one by {degrees} degrees, with its terms of second "
-        f"order, {_says(finite)}"
+        f"{state}: a small rigid rotation {_says(first)}, and one by {degrees} degrees, with its second-order "
+        f"terms, {_says(finite)}"
     )
     advice = (
-        "Look at the strain-displacement matrix: shear takes both derivatives, du/dy + dv/dx, the shape functions add "
-        "up to one, rotations of nodes are those of the displacements, and a local frame is orthogonal; for a "
-        "finite-strain element, see that stress and strain refer to the same configuration. Interface elements with "
-        "thickness, springs with a fixed direction, and axisymmetric elements fail here and are right."
+        "Check the strain-displacement matrix: shear takes both derivatives, du/dy + dv/dx, the shape functions sum "
+        "to one, nodal rotations are those of the displacements, and a local frame is orthogonal; in a finite-strain "
+        "element, stress and strain have to refer to the same configuration. Interface elements with thickness, "
+        "springs with a fixed direction, and axisymmetric elements fail here and are right."
     )
     return failed(message, advice, figure=min(first, finite), limit=TOLERANCE)
 
@@ -87,11 +87,11 @@ def _says(share: float) -> str:
     """What a rotation does, as the end of a sentence."""
     if not np.isfinite(share):
         return "ends the analysis"
-    return f"makes forces of {100 * share:.3g} % of what the stiffness would make of it"
+    return f"causes forces of {100 * share:.3g} % of what the stiffness would make of it"
 
 
 def _forces(state: ElementState) -> FloatArray:
-    """RHS (n,) without loads on the element, which need not turn with it."""
+    """RHS (n,) without loads on the element, which need not rotate with it."""
     forces: FloatArray = state.called(distributed=None).evaluate().rhs[0]
     return forces
 
@@ -107,13 +107,13 @@ def _linear(subject: Subject, state: ElementState, body: Body, angle: float | No
 
 
 def _turned(subject: Subject, state: ElementState, body: Body) -> float:
-    """Largest relative deviation of the forces from the turned ones, for finite rotations; infinite without forces."""
+    """Largest relative deviation of the forces from the rotated ones, for finite rotations; infinite without forces."""
     here, largest = _forces(state), 0.0
     for motion, turn in body.rotations(float(ANGLE)):
         try:
             turned = _forces(state.moved(motion))
         except KernelError:
-            # to linear kinematics this is a large strain, which a material need not bear
+            # with linear kinematics this is a large strain, which a material may refuse
             return np.inf
         change = np.abs(turned - turn @ here)
         largest = max(largest, relative(change, subject.stiffness(state), motion)[0])

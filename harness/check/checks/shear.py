@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""The shear modulus of an element that is isotropic otherwise: engineering shear strains against tensor ones."""
+"""The shear modulus of an otherwise isotropic element: engineering shear strains against tensor ones."""
 
 from __future__ import annotations
 
@@ -16,14 +16,14 @@ from harness.check.subject import Subject
 from harness.model.arrays import FloatArray
 
 MISTAKES: Final = 0.25, 0.5, 2.0, 4.0
-"""What a factor 2 too much, or too few, in strains, stresses or both makes of the modulus."""
+"""Factors of the modulus if strains, stresses or both have a factor of 2 too many or too few."""
 
 EQUAL: Final = 1e-6
 """Relative difference up to which moduli are equal."""
 
 
 def check(subject: Subject) -> Finding:
-    """Where extensions in all directions are alike, shear is not a factor of 2 or 4 away from an isotropic material."""
+    """If extension is the same in all directions, shear is not a factor of 2 or 4 off an isotropic material."""
     found = body_at_rest(subject)
     if isinstance(found, Finding):
         return found
@@ -33,13 +33,13 @@ def check(subject: Subject) -> Finding:
     isotropic = _isotropic(moduli, body.dimensions)
     if body.coincident or not planes or not isotropic:
         return not_applicable(
-            "not extended in all directions alike: it is for elements with a volume and an isotropic material"
+            "extension is not the same in all directions: it is for elements with a volume and an isotropic material"
         )
     return _judge(state, isotropic, dict(zip(planes, np.diag(moduli)[body.dimensions :].tolist(), strict=True)))
 
 
 def _isotropic(moduli: FloatArray, count: int) -> float:
-    """Shear modulus that goes with the extensions in so many directions; 0 where these are not alike."""
+    """Isotropic shear modulus from the extensions in this number of directions; 0 if these differ."""
     normal = moduli[:count, :count]
     along, across = np.diag(normal), normal[~np.eye(count, dtype=np.bool_)]
     coupling = np.abs(moduli[:count, count:]).max(initial=0.0)
@@ -55,19 +55,19 @@ def _judge(state: ElementState, isotropic: float, moduli: dict[tuple[int, int], 
         for factor in MISTAKES:
             if abs(modulus - factor * isotropic) <= EQUAL * isotropic:
                 return failed(
-                    f"{state}: shear in directions {i + 1} and {j + 1} is resisted {factor:g} times as much as an "
-                    "isotropic material with these extensions resists it",
-                    "Engineering shear strain is du/dy + dv/dx, twice that of the tensor, and goes with "
-                    "G = E/(2 + 2 nu): look at the shear row of the strain-displacement matrix, at the shear modulus, "
-                    "and whether stress and AMATRX take the same strain.",
+                    f"{state}: the shear stiffness in directions {i + 1} and {j + 1} is {factor:g} times that of an "
+                    "isotropic material with the same stiffness in extension",
+                    "Engineering shear strain is du/dy + dv/dx, twice the tensor component, and goes with "
+                    "G = E/(2 + 2 nu): check the shear row of the strain-displacement matrix, the shear modulus, "
+                    "and whether stress and AMATRX use the same strain.",
                     figure=factor,
                     limit=1.0,
                 )
-    return passed("shear and extensions are not a factor of 2 or 4 away from an isotropic material")
+    return passed("shear and extension are not a factor of 2 or 4 off an isotropic material")
 
 
 def _moduli(subject: Subject, state: ElementState, body: Body, planes: list[tuple[int, int]]) -> FloatArray:
-    """Work of unit strains, the normal ones and then the engineering shears, on the forces of each other."""
+    """Work of unit strains, first normal and then engineering shear strains, on each other's forces."""
     matrix = subject.differences(state).matrix if state.dynamic else state.evaluate().amatrx
     fields = []
     for i, j in [(i, i) for i in range(body.dimensions)] + planes:

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""Forces go on across the end of an increment: the next one begins with the state that this one has left."""
+"""Forces are continuous from increment to increment: the next one begins with the state that this one has left."""
 
 from __future__ import annotations
 
@@ -19,28 +19,28 @@ from harness.errors import KernelError
 from harness.model.arrays import FloatArray
 
 PARTS: Final = 8, 128
-"""In how many parts an increment is made."""
+"""Numbers of parts in which an increment is made."""
 
 BEYOND: Final = 1e-3
-"""Size of the part behind them, over that of the others."""
+"""Size of the part after them, over that of the others."""
 
 LARGER: Final = 1e-2
 """Another size of that part."""
 
 TOLERANCE: Final = 1e-3
-"""Of the largest force: what material laws that are solved by iterations may leave."""
+"""Of the largest force: what material laws solved by iteration may leave."""
 
 CLOSER: Final = 0.5
-"""Jump with many parts over that with few ones: those of right elements fall at least with the square root."""
+"""Jump with many parts over that with few: that of a right element falls at least with the square root."""
 
 STEEPER: Final = 3.0
-"""Jump behind a smaller part over that behind a larger one: those of schemes that want equal steps grow."""
+"""Jump after a smaller part over that after a larger one: that of schemes that need equal steps grows."""
 
 SLOWER: Final = 0.1
-"""Part of DU and DTIME, by which no rate changes."""
+"""Factor of both DU and DTIME, with which no rate changes."""
 
 SILENT: Final = 1e-6
-"""Forces below this part of those of the run's displacements are none."""
+"""Of the forces of the run's displacements: smaller forces count as zero."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -54,7 +54,7 @@ class _Jump:
 
 
 def check(subject: Subject) -> Finding:
-    """What a small increment behind the last one changes gets smaller with the increments."""
+    """The change by a small increment after the last one gets smaller with the increments."""
     states = [
         _without_history(state.quiet()) for state in subject.states if state.du.any() and state.call.time_increment
     ]
@@ -72,15 +72,15 @@ def check(subject: Subject) -> Finding:
         if abs(many.after - many.before) > STEEPER * abs(larger.after - larger.before):
             continue
         message = (
-            f"{state}: made in {PARTS[1]} parts, RHS({many.row + 1}) ends at {many.before:.6g}, and a part of a "
-            f"thousandth of that size behind them, at the same rates, makes it {many.after:.6g}; in {PARTS[0]} parts "
-            f"the change is {100 * few.ratio:.3g} % of the largest force, in {PARTS[1]} it is {100 * many.ratio:.3g} %"
+            f"{state}: made in {PARTS[1]} parts, RHS({many.row + 1}) ends at {many.before:.6g}, and a further part a "
+            f"thousandth of their size, at the same rates, makes it {many.after:.6g}; with {PARTS[0]} parts the change "
+            f"is {100 * few.ratio:.3g} % of the largest force, with {PARTS[1]} it is {100 * many.ratio:.3g} %"
         )
         advice = (
-            "An increment has to begin with the forces with which the last one has ended, however small it is. Look "
-            "for strains or stresses of DU alone where those of U belong; for a state to which the part of DU is "
-            "added, and that is not stored in SVARS at the end, or not all of it, or with something added twice; and "
-            "for SVARS that are read and written in different order."
+            "An increment, however small, has to begin with the forces with which the last one ended. Look for strains "
+            "or stresses from DU alone where U is needed; for a state to which the part from DU is added, but which is "
+            "not stored in SVARS at the end, or only in part, or with something added twice; and for SVARS that are "
+            "read and written in different order."
         )
         return failed(message, advice, figure=many.ratio, limit=max(TOLERANCE, CLOSER * few.ratio))
     return passed(f"increments begin with the forces of the end of the last one, to {largest:.1e}", largest, TOLERANCE)
@@ -92,12 +92,12 @@ def _has_history(state: ElementState) -> bool:
     try:
         return state.depends_on(every) or state.later().depends_on(every)
     except KernelError:
-        # no constants stand for the state there, and as it is it makes no sense
+        # there constants do not take the place of the state, and the state itself makes no sense
         return True
 
 
 def _without_time(subject: Subject, state: ElementState) -> Finding | None:
-    """A finding where forces depend on DU, which is no rate, and on no state to which it could be added."""
+    """A finding if forces depend on DU, which is not a rate, and on no state to which it could be added."""
     fast, slow = (
         replace(state, du=share * state.du).called(time_increment=share * state.call.time_increment)
         for share in (1.0, SLOWER)
@@ -108,30 +108,30 @@ def _without_time(subject: Subject, state: ElementState) -> Finding | None:
     size = max(float(np.abs(before).max()), SILENT * float(subject.usual_forces.max()))
     if abs(change[row]) <= TOLERANCE * size or _has_history(state):
         return None
-    # flows of an earlier time, as in the scheme of Crank and Nicolson, are those of U less a part of DU: less of DU
-    # leads away from those at the start
+    # fluxes at an earlier time, as in the Crank-Nicolson scheme, are those of U minus a part of DU: a smaller DU leads
+    # away from those at the start
     earlier = fast.carried(-state.du).evaluate(matrix=False).rhs[0] - before
     part = float(earlier @ change) / max(float(earlier @ earlier), 1e-300)
     if -1.0 < part < 0.0 and np.abs(change - part * earlier).max() <= TOLERANCE * size:
         return None
     message = (
-        f"{state}: RHS({row + 1}) is {before[row]:.6g}, and {before[row] + change[row]:.6g} with DU and DTIME both a "
-        "tenth of what they are, for the same U; it depends on no SVARS"
+        f"{state}: RHS({row + 1}) is {before[row]:.6g}, and {before[row] + change[row]:.6g} with a tenth of DU and "
+        "DTIME and the same U; it depends on no SVARS"
     )
     advice = (
-        "DU gets smaller with the increments. Without a state in SVARS to which it is added, forces may depend on U, "
-        "and on rates, which are DU over DTIME."
+        "DU gets smaller with the increments. Without a state in SVARS to which it is added, forces may depend only on "
+        "U and on rates, DU over DTIME."
     )
     return failed(message, advice, figure=float(abs(change[row])) / size, limit=TOLERANCE)
 
 
 def _without_history(state: ElementState) -> ElementState:
-    """Without the forces of earlier increments, which *DYNAMIC weighs by alpha."""
+    """Without the forces of earlier increments, which *DYNAMIC weights by alpha."""
     return state.called(params=(0.0, *state.call.params[1:]))
 
 
 def _jump(subject: Subject, state: ElementState, parts: int, beyond: float) -> _Jump:
-    """At the end of the increment, made in equal parts, with another part behind them."""
+    """The jump at the end of the increment, made in equal parts with another part after them."""
     *_, last, next_one = in_pieces(state, [*(k / parts for k in range(1, parts + 1)), 1.0 + beyond / parts])
     before, after = last.rhs[0], next_one.rhs[0]
     kind, least = kinds(subject.dofs), SILENT * subject.usual_forces

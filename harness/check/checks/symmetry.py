@@ -18,7 +18,7 @@ TOLERANCE: Final = 1e-6
 
 
 def check(subject: Subject) -> Finding:
-    """Without UNSYMM the solver takes (AMATRX + its transpose)/2, except in coupled temperature-displacement steps."""
+    """Without UNSYMM the solver uses (AMATRX + its transpose)/2, except in coupled temperature-displacement steps."""
     figure, message, entry = 0.0, "", ""
     for state in subject.all_states:
         amatrx = state.evaluate().amatrx
@@ -38,10 +38,10 @@ def check(subject: Subject) -> Finding:
     if subject.definition.unsymmetric:
         return passed(f"unsymmetric, as UNSYMM says: {100 * figure:.3g} % of the largest entry", figure)
     if all(state.call.unsymmetric for state in subject.states):
-        return passed(f"unsymmetric, which coupled temperature steps take as it is: {100 * figure:.3g} %", figure)
+        return passed(f"unsymmetric, which coupled temperature steps use as it is: {100 * figure:.3g} %", figure)
     place = subject.definition.source
     advice = (
-        f"Give UNSYMM to *USER ELEMENT ({place}), or make AMATRX symmetric if it ought to be. Without UNSYMM Abaqus "
-        "solves with the symmetric part alone, and the rest of AMATRX is lost."
+        f"Add UNSYMM to *USER ELEMENT ({place}), or make AMATRX symmetric if it should be. Without UNSYMM Abaqus "
+        "solves with the symmetric part only, and the rest of AMATRX is lost."
     )
     return failed(message, advice, figure=figure, limit=TOLERANCE, entries=(entry,))

@@ -17,13 +17,13 @@ from harness.check.subject import Subject
 from harness.model.arrays import FloatArray
 
 TOLERANCE: Final = 1e-5
-"""Of the largest entry for the same kinds of dof; less does not change the number of iterations."""
+"""Of the largest entry for the same kinds of dof; smaller errors do not change the number of iterations."""
 
 ALIKE: Final = 1e-3
-"""Relative difference up to which a matrix is taken for another one, to say what is wrong with it."""
+"""Relative difference up to which a matrix counts as another one, to say what is wrong with it."""
 
 SHOWN: Final = 6
-"""Entries that a message names."""
+"""Number of entries that a message names."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -51,7 +51,7 @@ def check(subject: Subject) -> Finding:
             worst = _Worst(state, amatrx, found, deviation)
     if worst is None or not columns:
         return not_applicable(
-            "RHS has a kink, or no value beside the run's, at every state that was tried: take smaller increments, or "
+            "RHS has a kink, or no value next to that of the run, at every state tried: take smaller increments, or "
             "more of them (--increments)"
         )
     figure = float(worst.deviation.max())
@@ -72,7 +72,7 @@ def check(subject: Subject) -> Finding:
 
 
 def kinds(dofs: np.ndarray) -> np.ndarray:
-    """(n,) of unknowns with the same unit: displacements 1, rotations 4, else the dof."""
+    """(n,) number shared by unknowns of the same unit: displacements 1, rotations 4, else the dof."""
     return np.where(dofs <= 3, 1, np.where(dofs <= 6, 4, dofs))
 
 
@@ -91,33 +91,33 @@ def _advice(worst: _Worst, subject: Subject) -> str:
     smooth = worst.found.smooth
     given, found = worst.amatrx[:, smooth], worst.found.matrix[:, smooth]
     size = float(np.abs(found).max())
-    # another matrix explains the deviation where it leaves far less of it
+    # another matrix explains the deviation if it leaves far less of it
     limit = min(ALIKE * size, 0.1 * float(np.abs(given - found).max()))
     if np.abs(given + found).max() < limit:
         return "The sign is wrong: AMATRX is -dRHS/dU, and RHS is external minus internal force."
     if not given.any():
         return _advice_on_zero(worst.state, subject)
     if smooth.all() and np.abs(given.T - found).max() < limit:
-        return "AMATRX is transposed: AMATRX(i,j) is -dRHS(i)/dU(j), row i belongs to the force."
+        return "AMATRX is transposed: AMATRX(i,j) is -dRHS(i)/dU(j), so row i belongs to the force."
     factor = float((given * found).sum() / max(float((found**2).sum()), 1e-300))
     if np.abs(given - factor * found).max() < limit:
         return (
-            f"AMATRX is {factor:.6g} times what it has to be: look for a weight, thickness or Jacobian that only one "
+            f"AMATRX is {factor:.6g} times what it should be: look for a weight, thickness or Jacobian that only one "
             "of RHS and AMATRX has."
         )
     missing = _missing_coupling(given, found, subject.dofs, subject.dofs[smooth])
     if missing:
-        return f"AMATRX holds nothing for {missing}: add the derivative of these forces by these unknowns."
+        return f"AMATRX is zero for {missing}: add the derivatives of these forces with respect to these unknowns."
     return (
-        f"{_concerned(worst, subject.dofs)}Differentiate RHS again for these entries: terms from SVARS that change "
-        "within the increment, from DU and from the derivative of the state are the usual ones to be missing. Newton's "
+        f"{_concerned(worst, subject.dofs)}Differentiate RHS again for these entries: what is missing is usually a "
+        "term from DU, from the derivative of the state, or from SVARS that change within the increment. Newton's "
         "method needs the derivative of the RHS that this call returns; an approximate AMATRX costs iterations and "
         "cutbacks, not accuracy."
     )
 
 
 def _concerned(worst: _Worst, dofs: np.ndarray) -> str:
-    """Which dofs the wrong entries belong to, as a sentence; '' where these are all, or too many to say."""
+    """Which dofs the wrong entries belong to, as a sentence; '' if these are all, or too many to name."""
     kind = kinds(dofs)
     rows, columns = np.nonzero(worst.deviation > TOLERANCE)
     pairs = sorted(set(zip(kind[rows].tolist(), kind[columns].tolist(), strict=True)))
@@ -125,20 +125,20 @@ def _concerned(worst: _Worst, dofs: np.ndarray) -> str:
         return ""
     names = {1: "displacements", 4: "rotations"}
     of = [f"of {names.get(row, f'dof {row}')} by {names.get(column, f'dof {column}')}" for row, column in pairs]
-    return f"All are derivatives of RHS {' and '.join(of)}. "
+    return f"All are derivatives of RHS: {' and '.join(of)}. "
 
 
 def _advice_on_zero(state: ElementState, subject: Subject) -> str:
     if state.u.any() or not any(other.evaluate().amatrx.any() for other in subject.all_states):
-        return "AMATRX is zero: fill it with -dRHS/dU where LFLAGS(3) is 1."
+        return "AMATRX is zero: fill it with -dRHS/dU if LFLAGS(3) is 1."
     return (
-        "AMATRX is zero where U is, and not elsewhere: look for a test for U = 0 by which UEL returns. The first calls "
-        "of an analysis are made with U = 0, and their AMATRX is used."
+        "AMATRX is zero if U is zero, and not otherwise: look for a test for U = 0 after which UEL returns. The first "
+        "calls of an analysis have U = 0, and their AMATRX is used."
     )
 
 
 def _missing_coupling(given: FloatArray, found: FloatArray, rows: np.ndarray, columns: np.ndarray) -> str:
-    """Dofs between which AMATRX is zero and ought not to be, as the end of a sentence; '' if there are none."""
+    """Dofs between which AMATRX is zero and should not be, as the end of a sentence; '' if there are none."""
     for force in np.unique(rows):
         for unknown in np.unique(columns):
             block = np.ix_(rows == force, columns == unknown)

@@ -17,11 +17,11 @@ from harness.check.subject import Subject
 from harness.model.arrays import FloatArray
 
 TOLERANCE: Final = 1e-8
-"""Of the sum of |stiffness| |translation|: what the motion would cost if nothing of it cancelled."""
+"""Of the sum of |stiffness| |translation|: the force of the motion if nothing cancelled."""
 
 
 def check(subject: Subject) -> Finding:
-    """RHS stays when the element moves in any direction, by its own size and by as much as it deforms in the run."""
+    """RHS does not change when the element moves in any direction, by its size and by its deformation in the run."""
     figure, message = 0.0, ""
     for state in map(subject.quiet, subject.all_states):
         body = body_of(subject, state)
@@ -37,20 +37,20 @@ def check(subject: Subject) -> Finding:
                     f"make of it, when the element moves by {distance:.4g} in direction {direction + 1}"
                 )
     if figure <= TOLERANCE:
-        return passed(f"forces stay to {figure:.1e}", figure, TOLERANCE)
+        return passed(f"forces unchanged to {figure:.1e}", figure, TOLERANCE)
     advice = (
-        "Internal forces have to depend on differences of displacements: look for a node, or a shape function, that "
-        "is left out (the derivatives of the shape functions sum up to zero), and for U used where a difference "
-        "belongs. Elements that are fixed to the ground (a foundation, a spring to a fixed point) or axisymmetric "
-        "fail here and are right."
+        "Internal forces must depend on differences of displacements only: look for a node or a shape function that "
+        "is left out (the derivatives of the shape functions sum to zero), and for U where a difference belongs. "
+        "Elements that are attached to the ground (a foundation, a spring to a fixed point) or axisymmetric fail here "
+        "and are right."
     )
     return failed(message, advice, figure=figure, limit=TOLERANCE)
 
 
 def _added(subject: Subject, state: ElementState, motion: FloatArray) -> tuple[float, int, float]:
-    """Largest force that a motion adds, over what the stiffness makes of its parts, the row, and the force."""
+    """Largest force that a motion adds, over what the stiffness makes of its parts; its row; the force."""
     here = state.evaluate()
-    # in dynamics an element may make inertia of DU: then it was elsewhere all the time
+    # in dynamics an element may compute inertia from DU: then it was elsewhere from the start
     moved = state.carried(motion) if state.dynamic else state.moved(motion)
     change = moved.evaluate().rhs[0] - here.rhs[0]
     ratio, row = relative(np.abs(change), subject.stiffness(state), motion)

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""What UEL returns beside RHS and AMATRX are numbers."""
+"""What UEL returns beside RHS and AMATRX is finite."""
 
 from __future__ import annotations
 
@@ -13,8 +13,8 @@ def check(subject: Subject) -> Finding:
     if not subject.strange:
         return passed("SVARS, ENERGY and PNEWDT are finite in all iterations of the run")
     advice = (
-        "The run goes on with it, and what is wrong shows later: NaN in SVARS enters all further increments, ENERGY "
-        "goes into the energies of the model, and no comparison finds PNEWDT. Look for 0/0 where nothing is deformed, "
-        "the root or logarithm of a negative number, and a local variable without a value."
+        "The run goes on with it, and the damage shows later: NaN in SVARS enters all further increments, ENERGY goes "
+        "into the energies of the model, and no comparison notices PNEWDT. Look for 0/0 without deformation, the root "
+        "or logarithm of a negative number, and a local variable without a value."
     )
     return failed(subject.strange, advice)

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""Zero modes of AMATRX before anything has moved: rigid-body motions and no others."""
+"""Zero modes of AMATRX before anything has moved: only rigid-body motions."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ from harness.check.subject import Subject
 from harness.model.arrays import FloatArray
 
 TOLERANCE: Final = 1e-9
-"""Of the largest eigenvalue: below, a mode costs nothing."""
+"""Of the largest eigenvalue: a mode with a smaller one costs no energy."""
 
 DIFFERENCES: Final = 1e-6
 """The same for differences of RHS, in a dynamic step."""
@@ -24,7 +24,7 @@ DIFFERENCES: Final = 1e-6
 
 @dataclass(frozen=True, slots=True)
 class _Stiffness:
-    """(k, k) matrix of the displacements, what it is called, and its tolerance."""
+    """(k, k) matrix of the displacements, its name, and its tolerance."""
 
     name: str
     limit: float
@@ -40,7 +40,7 @@ def check(subject: Subject) -> Finding:
     chosen = body.displacement | body.turning.any(axis=0)
     name, limit, matrix = "AMATRX", TOLERANCE, state.evaluate().amatrx
     if state.dynamic:
-        # AMATRX holds mass
+        # AMATRX includes mass
         name, limit, matrix = "-dRHS/dU", DIFFERENCES, subject.differences(state).matrix
     stiffness = _Stiffness(name, limit, matrix[np.ix_(chosen, chosen)])
     rigid = _rigid(body)[:, chosen]
@@ -48,8 +48,8 @@ def check(subject: Subject) -> Finding:
     if resisted > limit:
         return failed(
             f"{state}: {name} resists a rigid-body motion with {100 * resisted:.3g} % of its stiffness",
-            "Rows and columns of AMATRX have to sum up to zero over the nodes, for each direction. What the checks of "
-            "translation and rotation say of RHS holds for AMATRX too.",
+            "Rows and columns of AMATRX have to sum to zero over the nodes, for each direction. What the checks "
+            "`translation` and `rotation` say about RHS holds for AMATRX too.",
             figure=resisted,
             limit=limit,
         )
@@ -57,7 +57,7 @@ def check(subject: Subject) -> Finding:
 
 
 def _judge(state: ElementState, stiffness: _Stiffness, expected: int, *, interface: bool) -> Finding:
-    """Finding for the number of rigid-body motions that are expected; interface: nodes lie on each other."""
+    """Finding, given the expected number of rigid-body motions; interface: nodes coincide."""
     name, limit, matrix = stiffness.name, stiffness.limit, stiffness.matrix
     if not matrix.any():
         return not_applicable(f"{name} is zero at rest: it is for elements that resist the first displacement")
@@ -65,22 +65,22 @@ def _judge(state: ElementState, stiffness: _Stiffness, expected: int, *, interfa
     zero = int(np.count_nonzero(np.abs(values) < limit))
     if interface:
         return not_applicable(
-            f"nodes lie on each other: {zero} zero modes of {len(values)}, which are no mistake of an interface; it is "
+            f"nodes coincide: {zero} zero modes of {len(values)}, which is no mistake in an interface; it is "
             "for elements with a volume"
         )
     if values[0] < -limit:
         return failed(
             f"{state}: {name} has a negative eigenvalue at rest, {values[0]:.3g} of its largest entry",
-            "An element that is stable at rest has none: look at the sign of AMATRX (it is -dRHS/dU), at the Jacobian "
-            "(order of the nodes), and at the material's stiffness.",
+            "An element that is stable at rest has none: check the sign of AMATRX (it is -dRHS/dU), the Jacobian "
+            "(order of the nodes), and the material's stiffness.",
             figure=float(values[0]),
             limit=-limit,
         )
     if zero > expected:
         return failed(
-            f"{state}: {name} has {zero} zero modes, rigid-body motions are {expected}",
-            f"{zero - expected} deformation(s) cost nothing (hourglass modes): take more integration points, or "
-            "stabilise the element. With reduced integration on purpose look whether neighbours suppress the mode.",
+            f"{state}: {name} has {zero} zero modes, but there are {expected} rigid-body motions",
+            f"{zero - expected} deformation(s) cost no energy (hourglass modes): take more integration points, or "
+            "stabilise the element. If reduced integration is intended, check whether neighbours suppress the mode.",
             figure=float(zero),
             limit=float(expected),
         )
@@ -94,6 +94,6 @@ def _rigid(body: Body) -> FloatArray:
 
 
 def _resisted(amatrx: FloatArray, rigid: FloatArray) -> float:
-    """Largest force of a rigid-body motion over what its parts would make."""
+    """Largest force of a rigid-body motion, over what its parts would make."""
     forces, costs = np.abs(amatrx @ rigid.T).max(axis=0), (np.abs(amatrx) @ np.abs(rigid.T)).max(axis=0)
     return float(np.max(forces / np.where(costs > 0.0, costs, 1.0)))

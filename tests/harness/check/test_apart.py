@@ -84,9 +84,9 @@ def test_call_that_does_not_return(patch):
     assert re.fullmatch(where + re.escape(place), report["findings"]["rotation"]["message"])
     assert (
         report["findings"]["energy"]["message"]
-        == "not made, since a call did not return in 'rotation', which comes first"
+        == "not run, because a call did not return in 'rotation', which comes first"
     )
-    assert "U1 rotation: A call did not return in its time (--call-limit): look for a loop" in printed
+    assert "U1 rotation: A call did not return in time (--call-limit): look for a loop" in printed
 
 
 @pytest.mark.parametrize(
@@ -192,7 +192,7 @@ def test_interruption_keeps_findings(patch, monkeypatch):
     monkeypatch.setattr("harness.check.apart.call_apart", interrupt)
     found = examine_apart(patch(), [QUAD])
     assert found.types[0].findings["run"].verdict is Verdict.PASSED
-    assert found.types[0].findings["filled"].advice == "The checks behind this one were not made."
+    assert found.types[0].findings["filled"].advice == "The checks after this one did not run."
     assert not found.passed
 
 

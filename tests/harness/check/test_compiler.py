@@ -61,7 +61,7 @@ TOLD = [
     (SET + "call fill(b, 2, 3.d0, s)", "a single value is passed for the argument 'arr', which is an array"),
     (SET + "if (n > 1) q = props(n)\n      x = q", "'q' may be used uninitialized"),
     (SET + "young = young*(1/2)", r"Integer division truncated to constant '0'.*write 1.d0/3.d0"),
-    (SET + "x = 0.577350269189626", r"0.577350269189626 is a constant of single precision.*write 0.577350269189626d0"),
+    (SET + "x = 0.577350269189626", r"0.577350269189626 is a single-precision constant.*write 0.577350269189626d0"),
     (SET + "if (n > 1) x = yuong", "'yuong' is declared nowhere and used once: misspelt for 'young'?"),
     (SET + "if (n > 1) yuong = 2", "'yuong' is declared nowhere and used once: misspelt for 'young'?"),
     (SET + "d(4,1) = 0", "index 4 of dimension 1 of 'd' is above its upper bound of 3"),
@@ -129,7 +129,7 @@ def test_check(tmp_path):
             Verdict.FAILED,
             r"^spring.f line 3: index 5 of dimension 1 of 'w' is above its upper bound of 4: w.5",
         ),
-        ("w(1) = 0.1", Verdict.PASSED, r"worth a look:\nspring.f line 3: 0.1 is a constant of single precision"),
+        ("w(1) = 0.1", Verdict.PASSED, r"worth a look:\nspring.f line 3: 0.1 is a single-precision constant"),
         ("w(1) = 1", Verdict.PASSED, "^no warnings$"),
     ):
         user.write_text(SPRING.format(head=TESTS / "uel.inc", statement=statement))
@@ -137,7 +137,7 @@ def test_check(tmp_path):
         finding = report.findings["compiler"]
         assert finding.verdict is verdict
         assert re.search(message, finding.message), finding.message
-        assert ("wrong wherever they are executed" in finding.advice) == (verdict is Verdict.FAILED)
+        assert ("wrong whenever they are executed" in finding.advice) == (verdict is Verdict.FAILED)
 
 
 SPRING = """\

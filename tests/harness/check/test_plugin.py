@@ -35,7 +35,7 @@ def test_finding_is_shown_without_a_traceback(patch):
     assert code == 1
     assert "1 failed, 1 passed" in printed
     assert re.search("patch.inp: U1-tangent, elements: 4 _", printed)
-    assert "AMATRX is 2 times what it has to be" in printed
+    assert "AMATRX is 2 times what it should be" in printed
     assert "Traceback" not in printed
 
 
@@ -43,7 +43,7 @@ def test_finding_is_shown_without_a_traceback(patch):
     "words, code, message",
     [
         (["--uel", "none.for", "--deck", "patch.inp"], 2, "none.for: no such file"),
-        (["--uel", "none.for"], 4, "--uel needs the deck of the elements: --deck job.inp"),
+        (["--uel", "none.for"], 4, "--uel needs a deck with the elements: --deck job.inp"),
     ],
 )
 def test_nothing_can_be_checked(patch, words, code, message):
