@@ -1,11 +1,11 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""The user's side of a job: compile a file of user routines as Abaqus does, load it, call it.
+"""The user's side of a job: compile a file of user routines as Abaqus does, load it and call it.
 
 XIT, STDB_ABQERR, STOP, a segmentation fault, division of integers by zero and a call that takes too long end the call,
 and the caller gets an error with the reason. What still ends the whole process: an error inside the Fortran library
-(reading a file that is not there), abort where memory is found damaged, and STOP in a library that the user compiled
-himself. What is on the slate (harness/slate.py) tells another process where that was.
+(reading a missing file), an abort because of damaged memory, and STOP in a library that the user compiled himself. The
+slate (harness/slate.py) tells another process where that was.
 """
 
 from harness.usersub._binding import allocated, limit_calls, share_slate, trap

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""The only importer of the compiled host (fortran/host); everything above it is typed Python.
+"""The only module that imports the compiled host (fortran/host); everything above it is typed Python.
 
 The extension is loaded with RTLD_GLOBAL: user libraries find XIT, MATERIAL_LIB_MECH and the rest in it by name.
 """
@@ -45,7 +45,7 @@ class Scalars(TypedDict):
 
 
 class PassOptions(TypedDict):
-    """Those that a plain loop has no use for."""
+    """Arguments that a plain loop does not need."""
 
     tensor: int
     symmetric: bool
@@ -123,50 +123,50 @@ def evaluate(
 
 
 def exchange_guard_values(values: FloatArray) -> None:
-    """Exchange what the guards of each of ARRAYS hold and, last, what RHS and AMATRX hold before a call."""
+    """Exchange the values of the guards of each of ARRAYS and, last, of RHS and AMATRX before a call."""
     _host.host_exchange_guard_values(values)
 
 
 def exchange_room(entries: int) -> int:
-    """From now on guards behind the arrays have so many entries, or more; returns those before."""
+    """From now on guards after the arrays have at least this many entries; returns the number before."""
     room = np.array([entries], dtype=np.int32)
     _host.host_exchange_room(room)
     return int(room[0])
 
 
 def watch_inputs(on: bool) -> bool:
-    """From now on `evaluate` notes which inputs the elements change, or does not; returns whether it did before."""
+    """Let `evaluate` note from now on which inputs the elements change, or not; returns whether it did before."""
     global _watching
     before, _watching = _watching, on
     return before
 
 
 def take_changes() -> tuple[Int32Array, FloatArray]:
-    """First entry (37,) of each argument that was changed since the last look (0: none), and values (37, 2)."""
+    """First entry (37,) of each argument that was changed since the last call (0: none), and values (37, 2)."""
     entries, values = _host.host_take_changes()
     return entries, values.T
 
 
 def fill_stack(number: float | None) -> None:
-    """From now on watched calls of elements find a number where their local variables are; None: whatever is there."""
+    """From now on local variables hold a number at the start of watched calls of elements; None: whatever is there."""
     _host.host_fill_stack(int(number is not None), number or 0.0)
 
 
 def exchange_around(argument: int, number: float) -> float:
-    """From now on a number lies around an argument (from 0) in watched calls; returns the one before."""
+    """From now on a number surrounds an argument (from 0) in watched calls; returns the one before."""
     held = np.array([number], dtype=np.float64)
     _host.host_exchange_around(argument, held)
     return float(held[0])
 
 
 def take_outside() -> dict[int, int]:
-    """Arguments (from 0) outside of which something was written since the last look, with the entry, from 1."""
+    """Arguments (from 0) outside which something was written since the last call, with the entry, from 1."""
     found, entries = _host.host_take_outside()
     return {k: int(entries[k]) for k in np.flatnonzero(found).tolist()}
 
 
 def allocated() -> int:
-    """Bytes that this process has allocated; below 0 where the C library does not say."""
+    """Bytes that this process has allocated; negative if the C library does not tell."""
     return int(_host.host_allocated())
 
 
@@ -229,7 +229,7 @@ def compliance(constants: Sequence[float]) -> FloatArray:
 
 
 def set_prestressed(number: int) -> None:
-    """Give points of a material of the host's library, not one of UMAT, a history for initial stresses."""
+    """Give points of a material of the host's library, other than UMAT's, a history for initial stresses."""
     _host.host_set_prestressed(number)
 
 
@@ -266,7 +266,7 @@ def uvarm(
 
     names are of the material and its orientation, axes its directions in rows, counts the stress components, NSTATV
     and the number of the family, place step and increment, clock the times at the start and the time increment; the
-    last `hidden` SVARS are of no point; uvar (m, points, NUVARM).
+    last `hidden` SVARS belong to no point; uvar (m, points, NUVARM).
     """
     m, points, _ = uvar.shape
     svars = np.ascontiguousarray(arrays.svars[:, : arrays.svars.shape[1] - hidden]).reshape(m, points, -1)
@@ -302,7 +302,7 @@ def user_amplitude(address: int, asked: AskedAmplitude) -> tuple[float, FloatArr
     clock = (*asked.time, asked.size, asked.old)
     info = (int(not asked.increment), int(asked.increment > 0), asked.cutbacks, asked.step, asked.increment)
     counts = len(asked.properties), len(asked.state), len(asked.sensors)
-    # an array has an entry more than UAMP is told of, since none may be empty
+    # an array has one entry more than UAMP is told, because none may be empty
     properties, state = np.append(asked.properties, 0.0), np.append(asked.state, 0.0)
     sensors = np.array([*asked.sensors.values(), 0.0]), _padded((*asked.sensors, ""))
     given = asked.name, clock, properties, state, info, *sensors, counts
@@ -318,7 +318,7 @@ def _padded(names: Sequence[str]) -> NDArray[np.bytes_]:
 def integration_rule(family: int, points: int, nodes: int, dimension: int) -> tuple[FloatArray, FloatArray, FloatArray]:
     """Weights (points,), shape functions (points, nodes) and their derivatives (points, nodes, dimension) of a family.
 
-    The derivatives are by the parent coordinates. Raises ValueError where the host does not have such a rule.
+    The derivatives are with respect to parent coordinates. Raises ValueError if the host has no such rule.
     """
     weights, shapes, slopes = np.zeros(points), np.zeros((points, nodes)), np.zeros((points, dimension, nodes))
     if not _host.host_rule(family, weights, shapes.T, slopes.T):
@@ -350,19 +350,19 @@ def take_messages() -> list[RawMessage]:
 def open_job(name: str, directory: str, file6: str, file7: str) -> int:
     """Set the job for GETJOBNAME and GETOUTDIR and connect units 6 and 7.
 
-    Returns 0, an error's number, or -1 where a call of an earlier job was left inside a WRITE and has them locked.
+    Returns 0, the number of an error, or -1 if an abandoned call of an earlier job has them locked inside a WRITE.
     """
     encode = os.fsencode
     return int(_host.host_open_job(encode(name), encode(directory), encode(file6), encode(file7)))
 
 
 def limit_calls(seconds: float) -> None:
-    """Let no call of a user routine take longer; 0: no limit."""
+    """Limit the time of each call of a user routine; 0: no limit."""
     _host.host_limit_calls(seconds)
 
 
 def trap(on: bool) -> bool:
-    """Let calls of user routines stop at the operation that makes a NaN or an infinity; returns whether they did."""
+    """Let calls of user routines stop at the operation that makes a NaN or an infinity; returns the former setting."""
     return bool(_host.host_trap(int(on)))
 
 
@@ -372,12 +372,12 @@ def sanitizing() -> bool:
 
 
 def sanitize(on: bool) -> None:
-    """A library that is built with AddressSanitizer is called from now on, or no longer."""
+    """Say whether the library called from now on is built with AddressSanitizer."""
     _host.host_sanitize(int(on))
 
 
 def take_frames() -> list[int]:
-    """Addresses of the calls that the last signal has ended, innermost first; forgets them."""
+    """Addresses of the calls that the last signal ended, innermost first; forgets them."""
     addresses, count = _host.host_take_frames()
     return [int(address) for address in addresses[:count]]
 
@@ -388,10 +388,10 @@ def share_slate(descriptor: int) -> bool:
 
 
 def set_loading(begins: bool) -> None:
-    """Say on the slate that constructors of user code may run, or that they have."""
+    """Note on the slate that constructors of user code may run, or that they have run."""
     _host.host_loading(int(begins))
 
 
 def flush_units(*, close: bool = False) -> bool:
-    """Write out what user routines printed to units 6 and 7; False where a call that was left has the units locked."""
+    """Write out what user routines printed to units 6 and 7; False if an abandoned call has the units locked."""
     return not _host.host_flush(int(close))

@@ -1,11 +1,11 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""Compiled user files in the user's cache folder, each with a list of what the compiler has read for it.
+"""Compiled user files in the user's cache folder, each with a list of what the compiler read for it.
 
-An entry is two files: the library, and a list in JSON with its hash, what is to be told of it, and the hash of
-every file read, by its place in the search folders. It is taken only where all of them agree; what is damaged, or not
-the user's alone, is as good as not there. The list is written last, and its name is the hash of what it holds, so that
-processes at once do not disturb each other.
+An entry is two files: the library, and a list in JSON with the library's hash, the notes on it, and the hash of every
+file read, by its place in the search folders. An entry is used only if all hashes agree; one that is damaged, or that
+others could have written, is ignored. The list is written last, and its name is the hash of its content, so that
+simultaneous processes do not disturb each other.
 """
 
 from __future__ import annotations
@@ -34,14 +34,14 @@ _BETWEEN: Final = re.compile(r"(?<!\\)\s+")
 
 @dataclass(frozen=True, slots=True)
 class Built:
-    """A shared library, and what is to be told of it: what was changed to compile it, and warnings, a sentence each."""
+    """A shared library, with notes for the user: what was changed to compile it, and warnings, one sentence each."""
 
     library: Path
     notes: tuple[str, ...]
 
 
 def cache_folder() -> Path | None:
-    """Folder of compiled user files; None where there can be none, or others could write there."""
+    """Folder of compiled user files; None if there can be none, or if others could write there."""
     base = Path(os.environ.get("XDG_CACHE_HOME", ""))
     try:
         folder = (base if base.is_absolute() else Path.home() / ".cache") / "uel-harness" / "compiled"
@@ -56,7 +56,7 @@ def cache_folder() -> Path | None:
 
 
 def find(name: str, folders: Sequence[Path]) -> Built | None:
-    """Entry whose files are all as they were when the compiler read them, in these search folders."""
+    """Entry none of whose files, in these search folders, has changed since the compiler read it."""
     cache = cache_folder()
     if cache is None:
         return None
@@ -74,15 +74,15 @@ def find(name: str, folders: Sequence[Path]) -> Built | None:
             if entry["modules"] == modules and _digest(library) == entry["library"] and _as_read(entry, folders):
                 return Built(library, tuple(map(str, entry["notes"])))
         except (OSError, ValueError, LookupError, TypeError):
-            # damaged, or of another version
+            # damaged, or from another version
             continue
     return None
 
 
 def keep(name: str, library: Path, notes: Sequence[str], read: Iterable[Path], folders: Sequence[Path]) -> Built:
-    """Put a library into the cache, or keep it for now where that cannot be.
+    """Put a library into the cache, or keep it for this process if that is not possible.
 
-    read: files that it depends on beside those that the name stands for; folders: where they were looked for, in order.
+    read: files that it depends on beside those that the name stands for; folders: the search folders, in order.
     """
     entry = {
         "library": _digest(library),
@@ -113,7 +113,7 @@ def _stem(name: str, text: bytes) -> str:
 
 
 def keep_for_now(name: str, library: Path, notes: Sequence[str]) -> Built:
-    """Put a library into a folder that goes with this process."""
+    """Put a library into a folder that is removed with this process."""
     folder = tempfile.mkdtemp(dir=_scratch().name)
     return Built(Path(shutil.copyfile(library, Path(folder) / f"{name}.so")), tuple(notes))
 
@@ -131,7 +131,7 @@ def dependencies(text: str) -> list[str]:
 
 
 def _places(read: Iterable[Path], folders: Sequence[Path]) -> Iterator[tuple[int, str, str]]:
-    """Number of the search folder, name in it, and hash of files, '' for those that would have been read instead."""
+    """Search folder by number, name in it, and hash of each file; '' for files that would have been read instead."""
     for file in read:
         within = [(k, str(file.relative_to(folder))) for k, folder in enumerate(folders) if file.is_relative_to(folder)]
         if not within:
@@ -152,7 +152,7 @@ def _as_read(entry: dict[str, Any], folders: Sequence[Path]) -> bool:
 
 
 def _digest(file: Path) -> str:
-    """Hash of a file's content; '' where there is none."""
+    """Hash of a file's content; '' if there is no such file."""
     try:
         return hashlib.sha256(read_whole(file)).hexdigest()
     except (OSError, ValueError):
@@ -160,7 +160,7 @@ def _digest(file: Path) -> str:
 
 
 def _modules(folders: Sequence[Path]) -> str:
-    """Hash of the module files that USE statements can find: which of them were read, compilers do not tell."""
+    """Hash of the module files that USE statements can find: compilers do not tell which of them they read."""
     found = hashlib.sha256()
     for number, folder in enumerate(folders):
         for file in sorted(file for pattern in _MODULES for file in folder.glob(pattern)):

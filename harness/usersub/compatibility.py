@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Extensions of Abaqus' Fortran compiler that gfortran refuses, written in standard Fortran in a copy of the file.
 
-Only what has one meaning is changed, at the places that the compiler names; the user's file stays as it is.
+Only what has a single meaning is changed, at the places that the compiler names; the user's file stays as it is.
 """
 
 from __future__ import annotations
@@ -16,7 +16,7 @@ from typing import Final
 
 
 def _error(message: str) -> re.Pattern[str]:
-    """What gfortran writes of an error, among warnings: the place, the lines that it shows, the message."""
+    """What gfortran prints for an error, among warnings: the place, the lines that it shows, the message."""
     place = r"^(?P<file>[^\n]+?):(?P<line>\d+):(?P<column>\d+):\n(?:(?!.*(?:Error|Warning):).*\n)*?"
     return re.compile(f"{place}Error: {message}", re.MULTILINE)
 
@@ -57,7 +57,7 @@ _WEAKER: Final = re.compile(r"\.(and|or|eqv|neqv)\.", re.IGNORECASE)
 
 @dataclass(frozen=True)
 class Repair:
-    """Bare name of a file, line from 1, the change of its text (None where it stays), and a note of what is changed."""
+    """Bare name of a file, line from 1, the change of its text (None if it stays), and a note on what is changed."""
 
     file: str
     line: int
@@ -66,24 +66,26 @@ class Repair:
 
 
 def repairs(errors: str) -> Iterator[Repair]:
-    """Repairs of what gfortran refuses in a file, by what it says of it."""
+    """Repairs of what gfortran refuses in a file, from its messages."""
     for found in _COMPARED_LOGICALS.finditer(errors):
         line, operator = int(found["line"]), found["operator"]
         change = partial(compare_logicals, line=line, column=int(found["column"]), operator=operator)
-        note = f"logicals compared with {operator}, in the copy .eqv. or .neqv."
+        note = f"logicals compared with {operator}; the copy has .eqv. or .neqv."
         yield Repair(Path(found["file"]).name, line, change, note)
     for found in _IMPORTED_TWICE.finditer(errors):
         line, name, module = int(found["line"]), found["name"], found["module"]
         change = partial(rename_import, line=line, module=module, name=name)
-        note = f"{name} of module {module} has the name of the program unit that uses it, and another one in the copy"
+        note = f"{name} of module {module} has the name of the program unit that uses it; the copy renames it"
         yield Repair(Path(found["file"]).name, line, change, note)
     for found in _REAL_BOUND.finditer(errors):
         line = int(found["line"])
         change = partial(whole_bound, line=line)
-        yield Repair(Path(found["file"]).name, line, change, "a real number as an array bound, in the copy int() of it")
+        yield Repair(
+            Path(found["file"]).name, line, change, "a real number as an array bound; the copy has int() of it"
+        )
     for found in _OWN_RESULT.finditer(errors):
         line, name = int(found["line"]), found["name"]
-        note = f"the function {name} calls itself and has no RESULT, which it has in the copy"
+        note = f"the function {name} calls itself and has no RESULT; the copy has one"
         yield Repair(Path(found["file"]).name, line, partial(name_result, line=line, name=name), note)
     for found in _UNTYPED.finditer(errors):
         line = int(found["line"])
@@ -91,13 +93,13 @@ def repairs(errors: str) -> Iterator[Repair]:
     for found in _MIXED_SIGN.finditer(errors):
         line = int(found["line"])
         change = partial(sign_of_one_kind, line=line, column=int(found["column"]))
-        yield Repair(Path(found["file"]).name, line, change, "SIGN of two kinds of numbers, in the copy of one")
+        yield Repair(Path(found["file"]).name, line, change, "SIGN of two kinds of numbers; the copy has one kind")
 
 
 def sign_of_one_kind(text: str, line: int, column: int) -> str | None:
-    """The text in which the second argument of SIGN, around a column, from 1, is of the kind of the first one.
+    """The text in which the second argument of SIGN, around a column (from 1), has the kind of the first one.
 
-    None where the call is not in one line. Only the sign of the second argument counts.
+    None if the call is not on one line. Only the sign of the second argument matters.
     """
     lines = text.splitlines(keepends=True)
     row = lines[line - 1] if 1 <= line <= len(lines) else ""
@@ -118,9 +120,9 @@ def _balanced(text: str) -> bool:
 
 
 def name_result(text: str, line: int, name: str) -> str | None:
-    """The text in which a function that calls itself in a line has RESULT; None where its head is not one plain line.
+    """The text in which a function that calls itself in a line has RESULT; None if its head is not one plain line.
 
-    Within the function its name means a call where arguments follow, and the result elsewhere.
+    Within the function its name means a call if arguments follow, and the result otherwise.
     """
     lines = text.splitlines(keepends=True)
     head = re.compile(rf"^(?!\s*end)[^!'\"]*\bfunction\s+{name}\s*\([^()]*\)(?=\s*(?:!.*)?$)", re.IGNORECASE)
@@ -137,9 +139,9 @@ def name_result(text: str, line: int, name: str) -> str | None:
 
 
 def whole_bound(text: str, line: int) -> str | None:
-    """The text in which the array bounds of a declaration that are real constants are made integers; None without one.
+    """The text in which real constants as array bounds of a declaration become integers; None without one.
 
-    Only bounds of numbers and of names in PARAMETER are taken.
+    Only bounds made of numbers and of names in PARAMETER are changed.
     """
     lines = text.splitlines(keepends=True)
     if not 1 <= line <= len(lines):
@@ -162,20 +164,20 @@ def whole_bound(text: str, line: int) -> str | None:
 
 
 def _whole(bound: str, names: set[str]) -> str:
-    """int() of a bound that is made of numbers and named constants, one of which may be real."""
+    """int() of a bound made of numbers and named constants, one of which may be real."""
     used = {name.lower() for name in _NAME.findall(_REAL_NUMBER.sub("", bound))}
     constant = used <= names and (used or _REAL_NUMBER.search(bound))
     return f"int({bound.strip()})" if constant and "=" not in bound else bound
 
 
-TYPED: Final = "PARAMETER without parentheses, whose names take the types of their constants, which they are given"
+TYPED: Final = "PARAMETER without parentheses, whose names have the types of their constants; the copy declares them"
 
 
 def hidden_types(text: str, file: str) -> Iterator[Repair]:
-    """Repairs of what gfortran takes, but otherwise than Abaqus' compiler: PARAMETER without parentheses.
+    """Repairs of what gfortran accepts but reads differently from Abaqus' compiler: PARAMETER without parentheses.
 
-    There the constant says which type its name has, and not the first letter, by which NU = 0.3D0 would be 0. Names
-    that are declared somewhere in the file are left alone.
+    There the constant gives its name a type, not the first letter, by which NU = 0.3D0 would be 0. Names that are
+    declared somewhere in the file are left alone.
     """
     for line, row in enumerate(text.splitlines(), 1):
         for name, kind, _ in _bare_constants(row) or ():
@@ -187,9 +189,9 @@ def hidden_types(text: str, file: str) -> Iterator[Repair]:
 
 
 def type_constants(text: str, line: int) -> str | None:
-    """The text in which the names of a PARAMETER without parentheses have the types of their constants.
+    """The text in which the names of a PARAMETER without parentheses get the types of their constants.
 
-    None where it is not one line of plain constants.
+    None if it is not one line of plain constants.
     """
     lines = text.splitlines(keepends=True)
     row = lines[line - 1].rstrip("\r\n") if 1 <= line <= len(lines) else ""
@@ -209,7 +211,7 @@ def type_constants(text: str, line: int) -> str | None:
 
 
 def _bare_constants(row: str) -> list[tuple[str, str, str]] | None:
-    """Name, type and constant of each entry of a PARAMETER without parentheses; None of any other line."""
+    """Name, type and constant of each entry of a PARAMETER without parentheses; None for any other line."""
     found = _BARE_PARAMETER.match(row.partition("!")[0])
     if found is None:
         return None
@@ -224,13 +226,13 @@ def _bare_constants(row: str) -> list[tuple[str, str, str]] | None:
 
 
 def _continued(lines: list[str], line: int) -> bool:
-    """Whether a statement goes on after a line, in fixed form; in free form its line ends with &, no constant."""
+    """Whether a fixed-form statement continues after a line; in free form such a line ends with &, not a constant."""
     following = lines[line] if line < len(lines) else ""
     return following[:5] == "     " and following[5:6].strip() not in ("", "0")
 
 
 def rename_import(text: str, line: int, module: str, name: str) -> str | None:
-    """The text in which a plain `use module` gives what has this name another one, so that the unit's own stays."""
+    """The text in which a plain `use module` renames what has this name, so that the unit keeps its own."""
     lines = text.splitlines(keepends=True)
     row = lines[line - 1].rstrip() if 1 <= line <= len(lines) else ""
     if re.fullmatch(rf"\s*use\s+{module}", row, re.IGNORECASE) is None:
@@ -240,7 +242,7 @@ def rename_import(text: str, line: int, module: str, name: str) -> str | None:
 
 
 def compare_logicals(text: str, line: int, column: int, operator: str) -> str | None:
-    """The text with one comparison of logicals as .eqv. or .neqv.; None where that could change what it means.
+    """The text with one comparison of logicals as .eqv. or .neqv.; None if that could change its meaning.
 
     line and column are those of the first operand, from 1. `.eqv.` binds less than `.and.`, `.eq.` more: the comparison
     has to stand alone between its parentheses.
@@ -259,7 +261,7 @@ def compare_logicals(text: str, line: int, column: int, operator: str) -> str | 
 
 
 def _alone(row: str, start: int, end: int) -> str | None:
-    """What stands between the parentheses around a place; None where they are not in the line."""
+    """The text between the parentheses around a place; None if they are not on the line."""
     first = _unmatched(row, range(start - 1, -1, -1), "(", ")")
     last = _unmatched(row, range(end, len(row)), ")", "(")
     return None if first is None or last is None else row[first + 1 : last]

@@ -40,13 +40,13 @@ from harness.usersub.units import with_open_bounds, without_implicit
 _SEARCH_VARIABLES: Final = (
     *("CPATH", "C_INCLUDE_PATH", "CPLUS_INCLUDE_PATH", "LIBRARY_PATH", "COMPILER_PATH", "GCC_EXEC_PREFIX"),
 )
-"""What changes where compilers look for files."""
+"""Environment variables that change where compilers look for files."""
 _INCLUDE = re.compile(r"^\s*#?\s*include\s*['\"<]([^'\">]+)['\">]", re.IGNORECASE | re.MULTILINE)
 _WHOLE: Final = re.compile(r"assumed[- ]size array '(\w+)'", re.IGNORECASE)
 _EXTENSION: Final = "an extension of Abaqus' compiler, written in standard Fortran in a copy"
 
 Flags = Mapping[Language, tuple[str, ...]]
-"""What a compiler gets besides the flags of its language."""
+"""Flags of every compiler, besides those of its language."""
 
 
 def build(
@@ -57,10 +57,10 @@ def build(
     debug: bool = False,
     sanitized: bool = False,
 ) -> Built:
-    """Shared library of the files, compiled in their order; include: folders besides the sources' own.
+    """Shared library of the files, compiled in this order; include: folders besides those of the sources.
 
-    zero_locals: local variables of Fortran that are given no value are zero. debug: with run-time checks, and NaN in
-    such variables unless they are zero; sanitized: and with AddressSanitizer. Raises CompileError with the compiler's
+    zero_locals: uninitialised local variables of Fortran are zero. debug: with run-time checks, and NaN in such
+    variables unless they are zero; sanitized: also with AddressSanitizer. Raises CompileError with the compiler's
     first error.
     """
     began = time.time()
@@ -78,30 +78,30 @@ def build(
         work = Path(folder)
         library, notes = _compile(files, folders, headers, sources, work, flags, open_bounds=debug)
         read = {Path(name) for rule in work.glob("*.d") for name in cache.dependencies(_read(rule))}
-        # copies in the compiler's folder stand for files that are known
+        # copies in the compiler's folder stand for known files
         read = {file for file in read if not (work / file).is_relative_to(work)}
         if any(file.stat().st_mtime > began for file in read):
-            # nobody knows what the compiler has seen of a file that was changed meanwhile
+            # nobody knows which version of a file the compiler saw if it was changed meanwhile
             return cache.keep_for_now(name, library, notes)
         known = {file.resolve() for paths in sources.values() for file in paths}
         return cache.keep(name, library, notes, [file for file in read if file.resolve() not in known], folders)
 
 
 def _flags(language: Language, zero_locals: bool, debug: bool, sanitized: bool) -> tuple[str, ...]:
-    """What the compiler of a language gets besides what it always gets."""
+    """Additional flags of the compiler of a language."""
     checks = (*language.checks, *(SANITIZED if sanitized else ())) if debug else ()
-    # C without checks leaves what is there, as its compiler does for Abaqus
+    # C without checks leaves memory as it is, as its compiler does for Abaqus
     zeros = (language.zeros,) if zero_locals and (debug or language is FORTRAN) else ()
-    # gfortran tells of constants that are passed for arrays though no warnings are asked for
+    # gfortran reports constants passed for arrays although no warnings are requested
     return (*checks, *zeros, *(() if language is FORTRAN else (SILENT,)))
 
 
 @dataclass(frozen=True, slots=True)
 class Opinion:
-    """What the compilers say of files that compile.
+    """What the compilers say about files that compile.
 
     warnings    their text
-    undeclared  gfortran's text where no name has a type by its first letter
+    undeclared  gfortran's text when no name gets a type from its first letter
     texts       of all files read, by bare name
     free        bare names of those in free form
     """
@@ -113,7 +113,7 @@ class Opinion:
 
 
 def listen(files: Sequence[Path], include: Sequence[Path] = ()) -> Opinion:
-    """Compile files as `build` does, with all warnings, and throw the result away. Raises CompileError."""
+    """Compile files as `build` does, with all warnings, and discard the result. Raises CompileError."""
     folders = _folders(files, include)
     supply, _, sources = _scan(files, folders)
     free = frozenset(file.name for file in files if is_free_form(file, _read(file)))
@@ -128,7 +128,7 @@ def listen(files: Sequence[Path], include: Sequence[Path] = ()) -> Opinion:
 def _without_implicit_types(
     files: Sequence[Path], folders: Sequence[Path], supply: Mapping[str, str | Path], work: Path
 ) -> str:
-    """What gfortran says of copies without IMPLICIT statements; work has the module files."""
+    """What gfortran says about copies without IMPLICIT statements; work has the module files."""
     copies, texts = _supplied(supply, work / "declared")
     for path, text in texts.items():
         path.write_text(without_implicit(text, free=path.suffix.lower() == ".f90"), encoding="latin-1")
@@ -163,7 +163,7 @@ def _texts(sources: Mapping[str, Sequence[Path]]) -> dict[str, str]:
 
 
 def _key(compilers: Iterable[str], texts: Sequence[str]) -> str:
-    """What a result depends on as far as it is known before compiling, hashed."""
+    """Hash of what a result depends on, as far as that is known before compiling."""
     versions = [
         subprocess.run([compiler, "-dumpfullversion"], capture_output=True, text=True, check=False).stdout
         for compiler in compilers
@@ -182,7 +182,7 @@ def _scan(
     """Follow INCLUDE lines.
 
     Returns the files to supply by the name that a line uses (Abaqus' headers; files whose name differs in case, as
-    they may where a source comes from Windows), all texts that the result depends on, and the files by bare name.
+    in sources from Windows), all texts that the result depends on, and the files by bare name.
     """
     supply: dict[str, str | Path] = {}
     texts: list[str] = []
@@ -202,7 +202,7 @@ def _scan(
             header = HEADERS.get(name.replace("\\", "/").rpartition("/")[2].lower())
             if found is not None:
                 pending.append(found)
-            # an absolute name is where it says or nowhere, and what is there belongs to the user
+            # an absolute name needs no search, and the file is the user's
             given = None if Path(name).is_absolute() else found or header
             if given is not None:
                 supply[name] = given
@@ -213,14 +213,14 @@ def _scan(
 
 
 def _refuse_devices(file: Path, name: str, folders: Sequence[Path]) -> None:
-    """The compiler would wait for a pipe, and never come to the end of some devices."""
+    """Refuse what is not a file: the compiler would wait for a pipe, and read some devices without end."""
     for folder in folders:
         if (folder / name).exists() and not (folder / name).is_dir():
             raise CompileError(file, f"includes {name}, which is not a file")
 
 
 def _matches(name: str, folders: Sequence[Path]) -> Iterator[Path]:
-    """Files of that name, which may have folders in it; whatever its case."""
+    """Files of that name, which may include folders, in any case."""
     for folder in folders:
         if (folder / name).is_file():
             yield folder / name
@@ -234,7 +234,7 @@ def _matches(name: str, folders: Sequence[Path]) -> Iterator[Path]:
 
 
 def _named(folder: Path, name: str) -> list[Path]:
-    """What a folder holds of that name, given in lower case."""
+    """Entries of a folder with that name, given in lower case."""
     return [entry for entry in sorted(folder.iterdir()) if entry.name.lower() == name]
 
 
@@ -248,7 +248,7 @@ def _compile(
     *,
     open_bounds: bool,
 ) -> tuple[Path, list[str]]:
-    """Library in the folder work, and what is to be told; beside it the compilers list what they read."""
+    """Library in the folder work, and notes for the user; the compilers list beside it what they read."""
     objects, notes, said = _objects(files, folders, supply, sources, work, flags, open_bounds=open_bounds)
     notes += dict.fromkeys(ranks.constants_for_arrays(said, _texts(sources)))
     library = work / "user.so"
@@ -294,8 +294,8 @@ def _objects(
 
 
 def _supplied(supply: Mapping[str, str | Path], folder: Path) -> tuple[Path, dict[Path, str]]:
-    """Folder from which INCLUDE lines find files to supply, within another one, and their paths and texts."""
-    # deep enough for names that go upwards to stay within
+    """A folder, within another one, where INCLUDE lines find the supplied files, with their paths and texts."""
+    # deep enough that names with .. stay within
     upwards = max((name.count("..") for name in supply), default=0)
     folder = folder.joinpath(*["below"] * upwards)
     folder.mkdir(parents=True)
@@ -308,7 +308,7 @@ def _supplied(supply: Mapping[str, str | Path], folder: Path) -> tuple[Path, dic
 def _compile_opened(
     command: Sequence[str], file: Path, sources: dict[str, list[Path]], folder: Path
 ) -> tuple[list[str], str]:
-    """Compile a file with open bounds, but of those arrays that are used as a whole, which the compiler names."""
+    """Compile a file with open bounds, except those of arrays used as a whole, which the compiler names."""
     text = _read(file)
     free = is_free_form(file, text)
     whole: frozenset[str] = frozenset()
@@ -330,9 +330,9 @@ def _compile_one(
     folder: Path,
     changed_texts: Mapping[str, str] | None = None,
 ) -> tuple[list[str], str]:
-    """Compile a file, in copies in the folder where there are changed texts, by bare name.
+    """Compile a file; changed texts, by bare name, are compiled as copies in the folder.
 
-    What gfortran refuses of Abaqus' compiler is changed in such copies. Returns what was, and what the compiler says.
+    Extensions of Abaqus' compiler that gfortran refuses are changed there. Returns the changes and the output.
     The compiler runs beside the folder: it takes module files of the current folder before those just made.
     """
     copies = dict(changed_texts or {})
@@ -357,7 +357,7 @@ def _compile_one(
 
 
 def _repair(repair: Repair, sources: dict[str, list[Path]], copies: dict[str, str], notes: list[str]) -> bool:
-    """Change the copy of a file, which is made where there is none; whether that could be done."""
+    """Change the copy of a file, made first if there is none; returns whether that was possible."""
     if len(sources.get(repair.file, [])) != 1:
         return False
     changed = repair.apply(copies.get(repair.file) or _read(sources[repair.file][0]))
@@ -369,7 +369,7 @@ def _repair(repair: Repair, sources: dict[str, list[Path]], copies: dict[str, st
 
 
 def _run(command: Sequence[str], folder: Path) -> subprocess.CompletedProcess[str]:
-    """Run a compiler in a folder; what it says is in English."""
+    """Run a compiler in a folder; its messages are in English."""
     return subprocess.run(
         command,
         cwd=folder,

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""What the compilers say: the first error as a message, with what to do where another compiler is meant; warnings."""
+"""What the compilers say: the first error as a message, with a hint if it is for another compiler; warnings."""
 
 from __future__ import annotations
 
@@ -10,9 +10,9 @@ from pathlib import Path
 from typing import Final
 
 _LOCATION = re.compile(r"^(?P<file>.+?):(?P<line>\d+):(?P<column>\d+):")
-# gfortran puts the place on a line of its own, then the source, then this
+# gfortran puts the place on its own line, then the source, then this
 _ERROR = re.compile(r"(?:Fatal )?Error: ")
-# gcc and g++ begin with all of it, the source follows
+# gcc and g++ begin with all of it, and the source follows
 _C_ERROR = re.compile(r"^(?P<file>[^:\n]+):(?P<line>\d+):(?P<column>\d+): (?:fatal )?error: (?P<sentence>.*)$")
 _C_CONTEXT = re.compile(r"^ *\d* \| ")
 _PLACE: Final = re.compile(r"^(?P<file>[^\s:][^:\n]*):(?P<line>\d+):(?P<column>\d+):\s*(?P<rest>.*)$")
@@ -22,7 +22,7 @@ _C_WARNING: Final = re.compile(r"^warning: (?P<text>.*?)(?: \[(?P<option>-W[\w=+
 _HINTS: Final = (
     (
         r"Cannot open module file '(?:ifport|ifcore|iflport|ifposix|dflib|dfport)\.mod'",
-        "it belongs to Intel's compiler: use Fortran's own routines, or take Abaqus' STDB_ABQERR and XIT",
+        "it belongs to Intel's compiler: use Fortran's own routines, or Abaqus' STDB_ABQERR and XIT",
     ),
     (
         r"module file '(?:lapack95|blas95|f95_precision|mkl\w*)\.mod'|included file '(?:mkl|lapack)\w*\.(?:fi|f90)'",
@@ -35,20 +35,20 @@ _HINTS: Final = (
     (r"\.(?:h|hpp|hh|hxx): No such file|/\w+: No such file", "name its folder in the environment variable CPATH"),
     (
         r"already being used as a SUBROUTINE|FUNCTION attribute conflicts with SUBROUTINE|Unexpected use of subroutine",
-        "a subroutine has no value to use in an expression: CALL it and use what it returns in an argument, or make it "
-        "a FUNCTION",
+        "a subroutine has no value to use in an expression: CALL it and use what it returns in an argument, or turn it "
+        "into a FUNCTION",
     ),
     (
         r"Return type mismatch of function",
-        "it is not declared where it is called, and takes its type from its first letter: declare it there",
+        "it is not declared where it is called, so its first letter gives it a type: declare it there",
     ),
     (r"requires a scalar LOGICAL", "write the comparison out, such as i /= 0"),
     (
         r"must be compared with \.n?eqv\.",
-        "Abaqus' compiler takes this; write .eqv. or .neqv., with parentheses around the comparison",
+        "Abaqus' compiler accepts this; write .eqv. or .neqv., with parentheses around the comparison",
     ),
 )
-"""Errors that tell of another compiler, and what to do."""
+"""Errors that point to another compiler, and what to do."""
 
 _NO_MODULE: Final = re.compile(r"Cannot open module file '(\w+)\.mod'")
 
@@ -112,18 +112,18 @@ def _hint(sentence: str, name: str, texts: Mapping[str, str]) -> str:
 
 
 def _missing_module(module: str, name: str, texts: Mapping[str, str]) -> str:
-    """Where a module is that a file uses and that is not compiled yet."""
+    """Where to find a module that a file uses and that is not compiled yet."""
     definition = re.compile(rf"^\s*module\s+{module}\s*(?:!.*)?$", re.IGNORECASE | re.MULTILINE)
     files = [file for file, text in texts.items() if definition.search(text)]
     if not files:
-        return f"no file here defines the module {module}: give the one that does before this one"
+        return f"none of the files defines the module {module}: give the file that does before this one"
     if name in files:
-        return f"the module {module} stands further down: move it to the top of the file"
+        return f"the module {module} is further down: move it to the top of the file"
     return f"{files[0]} defines the module {module}: give it before {name}"
 
 
 def _looks_free(text: str) -> bool:
-    """Whether many statements begin in the first five columns, where fixed form has labels only, or units do."""
+    """Whether many statements, or program units, begin in the first five columns, where fixed form has only labels."""
     if len(_FREE_STATEMENT.findall(text)) > 1:
         return True
     lines = [line for line in text.splitlines() if line.strip() and line[0] not in "cC*!#dD"]

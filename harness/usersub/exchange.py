@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""What goes between Python and the compiled host."""
+"""What Python and the compiled host exchange."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ class Outcome:
     """End of a pass over a block.
 
     position  element of the fault (from 0; -1 unknown)
-    array, index  array of the fault and its entry, from 1, beyond its ends for a write outside; or the point
+    array, index  array of the fault and entry, from 1 (beyond its ends for a write outside); or the point
     flux, largest, terms  (ndofel,) sum over the elements of |RHS|, the largest one, number of those above the floor
     """
 
@@ -55,7 +55,7 @@ class BlockArrays:
 
 @dataclass(frozen=True, slots=True)
 class LoadArrays:
-    """Distributed loads of the elements of a block, C order; the elements are m, or one that stands for all.
+    """Distributed loads of the elements of a block, C order; m elements, or one that stands for all.
 
     counts  (m,) number of loads on each element
     kinds   (m, most) JDLTYP

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""What goes wrong in a pass over a block of elements, and what is done about it (fortran/host/host_driver.f90)."""
+"""What goes wrong in a pass over a block of elements, and how that is handled (fortran/host/host_driver.f90)."""
 
 from __future__ import annotations
 

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""What memory holds that a user element has not to look at: the guards around its arrays, RHS and AMATRX on entry."""
+"""Content of memory that a user element must not read: the guards around its arrays, RHS and AMATRX on entry."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ ARRAYS: Final = _binding.ARRAYS
 
 
 AS_GOOD_AS_ZERO: Final = 1e-300
-"""What a guard holds where reading it is tolerated; a zero that is written there is still noticed."""
+"""Value of a guard if reading it is tolerated; a zero written there is still noticed."""
 
 
 def set_guard_values(values: Mapping[str, float]) -> None:
@@ -34,7 +34,7 @@ def set_guard_values(values: Mapping[str, float]) -> None:
 
 @contextmanager
 def room(entries: int) -> Iterator[None]:
-    """Let the guard behind each array have so many entries, so that a write far beyond one does not reach the next."""
+    """Give the guard after each array this many entries, so that a write far beyond one does not reach the next."""
     before = _binding.exchange_room(entries)
     try:
         yield
@@ -44,12 +44,12 @@ def room(entries: int) -> Iterator[None]:
 
 @contextmanager
 def guard_values(values: Mapping[str, float]) -> Iterator[None]:
-    """Let guards of some arrays (by their names in ARRAYS), or UNSET, hold other values, and give back what they held.
+    """Let guards of some arrays (by their names in ARRAYS), or UNSET, hold other values, then restore the old ones.
 
     A guard reports a write only where it changes the bits of the guard.
     """
     names = [*ARRAYS, UNSET]
-    # an exchange with anything tells what is there
+    # exchanging any value returns the present one
     held = np.zeros(len(names))
     _binding.exchange_guard_values(held)
     chosen = held.copy()

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""Calls of user elements that are watched: what they change of their inputs, and what their local variables hold."""
+"""Watched calls of user elements: which inputs they change, and what their local variables hold."""
 
 from __future__ import annotations
 
@@ -22,10 +22,10 @@ NAMES: Final = (
 """Arguments of UEL, and the last of UELMAT, in Abaqus' order."""
 
 SURROUNDED: Final = tuple(name for name in NAMES if name not in _binding.ARRAYS)
-"""Those that have room around them while they are watched; the others have guards always."""
+"""Those that have room around them while they are watched; the others always have guards."""
 
 _MARK: Final = -559038737.0
-"""What lies around them where writes are looked for: nothing that an element would write, as integer and as real."""
+"""Values around them when writes are looked for: nothing that an element would write, as integer or as real."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -40,7 +40,7 @@ class Change:
 
 @contextmanager
 def watched_inputs() -> Iterator[Callable[[], list[Change]]]:
-    """Watch the calls of elements; what it gives returns the changes of inputs since it was called last."""
+    """Watch the calls of elements; yields a function that returns the changes of inputs since its last call."""
 
     def changes() -> list[Change]:
         entries, values = _binding.take_changes()
@@ -56,7 +56,7 @@ def watched_inputs() -> Iterator[Callable[[], list[Change]]]:
 
 @contextmanager
 def around(values: Mapping[str, float]) -> Iterator[None]:
-    """Let numbers lie around arguments, by their names in SURROUNDED; elsewhere there is 0."""
+    """Surround arguments, by their names in SURROUNDED, with numbers; the others with 0."""
     with watched_inputs():
         before = {name: _binding.exchange_around(NAMES.index(name), value) for name, value in values.items()}
         try:
@@ -68,7 +68,7 @@ def around(values: Mapping[str, float]) -> Iterator[None]:
 
 @contextmanager
 def writes_outside() -> Iterator[Callable[[], dict[str, int]]]:
-    """Watch the calls; what it gives returns arguments outside of which they wrote, with the entry, from 1."""
+    """Watch the calls; yields a function that returns the arguments outside which they wrote, and the entry, from 1."""
 
     def found() -> dict[str, int]:
         return {NAMES[k]: entry for k, entry in _binding.take_outside().items()}
@@ -80,7 +80,7 @@ def writes_outside() -> Iterator[Callable[[], dict[str, int]]]:
 
 @contextmanager
 def local_variables(number: float) -> Iterator[None]:
-    """Let local variables of elements that are given no value hold a number, as far as they are on the stack."""
+    """Let uninitialised local variables of elements hold a number, as far as they are on the stack."""
     with watched_inputs():
         _binding.fill_stack(number)
         try:

@@ -18,10 +18,10 @@ from harness.errors import CompileError
 class Language:
     """A language: endings of its files in lower case, its compiler, flags, and how to get and to link it.
 
-    checks   flags of a debug build: run-time checks, and values that betray themselves in variables that get none
-    zeros    flag with which local variables that are given no value are zero, not what an earlier call has left
-    warnings flags with which the compiler tells what it suspects
-    runtime  libraries that the objects need where another language's compiler links them
+    checks   flags of a debug build: run-time checks, and conspicuous values in uninitialised variables
+    zeros    flag with which uninitialised local variables are zero, not what an earlier call has left
+    warnings flags with which the compiler reports what it suspects
+    runtime  libraries that the objects need if another language's compiler links them
     """
 
     suffixes: tuple[str, ...]
@@ -37,12 +37,12 @@ class Language:
         """Path of the compiler; CompileError, with how to get it, where it is missing."""
         found = shutil.which(self.compiler)
         if found is None:
-            message = f"{self.compiler} is needed to compile it and is not installed ({self.install})"
+            message = f"compiling it needs {self.compiler}, which is not installed ({self.install})"
             raise CompileError(file, message)
         return found
 
 
-# -g1: what ends a call is told with its line
+# -g1: messages about the end of a call give its line
 _COMMON: Final = ("-c", "-O2", "-g1", "-fPIC", "-ffp-contract=off", "-fdiagnostics-color=never")
 SILENT: Final = "-w"
 """Flag of all compilers: no warnings."""
@@ -50,7 +50,7 @@ _DEBUG: Final = ("-g", "-Og", "-fno-omit-frame-pointer", "-fsignaling-nans")
 _C_DEBUG: Final = (
     *_DEBUG,
     "-ftrivial-auto-var-init=pattern",
-    # what they find is a trap in the code: it needs no library
+    # a finding is a trap in the code, which needs no library
     *("-fsanitize=bounds,null,vla-bound", "-fsanitize-undefined-trap-on-error"),
 )
 _C_ZEROS: Final = "-ftrivial-auto-var-init=zero"
@@ -62,13 +62,13 @@ FORTRAN: Final = Language(
     (
         *_COMMON,
         *("-cpp", "-std=legacy", "-fdec", "-fno-range-check"),
-        # locals on the stack and not kept from call to call, as Abaqus' -auto has it, automatic arrays too: on the heap
-        # a write behind one ends the process later on
+        # locals on the stack and not kept from call to call, as with Abaqus' -auto; automatic arrays too: on the heap,
+        # a write beyond one ends the process later on
         *("-frecursive", "-fstack-arrays"),
     ),
     (
         *_DEBUG,
-        # not recursion: the mark of a procedure that is left through XIT would stay
+        # not recursion: the mark of a procedure left through XIT would stay
         "-fcheck=bounds,do,mem,pointer,bits",
         *("-finit-real=snan", "-finit-integer=-1431655766", "-finit-logical=true", "-finit-derived"),
     ),
@@ -84,7 +84,7 @@ FORTRAN: Final = Language(
 )
 SANITIZED: Final = (
     *("-fsanitize=address", "-fsanitize-recover=address"),
-    # always in line, with what fortran/host/sanitizer.c takes the place of
+    # always inline, with functions that fortran/host/sanitizer.c replaces
     "--param=asan-instrumentation-with-call-threshold=2000000000",
 )
 """Flags of all compilers for a debug build with AddressSanitizer."""
@@ -114,7 +114,7 @@ _ENVIRONMENT_FREE = re.compile(
 
 
 def is_source(file: Path) -> bool:
-    """Whether a file of user routines is to be compiled."""
+    """Whether a file of user routines needs compiling."""
     return file.suffix.lower() in SUFFIXES
 
 
@@ -130,9 +130,9 @@ def linking(languages: Collection[Language]) -> tuple[Language, list[str]]:
 
 
 def is_free_form(file: Path, text: str) -> bool:
-    """True for .f90, for a text that an Intel directive declares to be in free form, and by Abaqus' environment file.
+    """True for .f90, for a text that an Intel directive declares as free form, and if Abaqus' environment file says so.
 
-    That is the one beside the file, where its compile_fortran has the option -free.
+    That is the one beside the file, if its compile_fortran has the option -free.
     """
     if file.suffix.lower() == ".f90" or _FREEFORM.search(text):
         return True

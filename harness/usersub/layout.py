@@ -143,7 +143,7 @@ _ROW = re.compile(r"(\w+_item)\((.*)\)(?:, &|\])(?: !< (.*))?$")
 
 
 def _tables(text: str) -> dict[str, Rows]:
-    """Rows of each table, numbers put in for names; ValueError where a table does not hold what it announces."""
+    """Rows of each table, with numbers for names; ValueError if a table does not have the rows it announces."""
     numbers: dict[str, int] = {}
     tables: dict[str, Rows] = {}
     announced: dict[str, int] = {}
@@ -171,7 +171,7 @@ def _tables(text: str) -> dict[str, Rows]:
             parts = match[2].split(" + ")
             numbers[match[1]] = sum(numbers[part] if part in numbers else int(part) for part in parts)
     if {name: len(rows) for name, rows in tables.items()} != announced:
-        raise ValueError("a table of the layout has another number of rows than it announces")
+        raise ValueError("a table of the layout does not have the number of rows it announces")
     return tables
 
 

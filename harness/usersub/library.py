@@ -31,7 +31,7 @@ ENTRY_POINTS: Final = (
     *("UFIELD", "URDFIL", "UMATHT", "UHARD", "UEXPAN", "CREEP", "FRIC", "UINTER", "MPC", "ORIENT", "SIGINI", "HETVAL"),
     *("DFLUX", "FILM", "UTEMP", "UMESHMOTION", "VUEL", "VUMAT", "VDLOAD", "VUSDFLD", "VEXTERNALDB"),
 )
-"""Names by which Abaqus calls user routines; looked up in a user's file to say what it holds."""
+"""Names by which Abaqus calls user routines; looked up in a user's file to say what it contains."""
 
 _STOP_ANALYSIS, _CONCLUDE_STEP = 4, 5
 """Places in lFlagsDefine of UAMP."""
@@ -67,7 +67,7 @@ class Library:
         self.usdfld = addresses["USDFLD"]
 
     def variables(self, jtype: int) -> PointVariables | None:
-        """Meaning of the SVARS of an element type; None where the library does not hold the project's elements."""
+        """Meaning of the SVARS of an element type; None if the library does not contain the project's elements."""
         return layout.variables(jtype) if hasattr(self._handle, layout.MARKER) else None
 
     def external_database(
@@ -89,7 +89,7 @@ class Library:
         return "no user routine"
 
     def user_values(self, asked: UserValues) -> FloatArray:
-        """Values (n,) that DISP or DLOAD makes of those given. Raises UelError where it ends the analysis."""
+        """Values (n,) that DISP or DLOAD makes of those given. Raises UelError if it ends the analysis."""
         address = self.disp if asked.routine == "DISP" else self.dload
         assert address is not None
         made = np.array(asked.given)
@@ -101,7 +101,7 @@ class Library:
         return made
 
     def user_amplitude(self, asked: AskedAmplitude) -> GivenAmplitude:
-        """What UAMP gives. Raises UelError where it ends the analysis or gives no number."""
+        """What UAMP gives. Raises UelError if it ends the analysis or does not give a finite number."""
         assert self.uamp is not None
         value, state, define, left = _binding.user_amplitude(self.uamp, asked)
         place = f"amplitude {asked.name}, step {asked.step}, increment {asked.increment}"
@@ -110,7 +110,7 @@ class Library:
         if define[_STOP_ANALYSIS]:
             raise UelError(f"{self.name}: UAMP stopped the analysis by lFlagsDefine(5) ({place})")
         if not np.isfinite(value):
-            raise UelError(f"{self.name}: UAMP does not set AmpValueNew, or sets it to no number ({place})")
+            raise UelError(f"{self.name}: UAMP does not set AmpValueNew, or sets it to NaN or infinity ({place})")
         return GivenAmplitude(value, state, bool(define[_CONCLUDE_STEP]))
 
     def stop_reason(self) -> str:
@@ -122,7 +122,7 @@ class Library:
         return "stopped the analysis (XIT) without a message"
 
     def _with_place(self, text: str) -> str:
-        """A text about a signal, 'in UEL: what it was', with file and line, and the routine where it is another one."""
+        """A text about a signal, 'in UEL: what it was', with file and line, and the routine if it is another one."""
         place = innermost(_binding.take_frames(), self._handle._name, self.file)
         head, colon, tail = text.partition(": ")
         if place is None or not colon:
@@ -157,9 +157,9 @@ def load(
     """Load user routines: files in Fortran, C or C++ (compiled, or taken from the cache) or a shared library.
 
     None gives the project's own kernels. INCLUDE lines are looked up in the folders of the sources and of the deck.
-    zero_locals: local variables of Fortran that are given no value are zero, as many public user elements take them to
-    be; a check wants to see that they are not. debug: with run-time checks, which end a call with file and line, and
-    NaN in such variables; with AddressSanitizer, where its runtime is in this process. Raises CompileError.
+    zero_locals: uninitialised local variables of Fortran are zero, as many public user elements assume; a check turns
+    this off. debug: with run-time checks, which end a call with file and line, and NaN in such variables; with
+    AddressSanitizer, if its runtime is in this process. Raises CompileError.
     """
     files = [] if user is None else [user] if isinstance(user, Path) else list(user)
     include = () if deck is None else (deck.resolve().parent,)
@@ -173,7 +173,7 @@ def load(
 
 
 def _name_of(files: Sequence[Path]) -> str:
-    """User files as they are named in messages."""
+    """Name of the user files in messages."""
     others = f" and {len(files) - 1} more" if len(files) > 1 else ""
     return f"{files[0]}{others}" if files else "the project's kernels"
 
@@ -194,7 +194,7 @@ def _shared_library(files: Sequence[Path], include: Sequence[Path], **how: bool)
 
 
 def _open(shared: Path, name: str) -> ctypes.CDLL:
-    """Load a copy: data of modules and COMMON blocks then start afresh in every job of this process."""
+    """Load a copy, so that data of modules and COMMON blocks start afresh in every job of this process."""
     with tempfile.TemporaryDirectory() as folder:
         copy = Path(folder) / shared.name
         shutil.copyfile(shared, copy)

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""Link a user's objects: LAPACK where they need it, STOP and errors of libgfortran turned into an end of the call."""
+"""Link a user's objects, with LAPACK if they need it; STOP and errors of libgfortran become an end of the call."""
 
 from __future__ import annotations
 
@@ -32,10 +32,10 @@ _PREFIX: Final = "scipy_"
 
 
 def lapack_flags(objects: Sequence[Path], compiler: str) -> list[str]:
-    """Flags with which this compiler gives the objects LAPACK and BLAS; they refer to it by its plain names.
+    """Flags with which this compiler links the objects, which use plain names, with LAPACK and BLAS.
 
-    The libraries of the system are taken if they are found, else the OpenBLAS in scipy's wheel, whose names carry a
-    prefix: the references in the objects are then renamed.
+    The system's libraries are used if they are found, else the OpenBLAS in scipy's wheel, whose names have a prefix:
+    the references in the objects are then renamed.
     """
     wanted = {name for file in objects for name in _symbols("-u", file)}
     bundled = _bundled_openblas()
@@ -66,7 +66,7 @@ _COMMON: Final = (
     "dposv",
     "dpotrf",
 )
-"""Routines that betray a use of LAPACK where no list of its names is at hand."""
+"""Routines that reveal the use of LAPACK if no list of its names is at hand."""
 
 
 def _system_lapack(compiler: str) -> list[str]:
@@ -86,7 +86,7 @@ def _bundled_openblas() -> Path | None:
 
 
 def bundled_lapack() -> str:
-    """Path of the library that stands in where the system has no LAPACK; '' without one."""
+    """Path of the library that replaces the system's LAPACK if there is none; '' without one."""
     return str(_bundled_openblas() or "")
 
 
@@ -96,7 +96,7 @@ def _symbols(option: str, file: Path) -> Iterator[str]:
 
 
 def undefined_routine(message: str) -> str:
-    """What the dynamic linker's message says, in a user's words."""
+    """The dynamic linker's message in the user's terms."""
     found = re.search(r"undefined symbol: (\w+)", message)
     if found is None:
         return f"cannot be loaded: {message}"

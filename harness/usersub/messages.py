@@ -13,12 +13,12 @@ from harness.errors import UelError
 from harness.usersub import _binding
 
 MOST: Final = 1 << 26
-"""Bytes of a unit that are taken over at once: an endless loop prints more than memory holds."""
+"""Bytes of a unit that are read at once: an endless loop prints more than memory holds."""
 
 _LAST: Final = 3
-"""Printed lines that a message quotes."""
+"""Number of printed lines that a message quotes."""
 
-_LOCKED: Final = "a call was left inside a WRITE, which has unit 6 or 7 locked"
+_LOCKED: Final = "an abandoned call inside a WRITE has unit 6 or 7 locked"
 
 _KINDS = {1: "note", -1: "warning", -2: "error", -3: "error"}
 
@@ -41,10 +41,10 @@ class Message:
 
 
 class Inbox:
-    """Collects the messages of a job. Units 6 and 7 are JOB.unit6 and JOB.unit7, removed once all is taken over."""
+    """Collects the messages of a job. Units 6 and 7 are JOB.unit6 and JOB.unit7, removed once all has been read."""
 
     _current: ClassVar[Inbox | None] = None
-    """The job that has the units, which are of the process."""
+    """The job that owns the units, of which the process has one set."""
 
     def __init__(self, job: str, directory: Path) -> None:
         directory.mkdir(parents=True, exist_ok=True)
@@ -58,7 +58,7 @@ class Inbox:
             raise UelError(f"cannot write {self._files['.dat']} and {self._files['.msg']}: {os.strerror(failed)}")
         self._lost = failed < 0
         if self._lost:
-            self.warn(f"in an earlier run {_LOCKED}, and what is printed there is lost")
+            self.warn(f"{_LOCKED} since an earlier run: text printed there is lost")
 
     def take(self) -> list[Message]:
         """All messages since the last call."""
@@ -68,12 +68,12 @@ class Inbox:
         return sorted(found, key=lambda message: message.kind == "print")
 
     def last_error(self) -> str:
-        """Text of the latest error or fatal error not yet taken; '' if there is none."""
+        """Text of the latest error or fatal error not yet read; '' if there is none."""
         self._collect()
         return next((m.text for m in reversed(self._sent) if m.kind == "error"), "")
 
     def last_lines(self) -> list[str]:
-        """Last lines that were printed to unit 7, or else to unit 6, and are not yet taken."""
+        """Last lines printed to unit 7, or else to unit 6, and not yet read."""
         self._print()
         printed = {m.file: m.text.split("\n") for m in self._sent if m.kind == "print"}
         lines = [line.strip() for line in printed.get(".msg", printed.get(".dat", [])) if line.strip()]
@@ -84,7 +84,7 @@ class Inbox:
         self._sent.append(Message(".msg", "warning", text))
 
     def close(self) -> None:
-        """Disconnect the units; remove their files unless they hold text that nobody took."""
+        """Disconnect the units; remove their files unless they hold text that nobody has read."""
         if Inbox._current is self:
             _binding.flush_units(close=True)
             Inbox._current = None
@@ -98,10 +98,10 @@ class Inbox:
             self._sent.append(Message(".msg", kind, raw.text, raw.element, raw.step, raw.increment))
 
     def _print(self) -> None:
-        """Take over what was printed to the units."""
+        """Read what was printed to the units."""
         if not self._lost and not _binding.flush_units():
             self._lost = True
-            self.warn(f"{_LOCKED}, and the last of what was printed there is lost")
+            self.warn(f"{_LOCKED}: the last text printed there is lost")
         for file, path in self._files.items():
             if not path.exists():
                 continue
@@ -109,7 +109,7 @@ class Inbox:
                 stream.seek(self._read[file])
                 text = stream.read(MOST)
             if len(text) == MOST:
-                self.warn(f"more was printed than is taken over at once: what is left at the end stays in {path.name}")
+                self.warn(f"more was printed than is read at once: what is left at the end stays in {path.name}")
             if text:
                 self._read[file] += len(text)
                 self._sent.append(Message(file, "print", text.decode(errors="replace")))

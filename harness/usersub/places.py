@@ -44,7 +44,7 @@ class Place:
 
 
 def innermost(addresses: Sequence[int], loaded: str, library: Path) -> Place | None:
-    """Place of the first address in a library, which is loaded from a copy; None where its line is not known."""
+    """Place of the first address in a library, which is loaded from a copy; None if its line is not known."""
     offsets = _offsets(addresses, loaded)
     tool = shutil.which("addr2line")
     if not offsets or tool is None:
@@ -59,7 +59,7 @@ def innermost(addresses: Sequence[int], loaded: str, library: Path) -> Place | N
 
 
 def _offsets(addresses: Sequence[int], loaded: str) -> list[int]:
-    """Those in a loaded library, from its beginning."""
+    """Those in a loaded library, relative to its beginning."""
     look_up = getattr(ctypes.CDLL(None), "dladdr", None)
     found = _Found()
     offsets = []

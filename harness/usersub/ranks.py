@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""A number that is passed where a routine takes an array: what the routine reads behind it is something else."""
+"""A number passed where a routine expects an array: the routine then reads something else after it."""
 
 from __future__ import annotations
 
@@ -10,20 +10,20 @@ from typing import Final
 
 from harness.usersub.diagnostics import warnings_of
 
-HINT: Final = "it reads the memory behind it, which holds something else: pass an array"
+HINT: Final = "the routine also reads the memory after it, which holds something else: pass an array"
 
 _RANK: Final = re.compile(r"Rank mismatch in argument '(\w+)' at \(1\) \(rank-(?:\d+) and scalar\)")
 _ARGUMENT: Final = re.compile(r"[\s(,]*[-+]?(?:\.?\d|([a-z]\w*)\s*[,)])", re.IGNORECASE)
 
 
 def array_wanted(message: str) -> str | None:
-    """Name of the argument of which gfortran's message says that it is an array, where a single value is passed."""
+    """Name of the array argument for which, by gfortran's message, a single value is passed."""
     found = _RANK.search(message)
     return found and found[1]
 
 
 def is_constant(text: str, line: int, column: int) -> bool:
-    """Whether a number, or the name of a PARAMETER, stands at a line and column, from 1, or behind it."""
+    """Whether a number, or the name of a PARAMETER, is at a line and column (from 1), or after it."""
     rows = text.splitlines()
     found = _ARGUMENT.match(rows[line - 1], column - 1) if 1 <= line <= len(rows) else None
     if found is None or found[1] is None:
@@ -33,9 +33,9 @@ def is_constant(text: str, line: int, column: int) -> bool:
 
 
 def constants_for_arrays(output: str, texts: Mapping[str, str]) -> Iterator[str]:
-    """Sentences on what gfortran's output says of constants; texts of the files by bare name.
+    """Sentences on what gfortran's output says about constants; texts of the files by bare name.
 
-    Behind a variable may lie what is meant, behind a constant are other constants.
+    The memory after a variable may be what is meant; after a constant come other constants.
     """
     for file, line, column, message, _ in warnings_of(output):
         argument, text = array_wanted(message), texts.get(file, "")

@@ -1,9 +1,9 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""What the compilers suspect in a user's files: certain mistakes, and what deserves a look.
+"""What the compilers suspect in a user's files: certain mistakes, and what is worth a look.
 
-Certain is what is wrong wherever it is executed. Right code in the style of Fortran 77 has none of it: names that have
-their type by the first letter, arguments that are not used, arrays declared with a bound of 1, REAL work arrays.
+A mistake is certain if it is wrong whenever it is executed. Correct code in the style of Fortran 77 gives no warnings:
+implicit types by the first letter, unused arguments, arrays declared with a bound of 1, REAL work arrays.
 """
 
 from __future__ import annotations
@@ -30,43 +30,43 @@ _TYPES: Final = re.compile(
 )
 _UNDECLARED: Final = re.compile(r"Symbol '(\w+)' at \(1\) has no IMPLICIT type")
 _NEAR: Final = 0.8
-"""Likeness of two names, one of which may be the other misspelt."""
+"""Similarity of two names, one of which may be the other misspelt."""
 
 _LONG: Final = 4
-"""Letters of a name that may be a misspelt one: shorter ones are all alike."""
+"""Least number of letters of a name that may be misspelt: shorter ones are all alike."""
 
 _CONSTANT: Final = re.compile(r"(?<![\w.])(?:\d+\.\d*|\.\d+)(?![\w.])")
 
 _COUNT: Final = "give as many arguments as the routine has"
 _OPTIONS: Final = {
-    "-Winteger-division": "the quotient of whole numbers is cut to a whole number: write 1.d0/3.d0",
+    "-Winteger-division": "the quotient of integers is truncated to an integer: write 1.d0/3.d0",
     "-Wmaybe-uninitialized": "give it a value on every path that leads here",
     "-Wreturn-type": "assign a value to the name of the function on every path",
-    "-Wdo-subscript": "look at the first and the last pass of the loop",
+    "-Wdo-subscript": "check the first and the last pass of the loop",
     "-Waggressive-loop-optimizations": "the loop runs past the end of an array",
-    "-Warray-bounds": "indices in C run from 0 to the size less one",
+    "-Warray-bounds": "indices in C run from 0 to the size minus one",
     "-Wline-truncation": "the rest of the line is not read: continue it on another one",
-    "-Wunused-result": "what the function returns says whether it worked",
+    "-Wunused-result": "the function returns whether it succeeded",
     "-Wunused-value": "the statement has no effect",
     "-Wimplicit-function-declaration": "declare the function, or include its header",
     "-Wint-conversion": "an integer and an address are not the same",
     "-Wincompatible-pointer-types": "the argument is of another type than the parameter",
-    "-Wformat": "the format does not fit what is printed",
+    "-Wformat": "the format does not match what is printed",
 }
-"""Warnings that are told, and what to do; others are style."""
+"""Warnings that are reported, and what to do; others are style."""
 
 _SENTENCES: Final = (
     ("More actual than formal arguments|Missing actual argument", _COUNT),
-    ("too few elements", "the routine may read and write what lies behind it"),
+    ("too few elements", "the routine may read and write the memory after it"),
 )
-"""The same for those without an option."""
+"""The same for warnings without an option."""
 
 
 @dataclass(frozen=True, slots=True)
 class Suspicion:
     """A warning: bare name of the file, line from 1, what is wrong, the source line, what to do.
 
-    certain: wrong wherever it is executed.
+    certain: wrong whenever it is executed.
     """
 
     file: str
@@ -82,7 +82,7 @@ class Suspicion:
 
 
 def suspicions(files: Sequence[Path], include: Sequence[Path] = ()) -> list[Suspicion]:
-    """Certain ones first, each once, in the order of the lines. Raises CompileError."""
+    """Suspicions, certain ones first, each once, in the order of the lines. Raises CompileError."""
     opinion = listen(files, include)
     told = _Told(opinion, _checked_lines(files, include))
     found = dict.fromkeys([*told.warnings(), *told.misspelt(), *told.single_precision()])
@@ -92,7 +92,7 @@ def suspicions(files: Sequence[Path], include: Sequence[Path] = ()) -> list[Susp
 
 
 def _checked_lines(files: Sequence[Path], include: Sequence[Path]) -> set[tuple[str, int]]:
-    """Lines of Fortran in which an index is looked at in a debug build: not those that are never reached."""
+    """Lines of Fortran in which a debug build checks an index: not those that are never reached."""
     try:
         library = build(files, include, debug=True).library.read_bytes()
     except CompileError:
@@ -112,13 +112,13 @@ class _Told:
         }
 
     def warnings(self) -> Iterator[Suspicion]:
-        """What is wrong, or deserves a look."""
+        """What is wrong, or worth a look."""
         for file, line, column, text, option in warnings_of(self._opinion.warnings):
             if judged := self._judge(file, line, column, text, option):
                 yield self._at(file, line, *judged)
 
     def misspelt(self) -> Iterator[Suspicion]:
-        """Names that are declared nowhere and stand in their routine once."""
+        """Names that are declared nowhere and occur once in their routine."""
         for file, line, _, text, _ in warnings_of(self._opinion.undeclared):
             found = _UNDECLARED.search(text)
             unit = unit_at(self._units.get(file, []), line)
@@ -127,14 +127,14 @@ class _Told:
             name = found[1]
             others = (unit.names.keys() | unit.dummies) - {name}
             near = get_close_matches(name, others, n=1, cutoff=_NEAR) if len(name) >= _LONG else []
-            # what is set and not used, or an argument that nobody needs, is no mistake by itself
+            # a variable that is set and not used, or an unused argument, is no mistake by itself
             if name not in unit.read and not near:
                 continue
             meant = f" for '{near[0]}'" if near else ""
             yield self._at(file, line, f"'{found[1]}' is declared nowhere and used once: misspelt{meant}?", "", False)
 
     def single_precision(self) -> Iterator[Suspicion]:
-        """Constants that lose digits on their way into a variable of double precision: one message a file."""
+        """Constants that lose digits on their way into a variable of double precision: one message per file."""
         found: dict[str, list[tuple[int, str]]] = {}
         for file, line, _, _, option in warnings_of(self._opinion.warnings):
             if option == "-Wconversion-extra":
@@ -144,17 +144,17 @@ class _Told:
         for file, places in found.items():
             if places:
                 line, constant = places[0]
-                sentence = f"{constant} is a constant of single precision, with 7 digits"
+                sentence = f"{constant} is a single-precision constant, with 7 digits"
                 others = f"; there are {len(places)} of them" if len(places) > 1 else ""
                 yield self._at(file, line, sentence, f"write {constant}d0{others}", False)
 
     def _judge(self, file: str, line: int, column: int, text: str, option: str) -> tuple[str, str, bool] | None:
-        """Sentence, hint and whether it is certain; None for style."""
+        """Sentence, hint and whether the mistake is certain; None for style."""
         if found := _BOUNDS.search(text):
             return self._outside(file, line, column, found)
         if found := _TYPES.search(text):
             given, taken = f"{found[2]}({found[3]})", f"{found[4]}({found[5]})"
-            # a real array that a routine takes for integers is a work array, as in LAPACK
+            # a real array that a routine uses for integers is a work array, as in LAPACK
             certain = found[3] != found[5] and found[4] == "REAL"
             return f"{given} is passed for the argument '{found[1]}', which is {taken}", "use one type in both", certain
         if argument := ranks.array_wanted(text):
@@ -175,14 +175,14 @@ class _Told:
         if dummy and bound == "1":
             return None
         if (file, line) not in self._checked:
-            # behind an IF that is never true
+            # after an IF that is never true
             return None
         bounds = "below its lower" if side == "<" else "above its upper"
         sentence = f"index {index} of dimension {dimension} of '{name}' is {bounds} bound of {bound}"
-        return sentence, "" if not dummy else "declare the argument as large as it is", not dummy
+        return sentence, "" if not dummy else "declare the argument with its actual size", not dummy
 
     def _array(self, file: str, line: int, column: int) -> str:
-        """Name of the array whose index is at a column, from 1."""
+        """Name of the array whose index is at a column (from 1)."""
         row = self._row(file, line)[:column]
         depth = 0
         for place in range(len(row) - 1, -1, -1):
@@ -204,6 +204,6 @@ class _Told:
 
 
 def _loses_digits(constant: str) -> bool:
-    """Whether a number is another one in single precision."""
+    """Whether single precision changes a number."""
     value = float(constant)
     return bool(struct.unpack("f", struct.pack("f", value))[0] != value)

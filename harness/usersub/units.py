@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""Program units of a Fortran text: their dummy arguments, the names they use, and declarations as of Fortran 66."""
+"""Program units of a Fortran text: their dummy arguments, the names they use, and declarations as in Fortran 66."""
 
 from __future__ import annotations
 
@@ -32,9 +32,9 @@ class Unit:
     """A subroutine or function from its first line on.
 
     dummies   names of its arguments, in lower case like all names
-    names     how often each stands in it
+    names     number of occurrences of each name
     declared  names in declarations
-    read      names that stand where a value is taken: not assigned, and no argument of CALL
+    read      names whose value is used: neither assigned, nor an argument of CALL
     """
 
     first: int
@@ -44,7 +44,7 @@ class Unit:
     read: set[str] = field(default_factory=set)
 
     def single(self, name: str) -> bool:
-        """Whether a name stands in it once, and in no declaration."""
+        """Whether a name occurs once, and not in a declaration."""
         return self.names[name] == 1 and name not in self.declared and name not in self.dummies
 
 
@@ -66,14 +66,14 @@ def units(text: str, *, free: bool) -> list[Unit]:
 
 
 def unit_at(found: list[Unit], line: int) -> Unit | None:
-    """The unit in which a line is."""
+    """The unit that contains a line."""
     return next((unit for unit in reversed(found) if unit.first <= line), None)
 
 
 def with_open_bounds(text: str, *, free: bool, but: frozenset[str] = frozenset()) -> str:
-    """The text in which dummy arrays declared with the last bound 1 have *: what Fortran 66 had for any size.
+    """The text in which dummy arrays with a last bound of 1, Fortran 66's notation for any size, have *.
 
-    but: names that stay, in lower case.
+    but: names that stay as they are, in lower case.
     """
     rows = text.splitlines(keepends=True)
     dummies: frozenset[str] = frozenset()
@@ -94,7 +94,7 @@ def _opened(row: str, names: frozenset[str]) -> str:
 
 
 def without_implicit(text: str, *, free: bool) -> str:
-    """The text without its IMPLICIT statements but IMPLICIT NONE; lines stay where they are."""
+    """The text without IMPLICIT statements other than IMPLICIT NONE; line numbers do not change."""
     rows = text.splitlines(keepends=True)
     for lines, statement in statements(text, free=free):
         if _IMPLICIT.match(statement):
@@ -104,7 +104,7 @@ def without_implicit(text: str, *, free: bool) -> str:
 
 
 def statements(text: str, *, free: bool) -> Iterator[tuple[list[int], str]]:
-    """Statements with the numbers of their lines, from 1: continued lines are joined, comments and strings left out."""
+    """Statements with the numbers of their lines (from 1): continued lines joined, comments and strings left out."""
     lines: list[int] = []
     statement, continued = "", False
     for number, row in enumerate(text.splitlines(), 1):
@@ -130,7 +130,7 @@ def _continues(row: str) -> bool:
 
 
 def _body(row: str) -> str:
-    """A line of fixed form without label and sign of continuation."""
+    """A fixed-form line without label and continuation character."""
     if row.startswith("\t"):
         return row[2:].strip() if _continues(row) else row[1:].strip()
     return row[6:].strip() if "\t" not in row[:6] else row.strip()

@@ -243,5 +243,5 @@ def test_program_goes_on_after_a_call_was_left_inside_a_write(tmp_path: Path) ->
     first, second = result.stdout.splitlines()
     assert "stopped the analysis (XIT)" in first
     assert re.fullmatch(
-        "True in an earlier run a call was left inside a WRITE, .*what is printed there is lost", second
+        "True an abandoned call inside a WRITE has .*since an earlier run: text printed there is lost", second
     )

@@ -54,7 +54,7 @@ def test_library_names_svars_of_these_elements_only(library, tmp_path):
     ("text", "message"),
     [
         ("integer, parameter, public :: p_a = 2\n@real_item(p_a, 'A', '1', positive)] !< a", "position 2 in row 1"),
-        ("@", "another number of rows"),
+        ("@", "not have the number of rows"),
     ],
 )
 def test_inconsistent_layout_is_refused(text, message):

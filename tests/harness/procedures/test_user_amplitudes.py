@@ -160,7 +160,7 @@ def test_a_velocity_is_integrated(run):
     [
         ("CALL XIT", r"uamp.f: UAMP stopped the analysis .*\(amplitude TOLD, step 1, increment 0\)"),
         ("AMPVALUENEW = 1\nLFLAGSDEFINE(5) = LFLAGSINFO(2)", r"by lFlagsDefine\(5\) \(.*, increment 1\)"),
-        ("AMPVALUEOLD = 1", r"UAMP does not set AmpValueNew, or sets it to no number"),
+        ("AMPVALUEOLD = 1", r"UAMP does not set AmpValueNew, or sets it to NaN or infinity"),
         ("AMPVALUENEW = GETSENSORVALUE('OTHER',JSENSORLOOKUPTABLE,SENSORVALUES)", "there is no sensor OTHER"),
     ],
 )

@@ -17,7 +17,7 @@ def test_logicals_compared_with_eq_compile_in_a_copy(load, tmp_path):
     library = load(text)
     assert [m.text for m in library.messages()] == [
         "an extension of Abaqus' compiler, written in standard Fortran in a copy: "
-        f"{file}: logicals compared with {operator}, in the copy .eqv. or .neqv."
+        f"{file}: logicals compared with {operator}; the copy has .eqv. or .neqv."
         for file, operator in (("part.inc, line 1", ".eq."), ("user.f, line 8", "=="))
     ]
     assert said(library) == ["equal"]
@@ -30,7 +30,7 @@ def test_real_array_bound_compiles_in_a_copy(load):
     library = load(database(body + "      real*8 a(n,most), b(n)\n      a = tiny\n" + note("bound")))
     assert [m.text for m in library.messages()] == [
         "an extension of Abaqus' compiler, written in standard Fortran in a copy: "
-        "user.f, line 9: a real number as an array bound, in the copy int() of it"
+        "user.f, line 9: a real number as an array bound; the copy has int() of it"
     ]
     assert said(library) == ["bound"]
 
@@ -69,7 +69,7 @@ def test_constants_without_parentheses_have_the_types_of_their_values(load, impl
     text = database(body + note("%I %I", "nint(1/nu), three/2, nint(1/half)").replace("%I %I", "%I %I %I"))
     library = load(text)
     (message,) = library.messages()
-    assert "user.f, line 9: PARAMETER without parentheses, whose names take the types of their" in message.text
+    assert "user.f, line 9: PARAMETER without parentheses, whose names have the types of their" in message.text
     assert said(library) == ["4 1 2"]
 
 
@@ -113,7 +113,7 @@ def test_sign_of_two_kinds_compiles_in_a_copy(load):
     library = load(database(body + note("%I", "i")))
     notes = [m.text for m in library.messages()]
     assert len(notes) == 2
-    assert all("user.f, line 6: SIGN of two kinds of numbers, in the copy of one" in text for text in notes)
+    assert all("user.f, line 6: SIGN of two kinds of numbers; the copy has one kind" in text for text in notes)
     assert said(library) == ["7"]
 
 

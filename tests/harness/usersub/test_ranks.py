@@ -11,7 +11,7 @@ from harness.usersub import suspicions
 FILL = "      subroutine fill(a, x)\n      implicit real*8(a-h,o-z)\n      dimension a(3), x(3)\n      a = x\n"
 WARNING = (
     "user.f, line {line}: a constant is passed for the argument 'x', which is an array: {call} "
-    "(it reads the memory behind it, which holds something else: pass an array)"
+    "(the routine also reads the memory after it, which holds something else: pass an array)"
 )
 
 
