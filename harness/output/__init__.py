@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""The files of a job, written from the records of a run, and what reads them back."""
+"""The files of a job, written from the records of a run, and the functions that read them back."""
 
 from harness.output.interface import read_interface
 from harness.output.job import JobOutput

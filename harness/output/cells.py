@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""Cells that stand for elements in field output, and what is known in each.
+"""Cells that represent elements in field output, and their values.
 
 Which cell an element becomes:
 
@@ -8,7 +8,7 @@ Which cell an element becomes:
   a continuum element of the project: its outline;
 - a built-in continuum element: the cell of its family (harness/model/element_types.py);
 - a user's own element, a truss or a spring: by its number of nodes, the cell of a family in the plane or in space, or
-  else a line, with the node order of Abaqus' own elements. Abaqus does not know either what a user element looks like;
+  else a line, with the node order of Abaqus' own elements. Abaqus does not know the shape of a user element either;
 - a user element with any other number of nodes: a vertex at each of its nodes, all with the values of the element.
 """
 
@@ -70,7 +70,7 @@ def is_solid(model: Model) -> bool:
 def cell_values(states: tuple[ElementState, ...], cells: tuple[Cells, ...]) -> dict[str, list[FloatArray]]:
     """Means over the integration points, by variable, an array for each group; NaN where a group lacks the variable.
 
-    Coordinates of the points are left out: the cell is in its place already.
+    Coordinates of the points are left out, because the cell shows them.
     """
     known: dict[str, dict[int, FloatArray]] = {}
     for state in states:

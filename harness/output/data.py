@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""The data file (.dat): echo of the deck, what was understood of it, printed tables, warnings and errors."""
+"""The data file (.dat): echo of the deck, how it was understood, printed tables, warnings and errors."""
 
 from __future__ import annotations
 
@@ -28,8 +28,8 @@ from harness.output.tables import (
 )
 
 _USER_ELEMENT_OUTPUT = (
-    "ABAQUS SUPPORTS NO ELEMENT OUTPUT FOR USER ELEMENTS. HERE FIELD OUTPUT HAS THE VARIABLES OF THE PROJECT'S OWN "
-    "ELEMENTS, AND *EL PRINT OF SDV HAS THE SOLUTION-DEPENDENT VARIABLES OF ANY USER ELEMENT."
+    "ABAQUS DOES NOT SUPPORT ELEMENT OUTPUT FOR USER ELEMENTS. HERE FIELD OUTPUT HAS THE VARIABLES OF THE PROJECT'S "
+    "OWN ELEMENTS, AND *EL PRINT OF SDV HAS THE SOLUTION-DEPENDENT VARIABLES OF ANY USER ELEMENT."
 )
 
 
@@ -41,7 +41,7 @@ class DataFile:
         self._file = TextFile(path)
         self._warnings = 0
         self._index: NodalIndex | None = None
-        # step whose requests were compared with what there is; the last increment of a step may come twice
+        # step whose requests were compared with the available variables; the last increment of a step may come twice
         self._looked_at = 0
         requests = [
             request for step in model.steps for request in (*step.output.node_print, *step.output.element_print)
@@ -107,7 +107,7 @@ class DataFile:
         self._file.write(text)
 
     def _missing(self, record: IncrementDone, index: NodalIndex) -> None:
-        """Name what is asked for and not there, once a step."""
+        """Name requested variables that are not available, once per step."""
         output = self._model.steps[record.step - 1].output
         requests: list[tuple[str, NodeRequest | ElementRequest]] = []
         requests += [(f"*NODE PRINT, NSET={request.nset}", request) for request in output.node_print]
@@ -115,7 +115,7 @@ class DataFile:
         for place, request in requests:
             if isinstance(request, ElementRequest):
                 for element_type in not_extrapolated(request, self._model):
-                    text = f"ELEMENTS OF TYPE {element_type} HAVE VALUES AT THE INTEGRATION POINTS ALONE"
+                    text = f"ELEMENTS OF TYPE {element_type} HAVE VALUES AT THE INTEGRATION POINTS ONLY"
                     self.remark("WARNING", f"{place}, POSITION={request.position}: {text}")
             for name in missing_variables(request, self._model, record.solution, index):
                 self.remark("WARNING", f"{place}: {name} IS NOT AVAILABLE AND IS LEFT OUT")
@@ -126,7 +126,7 @@ class DataFile:
         self._file.write(f"\n{remark(kind, text)}")
 
     def text(self, text: str) -> None:
-        """Text of a user routine, as it is."""
+        """Text of a user routine, unchanged."""
         self._file.write(text if text.endswith("\n") else f"{text}\n")
 
     def close(self, error: str | None) -> None:
@@ -141,7 +141,7 @@ class DataFile:
         self._file.close()
 
     def _input(self) -> str:
-        """What was understood of the deck: size, user elements, ignored keywords, warnings."""
+        """How the deck was understood: size, user elements, ignored keywords, warnings."""
         model = self._model
         elements = sum(len(group.labels) for group in model.groups)
         used = used_nodes(model)
@@ -190,7 +190,7 @@ def _echo(deck: Path) -> str:
 
 
 def _user_element(name: str, definition: UserElement) -> str:
-    """What *USER ELEMENT says of a type."""
+    """What *USER ELEMENT says about a type."""
     dofs: dict[int, list[str]] = {}
     for node, dof in definition.dofs:
         dofs.setdefault(node, []).append(str(dof))
@@ -216,6 +216,6 @@ def _user_element(name: str, definition: UserElement) -> str:
 
 
 def _places(keyword: str, found: list[str]) -> str:
-    """A keyword with the first places where it stands."""
+    """A keyword with the first places where it occurs."""
     more = f" and {len(found) - 3} more" if len(found) > 3 else ""
     return f"{keyword:<24} {', '.join(found[:3])}{more}"

@@ -4,8 +4,8 @@
 
 Point data: U and RF (three components), NODE (label), and one array for each other dof there is (UR1, NT11, ...).
 Cell data: ELEMENT (label) and the variables that our elements keep, as means over the integration points of the cell.
-Continuum and interface are in one file. NaN stands where a cell does not have a variable. Of a harmonic response these
-are the real parts; the imaginary ones are arrays of the same names that end with _imaginary.
+Continuum and interface are in one file. A variable that a cell does not have is NaN there. For a harmonic response
+these are the real parts; the imaginary ones are arrays whose names end with _imaginary.
 """
 
 from __future__ import annotations
@@ -58,7 +58,7 @@ class FieldFiles:
         self._entries: list[str] = []
         self._cells: tuple[Cells, ...] = ()
         self._nodal: list[_PointArray] = []
-        # what it lists is there at every moment
+        # at every moment, the files it lists exist
         pvd.unlink(missing_ok=True)
         shutil.rmtree(self._folder, ignore_errors=True)
 

@@ -31,7 +31,7 @@ def exponential(value: float, width: int = 15, digits: int = 7) -> str:
     """Fortran's `1PEw.d`, with which the .dat file prints values at nodes: one digit before the point, d behind it."""
     if not math.isfinite(value):
         return general(value, width)
-    # without the sign of a zero
+    # zero has no sign
     return _scientific(value + 0.0, width, digits)
 
 
@@ -56,7 +56,7 @@ def program() -> str:
 class TextFile:
     """A file that replaces an older one of the same name; each `write` is handed to the system at once.
 
-    So a killed run leaves every text that was written, and a reader sees whole records only.
+    So a killed run leaves every text that was written, and a reader sees only whole records.
     """
 
     def __init__(self, path: Path) -> None:
@@ -64,7 +64,7 @@ class TextFile:
         self._descriptor = os.open(path, os.O_WRONLY | os.O_CREAT | os.O_TRUNC | os.O_APPEND, 0o666)
 
     def write(self, text: str) -> None:
-        """Append text, or nothing where there is no room for all of it."""
+        """Append text, or nothing if there is no room for all of it."""
         data = memoryview(text.encode(errors="replace"))
         written = 0
         try:

@@ -1,12 +1,12 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""History output (NAME_history.csv): nodal variables and energies of the increments, a row each.
+"""History output (NAME_history.csv): nodal variables and energies, one row per increment.
 
-Columns are step, increment, time (total time), `LPF` where the load factor is part of the solution, then what *NODE
-OUTPUT and *ENERGY OUTPUT of the steps ask for, in order: `U2[LOAD]` for a set of one node, `RF2[LOAD:17]` for each node
-of a larger set, `ALLSE` for an energy of the whole model. A mode of *FREQUENCY has a row, with its frequency for time.
-A frequency of *STEADY STATE DYNAMICS has one too, with amplitudes and, in further columns `PU2[LOAD]`, phase angles in
-degrees. A column that a step does not ask for is empty there.
+Columns are step, increment, time (total time), `LPF` if the load factor is part of the solution, then what *NODE
+OUTPUT and *ENERGY OUTPUT of the steps request, in order: `U2[LOAD]` for a set of one node, `RF2[LOAD:17]` for each node
+of a larger set, `ALLSE` for an energy of the whole model. A mode of *FREQUENCY has a row, with its frequency as time.
+So does a frequency of *STEADY STATE DYNAMICS, with amplitudes and, in further columns `PU2[LOAD]`, phase angles in
+degrees. A column that a step does not request is empty there.
 """
 
 from __future__ import annotations
@@ -117,7 +117,7 @@ class _Column:
 
 
 def _places(model: Model, nset: str, nodes: IntArray) -> list[str]:
-    """What stands in the brackets of the columns of a set."""
+    """Text in the brackets of the columns of a set."""
     if nset and len(nodes) == 1:
         return [nset]
     names = [model.mesh.name(int(node)) for node in nodes]

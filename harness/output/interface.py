@@ -116,7 +116,7 @@ def _read_blocks(path: Path) -> tuple[list[str], dict[tuple[int, int], FloatArra
     names = head.rstrip().split(",")
     if not lines:
         return names, {}
-    # an empty cell is no number for loadtxt
+    # loadtxt cannot read an empty cell
     cells = "".join(lines).replace(",\n", ",nan\n").replace(",,", ",nan,").replace(",,", ",nan,")
     table = np.loadtxt(io.StringIO(cells), delimiter=",", ndmin=2)
     starts = 1 + np.flatnonzero(np.diff(table[:, :2], axis=0).any(axis=1))

@@ -60,7 +60,7 @@ class JobOutput:
     job
         Name of the files.
     warnings
-        About the deck, then about the model, about the user routines and of them.
+        About the deck, then about the model and the user routines, and from the user routines.
     """
 
     def __init__(self, model: Model, job: str, directory: Path, *, quiet: bool = False) -> None:
@@ -132,8 +132,8 @@ class JobOutput:
     def close(self, error: UelError | None) -> None:
         """Write what the last converged increment still owes, and the verdict; the job ends here.
 
-        Where a file takes no more, the others are closed all the same. Raises the OSError of the first such file. What
-        is closed stays as it is.
+        If a file cannot be written, the others are closed all the same. Raises the OSError of the first such file. A
+        second call has no effect.
         """
         if self._closed:
             return
@@ -180,7 +180,7 @@ class JobOutput:
 
     def _increment(self, record: IncrementDone) -> None:
         procedure = self._model.steps[record.step - 1].procedure
-        # the end of a path, or of a row of frequencies, is known only when its step is done
+        # the end of a path, or of a sequence of frequencies, is known only when its step is done
         timeless = procedure.riks is not None or isinstance(record, HarmonicResponse)
         last = not timeless and record.step_time >= procedure.period * (1.0 - 1e-9)
         self._requested(record, last=last)

@@ -16,10 +16,10 @@ from harness.errors import UelError, UsageError
 
 
 def job_stem(job: str, folder: str | Path | None) -> Path:
-    """Folder and name of a job; raises UsageError where the name is none."""
+    """Folder and name of a job; raises UsageError if the name cannot be one."""
     if not job or job in (".", "..") or "/" in job or "\0" in job:
         raise UsageError(
-            f"'{job}' is no name of a job: expected a file name without folders (--output-dir takes the folder)"
+            f"'{job}' cannot be a job name: expected a file name without folders (--output-dir takes the folder)"
         )
     return Path(folder or ".") / job
 
@@ -32,7 +32,7 @@ class LockedError(UelError):
 def locked(stem: Path) -> Iterator[None]:
     """Hold STEM.lck in the block; raises LockedError where another process does.
 
-    The system lets go of it when a process ends, however that is: a file that is left over locks nothing.
+    The system releases it when a process ends, in whatever way: a leftover file locks nothing.
     """
     path = stem.with_name(stem.name + ".lck")
     descriptor = _open(path)
@@ -49,7 +49,7 @@ def _open(path: Path) -> int:
         descriptor = os.open(path, os.O_RDWR | os.O_CREAT, 0o666)
         try:
             fcntl.flock(descriptor, fcntl.LOCK_EX | fcntl.LOCK_NB)
-            # the one that held it may have removed the file in the meantime
+            # the process that held it may have removed the file in the meantime
             if not path.exists() or not os.path.samestat(os.fstat(descriptor), path.stat()):
                 os.close(descriptor)
                 continue
@@ -59,7 +59,7 @@ def _open(path: Path) -> int:
             message = f"a job of this name runs in this folder: {path} is held by {owner}"
             raise LockedError(f"{message}; give another --job or --output-dir") from None
         except OSError as error:
-            # a file system without locks has no protection
+            # a file system without locks gives no protection
             if error.errno not in (errno.ENOLCK, errno.ENOSYS, errno.EOPNOTSUPP):
                 os.close(descriptor)
                 raise

@@ -2,8 +2,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """The message file (.msg): tolerances of each step, then every iteration with its checks, as Abaqus prints them.
 
-Layout and words are those of the message files of Abaqus 6.14 to 2023. The figures of the solver (equations,
-operations) and the controls of what the harness does not have (contact, hybrid elements) are not there.
+Layout and words are those of the message files of Abaqus 6.14 to 2023. Left out are the figures of the solver
+(equations, operations) and the controls of what the harness does not have (contact, hybrid elements).
 """
 
 from __future__ import annotations
@@ -72,7 +72,7 @@ class MessageFile:
         self._file.write(text + "".join(self._check(check) for check in record.checks))
 
     def abandoned(self, record: AttemptAbandoned) -> None:
-        """Reason why an attempt was given up."""
+        """Reason why an attempt was abandoned."""
         if record.next_increment > 0.0:
             self._counts["cutbacks"] += 1
         self._file.write(f" \n\n{remark('NOTE', record.reason)}")
@@ -115,7 +115,7 @@ class MessageFile:
         self._file.write(f" \n\n{remark(kind, text)}")
 
     def text(self, text: str) -> None:
-        """Text of a user routine, as it is."""
+        """Text of a user routine, unchanged."""
         self._file.write(text if text.endswith("\n") else f"{text}\n")
 
     def close(self, error: str | None) -> None:
@@ -181,7 +181,7 @@ class MessageFile:
 
 
 def _origin(check: FieldCheck) -> str:
-    """Where a time average comes from that is not one of the field's own flux."""
+    """Origin of a time average that is not of the field's own flux."""
     if not check.converted:
         return ""
     return f" FROM {'MOMENT' if check.field == 'force' else 'FORCE'} FIELD"

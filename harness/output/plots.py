@@ -3,7 +3,7 @@
 """Figures for print: load-displacement curves and profiles along an interface.
 
 Colours are those of Okabe and Ito, which colour-blind readers tell apart; each curve also has its own line style or
-marker, so a figure survives black and white. The legend stands above the axes and covers nothing.
+marker, so a figure survives black and white. The legend is above the axes and covers nothing.
 """
 
 from __future__ import annotations
@@ -43,7 +43,7 @@ STYLE: dict[Any, Any] = {
 class Curve:
     """One curve of a figure.
 
-    kind  'line'; 'reference' (thin, grey, drawn below the others: theory); 'points' (markers only: few values, as of
+    kind  'line'; 'reference' (thin, grey, drawn below the others: theory); 'points' (markers only: few values, as from
           an experiment or another code); 'marked' (line with a marker at every value)
     """
 
@@ -73,7 +73,7 @@ def load_displacement(
     y_label: str = "Load [N]",
     title: str = "",
 ) -> Path:
-    """Load over displacement, both axes from zero where the data allow.
+    """Load over displacement, both axes from zero if the data allow it.
 
     Parameters
     ----------
@@ -114,9 +114,9 @@ def profiles(
     x_label: str = "Position along the interface [mm]",
     title: str = "",
 ) -> Path:
-    """Several quantities along one interface, a panel each above a common axis.
+    """Several quantities along one interface, one panel each above a common axis.
 
-    Curves of the same label look the same in every panel and stand in the legend once.
+    Curves of the same label look the same in every panel and appear once in the legend.
     """
     return _draw(panels, path, x_label, y_labels, title)
 
@@ -133,7 +133,7 @@ def grid(rows: Sequence[Sequence[Panel]], path: Path, *, share_y: bool = False) 
     share_y
         One range of ordinates for the panels of a row, so that heights compare.
 
-    Curves of the same label look the same in every panel and stand in the legend once.
+    Curves of the same label look the same in every panel and appear once in the legend.
     """
     with mpl.rc_context(STYLE | {"axes.titlesize": 9}):
         height, width = len(rows), len(rows[0])

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""Progress on a terminal; nothing where the output is not one."""
+"""Progress on a terminal; nothing if the output is not a terminal."""
 
 from __future__ import annotations
 
@@ -75,7 +75,7 @@ class ProgressDisplay:
             self._progress.stop()
 
     def _ratio(self, checks: tuple[FieldCheck, ...]) -> str:
-        """Largest residual over its tolerance of all fields."""
+        """Largest ratio of residual to tolerance of all fields."""
         controls = self._model.steps[self._step - 1].controls
         ratios = [
             abs(check.residual.value) / (controls_of(check.field, controls).r_n * check.time_average_flux)

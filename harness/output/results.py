@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""What a job wrote, read back from its files: of a finished job, a failed one or one that was killed."""
+"""What a job wrote, read back from its files, whether it finished, failed or was killed."""
 
 from __future__ import annotations
 
@@ -27,9 +27,9 @@ class Result:
     stem
         Folder and name of the job: the files are stem.sta, stem_history.csv and so on.
     seconds
-        Wall-clock time of the run, where it is known.
+        Wall-clock time of the run, if known.
     warnings
-        About the deck and the user routines, of a run just made.
+        About the deck and the user routines, for a run just made.
     """
 
     def __init__(self, stem: Path | str, *, seconds: float | None = None, warnings: Sequence[str] = ()) -> None:
@@ -69,11 +69,11 @@ class Result:
         return read_frames(self.file(".pvd"))
 
     def mesh(self, increment: int = -1, step: int | None = None) -> meshio.Mesh:
-        """Mesh with all fields of an increment; -1 is the last one written, of the last step unless one is given."""
+        """Mesh with all fields of an increment; -1 is the last one written, by default of the last step."""
         return read_field_mesh(self.file(".pvd"), step, increment)
 
     def field(self, name: str, increment: int = -1, step: int | None = None) -> FloatArray:
-        """One field of an increment: nodal (nodes[, 3]) or of the cells, group after group; NaN where not defined.
+        """One field of an increment: nodal (nodes[, 3]) or per cell, group after group; NaN where not defined.
 
         Raises
         ------
@@ -86,7 +86,7 @@ class Result:
         if name in mesh.cell_data:
             return np.concatenate(mesh.cell_data[name])
         known = ", ".join([*mesh.point_data, *mesh.cell_data])
-        raise UelError(f"{self.file('.pvd')}: no field '{name}'; there are {known}")
+        raise UelError(f"{self.file('.pvd')}: no field '{name}'; available fields: {known}")
 
     def interface(self, increment: int = -1, step: int | None = None) -> dict[str, FloatArray]:
         """Interface profile of an increment by column: 'element', 'point', 'X', 'SEPN', 'TN', 'DAMAGE', ..."""

@@ -11,7 +11,7 @@ from harness.model.steps import Step
 
 
 class Schedule:
-    """Decides for one file; remembers what was written so that the last increment is not written twice."""
+    """Decides for one file; remembers what was written, so that the last increment is not written twice."""
 
     def __init__(self) -> None:
         self._written = (0, 0)
@@ -19,7 +19,7 @@ class Schedule:
         self._parts = (0, 0)
 
     def due(self, frequency: int, record: IncrementDone, *, last: bool) -> bool:
-        """True if the increment is to be written now; `last`: no increment of the step follows."""
+        """True if the increment must be written now; `last`: no increment of the step follows."""
         place = (record.step, record.increment)
         if frequency < 1 or place == self._written or not (last or record.increment % frequency == 0):
             return False
@@ -29,7 +29,7 @@ class Schedule:
     def due_field(self, step: Step, record: IncrementDone, *, last: bool) -> bool:
         """`due` of the field output of a step."""
         parts = step.output.field_intervals
-        # what the increments have added up to may lie a little short of the end of a part
+        # the sum of the increments may be a little short of the end of a part
         done = (record.step, math.floor(parts * record.step_time / step.procedure.period + 1e-9))
         reached = done > max(self._parts, (record.step, 0))
         if reached:

@@ -21,7 +21,7 @@ COMPLETED = " THE ANALYSIS HAS COMPLETED SUCCESSFULLY"
 NOT_COMPLETED = " THE ANALYSIS HAS NOT BEEN COMPLETED"
 
 RIKS_COLUMN = HEADER.index("IF\n") - HEADER.index(" STEP")
-"""Where the R of an increment along a path stands, below IF RIKS."""
+"""Column of the R of an increment along a path, below IF RIKS."""
 
 _ROW = re.compile(
     r"^ *(\d+) +(\d+) +(\d+)(U?) +(\d+) +(\d+) +(\d+) +([\d.eE+-]+) +([\d.eE+-]+) +([\d.eE+-]+)"
@@ -68,7 +68,7 @@ class StatusRow:
 
     @classmethod
     def read(cls, line: str) -> StatusRow | None:
-        """Row of a line, None for a line that is none."""
+        """Row of a line, None for a line that is not a row."""
         match = _ROW.match(line)
         if match is None:
             return None

@@ -42,7 +42,7 @@ def procedure(step: Step) -> str:
 
 
 def _head_line(line: HeadLine) -> str:
-    """A line of the head of a step; what others belong to stands farther out."""
+    """A line of the head of a step; a line with others below it is indented less."""
     if isinstance(line, str):
         return f"{' ' * (5 if line.endswith('WITH -') else 10)}{line}"
     words, value = line

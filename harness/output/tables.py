@@ -69,7 +69,7 @@ class _Table:
 
 
 def used_nodes(model: Model) -> NDArray[np.bool_]:
-    """(nodes,) whether a node belongs to an element or a constraint; others are no part of the analysis."""
+    """(nodes,) whether a node belongs to an element or a constraint; others are not part of the analysis."""
     used = np.zeros(len(model.mesh.labels), dtype=bool)
     for group in model.groups:
         used[group.nodes] = True
@@ -79,7 +79,7 @@ def used_nodes(model: Model) -> NDArray[np.bool_]:
 
 
 def node_tables(request: NodeRequest, model: Model, solution: Solution, index: NodalIndex, *, nlgeom: bool) -> str:
-    """Tables of one *NODE PRINT request; of each variable the components that the nodes have.
+    """Tables of one *NODE PRINT request, with the components of each variable that the nodes have.
 
     nlgeom: coordinates are those of the moved nodes.
     """
@@ -153,11 +153,11 @@ ENERGIES = {
     "ALLIE": "TOTAL STRAIN ENERGY (STRESS POWER)",
     "ETOTAL": "ENERGY BALANCE",
 }
-"""Energies of *ENERGY PRINT in the words and the order of Abaqus."""
+"""Energies of *ENERGY PRINT, in Abaqus' words and order."""
 
 
 def energy_table(solution: Solution, total_time: float) -> str:
-    """Energies of the whole model, '' where the procedure has none."""
+    """Energies of the whole model, '' if the procedure has none."""
     names = [name for name in ENERGIES if name in solution.energies]
     if not names:
         return ""
@@ -188,7 +188,7 @@ def missing_variables(
 
 
 def not_extrapolated(request: ElementRequest, model: Model) -> list[str]:
-    """Element types of a request whose values are at the integration points, where it asks for another position."""
+    """Element types with values at the integration points only, for a request that asks for another position."""
     if request.position is Position.POINTS:
         return []
     first, types = 0, []
@@ -268,7 +268,7 @@ def _at_position(
 ) -> tuple[Position, list[str], list[str], FloatArray]:
     """Position, heads of lines, labels for extremes, and values (lines, names), from those (elements, points, names).
 
-    Values of elements that are not extrapolated are those at the points.
+    Values that are not extrapolated are those at the points.
     """
     elements, nodes = group.labels[inside].tolist(), group.nodes[inside]
     matrix = at_centroid(group.type) if position is Position.CENTROID else at_nodes(group.type)
@@ -299,7 +299,7 @@ def _element_values(
 ) -> list[tuple[list[str], FloatArray]]:
     """Names and values (elements, points, names) of the variables that the elements keep.
 
-    SDV are the SVARS of a user element, one line an element, and STATEV at the points of a built-in one; other names
+    SDV are the SVARS of a user element, one line per element, and STATEV at the points of a built-in one; other names
     (S, S11, DAMAGE, ...) are values at the points and need elements whose SVARS are known.
     """
     svars = state.svars[inside]
@@ -321,7 +321,7 @@ def _element_values(
 
 
 def _asked(variable: str, name: str) -> bool:
-    """True if a variable as asked for (S, E, S11, SDV) takes in a component (S11, SDV1)."""
+    """True if a requested variable (S, E, S11, SDV) includes a component (S11, SDV1)."""
     suffix = name.removeprefix(variable)
     return name == variable or (
         name.startswith(variable) and (suffix in _SUFFIXES or (variable in ("SDV", "UVARM") and suffix.isdecimal()))

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""The verdict of a run that cannot write it itself: because it has not begun, or has come to an end before its time."""
+"""The verdict of a run that cannot write it itself, because it has not begun or was ended."""
 
 from __future__ import annotations
 
@@ -16,9 +16,9 @@ _TEXTS = (".sta", ".msg", ".dat", "_history.csv", "_interface.csv")
 
 
 def forget_verdict(stem: Path) -> None:
-    """Empty STEM.sta and STEM.msg of an earlier run, whose verdict is not that of the run that begins.
+    """Empty STEM.sta and STEM.msg of an earlier run, whose verdict does not hold for the run that begins.
 
-    The other files stay until the deck is read and the routines are compiled: a slip there costs no results.
+    The other files stay until the deck is read and the routines are compiled, so that a slip there costs no results.
     """
     status, message = _files(stem)
     if status.exists():
@@ -29,15 +29,15 @@ def forget_verdict(stem: Path) -> None:
 
 
 def close_ended_run(stem: Path, reason: str) -> None:
-    """As `write_verdict`, of a run that another process made; not where one more of this name has begun."""
+    """As `write_verdict`, for a run of another process, unless a new run of this name has begun."""
     with suppress(LockedError, OSError), locked(stem):
         write_verdict(stem, reason)
 
 
 def write_verdict(stem: Path, reason: str) -> None:
-    """Say in STEM.sta and STEM.msg that the analysis was not completed, and why; files that are not there stay away.
+    """Say in STEM.sta and STEM.msg that the analysis was not completed, and why; missing files are not created.
 
-    Lines that were not written to their end are cut off. Nothing is done where the verdict is there.
+    Incomplete last lines are cut off. Does nothing if the verdict has been written.
     """
     status, message = _files(stem)
     if not status.exists():
@@ -46,7 +46,7 @@ def write_verdict(stem: Path, reason: str) -> None:
     if COMPLETED in lines or NOT_COMPLETED in lines:
         return
     for ending in _TEXTS:
-        with suppress(OSError):  # one that cannot be opened, or does not even take so long a name
+        with suppress(OSError):  # one that cannot be opened, or whose name is too long
             _cut(stem.with_name(stem.name + ending))
     with status.open("a", encoding="utf-8") as file:
         file.write(f"{' ' * 26}\n{NOT_COMPLETED}\n")
@@ -59,7 +59,7 @@ def _files(stem: Path) -> tuple[Path, Path]:
 
 
 def _cut(path: Path) -> None:
-    """Cut off a last line without an end."""
+    """Cut off an incomplete last line."""
     if not path.exists() or not path.stat().st_size:
         return
     with path.open("r+b") as file:

@@ -112,9 +112,9 @@ def test_second_run_of_a_name_in_a_folder_is_refused(tmp_path: Path, capsys: pyt
 @pytest.mark.parametrize("name", ["a/b", ".", "..", "/", ""])
 def test_job_that_is_no_name(tmp_path: Path, capsys: pytest.CaptureFixture[str], name: str) -> None:
     assert main(["run", str(pulled(tmp_path)), "--user", str(SPRING_IN_C), "--job", name]) == 2
-    assert f"uel: '{name}' is no name of a job: expected a file name without folders" in capsys.readouterr().err
+    assert f"uel: '{name}' cannot be a job name: expected a file name without folders" in capsys.readouterr().err
     assert main(["law", "--job", name, "--output-dir", str(tmp_path)]) == 2
-    assert f"uel: '{name}' is no name of a job" in capsys.readouterr().err
+    assert f"uel: '{name}' cannot be a job name" in capsys.readouterr().err
 
 
 def test_names_outside_ascii(tmp_path: Path) -> None:

@@ -220,7 +220,7 @@ def test_what_was_read_is_described(model: Model, tmp_path: Path) -> None:
     assert "          NODE 3               DEGREES OF FREEDOM 11\n" in text
     assert "          NODES 4 TO 5         DEGREES OF FREEDOM NONE\n" in text
     assert "UNSYMMETRIC" in text
-    assert "ABAQUS SUPPORTS NO ELEMENT OUTPUT FOR USER ELEMENTS" in " ".join(text.split())
+    assert "ABAQUS DOES NOT SUPPORT ELEMENT OUTPUT FOR USER ELEMENTS" in " ".join(text.split())
     assert "          RESTART                  deck.inp:7, deck.inp:9, deck.inp:11 and 1 more\n" in text
     assert "          PREPRINT                 deck.inp:3\n" in text
     assert " ***WARNING: deck.inp:12: *BOUNDARY names dof 3, which no element uses\n" in text
