@@ -42,7 +42,7 @@ class Constraints:
         kind = np.zeros(n, dtype=np.int8)
         kind[self.prescribed] = 1
         if np.count_nonzero(kind) < len(self.prescribed) or self.prescribed.min(initial=0) < 0:
-            raise ValueError("prescribed unknowns are to be distinct and not negative")
+            raise ValueError("prescribed unknowns must be distinct and not negative")
         dependent, coefficients = eliminate(system.dofs, equations, self.prescribed, places or {})
         kind[dependent] = 2
         self.free = np.flatnonzero(kind == 0)
@@ -57,7 +57,7 @@ class Constraints:
         self._reduced = np.zeros(len(self.reduced_indices))
 
     def matches(self, prescribed: IntArray, equations: Sequence[Equation] = ()) -> bool:
-        """True if these constraints serve for the given ones, so that symbolic work need not be repeated."""
+        """True if these constraints also serve the given ones, so that symbolic work need not be repeated."""
         return np.array_equal(self.prescribed, prescribed) and self._equations == tuple(equations)
 
     @property
@@ -96,7 +96,7 @@ class Constraints:
     def reduce(self, data: FloatArray) -> FloatArray:
         """CSR values of T^T K T from those of K; overwritten by the next call."""
         if self._t is None:
-            # 'clip' only because numpy buffers `out` in the checking mode; positions are all inside
+            # 'clip' only because numpy buffers `out` in the checking mode; all positions are in range
             return np.take(data, self._take, out=self._reduced, mode="clip")
         self._reduced[:] = self._map @ data
         return self._reduced

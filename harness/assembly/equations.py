@@ -21,7 +21,7 @@ def eliminate(
     """Dependent unknowns and their coefficients on all others.
 
     Returns the unknowns eliminated, (k,), and C, (k, n), with u[dependent] = C u; columns of dependent unknowns are
-    empty. `places` says where unknowns are prescribed. Raises DeckError where an unknown is prescribed and eliminated,
+    empty. `places` says where unknowns are prescribed. Raises DeckError if an unknown is prescribed and eliminated,
     eliminated twice, or depends on itself.
     """
     held = set(prescribed.tolist())
@@ -37,7 +37,7 @@ def eliminate(
             raise DeckError(
                 equation.source,
                 f"over-constrained: {_named(dofs, first)} is the first term of this constraint and of the one at "
-                f"{equations[by_unknown[first]].source}; it can be eliminated once only",
+                f"{equations[by_unknown[first]].source}; it can be eliminated only once",
             )
         by_unknown[first] = row
         pivot = terms.pop(first)
@@ -69,7 +69,7 @@ def _check_free(dofs: DofMap, equation: Equation, unknown: int, held: set[int], 
         raise DeckError(
             equation.source,
             f"over-constrained: {_named(dofs, unknown)} is the first term of this constraint, which is eliminated, and "
-            f"is prescribed{where}; prescribe another term or put it first",
+            f"is also prescribed{where}; prescribe another term or put it first",
         )
 
 

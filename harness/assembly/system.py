@@ -50,7 +50,7 @@ class System:
     """All blocks of a model on one numbering of unknowns.
 
     blocks   of its elements
-    pressures  faces under pressure, which are called where there are distributed loads and are no elements otherwise
+    pressures  faces under pressure, which are called if there are distributed loads, but do not count as elements
     dofs     what each unknown is
     indptr   (n + 1,) row starts of the matrix, int32
     indices  (nnz,) columns, ascending in each row, int32; every diagonal entry is there and the pattern is symmetric
@@ -83,8 +83,8 @@ class System:
 
         u (n,) is the estimate of the end of the increment and du (n,) the increment, both including prescribed values.
         nrhs is NRHS: 1, or 2 for the arc length method. Without `motion` the model is at rest. In a linear step RHS is
-        what the loads on user elements do; those on built-in ones come from elsewhere.
-        Raises KernelError where an element fails.
+        what the loads on user elements cause; loads on built-in elements are added elsewhere.
+        Raises KernelError if an element fails.
         """
         columns = np.zeros((nrhs, len(self.dofs)))
         data = self._data if matrix else None

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""The system of an ordinary run, in which mistakes of user elements that Abaqus does not see end nothing."""
+"""The system of an ordinary run, which goes on after mistakes of user elements that Abaqus does not notice."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ from harness.usersub import ARRAYS, AS_GOOD_AS_ZERO, Library, guard_values, set_
 
 
 class TolerantSystem(System):
-    """A system whose elements may read outside their arrays: where that makes NaN, zeros lie there from then on."""
+    """A system whose elements may read outside their arrays: if that makes NaN, they read zeros from then on."""
 
     def __init__(self, model: Model, library: Library) -> None:
         super().__init__(model.mesh, build_blocks(model, library, strict=False, zeros=True), model.equations)
@@ -24,7 +24,7 @@ class TolerantSystem(System):
         self._tolerated = False
 
     def evaluate(self, call: Call, u: FloatArray, du: FloatArray, **options: Any) -> Evaluation:
-        """As that of a system; what elements read outside is a warning, once."""
+        """As that of a system; reads outside arrays give a warning, once."""
         try:
             return super().evaluate(call, u, du, **options)
         except NotFiniteError as error:
@@ -38,7 +38,7 @@ class TolerantSystem(System):
         return super().evaluate(call, u, du, **options)
 
     def _read_outside(self, call: Call, u: FloatArray, du: FloatArray, options: dict[str, Any]) -> tuple[str, ...]:
-        """The array outside which a zero in place of NaN lets the pass through; all of them where several do."""
+        """The array outside which zero in place of NaN lets the pass succeed; all of them if several do."""
         for names in (*((name,) for name in ARRAYS), ARRAYS):
             with guard_values(dict.fromkeys(names, AS_GOOD_AS_ZERO)), suppress(NotFiniteError):
                 super().evaluate(call, u, du, **options)

@@ -38,9 +38,9 @@ class ElementBlock:
     unknowns     (local node, dof) of each element unknown, in the order of U and RHS
     unsymmetric  False: (A + A^T)/2 is assembled
     first        position of the first element in the model
-    strict       a write outside an array is an error, else a warning
-    zeros        an entry of RHS or AMATRX that is not set is a warning, and zero from then on, else an error
-    variables    meaning of the state's SVARS, None where unknown; those of a point of a built-in element go on with
+    strict       a write outside an array is an error, otherwise a warning
+    zeros        an entry of RHS or AMATRX that is not set gives a warning and is zero from then on, otherwise an error
+    variables    meaning of the state's SVARS, None if unknown; those of a point of a built-in element continue with
                  STATEV and UVAR
     """
 
@@ -97,11 +97,11 @@ class ElementBlock:
 
     @property
     def elastic(self) -> bool:
-        """Whether it is of built-in elements whose state is linear in the displacements where these are small."""
+        """Whether its elements are built in and, in small displacements, have a state linear in the displacements."""
         return self._routine.linear
 
     def bind(self, equations: NDArray[np.int32], scatter: NDArray[np.int32]) -> None:
-        """Tell where the unknowns are.
+        """Say where the unknowns are.
 
         equations (m, unknowns) global unknown, scatter (m, unknowns, unknowns) position in the CSR data of each entry
         of the element matrix (row, column); both from 0.
@@ -111,7 +111,7 @@ class ElementBlock:
         self._arrays.map = np.ascontiguousarray(scatter.transpose(0, 2, 1) + 1, dtype=np.int32)
 
     def split(self, *, strict: bool = True) -> list[ElementBlock]:
-        """Its elements, each in an unbound block of its own and in its committed state, for calls in any order."""
+        """Its elements, each in its own unbound block and in its committed state, for calls in any order."""
         group = self.group
         parts = [
             ElementBlock(
@@ -142,11 +142,11 @@ class ElementBlock:
         matrix: FloatArray | None,
         motion: Motion | None = None,
     ) -> BlockReport:
-        """One pass: add RHS into residual and AMATRX into matrix (CSR data; None: AMATRX is not looked at).
+        """One pass: add RHS into residual and AMATRX into matrix (CSR data; None: AMATRX is ignored).
 
         residual is (n,), or (2, n) for a pass with NRHS = 2: its rows take the columns of RHS.
-        RHS is left out where LFLAGS(3) asks for a matrix alone (2, 3, 4). SVARS on entry are always the committed
-        ones; those returned are kept for `commit` where LFLAGS(3) is 1 or 6. Without `motion` V and A are zero.
+        RHS is left out if LFLAGS(3) asks for a matrix only (2, 3, 4). SVARS on entry are always the committed
+        ones; those returned are kept for `commit` if LFLAGS(3) is 1 or 6. Without `motion` V and A are zero.
         Raises KernelError, CallLimitError.
         """
         motion = motion or _AT_REST
@@ -212,7 +212,7 @@ class ElementBlock:
     def artificial_mass(self, call: Call, unknowns: int, matrix: FloatArray) -> None:
         """Add the mass matrix for unit density into matrix, where the elements have a density.
 
-        unknowns: of the system.
+        unknowns: number of unknowns of the system.
         """
         place = self._routine.density
         if place < 0:
@@ -226,7 +226,7 @@ class ElementBlock:
             self._arrays.props = given
 
     def bare_loop(self, call: Call, u: FloatArray, du: FloatArray, residual: FloatArray) -> None:
-        """Only call the elements, from a plain Fortran loop over the block: the limit of speed."""
+        """Only call the elements, from a plain Fortran loop over the block: the upper bound of speed."""
         _binding.bare_loop(self._scalars(call), call.flags.lflags, self._arrays, u, du, residual)
 
     def _scalars(self, call: Call) -> _binding.Scalars:
@@ -256,14 +256,14 @@ class ElementBlock:
         """Initial SVARS of elements (rows of the block), or STATEV of their points. Raises ValueError if too many."""
         state = self._initial_state()
         if len(values) > state.shape[2]:
-            raise ValueError(f"{len(values)} values, where elements of type {self.group.type} have {state.shape[2]}")
+            raise ValueError(f"{len(values)} values, but elements of type {self.group.type} have {state.shape[2]}")
         state[rows, :, : len(values)] = values
         self._begin(state)
 
     def set_stress(self, rows: IntArray, values: FloatArray) -> None:
-        """Initial stress at all points of elements (rows of the block); `begin_stressed` lets the material take it.
+        """Initial stress at all points of elements (rows of the block); `begin_stressed` passes it to the material.
 
-        Raises ValueError where the elements take none, or have fewer components; zeros beyond those are left out.
+        Raises ValueError if the elements take none, or have fewer components; zeros beyond those are ignored.
         """
         try:
             self._routine.set_stress(self._arrays.svars, rows, values)
@@ -271,7 +271,7 @@ class ElementBlock:
             raise ValueError(f"elements of type {self.group.type} {error}") from None
 
     def begin_stressed(self, call: Call, u: FloatArray, residual: FloatArray) -> None:
-        """Let the material take the stresses of `set_stress`, and add minus their nodal forces into residual (n,).
+        """Pass the stresses of `set_stress` to the material, and subtract their nodal forces from residual (n,).
 
         Raises KernelError.
         """
@@ -280,7 +280,7 @@ class ElementBlock:
         self._keep_trial()
 
     def call_sdvini(self, address: int) -> None:
-        """Let SDVINI set the initial state. Raises KernelError where it ends the analysis."""
+        """Let SDVINI set the initial state. Raises KernelError if it ends the analysis."""
         state = np.ascontiguousarray(self._initial_state())
         element, point = _binding.sdvini(address, self._arrays, state, self._routine.family) if state.size else (0, 0)
         if element:
@@ -303,7 +303,7 @@ class ElementBlock:
     def commit(self) -> None:
         """End of a converged increment: the state of the last normal call becomes the committed one, then UVARM.
 
-        Raises KernelError where UVARM ends the analysis.
+        Raises KernelError if UVARM ends the analysis.
         """
         self._keep_trial()
         arrays = self._arrays
@@ -330,7 +330,7 @@ class ElementBlock:
         return ElementState(index, svars, arrays.energy_trial.copy(), self.variables)
 
     def _extended(self, svars: FloatArray, history: FloatArray) -> FloatArray:
-        """Copy of SVARS without the hidden ones, with STATEV and UVAR behind those of each point."""
+        """Copy of SVARS without the hidden ones, with STATEV and UVAR after those of each point."""
         svars = svars[:, : svars.shape[1] - self._routine.hidden]
         statev, points = self._routine.statev, self._routine.history[1]
         parts = [history[:, :, history.shape[2] - statev :]] if statev else []
@@ -375,12 +375,12 @@ class ElementBlock:
         return ERRORS.get(outcome.fault, KernelError)(element, self.group.type, f"{message} ({call.place})")
 
     def _warn(self, outcome: Outcome, nrhs: int, call: Call) -> None:
-        """Report a write outside an array once; the run goes on, and the next pass looks which element it is."""
+        """Report a write outside an array once; the run goes on, and the next pass finds the element."""
         if self._guards is Guards.SEARCH:
             self._guards = Guards.IGNORE
             found = outcome if outcome.fault is Fault.OUTSIDE else self._noticed
             assert found is not None
-            self._library.warn(f"{self._error(found, nrhs, call)}; the run goes on, on arrays with room behind them")
+            self._library.warn(f"{self._error(found, nrhs, call)}; the run goes on, with extra room after the arrays")
         elif outcome.fault is Fault.OUTSIDE:
             self._guards, self._noticed = Guards.SEARCH, outcome
 

@@ -35,8 +35,8 @@ TENSORS: Final = {
 def build_blocks(model: Model, library: Library, *, strict: bool = True, zeros: bool = False) -> list[ElementBlock]:
     """One block per group of the model, in the same order, then those of faces. Raises DeckError that names all places.
 
-    strict: a user element that writes outside an array is an error, else a warning; zeros: one that leaves an entry of
-    RHS or AMATRX unset is a warning, and the entry zero, else an error.
+    strict: a write of a user element outside an array is an error, otherwise a warning; zeros: an entry of RHS or
+    AMATRX that is not set gives a warning and is zero, otherwise an error.
     """
     blocks: list[ElementBlock] = []
     errors: dict[str, DeckError] = {}
@@ -58,7 +58,7 @@ def build_blocks(model: Model, library: Library, *, strict: bool = True, zeros: 
 def _too_large(group: ElementGroup) -> DeckError:
     given = group.definition
     source, cause = (given.source, f" (VARIABLES={given.variables})") if given else (group.source, "")
-    return DeckError(source, f"there is not enough memory for {len(group.labels)} elements of type {group.type}{cause}")
+    return DeckError(source, f"not enough memory for {len(group.labels)} elements of type {group.type}{cause}")
 
 
 def _block_of(model: Model, group: ElementGroup, library: Library, *, strict: bool, zeros: bool) -> ElementBlock:
@@ -78,7 +78,7 @@ def _block_of(model: Model, group: ElementGroup, library: Library, *, strict: bo
             return _discrete_block(model, group, library)
     near = get_close_matches(group.type.upper(), BUILT_IN, n=1)
     hint = f"; did you mean {near[0]}?" if near else ""
-    message = f"element type {group.type} is not supported (built in are {', '.join(BUILT_IN)}){hint}"
+    message = f"element type {group.type} is not supported; built-in types: {', '.join(BUILT_IN)}{hint}"
     raise DeckError(group.source, message)
 
 
@@ -87,10 +87,10 @@ def _user_block(
 ) -> ElementBlock:
     section = group.section
     if not isinstance(section, UserProperty):
-        raise DeckError(section.source, f"user elements ({group.type}) take *UEL PROPERTY")
+        raise DeckError(section.source, f"user elements ({group.type}) need *UEL PROPERTY")
     _check_counts(group, definition, section)
     address = _user_address(group, section, library)
-    # COORDS holds what *USER ELEMENT asks for, or more where dofs 1-3 say that the element is of higher dimension
+    # COORDS has COORDINATES= of *USER ELEMENT, or more if dofs 1-3 show that the element has a higher dimension
     mcrd = max(definition.coordinates, *(dof for _, dof in definition.dofs if dof <= 3), 1)
     material, tensor, history = 0, 0, (1, 1)
     if section.material is not None:
@@ -124,13 +124,13 @@ def _user_block(
 
 
 MOST_POINTS: Final = 64
-"""Points of a plastic material per user element where *USER ELEMENT does not give INTEGRATION=."""
+"""Points of a plastic material per user element if *USER ELEMENT does not give INTEGRATION=."""
 
 
 def _solid_block(model: Model, group: ElementGroup, kind: ContinuumType, library: Library) -> ElementBlock:
     section, coupled = group.section, kind.coupled
     if not isinstance(section, SolidSection):
-        raise DeckError(section.source, f"elements of type {group.type} take *SOLID SECTION")
+        raise DeckError(section.source, f"elements of type {group.type} need *SOLID SECTION")
     _check_nodes(group, kind.nodes)
     if coupled:
         routine = coupled_routine(model, group, section, library)
@@ -146,7 +146,7 @@ def _solid_block(model: Model, group: ElementGroup, kind: ContinuumType, library
         routine,
         library,
         # the elastic and the plastic tangent are symmetric; Abaqus stores the matrix of coupled steps as unsymmetric,
-        # UNSYMM or not (Analysis User's Guide, Fully coupled thermal-stress analysis), as what UMAT says of heat needs
+        # UNSYMM or not (Analysis User's Guide, Fully coupled thermal-stress analysis), as the heat terms of UMAT need
         unsymmetric=section.material.user is not None and (coupled or section.material.user.unsymmetric),
         variables=solid_variables(group, routine),
     )
@@ -155,7 +155,7 @@ def _solid_block(model: Model, group: ElementGroup, kind: ContinuumType, library
 def _cohesive_block(model: Model, group: ElementGroup, kind: CohesiveType, library: Library) -> ElementBlock:
     section = group.section
     if not isinstance(section, CohesiveSection):
-        raise DeckError(section.source, f"elements of type {group.type} take *COHESIVE SECTION")
+        raise DeckError(section.source, f"elements of type {group.type} need *COHESIVE SECTION")
     _check_nodes(group, kind.nodes)
     return ElementBlock(
         group,

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""What a pass over the elements is told, and what it returns."""
+"""Arguments and results of a pass over the elements."""
 
 from __future__ import annotations
 
@@ -50,10 +50,10 @@ class Call:
     iteration    equilibrium iteration, for messages; 0 before the first solve
     flux_floor   (fields,) element nodal force above which an entry is a term of the average flux; None: all entries are
     params       PARAMS: alpha, beta and gamma of a dynamic step
-    step_time, total_time  at the end of the increment (Abaqus' manual leaves open which end TIME holds)
-    unsymmetric  AMATRX of UEL counts as it is, UNSYMM or not, as in coupled temperature-displacement steps: Abaqus 2023
-                 says in their message file that it uses unsymmetric storage, and a public element without UNSYMM there
-                 meets its residuals in one iteration, which it does not with (A + A^T)/2
+    step_time, total_time  at the end of the increment (Abaqus' manual does not say which end TIME refers to)
+    unsymmetric  AMATRX of UEL is used as it is, UNSYMM or not, as in coupled temperature-displacement steps: Abaqus
+                 2023 says in their message file that it uses unsymmetric storage, and a public element without UNSYMM
+                 reproduces its residuals there in one iteration, which it does not with (A + A^T)/2
     """
 
     flags: Flags
@@ -71,7 +71,7 @@ class Call:
     unsymmetric: bool = False
 
     def asking(self, request: Request, damping: Damping = Damping.NONE) -> Self:
-        """The same call for something else."""
+        """The same call with another request."""
         return replace(self, flags=self.flags.asking(request, damping))
 
     @property
@@ -93,7 +93,7 @@ class Motion:
     acceleration: FloatArray
 
     def at(self, unknowns: IntArray) -> Motion:
-        """Those of some unknowns."""
+        """V and A of some unknowns."""
         return Motion(self.velocity[unknowns], self.acceleration[unknowns])
 
 
@@ -103,7 +103,7 @@ class BlockReport:
 
     flux        (fields,) sum of |element nodal force| by field
     flux_count  (fields,) number of terms in it
-    pnewdt      smallest PNEWDT returned; large where none was
+    pnewdt      smallest PNEWDT returned; large if none was
     energy      (8,) sum of ENERGY
     damage      dissipated by the damage of built-in elements (ALLDMD), for which ENERGY has no entry
     largest     (fields,) largest |element nodal force| by field

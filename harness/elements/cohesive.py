@@ -47,7 +47,7 @@ def cohesive_routine(model: Model, group: ElementGroup, section: CohesiveSection
 
 
 def cohesive_variables(section: CohesiveSection, kind: CohesiveType) -> PointVariables:
-    """SVARS of a point: the names of the project's interface elements where they have one, else those of Abaqus."""
+    """SVARS of a point: named as in the project's interface elements if they have a name, else as in Abaqus."""
     dimension = kind.dimension
     places = ("X", "Y", "Z")[:dimension]
     directions = ("N", "T") if dimension == 2 else ("N", "S", "T")
@@ -68,7 +68,7 @@ def cohesive_variables(section: CohesiveSection, kind: CohesiveType) -> PointVar
 
 
 def cohesive_properties(section: CohesiveSection, dimension: int) -> tuple[list[float], list[int]]:
-    """PROPS, and JPROPS behind the family of the faces.
+    """PROPS, and JPROPS after the family of the faces.
 
     PROPS: constitutive thickness (0: from the nodes), width, Enn, Ess, Ett, onset (3), evolution (3), exponent,
     viscosity, largest damage. JPROPS: deletion, then criterion, evolution, softening and mixed mode behaviour, each as
@@ -98,14 +98,14 @@ def cohesive_properties(section: CohesiveSection, dimension: int) -> tuple[list[
             codes[3] = _MIXED_MODES.index(evolution.mixed_mode)
             if evolution.type == "ENERGY" and section.thickness > 0:
                 _check_toughness(damage, evolution, moduli, onset, values, section.thickness, dimension)
-    # the width has a meaning in the plane alone
+    # the width has a meaning only in the plane
     width = section.width if dimension == 2 else 1.0
     reals = [section.thickness, width, *moduli, *onset, *values, power, viscosity, controls.degradation]
     return reals, [int(controls.deletion), *codes]
 
 
 def _directions(values: tuple[float, ...], dimension: int) -> Triple:
-    """Values of the normal and both shear directions; in the plane the third is of no concern and may be left out."""
+    """Values of the normal and both shear directions; in the plane the third is not used and may be left out."""
     normal, first, second = (*values, 0.0, 0.0)[:3]
     return normal, first, first if dimension == 2 else second
 

@@ -65,7 +65,7 @@ def _properties(group: ElementGroup, *, dynamic: bool) -> np.ndarray:
     if isinstance(section, SpringSection):
         return section.table
     if not isinstance(section, SolidSection):
-        raise DeckError(section.source, f"elements of type {group.type} take *SOLID SECTION")
+        raise DeckError(section.source, f"elements of type {group.type} need *SOLID SECTION")
     material = section.material
     refuse_fields(material, f"elements of type {group.type}")
     if material.elastic is None or material.elastic.type is not ElasticType.ISOTROPIC:

@@ -2,9 +2,9 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Values at the nodes and at the centroid of built-in continuum elements, from those at the integration points.
 
-The Abaqus Analysis User's Guide says that values are extrapolated, and not how. Here it is the polynomial in parent
-coordinates that has the values of the points: constant from one point, linear in each direction from two, quadratic
-from three; linear from the three of a triangle and the four of a tetrahedron.
+The Abaqus Analysis User's Guide says that values are extrapolated, but not how. Here it is by the polynomial in parent
+coordinates that interpolates the values of the points: constant from one point, linear in each direction from two,
+quadratic from three; linear from the three of a triangle and the four of a tetrahedron.
 """
 
 from __future__ import annotations
@@ -69,7 +69,7 @@ def _powers(family: Family, points: int) -> IntArray:
         return np.vstack([np.zeros((1, family.dimension), dtype=np.int64), np.eye(family.dimension, dtype=np.int64)])[
             :points
         ]
-    # a wedge: of the triangle, and across
+    # a wedge: powers of the triangle, and across it
     of_triangle = [(0, 0), (1, 0), (0, 1)][: 3 if points > 2 else 1]
     return np.array([(*powers, k) for powers in of_triangle for k in range(points // len(of_triangle))])
 

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""Sentences for what a user element does wrong with its arrays."""
+"""Sentences about what a user element does wrong with its arrays."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ ERRORS: Final[Mapping[Fault, type[ElementError]]] = {
     Fault.DISTORTED: DistortionError,
     Fault.OUTSIDE: OutsideError,
 }
-"""Those that others tell from a KernelError."""
+"""Errors that callers distinguish from a KernelError."""
 
 
 def wrong_entry(outcome: Outcome, n: int) -> str:
@@ -28,33 +28,33 @@ def wrong_entry(outcome: Outcome, n: int) -> str:
         entry = f"{outcome.array}({row + 1},{column + 1})"
     if outcome.fault is Fault.UNSET:
         half = outcome.array == "RHS" and outcome.index == n // 2 + 1 and n > 3
-        hint = "; half of it is set, as where it is declared REAL, of four bytes, in place of REAL*8" if half else ""
+        hint = "; half of it is set, as if it were declared REAL (four bytes) instead of REAL*8" if half else ""
         why = "was not filled, or was added to without being set first (RHS and AMATRX are not zero on entry)"
         return f"{entry} {why}{hint}"
     return f"{entry} is NaN or infinite"
 
 
 def material_point(outcome: Outcome) -> str:
-    """The beginning of a sentence where UMAT, or USDFLD (-index), has ended the call, else ''."""
+    """The beginning of a sentence if UMAT, or USDFLD (-index), has ended the call, else ''."""
     if not outcome.index:
         return ""
     return at_point("UMAT" if outcome.index > 0 else "USDFLD", abs(outcome.index))
 
 
 def at_point(routine: str, point: int) -> str:
-    """The beginning of a sentence on a user routine of material points; point from 1."""
+    """The beginning of a sentence about a user routine of material points; point from 1."""
     return f"{routine} at integration point {point} "
 
 
 def distortion(outcome: Outcome) -> str:
-    """A built-in element whose present shape is inside out, or goes over the axis (at -index)."""
+    """A built-in element whose current shape is inside out, or crosses the axis (at -index)."""
     what = "turns inside out" if outcome.index > 0 else "crosses the axis"
     return f"{what} at its integration point {abs(outcome.index)}"
 
 
 def write_outside(outcome: Outcome, n: int, nrhs: int, sizes: Mapping[str, str]) -> str:
-    """A write outside an array; sizes: of the arrays that do not follow from n, the unknowns, and NRHS."""
+    """A write outside an array; sizes: those that do not follow from n, the number of unknowns, and NRHS."""
     columns = str(n) if nrhs == 1 else f"{n * nrhs} ({n} x NRHS = {nrhs})"
     known = {"RHS": columns, "DU": columns, "ENERGY": "8", "AMATRX": f"{n * n} ({n} x {n})", **sizes}
-    unknown = "" if outcome.position >= 0 else "; the element is not known, because a repeated pass did not do it"
+    unknown = "" if outcome.position >= 0 else "; the element is unknown, because a repeated pass did not do it"
     return f"writes outside {outcome.array}: entry {outcome.index} of {known.get(outcome.array, str(n))}{unknown}"

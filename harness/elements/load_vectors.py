@@ -18,7 +18,7 @@ from harness.model.steps import ElementLoad, LoadKind
 from harness.usersub import _binding
 
 SMALLEST_SINE: Final = 1e-10
-"""Sine of the angle between a direction and a face's normal below which the direction has no part in the face."""
+"""Sine of the angle between a direction and a face's normal below which the direction has no tangential part."""
 
 
 def unit_forces(
@@ -26,8 +26,8 @@ def unit_forces(
 ) -> tuple[FloatArray, FloatArray]:
     """Nodal forces (elements, points, nodes of the face or element, dimension) for magnitudes of one at each point.
 
-    rows are elements of the group. Returns the coordinates of the points (elements, points, 3) too. Raises DeckError
-    where the load makes no sense there.
+    rows are elements of the group. Also returns the coordinates of the points (elements, points, 3). Raises DeckError
+    if the load makes no sense there.
     """
     section = group.section
     assert isinstance(section, SolidSection)
@@ -59,7 +59,7 @@ def unit_forces(
 
 
 def outward_sign(group: ElementGroup, row: int, face: tuple[int, ...], coordinates: FloatArray) -> int:
-    """1 where the normal of the order of a face's nodes, to the right of an edge, points out of an element, else -1."""
+    """1 if the normal given by the order of a face's nodes (right of an edge) points out of the element, else -1."""
     kind = solid_of(group)
     dimension = kind.dimension
     nodes = group.nodes[row]

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""Materials of the deck as the host's material library wants them: stiffness in global axes, per state of stress.
+"""Materials of the deck as the host's material library needs them: stiffness in global axes, per state of stress.
 
 Stress components are those of Tensor in harness/model/element_types.py; shear strains are engineering strains. The
 constants' meaning is that of the *ELASTIC data line (Abaqus Analysis User's Guide, Linear elastic behavior).
@@ -19,9 +19,9 @@ from harness.model.properties import Elastic, ElasticType, Material, Orientation
 from harness.usersub import Library, _binding
 
 HISTORY_VALUES: Final = 7
-"""Values of the history of a point of a plastic or prestressed material (fortran/host/host_materials.f90)."""
+"""Number of values of the history of a point of a plastic or prestressed material (fortran/host/host_materials.f90)."""
 USER_HISTORY_VALUES: Final = 15
-"""Those of a point of a user material besides STATEV (fortran/host/host_umat.f90)."""
+"""The same for a user material, besides STATEV (fortran/host/host_umat.f90)."""
 
 PARALLEL: Final = 1e-9
 """Largest component of the difference of unit vectors that are parallel."""
@@ -31,7 +31,7 @@ _COMPONENTS: Final = {Tensor.PLANE_STRESS: [0, 1, 3], Tensor.PLANE_STRAIN: [0, 1
 
 
 def history_values(material: Material, *, prestressed: bool = False) -> int:
-    """Values of the history of a point, which may have an initial stress; 1 for a material without one."""
+    """Number of values of the history of a point, which may have an initial stress; 1 for a material without one."""
     if material.user is not None:
         return USER_HISTORY_VALUES + state_variables(material)
     kept = material.plastic is not None or prestressed
@@ -39,12 +39,12 @@ def history_values(material: Material, *, prestressed: bool = False) -> int:
 
 
 def state_variables(material: Material) -> int:
-    """STATEV of a point; none without a routine that has them."""
+    """Number of STATEV of a point; 0 without a routine that uses them."""
     return material.state_variables if material.user or material.user_field else 0
 
 
 def refuse_fields(material: Material, elements: str) -> None:
-    """Raise DeckError where a material of these elements takes field variables that they do not have."""
+    """Raise DeckError if a material of these elements depends on field variables that they do not have."""
     if material.user_field is not None:
         raise DeckError(material.user_field, f"*USER DEFINED FIELD is not supported for {elements}")
     if material.elastic is not None and material.elastic.table is not None:
@@ -65,7 +65,7 @@ def directions(orientation: Orientation | None) -> tuple[FloatArray, str]:
 def define_fields(
     number: int, material: Material, orientation: Orientation | None, tensor: Tensor, library: Library
 ) -> None:
-    """Tell the host what of a material depends on temperature and fields, and of USDFLD. Raises DeckError."""
+    """Tell the host which parts of a material depend on temperature and fields, or on USDFLD. Raises DeckError."""
     axes, name = directions(orientation)
     elastic = material.elastic
     if elastic is not None and elastic.table is not None:
@@ -88,7 +88,7 @@ def define_fields(
 def define_material(
     material: Material, orientation: Orientation | None, tensor: Tensor, user: Source, library: Library
 ) -> int:
-    """Tell the host of a material; returns its number there. `user` is the place that asks for it. Raises DeckError."""
+    """Define a material in the host; returns its number there. `user` is the place that uses it. Raises DeckError."""
     if material.user is not None:
         return _define_user_material(material, material.user, orientation, tensor, library)
     elastic = material.elastic
@@ -134,12 +134,14 @@ def _define_user_material(
 
 
 MOST_STIFF: Final = 1e13
-"""Ratio of the stiffest to the softest response of a material, with which three digits are left."""
+"""Ratio of the stiffest to the softest response of a material that leaves three digits."""
 
 
 def _inverse(matrix: FloatArray, elastic: Elastic) -> FloatArray:
     if (ratio := np.linalg.cond(matrix)) > MOST_STIFF:
-        message = f"the stiffest response is {ratio:.0e} times the softest: up to {MOST_STIFF:.0e} can be computed with"
+        message = (
+            f"the stiffest response is {ratio:.0e} times the softest; the largest usable ratio is {MOST_STIFF:.0e}"
+        )
         raise DeckError(elastic.source, f"*ELASTIC: {message}")
     return np.asarray(np.linalg.inv(matrix), dtype=np.float64)
 

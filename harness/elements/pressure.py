@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""Pressures on faces of built-in continuum elements with NLGEOM: they act on the present face, in each iteration.
+"""Pressures on faces of built-in continuum elements with NLGEOM: they act on the current face, in each iteration.
 
 A block of faces is called as elements are, with its pressures as distributed loads (fortran/host/host_pressure.f90).
 """
@@ -29,7 +29,7 @@ class PressureBlock(ElementBlock):
 
     elements  (m,) their positions in the model
     load      the type of the load
-    surface   the loads are those of *DSLOAD, else of *DLOAD
+    surface   whether the loads are those of *DSLOAD, else of *DLOAD
     """
 
     def __init__(

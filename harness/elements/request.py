@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""LFLAGS: what elements are told of the step, and what a call asks them for."""
+"""LFLAGS: what they tell elements about the step, and what a call asks for."""
 
 from __future__ import annotations
 
@@ -15,11 +15,11 @@ class Request(IntEnum):
     """LFLAGS(3): what a call asks for.
 
     NORMAL                RHS and AMATRX of an iteration
-    STIFFNESS, DAMPING, MASS  AMATRX alone: the stiffness, the damping matrix of LFLAGS(7), the mass matrix
-    RESIDUAL              RHS alone, of a state that is not kept: line search, half of an increment of *DYNAMIC
+    STIFFNESS, DAMPING, MASS  AMATRX only: the stiffness, the damping matrix of LFLAGS(7), the mass matrix
+    RESIDUAL              RHS only, of a state that is not kept: line search, half of an increment of *DYNAMIC
     INITIAL_ACCELERATION  RHS and the mass matrix, at the start of a dynamic step
     PERTURBATION          RHS of a linear step once DU, the perturbation, is known
-    INITIAL_STRESSES      the host's own, of built-in elements alone: RHS and the state for the stresses that are given
+    INITIAL_STRESSES      the host's own, for built-in elements only: RHS and the state for the given stresses
     """
 
     NORMAL = 1
@@ -33,7 +33,7 @@ class Request(IntEnum):
 
 
 class Damping(IntEnum):
-    """LFLAGS(7): which damping matrix, where one is asked for."""
+    """LFLAGS(7): which damping matrix, if one is requested."""
 
     NONE = 0
     VISCOUS = 1
@@ -42,7 +42,7 @@ class Damping(IntEnum):
 
 @dataclass(frozen=True, slots=True)
 class Flags:
-    """What LFLAGS say, each by its name.
+    """The LFLAGS by name.
 
     procedure     LFLAGS(1), `Procedure.lflag`
     nlgeom        LFLAGS(2), large displacements
@@ -61,12 +61,12 @@ class Flags:
 
     @classmethod
     def of(cls, step: Step, request: Request = Request.NORMAL, damping: Damping = Damping.NONE) -> Self:
-        """Those of a step."""
+        """The flags of a step."""
         procedure = step.procedure
         return cls(procedure.lflag, step.nlgeom, request, procedure.linear, damping=damping)
 
     def asking(self, request: Request, damping: Damping = Damping.NONE) -> Self:
-        """The same but for the request."""
+        """The same flags with another request."""
         return replace(self, request=request, damping=damping)
 
     @property

@@ -13,21 +13,21 @@ from harness.model.arrays import FloatArray, IntArray
 
 @dataclass(frozen=True, slots=True)
 class Routine:
-    """What the driver calls for a block, and with which constants.
+    """What the driver calls for a block, with the constants of the calls.
 
     material  number of the material in the host, 0 without one (then UEL is called, else UELMAT)
     history   values per point and points of the material history; (1, 1) without one
     statev    number of STATEV, which are the last values of the history
     uvarm     UVARM to call after each increment, None for none
     density   place of the density in PROPS, from 0; -1 without one
-    hidden    SVARS at the end that are no state of a point, which output does not see
+    hidden    number of SVARS at the end that do not belong to a point, which output leaves out
     tensor    stress components of the material: 3 plane stress, 4 plane strain, 6 three-dimensional; 0 without one
     mcrd      coordinates per node
     family    number of the family of continuum elements (harness/model/element_types.py), 0 for others
     damages   ENERGY(4) is dissipated by damage, not by plasticity
-    linear    the state of built-in elements is linear in the displacements where these are small
-    stress    places of the stress components of a point, in Abaqus' order, among its SVARS, of which the last one is
-              S12 or S23; none: the elements take no initial stress
+    linear    the state of built-in elements is linear in small displacements
+    stress    places of the stress components of a point among its SVARS, in Abaqus' order; the last one is S12 or
+              S23; none: the elements take no initial stress
     """
 
     address: int
@@ -51,10 +51,10 @@ class Routine:
     def set_stress(self, svars: FloatArray, rows: IntArray, values: FloatArray) -> None:
         """Write the stress at all points of elements, rows of their SVARS (elements, svars).
 
-        Raises ValueError where there is no such stress or component; zeros beyond those are left out.
+        Raises ValueError if there is no such stress or component; zeros beyond those are ignored.
         """
         if not self.stress:
-            raise ValueError("take no initial stress")
+            raise ValueError("do not take an initial stress")
         count = len(self.stress)
         if values[count:].any():
             names = {3: "S11, S22, S12", 4: "S11, S22, S33, S12"}[count]

@@ -30,7 +30,7 @@ HOURGLASS_FRACTION: Final = 0.005
 """Hourglass stiffness parameter over the shear modulus (Abaqus Analysis User's Guide, Section controls)."""
 
 SMALLEST_RADIUS: Final = 1e-9
-"""Radius, over the largest one of a group, below which a node is on the axis."""
+"""Radius, over the largest one of a group, below which a node lies on the axis."""
 
 
 def solid_of(group: ElementGroup) -> ContinuumType:
@@ -41,7 +41,7 @@ def solid_of(group: ElementGroup) -> ContinuumType:
 
 
 def section_depth(group: ElementGroup, section: SolidSection) -> float:
-    """What makes a volume of an area: the thickness, in axisymmetric elements 2 pi, which goes with the radius."""
+    """Factor from area to volume: the thickness; in axisymmetric elements 2 pi, to be multiplied by the radius."""
     return 2 * np.pi if solid_of(group).axisymmetric else section.thickness
 
 
@@ -65,7 +65,9 @@ def solid_routine(model: Model, group: ElementGroup, section: SolidSection, libr
     if prestressed:
         given = section.orientation
         if orientation is None and given is not None and not is_global(given):
-            message = "*ORIENTATION with NLGEOM is not supported where elements have initial stresses, which it turns"
+            message = (
+                "*ORIENTATION with NLGEOM is not supported for elements with initial stresses, which it would rotate"
+            )
             raise DeckError(section.source, message)
         _binding.set_prestressed(number)
     define_fields(number, material, orientation, kind.tensor, library)
@@ -103,7 +105,7 @@ def _places_of_stress(kind: ContinuumType) -> tuple[int, ...]:
 
 
 def _is_prestressed(model: Model, group: ElementGroup, material: Material) -> bool:
-    """Whether elements of the group have an initial stress that a built-in material has to keep. Raises DeckError."""
+    """Whether elements of the group have an initial stress that a built-in material must store. Raises DeckError."""
     first = 0
     for other in model.groups:
         if other is group:
@@ -115,15 +117,15 @@ def _is_prestressed(model: Model, group: ElementGroup, material: Material) -> bo
     if found is None or material.user is not None:
         return False
     if material.user_field is not None and material.elastic is not None and material.elastic.table is not None:
-        message = "is not supported where the constants of *ELASTIC depend on what USDFLD gives"
+        message = "is not supported if the constants of *ELASTIC depend on fields that USDFLD gives"
         raise DeckError(found.source, f"*INITIAL CONDITIONS, TYPE=STRESS {message} (material {material.name})")
     return True
 
 
 def _orientation(model: Model, group: ElementGroup, section: SolidSection, library: Library) -> Orientation | None:
-    """Directions of the material; with NLGEOM only those that do not change the solution are taken, and left out.
+    """Directions of the material; with NLGEOM only those that do not change the solution are accepted, and ignored.
 
-    These are global ones, and any of an isotropic material. UMAT would see stresses in directions that turn.
+    These are global ones, and any of an isotropic material. UMAT would get stresses in rotating directions.
     """
     nonlinear = next((step for step in model.steps if step.nlgeom), None)
     orientation, material = section.orientation, section.material
@@ -135,7 +137,7 @@ def _orientation(model: Model, group: ElementGroup, section: SolidSection, libra
         raise DeckError(section.source, message)
     library.warn(
         f"{section.source}: *ORIENTATION, NAME={orientation.name} with NLGEOM: the directions of the material and of "
-        f"stresses and strains in the output are the global ones, which do not turn with the elements"
+        f"stresses and strains in the output are the global ones, which do not rotate with the elements"
     )
     return None
 
@@ -151,7 +153,7 @@ def solid_variables(group: ElementGroup, routine: Routine) -> PointVariables:
 
 
 def _check_radii(model: Model, group: ElementGroup) -> None:
-    """Nodes of axisymmetric elements are on one side of the axis, or within rounding on it."""
+    """Check that nodes of axisymmetric elements are on one side of the axis or, within rounding, on it."""
     radii = model.mesh.coordinates[group.nodes, 0]
     wrong = np.argwhere(radii < -SMALLEST_RADIUS * abs(radii).max(initial=0.0))
     if len(wrong):
@@ -170,13 +172,15 @@ def history_of(material: Material, points: int, *, prestressed: bool = False) ->
 
 
 def _hourglass_stiffness(group: ElementGroup, kind: ContinuumType, section: SolidSection) -> float:
-    """Parameter of the total stiffness; 0 where there is none. Raises DeckError."""
+    """Parameter of the total stiffness; 0 if there is none. Raises DeckError."""
     controls, elastic = section.controls, section.material.elastic
     if not kind.hourglass_control:
         return 0.0
     if section.hourglass and (controls.enhanced or controls.hourglass != 1):
         what = "HOURGLASS=ENHANCED" if controls.enhanced else "a factor of the hourglass stiffness"
-        raise DeckError(section.source, f"*HOURGLASS STIFFNESS and *SECTION CONTROLS with {what}: expected one of them")
+        raise DeckError(
+            section.source, f"*HOURGLASS STIFFNESS and *SECTION CONTROLS with {what}: expected only one of them"
+        )
     if controls.enhanced:
         _check_enhanced(group, kind, section)
         return 0.0
@@ -189,12 +193,12 @@ def _hourglass_stiffness(group: ElementGroup, kind: ContinuumType, section: Soli
 
 
 def _check_enhanced(group: ElementGroup, kind: ContinuumType, section: SolidSection) -> None:
-    """Raise DeckError where there is no enhanced hourglass control for the elements or the material."""
+    """Raise DeckError if there is no enhanced hourglass control for the elements or the material."""
     elastic = section.material.elastic
     if kind.axisymmetric:
         what, expected = f"elements of type {group.type}", "plane elements or C3D8R"
     elif elastic is None or elastic.type is not ElasticType.ISOTROPIC or elastic.table is not None:
-        what, expected = f"material {section.material.name}", "*ELASTIC, TYPE=ISOTROPIC that depends on nothing"
+        what, expected = f"material {section.material.name}", "*ELASTIC, TYPE=ISOTROPIC with constant values"
     else:
         return
     message = f"*SECTION CONTROLS, HOURGLASS=ENHANCED is not supported for {what}; expected {expected}"
@@ -202,7 +206,7 @@ def _check_enhanced(group: ElementGroup, kind: ContinuumType, section: SolidSect
 
 
 def _warn_of_enhanced(model: Model, group: ElementGroup, kind: ContinuumType, library: Library) -> None:
-    """Say, once for a section, what the enhanced hourglass control stands on."""
+    """Say, once per section, what the enhanced hourglass control is based on."""
     section = group.section
     if not (isinstance(section, SolidSection) and section.controls.enhanced and kind.hourglass_control):
         return
@@ -212,7 +216,7 @@ def _warn_of_enhanced(model: Model, group: ElementGroup, kind: ContinuumType, li
 
 
 def _output_variables(section: SolidSection, points: int, library: Library) -> OutputVariables | None:
-    """UVARM of a material; None where the job has none, which leaves out the variables alone."""
+    """UVARM of a material; None if the job has none: then only its variables are left out."""
     material = section.material
     if not material.output_variables or library.uvarm is None:
         return None

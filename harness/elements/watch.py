@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""A look at what user elements return beside RHS and AMATRX."""
+"""Watches what user elements return beside RHS and AMATRX."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from harness.usersub import Library
 
 
 class Watch:
-    """Warns once of values of a block of user elements that are not finite: the run goes on with them."""
+    """Warns once of values that are not finite in a block of user elements: the run goes on with them."""
 
     def __init__(self, group: ElementGroup, library: Library) -> None:
         self._group = group

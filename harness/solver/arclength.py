@@ -4,7 +4,7 @@
 
 Abaqus Theory Guide, "Modified Riks algorithm": displacements are scaled by the largest entry of the first solution of
 the step; an increment goes a given length along the tangent at its start, then Newton's method searches the plane
-through that point normal to the tangent. The tangent goes on in the direction of the previous increment.
+through that point normal to the tangent. The tangent continues in the direction of the previous increment.
 """
 
 from __future__ import annotations

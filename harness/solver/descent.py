@@ -12,7 +12,7 @@ Where elements soften, the tangent K is indefinite while one of them snaps. The 
 - a scale s with |d . r(s)| <= 0.25 d . r(0): four times as large while the residual still points along d, since a step
   must be long where an element fails, then regula falsi.
 
-It looks at nothing but the residual and the matrix, which is all that a UEL gives.
+It uses only the residual and the matrix, which is all that a UEL gives.
 
 **What holds.** Let the element forces be the gradient of an energy that K_0, the matrix at the start of the analysis,
 majorises: bilinear damage in one mode, say, where softening only lowers the stiffness. Then the energy falls along d
@@ -24,7 +24,7 @@ accidents; a snap leads to one that static equilibrium alone does not single out
 
 **What does not.** Scales are sampled: a step may pass over a first valley into a higher one, which costs iterations.
 Mixed-mode damage, Nitsche terms and friction make K unsymmetric: there is no energy, d . r is only the work of the
-residual, and the search is a heuristic. An attempt ends after `ITERATIONS` and is then cut back as it is without it.
+residual, and the search is a heuristic. An attempt ends after `ITERATIONS` and is then cut back as without the search.
 """
 
 from __future__ import annotations
@@ -42,19 +42,19 @@ from harness.solver.linesearch import descend
 from harness.solver.newton import Factoriser, Increment, Iterate, Newton
 
 ITERATIONS = 500
-"""Iterations after which an attempt is given up: dozens of elements may fail in it, and each takes a few."""
+"""Iterations after which an attempt is abandoned: dozens of elements may fail in it, and each takes a few."""
 
 SMALLEST_COSINE = 1e-6
 """Of the angle between d and K_0^-1 r, in the metric of K_0; in delaminating beams it stays above 1e-4."""
 
 NEGLIGIBLE = 1e-8
-"""What an extrapolation misses of the prescribed values is rounding below this fraction of them."""
+"""Of the prescribed values: if an extrapolation misses them by less, that is rounding."""
 
 ROUNDING = 1e-14
 """Rounding error of a residual over the sum of all element forces."""
 
 SHORT, GOOD = 0.01, 0.5
-"""Scales below which K is mixed with K_0, and from which on it is less so."""
+"""Scales below which K_0 is mixed into K, and above which the share of K_0 falls."""
 
 FIRST_SHARE, CHANGE = 0.01, 4.0
 """Share of K_0 after the first short step, and the factor of its changes."""
@@ -65,7 +65,7 @@ SINGULAR = "THE MATRIX WAS SINGULAR"
 
 
 class Majoriser:
-    """K_0, the matrix of the first pass of the analysis; factorised when it is first wanted."""
+    """K_0, the matrix of the first pass of the analysis; factorised when it is first needed."""
 
     def __init__(self) -> None:
         self._data: FloatArray | None = None
@@ -103,10 +103,10 @@ class Majoriser:
 
 
 class Descent(Newton):
-    """Newton iterations that turn into the descent search where they go wrong, until the attempt ends.
+    """Newton iterations that become the descent search when they go wrong, until the attempt ends.
 
-    reason  why the search works in this attempt, '' while it does not
-    since   iteration from which on it works
+    reason  why the search took over in this attempt, '' if it has not
+    since   iteration in which it took over
     """
 
     def __init__(
@@ -134,7 +134,7 @@ class Descent(Newton):
             self.reason, self._share = "", 0.0
             self._majoriser.keep(state.evaluation.data)
         if np.abs(missing).max(initial=0.0) > NEGLIGIBLE * np.abs(given.prescribed).max(initial=0.0):
-            # the correction brings the prescribed values in: it has to be taken whole
+            # the correction introduces the prescribed values: it has to be taken in full
             return super()._advance(given, state, missing)
         iteration = state.iteration + 1
         try:
@@ -156,7 +156,7 @@ class Descent(Newton):
         return self._descend(given, state, missing, self._downhill(state, correction))
 
     def _lift(self, missing: FloatArray) -> FloatArray:
-        """What is missing of the prescribed values, (n,)."""
+        """Missing part of the prescribed values, (n,)."""
         return self._constraints.expand(np.zeros(len(self._constraints.free)), missing)
 
     def _downhill(self, state: Iterate, correction: FloatArray) -> FloatArray:
@@ -176,7 +176,7 @@ class Descent(Newton):
             self._share = self._share / CHANGE if self._share > FIRST_SHARE else 0.0
 
     def _descend(self, given: Increment, state: Iterate, missing: FloatArray, direction: FloatArray) -> Iterate:
-        """The state at the scale found along a direction, or along K_0^-1 r where there is none."""
+        """The state at the scale found along a direction, or along K_0^-1 r if there is no such scale."""
         start = state.increment + self._lift(missing)
 
         def component(scale: float) -> float | None:

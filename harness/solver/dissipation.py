@@ -8,11 +8,11 @@ the work of the external forces F (reactions included) on its displacements u, a
 
     tau = 1/2 (F_0 . du - dF . u_0),
 
-exactly so if F and u vary linearly in it. (An elastic structure that stiffens would count as one that dissipates less
-than nothing: this is for damage at small displacements.) An increment ends where a given tau is reached or where the
-load factor has grown by a given amount, whichever comes first: with nothing to dissipate it is an increment of load,
-in a snap-back the factor falls. Nobody has to guess the energy: tau is half the work that the largest forces so far do
-on that growth of the factor.
+exactly, if F and u vary linearly in it. (An elastic structure that stiffens would seem to dissipate negative energy:
+this is for damage at small displacements.) An increment ends when a given tau is reached or when the load factor has
+grown by a given amount, whichever comes first: without dissipation it is an increment of load, in a snap-back the
+factor falls. Nobody has to guess the energy: tau is half the work that the largest forces so far do on that growth of
+the factor.
 """
 
 from __future__ import annotations
@@ -47,7 +47,7 @@ class Dissipation:
         size: float,
         left: float,
     ) -> None:
-        """Take an increment over.
+        """Start an increment.
 
         Parameters
         ----------
@@ -56,9 +56,9 @@ class Dissipation:
         external, reaction
             (n,) external forces at its start, reactions included, and reactions.
         size
-            Growth of the load factor at which it ends where nothing is dissipated; it falls by this at most, too.
+            Growth of the load factor at which it ends if nothing is dissipated; also the largest fall.
         left
-            What is left of the load factor.
+            Remaining growth of the load factor.
         """
         self._given, self._external, self._reaction = given, external, reaction
         self._size, self._rise = size, min(size, left)

@@ -23,7 +23,7 @@ SHIFT = 1e-6
 """First shift, as a fraction of the mean of K over that of M."""
 
 RANK = 1e-12
-"""Inverse eigenvalues below this fraction of the largest are of unknowns without mass."""
+"""Of the largest inverse eigenvalue: smaller ones belong to unknowns without mass."""
 
 
 class UnstableError(Exception):
@@ -48,7 +48,7 @@ class Pair:
 
 
 def lowest_eigenvalues(pair: Pair, count: int, solver: Factoriser) -> tuple[FloatArray, FloatArray]:
-    """Eigenvalues (k,) ascending and vectors (n, k); k is `count`, or less where there are no more.
+    """Eigenvalues (k,) ascending and vectors (n, k); k is `count`, or less if there are no more.
 
     The vectors have x^T M x = 1. `solver` is for matrices of the pattern. Raises UnstableError.
     """
@@ -65,7 +65,7 @@ def lowest_eigenvalues(pair: Pair, count: int, solver: Factoriser) -> tuple[Floa
 
 
 def _shifts(pair: Pair) -> Iterator[float]:
-    """Negative ones, since K is singular where bodies are not held; larger ones for those that are not stable."""
+    """Negative shifts, since K is singular if bodies are unconstrained; larger ones for unstable bodies."""
     stiffness, mass = (pair.matrix(data).diagonal() for data in (pair.stiffness, pair.mass))
     for power in range(4):
         yield -SHIFT * 100**power * float(np.abs(stiffness).sum() / mass.sum())

@@ -1,7 +1,7 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""Complex systems by the solvers for real ones: each entry a + ib is (a, -b; b, a), each unknown its real and imaginary
-part, one behind the other, so that a band stays one.
+"""Complex systems by the solvers for real ones: each entry a + ib becomes (a, -b; b, a), each unknown its real and its
+imaginary part, one after the other, so that a band stays a band.
 """
 
 from __future__ import annotations

@@ -50,7 +50,7 @@ def search(
         if value * upper[1] < 0.0:
             lower = upper
         elif lower[1] * upper[1] < 0.0:
-            # the other end stays twice: halve its value, or the bracket shrinks from one side only
+            # the other end stays twice: halve its value, otherwise the bracket shrinks from one side only
             lower = lower[0], 0.5 * lower[1]
         else:
             lower = upper
@@ -76,15 +76,15 @@ def descend(component: Callable[[float], float | None], at_zero: float) -> tuple
     Parameters
     ----------
     component
-        Evaluates g; None where an element refuses the scale, which then is too large.
+        Evaluates g; None if an element refuses the scale, which then is too large.
     at_zero
         g(0) > 0.
 
     Returns
     -------
     tuple[float, tuple[float, ...]]
-        The scale: where g does not get so small, that of the smallest |g| < g(0), or else the largest one up to which
-        it goes downhill, 0 where none does. Then all scales tried.
+        The scale: if g does not get that small, the one with the smallest |g| < g(0), or else the largest one up to
+        which it goes downhill, 0 if none does. Then all scales tried.
     """
     best, smallest, downhill = 0.0, at_zero, 0.0
     lower, upper = (0.0, at_zero), (math.inf, 0.0)
@@ -98,7 +98,7 @@ def descend(component: Callable[[float], float | None], at_zero: float) -> tuple
         if smallest <= DOWN_TO * at_zero:
             break
         if value is None or value < 0.0:
-            # an end that stays twice: halve its value, or the bracket shrinks from the other side only
+            # an end that stays twice: halve its value, otherwise the bracket shrinks from the other side only
             lower = (lower[0], 0.5 * lower[1]) if last < 0 else lower
             upper, last = (scale, -math.inf if value is None else value), -1
         else:

@@ -21,7 +21,7 @@ ROUNDING = 16 * float(np.finfo(float).eps)
 
 
 class Factoriser(Protocol):
-    """What is needed of a linear solver."""
+    """What is needed from a linear solver."""
 
     def factorise(self, data: FloatArray) -> None:
         """Take the CSR values of the reduced matrix."""
@@ -32,14 +32,14 @@ class Factoriser(Protocol):
 
 @dataclass(frozen=True, slots=True)
 class Increment:
-    """What is given of an increment.
+    """What defines an increment.
 
     call          of the passes after a solve; the first pass carries LFLAGS(5) = 1 if it starts from an extrapolation
     displacement  (n,) at the start
     guess         (n,) extrapolated increment; None: from the start state
     prescribed    (n_p,) increment of each prescribed unknown
     load          (n,) external load at the end
-    damping       (nnz,) CSR values of a matrix whose product with the increment is a force too; None: there is none
+    damping       (nnz,) CSR values of a matrix whose product with the increment is also a force; None: no such force
     motion        velocities and accelerations at the end that go with an increment (n,); None: at rest
     """
 
@@ -82,16 +82,16 @@ class Newton:
         self._constraints = constraints
         self._solver = solver
         self._line_search = line_search
-        # values of the matrix that the solver has factorised, and whether the next solve takes it again
+        # values of the matrix that the solver has factorised, and whether the next solve reuses it
         self._factorised: FloatArray | None = None
         self._again = False
 
     def iterates(self, given: Increment, *, same_matrix: bool = False) -> Iterator[Iterate]:
-        """Iterate without end; the caller stops when it accepts or gives up.
+        """Iterate without end; the caller stops when it accepts or abandons the attempt.
 
         The first pass is at the start state, or at the extrapolated one. Prescribed values are not written into it:
-        what is missing of them enters the linear system of iteration 1, so that the correction of all unknowns takes
-        part in it. With `same_matrix` the first solve takes the matrix of the last one again. Raises KernelError and
+        their missing part enters the linear system of iteration 1, so that the correction of all unknowns includes it.
+        With `same_matrix` the first solve reuses the matrix of the last one. Raises KernelError and
         SingularMatrixError.
         """
         call = given.call
@@ -109,9 +109,9 @@ class Newton:
             missing = np.zeros_like(missing)
 
     def _rounded(self, given: Increment, guess: FloatArray) -> FloatArray:
-        """The guess, with what is prescribed where it differs from it by the rounding of the displacements.
+        """The guess, with the prescribed values where it differs from them only by rounding of the displacements.
 
-        Else it would depend on the last bits, and thus on the units, whether anything is missing of it.
+        Otherwise the last bits, and thus the units, would decide whether a part of them is missing.
         """
         prescribed = self._constraints.prescribed
         total = np.abs(given.displacement[prescribed]) + np.abs(given.prescribed)
@@ -121,12 +121,12 @@ class Newton:
         return rounded
 
     def _advance(self, given: Increment, state: Iterate, missing: FloatArray) -> Iterate:
-        """The next iterate: a solve, a pass, and a line search where one is asked for."""
+        """The next iterate: a solve, a pass, and a line search if one is requested."""
         correction = self._correction(state, missing)
         return self._taken(given, state, correction, searchable=not missing.any())
 
     def _taken(self, given: Increment, state: Iterate, correction: FloatArray, *, searchable: bool) -> Iterate:
-        """The state after a correction; scaling one that brings prescribed values in would miss them."""
+        """The state after a correction; scaling one that introduces prescribed values would miss them."""
         new = self._evaluate(given.call, given, state.iteration + 1, state.increment + correction, correction)
         if self._line_search.n_ls > 0 and searchable and new.evaluation.pnewdt >= 1.0:
             return self._searched(given, state, new)
@@ -145,7 +145,7 @@ class Newton:
             self._again = False
         else:
             assert state.evaluation.data is not None
-            # a pass writes over the values of the one before
+            # a pass overwrites the values of the one before
             self._factorised = state.evaluation.data.copy()
             self._solver.factorise(self._constraints.reduce(self._factorised))
         assert self._factorised is not None

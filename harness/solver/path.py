@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""Newton's method where the load factor is unknown too: loads and prescribed values are proportional to it.
+"""Newton's method with the load factor as an unknown too: loads and prescribed values are proportional to it.
 
 Each iteration solves for two right-hand sides with one factorisation, K c_r = r and K v = q, where q is the load per
 unit of the factor (column 2 of RHS in it, and prescribed values through K). The correction is c_r + mu v, the factor
@@ -23,7 +23,7 @@ from harness.solver.newton import Factoriser, Iterate
 
 @dataclass(frozen=True, slots=True)
 class PathIncrement:
-    """What is given of an increment along a path.
+    """What defines an increment along a path.
 
     call             of the passes after a solve
     displacement     (n,) at the start
@@ -126,7 +126,7 @@ class PathFollower:
         data, constraints = state.evaluation.data, self._constraints
         assert data is not None
         self._solver.factorise(constraints.reduce(data))
-        # prescribed values are those of the factor, but for rounding
+        # prescribed values follow the factor, except for rounding
         missing = state.factor * given.prescribed_rate - state.increment[constraints.prescribed]
         held = state.residual - constraints.prescribed_residual(data, missing)
         particular = constraints.expand(self._solver.solve(constraints.reduce_vector(held)), missing)
@@ -136,7 +136,7 @@ class PathFollower:
 
     @staticmethod
     def _load_rate(given: PathIncrement, state: PathIterate) -> FloatArray:
-        """Load per unit of the factor, with what elements say of theirs."""
+        """Load per unit of the factor, including the loads that elements report."""
         element = state.evaluation.load
         if element is None or state.factor == 0.0:
             return given.load_rate
@@ -145,7 +145,7 @@ class PathFollower:
     def _reaction(self, given: PathIncrement, state: PathIterate) -> Reaction:
         data = state.evaluation.data
         assert data is not None
-        # the next pass overwrites the values, but this serves before it only
+        # the next pass overwrites the values, but this is used only before it
         matrix = self._system.matrix(data)
 
         def change(correction: FloatArray, factor: float) -> FloatArray:

@@ -60,7 +60,7 @@ def test_last_lines_of_other_ends(tmp_path: Path, capsys: pytest.CaptureFixture[
     deck.write_text(deck.read_text().replace("*BOUNDARY\n1, 1\n2, 1, 1, 0.1\n", ""))
     assert main(["run", str(deck), "--user", str(SPRING_IN_C), "--output-dir", str(tmp_path)]) == 0
     first, *_, last = capsys.readouterr().out.splitlines()
-    assert "look at *BOUNDARY" in first
+    assert "check *BOUNDARY" in first
     assert last.endswith("warnings in .dat and .msg: 1")
 
 

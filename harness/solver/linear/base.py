@@ -18,7 +18,7 @@ from harness.model.arrays import FloatArray
 from harness.solver.linear.singular import free_unknown
 
 SUSPICIOUS = 1e-9
-"""Ratio of the smallest pivot, or of an estimate, to the largest diagonal entry below which a matrix is examined."""
+"""Ratio of the smallest pivot, or an estimate of it, to the largest diagonal entry below which a matrix is examined."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -51,8 +51,8 @@ class Pattern:
 class LinearSolver(ABC):
     """Factorises matrices of one pattern.
 
-    name         by which it is asked for
-    module, distribution  that have to be there: to import, and to install
+    name         by which it is requested
+    module, distribution  that it needs: to import, and to install
     widest_band  half bandwidth up to which the band solver beats it, measured as in `choice`
     reason       why this solver was chosen, a phrase for the message file
     """
@@ -65,7 +65,7 @@ class LinearSolver(ABC):
     def __init__(self, pattern: Pattern, name_of: Callable[[int], tuple[str, int]] | None = None) -> None:
         """Symbolic work. `name_of` gives node name and dof of an unknown, for the message of a singular matrix."""
         self.pattern = pattern
-        self.reason = "asked for"
+        self.reason = "requested"
         self._name_of = name_of or (lambda unknown: (f"of unknown {unknown}", 0))
         self._diagonal = np.flatnonzero(pattern.rows == pattern.indices)
         self._scale = 0.0
@@ -85,7 +85,7 @@ class LinearSolver(ABC):
             self._examine(self._pivot)
         elif not self._probed:
             self._probed = True
-            # a right-hand side that no equilibrium favours shows a body which nothing holds even if no load moves it
+            # a right-hand side without equilibrium reveals an unconstrained body even if no load moves it
             self.solve(np.where(np.random.default_rng(0).random(self.pattern.size) < 0.5, -1.0, 1.0))
 
     def solve(self, rhs: FloatArray) -> FloatArray:
@@ -110,12 +110,12 @@ class LinearSolver(ABC):
             return
         node, dof = self._name_of(unknown)
         raise SingularMatrixError(
-            node, dof, "the model or a part of it is not held; look at *BOUNDARY and at elements without stiffness"
+            node, dof, "the model or a part of it is unconstrained; check *BOUNDARY and elements without stiffness"
         )
 
     @abstractmethod
     def _factorise(self, data: FloatArray) -> float | None:
-        """Factorise; returns the smallest pivot, 0.0 where one is zero, None where the solver does not tell."""
+        """Factorise; returns the smallest pivot, 0.0 if one is zero, None if the solver does not tell."""
 
     @abstractmethod
     def _solve(self, rhs: FloatArray) -> FloatArray: ...

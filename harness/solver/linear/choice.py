@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""Which linear solvers there are, and which one is taken."""
+"""The linear solvers, and the choice among them."""
 
 from __future__ import annotations
 
@@ -29,11 +29,11 @@ from harness.solver.linear.superlu import SuperLUSolver
 SOLVERS: Final[dict[str, type[LinearSolver]]] = {
     solver.name: solver for solver in (BandSolver, PardisoSolver, MumpsSolver, SuperLUSolver)
 }
-"""By name. `auto` takes the band solver for narrow models, else the first other one that is installed.
+"""By name. `auto` takes the band solver for narrow models, else the first of the others that is installed.
 
-How narrow they have to be, `widest_band`, is measured: the time of the band solver per unknown grows with the square of
-the half bandwidth alone, that of the others hardly. One thread, factorisation and solution in ms, plane quads with an
-interface (MUMPS lies between the others):
+How narrow, `widest_band`, is measured: the time of the band solver per unknown grows with the square of the half
+bandwidth, that of the others hardly at all. One thread, factorisation and solution in ms, plane quads with an
+interface (MUMPS is between the others):
 
     unknowns, half bandwidth   10k, 71   10k, 135   40k, 71   40k, 135   40k, 263   163k, 71
     band                             9         17        46         89        221        226
@@ -47,7 +47,7 @@ LARGEST_BAND: Final = 2**31
 
 @dataclass(frozen=True, slots=True)
 class Availability:
-    """A row of the table of solvers; note says when it is taken, or why it cannot be."""
+    """A row of the table of solvers; note says when it is used, or why it cannot be."""
 
     name: str
     installed: bool
@@ -56,7 +56,7 @@ class Availability:
 
 
 def available() -> list[Availability]:
-    """All solvers, in the order in which `auto` asks for them."""
+    """All solvers, in the order in which `auto` tries them."""
     rows = []
     for name, solver in SOLVERS.items():
         obstacle = _obstacle(solver)
@@ -87,7 +87,7 @@ def choose(
     coordinates: FloatArray | None = None,
     name_of: Callable[[int], tuple[str, int]] | None = None,
 ) -> LinearSolver:
-    """Solver for matrices of a CSR pattern: the one named, or with 'auto' the one that should be quickest.
+    """Solver for matrices of a CSR pattern: the one named, or with 'auto' the one that should be fastest.
 
     Parameters
     ----------
@@ -102,14 +102,14 @@ def choose(
 
     Raises
     ------
-    UelError
+    UsageError
         The name is unknown, or what the solver needs is not installed.
     """
     pattern = Pattern(indptr, indices, coordinates)
     if name == "auto":
         return _quickest(pattern, name_of)
     if name not in SOLVERS:
-        raise UsageError(f"unknown linear solver '{name}'; known are auto, {', '.join(SOLVERS)}")
+        raise UsageError(f"unknown linear solver '{name}'; expected one of auto, {', '.join(SOLVERS)}")
     if obstacle := _obstacle(SOLVERS[name]):
         raise UsageError(f"linear solver '{name}' cannot be used: {obstacle}")
     return SOLVERS[name](pattern, name_of)
@@ -117,7 +117,7 @@ def choose(
 
 def _quickest(pattern: Pattern, name_of: Callable[[int], tuple[str, int]] | None) -> LinearSolver:
     ordering = narrowest(pattern)
-    # looking for a package takes no time, loading MKL half a second, which a narrow model is spared
+    # looking for a package takes no time, loading MKL half a second, which a narrow model does not need
     others = [solver for solver in SOLVERS.values() if solver is not BandSolver]
     likely = next(solver for solver in others if find_spec(solver.module))
     if _band_is_quicker(pattern, ordering, likely):
@@ -140,7 +140,7 @@ def _obstacle(solver: type[LinearSolver]) -> str:
     """Why a solver cannot be used, '' if it can."""
     module, distribution = solver.module, solver.distribution
     try:
-        # numpy tells at length on stderr where a module was built for another version of it; the error says it too
+        # numpy says at length on stderr that a module was built for another version of it; the error says so too
         with redirect_stderr(io.StringIO()):
             import_module(module)
     except ModuleNotFoundError:

@@ -1,11 +1,11 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""Finds out whether a matrix is singular, and which unknown moves freely.
+"""Determines whether a matrix is singular, and which unknown moves freely.
 
 A small pivot alone does not tell: the tip of a slender beam held by an interface stiffness of 1e12 has one of 1e-13
-of the largest diagonal entry and is sound, that of a body which nothing holds can be 1e-10 by accumulated rounding. So
-a suspicious matrix is looked at through the vector v that it stretches least, found by inverse iteration: it is
-singular where v^T A v is not larger than the rounding error of its own terms. Measured on 12,000 unknowns of a double
+of the largest diagonal entry and is sound, that of an unconstrained body can be 1e-10 by accumulated rounding. So
+a suspicious matrix is examined by the vector v that it stretches least, found by inverse iteration: it is
+singular if v^T A v is not larger than the rounding error of its own terms. Measured on 12,000 unknowns of a double
 cantilever beam, v^T A v is 0.0003 to 0.3 times that error if a body is free (interface stiffness 1e6 to 1e12), and
 1e7 (1e6) to 25 (1e12) times if the beam is clamped.
 """
@@ -37,16 +37,16 @@ def free_unknown(matrix: sparse.csr_array, *, certain: bool = False) -> int | No
         vector /= np.abs(vector).max()
     if not certain and not _is_null(matrix, vector):
         return None
-    # of the many that move alike, the first, so that rounding does not pick the node of the message
+    # the first of the many that move alike, so that rounding does not choose the node of the message
     return int(np.flatnonzero(np.abs(vector) > 0.99)[0])
 
 
 def _shifted_factors(matrix: sparse.csr_array, largest: FloatArray) -> SuperLU:
     """Factors of A + a diagonal of rounding size, grown until no pivot is exactly zero.
 
-    COLAMD bounds the fill whichever rows become pivots. The pattern of A + A^T does so only where they stay on the
-    diagonal, which those of Lagrange multipliers and of unsymmetric elements do not: 5,324 unknowns of bricks with a
-    multiplier at each node take 10 times as long there. Where they do stay, COLAMD takes up to three times as long.
+    COLAMD bounds the fill whichever rows become pivots. The pattern of A + A^T does so only if pivots stay on the
+    diagonal, which those of Lagrange multipliers and of unsymmetric elements do not: with it, 5,324 unknowns of bricks
+    with a multiplier at each node take 10 times as long. If they do stay, COLAMD takes up to three times as long.
     """
     shift = EPS / 16
     while True:

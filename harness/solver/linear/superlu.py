@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""SuperLU, the sparse solver of scipy: always there."""
+"""SuperLU, the sparse solver of scipy: always available."""
 
 from __future__ import annotations
 
@@ -16,17 +16,17 @@ from harness.model.arrays import FloatArray, IntArray
 from harness.solver.linear.base import LinearSolver, Pattern
 
 SMALL_PIVOT: Final = 1e-6
-"""Of the largest entry of the row: a diagonal entry that is no pivot."""
+"""Of the largest entry of the row: a smaller diagonal entry is not a pivot."""
 MANY: Final = 0.01
-"""Share of such entries from which on the pattern of A + A^T says little of the fill."""
+"""Share of such entries from which the pattern of A + A^T says little about the fill."""
 
 
 class SuperLUSolver(LinearSolver):
     """Minimum degree on the pattern of A + A^T in symmetric mode, found once, then kept.
 
-    Where many diagonal entries are no pivots, as those of Lagrange multipliers, columns are ordered by COLAMD and any
-    row may be the pivot: 12,000 unknowns of a public mixed element take 0.7 s, in symmetric mode minutes, with seven
-    times the entries.
+    If many diagonal entries cannot be pivots, as with Lagrange multipliers, columns are ordered by COLAMD and any row
+    may be the pivot: 12,000 unknowns of a public mixed element take 0.7 s, in symmetric mode minutes, with seven times
+    the entries.
 
     Small panels (4 columns) and supernodes suit the small fronts of two-dimensional meshes. 12,000 unknowns of a double
     cantilever beam take 12 ms, with scipy's default ordering and panels 17 ms; 39,000 of a square 163 and 431 ms.

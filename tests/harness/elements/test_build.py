@@ -33,7 +33,7 @@ def build(load):
 def test_elements_beyond_the_memory(build, user_group):
     group = user_group(NODES, SPRING, properties=(1.0,))
     group = replace(group, definition=replace(group.definition, variables=10**14, source=Source("test.inp", 5)))
-    message = r"test.inp:5: there is not enough memory for 1 elements of type U1 \(VARIABLES=100000000000000\)"
+    message = r"test.inp:5: not enough memory for 1 elements of type U1 \(VARIABLES=100000000000000\)"
     with pytest.raises(DeckError, match=message):
         build(group)
 
@@ -77,7 +77,7 @@ def test_missing_uelmat(build, user_group):
 
 @pytest.mark.parametrize("element_type, hint", [("CPS5", "did you mean CPS8"), ("S4R", "")])
 def test_unsupported_element_type(build, solid_group, element_type, hint):
-    message = rf"test.inp:7: element type {element_type} is not supported \(built in are CPS3, .*, MASS\).*{hint}"
+    message = rf"test.inp:7: element type {element_type} is not supported; built-in types: CPS3, .*, MASS.*{hint}"
     with pytest.raises(DeckError, match=message):
         build(solid_group(element_type, np.array([[0, 1, 2, 3]]), 1.0))
 
@@ -125,12 +125,12 @@ def test_hourglass_stiffness_of_user_materials(build, solid_group, load):
 
 def test_sections_of_the_wrong_kind(build, solid_group, user_group):
     solid, user = solid_group("CPS3", np.array([[0, 1, 2]]), 1.0), user_group(NODES, SPRING)
-    with pytest.raises(DeckError, match=r"elements of type CPS3 take \*SOLID SECTION"):
+    with pytest.raises(DeckError, match=r"elements of type CPS3 need \*SOLID SECTION"):
         build(replace(solid, section=user.section))
-    with pytest.raises(DeckError, match=r"user elements \(U1\) take \*UEL PROPERTY"):
+    with pytest.raises(DeckError, match=r"user elements \(U1\) need \*UEL PROPERTY"):
         build(replace(user, section=solid.section))
     cohesive = replace(solid, type="COH2D4", nodes=np.array([[0, 1, 2, 0]]))
-    with pytest.raises(DeckError, match=r"elements of type COH2D4 take \*COHESIVE SECTION"):
+    with pytest.raises(DeckError, match=r"elements of type COH2D4 need \*COHESIVE SECTION"):
         build(cohesive)
 
 

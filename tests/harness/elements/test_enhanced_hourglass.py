@@ -109,7 +109,7 @@ USER = Material("M", SOURCE, user=UserMaterial(np.array([1.0]), False, SOURCE))
     [
         ("CAX4R", {}, r"not supported for elements of type CAX4R; expected plane elements or C3D8R"),
         ("CPS4R", {"material": Material("M", SOURCE, PLY)}, r"for material M; expected \*ELASTIC, TYPE=ISOTROPIC that"),
-        ("CPE4R", {"material": USER}, r"for material M; expected \*ELASTIC, TYPE=ISOTROPIC that depends on nothing"),
+        ("CPE4R", {"material": USER}, r"for material M; expected \*ELASTIC, TYPE=ISOTROPIC with constant values"),
         (
             "CPE4R",
             {"hourglass": 1.0},

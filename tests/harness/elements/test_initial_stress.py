@@ -182,7 +182,7 @@ def test_directions_that_nlgeom_leaves_out_are_refused(run):
     """Those of an isotropic material do not matter for it, but for the stresses they do."""
     turned = "*ORIENTATION, NAME=TURNED\n0., 1., 0., -1., 0., 0.\n"
     given = {"orientation": ", ORIENTATION=TURNED", "step": ", NLGEOM"}
-    message = r"bar\.inp:10: \*ORIENTATION with NLGEOM is not supported where elements have initial stresses"
+    message = r"bar\.inp:10: \*ORIENTATION with NLGEOM is not supported for elements with initial stresses"
     with pytest.raises(DeckError, match=message):
         run(lines=turned, **given)
     same = turned.replace("0., 1., 0., -1., 0., 0.", "1., 0., 0., 0., 1., 0.")
@@ -323,7 +323,7 @@ def test_user_elements_are_not_told_and_the_run_says_so(tmp_path):
 
 def test_elements_without_initial_stress_say_so(run):
     lines = "*ELEMENT, TYPE=MASS, ELSET=M\n9, 2\n*MASS, ELSET=M\n1.\n*INITIAL CONDITIONS, TYPE=STRESS\nM, 1.\n"
-    with pytest.raises(DeckError, match=r"bar\.inp:22: .*elements of type MASS take no initial stress"):
+    with pytest.raises(DeckError, match=r"bar\.inp:22: .*elements of type MASS do not take an initial stress"):
         run(lines=lines)
 
 
@@ -334,5 +334,5 @@ def test_what_usdfld_changes_has_no_initial_stress(run, tmp_path):
         "      subroutine usdfld(field,statev,pnewdt,direct,t,celent,time,dtime,cmname,orname,nfield,nstatv,noel,\n"
         "     1 npt,layer,kspt,kstep,kinc,ndi,nshr,coord,jmac,jmatyp,matlayo,laccfla)\n      end\n"
     )
-    with pytest.raises(DeckError, match=r"bar\.inp:18: .*is not supported where the constants of .* USDFLD gives"):
+    with pytest.raises(DeckError, match=r"bar\.inp:18: .*is not supported if the constants of .* USDFLD gives"):
         run(material=table, user=user)

@@ -121,7 +121,7 @@ def test_checks_begin_with_the_same_states(tmp_path):
         ("*INITIAL CONDITIONS, TYPE=SOLUTION\nNONE, 1.\n", r"initial.inp:\d+: .*NONE"),
         (
             "*INITIAL CONDITIONS, TYPE=SOLUTION\n1, 1., 2., 3.\n",
-            r"initial.inp:\d+: \*INITIAL CONDITIONS, TYPE=SOLUTION: 3 values, where elements of type U1 have 2",
+            r"initial.inp:\d+: \*INITIAL CONDITIONS, TYPE=SOLUTION: 3 values, but elements of type U1 have 2",
         ),
         ("*INITIAL CONDITIONS, TYPE=VELOCITY, USER\n1, 1, 1.\n", "USER is for TYPE=SOLUTION"),
     ],

@@ -183,7 +183,9 @@ def unconstrained(case: str, stiffness: float):
 def test_body_that_is_not_held_is_named(name, stiffness, case, dofs) -> None:
     matrix, coordinates, free = unconstrained(case, stiffness)
     solver = solver_for(name, matrix, coordinates, name_of=lambda k: (str(free[k] // 2 + 1), int(free[k]) % 2 + 1))
-    with pytest.raises(SingularMatrixError, match=r"singular system matrix at node \d+, dof \d: .* not held") as raised:
+    with pytest.raises(
+        SingularMatrixError, match=r"singular system matrix at node \d+, dof \d: .* unconstrained"
+    ) as raised:
         solver.factorise(matrix.data)
     assert raised.value.dof in dofs
 
@@ -202,7 +204,7 @@ def test_part_that_comes_loose_later_is_named(name) -> None:
     solver.factorise(matrix.data)
     rhs = np.ones(matrix.shape[0])
     assert np.isfinite(solver.solve(rhs)).all()
-    with pytest.raises(SingularMatrixError, match="not held") as raised:
+    with pytest.raises(SingularMatrixError, match="unconstrained") as raised:
         solver.factorise(later.data)
         solver.solve(rhs)
     assert int(raised.value.node) >= len(coordinates) // 4
@@ -315,7 +317,9 @@ def test_auto_takes_a_sparse_solver_where_the_band_would_fill_the_memory(monkeyp
 def test_named_solver_is_taken_and_unknown_names_are_refused() -> None:
     matrix, coordinates = clamped(4, 1)
     assert solver_for("superlu", matrix, coordinates).name == "superlu"
-    with pytest.raises(UelError, match="unknown linear solver 'lapack'; known are auto, band, pardiso, mumps, superlu"):
+    with pytest.raises(
+        UelError, match="unknown linear solver 'lapack'; expected one of auto, band, pardiso, mumps, superlu"
+    ):
         solver_for("lapack", matrix, coordinates)
 
 
@@ -342,7 +346,7 @@ def test_solver_of_its_own_takes_one_entry(monkeypatch) -> None:
     row = available()[-1]
     assert (row.name, row.installed) == ("dense", True)
     assert row.note == "auto, wider models without pardiso and mumps and superlu"
-    with pytest.raises(UelError, match="known are auto, band, pardiso, mumps, superlu, dense"):
+    with pytest.raises(UelError, match="expected one of auto, band, pardiso, mumps, superlu, dense"):
         solver_for("lapack", matrix, coordinates)
 
 
