@@ -76,7 +76,7 @@ class UserAmplitude(Amplitude):
 
     data       (n,) properties (PROPERTIES=)
     variables  number of its state variables (VARIABLES=)
-    table      total times and values so far; the last is that of the increment that is tried
+    table      total times and values so far; the last are those of the current attempt
     """
 
     variables: int = 1

@@ -16,7 +16,7 @@ _EQUAL = 1e-6
 def first_largest(values: FloatArray) -> IntArray:
     """Index of the largest entry along the first axis; of equal ones, the first, on every processor.
 
-    An entry that is no finite number counts as the largest.
+    An entry that is not finite counts as the largest.
     """
     finite = np.isfinite(values)
     with np.errstate(invalid="ignore"):

@@ -144,7 +144,7 @@ class ContinuumType:
 
     @property
     def corners(self) -> int:
-        """Nodes that are no middle of an edge; they come first."""
+        """Corner nodes, those that are not midside nodes; they come first."""
         return self.family.corners
 
     @property
@@ -277,7 +277,7 @@ _SPACE: Final = {
     **{"10": (TET10, 4), "15": (WEDGE15, 9), "20": (HEX20, 27), "20R": (HEX20, 8)},
 }
 _UNCOUPLED: Final = ("CPS4I", "CPE4I", "C3D8I", "CPS6", "CPE6", "CAX6", "C3D6", "C3D10", "C3D15")
-"""Those that have no relative with temperatures here."""
+"""Those without a counterpart with temperatures here."""
 
 CONTINUUM: Final = {
     kind.name: kind

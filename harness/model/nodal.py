@@ -59,7 +59,7 @@ _GROUPS = {
 class Component:
     """One nodal component: its name, the array of `Solution` it is in, and its degree of freedom.
 
-    phase  the phase angle is meant
+    phase  whether it is the phase angle
     """
 
     name: str

@@ -96,7 +96,7 @@ class Frequency(LinearPerturbation):
 class SteadyState(LinearPerturbation):
     """*STEADY STATE DYNAMICS, DIRECT: the response to harmonic loads.
 
-    frequencies  cycles per time, in the order in which they are run through
+    frequencies  cycles per time, in the order in which they are solved
     undamped     REAL ONLY: damping is left out
     """
 

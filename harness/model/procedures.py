@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Procedures of a step: what *STATIC, *VISCO, *DYNAMIC and *HEAT TRANSFER say; `perturbations` has the linear ones.
 
-A procedure carries all that others ask of it, so that nobody asks which one it is: whether there is inertia, which
+A procedure answers all that others ask of it, so that nobody asks which one it is: whether there is inertia, which
 fields have equations, whether it is linear or harmonic, LFLAGS(1), how its progress counts, and its head in .msg and
 .dat. `harness.procedures.registry` has what runs it.
 """
@@ -52,18 +52,18 @@ class Stabilize:
 class Procedure(ABC):
     """Initial increment, period, smallest and largest increment of a step; direct = fixed increments.
 
-    With `riks` these are arc lengths, the period is their scale alone, and the step ends where `riks` says.
+    With `riks` these are arc lengths, the period is only their scale, and the step ends where `riks` says.
 
     keyword       that gives the procedure
     title         what .msg and .dat call it
     inertia       V and A go with U: elements need a mass, and loads work against it
     displacements, temperatures  which of the two have equations of their own
-    linear        a linear perturbation of the state at the end of the last general step, in which no time passes
+    linear        a linear perturbation of the state at the end of the last general step, without passage of time
     harmonic      loads and results are complex amplitudes, over frequency
     loaded        loads and prescribed values of the step act
     unsymmetric   matrices are stored and solved as unsymmetric ones, UNSYMM or not
     growth        name of the control D_M that bounds the growth from one increment to the next
-    energies      of the whole model in the history output; None: those that the step asks for
+    energies      of the whole model in the history output; None: those that the step requests
     """
 
     keyword: ClassVar[str]
@@ -113,11 +113,11 @@ class Procedure(ABC):
 
     @property
     def extent(self) -> tuple[str, float]:
-        """What the step runs through, for its progress, and how far."""
+        """What the step progresses in, and its total, for the progress display."""
         return "time", self.period
 
     def head(self) -> Iterator[HeadLine]:
-        """What .msg and .dat say of it at the start of the step."""
+        """What .msg and .dat say about it at the start of the step."""
         if self.riks is not None:
             yield from self._arc_lengths(self.riks)
         elif self.direct:
@@ -214,7 +214,7 @@ class Dynamic(Procedure):
 
     @property
     def default_amplitude(self) -> str:
-        """Loads are there at once, but ramp where the step looks for a static state."""
+        """Loads act at once, but ramp if the step looks for a static state."""
         return "RAMP" if self.integrator is Integrator.BACKWARD_EULER else "STEP"
 
     def head(self) -> Iterator[HeadLine]:
@@ -257,7 +257,7 @@ class HeatTransfer(Procedure):
 
     @property
     def default_amplitude(self) -> str:
-        """Loads are there at once, but ramp to a steady state."""
+        """Loads act at once, but ramp in a steady-state step."""
         return "RAMP" if self.steady else "STEP"
 
     @property

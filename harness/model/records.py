@@ -42,7 +42,7 @@ class Largest:
 class FieldCheck:
     """Convergence check of one field, as a block of the message file prints it.
 
-    converted  the time average flux is that of forces or moments, of the other of the two
+    converted  the time average flux comes from the other of the two fields, forces and moments
     """
 
     field: str
@@ -79,7 +79,7 @@ class IterationDone:
 
 @dataclass(frozen=True, slots=True)
 class AttemptAbandoned:
-    """The attempt is given up; `next_increment` is tried next (0: none is left)."""
+    """The attempt is abandoned; `next_increment` is tried next (0: no attempt is left)."""
 
     step: int
     increment: int
@@ -125,12 +125,12 @@ class ModesFound:
 
 @dataclass(frozen=True, slots=True)
 class ModeShape(IncrementDone):
-    """One mode: `increment` is its number, its frequency stands for the times, the displacement is its shape."""
+    """One mode: `increment` is its number, its frequency replaces the times, the displacement is its shape."""
 
 
 @dataclass(frozen=True, slots=True)
 class HarmonicResponse(IncrementDone):
-    """The response at one frequency, which stands for the times; the solution has an imaginary part."""
+    """The response at one frequency, which replaces the times; the solution has an imaginary part."""
 
 
 ENERGIES: Final = (
@@ -183,7 +183,7 @@ class SearchHelped:
 
 @dataclass(frozen=True, slots=True)
 class Noted:
-    """Something worth knowing that is no reason to worry; printed to .msg as a note."""
+    """Something worth knowing that needs no action; printed to .msg as a note."""
 
     message: str
 
@@ -210,7 +210,7 @@ class PointVariables:
     names   name of each variable of a point, in order ('S11', ..., 'DAMAGE')
     points  number of points; the variables of point k are SVARS[k*len(names) : (k+1)*len(names)]
     bottom, top  interface only: local nodes (from 0) of the two coincident edges, both along the tangent: left and
-            right end, and the middle where the edges are quadratic
+            right end, and the middle if the edges are quadratic
     outline continuum only: local nodes (from 0) of the cell, where the element is not one of the built-in ones
     aliases pairs of a name in Abaqus' output and the name here, where they differ ('S22', 'TN')
     """

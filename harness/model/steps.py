@@ -89,7 +89,7 @@ class Controls:
 class Boundary:
     """One *BOUNDARY entry: nodes (indices), one dof, magnitude, amplitude (None: the step's default).
 
-    With `velocity` (TYPE=VELOCITY) it is the rate of the dof that is prescribed; with `user` DISP has the last word;
+    With `velocity` (TYPE=VELOCITY) the rate of the dof is prescribed; with `user` DISP has the last word;
     with `fixed` it is the value at the start of the step. `imaginary`: the imaginary part, of a harmonic one.
     """
 
@@ -198,7 +198,7 @@ class InitialSolution:
 class InitialStress:
     """One *INITIAL CONDITIONS, TYPE=STRESS: elements (positions in the model) and components in Abaqus' order.
 
-    ramped  what of the stresses is not in equilibrium takes effect in the course of the first step, else at once
+    ramped  the unbalanced part of the stresses takes effect gradually over the first step, else at once
     """
 
     elements: IntArray
@@ -265,7 +265,7 @@ class OutputRequests:
 class Step:
     """*STEP. `amplitude` RAMP or STEP; `new_boundary`/`new_loads`: OP=NEW removes what earlier steps prescribed.
 
-    `notes` say where the step is not run quite as it is asked for.
+    `notes` say where the run of the step differs from the deck.
     """
 
     number: int

@@ -15,7 +15,7 @@ from harness.model.arrays import FloatArray
 
 @dataclass(frozen=True, slots=True)
 class UserValues:
-    """What a routine is asked for, at the end of an increment.
+    """What a routine is called for, at the end of an increment.
 
     routine  its name
     time     step and total time
@@ -35,7 +35,7 @@ class UserValues:
 
 @dataclass(frozen=True, slots=True)
 class AskedAmplitude:
-    """What UAMP is asked for: the value of an amplitude at the end of an increment.
+    """Arguments of UAMP, which gives the value of an amplitude at the end of an increment.
 
     old         value at the end of the last increment
     time        step and total time
@@ -59,7 +59,7 @@ class AskedAmplitude:
 
 @dataclass(frozen=True, slots=True)
 class GivenAmplitude:
-    """What UAMP makes of it: the value, the state variables, and whether the step ends with this increment."""
+    """What UAMP returns: the value, the state variables, and whether the step ends with this increment."""
 
     value: float
     state: FloatArray

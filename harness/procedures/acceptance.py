@@ -23,11 +23,11 @@ SMALL_PEAK = 0.1
 
 @dataclass(frozen=True, slots=True)
 class FieldMeasures:
-    """What decides on one field in one iteration; all values are magnitudes.
+    """What decides the verdict on one field in one iteration; all values are magnitudes.
 
     q, q_time   average flux and its time average
     r           largest residual; r_previous the one before: that of the previous iteration, in iteration 1 that of
-                the extrapolated start, None where there is neither
+                the extrapolated start, None if there is neither
     du, c       largest increment and largest correction
     iteration   from 1
     """
@@ -69,7 +69,7 @@ def judge(check: FieldMeasures, controls: FieldControls, i_p: int) -> Convergenc
     if check.q <= zero and (check.r <= zero or check.c <= controls.c_eps * check.du):
         return Convergence.ZERO_FLUX
     if check.r <= controls.r_l * check.q_time:
-        # later iterations are printed as converged, even where the correction is as large as the increment
+        # later iterations are printed as converged, even if the correction is as large as the increment
         return Convergence.LINEAR if check.iteration == 1 else Convergence.CONVERGED
     if check.r > residual_tolerance(check, controls, i_p):
         return Convergence.NOT_ACHIEVED
@@ -115,7 +115,7 @@ class FluxHistory:
         return controls.eps_l * self.peaks / self.count if self.count else -1.0
 
     def leaves_out(self, peak: float) -> bool:
-        """Whether element forces below the floor are no terms of the average, where the largest one is `peak`."""
+        """Whether element forces below the floor are left out of the average, if the largest one is `peak`."""
         return self.count > 0 and peak >= SMALL_PEAK * self.peaks / self.count
 
     def next_step(self, controls: FieldControls) -> FluxHistory:
@@ -123,7 +123,7 @@ class FluxHistory:
         return FluxHistory(controls.q_0 if controls.q_0 > 0.0 else self._mean())
 
     def unknown(self, controls: FieldControls) -> bool:
-        """Whether no converged increment has carried flux, and the controls say nothing of it."""
+        """Whether no converged increment has carried flux, and the controls give none."""
         return not (self.count or controls.q_0 or controls.q_u) and self.initial == INITIAL_FLUX
 
     def seen(self, q: float, controls: FieldControls) -> bool:

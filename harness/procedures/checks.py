@@ -34,12 +34,12 @@ ROTATIONS = range(4, 7)
 """Dofs that are rotations."""
 
 Positions = IntArray | slice
-"""Where in a vector the entries of a field are; a slice where they are all of it, which is much quicker."""
+"""Where the entries of a field are in a vector; a slice if that is all of it, which is much faster."""
 
 
 @dataclass(slots=True)
 class FieldChecker:
-    """Checks of one field: where its unknowns are, its controls, and what earlier iterations and increments gave.
+    """Checks of one field: where its unknowns are, its controls, and the results of earlier iterations and increments.
 
     unknowns   unknowns of the field
     free       positions of its free unknowns in the reduced vector
@@ -66,7 +66,7 @@ class FieldChecker:
 class Checker:
     """Convergence checks of the increments of one step.
 
-    length  characteristic length of elements with rotations, which makes forces of moments; 0 without
+    length  characteristic length of elements with rotations, which converts moments to forces; 0 without rotations
     """
 
     def __init__(
@@ -93,12 +93,12 @@ class Checker:
 
     @property
     def flux_floor(self) -> FloatArray:
-        """(fields,) element nodal forces that are no terms of the average flux in the next increment.
+        """(fields,) element nodal forces that do not count in the average flux in the next increment.
 
-        From the second increment of a step on those are left out that count as zero beside the time average of the
-        largest one: in printed iterations of a cube that is pulled along one axis, the average is that of the other
-        entries alone. All are terms where the largest one is small beside its time average: the heat fluxes of a cube
-        with a first peak are, until a tenth is reached.
+        From the second increment of a step on, forces are left out that count as zero compared with the time average of
+        the largest one: in printed iterations of a cube pulled along one axis, the average is that of the other entries
+        only. All count if the largest one is small compared with its time average: so do the heat fluxes of a cube
+        after a first peak, until a tenth of it is reached.
         """
         floor = np.full(len(FIELD_NAMES), -1.0)
         for checked in self.fields:
@@ -122,7 +122,7 @@ class Checker:
         return tuple(self._check(k, checked, state) for k, checked in enumerate(self.fields))
 
     def give_up(self, iteration: int, checks: Sequence[FieldCheck]) -> Abandoned | None:
-        """Whether the attempt is to be abandoned after these checks, none of which need have failed."""
+        """Whether to abandon the attempt after these checks, none of which need have failed."""
         for checked, check in zip(self.fields, checks, strict=True):
             if check.verdict is Convergence.NOT_ACHIEVED:
                 tolerance = checked.controls.r_n * check.time_average_flux
@@ -132,7 +132,7 @@ class Checker:
         return out_of_iterations(iteration, self._time)
 
     def accepted_as_zero(self, checks: Sequence[FieldCheck]) -> Iterator[FieldCheck]:
-        """Checks of which it is Abaqus' initial time average flux alone that accepts them, not the flux there is."""
+        """Checks that are accepted only because of Abaqus' initial time average flux, not by the actual flux."""
         for checked, check in zip(self.fields, checks, strict=True):
             controls = checked.controls
             assumed = checked.history.unknown(controls) and not checked.converted
@@ -145,7 +145,7 @@ class Checker:
         return {field.name: field.average for field in self.fields}
 
     def largest_ratio(self, residual: FloatArray, tolerances: Mapping[str, float]) -> float:
-        """Largest residual over its tolerance, of the fields that have one."""
+        """Largest ratio of residual to tolerance, of the fields that have a tolerance."""
         reduced = self._constraints.reduce_vector(residual)
         ratios = [0.0]
         for checked in self.fields:
@@ -156,7 +156,7 @@ class Checker:
         return max(ratios)
 
     def converged(self) -> None:
-        """Take the last fluxes into the time average."""
+        """Include the last fluxes in the time average."""
         for checked in self.fields:
             if not checked.converted:
                 checked.history = checked.history.converged(checked.flux, checked.controls, checked.peak)
@@ -178,12 +178,12 @@ class Checker:
         checked.average, checked.converted = checked.history.average(checked.flux, checked.controls), False
 
     def _convert(self) -> None:
-        """Where forces count as zero beside moments over a length, take these for their time average, and the reverse.
+        """If forces count as zero beside moments over a length, use these as their time average; and the reverse.
 
-        Else forces that are rounding errors of moments would be measured with themselves. What Abaqus says of it: the
+        Otherwise forces that are rounding errors of moments would be compared with themselves. Abaqus says that the
         field conversion ratio scales the relationship between two active fields when one is of negligible magnitude,
-        and message files have FROM MOMENT FIELD. Inferred are the length, that of elements with rotations, and when it
-        is done: no increment had forces, and they count as zero by the criterion for zero flux.
+        and message files have FROM MOMENT FIELD. Inferred are the length, that of elements with rotations, and the
+        condition: no increment had forces, and they count as zero by the criterion for zero flux.
         """
         force, moment = (next((c for c in self.fields if c.name == name), None) for name in ("force", "moment"))
         if force is None or moment is None or not self._length:
@@ -236,10 +236,10 @@ class Checker:
 
 
 def length_of_moments(system: System, mesh: Mesh) -> float:
-    """Characteristic length of elements with rotations: the mean distance of nodes that follow each other; 0 without.
+    """Characteristic length of elements with rotations: the mean distance of consecutive nodes; 0 without any.
 
-    Abaqus prints a CHARACTERISTIC ELEMENT LENGTH and does not say how it is made: 1 for squares of edge 1, 9.764E-04
-    for hexahedra whose edges are 9.771E-04 in the mean.
+    Abaqus prints a CHARACTERISTIC ELEMENT LENGTH but does not define it: 1 for squares of edge 1, 9.764E-04 for
+    hexahedra whose mean edge is 9.771E-04.
     """
     total, count = 0.0, 0
     for block in system.blocks:

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""Distributed loads on user elements and predefined fields through the steps: what elements are told of them.
+"""Distributed loads on user elements and predefined fields through the steps, as elements get them.
 
 Both vary as *CLOAD does. A field that a step removes (OP=NEW) goes back to its initial value.
 """
@@ -19,7 +19,7 @@ from harness.model.steps import Load, Step
 from harness.procedures.loads import Loads, Slots, Variation
 
 FIRST_TEMPERATURE = 11
-"""The dof whose initial value is that of the predefined field too."""
+"""The dof whose initial value is also that of the predefined field."""
 
 
 class Conditions:
@@ -60,7 +60,7 @@ class Conditions:
         )
 
     def in_perturbation(self, step: Step, total_time: float) -> Distributed | None:
-        """Loads of the base state, with what a perturbation step adds for increments; nothing of it goes on."""
+        """Loads of the base state, with those of a perturbation step as increments, which do not outlast it."""
         active = self._active.copy()
         for entry in step.distributed:
             active[self._slots.find(entry.elements, entry.kind)] = True
@@ -68,7 +68,7 @@ class Conditions:
         return _distributed(self._slots.places[active], self._slots.kinds[active], base[active], added[active])
 
     def initial(self) -> Predefined | None:
-        """Fields before the first step; None where the model has none."""
+        """Fields before the first step; None if the model has none."""
         if not len(self._nodes):
             return None
         values = self._initial.reshape(self._nodes.fields, self._nodes.nodes)
@@ -96,7 +96,7 @@ class _Grid:
 
 @dataclass(frozen=True, slots=True)
 class StepConditions:
-    """Those of one step: the loads that are active, and how loads and fields vary."""
+    """Conditions of one step: the active loads, and how loads and fields vary."""
 
     elements: IntArray
     kinds: IntArray
@@ -107,7 +107,7 @@ class StepConditions:
     initial: FloatArray
 
     def at(self, start: tuple[float, float], end: tuple[float, float]) -> tuple[Distributed | None, Predefined | None]:
-        """What is in force in an increment between these step and total times."""
+        """Loads and fields of an increment between these step and total times."""
         predefined = None
         values, before = self.loads.at(*end)[self.slots], self.loads.at(*start)[self.slots]
         distributed = _distributed(self.elements, self.kinds, values, values - before)
@@ -124,8 +124,8 @@ def _as_loads(step: Step) -> list[Load]:
 
 
 def _distributed(elements: IntArray, kinds: IntArray, end: FloatArray, increment: FloatArray) -> Distributed | None:
-    """What elements are told of their loads; None where there are none."""
+    """The loads as elements get them; None if there are none."""
     if not len(elements):
         return None
-    given = kinds > 0  # UEL itself gives those of type UnNU
+    given = kinds > 0  # UEL itself gives the magnitude of type UnNU
     return Distributed(elements, kinds, np.where(given, end, 0.0), np.where(given, increment, 0.0))

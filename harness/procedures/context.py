@@ -21,19 +21,19 @@ from harness.solver.newton import Factoriser
 
 
 class StepContext:
-    """One general step as far as its procedure does not matter.
+    """One general step, apart from its procedure.
 
     start       total time at the start of the step
     step_time   at the start of the increment; the total time is that of the state
-    increment   number of the increment that runs
-    choice      which linear solver was chosen and why; '' where that of the last step goes on
+    increment   number of the current increment
+    choice      which linear solver was chosen and why; '' if that of the last step is kept
     """
 
     constraints: Constraints
     solver: Factoriser
 
     def __init__(self, setting: Setting, *, fallback: bool = False) -> None:
-        """Takes over the step's prescribed values and loads; symbolic work is done again only where they differ.
+        """Takes over the step's prescribed values and loads; symbolic work is repeated only if they differ.
 
         Raises DeckError.
         """
@@ -61,7 +61,7 @@ class StepContext:
         if constraints is None or solver is None or not constraints.matches(self.unknowns, equations):
             constraints = Constraints(self.system, self.unknowns, equations, state.boundaries.sources)
             chosen = choose_solver(setting.solver, constraints)
-            # the search has an answer of its own to a singular matrix
+            # the search handles a singular matrix itself
             solver = chosen if fallback else UnconstrainedSolver(chosen)
             self.choice = f"LINEAR SOLVER {chosen.name.upper()}: {chosen.reason}"
             state.majoriser.use(self.system, constraints, partial(choose_solver, setting.solver, constraints))
@@ -70,7 +70,7 @@ class StepContext:
 
     @property
     def unknowns(self) -> IntArray:
-        """Those that are prescribed."""
+        """Prescribed unknowns."""
         return self.state.boundaries.unknowns
 
     @property
@@ -103,7 +103,7 @@ class StepContext:
         return Call(
             flags=Flags.of(step),
             step=step.number,
-            # what is asked before the first increment belongs to it
+            # calls before the first increment belong to it
             increment=max(self.increment, 1),
             step_time=step_time,
             total_time=total_time,

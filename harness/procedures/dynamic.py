@@ -3,7 +3,7 @@
 """*DYNAMIC: implicit integration by the operator of Hilber, Hughes and Taylor, or by backward Euler.
 
 Abaqus Theory Guide, "Implicit dynamic analysis": M a + (1 + alpha) (I - P) at the end - alpha (I - P) at the start = 0.
-Elements put M a and their I with these weights into RHS, the step weights its loads P.
+Elements put M a and their I with these weights into RHS; the step weights its loads P.
 """
 
 from __future__ import annotations
@@ -47,13 +47,13 @@ class ImplicitIntegration(Part):
         self._previous_load = context.load_at(0.0)
 
     def start(self) -> Iterable[Record]:
-        """Compute the accelerations at the start, unless they are zero."""
+        """Compute the initial accelerations, unless they are zero."""
         if self._procedure.initial_acceleration:
             self._accelerate()
         return ()
 
     def _accelerate(self) -> None:
-        """Solve M a = P - I for the accelerations at the start; unknowns without mass have none."""
+        """Solve M a = P - I for the initial accelerations; unknowns without mass have none."""
         context, state, constraints = self._context, self._context.state, self._context.constraints
         call = context.call(0.0, 0.0, context.start).asking(Request.INITIAL_ACCELERATION)
         motion = Motion(state.velocity, np.zeros_like(state.velocity))
@@ -78,7 +78,7 @@ class ImplicitIntegration(Part):
         return advance(self._procedure, before, size, increment)
 
     def given(self, given: Increment, size: float) -> Increment:
-        """Loads weighted over the increment, and the motion that goes with displacements."""
+        """Loads weighted over the increment, and the motion that follows from displacements."""
         alpha, state, context = self._procedure.alpha, self._context.state, self._context
         load = (1.0 + alpha) * given.load - alpha * context.load_at(context.step_time)
         guess = given.guess
@@ -121,7 +121,7 @@ class ImplicitIntegration(Part):
         return context.system.evaluate(call.asking(Request.RESIDUAL), at, increment, matrix=False, motion=motion)
 
     def converged(self, last: Iterate, size: float) -> Iterable[Record]:
-        """Velocities and accelerations at the end."""
+        """Take over velocities and accelerations at the end."""
         context = self._context
         self._previous_load = context.load_at(context.step_time)
         motion = self._motion(size, last.increment)

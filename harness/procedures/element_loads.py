@@ -2,10 +2,10 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """All loads of a step: concentrated ones, and distributed ones on built-in elements as nodal forces.
 
-Pressures in a model with NLGEOM are no nodal forces: the faces that they act on are called in each iteration.
+Pressures in a model with NLGEOM are not nodal forces: the faces that they act on are called in each iteration.
 
 Magnitudes of distributed loads vary as those of *CLOAD do, for each element and type of load; *DLOAD and *DSLOAD have
-an OP= of their own. Those of nonuniform loads are what DLOAD makes of them at each point of the face or volume.
+their own OP=. Nonuniform loads have the magnitudes that DLOAD gives at each point of the face or volume.
 """
 
 from __future__ import annotations
@@ -30,7 +30,7 @@ from harness.procedures.loads import Loads, ScaledUnknowns, Slots, Variation
 
 @dataclass(slots=True)
 class StepLoads:
-    """Loads of one step; `increment` is that for which they are asked."""
+    """Loads of one step; `increment` is the one for which they are needed."""
 
     step: int
     concentrated: Variation
@@ -40,7 +40,7 @@ class StepLoads:
 
     @property
     def curves(self) -> tuple[ScaledUnknowns, ...]:
-        """What varies along an amplitude."""
+        """Loads that vary along an amplitude."""
         return (*self.concentrated.curves, *(curve for load in self.distributed for curve in load.magnitudes.curves))
 
     @property
@@ -50,7 +50,7 @@ class StepLoads:
 
     @property
     def by_user(self) -> bool:
-        """Whether DLOAD gives some of them."""
+        """Whether DLOAD gives any of them."""
         return any(len(load.by_user) for load in self.distributed)
 
     def at(self, step_time: float, total_time: float) -> FloatArray:
@@ -91,8 +91,8 @@ class StepLoads:
 class _StepElementLoads:
     """Distributed loads of one step.
 
-    by_user       points whose magnitude is that of DLOAD
-    faces, slots  positions of faces among the elements, behind those of the model, and numbers of their magnitudes
+    by_user       points whose magnitude DLOAD gives
+    faces, slots  positions of faces among the elements, after those of the model, and numbers of their magnitudes
     """
 
     points: _Points
@@ -126,7 +126,7 @@ class AllLoads:
         return StepLoads(step.number, self._concentrated.start_step(step, total_time), found, user)
 
     def in_perturbation(self, step: Step) -> FloatArray:
-        """Forces (n,) of a perturbation step, of which nothing goes on into the next one."""
+        """Forces (n,) of a perturbation step, which do not outlast it."""
         forces = self._concentrated.in_perturbation(step.loads)
         return forces + self._elements.unlasting(step.element_loads) + self._surfaces.unlasting(step.surface_loads)
 
@@ -184,7 +184,7 @@ class _ElementLoads:
     def start_step(
         self, entries: Sequence[ElementLoad], new: bool, step: Step, total_time: float
     ) -> _StepElementLoads | None:
-        """Those of a step; None where the model has none."""
+        """Loads of a step; None if the model has none."""
         if not len(self._slots):
             return None
         if new:

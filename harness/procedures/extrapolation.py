@@ -19,7 +19,7 @@ class Extrapolation:
         self._before: tuple[FloatArray, float] | None = None
 
     def guess(self, size: float) -> FloatArray | None:
-        """Estimate of an increment of this size; None: start from no increment."""
+        """Estimate of an increment of this size; None: start from zero."""
         if self._last is None or self._mode == "NO":
             return None
         last, h1 = self._last

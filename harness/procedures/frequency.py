@@ -2,8 +2,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """*FREQUENCY: natural frequencies about the state at the end of the last general step.
 
-Elements are asked for the stiffness (LFLAGS(3) = 2) and the mass (4) alone, with LFLAGS(1) = 41; loads and prescribed
-values of the step are not there.
+Elements are asked only for the stiffness (LFLAGS(3) = 2) and the mass (4), with LFLAGS(1) = 41; loads and prescribed
+values of the step do not act.
 """
 
 from __future__ import annotations
@@ -23,7 +23,7 @@ from harness.procedures.setting import Setting
 from harness.solver.eigen import Pair, UnstableError, lowest_eigenvalues
 
 FIRST = 10
-"""Eigenvalues that are looked for first where their number is not given."""
+"""Number of eigenvalues that are computed first if the deck does not give it."""
 
 _LAST_DISPLACEMENT = 3
 
@@ -51,7 +51,7 @@ class FrequencyStep(PerturbationStep):
         return records
 
     def _modes(self) -> tuple[FloatArray, FloatArray]:
-        """Eigenvalues, and vectors (n, k) of all unknowns: as many as asked for, or more than the frequencies hold."""
+        """Eigenvalues, and vectors (n, k) of all unknowns: as many as requested, or more than the range includes."""
         pattern = self._constraints.reduced_indptr, self._constraints.reduced_indices
         pair = Pair(*pattern, self._matrix(Request.STIFFNESS), self._matrix(Request.MASS))
         if not np.any(pair.mass):
@@ -62,7 +62,7 @@ class FrequencyStep(PerturbationStep):
             try:
                 values, vectors = lowest_eigenvalues(pair, count, self._solver)
             except UnstableError:
-                message = "the base state is far from stable, or a part without mass is not held"
+                message = "the base state is far from stable, or a part without mass is unconstrained"
                 raise DeckError(self._step.source, f"*FREQUENCY finds no eigenvalues: {message}") from None
             highest = (2 * math.pi * self._procedure.highest) ** 2
             if self._procedure.number or len(values) < count or values[-1] > highest or count == size:
@@ -81,7 +81,7 @@ class FrequencyStep(PerturbationStep):
         return symmetric
 
     def _scaled(self, vectors: FloatArray) -> tuple[FloatArray, FloatArray]:
-        """Shapes (k, n) of the normalization asked for, and their generalized masses."""
+        """Shapes (k, n) with the requested normalization, and their generalized masses."""
         displacements = self._system.dofs.dof <= _LAST_DISPLACEMENT
         factors = np.ones(vectors.shape[1])
         for mode, vector in enumerate(vectors.T):

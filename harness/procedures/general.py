@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""General steps: increments of a step, each in equilibrium by Newton's method, along a path and with the parts that the
+"""General steps: increments, each brought into equilibrium by Newton's method, along a path and with the parts that the
 procedure adds.
 """
 
@@ -40,7 +40,7 @@ SMALL_FLUX = (
 
 
 class GeneralStep:
-    """One general step: what is common to all, the path of its increments, and the parts of its procedure."""
+    """One general step: what all have in common, the path of its increments, and the parts of its procedure."""
 
     def __init__(self, context: StepContext, path: Path, parts: Sequence[Part] = ()) -> None:
         self._context = context
@@ -95,7 +95,7 @@ class GeneralStep:
             try:
                 state = next(iterates)
             except DistortionError as error:
-                # the solve before the pass that failed counts too
+                # the solve before the failed pass counts too
                 iteration = passes
                 yield Warned(f"EXCESSIVE DISTORTION IN SOLID (CONTINUUM) ELEMENTS: {error}")
                 abandoned = Abandoned(self._step.controls.time.d_h, DISTORTED, str(error))
@@ -127,21 +127,21 @@ class GeneralStep:
         return False, iteration
 
     def _warn_unconstrained(self) -> Iterator[Warned]:
-        """Say once in the step that a part of the model moves freely."""
+        """Warn once in the step that a part of the model moves freely."""
         solver = self._context.solver
         if isinstance(solver, UnconstrainedSolver) and solver.free is not None and not self._warned:
             self._warned = True
             yield Warned(UNLOADED.format(solver.free))
 
     def _small_flux(self, checks: Sequence[FieldCheck]) -> Iterator[Noted]:
-        """Say once in the step that forces count as zero, and are in no equilibrium, for Abaqus' default alone."""
+        """Say once in the step that unbalanced forces count as zero only because of Abaqus' default."""
         for check in self._checker.accepted_as_zero(checks):
             if check.field not in self._small:
                 self._small.add(check.field)
                 yield Noted(SMALL_FLUX.format(check, check.field.upper()))
 
     def _accuracy(self, last: Iterate, size: float) -> Accuracy | None:
-        """How accurate the integration over time is, by the strictest part; None where nothing measures it."""
+        """How accurate the integration over time is, by the strictest part; None if nothing measures it."""
         found = [accuracy for part in self._parts if (accuracy := part.accuracy(last, size)) is not None]
         return max(found, key=lambda accuracy: accuracy.measure, default=None)
 
@@ -151,7 +151,7 @@ class GeneralStep:
         return self._path.search is not None and bool(self._path.search.reason)
 
     def _passed_limit(self, last: Iterate, size: float) -> Abandoned | None:
-        """Take the increment in parts where the search passed the largest load in it."""
+        """Take the increment in parts if the search passed the largest load in it."""
         external = -last.evaluation.residual
         if not self._helped or not self._limit.passed(self._state.external, external, last.increment, size):
             return None
@@ -159,7 +159,7 @@ class GeneralStep:
         return Abandoned(self._step.controls.time.d_f, PASSED) if in_parts else None
 
     def _give_up(self, iteration: int, checks: Sequence[FieldCheck]) -> Abandoned | None:
-        """Whether to abandon the attempt; with the fall-back the search takes over instead, and is given its time."""
+        """Whether to abandon the attempt; with the fall-back the search takes over instead, with more iterations."""
         search = self._path.search
         if search is None:
             return self._checker.give_up(iteration, checks)
@@ -170,7 +170,7 @@ class GeneralStep:
         return Abandoned(self._step.controls.time.d_c, SEARCH_TOO_LONG) if iteration >= ITERATIONS else None
 
     def _help(self, increment: int, iterations: int) -> Iterator[SearchHelped]:
-        """Say that Newton's method alone did not do."""
+        """Say that Newton's method alone was not enough."""
         search = self._path.search
         if search is not None and search.reason:
             yield SearchHelped(self._step.number, increment, search.since, iterations, search.reason)
@@ -178,7 +178,7 @@ class GeneralStep:
     def _converge(
         self, last: Iterate, size: float, accuracy: Accuracy | None, checks: Sequence[FieldCheck]
     ) -> Iterator[Record]:
-        """Commit what the last pass left, and choose the next increment."""
+        """Commit the state of the last pass, and choose the next increment."""
         context, number, attempt = self._context, self._step.number, self._control.attempts
         self._system.commit()
         remarks = [remark for part in self._parts for remark in part.converged(last, size)]
@@ -206,7 +206,7 @@ class GeneralStep:
         yield from remarks
 
     def _abandon(self, abandoned: Abandoned, increment: int, iterations: int, size: float) -> Iterator[Record]:
-        """Report the attempt; raise ConvergenceError where no other is left."""
+        """Report the attempt; raise ConvergenceError if no other is left."""
         number, attempt = self._step.number, self._control.attempts
         following, error = self._control.abandon(abandoned)
         times = self._context.times

@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """*HEAT TRANSFER and *COUPLED TEMPERATURE-DISPLACEMENT.
 
-Elements integrate over time by themselves; the step limits the change of temperature in an increment.
+Elements integrate over time themselves; the step limits the change of temperature in an increment.
 """
 
 from __future__ import annotations
@@ -51,5 +51,5 @@ class TemperatureChange(Part):
 
     @property
     def finished(self) -> bool:
-        """With END=SS: nothing changes any more."""
+        """With END=SS: whether the temperatures are steady."""
         return self._rate < self._procedure.end_change

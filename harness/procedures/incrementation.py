@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""Size of the next increment, and when an attempt at one is given up.
+"""Size of the next increment, and when an attempt at one is abandoned.
 
 Abaqus Analysis User's Guide, "Commonly used control parameters" and "Convergence criteria for nonlinear problems".
 """
@@ -26,20 +26,20 @@ FIXED_TOO_LARGE = "FIXED TIME INCREMENT IS TOO LARGE"
 TOO_MANY_INCREMENTS = "TOO MANY INCREMENTS NEEDED TO COMPLETE THE STEP"
 
 UNTOUCHED = 1e10
-"""PNEWDT from here on is the large value that a user element leaves alone."""
+"""A PNEWDT from this size on is the large value on entry, which a user element did not set."""
 
 _END = 1e-6
-"""A remainder of the step below this fraction of the increment is joined to it: sums of increments round."""
+"""Of the increment: a smaller remainder of the step is added to it, because sums of increments round."""
 
 _ROUNDING = 1e-12
-"""Of a sum of increments, relative to it."""
+"""Rounding of a sum of increments, relative to it."""
 
 
 @dataclass(frozen=True, slots=True)
 class Abandoned:
-    """An attempt is given up: the next one takes `factor` times the increment; `reason` as Abaqus words it.
+    """An attempt is abandoned: the next one takes `factor` times the increment; `reason` as Abaqus words it.
 
-    cause  what the error says that ends the job where no other attempt is left, if there is more to say
+    cause  addition to the error that ends the job if no other attempt is left; '' for none
     """
 
     factor: float
@@ -50,14 +50,14 @@ class Abandoned:
 ALIKE = 1e-6
 """Relative difference of residuals that counts as none.
 
-Residuals of two states that take turns differ by rounding, on which the end of an attempt must not depend. They
-diverge: Abaqus cuts the increment to a quarter there (abaqus_inputs/dcb_3d)."""
+If two states alternate, their residuals differ by rounding, which must not decide how the attempt ends. They diverge:
+Abaqus cuts the increment to a quarter there (abaqus_inputs/dcb_3d)."""
 
 
 def judge_rate(
     iteration: int, residuals: Sequence[float], tolerance: float, controls: TimeControls
 ) -> Abandoned | None:
-    """Give up on a field whose residual is still too large?
+    """Whether to abandon the attempt because of a field whose residual is still too large.
 
     Parameters
     ----------
@@ -86,7 +86,7 @@ def judge_rate(
 
 
 def out_of_iterations(iteration: int, controls: TimeControls) -> Abandoned | None:
-    """Give up after iteration I_C."""
+    """Abandon the attempt after iteration I_C."""
     return Abandoned(controls.d_c, TOO_MANY_ITERATIONS) if iteration >= controls.i_c else None
 
 
@@ -95,7 +95,7 @@ class Accuracy:
     """Accuracy of the integration over time in an increment.
 
     measure    error measure over its tolerance: above 1 the increment is too large
-    complaint  what Abaqus says then
+    complaint  what Abaqus prints then
     """
 
     measure: float
@@ -103,7 +103,7 @@ class Accuracy:
 
 
 def refused(pnewdt: float) -> Abandoned | None:
-    """Give up where a user element asks for a smaller increment: PNEWDT < 1."""
+    """Abandon the attempt if a user element asks for a smaller increment: PNEWDT < 1."""
     if pnewdt >= 1.0:
         return None
     return Abandoned(pnewdt, f"A USER ELEMENT REQUESTS A SMALLER TIME INCREMENT, PNEWDT = {pnewdt:.4g}")
@@ -127,9 +127,9 @@ class IncrementControl:
         self.attempts = 0
 
     def part(self, end: float) -> bool:
-        """Whether the present increment, to the step time `end`, may be taken in parts; `abandon` gives their size.
+        """Whether the current increment, to the step time `end`, may be taken in parts; `abandon` gives their size.
 
-        At `end` the size of the whole is taken up again. Where a part fails, the rest is taken in one: `in_parts` ends.
+        After `end` the size of the whole is used again. If a part fails, the rest is taken at once: `in_parts` ends.
         """
         if self._procedure.direct or self._whole:
             return False
@@ -153,7 +153,7 @@ class IncrementControl:
         return max(left, 0.0) if left <= size * (1.0 + _END) else size
 
     def abandon(self, abandoned: Abandoned) -> tuple[float, str]:
-        """Size of the next attempt after one is given up; (0, error) where the job ends.
+        """Size of the next attempt after one is abandoned; (0, error) if the job ends.
 
         I_A cutbacks are allowed, thus I_A + 1 attempts.
         """
@@ -171,7 +171,7 @@ class IncrementControl:
         return self._size, ""
 
     def too_inaccurate(self, accuracy: Accuracy | None) -> Abandoned | None:
-        """Give up where the integration over time is too inaccurate, unless increments are fixed."""
+        """Abandon the attempt if the integration over time is too inaccurate, unless increments are fixed."""
         if accuracy is None or accuracy.measure <= 1.0 or self._procedure.direct:
             return None
         return Abandoned(self._controls.d_a / accuracy.measure, accuracy.complaint)
@@ -186,14 +186,14 @@ class IncrementControl:
         iterations
             Equilibrium iterations of the attempt that converged.
         pnewdt
-            Smallest PNEWDT of its last iteration: above 1, and not left alone by all, it is the user elements' own
-            ratio of the next increment to this one.
+            Smallest PNEWDT of its last iteration: if set, and above 1, it is the user elements' ratio of the next
+            increment to this one.
         searched
             The descent search helped: its many iterations say nothing about the next increment.
         accuracy
-            Of the integration over time: where it is measured, growth is decided by it.
+            Of the integration over time: if measured, it decides the growth.
         """
-        # a cutback does not start the count anew: Abaqus grows right after one if the attempts that converged were easy
+        # a cutback does not restart the count: Abaqus grows right after one if the attempts that converged were easy
         self._easy = self._easy + 1 if iterations <= self._controls.i_g else 0
         self.attempts = 0
         if self._procedure.direct or self.in_parts:

@@ -18,9 +18,9 @@ from harness.procedures.state import ConvergedState
 
 
 def set_initial_states(blocks: Iterable[ElementBlock], model: Model, sdvini: int | None) -> None:
-    """Set the state variables that the deck gives, by themselves or by SDVINI (its address; None without it).
+    """Set the state variables that the deck gives, directly or by SDVINI (its address; None without it).
 
-    Raises DeckError, and KernelError where SDVINI ends the analysis.
+    Raises DeckError, and KernelError if SDVINI ends the analysis.
     """
     for entry in model.initial_solutions:
         if entry.elements is None and sdvini is None:
@@ -50,7 +50,7 @@ def set_initial_stresses(system: System, model: Model, state: ConvergedState) ->
             if not len(rows):
                 continue
             if block.group.definition is not None:
-                message = f"user elements ({block.group.type}) are not told of initial stresses, in Abaqus neither"
+                message = f"user elements ({block.group.type}) do not get initial stresses, nor do they in Abaqus"
                 yield Warned(f"{entry.source}: *INITIAL CONDITIONS, TYPE=STRESS has no effect: {message}")
                 continue
             try:
@@ -66,7 +66,7 @@ def set_initial_stresses(system: System, model: Model, state: ConvergedState) ->
         block.begin_stressed(call, state.displacement, residual)
     if model.initial_stresses[0].ramped:
         # Analysis User's Guide, Initial conditions: stresses of opposite sign are added at first, and ramped off in the
-        # first step. They are nodal forces here, and their work is external work, so that ETOTAL is constant
+        # first step. Here they are nodal forces, whose work is external work, so that ETOTAL is constant
         state.unbalanced = state.external = -residual
 
 

@@ -1,10 +1,10 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""The largest load on the way: an increment that passes it with the help of the descent search is taken in parts.
+"""The largest load on the path: an increment that passes it with the help of the descent search is taken in parts.
 
 The search finds an equilibrium even where a structure snaps in the middle of an increment. It does not say when, and it
 may find the equilibrium beyond a snap that lies just ahead: increments of a hundredth of the displacement leave the
-peak load open by a hundredth. So the peak, and no later snap, is approached in smaller steps.
+peak load uncertain by a hundredth. So the peak, and only the peak, is approached in smaller steps.
 
 The load of an increment is measured by its power: the external forces times the displacements' change per time.
 """
@@ -34,7 +34,7 @@ class LimitLoad:
         return self._at_largest and float((after - before) @ increment) < BENT * self._slope * size**2
 
     def converged(self, before: FloatArray, after: FloatArray, increment: FloatArray, size: float) -> None:
-        """Take note of an increment that is kept; arguments as those of `passed`."""
+        """Record an increment that is kept; arguments as those of `passed`."""
         load = float(after @ increment) / size
         self._slope = float((after - before) @ increment) / size**2
         self._at_largest = load >= self._largest

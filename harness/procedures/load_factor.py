@@ -3,8 +3,8 @@
 """Paths of static steps whose load factor is unknown: *STATIC, RIKS, and energy control.
 
 The step goes from the state at its start, load factor (LPF) 0, to what it prescribes, LPF 1: forces and displacements
-are P_0 + LPF (P_ref - P_0). The length of the path takes the place of time in the sizes of increments and in what
-elements are told.
+are P_0 + LPF (P_ref - P_0). The length of the path takes the place of time in the sizes of increments and in the
+arguments of elements.
 """
 
 from __future__ import annotations
@@ -28,13 +28,13 @@ from harness.solver.newton import Iterate
 from harness.solver.path import Control, PathFollower, PathIncrement, PathIterate
 
 EXTRAPOLATED = 0.01
-"""Fraction of the last increment that an increment starts from: it tells the elements which way they go."""
+"""Fraction of the last increment with which an increment starts: it shows the elements the direction."""
 
 ROUNDING = 1e-12
 """A load factor this close to 1 is 1."""
 
 REMAINDER = 1e-6
-"""A rest of the load factor below this fraction of an increment is joined to it."""
+"""Of an increment: a smaller remainder of the load factor is added to it."""
 
 
 class LoadFactorPath(Path):
@@ -48,7 +48,7 @@ class LoadFactorPath(Path):
     scale = 1.0
 
     def __init__(self, context: StepContext) -> None:
-        """Raises DeckError where an amplitude governs what the step prescribes."""
+        """Raises DeckError if an amplitude governs what the step prescribes."""
         step, state = context.step, context.state
         super().__init__(context, IncrementControl(replace(step.procedure, period=math.inf), step.controls.time))
         _check(context)
@@ -65,7 +65,7 @@ class LoadFactorPath(Path):
         """What fixes the load factor in an increment."""
 
     def begin(self, size: float) -> tuple[Iterator[Iterate], bool]:
-        """From the state at the start, or a little way on as the last increment went."""
+        """From the state at the start, or a little further in the direction of the last increment."""
         context, guess = self._context, None
         if self._last is not None:
             last, factor, length = self._last
@@ -90,7 +90,7 @@ class LoadFactorPath(Path):
         return load + factor * (full - load), released + factor * (rest - released)
 
     def reach(self, last: Iterate, size: float, checks: Sequence[FieldCheck]) -> Reached:
-        """The load factor, and the length so far."""
+        """Take over the load factor, and the length so far."""
         assert isinstance(last, PathIterate)
         self._last = last.increment, last.factor, size
         self._factor += last.factor
@@ -104,7 +104,7 @@ class LoadFactorPath(Path):
 
 
 def _check(context: StepContext) -> None:
-    """Raise DeckError where what the step prescribes is not in proportion to the load factor."""
+    """Raise DeckError if what the step prescribes is not proportional to the load factor."""
     step = context.step
     entries: tuple[Boundary | Load | ElementLoad, ...]
     entries = (*step.boundaries, *step.loads, *step.element_loads, *step.surface_loads)
@@ -112,16 +112,14 @@ def _check(context: StepContext) -> None:
     if context.prescribed.curves or context.load.curves or context.amplitudes.courses:
         raise DeckError(source, "an amplitude has no meaning in a step whose load factor is part of the solution")
     if context.load.turning:
-        message = (
-            "pressures that turn with the surface (NLGEOM) are not supported in a step whose load factor is unknown"
-        )
+        message = "pressures that follow the surface (NLGEOM) are not supported in a step whose load factor is unknown"
         raise DeckError(step.source, message)
     if len(context.state.boundaries.by_user) or context.load.by_user:
         raise DeckError(step.source, "DISP and DLOAD have no meaning in a step whose load factor is unknown")
 
 
 class RiksPath(LoadFactorPath):
-    """*STATIC, RIKS. Where the step gives no end, it ends with its last increment."""
+    """*STATIC, RIKS. If the step gives no end, it ends with its last increment."""
 
     nrhs = 2
 
@@ -136,13 +134,14 @@ class RiksPath(LoadFactorPath):
             if self._monitored < 0:
                 name = dofs.mesh.name(riks.node)
                 raise DeckError(
-                    context.step.source, f"*STATIC, RIKS ends with dof {riks.dof} of node {name}, which no element uses"
+                    context.step.source,
+                    f"*STATIC, RIKS: no element uses dof {riks.dof} of node {name}, which is to end the step",
                 )
         self._crossed = False
 
     @property
     def finished(self) -> bool:
-        """Where the step says, or with its last increment."""
+        """Whether the end that the step gives, or its last increment, is reached."""
         if self._crossed:
             return True
         endless = self._riks.largest_factor is None and self._monitored < 0
@@ -181,7 +180,7 @@ class EnergyPath(LoadFactorPath):
 
     @property
     def finished(self) -> bool:
-        """With all of the load."""
+        """Whether the full load is reached."""
         return self._factor >= 1.0
 
     def _control_of(self, given: PathIncrement, size: float) -> Control:

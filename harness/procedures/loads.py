@@ -1,16 +1,16 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""Prescribed values and concentrated loads over time, and what of them goes on from step to step.
+"""Prescribed values and concentrated loads over time, and how they continue from step to step.
 
 Abaqus Analysis User's Guide, "Prescribed conditions: overview", "Amplitude curves", *BOUNDARY, *CLOAD:
 
-- without an amplitude a value ramps from where the previous step ended (RAMP), or is there at once (STEP), as
+- without an amplitude a value ramps from where the previous step ended (RAMP), or acts at once (STEP), as
   AMPLITUDE= of *STEP says; prescribed displacements and rotations always ramp;
 - with an amplitude it is the magnitude times the curve, or the curve itself (VALUE=ABSOLUTE);
-- in later steps that do not give it anew it stays at the end value, or goes on along a curve in total time;
-- FIXED holds a value where it is at the start of the step;
-- TYPE=VELOCITY prescribes the rate, by default constant over the step, and goes on in later steps;
-- OP=NEW removes what is not given anew: a load, and the reaction of a released degree of freedom, fade over the step
+- in later steps that do not give it again it stays at the end value, or continues along a curve in total time;
+- FIXED holds a value as it is at the start of the step;
+- TYPE=VELOCITY prescribes the rate, by default constant over the step, and continues in later steps;
+- OP=NEW removes what is not given again: a load, and the reaction of a released degree of freedom, fade over the step
   (RAMP) or vanish at once (STEP).
 """
 
@@ -72,7 +72,7 @@ class Course:
         return self.start + scale * float(np.trapezoid(factors, times))
 
     def following(self, period: float, displacement: FloatArray, total_time: float) -> Course:
-        """The same in the next step: it goes on at the rate of the end, or along a curve in total time."""
+        """The same in the next step: it continues at the final rate, or along a curve in total time."""
         amplitude, magnitude = self.amplitude, self.magnitude
         if amplitude is not None and not amplitude.total_time:
             factor = amplitude.value(period, total_time)
@@ -85,14 +85,14 @@ class Course:
         return Course(self.unknowns[kept], self.magnitude, self.amplitude, self.start[kept], self.begin)
 
     def _sampled(self, amplitude: Amplitude, step_time: float) -> tuple[FloatArray, FloatArray]:
-        """Points that hold the corners of a table, for which the trapezoidal rule is exact, and many between."""
+        """Sampling points: the corners of a table, for which the trapezoidal rule is exact, and many in between."""
         corners = amplitude.corners(self.begin)
         times = np.union1d(np.linspace(0.0, step_time, SAMPLES), corners[(corners > 0) & (corners < step_time)])
         return times, np.array([amplitude.value(time, self.begin + time) for time in times.tolist()])
 
 
 SAMPLES = 501
-"""Points of the integral of a velocity's amplitude."""
+"""Number of points of the integral of a velocity's amplitude."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -151,7 +151,7 @@ class Boundaries:
 
     @property
     def by_user(self) -> IntArray:
-        """Those that DISP gives."""
+        """Unknowns whose values DISP gives."""
         return np.flatnonzero(self._active & self._by_user)
 
     def start_step(self, step: Step, displacement: FloatArray, total_time: float = 0.0) -> Variation:
@@ -169,7 +169,7 @@ class Boundaries:
             courses = [course.without(unknowns) for course in courses]
             base[unknowns], slope[unknowns] = 0.0, 0.0
             if entry.velocity:
-                # the default is always a velocity that is there at once
+                # the default is always a velocity that acts at once
                 start = displacement[unknowns]
                 courses.append(Course(unknowns, entry.magnitude, entry.amplitude, start, total_time))
             elif entry.fixed:
@@ -188,7 +188,7 @@ class Boundaries:
         return Variation(base, slope, self._period, self._curves, self._courses)
 
     def in_perturbation(self, step: Step) -> IntArray:
-        """Prescribed unknowns of a perturbation step, ascending; nothing of it goes on into the next step."""
+        """Prescribed unknowns of a perturbation step, ascending; they do not outlast it."""
         active = np.zeros_like(self._active) if step.new_boundary else self._active.copy()
         for entry in step.boundaries:
             active[find_unknowns(self._dofs, entry)[0]] = True
@@ -214,19 +214,19 @@ class Boundaries:
 
 
 class Unknowns(Protocol):
-    """What is numbered by two numbers: unknowns by node and dof, and the like."""
+    """Numbering of pairs: unknowns by node and dof, and the like."""
 
     def __len__(self) -> int:
-        """How many there are."""
+        """Their number."""
 
     def find(self, nodes: IntArray | int, dof: IntArray | int) -> IntArray:
-        """Numbers of pairs; -1 for one that there is not."""
+        """Numbers of pairs; -1 for one that does not exist."""
 
 
 class Loads:
-    """Concentrated loads through the steps; several entries of a step at one unknown add up.
+    """Concentrated loads through the steps; entries of a step for the same unknown add up.
 
-    initial: values before the first step, to which those go back that a step removes; zero by default.
+    initial: values before the first step, to which loads return that a step removes; zero by default.
     """
 
     def __init__(self, dofs: Unknowns, initial: FloatArray | None = None) -> None:
@@ -249,7 +249,7 @@ class Loads:
         else:
             held = reached.copy()
             curves = [curve.without(anew) for curve in self._previous.curves if curve.amplitude.total_time]
-            # those go on by themselves: only the rest is held
+            # these continue by themselves: only the rest is held
             for curve in curves:
                 held[curve.unknowns] -= curve.value(0.0, total_time)
             start = held.copy()
@@ -272,7 +272,7 @@ class Loads:
         return self._previous.at(self._previous.period, total_time)
 
     def in_perturbation(self, entries: Sequence[Load]) -> FloatArray:
-        """Values (n,) of a perturbation step, of which nothing goes on into the next one."""
+        """Values (n,) of a perturbation step, which do not outlast it."""
         values = np.zeros(len(self._dofs))
         for entry in entries:
             np.add.at(values, find_unknowns(self._dofs, entry)[0], entry.magnitude)
@@ -291,7 +291,7 @@ class Slots:
     """
 
     def __init__(self, pairs: Sequence[tuple[IntArray, int]]) -> None:
-        """Elements or nodes with a kind, which may come several times."""
+        """pairs: elements or nodes with a kind; a pair may occur several times."""
         # JDLTYP of a nonuniform load is negative
         self._least = min((kind for _, kind in pairs), default=0)
         self._kinds = 1 + max((kind for _, kind in pairs), default=0) - self._least
@@ -306,7 +306,7 @@ class Slots:
         return np.atleast_1d(places).astype(np.int64) * self._kinds + int(kind) - self._least
 
     def find(self, places: IntArray | int, kind: IntArray | int) -> IntArray:
-        """Numbers of the pairs, which have to be among those given."""
+        """Numbers of the pairs, which must be among those given."""
         return np.searchsorted(self._sorted, self._keys(places, kind))
 
 
@@ -314,7 +314,7 @@ def fading_forces(reaction: FloatArray, prescribed: IntArray, step: Step, unbala
     """Forces that fade in a step: reactions of degrees of freedom that it releases, and `unbalanced` ones.
 
     reaction (n,) is that at the end of the previous step, prescribed the unknowns prescribed in this one. unbalanced
-    (n,) keeps initial stresses in equilibrium at the start; it fades whatever AMPLITUDE= of the step is.
+    (n,) keeps initial stresses in equilibrium at the start; it fades with any AMPLITUDE= of the step.
     """
     released = reaction.copy()
     released[prescribed] = 0.0

@@ -12,22 +12,22 @@ from harness.solver.newton import Increment, Iterate
 
 
 class Part:
-    """A part of a general step. Each method leaves things as they are where a part has no say in them."""
+    """A part of a general step. Each method by default changes nothing."""
 
     def start(self) -> Iterable[Record]:
         """Begin the step, before its first increment. Raises KernelError, SingularMatrixError."""
         return ()
 
     def given(self, given: Increment, size: float) -> Increment:
-        """What the end of an increment of this size prescribes, with what the part adds."""
+        """What the end of an increment of this size prescribes, with the part's additions."""
         return given
 
     def accuracy(self, last: Iterate, size: float) -> Accuracy | None:
-        """How accurate the integration over time is in an increment that is in equilibrium; None: not measured."""
+        """How accurate the integration over time is in an increment in equilibrium; None: not measured."""
         return None
 
     def converged(self, last: Iterate, size: float) -> Iterable[Record]:
-        """Take a converged increment, while the state is still that of its start; records that follow it."""
+        """Take over a converged increment, while the state is still that of its start; yields records after it."""
         return ()
 
     @property

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""What the increments of a general step run along: time, or (in `load_factor`) a path whose load factor is unknown."""
+"""What the increments of a general step follow: time, or (in `load_factor`) a path whose load factor is unknown."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ class Reached:
 
     load, released  (n,) loads and fading forces
     size            change of the step time
-    load_factor     where it is part of the solution
+    load_factor     if it is part of the solution
     """
 
     load: FloatArray
@@ -36,7 +36,7 @@ class Reached:
 
 
 class Path(ABC):
-    """The increments' way through a step.
+    """The path of the increments through a step.
 
     control  sizes of increments along it
     """
@@ -47,7 +47,7 @@ class Path(ABC):
 
     @property
     def search(self) -> Descent | None:
-        """The fall-back where Newton's method fails, if there is one."""
+        """The fall-back for when Newton's method fails, if there is one."""
         return None
 
     @property
@@ -56,11 +56,11 @@ class Path(ABC):
         """Whether the end of the step is reached."""
 
     def start(self) -> Iterable[Record]:
-        """What there is to say before the first increment."""
+        """Records before the first increment."""
         return ()
 
     def end(self, size: float) -> float:
-        """Step time at the end of an increment of this size, as far as it is known before."""
+        """Step time at the end of an increment of this size, as far as it is known in advance."""
         return self._context.step_time + size
 
     @abstractmethod
@@ -69,13 +69,13 @@ class Path(ABC):
 
     @abstractmethod
     def reach(self, last: Iterate, size: float, checks: Sequence[FieldCheck]) -> Reached:
-        """Where a converged increment ends; the step time of the context is that from now on."""
+        """Where a converged increment ends, which becomes the step time of the context."""
 
 
 class TimePath(Path):
     """Increments of time, by Newton's method.
 
-    The parts of the step add to what the end of an increment prescribes. With `fallback` a search goes downhill where
+    The parts of the step add to what the end of an increment prescribes. With `fallback` a search goes downhill if
     Newton's method fails.
     """
 
@@ -92,16 +92,16 @@ class TimePath(Path):
 
     @property
     def search(self) -> Descent | None:
-        """The fall-back; none in a part of an increment, where the equilibrium near by is wanted and no other."""
+        """The fall-back; none in a part of an increment, where only the nearby equilibrium is wanted."""
         return None if self.control.in_parts else self._descent
 
     @property
     def finished(self) -> bool:
-        """At the end of the period, or where UAMP concludes the step."""
+        """Whether the period has ended, or UAMP concludes the step."""
         return self.control.finished(self._context.step_time) or self._context.amplitudes.concluded
 
     def end(self, size: float) -> float:
-        """The period, where rounding alone keeps the sum of the increments from it."""
+        """The sum of the increments, or the period if they differ only by rounding."""
         end = self._context.step_time + size
         return self._context.step.procedure.period if self.control.finished(end) else end
 
@@ -110,8 +110,8 @@ class TimePath(Path):
         given = self._given(size)
         if self.search is not None:
             return self.search.iterates(given), given.guess is not None
-        # Abaqus does not form the matrix anew where the response was linear in the increment before: its public message
-        # files show it for increments of one size, and abaqus_inputs/dcb_3d is cut back as there only if that holds for
+        # Abaqus does not form the matrix again if the response was linear in the increment before: public message files
+        # show it for increments of equal size, and abaqus_inputs/dcb_3d is cut back as in Abaqus only if that holds for
         # all sizes. What the parts of a step add to the matrix depends on the size.
         alike = self._linear is not None and (self._linear == size or not self._parts)
         again = alike and self.control.attempts == 1
@@ -144,6 +144,6 @@ class TimePath(Path):
 
 
 def _is_linear(checks: Sequence[FieldCheck]) -> bool:
-    """Whether the response was linear in an increment that these checks accept: as far as there are fluxes."""
+    """Whether the response was linear in an increment that these checks accept, in all fields that have fluxes."""
     verdicts = {check.verdict for check in checks}
     return Convergence.LINEAR in verdicts and verdicts <= {Convergence.LINEAR, Convergence.ZERO_FLUX}

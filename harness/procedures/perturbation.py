@@ -1,9 +1,9 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
 """Linear steps about the state at the end of the last general step (Abaqus Analysis User's Guide, "General and linear
-perturbation procedures"), and *STATIC among them.
+perturbation procedures"), including *STATIC.
 
-Elements get LFLAGS(4) = 1, and in U the base state. No time passes, and nothing of the step goes on into the next one.
+Elements get LFLAGS(4) = 1, and the base state in U. No time passes, and nothing of the step outlasts it.
 """
 
 from __future__ import annotations
@@ -30,8 +30,8 @@ from harness.procedures.setting import Setting, choose_solver
 from harness.solver.linear import LinearSolver
 
 BASE_FORCES = (
-    "USER ELEMENTS RETURN FORCES OF THE BASE STATE IN RHS OF A LINEAR STEP (LFLAGS(4) = 1), WHERE ABAQUS ASKS FOR WHAT "
-    "THE LOADS OF THE STEP ADD. THEY ACT AS LOADS OF THE STEP; SEE uel check."
+    "USER ELEMENTS RETURN FORCES OF THE BASE STATE IN RHS OF A LINEAR STEP (LFLAGS(4) = 1), WHERE ABAQUS EXPECTS ONLY "
+    "WHAT THE LOADS OF THE STEP ADD. THEY ACT AS LOADS OF THE STEP; SEE uel check."
 )
 
 ROUNDING = 1e-8
@@ -39,7 +39,7 @@ ROUNDING = 1e-8
 
 
 class PerturbationStep:
-    """One linear step; what it does is that of a subclass."""
+    """One linear step; subclasses define its solution."""
 
     def __init__(self, setting: Setting) -> None:
         self._system, self._step, self._state, self._user = setting.system, setting.step, setting.state, setting.user
@@ -51,7 +51,7 @@ class PerturbationStep:
 
     @property
     def reached(self) -> tuple[tuple[float, float], float, int, int]:
-        """As that of a general step."""
+        """As for a general step."""
         return (0.0, self._state.total_time), 0.0, self._step.number, self._increment
 
     def run(self) -> Iterator[Record]:
@@ -69,7 +69,7 @@ class PerturbationStep:
         yield from self._increment_by(self._solve)
 
     def _increment_by(self, solve: Callable[[], list[Record]]) -> Iterator[Record]:
-        """Records of the increment that is next, which `solve` finds."""
+        """Records of the next increment, which `solve` finds."""
         step, total, size = self._step, self._state.total_time, self._step.procedure.period
         yield AttemptStarted(step.number, self._increment, 1, 0.0, total, size)
         self._user.external_database(1, 0, (0.0, total), size, step.number, self._increment)
@@ -100,13 +100,13 @@ class PerturbationStep:
         return [Warned(BASE_FORCES), done] if self._unloaded(evaluation) else [done]
 
     def _unloaded(self, evaluation: Evaluation) -> bool:
-        """User elements return forces in a step that has no loads on them."""
+        """Whether user elements return forces in a step without loads on them."""
         count = max(int(evaluation.flux_count.sum()), 1)
         largest = float(np.abs(evaluation.residual).max(initial=0.0))
         return not self._step.distributed and largest > ROUNDING * float(evaluation.flux.sum()) / count
 
     def _pass(self, request: Request, change: FloatArray | None = None) -> Evaluation:
-        """A pass over the elements in the base state, for the matrix too unless a perturbation is given."""
+        """A pass over the elements in the base state, also for the matrix unless a perturbation is given."""
         at = self._state.displacement
         du = np.zeros_like(at) if change is None else change
         return self._system.evaluate(self._call(request), at, du, matrix=change is None)

@@ -1,8 +1,8 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""What runs a step, by its procedure: the one place that asks which procedure a step has.
+"""What runs a step, by its procedure: the only place that asks which procedure a step has.
 
-A general step is put together here from a path and parts. A further procedure is registered like those below.
+A general step is assembled here from a path and parts. A further procedure is registered like those below.
 """
 
 from __future__ import annotations
@@ -28,7 +28,7 @@ from harness.procedures.steady_state import SteadyStateStep
 @singledispatch
 def run_of(procedure: Procedure, setting: Setting) -> StepRun:
     """What runs a step of this procedure. Raises DeckError."""
-    raise TypeError(f"nothing runs {type(procedure).__name__}")
+    raise TypeError(f"no run is registered for {type(procedure).__name__}")
 
 
 @run_of.register
@@ -70,7 +70,7 @@ def _(procedure: SteadyState, setting: Setting) -> StepRun:
 
 
 def _in_time(context: StepContext, *parts: Part, fallback: bool = False) -> GeneralStep:
-    """A step of increments of time, damped where it says so."""
+    """A step of time increments, with damping if it asks for it."""
     damping = context.step.procedure.stabilize
     if damping is not None:
         parts = (*parts, ViscousForces(context, damping))

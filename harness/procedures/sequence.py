@@ -52,7 +52,7 @@ def run_steps(
     Yields
     ------
     Record
-        In the order in which things happen; what precedes an error is yielded before it is raised.
+        In chronological order; records that precede an error are yielded before it is raised.
 
     Raises
     ------
@@ -99,7 +99,7 @@ def _mass_pass(system: System, step: Step) -> None:
     """
     procedure = step.procedure
     call = Call(
-        # it is not one of the calls of a linear step, where the first one is
+        # it is not one of the calls of a linear step, even if the first step is linear
         replace(Flags.of(step, Request.MASS), linear=False),
         step=step.number,
         increment=1,

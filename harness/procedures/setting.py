@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""What a step is run with, and what the sequence of steps asks of what runs it."""
+"""What a step is run with, and what the sequence of steps needs from its run."""
 
 from __future__ import annotations
 
@@ -32,7 +32,7 @@ class UserRoutines(GivesValues, Protocol):
 class Setting:
     """What a step is run with.
 
-    state           at the end of the last step; the step carries it on
+    state           at the end of the last step; the step continues it
     solver          name of a linear solver
     fallback        search downhill where Newton's method fails
     energy_control  the load factor of a static step is unknown too

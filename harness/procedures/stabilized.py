@@ -35,7 +35,7 @@ class ViscousForces(Part):
         self._force = np.zeros(len(context.system))
 
     def start(self) -> Iterator[Record]:
-        """The damping factor where it is given, or a warning where nothing is damped."""
+        """The damping factor if it is given, or a warning if nothing is damped."""
         if not self._mass.any():
             yield Warned(NOTHING_DAMPED)
         elif self._factor:
@@ -48,7 +48,7 @@ class ViscousForces(Part):
         return replace(given, damping=self._factor / size * self._mass)
 
     def converged(self, last: Iterate, size: float) -> Iterator[Record]:
-        """Add up what is dissipated; the factor where it is chosen or reduced."""
+        """Add up the dissipated energy; yields the factor if it is chosen or reduced."""
         state = self._context.state
         flow = self._context.system.matrix(self._mass) @ last.increment / size
         force = self._factor * flow

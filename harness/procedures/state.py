@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""What goes from increment to increment and from step to step."""
+"""The state that increments and steps pass on."""
 
 from __future__ import annotations
 
@@ -29,14 +29,14 @@ class ConvergedState:
 
     displacement, reaction, load  (n,) U, RF, CF
     velocity, acceleration  (n,) V, A
-    external   (n,) all forces on the nodes that are not of elements: load, fading forces, reaction
-    unbalanced  (n,) forces that keep initial stresses in equilibrium, until the first step lets them fade
+    external   (n,) all forces on the nodes other than from elements: load, fading forces, reaction
+    unbalanced  (n,) forces that keep initial stresses in equilibrium, until they fade in the first step
     work       external work so far
     energy     (8,) sum of ENERGY
     damage     dissipated by the damage of built-in elements
     stabilization  energy that *STATIC, STABILIZE has dissipated
     flux       flux history by field
-    predefined predefined fields, which do not change
+    predefined predefined fields, which are constant
     majoriser  matrix of the start of the analysis, for the fall-back
     """
 
@@ -75,7 +75,7 @@ class ConvergedState:
         return cls(temperature, zero, zero, zero, *given, velocity, zero, zero, predefined=conditions.initial())
 
     def come_to_rest(self) -> None:
-        """No velocities and accelerations: a step begins that has none."""
+        """Set velocities and accelerations to zero: the step that begins has none."""
         self.velocity = self.acceleration = np.zeros_like(self.displacement)
 
     def accept(self, converged: Iterate, load: FloatArray, released: FloatArray) -> None:
@@ -84,7 +84,7 @@ class ConvergedState:
         reaction = self.constraints.reactions(converged.residual)
         external = load + released + reaction
         energy = converged.evaluation.energy
-        # ENERGY(8) is the work of loads that user elements apply by themselves, of this increment alone
+        # ENERGY(8) is the work of loads that user elements apply themselves, in this increment only
         self.work += 0.5 * float((self.external + external) @ converged.increment) + float(energy[7])
         self.displacement = self.displacement + converged.increment
         self.reaction, self.load, self.external, self.energy = reaction, load, external, energy

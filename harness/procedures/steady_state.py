@@ -1,11 +1,11 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""*STEADY STATE DYNAMICS, DIRECT: (K - w^2 M + i (w C + S)) u = p for one angular frequency w after the other.
+"""*STEADY STATE DYNAMICS, DIRECT: (K - w^2 M + i (w C + S)) u = p for one angular frequency w after another.
 
 Elements are asked, at each frequency, for the stiffness K (LFLAGS(3) = 2), the mass M (4), and the viscous and the
 structural damping C and S (3, with LFLAGS(7) = 1 and 2), with LFLAGS(1) = 95 and the frequency in TIME(1) (User
 Subroutines Guide, UEL, "Direct steady-state analysis"; Theory Guide, "Direct steady-state dynamic analysis"). Loads and
-prescribed values have a real and an imaginary part; what an amplitude says of them it says over frequency.
+prescribed values have a real and an imaginary part; their amplitudes are functions of frequency.
 """
 
 from __future__ import annotations
@@ -53,7 +53,7 @@ class SteadyStateStep(PerturbationStep):
 
     @property
     def _frequency(self) -> float:
-        """That of the increment, cycles per time."""
+        """Frequency of the increment, cycles per time."""
         return self._procedure.frequencies[self._increment - 1]
 
     def _increments(self) -> Iterator[Record]:
@@ -132,13 +132,13 @@ class SteadyStateStep(PerturbationStep):
 
 
 def _by_parts(linear: Callable[..., FloatArray], *values: ComplexArray) -> ComplexArray:
-    """A linear function of complex values; what it returns may be overwritten by its next call."""
+    """A linear function of complex values; its next call may overwrite the result."""
     real = linear(*(np.ascontiguousarray(value.real) for value in values)).copy()
     return real + 1j * linear(*(np.ascontiguousarray(value.imag) for value in values))
 
 
 def _part_of(step: Step, frequency: float, *, imaginary: bool = False) -> Step:
-    """The step with the real or the imaginary part of what it gives, as it is at the frequency."""
+    """The step with the real or the imaginary part of what it gives, at the frequency."""
 
     def part(entries: tuple[Entry, ...]) -> tuple[Entry, ...]:
         return tuple(_at(entry, frequency) for entry in entries if entry.imaginary == imaginary)

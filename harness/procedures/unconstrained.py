@@ -1,10 +1,10 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""Models of which a part is not held, but on which no force acts in the direction it is free to move in.
+"""Models with an unconstrained part on which no force acts in the direction in which it is free to move.
 
 Abaqus warns of a numerical singularity and goes on. So does a step here: of all solutions, which differ by free
-motions, it takes one with small displacements. Where a force acts in a free direction there is none, and the step ends
-with the error of the linear solver.
+motions, it takes one with small displacements. If a force acts in a free direction there is no solution, and the step
+ends with the error of the linear solver.
 """
 
 from __future__ import annotations
@@ -19,19 +19,19 @@ from harness.model.arrays import FloatArray
 from harness.solver.linear import LinearSolver
 
 SHIFT = 1e-10
-"""Stiffness that stands in for what is missing, as a fraction of the largest entry of each row."""
+"""Stiffness that replaces the missing one, as a fraction of the largest entry of each row."""
 
 LOADED = 1e-6
-"""Part of a right-hand side that no solution balances above which the singular matrix is an error."""
+"""Fraction of a right-hand side that no solution balances, above which the singular matrix is an error."""
 
 REFINEMENTS = 3
-"""Corrections of a solution for the stiffness that stands in, of which a soft part that is held feels more."""
+"""Number of corrections of a solution for the added stiffness, which affects a soft, constrained part more."""
 
-UNLOADED = "{}. NO FORCE ACTS ON WHAT MOVES FREELY: IT IS GIVEN SMALL DISPLACEMENTS"
+UNLOADED = "{}. NO FORCE ACTS ON THE FREE PART, WHICH GETS SMALL DISPLACEMENTS"
 
 
 class UnconstrainedSolver:
-    """A linear solver that bears singular matrices where the right-hand side has a solution all the same.
+    """A linear solver that accepts singular matrices if the right-hand side has a solution all the same.
 
     free  error of the last matrix, None if it is regular
     """
@@ -44,7 +44,7 @@ class UnconstrainedSolver:
         self._diagonal = np.flatnonzero(solver.pattern.rows == solver.pattern.indices)
 
     def factorise(self, data: FloatArray) -> None:
-        """Take the CSR values of the reduced matrix. Raises SingularMatrixError where nothing acts on any unknown."""
+        """Take the CSR values of the reduced matrix. Raises SingularMatrixError if it has no stiffness at all."""
         self.free = None
         self._matrix = self._solver.pattern.matrix(data)
         self._stand_ins = self._stiffnesses()
@@ -54,13 +54,13 @@ class UnconstrainedSolver:
             self._shift(error)
 
     def solve(self, rhs: FloatArray) -> FloatArray:
-        """Solution for one right-hand side. Raises SingularMatrixError where it has none."""
+        """Solution for one right-hand side. Raises SingularMatrixError if it has none."""
         while True:
             try:
                 solution = self._solver.solve(rhs)
                 break
             except SingularMatrixError as error:
-                # some solvers find out only now
+                # some solvers notice only now
                 self._shift(error)
         if self.free is None:
             return solution
@@ -84,7 +84,7 @@ class UnconstrainedSolver:
         raise error
 
     def _stiffnesses(self) -> Iterator[FloatArray]:
-        """What stands in: first only for unknowns without any stiffness, where its size is of no account."""
+        """Stiffnesses to add: first only for unknowns without any stiffness, where its size does not matter."""
         largest = abs(self._matrix).max(axis=1).toarray().ravel()
         empty = np.where(largest > 0.0, 0.0, largest.max(initial=0.0))
         if empty.any():

@@ -3,8 +3,8 @@
 """Amplitudes that UAMP gives (User Subroutines Guide, UAMP).
 
 It is called at the start of each step, with a time increment of zero, and before each attempt at an increment, for its
-end; what it makes of its state variables is kept where the attempt converges. Sensors have their values of the end of
-the last increment.
+end; its state variables are kept if the attempt converges. Sensors have their values at the end of the last
+increment.
 """
 
 from __future__ import annotations
@@ -39,7 +39,7 @@ class NodalState(Protocol):
 class _Course:
     """An amplitude through the steps.
 
-    kept         rows of its table that are of converged increments
+    kept         number of rows of its table from converged increments
     state, trial state variables at the end of the last increment, and of this attempt
     """
 
@@ -50,7 +50,7 @@ class _Course:
 
 
 class UserAmplitudes:
-    """Those of all steps."""
+    """User amplitudes of all steps."""
 
     def __init__(self, model: Model) -> None:
         named = {a.name: a for step in model.steps for a in step.amplitudes if isinstance(a, UserAmplitude)}
@@ -60,7 +60,7 @@ class UserAmplitudes:
         self._active: set[str] = set()
 
     def start_step(self, step: Step, dofs: DofMap, nodal: NodalState, user: GivesValues) -> StepAmplitudes:
-        """Take over a step's amplitudes: those it names, and those of earlier steps that go on in total time.
+        """Take over a step's amplitudes: those it names, and those of earlier steps that continue in total time.
 
         Raises DeckError without UAMP, and for a sensor of a dof that no element uses.
         """
@@ -88,10 +88,10 @@ class UserAmplitudes:
 
 @dataclass(slots=True)
 class StepAmplitudes:
-    """Those of one step.
+    """User amplitudes of one step.
 
     sensors    array of `nodal` and unknown of each
-    concluded  UAMP ends the step with the increment that is tried
+    concluded  whether UAMP ends the step with the current increment
     """
 
     step: int
@@ -127,6 +127,6 @@ class StepAmplitudes:
             self.concluded = self.concluded or given.concludes
 
     def converged(self) -> None:
-        """Keep what the last attempt gave."""
+        """Keep the values of the last attempt."""
         for course in self.courses:
             course.state, course.kept = course.trial, len(course.amplitude.table)

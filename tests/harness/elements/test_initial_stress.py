@@ -316,7 +316,7 @@ def test_user_elements_are_not_told_and_the_run_says_so(tmp_path):
     )
     result = harness.run(deck, HERE / "spring.f", output_dir=tmp_path)
     (warning,) = result.warnings
-    message = r"spring\.inp:11: \*INITIAL CONDITIONS, TYPE=STRESS has no effect: user elements \(U1\) are not told"
+    message = r"spring\.inp:11: \*INITIAL CONDITIONS, TYPE=STRESS has no effect: user elements \(U1\) do not get"
     assert re.search(message, warning)
     assert "HAS NO EFFECT" in result.file(".msg").read_text().upper()
 

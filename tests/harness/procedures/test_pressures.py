@@ -194,7 +194,7 @@ def test_dynamic_pressure_is_a_dead_traction_where_nothing_turns(run):
                     "*BOUNDARY\nBODY, 1\n*DLOAD\nBODY, P2, 1.".replace("BODY, 1", "ALL, 1"), procedure="*STATIC, RIKS"
                 )
             ],
-            r"pressures that turn with the surface \(NLGEOM\) are not supported in a step whose load factor is unknown",
+            r"pressures that follow the surface \(NLGEOM\) are not supported in a step whose load factor is unknown",
         ),
     ],
 )
