@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""Runs of many decks on several processes, whose entries are kept: an interrupted batch goes on where it stopped."""
+"""Runs of many decks on several processes, whose entries are kept: an interrupted batch resumes where it stopped."""
 
 from __future__ import annotations
 
@@ -51,7 +51,7 @@ T = TypeVar("T")
 
 
 class Store(Generic[EntryT]):
-    """What was measured of each deck, in one file, each with the fingerprint of what it was computed from.
+    """The measured entries of all decks in one file, each with a fingerprint of what it was computed from.
 
     Parameters
     ----------
@@ -96,10 +96,10 @@ def fingerprint(deck: Deck) -> str:
 
 @cache
 def _sources() -> bytes:
-    """Digest of the sources as they are when they are first asked for: a batch goes on with what it has imported."""
+    """Digest of the sources at the first call: a batch continues with what it has imported."""
     digest = hashlib.sha256(path_of_amalgam().read_bytes())
     for package in (harness.elements, harness.procedures, harness.solver):
-        # __path__ of an editable installation is no folder
+        # __path__ of an editable installation is not a folder
         for file in sorted(Path(inspect.getfile(package)).parent.rglob("*.py")):
             digest.update(file.read_bytes())
     return digest.digest()
@@ -107,7 +107,7 @@ def _sources() -> bytes:
 
 @dataclass(frozen=True, slots=True)
 class RunOutcome:
-    """A run and how it ended: `stopped` says why it went no further, empty for a run that finished."""
+    """A run and how it ended: `stopped` says why it stopped early, empty for a run that finished."""
 
     result: Result
     stopped: str
@@ -126,7 +126,7 @@ def run_deck(deck: Deck, folder: Path, *, fallback: bool, fields: bool = False) 
     fallback
         Search downhill where Newton's method fails, as `uel run --fallback`.
     fields
-        Keep the files of fields, fifty times the rest, and nothing that a table or a profile needs.
+        Keep the field output, fifty times as large as the rest, which tables and profiles do not need.
     """
     place = folder / deck.name
     place.mkdir(parents=True, exist_ok=True)
@@ -147,7 +147,7 @@ def run_all(
 ) -> Iterator[tuple[DeckT, T]]:
     """Call `function(deck, folder)` on several processes; yields each deck with its value as it ends.
 
-    What has begun is finished when the caller stops.
+    If the caller stops early, runs that have begun are finished.
     """
     # a fresh process: what a Fortran library keeps and where it writes is its process's own
     with ProcessPoolExecutor(workers, mp_context=get_context("spawn")) as pool:
@@ -169,16 +169,16 @@ def complete(
     console: Console,
     describe: Callable[[EntryT], str],
 ) -> dict[DeckT, EntryT]:
-    """Entries of all decks, in their order; those that the store does not hold are computed and kept.
+    """Entries of all decks, in their order; those not in the store are computed and kept.
 
     Parameters
     ----------
     decks, store
-        What is wanted, and what there is.
+        The decks wanted, and the entries there are.
     function, folder, workers
         As in `run_all`.
     console, describe
-        Gets a progress bar, and a line for each deck that ends: its name and what `describe` says of the entry.
+        Gets a progress bar, and a line for each deck that ends: its name and what `describe` says about the entry.
     """
     known = {deck: entry for deck in decks if (entry := store.get(deck)) is not None}
     missing = [deck for deck in decks if deck not in known]

@@ -29,8 +29,8 @@ class Interface:
     secant     AMATRX without the derivative of the damage (TANGENT 1), equation (24)
     blend      share of that matrix in AMATRX
 
-    COH2D4 is built in: it has the law of `law` 1 or 2, integrates by Newton-Cotes, and takes no notice of beta,
-    weight, sampling, consistent, newton_cotes, secant and blend.
+    COH2D4 is built in: it has the law of `law` 1 or 2, integrates by Newton-Cotes, and ignores beta, weight, sampling,
+    consistent, newton_cotes, secant and blend.
     """
 
     type: str
@@ -60,7 +60,7 @@ class Interface:
 
 @dataclass(frozen=True, slots=True)
 class Specimen:
-    """What the elements of a deck are.
+    """The elements of a deck.
 
     name    beginning of the names of the mesh files
     quads   'U1', or 'CPS4' for the built-in quads of plane stress
@@ -95,7 +95,7 @@ def _quad_elements(specimen: Specimen) -> list[str]:
 
 
 def _quad_sets(specimen: Specimen) -> list[tuple[str, int, int, int, Ply]]:
-    """Sets of quads: name, first and last row, the face along the interface that U3 wants to know, ply."""
+    """Sets of quads: name, first and last row, the face along the interface (for U3), ply."""
     below, above = specimen.mesh.rows
     bottom, top = specimen.bottom, specimen.top
     if specimen.interface.type != "U3":
@@ -208,6 +208,6 @@ def interface_values(specimen: Specimen) -> dict[str, float]:
     for side, ply in (("BOTTOM", specimen.bottom), ("TOP", specimen.top)):
         named = zip(("E1", "E2", "NU12", "G12"), ply.in_plane, strict=True)
         values |= {f"{constant} {side}": value for constant, value in named}
-        # plane stress asks for no constants along the third axis; the ply's axes are those of the deck
+        # plane stress needs no constants along the third axis; the ply's axes are those of the deck
         values |= {f"{constant} {side}": 0.0 for constant in ("E3", "NU13", "NU23", "ANGLE")}
     return values

@@ -74,7 +74,7 @@ def element_deck(element: str, mix: str) -> str:
 
 INCREMENTS = Increments(initial=0.05, smallest=1e-7, largest=0.05, limit=1000, discontinuous=True, line_search=5)
 END = 4.4
-"""Displacement at the end (mm), shortly before the crack snaps: the moment of a snap is a matter of rounding."""
+"""Displacement at the end (mm), shortly before the crack snaps: rounding decides the moment of a snap."""
 
 
 def comparator_files() -> dict[str, str]:

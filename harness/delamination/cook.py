@@ -3,7 +3,7 @@
 """Cook's tapered panel of an orthotropic ply at 30 degrees: general quads, rotated material, in-plane bending.
 
 Contraction out of the plane is left out (nu13 = nu23 = 0): CalculiX expands CPS4 into a brick whose thickness follows
-the plane nodes, so that plane stress holds in the mean only, and exactly where the third direction is decoupled.
+the plane nodes, so that plane stress holds only on average, and exactly if the third direction is decoupled.
 """
 
 from __future__ import annotations

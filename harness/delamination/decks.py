@@ -26,8 +26,8 @@ KINDS = {"U2": "standard", "U3": "stabilised, four nodes", "U4": "stabilised, ei
 SAMPLINGS = ("face", "gauss")
 STIFFNESSES = {"1e6": 1.0e6, "1e8": 1.0e8}
 # Relaxation time of the damage in step time, times the stiffness (N/mm^3). Where an element fails within one increment
-# of duration t, its damage stays short of d by viscosity/t; that has to be little against 1 - d, which in softening is
-# of the order of the ratio of onset to final separation and so goes with 1/stiffness.
+# of duration t, its damage stays short of d by viscosity/t; that has to be small beside 1 - d, which in softening is
+# of the order of the ratio of onset to final separation and so proportional to 1/stiffness.
 VISCOSITY = 3.0
 
 # U3 does not own the nodes its bulk stress depends on and converges linearly, but quickly: a few iterations more

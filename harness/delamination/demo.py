@@ -33,7 +33,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
     """Run the decks, write the figures, print the table; returns the exit code."""
     parser = argparse.ArgumentParser(
         description="Run a double cantilever beam, draw it, compare it with beam theory.",
-        epilog="Exit code: 0 all runs have completed; 1 one has not, and the last lines say why; 2 wrong usage.",
+        epilog="Exit code: 0 all runs have completed; 1 a run has not, and the last lines say why; 2 wrong usage.",
     )
     parser.add_argument("--output-dir", type=Path, default=Path("demo"), help="folder of all files written (demo)")
     known = sorted(path.name for path in (FOLDER / "dcb").glob("dcb_u*.inp"))
@@ -41,7 +41,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
     options = parser.parse_args(arguments)
     for deck in options.decks:
         if deck not in known:
-            parser.error(f"no deck {deck}; there are {', '.join(known)}")
+            parser.error(f"no deck {deck}; expected one of {', '.join(known)}")
     folder: Path = options.output_dir
     try:
         compare(folder, {Path(deck).stem: deck for deck in options.decks} or DECKS, Console())
@@ -52,7 +52,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
 
 
 def compare(folder: Path, decks: Mapping[str, str], console: Console) -> None:
-    """Run decks, which have names, write the figures into the folder and print the table."""
+    """Run the decks, given with a name for each, write the figures into the folder and print the table."""
     results = {}
     for name, deck in decks.items():
         console.print(f"{deck}: {name}, to 3 mm each arm", highlight=False)
@@ -88,7 +88,7 @@ def draw_traction(results: dict[str, Result], path: Path) -> Path:
 
 
 def summary(results: dict[str, Result]) -> Table:
-    """What the runs gave and what it should be."""
+    """Results of the runs and what they should be."""
     peak = dcb_load(ARMS, CRACK, TABLE_2.toughness_1)
     end = float(measures.beam_theory(next(iter(results.values())))[-1])
     rows: list[tuple[str, str, Callable[[Result], str]]] = [
@@ -102,7 +102,7 @@ def summary(results: dict[str, Result]) -> Table:
         ("crack growth, mm", "", lambda r: f"{measures.crack_growth(r)[-1]:.2f}"),
         ("dissipated / (G_Ic width growth), steady", "1", lambda r: f"{measures.dissipation_ratio(r):.4f}"),
         ("total variation of the traction, MPa", "", lambda r: f"{measures.traction_variation(r):.1f}"),
-        ("increments, attempts given up", "", lambda r: f"{measures.increments(r)}, {measures.cutbacks(r)}"),
+        ("increments, abandoned attempts", "", lambda r: f"{measures.increments(r)}, {measures.cutbacks(r)}"),
         ("iterations", "", lambda r: f"{measures.iterations(r)}"),
         ("time, s", "", lambda r: "" if r.seconds is None else f"{r.seconds:.1f}"),
     ]

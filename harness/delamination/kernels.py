@@ -19,9 +19,9 @@ def user_element(jtype: int, *flags: str, **options: str | int) -> list[str]:
 
 
 def uel_property(jtype: int, elset: str, values: Mapping[str, float], **options: str) -> list[str]:
-    """*UEL PROPERTY with properties by name, 0 where none is given; those of other element types are passed over.
+    """*UEL PROPERTY with properties by name, 0 if none is given; those of other element types are ignored.
 
-    Reals and integers follow each other on the same lines, eight a line; comments above name them.
+    Integers follow the reals on the same lines, eight per line; comments above name them.
     """
     layout = element_layouts()[jtype]
     names = [item.name for item in (*layout.reals, *layout.integers)]

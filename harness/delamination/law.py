@@ -2,9 +2,9 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """One interface element driven along paths of the separation: what `uel law` does.
 
-The element is square and small, its separation is the same all along it. Separations and tractions are (normal,
-tangential). A standard element (U2, U5) is opened by its nodes. The two quads of a stabilised element (U4, U6) are
-strained so that their stress equals the traction of the interface, as in a structure at rest, so it shows its law, not
+The element is square and small, with a uniform separation. Separations and tractions are (normal, tangential). A
+standard element (U2, U5) is opened by its nodes. The two quads of a stabilised element (U4, U6) are strained so that
+their stress equals the traction of the interface, as in a structure in equilibrium, so that it shows its law, not
 Nitsche's compliance.
 """
 
@@ -51,15 +51,15 @@ SIZE: Final = 0.125
 MOST_ITERATIONS: Final = 50
 BISECTIONS: Final = 30
 RIGID: Final = 1e6
-"""Stiffness in place of an infinite one, over that of the softening, where only the end of a curve is sought."""
+"""Stiffness in place of an infinite one, over that of the softening, when only the end of a curve is sought."""
 BACK: Final = 20
-"""Increments of an unloading."""
+"""Number of increments of an unloading."""
 
 Properties = Mapping[str, float]
 
 
 LARGEST: Final = 1 << 31
-"""What JPROPS do not hold."""
+"""The first integer too large for JPROPS."""
 
 
 def standard_properties() -> dict[str, float]:
@@ -69,7 +69,7 @@ def standard_properties() -> dict[str, float]:
 
 
 def given_properties(words: Iterable[str]) -> dict[str, float]:
-    """Properties from words NAME=VALUE; blanks in a name as in the layout. UelError names what is not known."""
+    """Properties from words NAME=VALUE; blanks in a name as in the layout. Raises UsageError with the wrong word."""
     layouts = element_layouts().values()
     integers = {item.name for layout in layouts for item in layout.integers}
     known = integers | {item.name for layout in layouts for item in layout.reals}
@@ -77,22 +77,22 @@ def given_properties(words: Iterable[str]) -> dict[str, float]:
     for word in words:
         name, equals, value = word.upper().partition("=")
         if not equals or name not in known:
-            raise UsageError(f"'{word}': expected is NAME=VALUE with a name of {', '.join(sorted(known))}")
+            raise UsageError(f"'{word}': expected NAME=VALUE with a name among {', '.join(sorted(known))}")
         try:
             given[name] = float(value)
         except ValueError:
             given[name] = math.nan
         if not math.isfinite(given[name]):
-            raise UsageError(f"'{word}': '{value}' is no number")
+            raise UsageError(f"'{word}': '{value}' is not a finite number")
         if name in integers and not (given[name].is_integer() and abs(given[name]) < LARGEST):
-            raise UsageError(f"'{word}': '{value}' is no whole number below {LARGEST}")
+            raise UsageError(f"'{word}': '{value}' is not a whole number below {LARGEST}")
     return given
 
 
 def deck_properties(path: Path, elset: str | None = None) -> tuple[int, dict[str, float]]:
-    """Type and properties of the interface elements of a deck: of one element set, or the first there is.
+    """Type and properties of the interface elements of a deck: of one element set, by default the first.
 
-    The four-node stabilised element cannot do without its neighbours; its law is that of the standard element.
+    The four-node stabilised element does not work without its neighbours; its law is that of the standard element.
     """
     sections = []
     for group in read_deck(path).groups:
@@ -101,14 +101,15 @@ def deck_properties(path: Path, elset: str | None = None) -> tuple[int, dict[str
             continue
         if elset is None or section.elset.upper() == elset.upper():
             layout = element_layouts()[definition.number]
-            # a deck may have fewer than the element knows: those that were added later are 0
+            # a deck may have fewer than the element has now: properties that were added later are 0
             values = dict(zip((item.name for item in layout.reals), section.values.tolist(), strict=False))
             values |= dict(zip((item.name for item in layout.integers), section.integers.tolist(), strict=False))
             return definition.number if definition.number in NODES else STANDARD, values
         sections.append(section.elset)
     if not sections:
         raise UelError(f"{path}: no interface elements (U2 to U6) with *UEL PROPERTY")
-    raise UelError(f"{path}: no interface elements with *UEL PROPERTY, ELSET={elset}; there are {', '.join(sections)}")
+    known = ", ".join(sections)
+    raise UelError(f"{path}: no interface elements with *UEL PROPERTY, ELSET={elset}; expected one of {known}")
 
 
 @dataclass(frozen=True, slots=True)
@@ -166,7 +167,7 @@ class LawElement:
         self._operator = self._stress_operator(values) if self._stabilised else np.zeros((2, 2))
 
     def advance(self, separation: FloatArray, dtime: float) -> FloatArray:
-        """A converged increment to a separation (normal, tangential); the traction."""
+        """Make a converged increment to a separation (normal, tangential); returns the traction."""
         self._time += dtime
         if self._stabilised:
             self._gradient = self._equilibrium(separation, dtime)
@@ -208,7 +209,7 @@ class LawElement:
         return np.array(columns).T
 
     def _equilibrium(self, separation: FloatArray, dtime: float) -> FloatArray:
-        """Derivative of the displacement by the normal coordinate at which the quads' stress is the traction.
+        """Derivative of the displacement along the normal for which the quads' stress equals the traction.
 
         Newton's method with differences: 1 - dT/dsigma is S or, with a consistent law, positive as beta exceeds the
         steepest softening, so the solution is unique.
@@ -228,11 +229,11 @@ class LawElement:
             left, sizes, right = np.linalg.svd(slopes)
             missed, free = left.T @ residual, sizes > 1e-6
             stress = -right[free].T @ (missed[free] / sizes[free])
-            # rigid up to the onset: where there is to be a separation, no stress but that at the onset allows it
+            # rigid up to the onset: only the stress at the onset allows a separation
             rigid = right[~free & (np.abs(missed) > negligible)]
             stress = stress + rigid.T @ (rigid @ (self._operator @ gradient + residual))
             gradient = gradient + np.linalg.solve(self._operator, stress)
-        raise UelError(f"the quads find no equilibrium with the interface at a separation of {separation}")
+        raise UelError(f"no equilibrium of the quads with the interface at a separation of {separation}")
 
 
 def along(points: FloatArray, increments: int) -> FloatArray:
@@ -248,13 +249,13 @@ def opening(
     """Separations (n, 2) growing at a fixed angle, from opening (0) to sliding (90 degrees), up to `reach`.
 
     The increments grow with the separation, so that the stiff rise has some. At the fractions `unload` of the reach
-    the path goes back to the origin, on to a closing of `close` times the reach, and returns.
+    the path goes back to the origin, on to a closure of `close` times the reach, and returns.
     """
     direction = np.array([np.cos(np.radians(angle)), np.sin(np.radians(angle))])
     sizes = np.linspace(0.0, 1.0, increments + 1) ** 2
     path: FloatArray = sizes[:, None] * reach * direction
     closed = np.linspace(0.0, -close * reach, BACK + 1)[1:, None] * [1.0, 0.0] if close else np.zeros((0, 2))
-    # the last first, so that the places before it stay where they are
+    # from the last one, so that earlier places do not shift
     for fraction in sorted(unload, reverse=True):
         place = int(np.searchsorted(sizes, fraction))
         way = np.vstack([np.linspace(1.0, 0.0, BACK + 1)[1:, None] * path[place], closed])
@@ -266,10 +267,10 @@ def reach_of(library: Library, values: Properties, angle: float) -> float:
     """Separation at an angle (degrees) at which a thousandth of the strength is left of the traction."""
     for name in ("SIGMAMAX", "TAUMAX", "GIC", "GIIC"):
         if not values[name] > 0.0:
-            raise UelError(f"{name} = {values[name]:g}: expected a number above 0, from which the reach follows")
+            raise UelError(f"{name} = {values[name]:g}: expected a number above 0, which determines the reach")
     direction = np.array([np.cos(np.radians(angle)), np.sin(np.radians(angle))])
     stiff = {name: values[name] or RIGID * values["SIGMAMAX"] ** 2 / values["GIC"] for name in ("ALPHAN", "ALPHAT")}
-    # in one increment, which viscosity would hold back
+    # in one increment, in which viscosity would delay the damage
     element = LawElement(library, STANDARD, {**values, **stiff, "VISCOSITY": 0.0})
     least = 1e-3 * min(values["SIGMAMAX"], values["TAUMAX"])
 
@@ -282,7 +283,7 @@ def reach_of(library: Library, values: Properties, angle: float) -> float:
     while holds(far):
         near, far = far, 2.0 * far
         if far > 1e6 * start:
-            raise UelError(f"the traction at {angle:g} degrees does not fall to a thousandth: give the reach")
+            raise UelError(f"the traction at {angle:g} degrees does not fall to a thousandth: give the reach (--reach)")
     for _ in range(BISECTIONS):
         middle = 0.5 * (near + far)
         near, far = (middle, far) if holds(middle) else (near, middle)

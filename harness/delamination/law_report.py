@@ -30,20 +30,20 @@ SURFACE_SIZES = 60
 
 @dataclass(frozen=True, slots=True)
 class Exploration:
-    """What `uel law` is asked for.
+    """Options of `uel law`.
 
     properties  words NAME=VALUE, in place of those of the deck or of the paper
     deck, elset *UEL PROPERTY to take the properties from
     element     number of the element type, 2 and 5 standard, 4 and 6 stabilised; None: as in the deck, or U2
     angles      of the separation, from opening (0) to sliding (90 degrees); a curve each
     path        points (normal, tangential) to go through from the origin, in place of the angles
-    reach       largest separation of a curve; None: until nothing is left of the traction
-    unload      fractions of the reach at which to go back to the origin
+    reach       largest separation of a curve; None: until no traction is left
+    unload      fractions of the reach at which to unload to the origin
     close       fraction of the reach by which to press together after unloading
-    surface     draw both tractions over both separations too
+    surface     also draw both tractions over both separations
     increments  of a curve, or of each straight line of a path
     duration    of a curve in step time, for VISCOSITY
-    units       of length and traction, for the axes; '' where they are not known
+    units       of length and traction, for the axes; '' if they are not known
     """
 
     properties: Sequence[str] = ()
@@ -64,7 +64,7 @@ class Exploration:
 
 
 def explore(asked: Exploration) -> tuple[list[LawCurve], list[Path]]:
-    """Drive the element, write JOB.csv and JOB.png, and JOB_surface.png if asked for; the curves and the files."""
+    """Drive the element, write JOB.csv, JOB.png and, if requested, JOB_surface.png; returns curves and files."""
     stem = job_stem(asked.job, asked.output_dir)
     asked.output_dir.mkdir(parents=True, exist_ok=True)
     with locked(stem):
@@ -111,13 +111,13 @@ def _explore(asked: Exploration) -> tuple[list[LawCurve], list[Path]]:
 
 
 def path_points(text: str) -> FloatArray:
-    """Points 'NORMAL,TANGENTIAL NORMAL,TANGENTIAL ...', also with semicolons between them."""
+    """Points 'NORMAL,TANGENTIAL NORMAL,TANGENTIAL ...', also with semicolons between them. Raises UsageError."""
     try:
         points = np.array([[float(value) for value in point.split(",")] for point in text.replace(";", " ").split()])
     except ValueError:
         points = np.zeros(0)
     if points.ndim != 2 or points.shape[1] != 2 or not np.isfinite(points).all():
-        raise UsageError(f"'{text}': expected are points NORMAL,TANGENTIAL with blanks between them")
+        raise UsageError(f"'{text}': expected points NORMAL,TANGENTIAL with blanks between them")
     return points
 
 
@@ -143,7 +143,7 @@ def summary(curves: Sequence[LawCurve]) -> Table:
 
 
 def _shown(values: list[float]) -> list[str]:
-    """Values of one kind; what is rounding beside the others is none."""
+    """Values of one kind; rounding, compared with the others, is shown as zero."""
     largest = max(map(abs, values))
     return [f"{value if abs(value) > 1e-9 * largest else 0.0:.5g}" for value in values]
 

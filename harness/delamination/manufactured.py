@@ -25,7 +25,7 @@ from harness.delamination.materials import PLY_0, Cohesive, Ply
 from harness.delamination.mesh import TwoArmMesh, two_arms
 from harness.model.arrays import FloatArray, IntArray
 
-# so stiff that its separation is lost in the error, so strong that it stays elastic
+# so stiff that its separation is negligible, so strong that it stays elastic
 STIFF = Cohesive(1.0e12, 1.0e12, strength_normal=1e6, strength_shear=1e6, toughness_1=1e6, toughness_2=1e6)
 # a smooth distortion keeps the rates and makes the quads general; it leaves the interface at y = 1/2 alone
 DISTORTION = 0.04

@@ -11,7 +11,7 @@ from dataclasses import dataclass, replace
 class Ply:
     """Orthotropic ply in its own plane X1-X2, as the data line of *ELASTIC, TYPE=LAMINA (moduli in MPa).
 
-    The last two shear moduli do not act in a plane model; Abaqus wants them on the line.
+    The last two shear moduli have no effect in a plane model; Abaqus requires them on the line.
     """
 
     name: str

@@ -86,7 +86,7 @@ def dissipation_ratio(result: Result) -> float:
 
 
 def energy_error(result: Result) -> float:
-    """External work less stored and dissipated energy, over the external work, at the end."""
+    """External work minus stored and dissipated energy, over the external work, at the end."""
     work, stored = result.history["ALLWK"][-1], result.history["ALLSE"][-1]
     return float((work - stored - dissipated(result)[-1]) / work)
 
@@ -158,12 +158,12 @@ def increments(result: Result) -> int:
 
 
 def cutbacks(result: Result) -> int:
-    """Number of attempts given up."""
+    """Number of abandoned attempts."""
     return sum(row.cutback for row in result.status)
 
 
 def iterations(result: Result) -> int:
-    """Number of iterations, those of attempts given up included."""
+    """Number of iterations, including those of abandoned attempts."""
     return sum(row.total_iterations for row in result.status)
 
 

@@ -2,9 +2,9 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Structured mesh of two arms, one above the other, that meet in pairs of coincident nodes.
 
-Numbers can be read: line j of nodes counted from below and column i are node stride*j + i, row j of quads and column i
-are element stride*j + i, all from 1, with a power of ten as the stride. The interface elements take the row above
-the last, so that they come after the quads, and the numbers of both neighbours lie a constant offset below theirs.
+Numbers are readable: line j of nodes counted from below and column i are node stride*j + i, row j of quads and column
+i are element stride*j + i, all from 1, with a power of ten as the stride. The interface elements take the row above
+the last, so that they come after the quads, and the numbers of both neighbours are a constant offset below theirs.
 """
 
 from __future__ import annotations
@@ -153,11 +153,11 @@ def graded_columns(start: float, end: float, size: float, ratio: float, largest:
     while sum(sizes) < length:
         step = min(step * ratio, largest)
         sizes.append(step)
-    # drop the last column where the stretched ones then stay closer to their sizes
+    # drop the last column if the stretched ones then stay closer to their sizes
     if len(sizes) > 1 and sum(sizes) - length > 0.5 * sizes[-1]:
         sizes.pop()
     edges = start + np.concatenate([[0.0], np.cumsum(sizes)]) * ((end - start) / sum(sizes))
-    # exactly there, which the sum is on some processors only
+    # exactly there: the sum is only on some processors
     edges[-1] = end
     return edges
 
@@ -169,5 +169,5 @@ def crack_columns(length: float, fine: tuple[float, float], size: float, ratio: 
     left = graded_columns(begin, 0.0, size, ratio, largest)[::-1]
     right = graded_columns(end, length, size, ratio, 2.0 * largest)
     edges = np.concatenate([left[:-1], middle, right[1:]])
-    # a node's place is written with six decimals; rounded here, the deck and the builder agree
+    # a node's position is written with six decimals; rounded here, the deck and the builder agree
     return np.round(edges, 6)

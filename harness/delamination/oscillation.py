@@ -2,8 +2,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """How much a traction along the interface oscillates.
 
-The total variation of a profile, the sum of its steps up and down, counts the variation that the solution has and the
-one that the discretisation adds. The oscillation index of a profile f is
+The total variation of a profile, the sum of its steps up and down, counts the variation of the solution as well as what
+the discretisation adds. The oscillation index of a profile f is
 
     1 + (TV(f) - TV(g))/max(TV(g), scale)
 
@@ -11,20 +11,20 @@ with g the traction that really acts at the same points. It is 1 without oscilla
 the variation that the solution has. `scale`, the strength of the mode, keeps the traction of a mode that is not
 loaded, all of it round-off, from counting. g is the solution on a finer mesh of the same interface, averaged over what
 belongs to each point (`harness/delamination/study/reference.py`): an interface with bumps carries tractions that vary
-from facet to facet in truth, and no function of f alone can tell that part from an error.
+from facet to facet in reality, and no function of f alone can distinguish that part from an error.
 
-In the index too little variation in one place may pay for too much in another. The error index
+In the index too little variation in one place may compensate too much in another. The error index
 
     1 + TV(f - g)/max(TV(g), scale)
 
-lets nothing cancel. It counts what is no oscillation as well, such as a process zone that is a little ahead on the
+lets nothing cancel. It also counts what is not oscillation, such as a process zone that is a little ahead on the
 coarser mesh, and so is far from 1 on any mesh; what bumps or a stiffness add to it is oscillation.
 
-Where nothing but f is known, the raw index takes for g the smooth profile next to f. The traction on a straight
-interface turns a few times whatever the mesh: it rises through the process zone, falls to the other sign ahead of it,
-comes back, and does something at a load and at a support. Spurious oscillations turn at every element. So this g is,
-of the profiles of at most `PIECES` monotone pieces that are nearest in the largest distance, the one of least total
-variation. On a straight interface the raw index is the index; on bumps it takes real variation for oscillation.
+If only f is known, the raw index uses as g the smooth profile closest to f. The traction on a straight
+interface turns a few times on any mesh: it rises through the process zone, falls to the other sign ahead of it, comes
+back, and varies at a load and at a support. Spurious oscillations turn at every element. So this g is, of the profiles
+of at most `PIECES` monotone pieces that are nearest in the maximum norm, the one of least total variation. On a
+straight interface the raw index is the index; on bumps it counts real variation as oscillation.
 
 Its TV(g) has a closed form. Turns of f cancel in pairs, those closest to each other first, until few enough pieces are
 left; at an end of the profile the end itself goes. With c the largest difference that has gone, no profile of as few
@@ -34,7 +34,7 @@ are left do not oscillate themselves, g is a little too flat, and the raw index 
 
 For a smooth profile no index changes with the number of points, and wiggles count however short they are: a zig-zag of
 amplitude A adds 2 A for every point, and ten times as many elements make it ten times as bad. A profile with fewer
-turns than `PIECES` allows has the raw index 1 even where they are spurious: a single kink is no oscillation.
+turns than `PIECES` allows has the raw index 1 even if they are spurious: a single kink is not an oscillation.
 """
 
 from __future__ import annotations

@@ -114,7 +114,7 @@ def _reference(folder: Path, entry: dict[str, object], deck: str, place: str) ->
     tolerance = float(str(entry["absolute"])) if "absolute" in given else abs(value) * float(str(entry["relative"]))
     against = folder / str(entry["against"]) if "against" in given else None
     if against is not None and entry["quantity"] not in COMPARISONS:
-        raise ValueError(f"{place}: no comparison of that name; there are {', '.join(COMPARISONS)}")
+        raise ValueError(f"{place}: no comparison of that name; expected one of {', '.join(COMPARISONS)}")
     at = float(str(entry["at"])) if "at" in given else None
     texts = (str(entry[key]) for key in ("unit", "why", "kind", "source"))
     return Reference(folder / deck, str(entry["quantity"]), against, at, value, tolerance, *texts)

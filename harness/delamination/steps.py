@@ -16,7 +16,7 @@ class Increments:
 
     initial, smallest, largest  increment in step time
     limit          number of increments allowed
-    discontinuous  ANALYSIS=DISCONTINUOUS: the residual may rise for longer before an increment is given up
+    discontinuous  ANALYSIS=DISCONTINUOUS: the residual may rise for longer before an attempt is abandoned
     line_search    number of line-search iterations, 0 for none
     attempts       attempts allowed in one increment (I_A)
     residual       R_n and R_l where the default is not strict enough

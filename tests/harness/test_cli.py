@@ -262,11 +262,11 @@ def test_numbers_that_make_no_sense(words: str, expected: str, capsys: pytest.Ca
 @pytest.mark.parametrize(
     ("words", "message"),
     [
-        ("law GIC=much", "'GIC=much': 'MUCH' is no number"),
-        ("law GIC=nan", "'GIC=nan': 'NAN' is no number"),
-        ("law LAW=1e400", "'LAW=1e400': '1E400' is no number"),
-        ("law LAW=1.5", "'LAW=1.5': '1.5' is no whole number below 2147483648"),
-        ("law LAW=99999999999999999999", "is no whole number below 2147483648"),
+        ("law GIC=much", "'GIC=much': 'MUCH' is not a finite number"),
+        ("law GIC=nan", "'GIC=nan': 'NAN' is not a finite number"),
+        ("law LAW=1e400", "'LAW=1e400': '1E400' is not a finite number"),
+        ("law LAW=1.5", "'LAW=1.5': '1.5' is not a whole number below 2147483648"),
+        ("law LAW=99999999999999999999", "is not a whole number below 2147483648"),
         ("new 1st", "'1st' cannot be the name of an element"),
         ("check a.inp --skip tangents", "unknown check 'tangents'"),
     ],
@@ -283,7 +283,7 @@ def test_words_that_are_not_known(
 @pytest.mark.parametrize("name", ["SIGMAMAX", "TAUMAX", "GIC", "GIIC"])
 def test_law_without_a_strength(name: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     assert main(["law", f"{name}=0", "--output-dir", str(tmp_path)]) == 1
-    assert f"uel: {name} = 0: expected a number above 0, from which the reach follows" in capsys.readouterr().err
+    assert f"uel: {name} = 0: expected a number above 0, which determines the reach" in capsys.readouterr().err
 
 
 def test_solver_that_is_not_known(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
@@ -295,7 +295,7 @@ def test_solver_that_is_not_known(tmp_path: Path, capsys: pytest.CaptureFixture[
 @pytest.mark.parametrize("path", ["nan,1", "inf,0", "1", "1,2,3", "a,b", ""])
 def test_path_that_is_none(path: str, capsys: pytest.CaptureFixture[str], tmp_path: Path) -> None:
     assert main(["law", "--path", path, "--output-dir", str(tmp_path)]) == 2
-    assert f"uel: '{path}': expected are points NORMAL,TANGENTIAL with blanks between them" in capsys.readouterr().err
+    assert f"uel: '{path}': expected points NORMAL,TANGENTIAL with blanks between them" in capsys.readouterr().err
 
 
 def test_command_loads_little_before_it_can_be_interrupted() -> None:

@@ -25,4 +25,4 @@ def test_demo(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
 def test_unknown_deck(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     with pytest.raises(SystemExit, match="2"):
         demo.main(["--output-dir", str(tmp_path), "dcb_u7.inp"])
-    assert "no deck dcb_u7.inp; there are dcb_u2_1e6.inp, dcb_u2_1e8.inp" in capsys.readouterr().err
+    assert "no deck dcb_u7.inp; expected one of dcb_u2_1e6.inp, dcb_u2_1e8.inp" in capsys.readouterr().err

@@ -72,7 +72,7 @@ def test_selection() -> None:
     assert {case.specimen for case in chosen} == {"enf"}
     assert {case.stiffness for case in chosen} == {"1e6", "1e8"}
     assert select(all_cases(), []) == all_cases()
-    with pytest.raises(UelError, match=r"no row has 'dbc'; there are dcb, dcb025, enf, frmm; 0/0"):
+    with pytest.raises(UelError, match=r"no row has 'dbc'; expected words among dcb, dcb025, enf, frmm; 0/0"):
         select(all_cases(), ["dbc"])
 
 

@@ -44,7 +44,7 @@ LONGER = {"frmm70": 70.0, "frmm140": 140.0}
 _SPECIMENS = PROBLEMS | {name: _longer(crack) for name, crack in LONGER.items()}
 QUICK_SIZES = {"dcb": 1.0 / 6.0, "enf": 1.0 / 3.0, "frmm": 1.0 / 6.0} | dict.fromkeys(LONGER, 1.0 / 6.0)
 """Length of the elements with --quick (mm). Twice the full mesh's takes longer: with fewer elements in the process
-zone each failing point is a snap, and at the peak of the [0/90] end-notched flexure the search finds no end."""
+zone each failing point is a snap, and at the peak of the [0/90] end-notched flexure the search does not end."""
 INCREMENTS = {False: 100, True: 50}
 """Number of increments, if none is cut: full, and with --quick."""
 MOMENTS = {
@@ -138,7 +138,7 @@ class PaperCase:
 
     @property
     def fallback(self) -> bool:
-        """Search downhill where Newton's method fails; the paper's own way, secant and tolerance, goes without."""
+        """Search downhill where Newton's method fails; the paper's own method, secant and tolerance, does without."""
         return not self.secant
 
     @property
@@ -244,7 +244,7 @@ def longer_cases(*, coarse: bool = False) -> list[PaperCase]:
 def secant_cases(*, coarse: bool = False) -> list[PaperCase]:
     """The paper's way to a solution, section 3.2: secant, small increments; the default residual, and a hundredfold.
 
-    With the latter as many increments as the other runs have, too.
+    The latter also with as many increments as the other runs.
     """
     bases = [
         PaperCase("dcb", "0/0", "stabilised", stiffness, coarse=coarse, secant=True, increments=SECANT_INCREMENTS)

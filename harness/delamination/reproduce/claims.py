@@ -10,8 +10,8 @@ number                what our number is
 measure, arguments    function of `findings`, `curves`, `basics`, `foundations` or `parameters`
 at_least, at_most     what the number has to be, one of them or both
 cases                 part of the command that runs what the number needs: 'law', 'patch', 'dcb', 'enf', 'frmm', ...
-also                  further numbers that are shown, each with number, measure, arguments; with `full` not in --quick
-why                   what is to be said about it; needed where the statement is not reproduced
+also                  further numbers to show, each with number, measure, arguments; with `full` not in --quick
+why                   remark; required if the statement is not reproduced
 """
 
 from __future__ import annotations
@@ -33,7 +33,7 @@ ALSO = {"number", "measure", "arguments", "full"}
 
 @dataclass(frozen=True, slots=True)
 class Number:
-    """A number: what it is, and how it is measured; full: on the full meshes alone."""
+    """A number: what it is, and how it is measured; full: on the full meshes only."""
 
     text: str
     measure: str
@@ -68,7 +68,7 @@ class Claim:
         return ", ".join(filter(None, (low, high)))
 
     def holds(self, value: float) -> bool:
-        """Whether a value is within the limits; not a number is not."""
+        """Whether a value is within the limits; NaN is not."""
         low = self.at_least is None or value >= self.at_least
         high = self.at_most is None or value <= self.at_most
         return low and high
@@ -84,7 +84,7 @@ class JudgedClaim:
 
     @property
     def reproduced(self) -> bool:
-        """Whether our number is what the statement wants."""
+        """Whether our number is what the statement says."""
         return self.claim.holds(self.value)
 
 
@@ -126,7 +126,7 @@ def _claim(entry: Mapping[str, object], place: str) -> Claim:
 def _number(entry: Mapping[str, object], place: str) -> Number:
     measure, arguments = str(entry["measure"]), entry.get("arguments", {})
     if measure not in MEASURES:
-        raise ValueError(f"{place}: no measure '{measure}'; there are {', '.join(sorted(MEASURES))}")
+        raise ValueError(f"{place}: no measure '{measure}'; expected one of {', '.join(sorted(MEASURES))}")
     assert isinstance(arguments, Mapping)
     return Number(str(entry["number"]), measure, arguments, bool(entry.get("full", False)))
 

@@ -42,7 +42,7 @@ def reproduce(
     parts
         Of PARTS; none means all.
     folder
-        Gets the pictures, `claims.csv`, the page `index.html` and the runs; what it holds is not run again.
+        Gets the pictures, `claims.csv`, the page `index.html` and the runs; runs that it has are not repeated.
     quick
         Coarser meshes.
     console
@@ -57,12 +57,12 @@ def reproduce(
 
     Raises
     ------
-    UelError
+    UsageError
         There is no such part.
     """
     for part in parts:
         if part not in PARTS:
-            raise UsageError(f"no case '{part}'; there are {', '.join(PARTS)}")
+            raise UsageError(f"no case '{part}'; expected one of {', '.join(PARTS)}")
     chosen = [part for part in PARTS if not parts or part in parts]
     place = folder / ("quick" if quick else "full")
     runs = run_cases(_cases(chosen, quick=quick), place, workers or os.cpu_count() or 1, console)

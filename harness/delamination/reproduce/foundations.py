@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""Numbers that decide on what the paper says of its law and of the two weak forms (sections 2 and 3.2).
+"""Numbers that decide on what the paper says about its law and the two weak forms (sections 2 and 3.2).
 
 They need no runs: the law is driven point by point, and the matrices are those of the horizontal patch, 10 x 10 quads,
 at rest. See findings.py.
@@ -31,7 +31,7 @@ from harness.usersub import Library
 
 INCREMENTS = 4000
 RIGID = 1.0e12
-"""Stiffness at which the interface is as good as bonded (N/mm^3)."""
+"""Stiffness at which the interface is practically bonded (N/mm^3)."""
 QUAD = 0.1
 """Edge of the patch's quads (mm)."""
 
@@ -162,7 +162,7 @@ def _patch(element: str, stiffness: float, beta: float | None = None) -> PatchCa
 
 @cache
 def _stiffness(case: PatchCase) -> FloatArray:
-    """Matrix (n, n) of the displacements that nothing prescribes, at rest."""
+    """Matrix (n, n) of the free displacements, at rest."""
     with tempfile.TemporaryDirectory() as folder:
         for name, content in case.files().items():
             Path(folder, name).write_text(content, encoding="ascii")

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""Numbers that decide on what the paper says of its parameters and in its conclusion. See findings.py."""
+"""Numbers that decide on what the paper says about its parameters and in its conclusion. See findings.py."""
 
 from __future__ import annotations
 

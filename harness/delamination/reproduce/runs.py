@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""Runs of the cases, kept on disk, and what is read from them."""
+"""Runs of the cases, kept on disk, and the values read from them."""
 
 from __future__ import annotations
 
@@ -29,8 +29,8 @@ Profile = dict[str, FloatArray]
 class Entry:
     """How a run ended.
 
-    stopped   why it went no further; empty for a run that finished
-    increments, iterations, cutbacks  iterations of attempts given up included
+    stopped   why it stopped early; empty for a run that finished
+    increments, iterations, cutbacks  including the iterations of abandoned attempts
     seconds   wall-clock time
     """
 
@@ -197,7 +197,7 @@ def run_case(case: AnyCase, folder: Path) -> Entry:
 
 
 def run_cases(cases: Sequence[AnyCase], folder: Path, workers: int, console: Console) -> Runs:
-    """Run the cases that `folder` does not hold, on several processes, each kept as it ends."""
+    """Run the cases that are not in `folder`, on several processes, and keep each as it ends."""
     store = Store(folder / "runs.json", Entry.from_json)
     place = folder / "runs"
     entries = complete(cases, store, run_case, place, workers=workers, console=console, describe=str)

@@ -157,4 +157,4 @@ def _ends(runs: Runs) -> Table:
         ]
         for case, entry in runs.entries().items()
     ]
-    return Table("Runs", "Iterations include those of attempts given up.", head, rows)
+    return Table("Runs", "Iterations include those of abandoned attempts.", head, rows)

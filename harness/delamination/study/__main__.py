@@ -23,11 +23,11 @@ from harness.errors import UelError
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
-    """Run the command; returns the exit code: 0 when all rows are there, 1 if interrupted, 2 on wrong usage."""
+    """Run the command; returns the exit code: 0 if all rows are complete, 1 if interrupted, 2 on wrong usage."""
     parser = argparse.ArgumentParser(
         prog="python -m harness.delamination.study",
         description="Run delamination specimens with the standard and the stabilised elements, and compare them.",
-        epilog="An interrupted study goes on where it stopped.",
+        epilog="An interrupted study resumes where it stopped.",
     )
     parser.add_argument("--output-dir", type=Path, default=Path("study"), help="folder of all files written (study)")
     parser.add_argument(
@@ -35,12 +35,12 @@ def main(arguments: Sequence[str] | None = None) -> int:
         nargs="+",
         default=[],
         metavar="WORD",
-        help="rows with these words, such as: enf 0/0 1e6 1e8 consistent perturbed; alternatives stand side by side",
+        help="rows with these words, such as: enf 0/0 1e6 1e8 consistent perturbed; words of one kind are alternatives",
     )
     parser.add_argument(
-        "--page", type=Path, help="the table, and beside it the same as .csv (study.md in the output folder)"
+        "--page", type=Path, help="file of the table, with the same as .csv beside it (study.md in the output folder)"
     )
-    parser.add_argument("--kept", action="store_true", help="run nothing: a table of the rows that are kept already")
+    parser.add_argument("--kept", action="store_true", help="run nothing: write the table of the rows kept so far")
     parser.add_argument("--workers", type=int, default=os.cpu_count(), help="processes (one for each core)")
     options = parser.parse_args(arguments)
     console = Console()
@@ -65,7 +65,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
 
 
 def _rows(cases: Sequence[StudyCase], folder: Path, workers: int, console: Console) -> dict[StudyCase, StudyRow]:
-    """Rows of all cases, in their order; those that the folder does not hold are computed, after their references."""
+    """Rows of all cases, in their order; those not in the folder are computed, after their references."""
     missing = [case for case in cases if row_store(folder).get(case) is None]
     complete(
         list(dict.fromkeys(map(reference_of, missing))),

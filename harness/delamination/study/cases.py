@@ -19,8 +19,8 @@ from harness.errors import UelError
 BUMP = 0.03
 """Height of the perturbed interface nodes over the length of an element."""
 
-# a hundredth of the displacement at a time, Abaqus' own tolerances and cutbacks; the smallest increment is a hundredth
-# of Abaqus' default, for the sake of elements that creep
+# a hundredth of the displacement at a time, Abaqus' own tolerances and cutbacks; the minimum increment is a hundredth
+# of Abaqus' default, for elements that advance slowly
 INCREMENTS = Increments(initial=0.01, smallest=1e-7, largest=0.01, limit=1000, field_parts=10)
 FIELD_EVERY = 10
 
@@ -156,10 +156,10 @@ TABLES: dict[str, Iterable[str]] = {
 
 
 def all_cases() -> list[StudyCase]:
-    """All rows: an infinite stiffness is the consistent law's alone, and has the rows with viscosity and other laws.
+    """All rows: only the consistent law has an infinite stiffness, with the rows with viscosity and other laws.
 
-    The fall-back is not asked of the standard element at 1e12: of its oscillations it makes tens of thousands of
-    iterations, and no end.
+    The standard element at 1e12 does not use the fall-back: because of its oscillations that takes tens of thousands
+    of iterations without end.
     """
     return [case for entries in itertools.product(*TABLES.values()) if _is_row(case := StudyCase(*entries))]
 
@@ -176,18 +176,18 @@ def _is_row(case: StudyCase) -> bool:
 
 
 def select(cases: Iterable[StudyCase], words: Sequence[str]) -> list[StudyCase]:
-    """Cases that agree with the words: words of one table are alternatives, those of different tables add up.
+    """Cases that match the words: words of one table are alternatives, those of different tables must all match.
 
     Raises
     ------
     UelError
-        A word is in no table.
+        A word is not in any table.
     """
     wanted: dict[str, set[str]] = {}
     for word in words:
         table = next((name for name, entries in TABLES.items() if word in entries), None)
         if table is None:
             known = "; ".join(", ".join(entries) for entries in TABLES.values())
-            raise UelError(f"no row has '{word}'; there are {known}")
+            raise UelError(f"no row has '{word}'; expected words among {known}")
         wanted.setdefault(table, set()).add(word)
     return [case for case in cases if all(getattr(case, name) in choice for name, choice in wanted.items())]

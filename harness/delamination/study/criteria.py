@@ -1,8 +1,9 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""What the consistent element is asked to show, checked on the rows that are there.
+"""Criteria for the consistent element, checked on the existing rows.
 
-Rows of Newton's method alone and with the fall-back are judged apart; those with viscosity or another law are not.
+Rows of Newton's method alone and with the fall-back are judged separately; those with viscosity or another law are not
+judged.
 """
 
 from __future__ import annotations
@@ -33,7 +34,7 @@ Rows = Mapping[StudyCase, StudyRow]
 
 @dataclass(frozen=True, slots=True)
 class JudgedCriterion:
-    """One criterion: how many rows it was judged on, and those that fail it, each with what was found."""
+    """One criterion: the number of rows judged, and those that fail it, each with the reason."""
 
     criterion: str
     judged: int
@@ -46,7 +47,7 @@ class JudgedCriterion:
 
 
 def check(rows: Rows) -> list[JudgedCriterion]:
-    """All criteria that there are rows for, for each kind of solution."""
+    """All criteria for which there are rows, for each kind of solution."""
     verdicts = []
     for solution in JUDGED:
         chosen = {case: row for case, row in rows.items() if (case.solution, case.law) == (solution, OWN_LAW)}
@@ -70,7 +71,7 @@ def check(rows: Rows) -> list[JudgedCriterion]:
 
 
 def _each(criterion: str, rows: Rows, failure: Callable[[StudyCase, StudyRow], str | None]) -> JudgedCriterion:
-    """Verdict from a function of one row: what is wrong, empty if nothing is, None if the row is not to be judged."""
+    """Verdict from a function of one row: what is wrong, empty if nothing is, None if the row is not judged."""
     texts = {case: failure(case, row) for case, row in rows.items()}
     judged = {case: text for case, text in texts.items() if text is not None}
     return JudgedCriterion(
@@ -126,7 +127,7 @@ def _peak_loads(rows: Rows) -> JudgedCriterion:
 def index_ratios(case: StudyCase, rows: Rows, quantity: str = "index") -> dict[str, float] | None:
     """`index` or `error` of a case over that of the structured mesh at 1e6, by traction of the loading mode.
 
-    None if that row, or its index, is not there.
+    None if that row, or its index, is missing.
     """
     plain = rows.get(replace(case, stiffness="1e6", mesh="structured"))
     if plain is None or case not in rows:
@@ -157,7 +158,7 @@ def _oscillation(criterion: str, rows: Rows) -> JudgedCriterion:
 
 
 def _standard_fails(rows: Rows) -> JudgedCriterion:
-    """The same criterion is no gift: the standard element does not hold it."""
+    """The criterion is not trivial: the standard element fails it."""
     own = {case: row for case, row in rows.items() if case.element == "standard"}
 
     def failure(case: StudyCase, _: StudyRow) -> str | None:

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""Short tables out of the rows: what is real on an interface with bumps, what bumps add, what viscosity costs."""
+"""Short tables from the rows: what is real on an interface with bumps, what bumps add, what viscosity costs."""
 
 from __future__ import annotations
 

@@ -1,14 +1,14 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""The tractions that really act on an interface, bumps included: on a finer mesh of the same interface.
+"""The tractions that really act on an interface, including bumps: on a finer mesh of the same interface.
 
 The quads are cut into 2 x 2, or 4 x 4, inside the bumps, which stay as they are. The interface is a rigid bond before
 it fails, that is, the consistent element with an infinite stiffness: finite ones are approximations of that. A bond of
-1e6 N/mm^3 and less is so soft that it gives way to the bumps (`refinement.py`), and shows less of them in truth.
+1e6 N/mm^3 and less is so soft that it yields to the bumps (`refinement.py`), and really shows less of them.
 
 A traction on the finer mesh varies within the facet of a coarser one, and more so the finer it is: bumps have kinks,
 and at a kink the stress of two different plies, or of two arms that slip, has a weak singularity. A coarser mesh does
-not show that and need not. So the finer traction is averaged over what belongs to each point of the coarser mesh before
+not show that and need not. So the finer traction is averaged over the share of each point of the coarser mesh before
 the two are compared: the two Gauss points of a facet have the same weight, and half of the facet each.
 """
 
@@ -28,7 +28,7 @@ from harness.model.arrays import FloatArray
 from harness.output import Result
 
 FACTORS = {"dcb": 2, "dcb025": 2, "enf": 2, "frmm": 4}
-"""Every quad is cut into so many, squared: more where bumps act on both tractions, through bending stress and slip."""
+"""Every quad is cut into this number squared: more if bumps affect both tractions, by bending stress and slip."""
 FOLDER = "references"
 """Folder of the runs, below that of the study."""
 
@@ -65,7 +65,7 @@ class StudyReference:
 
 @dataclass(frozen=True, slots=True)
 class ReferenceRun:
-    """How a reference ended: `stopped` says why it went no further, empty if it finished; wall-clock time."""
+    """How a reference ended: `stopped` says why it stopped early, empty if it finished; wall-clock time."""
 
     stopped: str
     seconds: float

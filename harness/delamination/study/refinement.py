@@ -2,19 +2,19 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """`python -m harness.delamination.study.refinement`: which part of a perturbed interface's tractions is real.
 
-An interface with bumps carries tractions that vary along it in truth: a facet inclined by theta has the shear
+An interface with bumps carries tractions that really vary along it: a facet inclined by theta has the shear
 (sigma_yy - sigma_xx) sin(theta) cos(theta) of the bending stress in the arms, and slip over bumps opens and closes
 them. Here the bumps stay and the quads are cut into 2 x 2 and 4 x 4: what stays is real, what goes is numerical. All
 tractions are averaged over the share of each point of the coarsest mesh, as the references of the study are.
 
 - Bonded: a linear problem, an interface of finite stiffness that does not fail, under a displacement of 1 mm. The
   tractions are taken from 2 mm beyond the crack's tip on, which refinement makes sharper, to 2 mm before the load or
-  the clamp. Between plies of the same direction the interface is a line inside a homogeneous body, whose stress knows
-  nothing of the line: the stress on a straight interface, turned into each facet, is what acts there, by no
-  stabilisation and no cohesive stiffness.
-- Failing: rows of the study, with the fall-back. The standard and the consistent element are to come to the same
+  the clamp. Between plies of the same direction the interface is a line inside a homogeneous body, whose stress does
+  not depend on the line: the stress on a straight interface, turned into each facet, is what acts there, without
+  stabilisation or cohesive stiffness.
+- Failing: rows of the study, with the fall-back. The standard and the consistent element should arrive at the same
   tractions at 1e6 N/mm^3. That is less than the plies have at the scale of the bumps, E times wave number: such a bond
-  gives way to the bumps, and carries less of them than a rigid one.
+  yields to the bumps, and carries less of them than a rigid one.
 """
 
 from __future__ import annotations

@@ -26,22 +26,22 @@ STRENGTHS = {"TN": TABLE_2.strength_normal, "TT": TABLE_2.strength_shear}
 
 @dataclass(frozen=True, slots=True)
 class StudyRow:
-    """Numbers of one row. All are those until the run stopped, where it did.
+    """Numbers of one row. If the run stopped early, they hold up to that point.
 
     reached      part of the final displacement
-    stopped      why it went no further; empty for a run that finished
-    increments, iterations, cutbacks  iterations of attempts given up included
+    stopped      why it stopped early; empty for a run that finished
+    increments, iterations, cutbacks  including the iterations of abandoned attempts
     snaps        increments in which the load falls by more than `SNAP` of the peak load
     snap_iterations  iterations of these increments, among the above
     peak_load, peak_displacement, final_load  N, mm
-    dissipation_error  energy dissipated by failed points over their toughness, less 1
+    dissipation_error  energy dissipated by failed points over their toughness, minus 1
     balance_error    (work - stored - dissipated energy) over (work - stored energy), at the end
     index_n, index_t   largest oscillation index of the tractions over the bonded part and the process zone, at the
                        tenths of the displacement; NaN if the run ended at none of them
     error_n, error_t, raw_n, raw_t  the same for the error index and for the raw index
     variation_n, variation_t  total variation of the tractions (MPa) where that of the reference is largest
     real_n, real_t     that of the reference
-    difference_n, difference_t  that of the traction less that of the reference
+    difference_n, difference_t  that of the traction minus that of the reference
     damage_variation   total variation of the damage over its largest value, where it is farthest from 1, which is a
                        steady fall to 0
     peak_n, peak_t     largest tension and shear traction (MPa)
@@ -145,12 +145,12 @@ def _along_the_interface(profiles: list[Profile], real: list[Profile]) -> dict[s
 def oscillations(
     traction: str, ending: str, chosen: list[Profile], pairs: list[tuple[Profile, Profile]]
 ) -> dict[str, float]:
-    """What a row says of the oscillation of one traction; its entries end in `ending`."""
+    """What a row says about the oscillation of one traction; its entries end in `ending`."""
     scale = STRENGTHS[traction]
     indices, errors, variations = [], [], [(float("nan"),) * 3]
     for profile, real in pairs:
         computed, acting = bonded_part(profile)[traction], bonded_part(real)[traction]
-        # where both hold; where one has failed the two states differ, not their oscillations
+        # where both are intact; where one has failed the two states differ, not their oscillations
         both = min(len(computed), len(acting))
         indices.append(oscillation_index(computed, acting, scale))
         errors.append(error_index(computed[-both:], acting[-both:], scale))
@@ -171,7 +171,7 @@ def oscillations(
 def same_moments(profiles: list[Profile], real: list[Profile]) -> list[tuple[Profile, Profile]]:
     """Profiles with those of the reference at the same moment, less than half an increment apart.
 
-    Where increments were cut back, a run is elsewhere when it writes; such a profile has no partner.
+    If increments were cut back, a run writes at other moments; such a profile has no partner.
     """
     close = 0.5 * INCREMENTS.largest
     return [(profile, other) for profile in profiles for other in real if abs(_time(profile) - _time(other)) < close]
@@ -200,7 +200,7 @@ def damage_variation(damage: FloatArray) -> float:
 
 
 def dissipation_error(profile: Profile) -> float:
-    """Mean over the failed points of DISSI/G_Ic + DISSII/G_IIc, less 1; 0 where none has failed."""
+    """Mean over the failed points of DISSI/G_Ic + DISSII/G_IIc, minus 1; 0 if none has failed."""
     failed = profile["DAMAGE"] >= 1.0
     spent = profile["DISSI"] / TABLE_2.toughness_1 + profile["DISSII"] / TABLE_2.toughness_2
     return float(np.mean(spent[failed])) - 1.0 if failed.any() else 0.0

@@ -23,7 +23,7 @@ def reference_store(folder: Path) -> Store[ReferenceRun]:
 
 
 def run_case(case: StudyCase, folder: Path) -> StudyRow:
-    """Run the deck of a case in a folder of its name below `folder`, and measure what came out.
+    """Run the deck of a case in a folder of its name below `folder`, and measure the results.
 
     The reference has to have run, in its folder beside `folder`.
     """

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""`python -m harness.delamination.study.sampling`: what the place costs where the bulk stress is taken (SAMPLING).
+"""`python -m harness.delamination.study.sampling`: the effect of where the bulk stress is sampled (SAMPLING).
 
 In a four-node quad the stress varies spuriously along the face of the interface. The end-notched flexure shows it: the
 tangential traction of a delamination that grows rises to the strength and falls once, so its total variation is little
@@ -72,7 +72,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
     """Run the three samplings, print a table; returns the exit code."""
     parser = argparse.ArgumentParser(
         prog="python -m harness.delamination.study.sampling",
-        description="Oscillation of the end-notched flexure by the place where the bulk stress is taken.",
+        description="Oscillation of the end-notched flexure by the place where the bulk stress is sampled.",
     )
     parser.add_argument("--output-dir", type=Path, default=Path("study/sampling"), help="folder of all files written")
     folder: Path = parser.parse_args(arguments).output_dir

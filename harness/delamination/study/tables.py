@@ -17,7 +17,7 @@ from harness.delamination.study.digests import head, line, ratios, variations, v
 from harness.delamination.study.rows import StudyRow
 
 SHOWN = 4
-"""Failures of a criterion that are named; the rest is counted."""
+"""Number of failures of a criterion that are named; the rest is counted."""
 
 INTRODUCTION = """\
 <!-- SPDX-FileCopyrightText: The uel-harness authors -->
@@ -26,25 +26,25 @@ INTRODUCTION = """\
 
 Written by `python -m harness.delamination.study`. HTA/6376C, plane stress, width 20 mm, strengths 30 and 60 MPa,
 toughnesses 0.26 and 1.002 N/mm. Displacement in increments of 1 % at most, Abaqus' default tolerances and
-cutbacks. Perturbed: the interface nodes lie 3 % of an element's length up and down in turns.
+cutbacks. Perturbed: the interface nodes are moved alternately up and down by 3 % of an element's length.
 
 - **element**: standard (U2), the paper's stabilised one (U4), the consistent stabilised one (U4, CLOSURE 1; inf is
   ALPHAN = ALPHAT = 0). **solution**: newton is Abaqus' own, fallback adds the search of `uel run --fallback`;
   viscous1e-4 is newton with a VISCOSITY of 1e-4 of the step time. No other row has viscosity.
-- **iterations**: those of attempts given up included; **per increment** without snaps, increments in which the load
+- **iterations**: including those of abandoned attempts; **per increment** without snaps, increments in which the load
   falls by more than 5 % of the peak load.
-- **dissipated**: energy that failed points have dissipated over their toughness, less 1. **balance**: work less stored
-  less dissipated energy, over work less stored energy. Both are spoilt by a snap, whose jump is one step of the
+- **dissipated**: energy that failed points have dissipated over their toughness, minus 1. **balance**: work minus
+  stored minus dissipated energy, over work minus stored energy. A snap spoils both: its jump is one step of the
   trapezoidal rule.
 - **index** of t_n and t_tau: oscillation index over the bonded part and the process zone, the largest at the tenths of
   the displacement, against the tractions that really act, bumps included. **error index**: the same without
   cancelling. **raw**: against a smooth profile, so that on bumps real variation counts as oscillation.
-  `harness/delamination/oscillation.py` defines the three. What really acts is that of a rigid bond: one of 1e4 or
-  1e6 gives way to the bumps, and has an index below 1 without an error. A dash: the run ended at none of these moments.
-  Where a structure snaps, a run may have snapped at a moment when its reference has not: the index is then no measure
-  of oscillation.
-- **index of d**: total variation of the damage over its largest value; 1 where it falls steadily to 0, less where all
-  of the interface is damaged.
+  `harness/delamination/oscillation.py` defines the three. The tractions that really act are those of a rigid bond: one
+  of 1e4 or 1e6 yields to the bumps, and has an index below 1 without an error. A dash: the run ended at none of these
+  moments. If a structure snaps, a run may have snapped at a moment when its reference has not: then the index does not
+  measure oscillation.
+- **index of d**: total variation of the damage over its largest value; 1 if it falls steadily to 0, less if all of
+  the interface is damaged.
 """
 
 BUMPS = """
@@ -52,14 +52,14 @@ BUMPS = """
 
 Total variation (MPa) of the tractions of the loading mode at a stiffness of 1e8 N/mm^3, with the fall-back, at the
 tenth of the displacement where the reference has the most. Real: the reference, the same interface on quads cut into
-2 x 2 (frmm: 4 x 4), averaged over what belongs to each point (`harness/delamination/study/reference.py`). Difference:
-total variation of the traction less the reference's. `fortran/stabilised.md` says how far such references have
+2 x 2 (frmm: 4 x 4), averaged over the share of each point (`harness/delamination/study/reference.py`). Difference:
+total variation of the traction minus the reference's. `fortran/stabilised.md` says how far such references have
 converged: that of frmm [0/0] has 487 MPa in shear, but 411 in the means over each facet, which converge faster.
 """
 
 RATIOS = """
 What bumps and stiffness add: index and error index, [0/0], on the perturbed mesh at 1e8 and above over the same
-element's on the structured mesh at 1e6. A process zone that is a little elsewhere than on the finer mesh is an error
+element's on the structured mesh at 1e6. A process zone slightly displaced from that on the finer mesh is an error
 without oscillation, and so is a peak at the crack's tip that a coarse mesh does not resolve (dcb025): both differ with
 the stiffness on structured meshes too.
 """
@@ -67,10 +67,10 @@ the stiffness on structured meshes too.
 VISCOSITY = """
 ## What viscosity costs
 
-The consistent element with an infinite stiffness. VISCOSITY is given in step time; changes are against no viscosity
-with the fall-back. Without viscosity and without the fall-back a run stops where the interface snaps. The law is
-linear softening with the paper's criterion (LAW 1) or with that of Benzeggagh and Kenane (bk: LAW 2, exponent 1.45),
-exponential softening (LAW 3), or the PPR potential with its default shapes (LAW 4).
+The consistent element with an infinite stiffness. VISCOSITY is given in step time; changes are relative to the
+fall-back without viscosity. Without viscosity and without the fall-back a run stops where the interface snaps. The law
+is linear softening with the paper's criterion (LAW 1) or with that of Benzeggagh and Kenane (bk: LAW 2, exponent
+1.45), exponential softening (LAW 3), or the PPR potential with its default shapes (LAW 4).
 """
 
 HEAD = (
