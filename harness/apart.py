@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """The process that isolation.py starts: `python -m harness.apart DESCRIPTOR MODULE WORD ...` calls MODULE.main(words).
 
-It proves on the slate that it has come to its end: user code may end a process with the exit code of success.
+It notes on the slate that it has finished: user code may end a process with the exit code of success.
 """
 
 from __future__ import annotations
@@ -18,7 +18,7 @@ from harness.slate import open_slate
 
 
 def work(descriptor: int, module: str, words: Sequence[str]) -> int:
-    """Call the function, with where user code is on the slate; returns the exit code."""
+    """Call the function, and show on the slate where user code is; returns the exit code."""
     slate = open_slate(descriptor)
     sanitizer.forget()
     try:

@@ -30,13 +30,13 @@ ABAQUS_OPTIONS = {
 
 
 _MANY = 1 << 31
-"""No count is so large."""
+"""Above every sensible count."""
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
     """Run the command; returns the exit code: 0 on success, 1 on a failed or interrupted job, 2 on wrong usage.
 
-    Without arguments it is those of the command line, and `uel run` and `uel check` work in a process of their own.
+    Without arguments it takes those of the command line, and `uel run` and `uel check` work in a separate process.
     """
     try:
         open_standard_streams()
@@ -49,10 +49,10 @@ def main(arguments: Sequence[str] | None = None) -> int:
             words[1:] = sorted(words[1:], key=lambda word: word.startswith("-") or "=" not in word)
         for word in words:
             if word.startswith("-") and word.endswith("=--"):
-                # argparse takes two dashes away
+                # argparse drops two dashes
                 parser.error(f"argument {word.removesuffix('=--')}: expected one argument, found '--'")
         options = parser.parse_args(words)
-        # in this process where a program calls, or a debugger
+        # a program that calls this function, or a debugger, gets the work in its own process
         options.apart = arguments is None and not getattr(options, "same_process", True)
         if options.apart and options.function is run_job:
             stem = (options.output_dir or Path()) / (options.deck.stem if options.job is None else options.job)
@@ -63,7 +63,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
             sys.stdout.flush()
         return code
     except BrokenPipeError:
-        # whoever reads has seen enough
+        # the reader of a pipe has closed it
         drop_output()
     except FAILURES as error:
         if isinstance(error, OSError) and error.filename is None:
@@ -75,7 +75,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
 
 
 def open_standard_streams() -> None:
-    """Where one is closed, the next file that is opened would get its number, and what user code prints."""
+    """Open those that are closed: the next file opened would get their number, and what user code prints."""
     for number in range(3):
         try:
             os.fstat(number)
@@ -91,7 +91,7 @@ def build_parser() -> argparse.ArgumentParser:
     run = commands.add_parser("run", help="run a deck")
     run.epilog = (
         "Abaqus' spelling works too: uel run job=NAME user=FILE. "
-        "Exit code: 0 the analysis has completed; 1 it has not, by an error, an interrupt or the system; 2 wrong usage."
+        "Exit code: 0 the analysis has completed; 1 an error, an interrupt or the system ended it; 2 wrong usage."
     )
     run.add_argument("deck", type=Path, metavar="DECK.inp")
     run.add_argument(
@@ -99,21 +99,23 @@ def build_parser() -> argparse.ArgumentParser:
         type=Path,
         action="append",
         metavar="FILE",
-        help="user routines (.f .for .f90 .c .cpp .so), once for each file, in the order of compiling; ours by default",
+        help="user routines (.f .for .f90 .c .cpp .so); repeat for each file, in compilation order (the project's own)",
     )
     run.add_argument("--job", metavar="NAME", help="name of the output files (the deck's name)")
-    run.add_argument("--output-dir", type=Path, metavar="DIR", help="where they go (the current folder)")
+    run.add_argument("--output-dir", type=Path, metavar="DIR", help="folder of the output files (the current folder)")
     run.add_argument("--solver", default="auto", metavar="NAME", help="linear solver, see `uel solvers` (auto)")
     help_ = run.add_mutually_exclusive_group()
     help_.add_argument("--fallback", action="store_true", help="search downhill where Newton's method fails")
     help_.add_argument("--control", choices=("load", "energy"), default="load", help="energy: trace snap-backs (load)")
     add_isolation(run)
-    run.add_argument("--debug", action="store_true", help="checks at run time: errors in user code have file and line")
+    run.add_argument(
+        "--debug", action="store_true", help="run-time checks: errors in user code come with file and line"
+    )
     run.add_argument("--quiet", action="store_true", help="no progress display")
     run.set_defaults(function=run_job)
 
-    new = commands.add_parser("new", help="begin a user element: kernel, deck, tests, CI")
-    new.add_argument("name", type=Path, metavar="NAME", help="of the element, and of the folder that is made")
+    new = commands.add_parser("new", help="start a user element: kernel, deck, tests, CI")
+    new.add_argument("name", type=Path, metavar="NAME", help="name of the element and of its new folder")
     new.set_defaults(function=begin_element)
 
     add_reproduce(
@@ -126,9 +128,9 @@ def build_parser() -> argparse.ArgumentParser:
 
     add_law(commands.add_parser("law", help="drive one interface element, plot traction over separation"))
 
-    add_check(commands.add_parser("check", help="check the elements of a deck in the calls of a run"))
+    add_check(commands.add_parser("check", help="check the user elements of a deck with the calls of a run"))
 
-    solvers = commands.add_parser("solvers", help="list the linear solvers and say which is taken when")
+    solvers = commands.add_parser("solvers", help="list the linear solvers and say when each is used")
     solvers.set_defaults(function=list_solvers)
     return parser
 
@@ -145,37 +147,45 @@ def add_law(law: argparse.ArgumentParser) -> None:
         type=FINITE,
         metavar="DEGREES",
         default=[0.0, 30.0, 60.0, 90.0],
-        help="directions of the separation, 0 opening, 90 sliding (0 30 60 90)",
+        help="directions of the separation in degrees, 0 opening, 90 sliding (0 30 60 90)",
     )
     law.add_argument(
         "--reach", type=ABOVE_ZERO, metavar="LENGTH", help="largest separation (where no traction is left)"
     )
     law.add_argument(
-        *("--unload", "-u"), nargs="+", type=PART, metavar="F", default=[], help="go back to 0 at these parts of it"
+        *("--unload", "-u"), nargs="+", type=PART, metavar="F", default=[], help="unload to 0 at these fractions of it"
     )
     law.add_argument(
-        "--close", type=NOT_NEGATIVE, metavar="F", default=0.0, help="... and press together by this part of it"
+        "--close",
+        type=NOT_NEGATIVE,
+        metavar="F",
+        default=0.0,
+        help="... and then press together by this fraction of it",
     )
-    law.add_argument("--path", metavar="'N,T N,T ...'", help="go through these separations instead")
-    law.add_argument("--surface", action="store_true", help="draw both tractions over both separations too")
+    law.add_argument("--path", metavar="'N,T N,T ...'", help="follow these separations instead")
+    law.add_argument("--surface", action="store_true", help="also draw both tractions over both separations")
     law.add_argument(
-        "--increments", type=positive, default=400, metavar="N", help="of a curve, or a line of a path (400)"
+        "--increments",
+        type=positive,
+        default=400,
+        metavar="N",
+        help="increments per curve, or per line of a path (400)",
     )
     law.add_argument("--duration", type=ABOVE_ZERO, default=1.0, metavar="TIME", help="step time of a curve (1)")
     law.add_argument("--job", default="law", metavar="NAME", help="name of the output files (law)")
-    law.add_argument("--output-dir", type=Path, default=Path(), metavar="DIR", help="where they go (current folder)")
+    law.add_argument("--output-dir", type=Path, default=Path(), metavar="DIR", help="folder of the files (current)")
     law.set_defaults(function=explore_law)
 
 
 def add_reproduce(reproduce: argparse.ArgumentParser) -> None:
     """Options of `uel reproduce`."""
-    reproduce.epilog = "An interrupted run goes on where it stopped."
+    reproduce.epilog = "An interrupted run resumes where it stopped."
     reproduce.add_argument(
         "cases", nargs="*", metavar="CASE", help="law, patch, dcb, enf, frmm, sensitivity (all of them)"
     )
     reproduce.add_argument("--quick", action="store_true", help="coarser meshes, fewer increments")
     reproduce.add_argument(
-        "--output-dir", type=Path, default=Path("reproduce"), metavar="DIR", help="where all goes (reproduce)"
+        "--output-dir", type=Path, default=Path("reproduce"), metavar="DIR", help="folder of the output (reproduce)"
     )
     reproduce.set_defaults(function=reproduce_paper)
 
@@ -183,21 +193,23 @@ def add_reproduce(reproduce: argparse.ArgumentParser) -> None:
 def add_check(check: argparse.ArgumentParser) -> None:
     """Options of `uel check`."""
     check.epilog = (
-        "Exit code: 0 all checks that apply passed, and some that judge forces did for every element type; 1 a check "
-        "failed, that of the run among them; 2 nothing was looked at: the deck or a file is wrong, or no check applies."
+        "Exit code: 0 all checks that apply passed, and at least one per element type judged forces; 1 a check failed, "
+        "possibly the run itself; 2 nothing was looked at: the deck or a file is wrong, or no check applies."
     )
     check.add_argument("files", nargs="+", type=Path, metavar="FILE", help="the deck (.inp), and user routines")
     check.add_argument(
-        "--user", type=Path, action="append", default=[], metavar="FILE", help="as for `uel run`; ours by default"
+        "--user", type=Path, action="append", default=[], metavar="FILE", help="as for `uel run` (the project's own)"
     )
-    check.add_argument("--shuffle", action="store_true", help="only the check of the calling order, in detail")
+    check.add_argument("--shuffle", action="store_true", help="check the calling order only, in detail")
     check.add_argument(
         "--skip", action="append", default=[], metavar="CHECK", help="leave out a check (may be repeated)"
     )
     check.add_argument("--json", type=Path, metavar="FILE", help="write the findings for other programs")
     check.add_argument("--quiet", action="store_true", help="no progress display")
-    check.add_argument("--seed", type=positive, default=1, metavar="N", help="of random orders and displacements (1)")
-    check.add_argument("--increments", type=positive, default=3, metavar="K", help="of the deck that are run (3)")
+    check.add_argument(
+        "--seed", type=positive, default=1, metavar="N", help="seed of random orders and displacements (1)"
+    )
+    check.add_argument("--increments", type=positive, default=3, metavar="K", help="increments of the deck to run (3)")
     add_isolation(check)
     check.set_defaults(function=check_elements)
 
@@ -209,13 +221,13 @@ def add_isolation(command: argparse.ArgumentParser) -> None:
         type=NOT_NEGATIVE,
         default=60.0,
         metavar="SECONDS",
-        help="time for one call of a user routine, and for loading the library; 0: any (60)",
+        help="time limit of one call of a user routine, and of loading the library; 0: none (60)",
     )
-    command.add_argument(isolation.SAME_PROCESS, action="store_true", help="for debuggers: no process of its own")
+    command.add_argument(isolation.SAME_PROCESS, action="store_true", help="for debuggers: run in this process")
 
 
 def number(words: str, holds: Callable[[float], bool] = math.isfinite) -> Callable[[str], float]:
-    """What makes a finite number of an option, for which a condition holds; words say what is expected."""
+    """Converter of an option to a finite number that meets a condition; words say what is expected."""
 
     def read(text: str) -> float:
         try:
@@ -236,9 +248,11 @@ PART = number("a number from 0 to 1", lambda value: 0.0 <= value <= 1.0)
 
 
 def positive(text: str) -> int:
-    """A whole number from 1, given as an option."""
+    """A whole number of 1 or more, given as an option."""
     return int(
-        number("a whole number from 1", lambda value: value >= 1.0 and value == int(value) and value < _MANY)(text)
+        number("a whole number of 1 or more", lambda value: value >= 1.0 and value == int(value) and value < _MANY)(
+            text
+        )
     )
 
 
@@ -253,7 +267,7 @@ def from_abaqus(parser: argparse.ArgumentParser, words: list[str]) -> list[str]:
         elif key.lower() in ABAQUS_OPTIONS:
             given.append((key.lower(), value))
         else:
-            parser.error(f"unknown option '{key}='; known are {', '.join(f'{name}=' for name in ABAQUS_OPTIONS)}")
+            parser.error(f"unknown option '{key}='; expected one of {', '.join(f'{name}=' for name in ABAQUS_OPTIONS)}")
     if not given:
         return words
     deck = dict(given).get("input", dict(given).get("job", ""))
@@ -355,7 +369,7 @@ def list_solvers(_: argparse.Namespace) -> int:
 
     from harness.solver.linear import available  # noqa: PLC0415
 
-    table = Table("solver", "installed", "version", "when it is taken")
+    table = Table("solver", "installed", "version", "when it is used")
     for row in available():
         table.add_row(row.name, "yes" if row.installed else "no", row.version, row.note)
     Console().print(table)

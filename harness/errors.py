@@ -29,11 +29,11 @@ class UelError(Exception):
 
 
 class UsageError(UelError):
-    """A word of the command line, or an argument of a function, is none that is expected."""
+    """A word of the command line, or an argument of a function, is not valid."""
 
 
 def in_words(error: BaseException) -> str:
-    """What went wrong, for a user: of an error of ours, of the system, of memory, or an interrupt."""
+    """What went wrong, for a user: an error of ours, a system error, lack of memory, or an interrupt."""
     if isinstance(error, UelError):
         return str(error)
     if isinstance(error, OSError):
@@ -53,7 +53,7 @@ def tell_error(text: str) -> None:
 
 
 def tell(text: str) -> None:
-    """Print what a command has to say where its exit code does not depend on whether that can be written."""
+    """Print what a command has to say, if possible: its exit code does not depend on that."""
     try:
         print(text, flush=True)
     except OSError:
@@ -61,7 +61,7 @@ def tell(text: str) -> None:
 
 
 def drop_output() -> None:
-    """Standard output takes no more; nor does Python try to write the rest where the process ends."""
+    """Give up standard output, which takes no more; Python does not try to write the rest at exit either."""
     os.dup2(os.open(os.devnull, os.O_WRONLY), 1)
 
 
@@ -75,7 +75,7 @@ def tell_failure(error: BaseException) -> None:
 
 
 FAILURES: Final = (UelError, OSError, MemoryError, KeyboardInterrupt)
-"""What ends a command with a message, and no traceback."""
+"""What ends a command with a message instead of a traceback."""
 
 
 class DeckError(UelError):
@@ -90,7 +90,7 @@ _LONGEST: Final = 1000
 
 
 def _shown(message: str) -> str:
-    """A message that quotes a deck: what a terminal does not show, or obeys, is spelt, and a long line cut out."""
+    """A message that quotes a deck, with control characters spelt out and a long line shortened."""
     # a whole file may be one line
     text = message if len(message) <= 2 * _LONGEST else message[:_LONGEST] + message[-_LONGEST:]
     if not text.isprintable():
@@ -122,7 +122,7 @@ class ElementError(UelError):
 
 
 class KernelError(ElementError):
-    """It stopped the analysis, wrote outside its arrays, or returned NaN; a call of another state may go well."""
+    """It stopped the analysis, wrote outside its arrays, or returned NaN; a call at another state may succeed."""
 
 
 class OutsideError(KernelError):
@@ -142,7 +142,7 @@ class CallLimitError(ElementError):
 
 
 class SingularMatrixError(UelError):
-    """The system matrix is singular at a node and dof, mostly because a body is not held."""
+    """The system matrix is singular at a node and dof, usually because a body is unconstrained."""
 
     def __init__(self, node: str, dof: int, message: str, source: Source | None = None) -> None:
         place = f"{source}: " if source else ""
@@ -152,7 +152,7 @@ class SingularMatrixError(UelError):
         self.message = message
 
     def in_step(self, source: Source) -> SingularMatrixError:
-        """The same error with the place of the step in which it came up."""
+        """The same error with the place of the step in which it occurred."""
         return SingularMatrixError(self.node, self.dof, self.message, source)
 
 

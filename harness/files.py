@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""Files that a user names: read whole, or refused at once where reading might wait, or have no end."""
+"""Files that a user names: read whole, or refused at once where reading might block or never end."""
 
 from __future__ import annotations
 
@@ -17,13 +17,13 @@ _MADE_BY_THE_KERNEL: Final = ("/proc/", "/sys/")
 def read_whole(path: Path) -> bytes:
     """Content of a file.
 
-    Raises OSError with a sentence in strerror where there is none, or where it is a folder, a pipe, a device, or a
-    window into the kernel; ValueError where no file can have this name.
+    Raises OSError with a sentence in strerror if there is no such file, or if it is a folder, a pipe, a device or
+    made by the kernel; ValueError if no file can have this name.
     """
     _check(path.stat().st_mode)
     if os.path.realpath(path).startswith(_MADE_BY_THE_KERNEL):
         raise OSError(errno.EINVAL, "not a file")
-    # does not wait for the other end of a pipe that has come in its place
+    # does not wait for the other end if a pipe has taken its place
     descriptor = os.open(path, os.O_RDONLY | os.O_NONBLOCK)
     with os.fdopen(descriptor, "rb") as file:
         _check(os.fstat(descriptor).st_mode)

@@ -37,7 +37,7 @@ def describe_interrupt(signum: int) -> str:
 
 
 def take_interrupts() -> None:
-    """Let SIGINT raise KeyboardInterrupt; within an import, which may make another error of it, end the process."""
+    """Let SIGINT raise KeyboardInterrupt; during an import, which may turn it into another error, end the process."""
 
     def end(_: int, frame: FrameType | None) -> None:
         while frame is not None:
@@ -68,7 +68,7 @@ def raise_interrupts() -> None:
             raise Interrupted(signum)
 
     _handle(end)
-    # isolation.py has had them wait
+    # isolation.py has blocked them
     signal.pthread_sigmask(signal.SIG_UNBLOCK, ENDS)
 
 

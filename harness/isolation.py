@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""A run in a process of its own: whatever user code does to it, it ends, with the files closed and the reason said."""
+"""A run in a separate process: whatever user code does, the run ends with closed files and a stated reason."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ from harness.interrupts import ENDS, collected, describe_interrupt
 from harness.slate import Slate, Within, new_slate
 
 SAME_PROCESS: Final = "--same-process"
-"""Option of `uel run` and `uel check` for the process that runs."""
+"""Option of `uel run` and `uel check`: no separate process."""
 
 _PRCTL = getattr(ctypes.CDLL(None), "prctl", None)
 _PR_SET_PDEATHSIG = 1
@@ -34,15 +34,15 @@ _GLANCE: Final = 0.2
 """Seconds between two looks at the process."""
 
 _GRACE: Final = 5.0
-"""Seconds that it has for its end: after a signal, when all is done, or beyond the limit of a call."""
+"""Seconds it has to end: after a signal, when all is done, or beyond the limit of a call."""
 
 _IDLE: Final = 10.0
-"""Seconds without work after which a process in which a call was left is taken to wait for a lock, for ever."""
+"""Seconds without work after which a process that abandoned a call is assumed to wait for a lock for ever."""
 
 _REASONS: Final = {
     signal.SIGKILL: "killed, by a user or by the system for lack of memory",
-    signal.SIGABRT: "abort, mostly because a user routine wrote outside an array",
-    signal.SIGSEGV: "segmentation fault outside a user routine, mostly because one wrote outside an array before",
+    signal.SIGABRT: "abort, usually because a user routine wrote outside an array",
+    signal.SIGSEGV: "segmentation fault outside a user routine, usually because one wrote outside an array earlier",
 }
 
 
@@ -51,8 +51,8 @@ class End:
     """How a process ended.
 
     code         exit code, -n for signal n
-    finished     whether it came to its end by itself
-    reason       the end of a sentence, where it did not
+    finished     whether it ended by itself
+    reason       if it did not: why, as the end of a sentence
     place        where in user code that was; '' if it was elsewhere
     interrupted  whether a signal asked for it
     """
@@ -65,7 +65,7 @@ class End:
 
 
 def supervise(words: Sequence[str], stem: Path, call_limit: float, *, sanitized: bool = False) -> int:
-    """Run `uel` with these words, a subcommand first, in a process of its own; returns the exit code.
+    """Run `uel` with these words, a subcommand first, in a separate process; returns the exit code.
 
     stem is the folder and name of the job; sanitized: see `run_apart`. A run that ends without closing its files gets
     them closed here.
@@ -92,9 +92,9 @@ def run_apart(
 ) -> End:
     """Call `main` of a module with words in a process that user code may end, and that is ended if it hangs.
 
-    call_limit: seconds that one call of a user routine may take, 0: any; the process itself holds it as far as it can.
+    call_limit: seconds that one call of a user routine may take, 0: no limit; the process enforces it itself if it can.
     sanitized: debug builds have AddressSanitizer in it; where that is not possible, a message says why.
-    errors: where its messages go, by default to those of this process. meanwhile: is called now and then.
+    errors: where its messages go, by default to stderr of this process. meanwhile: is called now and then.
     """
     _take_all_stack()
     variables = None
@@ -130,18 +130,18 @@ def run_apart(
     return End(code, False, why or describe_end(code), slate.where() if inside else "", bool(signals))
 
 
-ENDLESS: Final = "ended because {what} does not end within {limit:g} s (--call-limit)"
+ENDLESS: Final = "ended because {what} took longer than {limit:g} s (--call-limit)"
 _ENDLESS: Final = {
     Within.CALL: "a call of a user routine",
     Within.LOADING: "loading the library of user routines",
 }
-HANGS: Final = "ended because it hangs after a call that was left, mostly inside a WRITE, which locks its unit"
+HANGS: Final = "ended because it hung after an abandoned call, usually inside a WRITE, which locks its unit"
 
 
 class _Watch:
-    """Looks at a process now and then, and says when and why it is to be killed.
+    """Looks at a process now and then, and says when and why to kill it.
 
-    What it measures is the number of its looks: where all processes were stopped, no time has passed.
+    It measures time by the number of its looks: none passes while all processes are stopped.
     """
 
     def __init__(self, process: subprocess.Popen[bytes], slate: Slate, call_limit: float) -> None:
@@ -154,7 +154,7 @@ class _Watch:
         self._work = 0
 
     def glance(self, signals: Sequence[int]) -> str:
-        """Pass on signals that have come; '' or why the process has to be killed."""
+        """Pass on signals that have arrived; returns '', or why the process has to be killed."""
         slate = self._slate
         for signum in signals[self._passed :]:
             self._process.send_signal(signum)
@@ -177,13 +177,13 @@ class _Watch:
 
 
 _STOPPED: Final = ("T", "t")
-"""States of a process that a user or a debugger has stopped."""
+"""States of a process stopped by a user or a debugger."""
 
 
 def _state(process: int) -> tuple[str, int]:
     """State of a process, and ticks of processor time that it has used.
 
-    The state is "" where the system does not tell, and where it may wait for another process, a compiler for example.
+    The state is "" if the system does not tell, or if it may be waiting for another process, such as a compiler.
     """
     folder = Path(f"/proc/{process}")
     try:
@@ -195,7 +195,7 @@ def _state(process: int) -> tuple[str, int]:
 
 
 def _prepare() -> None:
-    """Let signals wait until the process can take them. Whoever kills this process wants no other one to go on."""
+    """Block signals until the process can take them, and let it end if its parent is killed."""
     signal.pthread_sigmask(signal.SIG_BLOCK, ENDS)
     if _PRCTL is not None:
         _PRCTL(_PR_SET_PDEATHSIG, signal.SIGKILL)

@@ -25,7 +25,7 @@ from harness.solver.threads import one_blas_thread
 from harness.usersub import Library, guard_values
 
 MOST_REPEATED: Final = 3
-"""Warnings that an error brings along."""
+"""Warnings quoted with an error."""
 
 
 def run(
@@ -48,24 +48,24 @@ def run(
     deck
         Abaqus input file.
     user
-        File with UEL, UELMAT, UEXTERNALDB in Fortran, C or C++, or several in the order of compiling, or a compiled
+        File with UEL, UELMAT, UEXTERNALDB in Fortran, C or C++, or several in compilation order, or a compiled
         library; None takes the project's own elements.
     job
         Name of the output files; the deck's name without its ending by default.
     output_dir
-        Folder of the output files, made if missing; the current folder by default.
+        Folder of the output files, created if missing; the current folder by default.
     solver
         Linear solver, see `uel solvers`.
     fallback
-        Search downhill where Newton's method fails, before the increment is cut back; Abaqus has no such thing.
+        Search downhill where Newton's method fails, before the increment is cut back; Abaqus has no such option.
     energy_control
         Trace snap-backs: an increment ends where it has dissipated a share of energy, and the load factor of a step
         is part of the solution. Not with `fallback`, which keeps the load.
     call_limit
-        Seconds that one call of a user routine may take; 0: any.
+        Seconds that one call of a user routine may take; 0: no limit.
     debug
         Compile the user's files with run-time checks, and stop where a NaN or an infinity is made: errors have file and
-        line. Slower, and a local variable without a value is no zero but an error. With AddressSanitizer where its
+        line. Slower, and a local variable without a value is an error, not zero. With AddressSanitizer where its
         runtime was loaded before all else, as the command `uel` does (harness/sanitizer.py).
     quiet
         No progress display.
@@ -78,8 +78,8 @@ def run(
     Raises
     ------
     UelError
-        DeckError, CompileError, KernelError, SingularMatrixError or ConvergenceError; what was written until then
-        stays readable. Its notes are the first warnings before it.
+        UsageError for a wrong `job` or `solver`, else DeckError, CompileError, KernelError, SingularMatrixError or
+        ConvergenceError; what was written until then stays readable. Its notes are the first warnings before it.
     """
     deck = Path(deck)
     stem = job_stem(deck.stem if job is None else job, output_dir)
@@ -107,7 +107,7 @@ def run(
                     usersub.trap(trapping)
                 library.close()
         except BaseException as error:
-            # where the files of the run have not begun, or cannot be closed
+            # if the files of the run do not exist yet, or cannot be closed
             with suppress(OSError):  # the error that counts is the first
                 write_verdict(stem, in_words(error))
             raise
@@ -117,7 +117,7 @@ def run(
 def _analyse(
     model: Model, library: Library, output: JobOutput, solver: str, *, fallback: bool, energy_control: bool
 ) -> None:
-    """Run all steps, with their records in the files, which are closed at the end, whatever that is."""
+    """Run all steps and write their records to the files, which are closed however the run ends."""
     try:
         system = TolerantSystem(model, library)
         with one_blas_thread(), guard_values({}):
@@ -152,7 +152,7 @@ def _advice(error: str, *, fallback: bool, energy_control: bool) -> str:
     if error.startswith(FIXED_TOO_LARGE):
         ways.append("*STATIC without DIRECT, which cuts increments back")
     else:
-        ways.append("a smaller smallest increment (third number below *STATIC)")
+        ways.append("a smaller minimum increment (third number below *STATIC)")
     ways.append("VISCOSITY of the interface elements, or on *SECTION CONTROLS of cohesive elements")
     return f"what may help: {'; '.join(ways)}"
 
@@ -164,6 +164,6 @@ def _debug_helps(sources: Sequence[Path], message: str) -> bool:
 
 
 def _pass_on(library: Library, output: JobOutput) -> None:
-    """Texts of user routines go where Abaqus puts them."""
+    """Write texts of user routines where Abaqus puts them."""
     for message in library.messages():
         output.user_text(message.file, message.kind, message.text)

@@ -21,19 +21,19 @@ _PRELOAD: Final = "LD_PRELOAD"
 _OPTIONS: Final = "ASAN_OPTIONS"
 
 _SETTINGS: Final = (
-    # the process goes on after a finding, which ends the call (fortran/host/sanitizer.c), and each counts
+    # the process continues after a finding, which ends the call (fortran/host/sanitizer.c), and each one counts
     *("halt_on_error=0", "suppress_equal_pcs=0", "detect_leaks=0"),
     # signals are the host's (fortran/host/protect.c)
     *("handle_segv=0", "handle_sigbus=0", "handle_abort=0", "handle_sigill=0", "handle_sigfpe=0", "use_sigaltstack=0"),
-    # a library is loaded once for each job of the process, and Python's libraries are not what is looked at
+    # a library is loaded once for each job of the process, and Python's own libraries are not under test
     *("detect_odr_violation=0", "alloc_dealloc_mismatch=0", "allocator_may_return_null=1"),
-    # nobody reads where memory was allocated, and asking that takes most of the time
+    # nobody reads where memory was allocated, and recording it takes most of the time
     *("symbolize=0", "malloc_context_size=0", "quarantine_size_mb=16"),
 )
 
 NOT_USED: Final = (
-    "without AddressSanitizer, which sees what is read or written outside arrays of unknown size (props(*)), and "
-    "memory that is used after it was freed: {reason}"
+    "without AddressSanitizer, which detects reads and writes outside arrays of unknown size (props(*)) and the use "
+    "of freed memory: {reason}"
 )
 _MISSING: Final = "{compiler} has no libasan (apt install gcc, dnf install libasan)"
 
@@ -52,7 +52,7 @@ def environment() -> Mapping[str, str]:
     preload = ":".join(filter(None, (str(_runtime()), os.environ.get(_PRELOAD))))
     settings = ":".join(filter(None, (*_SETTINGS, os.environ.get(_OPTIONS))))
     variables = os.environ | {_PRELOAD: preload, _OPTIONS: settings}
-    # where memory is limited, or a system has it laid out otherwise, the runtime ends a process or is not loaded
+    # with limited memory, or another memory layout, the runtime ends the process or is not loaded
     trial = [sys.executable, "-S", "-c", "import ctypes; ctypes.CDLL(None).__asan_init"]
     tried = subprocess.run(trial, env=variables, capture_output=True, text=True, errors="replace", check=False)
     if tried.returncode or tried.stderr:
@@ -62,7 +62,7 @@ def environment() -> Mapping[str, str]:
 
 
 def forget() -> None:
-    """Keep the runtime from the processes that this one starts: compilers have no need of it."""
+    """Keep the runtime out of processes that this one starts: compilers do not need it."""
     first, _, others = os.environ.get(_PRELOAD, "").partition(":")
     if _LIBRARY in Path(first).name:
         del os.environ[_PRELOAD]

@@ -1,8 +1,8 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""What a process that calls user code shows the one that watches it: where it is, and that it has come to its end.
+"""What a process that calls user code shows the one that watches it: where it is, and that it has finished.
 
-It is memory that both share, so that it can be read whatever state the process is in, and when it is gone.
+Both share its memory, so that it can be read whatever state the process is in, and after it has gone.
 """
 
 from __future__ import annotations
@@ -28,10 +28,10 @@ class Slate(ctypes.Structure):
     calls     of user routines so far
     within    one of Within
     left      number of calls that did not end by returning
-    place     element, step, increment, iteration of the call that runs, or was left last
+    place     element, step, increment, iteration of the current call, or of the last one that was left
     routine   its name
     reason    why it was left, or why the process ends
-    finished  1 + exit code of a process that has come to its end by itself
+    finished  1 + exit code of a process that ended by itself
     """
 
     _fields_ = (
@@ -50,7 +50,7 @@ class Slate(ctypes.Structure):
     finished: int
 
     def where(self) -> str:
-        """Place of the call that runs, or of the last one that was left, with the reason; '' without either."""
+        """Place of the current call, or of the last one that was left, with the reason; '' without either."""
         if self.within != Within.CALL and not self.left:
             return ""
         element, step, increment, iteration = self.place

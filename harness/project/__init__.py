@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""`uel new`: a folder with a user element, its deck, its tests and their CI, to start from."""
+"""`uel new`: a folder to start from, with a user element, its deck, its tests and their CI."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ _NAME = re.compile(r"[A-Za-z]\w{0,63}", re.ASCII)
 def create(target: Path) -> list[Path]:
     """Write a project into a new folder, whose name is that of the element; returns its files.
 
-    Raises UelError where the folder is there already or its name is not letters, digits and underscores.
+    Raises UelError if the folder exists, and UsageError if its name is not letters, digits and underscores.
     """
     name = target.name
     if _NAME.fullmatch(name) is None:
@@ -31,7 +31,7 @@ def create(target: Path) -> list[Path]:
     for source in sorted(path for path in TEMPLATE.rglob("*") if path.is_file() and path.suffix != ".pyc"):
         file = target / str(source.relative_to(TEMPLATE)).replace(PLACEHOLDER, name)
         file.parent.mkdir(parents=True, exist_ok=True)
-        # what is made of the template belongs to whoever makes it
+        # what users make of the template belongs to them
         lines = [line for line in source.read_text("utf-8").splitlines(keepends=True) if "SPDX-" not in line]
         file.write_text("".join(lines).replace(PLACEHOLDER, name), encoding="utf-8")
         written.append(file)

@@ -233,9 +233,9 @@ def test_missing_deck(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> Non
 @pytest.mark.parametrize(
     ("words", "expected"),
     [
-        ("law --increments 0", "--increments: expected a whole number from 1, found '0'"),
-        ("law --increments=-5", "--increments: expected a whole number from 1, found '-5'"),
-        ("law --increments nan", "--increments: expected a whole number from 1, found 'nan'"),
+        ("law --increments 0", "--increments: expected a whole number of 1 or more, found '0'"),
+        ("law --increments=-5", "--increments: expected a whole number of 1 or more, found '-5'"),
+        ("law --increments nan", "--increments: expected a whole number of 1 or more, found 'nan'"),
         ("law --unload 2 -1", "--unload/-u: expected a number from 0 to 1, found '2'"),
         ("law --unload nan", "--unload/-u: expected a number from 0 to 1, found 'nan'"),
         ("law --angles inf", "--angles/-a: expected a number, found 'inf'"),
@@ -247,9 +247,9 @@ def test_missing_deck(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> Non
         ("run a.inp --call-limit=-1", "--call-limit: expected a number of 0 or more, found '-1'"),
         ("run a.inp --call-limit=--", "--call-limit: expected one argument, found '--'"),
         ("run a.inp --user=--", "--user: expected one argument, found '--'"),
-        ("check a.inp --seed 0", "--seed: expected a whole number from 1, found '0'"),
-        ("check a.inp --seed 99999999999999", "--seed: expected a whole number from 1, found '99999999999999'"),
-        ("check a.inp --increments 1.5", "--increments: expected a whole number from 1, found '1.5'"),
+        ("check a.inp --seed 0", "--seed: expected a whole number of 1 or more, found '0'"),
+        ("check a.inp --seed 99999999999999", "--seed: expected a whole number of 1 or more, found '99999999999999'"),
+        ("check a.inp --increments 1.5", "--increments: expected a whole number of 1 or more, found '1.5'"),
     ],
 )
 def test_numbers_that_make_no_sense(words: str, expected: str, capsys: pytest.CaptureFixture[str]) -> None:

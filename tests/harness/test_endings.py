@@ -30,7 +30,7 @@ FLAT = DECKS / "patch_horizontal" / "flat_u2.inp"
         (
             "*STATIC\n0.1, 1., 1e-5, 0.1\n",
             r"ended after increment \d+ of step 1 \(of 1\), step time 0\.66\d+ of 1; what was written is readable",
-            "--fallback, .*; --control energy, .*; a smaller smallest increment .*STATIC.; VISCOSITY .*",
+            "--fallback, .*; --control energy, .*; a smaller minimum increment .*STATIC.; VISCOSITY .*",
         ),
         (
             "*STATIC, DIRECT\n0.1, 1.\n",

@@ -282,7 +282,7 @@ def test_run_without_the_library(compiler, files, tmp_path, capfd):
     assert supervise(words, tmp_path / "deck", 60.0, sanitized=True) == 0
     (line,) = capfd.readouterr().err.splitlines()
     assert re.match(
-        r"uel: without AddressSanitizer, which sees what is read or written outside arrays of unknown size .*: "
+        r"uel: without AddressSanitizer, which detects reads and writes outside arrays of unknown size .*: "
         r"compiler has no libasan \(apt install gcc, dnf install libasan\)$",
         line,
     )
