@@ -44,7 +44,7 @@ def _read_amplitude(block: Block, name: str) -> Amplitude:
     readers = {AmplitudeType.PERIODIC: _read_periodic, AmplitudeType.DECAY: _read_decay}
     data = _read_spaced(block) if spaced else readers.get(kind, _read_pairs)(block)
     if kind is AmplitudeType.SMOOTH_STEP and len(data) < 2:
-        raise block.error("SMOOTH STEP needs two points at least")
+        raise block.error("SMOOTH STEP needs at least two points")
     return Amplitude(name, kind, data, block.source, total, absolute)
 
 
@@ -53,7 +53,7 @@ def _read_user(block: Block) -> tuple[FloatArray, int]:
     count = read_count(block, "PROPERTIES", 0, 0, MOST_VALUES)
     values = [value for row in block.rows() for value in row.reals("property")]
     if len(values) != count:
-        raise block.error(f"PROPERTIES={count}, and the data lines hold {len(values)}")
+        raise block.error(f"PROPERTIES={count}, but the data lines have {len(values)}")
     return np.array(values), read_count(block, "VARIABLES", 1, 1, MOST_VALUES)
 
 
@@ -106,7 +106,7 @@ def _read_periodic(block: Block) -> FloatArray:
     if len(values) % 2:
         values.append(0.0)
     if len(values) != 2 * terms:
-        raise rows[0].error(f"{terms} terms are announced, coefficients of {len(values) / 2:g} are given")
+        raise rows[0].error(f"expected the coefficients of {terms} terms, found those of {len(values) / 2:g}")
     return np.array([head[0], head[1], head[2], 0.0, *values]).reshape(-1, 2)
 
 

@@ -31,7 +31,7 @@ class Row:
         return index >= len(self.fields) or not self.fields[index]
 
     def text(self, index: int, what: str) -> str:
-        """A field as it is written; it must be there."""
+        """A field as it is written; it is required."""
         if self.blank(index):
             raise self.error(f"{what} is missing")
         return self.fields[index]
@@ -65,7 +65,7 @@ class Row:
     def at_most(self, count: int) -> None:
         """Refuse more than `count` fields."""
         if len(self.fields) > count:
-            raise self.error(f"{len(self.fields)} entries where at most {count} are read")
+            raise self.error(f"{len(self.fields)} entries, expected at most {count}")
 
     def error(self, message: str) -> DeckError:
         """An error at this line; one that looks like a keyword line may have lost its asterisk."""
@@ -131,8 +131,8 @@ class Block:
     def entries(self, warn: Callable[[Source, str], None]) -> list[tuple[Row, int]]:
         """Row and position in it of values that stand eight to a line: each line but the last counts eight.
 
-        warn: is told of a line that has fewer and is not the last, whose other entries are zero, and of one with more,
-        which are all taken.
+        warn: gets told of a line with fewer that is not the last, whose other entries are zero, and of one with more,
+        all of which are used.
         """
         rows = list(self.rows())
         places: list[tuple[Row, int]] = []
@@ -140,9 +140,9 @@ class Block:
             count = len(row) if row is rows[-1] else max(PER_LINE, len(row))
             if len(row) < count:
                 left_out = f"values {len(places) + len(row) + 1} to {len(places) + count}"
-                warn(row.source, f"*{self.name}: a line has eight values; those left out here, {left_out}, are zero")
+                warn(row.source, f"*{self.name}: a line has eight values; those missing here, {left_out}, are zero")
             elif count > PER_LINE:
-                warn(row.source, f"*{self.name}: a line has eight values; the {count} of this one are all taken")
+                warn(row.source, f"*{self.name}: a line has eight values; all {count} of this one are used")
             places += [(row, index) for index in range(count)]
         return places
 
@@ -154,7 +154,7 @@ class Block:
         """The data line of a keyword that has one, None where it is left out; DeckError where there are several."""
         rows = list(self.all_rows())
         if len(rows) > 1:
-            raise rows[1].error("a second data line, where one is read")
+            raise rows[1].error("a second data line, expected only one")
         return rows[0] if rows else None
 
     def error(self, message: str) -> DeckError:

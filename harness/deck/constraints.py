@@ -135,7 +135,7 @@ class ConstraintReader:
         name = block.options.text("REF NODE")
         nodes = self._flat.nodes(name, block.source, owner.name)
         if len(nodes) != 1:
-            raise block.error(f"REF NODE={name} holds {len(nodes)} nodes where one is the reference node")
+            raise block.error(f"REF NODE={name} has {len(nodes)} nodes, expected one")
         return int(nodes[0])
 
     def _kinematic(self, block: Block, owner: Owner) -> Iterator[Equation]:
@@ -188,7 +188,7 @@ class ConstraintReader:
                 name, more = self._flat.mesh.name(int(apart[0])), len(apart) - 1
                 others = f" and {more} more" if more else ""
                 raise row.error(
-                    f"node {name}{others} of the first surface lies on no node of the second one (tolerance "
+                    f"node {name}{others} of the first surface coincides with no node of the second one (tolerance "
                     f"{tolerance:g}): only surfaces with matching nodes can be tied"
                 )
             rotations = not block.options.flag("NO ROTATION")
@@ -229,7 +229,7 @@ KEYWORDS = (
     ),
     Keyword(
         "COUPLING",
-        "Couple the nodes of a surface to a reference node, as *KINEMATIC after it says.",
+        "Couple the nodes of a surface to a reference node, as the *KINEMATIC after it says.",
         Where.MODEL,
         (
             Option("CONSTRAINT NAME", Kind.NAME, "name", required=True),

@@ -100,7 +100,7 @@ KEYWORDS = (
     Keyword(
         "CONTROLS",
         "Solution controls; blank entries keep their value, later steps keep the controls. CONSTRAINTS is about hybrid "
-        "elements, couplings and contact, of which there are none.",
+        "elements, couplings and contact, which are not used here.",
         Where.STEP,
         (
             one_of("ANALYSIS", "I_0 = 8, I_R = 10", ("DISCONTINUOUS",)),

@@ -76,7 +76,7 @@ def _values(block: Block, least: int, most: int, what: str) -> tuple[float, ...]
     row = _only_row(block)
     if not least <= len(row) <= most:
         expected = str(most) if least == most else f"{least} or {most}"
-        message = f"{len(row)} values where {expected} are read; dependence on temperature is not supported"
+        message = f"{len(row)} values, expected {expected}; dependence on temperature is not supported"
         raise row.error(message)
     return tuple(row.real(index, what, 0.0) for index in range(most))
 
@@ -157,7 +157,7 @@ DAMAGE = (
     ),
     Keyword(
         "DAMAGE STABILIZATION",
-        "Viscosity of the damage; that of the section controls goes first.",
+        "Viscosity of the damage; that of the section controls takes precedence.",
         Where.MODEL,
         data="relaxation time of the damage",
     ),
@@ -171,8 +171,8 @@ KEYWORDS = (
         f"{', '.join(HOURGLASS_CONTROLLED)} and those with temperatures. STIFFNESS is that of *HOURGLASS STIFFNESS. "
         "ENHANCED is the assumed strain stabilization of Belytschko and Bindeman (1991, 1993), with which rectangles "
         "and bricks bend exactly; that Abaqus has the same numbers is inferred from its manual, which names the "
-        "method, and a warning says so. It takes *ELASTIC, TYPE=ISOTROPIC that depends on nothing, and no axisymmetric "
-        "elements.",
+        "method, and a warning says so. It needs *ELASTIC, TYPE=ISOTROPIC with constant values, and is not available "
+        "for axisymmetric elements.",
         Where.MODEL,
         (
             NAME,

@@ -117,7 +117,9 @@ def _solid(row: Row, label: str, group: ElementGroup) -> ContinuumType:
     """The type of a group of continuum elements. Raises DeckError for others."""
     kind = group.built_in
     if not isinstance(kind, ContinuumType):
-        raise row.error(f"load type {label} on elements of type {group.type}, which are no built-in continuum elements")
+        raise row.error(
+            f"load type {label} on elements of type {group.type}, which are not built-in continuum elements"
+        )
     return kind
 
 
@@ -151,13 +153,13 @@ KEYWORDS = (
     ),
     Keyword(
         "DSLOAD",
-        "Distributed loads on surfaces of built-in continuum elements; with NLGEOM tractions that turn with them are "
-        "refused. As those of *DLOAD they are nodal forces, which CF in the output holds too, but for pressures with "
-        "NLGEOM, which act on the present surface.",
+        "Distributed loads on surfaces of built-in continuum elements; with NLGEOM, tractions that follow them are "
+        "refused. Like those of *DLOAD they are nodal forces, which CF in the output includes, except pressures with "
+        "NLGEOM, which act on the current surface.",
         Where.STEP,
         (
             *LOAD,
-            Option("FOLLOWER", Kind.SWITCH, "TRVEC and TRSHR turn with the surface (YES)"),
+            Option("FOLLOWER", Kind.SWITCH, "TRVEC and TRSHR follow the surface (YES)"),
             *HARMONIC,
             *refused("CONSTANT RESULTANT", "CYCLIC MODE", "LOAD CASE", "ORIENTATION", "REF NODE"),
         ),

@@ -79,13 +79,13 @@ def _evaluate(node: ast.expr, parameters: Mapping[str, Value]) -> Value:
             return value
         case ast.Call(func=ast.Name(id=name), args=arguments, keywords=[]) if name in _FUNCTIONS:
             return _FUNCTIONS[name](*(_number(argument, parameters) for argument in arguments))
-    raise ValueError(f"'{ast.unparse(node)}' is not arithmetic that *PARAMETER evaluates here")
+    raise ValueError(f"'{ast.unparse(node)}' is not an expression that *PARAMETER can evaluate here")
 
 
 def _number(node: ast.expr, parameters: Mapping[str, Value]) -> float | int:
     value = _evaluate(node, parameters)
     if isinstance(value, str):
-        raise ValueError(f"'{value}' is text where a number is needed")
+        raise ValueError(f"'{value}' is text, expected a number")
     return value
 
 
@@ -98,7 +98,7 @@ def _binary(op: ast.operator, left: float, right: float) -> float:
     if isinstance(op, ast.Pow):
         return _power(left, right)
     if type(op) not in _BINARY:
-        raise ValueError("only + - * / // % ** are evaluated here")
+        raise ValueError("expected one of the operators + - * / // % **")
     return _BINARY[type(op)](left, right)
 
 

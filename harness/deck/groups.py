@@ -124,9 +124,8 @@ def _check_assigned(elements: _Elements, problems: Problems) -> None:
         lacking = without[elements.type_of[without] == index]
         if len(lacking):
             more = f" and {len(lacking) - 1} more of type {kind.name}" if len(lacking) > 1 else ""
-            message = (
-                f"element {_label(elements.flat, int(lacking[0]))}{more} has no section: no *{kind.section} names it"
-            )
+            name = _label(elements.flat, int(lacking[0]))
+            message = f"element {name}{more} has no section: no *{kind.section} refers to it"
             problems.add(_source(elements.flat, int(lacking[0])), message)
 
 

@@ -77,7 +77,9 @@ def read_initial_stresses(blocks: Iterable[Block], flat: FlatMesh, problems: Pro
             # UNBALANCED STRESS=RAMP is the default (Keywords Guide, *INITIAL CONDITIONS)
             ramped = block.options.text("UNBALANCED STRESS") != "STEP"
             if found and found[0].ramped != ramped:
-                raise block.error(f"UNBALANCED STRESS is one for the whole model, and another at {found[0].source}")
+                raise block.error(
+                    f"UNBALANCED STRESS must be the same in the whole model, but differs at {found[0].source}"
+                )
             for row in block.rows():
                 row.at_most(1 + MOST_COMPONENTS)
                 elements = flat.elements(row.name(0, "element or element set"), row.source)
@@ -156,8 +158,7 @@ KEYWORDS = (
             Option("GEOSTATIC", doc="stresses by elevation: refused, with TYPE=STRESS"),
             one_of(
                 "UNBALANCED STRESS",
-                "what of initial stresses is not in equilibrium takes effect in the course of the first step (RAMP, "
-                "the default) or at once",
+                "unbalanced initial stresses take effect gradually over the first step (RAMP, the default) or at once",
                 ("RAMP", "STEP"),
             ),
             *refused("FILE", "REBAR", "SECTION POINTS"),

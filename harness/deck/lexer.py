@@ -64,7 +64,7 @@ def _load(path: Path, source: Source) -> list[str]:
     except ValueError as error:
         raise DeckError(source, f"cannot read {path}: {error}") from None
     if raw.startswith(_UTF16):
-        raise DeckError(source, f"{path} is a text in UTF-16, which Abaqus does not read: save it in UTF-8")
+        raise DeckError(source, f"{path} is UTF-16 text, which Abaqus does not read: save it as UTF-8")
     if b"\0" in raw:
         raise DeckError(source, f"{path} is a binary file, not a deck")
     try:
@@ -167,7 +167,7 @@ class _Lexer:
         if comment is None:
             return line
         if not self._commented:
-            self._problems.warn(source, "what follows ** in a data line is taken for a comment, here and further on")
+            self._problems.warn(source, "text after ** in a data line counts as a comment, here and in all later lines")
         self._commented = True
         return line[: comment.start()].rstrip()
 
@@ -238,7 +238,7 @@ class _Lexer:
             raise DeckError(source, f"include loop: {loop}")
         self._included += 1
         if len(stack) > DEEPEST or self._included > MOST_INCLUDED:
-            # files that include each other several times are soon as many as there are atoms
+            # files that include each other several times multiply without limit
             limit = f"{MOST_INCLUDED} of them are" if len(stack) <= DEEPEST else f"{DEEPEST} within each other are"
             raise DeckError(source, f"too many included files: {limit} read")
         self.read(_load(path, source), str(path), (*stack, resolved))
@@ -259,7 +259,7 @@ def _options(keyword: Keyword, fields: list[str], source: Source) -> Options:
 KEYWORDS = (
     Keyword(
         "INCLUDE",
-        "Read another file in this place: sought beside the deck, then beside the including file.",
+        "Read another file at this place; it is looked for beside the deck, then beside the including file.",
         Where.ANY,
         (Option("INPUT", Kind.FILE, "file", required=True), *refused("PASSWORD")),
     ),

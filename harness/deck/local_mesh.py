@@ -89,7 +89,7 @@ class LocalMesh:
         """Count 'nodes', 'elements' or 'numbers' that a line is about to generate; DeckError where too many."""
         self._generated[what] += count
         if self._generated[what] > MOST_GENERATED[what]:
-            raise row.error(f"{count} {what} are too many: {MOST_GENERATED[what]} can be generated in all")
+            raise row.error(f"{count} {what} are too many: at most {MOST_GENERATED[what]} can be generated in total")
 
     def add_nodes(self, labels: IntArray, points: FloatArray, source: Callable[[int], Source]) -> None:
         """Add nodes."""
@@ -98,7 +98,9 @@ class LocalMesh:
             seen = dict(self.nodes)
             for index, (label, point) in enumerate(zip(labels.tolist(), points.tolist(), strict=True)):
                 if seen.get(label, tuple(point)) != tuple(point):
-                    self._warn(source(index), f"node {label} is defined again, elsewhere than before, and is here")
+                    self._warn(
+                        source(index), f"node {label} is defined again, with other coordinates; this definition counts"
+                    )
                 seen[label] = tuple(point)
         self.nodes.update(new)
 
@@ -122,9 +124,7 @@ class LocalMesh:
         """Warn of elements that are not as an earlier definition says; known: type and nodes by these."""
         for index, (label, nodes) in enumerate(_rows(run)):
             if known.setdefault(label, (run.type, nodes)) != (run.type, nodes):
-                self._warn(
-                    run.source(index), f"element {label} is defined again, otherwise than before, and is this one"
-                )
+                self._warn(run.source(index), f"element {label} is defined again, differently; this definition counts")
             known[label] = run.type, nodes
 
     def add_to_set(self, sets: dict[str, list[Members]], name: str, members: Iterable[Members]) -> None:
@@ -306,7 +306,7 @@ class LocalMesh:
 
 
 def _wrong_count(element: int, kind: ElementType, nodes: int) -> str:
-    return f"element {element} lists {nodes} nodes where {kind.name} has {kind.nodes}"
+    return f"element {element} has {nodes} nodes, but {kind.name} needs {kind.nodes}"
 
 
 def _label(text: str, source: Source) -> int:
@@ -372,7 +372,7 @@ KEYWORDS = (
             _GENERATE,
             Option("ELSET", Kind.NAME, "take the nodes of these elements"),
             _INSTANCE,
-            Option("UNSORTED", doc="keep the order, which counts in *EQUATION"),
+            Option("UNSORTED", doc="keep the order, which matters in *EQUATION"),
             INPUT,
             *ignored("INTERNAL"),
         ),

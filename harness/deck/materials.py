@@ -96,7 +96,7 @@ def _read_elastic(block: Block) -> Elastic:
     # trailing constants may be left out: Poisson's ratio, the transverse shear moduli of a lamina, Ett in the plane
     needed = {ElasticType.ISOTROPIC: 1, ElasticType.LAMINA: 4, ElasticType.TRACTION: 2}.get(kind, count)
     if len(values) < needed:
-        raise rows[0].error(f"{len(values)} values where {kind.value} takes {count}")
+        raise rows[0].error(f"{len(values)} values, but {kind.value} takes {count}")
     values += [0.0] * (count - len(values))
     if kind is ElasticType.ISOTROPIC:
         _check_isotropic(rows[0], *values)
@@ -127,7 +127,7 @@ def _read_dependence(block: Block, kind: ElasticType, count: int, fields: int) -
         if kind is ElasticType.ISOTROPIC:
             _check_isotropic(rows[first], *values[:count])
         if any(values[count:] == earlier[count:] for earlier in table):
-            raise rows[first].error("the temperature and fields of an earlier line")
+            raise rows[first].error("the temperature and fields are those of an earlier line")
         table.append(values)
     return np.array(table)
 
@@ -135,13 +135,13 @@ def _read_dependence(block: Block, kind: ElasticType, count: int, fields: int) -
 def _read_user_material(block: Block, problems: Problems) -> UserMaterial:
     count = block.options.integer("CONSTANTS", 0)
     if not 0 <= count <= MOST_VARIABLES:
-        raise block.error(f"CONSTANTS={count} is not a number of constants (0 to {MOST_VARIABLES})")
+        raise block.error(f"CONSTANTS={count}: expected a number from 0 to {MOST_VARIABLES}")
     values = [row.real(index, "constant", 0.0) for row, index in block.entries(problems.warn)]
     if len(values) == count + 1:
-        # a temperature behind the only set of constants is no dependence
+        # a temperature after the only set of constants is not a dependence
         values.pop()
     if len(values) > count:
-        message = f"{len(values)} values where CONSTANTS={count} announces {count}; dependence on temperature is not "
+        message = f"{len(values)} values, but CONSTANTS={count}; dependence on temperature is not "
         raise block.error(message + "supported")
     # entries that are not given are zero, as everywhere
     return UserMaterial(np.array(values + [0.0] * (count - len(values))), block.options.flag("UNSYMM"), block.source)
@@ -153,7 +153,7 @@ def _read_count(block: Block) -> int:
         raise block.error("needs a data line with the number of variables")
     count = row.integer(0, "number of variables")
     if not 0 <= count <= MOST_VARIABLES:
-        raise row.error(f"{count} is not a number of variables (0 to {MOST_VARIABLES})")
+        raise row.error(f"{count} variables: expected a number from 0 to {MOST_VARIABLES}")
     return count
 
 
@@ -161,7 +161,7 @@ def _read_plastic(block: Block) -> Plastic:
     table = []
     for row in block.rows():
         if len(row) > 2:
-            raise row.error("more than yield stress and plastic strain; dependence on temperature is not supported")
+            raise row.error("expected only yield stress and plastic strain; dependence on temperature is not supported")
         table.append((row.real(0, "yield stress"), row.real(1, "plastic strain", 0.0)))
         if table[-1][0] <= 0:
             raise row.error(f"yield stress {table[-1][0]:g} must be positive")
@@ -192,7 +192,7 @@ _OPTIONS = (
             *refused("COMPRESSION FACTOR"),
         ),
         "constants in the order of the type; those of continuum elements may depend on temperature and fields, "
-        "which follow, eight values to a line",
+        "which follow, eight values per line",
     ),
     Keyword(
         "PLASTIC",
@@ -220,7 +220,7 @@ _OPTIONS = (
             one_of("TYPE", "what the user routine gives", ("MECHANICAL",), refused=("THERMAL",)),
             *refused("HYBRID FORMULATION"),
         ),
-        "constants, eight to a line; what a line leaves out is zero",
+        "constants, eight per line; missing values are zero",
     ),
     Keyword(
         "DEPVAR",

@@ -20,7 +20,9 @@ _POINTS, _MOST_POINTS = 20, 100_000
 def read_static_perturbation(block: Block) -> StaticPerturbation:
     """*STATIC of a step with PERTURBATION. Raises DeckError for another procedure."""
     if block.name != "STATIC":
-        raise block.error("is no procedure of a step with PERTURBATION: *STATIC, *FREQUENCY, *STEADY STATE DYNAMICS")
+        raise block.error(
+            "not supported in a step with PERTURBATION; expected *STATIC, *FREQUENCY or *STEADY STATE DYNAMICS"
+        )
     if any(block.options.given(name) for name in ("DIRECT", "RIKS", "STABILIZE")):
         raise block.error("DIRECT, RIKS and STABILIZE have no meaning in a step with PERTURBATION")
     return StaticPerturbation()

@@ -47,7 +47,7 @@ def read_placement(block: Block) -> Placement:
     """Placement of the data lines: a translation, then two points of an axis and an angle in degrees."""
     rows = list(block.all_rows())
     if len(rows) > 2:
-        raise rows[2].error("one line with a translation and one with a rotation are read")
+        raise rows[2].error("expected one line with a translation and one with a rotation")
     shift = np.zeros(3)
     if rows:
         rows[0].at_most(3)
@@ -62,7 +62,7 @@ def read_system(block: Block) -> Placement:
     """Placement of the nodes after *SYSTEM: origin a, point b on the local x-axis, point c of the local x-y plane."""
     rows = list(block.rows())
     if len(rows) > 2:
-        raise rows[2].error("two data lines are read")
+        raise rows[2].error("expected at most two data lines")
     if not rows:
         return IDENTITY
     rows[0].at_most(6)
@@ -79,7 +79,7 @@ def read_system(block: Block) -> Placement:
     second = np.cross(third, first)
     lengths = np.array([np.linalg.norm(axis) for axis in (first, second, third)])
     if lengths.min() <= SMALLEST_LENGTH * np.linalg.norm(first):
-        raise rows[0].error("the points of the system are on one line")
+        raise rows[0].error("the points of the system are collinear")
     rotation = np.stack([first, second, np.cross(first, second)])
     return Placement((rotation / np.linalg.norm(rotation, axis=1)[:, None]).T, origin)
 
@@ -120,7 +120,7 @@ def _read_axes(block: Block) -> FloatArray:
     a, b, c = np.array([rows[0].real(index, "coordinate", 0.0) for index in range(9)]).reshape(3, 3)
     third = np.cross(a - c, b - c)
     if np.linalg.norm(third) <= SMALLEST_SINE * np.linalg.norm(a - c) * np.linalg.norm(b - c):
-        raise rows[0].error("the points a, b and c are on one line")
+        raise rows[0].error("the points a, b and c are collinear")
     axes = np.array([a - c, np.cross(third, a - c), third])
     axes /= np.linalg.norm(axes, axis=1)[:, None]
     if len(rows) == 2:

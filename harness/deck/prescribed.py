@@ -61,7 +61,9 @@ class Prescription:
             raise block.error("USER before the first *STEP, where only zero can be prescribed")
         fixed = block.options.flag("FIXED")
         if fixed and (not in_step or velocity or user or amplitude is not None):
-            raise block.error("FIXED holds what a step begins with, and excludes AMPLITUDE, TYPE=VELOCITY and USER")
+            raise block.error(
+                "FIXED holds the values at the start of the step, and excludes AMPLITUDE, TYPE=VELOCITY and USER"
+            )
         if user and velocity:
             raise block.error("USER is supported for displacements, not for TYPE=VELOCITY")
         found = []
@@ -134,7 +136,7 @@ def contradictions(entries: Sequence[Boundary], flat: FlatMesh) -> Iterator[tupl
                 yield (
                     group[later].source,
                     f"*BOUNDARY: node {flat.mesh.name(node)}, dof {group[later].dof} is given {_given(group[later])} "
-                    f"here and {_given(group[first])} at {group[first].source}, in one step; what is here counts",
+                    f"here and {_given(group[first])} at {group[first].source}, in one step; the entry here counts",
                 )
 
 
@@ -170,10 +172,10 @@ def _read_equation(flat: FlatMesh, owner: Owner, block: Block) -> list[Equation]
         while len(terms) < count:
             row = next(rows, None)
             if row is None:
-                raise head.error(f"{count} terms are announced, {len(terms)} are given")
+                raise head.error(f"expected {count} terms, found {len(terms)}")
             terms += _read_terms(flat, owner, row)
         if len(terms) > count:
-            raise head.error(f"{count} terms are announced, {len(terms)} are given")
+            raise head.error(f"expected {count} terms, found {len(terms)}")
         found += _expand(terms, head.source)
     return found
 
@@ -209,8 +211,8 @@ OP = one_of("OP", "NEW removes what earlier steps prescribed", ("MOD", "NEW"), d
 AMPLITUDE = Option("AMPLITUDE", Kind.NAME, "amplitude; without it that of *STEP, but displacements always ramp")
 
 HARMONIC = (
-    Option("REAL", doc="real part of what is harmonic, in *STEADY STATE DYNAMICS; so is what says neither"),
-    Option("IMAGINARY", doc="imaginary part of what is harmonic, in *STEADY STATE DYNAMICS"),
+    Option("REAL", doc="real part of harmonic values, in *STEADY STATE DYNAMICS (default)"),
+    Option("IMAGINARY", doc="imaginary part of harmonic values, in *STEADY STATE DYNAMICS"),
 )
 
 LOAD = (OP, Option("AMPLITUDE", Kind.NAME, "amplitude; without it that of *STEP"), INPUT)
@@ -226,7 +228,7 @@ KEYWORDS = (
             one_of("TYPE", "what is prescribed", ("DISPLACEMENT", "VELOCITY"), refused=("ACCELERATION",)),
             INPUT,
             Option("USER", doc="DISP gives the values"),
-            Option("FIXED", doc="values stay what they are at the start of the step"),
+            Option("FIXED", doc="values stay as at the start of the step"),
             *HARMONIC,
             *ignored("REGION TYPE"),
             *refused(*("BASE NAME", "LOAD CASE", "PHANTOM", "SCALE", "STEP", "SUBMODEL", "BLOCKING", "TIMESCALE")),
@@ -243,7 +245,7 @@ KEYWORDS = (
     ),
     Keyword(
         "CFLUX",
-        "Concentrated heat fluxes; with *CLOAD in the same step both take the same OP.",
+        "Concentrated heat fluxes; with *CLOAD in the same step both need the same OP.",
         Where.STEP,
         (*LOAD, *ignored("REGION TYPE")),
         "node or set, dof (11), value",

@@ -120,7 +120,7 @@ def _read_riks(row: Row | None, prescription: Prescription) -> Riks:
         return Riks(largest)
     nodes = prescription.flat.nodes(row.name(5, "node"), row.source)
     if len(nodes) != 1:
-        raise row.error(f"{row.fields[5]} has {len(nodes)} nodes, where one is monitored")
+        raise row.error(f"{row.fields[5]} has {len(nodes)} nodes, expected one")
     return Riks(largest, int(nodes[0]), row.integer(6, "dof"), row.real(7, "displacement"))
 
 
@@ -144,7 +144,7 @@ def _read_dynamic(block: Block, _: Prescription) -> Dynamic:
     common = Dynamic(*times, initial_acceleration=initial, half_increment=factor, half_force=force)
     if integrator == "BWE":
         if any(map(options.given, ("ALPHA", "BETA", "GAMMA"))):
-            raise block.error("ALPHA, BETA and GAMMA are of the integrators HHT-TF and HHT-MD, not of backward Euler")
+            raise block.error("ALPHA, BETA and GAMMA are for the integrators HHT-TF and HHT-MD, not for backward Euler")
         return replace(common, alpha=0.0, beta=1.0, gamma=1.0, integrator=Integrator.BACKWARD_EULER)
     alpha = options.real("ALPHA", _HHT[integrator])
     if not -0.5 <= alpha <= 0.0:

@@ -117,7 +117,7 @@ class RequestReader:
         variables = _listed(block) or PRESELECTED_NODAL
         if output is not None:
             if output.sensor and (len(nodes) != 1 or len(variables) != 1 or variables[0] not in COMPONENTS):
-                raise block.error(f"sensor {output.sensor} is one component, such as U2, of one node")
+                raise block.error(f"sensor {output.sensor} must be one component, such as U2, of one node")
             name = block.options.text("NSET")
             request = NodeRequest(name, nodes, variables, output.frequency, sensor=output.sensor)
             self._requests = replace(self._requests, history_nodes=(*self._requests.history_nodes, request))
@@ -159,7 +159,7 @@ class RequestReader:
         name, dof = block.options.text("NODE"), block.options.integer("DOF", 0)
         nodes = self._flat.nodes(name, block.source)
         if len(nodes) != 1:
-            raise block.error(f"set {name} holds {len(nodes)} nodes where one is monitored")
+            raise block.error(f"set {name} has {len(nodes)} nodes, expected one")
         if not 1 <= dof <= LARGEST_DOF:
             raise block.error(f"{dof} is not a dof (1 to {LARGEST_DOF})")
         self._requests = replace(self._requests, monitor=(int(nodes[0]), dof))
@@ -204,7 +204,7 @@ KEYWORDS = (
             Option("FIELD", doc="field output, written to .vtu"),
             Option("HISTORY", doc="history output, written to .csv"),
             _FREQUENCY,
-            one_of("OP", "what becomes of earlier requests", ("NEW", "ADD", "REPLACE"), default="NEW"),
+            one_of("OP", "what happens to earlier requests", ("NEW", "ADD", "REPLACE"), default="NEW"),
             Option("NUMBER INTERVAL", Kind.INTEGER, "number of output times in the step"),
             Option("TIME INTERVAL", Kind.REAL, "time between outputs"),
             Option("TIME MARKS", Kind.SWITCH, "whether increments end at the output times", default="YES"),
@@ -239,7 +239,7 @@ KEYWORDS = (
             Option("TOTALS", Kind.SWITCH, "print the sum of each column"),
             *ignored("GLOBAL", "MODE", "LAST MODE", "SUMMARY"),
         ),
-        "variables, one table a line",
+        "variables, one table per line",
     ),
     Keyword(
         "EL PRINT",
@@ -257,7 +257,7 @@ KEYWORDS = (
             ),
             *ignored("DIRECTIONS", "LAST MODE", "LOCALDIR", "MODE", "REBAR", "SUMMARY", "TOTALS"),
         ),
-        "variables, one table a line",
+        "variables, one table per line",
     ),
     Keyword(
         "ENERGY PRINT",

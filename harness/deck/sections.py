@@ -197,11 +197,11 @@ KEYWORDS = (
             _ORIENTATION,
             *refused("ALPHA", "BETA"),
         ),
-        "real properties, then integer properties, eight to a line; what a line leaves out is zero",
+        "real properties, then integer properties, eight per line; missing values are zero",
     ),
     Keyword(
         "SOLID SECTION",
-        "Section of built-in continuum elements. Axisymmetric ones (CAX) take no notice of the thickness: forces, "
+        "Section of built-in continuum elements. Axisymmetric ones (CAX) ignore the thickness: forces, "
         "masses and energies are those of the whole circumference.",
         Where.MODEL,
         (

@@ -117,7 +117,7 @@ def _check_perturbation(step: Step, problems: Problems) -> None:
         for given in step.distributed:
             problems.add(given.source, "harmonic loads on user elements are not supported")
         if any(isinstance(amplitude, UserAmplitude) for amplitude in step.amplitudes):
-            problems.add(step.source, "an amplitude is one over frequency here, which UAMP cannot give")
+            problems.add(step.source, "an amplitude is a function of frequency here, which UAMP cannot give")
         return
     for source in step.varying:
         problems.add(source, "an amplitude has no meaning in a step with PERTURBATION")
@@ -135,15 +135,15 @@ def check_parts(blocks: list[Block], problems: Problems, *, harmonic: bool) -> N
 
 
 def _check_followers(steps: Sequence[Step], problems: Problems) -> None:
-    """Of loads that turn with their faces in large displacements pressures do, as long as there is no perturbation."""
+    """Of loads that follow their faces in large displacements only pressures work, and only without perturbations."""
     nonlinear = next((step for step in steps if step.nlgeom), None)
     if nonlinear is None:
         return
     linear = next((step for step in steps if step.procedure.linear), None)
     for load in (load for step in steps for load in (*step.element_loads, *step.surface_loads) if load.type.follows):
-        message = f"load type {load.type.kind} turns with the surface, which is not supported with NLGEOM"
+        message = f"load type {load.type.kind} follows the surface, which is not supported with NLGEOM"
         if load.type.kind is not LoadKind.PRESSURE or load.type.jltyp:
-            hint = "TRVEC with FOLLOWER=NO does not turn, and P with a magnitude in the deck is supported"
+            hint = "TRVEC with FOLLOWER=NO does not follow it, and P with a magnitude in the deck is supported"
             problems.add(load.source, f"{message} ({nonlinear.source}); {hint}")
         elif linear is not None:
             problems.add(load.source, f"{message} ({nonlinear.source}) beside a perturbation step ({linear.source})")
@@ -179,7 +179,7 @@ def _extrapolation(scope: Scope, procedure: Procedure) -> str:
 
 
 def _notes(scope: Scope) -> Iterator[str]:
-    """Where the step is not solved quite as it is asked for."""
+    """Where the solution of the step differs from what the deck asks for."""
     for block in scope.blocks:
         if block.name == "SOLUTION TECHNIQUE":
             kind = block.options.text("TYPE")
@@ -217,7 +217,7 @@ KEYWORDS = (
     Keyword("END STEP", "End a step.", Where.STEP),
     Keyword(
         "SOLUTION TECHNIQUE",
-        "Newton's method with the full matrix, whatever is asked for: .msg says so.",
+        "Always Newton's method with the full matrix: if another is requested, .msg says so.",
         Where.STEP,
         (
             one_of("TYPE", "technique", ("QUASI-NEWTON", "SEPARATED", "UNSYMMETRIC"), default="QUASI-NEWTON"),

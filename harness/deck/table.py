@@ -217,7 +217,7 @@ def _find_option(keyword: Keyword, name: str, source: Source) -> Option:
         return (exact or begins)[0]
     if begins:
         names = " or ".join(option.name for option in begins)
-        raise DeckError(source, f"*{keyword.name}: option {name.strip()} may be {names}; write it out")
+        raise DeckError(source, f"*{keyword.name}: option {name.strip()} is ambiguous ({names}); write it out")
     hint = nearest(name.strip().upper(), [option.name for option in keyword.options])
     raise DeckError(source, f"*{keyword.name}: unknown option {name.strip()}{hint}")
 
@@ -226,7 +226,7 @@ def _read_value(keyword: Keyword, option: Option, value: str | None, source: Sou
     place = f"*{keyword.name}, {option.name}"
     if option.kind is Kind.FLAG:
         if value and value.upper() not in ("YES", "NO"):
-            raise DeckError(source, f"{place} takes no value, '{value}' is given")
+            raise DeckError(source, f"{place} takes no value, found '{value}'")
         return (value or "YES").upper()
     if option.kind is Kind.SWITCH:
         return (

@@ -72,7 +72,7 @@ MISTAKES = {
     "no section": (
         "*COHESIVE SECTION, ELSET=GLUE, MATERIAL=GLUE, RESPONSE=TRACTION SEPARATION, CONTROLS=KEEP\n0.5, 5.\n",
         "",
-        r"16: element 7 has no section: no \*COHESIVE SECTION names it",
+        r"16: element 7 has no section: no \*COHESIVE SECTION refers to it",
     ),
     "solid section": (
         "*COHESIVE SECTION, ELSET=GLUE, MATERIAL=GLUE, RESPONSE=TRACTION SEPARATION, CONTROLS=KEEP",
@@ -116,7 +116,7 @@ MISTAKES = {
         r"17: .*STEEL has \*DAMAGE INITIATION, at deck.inp:26, which needs \*COHESIVE SECTION",
     ),
     "criterion": ("CRITERION=QUADS", "CRITERION=HASHIN", r"29: .*CRITERION=HASHIN is not supported \(supported: MAXS"),
-    "onset values": ("30., 60., 50.", "30.", r"30: .*1 values where 2 or 3 are read"),
+    "onset values": ("30., 60., 50.", "30.", r"30: .*1 values, expected 2 or 3"),
     "onset lines": ("30., 60., 50.\n", "", r"29: .*needs one data line; dependence on temperature is not supported"),
     "second criterion": (
         "*DAMAGE EVOLUTION",
@@ -153,7 +153,7 @@ MISTAKES = {
     "two shear energies": ("POWER LAW", "BK", r"32: .*shear fracture energies 1.002 and 1.5: BK has one for both"),
     "displacement": (EVOLUTION, "TYPE=DISPLACEMENT\n0.", r"32: .*displacement at failure 0 must be positive"),
     "energy": (EVOLUTION, "TYPE=ENERGY\n-1.", r"32: .*fracture energy -1 must be positive"),
-    "energies": (EVOLUTION, "TYPE=ENERGY\n1., 2.", r"32: .*2 values where 1 are read"),
+    "energies": (EVOLUTION, "TYPE=ENERGY\n1., 2.", r"32: .*2 values, expected 1"),
 }
 
 

@@ -151,7 +151,7 @@ def test_loop_of_links(read: Read) -> None:
 def test_utf16(read: Read, encoding: str) -> None:
     mark = "" if encoding == "utf-16" else "\ufeff"
     Path("nodes.inc").write_bytes((mark + NODES).encode(encoding))
-    with pytest.raises(DeckError, match=r"^deck.inp:12: nodes.inc is a text in UTF-16, which .*: save it in UTF-8"):
+    with pytest.raises(DeckError, match=r"^deck.inp:12: nodes.inc is UTF-16 text, which .*: save it as UTF-8"):
         read(FLAT.replace(NODES, "*INCLUDE, INPUT=nodes.inc\n"))
 
 

@@ -103,7 +103,7 @@ def test_more_than_eight_properties_in_a_line(read: Read) -> None:
     section = next(group.section for group in model.groups if group.type == "U2")
     assert isinstance(section, UserProperty)
     assert_array_equal(section.values, [10.0, 1e6, 1e-3, 4, 5, 6, 7])
-    assert any("the 9 of this one are all taken" in warning for warning in model.warnings)
+    assert any("all 9 of this one are used" in warning for warning in model.warnings)
 
 
 def test_properties_one_to_a_line(read: Read) -> None:
@@ -123,7 +123,7 @@ def test_comment_at_the_end_of_data_lines(read: Read) -> None:
         assert isinstance(group.section, UserProperty) and isinstance(other.section, UserProperty)
         assert_array_equal(group.section.values, other.section.values)
         assert_array_equal(group.section.integers, other.section.integers)
-    assert sum("taken for a comment" in warning for warning in model.warnings) == 1
+    assert sum("counts as a comment" in warning for warning in model.warnings) == 1
     assert len(model.warnings) == len(plain.warnings) + 1
 
 
@@ -151,15 +151,15 @@ def test_ncopy(read: Read) -> None:
         ("*ELGEN\n1, 3, 1, -1\n", r"deck.inp:8: \*ELGEN: generates element or node numbers outside 1 to"),
         (
             "*NSET, NSET=C, GENERATE\n1, 2000000000, 1\n",
-            r"deck.inp:8: \*NSET: 2000000000 numbers are too many: 10000000 can be generated in all",
+            r"deck.inp:8: \*NSET: 2000000000 numbers are too many: at most 10000000 can be generated in total",
         ),
         ("*NSET, NSET=C, GENERATE\n1, 6000000\n1, 6000000\n", r"deck.inp:9: \*NSET: 6000000 numbers are too many"),
         (
             "*NODE\n2000011, 9.\n*NGEN\n11, 2000011\n",
-            r"deck.inp:10: \*NGEN: 2000000 nodes are too many: 1000000 can be",
+            r"deck.inp:10: \*NGEN: 2000000 nodes are too many: at most 1000000 can be",
         ),
-        ("*NFILL\nA, B, 2000000\n", r"deck.inp:8: \*NFILL: 1999999 nodes are too many: 1000000 can be"),
-        ("*ELGEN\n1, 2000001\n", r"deck.inp:8: \*ELGEN: 2000000 elements are too many: 1000000 can be"),
+        ("*NFILL\nA, B, 2000000\n", r"deck.inp:8: \*NFILL: 1999999 nodes are too many: at most 1000000 can be"),
+        ("*ELGEN\n1, 2000001\n", r"deck.inp:8: \*ELGEN: 2000000 elements are too many: at most 1000000 can be"),
         ("*NCOPY, OLD SET=A, CHANGE NUMBER=5\n", r"deck.inp:7: \*NCOPY needs the option SHIFT"),
     ],
 )
@@ -295,9 +295,9 @@ def test_the_last_definition_counts(read: Read) -> None:
     assert_array_equal(quads.labels, [1])
     assert dict(zip(triangles.labels.tolist(), triangles.nodes.tolist(), strict=True)) == {2: [4, 5, 1], 3: [1, 5, 2]}
     assert [warning.partition(".inp")[2] for warning in model.warnings] == [
-        ":9: node 6 is defined again, elsewhere than before, and is here",
-        ":14: element 2 is defined again, otherwise than before, and is this one",
-        ":17: element 2 is defined again, otherwise than before, and is this one",
+        ":9: node 6 is defined again, with other coordinates; this definition counts",
+        ":14: element 2 is defined again, differently; this definition counts",
+        ":17: element 2 is defined again, differently; this definition counts",
     ]
 
 

@@ -111,7 +111,7 @@ def test_amplitude_of_the_step_goes_before_that_of_the_procedure(step):
         ("*STATIC\n*BOUNDARY, FIXED, TYPE=VELOCITY\n1, 1", r"\*BOUNDARY: FIXED holds what a step begins with, and"),
         ("*DYNAMIC, ALPHA=-0.6\n0.01, 1.", r":10: \*DYNAMIC: ALPHA=-0.6 is outside -0.5 to 0"),
         ("*DYNAMIC, BETA=0.\n0.01, 1.", r"BETA=0 must be positive and GAMMA=0.55 at least 0.5"),
-        ("*DYNAMIC, TIME INTEGRATOR=BWE, ALPHA=-0.1\n0.01, 1.", "ALPHA, BETA and GAMMA are of the integrators HHT"),
+        ("*DYNAMIC, TIME INTEGRATOR=BWE, ALPHA=-0.1\n0.01, 1.", "ALPHA, BETA and GAMMA are for the integrators HHT"),
         ("*DYNAMIC, HAFTOL=-1\n0.01, 1.", "HAFTOL and HALFINC SCALE FACTOR must not be negative"),
         ("*DYNAMIC, EXPLICIT\n0.01, 1.", r"\*DYNAMIC: option EXPLICIT is not supported"),
         ("*HEAT TRANSFER, DELTMX=-1\n0.01, 1.", "DELTMX=-1 must not be negative"),

@@ -64,11 +64,11 @@ def test_riks(read: Read, line: str, expected: Static) -> None:
 @pytest.mark.parametrize(
     ("line", "message"),
     [
-        ("0.1, 1., , , 1., 3, 2, 1., 5.", "9 entries where at most 8 are read"),
+        ("0.1, 1., , , 1., 3, 2, 1., 5.", "9 entries, expected at most 8"),
         ("0.1, 1., , , , 3, 2", "displacement is missing"),
         ("0.1, 1., , , , 3", "dof is missing"),
         ("0.1, 1., , , , , 2", "a dof and a displacement need a node"),
-        ("0.1, 1., , , , ALL, 1, 1.", "ALL has 8 nodes, where one is monitored"),
+        ("0.1, 1., , , , ALL, 1, 1.", "ALL has 8 nodes, expected one"),
     ],
 )
 def test_wrong_riks(read: Read, line: str, message: str) -> None:
@@ -196,9 +196,9 @@ def test_controls_stay_in_later_steps(read: Read) -> None:
     [
         (f"{FIELD}\n-.01", r"deck.inp:44: \*CONTROLS: R_N = -0.01 must not be negative"),
         (f"{TIME}\n4.5", r"deck.inp:44: \*CONTROLS: I_0: '4.5' is not an integer"),
-        (f"{FIELD}\n{'1,' * 9}", r"deck.inp:44: \*CONTROLS: 9 entries where at most 8 are read"),
+        (f"{FIELD}\n{'1,' * 9}", r"deck.inp:44: \*CONTROLS: 9 entries, expected at most 8"),
         (f"{FIELD}\n1\n2\n3", r"deck.inp:46: \*CONTROLS: data line 3 is not supported"),
-        (f"{FIELD}\n1\n1., 1e-5, 1e-8", r"deck.inp:45: \*CONTROLS: 3 entries where at most 2 are read"),
+        (f"{FIELD}\n1\n1., 1e-5, 1e-8", r"deck.inp:45: \*CONTROLS: 3 entries, expected at most 2"),
         ("*CONTROLS, RESET\n1", r"deck.inp:43: \*CONTROLS: RESET takes no data lines"),
         ("*CONTROLS\n1", r"deck.inp:43: \*CONTROLS: data lines need PARAMETERS="),
         ("*CONTROLS", r"deck.inp:43: \*CONTROLS: needs ANALYSIS, PARAMETERS or RESET"),
@@ -345,7 +345,7 @@ def test_dof_that_is_given_two_values_in_a_step(read: Read) -> None:
     (warning,) = [text for text in model.warnings if "in one step" in text]
     assert warning == (
         f"deck.inp:{line + 1}: *BOUNDARY: node 7, dof 2 is given the value 0.1 with amplitude GROW here and the value "
-        f"0 at deck.inp:{line - 1}, in one step; what is here counts"
+        f"0 at deck.inp:{line - 1}, in one step; the entry here counts"
     )
 
 

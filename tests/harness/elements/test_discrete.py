@@ -185,7 +185,7 @@ def test_mass_on_a_spring(tmp_path):
         ("*SPRING, ELSET=S", "*SPRING, ELSET=S, NONLINEAR", r":13: \*SPRING: elongation is missing"),
         ("*SPRING, ELSET=S\n1\n4.", "*SPRING, ELSET=S, NONLINEAR\n1\n4., 1.", "NONLINEAR needs two or more lines"),
         ("*SPRING, ELSET=S\n1\n", "*SPRING, ELSET=S\n77\n", r":12: \*SPRING: a dof is a number from 1 to 30"),
-        ("*MASS, ELSET=M\n0.25\n", "", r":6: element 1 has no section: no \*MASS names it"),
+        ("*MASS, ELSET=M\n0.25\n", "", r":6: element 1 has no section: no \*MASS refers to it"),
     ],
 )
 def test_what_is_wrong_with_springs_and_masses(tmp_path, old, new, message):

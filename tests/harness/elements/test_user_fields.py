@@ -264,7 +264,7 @@ def test_constants_between_definite_ones_may_not_be(run):
             "*ELASTIC, DEPENDENCIES=1\n9., 0., , 0.\n8., 0., , 0.",
             r"field.inp:14: \*ELASTIC: the temperature and fields of",
         ),
-        ("*ELASTIC, DEPENDENCIES=1\n9., 0., , 0., 1.", r"field.inp:13: \*ELASTIC: 5 entries where at most 4 are read"),
+        ("*ELASTIC, DEPENDENCIES=1\n9., 0., , 0., 1.", r"field.inp:13: \*ELASTIC: 5 entries, expected at most 4"),
         ("*ELASTIC\n9., 0., 0.\n-9., 0., 1.", r"field.inp:14: \*ELASTIC: E = -9, nu = 0: expected E > 0"),
         ("*ELASTIC, DEPENDENCIES=7\n9., 0., , 0.", r"field.inp:12: \*ELASTIC: 10 values take 2 lines, found 1"),
         ("*ELASTIC, DEPENDENCIES=-1\n9., 0.", r"DEPENDENCIES=-1: expected a number from 0"),

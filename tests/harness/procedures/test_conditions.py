@@ -111,7 +111,7 @@ def test_without_either_there_is_one_field_of_zeros(run):
 @pytest.mark.parametrize(
     ("first", "message"),
     [
-        ("*DLOAD\nFIRST, P2, 3.", r"deck.inp:24: \*DLOAD: load type P2 on elements of type U1, which are no built-in"),
+        ("*DLOAD\nFIRST, P2, 3.", r"deck.inp:24: \*DLOAD: load type P2 on elements of type U1, which are not built-in"),
         ("*DLOAD\nNOWHERE, U2, 3.", r"deck.inp:24: unknown element set NOWHERE"),
         ("*DLOAD\nFIRST", r"deck.inp:24: \*DLOAD: load type is missing"),
         ("*FIELD, VARIABLE=0\n1, 3.", r"deck.inp:23: \*FIELD: VARIABLE=0: expected a number from 1"),

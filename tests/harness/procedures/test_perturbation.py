@@ -159,7 +159,7 @@ def test_energies_of_general_steps_after_it_are_there(run):
 @pytest.mark.parametrize(
     ("step", "message"),
     [
-        ("*STEP, PERTURBATION\n*DYNAMIC\n0.1, 1.", r":12: \*DYNAMIC: is no procedure of a step with PERTURBATION"),
+        ("*STEP, PERTURBATION\n*DYNAMIC\n0.1, 1.", r":12: \*DYNAMIC: not supported in a step with PERTURBATION"),
         ("*STEP, PERTURBATION\n*STATIC, RIKS", r":12: \*STATIC: DIRECT, RIKS and STABILIZE have no meaning in a step"),
         ("*STEP, PERTURBATION\n*STATIC\n*TEMPERATURE\nALL, 1.", ":14: predefined fields are not supported in a linear"),
         ("*STEP, PERTURBATION\n*STATIC\n*BOUNDARY, TYPE=VELOCITY\n2, 1, 1, 1.", ":14: TYPE=VELOCITY and USER have no"),

@@ -179,7 +179,7 @@ def test_dynamic_pressure_is_a_dead_traction_where_nothing_turns(run):
 @pytest.mark.parametrize(
     ("steps", "message"),
     [
-        ([static("*DLOAD\nBODY, P2NU")], "load type P turns with the surface, which is not supported with NLGEOM"),
+        ([static("*DLOAD\nBODY, P2NU")], "load type P follows the surface, which is not supported with NLGEOM"),
         (
             [static("*DSLOAD\nSIDE, TRSHR, 1., 0., 1.")],
             r"load type TRSHR turns.*NLGEOM \(.*press.inp:\d+\); TRVEC with",

@@ -182,7 +182,7 @@ def test_it_has_no_meaning_along_a_path(run):
 @pytest.mark.parametrize(
     ("old", "new", "message"),
     [
-        ("PROPERTIES=9", "PROPERTIES=8", r"told.inp:14: \*AMPLITUDE: PROPERTIES=8, and the data lines hold 9"),
+        ("PROPERTIES=9", "PROPERTIES=8", r"told.inp:14: \*AMPLITUDE: PROPERTIES=8, but the data lines have 9"),
         ("VARIABLES=2", "VARIABLES=0", r"VARIABLES=0: expected a number from 1 to"),
         ("DEFINITION=USER", "DEFINITION=TABULAR", "PROPERTIES and VARIABLES are for DEFINITION=USER"),
         ("NAME=Stretch, ", "", r"\*OUTPUT: SENSOR needs HISTORY and NAME="),
