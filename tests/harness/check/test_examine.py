@@ -188,7 +188,7 @@ def test_dofs_of_wrong_entries(tmp_path):
     user.write_text(HALF.format(folder=QUAD.parents[1]))
     tangent = findings(deck, user)["tangent"]
     assert tangent.entries == ("AMATRX(1,2)",)
-    assert tangent.advice.startswith("All are derivatives of RHS of displacements by dof 11. Differentiate RHS again")
+    assert tangent.advice.startswith("All are derivatives of RHS: of displacements by dof 11. Differentiate RHS again")
 
 
 def test_unsymm_that_is_declared(patch):

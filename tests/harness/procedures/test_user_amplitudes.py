@@ -186,8 +186,8 @@ def test_it_has_no_meaning_along_a_path(run):
         ("VARIABLES=2", "VARIABLES=0", r"VARIABLES=0: expected a number from 1 to"),
         ("DEFINITION=USER", "DEFINITION=TABULAR", "PROPERTIES and VARIABLES are for DEFINITION=USER"),
         ("NAME=Stretch, ", "", r"\*OUTPUT: SENSOR needs HISTORY and NAME="),
-        ("NSET=END\nU1", "NSET=ALL\nU1", r"sensor STRETCH is one component, such as U2, of one node"),
-        ("NSET=END\nU1", "NSET=END\nU", r"sensor STRETCH is one component, such as U2, of one node"),
+        ("NSET=END\nU1", "NSET=ALL\nU1", r"sensor STRETCH must be one component, such as U2, of one node"),
+        ("NSET=END\nU1", "NSET=END\nU", r"sensor STRETCH must be one component, such as U2, of one node"),
         ("NSET=END\nU1", "NSET=END\nUR1", r"told.inp:17: sensor STRETCH: no element uses dof 4 of node 2"),
     ],
 )
