@@ -193,7 +193,11 @@ source = "a book"
         ('why = "because"\n', "", "peak_load: expected decks, .* and relative or absolute"),
         ("relative = 0.1", "relative = 0.1\nabsolute = 0.1", "peak_load: expected decks, .* and relative or absolute"),
         ('kind = "analytic"', 'kind = "guess"', "peak_load: kind 'guess' is none of analytic, paper figure"),
-        ('unit = "N"', 'unit = "N"\nagainst = "b.inp"', "peak_load: no comparison of that name; there are curve_dist"),
+        (
+            'unit = "N"',
+            'unit = "N"\nagainst = "b.inp"',
+            "peak_load: no comparison of that name; expected one of curve_dist",
+        ),
     ],
 )
 def test_bad_references_are_refused(tmp_path: Path, old: str, new: str, message: str) -> None:

@@ -216,7 +216,7 @@ def test_claims_are_well_formed() -> None:
     [
         ('quote = "a"\n', "", "bad: expected cases, figure, id, measure, number, quote, section, and at_least"),
         ("at_most = 1\n", "", "bad: expected .* and at_least or at_most"),
-        ('measure = "isotropy"', 'measure = "beauty"', "bad: no measure 'beauty'; there are asymmetry"),
+        ('measure = "isotropy"', 'measure = "beauty"', "bad: no measure 'beauty'; expected one of asymmetry"),
         ('quote = "a"', 'quote = "a"\nmood = 1', "bad: expected"),
         ("cases = []", "cases = []\nalso = [{ ful = true }]", "bad: also: expected arguments, full, measure, number"),
     ],
@@ -302,7 +302,7 @@ def test_missing_runs_are_named() -> None:
 
 def test_unknown_case_is_named(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     assert cli.main(["reproduce", "dbc", "--output-dir", str(tmp_path)]) == 2
-    expected = "uel: no case 'dbc'; there are law, patch, dcb, enf, frmm, sensitivity"
+    expected = "uel: no case 'dbc'; expected one of law, patch, dcb, enf, frmm, sensitivity"
     assert expected in capsys.readouterr().err
 
 

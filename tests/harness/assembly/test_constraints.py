@@ -127,7 +127,7 @@ def test_prescribed_twice_is_the_callers_mistake(springs) -> None:
     [
         (
             [equation(7, (0, 1, 1.0), (1, 1, -1.0))],
-            r"job.inp:7: over-constrained: node 10, dof 1 is the first term .* is prescribed at job.inp:3",
+            r"job.inp:7: over-constrained: node 10, dof 1 is the first term .* is also prescribed at job.inp:3",
         ),
         (
             [equation(7, (1, 1, 1.0), (2, 1, -1.0)), equation(8, (1, 1, 1.0), (3, 1, -1.0))],

@@ -89,7 +89,11 @@ RIGHT = {
 WRONG = [
     ("s = 100*deps\n      t = 100", "state", r"RHS\(1\) is \S+, and \S+ with a tenth of DU and DTIME .* no SVARS$"),
     ("s = 100*eps + 5*deps\n      t = 105", "state", r"with a tenth of DU and DTIME"),
-    ("s = svars(1) + 100*deps\n      t = 100", "state", r"made in 128 parts, RHS\(1\) ends at .* in 128 it is 99.9 %$"),
+    (
+        "s = svars(1) + 100*deps\n      t = 100",
+        "state",
+        r"made in 128 parts, RHS\(1\) ends at .* with 128 it is 99.9 %$",
+    ),
     (
         "s = svars(1) + 100*deps\n      t = 100",
         "history",

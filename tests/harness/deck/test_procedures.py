@@ -108,7 +108,10 @@ def test_amplitude_of_the_step_goes_before_that_of_the_procedure(step):
     "lines, message",
     [
         ("*STATIC, STABILIZE, CONTINUE=YES", r"\*STATIC, CONTINUE=YES is not supported"),
-        ("*STATIC\n*BOUNDARY, FIXED, TYPE=VELOCITY\n1, 1", r"\*BOUNDARY: FIXED holds what a step begins with, and"),
+        (
+            "*STATIC\n*BOUNDARY, FIXED, TYPE=VELOCITY\n1, 1",
+            r"\*BOUNDARY: FIXED holds the values at the start of the step, and",
+        ),
         ("*DYNAMIC, ALPHA=-0.6\n0.01, 1.", r":10: \*DYNAMIC: ALPHA=-0.6 is outside -0.5 to 0"),
         ("*DYNAMIC, BETA=0.\n0.01, 1.", r"BETA=0 must be positive and GAMMA=0.55 at least 0.5"),
         ("*DYNAMIC, TIME INTEGRATOR=BWE, ALPHA=-0.1\n0.01, 1.", "ALPHA, BETA and GAMMA are for the integrators HHT"),

@@ -108,7 +108,7 @@ USER = Material("M", SOURCE, user=UserMaterial(np.array([1.0]), False, SOURCE))
     ("element_type", "change", "message"),
     [
         ("CAX4R", {}, r"not supported for elements of type CAX4R; expected plane elements or C3D8R"),
-        ("CPS4R", {"material": Material("M", SOURCE, PLY)}, r"for material M; expected \*ELASTIC, TYPE=ISOTROPIC that"),
+        ("CPS4R", {"material": Material("M", SOURCE, PLY)}, r"for material M; expected \*ELASTIC, TYPE=ISOTROPIC with"),
         ("CPE4R", {"material": USER}, r"for material M; expected \*ELASTIC, TYPE=ISOTROPIC with constant values"),
         (
             "CPE4R",
@@ -118,7 +118,7 @@ USER = Material("M", SOURCE, user=UserMaterial(np.array([1.0]), False, SOURCE))
         (
             "CPE4R",
             {"hourglass": 1.0, "controls": SectionControls(hourglass=2.0)},
-            r"\*HOURGLASS STIFFNESS and \*SECTION CONTROLS with a factor of the hourglass stiffness: expected one",
+            r"\*HOURGLASS STIFFNESS and \*SECTION CONTROLS with a factor of the hourglass stiffness: expected only one",
         ),
     ],
 )

@@ -262,7 +262,7 @@ def test_constants_between_definite_ones_may_not_be(run):
     [
         (
             "*ELASTIC, DEPENDENCIES=1\n9., 0., , 0.\n8., 0., , 0.",
-            r"field.inp:14: \*ELASTIC: the temperature and fields of",
+            r"field.inp:14: \*ELASTIC: the temperature and fields are those of an earlier line",
         ),
         ("*ELASTIC, DEPENDENCIES=1\n9., 0., , 0., 1.", r"field.inp:13: \*ELASTIC: 5 entries, expected at most 4"),
         ("*ELASTIC\n9., 0., 0.\n-9., 0., 1.", r"field.inp:14: \*ELASTIC: E = -9, nu = 0: expected E > 0"),

@@ -101,7 +101,7 @@ def test_an_end_that_is_not_reached(bench):
 
 def test_monitored_dof_without_an_element(bench):
     step = bench.step(static=riks(0.1, 0.1, Riks(node=1, dof=2, value=1.0)), boundaries=(bench.fix(0),))
-    with pytest.raises(DeckError, match="dof 2 of node 2, which no element uses"):
+    with pytest.raises(DeckError, match="no element uses dof 2 of node 2, which is to end the step"):
         raise bench.run([TRUSS], [step]).error
 
 

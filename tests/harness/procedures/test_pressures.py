@@ -182,11 +182,11 @@ def test_dynamic_pressure_is_a_dead_traction_where_nothing_turns(run):
         ([static("*DLOAD\nBODY, P2NU")], "load type P follows the surface, which is not supported with NLGEOM"),
         (
             [static("*DSLOAD\nSIDE, TRSHR, 1., 0., 1.")],
-            r"load type TRSHR turns.*NLGEOM \(.*press.inp:\d+\); TRVEC with",
+            r"load type TRSHR follows.*NLGEOM \(.*press.inp:\d+\); TRVEC with",
         ),
         (
             [static("*DLOAD\nBODY, P2, 1."), "*STEP\n*FREQUENCY\n1"],
-            r"load type P turns .* beside a perturbation step \(.*press.inp:\d+\)",
+            r"load type P follows .* beside a perturbation step \(.*press.inp:\d+\)",
         ),
         (
             [

@@ -45,7 +45,7 @@ def test_procedure_that_nothing_runs():
     class Unknown(Procedure):
         lflag = 0
 
-    with pytest.raises(TypeError, match="nothing runs Unknown"):
+    with pytest.raises(TypeError, match="no run is registered for Unknown"):
         run_of(Unknown(), None)
 
 
