@@ -149,8 +149,8 @@ def _weights(subject: Subject, states: list[ElementState]) -> Finding:
                 return failed(
                     f"{state}: {what}, RHS({row + 1}) of a normal call changes by {found[row]:.6g}, not by "
                     f"{factor * initial[row]:.6g}; alpha is {alpha:g}",
-                    "RHS of *DYNAMIC is -M A - (1 + alpha) G + alpha times the G of the last increment, which SVARS "
-                    "keep; PARAMS(1) is alpha. With LFLAGS(3) = 6 it is -G.",
+                    "RHS of *DYNAMIC is -M A + (1 + alpha) G - alpha times the G of the last increment, which SVARS "
+                    "keep; PARAMS(1) is alpha. With LFLAGS(3) = 6 it is G, the static residual.",
                     figure=deviation,
                 )
     return passed("weights of alpha")
