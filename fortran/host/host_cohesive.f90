@@ -7,6 +7,10 @@
 !> from 1 to 2 in the plane, and otherwise the projection of the global 1-axis on the mid-surface (of the 3-axis where the 1-axis is
 !> within 0.1 degrees of the normal), t = n x s.
 !>
+!> With large displacements the frame goes with the mid-surface of the present shape, s with the material line that it was at
+!> the start; separations are those of the present positions in this frame, less those at the start, and tractions are per
+!> initial area.
+!>
 !> An element is deleted at the end of the increment in which the damage of all its points has reached MAX DEGRADATION with
 !> none of them in compression (Analysis User's Guide, Maximum degradation and choice of element removal).
 !>
@@ -14,6 +18,7 @@
 !> position, separation, traction, damage, energies dissipated by damage, by viscosity, damage without viscosity, strain,
 !> initiation criterion, status.
 module host_cohesive
+  use core_small_matrix, only: invert
   use host_kinds, only: dp, i4
   use host_messages, only: add_message
   use host_protect, only: escape
@@ -46,20 +51,22 @@ contains
     points = nnode/2
     law = read_law(props(p_law:p_law + n_law_reals - 1), jprops(j_law:j_law + n_law_integers - 1))
     call integrate(int(jprops(j_family)), int(mcrd), points, int(nsvars)/points, law, props(p_thickness), props(p_width), &
-                   jprops(j_deletion) /= 0, dtime, coords, u, rhs, amatrx, svars, energy)
+                   jprops(j_deletion) /= 0, lflags(2) /= 0, dtime, coords, u, rhs, amatrx, svars, energy)
   end subroutine cohesive_uel
 
   !> Residual, tangent, state and energies.
-  subroutine integrate(family, n, points, per_point, law, thickness, width, deletion, dtime, x, u, rhs, stiffness, svars, energy)
+  subroutine integrate(family, n, points, per_point, law, thickness, width, deletion, finite, dtime, x, u, rhs, stiffness, &
+                       svars, energy)
     integer, intent(in) :: family        !< of the faces (host_shape)
     integer, intent(in) :: n, points, per_point
     type(cohesive_law), intent(in) :: law
     real(dp), intent(in) :: thickness, width, dtime, x(n, 2*points), u(n, 2*points)
-    logical, intent(in) :: deletion
+    logical, intent(in) :: deletion, finite
     real(dp), intent(inout) :: rhs(n, 2*points), stiffness(n, 2*points, n, 2*points), svars(per_point, points), energy(8)
     type(cohesive_point) :: old, new
     real(dp) :: frame(3, n), area, separation(3), tangent(3, 3), force(n), block(n, n), distance, fault
-    integer :: p, bottom, top, status
+    real(dp) :: present_frame(3, n), turning(3, n, n, points), apart(n), change(n)
+    integer :: p, bottom, top, status, i, k, q, node
     logical :: removed, failed
     removed = is_removed(n, svars(:, 1))
     failed = deletion
@@ -75,6 +82,12 @@ contains
       if (.not. thickness > 0) distance = dot_product(frame(1, :), x(:, top) - x(:, bottom))
       if (.not. distance > 0) call stop_with('THICKNESS=GEOMETRY: the thickness between the faces is', distance, p)
       separation = matmul(frame, u(:, top) - u(:, bottom))
+      if (finite) then
+        call turn_frame(family, n, points, p, x, x + u, frame, present_frame, turning)
+        apart = x(:, top) + u(:, top) - x(:, bottom) - u(:, bottom)
+        separation = matmul(present_frame, apart) - matmul(frame, x(:, top) - x(:, bottom))
+        frame = present_frame
+      end if
       call get_point(n, svars(:, p), old)
       if (removed) then
         new = old
@@ -89,10 +102,24 @@ contains
         rhs(:, bottom) = rhs(:, bottom) + force
         rhs(:, top) = rhs(:, top) - force
         block = area*matmul(transpose(frame), matmul(tangent, frame))
-        stiffness(:, bottom, :, bottom) = block
-        stiffness(:, top, :, top) = block
-        stiffness(:, bottom, :, top) = -block
-        stiffness(:, top, :, bottom) = -block
+        stiffness(:, bottom, :, bottom) = stiffness(:, bottom, :, bottom) + block
+        stiffness(:, top, :, top) = stiffness(:, top, :, top) + block
+        stiffness(:, bottom, :, top) = stiffness(:, bottom, :, top) - block
+        stiffness(:, top, :, bottom) = stiffness(:, top, :, bottom) - block
+        if (finite) then
+          do q = 1, points
+            do i = 1, n
+              ! a node of the mid-surface moves by half of what each of its two nodes does
+              change = 0.5_dp*area*(matmul(matmul(tangent, matmul(turning(:, :, i, q), apart)), frame) &
+                                    + matmul(new%traction, turning(:, :, i, q)))
+              do k = 1, 2
+                node = merge(q, opposite(family, points, q), k == 1)
+                stiffness(:, top, i, node) = stiffness(:, top, i, node) + change
+                stiffness(:, bottom, i, node) = stiffness(:, bottom, i, node) - change
+              end do
+            end do
+          end do
+        end if
         energy(2) = energy(2) + 0.5_dp*area*dot_product(new%traction, separation)
         energy(3) = energy(3) + area*new%viscous
         energy(4) = energy(4) + area*sum(new%dissipated)
@@ -146,24 +173,16 @@ contains
     integer, intent(in) :: family, n, points, point
     real(dp), intent(in) :: x(n, 2*points)
     real(dp), intent(out) :: frame(3, n), area
-    integer, parameter :: before(4) = [2, 1, 4, 3], beside(4) = [4, 3, 2, 1]
-    real(dp), parameter :: along(4) = [0.5_dp, -0.5_dp, -0.5_dp, 0.5_dp], across(4) = [0.5_dp, 0.5_dp, -0.5_dp, -0.5_dp]
     real(dp), parameter :: smallest_sine = 1.745328e-3_dp   ! of 0.1 degrees
-    real(dp) :: middle(n, points), a(3), b(3)
-    integer :: p
-    do p = 1, points
-      middle(:, p) = 0.5_dp*(x(:, p) + x(:, opposite(family, points, p)))
-    end do
+    real(dp) :: a(3), b(3), by_a(points), by_b(points)
+    call edges_at(family, n, points, point, x, a, b, by_a, by_b)
     frame = 0
     area = 0
     select case (family)
     case (line2)
-      a(:2) = middle(:, 2) - middle(:, 1)
-      area = 0.5_dp*norm2(a(:2))
+      area = 0.5_dp*norm2(a)
       if (area > 0) frame(1:2, :) = reshape([-a(2), a(1), a(1), a(2)], [2, 2])/(2*area)
     case (quad4)
-      a = along(point)*(middle(:, before(point)) - middle(:, point))
-      b = across(point)*(middle(:, beside(point)) - middle(:, point))
       frame(1, :) = cross(a, b)
       area = norm2(frame(1, :))
       if (area > 0) then
@@ -180,6 +199,91 @@ contains
     end select
     if (.not. area > 0) call stop_with('the area of the mid-surface is', area, point)
   end subroutine measure
+
+  !> Vectors in the mid-surface at a corner: in the plane from 1 to 2, else half the edges there, the second one counter-clockwise
+  !> from the first; and how much of each node of the mid-surface they have.
+  pure subroutine edges_at(family, n, points, point, x, a, b, by_a, by_b)
+    integer, intent(in) :: family, n, points, point
+    real(dp), intent(in) :: x(n, 2*points)
+    real(dp), intent(out) :: a(3), b(3), by_a(points), by_b(points)
+    integer, parameter :: before(4) = [2, 1, 4, 3], beside(4) = [4, 3, 2, 1]
+    real(dp), parameter :: along(4) = [0.5_dp, -0.5_dp, -0.5_dp, 0.5_dp], across(4) = [0.5_dp, 0.5_dp, -0.5_dp, -0.5_dp]
+    integer :: p
+    by_a = 0
+    by_b = 0
+    if (family == line2) then
+      by_a = [-1.0_dp, 1.0_dp]
+    else
+      by_a(before(point)) = along(point)
+      by_a(point) = -along(point)
+      by_b(beside(point)) = across(point)
+      by_b(point) = -across(point)
+    end if
+    a = 0
+    b = 0
+    do p = 1, points
+      a(:n) = a(:n) + by_a(p)*0.5_dp*(x(:, p) + x(:, opposite(family, points, p)))
+      b(:n) = b(:n) + by_b(p)*0.5_dp*(x(:, p) + x(:, opposite(family, points, p)))
+    end do
+  end subroutine edges_at
+
+  !> Frame of a corner after displacements, and its derivative (row, component, direction, node) by the mid-surface.
+  subroutine turn_frame(family, n, points, point, x, now, frame, present_frame, turning)
+    integer, intent(in) :: family, n, points, point
+    real(dp), intent(in) :: x(n, 2*points), now(n, 2*points)    !< coordinates at the start, and now
+    real(dp), intent(in) :: frame(3, n)                         !< at the start
+    real(dp), intent(out) :: present_frame(3, n), turning(3, n, n, points)
+    real(dp) :: a(3), b(3), first(3), second(3), normal(3), line(3), share(2), gram(2, 2), inverse(2, 2), determinant
+    real(dp) :: by_a(points), by_b(points), along(3), length, area, slope(3, 3), unit(3)
+    integer :: i, q
+    turning = 0
+    present_frame = 0
+    call edges_at(family, n, points, point, x, first, second, by_a, by_b)
+    call edges_at(family, n, points, point, now, a, b, by_a, by_b)
+    if (family == line2) then
+      length = norm2(a)
+      if (.not. length > 0) call stop_with('the area of the mid-surface is', length, point)
+      line = a/length
+      present_frame(1:2, :) = reshape([-line(2), line(1), line(1), line(2)], [2, 2])
+      do q = 1, points
+        do i = 1, n
+          along = 0
+          along(i) = by_a(q)/length
+          along = along - dot_product(along, line)*line
+          turning(1, :, i, q) = [-along(2), along(1)]
+          turning(2, :, i, q) = along(:2)
+        end do
+      end do
+      return
+    end if
+    normal = cross(a, b)
+    area = norm2(normal)
+    if (.not. area > 0) call stop_with('the area of the mid-surface is', area, point)
+    normal = normal/area
+    ! the material line that was along s
+    gram = reshape([dot_product(first, first), dot_product(first, second), dot_product(first, second), &
+                    dot_product(second, second)], [2, 2])
+    call invert(2, gram, inverse, determinant)
+    share = matmul(inverse, [dot_product(first, frame(2, :)), dot_product(second, frame(2, :))])
+    line = share(1)*a + share(2)*b
+    length = norm2(line)
+    line = line/length
+    present_frame(1, :) = normal
+    present_frame(2, :) = line
+    present_frame(3, :) = cross(normal, line)
+    do q = 1, points
+      do i = 1, n
+        unit = 0
+        unit(i) = 1
+        slope(1, :) = (by_a(q)*cross(unit, b) + by_b(q)*cross(a, unit))/area
+        slope(1, :) = slope(1, :) - dot_product(slope(1, :), normal)*normal
+        slope(2, :) = (share(1)*by_a(q) + share(2)*by_b(q))*unit/length
+        slope(2, :) = slope(2, :) - dot_product(slope(2, :), line)*line
+        slope(3, :) = cross(slope(1, :), line) + cross(normal, slope(2, :))
+        turning(:, :, i, q) = slope
+      end do
+    end do
+  end subroutine turn_frame
 
   !> End the analysis with a message.
   subroutine stop_with(what, value, point)

@@ -31,9 +31,9 @@ def cohesive_routine(model: Model, group: ElementGroup, section: CohesiveSection
     """What the driver calls for a group of cohesive elements. Raises DeckError."""
     kind = COHESIVE[group.type]
     for step in model.steps:
-        for refused, what in ((step.nlgeom, "NLGEOM"), (step.procedure.inertia, f"*{step.procedure.keyword}")):
-            if refused:
-                raise DeckError(step.source, f"{what} is not supported with elements of type {group.type}")
+        if step.procedure.inertia:
+            message = f"*{step.procedure.keyword} is not supported with elements of type {group.type}"
+            raise DeckError(step.source, message)
     reals, integers = cohesive_properties(section, kind.dimension)
     return Routine(
         address=_binding.address_of("cohesive"),

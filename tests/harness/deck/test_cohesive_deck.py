@@ -181,7 +181,6 @@ PROPERTIES = {
         "MAXE\n0.02, 0.01, 0.01",
         r"31: .*0.26 of the normal mode must exceed the elastic energy at the onset of damage, 1",
     ),
-    "geometry": ("*STEP\n", "*STEP, NLGEOM=YES\n", "35: NLGEOM is not supported with elements of type COH2D4"),
 }
 
 
