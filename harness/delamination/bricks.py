@@ -6,7 +6,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from harness.delamination.keywords import integer_table, keyword, node_block, node_set, text
+from harness.delamination.keywords import element_block, node_block, node_set, text
 from harness.model.arrays import IntArray
 
 LENGTH, WIDTH, HEIGHT, CRACK = 60.0, 4.0, 2.0, 20.0
@@ -39,8 +39,8 @@ def bricks_files() -> dict[str, str]:
         "** right end clamped; the left ends of the outer faces are pulled apart, the crack runs to the right",
         "** written by python -m harness.delamination.decks; units N, mm, MPa",
         *node_block(labels.ravel(), places.reshape(-1, 3)),
-        *_elements("C3D8", "ARMS", arms, 1),
-        *_elements("COH3D8", "INTERFACE", interface, 1 + len(arms)),
+        *element_block("C3D8", "ARMS", arms, 1),
+        *element_block("COH3D8", "INTERFACE", interface, 1 + len(arms)),
         *node_set("CLAMPED", labels[..., -1].ravel()),
         *node_set("TOP", labels[1, -1, :, 0]),
         *node_set("BOTTOM", labels[0, 0, :, 0]),
@@ -83,8 +83,3 @@ def _faces(layer: IntArray) -> IntArray:
     across, along = layer.shape
     corners = [layer[j : across - 1 + j, i : along - 1 + i].ravel() for j, i in _AROUND]
     return np.stack(corners, axis=-1)
-
-
-def _elements(kind: str, name: str, nodes: IntArray, first: int) -> list[str]:
-    numbered = np.hstack([np.arange(first, first + len(nodes))[:, None], nodes])
-    return [keyword("ELEMENT", TYPE=kind, ELSET=name), *integer_table(numbered).splitlines()]

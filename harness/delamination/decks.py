@@ -17,6 +17,7 @@ from harness.delamination.bricks import bricks_files
 from harness.delamination.comparator import comparator_files
 from harness.delamination.cook import cook_files
 from harness.delamination.materials import TABLE_2
+from harness.delamination.peel import peel_files
 from harness.delamination.reproduce.cases import PROBLEMS, comparator_cases, longer_cases, paper_cases
 from harness.delamination.reproduce.patch_cases import inclined_cases
 from harness.delamination.steps import LINEAR, Increments
@@ -106,7 +107,12 @@ def paper(problem: str) -> dict[str, str]:
 def all_files() -> dict[Path, str]:
     """Every built file, by its path below abaqus_inputs."""
     problems = {"patch_horizontal": patch_horizontal, "dcb": dcb, "dcb_ref": dcb_ref, "quad_cook": cook_files}
-    problems |= {"patch_inclined": patch_inclined, "cohesive": comparator_files, "dcb_3d": bricks_files}
+    problems |= {
+        "patch_inclined": patch_inclined,
+        "cohesive": comparator_files,
+        "dcb_3d": bricks_files,
+        "peel": peel_files,
+    }
     problems |= {f"paper_{name}": partial(paper, name) for name in PROBLEMS}
     return {Path(folder, name): text for folder, problem in problems.items() for name, text in problem().items()}
 

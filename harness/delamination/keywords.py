@@ -6,6 +6,8 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
 
+import numpy as np
+
 from harness.model.arrays import FloatArray, IntArray
 
 PER_LINE = 8
@@ -52,6 +54,12 @@ def node_set(name: str, labels: IntArray) -> list[str]:
 def integer_table(rows: IntArray) -> str:
     """Data lines of integers, as *ELEMENT, INPUT= reads them."""
     return "".join(", ".join(map(str, row)) + "\n" for row in rows.tolist())
+
+
+def element_block(kind: str, name: str, nodes: IntArray, first: int) -> list[str]:
+    """*ELEMENT of a type, into an element set, numbered from `first`."""
+    numbered = np.column_stack([np.arange(first, first + len(nodes)), nodes])
+    return [keyword("ELEMENT", TYPE=kind, ELSET=name), *integer_table(numbered).splitlines()]
 
 
 def text(lines: Iterable[str]) -> str:
