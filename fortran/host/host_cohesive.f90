@@ -201,7 +201,7 @@ contains
   end subroutine measure
 
   !> Vectors in the mid-surface at a corner: in the plane from 1 to 2, else half the edges there, the second one counter-clockwise
-  !> from the first; and how much of each node of the mid-surface they have.
+  !> from the first; and how much of each node of the mid-surface they have. Zero for other families.
   pure subroutine edges_at(family, n, points, point, x, a, b, by_a, by_b)
     integer, intent(in) :: family, n, points, point
     real(dp), intent(in) :: x(n, 2*points)
@@ -213,7 +213,7 @@ contains
     by_b = 0
     if (family == line2) then
       by_a = [-1.0_dp, 1.0_dp]
-    else
+    else if (family == quad4) then
       by_a(before(point)) = along(point)
       by_a(point) = -along(point)
       by_b(beside(point)) = across(point)

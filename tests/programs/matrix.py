@@ -36,7 +36,7 @@ class Configuration:
     @property
     def words(self) -> list[str]:
         """Command, with the Python as it was given."""
-        machine = {"PROCESSOR": self.processor, "CORES": self.cores} | ({"WORKERS": "0"} if self.cores == "1" else {})
+        machine = {"PROCESSOR": self.processor, "CORES": self.cores} | ({"WORKERS": "1"} if self.cores == "1" else {})
         values = {"PYTHON": self.python} | machine | {"SEED": self.seed}
         return ["make", self.target, *(f"{name}={value}" for name, value in values.items())]
 
