@@ -53,7 +53,7 @@ def test_every_value_occurs_in_each_target() -> None:
 def test_commands_have_no_folder_of_this_machine() -> None:
     command = matrix.Configuration("test-all", sys.executable, "this", "1", "2").command
     version = f"{sys.version_info[0]}.{sys.version_info[1]}"
-    assert command == f"make test-all PYTHON=python{version} PROCESSOR=this CORES=1 WORKERS=0 SEED=2"
+    assert command == f"make test-all PYTHON=python{version} PROCESSOR=this CORES=1 WORKERS=1 SEED=2"
 
 
 @pytest.mark.parametrize(
