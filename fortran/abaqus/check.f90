@@ -3,9 +3,9 @@
 !> Checks of the arguments of an element: counts, ranges of the properties, kind of analysis.
 module abaqus_check
   use core_kinds, only: dp
-  use core_status, only: status_type, sentence, too_brittle, zero_length, edges_apart, small_beta, &
+  use core_status, only: status_type, sentence, too_brittle, zero_length, faces_apart, small_beta, &
     too_brittle_mixed, late_secant, no_root
-  use abaqus_layout, only: elements, edges, reals, integers, standard, continuum, self_contained, unknowns_of, variables_of, &
+  use abaqus_layout, only: elements, faces, reals, integers, continuum, with_solids, unknowns_of, variables_of, &
     reals_of, integers_of, real_position, unpack, &
     positive, not_negative, below_one, up_to_one, exponent, estimated, above_one, any_integer, p_alphan, p_alphat, p_gic, p_giic, &
     p_betan, p_betat, p_shapen, p_shapet, p_friction, j_law, j_closure
@@ -90,7 +90,8 @@ contains
       case (not_negative)
         good = values(i) >= 0.0_dp
       case (estimated)
-        good = values(i) >= 0.0_dp .or. (elements(jtype)%family == self_contained .and. .not. abs(values(i) + 1.0_dp) > 0.0_dp)
+        good = values(i) >= 0.0_dp .or. (iand(elements(jtype)%family, with_solids) /= 0 &
+          .and. .not. abs(values(i) + 1.0_dp) > 0.0_dp)
       case (below_one)
         good = values(i) >= 0.0_dp .and. values(i) < 1.0_dp
       case (up_to_one)
@@ -131,7 +132,7 @@ contains
     case (up_to_one)
       text = 'a value from 0 to 1'
     case (estimated)
-      text = 'zero or a positive value, or -1 in U4 and U6'
+      text = 'zero or a positive value, or -1 in U4, U6 and U8'
     case (below_one)
       text = 'zero or a value between 0 and 1'
     case (exponent)
@@ -198,15 +199,15 @@ contains
     end do
   end function options_fit
 
-  !> Sends the message for the status of a kernel; U4 and U6 count their quads in status%item.
+  !> Sends the message for the status of a kernel; U4, U6 and U8 count their quads or bricks in status%item.
   subroutine report_status(jtype, jelem, status)
     integer, intent(in) :: jtype, jelem
     type(status_type), intent(in) :: status
     integer :: row
-    character(len=8) :: side
+    character(len=8) :: side, solid
 
     side = ' '
-    if (elements(jtype)%family == self_contained) then
+    if (iand(elements(jtype)%family, with_solids) /= 0) then
       if (status%item == 1) side = 'bottom'
       if (status%item == 2) side = 'top'
     end if
@@ -228,14 +229,20 @@ contains
       call fatal(jtype, jelem, 'point or mode %I: ' // trim(sentence(status%code)), [status%item], [real(dp) ::])
     case (zero_length)
       call fatal(jtype, jelem, trim(sentence(status%code)), [integer ::], [real(dp) ::])
-    case (edges_apart)
-      associate (top => edges(jtype)%top, bottom => edges(jtype)%bottom)
+    case (faces_apart)
+      associate (top => faces(jtype)%top, bottom => faces(jtype)%bottom)
+        if (elements(jtype)%dimension == 3) then
+          call fatal(jtype, jelem, trim(sentence(status%code)) // ': nodes %I to %I must lie on %I to %I' // &
+            '; they are %R apart, expected at most %R', [top(1), top(4), bottom(1), bottom(4)], [status%value, status%expected])
+          return
+        end if
         call fatal(jtype, jelem, trim(sentence(status%code)) // ': node %I must lie on %I and %I on %I' // &
           trim(merge(', and the middle nodes on each other', repeat(' ', 36), top(3) > 0)) // &
           '; they are %R apart, expected at most %R', [top(1), bottom(1), top(2), bottom(2)], [status%value, status%expected])
       end associate
     case default
-      call fatal(jtype, jelem, trim(adjustl(trim(side) // ' quad')) // ' ' // trim(sentence(status%code)) // &
+      solid = merge(' brick', ' quad ', elements(jtype)%dimension == 3)
+      call fatal(jtype, jelem, trim(adjustl(trim(side) // solid)) // ' ' // trim(sentence(status%code)) // &
         '; it is %R', [integer ::], [status%value])
     end select
   end subroutine report_status

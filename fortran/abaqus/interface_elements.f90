@@ -4,18 +4,22 @@
 module abaqus_interface_elements
   use core_kinds, only: dp
   use core_status, only: status_type, ok, sentence
-  use materials_linear_elasticity, only: engineering_constants, plane_stiffness
+  use materials_linear_elasticity, only: engineering_constants, plane_stiffness, solid_stiffness
   use cohesive_parameters, only: law_parameters, bilinear_law, ppr_law
   use cohesive_ppr, only: prepare_ppr
   use elements_interface_bulk, only: stabilisation_type
+  use elements_interface_faces, only: central_frame
   use elements_interface_kernel, only: integrate_interface
   use elements_interface_point, only: interface_options, interface_point
-  use abaqus_layout, only: elements, edges, reals, real_position, interface_variables, standard, next_to_quads, &
+  use abaqus_layout, only: elements, faces, reals, real_position, interface_variables, surface_variables, standard, standard_3d, &
+    next_to_quads, &
     p_thickness, p_alphan, p_alphat, p_sigmamax, p_taumax, p_gic, p_giic, p_viscosity, p_eta, p_power, &
     p_shapen, p_shapet, p_blend, p_betan, p_betat, p_gammabot, p_friction, p_bottom_e1, p_bottom_nu12, p_top_e1, p_top_nu12, &
+    p_bottom_g13, p_bottom_g23, p_top_g13, p_top_g23, &
     j_law, j_integration, j_tangent, j_sampling, j_offset_bottom, j_offset_top, j_plane, j_closure, &
     v_x, v_y, v_sepn, v_sept, v_tn, v_tt, v_damage, v_dissi, v_dissii, v_sn, v_st, v_dmax, v_dissv, v_wn, v_wt, v_dissf, &
-    v_maxn, v_maxt
+    v_maxn, v_maxt, w_x, w_y, w_z, w_sepn, w_seps, w_sept, w_tn, w_ts, w_tt, w_damage, w_dissi, w_dissii, w_sn, w_st, w_dmax, &
+    w_dissv, w_wn, w_ws, w_wt, w_dissf, w_maxn, w_maxt
   use abaqus_check, only: report_status
   use abaqus_report, only: fatal
   use abaqus_neighbours, only: stress_of_neighbours
@@ -23,9 +27,23 @@ module abaqus_interface_elements
   private
   public :: evaluate_interface
 
+  !> Positions of the variables of a point: vectors by the components (s, n, t), pairs (tau, n).
+  type :: point_positions
+    integer :: count
+    integer :: position(3), jump(3), traction(3), separation(3)
+    integer :: stabilisation(2), dissipated(2), largest(2)
+    integer :: damage, damage_max, viscous, friction_work
+  end type point_positions
+
+  type(point_positions), parameter :: positions(2:3) = [ &
+    point_positions(size(interface_variables), [v_x, v_y, 0], [v_sept, v_sepn, 0], [v_tt, v_tn, 0], [v_wt, v_wn, 0], &
+      [v_st, v_sn], [v_dissii, v_dissi], [v_maxt, v_maxn], v_damage, v_dmax, v_dissv, v_dissf), &
+    point_positions(size(surface_variables), [w_x, w_y, w_z], [w_seps, w_sepn, w_sept], [w_ts, w_tn, w_tt], [w_ws, w_wn, w_wt], &
+      [w_st, w_sn], [w_dissii, w_dissi], [w_maxt, w_maxn], w_damage, w_dmax, w_dissv, w_dissf)]
+
 contains
 
-  !> Evaluates U2 to U6; `good` is false after a message. SVARS and ENERGY come back with their end values:
+  !> Evaluates every type but U1; `good` is false after a message. SVARS and ENERGY come back with their end values:
   !> ENERGY(2) is T.g/2, ENERGY(4) what damage and friction have dissipated, ENERGY(5) what the viscous overstress has.
   subroutine evaluate_interface(jtype, jelem, values, options, coords, u, dtime, with_tangent, svars, energy, residual, &
     tangent, good)
@@ -44,8 +62,10 @@ contains
     type(stabilisation_type) :: stabilisation
     type(interface_point), dimension(elements(jtype)%points) :: old, new
     type(status_type) :: status
-    real(dp) :: energies(3), stress(3, elements(jtype)%points), stiffness(3, 3, 2), xy(2, size(coords, 2))
-    integer :: nodes(elements(jtype)%points, 2), n
+    real(dp) :: energies(3), stress(3, elements(jtype)%points), original(elements(jtype)%dimension, size(coords, 2))
+    real(dp), dimension(3*(elements(jtype)%dimension - 1), 3*(elements(jtype)%dimension - 1), 2) :: stiffness
+    real(dp) :: thickness
+    integer :: nodes(elements(jtype)%points, 2), n, dim
 
     call prepare_law(values, options, law, status)
     good = status%code == ok
@@ -56,32 +76,35 @@ contains
     choice = interface_options(options(j_integration), options(j_sampling), options(j_closure) == 1, &
       merge(1.0_dp, values(p_blend), options(j_tangent) == 1))
     stabilisation = stabilisation_type([values(p_betat), values(p_betan)], values(p_gammabot))
-    xy = coords(1:2, :)
+    dim = elements(jtype)%dimension
+    original = coords(1:dim, :)
+    thickness = merge(values(p_thickness), 1.0_dp, dim == 2)
     n = elements(jtype)%points
-    nodes(:, 1) = edges(jtype)%bottom(1:n)
-    nodes(:, 2) = edges(jtype)%top(1:n)
-    old = points_from(svars, n)
-    associate (quad => edges(jtype)%quad, thickness => values(p_thickness))
+    nodes(:, 1) = faces(jtype)%bottom(1:n)
+    nodes(:, 2) = faces(jtype)%top(1:n)
+    old = points_from(svars, n, dim)
+    associate (solid => faces(jtype)%solid)
       select case (elements(jtype)%family)
-      case (standard)
-        call integrate_interface(n, nodes, quad, law, choice, thickness, xy, u, dtime, with_tangent, old, new, residual, tangent, &
-          energies, status)
+      case (standard, standard_3d)
+        call integrate_interface(dim, n, nodes, solid, law, choice, thickness, original, u, dtime, with_tangent, old, new, &
+          residual, tangent, energies, status)
       case (next_to_quads)
-        call stress_of_neighbours(jelem, options([j_offset_bottom, j_offset_top]), choice, xy, reshape(u, [2, size(u)/2]), &
+        call stress_of_neighbours(jelem, options([j_offset_bottom, j_offset_top]), choice, original, reshape(u, [2, size(u)/2]), &
           stabilisation, stress, good)
         if (.not. good) return
-        call integrate_interface(n, nodes, quad, law, choice, thickness, xy, u, dtime, with_tangent, old, new, residual, tangent, &
-          energies, status, stabilisation, neighbours=stress)
+        call integrate_interface(dim, n, nodes, solid, law, choice, thickness, original, u, dtime, with_tangent, old, new, &
+          residual, tangent, energies, status, stabilisation, neighbours=stress)
       case default
-        call elasticity_of_quads(jtype, jelem, values, options(j_plane), stiffness, good)
+        call elasticity_of_solids(jtype, jelem, values, options(j_plane), original(:, nodes(:, 1)), original(:, nodes(:, 2)), &
+          stiffness, good)
         if (.not. good) return
-        call integrate_interface(n, nodes, quad, law, choice, thickness, xy, u, dtime, with_tangent, old, new, residual, tangent, &
-          energies, status, stabilisation, stiffness)
+        call integrate_interface(dim, n, nodes, solid, law, choice, thickness, original, u, dtime, with_tangent, old, new, &
+          residual, tangent, energies, status, stabilisation, stiffness)
       end select
     end associate
     good = status%code == ok
     if (good) then
-      call write_state(new, svars)
+      call write_state(new, dim, svars)
       energy = 0.0_dp
       energy([2, 4, 5]) = energies
     else
@@ -119,24 +142,31 @@ contains
     if (values(p_power) > 0.0_dp) law%power = values(p_power)
   end subroutine prepare_law
 
-  !> Stiffness of the bottom and the top quad of U4 and U6.
-  subroutine elasticity_of_quads(jtype, jelem, values, plane, stiffness, good)
+  !> Stiffness of the bottom and the top element of U4, U6 and U8.
+  subroutine elasticity_of_solids(jtype, jelem, values, plane, bottom, top, stiffness, good)
     integer, intent(in) :: jtype, jelem
     real(dp), intent(in) :: values(:)
     integer, intent(in) :: plane
-    real(dp), intent(out) :: stiffness(3, 3, 2)
+    real(dp), intent(in) :: bottom(:, :), top(:, :)     !< original coordinates of the faces
+    real(dp), intent(out) :: stiffness(:, :, :)
     logical, intent(out) :: good
     integer, parameter :: first(2) = [p_bottom_e1, p_top_e1]
     integer, parameter :: ratio(2) = [p_bottom_nu12, p_top_nu12]
+    integer, parameter :: g13(2) = [p_bottom_g13, p_top_g13]
+    integer, parameter :: g23(2) = [p_bottom_g23, p_top_g23]
     type(engineering_constants) :: material
     type(status_type) :: status
     integer :: side
 
     do side = 1, 2
       associate (c => values(first(side):first(side) + 7))
-        material = engineering_constants(c(1), c(2), c(3), c(4), c(5), c(6), c(7), c(8))
+        material = engineering_constants(c(1), c(2), c(3), c(4), c(5), c(6), c(7), c(8), values(g13(side)), values(g23(side)))
       end associate
-      call plane_stiffness(material, plane, stiffness(:, :, side), status)
+      if (size(bottom, 1) == 2) then
+        call plane_stiffness(material, plane, stiffness(:, :, side), status)
+      else
+        call solid_stiffness(material, central_frame(bottom, top), stiffness(:, :, side), status)
+      end if
       good = status%code == ok
       if (.not. good) then
         call fatal(jtype, jelem, 'PROPS(%I) ' // trim(reals(ratio(side))%name) // ' = %R and its neighbours: ' // &
@@ -145,54 +175,52 @@ contains
         return
       end if
     end do
-  end subroutine elasticity_of_quads
+  end subroutine elasticity_of_solids
 
   !> Committed state of n points.
-  pure function points_from(svars, n) result(points)
+  pure function points_from(svars, n, dim) result(points)
     real(dp), intent(in) :: svars(*)
-    integer, intent(in) :: n
+    integer, intent(in) :: n, dim
     type(interface_point) :: points(n)
+    type(point_positions) :: at
     integer :: k, first
 
+    at = positions(dim)
     do k = 1, n
-      first = (k - 1)*size(interface_variables)
-      points(k)%history%separation = [svars(first + v_wt), svars(first + v_wn)]
-      points(k)%traction = [svars(first + v_tt), svars(first + v_tn)]
-      points(k)%history%damage = svars(first + v_damage)
-      points(k)%history%damage_max = svars(first + v_dmax)
-      points(k)%history%dissipated = [svars(first + v_dissii), svars(first + v_dissi)]
-      points(k)%history%viscous = svars(first + v_dissv)
-      points(k)%history%friction_work = svars(first + v_dissf)
-      points(k)%history%largest = [svars(first + v_maxt), svars(first + v_maxn)]
+      first = (k - 1)*at%count
+      points(k)%history%separation(1:dim) = svars(first + at%separation(1:dim))
+      points(k)%traction(1:dim) = svars(first + at%traction(1:dim))
+      points(k)%history%damage = svars(first + at%damage)
+      points(k)%history%damage_max = svars(first + at%damage_max)
+      points(k)%history%dissipated = svars(first + at%dissipated)
+      points(k)%history%viscous = svars(first + at%viscous)
+      points(k)%history%friction_work = svars(first + at%friction_work)
+      points(k)%history%largest = svars(first + at%largest)
     end do
   end function points_from
 
   !> Writes the state of the points to SVARS.
-  pure subroutine write_state(points, svars)
+  pure subroutine write_state(points, dim, svars)
     type(interface_point), intent(in) :: points(:)
+    integer, intent(in) :: dim
     real(dp), intent(inout) :: svars(*)
+    type(point_positions) :: at
     integer :: k, first
 
+    at = positions(dim)
     do k = 1, size(points)
-      first = (k - 1)*size(interface_variables)
-      svars(first + v_x) = points(k)%position(1)
-      svars(first + v_y) = points(k)%position(2)
-      svars(first + v_sepn) = points(k)%jump(2)
-      svars(first + v_sept) = points(k)%jump(1)
-      svars(first + v_tn) = points(k)%traction(2)
-      svars(first + v_tt) = points(k)%traction(1)
-      svars(first + v_damage) = points(k)%history%damage
-      svars(first + v_dissi) = points(k)%history%dissipated(2)
-      svars(first + v_dissii) = points(k)%history%dissipated(1)
-      svars(first + v_sn) = points(k)%stabilisation(2)
-      svars(first + v_st) = points(k)%stabilisation(1)
-      svars(first + v_dmax) = points(k)%history%damage_max
-      svars(first + v_dissv) = points(k)%history%viscous
-      svars(first + v_dissf) = points(k)%history%friction_work
-      svars(first + v_maxn) = points(k)%history%largest(2)
-      svars(first + v_maxt) = points(k)%history%largest(1)
-      svars(first + v_wn) = points(k)%history%separation(2)
-      svars(first + v_wt) = points(k)%history%separation(1)
+      first = (k - 1)*at%count
+      svars(first + at%position(1:dim)) = points(k)%position(1:dim)
+      svars(first + at%jump(1:dim)) = points(k)%jump(1:dim)
+      svars(first + at%traction(1:dim)) = points(k)%traction(1:dim)
+      svars(first + at%separation(1:dim)) = points(k)%history%separation(1:dim)
+      svars(first + at%stabilisation) = points(k)%stabilisation
+      svars(first + at%dissipated) = points(k)%history%dissipated
+      svars(first + at%largest) = points(k)%history%largest
+      svars(first + at%damage) = points(k)%history%damage
+      svars(first + at%damage_max) = points(k)%history%damage_max
+      svars(first + at%viscous) = points(k)%history%viscous
+      svars(first + at%friction_work) = points(k)%history%friction_work
     end do
   end subroutine write_state
 

@@ -15,7 +15,7 @@ module abaqus_layout
   use core_kinds, only: dp
   implicit none(type, external)
   private
-  public :: real_item, integer_item, variable_item, element_item, edges_item
+  public :: real_item, integer_item, variable_item, element_item, faces_item
   public :: unknowns_of, variables_of, reals_of, integers_of, real_position, integer_position, unpack
   public :: delamination_layout_version
 
@@ -26,7 +26,7 @@ module abaqus_layout
   integer, parameter, public :: up_to_one = 4       ! 0 <= value <= 1
   integer, parameter, public :: any_value = 5
   integer, parameter, public :: exponent = 6        ! 0 or at least 1/2
-  integer, parameter, public :: estimated = 7       ! 0 <= value, or -1 in U4 and U6
+  integer, parameter, public :: estimated = 7       ! 0 <= value, or -1 in U4, U6 and U8
   integer, parameter, public :: above_one = 8       ! 0 or above 1
   integer, parameter, public :: any_integer = huge(1)
 
@@ -35,9 +35,13 @@ module abaqus_layout
   integer, parameter, public :: standard = 2
   integer, parameter, public :: next_to_quads = 4    ! stabilised, with the stress of U1 next to it
   integer, parameter, public :: self_contained = 8   ! stabilised, with its own quads
-  integer, parameter, public :: stabilised = next_to_quads + self_contained
-  integer, parameter, public :: interfaces = standard + stabilised
-  integer, parameter, public :: every_family = continuum + interfaces
+  integer, parameter, public :: standard_3d = 16
+  integer, parameter, public :: self_contained_3d = 32   ! stabilised, with its own bricks
+  integer, parameter, public :: with_solids = self_contained + self_contained_3d
+  integer, parameter, public :: stabilised = next_to_quads + with_solids
+  integer, parameter, public :: interfaces = standard + standard_3d + stabilised
+  integer, parameter, public :: in_space = standard_3d + self_contained_3d
+  integer, parameter, public :: in_plane = continuum + standard + next_to_quads + self_contained
 
   !> A real property of the elements of these families.
   type :: real_item
@@ -69,12 +73,13 @@ module abaqus_layout
     integer :: jtype, family, dimension, nodes, points, reals, integers
   end type element_item
 
-  !> The nodes of an interface element on its bottom and top edge, left to right, the middle last; 0 where there is none.
-  type :: edges_item
+  !> The nodes of an interface element on its bottom and top face; 0 where there is none. In the plane left to right, the middle
+  !> last, in space counter-clockwise seen from the top.
+  type :: faces_item
     integer :: jtype
-    integer :: quad                !< nodes of each of its own quads, of which the bottom one comes first; 0 without
-    integer :: bottom(3), top(3)
-  end type edges_item
+    integer :: solid               !< nodes of each of its own quads or bricks, of which the bottom one comes first; 0 without
+    integer :: bottom(4), top(4)
+  end type faces_item
 
   ! rows of the table of reals
   integer, parameter, public :: p_thickness = 1
@@ -110,9 +115,13 @@ module abaqus_layout
   integer, parameter, public :: p_top_nu23 = 31
   integer, parameter, public :: p_top_g12 = 32
   integer, parameter, public :: p_top_angle = 33
+  integer, parameter, public :: p_bottom_g13 = 34
+  integer, parameter, public :: p_bottom_g23 = 35
+  integer, parameter, public :: p_top_g13 = 36
+  integer, parameter, public :: p_top_g23 = 37
 
-  type(real_item), parameter, public :: reals(33) = [ &
-    real_item(p_thickness, every_family, 'THICKNESS', 'length', positive), & !< thickness out of the plane
+  type(real_item), parameter, public :: reals(37) = [ &
+    real_item(p_thickness, in_plane, 'THICKNESS', 'length', positive), & !< thickness out of the plane
     real_item(p_alphan, interfaces, 'ALPHAN', 'stress/length', not_negative), &
       !< initial normal stiffness alpha_n; 0: infinite, with CLOSURE 1
     real_item(p_alphat, interfaces, 'ALPHAT', 'stress/length', not_negative), &
@@ -121,7 +130,7 @@ module abaqus_layout
     real_item(p_taumax, interfaces, 'TAUMAX', 'stress', positive), & !< mode II strength
     real_item(p_gic, interfaces, 'GIC', 'energy/area', positive), & !< mode I fracture energy, above SIGMAMAX**2/(2 ALPHAN)
     real_item(p_giic, interfaces, 'GIIC', 'energy/area', positive), & !< mode II fracture energy, above TAUMAX**2/(2 ALPHAT)
-    real_item(p_viscosity, interfaces, 'VISCOSITY', 'time', not_negative), & !< relaxation time, see below; 0: none
+    real_item(p_viscosity, interfaces, 'VISCOSITY', 'time', not_negative), & !< relaxation time, see above; 0: none
     real_item(p_eta, interfaces, 'ETA', '1', exponent), & !< exponent of Benzeggagh and Kenane (LAW 2, 3); 0: power law
     real_item(p_power, interfaces, 'POWER', '1', exponent), & !< exponent of the power law (LAW 2, 3); 0: 1, the linear criterion
     real_item(p_shapen, interfaces, 'SHAPEN', '1', above_one), & !< exponent of the softening in opening (LAW 4); 0: 2, about linear
@@ -134,25 +143,30 @@ module abaqus_layout
     real_item(p_gammabot, stabilised, 'GAMMABOT', '1', below_one), &
       !< weight of the bottom stress; 0: equation (22) with the same estimate
     real_item(p_friction, stabilised, 'FRICTION', '1', not_negative), & !< coefficient of friction, with CLOSURE 1; 0: none
-    real_item(p_bottom_e1, self_contained, 'E1 BOTTOM', 'stress', positive), & !< Young's modulus along material axis 1
-    real_item(p_bottom_e2, self_contained, 'E2 BOTTOM', 'stress', positive), & !< Young's modulus along material axis 2
-    real_item(p_bottom_e3, self_contained, 'E3 BOTTOM', 'stress', not_negative), & !< Young's modulus out of the plane; plane strain
-    real_item(p_bottom_nu12, self_contained, 'NU12 BOTTOM', '1', any_value), & !< contraction along 2 under stress along 1
-    real_item(p_bottom_nu13, self_contained, 'NU13 BOTTOM', '1', any_value), &
-      !< contraction along 3 under stress along 1; plane strain
-    real_item(p_bottom_nu23, self_contained, 'NU23 BOTTOM', '1', any_value), &
-      !< contraction along 3 under stress along 2; plane strain
-    real_item(p_bottom_g12, self_contained, 'G12 BOTTOM', 'stress', positive), & !< shear modulus in the plane
-    real_item(p_bottom_angle, self_contained, 'ANGLE BOTTOM', 'degree', any_value), &
-      !< of material axis 1 from x, counter-clockwise
-    real_item(p_top_e1, self_contained, 'E1 TOP', 'stress', positive), & !< Young's modulus along material axis 1
-    real_item(p_top_e2, self_contained, 'E2 TOP', 'stress', positive), & !< Young's modulus along material axis 2
-    real_item(p_top_e3, self_contained, 'E3 TOP', 'stress', not_negative), & !< Young's modulus out of the plane; plane strain
-    real_item(p_top_nu12, self_contained, 'NU12 TOP', '1', any_value), & !< contraction along 2 under stress along 1
-    real_item(p_top_nu13, self_contained, 'NU13 TOP', '1', any_value), & !< contraction along 3 under stress along 1; plane strain
-    real_item(p_top_nu23, self_contained, 'NU23 TOP', '1', any_value), & !< contraction along 3 under stress along 2; plane strain
-    real_item(p_top_g12, self_contained, 'G12 TOP', 'stress', positive), & !< shear modulus in the plane
-    real_item(p_top_angle, self_contained, 'ANGLE TOP', 'degree', any_value)] !< of material axis 1 from x, counter-clockwise
+    real_item(p_bottom_e1, with_solids, 'E1 BOTTOM', 'stress', positive), & !< Young's modulus along material axis 1
+    real_item(p_bottom_e2, with_solids, 'E2 BOTTOM', 'stress', positive), & !< Young's modulus along material axis 2
+    real_item(p_bottom_e3, with_solids, 'E3 BOTTOM', 'stress', not_negative), & !< Young's modulus along material axis 3; plane strain, U8
+    real_item(p_bottom_nu12, with_solids, 'NU12 BOTTOM', '1', any_value), & !< contraction along 2 under stress along 1
+    real_item(p_bottom_nu13, with_solids, 'NU13 BOTTOM', '1', any_value), &
+      !< contraction along 3 under stress along 1; plane strain, U8
+    real_item(p_bottom_nu23, with_solids, 'NU23 BOTTOM', '1', any_value), &
+      !< contraction along 3 under stress along 2; plane strain, U8
+    real_item(p_bottom_g12, with_solids, 'G12 BOTTOM', 'stress', positive), & !< shear modulus in the plane 1-2
+    real_item(p_bottom_angle, with_solids, 'ANGLE BOTTOM', 'degree', any_value), &
+      !< of material axis 1 from x, counter-clockwise; U8: from s about n, which is axis 3
+    real_item(p_top_e1, with_solids, 'E1 TOP', 'stress', positive), & !< Young's modulus along material axis 1
+    real_item(p_top_e2, with_solids, 'E2 TOP', 'stress', positive), & !< Young's modulus along material axis 2
+    real_item(p_top_e3, with_solids, 'E3 TOP', 'stress', not_negative), & !< Young's modulus along material axis 3; plane strain, U8
+    real_item(p_top_nu12, with_solids, 'NU12 TOP', '1', any_value), & !< contraction along 2 under stress along 1
+    real_item(p_top_nu13, with_solids, 'NU13 TOP', '1', any_value), & !< contraction along 3 under stress along 1; plane strain, U8
+    real_item(p_top_nu23, with_solids, 'NU23 TOP', '1', any_value), & !< contraction along 3 under stress along 2; plane strain, U8
+    real_item(p_top_g12, with_solids, 'G12 TOP', 'stress', positive), & !< shear modulus in the plane 1-2
+    real_item(p_top_angle, with_solids, 'ANGLE TOP', 'degree', any_value), &
+      !< of material axis 1 from x, counter-clockwise; U8: from s about n, which is axis 3
+    real_item(p_bottom_g13, self_contained_3d, 'G13 BOTTOM', 'stress', positive), & !< shear modulus in the plane 1-3
+    real_item(p_bottom_g23, self_contained_3d, 'G23 BOTTOM', 'stress', positive), & !< shear modulus in the plane 2-3
+    real_item(p_top_g13, self_contained_3d, 'G13 TOP', 'stress', positive), & !< shear modulus in the plane 1-3
+    real_item(p_top_g23, self_contained_3d, 'G23 TOP', 'stress', positive)] !< shear modulus in the plane 2-3
 
   ! rows of the table of integers
   integer, parameter, public :: j_law = 1
@@ -241,20 +255,72 @@ module abaqus_layout
     variable_item(v_maxn, 'MAXN', 'length'), & !< largest normal separation of the law so far, with LAW 4; else 0
     variable_item(v_maxt, 'MAXT', 'length')] !< largest tangential separation of the law so far, with LAW 4; else 0
 
-  type(element_item), parameter, public :: elements(6) = [ &
+  ! variables of a point of the interface elements in space
+  integer, parameter, public :: w_x = 1
+  integer, parameter, public :: w_y = 2
+  integer, parameter, public :: w_z = 3
+  integer, parameter, public :: w_sepn = 4
+  integer, parameter, public :: w_seps = 5
+  integer, parameter, public :: w_sept = 6
+  integer, parameter, public :: w_tn = 7
+  integer, parameter, public :: w_ts = 8
+  integer, parameter, public :: w_tt = 9
+  integer, parameter, public :: w_damage = 10
+  integer, parameter, public :: w_dissi = 11
+  integer, parameter, public :: w_dissii = 12
+  integer, parameter, public :: w_sn = 13
+  integer, parameter, public :: w_st = 14
+  integer, parameter, public :: w_dmax = 15
+  integer, parameter, public :: w_dissv = 16
+  integer, parameter, public :: w_wn = 17
+  integer, parameter, public :: w_ws = 18
+  integer, parameter, public :: w_wt = 19
+  integer, parameter, public :: w_dissf = 20
+  integer, parameter, public :: w_maxn = 21
+  integer, parameter, public :: w_maxt = 22
+
+  type(variable_item), parameter, public :: surface_variables(22) = [ &
+    variable_item(w_x, 'X', 'length'), & !< original position
+    variable_item(w_y, 'Y', 'length'), & !< original position
+    variable_item(w_z, 'Z', 'length'), & !< original position
+    variable_item(w_sepn, 'SEPN', 'length'), & !< normal displacement jump, opening positive
+    variable_item(w_seps, 'SEPS', 'length'), & !< displacement jump along s
+    variable_item(w_sept, 'SEPT', 'length'), & !< displacement jump along t
+    variable_item(w_tn, 'TN', 'stress'), & !< normal traction, tension positive
+    variable_item(w_ts, 'TS', 'stress'), & !< traction along s
+    variable_item(w_tt, 'TT', 'stress'), & !< traction along t
+    variable_item(w_damage, 'DAMAGE', '1'), & !< acting damage, 0 to 1; with CLOSURE 1 (1 - K/ALPHAN) k/(K + k); LAW 4: see above
+    variable_item(w_dissi, 'DISSI', 'energy/area'), & !< energy dissipated by damage in mode I
+    variable_item(w_dissii, 'DISSII', 'energy/area'), & !< energy dissipated by damage in shear
+    variable_item(w_sn, 'SN', '1'), & !< stabilised S, normal; 1 in the standard element
+    variable_item(w_st, 'ST', '1'), & !< stabilised S of both shears; 1 in the standard element
+    variable_item(w_dmax, 'DMAX', '1'), & !< largest damage of the law so far; DAMAGE lags behind it with VISCOSITY
+    variable_item(w_dissv, 'DISSV', 'energy/area'), & !< energy dissipated by the viscous regularisation
+    variable_item(w_wn, 'WN', 'length'), & !< normal separation of the law: with CLOSURE 0 it is SEPN
+    variable_item(w_ws, 'WS', 'length'), & !< separation of the law along s: with CLOSURE 0 it is SEPS
+    variable_item(w_wt, 'WT', 'length'), & !< separation of the law along t: with CLOSURE 0 it is SEPT
+    variable_item(w_dissf, 'DISSF', 'energy/area'), & !< energy dissipated by friction
+    variable_item(w_maxn, 'MAXN', 'length'), & !< largest normal separation of the law so far, with LAW 4; else 0
+    variable_item(w_maxt, 'MAXT', 'length')] !< largest shear separation of the law so far, with LAW 4; else 0
+
+  type(element_item), parameter, public :: elements(8) = [ &
     element_item(1, continuum, 2, 4, 4, 1, 2), & !< continuum quad, stress from a material of the deck (UELMAT)
     element_item(2, standard, 2, 4, 2, 13, 3), & !< standard cohesive interface
     element_item(3, next_to_quads, 2, 4, 2, 17, 7), & !< stabilised cohesive interface, four nodes, next to U1 quads
     element_item(4, self_contained, 2, 8, 2, 33, 6), & !< stabilised cohesive interface, eight nodes, self-contained; UNSYMM
     element_item(5, standard, 2, 6, 3, 13, 3), & !< standard cohesive interface between edges of three nodes
-    element_item(6, self_contained, 2, 16, 3, 33, 6)] !< stabilised cohesive interface of eight-node quads, self-contained; UNSYMM
+    element_item(6, self_contained, 2, 16, 3, 33, 6), & !< stabilised cohesive interface of eight-node quads, self-contained; UNSYMM
+    element_item(7, standard_3d, 3, 8, 4, 12, 3), & !< standard cohesive interface in space, four nodes on each face
+    element_item(8, self_contained_3d, 3, 16, 4, 36, 5)] !< stabilised cohesive interface of eight-node bricks, self-contained; UNSYMM
 
-  type(edges_item), parameter, public :: edges(2:6) = [ &
-    edges_item(2, 0, [1, 2, 0], [4, 3, 0]), & !< as COH2D4
-    edges_item(3, 0, [1, 2, 0], [4, 3, 0]), & !< as U2
-    edges_item(4, 4, [4, 3, 0], [5, 6, 0]), & !< edge 4-3 of the quad below, edge 1-2 of that above
-    edges_item(5, 0, [1, 2, 5], [4, 3, 6]), & !< as U2, with middles
-    edges_item(6, 8, [4, 3, 7], [9, 10, 13])] !< as U4, with middles
+  type(faces_item), parameter, public :: faces(2:8) = [ &
+    faces_item(2, 0, [1, 2, 0, 0], [4, 3, 0, 0]), & !< as COH2D4
+    faces_item(3, 0, [1, 2, 0, 0], [4, 3, 0, 0]), & !< as U2
+    faces_item(4, 4, [4, 3, 0, 0], [5, 6, 0, 0]), & !< edge 4-3 of the quad below, edge 1-2 of that above
+    faces_item(5, 0, [1, 2, 5, 0], [4, 3, 6, 0]), & !< as U2, with middles
+    faces_item(6, 8, [4, 3, 7, 0], [9, 10, 13, 0]), & !< as U4, with middles
+    faces_item(7, 0, [1, 2, 3, 4], [5, 6, 7, 8]), & !< as COH3D8
+    faces_item(8, 8, [5, 6, 7, 8], [9, 10, 11, 12])] !< face 5-6-7-8 of the brick below, face 1-2-3-4 of that above
 
 contains
 
@@ -274,8 +340,10 @@ contains
 
     number = 0
     if (jtype < 1 .or. jtype > size(elements)) return
-    number = elements(jtype)%points &
-      *merge(size(continuum_variables), size(interface_variables), elements(jtype)%family == continuum)
+    number = size(interface_variables)
+    if (elements(jtype)%family == continuum) number = size(continuum_variables)
+    if (iand(elements(jtype)%family, in_space) /= 0) number = size(surface_variables)
+    number = elements(jtype)%points*number
   end function variables_of
 
   !> Number of real properties that Un may have, PROPERTIES of *USER ELEMENT.

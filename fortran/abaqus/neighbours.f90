@@ -5,7 +5,7 @@ module abaqus_neighbours
   use core_kinds, only: dp
   use core_quadrature, only: gauss_rule
   use elements_quad4, only: face_nodes, gauss_of_face
-  use elements_interface_edges, only: coincidence_tolerance
+  use elements_interface_faces, only: coincidence_tolerance
   use elements_interface_point, only: interface_options
   use elements_interface_bulk, only: stabilisation_type, nitsche_parameters, sample_face, sample_gauss
   use abaqus_layout, only: integers, integer_position, j_offset_bottom, j_offset_top

@@ -6,7 +6,7 @@
 !> opening: the two contradict each other. Here "bottom" is Omega(2), "top" is Omega(1), n points from bottom to top, the separation
 !> is u_top - u_bottom (opening positive), and the traction is sigma.n (tension positive).
 !>
-!> Components are in the order (tau, n) of equation (8).
+!> Pairs are in the order (tau, n) of equation (8), tau the shear resultant of `cohesive_shear`.
 !>
 !> A law is a softening curve tau(lambda) for every direction c of the separation, w = lambda c with c = (|w_tau|, w_n)/
 !> lambda, from which the traction follows as t_i = tau ratio_i c_i. It is continued towards smaller separations than that
@@ -17,6 +17,7 @@ module cohesive_law
   use core_kinds, only: dp
   use core_status, only: status_type, ok, small_beta
   use cohesive_parameters, only: law_parameters, bilinear_law, exponential_law, ppr_law
+  use cohesive_shear, only: mode_of, resultant, shears
   use cohesive_state, only: point_history, damage_state
   use cohesive_mode_mix, only: check_mode_mix
   use cohesive_bilinear, only: bilinear_softening, bilinear_steepest
@@ -110,14 +111,14 @@ contains
   !> Damage d = 1 - tau flexibility/lambda of a law at a separation without history, and its slope; (9) for the bilinear one.
   pure subroutine damage_envelope(law, separation, damage, slope)
     type(law_parameters), intent(in) :: law    !< not rigid
-    real(dp), intent(in) :: separation(2)
+    real(dp), intent(in) :: separation(2)      !< (tau, n), tau not negative
     real(dp), intent(out) :: damage
     real(dp), intent(out) :: slope(2)          !< zero before onset and after failure
     real(dp) :: direction(2), length, traction, by_separation, by_angle
 
     damage = 0.0_dp
     slope = 0.0_dp
-    direction = [abs(separation(1)), max(0.0_dp, separation(2))]
+    direction = [separation(1), max(0.0_dp, separation(2))]
     length = sqrt(direction(1)**2 + direction(2)**2)
     if (.not. length > 0.0_dp) return
     direction = direction/length
@@ -127,7 +128,6 @@ contains
     slope = (traction/length - by_separation)*direction
     slope = slope - (by_angle/length)*[direction(2), -direction(1)]
     slope = slope*law%flexibility/length
-    slope(1) = sign(1.0_dp, separation(1))*slope(1)
   end subroutine damage_envelope
 
   !> Damage at the end of an increment.
@@ -140,7 +140,7 @@ contains
   pure subroutine evolve_damage(law, history, separation, dtime, state)
     type(law_parameters), intent(in) :: law
     type(point_history), intent(in) :: history
-    real(dp), intent(in) :: separation(2)   !< (tau, n), opening positive
+    real(dp), intent(in) :: separation(2)   !< (tau, n), tau not negative, opening positive
     real(dp), intent(in) :: dtime           !< duration of the increment
     type(damage_state), intent(out) :: state
     real(dp) :: fraction, slope(2)
@@ -177,32 +177,36 @@ contains
   pure subroutine dissipate(law, history, separation, state, dissipated, viscous)
     type(law_parameters), intent(in) :: law
     type(point_history), intent(in) :: history
-    real(dp), intent(in) :: separation(2)
+    real(dp), intent(in) :: separation(3)
     type(damage_state), intent(in) :: state
     real(dp), intent(out) :: dissipated(2)   !< by sliding and by opening
     real(dp), intent(out) :: viscous
-    real(dp), dimension(2) :: stiffness, g0, g1, d0, d0_max, d1_max, all_of_it, overstress
+    real(dp), dimension(2) :: stiffness, d0, d0_max, d1_max, of_damage, before, after
+    real(dp), dimension(3) :: g0, g1, work, overstress
 
-    g0 = [history%separation(1), max(0.0_dp, history%separation(2))]
-    g1 = [separation(1), max(0.0_dp, separation(2))]
+    g0 = [history%separation(1), max(0.0_dp, history%separation(2)), history%separation(3)]
+    g1 = [separation(1), max(0.0_dp, separation(2)), separation(3)]
     if (law%kind == ppr_law) then
       d0 = ppr_damage_of_components(law, history%largest)
       d0_max = d0
       d1_max = state%acting
       if (law%viscosity > 0.0_dp) then
-        d0_max = ppr_damage_of_components(law, max(history%largest, abs(g0)))
-        d1_max = ppr_damage_of_components(law, max(state%largest, abs(g1)))
+        d0_max = ppr_damage_of_components(law, max(history%largest, resultant(g0)))
+        d1_max = ppr_damage_of_components(law, max(state%largest, resultant(g1)))
       end if
     else
       d0 = history%damage
       d0_max = history%damage_max
       d1_max = state%damage_max
     end if
-    stiffness = stiffness_of(law)
-    all_of_it = 0.5_dp*stiffness*g0*g1*(state%acting - d0)
-    overstress = 0.5_dp*stiffness*(g1 - g0)*((d0_max - d0)*g0 + (d1_max - state%acting)*g1)
-    dissipated = history%dissipated + all_of_it - overstress
-    viscous = history%viscous + overstress(1) + overstress(2)
+    stiffness = 0.5_dp*stiffness_of(law)
+    of_damage = stiffness*(state%acting - d0)
+    before = stiffness*(d0_max - d0)
+    after = stiffness*(d1_max - state%acting)
+    overstress = (g1 - g0)*(before(mode_of)*g0 + after(mode_of)*g1)
+    work = of_damage(mode_of)*g0*g1 - overstress
+    dissipated = history%dissipated + [sum(work(shears)), work(2)]
+    viscous = history%viscous + sum(overstress)
   end subroutine dissipate
 
 end module cohesive_law

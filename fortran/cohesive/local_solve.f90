@@ -12,17 +12,19 @@
 !> 1/(alpha_n + b), or 0 for an infinite alpha, to 1/b at failure; in it a bilinear law is a straight line wherever
 !> b_1 = b_2. T depends on p alone.
 !>
-!> Components are in the order (tau, n). The interface is closed where p_n < 0: the normal stiffness is not damaged there.
+!> In space, p, w and T have two shears: the viscous overstress and friction act on the vectors, and the law is solved for the shear
+!> resultant and the opening (`cohesive_shear`). The interface is closed where p_n < 0: the normal stiffness is not damaged there.
 module cohesive_local_solve
   use core_kinds, only: dp
   use core_root, only: root_search, search_between, searching, advance
   use core_small_matrix, only: invert
   use cohesive_parameters, only: law_parameters, ppr_law
-  use cohesive_state, only: point_history, law_solution
+  use cohesive_shear, only: mode_of, shears, resultant, shear_direction, vector_tangent
+  use cohesive_state, only: point_history, law_solution, driven_point, resultant_solution
   use cohesive_law, only: softening
-  use cohesive_friction, only: coulomb_friction
+  use cohesive_friction, only: friction_state, coulomb_friction, add_friction
   use cohesive_ppr, only: ppr_start_of_increment
-  use cohesive_ppr_local_solve, only: solve_ppr_law
+  use cohesive_ppr_local_solve, only: solve_ppr_law, ppr_trial_of_rest
   implicit none(type, external)
   private
   public :: solve_law, dissipate_consistently
@@ -31,7 +33,7 @@ module cohesive_local_solve
   type :: law_equation
     real(dp) :: b(2)         !< (beta + viscous part)/ratio, stress/length
     real(dp) :: least        !< smaller one of b
-    real(dp) :: driving(2)   !< absolute value of p/ratio, stress
+    real(dp) :: driving(2)   !< p/ratio, stress
   end type law_equation
 
 contains
@@ -39,101 +41,162 @@ contains
   !> Traction, separation and damage for a trial traction, and the derivative of the traction by it.
   !>
   !> Viscosity adds the overstress eta dw/dt, by backward Euler: beta and p become beta + eta/dt and p + eta w_old/dt. Its
-  !> eta = viscosity k (1 - D_old) ratio, with the softening stiffness k, vanishes at failed points. A lag of the damage cannot
-  !> work: an undamaged point with infinite alpha does not open, and one that does not open has no damage to catch up with. In an
-  !> increment of zero duration a viscous law keeps its damage.
+  !> eta = viscosity k (1 - D_old), with the softening stiffness k of each mode, vanishes at failed points. A lag of the damage
+  !> cannot work: an undamaged point with infinite alpha does not open, and one that does not open has no damage to catch up with.
+  !> In an increment of zero duration a viscous law keeps its damage.
   pure subroutine solve_law(law, beta, trial, dtime, secant_share, history, state)
     type(law_parameters), intent(in) :: law
     real(dp), intent(in) :: beta(2)              !< stress/length, (tau, n)
-    real(dp), intent(in) :: trial(2)             !< p, stress
+    real(dp), intent(in) :: trial(3)             !< p, stress
     real(dp), intent(in) :: dtime                !< duration of the increment
     real(dp), intent(in) :: secant_share         !< of the tangent at fixed damage in `by_trial`, from 0 to 1
     type(point_history), intent(in) :: history
     type(law_solution), intent(out) :: state
-    type(law_equation) :: equation
-    real(dp), dimension(2) :: viscous, old, p, stiff, soft
-    real(dp) :: x, friction_slope
-    logical :: closed, grows, sticks
+    type(driven_point) :: driven
+    type(resultant_solution) :: solution
+    type(friction_state) :: friction
+    real(dp) :: old(3), p(3), direction(2), pressed
 
-    if (law%kind == ppr_law) then
-      call solve_ppr_law(law, beta, trial, dtime, secant_share, history, state)
-      return
-    end if
     old = opening_part(history%separation)
-    viscous = 0.0_dp
-    if (law%viscosity > 0.0_dp .and. dtime > 0.0_dp) viscous = (law%viscosity/dtime) &
-      *softening_stiffness(law)*(1.0_dp - history%damage)*law%ratio
-    p = trial + viscous*old
-    closed = p(2) < 0.0_dp
-    equation%b = (beta + viscous)/law%ratio
-    equation%least = minval(equation%b)
-    x = at_damage(law, equation%least, history%damage)
-    call shares(law, beta, equation, closed, x, stiff, soft)
-    call coulomb_friction(law, history%damage, merge(p(2)*stiff(2), 0.0_dp, closed), p(1), &
-      old(1)/max(soft(1), tiny(1.0_dp)), sticks, state%friction, friction_slope)
-    p(1) = p(1) - state%friction
-    equation%driving = [abs(p(1)), max(0.0_dp, p(2))]/law%ratio
-
-    state%damage = history%damage
-    state%largest = 0.0_dp
-    grows = history%damage < 1.0_dp .and. .not. sticks .and. (dtime > 0.0_dp .or. .not. law%viscosity > 0.0_dp)
-    state%solved = .true.
-    state%steps = 0
-    if (grows) call solve_for_damage(law, equation, x, grows, state%solved, state%steps)
-    if (grows) then
-      ! where it is nearly 1, rounding could make it decrease
-      state%damage = max(history%damage, damage_of(law, equation%least, x))
-      call shares(law, beta, equation, closed, x, stiff, soft)
+    driven%beta = beta
+    driven%viscous = 0.0_dp
+    if (law%viscosity > 0.0_dp .and. dtime > 0.0_dp) driven%viscous = (law%viscosity/dtime) &
+      *(1.0_dp - history%damage)*overstress_stiffness(law)
+    driven%secant_share = secant_share
+    driven%fixed = law%viscosity > 0.0_dp .and. .not. dtime > 0.0_dp
+    p = trial + driven%viscous(mode_of)*old
+    driven%closed = p(2) < 0.0_dp
+    driven%sticks = .false.
+    pressed = p(2)/(1.0_dp + beta(2)*law%flexibility)
+    friction%acts = law%friction*history%damage > 0.0_dp .and. driven%closed
+    if (friction%acts) then
+      call coulomb_friction(law%friction*history%damage, pressed, p(shears) - rest(law, driven, history, p, old), friction)
+      driven%sticks = friction%sticks
+      p(shears) = p(shears) - friction%traction
     end if
-    state%recoverable = stiff*p
-    state%separation = soft*p
-    if (sticks) state%separation(1) = old(1)
-    state%overstress = viscous*(opening_part(state%separation) - old)
-    state%traction = state%recoverable + state%overstress + [state%friction, 0.0_dp]
-    state%stabilisation = beta*soft/(stiff + beta*soft)
+    driven%trial = resultant(p)
+    if (law%kind == ppr_law) then
+      call solve_ppr_law(law, driven, history, solution)
+    else
+      call solve_softening_law(law, driven, history, solution)
+    end if
 
-    if (closed) viscous(2) = 0.0_dp
-    state%by_trial = 0.0_dp
-    state%by_trial(1, 1) = stiff(1) + viscous(1)*soft(1)
-    state%by_trial(2, 2) = stiff(2) + viscous(2)*soft(2)
-    if (grows .and. secant_share < 1.0_dp) call blend_loading(law, equation, x, p(1), closed, viscous, &
-      1.0_dp - secant_share, state%by_trial)
-    ! friction subtracts from p_tau what it adds to T_tau
-    if (sticks) state%by_trial(1, 1) = 1.0_dp
-    if (closed) state%by_trial(1, 2) = friction_slope*stiff(2)*(1.0_dp - state%by_trial(1, 1))
+    direction = shear_direction(p)
+    state%damage = solution%damage
+    state%largest = solution%largest
+    state%stabilisation = solution%stabilisation
+    state%solved = solution%solved
+    state%steps = solution%steps
+    state%recoverable(shears) = solution%recoverable(1)*direction
+    state%recoverable(2) = solution%recoverable(2)
+    state%separation(shears) = solution%separation(1)*direction
+    state%separation(2) = solution%separation(2)
+    if (driven%sticks) state%separation(shears) = old(shears)
+    state%overstress = driven%viscous(mode_of)*(opening_part(state%separation) - old)
+    state%traction = state%recoverable + state%overstress
+    state%by_trial = vector_tangent(direction, solution%share, solution%by_trial)
+    state%friction = 0.0_dp
+    if (.not. friction%acts) return
+    state%friction = friction%traction
+    state%traction(shears) = state%traction(shears) + friction%traction
+    call add_friction(friction, 1.0_dp/(1.0_dp + beta(2)*law%flexibility), state%by_trial)
   end subroutine solve_law
 
-  !> t and ratio w as shares of p, for the damage at x.
-  pure subroutine shares(law, beta, equation, closed, x, stiff, soft)
+  !> (p_s, p_t) at which the shear of w does not change, without friction.
+  pure function rest(law, driven, history, p, old) result(shear)
     type(law_parameters), intent(in) :: law
-    real(dp), intent(in) :: beta(2)
+    type(driven_point), intent(in) :: driven
+    type(point_history), intent(in) :: history
+    real(dp), intent(in) :: p(3), old(3)
+    real(dp) :: shear(2)
+    type(law_equation) :: equation
+    real(dp) :: stiff(2), soft(2)
+
+    if (law%kind == ppr_law) then
+      shear = ppr_trial_of_rest(law, driven, history, p(shears), old(shears))
+      return
+    end if
+    equation = equation_of(law, driven)
+    call shares(law, driven, equation, at_damage(law, equation%least, history%damage), stiff, soft)
+    shear = old(shears)/max(soft(1), tiny(1.0_dp))
+  end function rest
+
+  !> The scalar equation of a point.
+  pure function equation_of(law, driven) result(equation)
+    type(law_parameters), intent(in) :: law
+    type(driven_point), intent(in) :: driven
+    type(law_equation) :: equation
+
+    equation%b = (driven%beta + driven%viscous)/law%ratio
+    equation%least = minval(equation%b)
+    equation%driving = 0.0_dp
+  end function equation_of
+
+  !> The laws that are a softening curve in every direction, in (tau, n).
+  pure subroutine solve_softening_law(law, driven, history, solution)
+    type(law_parameters), intent(in) :: law
+    type(driven_point), intent(in) :: driven
+    type(point_history), intent(in) :: history
+    type(resultant_solution), intent(out) :: solution
+    type(law_equation) :: equation
+    real(dp) :: stiff(2), soft(2), viscous(2), x
+    logical :: grows
+
+    equation = equation_of(law, driven)
+    equation%driving = [driven%trial(1), max(0.0_dp, driven%trial(2))]/law%ratio
+    x = at_damage(law, equation%least, history%damage)
+    solution%damage = history%damage
+    solution%largest = 0.0_dp
+    grows = history%damage < 1.0_dp .and. .not. driven%sticks .and. .not. driven%fixed
+    solution%solved = .true.
+    solution%steps = 0
+    if (grows) call solve_for_damage(law, equation, x, grows, solution%solved, solution%steps)
+    ! where it is nearly 1, rounding could make it decrease
+    if (grows) solution%damage = max(history%damage, damage_of(law, equation%least, x))
+    call shares(law, driven, equation, x, stiff, soft)
+    solution%recoverable = stiff*driven%trial
+    solution%separation = soft*driven%trial
+    solution%stabilisation = driven%beta*soft/(stiff + driven%beta*soft)
+
+    viscous = driven%viscous
+    if (driven%closed) viscous(2) = 0.0_dp
+    solution%share = stiff(1) + viscous(1)*soft(1)
+    solution%by_trial = 0.0_dp
+    solution%by_trial(1, 1) = solution%share
+    solution%by_trial(2, 2) = stiff(2) + viscous(2)*soft(2)
+    if (grows .and. driven%secant_share < 1.0_dp) call blend_loading(law, equation, x, driven%closed, viscous, &
+      1.0_dp - driven%secant_share, solution%by_trial)
+  end subroutine solve_softening_law
+
+  !> t and ratio w as shares of p, for the damage at x.
+  pure subroutine shares(law, driven, equation, x, stiff, soft)
+    type(law_parameters), intent(in) :: law
+    type(driven_point), intent(in) :: driven
     type(law_equation), intent(in) :: equation
-    logical, intent(in) :: closed
     real(dp), intent(in) :: x
     real(dp), intent(out) :: stiff(2)   !< t_i/p_i
     real(dp), intent(out) :: soft(2)    !< w_i/p_i, length/stress
 
     stiff = remainder_at(equation%least, x)/(1.0_dp + (equation%b - equation%least)*x)
     soft = x/(1.0_dp + (equation%b - equation%least)*x)/law%ratio
-    if (closed) then
-      stiff(2) = 1.0_dp/(1.0_dp + beta(2)*law%flexibility)
+    if (driven%closed) then
+      stiff(2) = 1.0_dp/(1.0_dp + driven%beta(2)*law%flexibility)
       soft(2) = law%flexibility*stiff(2)
     end if
   end subroutine shares
 
   !> Adds the slopes of growing damage to a share of dT/dp.
-  pure subroutine blend_loading(law, equation, x, shear, closed, viscous, share, by_trial)
+  pure subroutine blend_loading(law, equation, x, closed, viscous, share, by_trial)
     type(law_parameters), intent(in) :: law
     type(law_equation), intent(in) :: equation
     real(dp), intent(in) :: x
-    real(dp), intent(in) :: shear                   !< p_tau
     logical, intent(in) :: closed
     real(dp), intent(in) :: viscous(2)              !< overstress by w, stress/length
     real(dp), intent(in) :: share                   !< from 0 to 1
     real(dp), intent(inout) :: by_trial(2, 2)       !< at fixed damage; blended
     real(dp), dimension(2, 2) :: loading, opening
 
-    call slopes_of_loading(law, equation, x, shear, loading, opening)
+    call slopes_of_loading(law, equation, x, loading, opening)
     loading(1, :) = loading(1, :) + viscous(1)*opening(1, :)
     loading(2, :) = loading(2, :) + viscous(2)*opening(2, :)
     if (closed) loading(:, 2) = [0.0_dp, by_trial(2, 2)]
@@ -211,16 +274,15 @@ contains
 
   !> dt/dp and dw/dp while the damage grows, through lambda and the angle theta of c = (sin theta, cos theta):
   !> p_i/ratio_i = tau c_i + b_i lambda c_i.
-  pure subroutine slopes_of_loading(law, equation, x, shear, of_traction, of_separation)
+  pure subroutine slopes_of_loading(law, equation, x, of_traction, of_separation)
     type(law_parameters), intent(in) :: law
     type(law_equation), intent(in) :: equation
     real(dp), intent(in) :: x
-    real(dp), intent(in) :: shear                 !< p_tau, for its sign
     real(dp), intent(out) :: of_traction(2, 2)    !< dt/dp
     real(dp), intent(out) :: of_separation(2, 2)  !< dw/dp
     real(dp), dimension(2, 2) :: a, inverse, of_tau, of_w
     real(dp), dimension(2) :: direction, turned
-    real(dp) :: length, traction, by_separation, by_angle, separation, sides(2), determinant
+    real(dp) :: length, traction, by_separation, by_angle, separation, determinant
     integer :: j
 
     call direction_at(equation, x, length, direction)
@@ -236,10 +298,9 @@ contains
     call invert(2, a, inverse, determinant)
     of_tau = matmul(of_tau, inverse)
     of_w = matmul(of_w, inverse)
-    sides = [sign(1.0_dp, shear), 1.0_dp]
     do j = 1, 2
-      of_traction(:, j) = law%ratio*sides*of_tau(:, j)*(sides(j)/law%ratio(j))
-      of_separation(:, j) = sides*of_w(:, j)*(sides(j)/law%ratio(j))
+      of_traction(:, j) = law%ratio*of_tau(:, j)/law%ratio(j)
+      of_separation(:, j) = of_w(:, j)/law%ratio(j)
     end do
   end subroutine slopes_of_loading
 
@@ -288,12 +349,24 @@ contains
     k = 1.0_dp/(2.0_dp*law%toughness(2)/law%strength(2)**2 - law%flexibility)
   end function softening_stiffness
 
-  !> The separation without the penetration of a closed interface.
-  pure function opening_part(separation) result(part)
-    real(dp), intent(in) :: separation(2)
-    real(dp) :: part(2)
+  !> Stiffness of the viscous overstress of an undamaged point, without the relaxation time: k, or strength**2/(2 G) for PPR.
+  pure function overstress_stiffness(law) result(k)
+    type(law_parameters), intent(in) :: law
+    real(dp) :: k(2)
 
-    part = [separation(1), max(0.0_dp, separation(2))]
+    if (law%kind == ppr_law) then
+      k = 0.5_dp*law%strength**2/law%toughness
+    else
+      k = softening_stiffness(law)*law%ratio
+    end if
+  end function overstress_stiffness
+
+  !> A vector without the penetration, or the compression, of a closed interface.
+  pure function opening_part(vector) result(part)
+    real(dp), intent(in) :: vector(3)
+    real(dp) :: part(3)
+
+    part = [vector(1), max(0.0_dp, vector(2)), vector(3)]
   end function opening_part
 
   !> Energies dissipated up to the end of an increment, per area: by the trapezoidal rule (t0 w1 - t1 w0)/2, as in
@@ -301,12 +374,12 @@ contains
   pure subroutine dissipate_consistently(law, history, old_traction, state, dissipated, viscous, friction_work)
     type(law_parameters), intent(in) :: law
     type(point_history), intent(in) :: history
-    real(dp), intent(in) :: old_traction(2)    !< T at the start of the increment
+    real(dp), intent(in) :: old_traction(3)    !< T at the start of the increment
     type(law_solution), intent(in) :: state
     real(dp), intent(out) :: dissipated(2)     !< by sliding and by opening
     real(dp), intent(out) :: viscous
     real(dp), intent(out) :: friction_work            !< by friction
-    real(dp), dimension(2) :: w0, w1, t0, t1
+    real(dp), dimension(3) :: w0, w1, t0, t1, work
     real(dp) :: k, flexible
 
     w0 = opening_part(history%separation)
@@ -317,14 +390,17 @@ contains
     if (law%kind == ppr_law) then
       t0 = ppr_start_of_increment(law, history, old_traction)
     else if (flexible > 0.0_dp) then
-      t0 = law%ratio*w0*(k*(1.0_dp - history%damage)/flexible)
+      t0 = law%ratio(mode_of)*w0*(k*(1.0_dp - history%damage)/flexible)
     else
       ! rigid so far
       t0 = old_traction
     end if
     dissipated = history%dissipated
-    if (state%damage > history%damage) dissipated = dissipated + 0.5_dp*(opening_part(t0)*w1 - opening_part(t1)*w0)
-    friction_work = history%friction_work + state%friction*(w1(1) - w0(1))
+    if (state%damage > history%damage) then
+      work = 0.5_dp*(opening_part(t0)*w1 - opening_part(t1)*w0)
+      dissipated = dissipated + [sum(work(shears)), work(2)]
+    end if
+    friction_work = history%friction_work + dot_product(state%friction, w1(shears) - w0(shears))
     viscous = history%viscous + dot_product(state%overstress, w1 - w0)
   end subroutine dissipate_consistently
 

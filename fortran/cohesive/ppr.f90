@@ -28,6 +28,7 @@ module cohesive_ppr
   use core_root, only: root_search, search_between, searching, advance
   use core_status, only: status_type, ok, late_secant, small_beta, no_root
   use cohesive_parameters, only: law_parameters
+  use cohesive_shear, only: mode_of, resultant
   use cohesive_state, only: point_history, damage_state
   implicit none(type, external)
   private
@@ -229,14 +230,14 @@ contains
   pure subroutine evolve_ppr(law, history, separation, fraction, state)
     type(law_parameters), intent(in) :: law
     type(point_history), intent(in) :: history
-    real(dp), intent(in) :: separation(2)   !< (tau, n), opening positive
+    real(dp), intent(in) :: separation(2)   !< (tau, n), tau not negative, opening positive
     real(dp), intent(in) :: fraction        !< of the excess by which the largest separations grow
     type(damage_state), intent(out) :: state
     type(ppr_component) :: parts(2)
-    real(dp) :: jump(2), by_largest(2, 2), grown
+    real(dp) :: jump(2), by_largest(2, 2)
     integer :: i, j
 
-    jump = [abs(separation(1)), max(0.0_dp, separation(2))]
+    jump = [separation(1), max(0.0_dp, separation(2))]
     state%largest = max(history%largest, jump)
     if (fraction < 1.0_dp) state%largest = history%largest + fraction*(state%largest - history%largest)
     do i = 1, 2
@@ -253,8 +254,7 @@ contains
     end do
     do j = 1, 2
       if (.not. jump(j) > history%largest(j)) cycle
-      grown = sign(fraction, separation(j))
-      state%slope(:, j) = -by_largest(:, j)*grown*law%flexibility/law%ratio
+      state%slope(:, j) = -by_largest(:, j)*fraction*law%flexibility/law%ratio
     end do
     state%damage = damage_at(law, state%largest)
     state%damage_max = max(history%damage_max, damage_at(law, max(state%largest, jump)))
@@ -265,22 +265,30 @@ contains
   pure function ppr_start_of_increment(law, history, old_traction) result(traction)
     type(law_parameters), intent(in) :: law
     type(point_history), intent(in) :: history
-    real(dp), intent(in) :: old_traction(2)   !< T, stress
-    real(dp) :: traction(2)
+    real(dp), intent(in) :: old_traction(3)   !< T, stress
+    real(dp) :: traction(3)
     type(ppr_component) :: parts(2)
-    real(dp) :: most
+    real(dp) :: shares(2), acting(2), most
     integer :: i
 
     do i = 1, 2
       parts(i) = component_at(law, i, history%largest(i))
     end do
+    acting = resultant(old_traction)
     do i = 1, 2
       if (law%flexibility > 0.0_dp .or. history%largest(i) > 0.0_dp) then
-        traction(i) = parts(i)%secant*parts(3 - i)%share*history%separation(i)
+        shares(i) = parts(i)%secant*parts(3 - i)%share
       else
         most = parts(i)%traction*parts(3 - i)%share
-        traction(i) = max(-most, min(most, old_traction(i)))
+        shares(i) = 1.0_dp
+        if (abs(acting(i)) > most) shares(i) = most/abs(acting(i))
       end if
+    end do
+    do i = 1, 3
+      associate (mode => mode_of(i))
+        traction(i) = shares(mode)*merge(history%separation(i), old_traction(i), &
+          law%flexibility > 0.0_dp .or. history%largest(mode) > 0.0_dp)
+      end associate
     end do
     traction(2) = max(0.0_dp, traction(2))
   end function ppr_start_of_increment

@@ -1,6 +1,7 @@
 ! SPDX-FileCopyrightText: The uel-harness authors
 ! SPDX-License-Identifier: BSD-3-Clause
-!> The consistent stabilised law t(w; history) + beta w = p with the PPR law, in two unknowns; components in the order (tau, n).
+!> The consistent stabilised law t(w; history) + beta w = p with the PPR law, in two unknowns: the shear resultant and the opening,
+!> (tau, n).
 !>
 !> With a sufficient beta, `check_ppr_beta`, the left side is strongly monotone in w, with history and for infinite
 !> stiffness too: w_n follows from w_tau by one equation that increases with w_n, and the other equation then increases with w_tau.
@@ -9,21 +10,20 @@ module cohesive_ppr_local_solve
   use core_kinds, only: dp
   use core_root, only: root_search, search_between, searching, advance
   use cohesive_parameters, only: law_parameters
-  use cohesive_state, only: point_history, law_solution
+  use cohesive_state, only: point_history, driven_point, resultant_solution
   use cohesive_ppr, only: ppr_component, component_at, damage_at
-  use cohesive_friction, only: coulomb_friction
   implicit none(type, external)
   private
-  public :: solve_ppr_law
+  public :: solve_ppr_law, ppr_trial_of_rest
 
   !> The equations t_i + b_i w_i = driving_i, and the state of their solution.
   type :: ppr_equations
     real(dp) :: b(2)                  !< beta and viscous part, stress/length
-    real(dp) :: driving(2)            !< absolute value of p without its compressive part, stress
+    real(dp) :: driving(2)            !< p without its compressive part, stress
     real(dp) :: largest(2)            !< largest separations: at the start of the increment
     logical :: fixed(2)               !< the damage may not grow
     type(ppr_component) :: parts(2)   !< at the separations
-    real(dp) :: w(2)                  !< absolute value of the separations, length
+    real(dp) :: w(2)                  !< the separations, length
     logical :: grows(2)               !< beyond the largest separation so far
     logical :: rigid(2)                !< rigid, without a separation
     logical :: solved                 !< both roots were found
@@ -32,87 +32,67 @@ module cohesive_ppr_local_solve
 
 contains
 
-  !> Traction, separation and damage for a trial traction, and the derivative of the traction by it.
-  !>
-  !> Viscosity, contact and friction are those of the other laws, `solve_law`; the overstress is that of
-  !> eta_i = viscosity k_i (1 - DAMAGE), k_i = strength_i**2/(2 G_i).
-  pure subroutine solve_ppr_law(law, beta, trial, dtime, secant_share, history, state)
+  !> Traction, separation and damage of a point, and the derivative of the traction by p.
+  pure subroutine solve_ppr_law(law, driven, history, solution)
     type(law_parameters), intent(in) :: law
-    real(dp), intent(in) :: beta(2)              !< stress/length, (tau, n)
-    real(dp), intent(in) :: trial(2)             !< p, stress
-    real(dp), intent(in) :: dtime                !< duration of the increment
-    real(dp), intent(in) :: secant_share         !< of the tangent at fixed damage in `by_trial`, from 0 to 1
+    type(driven_point), intent(in) :: driven
     type(point_history), intent(in) :: history
-    type(law_solution), intent(out) :: state
+    type(resultant_solution), intent(out) :: solution
     type(ppr_equations) :: equations
-    real(dp), dimension(2) :: viscous, old, p, secants
-    real(dp) :: stiff, rest, friction_slope
-    logical :: closed, sticks
+    real(dp) :: secants(2), fixed(2), stiff
 
-    old = [history%separation(1), max(0.0_dp, history%separation(2))]
-    viscous = 0.0_dp
-    if (law%viscosity > 0.0_dp .and. dtime > 0.0_dp) viscous = (law%viscosity/dtime) &
-      *0.5_dp*law%strength**2/law%toughness*(1.0_dp - history%damage)
-    p = trial + viscous*old
-    closed = p(2) < 0.0_dp
-    stiff = 1.0_dp/(1.0_dp + beta(2)*law%flexibility)
-    equations%b = beta + viscous
-    equations%driving = [0.0_dp, max(0.0_dp, p(2))]
+    equations%b = driven%beta + driven%viscous
+    equations%driving = [driven%trial(1), max(0.0_dp, driven%trial(2))]
     equations%largest = history%largest
-    equations%fixed = law%viscosity > 0.0_dp .and. .not. dtime > 0.0_dp
-
-    rest = 0.0_dp
-    if (law%friction > 0.0_dp) rest = trial_of_rest(law, equations, p(1), old(1))
-    call coulomb_friction(law, history%damage, merge(p(2)*stiff, 0.0_dp, closed), p(1), rest, sticks, &
-      state%friction, friction_slope)
-    p(1) = p(1) - state%friction
-    equations%fixed(1) = equations%fixed(1) .or. sticks
-    equations%driving(1) = abs(p(1))
+    equations%fixed = [driven%fixed .or. driven%sticks, driven%fixed]
     call solve(law, equations)
 
-    state%solved = equations%solved
-    state%steps = equations%steps
-    state%largest = history%largest
-    where (equations%grows) state%largest = equations%w
-    state%damage = damage_at(law, state%largest)
+    solution%solved = equations%solved
+    solution%steps = equations%steps
+    solution%largest = history%largest
+    where (equations%grows) solution%largest = equations%w
+    solution%damage = damage_at(law, solution%largest)
     secants = [equations%parts(1)%secant*equations%parts(2)%share, equations%parts(2)%secant*equations%parts(1)%share]
-    state%separation = [sign(equations%w(1), p(1)), equations%w(2)]
-    if (sticks) state%separation(1) = old(1)
-    state%recoverable = p - equations%b*state%separation
-    where (.not. equations%rigid) state%recoverable = secants*state%separation
-    state%overstress = viscous*(state%separation - old)
-    state%stabilisation = 0.0_dp
-    where (.not. equations%rigid) state%stabilisation = beta/(secants + beta)
-    call derive(equations, beta, viscous, sign(1.0_dp, p(1)), secants, secant_share, state%by_trial)
-    if (closed) then
-      state%separation(2) = law%flexibility*stiff*p(2)
-      state%recoverable(2) = stiff*p(2)
-      state%stabilisation(2) = 1.0_dp - stiff
-      state%by_trial(:, 2) = [0.0_dp, stiff]
-      state%by_trial(2, 1) = 0.0_dp
-    end if
-    state%traction = state%recoverable + state%overstress + [state%friction, 0.0_dp]
-    ! friction subtracts from p_tau what it adds to T_tau
-    if (sticks) state%by_trial(1, 1) = 1.0_dp
-    if (closed) state%by_trial(1, 2) = friction_slope*stiff*(1.0_dp - state%by_trial(1, 1))
+    solution%separation = equations%w
+    solution%recoverable = driven%trial - equations%b*solution%separation
+    where (.not. equations%rigid) solution%recoverable = secants*solution%separation
+    solution%stabilisation = 0.0_dp
+    where (.not. equations%rigid) solution%stabilisation = driven%beta/(secants + driven%beta)
+    ! T over p: without separation, T is p
+    fixed = 1.0_dp
+    where (.not. equations%rigid) fixed = (secants + driven%viscous)/(secants + equations%b)
+    solution%share = fixed(1)
+    call derive(equations, driven, secants, fixed, solution%by_trial)
+    if (.not. driven%closed) return
+    stiff = 1.0_dp/(1.0_dp + driven%beta(2)*law%flexibility)
+    solution%separation(2) = law%flexibility*stiff*driven%trial(2)
+    solution%recoverable(2) = stiff*driven%trial(2)
+    solution%stabilisation(2) = 1.0_dp - stiff
+    solution%by_trial(:, 2) = [0.0_dp, stiff]
+    solution%by_trial(2, 1) = 0.0_dp
   end subroutine solve_ppr_law
 
-  !> p_tau at which w_tau does not change, without friction; for a rigid point the nearest one.
-  pure function trial_of_rest(law, equations, p, old) result(rest)
+  !> Shear of p at which that of w does not change, without friction; for a rigid point the nearest one.
+  pure function ppr_trial_of_rest(law, driven, history, p, old) result(rest)
     type(law_parameters), intent(in) :: law
-    type(ppr_equations), intent(in) :: equations
-    real(dp), intent(in) :: p, old
-    real(dp) :: rest
+    type(driven_point), intent(in) :: driven
+    type(point_history), intent(in) :: history
+    real(dp), intent(in) :: p(2), old(2)   !< shears of p, and of w at the start of the increment
+    real(dp) :: rest(2)
     type(ppr_component) :: tau, n
+    real(dp) :: length, most
 
-    tau = component_at(law, 1, equations%largest(1))
-    n = component_at(law, 2, equations%largest(2))
-    if (law%flexibility > 0.0_dp .or. equations%largest(1) > 0.0_dp) then
-      rest = (tau%secant*n%share + equations%b(1))*old
+    tau = component_at(law, 1, history%largest(1))
+    n = component_at(law, 2, history%largest(2))
+    if (law%flexibility > 0.0_dp .or. history%largest(1) > 0.0_dp) then
+      rest = (tau%secant*n%share + driven%beta(1) + driven%viscous(1))*old
     else
-      rest = max(-tau%traction*n%share, min(tau%traction*n%share, p))
+      length = hypot(p(1), p(2))
+      most = tau%traction*n%share
+      rest = p
+      if (length > most) rest = p*(most/length)
     end if
-  end function trial_of_rest
+  end function ppr_trial_of_rest
 
   !> Solves for w_tau; w_n follows from every w_tau.
   pure subroutine solve(law, equations)
@@ -230,31 +210,28 @@ contains
   end function cross
 
   !> dT/dp = (dt/dw + viscous part) (dt/dw + b)**-1 of an open point, blended with that at fixed damage.
-  pure subroutine derive(equations, beta, viscous, side, secants, secant_share, by_trial)
+  pure subroutine derive(equations, driven, secants, fixed, by_trial)
     type(ppr_equations), intent(in) :: equations
-    real(dp), intent(in) :: beta(2), viscous(2)
-    real(dp), intent(in) :: side               !< sign of w_tau
+    type(driven_point), intent(in) :: driven
     real(dp), intent(in) :: secants(2)         !< t_i/w_i
-    real(dp), intent(in) :: secant_share       !< from 0 to 1
+    real(dp), intent(in) :: fixed(2)           !< T_i/p_i
     real(dp), intent(out) :: by_trial(2, 2)
     real(dp) :: a(2, 2), determinant
     integer :: i
 
     by_trial = 0.0_dp
     do i = 1, 2
-      ! without separation, T is p
-      by_trial(i, i) = 1.0_dp
-      if (.not. equations%rigid(i)) by_trial(i, i) = (secants(i) + viscous(i))/(secants(i) + equations%b(i))
+      by_trial(i, i) = fixed(i)
     end do
-    if (.not. any(equations%grows) .or. secant_share >= 1.0_dp) return
+    if (.not. any(equations%grows) .or. driven%secant_share >= 1.0_dp) return
 
     do i = 1, 2
       a(i, i) = secants(i)
       if (equations%grows(i)) a(i, i) = equations%parts(i)%slope*equations%parts(3 - i)%share
-      a(i, 3 - i) = side*cross(equations, i)
+      a(i, 3 - i) = cross(equations, i)
     end do
-    by_trial = secant_share*by_trial
-    associate (blend => 1.0_dp - secant_share)
+    by_trial = driven%secant_share*by_trial
+    associate (blend => 1.0_dp - driven%secant_share, viscous => driven%viscous)
       if (any(equations%rigid)) then
         do i = 1, 2
           if (equations%rigid(i)) by_trial(i, i) = 1.0_dp
@@ -267,7 +244,7 @@ contains
           by_trial(i, i) = by_trial(i, i) + blend &
             *((a(i, i) + viscous(i))*(a(3 - i, 3 - i) + equations%b(3 - i)) - a(1, 2)*a(2, 1))/determinant
           ! (a_ij (a_ii + b_i) - (a_ii + viscous_i) a_ij)/determinant, and b is beta and viscous part
-          by_trial(i, 3 - i) = blend*a(i, 3 - i)*beta(i)/determinant
+          by_trial(i, 3 - i) = blend*a(i, 3 - i)*driven%beta(i)/determinant
         end do
       end if
     end associate

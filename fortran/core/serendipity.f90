@@ -6,10 +6,16 @@ module core_serendipity
   use core_shape_functions, only: to_position
   implicit none(type, external)
   private
-  public :: serendipity_functions, quad8_gradient
+  public :: serendipity_functions, quad8_gradient, brick_gradient, quad_places, brick_places
 
   !> Parent coordinates of the nodes of the quad: corners counter-clockwise, then the midside nodes of the edges 1-2, 2-3, 3-4, 4-1.
   integer, parameter :: quad_places(2, 8) = reshape([-1, -1, 1, -1, 1, 1, -1, 1, 0, -1, 1, 0, 0, 1, -1, 0], [2, 8])
+
+  !> Those of the hexahedron: corners of its lower and its upper face, then the midside nodes.
+  integer, parameter :: brick_places(3, 20) = reshape([ &
+    -1, -1, -1, 1, -1, -1, 1, 1, -1, -1, 1, -1, -1, -1, 1, 1, -1, 1, 1, 1, 1, -1, 1, 1, &
+    0, -1, -1, 1, 0, -1, 0, 1, -1, -1, 0, -1, 0, -1, 1, 1, 0, 1, 0, 1, 1, -1, 0, 1, &
+    -1, -1, 0, 1, -1, 0, 1, 1, 0, -1, 1, 0], [3, 20])
 
 contains
 
@@ -70,7 +76,20 @@ contains
     real(dp) :: n(8), by_parent(8, 2)
 
     call evaluate(2, 8, quad_places, point, n, by_parent)
-    call to_position(8, coordinates, by_parent, gradient, jacobian)
+    call to_position(2, 8, coordinates, by_parent, gradient, jacobian)
   end subroutine quad8_gradient
+
+  !> Those of the hexahedron with 8 or 20 nodes by x, y and z, and the Jacobian, at (xi, eta, zeta).
+  pure subroutine brick_gradient(nodes, coordinates, point, gradient, jacobian)
+    integer, intent(in) :: nodes
+    real(dp), intent(in) :: coordinates(3, nodes)   !< length
+    real(dp), intent(in) :: point(3)
+    real(dp), intent(out) :: gradient(3, nodes)     !< 1/length
+    real(dp), intent(out) :: jacobian               !< volume
+    real(dp) :: n(nodes), by_parent(nodes, 3)
+
+    call evaluate(3, nodes, brick_places(:, 1:nodes), point, n, by_parent)
+    call to_position(3, nodes, coordinates, by_parent, gradient, jacobian)
+  end subroutine brick_gradient
 
 end module core_serendipity

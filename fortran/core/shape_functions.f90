@@ -3,9 +3,10 @@
 !> Shape functions of lines with two or three nodes and of the bilinear quad, nodes counter-clockwise.
 module core_shape_functions
   use core_kinds, only: dp
+  use core_small_matrix, only: invert
   implicit none(type, external)
   private
-  public :: line_shape, line_slope, quad_shape, quad_gradient, to_position
+  public :: line_shape, line_slope, quad_shape, quad_slope, quad_gradient, to_position
 
   real(dp), parameter :: xi_of_node(4) = [-1.0_dp, 1.0_dp, 1.0_dp, -1.0_dp]
   real(dp), parameter :: eta_of_node(4) = [-1.0_dp, -1.0_dp, 1.0_dp, 1.0_dp]
@@ -46,6 +47,15 @@ contains
     shape = 0.25_dp*(1.0_dp + xi_of_node*point(1))*(1.0_dp + eta_of_node*point(2))
   end function quad_shape
 
+  !> Their derivatives by xi and eta.
+  pure function quad_slope(point) result(slope)
+    real(dp), intent(in) :: point(2)
+    real(dp) :: slope(4, 2)
+
+    slope(:, 1) = 0.25_dp*xi_of_node*(1.0_dp + eta_of_node*point(2))
+    slope(:, 2) = 0.25_dp*eta_of_node*(1.0_dp + xi_of_node*point(1))
+  end function quad_slope
+
   !> Derivatives of the shape functions by x and y, and the Jacobian, at (xi, eta).
   !> Where the Jacobian is not positive the derivatives are zero.
   pure subroutine quad_gradient(coordinates, point, gradient, jacobian)
@@ -53,23 +63,26 @@ contains
     real(dp), intent(in) :: point(2)           !< (xi, eta)
     real(dp), intent(out) :: gradient(2, 4)    !< dN/dx, dN/dy of each node, 1/length
     real(dp), intent(out) :: jacobian          !< d(x, y)/d(xi, eta), area
-    real(dp) :: by_parent(4, 2)
 
-    by_parent(:, 1) = 0.25_dp*xi_of_node*(1.0_dp + eta_of_node*point(2))
-    by_parent(:, 2) = 0.25_dp*eta_of_node*(1.0_dp + xi_of_node*point(1))
-    call to_position(4, coordinates, by_parent, gradient, jacobian)
+    call to_position(2, 4, coordinates, quad_slope(point), gradient, jacobian)
   end subroutine quad_gradient
 
-  !> Derivatives of shape functions by x and y from those by xi and eta, and the Jacobian.
+  !> Derivatives of shape functions by position from those by the parent coordinates, and the Jacobian.
   !> Where the Jacobian is not positive the derivatives are zero.
-  pure subroutine to_position(nodes, coordinates, by_parent, gradient, jacobian)
-    integer, intent(in) :: nodes
-    real(dp), intent(in) :: coordinates(2, nodes)   !< nodes, length
-    real(dp), intent(in) :: by_parent(nodes, 2)     !< dN/dxi, dN/deta of each node
-    real(dp), intent(out) :: gradient(2, nodes)     !< dN/dx, dN/dy of each node, 1/length
-    real(dp), intent(out) :: jacobian               !< d(x, y)/d(xi, eta), area
-    real(dp) :: by_xi(2), by_eta(2)
+  pure subroutine to_position(dim, nodes, coordinates, by_parent, gradient, jacobian)
+    integer, intent(in) :: dim, nodes
+    real(dp), intent(in) :: coordinates(dim, nodes)   !< nodes, length
+    real(dp), intent(in) :: by_parent(nodes, dim)     !< derivatives of each node's function
+    real(dp), intent(out) :: gradient(dim, nodes)     !< 1/length
+    real(dp), intent(out) :: jacobian                 !< area or volume
+    real(dp) :: by_xi(2), by_eta(2), inverse(3, 3)
 
+    if (dim == 3) then
+      call invert(3, matmul(coordinates, by_parent), inverse, jacobian)
+      gradient = transpose(matmul(by_parent, inverse))
+      if (.not. jacobian > 0.0_dp) gradient = 0.0_dp
+      return
+    end if
     by_xi = matmul(coordinates, by_parent(:, 1))
     by_eta = matmul(coordinates, by_parent(:, 2))
     jacobian = by_xi(1)*by_eta(2) - by_xi(2)*by_eta(1)

@@ -6,7 +6,7 @@ module core_status
   implicit none(type, external)
   private
   public :: status_type, sentence
-  public :: ok, too_brittle, not_positive_definite, inside_out, zero_length, edges_apart, small_beta, too_brittle_mixed, &
+  public :: ok, too_brittle, not_positive_definite, inside_out, zero_length, faces_apart, small_beta, too_brittle_mixed, &
     late_secant, no_root
 
   !> Outcome of a kernel; the caller knows the names of elements and properties.
@@ -22,7 +22,7 @@ module core_status
   integer, parameter :: not_positive_definite = 2
   integer, parameter :: inside_out = 3
   integer, parameter :: zero_length = 4
-  integer, parameter :: edges_apart = 5
+  integer, parameter :: faces_apart = 5
   integer, parameter :: small_beta = 6
   integer, parameter :: too_brittle_mixed = 7
   integer, parameter :: late_secant = 8
@@ -55,8 +55,8 @@ contains
         'number the nodes counter-clockwise'
     case (zero_length)
       text = 'the interface has no length'
-    case (edges_apart)
-      text = 'the two edges of the interface do not coincide'
+    case (faces_apart)
+      text = 'the two faces of the interface do not coincide'
     case (small_beta)
       text = 'too small for the consistent law: ' // &
         'it does not exceed the softening slope of the law'

@@ -1,9 +1,9 @@
 ! SPDX-FileCopyrightText: The uel-harness authors
 ! SPDX-License-Identifier: BSD-3-Clause
-!> Bound of the traction on a face by the elastic energy of its quad: the local eigenvalue problem that gives the stabilisation
-!> (Griebel, Schweitzer 2003; Annavarapu, Hautefeuille, Dolbow 2012), for any quad.
+!> Bound of the traction on a face by the elastic energy of its element: the local eigenvalue problem that gives the stabilisation
+!> (Griebel, Schweitzer 2003; Annavarapu, Hautefeuille, Dolbow 2012), for any element.
 !>
-!> lambda is the largest value of (integral of |sigma.n|^2 over the face)/(integral of eps:D:eps over the quad) over all
+!> lambda is the largest value of (integral of |sigma.n|^2 over the face)/(integral of eps:D:eps over the element) over all
 !> displacements except rigid motions. For a constant strain it is |D| meas(Gamma)/meas(Omega) at most, which makes
 !> equation (21) of 2 (gamma_1^2 lambda_1 + gamma_2^2 lambda_2).
 module elements_face_eigenvalue
@@ -22,29 +22,24 @@ contains
   !> positive definite; with L its Cholesky factor and W = inverse(L) transpose(traction), lambda is the largest
   !> eigenvalue of transpose(W) W, which only has the size of the face.
   pure subroutine face_eigenvalue(coordinates, energy, traction, lambda, status)
-    real(dp), intent(in) :: coordinates(:, :)   !< (2, nodes), length
-    real(dp), intent(in) :: energy(:, :)        !< stiffness matrix of the quad
-    real(dp), intent(in) :: traction(:, :)      !< (2*points, 2*nodes) sigma.n sqrt(weight) of the points of the face
+    real(dp), intent(in) :: coordinates(:, :)   !< (2 or 3, nodes), length
+    real(dp), intent(in) :: energy(:, :)        !< stiffness matrix of the element
+    real(dp), intent(in) :: traction(:, :)      !< (rows, unknowns) sigma.n sqrt(weight) of the points of the face
     real(dp), intent(out) :: lambda
     type(status_type), intent(out) :: status    !< not_positive_definite, or no_root
-    real(dp) :: rigid(size(energy, 1), 3), shifted(size(energy, 1), size(energy, 1)), shift
-    real(dp) :: w(size(energy, 1), size(traction, 1)), values(size(traction, 1)), centre(2)
+    real(dp) :: rigid(size(energy, 1), 3*(size(coordinates, 1) - 1)), shifted(size(energy, 1), size(energy, 1)), shift
+    real(dp) :: w(size(energy, 1), size(traction, 1)), values(size(traction, 1))
     integer :: i, n
     logical :: good
 
     n = size(energy, 1)
-    centre = sum(coordinates, 2)/real(size(coordinates, 2), dp)
-    rigid = 0.0_dp
-    rigid(1:n:2, 1) = 1.0_dp
-    rigid(2:n:2, 2) = 1.0_dp
-    rigid(1:n:2, 3) = centre(2) - coordinates(2, :)
-    rigid(2:n:2, 3) = coordinates(1, :) - centre(1)
+    rigid = rigid_motions(coordinates)
     shift = 0.0_dp
     do i = 1, n
       shift = shift + energy(i, i)/real(n, dp)
     end do
     shifted = energy
-    do i = 1, 3
+    do i = 1, size(rigid, 2)
       rigid(:, i) = rigid(:, i)/norm2(rigid(:, i))
       shifted = shifted + shift*matmul(rigid(:, i:i), transpose(rigid(:, i:i)))
     end do
@@ -60,5 +55,26 @@ contains
     lambda = maxval(values)
     status = status_type(merge(ok, no_root, good), 0, 0.0_dp, 0.0_dp)
   end subroutine face_eigenvalue
+
+  !> Displacements of the nodes in the translations and the rotations about their centre, a column each.
+  pure function rigid_motions(coordinates) result(rigid)
+    real(dp), intent(in) :: coordinates(:, :)
+    real(dp) :: rigid(size(coordinates), 3*(size(coordinates, 1) - 1))
+    integer, parameter :: first(3) = [1, 1, 2], second(3) = [2, 3, 3]
+    real(dp) :: from_centre(size(coordinates, 1), size(coordinates, 2))
+    integer :: i, j, dim
+
+    dim = size(coordinates, 1)
+    rigid = 0.0_dp
+    do i = 1, dim
+      from_centre(i, :) = coordinates(i, :) - sum(coordinates(i, :))/real(size(coordinates, 2), dp)
+      rigid(i::dim, i) = 1.0_dp
+    end do
+    do i = 1, size(rigid, 2) - dim
+      j = dim + i
+      rigid(first(i)::dim, j) = -from_centre(second(i), :)
+      rigid(second(i)::dim, j) = from_centre(first(i), :)
+    end do
+  end function rigid_motions
 
 end module elements_face_eigenvalue

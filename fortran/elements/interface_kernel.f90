@@ -5,7 +5,8 @@
 !>
 !>     residual = -sum w N^T T,    tangent = -d(residual)/du = sum w N^T (dT/dg N + dT/d(<sigma>.n) B),
 !>
-!> in components (tau, n). The elements differ in their points, N and B: (14) and (15) without B, (16) to (22) with it.
+!> in the components (s, n, t) of `cohesive_shear`, in the plane (tau, n). The elements differ in their points, N and B: (14) and
+!> (15) without B, (16) to (22) with it.
 module elements_interface_kernel
   use core_kinds, only: dp
   use core_rotation, only: traction_operator
@@ -13,7 +14,7 @@ module elements_interface_kernel
   use cohesive_parameters, only: law_parameters
   use cohesive_law, only: check_law, check_beta
   use elements_interface_bulk, only: stabilisation_type, stabilise, bulk_operator
-  use elements_interface_edges, only: interface_place, measure_interface, jump_operator, separation_at
+  use elements_interface_faces, only: interface_place, measure_interface, jump_operator, separation_at
   use elements_interface_point, only: interface_options, interface_point, point_response, standard_point, &
     stabilised_point, point_energies
   implicit none(type, external)
@@ -24,19 +25,20 @@ contains
 
   !> Residual (external minus internal force), tangent and state at the end of the increment.
   !>
-  !> Without stabilisation it is the standard element. The stabilised one takes the bulk stress from its own quads, whose stiffness
-  !> it receives, or from its neighbours. In the latter case its tangent holds the bulk stress constant, since the derivative of
+  !> Without stabilisation it is the standard element. The stabilised one takes the bulk stress from its own quads or bricks, whose
+  !> stiffness it receives, or from its neighbours. In the latter case its tangent holds the bulk stress constant, since the derivative of
   !> that stress involves nodes that the element does not own.
-  pure subroutine integrate_interface(points, edges, quad, law, options, thickness, coordinates, u, dtime, with_tangent, old, new, &
-    residual, tangent, energies, status, stabilisation, stiffness, neighbours)
-    integer, intent(in) :: points                             !< integration points, and nodes of an edge
-    integer, intent(in) :: edges(points, 2)                   !< nodes of the bottom and the top edge: left, right, middle
-    integer, intent(in) :: quad                               !< nodes of each of its own quads, the bottom one first; 0 without
+  pure subroutine integrate_interface(dim, points, faces, solid, law, options, thickness, coordinates, u, dtime, with_tangent, &
+    old, new, residual, tangent, energies, status, stabilisation, stiffness, neighbours)
+    integer, intent(in) :: dim                                !< 2 or 3
+    integer, intent(in) :: points                             !< integration points, and nodes of a face
+    integer, intent(in) :: faces(points, 2)                   !< nodes of the bottom and the top face
+    integer, intent(in) :: solid                              !< nodes of each of its own elements, the bottom one first; 0 without
     type(law_parameters), intent(in) :: law
     type(interface_options), intent(in) :: options
-    real(dp), intent(in) :: thickness                         !< out of the plane, length
+    real(dp), intent(in) :: thickness                         !< out of the plane, length; 1 in space
     real(dp), intent(in) :: u(:)                              !< displacements at the end of the increment, length
-    real(dp), intent(in) :: coordinates(2, size(u)/2)         !< original coordinates, length
+    real(dp), intent(in) :: coordinates(dim, size(u)/dim)     !< original coordinates, length
     real(dp), intent(in) :: dtime                             !< duration of the increment
     logical, intent(in) :: with_tangent
     type(interface_point), intent(in) :: old(points)    !< committed state
@@ -44,28 +46,29 @@ contains
     real(dp), intent(out) :: residual(size(u))                !< force
     real(dp), intent(out) :: tangent(size(u), size(u))        !< -d(residual)/du, force/length; zero if not wanted
     real(dp), intent(out) :: energies(3)                      !< stored, dissipated by damage and friction, viscous
-    type(status_type), intent(out) :: status                  !< its item is the point, the mode or the quad
+    type(status_type), intent(out) :: status                  !< its item is the point, the mode or the side
     type(stabilisation_type), intent(in), optional :: stabilisation    !< beta and gamma, or what they follow from
-    real(dp), intent(in), optional :: stiffness(3, 3, 2)               !< D of the bottom and the top quad, stress
+    real(dp), intent(in), optional :: stiffness(:, :, :)         !< D of the bottom and the top element, global axes, stress
     real(dp), intent(in), optional :: neighbours(3, points)      !< weighted (s11, s22, s12) of each point
     type(interface_place) :: places(points)
     type(stabilisation_type) :: used
     type(point_response) :: response
-    real(dp) :: jump(2, size(u)), bulk(2, size(u)), by_displacement(2, size(u)), bulk_traction(2), separation(2), area
+    real(dp) :: jump(dim, size(u)), bulk(dim, size(u)), by_displacement(dim, size(u)), bulk_traction(3), separation(3), area
     integer :: k
 
     residual = 0.0_dp
     tangent = 0.0_dp
     energies = 0.0_dp
+    bulk_traction = 0.0_dp
     call check_law(law, status)
     if (status%code /= ok) return
-    call measure_interface(points, coordinates(:, edges(:, 1)), coordinates(:, edges(:, 2)), options%rule, places, &
+    call measure_interface(dim, points, coordinates(:, faces(:, 1)), coordinates(:, faces(:, 2)), options%rule, places, &
       status)
     if (status%code /= ok) return
     if (present(stabilisation)) then
       used = stabilisation
-      if (present(stiffness)) call stabilise(stabilisation, quad, points, edges, coordinates, stiffness, &
-        used, status)
+      if (present(stiffness)) call stabilise(stabilisation, dim, solid, points, faces, coordinates, &
+        stiffness, used, status)
       if (status%code /= ok) return
       if (options%consistent_law) call check_beta(law, used%beta, status)
       if (status%code /= ok) return
@@ -73,15 +76,15 @@ contains
 
     do k = 1, points
       new(k)%position = places(k)%position
-      separation = separation_at(places(k), points, edges, u)
+      separation = separation_at(dim, places(k), points, faces, u)
       if (present(stabilisation)) then
         if (present(stiffness)) then
-          call bulk_operator(options%sampling, places(k), used%gamma_bottom, quad, stiffness, coordinates, bulk, &
+          call bulk_operator(options%sampling, dim, places(k), used%gamma_bottom, solid, stiffness, coordinates, bulk, &
             status)
           if (status%code /= ok) return
-          bulk_traction = matmul(bulk, u)
+          bulk_traction(1:dim) = matmul(bulk, u)
         else
-          bulk_traction = matmul(traction_operator(places(k)%frame), neighbours(:, k))
+          bulk_traction(1:dim) = matmul(traction_operator(dim, places(k)%frame), neighbours(:, k))
         end if
         call stabilised_point(law, options, dtime, used%beta, separation, bulk_traction, old(k), new(k), response, status)
         if (status%code /= ok) then
@@ -91,13 +94,13 @@ contains
       else
         call standard_point(law, options, dtime, separation, old(k), new(k), response)
       end if
-      area = places(k)%length*thickness
+      area = places(k)%area*thickness
       energies = energies + point_energies(area, new(k))
-      jump = jump_operator(places(k), points, edges, size(u))
-      residual = residual - area*matmul(new(k)%traction, jump)
+      jump = jump_operator(dim, places(k), points, faces, size(u))
+      residual = residual - area*matmul(new(k)%traction(1:dim), jump)
       if (.not. with_tangent) cycle
-      by_displacement = matmul(response%by_jump, jump)
-      if (present(stiffness)) by_displacement = by_displacement + matmul(response%by_bulk, bulk)
+      by_displacement = matmul(response%by_jump(1:dim, 1:dim), jump)
+      if (present(stiffness)) by_displacement = by_displacement + matmul(response%by_bulk(1:dim, 1:dim), bulk)
       call add_product(area, jump, by_displacement, tangent)
     end do
   end subroutine integrate_interface
@@ -105,12 +108,14 @@ contains
   !> Adds area N^T x to a matrix.
   pure subroutine add_product(area, jump, x, matrix)
     real(dp), intent(in) :: area
-    real(dp), intent(in) :: jump(:, :), x(:, :)     !< (2, unknowns)
+    real(dp), intent(in) :: jump(:, :), x(:, :)     !< (2 or 3, unknowns)
     real(dp), intent(inout) :: matrix(:, :)
-    integer :: j
+    integer :: i, j
 
     do j = 1, size(x, 2)
-      matrix(:, j) = matrix(:, j) + (area*x(1, j))*jump(1, :) + (area*x(2, j))*jump(2, :)
+      do i = 1, size(x, 1)
+        matrix(:, j) = matrix(:, j) + (area*x(i, j))*jump(i, :)
+      end do
     end do
   end subroutine add_product
 

@@ -5,6 +5,7 @@ module elements_interface_point
   use core_kinds, only: dp
   use core_status, only: status_type, ok, no_root
   use cohesive_parameters, only: law_parameters
+  use cohesive_shear, only: mode_of, resultant, shear_direction
   use cohesive_state, only: point_history, damage_state, law_solution
   use cohesive_law, only: dissipate, evolve_damage, stiffness_of
   use cohesive_local_solve, only: solve_law, dissipate_consistently
@@ -22,20 +23,20 @@ module elements_interface_point
     real(dp) :: secant_share        !< of the matrix at fixed damage in the tangent, from 0 to 1
   end type interface_options
 
-  !> State of an integration point at the end of the increment; components (tau, n).
+  !> State of an integration point at the end of the increment; vectors in the components (s, n, t) of `cohesive_shear`.
   type :: interface_point
-    real(dp) :: position(2) = 0.0_dp        !< global x and y
-    real(dp) :: traction(2) = 0.0_dp        !< T, stress, tension positive
-    real(dp) :: stabilisation(2) = 0.0_dp   !< S
-    real(dp) :: jump(2) = 0.0_dp            !< displacement jump g, opening positive
+    real(dp) :: position(3) = 0.0_dp        !< global x, y and z
+    real(dp) :: traction(3) = 0.0_dp        !< T, stress, tension positive
+    real(dp) :: stabilisation(2) = 0.0_dp   !< S of shear and opening
+    real(dp) :: jump(3) = 0.0_dp            !< displacement jump g, opening positive
     real(dp) :: stored = 0.0_dp             !< recoverable energy, energy/area
     type(point_history) :: history
   end type interface_point
 
-  !> Derivatives of the traction T, (tau, n).
+  !> Derivatives of the traction T.
   type :: point_response
-    real(dp) :: by_jump(2, 2)   !< dT/dg at constant bulk stress
-    real(dp) :: by_bulk(2, 2)   !< dT/d(<sigma>.n); zero in the standard element
+    real(dp) :: by_jump(3, 3)   !< dT/dg at constant bulk stress
+    real(dp) :: by_bulk(3, 3)   !< dT/d(<sigma>.n); zero in the standard element
   end type point_response
 
 contains
@@ -45,16 +46,17 @@ contains
     type(law_parameters), intent(in) :: law
     type(interface_options), intent(in) :: options
     real(dp), intent(in) :: dtime                     !< duration of the increment
-    real(dp), intent(in) :: jump(2)                   !< g
+    real(dp), intent(in) :: jump(3)                   !< g
     type(interface_point), intent(in) :: old
     type(interface_point), intent(inout) :: new       !< its position is known
     type(point_response), intent(out) :: response
     type(damage_state) :: state
 
-    call evolve_damage(law, old%history, jump, dtime, state)
+    call evolve_damage(law, old%history, resultant(jump), dtime, state)
     state%slope = (1.0_dp - options%secant_share)*state%slope
     response%by_bulk = 0.0_dp
-    call standard_traction(stiffness_of(law), jump, state%acting, state%slope, new%traction, response%by_jump)
+    call standard_traction(stiffness_of(law), jump, shear_direction(jump), state%acting, state%slope, new%traction, &
+      response%by_jump)
     ! S = 1 turns the stabilised weak form into the standard one
     new%stabilisation = 1.0_dp
     call store_damage(law, old, jump, state, new)
@@ -66,31 +68,34 @@ contains
     type(interface_options), intent(in) :: options
     real(dp), intent(in) :: dtime
     real(dp), intent(in) :: beta(2)                   !< (tau, n), stress/length
-    real(dp), intent(in) :: jump(2)                   !< g
-    real(dp), intent(in) :: bulk(2)                   !< <sigma>.n
+    real(dp), intent(in) :: jump(3)                   !< g
+    real(dp), intent(in) :: bulk(3)                   !< <sigma>.n
     type(interface_point), intent(in) :: old
     type(interface_point), intent(inout) :: new       !< its position is known
     type(point_response), intent(out) :: response
     type(status_type), intent(out) :: status          !< no_root
     type(damage_state) :: state
     type(law_solution) :: solution
+    integer :: i
 
     status = status_type(ok, 0, 0.0_dp, 0.0_dp)
     if (options%consistent_law) then
-      call solve_law(law, beta, bulk + beta*jump, dtime, options%secant_share, old%history, solution)
+      call solve_law(law, beta, bulk + beta(mode_of)*jump, dtime, options%secant_share, old%history, solution)
       if (.not. solution%solved) status = status_type(no_root, 0, 0.0_dp, 0.0_dp)
       response%by_bulk = solution%by_trial
-      response%by_jump(:, 1) = beta(1)*solution%by_trial(:, 1)
-      response%by_jump(:, 2) = beta(2)*solution%by_trial(:, 2)
+      do i = 1, 3
+        response%by_jump(:, i) = beta(mode_of(i))*solution%by_trial(:, i)
+      end do
       call store_solution(law, old, jump, solution, new)
     else
-      call evolve_damage(law, old%history, jump, dtime, state)
+      call evolve_damage(law, old%history, resultant(jump), dtime, state)
       state%slope = (1.0_dp - options%secant_share)*state%slope
-      call stabilised_traction(stiffness_of(law), beta, jump, bulk, state%acting, state%slope, new%traction, &
-        new%stabilisation, response%by_jump)
+      call stabilised_traction(stiffness_of(law), beta, jump, shear_direction(jump), bulk, state%acting, state%slope, &
+        new%traction, new%stabilisation, response%by_jump)
       response%by_bulk = 0.0_dp
-      response%by_bulk(1, 1) = 1.0_dp - new%stabilisation(1)
-      response%by_bulk(2, 2) = 1.0_dp - new%stabilisation(2)
+      do i = 1, 3
+        response%by_bulk(i, i) = 1.0_dp - new%stabilisation(mode_of(i))
+      end do
       call store_damage(law, old, jump, state, new)
     end if
   end subroutine stabilised_point
@@ -99,12 +104,12 @@ contains
   pure subroutine store_damage(law, old, jump, state, new)
     type(law_parameters), intent(in) :: law
     type(interface_point), intent(in) :: old
-    real(dp), intent(in) :: jump(2)
+    real(dp), intent(in) :: jump(3)
     type(damage_state), intent(in) :: state
     type(interface_point), intent(inout) :: new       !< traction is known
 
     new%jump = jump
-    new%stored = 0.5_dp*(new%traction(1)*jump(1) + new%traction(2)*jump(2))
+    new%stored = 0.5_dp*dot_product(new%traction, jump)
     new%history%separation = jump
     new%history%damage = state%damage
     new%history%damage_max = state%damage_max
@@ -116,14 +121,14 @@ contains
   pure subroutine store_solution(law, old, jump, state, new)
     type(law_parameters), intent(in) :: law
     type(interface_point), intent(in) :: old
-    real(dp), intent(in) :: jump(2)
+    real(dp), intent(in) :: jump(3)
     type(law_solution), intent(in) :: state
     type(interface_point), intent(inout) :: new
 
     new%traction = state%traction
     new%stabilisation = state%stabilisation
     new%jump = jump
-    new%stored = 0.5_dp*(state%recoverable(1)*state%separation(1) + state%recoverable(2)*state%separation(2))
+    new%stored = 0.5_dp*dot_product(state%recoverable, state%separation)
     new%history%separation = state%separation
     new%history%damage = state%damage
     new%history%damage_max = state%damage

@@ -5,7 +5,7 @@
 !> A family is a cell with its interpolation. Families have the numbers of harness/model/element_types.py, and nodes in the
 !> order of Abaqus: corners, then the midside nodes. The rest of what defines an element type is in that file.
 module host_shape
-  use core_serendipity, only: serendipity_functions
+  use core_serendipity, only: brick_places, quad_places, serendipity_functions
   use host_kinds, only: dp, i4
   use host_messages, only: add_message
   use host_protect, only: escape
@@ -17,13 +17,8 @@ module host_shape
   integer, parameter :: line2 = 1, line3 = 2, tri3 = 3, tri6 = 4, quad4 = 5, quad8 = 6, tet4 = 7, hex8 = 8, hex20 = 9, tet10 = 10
   integer, parameter :: wedge6 = 11, wedge15 = 12, families = wedge15, most_points = 27
 
-  !> Parent coordinates of the nodes of lines, quadrilaterals and hexahedra.
+  !> Parent coordinates of the nodes of lines.
   integer, parameter :: line(1, 3) = reshape([-1, 1, 0], [1, 3])
-  integer, parameter :: quad(2, 8) = reshape([-1, -1, 1, -1, 1, 1, -1, 1, 0, -1, 1, 0, 0, 1, -1, 0], [2, 8])
-  integer, parameter :: hex(3, 20) = reshape([ &
-    -1, -1, -1, 1, -1, -1, 1, 1, -1, -1, 1, -1, -1, -1, 1, 1, -1, 1, 1, 1, 1, -1, 1, 1, &
-    0, -1, -1, 1, 0, -1, 0, 1, -1, -1, 0, -1, 0, -1, 1, 1, 0, 1, 0, 1, 1, -1, 0, 1, &
-    -1, -1, 0, 1, -1, 0, 1, 1, 0, -1, 1, 0], [3, 20])
 
   !> Integration points of a family, counted along the first direction first.
   type :: rule_t
@@ -134,9 +129,9 @@ contains
     integer, intent(in) :: point
     real(dp) :: place(rule%dim)
     if (rule%dim == 2) then
-      place = matmul(quad(:, :4), rule%n(:, point))
+      place = matmul(quad_places(:, :4), rule%n(:, point))
     else
-      place = matmul(hex(:, :8), rule%n(:, point))
+      place = matmul(brick_places(:, :8), rule%n(:, point))
     end if
   end function parent_place
 
@@ -297,9 +292,9 @@ contains
     case (line2, line3)
       call serendipity_functions(1, size(n), line(:, :size(n)), parent, n, dn)
     case (quad4, quad8)
-      call serendipity_functions(2, size(n), quad(:, :size(n)), parent, n, dn)
+      call serendipity_functions(2, size(n), quad_places(:, :size(n)), parent, n, dn)
     case (hex8, hex20)
-      call serendipity_functions(3, size(n), hex(:, :size(n)), parent, n, dn)
+      call serendipity_functions(3, size(n), brick_places(:, :size(n)), parent, n, dn)
     case (tri3, tet4)
       call simplex_functions(parent, n, dn)
     case (tri6, tet10)
@@ -400,12 +395,12 @@ contains
     integer, intent(in) :: dim
     real(dp) :: pattern(2**dim, merge(1, 4, dim == 2))
     if (dim == 2) then
-      pattern(:, 1) = quad(1, :4)*quad(2, :4)
+      pattern(:, 1) = quad_places(1, :4)*quad_places(2, :4)
     else
-      pattern(:, 1) = hex(2, :8)*hex(3, :8)
-      pattern(:, 2) = hex(1, :8)*hex(3, :8)
-      pattern(:, 3) = hex(1, :8)*hex(2, :8)
-      pattern(:, 4) = pattern(:, 3)*hex(3, :8)
+      pattern(:, 1) = brick_places(2, :8)*brick_places(3, :8)
+      pattern(:, 2) = brick_places(1, :8)*brick_places(3, :8)
+      pattern(:, 3) = brick_places(1, :8)*brick_places(2, :8)
+      pattern(:, 4) = pattern(:, 3)*brick_places(3, :8)
     end if
   end function hourglass_shapes
 end module host_shape

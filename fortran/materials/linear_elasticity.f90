@@ -1,23 +1,29 @@
 ! SPDX-FileCopyrightText: The uel-harness authors
 ! SPDX-License-Identifier: BSD-3-Clause
-!> Linear elasticity of an orthotropic material in the plane, from engineering constants.
+!> Linear elasticity of an orthotropic material, in the plane and in space, from engineering constants.
 module materials_linear_elasticity
   use core_kinds, only: dp
+  use core_rotation, only: strain_rotation
+  use core_small_matrix, only: invert
   use core_status, only: status_type, not_positive_definite
+  use core_symmetric, only: eigenvalues
   implicit none(type, external)
   private
-  public :: engineering_constants, plane_stiffness
+  public :: engineering_constants, plane_stiffness, solid_stiffness
   public :: plane_stress, plane_strain
 
   integer, parameter :: plane_stress = 0
   integer, parameter :: plane_strain = 1
 
-  !> Constants that matter in the plane; nu_ij is the contraction along j under stress along i.
+  real(dp), parameter :: degree = acos(-1.0_dp)/180.0_dp
+
+  !> Constants; nu_ij is the contraction along j under stress along i.
   type :: engineering_constants
-    real(dp) :: e1, e2, e3         !< Young's moduli, stress; e3 matters in plane strain only
-    real(dp) :: nu12, nu13, nu23   !< Poisson's ratios; nu13 and nu23 matter in plane strain only
+    real(dp) :: e1, e2, e3         !< Young's moduli, stress; e3 does not matter in plane stress
+    real(dp) :: nu12, nu13, nu23   !< Poisson's ratios; nu13 and nu23 do not matter in plane stress
     real(dp) :: g12                !< shear modulus, stress
-    real(dp) :: angle              !< of axis 1 from the global x axis, counter-clockwise, degrees
+    real(dp) :: angle              !< of axis 1 from the global x axis, in space from the first axis, counter-clockwise, degrees
+    real(dp) :: g13 = 0.0_dp, g23 = 0.0_dp   !< shear moduli in space, stress
   end type engineering_constants
 
 contains
@@ -62,7 +68,6 @@ contains
   pure subroutine rotate(angle, stiffness)
     real(dp), intent(in) :: angle
     real(dp), intent(inout) :: stiffness(3, 3)
-    real(dp), parameter :: degree = acos(-1.0_dp)/180.0_dp
     real(dp) :: c, s, to_local(3, 3)
 
     c = cos(angle*degree)
@@ -73,5 +78,54 @@ contains
     to_local(3, :) = [-2.0_dp*c*s, 2.0_dp*c*s, c*c - s*s]
     stiffness = matmul(transpose(to_local), matmul(stiffness, to_local))
   end subroutine rotate
+
+  !> Stiffness that takes (e11, e22, e33, 2 e12, 2 e13, 2 e23) to (s11, s22, s33, s12, s13, s23), in global axes.
+  pure subroutine solid_stiffness(material, frame, stiffness, status)
+    type(engineering_constants), intent(in) :: material
+    real(dp), intent(in) :: frame(3, 3)          !< rows s, n and t: the angle is from s to t, and n is the material axis 3
+    real(dp), intent(out) :: stiffness(6, 6)     !< stress
+    type(status_type), intent(out) :: status     !< not_positive_definite: value is what should be positive
+    real(dp) :: compliance(3, 3), inverse(3, 3), values(3), axes(3, 3), to_local(6, 6), determinant
+    logical :: good
+
+    stiffness = 0.0_dp
+    if (.not. material%e3 > 0.0_dp) then
+      status = status_type(not_positive_definite, 0, material%e3, 0.0_dp)
+      return
+    end if
+    compliance(1, :) = [1.0_dp, -material%nu12, -material%nu13]/material%e1
+    compliance(2, :) = [-material%nu12/material%e1, 1.0_dp/material%e2, -material%nu23/material%e2]
+    compliance(3, :) = [-material%nu13/material%e1, -material%nu23/material%e2, 1.0_dp/material%e3]
+    call eigenvalues(unit_diagonal(compliance), values, good)
+    if (.not. good .or. .not. minval(values) > 0.0_dp) then
+      status = status_type(not_positive_definite, 0, minval(values), 0.0_dp)
+      return
+    end if
+    call invert(3, compliance, inverse, determinant)
+    stiffness(1:3, 1:3) = inverse
+    stiffness(4, 4) = material%g12
+    stiffness(5, 5) = material%g13
+    stiffness(6, 6) = material%g23
+    associate (c => cos(material%angle*degree), s => sin(material%angle*degree))
+      axes(1, :) = c*frame(1, :) + s*frame(3, :)
+      axes(2, :) = c*frame(3, :) - s*frame(1, :)
+      axes(3, :) = frame(2, :)
+    end associate
+    to_local = strain_rotation(axes)
+    stiffness = matmul(transpose(to_local), matmul(stiffness, to_local))
+  end subroutine solid_stiffness
+
+  !> A symmetric matrix with its rows and columns scaled so that its diagonal is 1.
+  pure function unit_diagonal(matrix) result(scaled)
+    real(dp), intent(in) :: matrix(3, 3)
+    real(dp) :: scaled(3, 3)
+    integer :: i, j
+
+    do j = 1, 3
+      do i = 1, 3
+        scaled(i, j) = matrix(i, j)/sqrt(matrix(i, i)*matrix(j, j))
+      end do
+    end do
+  end function unit_diagonal
 
 end module materials_linear_elasticity

@@ -1,18 +1,34 @@
 ! SPDX-FileCopyrightText: The uel-harness authors
 ! SPDX-License-Identifier: BSD-3-Clause
-!> Spectral norm of a 3 x 3 matrix: |D| of equations (21) and (22).
+!> Spectral norm of a matrix: |D| of equations (21) and (22).
 module materials_spectral_norm
   use core_kinds, only: dp
   use core_small_matrix, only: determinant
+  use core_symmetric, only: eigenvalues
   implicit none(type, external)
   private
   public :: spectral_norm
 
 contains
 
-  !> Largest singular value, from the largest root of the characteristic polynomial of transpose(a) a
-  !> (trigonometric solution of the cubic, which gives the largest root without cancellation).
+  !> Largest singular value.
   pure function spectral_norm(a) result(norm)
+    real(dp), intent(in) :: a(:, :)
+    real(dp) :: norm
+    real(dp) :: squares(size(a, 1))
+    logical :: good
+
+    if (size(a, 1) == 3) then
+      norm = norm_of_three(a)
+      return
+    end if
+    call eigenvalues(matmul(transpose(a), a), squares, good)
+    norm = sqrt(maxval(squares))
+  end function spectral_norm
+
+  !> Of a 3 x 3 matrix, from the largest root of the characteristic polynomial of transpose(a) a
+  !> (trigonometric solution of the cubic, which gives the largest root without cancellation).
+  pure function norm_of_three(a) result(norm)
     real(dp), intent(in) :: a(3, 3)
     real(dp) :: norm
     real(dp) :: b(3, 3), scale, mean, spread, cosine
@@ -31,6 +47,6 @@ contains
       mean = mean + 2.0_dp*spread*cos(acos(cosine)/3.0_dp)
     end if
     norm = scale*sqrt(mean)
-  end function spectral_norm
+  end function norm_of_three
 
 end module materials_spectral_norm

@@ -13,9 +13,9 @@ from harness.usersub.layout import element_layouts
 def user_element(jtype: int, *flags: str, **options: str | int) -> list[str]:
     """*USER ELEMENT of an element type: its counts, and what else is given."""
     layout = element_layouts()[jtype]
-    counts: dict[str, str | int] = {"TYPE": f"U{jtype}", "NODES": layout.nodes, "COORDINATES": 2}
+    counts: dict[str, str | int] = {"TYPE": f"U{jtype}", "NODES": layout.nodes, "COORDINATES": layout.dimension}
     counts |= {"PROPERTIES": len(layout.reals), "I_PROPERTIES": len(layout.integers), "VARIABLES": layout.svars}
-    return [keyword("USER ELEMENT", *flags, **counts, **options), "1, 2"]
+    return [keyword("USER ELEMENT", *flags, **counts, **options), ", ".join("123"[: layout.dimension])]
 
 
 def uel_property(jtype: int, elset: str, values: Mapping[str, float], **options: str) -> list[str]:

@@ -104,10 +104,11 @@ def deck_properties(path: Path, elset: str | None = None) -> tuple[int, dict[str
             # a deck may have fewer than the element has now: properties that were added later are 0
             values = dict(zip((item.name for item in layout.reals), section.values.tolist(), strict=False))
             values |= dict(zip((item.name for item in layout.integers), section.integers.tolist(), strict=False))
+            values.setdefault("THICKNESS", 1.0)
             return definition.number if definition.number in NODES else STANDARD, values
         sections.append(section.elset)
     if not sections:
-        raise UelError(f"{path}: no interface elements (U2 to U6) with *UEL PROPERTY")
+        raise UelError(f"{path}: no interface elements (U2 to U8) with *UEL PROPERTY")
     known = ", ".join(sections)
     raise UelError(f"{path}: no interface elements with *UEL PROPERTY, ELSET={elset}; expected one of {known}")
 

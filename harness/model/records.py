@@ -209,8 +209,8 @@ class PointVariables:
     kind    'continuum' or 'interface'
     names   name of each variable of a point, in order ('S11', ..., 'DAMAGE')
     points  number of points; the variables of point k are SVARS[k*len(names) : (k+1)*len(names)]
-    bottom, top  interface only: local nodes (from 0) of the two coincident edges, both along the tangent: left and
-            right end, and the middle if the edges are quadratic
+    bottom, top  interface only: local nodes (from 0) of the two coincident faces; in the plane both along the tangent:
+            left and right end, and the middle if the faces are quadratic
     outline continuum only: local nodes (from 0) of the cell, where the element is not one of the built-in ones
     aliases pairs of a name in Abaqus' output and the name here, where they differ ('S22', 'TN')
     """

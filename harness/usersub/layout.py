@@ -24,7 +24,7 @@ RULES: Final = {
     "not_negative": ">= 0, default 0",
     "below_one": ">= 0 and < 1, default 0",
     "up_to_one": "0 to 1, default 0",
-    "estimated": ">= 0 or, in U4 and U6, -1, default 0",
+    "estimated": ">= 0 or, in U4, U6 and U8, -1, default 0",
     "exponent": "0 or >= 0.5, default 0",
     "above_one": "0 or > 1, default 0",
     "any_value": "any, default 0",
@@ -47,22 +47,25 @@ class ElementLayout:
     """An element type Un of the project.
 
     jtype     n
+    dimension 2 or 3
     nodes     number of nodes
     reals     PROPS
     integers  JPROPS
     variables SVARS of an integration point
     points    number of integration points
-    edges     nodes, from 0, of the bottom and the top edge of an interface element: left, right, middle
+    faces     nodes, from 0, of the bottom and the top face of an interface element: left, right, middle; in space
+              counter-clockwise seen from the top
     meaning   what the element is
     """
 
     jtype: int
+    dimension: int
     nodes: int
     reals: tuple[Item, ...]
     integers: tuple[Item, ...]
     variables: tuple[Item, ...]
     points: int
-    edges: tuple[tuple[int, ...], tuple[int, ...]]
+    faces: tuple[tuple[int, ...], tuple[int, ...]]
     meaning: str
 
     @property
@@ -82,15 +85,16 @@ def read_layouts(text: str) -> dict[int, ElementLayout]:
     tables = _tables(text)
     layouts = {}
     for fields, meaning in tables["elements"]:
-        jtype, family, _, nodes, points, *_ = map(int, fields)
+        jtype, family, dimension, nodes, points, *_ = map(int, fields)
         layouts[jtype] = ElementLayout(
             jtype=jtype,
+            dimension=dimension,
             nodes=nodes,
             reals=_reals(_of_family(tables["reals"], family)),
             integers=_integers(_of_family(tables["integers"], family)),
-            variables=_variables(tables["continuum_variables" if jtype == 1 else "interface_variables"]),
+            variables=_variables(tables[_variables_table(jtype, dimension)]),
             points=points,
-            edges=next((_edges(row) for row, _ in tables["edges"] if int(row[0]) == jtype), ((), ())),
+            faces=next((_faces(row) for row, _ in tables["faces"] if int(row[0]) == jtype), ((), ())),
             meaning=meaning,
         )
     return layouts
@@ -102,7 +106,7 @@ def variables(jtype: int) -> PointVariables | None:
     if layout is None:
         return None
     names = tuple(item.name for item in layout.variables)
-    bottom, top = layout.edges
+    bottom, top = layout.faces
     if not bottom:
         return PointVariables("continuum", names, layout.points, outline=tuple(range(layout.nodes)))
     return PointVariables("interface", names, layout.points, bottom=bottom, top=top)
@@ -181,8 +185,15 @@ def _of_family(rows: Rows, family: int) -> Rows:
     return [([str(n), *fields[2:]], text) for n, (fields, text) in enumerate(members, start=1)]
 
 
-def _edges(fields: list[str]) -> tuple[tuple[int, ...], tuple[int, ...]]:
-    """Nodes of the bottom and the top edge from a row of `edges`."""
+def _variables_table(jtype: int, dimension: int) -> str:
+    """The table of the variables of a point."""
+    if jtype == 1:
+        return "continuum_variables"
+    return "interface_variables" if dimension == 2 else "surface_variables"
+
+
+def _faces(fields: list[str]) -> tuple[tuple[int, ...], tuple[int, ...]]:
+    """Nodes of the bottom and the top face from a row of `faces`."""
     nodes = [int(field) for field in fields[2:]]
     half = len(nodes) // 2
     bottom, top = (tuple(node - 1 for node in part if node) for part in (nodes[:half], nodes[half:]))

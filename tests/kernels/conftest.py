@@ -33,7 +33,13 @@ LAW = {
 }
 PLY = {"E1": 1.2e5, "E2": 1.05e4, "E3": 1.05e4, "NU12": 0.3, "NU13": 0.3, "NU23": 0.51, "G12": 5.52e3}
 PLIES = {f"{name} {side}": value for name, value in PLY.items() for side in ("BOTTOM", "TOP")}
+LAW_3D = {name: value for name, value in LAW.items() if name != "THICKNESS"}
+PLIES_3D = {
+    **PLIES,
+    **{f"{name} {side}": value for name, value in (("G13", 5.52e3), ("G23", 3.48e3)) for side in ("BOTTOM", "TOP")},
+}
 DEFAULTS = {1: {"THICKNESS": 2.0}, 2: LAW, 3: LAW, 4: {**LAW, **PLIES}, 5: LAW, 6: {**LAW, **PLIES}}
+DEFAULTS |= {7: LAW_3D, 8: {**LAW_3D, **PLIES_3D}}
 ENGINEERING = (1.2e5, 1.05e4, 1.05e4, 0.3, 0.3, 0.51, 5.52e3, 5.52e3, 3.48e3)
 
 
@@ -63,14 +69,14 @@ class Element:
         plane_strain = jtype == 1 and values.get("PLANE", 0) == 1
         options = {
             "nodes": layout.nodes,
-            "coordinates": 2,
+            "coordinates": layout.dimension,
             "variables": layout.svars,
             "unsymmetric": True,
             "integration": 4 if jtype == 1 else 0,
             "tensor": "" if jtype > 1 else "PSTRAIN" if plane_strain else "PSTRESS",
             "properties": len(reals),
             "integer_properties": len(integers),
-            "dofs": tuple((node, dof) for node in range(layout.nodes) for dof in (1, 2)),
+            "dofs": tuple((node, dof) for node in range(layout.nodes) for dof in range(1, 1 + layout.dimension)),
             **(definition or {}),
         }
         self.copies = copies
@@ -87,7 +93,7 @@ class Element:
         )
         group = ElementGroup(f"U{number}", label + np.arange(count), nodes, "", section, user, SOURCE)
         xyz = np.zeros((nodes.size, 3))
-        xyz[:, :2] = np.tile(coordinates, (count, 1))
+        xyz[:, : layout.dimension] = np.tile(coordinates, (count, 1))
         mesh = Mesh(np.arange(1, len(xyz) + 1), xyz, ("",) * len(xyz))
         (self.block,) = build_blocks(Model(Path("test.inp"), "", mesh, (group,), ()), library)
         n = self.n = len(user.dofs)

@@ -8,7 +8,7 @@ subroutine local_solve_steps(kind, count, trials, histories, beta, searches, tot
   use cohesive_state, only: law_solution, point_history
   implicit none(type, external)
   integer(c_int), value :: kind, count
-  real(c_double), intent(in) :: trials(2, count), histories(count), beta(2)
+  real(c_double), intent(in) :: trials(3, count), histories(count), beta(2)
   integer(c_int), intent(out) :: searches   !< trials for which a root is sought
   integer(c_int), intent(out) :: total, most, unsolved
   type(law_parameters) :: law

@@ -56,13 +56,13 @@ LAW = {
     "abaqus/layout.f90": [
         ("'LAW', 1, 4)", "'LAW', 1, 5)"),
         (
-            "public :: p_top_angle = 33\n",
-            "public :: p_top_angle = 33\n  integer, parameter, public :: p_plateau = 34\n",
+            "public :: p_top_g23 = 37\n",
+            "public :: p_top_g23 = 37\n  integer, parameter, public :: p_plateau = 38\n",
         ),
-        ("public :: reals(33)", "public :: reals(34)"),
+        ("public :: reals(37)", "public :: reals(38)"),
         (
-            "'ANGLE TOP', 'degree', any_value)] !< of material axis 1 from x, counter-clockwise\n",
-            "'ANGLE TOP', 'degree', any_value), & !< of material axis 1 from x, counter-clockwise\n"
+            "'G23 TOP', 'stress', positive)] !< shear modulus in the plane 2-3\n",
+            "'G23 TOP', 'stress', positive), & !< shear modulus in the plane 2-3\n"
             "    real_item(p_plateau, interfaces, 'PLATEAU', '1', below_one)] !< share of the plateau (LAW 5)\n",
         ),
     ],
@@ -76,19 +76,20 @@ LAW = {
 
 ELEMENT = {
     "abaqus/layout.f90": [
-        ("public :: elements(6)", "public :: elements(7)"),
+        ("public :: elements(8)", "public :: elements(9)"),
         (
-            "33, 6)] !< stabilised cohesive interface of eight-node quads",
-            "33, 6), & !< stabilised cohesive interface of eight-node quads",
+            "36, 5)] !< stabilised cohesive interface of eight-node bricks",
+            "36, 5), & !< stabilised cohesive interface of eight-node bricks",
         ),
         (
-            "\n\n  type(edges_item), parameter, public :: edges(2:6)",
-            "\n    element_item(7, standard, 2, 4, 2, 13, 3)] !< U2, left to right\n\n"
-            "  type(edges_item), parameter, public :: edges(2:7)",
+            "\n\n  type(faces_item), parameter, public :: faces(2:8)",
+            "\n    element_item(9, standard, 2, 4, 2, 13, 3)] !< U2, left to right\n\n"
+            "  type(faces_item), parameter, public :: faces(2:9)",
         ),
         (
-            "[9, 10, 13])] !< as U4, with middles\n",
-            "[9, 10, 13]), & !< as U4, with middles\n    edges_item(7, 0, [1, 2, 0], [3, 4, 0])] !< left to right\n",
+            "[9, 10, 11, 12])] !< face 5-6-7-8 of the brick below, face 1-2-3-4 of that above\n",
+            "[9, 10, 11, 12]), & !< face 5-6-7-8 of the brick below, face 1-2-3-4 of that above\n"
+            "    faces_item(9, 0, [1, 2, 0, 0], [3, 4, 0, 0])] !< left to right\n",
         ),
     ],
 }
@@ -214,7 +215,7 @@ def test_the_element_is_u2_in_another_order(branch, element_of):
     order = [0, 1, 3, 2]
     dofs = np.array([[2 * n, 2 * n + 1] for n in order]).ravel()
     expected = element_of(branch[0], 2, FLAT, layouts=branch[1]).evaluate(u)
-    found = element_of(branch[0], 7, FLAT[order], layouts=branch[1]).evaluate(u[order])
+    found = element_of(branch[0], 9, FLAT[order], layouts=branch[1]).evaluate(u[order])
     np.testing.assert_allclose(found[0], expected[0][dofs], rtol=1e-12)
     np.testing.assert_allclose(found[1], expected[1][np.ix_(dofs, dofs)], rtol=1e-12)
 

@@ -12,7 +12,7 @@ import pytest
 
 HERE = Path(__file__).parent
 CORE = HERE.parents[1] / "fortran" / "core"
-SOURCES = ("kinds", "root", "shape_functions", "serendipity", "small_matrix", "symmetric")
+SOURCES = ("kinds", "root", "small_matrix", "shape_functions", "serendipity", "symmetric")
 RNG = np.random.default_rng(11)
 
 

@@ -37,7 +37,7 @@ def test_names_of_svars():
     assert {"X", "Y", "SEPN", "SEPT", "TN", "TT", "DAMAGE", "DISSI", "DISSII", "SN", "ST"} < set(eight.names)
     assert (eight.kind, eight.points, eight.bottom, eight.top) == ("interface", 2, (3, 2), (4, 5))
     assert (layout.variables(2).bottom, layout.variables(2).top) == ((0, 1), (3, 2))
-    assert layout.variables(7) is None
+    assert layout.variables(9) is None
 
 
 def test_library_names_svars_of_these_elements_only(library, tmp_path):

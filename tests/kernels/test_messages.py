@@ -42,8 +42,16 @@ NODES = {1: QUAD, 2: FLAT, 3: FLAT, 4: EIGHT}
         (2, {"LAW": 0}, r"JPROPS\(1\) LAW = 0: expected 1 to 4"),
         (2, {"INTEGRATION": 2}, r"JPROPS\(2\) INTEGRATION = 2: expected 0 to 1"),
         (2, {"TANGENT": -1}, r"JPROPS\(3\) TANGENT = -1: expected 0 to 1"),
-        (4, {"BETAN": -2.0}, r"U4 element 42: PROPS\(14\) BETAN = -2.*zero or a positive value, or -1 in U4 and U6"),
-        (3, {"BETAN": -1.0}, r"U3 element 42: PROPS\(14\) BETAN = -1.*zero or a positive value, or -1 in U4 and U6"),
+        (
+            4,
+            {"BETAN": -2.0},
+            r"U4 element 42: PROPS\(14\) BETAN = -2.*zero or a positive value, or -1 in U4, U6 and U8",
+        ),
+        (
+            3,
+            {"BETAN": -1.0},
+            r"U3 element 42: PROPS\(14\) BETAN = -1.*zero or a positive value, or -1 in U4, U6 and U8",
+        ),
         (4, {"BETAT": -0.5}, r"PROPS\(15\) BETAT = -0?.5.*zero or a positive value"),
         (4, {"GAMMABOT": 1.0}, r"PROPS\(16\) GAMMABOT = 1.*between 0 and 1"),
         (4, {"E1 BOTTOM": 0.0}, r"PROPS\(18\) E1 BOTTOM = 0.*positive"),
@@ -104,12 +112,12 @@ def test_brittleness_bound_is_sharp(element):
         (1, QUAD[::-1], r"U1 element 42: quad is inside out or degenerate.*counter-clockwise; it is -"),
         (1, QUAD[[0, 1, 1, 0]], r"U1 element 42: quad is inside out or degenerate"),
         (2, QUAD[[0, 0, 0, 0]], r"U2 element 42: the interface has no length"),
-        (2, QUAD[[0, 1, 0, 1]], r"U2 element 42: the two edges .* do not coincide: node 4 must lie on 1 and 3 on 2"),
+        (2, QUAD[[0, 1, 0, 1]], r"U2 element 42: the two faces .* do not coincide: node 4 must lie on 1 and 3 on 2"),
         (2, [*FLAT[:2], [1, 1e-3], FLAT[3]], r"they are 1.0.*E-03 apart, expected at most 1.0.*E-04"),
         (4, EIGHT[[1, 0, 3, 2, 5, 4, 7, 6]], r"U4 element 42: .* quad is inside out"),
         (4, [*EIGHT[:4], *(EIGHT[4:] * [1, -1])], r"U4 element 42: top quad is inside out"),
         (4, [*(EIGHT[:4] * [1, -1]), *EIGHT[4:]], r"U4 element 42: bottom quad is inside out"),
-        (4, EIGHT[[0, 1, 2, 3, 5, 4, 7, 6]], r"U4 element 42: the two edges .* node 5 must lie on 4 and 6 on 3"),
+        (4, EIGHT[[0, 1, 2, 3, 5, 4, 7, 6]], r"U4 element 42: the two faces .* node 5 must lie on 4 and 6 on 3"),
         # the quad has a positive area, but not where its stress is taken
         (4, [*EIGHT[:4], [0, 0], [1, 0], [0.5, 3], [0.45, -0.5]], r"U4 element 42: top quad is inside out"),
     ],
@@ -162,7 +170,7 @@ def test_state_of_stress_of_the_material_must_fit(element):
 def test_unknown_types(library, element):
     item = element(2, FLAT, label=42)
     item.block._routine = replace(item.block._routine, jtype=9)
-    with pytest.raises(KernelError, match="U9 element 42: is not an element of this file, which has U1 to U6"):
+    with pytest.raises(KernelError, match="U9 element 42: is not an element of this file, which has U1 to U8"):
         item.evaluate(np.zeros(8))
     item.block._routine = replace(item.block._routine, jtype=1)
     with pytest.raises(KernelError, match="U1 element 42: takes its stress from a material: specify MATERIAL="):

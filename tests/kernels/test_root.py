@@ -12,7 +12,8 @@ import pytest
 HERE = Path(__file__).parent
 FORTRAN = HERE.parents[1] / "fortran"
 SOURCES = (
-    *("core/kinds", "core/status", "core/root", "core/small_matrix", "cohesive/parameters", "cohesive/state"),
+    *("core/kinds", "core/status", "core/root", "core/small_matrix", "cohesive/parameters", "cohesive/shear"),
+    "cohesive/state",
     *("cohesive/mode_mix", "cohesive/bilinear", "cohesive/exponential", "cohesive/ppr", "cohesive/law"),
     "cohesive/friction",
     *("cohesive/ppr_local_solve", "cohesive/local_solve"),
@@ -37,7 +38,7 @@ def test_steps_of_the_local_solve(solves, law, mean, most):
     """
     count, rng = 20000, np.random.default_rng(1)
     angles = rng.uniform(0, np.pi / 2, count)
-    trials = rng.uniform(0, 300, count)[:, None] * np.column_stack([np.sin(angles), np.cos(angles)])
+    trials = rng.uniform(0, 300, count)[:, None] * np.column_stack([np.sin(angles), np.cos(angles), 0 * angles])
     histories = rng.choice([0.0, 1.0], count) * rng.uniform(0, 1, count)
     beta = np.array([1e5, 1e5])
     found = [ctypes.c_int() for _ in range(4)]

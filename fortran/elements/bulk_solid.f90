@@ -1,0 +1,171 @@
+! SPDX-FileCopyrightText: The uel-harness authors
+! SPDX-License-Identifier: BSD-3-Clause
+!> A continuum element next to an interface: traction from its displacements, area or volume, local eigenvalue. Quads have four or
+!> eight nodes, bricks eight.
+!>
+!> The interface is the face where the last parent coordinate (eta, zeta) is 1 in the element below it and -1 in that above; the
+!> other parent coordinates are those of the interface.
+module elements_bulk_solid
+  use core_kinds, only: dp
+  use core_quadrature, only: gauss_rule, line_points, line_weights
+  use core_rotation, only: traction_operator
+  use core_serendipity, only: quad8_gradient, brick_gradient
+  use core_shape_functions, only: quad_gradient
+  use core_status, only: status_type, ok, inside_out
+  use elements_face_eigenvalue, only: face_eigenvalue
+  use elements_quad4, only: quad4_area
+  implicit none(type, external)
+  private
+  public :: solid_traction, solid_size, solid_face_eigenvalue
+
+contains
+
+  !> Matrix that takes the displacements of an element to sigma.n in the components of a frame at a point.
+  pure subroutine solid_traction(dim, nodes, coordinates, point, frame, stiffness, matrix, status)
+    integer, intent(in) :: dim, nodes
+    real(dp), intent(in) :: coordinates(dim, nodes)
+    real(dp), intent(in) :: point(dim)                            !< parent coordinates
+    real(dp), intent(in) :: frame(3, 3)                           !< rows tau, n and zero, or s, n and t
+    real(dp), intent(in) :: stiffness(3*(dim - 1), 3*(dim - 1))   !< D, stress
+    real(dp), intent(out) :: matrix(dim, dim*nodes)
+    type(status_type), intent(out) :: status                      !< inside_out with the Jacobian
+    real(dp) :: gradient(dim, nodes), by_strain(dim, 3*(dim - 1))
+    integer :: a
+
+    call gradient_at(dim, nodes, coordinates, point, gradient, status)
+    by_strain = matmul(traction_operator(dim, frame), stiffness)
+    if (dim == 2) then
+      do a = 1, nodes
+        matrix(:, 2*a - 1) = by_strain(:, 1)*gradient(1, a) + by_strain(:, 3)*gradient(2, a)
+        matrix(:, 2*a) = by_strain(:, 2)*gradient(2, a) + by_strain(:, 3)*gradient(1, a)
+      end do
+    else
+      do a = 1, nodes
+        matrix(:, 3*a - 2) = by_strain(:, 1)*gradient(1, a) + by_strain(:, 4)*gradient(2, a) + by_strain(:, 5)*gradient(3, a)
+        matrix(:, 3*a - 1) = by_strain(:, 2)*gradient(2, a) + by_strain(:, 4)*gradient(1, a) + by_strain(:, 6)*gradient(3, a)
+        matrix(:, 3*a) = by_strain(:, 3)*gradient(3, a) + by_strain(:, 5)*gradient(1, a) + by_strain(:, 6)*gradient(2, a)
+      end do
+    end if
+  end subroutine solid_traction
+
+  !> Area or volume.
+  pure subroutine solid_size(dim, nodes, coordinates, value, status)
+    integer, intent(in) :: dim, nodes
+    real(dp), intent(in) :: coordinates(dim, nodes)
+    real(dp), intent(out) :: value
+    type(status_type), intent(out) :: status        !< inside_out with the area or a Jacobian
+    real(dp) :: gradient(dim, nodes), point(dim), weight
+    integer :: k, per_side
+
+    value = 0.0_dp
+    if (dim == 2 .and. nodes == 4) then
+      value = quad4_area(coordinates(:, 1:4))
+      status = status_type(merge(ok, inside_out, value > 0.0_dp), 0, value, 0.0_dp)
+      return
+    end if
+    per_side = merge(3, 2, dim == 2)
+    do k = 1, per_side**dim
+      call gauss_point(dim, per_side, k, point, weight)
+      call gradient_at(dim, nodes, coordinates, point, gradient, status)
+      if (status%code /= ok) return
+      value = value + weight*status%value
+    end do
+  end subroutine solid_size
+
+  !> lambda of the face whose last parent coordinate is `side`, see elements_face_eigenvalue; with as many points along each
+  !> direction as an edge has nodes.
+  pure subroutine solid_face_eigenvalue(dim, nodes, coordinates, side, points, parents, frames, areas, stiffness, lambda, status)
+    integer, intent(in) :: dim, nodes
+    real(dp), intent(in) :: coordinates(dim, nodes)
+    real(dp), intent(in) :: side                      !< -1 or 1
+    integer, intent(in) :: points                     !< of the face
+    real(dp), intent(in) :: parents(2, points)        !< Gauss points of the face
+    real(dp), intent(in) :: frames(3, 3, points)
+    real(dp), intent(in) :: areas(points)             !< of the face that each of them stands for
+    real(dp), intent(in) :: stiffness(3*(dim - 1), 3*(dim - 1))   !< D, stress
+    real(dp), intent(out) :: lambda                   !< stress/length
+    type(status_type), intent(out) :: status          !< inside_out with the Jacobian
+    real(dp) :: energy(dim*nodes, dim*nodes), traction(dim*points, dim*nodes), part(dim, dim*nodes), point(dim)
+    integer :: k
+
+    lambda = 0.0_dp
+    call strain_energy(dim, nodes, coordinates, merge(points, 2, dim == 2), stiffness, energy, status)
+    if (status%code /= ok) return
+    do k = 1, points
+      point(1:dim - 1) = parents(1:dim - 1, k)
+      point(dim) = side
+      call solid_traction(dim, nodes, coordinates, point, frames(:, :, k), stiffness, part, status)
+      if (status%code /= ok) return
+      traction(dim*(k - 1) + 1:dim*k, :) = sqrt(areas(k))*part
+    end do
+    call face_eigenvalue(coordinates, energy, traction, lambda, status)
+  end subroutine solid_face_eigenvalue
+
+  !> Stiffness matrix, in the plane for thickness 1.
+  pure subroutine strain_energy(dim, nodes, coordinates, per_side, stiffness, energy, status)
+    integer, intent(in) :: dim, nodes, per_side
+    real(dp), intent(in) :: coordinates(dim, nodes), stiffness(3*(dim - 1), 3*(dim - 1))
+    real(dp), intent(out) :: energy(dim*nodes, dim*nodes)
+    type(status_type), intent(out) :: status
+    real(dp) :: gradient(dim, nodes), b(3*(dim - 1), dim*nodes), point(dim), weight
+    integer :: k
+
+    energy = 0.0_dp
+    b = 0.0_dp
+    do k = 1, per_side**dim
+      call gauss_point(dim, per_side, k, point, weight)
+      call gradient_at(dim, nodes, coordinates, point, gradient, status)
+      if (status%code /= ok) return
+      b(1, 1::dim) = gradient(1, :)
+      b(2, 2::dim) = gradient(2, :)
+      b(dim + 1, 1::dim) = gradient(2, :)
+      b(dim + 1, 2::dim) = gradient(1, :)
+      if (dim == 3) then
+        b(3, 3::3) = gradient(3, :)
+        b(5, 1::3) = gradient(3, :)
+        b(5, 3::3) = gradient(1, :)
+        b(6, 2::3) = gradient(3, :)
+        b(6, 3::3) = gradient(2, :)
+      end if
+      energy = energy + (weight*status%value)*matmul(transpose(b), matmul(stiffness, b))
+    end do
+  end subroutine strain_energy
+
+  !> Point k of a Gauss rule, the first direction first, and its weight.
+  pure subroutine gauss_point(dim, per_side, k, point, weight)
+    integer, intent(in) :: dim, per_side, k
+    real(dp), intent(out) :: point(dim), weight
+    real(dp) :: s(per_side), w(per_side)
+    integer :: i, at, rest
+
+    s = line_points(per_side, gauss_rule)
+    w = line_weights(per_side, gauss_rule)
+    weight = 1.0_dp
+    rest = k - 1
+    do i = 1, dim
+      at = mod(rest, per_side) + 1
+      rest = rest/per_side
+      point(i) = s(at)
+      weight = weight*w(at)
+    end do
+  end subroutine gauss_point
+
+  !> Derivatives of the shape functions by position; the value of the status is the Jacobian.
+  pure subroutine gradient_at(dim, nodes, coordinates, point, gradient, status)
+    integer, intent(in) :: dim, nodes
+    real(dp), intent(in) :: coordinates(dim, nodes), point(dim)
+    real(dp), intent(out) :: gradient(dim, nodes)
+    type(status_type), intent(out) :: status
+    real(dp) :: jacobian
+
+    if (dim == 3) then
+      call brick_gradient(nodes, coordinates, point, gradient, jacobian)
+    else if (nodes == 4) then
+      call quad_gradient(coordinates, point, gradient, jacobian)
+    else
+      call quad8_gradient(coordinates, point, gradient, jacobian)
+    end if
+    status = status_type(merge(ok, inside_out, jacobian > 0.0_dp), 0, jacobian, 0.0_dp)
+  end subroutine gradient_at
+
+end module elements_bulk_solid

@@ -1,0 +1,184 @@
+! SPDX-FileCopyrightText: The uel-harness authors
+! SPDX-License-Identifier: BSD-3-Clause
+!> The integration points of an interface between two coincident faces: frame, area and jump operator.
+!>
+!> In the plane, faces are edges of two or three nodes, the middle node last: tau runs along the mid-line of the original
+!> coordinates, from the first node to the second, and n is tau rotated by +90 degrees: bottom to top. In space, they are
+!> quadrilaterals, their nodes counter-clockwise seen from the top: n is normal to the mid-surface, s the projection of the global x
+!> axis on it, or of the z axis where x is within 0.1 degrees of n (Abaqus' local directions), and t = n x s. Faces may be curved:
+!> each point has its own frame.
+module elements_interface_faces
+  use core_kinds, only: dp
+  use core_quadrature, only: line_points, line_weights
+  use core_rotation, only: line_frame, surface_frame
+  use core_shape_functions, only: line_shape, line_slope, quad_shape, quad_slope
+  use core_status, only: status_type, zero_length, faces_apart, ok
+  implicit none(type, external)
+  private
+  public :: interface_place, measure_interface, central_frame, jump_operator, separation_at, coincidence_tolerance
+
+  !> An integration point of the interface.
+  type :: interface_place
+    real(dp) :: parent(2)     !< along the interface, each in (-1, 1)
+    real(dp) :: position(3)   !< original one
+    real(dp) :: frame(3, 3)   !< rows s, n and t; in the plane tau and n, and zero
+    real(dp) :: area          !< of the interface that it stands for; in the plane its length
+  end type interface_place
+
+  !> Distance, relative to the length, up to which nodes count as coincident: a mesh generator that prints few digits may cause it.
+  real(dp), parameter :: coincidence_tolerance = 1.0e-4_dp
+
+  !> Parent coordinates of the points of a quadrilateral among those of a line, each next to the node of its number.
+  integer, parameter :: first_of(4) = [1, 2, 2, 1], second_of(4) = [1, 1, 2, 2]
+
+contains
+
+  !> Integration points on the mid-line or mid-surface of two coincident faces, as many as a face has nodes.
+  pure subroutine measure_interface(dim, nodes, bottom, top, rule, places, status)
+    integer, intent(in) :: dim                                    !< 2 or 3
+    integer, intent(in) :: nodes                                  !< of a face, and points
+    real(dp), intent(in) :: bottom(dim, nodes), top(dim, nodes)   !< original coordinates
+    integer, intent(in) :: rule
+    type(interface_place), intent(out) :: places(nodes)
+    type(status_type), intent(out) :: status    !< zero_length, or faces_apart with the distance and its limit
+    real(dp) :: middle(dim, nodes), distance, edge
+    integer :: k
+
+    middle = 0.5_dp*(bottom + top)
+    edge = maxval(abs(bottom(:, 2) - bottom(:, 1)))
+    if (dim == 3) edge = max(edge, maxval(abs(bottom(:, 3) - bottom(:, 2))))
+    distance = maxval(abs(top - bottom))
+    status = status_type(ok, 0, 0.0_dp, 0.0_dp)
+    if (.not. edge > 0.0_dp) then
+      status = status_type(zero_length, 0, edge, 0.0_dp)
+    else if (distance > coincidence_tolerance*edge) then
+      status = status_type(faces_apart, 0, distance, coincidence_tolerance*edge)
+    end if
+    if (status%code /= ok) return
+    do k = 1, nodes
+      places(k)%position = 0.0_dp
+      if (dim == 2) then
+        call place_on_line(nodes, middle, rule, k, places(k), status)
+      else
+        call place_on_surface(middle, rule, k, places(k), status)
+      end if
+      if (status%code /= ok) return
+    end do
+  end subroutine measure_interface
+
+  !> Point k of a line.
+  pure subroutine place_on_line(nodes, middle, rule, k, place, status)
+    integer, intent(in) :: nodes, rule, k
+    real(dp), intent(in) :: middle(2, nodes)
+    type(interface_place), intent(inout) :: place
+    type(status_type), intent(inout) :: status
+    real(dp) :: s(nodes), w(nodes), slope(2), along, frame(2, 2)
+    real(dp), parameter :: origin(2) = 0.0_dp
+
+    s = line_points(nodes, rule)
+    w = line_weights(nodes, rule)
+    slope = matmul(middle, line_slope(nodes, s(k)))
+    ! a middle node too close to an end folds the edge back
+    along = dot_product(slope, middle(:, 2) - middle(:, 1))
+    if (.not. along > 0.0_dp) then
+      status = status_type(zero_length, 0, along, 0.0_dp)
+      return
+    end if
+    place%parent = [s(k), 0.0_dp]
+    place%position(1:2) = matmul(middle, line_shape(nodes, s(k)))
+    call line_frame(origin, slope, frame, place%area)
+    place%frame = 0.0_dp
+    place%frame(1:2, 1:2) = frame
+    place%area = w(k)*place%area
+  end subroutine place_on_line
+
+  !> Point k of a quadrilateral of four nodes, next to node k.
+  pure subroutine place_on_surface(middle, rule, k, place, status)
+    real(dp), intent(in) :: middle(3, 4)
+    integer, intent(in) :: rule, k
+    type(interface_place), intent(inout) :: place
+    type(status_type), intent(inout) :: status
+    real(dp) :: s(2), w(2), slopes(3, 2)
+
+    s = line_points(2, rule)
+    w = line_weights(2, rule)
+    place%parent = [s(first_of(k)), s(second_of(k))]
+    place%position = matmul(middle, quad_shape(place%parent))
+    slopes = matmul(middle, quad_slope(place%parent))
+    call surface_frame(slopes(:, 1), slopes(:, 2), place%frame, place%area)
+    if (.not. place%area > 0.0_dp) status = status_type(zero_length, 0, place%area, 0.0_dp)
+    place%area = w(first_of(k))*w(second_of(k))*place%area
+  end subroutine place_on_surface
+
+  !> Frame in the middle of the surface between two faces in space.
+  pure function central_frame(bottom, top) result(frame)
+    real(dp), intent(in) :: bottom(3, 4), top(3, 4)
+    real(dp) :: frame(3, 3)
+    real(dp), parameter :: parent(2) = 0.0_dp
+    real(dp) :: by_parent(4, 2), slopes(3, 2), area
+
+    by_parent = quad_slope(parent)
+    slopes = matmul(0.5_dp*(bottom + top), by_parent)
+    call surface_frame(slopes(:, 1), slopes(:, 2), frame, area)
+  end function central_frame
+
+  !> Shape functions of a face.
+  pure function face_shape(dim, nodes, parent) result(shape)
+    integer, intent(in) :: dim, nodes
+    real(dp), intent(in) :: parent(2)
+    real(dp) :: shape(nodes)
+
+    if (dim == 2) then
+      shape = line_shape(nodes, parent(1))
+    else
+      shape = quad_shape(parent)
+    end if
+  end function face_shape
+
+  !> N: the matrix that takes the displacements of an element to the separation (tau, n) or (s, n, t) at a point.
+  pure function jump_operator(dim, place, nodes, faces, unknowns) result(matrix)
+    integer, intent(in) :: dim
+    type(interface_place), intent(in) :: place
+    integer, intent(in) :: nodes             !< of a face
+    integer, intent(in) :: faces(nodes, 2)   !< nodes of the bottom and the top face in the element
+    integer, intent(in) :: unknowns          !< of the element
+    real(dp) :: matrix(dim, unknowns)
+    real(dp) :: shape(nodes)
+    integer :: a, i, side, column
+
+    shape = face_shape(dim, nodes, place%parent)
+    matrix = 0.0_dp
+    do side = 1, 2
+      do a = 1, nodes
+        column = dim*(faces(a, side) - 1)
+        do i = 1, dim
+          matrix(:, column + i) = merge(-shape(a), shape(a), side == 1)*place%frame(1:dim, i)
+        end do
+      end do
+    end do
+  end function jump_operator
+
+  !> N u, from differences of displacements: a rigid motion of any size opens nothing, whatever its digits.
+  pure function separation_at(dim, place, nodes, faces, u) result(separation)
+    integer, intent(in) :: dim
+    type(interface_place), intent(in) :: place
+    integer, intent(in) :: nodes
+    integer, intent(in) :: faces(nodes, 2)
+    real(dp), intent(in) :: u(:)             !< displacements of the element
+    real(dp) :: separation(3)
+    real(dp) :: shape(nodes), jump(3)
+    integer :: a, i, top, bottom
+
+    shape = face_shape(dim, nodes, place%parent)
+    jump = 0.0_dp
+    do a = 1, nodes
+      top = dim*(faces(a, 2) - 1)
+      bottom = dim*(faces(a, 1) - 1)
+      do i = 1, dim
+        jump(i) = jump(i) + shape(a)*(u(top + i) - u(bottom + i))
+      end do
+    end do
+    separation = matmul(place%frame, jump)
+  end function separation_at
+
+end module elements_interface_faces
