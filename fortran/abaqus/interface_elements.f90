@@ -75,7 +75,7 @@ contains
     end if
     choice = interface_options(options(j_integration), options(j_sampling), options(j_closure) == 1, &
       merge(1.0_dp, values(p_blend), options(j_tangent) == 1))
-    stabilisation = stabilisation_type([values(p_betat), values(p_betan)], values(p_gammabot))
+    stabilisation = stabilisation_type([values(p_betat), values(p_betan)], [values(p_gammabot), values(p_gammabot)])
     dim = elements(jtype)%dimension
     original = coords(1:dim, :)
     thickness = merge(values(p_thickness), 1.0_dp, dim == 2)

@@ -26,6 +26,7 @@ contains
     type(stabilisation_type), intent(inout) :: stabilisation
     real(dp), intent(out) :: stress(3, 2)                !< (s11, s22, s12) of each point
     logical, intent(out) :: good
+    real(dp) :: bounds(2, 2)
     integer :: slot(2), side, k
 
     stress = 0.0_dp
@@ -34,10 +35,13 @@ contains
       call check_neighbour(jelem, offset(side), side, slot(side), coordinates, u, good)
       if (.not. good) return
     end do
-    stabilisation = nitsche_parameters(stabilisation, records(slot)%norm, records(slot)%area, records(slot(1))%face_length)
+    do side = 1, 2
+      bounds(:, side) = records(slot(side))%norm*records(slot(1))%face_length/records(slot(side))%area
+    end do
+    stabilisation = nitsche_parameters(stabilisation, bounds)
     do k = 1, 2
-      stress(:, k) = stabilisation%gamma_bottom*sampled(slot(1), options, 3 - k) &
-        + (1.0_dp - stabilisation%gamma_bottom)*sampled(slot(2), options, k)
+      stress(:, k) = stabilisation%gamma_bottom(1)*sampled(slot(1), options, 3 - k) &
+        + (1.0_dp - stabilisation%gamma_bottom(1))*sampled(slot(2), options, k)
     end do
   end subroutine stress_of_neighbours
 

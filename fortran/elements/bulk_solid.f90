@@ -83,7 +83,7 @@ contains
     real(dp), intent(in) :: frames(3, 3, points)
     real(dp), intent(in) :: areas(points)             !< of the face that each of them stands for
     real(dp), intent(in) :: stiffness(3*(dim - 1), 3*(dim - 1))   !< D, stress
-    real(dp), intent(out) :: lambda                   !< stress/length
+    real(dp), intent(out) :: lambda(2)                !< of shear and normal traction, stress/length
     type(status_type), intent(out) :: status          !< inside_out with the Jacobian
     real(dp) :: energy(dim*nodes, dim*nodes), traction(dim*points, dim*nodes), part(dim, dim*nodes), point(dim)
     integer :: k

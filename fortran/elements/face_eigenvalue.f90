@@ -1,11 +1,11 @@
 ! SPDX-FileCopyrightText: The uel-harness authors
 ! SPDX-License-Identifier: BSD-3-Clause
-!> Bound of the traction on a face by the elastic energy of its element: the local eigenvalue problem that gives the stabilisation
-!> (Griebel, Schweitzer 2003; Annavarapu, Hautefeuille, Dolbow 2012), for any element.
+!> Bounds of the tractions on a face by the elastic energy of its element: the local eigenvalue problem that gives the stabilisation
+!> (Griebel, Schweitzer 2003; Annavarapu, Hautefeuille, Dolbow 2012), for any element and each mode.
 !>
-!> lambda is the largest value of (integral of |sigma.n|^2 over the face)/(integral of eps:D:eps over the element) over all
-!> displacements except rigid motions. For a constant strain it is |D| meas(Gamma)/meas(Omega) at most, which makes
-!> equation (21) of 2 (gamma_1^2 lambda_1 + gamma_2^2 lambda_2).
+!> lambda is the largest value of (integral of |t|^2 over the face)/(integral of eps:D:eps over the element) over all
+!> displacements except rigid motions, where t is the shear or the normal component of sigma.n. For a constant strain it is
+!> |D| meas(Gamma)/meas(Omega) at most, which makes equation (21) of 2 (gamma_1^2 lambda_1 + gamma_2^2 lambda_2).
 module elements_face_eigenvalue
   use core_kinds, only: dp
   use core_status, only: status_type, ok, no_root, not_positive_definite
@@ -16,20 +16,23 @@ module elements_face_eigenvalue
 
 contains
 
-  !> Largest eigenvalue of transpose(traction) traction v = lambda energy v, rigid displacements excluded.
+  !> Largest eigenvalue of transpose(t) t v = lambda energy v for the shears and for the normal traction, rigid displacements
+  !> excluded.
   !>
   !> Neither matrix sees the rigid displacements R, so energy may be replaced by energy + c R transpose(R), which is
-  !> positive definite; with L its Cholesky factor and W = inverse(L) transpose(traction), lambda is the largest
+  !> positive definite; with L its Cholesky factor and W = inverse(L) transpose(t), lambda is the largest
   !> eigenvalue of transpose(W) W, which only has the size of the face.
   pure subroutine face_eigenvalue(coordinates, energy, traction, lambda, status)
     real(dp), intent(in) :: coordinates(:, :)   !< (2 or 3, nodes), length
     real(dp), intent(in) :: energy(:, :)        !< stiffness matrix of the element
-    real(dp), intent(in) :: traction(:, :)      !< (rows, unknowns) sigma.n sqrt(weight) of the points of the face
-    real(dp), intent(out) :: lambda
+    real(dp), intent(in) :: traction(:, :)      !< (dim*points, unknowns) sigma.n sqrt(weight) of the points of the face;
+                                                !< the second one of each point is normal
+    real(dp), intent(out) :: lambda(2)          !< (tau, n)
     type(status_type), intent(out) :: status    !< not_positive_definite, or no_root
     real(dp) :: rigid(size(energy, 1), 3*(size(coordinates, 1) - 1)), shifted(size(energy, 1), size(energy, 1)), shift
-    real(dp) :: w(size(energy, 1), size(traction, 1)), values(size(traction, 1))
-    integer :: i, n
+    real(dp) :: w(size(energy, 1), size(traction, 1)), gram(size(traction, 1), size(traction, 1))
+    integer :: i, n, dim, rows(size(traction, 1))
+    logical :: normal(size(traction, 1))
     logical :: good
 
     n = size(energy, 1)
@@ -51,10 +54,28 @@ contains
     do i = 1, n
       w(i, :) = (w(i, :) - matmul(shifted(i, 1:i - 1), w(1:i - 1, :)))/shifted(i, i)
     end do
-    call eigenvalues(matmul(transpose(w), w), values, good)
-    lambda = maxval(values)
+    gram = matmul(transpose(w), w)
+    dim = size(coordinates, 1)
+    rows = [(i, i=1, size(rows))]
+    normal = mod(rows - 1, dim) == 1
+    do i = 1, 2
+      call largest_eigenvalue(gram, pack(rows, normal .eqv. (i == 2)), lambda(i), good)
+      if (.not. good) exit
+    end do
     status = status_type(merge(ok, no_root, good), 0, 0.0_dp, 0.0_dp)
   end subroutine face_eigenvalue
+
+  !> Largest eigenvalue of some rows and columns of a symmetric matrix.
+  pure subroutine largest_eigenvalue(matrix, rows, largest, good)
+    real(dp), intent(in) :: matrix(:, :)
+    integer, intent(in) :: rows(:)
+    real(dp), intent(out) :: largest
+    logical, intent(out) :: good
+    real(dp) :: values(size(rows))
+
+    call eigenvalues(matrix(rows, rows), values, good)
+    largest = maxval(values)
+  end subroutine largest_eigenvalue
 
   !> Displacements of the nodes in the translations and the rotations about their centre, a column each.
   pure function rigid_motions(coordinates) result(rigid)

@@ -6,6 +6,7 @@ module elements_interface_bulk
   use core_kinds, only: dp
   use core_quadrature, only: gauss_rule, gauss_abscissa, outer_abscissa
   use core_status, only: status_type, ok
+  use cohesive_shear, only: mode_of
   use materials_spectral_norm, only: spectral_norm
   use elements_bulk_solid, only: solid_traction, solid_size, solid_face_eigenvalue
   use elements_interface_faces, only: interface_place, measure_interface
@@ -24,11 +25,11 @@ module elements_interface_bulk
   !> Last parent coordinate of the interface in the element below and in that above.
   real(dp), parameter :: face_of_side(2) = [1.0_dp, -1.0_dp]
 
-  !> Parameters of the stabilisation; a zero stands for (21) or (22), a negative
-  !> beta for both from the local eigenvalue problem.
+  !> Parameters of the stabilisation, (tau, n); a zero stands for (21) or (22), a negative beta for all from the local eigenvalue
+  !> problem.
   type :: stabilisation_type
-    real(dp) :: beta(2)        !< (tau, n), stress/length
-    real(dp) :: gamma_bottom   !< weight of the bottom stress; that of the top is 1 - gamma_bottom
+    real(dp) :: beta(2)           !< stress/length
+    real(dp) :: gamma_bottom(2)   !< weight of the bottom stress; that of the top is 1 - gamma_bottom
   end type stabilisation_type
 
 contains
@@ -37,19 +38,18 @@ contains
   !>
   !>     gamma_1 = (meas(Omega_1)/|D_1|)/(meas(Omega_1)/|D_1| + meas(Omega_2)/|D_2|),    gamma_2 = 1 - gamma_1,
   !>     beta = 2 meas(Gamma) (|D_1| gamma_1**2/meas(Omega_1) + |D_2| gamma_2**2/meas(Omega_2)).
-  pure function nitsche_parameters(given, norms, sizes, area) result(used)
+  !>
+  !> The bound lambda of the local eigenvalue problem takes the place of |D| meas(Gamma)/meas(Omega), for each mode. The gamma are
+  !> those for which the least beta is the smallest.
+  pure function nitsche_parameters(given, bounds) result(used)
     type(stabilisation_type), intent(in) :: given
-    real(dp), intent(in) :: norms(2)   !< |D| of bottom and top, stress
-    real(dp), intent(in) :: sizes(2)   !< meas(Omega) of bottom and top
-    real(dp), intent(in) :: area       !< meas(Gamma)
+    real(dp), intent(in) :: bounds(2, 2)   !< lambda, or |D| meas(Gamma)/meas(Omega): (tau, n) of bottom and top, stress/length
     type(stabilisation_type) :: used
-    real(dp) :: softness(2)
 
     used = given
-    softness = sizes/norms
-    if (.not. given%gamma_bottom > 0.0_dp) used%gamma_bottom = softness(1)/(softness(1) + softness(2))
-    where (.not. given%beta > 0.0_dp) used%beta = 2.0_dp*area &
-      *(used%gamma_bottom**2/softness(1) + (1.0_dp - used%gamma_bottom)**2/softness(2))
+    where (.not. given%gamma_bottom > 0.0_dp) used%gamma_bottom = bounds(:, 2)/(bounds(:, 1) + bounds(:, 2))
+    where (.not. given%beta > 0.0_dp) used%beta = 2.0_dp &
+      *(used%gamma_bottom**2*bounds(:, 1) + (1.0_dp - used%gamma_bottom)**2*bounds(:, 2))
   end function nitsche_parameters
 
   !> Beta and gamma of an interface that knows the elements on both sides, the bottom one first among the nodes.
@@ -64,7 +64,7 @@ contains
     type(stabilisation_type), intent(out) :: used
     type(status_type), intent(out) :: status            !< inside_out: item 1 for the bottom element, 2 for the top one
     type(interface_place) :: places(points)
-    real(dp) :: sizes(2), norms(2), parents(2, points), frames(3, 3, points), solid(dim, nodes), area
+    real(dp) :: bounds(2, 2), parents(2, points), frames(3, 3, points), solid(dim, nodes), measure
     integer :: side, k
     logical :: local
 
@@ -76,24 +76,21 @@ contains
       parents(:, k) = places(k)%parent
       frames(:, :, k) = places(k)%frame
     end do
-    area = sum(places%area)
     do side = 1, 2
       solid = coordinates(:, (side - 1)*nodes + 1:side*nodes)
       if (local) then
-        ! lambda takes the place of |D| meas(Gamma)/meas(Omega)
-        sizes(side) = area
         call solid_face_eigenvalue(dim, nodes, solid, face_of_side(side), points, parents, frames, places%area, &
-          stiffness(:, :, side), norms(side), status)
+          stiffness(:, :, side), bounds(:, side), status)
       else
-        norms(side) = spectral_norm(stiffness(:, :, side))
-        call solid_size(dim, nodes, solid, sizes(side), status)
+        call solid_size(dim, nodes, solid, measure, status)
+        if (status%code == ok) bounds(:, side) = spectral_norm(stiffness(:, :, side))*sum(places%area)/measure
       end if
       if (status%code /= ok) then
         status%item = side
         return
       end if
     end do
-    used = nitsche_parameters(given, norms, sizes, area)
+    used = nitsche_parameters(given, bounds)
   end subroutine stabilise
 
   !> B: the matrix that takes the displacements of both elements to <sigma>.n = gamma_1 sigma_1.n + gamma_2 sigma_2.n of (18)
@@ -102,17 +99,18 @@ contains
     integer, intent(in) :: sampling
     integer, intent(in) :: dim
     type(interface_place), intent(in) :: place
-    real(dp), intent(in) :: gamma_bottom
+    real(dp), intent(in) :: gamma_bottom(2)             !< (tau, n)
     integer, intent(in) :: nodes                        !< of the element on a side
     real(dp), intent(in) :: stiffness(:, :, :)          !< D of bottom and top, stress
     real(dp), intent(in) :: coordinates(dim, 2*nodes)
     real(dp), intent(out) :: matrix(dim, 2*dim*nodes)
     type(status_type), intent(out) :: status            !< inside_out: item 1 for the bottom element, 2 for the top one
-    real(dp) :: weights(2), points(dim, 2), shares(2), part(dim, dim*nodes)
-    integer :: side, i, first
+    real(dp) :: weights(2, 2), points(dim, 2), shares(2), part(dim, dim*nodes)
+    integer :: side, i, j, first
 
     matrix = 0.0_dp
-    weights = [gamma_bottom, 1.0_dp - gamma_bottom]
+    weights(:, 1) = gamma_bottom
+    weights(:, 2) = 1.0_dp - gamma_bottom
     do side = 1, 2
       call sample(sampling, dim, nodes, place%parent, face_of_side(side), points, shares)
       first = dim*nodes*(side - 1)
@@ -124,7 +122,10 @@ contains
           status%item = side
           return
         end if
-        matrix(:, first + 1:first + dim*nodes) = matrix(:, first + 1:first + dim*nodes) + (weights(side)*shares(i))*part
+        do j = 1, dim
+          matrix(j, first + 1:first + dim*nodes) = matrix(j, first + 1:first + dim*nodes) &
+            + (weights(mode_of(j), side)*shares(i))*part(j, :)
+        end do
       end do
     end do
   end subroutine bulk_operator

@@ -1,11 +1,12 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""Double cantilever beam in space: bricks and COH3D8, as a public model of which the results of Abaqus are known."""
+"""Double cantilever beam in space, as a public model with known results of Abaqus: COH3D8, U7 and U8."""
 
 from __future__ import annotations
 
 import numpy as np
 
+from harness.delamination.kernels import uel_property, user_element
 from harness.delamination.keywords import element_block, node_block, node_set, text
 from harness.model.arrays import IntArray
 
@@ -22,8 +23,34 @@ _AROUND = np.array([[0, 0], [0, 1], [1, 1], [1, 0]])
 """Corners of a face counter-clockwise, across and along."""
 
 
+MODULUS, POISSON = 70000.0, 0.3
+STIFFNESS, STRENGTH, TOUGHNESS = 1.0e4, 30.0, 0.5
+
+_LAW = {"LAW": 2, "ETA": 1.0, "SIGMAMAX": STRENGTH, "TAUMAX": STRENGTH, "GIC": TOUGHNESS, "GIIC": TOUGHNESS}
+_ISOTROPIC = {"E": MODULUS, "NU": POISSON, "G": MODULUS / (2.0 * (1.0 + POISSON))}
+_MEMBERS = {"E": ("1", "2", "3"), "NU": ("12", "13", "23"), "G": ("12", "13", "23")}
+_PLIES = {
+    f"{name}{member} {side}": _ISOTROPIC[name]
+    for name, members in _MEMBERS.items()
+    for member in members
+    for side in ("BOTTOM", "TOP")
+}
+
+
 def bricks_files() -> dict[str, str]:
-    """The deck."""
+    """The decks: with built-in elements, with U7, and with U8 at two stiffnesses (0: infinite)."""
+    stiff = {"ALPHAN": STIFFNESS, "ALPHAT": STIFFNESS}
+    consistent = _LAW | _PLIES | {"CLOSURE": 1, "BETAN": -1.0, "BETAT": -1.0}
+    return {
+        "dcb_3d.inp": _deck("COH3D8", {}),
+        "dcb_3d_u7.inp": _deck("U7", _LAW | stiff | {"INTEGRATION": 1}),
+        "dcb_3d_u8_1e8.inp": _deck("U8", consistent | {"ALPHAN": 1.0e8, "ALPHAT": 1.0e8}),
+        "dcb_3d_u8_infinite.inp": _deck("U8", consistent),
+    }
+
+
+def _deck(kind: str, values: dict[str, float]) -> str:
+    """The deck with a type of interface element; values: properties of user elements."""
     along, across, height = BRICKS
     # by arm (bottom, top), height, width and length
     labels = 1 + np.arange(2 * (height + 1) * (across + 1) * (along + 1)).reshape(2, height + 1, across + 1, along + 1)
@@ -32,31 +59,27 @@ def bricks_files() -> dict[str, str]:
     places = np.array([np.stack([x, y, z + shift], axis=-1) for shift in (-HEIGHT, 0.0)])
     arms = np.concatenate([np.hstack([_faces(arm[k]), _faces(arm[k + 1])]) for arm in labels for k in range(height)])
     tip = round(CRACK / LENGTH * along)
-    interface = np.hstack([_faces(labels[0, -1, :, tip:]), _faces(labels[1, 0, :, tip:])])
+    # the layers of nodes that the interface elements have, from below
+    layers = [labels[0, -1], labels[1, 0]] if kind != "U8" else [*labels[0, -2:], *labels[1, :2]]
+    interface = np.hstack([_faces(layer[:, tip:]) for layer in layers])
     lines = [
         "*HEADING",
-        "Double cantilever beam of C3D8 and COH3D8, bilinear law with BK",
+        f"Double cantilever beam of C3D8 and {kind}, bilinear law with BK",
         "** right end clamped; the left ends of the outer faces are pulled apart, the crack runs to the right",
         "** written by python -m harness.delamination.decks; units N, mm, MPa",
         *node_block(labels.ravel(), places.reshape(-1, 3)),
         *element_block("C3D8", "ARMS", arms, 1),
-        *element_block("COH3D8", "INTERFACE", interface, 1 + len(arms)),
+        *(user_element(int(kind[1:]), "UNSYMM") if values else []),
+        *element_block(kind, "INTERFACE", interface, 1 + len(arms)),
         *node_set("CLAMPED", labels[..., -1].ravel()),
         *node_set("TOP", labels[1, -1, :, 0]),
         *node_set("BOTTOM", labels[0, 0, :, 0]),
         "*SOLID SECTION, ELSET=ARMS, MATERIAL=ARM",
         "*MATERIAL, NAME=ARM",
         "*ELASTIC",
-        "70000., 0.3",
-        "*COHESIVE SECTION, ELSET=INTERFACE, MATERIAL=INTERFACE, RESPONSE=TRACTION SEPARATION",
-        "*MATERIAL, NAME=INTERFACE",
-        "*ELASTIC, TYPE=TRACTION",
-        "1.e4, 1.e4, 1.e4",
-        "*DAMAGE INITIATION, CRITERION=QUADS",
-        "30., 30., 30.",
-        "*DAMAGE EVOLUTION, TYPE=ENERGY, MIXED MODE BEHAVIOR=BK, POWER=1.",
-        "0.5, 0.5, 0.5",
-        "*STEP, INC=1000",
+        f"{MODULUS:g}., {POISSON:g}",
+        *(uel_property(int(kind[1:]), "INTERFACE", values) if values else _cohesive_section()),
+        f"*STEP, INC=1000{', UNSYMM=YES' if values else ''}",
         "*STATIC",
         f"0.01, {OPENING}, 1.e-10, 0.1",
         "*BOUNDARY",
@@ -75,7 +98,21 @@ def bricks_files() -> dict[str, str]:
         "ALLIE, ALLDMD, ALLWK",
         "*END STEP",
     ]
-    return {"dcb_3d.inp": text(lines)}
+    return text(lines)
+
+
+def _cohesive_section() -> list[str]:
+    """Section and material of COH3D8."""
+    return [
+        "*COHESIVE SECTION, ELSET=INTERFACE, MATERIAL=INTERFACE, RESPONSE=TRACTION SEPARATION",
+        "*MATERIAL, NAME=INTERFACE",
+        "*ELASTIC, TYPE=TRACTION",
+        "1.e4, 1.e4, 1.e4",
+        "*DAMAGE INITIATION, CRITERION=QUADS",
+        "30., 30., 30.",
+        "*DAMAGE EVOLUTION, TYPE=ENERGY, MIXED MODE BEHAVIOR=BK, POWER=1.",
+        "0.5, 0.5, 0.5",
+    ]
 
 
 def _faces(layer: IntArray) -> IntArray:

@@ -224,7 +224,7 @@ def test_the_element_is_u2_in_another_order(branch, element_of):
     "row, edits, more",
     [
         ("cohesive law", LAW, {"fortran/cohesive/LAW.f90", "fortran/README.md"}),
-        ("interface element between edges", ELEMENT, {"fortran/README.md"}),
+        ("interface element between faces", ELEMENT, {"fortran/README.md"}),
     ],
 )
 def test_contributing_names_these_files(row, edits, more):
