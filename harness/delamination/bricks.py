@@ -16,6 +16,9 @@ LENGTH, WIDTH, HEIGHT, CRACK = 60.0, 4.0, 2.0, 20.0
 BRICKS = (30, 2, 2)
 """Of an arm: along, across, through its height."""
 
+STABILISED_BRICKS, FINE_BRICKS = (120, 2, 1), (240, 2, 2)
+"""Of the decks of U8, and of the one that they are compared with."""
+
 OPENING = 2.5
 """Distance of the tip lines at the end, mm; the step time is the opening."""
 
@@ -38,23 +41,30 @@ _PLIES = {
 
 
 def bricks_files() -> dict[str, str]:
-    """The decks: with built-in elements, with U7, and with U8 at two stiffnesses (0: infinite)."""
+    """The decks of the public model: with built-in elements, and with U7."""
     stiff = {"ALPHAN": STIFFNESS, "ALPHAT": STIFFNESS}
-    consistent = _LAW | _PLIES | {"CLOSURE": 1, "BETAN": -1.0, "BETAT": -1.0}
     return {
-        "dcb_3d.inp": _deck("COH3D8", {}),
-        "dcb_3d_u7.inp": _deck("U7", _LAW | stiff | {"INTEGRATION": 1}),
-        "dcb_3d_u8_1e8.inp": _deck("U8", consistent | {"ALPHAN": 1.0e8, "ALPHAT": 1.0e8}),
-        "dcb_3d_u8_infinite.inp": _deck("U8", consistent),
+        "dcb_3d.inp": _deck("C3D8", "COH3D8", {}, BRICKS),
+        "dcb_3d_u7.inp": _deck("C3D8", "U7", _LAW | stiff | {"INTEGRATION": 1}, BRICKS),
     }
 
 
-def _deck(kind: str, values: dict[str, float]) -> str:
-    """The deck with a type of interface element; values: properties of user elements."""
-    along, across, height = BRICKS
+def stabilised_bricks_files() -> dict[str, str]:
+    """The specimen with U8 between incompatible bricks, at a stiffness of 1e8 N/mm^3 and an infinite one (0)."""
+    consistent = _LAW | _PLIES | {"CLOSURE": 1, "BETAN": -1.0, "BETAT": -1.0}
+    return {
+        "dcb_3d_u8_1e8.inp": _deck("C3D8I", "U8", consistent | {"ALPHAN": 1.0e8, "ALPHAT": 1.0e8}, STABILISED_BRICKS),
+        "dcb_3d_u8_infinite.inp": _deck("C3D8I", "U8", consistent, STABILISED_BRICKS),
+        "dcb_3d_u8_fine.inp": _deck("C3D8I", "U8", consistent, FINE_BRICKS),
+    }
+
+
+def _deck(arm: str, kind: str, values: dict[str, float], bricks: tuple[int, int, int]) -> str:
+    """The deck with a type of bricks and one of interface elements; values: properties of user elements."""
+    along, across, height = bricks
     # by arm (bottom, top), height, width and length
     labels = 1 + np.arange(2 * (height + 1) * (across + 1) * (along + 1)).reshape(2, height + 1, across + 1, along + 1)
-    axes = [np.linspace(0.0, size, count + 1) for size, count in zip((LENGTH, WIDTH, HEIGHT), BRICKS, strict=True)]
+    axes = [np.linspace(0.0, size, count + 1) for size, count in zip((LENGTH, WIDTH, HEIGHT), bricks, strict=True)]
     z, y, x = np.meshgrid(*reversed(axes), indexing="ij")
     places = np.array([np.stack([x, y, z + shift], axis=-1) for shift in (-HEIGHT, 0.0)])
     arms = np.concatenate([np.hstack([_faces(arm[k]), _faces(arm[k + 1])]) for arm in labels for k in range(height)])
@@ -64,11 +74,11 @@ def _deck(kind: str, values: dict[str, float]) -> str:
     interface = np.hstack([_faces(layer[:, tip:]) for layer in layers])
     lines = [
         "*HEADING",
-        f"Double cantilever beam of C3D8 and {kind}, bilinear law with BK",
+        f"Double cantilever beam of {arm} and {kind}, bilinear law with BK",
         "** right end clamped; the left ends of the outer faces are pulled apart, the crack runs to the right",
         "** written by python -m harness.delamination.decks; units N, mm, MPa",
         *node_block(labels.ravel(), places.reshape(-1, 3)),
-        *element_block("C3D8", "ARMS", arms, 1),
+        *element_block(arm, "ARMS", arms, 1),
         *(user_element(int(kind[1:]), "UNSYMM") if values else []),
         *element_block(kind, "INTERFACE", interface, 1 + len(arms)),
         *node_set("CLAMPED", labels[..., -1].ravel()),

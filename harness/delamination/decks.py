@@ -13,7 +13,7 @@ from pathlib import Path
 
 from harness.delamination import specimens as build
 from harness.delamination.blocks import Interface
-from harness.delamination.bricks import bricks_files
+from harness.delamination.bricks import bricks_files, stabilised_bricks_files
 from harness.delamination.comparator import comparator_files
 from harness.delamination.cook import cook_files
 from harness.delamination.materials import TABLE_2
@@ -111,6 +111,7 @@ def all_files() -> dict[Path, str]:
         "patch_inclined": patch_inclined,
         "cohesive": comparator_files,
         "dcb_3d": bricks_files,
+        "dcb_3d_stabilised": stabilised_bricks_files,
         "peel": peel_files,
     }
     problems |= {f"paper_{name}": partial(paper, name) for name in PROBLEMS}

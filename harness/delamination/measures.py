@@ -17,8 +17,13 @@ from harness.output import Result
 
 
 def load(result: Result) -> FloatArray:
-    """Load of a specimen (N), positive the way it is loaded, by increment."""
-    return result.history["RF2[LOAD_TOP]"] if "RF2[LOAD_TOP]" in result.history else -result.history["RF2[MIDSPAN]"]
+    """Load of a specimen (N), positive the way it is loaded, by increment; in space that of the line TOP."""
+    history = result.history
+    if "RF2[LOAD_TOP]" in history:
+        return history["RF2[LOAD_TOP]"]
+    if "RF2[MIDSPAN]" in history:
+        return -history["RF2[MIDSPAN]"]
+    return np.sum([history[name] for name in history if name.startswith("RF3[TOP:")], axis=0)
 
 
 def displacement(result: Result) -> FloatArray:
