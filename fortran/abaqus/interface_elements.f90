@@ -45,7 +45,7 @@ contains
 
   !> Evaluates every type but U1; `good` is false after a message. SVARS and ENERGY come back with their end values:
   !> ENERGY(2) is T.g/2, ENERGY(4) what damage and friction have dissipated, ENERGY(5) what the viscous overstress has.
-  subroutine evaluate_interface(jtype, jelem, values, options, coords, u, dtime, with_tangent, svars, energy, residual, &
+  subroutine evaluate_interface(jtype, jelem, values, options, coords, u, dtime, finite, with_tangent, svars, energy, residual, &
     tangent, good)
     integer, intent(in) :: jtype, jelem
     real(dp), intent(in) :: values(:)              !< properties by their rows in the layout
@@ -53,6 +53,7 @@ contains
     real(dp), intent(in) :: coords(:, :)           !< (2 or 3, nodes)
     real(dp), intent(in) :: u(:)
     real(dp), intent(in) :: dtime
+    logical, intent(in) :: finite                  !< large rotations
     logical, intent(in) :: with_tangent            !< else it is zero
     real(dp), intent(inout) :: svars(*), energy(8)
     real(dp), intent(out) :: residual(:), tangent(:, :)
@@ -74,7 +75,7 @@ contains
       return
     end if
     choice = interface_options(options(j_integration), options(j_sampling), options(j_closure) == 1, &
-      merge(1.0_dp, values(p_blend), options(j_tangent) == 1))
+      merge(1.0_dp, values(p_blend), options(j_tangent) == 1), finite)
     stabilisation = stabilisation_type([values(p_betat), values(p_betan)], [values(p_gammabot), values(p_gammabot)])
     dim = elements(jtype)%dimension
     original = coords(1:dim, :)

@@ -39,7 +39,8 @@ module abaqus_layout
   integer, parameter, public :: self_contained_3d = 32   ! stabilised, with its own bricks
   integer, parameter, public :: with_solids = self_contained + self_contained_3d
   integer, parameter, public :: stabilised = next_to_quads + with_solids
-  integer, parameter, public :: interfaces = standard + standard_3d + stabilised
+  integer, parameter, public :: every_standard = standard + standard_3d
+  integer, parameter, public :: interfaces = every_standard + stabilised
   integer, parameter, public :: in_space = standard_3d + self_contained_3d
   integer, parameter, public :: in_plane = continuum + standard + next_to_quads + self_contained
 

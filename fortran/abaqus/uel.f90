@@ -44,8 +44,8 @@ subroutine uel(rhs, amatrx, svars, energy, ndofel, nrhs, nsvars, props, nprops, 
   n = size(state)
   state = svars(1:n)
   with_tangent = lflags(3) /= 5 .and. lflags(3) /= 6
-  call evaluate_interface(jtype, jelem, values, options, coords, u, dtime, with_tangent, state, energies, residual, tangent, &
-    good)
+  call evaluate_interface(jtype, jelem, values, options, coords, u, dtime, lflags(2) /= 0, with_tangent, state, energies, &
+    residual, tangent, good)
   if (.not. good) return
   if (with_tangent) amatrx = tangent
   if (lflags(4) == 1) then

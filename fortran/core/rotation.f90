@@ -3,9 +3,10 @@
 !> Local frames of lines and surfaces.
 module core_rotation
   use core_kinds, only: dp
+  use core_small_matrix, only: invert
   implicit none(type, external)
   private
-  public :: line_frame, surface_frame, traction_operator, strain_rotation
+  public :: cross, line_frame, surface_frame, turned_frame, traction_operator, strain_rotation
 
 contains
 
@@ -49,6 +50,63 @@ contains
     frame(2, :) = normal
     frame(3, :) = cross(normal, frame(1, :))
   end subroutine surface_frame
+
+  !> Frame of a line or surface that has moved, and its derivative by the nodes that it depends on. In the surface, s is along the
+  !> material line that was along s before.
+  pure subroutine turned_frame(dim, nodes, start, now, frame, by_node, turned, turning, measure)
+    integer, intent(in) :: dim, nodes
+    real(dp), intent(in) :: start(dim, dim - 1)       !< vectors in it at the start
+    real(dp), intent(in) :: now(dim, dim - 1)         !< these vectors now
+    real(dp), intent(in) :: frame(3, 3)               !< rows s, n and t, or tau, n and zero, at the start
+    real(dp), intent(in) :: by_node(nodes, dim - 1)   !< how much of a displacement of each node the vectors have
+    real(dp), intent(out) :: turned(3, 3)             !< rows as in `frame`
+    real(dp), intent(out) :: turning(3, dim, dim, nodes)   !< derivative: row, component, direction, node
+    real(dp), intent(out) :: measure                  !< length or area of the vectors now; without one the rest is zero
+    real(dp) :: gram(2, 2), inverse(2, 2), determinant, share(2), line(3), normal(3), unit(3), length, slope(3, 3)
+    integer :: i, q
+
+    turned = 0.0_dp
+    turning = 0.0_dp
+    if (dim == 2) then
+      measure = hypot(now(1, 1), now(2, 1))
+      if (.not. measure > 0.0_dp) return
+      turned(1, 1:2) = now(:, 1)/measure
+      turned(2, 1:2) = [-turned(1, 2), turned(1, 1)]
+      do q = 1, nodes
+        do i = 1, 2
+          ! the part across the line, which is along n
+          turning(1, :, i, q) = (by_node(q, 1)/measure*turned(2, i))*turned(2, 1:2)
+          turning(2, :, i, q) = -(by_node(q, 1)/measure*turned(2, i))*turned(1, 1:2)
+        end do
+      end do
+      return
+    end if
+    normal = cross(now(:, 1), now(:, 2))
+    measure = norm2(normal)
+    if (.not. measure > 0.0_dp) return
+    normal = normal/measure
+    gram = matmul(transpose(start), start)
+    call invert(2, gram, inverse, determinant)
+    share = matmul(inverse, matmul(frame(1, :), start))
+    line = matmul(now, share)
+    length = norm2(line)
+    line = line/length
+    turned(1, :) = line
+    turned(2, :) = normal
+    turned(3, :) = cross(normal, line)
+    do q = 1, nodes
+      do i = 1, 3
+        unit = 0.0_dp
+        unit(i) = 1.0_dp
+        slope(2, :) = (by_node(q, 1)*cross(unit, now(:, 2)) + by_node(q, 2)*cross(now(:, 1), unit))/measure
+        slope(2, :) = slope(2, :) - dot_product(slope(2, :), normal)*normal
+        slope(1, :) = (dot_product(share, by_node(q, :))/length)*unit
+        slope(1, :) = slope(1, :) - dot_product(slope(1, :), line)*line
+        slope(3, :) = cross(slope(2, :), line) + cross(normal, slope(1, :))
+        turning(:, :, i, q) = slope
+      end do
+    end do
+  end subroutine turned_frame
 
   !> Cross product.
   pure function cross(a, b) result(c)

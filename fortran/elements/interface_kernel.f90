@@ -14,7 +14,8 @@ module elements_interface_kernel
   use cohesive_parameters, only: law_parameters
   use cohesive_law, only: check_law, check_beta
   use elements_interface_bulk, only: stabilisation_type, stabilise, bulk_operator
-  use elements_interface_faces, only: interface_place, measure_interface, jump_operator, separation_at
+  use elements_interface_faces, only: interface_place, measure_interface, turn_place, jump_operator, separation_at, jump_at, &
+    face_shape
   use elements_interface_point, only: interface_options, interface_point, point_response, standard_point, &
     stabilised_point, point_energies
   implicit none(type, external)
@@ -54,12 +55,14 @@ contains
     type(stabilisation_type) :: used
     type(point_response) :: response
     real(dp) :: jump(dim, size(u)), bulk(dim, size(u)), by_displacement(dim, size(u)), bulk_traction(3), separation(3), area
+    real(dp) :: turning(3, dim, dim, points), apart(3), start(size(u))
     integer :: k
 
     residual = 0.0_dp
     tangent = 0.0_dp
     energies = 0.0_dp
     bulk_traction = 0.0_dp
+    start = reshape(coordinates, [size(u)])
     call check_law(law, status)
     if (status%code /= ok) return
     call measure_interface(dim, points, coordinates(:, faces(:, 1)), coordinates(:, faces(:, 2)), options%rule, places, &
@@ -76,7 +79,17 @@ contains
 
     do k = 1, points
       new(k)%position = places(k)%position
-      separation = separation_at(dim, places(k), points, faces, u)
+      if (options%finite) then
+        ! separations are those of the present positions in the present frame, less those at the start
+        separation = -separation_at(dim, places(k), points, faces, start)
+        call turn_place(dim, points, middle_of(dim, points, faces, start), middle_of(dim, points, faces, start + u), places(k), &
+          turning, status)
+        if (status%code /= ok) return
+        apart = jump_at(dim, places(k), points, faces, start + u)
+        separation = separation + matmul(places(k)%frame, apart)
+      else
+        separation = separation_at(dim, places(k), points, faces, u)
+      end if
       if (present(stabilisation)) then
         if (present(stiffness)) then
           call bulk_operator(options%sampling, dim, places(k), used%gamma_bottom, solid, stiffness, coordinates, bulk, &
@@ -102,8 +115,48 @@ contains
       by_displacement = matmul(response%by_jump(1:dim, 1:dim), jump)
       if (present(stiffness)) by_displacement = by_displacement + matmul(response%by_bulk(1:dim, 1:dim), bulk)
       call add_product(area, jump, by_displacement, tangent)
+      if (options%finite) call add_turning(area, dim, points, faces, face_shape(dim, points, places(k)%parent), places(k)%frame, &
+        new(k)%traction, response%by_jump, apart, turning, tangent)
     end do
   end subroutine integrate_interface
+
+  !> Nodes of the mid-line or mid-surface, from coordinates of the element's nodes, one node after the other.
+  pure function middle_of(dim, nodes, faces, coordinates) result(middle)
+    integer, intent(in) :: dim, nodes, faces(nodes, 2)
+    real(dp), intent(in) :: coordinates(dim, *)
+    real(dp) :: middle(dim, nodes)
+
+    middle = 0.5_dp*(coordinates(:, faces(:, 1)) + coordinates(:, faces(:, 2)))
+  end function middle_of
+
+  !> Adds what the turning of the frame R does to the nodal forces of a point, N being the shape functions times R: the
+  !> derivatives of transpose(R) T(R x). A node of the mid-surface moves by half of what each of its two nodes does.
+  pure subroutine add_turning(area, dim, nodes, faces, shape, frame, traction, by_jump, apart, turning, tangent)
+    real(dp), intent(in) :: area
+    integer, intent(in) :: dim, nodes, faces(nodes, 2)
+    real(dp), intent(in) :: shape(nodes), frame(3, 3), traction(3), by_jump(3, 3), apart(3)
+    real(dp), intent(in) :: turning(3, dim, dim, nodes)      !< row of the frame, component, direction, node
+    real(dp), intent(inout) :: tangent(:, :)
+    real(dp) :: change(dim), part(dim)
+    integer :: q, i, a, side, column, row
+
+    do q = 1, nodes
+      do i = 1, dim
+        change = matmul(traction, turning(:, :, i, q)) &
+          + matmul(matmul(by_jump, matmul(turning(:, :, i, q), apart(1:dim))), frame(:, 1:dim))
+        do a = 1, nodes
+          part = (0.5_dp*area*shape(a))*change
+          do side = 1, 2
+            column = dim*(faces(q, side) - 1) + i
+            row = dim*(faces(a, 1) - 1)
+            tangent(row + 1:row + dim, column) = tangent(row + 1:row + dim, column) - part
+            row = dim*(faces(a, 2) - 1)
+            tangent(row + 1:row + dim, column) = tangent(row + 1:row + dim, column) + part
+          end do
+        end do
+      end do
+    end do
+  end subroutine add_turning
 
   !> Adds area N^T x to a matrix.
   pure subroutine add_product(area, jump, x, matrix)

@@ -18,12 +18,11 @@
 !> position, separation, traction, damage, energies dissipated by damage, by viscosity, damage without viscosity, strain,
 !> initiation criterion, status.
 module host_cohesive
-  use core_small_matrix, only: invert
+  use core_rotation, only: line_frame, surface_frame, turned_frame
   use host_kinds, only: dp, i4
   use host_messages, only: add_message
   use host_protect, only: escape
   use host_shape, only: line2, quad4
-  use host_tensors, only: cross
   use host_traction_separation, only: cohesive_law, cohesive_point, fine, n_law_integers, n_law_reals, read_law, &
                                       update_point
   implicit none (type, external)
@@ -32,6 +31,9 @@ module host_cohesive
 
   integer, parameter :: p_thickness = 1, p_width = 2, p_law = 3
   integer, parameter :: j_family = 1, j_deletion = 2, j_law = 3
+
+  !> Rows n, s, t of a frame from rows s, n, t, and the other way round.
+  integer, parameter :: by_normal(3) = [2, 1, 3]
 
 contains
 
@@ -173,26 +175,18 @@ contains
     integer, intent(in) :: family, n, points, point
     real(dp), intent(in) :: x(n, 2*points)
     real(dp), intent(out) :: frame(3, n), area
-    real(dp), parameter :: smallest_sine = 1.745328e-3_dp   ! of 0.1 degrees
-    real(dp) :: a(3), b(3), by_a(points), by_b(points)
+    real(dp) :: a(3), b(3), by_a(points), by_b(points), axes(3, 3)
     call edges_at(family, n, points, point, x, a, b, by_a, by_b)
     frame = 0
     area = 0
     select case (family)
     case (line2)
-      area = 0.5_dp*norm2(a)
-      if (area > 0) frame(1:2, :) = reshape([-a(2), a(1), a(1), a(2)], [2, 2])/(2*area)
+      call line_frame([0.0_dp, 0.0_dp], a(:2), axes(:2, :2), area)
+      frame(:2, :) = axes(by_normal(:2), :n)
+      area = 0.5_dp*area
     case (quad4)
-      frame(1, :) = cross(a, b)
-      area = norm2(frame(1, :))
-      if (area > 0) then
-        frame(1, :) = frame(1, :)/area
-        a = [1, 0, 0]
-        if (norm2(cross(frame(1, :), a)) < smallest_sine) a = [0, 0, 1]
-        a = a - dot_product(a, frame(1, :))*frame(1, :)
-        frame(2, :) = a/norm2(a)
-        frame(3, :) = cross(frame(1, :), frame(2, :))
-      end if
+      call surface_frame(a, b, axes, area)
+      frame = axes(by_normal, :n)
     case default
       call add_message(-3_i4, 'cohesive elements between faces of this family are not known to the host')
       call escape()
@@ -233,56 +227,15 @@ contains
     real(dp), intent(in) :: x(n, 2*points), now(n, 2*points)    !< coordinates at the start, and now
     real(dp), intent(in) :: frame(3, n)                         !< at the start
     real(dp), intent(out) :: present_frame(3, n), turning(3, n, n, points)
-    real(dp) :: a(3), b(3), first(3), second(3), normal(3), line(3), share(2), gram(2, 2), inverse(2, 2), determinant
-    real(dp) :: by_a(points), by_b(points), along(3), length, area, slope(3, 3), unit(3)
-    integer :: i, q
-    turning = 0
-    present_frame = 0
-    call edges_at(family, n, points, point, x, first, second, by_a, by_b)
-    call edges_at(family, n, points, point, now, a, b, by_a, by_b)
-    if (family == line2) then
-      length = norm2(a)
-      if (.not. length > 0) call stop_with('the area of the mid-surface is', length, point)
-      line = a/length
-      present_frame(1:2, :) = reshape([-line(2), line(1), line(1), line(2)], [2, 2])
-      do q = 1, points
-        do i = 1, n
-          along = 0
-          along(i) = by_a(q)/length
-          along = along - dot_product(along, line)*line
-          turning(1, :, i, q) = [-along(2), along(1)]
-          turning(2, :, i, q) = along(:2)
-        end do
-      end do
-      return
-    end if
-    normal = cross(a, b)
-    area = norm2(normal)
+    real(dp) :: start(3, 2), present(3, 2), by(points, 2), old(3, 3), turned(3, 3), turned_by(3, n, n, points), area
+    call edges_at(family, n, points, point, x, start(:, 1), start(:, 2), by(:, 1), by(:, 2))
+    call edges_at(family, n, points, point, now, present(:, 1), present(:, 2), by(:, 1), by(:, 2))
+    old = 0
+    old(:, :n) = frame(by_normal, :)
+    call turned_frame(n, points, start(:n, :n - 1), present(:n, :n - 1), old, by(:, :n - 1), turned, turned_by, area)
     if (.not. area > 0) call stop_with('the area of the mid-surface is', area, point)
-    normal = normal/area
-    ! the material line that was along s
-    gram = reshape([dot_product(first, first), dot_product(first, second), dot_product(first, second), &
-                    dot_product(second, second)], [2, 2])
-    call invert(2, gram, inverse, determinant)
-    share = matmul(inverse, [dot_product(first, frame(2, :)), dot_product(second, frame(2, :))])
-    line = share(1)*a + share(2)*b
-    length = norm2(line)
-    line = line/length
-    present_frame(1, :) = normal
-    present_frame(2, :) = line
-    present_frame(3, :) = cross(normal, line)
-    do q = 1, points
-      do i = 1, n
-        unit = 0
-        unit(i) = 1
-        slope(1, :) = (by_a(q)*cross(unit, b) + by_b(q)*cross(a, unit))/area
-        slope(1, :) = slope(1, :) - dot_product(slope(1, :), normal)*normal
-        slope(2, :) = (share(1)*by_a(q) + share(2)*by_b(q))*unit/length
-        slope(2, :) = slope(2, :) - dot_product(slope(2, :), line)*line
-        slope(3, :) = cross(slope(1, :), line) + cross(normal, slope(2, :))
-        turning(:, :, i, q) = slope
-      end do
-    end do
+    present_frame = turned(by_normal, :n)
+    turning = turned_by(by_normal, :, :, :)
   end subroutine turn_frame
 
   !> End the analysis with a message.

@@ -4,7 +4,7 @@
 module host_pressure
   use host_kinds, only: dp
   use host_shape, only: radius_of, rule_t
-  use host_tensors, only: cross
+  use core_rotation, only: cross
   implicit none (type, external)
   private
   public :: add_pressure

@@ -9,7 +9,7 @@ module host_tensors
   use host_messages, only: add_message
   implicit none (type, external)
   private
-  public :: to_matrix, to_components, eigen, cross
+  public :: to_matrix, to_components, eigen
 
   !> Routines that are called at integration points.
   character(len=6), parameter :: of_a_point(4) = [character(len=6) :: 'SDVINI', 'UMAT', 'USDFLD', 'UVARM']
@@ -65,12 +65,6 @@ contains
     call add_message(-1_i4, text)
   end subroutine eigen
 
-  !> Vector product.
-  pure function cross(a, b) result(c)
-    real(dp), intent(in) :: a(3), b(3)
-    real(dp) :: c(3)
-    c = [a(2)*b(3) - a(3)*b(2), a(3)*b(1) - a(1)*b(3), a(1)*b(2) - a(2)*b(1)]
-  end function cross
 end module host_tensors
 
 !> sprime = R s R^T.

@@ -23,7 +23,8 @@ def load(result: Result) -> FloatArray:
         return history["RF2[LOAD_TOP]"]
     if "RF2[MIDSPAN]" in history:
         return -history["RF2[MIDSPAN]"]
-    return np.sum([history[name] for name in history if name.startswith("RF3[TOP:")], axis=0)
+    line: FloatArray = np.sum([history[name] for name in history if name.startswith("RF3[TOP:")], axis=0)
+    return line
 
 
 def displacement(result: Result) -> FloatArray:

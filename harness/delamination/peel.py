@@ -6,6 +6,7 @@ from __future__ import annotations
 
 import numpy as np
 
+from harness.delamination.kernels import uel_property, user_element
 from harness.delamination.keywords import element_block, keyword, node_block, node_set, number, text
 
 LENGTH, THICKNESS, CRACK = 40.0, 0.4, 6.0
@@ -20,12 +21,31 @@ MODULUS, STIFFNESS, STRENGTH = 5000.0, 2000.0, 6.0
 TOUGHNESS = 0.5
 """N/mm: the force per width in steady state, where the film bends in a shape that moves along, and does not stretch."""
 
+LAW = {
+    "THICKNESS": 1.0,
+    "ALPHAN": STIFFNESS,
+    "ALPHAT": STIFFNESS,
+    "SIGMAMAX": STRENGTH,
+    "TAUMAX": STRENGTH,
+    "GIC": TOUGHNESS,
+    "GIIC": TOUGHNESS,
+    "LAW": 2,
+    "ETA": 1.0,
+    "INTEGRATION": 1,
+}
+"""Properties of U2 that make it COH2D4: any mode mix has the same energy, points at the nodes."""
+
 LIFT = 25.0
 """Of the free end, mm; it may move along the base."""
 
 
 def peel_files() -> dict[str, str]:
-    """The deck."""
+    """The decks: with COH2D4, and with U2 in its place."""
+    return {"peel.inp": _deck("COH2D4"), "peel_u2.inp": _deck("U2")}
+
+
+def _deck(kind: str) -> str:
+    """The deck with a type of interface element."""
     along, through = QUADS
     labels = 1 + np.arange((along + 1) * (through + 1)).reshape(through + 1, along + 1)
     y, x = np.meshgrid(np.linspace(0.0, THICKNESS, through + 1), np.linspace(0.0, LENGTH, along + 1), indexing="ij")
@@ -36,12 +56,13 @@ def peel_files() -> dict[str, str]:
     interface = np.stack([base[:-1], base[1:], labels[0, first + 1 :], labels[0, first:-1]], axis=-1)
     lines = [
         "*HEADING",
-        "Peel test at 90 degrees, CPS4R and COH2D4 with NLGEOM",
+        f"Peel test at 90 degrees, CPS4R and {kind} with NLGEOM",
         "** the left end of the film is lifted, the crack runs to the right",
         "** written by python -m harness.delamination.decks; units N, mm, MPa",
         *node_block(np.append(labels, base), places),
         *element_block("CPS4R", "FILM", film, 1),
-        *element_block("COH2D4", "INTERFACE", interface, 1 + len(film)),
+        *(user_element(2, "UNSYMM") if kind == "U2" else []),
+        *element_block(kind, "INTERFACE", interface, 1 + len(film)),
         *node_set("BASE", base),
         *node_set("END", labels[through // 2, :1]),
         "*SECTION CONTROLS, NAME=BENDING, HOURGLASS=ENHANCED",
@@ -50,16 +71,8 @@ def peel_files() -> dict[str, str]:
         "*MATERIAL, NAME=FILM",
         "*ELASTIC",
         f"{number(MODULUS)}, 0.",
-        "*COHESIVE SECTION, ELSET=INTERFACE, MATERIAL=INTERFACE, RESPONSE=TRACTION SEPARATION",
-        "1.",
-        "*MATERIAL, NAME=INTERFACE",
-        "*ELASTIC, TYPE=TRACTION",
-        ", ".join([number(STIFFNESS)] * 3),
-        "*DAMAGE INITIATION, CRITERION=QUADS",
-        ", ".join([number(STRENGTH)] * 3),
-        "*DAMAGE EVOLUTION, TYPE=ENERGY",
-        number(TOUGHNESS),
-        keyword("STEP", "NLGEOM", INC=2000),
+        *(uel_property(2, "INTERFACE", LAW) if kind == "U2" else _cohesive_section()),
+        keyword("STEP", "NLGEOM", *(["UNSYMM=YES"] if kind == "U2" else []), INC=2000),
         "*STATIC",
         "0.005, 1., 1.e-7, 0.01",
         "*BOUNDARY",
@@ -75,4 +88,19 @@ def peel_files() -> dict[str, str]:
         "U1, U2, RF2",
         "*END STEP",
     ]
-    return {"peel.inp": text(lines)}
+    return text(lines)
+
+
+def _cohesive_section() -> list[str]:
+    """Section and material of COH2D4."""
+    return [
+        "*COHESIVE SECTION, ELSET=INTERFACE, MATERIAL=INTERFACE, RESPONSE=TRACTION SEPARATION",
+        "1.",
+        "*MATERIAL, NAME=INTERFACE",
+        "*ELASTIC, TYPE=TRACTION",
+        ", ".join([number(STIFFNESS)] * 3),
+        "*DAMAGE INITIATION, CRITERION=QUADS",
+        ", ".join([number(STRENGTH)] * 3),
+        "*DAMAGE EVOLUTION, TYPE=ENERGY",
+        number(TOUGHNESS),
+    ]

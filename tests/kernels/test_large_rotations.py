@@ -1,0 +1,108 @@
+# SPDX-FileCopyrightText: The uel-harness authors
+# SPDX-License-Identifier: BSD-3-Clause
+"""Standard interfaces with NLGEOM, U2, U5 and U7: the frame goes with the mid-surface, tractions are per original area."""
+
+import numpy as np
+import pytest
+from scipy.spatial.transform import Rotation
+
+NLGEOM = (1, 1, 0, 0)
+LINE = np.array([[0.1, 0.2], [1.0, 0.5]])
+CURVED = np.vstack([LINE, [[0.5, 0.42]]])
+SQUARE = np.array([[0.0, 0.0, 0.05], [1.1, -0.1, -0.1], [0.9, 1.1, 0.12], [0.05, 0.9, -0.06]])
+# nodes, and those of the bottom and of the top face
+ELEMENTS = {
+    2: (LINE[[0, 1, 1, 0]], [0, 1], [3, 2]),
+    5: (CURVED[[0, 1, 1, 0, 2, 2]], [0, 1, 4], [3, 2, 5]),
+    7: (np.vstack([SQUARE, SQUARE]), [0, 1, 2, 3], [4, 5, 6, 7]),
+}
+OPTIONS = {"Gauss": {}, "nodes, viscous": {"INTEGRATION": 1, "VISCOSITY": 0.3}, "BK": {"LAW": 2, "ETA": 1.45}}
+every = pytest.mark.parametrize("jtype", ELEMENTS)
+options = pytest.mark.parametrize("name", OPTIONS)
+
+
+def turn(dim, degrees):
+    """A rotation: about an axis that is no direction of anything."""
+    if dim == 2:
+        return Rotation.from_euler("z", degrees, degrees=True).as_matrix()[:2, :2]
+    return Rotation.from_rotvec(np.deg2rad(degrees) * np.array([0.6, -0.48, 0.64])).as_matrix()
+
+
+def opened(jtype, size, seed):
+    """Displacements that open and shear the element by about `size`, and bend its faces."""
+    coordinates, bottom, top = ELEMENTS[jtype]
+    rng = np.random.default_rng(seed)
+    u = 0.02 * rng.normal(size=coordinates.shape)
+    normal = np.array([-0.3, 0.95]) if jtype < 7 else np.array([0.1, 0.0, 1.0])
+    u[top] = u[bottom] + size * (normal + 0.4 * rng.normal(size=(len(top), len(normal))))
+    return u
+
+
+@every
+@options
+def test_no_force_under_rigid_motions(element, jtype, name):
+    """By 180 degrees in 50 increments, and far away."""
+    coordinates = ELEMENTS[jtype][0]
+    dim = coordinates.shape[1]
+    item = element(jtype, coordinates, **OPTIONS[name])
+    for degrees in np.linspace(0, 180, 51)[1:]:
+        rhs = item.advance((coordinates - 3.0) @ turn(dim, degrees).T - coordinates, flags=NLGEOM)[0]
+        assert abs(rhs).max() <= 1e-9 * 3e4
+    assert not item.state["DAMAGE"].any()
+
+
+@every
+@options
+@pytest.mark.parametrize("size", [5e-4, 4e-3, 8e-3, -1e-3])
+def test_tangent(element, reference, jtype, name, size):
+    coordinates = ELEMENTS[jtype][0]
+    q = turn(coordinates.shape[1], 50.0)
+    item = element(jtype, coordinates, **OPTIONS[name])
+    item.advance((coordinates + opened(jtype, 1e-3, 1)) @ q.T - coordinates, flags=NLGEOM)
+    u = (coordinates + opened(jtype, size, 2)) @ q.T - coordinates
+    tangent = item.evaluate(u, flags=NLGEOM)[1]
+    differences = -reference.central_differences(lambda x: item.evaluate(x, flags=NLGEOM)[0], u.ravel(), step=2e-7)
+    assert abs(tangent).max() > 0
+    assert abs(tangent - differences).max() <= 1e-6 * abs(tangent).max()
+
+
+@every
+@options
+def test_an_element_that_turns_while_it_opens(element, jtype, name):
+    """Forces turn along; damage, tractions in their frame and energies are those without the rotation."""
+    coordinates = ELEMENTS[jtype][0]
+    dim = coordinates.shape[1]
+    still, turned = (element(jtype, coordinates, **OPTIONS[name]) for _ in range(2))
+    for k, size in enumerate((5e-4, 3e-3, 2e-3, 6e-3, -5e-4, 8e-3)):
+        q, u = turn(dim, 45.0 * (k + 1)), opened(jtype, size, 7 + k)
+        force = still.advance(u, flags=NLGEOM)[0].reshape(-1, dim)
+        found = turned.advance((coordinates + u) @ q.T - coordinates, flags=NLGEOM)[0].reshape(-1, dim)
+        np.testing.assert_allclose(found, force @ q.T, atol=1e-9 * abs(force).max())
+    assert still.state["DAMAGE"].max() > 0.1
+    for variable in still.state:
+        scale = abs(still.state[variable]).max()
+        np.testing.assert_allclose(turned.state[variable], still.state[variable], atol=1e-9 * scale)
+    np.testing.assert_allclose(turned.energy, still.energy, rtol=1e-9, atol=1e-14)
+
+
+@every
+def test_forces_are_in_equilibrium(element, jtype):
+    """Node by node: what a face gets, the other gives."""
+    coordinates, bottom, top = ELEMENTS[jtype]
+    dim = coordinates.shape[1]
+    item = element(jtype, coordinates)
+    u = opened(jtype, 5e-3, 3)
+    force = item.evaluate(u, flags=NLGEOM)[0].reshape(-1, dim)
+    np.testing.assert_allclose(force[bottom], -force[top], atol=1e-12 * abs(force).max())
+    assert abs(force).max() > 1
+
+
+@every
+def test_small_displacements(element, jtype):
+    """Forces of displacements of 1e-7 of the size are those without NLGEOM to that order."""
+    coordinates = ELEMENTS[jtype][0]
+    item = element(jtype, coordinates)
+    u = 1e-7 * np.random.default_rng(3).normal(size=coordinates.shape)
+    linear, finite = item.evaluate(u)[0], item.evaluate(u, flags=NLGEOM)[0]
+    np.testing.assert_allclose(finite, linear, atol=1e-6 * abs(linear).max())
+    assert abs(finite - linear).max() > 0
