@@ -146,7 +146,8 @@ module abaqus_layout
     real_item(p_friction, stabilised, 'FRICTION', '1', not_negative), & !< coefficient of friction, with CLOSURE 1; 0: none
     real_item(p_bottom_e1, with_solids, 'E1 BOTTOM', 'stress', positive), & !< Young's modulus along material axis 1
     real_item(p_bottom_e2, with_solids, 'E2 BOTTOM', 'stress', positive), & !< Young's modulus along material axis 2
-    real_item(p_bottom_e3, with_solids, 'E3 BOTTOM', 'stress', not_negative), & !< Young's modulus along material axis 3; plane strain, U8
+    real_item(p_bottom_e3, with_solids, 'E3 BOTTOM', 'stress', not_negative), &
+      !< Young's modulus along material axis 3; plane strain, U8
     real_item(p_bottom_nu12, with_solids, 'NU12 BOTTOM', '1', any_value), & !< contraction along 2 under stress along 1
     real_item(p_bottom_nu13, with_solids, 'NU13 BOTTOM', '1', any_value), &
       !< contraction along 3 under stress along 1; plane strain, U8
@@ -312,7 +313,7 @@ module abaqus_layout
     element_item(5, standard, 2, 6, 3, 13, 3), & !< standard cohesive interface between edges of three nodes
     element_item(6, self_contained, 2, 16, 3, 33, 6), & !< stabilised cohesive interface of eight-node quads, self-contained; UNSYMM
     element_item(7, standard_3d, 3, 8, 4, 12, 3), & !< standard cohesive interface in space, four nodes on each face
-    element_item(8, self_contained_3d, 3, 16, 4, 36, 5)] !< stabilised cohesive interface of eight-node bricks, self-contained; UNSYMM
+    element_item(8, self_contained_3d, 3, 16, 4, 36, 5)] !< stabilised cohesive interface of eight-node bricks; UNSYMM
 
   type(faces_item), parameter, public :: faces(2:8) = [ &
     faces_item(2, 0, [1, 2, 0, 0], [4, 3, 0, 0]), & !< as COH2D4

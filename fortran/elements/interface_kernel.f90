@@ -27,8 +27,8 @@ contains
   !> Residual (external minus internal force), tangent and state at the end of the increment.
   !>
   !> Without stabilisation it is the standard element. The stabilised one takes the bulk stress from its own quads or bricks, whose
-  !> stiffness it receives, or from its neighbours. In the latter case its tangent holds the bulk stress constant, since the derivative of
-  !> that stress involves nodes that the element does not own.
+  !> stiffness it receives, or from its neighbours. In the latter case its tangent holds the bulk stress constant, since the
+  !> derivative of that stress involves nodes that the element does not own.
   pure subroutine integrate_interface(dim, points, faces, solid, law, options, thickness, coordinates, u, dtime, with_tangent, &
     old, new, residual, tangent, energies, status, stabilisation, stiffness, neighbours)
     integer, intent(in) :: dim                                !< 2 or 3
@@ -123,10 +123,15 @@ contains
   !> Nodes of the mid-line or mid-surface, from coordinates of the element's nodes, one node after the other.
   pure function middle_of(dim, nodes, faces, coordinates) result(middle)
     integer, intent(in) :: dim, nodes, faces(nodes, 2)
-    real(dp), intent(in) :: coordinates(dim, *)
+    real(dp), intent(in) :: coordinates(:)
     real(dp) :: middle(dim, nodes)
+    integer :: a, i
 
-    middle = 0.5_dp*(coordinates(:, faces(:, 1)) + coordinates(:, faces(:, 2)))
+    do a = 1, nodes
+      do i = 1, dim
+        middle(i, a) = 0.5_dp*(coordinates(dim*(faces(a, 1) - 1) + i) + coordinates(dim*(faces(a, 2) - 1) + i))
+      end do
+    end do
   end function middle_of
 
   !> Adds what the turning of the frame R does to the nodal forces of a point, N being the shape functions times R: the
