@@ -14,7 +14,7 @@ module cohesive_friction
     logical :: sticks
     real(dp) :: traction(2)           !< stress
     real(dp) :: by_pressed(2)         !< derivative by T_n
-    real(dp) :: by_excess(2, 2)       !< derivative by the shear of p
+    real(dp) :: by_shear(2, 2)        !< derivative by the shear of p
   end type friction_state
 
 contains
@@ -23,10 +23,11 @@ contains
   !>
   !> The point sticks if this holds with the shear of w unchanged; otherwise it slides against the friction, a radial return. Beta
   !> is also the stiffness of sticking: no other is needed.
-  pure subroutine coulomb_friction(coefficient, pressed, excess, friction)
+  pure subroutine coulomb_friction(coefficient, pressed, excess, turning, friction)
     real(dp), intent(in) :: coefficient   !< mu D
     real(dp), intent(in) :: pressed       !< T_n, negative
     real(dp), intent(in) :: excess(2)     !< shear of p beyond that at which w does not slide, without friction
+    real(dp), intent(in) :: turning       !< derivative of the excess by p, across the excess
     type(friction_state), intent(inout) :: friction
     real(dp) :: length, direction(2), most
     integer :: i
@@ -37,17 +38,17 @@ contains
     friction%sticks = length <= most
     friction%traction = excess
     friction%by_pressed = 0.0_dp
-    friction%by_excess = 0.0_dp
+    friction%by_shear = 0.0_dp
     if (friction%sticks) return
     direction = excess/length
     friction%traction = most*direction
     friction%by_pressed = -coefficient*direction
     do i = 1, 2
-      friction%by_excess(:, i) = -(most/length)*direction*direction(i)
-      friction%by_excess(i, i) = friction%by_excess(i, i) + most/length
+      friction%by_shear(:, i) = -(turning*most/length)*direction*direction(i)
+      friction%by_shear(i, i) = friction%by_shear(i, i) + turning*most/length
     end do
     ! without rounding in the plane
-    if (.not. abs(direction(2)) > 0.0_dp) friction%by_excess(1, 1) = 0.0_dp
+    if (.not. abs(direction(2)) > 0.0_dp) friction%by_shear(1, 1) = 0.0_dp
   end subroutine coulomb_friction
 
   !> Adds friction to dT/dp: it takes from the shear of p what it adds to that of T.
@@ -65,7 +66,7 @@ contains
     if (friction%sticks) then
       by_trial(shears, shears) = by_trial(shears, shears) + remainder
     else
-      by_trial(shears, shears) = by_trial(shears, shears) + matmul(remainder, friction%by_excess)
+      by_trial(shears, shears) = by_trial(shears, shears) + matmul(remainder, friction%by_shear)
       by_trial(shears, 2) = pressed_by_trial*matmul(remainder, friction%by_pressed)
     end if
   end subroutine add_friction

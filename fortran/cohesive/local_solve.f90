@@ -55,7 +55,7 @@ contains
     type(driven_point) :: driven
     type(resultant_solution) :: solution
     type(friction_state) :: friction
-    real(dp) :: old(3), p(3), direction(2), pressed
+    real(dp) :: old(3), p(3), direction(2), rest(2), turning, pressed
 
     old = opening_part(history%separation)
     driven%beta = beta
@@ -70,7 +70,8 @@ contains
     pressed = p(2)/(1.0_dp + beta(2)*law%flexibility)
     friction%acts = law%friction*history%damage > 0.0_dp .and. driven%closed
     if (friction%acts) then
-      call coulomb_friction(law%friction*history%damage, pressed, p(shears) - rest(law, driven, history, p, old), friction)
+      call find_rest(law, driven, history, p, old, rest, turning)
+      call coulomb_friction(law%friction*history%damage, pressed, p(shears) - rest, 1.0_dp - turning, friction)
       driven%sticks = friction%sticks
       p(shears) = p(shears) - friction%traction
     end if
@@ -103,23 +104,25 @@ contains
   end subroutine solve_law
 
   !> (p_s, p_t) at which the shear of w does not change, without friction.
-  pure function rest(law, driven, history, p, old) result(shear)
+  pure subroutine find_rest(law, driven, history, p, old, rest, turning)
     type(law_parameters), intent(in) :: law
     type(driven_point), intent(in) :: driven
     type(point_history), intent(in) :: history
     real(dp), intent(in) :: p(3), old(3)
-    real(dp) :: shear(2)
+    real(dp), intent(out) :: rest(2)
+    real(dp), intent(out) :: turning   !< derivative of the rest by p, across p
     type(law_equation) :: equation
     real(dp) :: stiff(2), soft(2)
 
     if (law%kind == ppr_law) then
-      shear = ppr_trial_of_rest(law, driven, history, p(shears), old(shears))
+      call ppr_trial_of_rest(law, driven, history, p(shears), old(shears), rest, turning)
       return
     end if
+    turning = 0.0_dp
     equation = equation_of(law, driven)
     call shares(law, driven, equation, at_damage(law, equation%least, history%damage), stiff, soft)
-    shear = old(shears)/max(soft(1), tiny(1.0_dp))
-  end function rest
+    rest = old(shears)/max(soft(1), tiny(1.0_dp))
+  end subroutine find_rest
 
   !> The scalar equation of a point.
   pure function equation_of(law, driven) result(equation)

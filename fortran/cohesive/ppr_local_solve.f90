@@ -73,15 +73,17 @@ contains
   end subroutine solve_ppr_law
 
   !> Shear of p at which that of w does not change, without friction; for a rigid point the nearest one.
-  pure function ppr_trial_of_rest(law, driven, history, p, old) result(rest)
+  pure subroutine ppr_trial_of_rest(law, driven, history, p, old, rest, turning)
     type(law_parameters), intent(in) :: law
     type(driven_point), intent(in) :: driven
     type(point_history), intent(in) :: history
     real(dp), intent(in) :: p(2), old(2)   !< shears of p, and of w at the start of the increment
-    real(dp) :: rest(2)
+    real(dp), intent(out) :: rest(2)
+    real(dp), intent(out) :: turning       !< derivative of the rest by p, across p: it turns along at a rigid point
     type(ppr_component) :: tau, n
     real(dp) :: length, most
 
+    turning = 0.0_dp
     tau = component_at(law, 1, history%largest(1))
     n = component_at(law, 2, history%largest(2))
     if (law%flexibility > 0.0_dp .or. history%largest(1) > 0.0_dp) then
@@ -89,10 +91,11 @@ contains
     else
       length = hypot(p(1), p(2))
       most = tau%traction*n%share
-      rest = p
-      if (length > most) rest = p*(most/length)
+      turning = 1.0_dp
+      if (length > most) turning = most/length
+      rest = p*turning
     end if
-  end function ppr_trial_of_rest
+  end subroutine ppr_trial_of_rest
 
   !> Solves for w_tau; w_n follows from every w_tau.
   pure subroutine solve(law, equations)

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""Standard interfaces with NLGEOM, U2, U5 and U7: the frame goes with the mid-surface, tractions are per original area."""
+"""Standard interfaces with NLGEOM, U2, U5 and U7: the frame goes with the mid-surface, tractions per original area."""
 
 import numpy as np
 import pytest

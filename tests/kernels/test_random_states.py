@@ -16,8 +16,10 @@ LAWS, PPR = {1: (), 2: ("ETA", "POWER"), 3: ("ETA", "POWER"), 4: ("SHAPE",)}, 4
 # type and closure; what a law may have besides, each of which is a case of its own
 VARIANTS = {"U2": (2, 0), "U3": (3, 0), "U3 consistent": (3, 1), "U4": (4, 0), "U4 consistent": (4, 1)}
 VARIANTS |= {"U5": (5, 0), "U6": (6, 0), "U6 consistent": (6, 1)}
+IN_SPACE = {"U7": (7, 0), "U8": (8, 0), "U8 consistent": (8, 1)}
 EXTRAS = {0: ("plain", "viscous"), 1: ("plain", "viscous", "friction", "rigid", "rigid, viscous, friction")}
 CASES = [(v, k, e) for v, (_, closure) in VARIANTS.items() for k in LAWS for e in EXTRAS[closure]]
+SPACE_CASES = [(v, k, e) for v, (_, closure) in IN_SPACE.items() for k in LAWS for e in EXTRAS[closure]]
 
 COPIES, INCREMENTS, DTIME = 32, 4, 0.3
 STATES = COPIES * INCREMENTS
@@ -25,12 +27,14 @@ ELASTIC, DAMAGE, VISCOUS = 1, 3, 4
 QUAD = 1e5  # stiffness of the quads beside an interface over their size, in order of magnitude
 # where the two edges of the interface are among the nodes: left, right, middle
 EDGES = {2: ([0, 1], [3, 2]), 4: ([3, 2], [4, 5]), 5: ([0, 1, 4], [3, 2, 5]), 6: ([3, 2, 6], [8, 9, 12])}
+FACES = {7: (slice(0, 4), slice(4, 8)), 8: (slice(4, 8), slice(8, 12))}
 SIX = [3, 2, 9, 8, 6, 12]  # nodes of U5 among those of U6
 BOTTOM, TOP, FOUR = 1, 1001, 2001  # first labels of the quads of U3, and its own
 WEIGHTS = {2: {0: [1, 1], 1: [1, 1]}, 3: {0: [5 / 9, 8 / 9, 5 / 9], 1: [1 / 3, 4 / 3, 1 / 3]}}
 
 sampling = settings(deadline=None, database=None, phases=[Phase.generate], suppress_health_check=list(HealthCheck))
 cases = pytest.mark.parametrize(("variant", "kind", "extra"), CASES)
+tangent_cases = pytest.mark.parametrize(("variant", "kind", "extra"), CASES + SPACE_CASES)
 Tools = namedtuple("Tools", "element interface library reference")
 one_library = pytest.mark.parametrize("library", ["library"], indirect=True)  # the amalgam has the same formulas
 
@@ -95,14 +99,16 @@ def betas(draw, reference, values):
 def options(rng, jtype, closure):
     """Integration, and what the stabilised elements have besides."""
     values = {"INTEGRATION": int(rng.integers(2))}
-    if jtype in (3, 4, 6):
+    if jtype in (3, 4, 6, 8):
         values["SAMPLING"] = int(rng.integers(3))
         if not closure and rng.integers(2):
             values |= {"BETAN": 10 ** rng.uniform(3, 6), "BETAT": 10 ** rng.uniform(3, 6), "GAMMABOT": 0.3}
         elif not closure and jtype != 3 and rng.integers(2):
             values |= {"BETAN": -1, "BETAT": -1}
     if jtype in (4, 6):
-        values |= {"PLANE": int(rng.integers(2)), "ANGLE BOTTOM": 30.0 * rng.integers(2), "ANGLE TOP": -55.0}
+        values["PLANE"] = int(rng.integers(2))
+    if jtype in (4, 6, 8):
+        values |= {"ANGLE BOTTOM": 30.0 * rng.integers(2), "ANGLE TOP": -55.0}
     return values
 
 
@@ -111,6 +117,8 @@ def options(rng, jtype, closure):
 
 class Crowd:
     """Like elements with one way of moving: u (copies, nodes, 2), of the nodes of their quads too."""
+
+    dim = 2
 
     def __init__(self, make, interface, jtype, **values):
         self.interface, self.jtype, self.quads = interface, jtype, []
@@ -157,6 +165,44 @@ class Crowd:
         return 0.3 * (move + turn * across).reshape(shape)
 
 
+class SpaceCrowd:
+    """Like elements in space, on a skew face in the plane z = 0: u (copies, nodes, 3).
+
+    Each copy shears in a direction of its own.
+    """
+
+    dim = 3
+
+    def __init__(self, make, rng, jtype, **values):
+        face = np.array([[0.0, 0.0, 0.0], [1.1, -0.15, 0.0], [0.8, 1.1, 0.0], [0.05, 1.2, 0.0]])
+        below, above = face - np.array([0.1, 0, 0.8]), face + np.array([0, 0.1, 0.9])
+        xyz = np.vstack([face, face] if jtype == 7 else [below, face, face, above])
+        self.nodes, self.jtype = len(xyz), jtype
+        self.item = make(jtype, xyz, label=FOUR, copies=COPIES, **values)
+        angle = rng.uniform(-np.pi, np.pi, COPIES)
+        along = np.column_stack([np.cos(angle), np.sin(angle), np.zeros(COPIES)])
+        self.axes = np.stack([along, np.tile([0.0, 0.0, 1.0], (COPIES, 1))], axis=1)
+
+    def displacements(self, ends, noise):
+        """With separations (copies, 2 ends, 2) in (tau, n) upon other displacements."""
+        bottom, top = FACES[self.jtype]
+        u = noise.copy()
+        u[:, top] = u[:, bottom] + (ends @ self.axes)[:, [0, 1, 1, 0]]
+        return u
+
+    def own(self, u):
+        """What is of the nodes of the element, in a row."""
+        return u.reshape(COPIES, -1)
+
+    def call(self, method, u, dtime):
+        """`evaluate` or `advance` of the element."""
+        return getattr(self.item, method)(self.own(u), dtime=dtime)
+
+    def direction(self, rng):
+        """Of displacements, random."""
+        return rng.normal(size=(COPIES, self.nodes, 3)) / np.sqrt(3 * self.nodes)
+
+
 def separations(rng, values, pure=1 / 6):
     """(copies, 2 ends, tau and n), below the onset to beyond failure; of any mode mix, a part pure; a sixth closed."""
     strength = min(values["SIGMAMAX"], values["TAUMAX"])
@@ -186,25 +232,29 @@ def differences(forces, reach):
 
 def check_tangents(tools, variant, kind, extra, data):
     """AMATRX times a random direction against differences of RHS; number of states without a kink nearby."""
-    jtype, closure = VARIANTS[variant]
+    jtype, closure = (VARIANTS | IN_SPACE)[variant]
     values = data.draw(properties(tools.reference, kind, closure, extra))
     seed = data.draw(st.integers(0, 2**32 - 1))
     rng = np.random.default_rng(seed)
-    crowd = Crowd(tools.element, tools.interface, jtype, **(options(rng, jtype, closure) | values))
+    given_values = options(rng, jtype, closure) | values
+    if variant in IN_SPACE:
+        crowd = SpaceCrowd(tools.element, rng, jtype, **given_values)
+    else:
+        crowd = Crowd(tools.element, tools.interface, jtype, **given_values)
     item, compared = crowd.item, 0
     # what multiplies rounded separations, and the rounded damage of the paper's closure
     stiffness = 0.0 if closure else max(values["ALPHAN"], values["ALPHAT"])
-    stiffness += 0.0 if jtype in (2, 5) else 1e7
+    stiffness += 0.0 if jtype in (2, 5, 7) else 1e7
     stiffness += max(values.get("BETAN", 0.0), values.get("BETAT", 0.0))
     for increment in range(INCREMENTS):
         # with a history, a state without sliding lies between two kinks that look alike from both sides
         ends = separations(rng, values, 0.0 if increment else 1 / 6)
         sizes = np.linalg.norm(ends, axis=-1)
-        noise = 0.1 * sizes.max(axis=1)[:, None, None] * rng.normal(size=(COPIES, crowd.nodes, 2))
+        noise = 0.1 * sizes.max(axis=1)[:, None, None] * rng.normal(size=(COPIES, crowd.nodes, crowd.dim))
         u = crowd.displacements(ends, noise)
         # small beside the separations of both ends and beside that at the onset
         step = 1e-4 * sizes.min(axis=1)[:, None, None]
-        if jtype in (2, 5):
+        if jtype in (2, 5, 7):
             onset = min(values["SIGMAMAX"], values["TAUMAX"]) / max(values["ALPHAN"], values["ALPHAT"])
             step = np.minimum(step, 0.01 * onset)
         along = step * crowd.direction(rng)
@@ -373,14 +423,14 @@ def run(check, examples, tools, *case, again=False):
 
 
 @one_library
-@cases
+@tangent_cases
 def test_tangents(tools, variant, kind, extra):
     assert sum(run(check_tangents, 2, tools, variant, kind, extra, again=True)) > STATES
 
 
 @pytest.mark.long
 @one_library
-@cases
+@tangent_cases
 def test_tangents_at_length(tools, variant, kind, extra):
     # up to a third of the states is too near to a kink
     assert sum(run(check_tangents, 3 * 10_000 // (2 * STATES) + 1, tools, variant, kind, extra)) >= 10_000
