@@ -53,6 +53,7 @@ contains
     type(point_history), intent(in) :: history
     type(law_solution), intent(out) :: state
     type(driven_point) :: driven
+    type(point_history) :: start
     type(resultant_solution) :: solution
     type(friction_state) :: friction
     real(dp) :: old(3), p(3), direction(2), rest(2), turning, pressed
@@ -67,19 +68,21 @@ contains
     p = trial + driven%viscous(mode_of)*old
     driven%closed = p(2) < 0.0_dp
     driven%sticks = .false.
+    start = history
     pressed = p(2)/(1.0_dp + beta(2)*law%flexibility)
     friction%acts = law%friction*history%damage > 0.0_dp .and. driven%closed
     if (friction%acts) then
-      call find_rest(law, driven, history, p, old, rest, turning)
+      if (law%kind /= ppr_law .and. .not. driven%fixed) start%damage = max(history%damage, damage_of_shear(law, old))
+      call find_rest(law, driven, start, p, old, rest, turning)
       call coulomb_friction(law%friction*history%damage, pressed, p(shears) - rest, 1.0_dp - turning, friction)
       driven%sticks = friction%sticks
       p(shears) = p(shears) - friction%traction
     end if
     driven%trial = resultant(p)
     if (law%kind == ppr_law) then
-      call solve_ppr_law(law, driven, history, solution)
+      call solve_ppr_law(law, driven, start, solution)
     else
-      call solve_softening_law(law, driven, history, solution)
+      call solve_softening_law(law, driven, start, solution)
     end if
 
     direction = shear_direction(p)
@@ -123,6 +126,22 @@ contains
     call shares(law, driven, equation, at_damage(law, equation%least, history%damage), stiff, soft)
     rest = old(shears)/max(soft(1), tiny(1.0_dp))
   end subroutine find_rest
+
+  !> Damage of the law at the shear of a separation. A point that has opened and closes has this at least, where it sticks too:
+  !> the law of pure shear may be weaker than that of the mode mix before.
+  pure function damage_of_shear(law, separation) result(damage)
+    type(law_parameters), intent(in) :: law
+    real(dp), intent(in) :: separation(3)
+    real(dp) :: damage
+    real(dp), parameter :: shear(2) = [1.0_dp, 0.0_dp]
+    real(dp) :: pair(2), traction, by_separation, by_angle
+
+    damage = 0.0_dp
+    pair = resultant(separation)
+    if (.not. pair(1) > 0.0_dp) return
+    call softening(law, pair(1), shear, traction, by_separation, by_angle)
+    damage = damage_at_secant(law, traction, pair(1))
+  end function damage_of_shear
 
   !> The scalar equation of a point.
   pure function equation_of(law, driven) result(equation)
@@ -315,12 +334,20 @@ contains
     type(law_parameters), intent(in) :: law
     real(dp), intent(in) :: least, x
     real(dp) :: damage
-    real(dp) :: k, rest
+
+    damage = damage_at_secant(law, remainder_at(least, x), x)
+  end function damage_of
+
+  !> The same for K = traction/separation, or numbers in this proportion.
+  pure function damage_at_secant(law, traction, separation) result(damage)
+    type(law_parameters), intent(in) :: law
+    real(dp), intent(in) :: traction, separation
+    real(dp) :: damage
+    real(dp) :: k
 
     k = softening_stiffness(law)
-    rest = remainder_at(least, x)
-    damage = min(1.0_dp, k*max(0.0_dp, x - law%flexibility*rest)/(rest + k*x))
-  end function damage_of
+    damage = min(1.0_dp, k*max(0.0_dp, separation - law%flexibility*traction)/(traction + k*separation))
+  end function damage_at_secant
 
   !> x at a damage: the inverse of `damage_of`.
   pure function at_damage(law, least, damage) result(x)
