@@ -13,7 +13,7 @@ from harness.elements import Call, Flags
 from harness.errors import DeckError
 from harness.model.arrays import FloatArray, IntArray
 from harness.model.user_values import UserValues
-from harness.procedures.checks import Checker, length_of_moments
+from harness.procedures.convergence_checks import Checker, length_of_moments
 from harness.procedures.loads import fading_forces
 from harness.procedures.setting import Setting, choose_solver
 from harness.procedures.unconstrained import UnconstrainedSolver

@@ -22,7 +22,7 @@ from harness.model.records import (
     Warned,
 )
 from harness.procedures.context import StepContext
-from harness.procedures.incrementation import DISTORTED, TOO_MANY_INCREMENTS, Abandoned, Accuracy, refused
+from harness.procedures.incrementation import DISTORTED, TOO_MANY_INCREMENTS, Accuracy, Cutback, refused
 from harness.procedures.limit import PASSED, LimitLoad
 from harness.procedures.parts import Part
 from harness.procedures.path import Path
@@ -90,40 +90,40 @@ class GeneralStep:
         end = self._path.end(size)
         context.amplitudes.attempt(increment, (end, context.start + end), size, self._control.attempts - 1)
         iterates, extrapolated = self._path.begin(size)
-        iteration, passes, abandoned = 0, 0, None
-        while abandoned is None:
+        iteration, passes, cutback = 0, 0, None
+        while cutback is None:
             try:
                 state = next(iterates)
             except DistortionError as error:
                 # the solve before the failed pass counts too
                 iteration = passes
                 yield Warned(f"EXCESSIVE DISTORTION IN SOLID (CONTINUUM) ELEMENTS: {error}")
-                abandoned = Abandoned(self._step.controls.time.d_h, DISTORTED, str(error))
+                cutback = Cutback(self._step.controls.time.d_h, DISTORTED, str(error))
                 break
             except SingularMatrixError:
                 if not self._control.in_parts:
                     raise
-                abandoned = Abandoned(self._step.controls.time.d_f, SINGULAR)
+                cutback = Cutback(self._step.controls.time.d_f, SINGULAR)
                 break
             iteration, passes = state.iteration, passes + 1
             yield from self._warn_unconstrained()
-            abandoned = refused(state.evaluation.pnewdt)
-            if abandoned is None and iteration == 0:
+            cutback = refused(state.evaluation.pnewdt)
+            if cutback is None and iteration == 0:
                 self._checker.start(state, extrapolated=extrapolated)
-            elif abandoned is None:
+            elif cutback is None:
                 checks = self._checker.check(state)
                 yield IterationDone(iteration, checks, state.line_search)
                 if all(check.verdict.accepted for check in checks):
                     accuracy = self._accuracy(state, size)
-                    abandoned = self._control.too_inaccurate(accuracy) or self._passed_limit(state, size)
-                    if abandoned is None:
+                    cutback = self._control.too_inaccurate(accuracy) or self._passed_limit(state, size)
+                    if cutback is None:
                         yield from self._small_flux(checks)
                         yield from self._help(increment, iteration)
                         yield from self._converge(state, size, accuracy, checks)
                         return True, iteration
                 else:
-                    abandoned = self._give_up(iteration, checks)
-        yield from self._abandon(abandoned, increment, iteration, size)
+                    cutback = self._give_up(iteration, checks)
+        yield from self._cut_back(cutback, increment, iteration, size)
         return False, iteration
 
     def _warn_unconstrained(self) -> Iterator[Warned]:
@@ -135,7 +135,7 @@ class GeneralStep:
 
     def _small_flux(self, checks: Sequence[FieldCheck]) -> Iterator[Noted]:
         """Say once in the step that unbalanced forces count as zero only because of Abaqus' default."""
-        for check in self._checker.accepted_as_zero(checks):
+        for check in self._checker.assumed_zero_flux(checks):
             if check.field not in self._small:
                 self._small.add(check.field)
                 yield Noted(SMALL_FLUX.format(check, check.field.upper()))
@@ -150,24 +150,24 @@ class GeneralStep:
         """Whether the descent search took over in this attempt."""
         return self._path.search is not None and bool(self._path.search.reason)
 
-    def _passed_limit(self, last: Iterate, size: float) -> Abandoned | None:
+    def _passed_limit(self, last: Iterate, size: float) -> Cutback | None:
         """Take the increment in parts if the search passed the largest load in it."""
         external = -last.evaluation.residual
         if not self._helped or not self._limit.passed(self._state.external, external, last.increment, size):
             return None
         in_parts = self._control.part(self._context.step_time + size)
-        return Abandoned(self._step.controls.time.d_f, PASSED) if in_parts else None
+        return Cutback(self._step.controls.time.d_f, PASSED) if in_parts else None
 
-    def _give_up(self, iteration: int, checks: Sequence[FieldCheck]) -> Abandoned | None:
-        """Whether to abandon the attempt; with the fall-back the search takes over instead, with more iterations."""
+    def _give_up(self, iteration: int, checks: Sequence[FieldCheck]) -> Cutback | None:
+        """Whether to cut back; with the fall-back the search takes over instead, with more iterations."""
         search = self._path.search
         if search is None:
             return self._checker.give_up(iteration, checks)
         if not search.reason:
-            abandoned = self._checker.give_up(iteration, checks)
-            if abandoned is not None:
-                search.take_over(iteration + 1, abandoned.reason)
-        return Abandoned(self._step.controls.time.d_c, SEARCH_TOO_LONG) if iteration >= ITERATIONS else None
+            cutback = self._checker.give_up(iteration, checks)
+            if cutback is not None:
+                search.take_over(iteration + 1, cutback.reason)
+        return Cutback(self._step.controls.time.d_c, SEARCH_TOO_LONG) if iteration >= ITERATIONS else None
 
     def _help(self, increment: int, iterations: int) -> Iterator[SearchHelped]:
         """Say that Newton's method alone was not enough."""
@@ -205,12 +205,12 @@ class GeneralStep:
         )
         yield from remarks
 
-    def _abandon(self, abandoned: Abandoned, increment: int, iterations: int, size: float) -> Iterator[Record]:
+    def _cut_back(self, cutback: Cutback, increment: int, iterations: int, size: float) -> Iterator[Record]:
         """Report the attempt; raise ConvergenceError if no other is left."""
         number, attempt = self._step.number, self._control.attempts
-        following, error = self._control.abandon(abandoned)
+        following, error = self._control.cut_back(cutback)
         times = self._context.times
-        yield AttemptAbandoned(number, increment, attempt, iterations, *times, size, following, abandoned.reason)
+        yield AttemptAbandoned(number, increment, attempt, iterations, *times, size, following, cutback.reason)
         if error:
-            cause = f": {abandoned.cause}" if abandoned.cause else ""
+            cause = f": {cutback.cause}" if cutback.cause else ""
             raise ConvergenceError(f"{error} (step {number}, increment {increment}, attempt {attempt}){cause}")

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""Size of the next increment, and when an attempt at one is abandoned.
+"""Size of the next increment, and when an attempt at one is abandoned and cut back.
 
 Abaqus Analysis User's Guide, "Commonly used control parameters" and "Convergence criteria for nonlinear problems".
 """
@@ -36,8 +36,8 @@ _ROUNDING = 1e-12
 
 
 @dataclass(frozen=True, slots=True)
-class Abandoned:
-    """An attempt is abandoned: the next one takes `factor` times the increment; `reason` as Abaqus words it.
+class Cutback:
+    """Why an attempt is abandoned, in Abaqus' words: `reason`; the next one takes `factor` times the increment.
 
     cause  addition to the error that ends the job if no other attempt is left; '' for none
     """
@@ -54,10 +54,8 @@ If two states alternate, their residuals differ by rounding, which must not deci
 Abaqus cuts the increment to a quarter there (abaqus_inputs/dcb_3d)."""
 
 
-def judge_rate(
-    iteration: int, residuals: Sequence[float], tolerance: float, controls: TimeControls
-) -> Abandoned | None:
-    """Whether to abandon the attempt because of a field whose residual is still too large.
+def judge_rate(iteration: int, residuals: Sequence[float], tolerance: float, controls: TimeControls) -> Cutback | None:
+    """Cutback because of a field whose residual is still too large, None to go on iterating.
 
     Parameters
     ----------
@@ -70,24 +68,24 @@ def judge_rate(
 
     Returns
     -------
-    Abandoned | None
+    Cutback | None
         From iteration I_0: the residuals of two iterations in a row not below that of the one before. From I_R: more
         than I_C iterations needed if the residual goes on falling by the factor of the last iteration.
     """
     if iteration >= controls.i_0 and len(residuals) > 2 and min(residuals[-2:]) > (1.0 - ALIKE) * residuals[-3]:
-        return Abandoned(controls.d_f, DIVERGING)
+        return Cutback(controls.d_f, DIVERGING)
     if iteration >= controls.i_r and len(residuals) > 1:
         needed = math.inf
         if residuals[-1] < residuals[-2] and tolerance > 0.0:
             needed = iteration + math.log(tolerance / residuals[-1]) / math.log(residuals[-1] / residuals[-2])
         if needed > controls.i_c:
-            return Abandoned(controls.d_c, TOO_SLOW)
+            return Cutback(controls.d_c, TOO_SLOW)
     return None
 
 
-def out_of_iterations(iteration: int, controls: TimeControls) -> Abandoned | None:
-    """Abandon the attempt after iteration I_C."""
-    return Abandoned(controls.d_c, TOO_MANY_ITERATIONS) if iteration >= controls.i_c else None
+def out_of_iterations(iteration: int, controls: TimeControls) -> Cutback | None:
+    """Cutback after iteration I_C."""
+    return Cutback(controls.d_c, TOO_MANY_ITERATIONS) if iteration >= controls.i_c else None
 
 
 @dataclass(frozen=True, slots=True)
@@ -102,17 +100,17 @@ class Accuracy:
     complaint: str
 
 
-def refused(pnewdt: float) -> Abandoned | None:
-    """Abandon the attempt if a user element asks for a smaller increment: PNEWDT < 1."""
+def refused(pnewdt: float) -> Cutback | None:
+    """Cutback if a user element asks for a smaller increment: PNEWDT < 1."""
     if pnewdt >= 1.0:
         return None
-    return Abandoned(pnewdt, f"A USER ELEMENT REQUESTS A SMALLER TIME INCREMENT, PNEWDT = {pnewdt:.4g}")
+    return Cutback(pnewdt, f"A USER ELEMENT REQUESTS A SMALLER TIME INCREMENT, PNEWDT = {pnewdt:.4g}")
 
 
 class IncrementControl:
     """Increment sizes of one step, automatic or direct.
 
-    The sequence of a step is: `attempt`, then either `abandon` and `attempt` again, or `converged`.
+    The sequence of a step is: `attempt`, then either `cut_back` and `attempt` again, or `converged`.
     """
 
     def __init__(self, procedure: Procedure, controls: TimeControls) -> None:
@@ -127,7 +125,7 @@ class IncrementControl:
         self.attempts = 0
 
     def part(self, end: float) -> bool:
-        """Whether the current increment, to the step time `end`, may be taken in parts; `abandon` gives their size.
+        """Whether the current increment, to the step time `end`, may be taken in parts; `cut_back` gives their size.
 
         After `end` the size of the whole is used again. If a part fails, the rest is taken at once: `in_parts` ends.
         """
@@ -152,8 +150,8 @@ class IncrementControl:
         left = end - step_time
         return max(left, 0.0) if left <= size * (1.0 + _END) else size
 
-    def abandon(self, abandoned: Abandoned) -> tuple[float, str]:
-        """Size of the next attempt after one is abandoned; (0, error) if the job ends.
+    def cut_back(self, cutback: Cutback) -> tuple[float, str]:
+        """Size of the next attempt after one failed; (0, error) if the job ends.
 
         I_A cutbacks are allowed, thus I_A + 1 attempts.
         """
@@ -165,16 +163,16 @@ class IncrementControl:
         if self.in_parts and self._whole and self._size < self._whole[1]:
             self._size, self.in_parts = self._whole[1], False
             return self._size, ""
-        self._size *= abandoned.factor
+        self._size *= cutback.factor
         if self._size < self._procedure.minimum:
             return 0.0, BELOW_MINIMUM
         return self._size, ""
 
-    def too_inaccurate(self, accuracy: Accuracy | None) -> Abandoned | None:
-        """Abandon the attempt if the integration over time is too inaccurate, unless increments are fixed."""
+    def too_inaccurate(self, accuracy: Accuracy | None) -> Cutback | None:
+        """Cutback if the integration over time is too inaccurate, unless increments are fixed."""
         if accuracy is None or accuracy.measure <= 1.0 or self._procedure.direct:
             return None
-        return Abandoned(self._controls.d_a / accuracy.measure, accuracy.complaint)
+        return Cutback(self._controls.d_a / accuracy.measure, accuracy.complaint)
 
     def converged(
         self, iterations: int, pnewdt: float, *, searched: bool = False, accuracy: Accuracy | None = None

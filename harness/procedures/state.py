@@ -14,8 +14,8 @@ from harness.elements import FIELD_NAMES, Predefined
 from harness.model.arrays import FloatArray
 from harness.model.model import Model
 from harness.model.records import Solution
-from harness.procedures.acceptance import FluxHistory
 from harness.procedures.conditions import Conditions
+from harness.procedures.convergence import FluxHistory
 from harness.procedures.element_loads import AllLoads
 from harness.procedures.loads import Boundaries, initial_values
 from harness.procedures.user_amplitudes import UserAmplitudes

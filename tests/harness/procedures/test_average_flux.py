@@ -10,7 +10,7 @@ from harness.elements import build_blocks
 from harness.model.records import IterationDone
 from harness.model.steps import FieldControls
 from harness.procedures import run_steps
-from harness.procedures.acceptance import FluxHistory
+from harness.procedures.convergence import FluxHistory
 from harness.usersub import load
 
 DECK = """\

@@ -13,7 +13,7 @@ import pytest
 from harness.model.procedures import Static
 from harness.model.steps import TimeControls
 from harness.procedures import incrementation
-from harness.procedures.incrementation import Abandoned, IncrementControl, judge_rate, out_of_iterations, refused
+from harness.procedures.incrementation import Cutback, IncrementControl, judge_rate, out_of_iterations, refused
 
 DATA = Path(__file__).parents[2] / "data"
 DEFAULT = TimeControls()
@@ -21,14 +21,14 @@ FREE = incrementation.UNTOUCHED
 
 
 def sizes(procedure, events, start=0.0, first=None):
-    """Sizes tried; events are iterations of a converged attempt, or an Abandoned."""
+    """Sizes tried; events are iterations of a converged attempt, or a Cutback."""
     control = IncrementControl(procedure, DEFAULT)
     time, tried = start, []
     for event in events:
         size = control.attempt(time)
         tried.append(size)
-        if isinstance(event, Abandoned):
-            control.abandon(event)
+        if isinstance(event, Cutback):
+            control.cut_back(event)
         else:
             time += size
             control.converged(event, FREE)
@@ -43,7 +43,7 @@ def test_growth_after_two_easy_increments():
 
 def test_sizes_around_a_cutback_of_a_public_status_file():
     """Abaqus 2025, contact: equilibrium iterations 3, 3, U, 4, 4, 3, 3, 8; the largest increment is 0.5."""
-    cut = Abandoned(DEFAULT.d_f, "")
+    cut = Cutback(DEFAULT.d_f, "")
     tried = sizes(Static(0.5, 100.0, 1e-3, 0.5), [3, 3, cut, 4, 4, 3, 3, 8])
     printed = [0.5, 0.5, 0.5, 0.1250, 0.1875, 0.2812, 0.4219, 0.5]
     assert tried == pytest.approx(printed, rel=3e-4)
@@ -57,13 +57,13 @@ def test_sizes_at_the_smallest_increment_of_a_public_status_file():
     time = start
     printed = [4.953e-4, 1.238e-4, 1e-4, 1e-4, 1.5e-4, 2.15e-5]
     assert control.attempt(time) == pytest.approx(printed[0], rel=1e-3)
-    control.abandon(Abandoned(DEFAULT.d_f, ""))
+    control.cut_back(Cutback(DEFAULT.d_f, ""))
     for iterations, size in zip([13, 4, 4, 8], printed[1:5], strict=True):
         assert control.attempt(time) == pytest.approx(size, rel=1e-3)
         time += size
         control.converged(iterations, FREE)
     assert control.attempt(time) == pytest.approx(printed[5], rel=5e-3)
-    assert control.abandon(out_of_iterations(16, DEFAULT)) == (0.0, incrementation.BELOW_MINIMUM)
+    assert control.cut_back(out_of_iterations(16, DEFAULT)) == (0.0, incrementation.BELOW_MINIMUM)
 
 
 def test_last_increment_of_a_public_status_file_meets_the_period():
@@ -99,10 +99,10 @@ def test_sequences_of_the_public_status_files():
 def test_diverging_from_i_0():
     growing = [1.0, 2.0, 3.0]
     assert judge_rate(3, growing, 1e-3, DEFAULT) is None
-    assert judge_rate(4, [1.0, 1.0, 2.0, 1.5], 1e-3, DEFAULT) == Abandoned(0.25, incrementation.DIVERGING)
+    assert judge_rate(4, [1.0, 1.0, 2.0, 1.5], 1e-3, DEFAULT) == Cutback(0.25, incrementation.DIVERGING)
     # two states that take turns
     for last in (1.0, 1.0 + 1e-9, 1.0 - 1e-9):
-        assert judge_rate(4, [1.0, 2.0, last], 1e-3, DEFAULT) == Abandoned(0.25, incrementation.DIVERGING)
+        assert judge_rate(4, [1.0, 2.0, last], 1e-3, DEFAULT) == Cutback(0.25, incrementation.DIVERGING)
     assert judge_rate(4, [1.0, 1.0, 2.0, 0.9], 1e-3, DEFAULT) is None
     assert judge_rate(4, [1.0, 1.0, 2.0, 1.5], 1e-3, TimeControls(i_0=8)) is None
 
@@ -111,7 +111,7 @@ def test_diverging_from_i_0():
 def test_logarithmic_rate_from_i_r(ratio, slow):
     """r_8 = 0.01, tolerance 1e-6: 8 + ln(1e-4)/ln(ratio) iterations: 15.7 for 0.3, 21.3 for 0.5; I_C = 16."""
     residuals = [1.0] * 6 + [0.01 / ratio, 0.01]
-    expected = Abandoned(0.5, incrementation.TOO_SLOW) if slow else None
+    expected = Cutback(0.5, incrementation.TOO_SLOW) if slow else None
     assert 8 + np.log(1e-4) / np.log(0.3) < 16 < 8 + np.log(1e-4) / np.log(0.5)
     assert judge_rate(8, residuals, 1e-6, DEFAULT) == expected
     assert judge_rate(7, residuals[1:], 1e-6, DEFAULT) is None
@@ -119,7 +119,7 @@ def test_logarithmic_rate_from_i_r(ratio, slow):
 
 def test_iterations_are_limited_to_i_c():
     assert out_of_iterations(15, DEFAULT) is None
-    assert out_of_iterations(16, DEFAULT) == Abandoned(0.5, incrementation.TOO_MANY_ITERATIONS)
+    assert out_of_iterations(16, DEFAULT) == Cutback(0.5, incrementation.TOO_MANY_ITERATIONS)
 
 
 def test_hard_increment_makes_the_next_smaller():
@@ -134,7 +134,7 @@ def test_i_a_cutbacks_are_allowed():
     error = ""
     while not error:
         tried.append(control.attempt(0.0))
-        _, error = control.abandon(Abandoned(0.25, ""))
+        _, error = control.cut_back(Cutback(0.25, ""))
     assert tried == pytest.approx([0.25**k for k in range(6)])
     assert error == incrementation.TOO_MANY_ATTEMPTS
 
@@ -144,7 +144,7 @@ def test_fixed_increments_do_not_change_and_do_not_cut_back():
     assert sizes(procedure, [1, 1, 20, 1]) == pytest.approx([0.3, 0.3, 0.3, 0.1])
     control = IncrementControl(procedure, DEFAULT)
     control.attempt(0.0)
-    assert control.abandon(Abandoned(0.25, "")) == (0.0, incrementation.FIXED_TOO_LARGE)
+    assert control.cut_back(Cutback(0.25, "")) == (0.0, incrementation.FIXED_TOO_LARGE)
 
 
 @pytest.mark.parametrize(("pnewdt", "following"), [(1.2, 0.12), (5.0, 0.4), (FREE, 0.1), (1.0, 0.1)])

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""The acceptance rules against every convergence check of the public Abaqus logs in tests/data."""
+"""The convergence criteria against every convergence check of the public Abaqus logs in tests/data."""
 
 import csv
 import gzip
@@ -13,7 +13,7 @@ import pytest
 
 from harness.model.records import Convergence
 from harness.model.steps import FieldControls
-from harness.procedures.acceptance import FieldMeasures, FluxHistory, judge, residual_tolerance
+from harness.procedures.convergence import FieldMeasures, FluxHistory, judge, residual_tolerance
 
 DATA = Path(__file__).parents[2] / "data"
 I_P = 9

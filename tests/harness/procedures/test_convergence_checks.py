@@ -11,8 +11,8 @@ from harness.assembly import Evaluation
 from harness.model.records import Convergence, Largest
 from harness.model.steps import Controls, FieldControls, TimeControls
 from harness.procedures import incrementation
-from harness.procedures.acceptance import FluxHistory
-from harness.procedures.checks import Checker
+from harness.procedures.convergence import FluxHistory
+from harness.procedures.convergence_checks import Checker
 from harness.solver.newton import Iterate
 
 FORCE, TEMPERATURE = 0, 4
@@ -98,9 +98,9 @@ def test_one_diverging_field_is_enough_to_give_up():
     under_test.start(iterate(0, [0, 0, 0]), extrapolated=False)
     for iteration, residual in enumerate((1.0, 2.0, 3.0), start=1):
         checks = under_test.check(iterate(iteration, [0.0, residual, 0.0]))
-        abandoned = under_test.give_up(iteration, checks)
-        assert (abandoned is not None) == (iteration == 3)
-    assert abandoned.reason == incrementation.DIVERGING
+        cutback = under_test.give_up(iteration, checks)
+        assert (cutback is not None) == (iteration == 3)
+    assert cutback.reason == incrementation.DIVERGING
     under_test.start(iterate(0, [0, 0, 0]), extrapolated=False)
     assert under_test.give_up(1, under_test.check(iterate(1, [0.0, 1.0, 0.0]))) is None
 

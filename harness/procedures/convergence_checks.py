@@ -17,8 +17,8 @@ from harness.model.arrays import FloatArray, IntArray, first_largest
 from harness.model.mesh import Mesh
 from harness.model.records import Convergence, FieldCheck, Largest
 from harness.model.steps import Controls, FieldControls
-from harness.procedures.acceptance import FieldMeasures, FluxHistory, estimated_correction, judge
-from harness.procedures.incrementation import Abandoned, judge_rate, out_of_iterations
+from harness.procedures.convergence import FieldMeasures, FluxHistory, estimated_correction, judge
+from harness.procedures.incrementation import Cutback, judge_rate, out_of_iterations
 from harness.solver.newton import Iterate
 
 CONTROLLED_AS = dict(
@@ -121,18 +121,18 @@ class Checker:
         self._convert()
         return tuple(self._check(k, checked, state) for k, checked in enumerate(self.fields))
 
-    def give_up(self, iteration: int, checks: Sequence[FieldCheck]) -> Abandoned | None:
-        """Whether to abandon the attempt after these checks, none of which need have failed."""
+    def give_up(self, iteration: int, checks: Sequence[FieldCheck]) -> Cutback | None:
+        """Cutback after these checks, none of which need have failed; None to go on iterating."""
         for checked, check in zip(self.fields, checks, strict=True):
             if check.verdict is Convergence.NOT_ACHIEVED:
                 tolerance = checked.controls.r_n * check.time_average_flux
-                abandoned = judge_rate(iteration, checked.residuals, tolerance, self._time)
-                if abandoned is not None:
-                    return abandoned
+                cutback = judge_rate(iteration, checked.residuals, tolerance, self._time)
+                if cutback is not None:
+                    return cutback
         return out_of_iterations(iteration, self._time)
 
-    def accepted_as_zero(self, checks: Sequence[FieldCheck]) -> Iterator[FieldCheck]:
-        """Checks that are accepted only because of Abaqus' initial time average flux, not by the actual flux."""
+    def assumed_zero_flux(self, checks: Sequence[FieldCheck]) -> Iterator[FieldCheck]:
+        """Checks that pass as zero flux only because of Abaqus' initial time average flux, not by the actual flux."""
         for checked, check in zip(self.fields, checks, strict=True):
             controls = checked.controls
             assumed = checked.history.unknown(controls) and not checked.converted

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""When an iteration is accepted: the convergence criteria of Abaqus/Standard for one field, as pure functions.
+"""When an iteration has converged: the criteria of Abaqus/Standard for one field, as pure functions.
 
 Abaqus Analysis User's Guide, "Convergence criteria for nonlinear problems". What the guide leaves open (which mean,
 which residual the estimate of the correction uses) is settled by printed checks of Abaqus; the tests hold them.
