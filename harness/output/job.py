@@ -30,13 +30,13 @@ from harness.model.records import (
     StepStarted,
     Warned,
 )
-from harness.output.data import DataFile
-from harness.output.fields import FieldFiles
+from harness.output.dat_file import DataFile
+from harness.output.field_output import FieldFiles
 from harness.output.history import HistoryFile
 from harness.output.interface import InterfaceFile
-from harness.output.message import MessageFile
+from harness.output.msg_file import MessageFile
 from harness.output.progress import ProgressDisplay
-from harness.output.status import StatusFile, StatusRow
+from harness.output.sta_file import StatusFile, StatusRow
 
 
 class JobOutput:

@@ -13,10 +13,10 @@ import numpy as np
 
 from harness.errors import UelError
 from harness.model.arrays import FloatArray
-from harness.output.fields import Frame, read_field_mesh, read_frames
+from harness.output.field_output import Frame, read_field_mesh, read_frames
 from harness.output.history import read_history
 from harness.output.interface import read_interface, read_profiles
-from harness.output.status import StatusRow, has_completed, read_status
+from harness.output.sta_file import StatusRow, has_completed, read_status
 
 
 class Result:

@@ -10,7 +10,7 @@ from pathlib import Path
 
 from harness.output.formats import TextFile, remark
 from harness.output.lock import LockedError, locked
-from harness.output.status import COMPLETED, NOT_COMPLETED, head
+from harness.output.sta_file import COMPLETED, NOT_COMPLETED, head
 
 _TEXTS = (".sta", ".msg", ".dat", "_history.csv", "_interface.csv")
 

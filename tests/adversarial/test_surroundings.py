@@ -15,7 +15,7 @@ from kills import write_deck
 from readable import complaints
 
 from harness.output import Result
-from harness.output.status import NOT_COMPLETED
+from harness.output.sta_file import NOT_COMPLETED
 from harness.usersub.amalgam import path_of_kernels
 
 UEL = f"{shlex.quote(sys.executable)} -m harness.cli"

@@ -13,7 +13,7 @@ from pathlib import Path
 import pytest
 
 from harness.isolation import supervise
-from harness.output.status import read_status
+from harness.output.sta_file import read_status
 from harness.output.verdict import close_ended_run
 
 CRASHES = Path(__file__).parent / "usersub" / "crashes.cpp"

@@ -20,7 +20,7 @@ from harness.delamination.study.rows import (
     oscillations,
     same_moments,
 )
-from harness.output.status import StatusRow
+from harness.output.sta_file import StatusRow
 
 CASE = StudyCase("frmm", "0/0", "1e6", "paper", "structured", "newton")
 

@@ -19,7 +19,7 @@ from harness.delamination.study.rows import bonded_part
 from harness.errors import UelError
 from harness.model.arrays import FloatArray
 from harness.output import Result
-from harness.output.status import StatusRow
+from harness.output.sta_file import StatusRow
 
 AnyCase = PaperCase | PatchCase
 Profile = dict[str, FloatArray]

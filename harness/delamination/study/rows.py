@@ -16,7 +16,7 @@ from harness.delamination.study.cases import INCREMENTS, MeshedSpecimen, StudyCa
 from harness.delamination.study.reference import Profile
 from harness.model.arrays import FloatArray
 from harness.output import Result
-from harness.output.status import StatusRow
+from harness.output.sta_file import StatusRow
 
 SNAP = 0.05
 """An increment in which the load falls by more than this part of the peak load holds a snap."""

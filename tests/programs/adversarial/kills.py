@@ -24,7 +24,7 @@ from pathlib import Path
 from readable import complaints
 
 from harness.output import Result
-from harness.output.status import NOT_COMPLETED
+from harness.output.sta_file import NOT_COMPLETED
 
 SOURCE = Path(__file__).parents[3] / "abaqus_inputs" / "patch_horizontal"
 SIGNALS = (signal.SIGKILL, signal.SIGTERM, signal.SIGINT, signal.SIGHUP)

@@ -24,7 +24,7 @@ from harness.deck import read_deck
 from harness.errors import UelError
 from harness.model.model import Model
 from harness.model.records import AttemptAbandoned, IncrementDone, Solution
-from harness.output.status import read_status
+from harness.output.sta_file import read_status
 from harness.procedures import run_steps
 from harness.usersub import guard_values
 

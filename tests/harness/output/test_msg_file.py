@@ -25,7 +25,7 @@ from harness.model.records import (
     StepStarted,
 )
 from harness.model.steps import Controls, FieldControls, LineSearchControls, TimeControls
-from harness.output.message import MessageFile
+from harness.output.msg_file import MessageFile
 
 Records = Callable[..., Iterator[Record]]
 

@@ -17,7 +17,7 @@ from harness.model.model import Model
 from harness.model.properties import UserProperty
 from harness.model.records import ElementState, IncrementDone, PointVariables, Record, Solution
 from harness.output.cells import cells_of
-from harness.output.fields import FieldFiles, read_field_mesh
+from harness.output.field_output import FieldFiles, read_field_mesh
 
 Records = Callable[..., Iterator[Record]]
 

@@ -16,7 +16,7 @@ from harness.model.nodal import NodalIndex
 from harness.model.properties import UserElement
 from harness.model.records import IncrementDone, PointVariables, Record, Solution, StepStarted
 from harness.model.steps import ElementRequest, NodeRequest
-from harness.output.data import DataFile
+from harness.output.dat_file import DataFile
 from harness.output.tables import element_tables, missing_variables, node_tables
 
 Records = Callable[..., Iterator[Record]]
