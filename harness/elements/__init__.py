@@ -6,8 +6,8 @@ from harness.elements.block import ElementBlock
 from harness.elements.build import build_blocks
 from harness.elements.call import BlockReport, Call, Distributed, Motion, Predefined
 from harness.elements.fields import FIELD_NAMES, field_of
+from harness.elements.lflags import Damping, Flags, Request
 from harness.elements.pressure import PressureBlock
-from harness.elements.request import Damping, Flags, Request
 
 __all__ = [
     "FIELD_NAMES",

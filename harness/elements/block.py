@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 from harness.elements.call import BlockReport, Call, Distributed, Motion, Predefined
 from harness.elements.faults import ERRORS, at_point, distortion, material_point, write_outside, wrong_entry
 from harness.elements.fields import FIELD_NAMES, field_of
-from harness.elements.request import Flags, Request
+from harness.elements.lflags import Flags, Request
 from harness.elements.routine import Routine
 from harness.elements.watch import Watch
 from harness.errors import ElementError, KernelError

@@ -9,7 +9,7 @@ from typing import Self
 
 import numpy as np
 
-from harness.elements.request import Damping, Flags, Request
+from harness.elements.lflags import Damping, Flags, Request
 from harness.model.arrays import FloatArray, IntArray
 from harness.usersub.exchange import Outcome
 
