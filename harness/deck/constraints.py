@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""*MPC, *COUPLING with *KINEMATIC, *KINEMATIC COUPLING, *RIGID BODY and *TIE, as linear equations between dofs.
+"""Linear equations between dofs: *EQUATION, and what *MPC, *COUPLING, *RIGID BODY and *TIE stand for.
 
 Rotations are small: with NLGEOM, what couples displacements to rotations is refused.
 """
@@ -14,6 +14,7 @@ from scipy.spatial import cKDTree
 
 from harness.deck.blocks import Block, Row
 from harness.deck.flatten import FlatMesh, Owner
+from harness.deck.prescribed import read_dof
 from harness.deck.problems import Problems
 from harness.deck.surfaces import Surfaces
 from harness.deck.table import INPUT, NAME, Keyword, Kind, Option, Where, ignored, refused
@@ -27,6 +28,9 @@ from harness.model.steps import Step
 ROTATIONS = (4, 5, 6)
 CLOSE = 0.05
 """Position tolerance of *TIE as a fraction of the largest distance between neighbouring nodes of the main surface."""
+
+TERM_FIELDS = 3
+"""Fields of a term of *EQUATION: node or set, dof, coefficient."""
 
 Terms = tuple[tuple[int, int, float], ...]
 
@@ -217,9 +221,75 @@ def _spacing(points: np.ndarray) -> float:
     return float(distance[:, 1].max())
 
 
+def read_equations(flat: FlatMesh, problems: Problems) -> tuple[Equation, ...]:
+    """Equations of all instances and of the root."""
+    found: list[Equation] = []
+    for owner in flat.owners:
+        for block in owner.blocks:
+            if block.name == "EQUATION":
+                with problems.gather():
+                    found += _read_equation(flat, owner, block)
+    return tuple(found)
+
+
+def _read_equation(flat: FlatMesh, owner: Owner, block: Block) -> list[Equation]:
+    if owner.placement.rotates:
+        raise block.error(f"is not supported in an instance that is rotated ({owner.name})")
+    rows = iter(block.rows())
+    found = []
+    for head in rows:
+        count = head.integer(0, "number of terms")
+        if count < 1 or len(head) != 1:
+            raise head.error("expected a line with the number of terms")
+        terms: list[tuple[IntArray, int, float]] = []
+        while len(terms) < count:
+            row = next(rows, None)
+            if row is None:
+                raise head.error(f"expected {count} terms, found {len(terms)}")
+            terms += _read_terms(flat, owner, row)
+        if len(terms) > count:
+            raise head.error(f"expected {count} terms, found {len(terms)}")
+        found += _expand(terms, head.source)
+    return found
+
+
+def _read_terms(flat: FlatMesh, owner: Owner, row: Row) -> list[tuple[IntArray, int, float]]:
+    if len(row) % TERM_FIELDS:
+        raise row.error("expected node or set, dof, coefficient of each term")
+    return [
+        (
+            flat.nodes(row.name(start, "node or node set"), row.source, owner.name),
+            read_dof(row, start + 1),
+            row.real(start + 2, "coefficient"),
+        )
+        for start in range(0, len(row), TERM_FIELDS)
+    ]
+
+
+def _expand(terms: list[tuple[IntArray, int, float]], source: Source) -> list[Equation]:
+    """One equation for each node of the first term; single nodes stand beside sets of any size."""
+    count = len(terms[0][0])
+    if terms[0][2] == 0:
+        raise DeckError(source, "*EQUATION: the coefficient of the first term, which is eliminated, is zero")
+    if any(len(nodes) not in (1, count) for nodes, _, _ in terms):
+        sizes = ", ".join(str(len(nodes)) for nodes, _, _ in terms)
+        raise DeckError(source, f"*EQUATION: the node sets of the terms have different sizes ({sizes})")
+    return [
+        Equation(tuple((int(nodes[k if len(nodes) > 1 else 0]), dof, factor) for nodes, dof, factor in terms), source)
+        for k in range(count)
+    ]
+
+
 _REF_NODE = Option("REF NODE", Kind.NAME, "reference node, or set of one node", required=True)
 
 KEYWORDS = (
+    Keyword(
+        "EQUATION",
+        "Linear constraint between dofs; the first term is eliminated. A set stands for its nodes in order.",
+        Where.MODEL,
+        (INPUT,),
+        "number of terms; then node or set, dof, coefficient of each term",
+    ),
     Keyword(
         "MPC",
         "Multi-point constraints; the first node is eliminated. Sets stand for their nodes in order.",

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""*BOUNDARY, *CLOAD, *CFLUX and *EQUATION."""
+"""*BOUNDARY, *CLOAD and *CFLUX."""
 
 from __future__ import annotations
 
@@ -11,15 +11,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from harness.deck.blocks import Block, Row
-from harness.deck.flatten import FlatMesh, Owner
-from harness.deck.problems import Problems, look_up, nearest
+from harness.deck.flatten import FlatMesh
+from harness.deck.problems import look_up, nearest
 from harness.deck.surfaces import Surfaces
 from harness.deck.table import INPUT, Keyword, Kind, Option, Where, ignored, one_of, refused, unquote
 from harness.deck.user_elements import LARGEST_DOF
-from harness.errors import DeckError, Source
+from harness.errors import Source
 from harness.model.amplitude import Amplitude
-from harness.model.arrays import IntArray
-from harness.model.model import Equation
 from harness.model.steps import Boundary, Load
 
 # dofs that a named boundary type holds (Abaqus Analysis User's Guide, "Boundary conditions")
@@ -34,7 +32,6 @@ NAMED_DOFS = {
     "ENCASTRE": (1, 2, 3, 4, 5, 6),
 }
 REFUSED_TYPES = ("NOWARP", "NOOVAL", "NODEFORM")
-TERMS_FIELDS = 3
 
 
 @dataclass(frozen=True, slots=True)
@@ -85,7 +82,7 @@ class Prescription:
         for row in block.rows():
             row.at_most(3)
             nodes = self.flat.nodes(row.name(0, "node or node set"), row.source)
-            dof = 11 if block.name == "CFLUX" and row.blank(1) else _dof(row, 1)
+            dof = 11 if block.name == "CFLUX" and row.blank(1) else read_dof(row, 1)
             imaginary = block.options.known("IMAGINARY") and block.options.flag("IMAGINARY")
             found.append(Load(nodes, dof, row.real(2, "value", 0.0), amplitude, row.source, imaginary))
         return found
@@ -104,14 +101,15 @@ class Prescription:
             raise row.error(f"boundary type {named} is not supported")
         if named[:1].isalpha():
             raise row.error(f"unknown boundary type {named}{nearest(named, NAMED_DOFS)}")
-        first = _dof(row, 1)
-        last = first if row.blank(2) else _dof(row, 2)
+        first = read_dof(row, 1)
+        last = first if row.blank(2) else read_dof(row, 2)
         if last < first:
             raise row.error(f"last dof {last} is before the first, {first}")
         return list(range(first, last + 1))
 
 
-def _dof(row: Row, index: int) -> int:
+def read_dof(row: Row, index: int) -> int:
+    """The dof in a field of a data line."""
     dof = row.integer(index, "dof")
     if not 1 <= dof <= LARGEST_DOF:
         raise row.error(f"{dof} is not a dof (1 to {LARGEST_DOF})")
@@ -146,65 +144,6 @@ def _given(entry: Boundary) -> str:
         return "what DISP says" if entry.user else "the value at the start of the step"
     curve = f" with amplitude {entry.amplitude.name}" if entry.amplitude else ""
     return f"{'the rate' if entry.velocity else 'the value'} {entry.magnitude:g}{curve}"
-
-
-def read_equations(flat: FlatMesh, problems: Problems) -> tuple[Equation, ...]:
-    """Equations of all instances and of the root."""
-    found: list[Equation] = []
-    for owner in flat.owners:
-        for block in owner.blocks:
-            if block.name == "EQUATION":
-                with problems.gather():
-                    found += _read_equation(flat, owner, block)
-    return tuple(found)
-
-
-def _read_equation(flat: FlatMesh, owner: Owner, block: Block) -> list[Equation]:
-    if owner.placement.rotates:
-        raise block.error(f"is not supported in an instance that is rotated ({owner.name})")
-    rows = iter(block.rows())
-    found = []
-    for head in rows:
-        count = head.integer(0, "number of terms")
-        if count < 1 or len(head) != 1:
-            raise head.error("expected a line with the number of terms")
-        terms: list[tuple[IntArray, int, float]] = []
-        while len(terms) < count:
-            row = next(rows, None)
-            if row is None:
-                raise head.error(f"expected {count} terms, found {len(terms)}")
-            terms += _read_terms(flat, owner, row)
-        if len(terms) > count:
-            raise head.error(f"expected {count} terms, found {len(terms)}")
-        found += _expand(terms, head.source)
-    return found
-
-
-def _read_terms(flat: FlatMesh, owner: Owner, row: Row) -> list[tuple[IntArray, int, float]]:
-    if len(row) % TERMS_FIELDS:
-        raise row.error("expected node or set, dof, coefficient of each term")
-    return [
-        (
-            flat.nodes(row.name(start, "node or node set"), row.source, owner.name),
-            _dof(row, start + 1),
-            row.real(start + 2, "coefficient"),
-        )
-        for start in range(0, len(row), TERMS_FIELDS)
-    ]
-
-
-def _expand(terms: list[tuple[IntArray, int, float]], source: Source) -> list[Equation]:
-    """One equation for each node of the first term; single nodes stand beside sets of any size."""
-    count = len(terms[0][0])
-    if terms[0][2] == 0:
-        raise DeckError(source, "*EQUATION: the coefficient of the first term, which is eliminated, is zero")
-    if any(len(nodes) not in (1, count) for nodes, _, _ in terms):
-        sizes = ", ".join(str(len(nodes)) for nodes, _, _ in terms)
-        raise DeckError(source, f"*EQUATION: the node sets of the terms have different sizes ({sizes})")
-    return [
-        Equation(tuple((int(nodes[k if len(nodes) > 1 else 0]), dof, factor) for nodes, dof, factor in terms), source)
-        for k in range(count)
-    ]
 
 
 OP = one_of("OP", "NEW removes what earlier steps prescribed", ("MOD", "NEW"), default="MOD")
@@ -249,12 +188,5 @@ KEYWORDS = (
         Where.STEP,
         (*LOAD, *ignored("REGION TYPE")),
         "node or set, dof (11), value",
-    ),
-    Keyword(
-        "EQUATION",
-        "Linear constraint between dofs; the first term is eliminated. A set stands for its nodes in order.",
-        Where.MODEL,
-        (INPUT,),
-        "number of terms; then node or set, dof, coefficient of each term",
     ),
 )

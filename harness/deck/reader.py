@@ -9,7 +9,7 @@ from pathlib import Path
 import numpy as np
 
 from harness.deck.amplitudes import read_amplitudes
-from harness.deck.constraints import ConstraintReader
+from harness.deck.constraints import ConstraintReader, read_equations
 from harness.deck.damage import read_controls
 from harness.deck.flatten import FlatMesh
 from harness.deck.groups import make_groups
@@ -17,7 +17,7 @@ from harness.deck.initial import read_initial_solutions, read_initial_stresses, 
 from harness.deck.keywords import KEYWORDS
 from harness.deck.lexer import read_blocks
 from harness.deck.materials import read_materials
-from harness.deck.prescribed import Prescription, read_equations
+from harness.deck.prescribed import Prescription
 from harness.deck.problems import Problems
 from harness.deck.requests import RequestReader
 from harness.deck.steps import check_parts, read_steps

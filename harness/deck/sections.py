@@ -1,21 +1,21 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""*SOLID SECTION, *COHESIVE SECTION, *UEL PROPERTY, *SPRING and *MASS, made for the element type they are used with."""
+"""*SOLID SECTION, *COHESIVE SECTION, *SPRING and *MASS, made for the element type they are used with.
+
+*UEL PROPERTY is in user_elements.py.
+"""
 
 from __future__ import annotations
 
-import math
 from collections.abc import Mapping
 from itertools import pairwise
 
 import numpy as np
 
-from harness.deck.blocks import PER_LINE, Block, Row
-from harness.deck.numbers import LARGEST_INTEGER
+from harness.deck.blocks import Block, Row
 from harness.deck.problems import Problems, look_up
 from harness.deck.table import Keyword, Kind, Option, Where, one_of, refused
-from harness.deck.user_elements import LARGEST_DOF, ElementType
-from harness.errors import DeckError
+from harness.deck.user_elements import LARGEST_DOF, ElementType, read_user_property
 from harness.model.element_types import DISCRETE, DiscreteKind
 from harness.model.properties import (
     CohesiveSection,
@@ -27,8 +27,6 @@ from harness.model.properties import (
     SectionControls,
     SolidSection,
     SpringSection,
-    UserElement,
-    UserProperty,
 )
 
 
@@ -59,7 +57,7 @@ def make_section(
     name = options.text("ORIENTATION")
     orientation = look_up(orientations, name, "orientation", block.source) if name else None
     if kind.definition:
-        return _user_property(block, kind.definition, material, orientation, problems)
+        return read_user_property(block, kind.definition, material, orientation, problems)
     assert material is not None
     thickness = _thickness(list(block.rows()), 0, "thickness")
     found = _controls(block, controls)
@@ -143,62 +141,12 @@ def _cohesive_section(block: Block, material: Material, controls: Mapping[str, S
     )
 
 
-def _user_property(
-    block: Block,
-    definition: UserElement,
-    material: Material | None,
-    orientation: Orientation | None,
-    problems: Problems,
-) -> UserProperty:
-    entries = block.entries(problems.warn)
-    reals, integers = definition.properties, definition.integer_properties
-    wanted = reals + integers
-    if len(entries) != wanted:
-        announced = f"PROPERTIES={reals}" + (f", I PROPERTIES={integers}" if integers else "")
-        message = f"{len(entries)} values where U{definition.number} takes {wanted} ({announced})"
-        lines, needed = math.ceil(len(entries) / PER_LINE), math.ceil(max(wanted, 1) / PER_LINE)
-        if lines != needed:
-            raise block.error(f"{message}; a line has eight values" if lines > needed else message)
-        left = "those that are left are not passed to it" if len(entries) > wanted else "the others are zero"
-        problems.warn(block.source, f"*{block.name}: {message}; {left}")
-        if entries:
-            entries += [(entries[-1][0], index) for index in range(entries[-1][1] + 1, PER_LINE)]
-        entries = entries[:wanted]
-    values = [row.real(index, f"property {index + 1}", 0.0) for row, index in entries[:reals]]
-    whole = []
-    for row, index in entries[reals:]:
-        value = row.real(index, "integer property", 0.0)
-        if value != int(value) or abs(value) > LARGEST_INTEGER:
-            raise DeckError(row.source, f"*{block.name}: integer property {row.fields[index]} is not an integer")
-        whole.append(int(value))
-    return UserProperty(
-        block.options.text("ELSET"),
-        block.source,
-        np.array(values, dtype=np.float64),
-        np.array(whole, dtype=np.int64),
-        material,
-        orientation,
-    )
-
-
 _ELSET = Option("ELSET", Kind.NAME, "element set", required=True)
 _MATERIAL = Option("MATERIAL", Kind.NAME, "material", required=True)
 _ORIENTATION = Option("ORIENTATION", Kind.NAME, "orientation of the material")
 _CONTROLS = Option("CONTROLS", Kind.NAME, "section controls")
 
 KEYWORDS = (
-    Keyword(
-        "UEL PROPERTY",
-        "Properties of user elements; with MATERIAL=, UELMAT is called.",
-        Where.MODEL,
-        (
-            _ELSET,
-            Option("MATERIAL", Kind.NAME, "material for MATERIAL_LIB_MECH"),
-            _ORIENTATION,
-            *refused("ALPHA", "BETA"),
-        ),
-        "real properties, then integer properties, eight per line; missing values are zero",
-    ),
     Keyword(
         "SOLID SECTION",
         "Section of built-in continuum elements. Axisymmetric ones (CAX) ignore the thickness: forces, "
@@ -245,4 +193,4 @@ KEYWORDS = (
     ),
     Keyword("MASS", "Point masses.", Where.MODEL, (_ELSET, *refused("ALPHA", "ORIENTATION", "TYPE")), "mass"),
 )
-SECTION_KEYWORDS = {keyword.name for keyword in KEYWORDS}
+SECTION_KEYWORDS = {"UEL PROPERTY", *(keyword.name for keyword in KEYWORDS)}

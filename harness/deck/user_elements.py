@@ -1,21 +1,25 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""*USER ELEMENT, and what an element type name stands for."""
+"""*USER ELEMENT with *UEL PROPERTY, and what an element type name stands for."""
 
 from __future__ import annotations
 
+import math
 import re
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
+import numpy as np
+
 from harness.deck.abaqus_elements import is_abaqus_element
-from harness.deck.blocks import Block
-from harness.deck.problems import nearest
+from harness.deck.blocks import PER_LINE, Block
+from harness.deck.numbers import LARGEST_INTEGER
+from harness.deck.problems import Problems, nearest
 from harness.deck.table import Keyword, Kind, Option, Where, one_of, refused
 from harness.errors import DeckError, Source
 from harness.model.element_types import BUILT_IN
 from harness.model.mesh import ElementGroup
-from harness.model.properties import SpringSection, UserElement
+from harness.model.properties import Material, Orientation, SpringSection, UserElement, UserProperty
 
 _USER_TYPE = re.compile(r"U([1-9]\d{0,3})")
 LARGEST_DOF = 30
@@ -147,6 +151,45 @@ def _read_dofs(block: Block, nodes: int) -> tuple[tuple[int, int], ...]:
     return tuple(found)
 
 
+def read_user_property(
+    block: Block,
+    definition: UserElement,
+    material: Material | None,
+    orientation: Orientation | None,
+    problems: Problems,
+) -> UserProperty:
+    """Values a *UEL PROPERTY gives elements of a definition, reals first; DeckError where their lines do not fit."""
+    entries = block.entries(problems.warn)
+    reals, integers = definition.properties, definition.integer_properties
+    wanted = reals + integers
+    if len(entries) != wanted:
+        announced = f"PROPERTIES={reals}" + (f", I PROPERTIES={integers}" if integers else "")
+        message = f"{len(entries)} values where U{definition.number} takes {wanted} ({announced})"
+        lines, needed = math.ceil(len(entries) / PER_LINE), math.ceil(max(wanted, 1) / PER_LINE)
+        if lines != needed:
+            raise block.error(f"{message}; a line has eight values" if lines > needed else message)
+        left = "those that are left are not passed to it" if len(entries) > wanted else "the others are zero"
+        problems.warn(block.source, f"*{block.name}: {message}; {left}")
+        if entries:
+            entries += [(entries[-1][0], index) for index in range(entries[-1][1] + 1, PER_LINE)]
+        entries = entries[:wanted]
+    values = [row.real(index, f"property {index + 1}", 0.0) for row, index in entries[:reals]]
+    whole = []
+    for row, index in entries[reals:]:
+        value = row.real(index, "integer property", 0.0)
+        if value != int(value) or abs(value) > LARGEST_INTEGER:
+            raise DeckError(row.source, f"*{block.name}: integer property {row.fields[index]} is not an integer")
+        whole.append(int(value))
+    return UserProperty(
+        block.options.text("ELSET"),
+        block.source,
+        np.array(values, dtype=np.float64),
+        np.array(whole, dtype=np.int64),
+        material,
+        orientation,
+    )
+
+
 KEYWORDS = (
     Keyword(
         "USER ELEMENT",
@@ -165,5 +208,17 @@ KEYWORDS = (
             *refused("LINEAR", "FILE", "OLD ELEMENT", "STEP"),
         ),
         "dofs at the first node; then node position, dofs from that node on",
+    ),
+    Keyword(
+        "UEL PROPERTY",
+        "Properties of user elements; with MATERIAL=, UELMAT is called.",
+        Where.MODEL,
+        (
+            Option("ELSET", Kind.NAME, "element set", required=True),
+            Option("MATERIAL", Kind.NAME, "material for MATERIAL_LIB_MECH"),
+            Option("ORIENTATION", Kind.NAME, "orientation of the material"),
+            *refused("ALPHA", "BETA"),
+        ),
+        "real properties, then integer properties, eight per line; missing values are zero",
     ),
 )
