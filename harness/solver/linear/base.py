@@ -13,9 +13,8 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy import sparse
 
-from harness.errors import SingularMatrixError
 from harness.model.arrays import FloatArray
-from harness.solver.linear.singular import free_unknown
+from harness.solver.linear.singular import refuse_singular
 
 SUSPICIOUS = 1e-9
 """Ratio of the smallest pivot, or an estimate of it, to the largest diagonal entry below which a matrix is examined."""
@@ -103,15 +102,9 @@ class LinearSolver(ABC):
         ratio = pivot / self._scale if self._scale else 0.0
         if ratio > self._passed or not np.isfinite(self._data).all():
             return
-        unknown = free_unknown(self.pattern.matrix(self._data), certain=pivot == 0.0)
-        if unknown is None:
-            # stiff but regular, as with an interface stiffness of 1e12: matrices like it are not examined again
-            self._passed = 1e-2 * ratio
-            return
-        node, dof = self._name_of(unknown)
-        raise SingularMatrixError(
-            node, dof, "the model or a part of it is unconstrained; check *BOUNDARY and elements without stiffness"
-        )
+        refuse_singular(self.pattern.matrix(self._data), self._name_of, certain=pivot == 0.0)
+        # stiff but regular, as with an interface stiffness of 1e12: matrices like it are not examined again
+        self._passed = 1e-2 * ratio
 
     @abstractmethod
     def _factorise(self, data: FloatArray) -> float | None:

@@ -12,13 +12,29 @@ cantilever beam, v^T A v is 0.0003 to 0.3 times that error if a body is free (in
 
 from __future__ import annotations
 
+from collections.abc import Callable
+from typing import Final
+
 import numpy as np
 from scipy import sparse
 from scipy.sparse.linalg import SuperLU, splu
 
+from harness.errors import SingularMatrixError
 from harness.model.arrays import FloatArray
 
 EPS = float(np.finfo(np.float64).eps)
+
+UNCONSTRAINED: Final = "the model or a part of it is unconstrained; check *BOUNDARY and elements without stiffness"
+
+
+def refuse_singular(
+    matrix: sparse.csr_array, name_of: Callable[[int], tuple[str, int]], *, certain: bool = False
+) -> None:
+    """Raise SingularMatrixError, with the free unknown, if the matrix is singular; `certain` as in `free_unknown`."""
+    unknown = free_unknown(matrix, certain=certain)
+    if unknown is not None:
+        node, dof = name_of(unknown)
+        raise SingularMatrixError(node, dof, UNCONSTRAINED)
 
 
 def free_unknown(matrix: sparse.csr_array, *, certain: bool = False) -> int | None:
