@@ -22,10 +22,10 @@ from harness.model.steps import Boundary, ElementLoad, Load
 from harness.procedures.context import StepContext
 from harness.procedures.incrementation import IncrementControl
 from harness.procedures.path import Path, Reached
-from harness.solver.arclength import ArcLength
-from harness.solver.dissipation import Dissipation
+from harness.solver.energy_control import Dissipation
 from harness.solver.newton import Iterate
 from harness.solver.path import Control, PathFollower, PathIncrement, PathIterate
+from harness.solver.riks import ArcLength
 
 EXTRAPOLATED = 0.01
 """Fraction of the last increment with which an increment starts: it shows the elements the direction."""

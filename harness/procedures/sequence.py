@@ -47,7 +47,7 @@ def run_steps(
     fallback
         Search downhill where Newton's method fails.
     energy_control
-        Trace snap-backs: the load factor of each step is unknown too, see `harness.solver.dissipation`.
+        Trace snap-backs: the load factor of each step is unknown too, see `harness.solver.energy_control`.
 
     Yields
     ------
