@@ -14,7 +14,7 @@ from importlib import import_module
 from harness import sanitizer
 from harness.errors import tell_error
 from harness.interrupts import held, raise_interrupts
-from harness.slate import open_slate
+from harness.shared_progress import open_slate
 
 
 def work(descriptor: int, module: str, words: Sequence[str]) -> int:

@@ -18,7 +18,7 @@ from typing import IO, Final
 from harness import sanitizer
 from harness.errors import tell_error
 from harness.interrupts import ENDS, collected, describe_interrupt
-from harness.slate import Slate, Within, new_slate
+from harness.shared_progress import Slate, Within, new_slate
 
 SAME_PROCESS: Final = "--same-process"
 """Option of `uel run` and `uel check`: no separate process."""

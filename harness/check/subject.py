@@ -11,7 +11,6 @@ from typing import Final
 
 import numpy as np
 
-from harness.check.choice import first_largest
 from harness.check.differences import Differences, differences
 from harness.check.patch import patches_of
 from harness.check.recording import Pass, Recording
@@ -19,6 +18,7 @@ from harness.check.replay import Elements, Results, abaqus_order, replay
 from harness.check.shuffle import TypeVerdict
 from harness.check.single import Returned
 from harness.check.state import ElementState, state_of
+from harness.check.ties import first_largest
 from harness.errors import KernelError
 from harness.model.arrays import FloatArray
 from harness.model.mesh import ElementGroup

@@ -9,7 +9,7 @@ from itertools import pairwise
 import numpy as np
 
 from harness.deck.blocks import Block
-from harness.deck.problems import Problems
+from harness.deck.error_report import Problems
 from harness.deck.table import INPUT, NAME, Keyword, Kind, Option, Where, one_of, refused
 from harness.deck.user_elements import MOST_VALUES, read_count
 from harness.model.amplitude import Amplitude, AmplitudeType, UserAmplitude

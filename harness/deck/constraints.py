@@ -13,9 +13,9 @@ import numpy as np
 from scipy.spatial import cKDTree
 
 from harness.deck.blocks import Block, Row
+from harness.deck.error_report import Problems
 from harness.deck.flatten import FlatMesh, Owner
 from harness.deck.prescribed import read_dof
-from harness.deck.problems import Problems
 from harness.deck.surfaces import Surfaces
 from harness.deck.table import INPUT, NAME, Keyword, Kind, Option, Where, ignored, refused
 from harness.deck.user_elements import dofs_by_node

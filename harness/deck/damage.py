@@ -7,7 +7,7 @@ from __future__ import annotations
 from dataclasses import replace
 
 from harness.deck.blocks import Block, Row
-from harness.deck.problems import Problems
+from harness.deck.error_report import Problems
 from harness.deck.table import NAME, Keyword, Kind, Option, Where, ignored, one_of, refused
 from harness.model.element_types import HOURGLASS_CONTROLLED
 from harness.model.properties import Damage, DamageEvolution, SectionControls

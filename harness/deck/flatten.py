@@ -11,11 +11,11 @@ from functools import partial
 import numpy as np
 
 from harness.deck.blocks import Block
+from harness.deck.error_report import Problems
 from harness.deck.generation import GENERATORS
 from harness.deck.local_mesh import LocalMesh, Members
 from harness.deck.numbers import LARGEST_INTEGER, is_integer
 from harness.deck.placement import IDENTITY, Placement, read_placement
-from harness.deck.problems import Problems
 from harness.deck.structure import Structure
 from harness.deck.user_elements import Definitions, read_user_element
 from harness.errors import DeckError, Source

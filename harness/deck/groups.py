@@ -10,10 +10,10 @@ from dataclasses import replace
 import numpy as np
 
 from harness.deck.blocks import Block
+from harness.deck.error_report import Problems
 from harness.deck.flatten import FlatMesh, Owner
 from harness.deck.local_mesh import ElementRun
 from harness.deck.placement import read_orientations
-from harness.deck.problems import Problems
 from harness.deck.sections import SECTION_KEYWORDS, make_section
 from harness.deck.table import Keyword, Where
 from harness.deck.user_elements import ElementType

@@ -10,8 +10,8 @@ from dataclasses import replace
 import numpy as np
 
 from harness.deck.blocks import Block
+from harness.deck.error_report import Problems
 from harness.deck.flatten import FlatMesh
-from harness.deck.problems import Problems
 from harness.deck.table import INPUT, Keyword, Kind, Option, Where, one_of, refused
 from harness.deck.user_elements import LARGEST_DOF
 from harness.model.steps import InitialSolution, InitialStress, InitialValue

@@ -12,8 +12,8 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from harness.deck.blocks import Block
+from harness.deck.error_report import Problems
 from harness.deck.expressions import Value, assign, find
-from harness.deck.problems import Problems
 from harness.deck.table import (
     Keyword,
     Kind,

@@ -10,9 +10,9 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from harness.deck.blocks import Block, Row
+from harness.deck.error_report import nearest
 from harness.deck.numbers import integer_table, is_integer, read_integer, real_table
 from harness.deck.placement import IDENTITY, read_system
-from harness.deck.problems import nearest
 from harness.deck.table import INPUT, Keyword, Kind, Option, Where, ignored, one_of, refused, split_fields, unquote
 from harness.deck.user_elements import Definitions, ElementType, find_type
 from harness.errors import DeckError, Source

@@ -11,7 +11,7 @@ import numpy as np
 
 from harness.deck.blocks import PER_LINE, Block, Row
 from harness.deck.damage import DAMAGE, extend_damage
-from harness.deck.problems import Problems
+from harness.deck.error_report import Problems
 from harness.deck.table import NAME, Keyword, Kind, Option, Where, ignored, one_of, refused
 from harness.deck.user_elements import read_count
 from harness.model.arrays import FloatArray

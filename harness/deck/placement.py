@@ -10,7 +10,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from harness.deck.blocks import Block, Row
-from harness.deck.problems import Problems
+from harness.deck.error_report import Problems
 from harness.deck.table import NAME, Keyword, Where, one_of, refused
 from harness.model.arrays import FloatArray
 from harness.model.properties import Orientation

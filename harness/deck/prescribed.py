@@ -11,8 +11,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from harness.deck.blocks import Block, Row
+from harness.deck.error_report import look_up, nearest
 from harness.deck.flatten import FlatMesh
-from harness.deck.problems import look_up, nearest
 from harness.deck.surfaces import Surfaces
 from harness.deck.table import INPUT, Keyword, Kind, Option, Where, ignored, one_of, refused, unquote
 from harness.deck.user_elements import LARGEST_DOF

@@ -11,6 +11,7 @@ import numpy as np
 from harness.deck.amplitudes import read_amplitudes
 from harness.deck.constraints import ConstraintReader, read_equations
 from harness.deck.damage import read_controls
+from harness.deck.error_report import Problems
 from harness.deck.flatten import FlatMesh
 from harness.deck.groups import make_groups
 from harness.deck.initial import read_initial_solutions, read_initial_stresses, read_initial_values
@@ -18,7 +19,6 @@ from harness.deck.keywords import KEYWORDS
 from harness.deck.lexer import read_blocks
 from harness.deck.materials import read_materials
 from harness.deck.prescribed import Prescription
-from harness.deck.problems import Problems
 from harness.deck.requests import RequestReader
 from harness.deck.steps import check_parts, read_steps
 from harness.deck.structure import read_heading, sort_blocks

@@ -10,8 +10,8 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from harness.deck.blocks import Block
+from harness.deck.error_report import Problems
 from harness.deck.flatten import FlatMesh
-from harness.deck.problems import Problems
 from harness.deck.table import Keyword, Kind, Option, Where, compact, ignored, one_of, refused
 from harness.deck.user_elements import LARGEST_DOF
 from harness.model.arrays import IntArray

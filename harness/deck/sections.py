@@ -13,7 +13,7 @@ from itertools import pairwise
 import numpy as np
 
 from harness.deck.blocks import Block, Row
-from harness.deck.problems import Problems, look_up
+from harness.deck.error_report import Problems, look_up
 from harness.deck.table import Keyword, Kind, Option, Where, one_of, refused
 from harness.deck.user_elements import LARGEST_DOF, ElementType, read_user_property
 from harness.model.element_types import DISCRETE, DiscreteKind

@@ -12,8 +12,8 @@ from typing import TypeVar
 from harness.deck.blocks import Block
 from harness.deck.controls import ControlState
 from harness.deck.distributed import read_distributed, read_fields, read_surface_loads
+from harness.deck.error_report import Problems
 from harness.deck.prescribed import Prescription, contradictions
-from harness.deck.problems import Problems
 from harness.deck.procedures import read_procedure
 from harness.deck.requests import RequestReader
 from harness.deck.structure import Scope

@@ -7,7 +7,7 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 
 from harness.deck.blocks import Block
-from harness.deck.problems import Problems, nearest
+from harness.deck.error_report import Problems, nearest
 from harness.deck.table import NAME, Keyword, Kind, Option, Support, Where, ignored, refused
 from harness.errors import DeckError, Source
 

@@ -9,8 +9,8 @@ from collections.abc import Iterator, Sequence
 import numpy as np
 
 from harness.deck.blocks import Block
+from harness.deck.error_report import nearest
 from harness.deck.flatten import FlatMesh
-from harness.deck.problems import nearest
 from harness.deck.table import NAME, Keyword, Where, ignored, one_of
 from harness.errors import DeckError, Source
 from harness.model.arrays import IntArray

@@ -11,8 +11,8 @@ from enum import StrEnum
 from functools import lru_cache
 
 from harness.deck.abaqus_names import ABAQUS_KEYWORDS
+from harness.deck.error_report import nearest
 from harness.deck.numbers import read_integer, read_real
-from harness.deck.problems import nearest
 from harness.errors import DeckError, Source
 
 

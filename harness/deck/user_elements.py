@@ -13,8 +13,8 @@ import numpy as np
 
 from harness.deck.abaqus_elements import is_abaqus_element
 from harness.deck.blocks import PER_LINE, Block
+from harness.deck.error_report import Problems, nearest
 from harness.deck.numbers import LARGEST_INTEGER
-from harness.deck.problems import Problems, nearest
 from harness.deck.table import Keyword, Kind, Option, Where, one_of, refused
 from harness.errors import DeckError, Source
 from harness.model.element_types import BUILT_IN

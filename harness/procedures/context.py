@@ -15,7 +15,7 @@ from harness.model.arrays import FloatArray, IntArray
 from harness.model.user_values import UserValues
 from harness.procedures.convergence_checks import Checker, length_of_moments
 from harness.procedures.loads import fading_forces
-from harness.procedures.setting import Setting, choose_solver
+from harness.procedures.step_setting import Setting, choose_solver
 from harness.procedures.unconstrained import UnconstrainedSolver
 from harness.solver.newton import Factoriser
 

@@ -21,7 +21,7 @@ from harness.model.procedures import Dynamic, Integrator
 from harness.model.records import Record
 from harness.procedures.context import StepContext
 from harness.procedures.incrementation import Accuracy
-from harness.procedures.parts import Part
+from harness.procedures.step_parts import Part
 from harness.solver.newton import Increment, Iterate
 
 HALF_INCREMENT = "THE HALF-INCREMENT RESIDUAL IS LARGER THAN ITS TOLERANCE."

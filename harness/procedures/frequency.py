@@ -19,7 +19,7 @@ from harness.model.arrays import FloatArray, first_largest
 from harness.model.perturbations import Frequency
 from harness.model.records import ModesFound, ModeShape, Record
 from harness.procedures.perturbation import PerturbationStep
-from harness.procedures.setting import Setting
+from harness.procedures.step_setting import Setting
 from harness.solver.eigen import Pair, UnstableError, lowest_eigenvalues
 
 FIRST = 10

@@ -24,8 +24,8 @@ from harness.model.records import (
 from harness.procedures.context import StepContext
 from harness.procedures.incrementation import DISTORTED, TOO_MANY_INCREMENTS, Accuracy, Cutback, refused
 from harness.procedures.limit import PASSED, LimitLoad
-from harness.procedures.parts import Part
 from harness.procedures.path import Path
+from harness.procedures.step_parts import Part
 from harness.procedures.unconstrained import UNLOADED, UnconstrainedSolver
 from harness.solver.descent import ITERATIONS, SINGULAR
 from harness.solver.newton import Iterate

@@ -17,7 +17,7 @@ from harness.model.procedures import HeatTransfer
 from harness.model.records import Record
 from harness.procedures.context import StepContext
 from harness.procedures.incrementation import Accuracy
-from harness.procedures.parts import Part
+from harness.procedures.step_parts import Part
 from harness.solver.newton import Iterate
 
 CHANGES_TOO_FAST = "THE TEMPERATURE CHANGES BY MORE THAN DELTMX IN THE INCREMENT."

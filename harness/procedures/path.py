@@ -13,7 +13,7 @@ from harness.model.records import Convergence, FieldCheck, Record
 from harness.procedures.context import StepContext
 from harness.procedures.extrapolation import Extrapolation
 from harness.procedures.incrementation import IncrementControl
-from harness.procedures.parts import Part
+from harness.procedures.step_parts import Part
 from harness.solver.descent import Descent
 from harness.solver.newton import Increment, Iterate, Newton
 

@@ -26,7 +26,7 @@ from harness.model.records import (
     StepDone,
     Warned,
 )
-from harness.procedures.setting import Setting, choose_solver
+from harness.procedures.step_setting import Setting, choose_solver
 from harness.solver.linear import LinearSolver
 
 BASE_FORCES = (

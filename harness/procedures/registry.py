@@ -17,12 +17,12 @@ from harness.procedures.frequency import FrequencyStep
 from harness.procedures.general import GeneralStep
 from harness.procedures.heat_transfer import TemperatureChange
 from harness.procedures.load_factor import EnergyPath, RiksPath
-from harness.procedures.parts import Part
 from harness.procedures.path import TimePath
 from harness.procedures.perturbation import PerturbationStep
-from harness.procedures.setting import Setting, StepRun
 from harness.procedures.stabilized import ViscousForces
 from harness.procedures.steady_state import SteadyStateStep
+from harness.procedures.step_parts import Part
+from harness.procedures.step_setting import Setting, StepRun
 
 
 @singledispatch

@@ -18,8 +18,8 @@ from harness.model.steps import Boundary, Load, Step
 from harness.procedures.initial_states import set_initial_states, set_initial_stresses
 from harness.procedures.loads import find_unknowns
 from harness.procedures.registry import run_of
-from harness.procedures.setting import Setting, StepRun, UserRoutines
 from harness.procedures.state import ConvergedState
+from harness.procedures.step_setting import Setting, StepRun, UserRoutines
 
 
 def run_steps(

@@ -18,7 +18,7 @@ import numpy as np
 from harness.model.procedures import Stabilize
 from harness.model.records import Noted, Record, Warned
 from harness.procedures.context import StepContext
-from harness.procedures.parts import Part
+from harness.procedures.step_parts import Part
 from harness.solver.newton import Increment, Iterate
 
 NOTHING_DAMPED = "STABILIZE HAS NO EFFECT: THE MODEL HAS NO BUILT-IN ELEMENTS WITH A MASS"

@@ -23,7 +23,7 @@ from harness.model.perturbations import SteadyState
 from harness.model.records import HarmonicResponse, Record, Solution
 from harness.model.steps import Boundary, ElementLoad, Load, Step
 from harness.procedures.perturbation import PerturbationStep
-from harness.procedures.setting import Setting
+from harness.procedures.step_setting import Setting
 from harness.solver.harmonic import ComplexSolver
 from harness.solver.linear import LinearSolver
 

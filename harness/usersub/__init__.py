@@ -5,7 +5,7 @@
 XIT, STDB_ABQERR, STOP, a segmentation fault, division of integers by zero and a call that takes too long end the call,
 and the caller gets an error with the reason. What still ends the whole process: an error inside the Fortran library
 (reading a missing file), an abort because of damaged memory, and STOP in a library that the user compiled himself. The
-slate (harness/slate.py) tells another process where that was.
+slate (harness/shared_progress.py) tells another process where that was.
 """
 
 from harness.usersub._binding import allocated, limit_calls, share_slate, trap
@@ -14,7 +14,7 @@ from harness.usersub.inputs import Change, around, local_variables, watched_inpu
 from harness.usersub.languages import is_source
 from harness.usersub.library import Library, load
 from harness.usersub.messages import Message
-from harness.usersub.places import names_line
+from harness.usersub.source_lines import names_line
 from harness.usersub.suspicions import Suspicion, suspicions
 
 __all__ = [

@@ -18,7 +18,7 @@ from typing import Final
 
 from harness.errors import CompileError
 from harness.files import read_whole
-from harness.usersub import cache, linker, ranks
+from harness.usersub import argument_ranks, cache, linker
 from harness.usersub.cache import Built
 from harness.usersub.compatibility import Repair, hidden_types, repairs
 from harness.usersub.diagnostics import first_error
@@ -170,7 +170,9 @@ def _key(compilers: Iterable[str], texts: Sequence[str]) -> str:
     ]
     flags = [*FIXED, *FREE, *linker.FLAGS, *(flag for language in LANGUAGES for flag in language.flags)]
     found_through = [f"{name}={os.environ.get(name)}" for name in _SEARCH_VARIABLES]
-    told = [_read(Path(__file__).with_name(name)) for name in ("compatibility.py", "ranks.py", "diagnostics.py")]
+    told = [
+        _read(Path(__file__).with_name(name)) for name in ("compatibility.py", "argument_ranks.py", "diagnostics.py")
+    ]
     machine = [platform.machine(), linker.bundled_lapack(), *found_through]
     parts = [*versions, *flags, *machine, *told, *HEADERS.values(), *texts]
     return hashlib.sha256("\0".join(parts).encode()).hexdigest()[:16]
@@ -250,7 +252,7 @@ def _compile(
 ) -> tuple[Path, list[str]]:
     """Library in the folder work, and notes for the user; the compilers list beside it what they read."""
     objects, notes, said = _objects(files, folders, supply, sources, work, flags, open_bounds=open_bounds)
-    notes += dict.fromkeys(ranks.constants_for_arrays(said, _texts(sources)))
+    notes += dict.fromkeys(argument_ranks.constants_for_arrays(said, _texts(sources)))
     library = work / "user.so"
     language, libraries = linking([language_of(file) for file in files])
     libraries += linker.lapack_flags(objects, language.compiler)

@@ -24,7 +24,7 @@ from harness.usersub.compiler import build
 from harness.usersub.languages import CPP, SUFFIXES, C
 from harness.usersub.linker import undefined_routine
 from harness.usersub.messages import Inbox, Message
-from harness.usersub.places import innermost
+from harness.usersub.source_lines import innermost
 
 ENTRY_POINTS: Final = (
     *("UEL", "UELMAT", "UEXTERNALDB", "UMAT", "UVARM", "SDVINI", "DLOAD", "DISP", "UAMP", "USDFLD", "UTRACLOAD"),

@@ -17,7 +17,7 @@ from pathlib import Path
 from typing import Final
 
 from harness.errors import CompileError
-from harness.usersub import ranks
+from harness.usersub import argument_ranks
 from harness.usersub.compiler import Opinion, build, listen
 from harness.usersub.diagnostics import warnings_of
 from harness.usersub.units import Unit, unit_at, units
@@ -157,10 +157,10 @@ class _Told:
             # a real array that a routine uses for integers is a work array, as in LAPACK
             certain = found[3] != found[5] and found[4] == "REAL"
             return f"{given} is passed for the argument '{found[1]}', which is {taken}", "use one type in both", certain
-        if argument := ranks.array_wanted(text):
-            constant = ranks.is_constant(self._opinion.texts.get(file, ""), line, column)
+        if argument := argument_ranks.array_wanted(text):
+            constant = argument_ranks.is_constant(self._opinion.texts.get(file, ""), line, column)
             what = "a constant" if constant else "a single value"
-            return f"{what} is passed for the argument '{argument}', which is an array", ranks.HINT, constant
+            return f"{what} is passed for the argument '{argument}', which is an array", argument_ranks.HINT, constant
         if option == "-Wuninitialized":
             name = found[0] if (found := re.match(r"'\w+'", text)) else "a local variable"
             return f"{name} is used before it has a value", "", True

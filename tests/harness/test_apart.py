@@ -13,7 +13,7 @@ import pytest
 
 from harness.interrupts import ENDS, Interrupted, collected, held, raise_interrupts
 from harness.isolation import _GLANCE, HANGS, End, _state, _Watch, run_apart
-from harness.slate import Within, new_slate
+from harness.shared_progress import Within, new_slate
 
 
 @pytest.fixture

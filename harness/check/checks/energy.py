@@ -9,10 +9,10 @@ from typing import Final
 import numpy as np
 
 from harness.check.checks.rest import MECHANICAL
-from harness.check.choice import exceeds
 from harness.check.finding import Finding, failed, not_applicable, passed
 from harness.check.state import ElementState
 from harness.check.subject import NOT_MOVING, Subject
+from harness.check.ties import exceeds
 
 SHARES: Final = 1.0, 0.1, 0.01, 0.001
 """Of the increment: the work is from the trapezoidal rule, which is accurate for small increments."""

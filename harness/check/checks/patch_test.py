@@ -8,11 +8,11 @@ from typing import Final
 
 import numpy as np
 
-from harness.check.choice import exceeds
 from harness.check.finding import Finding, failed, not_applicable, passed
-from harness.check.motions import INERTIA, NO_BODY, Body, body_of, makes_inertia
+from harness.check.rigid_motions import INERTIA, NO_BODY, Body, body_of, makes_inertia
 from harness.check.state import ElementState
 from harness.check.subject import Subject
+from harness.check.ties import exceeds
 from harness.model.arrays import FloatArray
 
 TOLERANCE: Final = 1e-8

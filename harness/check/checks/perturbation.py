@@ -9,10 +9,10 @@ from typing import Final
 
 import numpy as np
 
-from harness.check.choice import first_largest
 from harness.check.finding import Finding, failed, passed
 from harness.check.state import ElementState
 from harness.check.subject import Subject
+from harness.check.ties import first_largest
 from harness.elements import Flags, Request
 
 TOLERANCE: Final = 1e-6

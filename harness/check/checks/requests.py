@@ -12,11 +12,11 @@ import numpy as np
 
 from harness.check.checks.damping import check_damping
 from harness.check.checks.perturbation import check_perturbation
-from harness.check.choice import first_largest
 from harness.check.finding import Finding, Verdict, failed, not_applicable, passed
 from harness.check.recording import Pass
 from harness.check.state import DYNAMIC, ElementState
 from harness.check.subject import Subject
+from harness.check.ties import first_largest
 from harness.elements import Damping, Flags, Motion, Request
 from harness.model.arrays import FloatArray
 from harness.model.perturbations import Frequency, SteadyState

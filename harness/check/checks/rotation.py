@@ -10,7 +10,7 @@ import numpy as np
 
 from harness.check.checks.translation import relative
 from harness.check.finding import Finding, failed, not_applicable, passed
-from harness.check.motions import AT_REST, INERTIA, NO_BODY, Body, body_of, makes_inertia
+from harness.check.rigid_motions import AT_REST, INERTIA, NO_BODY, Body, body_of, makes_inertia
 from harness.check.state import ElementState
 from harness.check.subject import Subject
 from harness.errors import KernelError

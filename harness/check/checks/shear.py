@@ -10,7 +10,7 @@ from typing import Final
 import numpy as np
 
 from harness.check.finding import Finding, failed, not_applicable, passed
-from harness.check.motions import Body, body_at_rest
+from harness.check.rigid_motions import Body, body_at_rest
 from harness.check.state import ElementState
 from harness.check.subject import Subject
 from harness.model.arrays import FloatArray

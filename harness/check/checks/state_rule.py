@@ -10,11 +10,11 @@ from typing import Final
 import numpy as np
 
 from harness.check.checks.tangent import kinds
-from harness.check.choice import first_largest
 from harness.check.finding import Finding, failed, not_applicable, passed
 from harness.check.pieces import in_pieces
 from harness.check.state import ElementState
 from harness.check.subject import NOT_MOVING, Subject
+from harness.check.ties import first_largest
 from harness.errors import KernelError
 from harness.model.arrays import FloatArray
 

@@ -9,9 +9,9 @@ from typing import Final
 import numpy as np
 
 from harness.check.checks.tangent import block_scales
-from harness.check.choice import exceeds, first_largest
 from harness.check.finding import Finding, failed, passed
 from harness.check.subject import Subject
+from harness.check.ties import exceeds, first_largest
 
 TOLERANCE: Final = 1e-6
 """Of the largest entry for the same kinds of dof."""

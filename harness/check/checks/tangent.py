@@ -9,11 +9,11 @@ from typing import Final
 
 import numpy as np
 
-from harness.check.choice import exceeds, ranked
 from harness.check.differences import Differences
 from harness.check.finding import Finding, failed, not_applicable, passed
 from harness.check.state import ElementState
 from harness.check.subject import Subject
+from harness.check.ties import exceeds, ranked
 from harness.model.arrays import FloatArray
 
 TOLERANCE: Final = 1e-5

@@ -9,11 +9,11 @@ from typing import Final
 
 import numpy as np
 
-from harness.check.choice import exceeds, first_largest
 from harness.check.finding import Finding, failed, not_applicable, passed
-from harness.check.motions import NO_BODY, body_of
+from harness.check.rigid_motions import NO_BODY, body_of
 from harness.check.state import ElementState
 from harness.check.subject import Subject
+from harness.check.ties import exceeds, first_largest
 from harness.model.arrays import FloatArray
 
 TOLERANCE: Final = 1e-8

@@ -21,10 +21,10 @@ from harness.model.procedures import Procedure
 from harness.model.records import Noted
 from harness.procedures.context import StepContext
 from harness.procedures.general import GeneralStep
-from harness.procedures.parts import Part
 from harness.procedures.path import TimePath
 from harness.procedures.registry import run_of
-from harness.procedures.setting import Setting, StepRun
+from harness.procedures.step_parts import Part
+from harness.procedures.step_setting import Setting, StepRun
 
 KINDS = [
     kind

@@ -10,9 +10,9 @@ from pathlib import Path
 from random import Random
 
 from harness.deck.blocks import Block, Row
+from harness.deck.error_report import Problems
 from harness.deck.keywords import KEYWORDS
 from harness.deck.lexer import read_blocks
-from harness.deck.problems import Problems
 
 Dimension = tuple[int, int, int]
 """Exponents of length, mass and time."""
