@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""`uel reproduce`: cases, claims, page; that it goes on where it stopped."""
+"""`uel reproduce`: cases, statements, page; that it goes on where it stopped."""
 
 import io
 import math
@@ -21,12 +21,12 @@ from harness.delamination.materials import PLY_0, PLY_90, TABLE_2
 from harness.delamination.patches import ANGLE, COLLINEAR, COLUMNS, inclined_mesh, stabilisation
 from harness.delamination.reproduce import command, convergence, curves, findings, parameters, patch_cases, sensitivity
 from harness.delamination.reproduce.cases import LONGER, PROBLEMS, PaperCase, longer_cases, paper_cases
-from harness.delamination.reproduce.claims import Claim, JudgedClaim, Number, judge, read_claims
 from harness.delamination.reproduce.convergence import Steady
 from harness.delamination.reproduce.curves import to_line
 from harness.delamination.reproduce.findings import Evidence
 from harness.delamination.reproduce.page import Content, Table, write_page
 from harness.delamination.reproduce.runs import Runs
+from harness.delamination.reproduce.statements import JudgedStatement, Number, Statement, judge, read_statements
 from harness.delamination.specimens import ARMS, CRACK
 from harness.errors import UelError
 
@@ -201,14 +201,14 @@ def test_distance_to_a_curve_with_a_jump() -> None:
     assert to_line(np.array([0.25, 0.5]), line) == 0.0
 
 
-def test_claims_are_well_formed() -> None:
-    claims = read_claims()
-    assert len(claims) >= 20
-    assert len({claim.id for claim in claims}) == len(claims)
-    for claim in claims:
-        assert set(claim.cases) <= set(command.PARTS)
-        assert claim.limits
-        assert len(claim.quote.split()) <= 30, claim.id
+def test_statements_are_well_formed() -> None:
+    statements = read_statements()
+    assert len(statements) >= 20
+    assert len({statement.id for statement in statements}) == len(statements)
+    for statement in statements:
+        assert set(statement.cases) <= set(command.PARTS)
+        assert statement.limits
+        assert len(statement.quote.split()) <= 30, statement.id
 
 
 @pytest.mark.parametrize(
@@ -221,31 +221,31 @@ def test_claims_are_well_formed() -> None:
         ("cases = []", "cases = []\nalso = [{ ful = true }]", "bad: also: expected arguments, full, measure, number"),
     ],
 )
-def test_bad_claims_are_refused(tmp_path: Path, old: str, new: str, message: str) -> None:
+def test_bad_statements_are_refused(tmp_path: Path, old: str, new: str, message: str) -> None:
     good = (
-        '[[claim]]\nid = "bad"\nsection = "1"\nfigure = ""\nquote = "a"\nnumber = "b"\n'
+        '[[statement]]\nid = "bad"\nsection = "1"\nfigure = ""\nquote = "a"\nnumber = "b"\n'
         'measure = "isotropy"\nat_most = 1\ncases = []\n'
     )
-    file = tmp_path / "claims.toml"
+    file = tmp_path / "statements.toml"
     file.write_text(good)
-    assert read_claims(file)[0].at_most == 1.0
+    assert read_statements(file)[0].at_most == 1.0
     file.write_text(good.replace(old, new))
     with pytest.raises(ValueError, match=message):
-        read_claims(file)
+        read_statements(file)
 
 
-def claim(low: float | None, high: float | None, figure: str = "") -> Claim:
+def statement(low: float | None, high: float | None, figure: str = "") -> Statement:
     number = Number("a ratio", "modulus_contrast", {})
-    return Claim("x", "1", figure, "<quote>", number, low, high, (), (number,), "because")
+    return Statement("x", "1", figure, "<quote>", number, low, high, (), (number,), "because")
 
 
 def test_limits_decide() -> None:
-    assert claim(1.0, None).holds(1.0)
-    assert not claim(1.0, None).holds(0.9)
-    assert claim(1.0, 2.0).limits == "at least 1, at most 2"
-    assert not claim(1.0, 2.0).holds(2.1)
-    assert not claim(1.0, 2.0).holds(math.nan)
-    verdict = judge(claim(11.0, 12.0), Evidence(Runs({}, Path()), coarse=False))
+    assert statement(1.0, None).holds(1.0)
+    assert not statement(1.0, None).holds(0.9)
+    assert statement(1.0, 2.0).limits == "at least 1, at most 2"
+    assert not statement(1.0, 2.0).holds(2.1)
+    assert not statement(1.0, 2.0).holds(math.nan)
+    verdict = judge(statement(11.0, 12.0), Evidence(Runs({}, Path()), coarse=False))
     assert verdict.reproduced
     assert verdict.value == pytest.approx(1.2e5 / 1.05e4)
     assert [text for text, _ in verdict.also] == ["a ratio"]
@@ -253,10 +253,10 @@ def test_limits_decide() -> None:
 
 def test_numbers_of_the_full_meshes() -> None:
     number = Number("costly", "modulus_contrast", {}, full=True)
-    costly = replace(claim(11.0, 12.0), also=(number,))
+    costly = replace(statement(11.0, 12.0), also=(number,))
     found = [judge(costly, Evidence(Runs({}, Path()), coarse=coarse)).also for coarse in (True, False)]
     assert [len(also) for also in found] == [0, 1]
-    assert {number.text for claim in read_claims() for number in claim.also if number.full} == {
+    assert {number.text for statement in read_statements() for number in statement.also if number.full} == {
         "with the same criterion and points: standard method"
     }
 
@@ -264,7 +264,10 @@ def test_numbers_of_the_full_meshes() -> None:
 def test_page_is_one_file(tmp_path: Path) -> None:
     picture = tmp_path / "a.png"
     picture.write_bytes(b"\x89PNG")
-    verdicts = [JudgedClaim(claim(1.0, 2.0, "9"), 3.0, (("more", 4.0),)), JudgedClaim(claim(1.0, None), 3.0, ())]
+    verdicts = [
+        JudgedStatement(statement(1.0, 2.0, "9"), 3.0, (("more", 4.0),)),
+        JudgedStatement(statement(1.0, None), 3.0, ()),
+    ]
     table = Table("Loads & ends", "text", ("a", "b"), [["1", "<2"]], picture)
     page = write_page(Content(["how"], {"9": picture}, verdicts, [table]), tmp_path / "index.html").read_text()
     assert "1 of 2 statements reproduced (50%)" in page
@@ -280,7 +283,7 @@ def test_command_runs_once_and_decides(tmp_path: Path, monkeypatch: pytest.Monke
     monkeypatch.setattr(patch_cases, "STIFF", (1.0e6,))
     monkeypatch.setattr("harness.delamination.reproduce.basics.STIFF", (1.0e6,))
     verdicts = command.reproduce(["law", "patch"], tmp_path, quick=False, console=quiet(), workers=1)
-    found = {verdict.claim.id: verdict for verdict in verdicts}
+    found = {verdict.statement.id: verdict for verdict in verdicts}
     # prototype of the equations (formulation of the paper's 10 x 10 patch): deviations 168 and 25 MPa of 1050
     assert found["patch-perturbed-standard"].value == pytest.approx(168.0 / 1050.0, rel=0.01)
     assert found["patch-perturbed-stabilised"].value == pytest.approx(25.4 / 167.7, rel=0.01)
@@ -289,7 +292,7 @@ def test_command_runs_once_and_decides(tmp_path: Path, monkeypatch: pytest.Monke
     assert not found["patch-beta"].reproduced
     folder = tmp_path / "full"
     assert (folder / "figure_06.png").read_bytes().startswith(b"\x89PNG")
-    assert "patch-beta" in (folder / "claims.csv").read_text()
+    assert "patch-beta" in (folder / "statements.csv").read_text()
     before = (folder / "runs.json").stat().st_mtime_ns
     command.reproduce(["law", "patch"], tmp_path, quick=False, console=quiet(), workers=1)
     assert (folder / "runs.json").stat().st_mtime_ns == before
@@ -309,6 +312,6 @@ def test_unknown_case_is_named(tmp_path: Path, capsys: pytest.CaptureFixture[str
 @pytest.mark.long
 def test_quick_reproduction(tmp_path: Path) -> None:
     verdicts = command.reproduce([], tmp_path, quick=True, console=quiet())
-    assert [verdict.claim.id for verdict in verdicts] == [claim.id for claim in read_claims()]
+    assert [verdict.statement.id for verdict in verdicts] == [statement.id for statement in read_statements()]
     assert not any(math.isnan(verdict.value) for verdict in verdicts)
     assert len(list((tmp_path / "quick").glob("figure_*.png"))) >= 20

@@ -21,11 +21,11 @@ from harness.delamination.reproduce.cases import (
     paper_cases,
     secant_cases,
 )
-from harness.delamination.reproduce.claims import JudgedClaim, judge, read_claims
 from harness.delamination.reproduce.findings import Evidence
 from harness.delamination.reproduce.page import Content, number, write_page
 from harness.delamination.reproduce.patch_cases import PatchCase, patch_cases
 from harness.delamination.reproduce.runs import AnyCase, Runs, run_cases
+from harness.delamination.reproduce.statements import JudgedStatement, judge, read_statements
 from harness.delamination.reproduce.tables import all_tables
 from harness.errors import UsageError
 
@@ -34,7 +34,7 @@ PARTS = ("law", "patch", *PROBLEMS, "sensitivity")
 
 def reproduce(
     parts: Sequence[str], folder: Path, *, quick: bool, console: Console, workers: int | None = None
-) -> list[JudgedClaim]:
+) -> list[JudgedStatement]:
     """Run the command.
 
     Parameters
@@ -42,7 +42,7 @@ def reproduce(
     parts
         Of PARTS; none means all.
     folder
-        Gets the pictures, `claims.csv`, the page `index.html` and the runs; runs that it has are not repeated.
+        Gets the pictures, `statements.csv`, the page `index.html` and the runs; runs that it has are not repeated.
     quick
         Coarser meshes.
     console
@@ -67,7 +67,7 @@ def reproduce(
     place = folder / ("quick" if quick else "full")
     runs = run_cases(_cases(chosen, quick=quick), place, workers or os.cpu_count() or 1, console)
     evidence = Evidence(runs, quick)
-    verdicts = [judge(claim, evidence) for claim in read_claims() if set(claim.cases) <= set(chosen)]
+    verdicts = [judge(statement, evidence) for statement in read_statements() if set(statement.cases) <= set(chosen)]
     content = Content(
         _how(chosen, quick=quick),
         _figures(chosen, runs, place, quick=quick),
@@ -75,7 +75,7 @@ def reproduce(
         all_tables(chosen, evidence, place),
     )
     page = write_page(content, place / "index.html")
-    _write_csv(verdicts, place / "claims.csv")
+    _write_csv(verdicts, place / "statements.csv")
     console.print(_summary(verdicts))
     console.print(f"page: {page}", highlight=False, soft_wrap=True)
     return verdicts
@@ -137,20 +137,20 @@ def _figures(parts: Sequence[str], runs: Runs, folder: Path, *, quick: bool) -> 
     return drawn
 
 
-def _write_csv(verdicts: Sequence[JudgedClaim], path: Path) -> None:
+def _write_csv(verdicts: Sequence[JudgedStatement], path: Path) -> None:
     with path.open("w", newline="", encoding="utf-8") as file:
         writer = csv.writer(file)
         writer.writerow(["id", "section", "figure", "number", "value", "wanted", "reproduced"])
         for verdict in verdicts:
-            claim = verdict.claim
-            words = [claim.id, claim.section, claim.figure, claim.number.text]
-            writer.writerow([*words, f"{verdict.value:.6g}", claim.limits, "yes" if verdict.reproduced else "no"])
+            statement = verdict.statement
+            words = [statement.id, statement.section, statement.figure, statement.number.text]
+            writer.writerow([*words, f"{verdict.value:.6g}", statement.limits, "yes" if verdict.reproduced else "no"])
 
 
-def _summary(verdicts: Sequence[JudgedClaim]) -> TerminalTable:
+def _summary(verdicts: Sequence[JudgedStatement]) -> TerminalTable:
     good = sum(verdict.reproduced for verdict in verdicts)
     table = TerminalTable("statement", "our number", "wanted", "verdict", title=f"{good} of {len(verdicts)} reproduced")
     for verdict in verdicts:
         word = "reproduced" if verdict.reproduced else "NOT REPRODUCED"
-        table.add_row(verdict.claim.id, number(verdict.value), verdict.claim.limits, word)
+        table.add_row(verdict.statement.id, number(verdict.value), verdict.statement.limits, word)
     return table

@@ -1,9 +1,9 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""The numbers that decide on the paper's statements, by the names that claims.toml gives them.
+"""The numbers that decide on the paper's statements, by the names that statements.toml gives them.
 
-Each function takes what was run (`Evidence`) and the arguments of a claim, and gives one number. Where a claim speaks
-of several runs the number is the one that is worst for it.
+Each function takes what was run (`Evidence`) and the arguments of a statement, and gives one number. Where a statement
+speaks of several runs the number is the one that is worst for it.
 """
 
 from __future__ import annotations

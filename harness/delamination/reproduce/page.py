@@ -10,7 +10,7 @@ from dataclasses import dataclass
 from html import escape
 from pathlib import Path
 
-from harness.delamination.reproduce.claims import JudgedClaim
+from harness.delamination.reproduce.statements import JudgedStatement
 
 CAPTIONS = {
     "1": "The two domains and the interface between them.",
@@ -82,7 +82,7 @@ class Content:
 
     how: Sequence[str]
     figures: Mapping[str, Path]
-    verdicts: Sequence[JudgedClaim]
+    verdicts: Sequence[JudgedStatement]
     tables: Sequence[Table]
 
 
@@ -95,7 +95,7 @@ def write_page(content: Content, path: Path) -> Path:
             parts.append(f"<h2>{escape(title)}</h2>")
         for number in shown:
             parts += _figure(number, content)
-    rest = [verdict for verdict in content.verdicts if not verdict.claim.figure]
+    rest = [verdict for verdict in content.verdicts if not verdict.statement.figure]
     if rest:
         parts += ["<h2>Statements without a figure</h2>", *_verdict_table(rest)]
     for table in content.tables:
@@ -116,7 +116,7 @@ def _head(how: Sequence[str]) -> list[str]:
     ]
 
 
-def _summary(verdicts: Sequence[JudgedClaim]) -> list[str]:
+def _summary(verdicts: Sequence[JudgedStatement]) -> list[str]:
     good = sum(verdict.reproduced for verdict in verdicts)
     share = f" ({good / len(verdicts):.0%})" if verdicts else ""
     lines = [f"<p><b>{good} of {len(verdicts)} statements reproduced{share}.</b></p>"]
@@ -127,7 +127,7 @@ def _summary(verdicts: Sequence[JudgedClaim]) -> list[str]:
 
 
 def _figure(number: str, content: Content) -> list[str]:
-    verdicts = [verdict for verdict in content.verdicts if verdict.claim.figure == number]
+    verdicts = [verdict for verdict in content.verdicts if verdict.statement.figure == number]
     picture = _picture(content.figures[number], f"Figure {number}. {CAPTIONS[number]}")
     if not verdicts:
         return ['<div class="side alone">', picture, "</div>"]
@@ -140,21 +140,21 @@ def _picture(path: Path, caption: str) -> str:
     return f"<figure>{image}<figcaption>{escape(caption)}</figcaption></figure>"
 
 
-def _verdict_table(verdicts: Iterable[JudgedClaim]) -> list[str]:
+def _verdict_table(verdicts: Iterable[JudgedStatement]) -> list[str]:
     lines = [
         '<div class="scroll"><table><tr><th>The paper</th><th>Our number</th><th></th>'
         "<th>Wanted</th><th>Verdict</th></tr>"
     ]
     for verdict in verdicts:
-        claim = verdict.claim
-        place = f"(section {escape(claim.section)}" + (f", figure {claim.figure})" if claim.figure else ")")
+        statement = verdict.statement
+        place = f"(section {escape(statement.section)}" + (f", figure {statement.figure})" if statement.figure else ")")
         style, word = ("yes", "✓ reproduced") if verdict.reproduced else ("no", "✗ not reproduced")
         also = "".join(f"<br>{escape(text)}: {number(value)}" for text, value in verdict.also)
-        why = f'<tr><td colspan="5" class="why">{escape(claim.why)}</td></tr>' if claim.why else ""
+        why = f'<tr><td colspan="5" class="why">{escape(statement.why)}</td></tr>' if statement.why else ""
         lines.append(
-            f'<tr id="{escape(claim.id)}"><td><q>{escape(claim.quote)}</q> {place}</td>'
-            f"<td>{escape(claim.number.text)}{also}</td><td class='number'>{number(verdict.value)}</td>"
-            f"<td>{escape(claim.limits)}</td><td class='{style}'>{word}</td></tr>{why}"
+            f'<tr id="{escape(statement.id)}"><td><q>{escape(statement.quote)}</q> {place}</td>'
+            f"<td>{escape(statement.number.text)}{also}</td><td class='number'>{number(verdict.value)}</td>"
+            f"<td>{escape(statement.limits)}</td><td class='{style}'>{word}</td></tr>{why}"
         )
     return [*lines, "</table></div>"]
 

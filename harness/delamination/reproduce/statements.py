@@ -1,8 +1,8 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""The paper's statements (claims.toml), each decided by one number from the runs.
+"""The paper's statements (statements.toml), each decided by one number from the runs.
 
-A claim has
+A statement has
 
 id, section, figure   figure is empty where the paper shows none
 quote                 a few words of the paper
@@ -24,7 +24,7 @@ from pathlib import Path
 from harness.delamination.reproduce import basics, curves, findings, foundations, parameters
 from harness.delamination.reproduce.findings import Evidence
 
-FILE = Path(__file__).with_name("claims.toml")
+FILE = Path(__file__).with_name("statements.toml")
 MEASURES = findings.MEASURES | curves.MEASURES | basics.MEASURES | foundations.MEASURES | parameters.MEASURES
 REQUIRED = {"id", "section", "figure", "quote", "number", "measure", "cases"}
 OPTIONAL = {"arguments", "at_least", "at_most", "also", "why"}
@@ -46,7 +46,7 @@ class Number:
 
 
 @dataclass(frozen=True, slots=True)
-class Claim:
+class Statement:
     """A statement of the paper and the number that decides on it."""
 
     id: str
@@ -75,32 +75,32 @@ class Claim:
 
 
 @dataclass(frozen=True, slots=True)
-class JudgedClaim:
-    """A claim with our numbers."""
+class JudgedStatement:
+    """A statement with our numbers."""
 
-    claim: Claim
+    statement: Statement
     value: float
     also: tuple[tuple[str, float], ...]
 
     @property
     def reproduced(self) -> bool:
         """Whether our number is what the statement says."""
-        return self.claim.holds(self.value)
+        return self.statement.holds(self.value)
 
 
-def read_claims(file: Path = FILE) -> list[Claim]:
-    """All claims.
+def read_statements(file: Path = FILE) -> list[Statement]:
+    """All statements.
 
     Raises
     ------
     ValueError
-        A claim lacks an entry, has one that is not known, or names no measure of ours.
+        A statement lacks an entry, has one that is not known, or names no measure of ours.
     """
-    entries = tomllib.loads(file.read_text(encoding="utf-8"))["claim"]
-    return [_claim(entry, f"{file.name}: {entry.get('id')}") for entry in entries]
+    entries = tomllib.loads(file.read_text(encoding="utf-8"))["statement"]
+    return [_statement(entry, f"{file.name}: {entry.get('id')}") for entry in entries]
 
 
-def _claim(entry: Mapping[str, object], place: str) -> Claim:
+def _statement(entry: Mapping[str, object], place: str) -> Statement:
     given = set(entry)
     if not given >= REQUIRED or given - REQUIRED - OPTIONAL or not given & {"at_least", "at_most"}:
         wanted = ", ".join(sorted(REQUIRED))
@@ -112,7 +112,7 @@ def _claim(entry: Mapping[str, object], place: str) -> Claim:
     if any(set(other) - ALSO for other in also):
         raise ValueError(f"{place}: also: expected {', '.join(sorted(ALSO))}")
     assert isinstance(cases, Sequence)
-    return Claim(
+    return Statement(
         **texts,
         number=_number(entry, place),
         at_least=low,
@@ -131,7 +131,9 @@ def _number(entry: Mapping[str, object], place: str) -> Number:
     return Number(str(entry["number"]), measure, arguments, bool(entry.get("full", False)))
 
 
-def judge(claim: Claim, evidence: Evidence) -> JudgedClaim:
-    """Our numbers for a claim."""
-    also = [number for number in claim.also if not (number.full and evidence.coarse)]
-    return JudgedClaim(claim, claim.number.of(evidence), tuple((number.text, number.of(evidence)) for number in also))
+def judge(statement: Statement, evidence: Evidence) -> JudgedStatement:
+    """Our numbers for a statement."""
+    also = [number for number in statement.also if not (number.full and evidence.coarse)]
+    return JudgedStatement(
+        statement, statement.number.of(evidence), tuple((number.text, number.of(evidence)) for number in also)
+    )
