@@ -167,10 +167,30 @@ def test_files_stay_small() -> None:
     assert {path: n for path, n in lengths.items() if n > limits[path.suffix]} == {}
 
 
-def test_top_level_holds_only_what_the_design_names() -> None:
+def test_top_level_holds_only_these() -> None:
     allowed = {
         *("fortran", "harness", "tests", "abaqus_inputs", "meson.build", "README.md", "Makefile", "pyproject.toml"),
         *("fortitude.toml", "CHANGELOG.md", "CONTRIBUTING.md", "CITATION.cff", "LICENSE", ".ci", ".gitignore"),
         *(".gitattributes", "meson.options"),
     }
     assert {path.parts[0] for path in TRACKED} <= allowed
+
+
+def test_documents_name_files_that_exist() -> None:
+    """Paths of README and CONTRIBUTING, those of the table of equations below fortran."""
+    path = re.compile(r"[\w.-]+(?:/[\w.-]+)+\.(?:py|pyi|f90|md|toml|csv|inp)\b")
+    named = {name for page in ("README.md", "CONTRIBUTING.md") for name in path.findall((ROOT / page).read_text())}
+    assert len(named) > 50
+    tracked = {str(file) for file in TRACKED}
+    missing = {name for name in named if not tracked & {name, f"fortran/{name}"}}
+    assert missing == {"fortran/cohesive/LAW.f90"}
+
+
+def test_equations_are_where_contributing_says() -> None:
+    text = (ROOT / "CONTRIBUTING.md").read_text()
+    rows = re.findall(r"^\| .* \| `(\w+/\w+\.f90)` \| (.*) \|$", text, re.MULTILINE)
+    assert len(rows) > 15
+    for file, names in rows:
+        code = "\n".join(code_lines(Path("fortran", file)))
+        for name in re.findall(r"`(\w+)`", names):
+            assert re.search(rf"^ *(pure )?(subroutine|function) {name}\(", code, re.MULTILINE), f"{name} in {file}"
