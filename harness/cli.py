@@ -319,7 +319,7 @@ def begin_element(options: argparse.Namespace) -> int:
 
 def write_amalgam(options: argparse.Namespace) -> int:
     """`uel amalgamate`."""
-    from harness.usersub.amalgam import path_of_amalgam  # noqa: PLC0415
+    from harness.usersub.built import path_of_amalgam  # noqa: PLC0415
 
     shutil.copyfile(path_of_amalgam(), options.output)
     print(f"{options.output}: UEL, UELMAT and UEXTERNALDB for abaqus job=... user={options.output.name}")

@@ -40,7 +40,7 @@ void uel_host_clear_stack(const char *from, const char *to);
 // exceptions.c
 void uel_host_watch_exceptions(void);
 
-// As harness/slate.py has it.
+// As harness/shared_progress.py has it.
 struct slate {
     int64_t calls;         // of user routines so far: the clock sees by it whether one is still the same
     int32_t within;        // one of the three below

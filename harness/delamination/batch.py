@@ -26,7 +26,7 @@ import harness.solver
 from harness.errors import ConvergenceError
 from harness.job import run
 from harness.output import Result
-from harness.usersub.amalgam import path_of_amalgam
+from harness.usersub.built import path_of_amalgam
 
 
 class Deck(Protocol):

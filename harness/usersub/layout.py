@@ -14,7 +14,7 @@ from functools import cache
 from typing import Final
 
 from harness.model.records import PointVariables
-from harness.usersub.amalgam import path_of_layout
+from harness.usersub.built import path_of_layout
 
 MARKER: Final = "delamination_layout_version"
 """Symbol of a library that holds these elements."""

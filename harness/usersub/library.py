@@ -18,7 +18,7 @@ from harness.model.arrays import FloatArray
 from harness.model.records import PointVariables
 from harness.model.user_values import AskedAmplitude, GivenAmplitude, UserValues
 from harness.usersub import _binding, layout
-from harness.usersub.amalgam import path_of_kernels
+from harness.usersub.built import path_of_kernels
 from harness.usersub.cache import Built
 from harness.usersub.compiler import build
 from harness.usersub.languages import CPP, SUFFIXES, C

@@ -16,7 +16,7 @@ from readable import complaints
 
 from harness.output import Result
 from harness.output.sta_file import NOT_COMPLETED
-from harness.usersub.amalgam import path_of_kernels
+from harness.usersub.built import path_of_kernels
 
 UEL = f"{shlex.quote(sys.executable)} -m harness.cli"
 BEAM = Path(__file__).parents[2] / "abaqus_inputs" / "dcb" / "dcb_u4_1e8.inp"

@@ -15,7 +15,7 @@ from harness.errors import Source
 from harness.model.mesh import ElementGroup, Mesh
 from harness.model.model import Model
 from harness.model.properties import Elastic, ElasticType, Material, UserElement, UserProperty
-from harness.usersub.amalgam import path_of_amalgam
+from harness.usersub.built import path_of_amalgam
 from harness.usersub.layout import element_layouts
 
 SOURCE = Source("test.inp", 1)

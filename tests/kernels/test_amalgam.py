@@ -10,7 +10,7 @@ from pathlib import Path
 
 import pytest
 
-from harness.usersub.amalgam import path_of_amalgam
+from harness.usersub.built import path_of_amalgam
 
 ROOT = Path(__file__).parents[2]
 

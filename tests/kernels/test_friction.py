@@ -140,3 +140,29 @@ def test_energies_sum_up_to_the_work_on_the_separation(element, interface, alpha
     assert energy[3] == pytest.approx((state["DISSII"] + state["DISSF"]).sum(), rel=1e-12)
     np.testing.assert_allclose(state["DISSII"], 1.002, rtol=5e-3)
     assert (state["DISSF"] > 0.1).all()
+
+
+@pytest.mark.parametrize("alpha", STIFFNESSES)
+@pytest.mark.parametrize("viscosity", [0.0, 1.0])
+def test_a_point_that_closes_has_the_damage_of_its_shear(element, interface, alpha, viscosity):
+    """With G_IIc < G_Ic the law of pure shear is weaker than that of the mode mix in which the point opened.
+
+    Closing takes the opening away. From then on the damage is that of the shear, though friction holds the point; if it
+    were not, the point would slide on when it is pushed back, and friction would give energy.
+    """
+    weak = {"LAW": 2, "ETA": 3.5, "GIC": 0.8, "GIIC": 0.2, "SIGMAMAX": 30.0, "TAUMAX": 30.0}
+    values = {**weak, "ALPHAN": alpha, "ALPHAT": alpha, "CLOSURE": 1, "FRICTION": MU, **BETA, "VISCOSITY": viscosity}
+    item = element(4, interface.eight, **values)
+    for gap in ((4e-3, 1.4e-3), (8.5e-3, 2.9e-3)):
+        item.advance(apart(*gap))
+    opened = item.state
+    assert (opened["DAMAGE"] > 0).all() and (opened["DAMAGE"] < 1).all()
+    item.advance(apart(8.5e-3, -5e-2))
+    closed = item.state
+    assert (closed["DAMAGE"] > opened["DAMAGE"] + 0.01).all()
+    for tau in (7e-3, 5e-3, 2e-3, -2e-3):
+        before = item.state
+        item.advance(apart(tau, -2e-2))
+        rubbed = item.state["DISSF"] - before["DISSF"]
+        assert (rubbed >= -1e-12).all()
+        assert (item.state["WT"] <= before["WT"] * (1 + 1e-12)).all()

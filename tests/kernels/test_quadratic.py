@@ -214,7 +214,7 @@ def strain_matrix(xy, xi, eta):
 
 
 def expected_lambda(reference, xy, side, d):
-    """Largest eigenvalue on the complement of the rigid displacements; and the area and the length of the face."""
+    """Largest eigenvalue of the normal traction without rigid displacements; and area and length of the face."""
     energy, face, area, length = np.zeros((16, 16)), np.zeros((16, 16)), 0.0, 0.0
     for s, weight in zip(*GAUSS[0], strict=True):
         for t, other in zip(*GAUSS[0], strict=True):
@@ -224,7 +224,7 @@ def expected_lambda(reference, xy, side, d):
         b, jacobian = strain_matrix(xy, s, side)
         axes, slope = reference.frame([0, 0], jacobian[0])
         on_face = np.array([reference.traction_of_stress(axes, column) for column in (d @ b).T]).T
-        face += weight * slope * on_face.T @ on_face
+        face += weight * slope * np.outer(on_face[1], on_face[1])
         length += weight * slope
     kept = np.linalg.eigh(energy)[1][:, 3:]
     return eigh(kept.T @ face @ kept, kept.T @ energy @ kept, eigvals_only=True)[-1], area, length
