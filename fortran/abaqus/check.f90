@@ -10,6 +10,7 @@ module abaqus_check
     positive, not_negative, below_one, up_to_one, exponent, estimated, above_one, any_integer, p_alphan, p_alphat, p_gic, p_giic, &
     p_betan, p_betat, p_shapen, p_shapet, p_friction, j_law, j_closure
   use cohesive_parameters, only: ppr_law
+  use abaqus_lflags, only: large_displacements
   use abaqus_report, only: fatal
   implicit none(type, external)
   private
@@ -41,7 +42,7 @@ contains
         call fatal(jtype, jelem, 'VARIABLES = %I: expected at least %I', [nsvars, variables_of(jtype)], [real(dp) ::])
       else if (mcrd < element%dimension .or. mcrd > 3) then
         call fatal(jtype, jelem, 'COORDINATES = %I: expected %I', [mcrd, element%dimension], [real(dp) ::])
-      else if (lflags(2) /= 0 .and. iand(element%family, every_standard) == 0) then
+      else if (large_displacements(lflags) .and. iand(element%family, every_standard) == 0) then
         call fatal(jtype, jelem, 'NLGEOM is on, but this element is for small displacements: use NLGEOM=NO', &
           [integer ::], [real(dp) ::])
       else if (ndload /= 0) then

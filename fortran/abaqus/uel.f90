@@ -13,6 +13,7 @@ subroutine uel(rhs, amatrx, svars, energy, ndofel, nrhs, nsvars, props, nprops, 
   use abaqus_check, only: call_is_good
   use abaqus_interface_elements, only: evaluate_interface
   use abaqus_layout, only: elements, reals, integers, variables_of
+  use abaqus_lflags, only: asks_for_nothing, asks_for_tangent, give_answer, large_displacements
   use abaqus_report, only: fatal
   implicit none(type, external)
   integer, intent(in) :: ndofel, nrhs, nsvars, nprops, mcrd, nnode, jtype, kstep, kinc, jelem, ndload, npredf, mlvarx
@@ -21,7 +22,7 @@ subroutine uel(rhs, amatrx, svars, energy, ndofel, nrhs, nsvars, props, nprops, 
   real(dp), intent(in) :: props(*), coords(mcrd, nnode), u(ndofel), du(mlvarx, *), v(ndofel), a(ndofel), time(2), dtime
   real(dp), intent(in) :: params(*), adlmag(mdload, *), predef(2, npredf, nnode), ddlmag(mdload, *), period
   real(dp) :: residual(ndofel), tangent(ndofel, ndofel), state(variables_of(jtype)), energies(8), values(size(reals))
-  logical :: good, with_tangent
+  logical :: good
   integer :: n, options(size(integers))
 
   rhs(1:ndofel, 1:nrhs) = 0.0_dp
@@ -38,23 +39,12 @@ subroutine uel(rhs, amatrx, svars, energy, ndofel, nrhs, nsvars, props, nprops, 
   good = call_is_good(jtype, jelem, ndofel, nsvars, nprops, mcrd, nnode, njprop, ndload, lflags, props, jprops, &
     values, options)
   if (.not. good) return
-  ! neither damping nor mass: those matrices stay zero
-  if (lflags(3) == 3 .or. lflags(3) == 4) return
+  if (asks_for_nothing(lflags)) return
 
   n = size(state)
   state = svars(1:n)
-  with_tangent = lflags(3) /= 5 .and. lflags(3) /= 6
-  call evaluate_interface(jtype, jelem, values, options, coords, u, dtime, lflags(2) /= 0, with_tangent, state, energies, &
-    residual, tangent, good)
+  call evaluate_interface(jtype, jelem, values, options, coords, u, dtime, large_displacements(lflags), asks_for_tangent(lflags), &
+    state, energies, residual, tangent, good)
   if (.not. good) return
-  if (with_tangent) amatrx = tangent
-  if (lflags(4) == 1) then
-    if (lflags(3) == 100) rhs(1:ndofel, 1) = -matmul(amatrx, du(1:ndofel, 1))
-    return
-  end if
-  if (lflags(3) /= 2) rhs(1:ndofel, 1) = residual
-  if (lflags(3) == 1) then
-    svars(1:n) = state
-    energy = energies
-  end if
+  call give_answer(lflags, du(1:ndofel, 1), residual, tangent, state, energies, rhs(1:ndofel, 1), amatrx, svars(1:n), energy)
 end subroutine uel

@@ -13,6 +13,7 @@ subroutine uelmat(rhs, amatrx, svars, energy, ndofel, nrhs, nsvars, props, nprop
   use abaqus_check, only: call_is_good
   use abaqus_continuum_element, only: evaluate_continuum
   use abaqus_layout, only: reals, integers, variables_of
+  use abaqus_lflags, only: asks_for_nothing, asks_for_tangent, give_answer
   use abaqus_report, only: fatal
   implicit none(type, external)
   integer, intent(in) :: ndofel, nrhs, nsvars, nprops, mcrd, nnode, jtype, kstep, kinc, jelem, ndload, npredf, mlvarx
@@ -23,7 +24,7 @@ subroutine uelmat(rhs, amatrx, svars, energy, ndofel, nrhs, nsvars, props, nprop
   integer, intent(in) :: materiallib(*)
   real(dp) :: residual(ndofel), tangent(ndofel, ndofel), state(variables_of(jtype)), energies(8), values(size(reals))
   integer :: options(size(integers)), n
-  logical :: with_tangent, good
+  logical :: good
 
   rhs(1:ndofel, 1:nrhs) = 0.0_dp
   amatrx = 0.0_dp
@@ -35,25 +36,13 @@ subroutine uelmat(rhs, amatrx, svars, energy, ndofel, nrhs, nsvars, props, nprop
   good = call_is_good(jtype, jelem, ndofel, nsvars, nprops, mcrd, nnode, njprop, ndload, lflags, props, jprops, &
     values, options)
   if (.not. good) return
-  ! neither damping nor mass: those matrices stay zero
-  if (lflags(3) == 3 .or. lflags(3) == 4) return
+  if (asks_for_nothing(lflags)) return
 
   n = size(state)
   state = svars(1:n)
   energies = energy
-  ! the residual alone, or with the mass
-  with_tangent = lflags(3) /= 5 .and. lflags(3) /= 6
-  call evaluate_continuum(jelem, values, options, coords(1:2, :), u, predef, npredf, materiallib, with_tangent, state, &
+  call evaluate_continuum(jelem, values, options, coords(1:2, :), u, predef, npredf, materiallib, asks_for_tangent(lflags), state, &
     energies, residual, tangent, good)
   if (.not. good) return
-  if (with_tangent) amatrx = tangent
-  if (lflags(4) == 1) then
-    if (lflags(3) == 100) rhs(1:ndofel, 1) = -matmul(amatrx, du(1:ndofel, 1))
-    return
-  end if
-  if (lflags(3) /= 2) rhs(1:ndofel, 1) = residual
-  if (lflags(3) == 1) then
-    svars(1:n) = state
-    energy = energies
-  end if
+  call give_answer(lflags, du(1:ndofel, 1), residual, tangent, state, energies, rhs(1:ndofel, 1), amatrx, svars(1:n), energy)
 end subroutine uelmat
