@@ -18,7 +18,8 @@ class Interface:
 
     type       'U2' standard, 'U3' stabilised with four nodes, 'U4' stabilised with eight nodes; 'COH2D4' Abaqus' own
     cohesive   parameters of the law
-    beta       stabilisation parameter beta_n = beta_tau (N/mm^3); 0 computes it by equation (21)
+    beta       stabilisation parameter beta_n = beta_tau (N/mm^3); 0 computes it by equation (21), -1 by the local
+               eigenvalue problem
     weight     of the bulk stress below; 0 computes it by equation (22)
     viscosity  relaxation time of the damage, in step time
     sampling   of the bulk stress: 0 middle of the face, 1 face, 2 Gauss point
