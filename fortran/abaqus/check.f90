@@ -5,7 +5,7 @@ module abaqus_check
   use core_kinds, only: dp
   use core_status, only: status_type, sentence, too_brittle, zero_length, faces_apart, small_beta, &
     too_brittle_mixed, late_secant, no_root
-  use abaqus_layout, only: elements, faces, reals, integers, continuum, every_standard, with_solids, unknowns_of, variables_of, &
+  use abaqus_layout, only: elements, faces, reals, integers, continuum, with_rotations, with_solids, unknowns_of, variables_of, &
     reals_of, integers_of, real_position, unpack, &
     positive, not_negative, below_one, up_to_one, exponent, estimated, above_one, any_integer, p_alphan, p_alphat, p_gic, p_giic, &
     p_betan, p_betat, p_shapen, p_shapet, p_friction, j_law, j_closure
@@ -42,7 +42,7 @@ contains
         call fatal(jtype, jelem, 'VARIABLES = %I: expected at least %I', [nsvars, variables_of(jtype)], [real(dp) ::])
       else if (mcrd < element%dimension .or. mcrd > 3) then
         call fatal(jtype, jelem, 'COORDINATES = %I: expected %I', [mcrd, element%dimension], [real(dp) ::])
-      else if (large_displacements(lflags) .and. iand(element%family, every_standard) == 0) then
+      else if (large_displacements(lflags) .and. iand(element%family, with_rotations) == 0) then
         call fatal(jtype, jelem, 'NLGEOM is on, but this element is for small displacements: use NLGEOM=NO', &
           [integer ::], [real(dp) ::])
       else if (ndload /= 0) then

@@ -40,6 +40,7 @@ module abaqus_layout
   integer, parameter, public :: with_solids = self_contained + self_contained_3d
   integer, parameter, public :: stabilised = next_to_quads + with_solids
   integer, parameter, public :: every_standard = standard + standard_3d
+  integer, parameter, public :: with_rotations = every_standard + with_solids   ! take NLGEOM
   integer, parameter, public :: interfaces = every_standard + stabilised
   integer, parameter, public :: in_space = standard_3d + self_contained_3d
   integer, parameter, public :: in_plane = continuum + standard + next_to_quads + self_contained

@@ -15,7 +15,7 @@ module elements_interface_faces
   use core_status, only: status_type, zero_length, faces_apart, ok
   implicit none(type, external)
   private
-  public :: interface_place, measure_interface, turn_place, central_frame, jump_operator, separation_at, jump_at, face_shape, &
+  public :: interface_place, measure_interface, turn_place, central_frame, jump_operator, separation_at, face_shape, &
     coincidence_tolerance
 
   !> An integration point of the interface.
@@ -187,19 +187,6 @@ contains
     real(dp), intent(in) :: u(:)             !< displacements of the element
     real(dp) :: separation(3)
     real(dp) :: jump(3)
-
-    jump = jump_at(dim, place, nodes, faces, u)
-    separation = matmul(place%frame, jump)
-  end function separation_at
-
-  !> Values of the top face less those of the bottom face at a point.
-  pure function jump_at(dim, place, nodes, faces, u) result(jump)
-    integer, intent(in) :: dim
-    type(interface_place), intent(in) :: place
-    integer, intent(in) :: nodes
-    integer, intent(in) :: faces(nodes, 2)
-    real(dp), intent(in) :: u(:)             !< displacements or coordinates of the element's nodes, one node after the other
-    real(dp) :: jump(3)
     real(dp) :: shape(nodes)
     integer :: a, i, top, bottom
 
@@ -212,6 +199,7 @@ contains
         jump(i) = jump(i) + shape(a)*(u(top + i) - u(bottom + i))
       end do
     end do
-  end function jump_at
+    separation = matmul(place%frame, jump)
+  end function separation_at
 
 end module elements_interface_faces

@@ -14,8 +14,7 @@ module elements_interface_kernel
   use cohesive_parameters, only: law_parameters
   use cohesive_law, only: check_law, check_beta
   use elements_interface_bulk, only: stabilisation_type, stabilise, bulk_operator
-  use elements_interface_faces, only: interface_place, measure_interface, turn_place, jump_operator, separation_at, jump_at, &
-    face_shape
+  use elements_interface_faces, only: interface_place, measure_interface, turn_place, jump_operator, separation_at, face_shape
   use elements_interface_point, only: interface_options, interface_point, point_response, standard_point, &
     stabilised_point, point_energies
   implicit none(type, external)
@@ -29,6 +28,10 @@ contains
   !> Without stabilisation it is the standard element. The stabilised one takes the bulk stress from its own quads or bricks, whose
   !> stiffness it receives, or from its neighbours. In the latter case its tangent holds the bulk stress constant, since the
   !> derivative of that stress involves nodes that the element does not own.
+  !>
+  !> With large rotations the frame of a point goes with the mid-surface, which turns by Q. Everything acts on the displacements less
+  !> this rotation, transpose(Q) x - X, with the operators of the original configuration; the nodal forces of the point turn with
+  !> Q. The strain of the bulk is small: P N = Q sigma N to its first order.
   pure subroutine integrate_interface(dim, points, faces, solid, law, options, thickness, coordinates, u, dtime, with_tangent, &
     old, new, residual, tangent, energies, status, stabilisation, stiffness, neighbours)
     integer, intent(in) :: dim                                !< 2 or 3
@@ -55,14 +58,18 @@ contains
     type(stabilisation_type) :: used
     type(point_response) :: response
     real(dp) :: jump(dim, size(u)), bulk(dim, size(u)), by_displacement(dim, size(u)), bulk_traction(3), separation(3), area
-    real(dp) :: turning(3, dim, dim, points), apart(3), start(size(u))
+    real(dp) :: turning(3, dim, dim, points), moved(size(u)), original(size(u)), shifted(size(u))
+    type(interface_place) :: here
     integer :: k
 
     residual = 0.0_dp
     tangent = 0.0_dp
     energies = 0.0_dp
     bulk_traction = 0.0_dp
-    start = reshape(coordinates, [size(u)])
+    if (options%finite) then
+      original = about_mean(dim, reshape(coordinates, [size(u)]))
+      shifted = about_mean(dim, reshape(coordinates, [size(u)]) + u)
+    end if
     call check_law(law, status)
     if (status%code /= ok) return
     call measure_interface(dim, points, coordinates(:, faces(:, 1)), coordinates(:, faces(:, 2)), options%rule, places, &
@@ -79,23 +86,21 @@ contains
 
     do k = 1, points
       new(k)%position = places(k)%position
+      here = places(k)
+      moved = u
       if (options%finite) then
-        ! separations are those of the present positions in the present frame, less those at the start
-        separation = -separation_at(dim, places(k), points, faces, start)
-        call turn_place(dim, points, middle_of(dim, points, faces, start), middle_of(dim, points, faces, start + u), places(k), &
+        call turn_place(dim, points, middle_of(dim, points, faces, original), middle_of(dim, points, faces, shifted), here, &
           turning, status)
         if (status%code /= ok) return
-        apart = jump_at(dim, places(k), points, faces, start + u)
-        separation = separation + matmul(places(k)%frame, apart)
-      else
-        separation = separation_at(dim, places(k), points, faces, u)
+        moved = co_rotated(dim, places(k)%frame, here%frame, original, shifted)
       end if
+      separation = separation_at(dim, places(k), points, faces, moved)
       if (present(stabilisation)) then
         if (present(stiffness)) then
           call bulk_operator(options%sampling, dim, places(k), used%gamma_bottom, solid, stiffness, coordinates, bulk, &
             status)
           if (status%code /= ok) return
-          bulk_traction(1:dim) = matmul(bulk, u)
+          bulk_traction(1:dim) = matmul(bulk, moved)
         else
           bulk_traction(1:dim) = matmul(traction_operator(dim, places(k)%frame), neighbours(:, k))
         end if
@@ -109,14 +114,18 @@ contains
       end if
       area = places(k)%area*thickness
       energies = energies + point_energies(area, new(k))
-      jump = jump_operator(dim, places(k), points, faces, size(u))
+      jump = jump_operator(dim, here, points, faces, size(u))
       residual = residual - area*matmul(new(k)%traction(1:dim), jump)
       if (.not. with_tangent) cycle
+      if (options%finite) jump = jump_operator(dim, places(k), points, faces, size(u))
       by_displacement = matmul(response%by_jump(1:dim, 1:dim), jump)
       if (present(stiffness)) by_displacement = by_displacement + matmul(response%by_bulk(1:dim, 1:dim), bulk)
+      if (options%finite) then
+        by_displacement = by_displacements(dim, points, faces, places(k)%frame, here%frame, turning, shifted, by_displacement)
+        call add_turning(area, dim, points, faces, face_shape(dim, points, places(k)%parent), new(k)%traction, turning, tangent)
+        jump = jump_operator(dim, here, points, faces, size(u))
+      end if
       call add_product(area, jump, by_displacement, tangent)
-      if (options%finite) call add_turning(area, dim, points, faces, face_shape(dim, points, places(k)%parent), places(k)%frame, &
-        new(k)%traction, response%by_jump, apart, turning, tangent)
     end do
   end subroutine integrate_interface
 
@@ -134,23 +143,78 @@ contains
     end do
   end function middle_of
 
-  !> Adds what the turning of the frame R does to the nodal forces of a point, N being the shape functions times R: the
-  !> derivatives of transpose(R) T(R x). A node of the mid-surface moves by half of what each of its two nodes does.
-  pure subroutine add_turning(area, dim, nodes, faces, shape, frame, traction, by_jump, apart, turning, tangent)
+  !> Coordinates about their mean: of two configurations that differ by a translation they are the same.
+  pure function about_mean(dim, coordinates) result(centred)
+    integer, intent(in) :: dim
+    real(dp), intent(in) :: coordinates(:)
+    real(dp) :: centred(size(coordinates))
+    integer :: i
+
+    do i = 1, dim
+      centred(i::dim) = coordinates(i::dim) - dim*sum(coordinates(i::dim))/size(coordinates)
+    end do
+  end function about_mean
+
+  !> Displacements less the rotation of a point: transpose(Q) x - X, with Q from the original to the present frame.
+  pure function co_rotated(dim, frame, turned, original, present) result(u)
+    integer, intent(in) :: dim
+    real(dp), intent(in) :: frame(3, 3), turned(3, 3)      !< rows of the original and the present frame
+    real(dp), intent(in) :: original(:), present(:)        !< coordinates about their means
+    real(dp) :: u(size(original))
+    real(dp) :: back(dim, dim)
+    integer :: a
+
+    back = matmul(transpose(frame(1:dim, 1:dim)), turned(1:dim, 1:dim))
+    do a = 0, size(original) - dim, dim
+      u(a + 1:a + dim) = matmul(back, present(a + 1:a + dim)) - original(a + 1:a + dim)
+    end do
+  end function co_rotated
+
+  !> Derivative by the displacements of what a matrix makes of the co-rotated ones. A node of the mid-surface moves by half of what
+  !> each of its two nodes does.
+  pure function by_displacements(dim, nodes, faces, frame, turned, turning, present, matrix) result(derivative)
+    integer, intent(in) :: dim, nodes, faces(nodes, 2)
+    real(dp), intent(in) :: frame(3, 3), turned(3, 3)
+    real(dp), intent(in) :: turning(3, dim, dim, nodes)    !< row of the present frame, component, direction, node
+    real(dp), intent(in) :: present(:)                     !< coordinates about their mean
+    real(dp), intent(in) :: matrix(:, :)
+    real(dp) :: derivative(size(matrix, 1), size(matrix, 2))
+    real(dp) :: back(dim, dim), moved(size(present)), change(size(matrix, 1))
+    integer :: a, i, q, side, column
+
+    back = matmul(transpose(frame(1:dim, 1:dim)), turned(1:dim, 1:dim))
+    do a = 0, size(present) - dim, dim
+      derivative(:, a + 1:a + dim) = matmul(matrix(:, a + 1:a + dim), back)
+    end do
+    do q = 1, nodes
+      do i = 1, dim
+        back = matmul(transpose(frame(1:dim, 1:dim)), turning(1:dim, :, i, q))
+        do a = 0, size(present) - dim, dim
+          moved(a + 1:a + dim) = matmul(back, present(a + 1:a + dim))
+        end do
+        change = 0.5_dp*matmul(matrix, moved)
+        do side = 1, 2
+          column = dim*(faces(q, side) - 1) + i
+          derivative(:, column) = derivative(:, column) + change
+        end do
+      end do
+    end do
+  end function by_displacements
+
+  !> Adds to the tangent how the nodal forces of a point turn with the frame of its traction.
+  pure subroutine add_turning(area, dim, nodes, faces, shape, traction, turning, tangent)
     real(dp), intent(in) :: area
     integer, intent(in) :: dim, nodes, faces(nodes, 2)
-    real(dp), intent(in) :: shape(nodes), frame(3, 3), traction(3), by_jump(3, 3), apart(3)
+    real(dp), intent(in) :: shape(nodes), traction(3)
     real(dp), intent(in) :: turning(3, dim, dim, nodes)      !< row of the frame, component, direction, node
     real(dp), intent(inout) :: tangent(:, :)
-    real(dp) :: change(dim), part(dim)
+    real(dp) :: part(dim)
     integer :: q, i, a, side, column, row
 
     do q = 1, nodes
       do i = 1, dim
-        change = matmul(traction, turning(:, :, i, q)) &
-          + matmul(matmul(by_jump, matmul(turning(:, :, i, q), apart(1:dim))), frame(:, 1:dim))
         do a = 1, nodes
-          part = (0.5_dp*area*shape(a))*change
+          part = (0.5_dp*area*shape(a))*matmul(traction, turning(:, :, i, q))
           do side = 1, 2
             column = dim*(faces(q, side) - 1) + i
             row = dim*(faces(a, 1) - 1)

@@ -21,7 +21,7 @@ module elements_interface_point
     integer :: sampling             !< of the bulk stress; the standard element ignores it
     logical :: consistent_law   !< the law has its own separation; the standard element ignores it
     real(dp) :: secant_share        !< of the matrix at fixed damage in the tangent, from 0 to 1
-    logical :: finite = .false.     !< large rotations; of the standard element only
+    logical :: finite = .false.     !< large rotations
   end type interface_options
 
   !> State of an integration point at the end of the increment; vectors in the components (s, n, t) of `cohesive_shear`.

@@ -155,10 +155,11 @@ def test_wrong_number_of_nodes(element):
 
 
 def test_large_displacements_are_refused(element):
-    """By the stabilised elements; the standard ones take them."""
-    item = element(4, EIGHT, label=42)
-    with pytest.raises(KernelError, match=r"U4 element 42: NLGEOM is on.*use NLGEOM=NO"):
-        item.evaluate(np.zeros(16), flags=(1, 1, 0, 0))
+    """By the quads and the interface that shares their stress; the other interfaces take them."""
+    for jtype, coordinates in ((1, QUAD), (3, FLAT)):
+        item = element(jtype, coordinates, label=42)
+        with pytest.raises(KernelError, match=rf"U{jtype} element 42: NLGEOM is on.*use NLGEOM=NO"):
+            item.evaluate(np.zeros(8), flags=(1, 1, 0, 0))
 
 
 def test_state_of_stress_of_the_material_must_fit(element):
