@@ -16,6 +16,7 @@ from harness.delamination.blocks import Interface
 from harness.delamination.bricks import bricks_files, stabilised_bricks_files
 from harness.delamination.comparator import comparator_files
 from harness.delamination.cook import cook_files
+from harness.delamination.elastica import elastica_files
 from harness.delamination.materials import TABLE_2
 from harness.delamination.peel import peel_files
 from harness.delamination.reproduce.cases import PROBLEMS, comparator_cases, longer_cases, paper_cases
@@ -113,6 +114,7 @@ def all_files() -> dict[Path, str]:
         "dcb_3d": bricks_files,
         "dcb_3d_stabilised": stabilised_bricks_files,
         "peel": peel_files,
+        "dcb_elastica": elastica_files,
     }
     problems |= {f"paper_{name}": partial(paper, name) for name in PROBLEMS}
     return {Path(folder, name): text for folder, problem in problems.items() for name, text in problem().items()}

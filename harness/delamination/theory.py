@@ -14,6 +14,8 @@ import math
 from dataclasses import dataclass
 
 import numpy as np
+from scipy.integrate import quad
+from scipy.optimize import brentq
 
 from harness.model.arrays import FloatArray
 
@@ -68,6 +70,44 @@ def dcb_compliance(arms: Arms, crack: float) -> float:
 def dcb_crack(arms: Arms, compliance: float) -> float:
     """Crack length (mm) whose compliance (mm/N, one arm) is the given one: the inverse of `dcb_compliance`."""
     return math.cbrt(3.0 * arms.bending_stiffness * compliance) - arms.correction
+
+
+def dcb_elastica(bending: float, toughness: float, width: float, opening: float) -> tuple[float, float]:
+    """Load (N) and length of the crack (mm) of a double cantilever beam in large rotations while the crack grows.
+
+    The arms are elasticas, clamped at the crack's tip; the loads stay normal to the specimen. With the rotation t0 of an
+    end, EI theta'^2/2 = P (sin t0 - sin theta); the moments at the tip make the energy release rate 2 P sin t0/width,
+    which is the fracture energy.
+
+    Parameters
+    ----------
+    bending
+        EI of an arm (N mm^2).
+    toughness
+        Fracture energy (N/mm).
+    width
+        Of the specimen (mm).
+    opening
+        Distance of the loaded ends (mm).
+    """
+
+    def arm(end: float) -> tuple[float, float, float]:
+        """Load, rise of the end and length of an arm."""
+        load = toughness * width / (2.0 * math.sin(end))
+
+        def by_root(s: float) -> float:
+            # theta = end - s^2 takes the root out of the denominator
+            if not s > 0.0:
+                return 2.0 / math.sqrt(math.cos(end))
+            return 2.0 * s / math.sqrt(math.sin(end) - math.sin(end - s * s))
+
+        scale, limit = math.sqrt(bending / (2.0 * load)), math.sqrt(end)
+        rise = quad(lambda s: math.sin(end - s * s) * by_root(s), 0.0, limit)[0]
+        return load, scale * rise, scale * quad(by_root, 0.0, limit)[0]
+
+    end = brentq(lambda angle: arm(angle)[1] - 0.5 * opening, 1e-5, 1.4)
+    load, _, length = arm(end)
+    return load, length
 
 
 def dcb_displacement(arms: Arms, crack: float, toughness: float) -> float:

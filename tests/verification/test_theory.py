@@ -4,6 +4,7 @@
 
 import numpy as np
 import pytest
+from scipy.integrate import solve_ivp
 
 from harness.delamination.materials import PLY_0, TABLE_2
 from harness.delamination.theory import (
@@ -12,6 +13,7 @@ from harness.delamination.theory import (
     dcb_crack,
     dcb_curve,
     dcb_displacement,
+    dcb_elastica,
     dcb_load,
     enf_load,
     frmm_load,
@@ -54,3 +56,27 @@ def test_dcb_curve_is_the_parametric_one() -> None:
 
 def test_crack_from_compliance() -> None:
     assert dcb_crack(ARMS, dcb_compliance(ARMS, 47.0)) == pytest.approx(47.0, rel=1e-12)
+
+
+def test_elastica_with_small_rotations() -> None:
+    """P = sqrt(G B EI)/a and opening/2 = P a^3/(3 EI); with t0 = P a^2/(2 EI) the first neglected term is 0.4 t0^2."""
+    bending, width = 7.4478e5, 20.0
+    load, length = dcb_elastica(bending, G_1, width, 0.5)
+    assert load == pytest.approx(np.sqrt(G_1 * width * bending) / length, rel=1e-3)
+    assert pytest.approx(load * length**3 / (3 * bending), rel=1e-3) == 0.25
+
+
+def test_elastica_by_integration_along_the_arm() -> None:
+    """EI theta'' = -P cos(theta) from the clamped end, where the moment is sqrt(G B EI), to the end without a moment."""
+    bending, width, opening = 50000.0 * 0.4**3 / 12, 1.0, 9.0
+    load, length = dcb_elastica(bending, 0.5, width, opening)
+    start = [0.0, np.sqrt(0.5 * width / bending), 0.0]
+    arm = solve_ivp(
+        lambda _, y: [y[1], -load * np.cos(y[0]) / bending, np.sin(y[0])], (0.0, length), start, rtol=1e-10, atol=1e-12
+    )
+    angle, curvature, rise = arm.y[:, -1]
+    assert curvature == pytest.approx(0.0, abs=1e-8)
+    assert 2 * rise == pytest.approx(opening, rel=1e-8)
+    assert 2 * load * np.sin(angle) == pytest.approx(0.5, rel=1e-8)
+    # the value of abaqus_inputs/dcb_elastica
+    assert (load, opening / length) == (pytest.approx(0.670777, rel=1e-6), pytest.approx(0.5026, rel=1e-4))
