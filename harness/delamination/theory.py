@@ -75,9 +75,9 @@ def dcb_crack(arms: Arms, compliance: float) -> float:
 def dcb_elastica(bending: float, toughness: float, width: float, opening: float) -> tuple[float, float]:
     """Load (N) and length of the crack (mm) of a double cantilever beam in large rotations while the crack grows.
 
-    The arms are elasticas, clamped at the crack's tip; the loads stay normal to the specimen. With the rotation t0 of an
-    end, EI theta'^2/2 = P (sin t0 - sin theta); the moments at the tip make the energy release rate 2 P sin t0/width,
-    which is the fracture energy.
+    The arms are elasticas, clamped at the crack's tip; the loads stay normal to the specimen. With the rotation t0 of
+    an end, EI theta'^2/2 = P (sin t0 - sin theta); the moments at the tip make the energy release rate
+    2 P sin t0/width, which is the fracture energy.
 
     Parameters
     ----------

@@ -67,7 +67,7 @@ def test_elastica_with_small_rotations() -> None:
 
 
 def test_elastica_by_integration_along_the_arm() -> None:
-    """EI theta'' = -P cos(theta) from the clamped end, where the moment is sqrt(G B EI), to the end without a moment."""
+    """EI theta'' = -P cos(theta) from the clamped end, with the moment sqrt(G B EI), to the end without one."""
     bending, width, opening = 50000.0 * 0.4**3 / 12, 1.0, 9.0
     load, length = dcb_elastica(bending, 0.5, width, opening)
     start = [0.0, np.sqrt(0.5 * width / bending), 0.0]
