@@ -10,12 +10,12 @@
 module elements_interface_faces
   use core_kinds, only: dp
   use core_quadrature, only: line_points, line_weights
-  use core_rotation, only: line_frame, surface_frame, turned_frame
+  use core_rotation, only: line_frame, surface_frame
   use core_shape_functions, only: line_shape, line_slope, quad_shape, quad_slope
   use core_status, only: status_type, zero_length, faces_apart, ok
   implicit none(type, external)
   private
-  public :: interface_place, measure_interface, turn_place, central_frame, jump_operator, separation_at, face_shape, &
+  public :: interface_place, measure_interface, central_frame, jump_operator, separation_at, face_shape, &
     coincidence_tolerance
 
   !> An integration point of the interface.
@@ -110,25 +110,6 @@ contains
     if (.not. place%area > 0.0_dp) status = status_type(zero_length, 0, place%area, 0.0_dp)
     place%area = w(first_of(k))*w(second_of(k))*place%area
   end subroutine place_on_surface
-
-  !> Turns the frame of a point with the mid-line or mid-surface, and gives the derivative of the frame by the nodes of that.
-  pure subroutine turn_place(dim, nodes, start, now, place, turning, status)
-    integer, intent(in) :: dim, nodes
-    real(dp), intent(in) :: start(dim, nodes), now(dim, nodes)   !< nodes of the mid-line or mid-surface, original and present ones
-    type(interface_place), intent(inout) :: place
-    real(dp), intent(out) :: turning(3, dim, dim, nodes)         !< row of the frame, component, direction, node
-    type(status_type), intent(out) :: status                     !< zero_length
-    real(dp) :: by_node(nodes, dim - 1), turned(3, 3), measure
-
-    if (dim == 2) then
-      by_node(:, 1) = line_slope(nodes, place%parent(1))
-    else
-      by_node = quad_slope(place%parent)
-    end if
-    call turned_frame(dim, nodes, matmul(start, by_node), matmul(now, by_node), place%frame, by_node, turned, turning, measure)
-    place%frame = turned
-    status = status_type(merge(ok, zero_length, measure > 0.0_dp), 0, measure, 0.0_dp)
-  end subroutine turn_place
 
   !> Frame in the middle of the surface between two faces in space.
   pure function central_frame(bottom, top) result(frame)

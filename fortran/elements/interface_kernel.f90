@@ -14,9 +14,10 @@ module elements_interface_kernel
   use cohesive_parameters, only: law_parameters
   use cohesive_law, only: check_law, check_beta
   use elements_interface_bulk, only: stabilisation_type, stabilise, bulk_operator
-  use elements_interface_faces, only: interface_place, measure_interface, turn_place, jump_operator, separation_at, face_shape
+  use elements_interface_faces, only: interface_place, measure_interface, jump_operator, separation_at, face_shape
   use elements_interface_point, only: interface_options, interface_point, point_response, standard_point, &
     stabilised_point, point_energies
+  use elements_interface_rotation, only: about_mean, turn_place, co_rotated, by_displacements, add_turning
   implicit none(type, external)
   private
   public :: integrate_interface
@@ -28,10 +29,6 @@ contains
   !> Without stabilisation it is the standard element. The stabilised one takes the bulk stress from its own quads or bricks, whose
   !> stiffness it receives, or from its neighbours. In the latter case its tangent holds the bulk stress constant, since the
   !> derivative of that stress involves nodes that the element does not own.
-  !>
-  !> With large rotations the frame of a point goes with the mid-surface, which turns by Q. Everything acts on the displacements less
-  !> this rotation, transpose(Q) x - X, with the operators of the original configuration; the nodal forces of the point turn with
-  !> Q. The strain of the bulk is small: P N = Q sigma N to its first order.
   pure subroutine integrate_interface(dim, points, faces, solid, law, options, thickness, coordinates, u, dtime, with_tangent, &
     old, new, residual, tangent, energies, status, stabilisation, stiffness, neighbours)
     integer, intent(in) :: dim                                !< 2 or 3
@@ -57,9 +54,11 @@ contains
     type(interface_place) :: places(points)
     type(stabilisation_type) :: used
     type(point_response) :: response
-    real(dp) :: jump(dim, size(u)), bulk(dim, size(u)), by_displacement(dim, size(u)), bulk_traction(3), separation(3), area
-    real(dp) :: turning(3, dim, dim, points), moved(size(u)), original(size(u)), shifted(size(u))
     type(interface_place) :: here
+    real(dp), dimension(dim, size(u)) :: jump, bulk, by_displacement
+    real(dp) :: spread(dim, size(u))             ! of tractions to the nodes
+    real(dp), dimension(size(u)) :: moved, original, shifted
+    real(dp) :: turning(3, dim, dim, points), bulk_traction(3), separation(3), area
     integer :: k
 
     residual = 0.0_dp
@@ -89,8 +88,7 @@ contains
       here = places(k)
       moved = u
       if (options%finite) then
-        call turn_place(dim, points, middle_of(dim, points, faces, original), middle_of(dim, points, faces, shifted), here, &
-          turning, status)
+        call turn_place(dim, points, faces, original, shifted, here, turning, status)
         if (status%code /= ok) return
         moved = co_rotated(dim, places(k)%frame, here%frame, original, shifted)
       end if
@@ -114,118 +112,20 @@ contains
       end if
       area = places(k)%area*thickness
       energies = energies + point_energies(area, new(k))
-      jump = jump_operator(dim, here, points, faces, size(u))
-      residual = residual - area*matmul(new(k)%traction(1:dim), jump)
+      jump = jump_operator(dim, places(k), points, faces, size(u))
+      spread = jump
+      if (options%finite) spread = jump_operator(dim, here, points, faces, size(u))
+      residual = residual - area*matmul(new(k)%traction(1:dim), spread)
       if (.not. with_tangent) cycle
-      if (options%finite) jump = jump_operator(dim, places(k), points, faces, size(u))
       by_displacement = matmul(response%by_jump(1:dim, 1:dim), jump)
       if (present(stiffness)) by_displacement = by_displacement + matmul(response%by_bulk(1:dim, 1:dim), bulk)
       if (options%finite) then
         by_displacement = by_displacements(dim, points, faces, places(k)%frame, here%frame, turning, shifted, by_displacement)
         call add_turning(area, dim, points, faces, face_shape(dim, points, places(k)%parent), new(k)%traction, turning, tangent)
-        jump = jump_operator(dim, here, points, faces, size(u))
       end if
-      call add_product(area, jump, by_displacement, tangent)
+      call add_product(area, spread, by_displacement, tangent)
     end do
   end subroutine integrate_interface
-
-  !> Nodes of the mid-line or mid-surface, from coordinates of the element's nodes, one node after the other.
-  pure function middle_of(dim, nodes, faces, coordinates) result(middle)
-    integer, intent(in) :: dim, nodes, faces(nodes, 2)
-    real(dp), intent(in) :: coordinates(:)
-    real(dp) :: middle(dim, nodes)
-    integer :: a, i
-
-    do a = 1, nodes
-      do i = 1, dim
-        middle(i, a) = 0.5_dp*(coordinates(dim*(faces(a, 1) - 1) + i) + coordinates(dim*(faces(a, 2) - 1) + i))
-      end do
-    end do
-  end function middle_of
-
-  !> Coordinates about their mean: of two configurations that differ by a translation they are the same.
-  pure function about_mean(dim, coordinates) result(centred)
-    integer, intent(in) :: dim
-    real(dp), intent(in) :: coordinates(:)
-    real(dp) :: centred(size(coordinates))
-    integer :: i
-
-    do i = 1, dim
-      centred(i::dim) = coordinates(i::dim) - dim*sum(coordinates(i::dim))/size(coordinates)
-    end do
-  end function about_mean
-
-  !> Displacements less the rotation of a point: transpose(Q) x - X, with Q from the original to the present frame.
-  pure function co_rotated(dim, frame, turned, original, present) result(u)
-    integer, intent(in) :: dim
-    real(dp), intent(in) :: frame(3, 3), turned(3, 3)      !< rows of the original and the present frame
-    real(dp), intent(in) :: original(:), present(:)        !< coordinates about their means
-    real(dp) :: u(size(original))
-    real(dp) :: back(dim, dim)
-    integer :: a
-
-    back = matmul(transpose(frame(1:dim, 1:dim)), turned(1:dim, 1:dim))
-    do a = 0, size(original) - dim, dim
-      u(a + 1:a + dim) = matmul(back, present(a + 1:a + dim)) - original(a + 1:a + dim)
-    end do
-  end function co_rotated
-
-  !> Derivative by the displacements of what a matrix makes of the co-rotated ones. A node of the mid-surface moves by half of what
-  !> each of its two nodes does.
-  pure function by_displacements(dim, nodes, faces, frame, turned, turning, present, matrix) result(derivative)
-    integer, intent(in) :: dim, nodes, faces(nodes, 2)
-    real(dp), intent(in) :: frame(3, 3), turned(3, 3)
-    real(dp), intent(in) :: turning(3, dim, dim, nodes)    !< row of the present frame, component, direction, node
-    real(dp), intent(in) :: present(:)                     !< coordinates about their mean
-    real(dp), intent(in) :: matrix(:, :)
-    real(dp) :: derivative(size(matrix, 1), size(matrix, 2))
-    real(dp) :: back(dim, dim), moved(size(present)), change(size(matrix, 1))
-    integer :: a, i, q, side, column
-
-    back = matmul(transpose(frame(1:dim, 1:dim)), turned(1:dim, 1:dim))
-    do a = 0, size(present) - dim, dim
-      derivative(:, a + 1:a + dim) = matmul(matrix(:, a + 1:a + dim), back)
-    end do
-    do q = 1, nodes
-      do i = 1, dim
-        back = matmul(transpose(frame(1:dim, 1:dim)), turning(1:dim, :, i, q))
-        do a = 0, size(present) - dim, dim
-          moved(a + 1:a + dim) = matmul(back, present(a + 1:a + dim))
-        end do
-        change = 0.5_dp*matmul(matrix, moved)
-        do side = 1, 2
-          column = dim*(faces(q, side) - 1) + i
-          derivative(:, column) = derivative(:, column) + change
-        end do
-      end do
-    end do
-  end function by_displacements
-
-  !> Adds to the tangent how the nodal forces of a point turn with the frame of its traction.
-  pure subroutine add_turning(area, dim, nodes, faces, shape, traction, turning, tangent)
-    real(dp), intent(in) :: area
-    integer, intent(in) :: dim, nodes, faces(nodes, 2)
-    real(dp), intent(in) :: shape(nodes), traction(3)
-    real(dp), intent(in) :: turning(3, dim, dim, nodes)      !< row of the frame, component, direction, node
-    real(dp), intent(inout) :: tangent(:, :)
-    real(dp) :: part(dim)
-    integer :: q, i, a, side, column, row
-
-    do q = 1, nodes
-      do i = 1, dim
-        do a = 1, nodes
-          part = (0.5_dp*area*shape(a))*matmul(traction, turning(:, :, i, q))
-          do side = 1, 2
-            column = dim*(faces(q, side) - 1) + i
-            row = dim*(faces(a, 1) - 1)
-            tangent(row + 1:row + dim, column) = tangent(row + 1:row + dim, column) - part
-            row = dim*(faces(a, 2) - 1)
-            tangent(row + 1:row + dim, column) = tangent(row + 1:row + dim, column) + part
-          end do
-        end do
-      end do
-    end do
-  end subroutine add_turning
 
   !> Adds area N^T x to a matrix.
   pure subroutine add_product(area, jump, x, matrix)

@@ -1,0 +1,141 @@
+! SPDX-FileCopyrightText: The uel-harness authors
+! SPDX-License-Identifier: BSD-3-Clause
+!> Large rotations of an interface element. The frame of a point goes with the mid-line or mid-surface between the present faces,
+!> which turns by Q. The law and the bulk act on the displacements less this rotation,
+!>
+!>     v = transpose(Q) x - X,    g = N v,    <sigma>.n = B v,
+!>
+!> with the operators of the original configuration, and the nodal forces of the point turn with Q. Tractions are per original
+!> area; the strain of the bulk is small: the nominal traction P N is Q sigma N to its first order.
+module elements_interface_rotation
+  use core_kinds, only: dp
+  use core_rotation, only: turned_frame
+  use core_shape_functions, only: line_slope, quad_slope
+  use core_status, only: status_type, zero_length, ok
+  use elements_interface_faces, only: interface_place
+  implicit none(type, external)
+  private
+  public :: about_mean, turn_place, co_rotated, by_displacements, add_turning
+
+contains
+
+  !> Coordinates about their mean: of two configurations that differ by a translation they are the same.
+  pure function about_mean(dim, coordinates) result(centred)
+    integer, intent(in) :: dim
+    real(dp), intent(in) :: coordinates(:)
+    real(dp) :: centred(size(coordinates))
+    integer :: i
+
+    do i = 1, dim
+      centred(i::dim) = coordinates(i::dim) - dim*sum(coordinates(i::dim))/size(coordinates)
+    end do
+  end function about_mean
+
+  !> Turns the frame of a point with the mid-line or mid-surface, and gives the derivative of the frame by the nodes of that.
+  pure subroutine turn_place(dim, nodes, faces, original, present, place, turning, status)
+    integer, intent(in) :: dim, nodes, faces(nodes, 2)
+    real(dp), intent(in) :: original(:), present(:)              !< coordinates of the element's nodes, one node after the other
+    type(interface_place), intent(inout) :: place
+    real(dp), intent(out) :: turning(3, dim, dim, nodes)         !< row of the frame, component, direction, node
+    type(status_type), intent(out) :: status                     !< zero_length
+    real(dp) :: start(dim, nodes), now(dim, nodes), by_node(nodes, dim - 1), turned(3, 3), measure
+
+    start = middle_of(dim, nodes, faces, original)
+    now = middle_of(dim, nodes, faces, present)
+    if (dim == 2) then
+      by_node(:, 1) = line_slope(nodes, place%parent(1))
+    else
+      by_node = quad_slope(place%parent)
+    end if
+    call turned_frame(dim, nodes, matmul(start, by_node), matmul(now, by_node), place%frame, by_node, turned, turning, measure)
+    place%frame = turned
+    status = status_type(merge(ok, zero_length, measure > 0.0_dp), 0, measure, 0.0_dp)
+  end subroutine turn_place
+
+  !> Nodes of the mid-line or mid-surface.
+  pure function middle_of(dim, nodes, faces, coordinates) result(middle)
+    integer, intent(in) :: dim, nodes, faces(nodes, 2)
+    real(dp), intent(in) :: coordinates(:)
+    real(dp) :: middle(dim, nodes)
+    integer :: a, i
+
+    do a = 1, nodes
+      do i = 1, dim
+        middle(i, a) = 0.5_dp*(coordinates(dim*(faces(a, 1) - 1) + i) + coordinates(dim*(faces(a, 2) - 1) + i))
+      end do
+    end do
+  end function middle_of
+
+  !> Displacements less the rotation of a point: transpose(Q) x - X, with Q from the original to the present frame.
+  pure function co_rotated(dim, frame, turned, original, present) result(u)
+    integer, intent(in) :: dim
+    real(dp), intent(in) :: frame(3, 3), turned(3, 3)      !< rows of the original and the present frame
+    real(dp), intent(in) :: original(:), present(:)        !< coordinates about their means
+    real(dp) :: u(size(original))
+    real(dp) :: back(dim, dim)
+    integer :: a
+
+    back = matmul(transpose(frame(1:dim, 1:dim)), turned(1:dim, 1:dim))
+    do a = 0, size(original) - dim, dim
+      u(a + 1:a + dim) = matmul(back, present(a + 1:a + dim)) - original(a + 1:a + dim)
+    end do
+  end function co_rotated
+
+  !> Derivative by the displacements of what a matrix makes of the co-rotated ones. A node of the mid-surface moves by half of what
+  !> each of its two nodes does.
+  pure function by_displacements(dim, nodes, faces, frame, turned, turning, present, matrix) result(derivative)
+    integer, intent(in) :: dim, nodes, faces(nodes, 2)
+    real(dp), intent(in) :: frame(3, 3), turned(3, 3)
+    real(dp), intent(in) :: turning(3, dim, dim, nodes)    !< row of the present frame, component, direction, node
+    real(dp), intent(in) :: present(:)                     !< coordinates about their mean
+    real(dp), intent(in) :: matrix(:, :)
+    real(dp) :: derivative(size(matrix, 1), size(matrix, 2))
+    real(dp) :: back(dim, dim), moved(size(present)), change(size(matrix, 1))
+    integer :: a, i, q, side, column
+
+    back = matmul(transpose(frame(1:dim, 1:dim)), turned(1:dim, 1:dim))
+    do a = 0, size(present) - dim, dim
+      derivative(:, a + 1:a + dim) = matmul(matrix(:, a + 1:a + dim), back)
+    end do
+    do q = 1, nodes
+      do i = 1, dim
+        back = matmul(transpose(frame(1:dim, 1:dim)), turning(1:dim, :, i, q))
+        do a = 0, size(present) - dim, dim
+          moved(a + 1:a + dim) = matmul(back, present(a + 1:a + dim))
+        end do
+        change = 0.5_dp*matmul(matrix, moved)
+        do side = 1, 2
+          column = dim*(faces(q, side) - 1) + i
+          derivative(:, column) = derivative(:, column) + change
+        end do
+      end do
+    end do
+  end function by_displacements
+
+  !> Adds to the tangent how the nodal forces of a point turn with the frame of its traction.
+  pure subroutine add_turning(area, dim, nodes, faces, shape, traction, turning, tangent)
+    real(dp), intent(in) :: area
+    integer, intent(in) :: dim, nodes, faces(nodes, 2)
+    real(dp), intent(in) :: shape(nodes), traction(3)
+    real(dp), intent(in) :: turning(3, dim, dim, nodes)      !< row of the frame, component, direction, node
+    real(dp), intent(inout) :: tangent(:, :)
+    real(dp) :: part(dim)
+    integer :: q, i, a, side, column, row
+
+    do q = 1, nodes
+      do i = 1, dim
+        do a = 1, nodes
+          part = (0.5_dp*area*shape(a))*matmul(traction, turning(:, :, i, q))
+          do side = 1, 2
+            column = dim*(faces(q, side) - 1) + i
+            row = dim*(faces(a, 1) - 1)
+            tangent(row + 1:row + dim, column) = tangent(row + 1:row + dim, column) - part
+            row = dim*(faces(a, 2) - 1)
+            tangent(row + 1:row + dim, column) = tangent(row + 1:row + dim, column) + part
+          end do
+        end do
+      end do
+    end do
+  end subroutine add_turning
+
+end module elements_interface_rotation
