@@ -357,7 +357,7 @@ def open_job(name: str, directory: str, file6: str, file7: str) -> int:
 
 
 def limit_calls(seconds: float) -> None:
-    """Limit the time of each call of a user routine; 0: no limit."""
+    """Limit each call of a user routine in this process to so many seconds of wall-clock time; 0: no limit."""
     _host.host_limit_calls(seconds)
 
 
@@ -383,7 +383,7 @@ def take_frames() -> list[int]:
 
 
 def share_slate(descriptor: int) -> bool:
-    """Let another process, which has the file open too, see where user code is; False if that is not possible."""
+    """Let another process, which has the file of the slate open too, see where user code is; False if that fails."""
     return not _host.host_share(descriptor)
 
 

@@ -24,7 +24,13 @@ AS_GOOD_AS_ZERO: Final = 1e-300
 
 
 def set_guard_values(values: Mapping[str, float]) -> None:
-    """Let guards hold other values until the `guard_values` around the call ends."""
+    """Let guards hold other values until the `guard_values` around the call ends.
+
+    Parameters
+    ----------
+    values
+        New values by name: one of ARRAYS for the guards around that array, or UNSET. The others keep theirs.
+    """
     held = np.zeros(len(ARRAYS) + 1)
     _binding.exchange_guard_values(held)
     for name, value in values.items():
@@ -34,7 +40,14 @@ def set_guard_values(values: Mapping[str, float]) -> None:
 
 @contextmanager
 def room(entries: int) -> Iterator[None]:
-    """Give the guard after each array this many entries, so that a write far beyond one does not reach the next."""
+    """Lengthen the guard after each array, so that a write far beyond one does not reach the next.
+
+    Parameters
+    ----------
+    entries
+        Fewest entries of such a guard within the context. By itself a guard has as many as its array, but at least 100
+        and at most 20,000.
+    """
     before = _binding.exchange_room(entries)
     try:
         yield
@@ -44,9 +57,14 @@ def room(entries: int) -> Iterator[None]:
 
 @contextmanager
 def guard_values(values: Mapping[str, float]) -> Iterator[None]:
-    """Let guards of some arrays (by their names in ARRAYS), or UNSET, hold other values, then restore the old ones.
+    """Let guards hold other values, then restore the old ones.
 
     A guard reports a write only where it changes the bits of the guard.
+
+    Parameters
+    ----------
+    values
+        As in `set_guard_values`.
     """
     names = [*ARRAYS, UNSET]
     # exchanging any value returns the present one

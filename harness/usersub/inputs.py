@@ -56,7 +56,14 @@ def watched_inputs() -> Iterator[Callable[[], list[Change]]]:
 
 @contextmanager
 def around(values: Mapping[str, float]) -> Iterator[None]:
-    """Surround arguments, by their names in SURROUNDED, with numbers; the others with 0."""
+    """Surround arguments with numbers in calls of elements.
+
+    Parameters
+    ----------
+    values
+        Number by the name of the argument, one of SURROUNDED; around an integer argument, its integer part. What
+        surrounds the others stays: 0, or the number of an `around` outside this one.
+    """
     with watched_inputs():
         before = {name: _binding.exchange_around(NAMES.index(name), value) for name, value in values.items()}
         try:
@@ -80,7 +87,14 @@ def writes_outside() -> Iterator[Callable[[], dict[str, int]]]:
 
 @contextmanager
 def local_variables(number: float) -> Iterator[None]:
-    """Let uninitialised local variables of elements hold a number, as far as they are on the stack."""
+    """Let uninitialised local variables of elements hold a number, as far as they are on the stack.
+
+    Parameters
+    ----------
+    number
+        Fills half a mebibyte of the stack before each call, as REAL*8. Such contexts do not nest: the end of an inner
+        one ends the outer one too.
+    """
     with watched_inputs():
         _binding.fill_stack(number)
         try:

@@ -114,7 +114,13 @@ _ENVIRONMENT_FREE = re.compile(
 
 
 def is_source(file: Path) -> bool:
-    """Whether a file of user routines needs compiling."""
+    """Whether a file of user routines needs compiling.
+
+    Parameters
+    ----------
+    file
+        Judged by its ending, one of SUFFIXES in any case; it need not exist.
+    """
     return file.suffix.lower() in SUFFIXES
 
 

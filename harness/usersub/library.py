@@ -67,13 +67,43 @@ class Library:
         self.usdfld = addresses["USDFLD"]
 
     def variables(self, jtype: int) -> PointVariables | None:
-        """Meaning of the SVARS of an element type; None if the library does not contain the project's elements."""
+        """Meaning of the SVARS of an element type.
+
+        Parameters
+        ----------
+        jtype
+            JTYPE: n of type Un.
+
+        Returns
+        -------
+        PointVariables | None
+            None if the library does not contain the project's elements, or if these have no such type.
+        """
         return layout.variables(jtype) if hasattr(self._handle, layout.MARKER) else None
 
     def external_database(
         self, lop: int, lrestart: int, time: tuple[float, float], dtime: float, step: int, increment: int
     ) -> None:
-        """Call UEXTERNALDB if there is one: LOP 0/3 start/end of analysis, 1/2 of increment, 5/6 of step."""
+        """Call UEXTERNALDB if there is one.
+
+        Parameters
+        ----------
+        lop
+            LOP: 0 and 3 at the start and the end of the analysis, 1 and 2 of an increment, 5 and 6 of a step.
+        lrestart
+            LRESTART; 0: no restart file is written.
+        time
+            TIME: step and total time at the moment of the call.
+        dtime
+            DTIME: size of the increment, 0 outside one.
+        step, increment
+            KSTEP, KINC.
+
+        Raises
+        ------
+        UelError
+            The routine ends the analysis, or does not return within the limit of a call.
+        """
         if self.uexternaldb is None:
             return
         if not _binding.external_database(self.uexternaldb, lop, lrestart, time, dtime, step, increment):
@@ -89,7 +119,23 @@ class Library:
         return "no user routine"
 
     def user_values(self, asked: UserValues) -> FloatArray:
-        """Values (n,) that DISP or DLOAD makes of those given. Raises UelError if it ends the analysis."""
+        """Values that DISP or DLOAD makes of those given.
+
+        Parameters
+        ----------
+        asked
+            What the routine is called for, once at each place. The job must have the routine.
+
+        Returns
+        -------
+        FloatArray
+            (n,) in the order of the places; the given value where the routine does not set one.
+
+        Raises
+        ------
+        UelError
+            The routine ends the analysis, or does not return within the limit of a call.
+        """
         address = self.disp if asked.routine == "DISP" else self.dload
         assert address is not None
         made = np.array(asked.given)
@@ -101,7 +147,24 @@ class Library:
         return made
 
     def user_amplitude(self, asked: AskedAmplitude) -> GivenAmplitude:
-        """What UAMP gives. Raises UelError if it ends the analysis or does not give a finite number."""
+        """What UAMP gives.
+
+        Parameters
+        ----------
+        asked
+            Arguments of the call, which it does not change. The job must have UAMP.
+
+        Returns
+        -------
+        GivenAmplitude
+            The value, the state variables after the call, and lFlagsDefine(6), which ends the step.
+
+        Raises
+        ------
+        UelError
+            UAMP ends the analysis, also by lFlagsDefine(5), does not return within the limit of a call, or does not
+            give a finite number.
+        """
         assert self.uamp is not None
         value, state, define, left = _binding.user_amplitude(self.uamp, asked)
         place = f"amplitude {asked.name}, step {asked.step}, increment {asked.increment}"
@@ -156,10 +219,34 @@ def load(
 ) -> Library:
     """Load user routines: files in Fortran, C or C++ (compiled, or taken from the cache) or a shared library.
 
-    None gives the project's own kernels. INCLUDE lines are looked up in the folders of the sources and of the deck.
-    zero_locals: uninitialised local variables of Fortran are zero, as many public user elements assume; a check turns
-    this off. debug: with run-time checks, which end a call with file and line, and NaN in such variables; with
-    AddressSanitizer, if its runtime is in this process. Raises CompileError.
+    Parameters
+    ----------
+    user
+        The files in the order of compilation, or one .so; None, or no file, takes the project's own kernels.
+    job
+        Name of the job, for GETJOBNAME and for the files of units 6 and 7, JOB.unit6 and JOB.unit7.
+    output_dir
+        Folder of these files, created if missing; GETOUTDIR.
+    deck
+        INCLUDE lines are looked up in its folder too, after those of the sources.
+    zero_locals
+        Uninitialised local variables of Fortran are zero, as many public user elements assume; a check turns this off.
+        With `debug` those of C and C++ are zero too.
+    debug
+        Compile with run-time checks, which end a call with file and line, and, unless `zero_locals`, with NaN or other
+        conspicuous values in uninitialised variables; with AddressSanitizer, if its runtime is in this process.
+
+    Returns
+    -------
+    Library
+        Its `close` ends the job. Of all libraries in this process, the one loaded last has units 6 and 7.
+
+    Raises
+    ------
+    CompileError
+        A file does not exist, has another ending, does not compile or link, or cannot be loaded.
+    UelError
+        The files of units 6 and 7 cannot be written.
     """
     files = [] if user is None else [user] if isinstance(user, Path) else list(user)
     include = () if deck is None else (deck.resolve().parent,)

@@ -82,7 +82,25 @@ class Suspicion:
 
 
 def suspicions(files: Sequence[Path], include: Sequence[Path] = ()) -> list[Suspicion]:
-    """Suspicions, certain ones first, each once, in the order of the lines. Raises CompileError."""
+    """What the compilers suspect in a user's files.
+
+    Parameters
+    ----------
+    files
+        Sources in Fortran, C or C++, in the order of compilation.
+    include
+        Folders in which INCLUDE lines are looked up, after those of the sources.
+
+    Returns
+    -------
+    list[Suspicion]
+        Each once; certain ones first, then in the order of the files and their lines.
+
+    Raises
+    ------
+    CompileError
+        A file cannot be read or does not compile.
+    """
     opinion = listen(files, include)
     told = _Told(opinion, _checked_lines(files, include))
     found = dict.fromkeys([*told.warnings(), *told.misspelt(), *told.single_precision()])
