@@ -34,7 +34,27 @@ class Constraints:
         equations: Sequence[Equation] = (),
         places: Mapping[int, Source] | None = None,
     ) -> None:
-        """`places` says where the deck prescribes an unknown, for messages. Raises DeckError if over-constrained."""
+        """Symbolic work on a set of constraints.
+
+        Parameters
+        ----------
+        system
+            What the constraints apply to.
+        prescribed
+            (n_p,) unknowns with a given value.
+        equations
+            The first term of each is eliminated.
+        places
+            Where the deck prescribes an unknown, for messages.
+
+        Raises
+        ------
+        DeckError
+            The model is over-constrained: a first term is prescribed, is that of two equations or depends on itself. Or
+            its coefficient is zero, or the system does not have an unknown of an equation.
+        ValueError
+            Prescribed unknowns are repeated or negative.
+        """
         n = len(system)
         self.prescribed = np.array(prescribed, dtype=np.int64)
         self._system = system
@@ -57,7 +77,15 @@ class Constraints:
         self._reduced = np.zeros(len(self.reduced_indices))
 
     def matches(self, prescribed: IntArray, equations: Sequence[Equation] = ()) -> bool:
-        """True if these constraints also serve the given ones, so that symbolic work need not be repeated."""
+        """True if these constraints also serve the given ones, so that symbolic work need not be repeated.
+
+        Parameters
+        ----------
+        prescribed
+            (n_p,) unknowns with a given value, compared in this order.
+        equations
+            Compared in this order, with their places in the deck.
+        """
         return np.array_equal(self.prescribed, prescribed) and self._equations == tuple(equations)
 
     @property
@@ -66,11 +94,30 @@ class Constraints:
         return self._system.dofs.coordinates[self.free]
 
     def name_of(self, reduced: int) -> tuple[str, int]:
-        """Node name and dof of a free unknown, for messages."""
+        """Node name and dof of a free unknown, for messages.
+
+        Parameters
+        ----------
+        reduced
+            Its place in `free`, from 0.
+        """
         return self._system.dofs.name(int(self.free[reduced]))
 
     def expand(self, dq: FloatArray, dprescribed: FloatArray) -> FloatArray:
-        """du (n,) = T dq + P dp."""
+        """du = T dq + P dp.
+
+        Parameters
+        ----------
+        dq
+            (n_q,) values of the free unknowns, in the order of `free`.
+        dprescribed
+            (n_p,) values of the prescribed ones, in the order of `prescribed`.
+
+        Returns
+        -------
+        FloatArray
+            (n,) values of all unknowns.
+        """
         if self._t is not None:
             return np.asarray(self._t @ dq + self._p @ dprescribed)
         du = np.zeros(len(self._system))
@@ -79,22 +126,52 @@ class Constraints:
         return du
 
     def reduce_vector(self, vector: FloatArray) -> FloatArray:
-        """T^T r (n_q,)."""
+        """T^T r.
+
+        Parameters
+        ----------
+        vector
+            r: (n,) forces on all unknowns.
+
+        Returns
+        -------
+        FloatArray
+            (n_q,) forces on the free unknowns, with what the equations pass on to them.
+        """
         if self._t is None:
             return vector[self.free]
         return np.asarray(self._t_transposed @ vector)
 
     def reactions(self, residual: FloatArray) -> FloatArray:
-        """Reaction forces (n,), RF of Abaqus: -P^T r at the prescribed unknowns, zero elsewhere.
+        """Reaction forces, RF of Abaqus: -P^T r.
 
-        residual is external minus internal force over all unknowns, concentrated loads included.
+        Parameters
+        ----------
+        residual
+            r: (n,) external minus internal force over all unknowns, concentrated loads included.
+
+        Returns
+        -------
+        FloatArray
+            (n,) in the order of all unknowns, zero where nothing is prescribed.
         """
         reaction = np.zeros(len(self._system))
         reaction[self.prescribed] = -residual[self.prescribed] if self._t is None else -(self._p_transposed @ residual)
         return reaction
 
     def reduce(self, data: FloatArray) -> FloatArray:
-        """CSR values of T^T K T from those of K; overwritten by the next call."""
+        """CSR values of T^T K T from those of K.
+
+        Parameters
+        ----------
+        data
+            (nnz,) in the pattern of the system.
+
+        Returns
+        -------
+        FloatArray
+            In the pattern of `reduced_indptr` and `reduced_indices`; overwritten by the next call.
+        """
         if self._t is None:
             # 'clip' only because numpy buffers `out` in the checking mode; all positions are in range
             return np.take(data, self._take, out=self._reduced, mode="clip")
@@ -102,7 +179,20 @@ class Constraints:
         return self._reduced
 
     def prescribed_residual(self, data: FloatArray, dprescribed: FloatArray) -> FloatArray:
-        """K P dp (n,): internal force of prescribed increments, to be subtracted from the residual before solving."""
+        """K P dp: internal force of prescribed increments, to be subtracted from the residual before solving.
+
+        Parameters
+        ----------
+        data
+            (nnz,) CSR values of K.
+        dprescribed
+            dp: (n_p,) in the order of `prescribed`.
+
+        Returns
+        -------
+        FloatArray
+            (n,) force on all unknowns.
+        """
         if not np.any(dprescribed):
             return np.zeros(len(self._system))
         du = self.expand(np.zeros(len(self.free)), dprescribed)

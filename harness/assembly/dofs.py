@@ -56,7 +56,18 @@ class DofMap:
         return len(self.node)
 
     def find(self, nodes: IntArray | int, dof: IntArray | int) -> IntArray:
-        """Unknowns of (node, dof) pairs, arguments broadcast; -1 where no element or equation uses the dof."""
+        """Unknowns of (node, dof) pairs.
+
+        Parameters
+        ----------
+        nodes, dof
+            Indices of nodes in the mesh, from 0, and dofs as Abaqus numbers them; broadcast against each other.
+
+        Returns
+        -------
+        IntArray
+            Numbers from 0, of the shape to which the arguments broadcast; -1 where no element or equation uses the dof.
+        """
         keys = np.asarray(nodes, dtype=np.int64) * self._base + dof
         if not len(self._keys):
             return np.full(keys.shape, -1)
@@ -65,7 +76,18 @@ class DofMap:
         return np.asarray(np.where(known, found, -1), dtype=np.int64)
 
     def equations_of(self, block: ElementBlock) -> NDArray[np.int32]:
-        """(m, element unknowns) the unknowns of each element of a block."""
+        """The unknowns of each element of a block.
+
+        Parameters
+        ----------
+        block
+            One of those from which the map was built, or of faces of their elements.
+
+        Returns
+        -------
+        NDArray[np.int32]
+            (m, element unknowns) numbers from 0; a row has the order of `block.unknowns`.
+        """
         columns = [self.find(block.group.nodes[:, local], dof) for local, dof in block.unknowns]
         return np.stack(columns, axis=1).astype(np.int32)
 

@@ -81,10 +81,32 @@ class System:
     ) -> Evaluation:
         """Call every element once, block by block in the calling order of Abaqus.
 
-        u (n,) is the estimate of the end of the increment and du (n,) the increment, both including prescribed values.
-        nrhs is NRHS: 1, or 2 for the arc length method. Without `motion` the model is at rest. In a linear step RHS is
-        what the loads on user elements cause; loads on built-in elements are added elsewhere.
-        Raises KernelError if an element fails.
+        In a linear step RHS is what the loads on user elements cause; loads on built-in elements are added elsewhere.
+
+        Parameters
+        ----------
+        call
+            Arguments common to all elements.
+        u, du
+            (n,) estimate of the end of the increment, and the increment; both include prescribed values.
+        matrix
+            Whether AMATRX is wanted.
+        nrhs
+            NRHS: 1, or 2 for the arc length method.
+        motion
+            V and A of all unknowns; None: the model is at rest.
+
+        Returns
+        -------
+        Evaluation
+            Sums over all elements.
+
+        Raises
+        ------
+        KernelError
+            An element fails.
+        CallLimitError
+            A call does not return within its limit.
         """
         columns = np.zeros((nrhs, len(self.dofs)))
         data = self._data if matrix else None
@@ -110,7 +132,18 @@ class System:
         return Evaluation(columns[0], data, flux, count, pnewdt, energy, load, damage, largest, entries)
 
     def artificial_mass(self, call: Call) -> FloatArray:
-        """(nnz,) CSR values of the mass of the built-in elements that have one, for unit density."""
+        """Mass of the built-in elements that have one, for unit density.
+
+        Parameters
+        ----------
+        call
+            Of the step; its request is replaced.
+
+        Returns
+        -------
+        FloatArray
+            (nnz,) CSR values in a new array: mass over density, thus volumes (length^3).
+        """
         data = np.zeros(len(self.indices))
         for block in self.blocks:
             block.artificial_mass(call, len(self), data)
@@ -122,7 +155,18 @@ class System:
             block.commit()
 
     def matrix(self, data: FloatArray | ComplexArray) -> sparse.csr_array:
-        """(n, n) matrix with the given CSR values, not copied."""
+        """The matrix with the given CSR values.
+
+        Parameters
+        ----------
+        data
+            (nnz,) real or complex, in the pattern of the system.
+
+        Returns
+        -------
+        sparse.csr_array
+            (n, n); it shares the values.
+        """
         return sparse.csr_array((data, self.indices, self.indptr), shape=(len(self), len(self)))
 
 

@@ -24,7 +24,29 @@ class TolerantSystem(System):
         self._tolerated = False
 
     def evaluate(self, call: Call, u: FloatArray, du: FloatArray, **options: Any) -> Evaluation:
-        """As that of a system; reads outside arrays give a warning, once."""
+        """As that of a system; reads outside arrays give a warning, once.
+
+        After the warning guards hold values that are as good as zero, until the `guard_values` around the run ends.
+
+        Parameters
+        ----------
+        call, u, du
+            As in `System.evaluate`.
+        **options
+            `matrix`, `nrhs` and `motion`, as there.
+
+        Returns
+        -------
+        Evaluation
+            Sums over all elements.
+
+        Raises
+        ------
+        NotFiniteError
+            An element returns NaN, or infinity, and not because it reads outside its arrays.
+        KernelError, CallLimitError
+            As in `System.evaluate`.
+        """
         try:
             return super().evaluate(call, u, du, **options)
         except NotFiniteError as error:
