@@ -144,9 +144,9 @@ class ElementBlock:
     ) -> BlockReport:
         """One pass: add RHS into residual and AMATRX into matrix (CSR data; None: AMATRX is ignored).
 
-        residual is (n,), or (2, n) for a pass with NRHS = 2: its rows take the columns of RHS.
-        RHS is left out if LFLAGS(3) asks for a matrix only (2, 3, 4). SVARS on entry are always the committed
-        ones; those returned are kept for `commit` if LFLAGS(3) is 1 or 6. Without `motion` V and A are zero.
+        residual is (n,), or (2, n) for a pass with NRHS = 2: its rows take the columns of RHS. RHS is left out if
+        LFLAGS(3) asks for a matrix only (2, 3, 4). SVARS on entry are always the committed ones; those returned are
+        kept for `commit` if LFLAGS(3) is 1 or 6, or asks for initial stresses. Without `motion` V and A are zero.
         Raises KernelError, CallLimitError.
         """
         motion = motion or _AT_REST
@@ -253,7 +253,10 @@ class ElementBlock:
         }
 
     def initialise(self, rows: IntArray, values: FloatArray) -> None:
-        """Initial SVARS of elements (rows of the block), or STATEV of their points. Raises ValueError if too many."""
+        """Initial SVARS of elements (rows of the block), or STATEV of their points: the first ones, the same for all.
+
+        Raises ValueError if there are more values than variables.
+        """
         state = self._initial_state()
         if len(values) > state.shape[2]:
             raise ValueError(f"{len(values)} values, but elements of type {self.group.type} have {state.shape[2]}")

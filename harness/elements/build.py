@@ -33,10 +33,29 @@ TENSORS: Final = {
 
 
 def build_blocks(model: Model, library: Library, *, strict: bool = True, zeros: bool = False) -> list[ElementBlock]:
-    """One block per group of the model, in the same order, then those of faces. Raises DeckError that names all places.
+    """Blocks of all elements of a model.
 
-    strict: a write of a user element outside an array is an error, otherwise a warning; zeros: an entry of RHS or
-    AMATRX that is not set gives a warning and is zero, otherwise an error.
+    Parameters
+    ----------
+    model
+        The whole deck.
+    library
+        The loaded user routines.
+    strict
+        A write of a user element outside an array is an error, otherwise a warning.
+    zeros
+        An entry of RHS or AMATRX that a user element does not set gives a warning and is zero, otherwise it is an
+        error.
+
+    Returns
+    -------
+    list[ElementBlock]
+        One per group of the model, in the same order, then those of faces under pressure.
+
+    Raises
+    ------
+    DeckError
+        Names all places of groups that cannot be built.
     """
     blocks: list[ElementBlock] = []
     errors: dict[str, DeckError] = {}

@@ -71,7 +71,7 @@ class Call:
     unsymmetric: bool = False
 
     def asking(self, request: Request, damping: Damping = Damping.NONE) -> Self:
-        """The same call with another request."""
+        """The same call with another request; parameters of `Flags.asking`."""
         return replace(self, flags=self.flags.asking(request, damping))
 
     @property
@@ -93,7 +93,18 @@ class Motion:
     acceleration: FloatArray
 
     def at(self, unknowns: IntArray) -> Motion:
-        """V and A of some unknowns."""
+        """V and A of some unknowns.
+
+        Parameters
+        ----------
+        unknowns
+            (k,) numbers, from 0.
+
+        Returns
+        -------
+        Motion
+            (k,) in the same order.
+        """
         return Motion(self.velocity[unknowns], self.acceleration[unknowns])
 
 

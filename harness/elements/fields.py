@@ -11,7 +11,18 @@ FIELD_NAMES: Final = ("force", "moment", "pore", "electrical", "temperature")
 
 
 def field_of(dof: int) -> int:
-    """Field of a degree of freedom: 1-3 force, 4-7 moment, 8 pore pressure, 9 electrical, 11 and up temperature."""
+    """Field of a degree of freedom: 1-3 force, 4-7 moment, 8 pore pressure, 9 electrical, 11 and up temperature.
+
+    Parameters
+    ----------
+    dof
+        As Abaqus numbers it.
+
+    Returns
+    -------
+    int
+        Index into FIELD_NAMES.
+    """
     for last, field in ((3, 0), (7, 1), (8, 2), (9, 3)):
         if dof <= last:
             return field

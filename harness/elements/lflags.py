@@ -66,7 +66,15 @@ class Flags:
         return cls(procedure.lflag, step.nlgeom, request, procedure.linear, damping=damping)
 
     def asking(self, request: Request, damping: Damping = Damping.NONE) -> Self:
-        """The same flags with another request."""
+        """The same flags with another request.
+
+        Parameters
+        ----------
+        request
+            LFLAGS(3).
+        damping
+            LFLAGS(7), which damping matrix; of use with Request.DAMPING only.
+        """
         return replace(self, request=request, damping=damping)
 
     @property
