@@ -17,7 +17,10 @@ from harness.errors import DeckError, Source
 
 @dataclass(frozen=True, slots=True)
 class Row:
-    """One data line: its fields without those that are empty at its end."""
+    """One data line: its fields without those that are empty at its end.
+
+    What reads a field takes its position, from 0, and what it is, for the message of the DeckError that it raises.
+    """
 
     keyword: str
     fields: tuple[str, ...]

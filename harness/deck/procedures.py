@@ -284,6 +284,6 @@ PROCEDURES: tuple[tuple[Keyword, Callable[[Block, Prescription], Procedure]], ..
     ),
     *PERTURBATIONS,
 )
-"""Keywords and their readers."""
+"""Keywords and their readers, which get the block of the keyword and what the deck names, and raise DeckError."""
 
 KEYWORDS = tuple(keyword for keyword, _ in PROCEDURES)

@@ -31,7 +31,24 @@ from harness.model.steps import Boundary
 
 
 def read_deck(path: Path) -> Model:
-    """Read an Abaqus input deck; DeckError, one file:line per line, for all that is wrong or not supported."""
+    """Read an Abaqus input deck.
+
+    Parameters
+    ----------
+    path
+        The deck. Included files are looked up in its folder, then in that of the including file.
+
+    Returns
+    -------
+    Model
+        The flattened model, with warnings about what is odd but understood.
+
+    Raises
+    ------
+    DeckError
+        Something is wrong or not supported, or cannot be read: a line with file:line for each of the first 50 places
+        that one stage of reading finds.
+    """
     problems = Problems()
     blocks = read_blocks(path, KEYWORDS, problems)
     structure = sort_blocks(blocks, problems)

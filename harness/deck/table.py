@@ -46,8 +46,14 @@ class Where(StrEnum):
 
 @dataclass(frozen=True, slots=True)
 class Option:
-    """One option of a keyword line. `refused` are values Abaqus knows that would change the solution here;
-    `bare` is the value where the line gives none.
+    """One option of a keyword line.
+
+    doc       what it gives, for `keywords.md`
+    required  the line must have it
+    default   its value where the line does not have it; '' for none
+    choices   values of Kind.CHOICE
+    refused   values Abaqus knows that would change the solution here
+    bare      its value where the line has the option without a value; '' if there must be one
     """
 
     name: str
@@ -63,7 +69,12 @@ class Option:
 
 @dataclass(frozen=True, slots=True)
 class Keyword:
-    """One keyword. `data` says what its data lines hold, '' where it takes none."""
+    """One keyword.
+
+    doc      what it does, for `keywords.md`
+    data     what its data lines hold, '' where it takes none
+    support  IGNORED: it cannot change the solution, and no reader looks at it
+    """
 
     name: str
     doc: str
@@ -87,17 +98,17 @@ def one_of(
     refused: tuple[str, ...] = (),
     bare: str = "",
 ) -> Option:
-    """An option whose value is one of these choices."""
+    """An option whose value is one of these choices; parameters are entries of `Option`."""
     return Option(name, Kind.CHOICE, doc, required, default, choices, refused, bare=bare)
 
 
 def refused(*names: str) -> tuple[Option, ...]:
-    """Options that Abaqus knows and that would change the solution."""
+    """Options, by their names, that Abaqus knows and that would change the solution."""
     return tuple(Option(name, support=Support.REFUSED) for name in names)
 
 
 def ignored(*names: str) -> tuple[Option, ...]:
-    """Options that cannot change the solution."""
+    """Options, by their names, that cannot change the solution."""
     return tuple(Option(name, support=Support.IGNORED) for name in names)
 
 
@@ -129,12 +140,12 @@ class Options:
         return self._value(name, Kind.NAME, Kind.CHOICE, Kind.FILE) or ""
 
     def real(self, name: str, default: float) -> float:
-        """Real value."""
+        """Real value; `default` where neither the line nor the table gives one."""
         value = self._value(name, Kind.REAL)
         return default if value is None else read_real(value)
 
     def integer(self, name: str, default: int) -> int:
-        """Integer value."""
+        """Integer value; `default` where neither the line nor the table gives one."""
         value = self._value(name, Kind.INTEGER)
         return default if value is None else read_integer(value)
 
