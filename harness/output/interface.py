@@ -88,7 +88,7 @@ def read_interface(path: Path, step: int | None = None, increment: int = -1) -> 
     path
         NAME_interface.csv.
     step
-        Number of the step; the last one written by default.
+        Number of the step; by default the last one that has the increment.
     increment
         Number of the increment; -1 is the last one written of the step.
 

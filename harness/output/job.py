@@ -80,7 +80,18 @@ class JobOutput:
         self._progress = ProgressDisplay(model, quiet=quiet)
 
     def write(self, record: Record) -> None:
-        """Write one record to every file that it belongs in."""
+        """Write one record to every file that it belongs in.
+
+        Parameters
+        ----------
+        record
+            The next one of the run. A warning is added to `warnings` too.
+
+        Raises
+        ------
+        OSError
+            A file cannot be written; others may have the record.
+        """
         match record:
             case StepStarted():
                 self._message.step_started(record)
@@ -110,7 +121,23 @@ class JobOutput:
         self._progress.write(record)
 
     def user_text(self, file: str, kind: str, text: str) -> None:
-        """Text of a user routine: `file` '.msg' or '.dat', `kind` 'print', 'note', 'warning' or 'error'."""
+        """Write a text of a user routine.
+
+        Parameters
+        ----------
+        file
+            '.dat' or '.msg'.
+        kind
+            'print' for a text that is written as it is; else 'note', 'warning' or 'error', which heads it. A warning is
+            added to `warnings` too.
+        text
+            One or several lines.
+
+        Raises
+        ------
+        OSError
+            The file cannot be written.
+        """
         target = self._data if file == ".dat" else self._message
         if kind == "warning":
             self.warnings.append(text)
@@ -132,8 +159,17 @@ class JobOutput:
     def close(self, error: UelError | None) -> None:
         """Write what the last converged increment still owes, and the verdict; the job ends here.
 
-        If a file cannot be written, the others are closed all the same. Raises the OSError of the first such file. A
-        second call has no effect.
+        A second call has no effect.
+
+        Parameters
+        ----------
+        error
+            What ended the run; None if it is complete.
+
+        Raises
+        ------
+        OSError
+            Of the first file that cannot be written; the others are closed all the same.
         """
         if self._closed:
             return

@@ -30,6 +30,11 @@ class Result:
         Wall-clock time of the run, if known.
     warnings
         About the deck and the user routines, for a run just made.
+
+    Raises
+    ------
+    UelError
+        There is no stem.sta.
     """
 
     def __init__(self, stem: Path | str, *, seconds: float | None = None, warnings: Sequence[str] = ()) -> None:
@@ -45,7 +50,18 @@ class Result:
         return self._stem.name
 
     def file(self, ending: str) -> Path:
-        """Path of a file of the job: `.msg`, `_history.csv`, ..."""
+        """Path of a file of the job.
+
+        Parameters
+        ----------
+        ending
+            What follows the name of the job: '.msg', '_history.csv', ...
+
+        Returns
+        -------
+        Path
+            The file need not exist.
+        """
         return self._stem.with_name(self._stem.name + ending)
 
     @cached_property
@@ -69,11 +85,42 @@ class Result:
         return read_frames(self.file(".pvd"))
 
     def mesh(self, increment: int = -1, step: int | None = None) -> meshio.Mesh:
-        """Mesh with all fields of an increment; -1 is the last one written, by default of the last step."""
+        """Mesh with all fields of an increment.
+
+        Parameters
+        ----------
+        increment
+            Its number in the step; -1 is the last one written.
+        step
+            Number of the step; by default the last one that has the increment.
+
+        Returns
+        -------
+        meshio.Mesh
+            Nodes in the order of the model, cells group after group, with point and cell data.
+
+        Raises
+        ------
+        UelError
+            The increment was not written.
+        """
         return read_field_mesh(self.file(".pvd"), step, increment)
 
     def field(self, name: str, increment: int = -1, step: int | None = None) -> FloatArray:
-        """One field of an increment: nodal (nodes[, 3]) or per cell, group after group; NaN where not defined.
+        """One field of an increment.
+
+        Parameters
+        ----------
+        name
+            Of point data ('U', 'RF', ...) or of cell data ('S11', 'DAMAGE', ...).
+        increment, step
+            As in `mesh`.
+
+        Returns
+        -------
+        FloatArray
+            Nodal: (nodes,) or (nodes, 3), zero at nodes without the dof. Of cells: (cells,) group after group, means
+            over the integration points, NaN in cells without the variable.
 
         Raises
         ------
@@ -89,7 +136,23 @@ class Result:
         raise UelError(f"{self.file('.pvd')}: no field '{name}'; available fields: {known}")
 
     def interface(self, increment: int = -1, step: int | None = None) -> dict[str, FloatArray]:
-        """Interface profile of an increment by column: 'element', 'point', 'X', 'SEPN', 'TN', 'DAMAGE', ..."""
+        """Interface profile of an increment, by column: 'element', 'point', 'X', 'SEPN', 'TN', 'DAMAGE', ...
+
+        Parameters
+        ----------
+        increment, step
+            As in `mesh`.
+
+        Returns
+        -------
+        dict[str, FloatArray]
+            Each (integration points of all interface elements,), NaN where an element type lacks the variable.
+
+        Raises
+        ------
+        UelError
+            The increment was not written, or the model has no interface elements of the project, nor cohesive ones.
+        """
         return read_interface(self.file("_interface.csv"), step, increment)
 
     def interfaces(self) -> list[dict[str, FloatArray]]:
