@@ -18,9 +18,23 @@ from harness.procedures.state import ConvergedState
 
 
 def set_initial_states(blocks: Iterable[ElementBlock], model: Model, sdvini: int | None) -> None:
-    """Set the state variables that the deck gives, directly or by SDVINI (its address; None without it).
+    """Set the state variables that the deck gives, directly or by SDVINI.
 
-    Raises DeckError, and KernelError if SDVINI ends the analysis.
+    Parameters
+    ----------
+    blocks
+        Of all elements; their committed state is changed.
+    model
+        Its initial solutions, in their order.
+    sdvini
+        Address of SDVINI, None without it.
+
+    Raises
+    ------
+    DeckError
+        An entry needs SDVINI, which the job does not have, or gives more values than an element has variables.
+    KernelError
+        SDVINI ends the analysis.
     """
     for entry in model.initial_solutions:
         if entry.elements is None and sdvini is None:

@@ -60,16 +60,44 @@ class Path(ABC):
         return ()
 
     def end(self, size: float) -> float:
-        """Step time at the end of an increment of this size, as far as it is known in advance."""
+        """Step time at the end of an increment, as far as it is known in advance.
+
+        Parameters
+        ----------
+        size
+            Of the increment, along the path.
+        """
         return self._context.step_time + size
 
     @abstractmethod
     def begin(self, size: float) -> tuple[Iterator[Iterate], bool]:
-        """Iterates of an attempt, and whether they start from an extrapolation."""
+        """Begin an attempt at an increment.
+
+        Parameters
+        ----------
+        size
+            Of the increment, along the path.
+
+        Returns
+        -------
+        tuple[Iterator[Iterate], bool]
+            Iterates without end, whose errors (KernelError, SingularMatrixError) end the attempt or the run; and
+            whether they start from an extrapolation.
+        """
 
     @abstractmethod
     def reach(self, last: Iterate, size: float, checks: Sequence[FieldCheck]) -> Reached:
-        """Where a converged increment ends, which becomes the step time of the context."""
+        """Where a converged increment ends. Sets the step time of the context to it.
+
+        Parameters
+        ----------
+        last
+            State after the last iteration.
+        size
+            Of the increment, along the path.
+        checks
+            Of the last iteration, all of which accept it.
+        """
 
 
 class TimePath(Path):

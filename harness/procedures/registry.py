@@ -27,7 +27,27 @@ from harness.procedures.step_setting import Setting, StepRun
 
 @singledispatch
 def run_of(procedure: Procedure, setting: Setting) -> StepRun:
-    """What runs a step of this procedure. Raises DeckError."""
+    """What runs a step of this procedure; `run_of.register` adds that of another class.
+
+    Parameters
+    ----------
+    procedure
+        Of the step; its class decides.
+    setting
+        What the step is run with. Its state takes over the step's prescribed values and loads.
+
+    Returns
+    -------
+    StepRun
+        Its `run` yields the records of the step.
+
+    Raises
+    ------
+    DeckError
+        The step asks for what its procedure does not support, or is over-constrained.
+    TypeError
+        Nothing is registered for the class.
+    """
     raise TypeError(f"no run is registered for {type(procedure).__name__}")
 
 

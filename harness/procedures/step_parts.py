@@ -19,15 +19,51 @@ class Part:
         return ()
 
     def given(self, given: Increment, size: float) -> Increment:
-        """What the end of an increment of this size prescribes, with the part's additions."""
+        """What the end of an increment prescribes, with the part's additions.
+
+        Parameters
+        ----------
+        given
+            With the additions of the parts before this one; not to be changed, but copied by `dataclasses.replace`.
+        size
+            Of the increment, in step time.
+        """
         return given
 
     def accuracy(self, last: Iterate, size: float) -> Accuracy | None:
-        """How accurate the integration over time is in an increment in equilibrium; None: not measured."""
+        """How accurate the integration over time is in an increment in equilibrium.
+
+        Parameters
+        ----------
+        last
+            State after the last iteration.
+        size
+            Of the increment, in step time.
+
+        Returns
+        -------
+        Accuracy | None
+            The increment is cut back if that of any part is above 1, unless increments are fixed; None: not measured.
+        """
         return None
 
     def converged(self, last: Iterate, size: float) -> Iterable[Record]:
-        """Take over a converged increment, while the state is still that of its start; yields records after it."""
+        """Take over a converged increment.
+
+        The state and the step time of the context are still those of its start; the elements have committed theirs.
+
+        Parameters
+        ----------
+        last
+            State after the last iteration.
+        size
+            Of the increment, in step time.
+
+        Returns
+        -------
+        Iterable[Record]
+            Written after that of the increment.
+        """
         return ()
 
     @property
