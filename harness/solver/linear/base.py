@@ -62,7 +62,16 @@ class LinearSolver(ABC):
     widest_band: ClassVar[int] = 0
 
     def __init__(self, pattern: Pattern, name_of: Callable[[int], tuple[str, int]] | None = None) -> None:
-        """Symbolic work. `name_of` gives node name and dof of an unknown, for the message of a singular matrix."""
+        """Symbolic work.
+
+        Parameters
+        ----------
+        pattern
+            Of all matrices to be factorised.
+        name_of
+            Gives node name and dof of an unknown, for the message of a singular matrix; without it unknowns are
+            numbered.
+        """
         self.pattern = pattern
         self.reason = "requested"
         self._name_of = name_of or (lambda unknown: (f"of unknown {unknown}", 0))
@@ -74,7 +83,19 @@ class LinearSolver(ABC):
         self._passed = SUSPICIOUS
 
     def factorise(self, data: FloatArray) -> None:
-        """Numeric factorisation of the matrix with these CSR values. Raises SingularMatrixError."""
+        """Numeric factorisation of the matrix with these CSR values.
+
+        Parameters
+        ----------
+        data
+            (nnz,) in the order of the pattern. Not copied: the values must not change before the last `solve`, which
+            looks at them again if the matrix may be singular.
+
+        Raises
+        ------
+        SingularMatrixError
+            The matrix is singular.
+        """
         if not self.pattern.size:
             return
         self._scale = float(np.abs(data[self._diagonal]).max(initial=0.0))
@@ -108,7 +129,20 @@ class LinearSolver(ABC):
 
     @abstractmethod
     def _factorise(self, data: FloatArray) -> float | None:
-        """Factorise; returns the smallest pivot, 0.0 if one is zero, None if the solver does not tell."""
+        """Factorise the matrix with these CSR values; replaces earlier factors.
+
+        Parameters
+        ----------
+        data
+            (nnz,) in the order of the pattern, not empty; to be copied where it is needed later.
+
+        Returns
+        -------
+        float | None
+            Magnitude of the smallest pivot of the matrix as it is, not scaled; 0.0 if one is zero or the factorisation
+            fails. None if the solver does not tell: then solutions are examined.
+        """
 
     @abstractmethod
-    def _solve(self, rhs: FloatArray) -> FloatArray: ...
+    def _solve(self, rhs: FloatArray) -> FloatArray:
+        """Solution (n,) with the last factors for one right-hand side (n,), which is not changed."""
