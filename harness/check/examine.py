@@ -108,9 +108,31 @@ def examine(
 ) -> Examination:
     """Run the first increments of a deck and check every user element type in it.
 
-    skip: names of checks to leave out. progress: gets told what begins, with what has been found until then.
-    Raises UelError where nothing can be checked: the deck or the user's file is wrong, the first call of the elements
-    fails, or the deck has no user elements.
+    Parameters
+    ----------
+    deck
+        A deck with user elements.
+    user
+        The user's file, or several in the order of compilation; none takes the project's own elements.
+    seed
+        Of random orders of calls and random displacements.
+    increments
+        To be run at most.
+    skip
+        Names of checks to leave out.
+    progress
+        Gets told what begins, with what has been found until then.
+
+    Returns
+    -------
+    Examination
+        A report for each type of user element.
+
+    Raises
+    ------
+    UelError
+        Nothing can be checked: the deck or the user's file is wrong, the first call of the elements fails, the deck has
+        no user elements, or there is no check of a name to be skipped.
     """
     files = (user,) if isinstance(user, Path) else tuple(user)
     known = [check.name for check in CHECKS]

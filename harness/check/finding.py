@@ -44,7 +44,7 @@ class Finding:
 
 
 def passed(message: str, figure: float | None = None, limit: float | None = None) -> Finding:
-    """All is well."""
+    """All is well; parameters are entries of `Finding`."""
     return Finding(Verdict.PASSED, message, figure, limit)
 
 
@@ -61,5 +61,5 @@ def failed(
     limit: float | None = None,
     entries: tuple[str, ...] = (),
 ) -> Finding:
-    """Something is wrong."""
+    """Something is wrong; parameters are entries of `Finding`."""
     return Finding(Verdict.FAILED, message, figure, limit, entries, advice)

@@ -88,16 +88,47 @@ class Subject:
     _magnitudes: list[FloatArray] = field(default_factory=list)
 
     def differences(self, state: ElementState) -> Differences:
-        """Of RHS at one of the states. Raises KernelError."""
+        """Differences of RHS at a state, made once for each state.
+
+        Parameters
+        ----------
+        state
+            One of those of this subject, or what `quiet` makes of it.
+
+        Returns
+        -------
+        Differences
+            -dRHS/dU (n, n), by the unknowns of the element.
+
+        Raises
+        ------
+        KernelError
+            The element does not return at the state itself.
+        """
         if id(state) not in self._differences:
             self._differences[id(state)] = differences(state, self.scales)
         return self._differences[id(state)]
 
     def stiffness(self, state: ElementState) -> FloatArray:
-        """(n, n) magnitudes: the larger of AMATRX and the differences of RHS, so that either may be wrong.
+        """Magnitudes of the stiffness: the larger of AMATRX and the differences of RHS, so that either may be wrong.
 
         Without inertia these are the differences, because AMATRX of a dynamic step includes mass. Else they are at
         least a fraction of those at the other states, so that rounding does not count where an element yields.
+
+        Parameters
+        ----------
+        state
+            One of those of this subject, or what `quiet` makes of it.
+
+        Returns
+        -------
+        FloatArray
+            (n, n): force on the unknown of the row by a displacement of that of the column.
+
+        Raises
+        ------
+        KernelError
+            The element does not return.
         """
         found: FloatArray = np.abs(self.differences(state).matrix)
         if not state.inertia:
@@ -107,7 +138,7 @@ class Subject:
         return largest
 
     def quiet(self, state: ElementState) -> ElementState:
-        """One of the states without inertia, see `State.quiet`; the same one each time."""
+        """One of the states without inertia, see `ElementState.quiet`; the same one each time."""
         return self._quiet.setdefault(id(state), state.quiet())
 
     @property
@@ -159,7 +190,18 @@ class Subject:
         return np.array([dof for _, dof in self.definition.dofs])
 
     def coordinates(self, state: ElementState) -> FloatArray:
-        """(nodes, COORDINATES=) of the element of a state."""
+        """Original coordinates of the nodes of an element.
+
+        Parameters
+        ----------
+        state
+            Of the element.
+
+        Returns
+        -------
+        FloatArray
+            (nodes, COORDINATES= of *USER ELEMENT) in the unit of the deck.
+        """
         nodes = state.single.block.group.nodes[0]
         return self.recording.model.mesh.coordinates[nodes, : self.definition.coordinates]
 
