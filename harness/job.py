@@ -78,8 +78,12 @@ def run(
     Raises
     ------
     UelError
-        UsageError for a wrong `job` or `solver`, else DeckError, CompileError, KernelError, SingularMatrixError or
-        ConvergenceError; what was written until then stays readable. Its notes are the first warnings before it.
+        UsageError for a wrong `job` or `solver`, DeckError, CompileError, KernelError, CallLimitError,
+        SingularMatrixError or ConvergenceError; LockedError if another process runs a job of this name; UelError itself
+        if a user routine other than an element ends the analysis. What was written until then stays readable. The notes
+        of the error are the first warnings before it, how far the run got, and what may help.
+    OSError
+        A file cannot be written.
     """
     deck = Path(deck)
     stem = job_stem(deck.stem if job is None else job, output_dir)

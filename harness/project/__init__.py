@@ -18,9 +18,24 @@ _NAME = re.compile(r"[A-Za-z]\w{0,63}", re.ASCII)
 
 
 def create(target: Path) -> list[Path]:
-    """Write a project into a new folder, whose name is that of the element; returns its files.
+    """Write a project into a new folder.
 
-    Raises UelError if the folder exists, and UsageError if its name is not letters, digits and underscores.
+    Parameters
+    ----------
+    target
+        The folder. Its name is that of the element: letters, digits and underscores, a letter first, 64 at most.
+
+    Returns
+    -------
+    list[Path]
+        The files written.
+
+    Raises
+    ------
+    UsageError
+        An element cannot have the name.
+    UelError
+        The folder exists.
     """
     name = target.name
     if _NAME.fullmatch(name) is None:
