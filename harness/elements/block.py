@@ -103,15 +103,31 @@ class ElementBlock:
     def bind(self, equations: NDArray[np.int32], scatter: NDArray[np.int32]) -> None:
         """Say where the unknowns are.
 
-        equations (m, unknowns) global unknown, scatter (m, unknowns, unknowns) position in the CSR data of each entry
-        of the element matrix (row, column); both from 0.
+        Parameters
+        ----------
+        equations
+            (m, unknowns) number of each unknown of each element in the system, from 0.
+        scatter
+            (m, unknowns, unknowns) position in the CSR values of each entry of the element matrix (row, column), from
+            0.
         """
         self._arrays.equations = np.ascontiguousarray(equations + 1, dtype=np.int32)
         # the driver walks AMATRX by columns
         self._arrays.map = np.ascontiguousarray(scatter.transpose(0, 2, 1) + 1, dtype=np.int32)
 
     def split(self, *, strict: bool = True) -> list[ElementBlock]:
-        """Its elements, each in its own unbound block and in its committed state, for calls in any order."""
+        """Its elements, each in its own unbound block and in its committed state, for calls in any order.
+
+        Parameters
+        ----------
+        strict
+            A write outside an array is an error, otherwise a warning.
+
+        Returns
+        -------
+        list[ElementBlock]
+            In the order of the elements; changes of their states do not affect this block.
+        """
         group = self.group
         parts = [
             ElementBlock(
@@ -142,12 +158,36 @@ class ElementBlock:
         matrix: FloatArray | None,
         motion: Motion | None = None,
     ) -> BlockReport:
-        """One pass: add RHS into residual and AMATRX into matrix (CSR data; None: AMATRX is ignored).
+        """One pass: add RHS into residual and AMATRX into matrix.
 
-        residual is (n,), or (2, n) for a pass with NRHS = 2: its rows take the columns of RHS. RHS is left out if
-        LFLAGS(3) asks for a matrix only (2, 3, 4). SVARS on entry are always the committed ones; those returned are
-        kept for `commit` if LFLAGS(3) is 1 or 6, or asks for initial stresses. Without `motion` V and A are zero.
-        Raises KernelError, CallLimitError.
+        SVARS on entry are always the committed ones; those returned are kept for `commit` if LFLAGS(3) is 1 or 6, or
+        asks for initial stresses.
+
+        Parameters
+        ----------
+        call
+            Arguments common to all elements.
+        u, du
+            (n,) estimate of the end of the increment, and the increment, of all unknowns of the system.
+        residual
+            (n,), changed in place; (2, n) for a pass with NRHS = 2: its rows take the columns of RHS. RHS is left out
+            if LFLAGS(3) asks for a matrix only (2, 3, 4).
+        matrix
+            (nnz,) CSR values of the system, changed in place; None: AMATRX is ignored.
+        motion
+            V and A (n,); zero without it.
+
+        Returns
+        -------
+        BlockReport
+            Sums over the elements of the block.
+
+        Raises
+        ------
+        KernelError
+            An element fails; residual and matrix are then incomplete.
+        CallLimitError
+            A call does not return within its limit.
         """
         motion = motion or _AT_REST
         outcome = _binding.evaluate(
@@ -212,7 +252,14 @@ class ElementBlock:
     def artificial_mass(self, call: Call, unknowns: int, matrix: FloatArray) -> None:
         """Add the mass matrix for unit density into matrix, where the elements have a density.
 
-        unknowns: number of unknowns of the system.
+        Parameters
+        ----------
+        call
+            Of the step; its request is replaced.
+        unknowns
+            Number of unknowns of the system.
+        matrix
+            (nnz,) CSR values of the system, changed in place: mass over density, thus volumes (length^3).
         """
         place = self._routine.density
         if place < 0:
@@ -226,7 +273,20 @@ class ElementBlock:
             self._arrays.props = given
 
     def bare_loop(self, call: Call, u: FloatArray, du: FloatArray, residual: FloatArray) -> None:
-        """Only call the elements, from a plain Fortran loop over the block: the upper bound of speed."""
+        """Only call the elements, from a plain Fortran loop over the block: the upper bound of speed.
+
+        Nothing is checked, AMATRX is discarded, and loads, fields, V and A are zero. SVARS and ENERGY become the trial
+        state. XIT ends the process.
+
+        Parameters
+        ----------
+        call
+            Arguments common to all elements; its loads and fields are not used.
+        u, du
+            (n,) as in `evaluate`.
+        residual
+            (n,), to which RHS is added.
+        """
         _binding.bare_loop(self._scalars(call), call.flags.lflags, self._arrays, u, du, residual)
 
     def _scalars(self, call: Call) -> _binding.Scalars:
@@ -253,9 +313,19 @@ class ElementBlock:
         }
 
     def initialise(self, rows: IntArray, values: FloatArray) -> None:
-        """Initial SVARS of elements (rows of the block), or STATEV of their points: the first ones, the same for all.
+        """Initial SVARS of elements, or STATEV of their points.
 
-        Raises ValueError if there are more values than variables.
+        Parameters
+        ----------
+        rows
+            (k,) elements, as rows of the block from 0.
+        values
+            The first variables, the same for all these elements and their points.
+
+        Raises
+        ------
+        ValueError
+            There are more values than variables.
         """
         state = self._initial_state()
         if len(values) > state.shape[2]:
@@ -264,9 +334,19 @@ class ElementBlock:
         self._begin(state)
 
     def set_stress(self, rows: IntArray, values: FloatArray) -> None:
-        """Initial stress at all points of elements (rows of the block); `begin_stressed` passes it to the material.
+        """Initial stress at all points of elements; `begin_stressed` passes it to the material.
 
-        Raises ValueError if the elements take none, or have fewer components; zeros beyond those are ignored.
+        Parameters
+        ----------
+        rows
+            (k,) elements, as rows of the block from 0.
+        values
+            Components in Abaqus' order (force/length^2), in the directions of *ORIENTATION; those left out are zero.
+
+        Raises
+        ------
+        ValueError
+            The elements take no stress, or lack a component that is not zero.
         """
         try:
             self._routine.set_stress(self._arrays.svars, rows, values)
@@ -274,16 +354,39 @@ class ElementBlock:
             raise ValueError(f"elements of type {self.group.type} {error}") from None
 
     def begin_stressed(self, call: Call, u: FloatArray, residual: FloatArray) -> None:
-        """Pass the stresses of `set_stress` to the material, and subtract their nodal forces from residual (n,).
+        """Pass the stresses of `set_stress` to the material; the state that follows is committed.
 
-        Raises KernelError.
+        Parameters
+        ----------
+        call
+            Of the start of the analysis; of its LFLAGS only the procedure is used.
+        u
+            (n,) at the start of the analysis.
+        residual
+            (n,) from which the nodal forces of the stresses are subtracted.
+
+        Raises
+        ------
+        KernelError
+            An element is inside out.
         """
         flags = Flags(call.flags.procedure, request=Request.INITIAL_STRESSES)
         self.evaluate(replace(call, flags=flags), u, np.zeros_like(u), residual, None)
         self._keep_trial()
 
     def call_sdvini(self, address: int) -> None:
-        """Let SDVINI set the initial state. Raises KernelError if it ends the analysis."""
+        """Let SDVINI set the initial state.
+
+        Parameters
+        ----------
+        address
+            Of SDVINI, as `Library.sdvini`.
+
+        Raises
+        ------
+        KernelError
+            It ends the analysis.
+        """
         state = np.ascontiguousarray(self._initial_state())
         element, point = _binding.sdvini(address, self._arrays, state, self._routine.family) if state.size else (0, 0)
         if element:
@@ -322,12 +425,24 @@ class ElementBlock:
         arrays.history[:] = arrays.history_trial
 
     def state(self, index: int) -> ElementState:
-        """Committed state, copied; index: of the group in the model."""
+        """Committed state, copied.
+
+        Parameters
+        ----------
+        index
+            Of the group in the model.
+        """
         arrays = self._arrays
         return ElementState(index, self._extended(arrays.svars, arrays.history), arrays.energy.copy(), self.variables)
 
     def trial(self, index: int) -> ElementState:
-        """State that the last normal call left, copied; index: of the group in the model."""
+        """State that the last call that keeps one has left, copied.
+
+        Parameters
+        ----------
+        index
+            Of the group in the model.
+        """
         arrays = self._arrays
         svars = self._extended(arrays.svars_trial, arrays.history_trial)
         return ElementState(index, svars, arrays.energy_trial.copy(), self.variables)
