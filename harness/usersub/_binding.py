@@ -357,12 +357,30 @@ def open_job(name: str, directory: str, file6: str, file7: str) -> int:
 
 
 def limit_calls(seconds: float) -> None:
-    """Limit each call of a user routine in this process to so many seconds of wall-clock time; 0: no limit."""
+    """Limit the time of each call of a user routine.
+
+    Parameters
+    ----------
+    seconds
+        Wall-clock time of one call, in all jobs of this process from now on; 0: no limit. A call that takes longer is
+        ended, and whoever made it gets an error.
+    """
     _host.host_limit_calls(seconds)
 
 
 def trap(on: bool) -> bool:
-    """Let calls of user routines stop at the operation that makes a NaN or an infinity; returns the former setting."""
+    """Let calls of user routines stop at the operation that makes a NaN or an infinity.
+
+    Parameters
+    ----------
+    on
+        Whether they stop there from now on: at an invalid operation, a division by zero and an overflow.
+
+    Returns
+    -------
+    bool
+        The former setting.
+    """
     return bool(_host.host_trap(int(on)))
 
 
@@ -383,7 +401,18 @@ def take_frames() -> list[int]:
 
 
 def share_slate(descriptor: int) -> bool:
-    """Let another process, which has the file of the slate open too, see where user code is; False if that fails."""
+    """Let another process, which has the file of the slate open too, see where user code is.
+
+    Parameters
+    ----------
+    descriptor
+        Of the file, at least as long as `harness.shared_progress.Slate`: from now on calls are noted in it.
+
+    Returns
+    -------
+    bool
+        False if that fails.
+    """
     return not _host.host_share(descriptor)
 
 
