@@ -161,12 +161,6 @@ def test_programs_have_their_place() -> None:
     assert [path for path in tests if changed.search((ROOT / path).read_text())] == []
 
 
-def test_files_stay_small() -> None:
-    limits = {".py": 400, ".f90": 500}
-    lengths = {path: len((ROOT / path).read_text().splitlines()) for path in TRACKED if path.suffix in limits}
-    assert {path: n for path, n in lengths.items() if n > limits[path.suffix]} == {}
-
-
 def test_top_level_holds_only_these() -> None:
     allowed = {
         *("fortran", "harness", "tests", "abaqus_inputs", "meson.build", "README.md", "Makefile", "pyproject.toml"),
