@@ -13,7 +13,7 @@ from collections.abc import Callable, Sequence
 from pathlib import Path
 
 from harness import isolation, sanitizer
-from harness.errors import FAILURES, UsageError, drop_output, tell, tell_failure
+from harness.errors import FAILURES, MOST_REPEATED, UsageError, drop_output, tell, tell_failure
 
 # options of the `abaqus` command and what they are here; None: accepted and without effect on one machine
 ABAQUS_OPTIONS = {
@@ -281,7 +281,7 @@ def from_abaqus(parser: argparse.ArgumentParser, words: list[str]) -> list[str]:
 
 def run_job(options: argparse.Namespace) -> int:
     """`uel run`."""
-    from harness.job import MOST_REPEATED, run  # noqa: PLC0415 (keeps the other commands quick)
+    from harness.job import run  # noqa: PLC0415 (keeps the other commands quick)
     from harness.model.perturbations import PERTURBATION_TIME  # noqa: PLC0415
 
     result = run(

@@ -65,6 +65,28 @@ def drop_output() -> None:
     os.dup2(os.open(os.devnull, os.O_WRONLY), 1)
 
 
+MOST_REPEATED: Final = 3
+"""Warnings that the end of a command repeats."""
+
+
+def note_warnings(error: BaseException, warnings: Sequence[str], rest: str = "") -> None:
+    """Give an error notes of earlier warnings, which often tell its reason.
+
+    Parameters
+    ----------
+    error
+        Gets the notes.
+    warnings
+        Of which the first MOST_REPEATED are repeated.
+    rest
+        Where the others are: ' in job.dat and .msg'.
+    """
+    for warning in warnings[:MOST_REPEATED]:
+        error.add_note(f"earlier warning: {warning}")
+    if len(warnings) > MOST_REPEATED:
+        error.add_note(f"and {len(warnings) - MOST_REPEATED} more warnings{rest}")
+
+
 def tell_failure(error: BaseException) -> None:
     """Print why a command failed, with the notes of the error."""
     notes: Sequence[str] = getattr(error, "__notes__", ())

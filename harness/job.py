@@ -8,12 +8,11 @@ import time
 from collections.abc import Sequence
 from contextlib import suppress
 from pathlib import Path
-from typing import Final
 
 from harness import usersub
 from harness.assembly import TolerantSystem
 from harness.deck import read_deck
-from harness.errors import ConvergenceError, ElementError, UelError, in_words
+from harness.errors import ConvergenceError, ElementError, UelError, in_words, note_warnings
 from harness.interrupts import complete, held
 from harness.model.model import Model
 from harness.output import JobOutput, Result
@@ -23,9 +22,6 @@ from harness.procedures import run_steps
 from harness.procedures.incrementation import FIXED_TOO_LARGE, TOO_MANY_INCREMENTS
 from harness.solver.threads import one_blas_thread
 from harness.usersub import Library, guard_values
-
-MOST_REPEATED: Final = 3
-"""Warnings quoted with an error."""
 
 
 def run(
@@ -137,10 +133,7 @@ def _analyse(
         with held(), suppress(OSError):
             _pass_on(library, output)
             output.close(UelError(in_words(error)))
-        for warning in output.warnings[:MOST_REPEATED]:
-            error.add_note(f"earlier warning: {warning}")
-        if len(output.warnings) > MOST_REPEATED:
-            error.add_note(f"and {len(output.warnings) - MOST_REPEATED} more warnings in {output.job}.dat and .msg")
+        note_warnings(error, output.warnings, f" in {output.job}.dat and .msg")
         error.add_note(f"{output.job} ended {output.reached}; what was written is readable")
         if isinstance(error, ConvergenceError):
             error.add_note(_advice(str(error), fallback=fallback, energy_control=energy_control))

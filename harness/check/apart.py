@@ -102,7 +102,10 @@ def call_apart(
         snapshot = _snapshot(file)
     if snapshot.running is None:
         if snapshot.error:
-            raise UelError(snapshot.error)
+            failure = UelError(snapshot.error)
+            for note in snapshot.notes:
+                failure.add_note(note)
+            raise failure
         result: T = snapshot.outcome
         return result
     interrupted = end.interrupted or end.code == INTERRUPTED

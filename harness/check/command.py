@@ -22,7 +22,7 @@ from harness.check.finding import Conclusion
 from harness.check.progress import Progress, Running, untold
 from harness.check.report import as_json, error_as_json, table
 from harness.check.shuffle import report, shuffle
-from harness.errors import UelError
+from harness.errors import UelError, tell_failure
 from harness.usersub import limit_calls
 
 CODES: Final = {Conclusion.PASSED: 0, Conclusion.FAILED: 1, Conclusion.NOTHING: 2}
@@ -59,7 +59,7 @@ def check(options: argparse.Namespace, console: Console, *, apart: bool) -> int:
                 outcome = look(deck, user, **how, skip=options.skip)
                 conclusion, told = outcome.conclusion, table(outcome)
     except UelError as error:
-        print(f"uel: {error}", file=sys.stderr)
+        tell_failure(error)
         if options.json:
             _write(options.json, error_as_json(error))
         return CODES[Conclusion.NOTHING]

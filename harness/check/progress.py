@@ -38,8 +38,10 @@ class Snapshot:
     running   what it was doing; None at its end
     outcome   result, or what had been found until then
     error     message of the UelError that ended the work; '' if none did
+    notes     of that error
     """
 
     running: Running | None
     outcome: Any = None
     error: str = ""
+    notes: tuple[str, ...] = ()

@@ -17,7 +17,15 @@ from harness import usersub
 from harness.assembly import Evaluation, System
 from harness.deck import read_deck
 from harness.elements import Call, ElementBlock, Flags, Motion, Request, build_blocks
-from harness.errors import ConvergenceError, ElementError, IncrementsUsedUpError, KernelError, NotFiniteError, UelError
+from harness.errors import (
+    ConvergenceError,
+    ElementError,
+    IncrementsUsedUpError,
+    KernelError,
+    NotFiniteError,
+    UelError,
+    note_warnings,
+)
 from harness.model.arrays import FloatArray, IntArray
 from harness.model.model import Model
 from harness.model.procedures import Static
@@ -105,7 +113,10 @@ class Recording:
 
 @contextmanager
 def opened(model: Model, user: Sequence[Path], build: Build = _ORDINARY) -> Iterator[Library]:
-    """The user routines, freshly loaded; what they print goes to a folder that is removed."""
+    """The user routines, freshly loaded; what they print goes to a folder that is removed.
+
+    An error inside gets notes of what the deck and the compilers warned of before.
+    """
     with tempfile.TemporaryDirectory() as folder:
         library = usersub.load(
             user or None,
@@ -117,6 +128,10 @@ def opened(model: Model, user: Sequence[Path], build: Build = _ORDINARY) -> Iter
         )
         try:
             yield library
+        except UelError as error:
+            warnings = [message.text for message in library.messages() if message.kind == "warning"]
+            note_warnings(error, [*model.warnings, *warnings])
+            raise
         finally:
             library.close()
 
@@ -160,7 +175,10 @@ def _with_place(error: ElementError, deck: Path, user: Sequence[Path], increment
         return error
     kind, number = error.element_type, error.element
     message = str(error).removeprefix(f"element {number} (type {kind}): ")
-    return type(error)(number, kind, f"{message}; in a build with run-time checks: {told}")
+    placed = type(error)(number, kind, f"{message}; in a build with run-time checks: {told}")
+    for note in getattr(error, "__notes__", ()):
+        placed.add_note(note)
+    return placed
 
 
 def record(

@@ -39,7 +39,7 @@ def main(words: Sequence[str]) -> int:
     try:
         keep(Snapshot(None, function(*arguments, progress=progress, **options)))
     except (UelError, OSError, MemoryError) as error:
-        keep(Snapshot(None, error=in_words(error)))
+        keep(Snapshot(None, error=in_words(error), notes=tuple(getattr(error, "__notes__", ()))))
     except KeyboardInterrupt:
         return INTERRUPTED
     return 0

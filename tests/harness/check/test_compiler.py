@@ -7,10 +7,12 @@ from pathlib import Path
 
 import pytest
 
+from harness.check.apart import examine_apart
 from harness.check.checks import CHECKS
 from harness.check.examine import examine
 from harness.check.finding import Verdict
-from harness.errors import KernelError
+from harness.cli import main
+from harness.errors import KernelError, UelError
 from harness.usersub import suspicions
 
 TESTS = Path(__file__).parents[1]
@@ -200,6 +202,23 @@ def test_debug_check_names_the_line(tmp_path, statement, message):
     assert re.search(message, finding.message), finding.message
     if "s =" in statement:
         assert "a local variable is used before it has a value" in finding.message
+
+
+@pytest.mark.nan
+def test_first_call_that_fails_has_the_warnings_before_it(tmp_path, capsys):
+    """A constant for an array is what gfortran warns of; the NaN that the routine makes of it says nothing of that."""
+    deck, user = tmp_path / "spring.inp", tmp_path / "spring.f"
+    deck.write_text(DECK)
+    text = SPRING.format(head=TESTS / "uel.inc", statement="call clear(w,0.d0,4)\n      w(1) = sqrt(-1 - u(1)**2)")
+    user.write_text(text + "      subroutine clear(x,y,n)\n      real*8 x(n),y(n)\n      x=0\n      end\n")
+    assert main(["check", str(user), str(deck)]) == 2
+    said = capsys.readouterr().err
+    assert re.search(r"RHS\(1\) is NaN", said)
+    warning = r"earlier warning: spring.f, line 3: a constant is passed for the argument 'y', which is an array"
+    assert re.search(warning, said)
+    with pytest.raises(UelError) as error:
+        examine_apart(deck, [user])
+    assert re.match(warning, error.value.__notes__[0])
 
 
 @pytest.mark.nan
