@@ -23,13 +23,12 @@ import meshio
 import numpy as np
 from meshio._mesh import topological_dimension
 
-from harness.errors import UelError
 from harness.model.arrays import FloatArray, IntArray
 from harness.model.model import Model
 from harness.model.nodal import NodalIndex
 from harness.model.records import IncrementDone, Solution
 from harness.output.cells import Cells, cell_values, cells_of, is_solid
-from harness.output.schedule import Schedule
+from harness.output.schedule import Schedule, find_written
 
 Values = TypeVar("Values")
 # meshio 5.3.5 writes and reads this cell, but lacks its dimension, and ends with a KeyError
@@ -186,10 +185,6 @@ def read_field_mesh(pvd: Path, step: int | None = None, increment: int = -1) -> 
     UelError
         The increment was not written.
     """
-    frames = [frame for frame in read_frames(pvd) if step is None or frame.step == step]
-    if increment > 0:
-        frames = [frame for frame in frames if frame.increment == increment]
-    if not frames:
-        where = f"step {step}, " if step is not None else ""
-        raise UelError(f"{pvd}: no field output of {where}increment {increment}")
-    return meshio.read(frames[-1].path)
+    frames = read_frames(pvd)
+    places = [(frame.step, frame.increment) for frame in frames]
+    return meshio.read(frames[find_written(pvd, "field output", places, step, increment)].path)

@@ -20,7 +20,7 @@ from harness.model.model import Model
 from harness.model.records import ElementState, IncrementDone, PointVariables
 from harness.output.formats import TextFile
 from harness.output.points import point_values
-from harness.output.schedule import Schedule
+from harness.output.schedule import Schedule, find_written
 
 FIXED = ("step", "increment", "time", "element", "point")
 
@@ -98,13 +98,8 @@ def read_interface(path: Path, step: int | None = None, increment: int = -1) -> 
         There is no such file, or it does not hold the increment.
     """
     names, blocks = _read_blocks(path)
-    known = [place for place in blocks if step is None or place[0] == step]
-    if increment > 0:
-        known = [place for place in known if place[1] == increment]
-    if not known:
-        where = f"step {step}, " if step is not None else ""
-        raise UelError(f"{path}: no interface profile of {where}increment {increment}")
-    values = blocks[known[-1]]
+    places = list(blocks)
+    values = blocks[places[find_written(path, "interface profile", places, step, increment)]]
     return {name: values[:, k].copy() for k, name in enumerate(names)}
 
 

@@ -1,11 +1,15 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""When an increment is written: every k-th of a step, or the first in each part of it, and the last one."""
+"""When an increment is written: every k-th of a step, or the first in each part of it, and the last one; which one of
+those that were written is read."""
 
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
+from pathlib import Path
 
+from harness.errors import UelError
 from harness.model.records import IncrementDone
 from harness.model.steps import Step
 
@@ -37,3 +41,35 @@ class Schedule:
         if reached or (parts and last):
             return self.due(1, record, last=last)
         return self.due(step.output.field_frequency, record, last=last)
+
+
+def find_written(path: Path, what: str, places: Sequence[tuple[int, int]], step: int | None, increment: int) -> int:
+    """Which entry of a file is asked for.
+
+    Parameters
+    ----------
+    path
+        The file.
+    what
+        What its entries are, such as 'field output'.
+    places
+        Step and increment of each entry, in the order in which they were written.
+    step
+        Number of the step; None: the last one that has the increment.
+    increment
+        Number of the increment in the step; -1: the last one written.
+
+    Raises
+    ------
+    UelError
+        There is no such entry.
+    """
+    wanted = [
+        index
+        for index, place in enumerate(places)
+        if (step is None or place[0] == step) and (increment < 1 or place[1] == increment)
+    ]
+    if not wanted:
+        named = ([] if step is None else [f"step {step}"]) + ([] if increment < 1 else [f"increment {increment}"])
+        raise UelError(f"{path}: no {what}" + (f" of {', '.join(named)}" if named else ""))
+    return wanted[-1]

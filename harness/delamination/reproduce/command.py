@@ -52,7 +52,7 @@ def reproduce(
 
     Returns
     -------
-    list[Verdict]
+    list[JudgedStatement]
         The statements that the parts decide on.
 
     Raises
