@@ -9,6 +9,7 @@ from itertools import pairwise
 import numpy as np
 
 from harness.deck.blocks import Block
+from harness.deck.definitions import read_definitions
 from harness.deck.error_report import Problems
 from harness.deck.table import INPUT, NAME, Keyword, Kind, Option, Where, one_of, refused
 from harness.deck.user_elements import MOST_VALUES, read_count
@@ -18,19 +19,12 @@ from harness.model.arrays import FloatArray
 
 def read_amplitudes(blocks: list[Block], problems: Problems) -> dict[str, Amplitude]:
     """Amplitudes of *AMPLITUDE."""
-    found: dict[str, Amplitude] = {}
-    for block in blocks:
-        if block.name == "AMPLITUDE":
-            with problems.gather():
-                name = block.options.text("NAME")
-                if name in found:
-                    raise block.error(f"{name} is defined already, at {found[name].source}")
-                found[name] = _read_amplitude(block, name)
-    return found
+    return read_definitions(blocks, "AMPLITUDE", _read_amplitude, problems)
 
 
-def _read_amplitude(block: Block, name: str) -> Amplitude:
+def _read_amplitude(block: Block) -> Amplitude:
     options = block.options
+    name = options.text("NAME")
     spaced = options.text("DEFINITION") == "EQUALLY SPACED"
     if not spaced and (options.given("FIXED INTERVAL") or options.given("BEGIN")):
         raise block.error("FIXED INTERVAL and BEGIN are for DEFINITION=EQUALLY SPACED")

@@ -1,16 +1,14 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""Damage of traction-separation materials, and section controls."""
+"""Damage of traction-separation materials."""
 
 from __future__ import annotations
 
 from dataclasses import replace
 
 from harness.deck.blocks import Block, Row
-from harness.deck.error_report import Problems
-from harness.deck.table import NAME, Keyword, Kind, Option, Where, ignored, one_of, refused
-from harness.model.element_types import HOURGLASS_CONTROLLED
-from harness.model.properties import Damage, DamageEvolution, SectionControls
+from harness.deck.table import Keyword, Kind, Option, Where, ignored, one_of, refused
+from harness.model.properties import Damage, DamageEvolution
 
 
 def extend_damage(damage: Damage | None, block: Block) -> Damage:
@@ -81,38 +79,7 @@ def _values(block: Block, least: int, most: int, what: str) -> tuple[float, ...]
     return tuple(row.real(index, what, 0.0) for index in range(most))
 
 
-def read_controls(blocks: list[Block], problems: Problems) -> dict[str, SectionControls]:
-    """Section controls by name."""
-    found: dict[str, SectionControls] = {}
-    for block in blocks:
-        if block.name == "SECTION CONTROLS":
-            with problems.gather():
-                name = block.options.text("NAME")
-                if name in found:
-                    raise block.error(f"{name} is defined already")
-                found[name] = _read_controls(block)
-    return found
-
-
-def _read_controls(block: Block) -> SectionControls:
-    options = block.options
-    degradation = options.real("MAX DEGRADATION", 1.0)
-    if not 0 < degradation <= 1:
-        raise block.error(f"MAX DEGRADATION={degradation:g}: expected a number above 0, up to 1")
-    viscosity = options.real("VISCOSITY", 0.0) if options.given("VISCOSITY") else None
-    if viscosity is not None and viscosity < 0:
-        raise block.error(f"VISCOSITY={viscosity:g} must not be negative")
-    deletion = options.flag("ELEMENT DELETION") or not options.given("ELEMENT DELETION")
-    enhanced = options.text("HOURGLASS") == "ENHANCED"
-    row = next(block.rows(), None)
-    # "any data given on the data line will be ignored" where it is enhanced (Abaqus Keywords Guide)
-    factor = 1.0 if row is None or enhanced else row.real(0, "factor of the hourglass stiffness", 1.0)
-    if factor <= 0:
-        raise block.error(f"factor {factor:g} of the hourglass stiffness must be positive")
-    return SectionControls(deletion, degradation, viscosity, enhanced, factor)
-
-
-DAMAGE = (
+KEYWORDS = (
     Keyword(
         "DAMAGE INITIATION",
         "Onset of damage in a traction-separation response.",
@@ -160,34 +127,5 @@ DAMAGE = (
         "Viscosity of the damage; that of the section controls takes precedence.",
         Where.MODEL,
         data="relaxation time of the damage",
-    ),
-)
-
-KEYWORDS = (
-    *DAMAGE,
-    Keyword(
-        "SECTION CONTROLS",
-        "Deletion, largest damage and viscosity of cohesive elements; hourglass control of "
-        f"{', '.join(HOURGLASS_CONTROLLED)} and those with temperatures. STIFFNESS is that of *HOURGLASS STIFFNESS. "
-        "ENHANCED is the assumed strain stabilization of Belytschko and Bindeman (1991, 1993), with which rectangles "
-        "and bricks bend exactly; that Abaqus has the same numbers is inferred from its manual, which names the "
-        "method, and a warning says so. It needs *ELASTIC, TYPE=ISOTROPIC with constant values, and is not available "
-        "for axisymmetric elements.",
-        Where.MODEL,
-        (
-            NAME,
-            Option("ELEMENT DELETION", Kind.SWITCH, "delete failed elements, unless they are in compression (YES)"),
-            Option("MAX DEGRADATION", Kind.REAL, "largest damage (1)"),
-            Option("VISCOSITY", Kind.REAL, "relaxation time of the damage (0)"),
-            one_of(
-                "HOURGLASS",
-                "hourglass control",
-                ("STIFFNESS", "ENHANCED"),
-                default="STIFFNESS",
-                refused=("COMBINED", "RELAX STIFFNESS", "VISCOUS"),
-            ),
-            *ignored("DISTORTION CONTROL", "KINEMATIC SPLIT", "LENGTH RATIO", "SECOND ORDER ACCURACY"),
-        ),
-        "factor of the hourglass stiffness with STIFFNESS (1); factors of shells and of Abaqus/Explicit, not read",
     ),
 )

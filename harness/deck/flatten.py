@@ -11,6 +11,7 @@ from functools import partial
 import numpy as np
 
 from harness.deck.blocks import Block
+from harness.deck.definitions import read_definitions
 from harness.deck.error_report import Problems
 from harness.deck.generation import GENERATORS
 from harness.deck.local_mesh import LocalMesh, Members
@@ -175,12 +176,4 @@ class FlatMesh:
 
 def _definitions(blocks: list[Block], outer: Definitions, problems: Problems) -> dict[str, UserElement]:
     """User elements of these blocks, on top of those of the scope around them."""
-    own: dict[str, UserElement] = {}
-    for block in blocks:
-        if block.name == "USER ELEMENT":
-            with problems.gather():
-                name = block.options.text("TYPE")
-                if name in own:
-                    raise block.error(f"{name} is defined already, at {own[name].source}")
-                own[name] = read_user_element(block)
-    return {**outer, **own}
+    return {**outer, **read_definitions(blocks, "USER ELEMENT", read_user_element, problems, "TYPE")}

@@ -23,6 +23,7 @@ from harness.deck import (
     prescribed,
     procedures,
     requests,
+    section_controls,
     sections,
     steps,
     structure,
@@ -33,7 +34,8 @@ from harness.deck.table import Keyword, Kind, Option, Support, compact
 
 _FILES = (
     *(structure, lexer, placement, local_mesh, generation, user_elements, surfaces, constraints, materials, damage),
-    *(sections, groups, amplitudes, initial, steps, procedures, controls, prescribed, distributed, requests, ignored),
+    *(section_controls, sections, groups, amplitudes, initial, steps, procedures, controls, prescribed, distributed),
+    *(requests, ignored),
 )
 KEYWORDS: dict[str, Keyword] = {compact(keyword.name): keyword for file in _FILES for keyword in file.KEYWORDS}
 MARKDOWN = Path(__file__).with_name("keywords.md")

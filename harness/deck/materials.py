@@ -10,7 +10,8 @@ from dataclasses import replace
 import numpy as np
 
 from harness.deck.blocks import PER_LINE, Block, Row
-from harness.deck.damage import DAMAGE, extend_damage
+from harness.deck.damage import KEYWORDS as DAMAGE_OPTIONS
+from harness.deck.damage import extend_damage
 from harness.deck.error_report import Problems
 from harness.deck.table import NAME, Keyword, Kind, Option, Where, ignored, one_of, refused
 from harness.deck.user_elements import read_count
@@ -254,7 +255,7 @@ _OPTIONS = (
     ),
     Keyword("SPECIFIC HEAT", "Specific heat.", Where.MODEL, refused("DEPENDENCIES", "PORE FLUID"), "specific heat"),
 )
-MATERIAL_OPTIONS = {keyword.name for keyword in (*_OPTIONS, *DAMAGE)}
+MATERIAL_OPTIONS = {keyword.name for keyword in (*_OPTIONS, *DAMAGE_OPTIONS)}
 
 KEYWORDS = (
     Keyword(

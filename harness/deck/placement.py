@@ -10,6 +10,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from harness.deck.blocks import Block, Row
+from harness.deck.definitions import read_definitions
 from harness.deck.error_report import Problems
 from harness.deck.table import NAME, Keyword, Where, one_of, refused
 from harness.model.arrays import FloatArray
@@ -100,15 +101,11 @@ def _read_rotation(row: Row) -> tuple[FloatArray, FloatArray]:
 
 def read_orientations(blocks: list[Block], problems: Problems) -> dict[str, Orientation]:
     """Orientations of *ORIENTATION."""
-    found: dict[str, Orientation] = {}
-    for block in blocks:
-        if block.name == "ORIENTATION":
-            with problems.gather():
-                name = block.options.text("NAME")
-                if name in found:
-                    raise block.error(f"{name} is defined already, at {found[name].source}")
-                found[name] = Orientation(name, _read_axes(block), block.source)
-    return found
+    return read_definitions(blocks, "ORIENTATION", _read_orientation, problems)
+
+
+def _read_orientation(block: Block) -> Orientation:
+    return Orientation(block.options.text("NAME"), _read_axes(block), block.source)
 
 
 def _read_axes(block: Block) -> FloatArray:

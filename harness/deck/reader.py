@@ -10,7 +10,6 @@ import numpy as np
 
 from harness.deck.amplitudes import read_amplitudes
 from harness.deck.constraints import ConstraintReader, read_equations
-from harness.deck.damage import read_controls
 from harness.deck.error_report import Problems
 from harness.deck.flatten import FlatMesh
 from harness.deck.groups import make_groups
@@ -20,6 +19,7 @@ from harness.deck.lexer import read_blocks
 from harness.deck.materials import read_materials
 from harness.deck.prescribed import Prescription
 from harness.deck.requests import RequestReader
+from harness.deck.section_controls import read_section_controls
 from harness.deck.steps import check_parts, read_steps
 from harness.deck.structure import read_heading, sort_blocks
 from harness.deck.surfaces import Surfaces
@@ -59,7 +59,7 @@ def read_deck(path: Path) -> Model:
     flat = FlatMesh(structure, problems)
     if not any(len(owner.elements) for owner in flat.owners):
         raise DeckError(Source(str(path), 1), "the deck has no elements")
-    groups = make_groups(flat, materials, read_controls(structure.root, problems), problems)
+    groups = make_groups(flat, materials, read_section_controls(structure.root, problems), problems)
     if not structure.steps:
         raise DeckError(Source(str(path), 1), "the deck has no *STEP")
     built_in = np.concatenate([np.full(len(group.labels), group.definition is None) for group in groups])

@@ -10,6 +10,7 @@ from typing import Final
 
 import numpy as np
 
+from harness.model.arrays import FloatArray
 from harness.usersub import _binding
 
 UNSET: Final = "UNSET"
@@ -23,19 +24,33 @@ AS_GOOD_AS_ZERO: Final = 1e-300
 """Value of a guard if reading it is tolerated; a zero written there is still noticed."""
 
 
-def set_guard_values(values: Mapping[str, float]) -> None:
+def set_guard_values(values: Mapping[str, float]) -> FloatArray:
     """Let guards hold other values until the `guard_values` around the call ends.
 
     Parameters
     ----------
     values
         New values by name: one of ARRAYS for the guards around that array, or UNSET. The others keep theirs.
+
+    Returns
+    -------
+    FloatArray
+        What they held, by ARRAYS and UNSET.
+
+    Raises
+    ------
+    ValueError
+        A name is unknown; all guards keep their values.
     """
-    held = np.zeros(len(ARRAYS) + 1)
+    names = [*ARRAYS, UNSET]
+    places = {names.index(name): value for name, value in values.items()}
+    # exchanging any value returns the present one
+    held = np.zeros(len(names))
     _binding.exchange_guard_values(held)
-    for name, value in values.items():
-        held[[*ARRAYS, UNSET].index(name)] = value
-    _binding.exchange_guard_values(held)
+    chosen = held.copy()
+    chosen[list(places)] = list(places.values())
+    _binding.exchange_guard_values(chosen)
+    return held
 
 
 @contextmanager
@@ -66,14 +81,7 @@ def guard_values(values: Mapping[str, float]) -> Iterator[None]:
     values
         As in `set_guard_values`.
     """
-    names = [*ARRAYS, UNSET]
-    # exchanging any value returns the present one
-    held = np.zeros(len(names))
-    _binding.exchange_guard_values(held)
-    chosen = held.copy()
-    for name, value in values.items():
-        chosen[names.index(name)] = value
-    _binding.exchange_guard_values(chosen)
+    held = set_guard_values(values)
     try:
         yield
     finally:
