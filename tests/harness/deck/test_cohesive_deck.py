@@ -91,7 +91,11 @@ MISTAKES = {
     "width": ("0.5, 5.\n", "0.5, -5.\n", r"20: .*out-of-plane width -5 must be positive"),
     "degradation": ("=0.99", "=1.01", r"21: .*MAX DEGRADATION=1.01: expected a number above 0, up to 1"),
     "viscosity": ("VISCOSITY=1e-4", "VISCOSITY=-1", r"21: .*VISCOSITY=-1 must not be negative"),
-    "controls twice": ("*MATERIAL, NAME=STEEL", "*SECTION CONTROLS, NAME=KEEP\n*MATERIAL, NAME=STEEL", "23: .*already, at .*:21"),
+    "controls twice": (
+        "*MATERIAL, NAME=STEEL",
+        "*SECTION CONTROLS, NAME=KEEP\n*MATERIAL, NAME=STEEL",
+        "23: .*already, at .*:21",
+    ),
     "solid material": ("MATERIAL=GLUE, R", "MATERIAL=STEEL, R", r"19: .*STEEL \(deck.inp:24\) has \*ELASTIC, TYPE=ISO"),
     "no elasticity": ("*ELASTIC, TYPE=TRACTION\n1e4, 2e4, 3e4\n", "", r"19: .*GLUE has no \*ELASTIC, TYPE=TRACTION"),
     "traction in a solid": (
