@@ -94,7 +94,7 @@ MISTAKES = {
     "controls twice": (
         "*MATERIAL, NAME=STEEL",
         "*SECTION CONTROLS, NAME=KEEP\n*MATERIAL, NAME=STEEL",
-        "23: .*already, at .*:21",
+        r"23: .*KEEP is defined already, at .*:21",
     ),
     "solid material": ("MATERIAL=GLUE, R", "MATERIAL=STEEL, R", r"19: .*STEEL \(deck.inp:24\) has \*ELASTIC, TYPE=ISO"),
     "no elasticity": ("*ELASTIC, TYPE=TRACTION\n1e4, 2e4, 3e4\n", "", r"19: .*GLUE has no \*ELASTIC, TYPE=TRACTION"),
