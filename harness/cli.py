@@ -107,6 +107,14 @@ def build_parser() -> argparse.ArgumentParser:
     help_ = run.add_mutually_exclusive_group()
     help_.add_argument("--fallback", action="store_true", help="search downhill where Newton's method fails")
     help_.add_argument("--control", choices=("load", "energy"), default="load", help="energy: trace snap-backs (load)")
+    run.add_argument(
+        "--linear",
+        action="append",
+        default=[],
+        metavar="Un",
+        help="user elements of this type are linear and need not be called in each iteration; verified in each "
+        "increment; repeat for each type",
+    )
     add_isolation(run)
     run.add_argument(
         "--debug", action="store_true", help="run-time checks: errors in user code come with file and line"
@@ -292,6 +300,7 @@ def run_job(options: argparse.Namespace) -> int:
         solver=options.solver,
         fallback=options.fallback,
         energy_control=options.control == "energy",
+        linear=options.linear,
         call_limit=options.call_limit,
         debug=options.debug,
         quiet=options.quiet,

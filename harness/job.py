@@ -5,14 +5,15 @@
 from __future__ import annotations
 
 import time
-from collections.abc import Sequence
+from collections.abc import Callable, Collection, Sequence
 from contextlib import suppress
+from functools import partial
 from pathlib import Path
 
 from harness import usersub
-from harness.assembly import TolerantSystem
+from harness.assembly import System, TolerantSystem
 from harness.deck import read_deck
-from harness.errors import ConvergenceError, ElementError, UelError, in_words, note_warnings
+from harness.errors import ConvergenceError, ElementError, UelError, UsageError, in_words, note_warnings
 from harness.interrupts import complete, held
 from harness.model.model import Model
 from harness.output import JobOutput, Result
@@ -33,6 +34,7 @@ def run(
     solver: str = "auto",
     fallback: bool = False,
     energy_control: bool = False,
+    linear: Collection[str] = (),
     call_limit: float = 0.0,
     debug: bool = False,
     quiet: bool = True,
@@ -57,6 +59,10 @@ def run(
     energy_control
         Trace snap-backs: an increment ends where it has dissipated a share of energy, and the load factor of a step
         is part of the solution. Not with `fallback`, which keeps the load.
+    linear
+        Types of user elements, such as 'U5', that are linear: in static steps with small displacements their first
+        AMATRX stands for them, and they are called again only at the end of each increment, which verifies it. Elastic
+        continuum elements, built in and the project's own, are always treated so.
     call_limit
         Seconds that one call of a user routine may take; 0: no limit.
     debug
@@ -74,7 +80,7 @@ def run(
     Raises
     ------
     UelError
-        UsageError for a wrong `job` or `solver`, DeckError, CompileError, KernelError, CallLimitError,
+        UsageError for a wrong `job`, `solver` or `linear`, DeckError, CompileError, KernelError, CallLimitError,
         SingularMatrixError or ConvergenceError; LockedError if another process runs a job of this name; UelError itself
         if a user routine other than an element ends the analysis. What was written until then stays readable. The notes
         of the error are the first warnings before it, how far the run got, and what may help.
@@ -90,6 +96,7 @@ def run(
         forget_verdict(stem)
         try:
             model = read_deck(deck)
+            types = _linear_types(model, linear)
             usersub.limit_calls(call_limit)
             sources = [Path(file) for file in files]
             job, folder = stem.name, stem.parent
@@ -97,7 +104,8 @@ def run(
             trapping = usersub.trap(True) if debug else None
             try:
                 output = JobOutput(model, job, folder, quiet=quiet)
-                _analyse(model, library, output, solver, fallback=fallback, energy_control=energy_control)
+                system = partial(TolerantSystem, model, library, types)
+                _analyse(system, model, library, output, solver, fallback=fallback, energy_control=energy_control)
             except ElementError as error:
                 if not debug and _debug_helps(sources, str(error)):
                     error.add_note("run again with --debug to see file and line")
@@ -114,12 +122,29 @@ def run(
     return Result(stem, seconds=time.perf_counter() - started, warnings=output.warnings)
 
 
+def _linear_types(model: Model, given: Collection[str]) -> frozenset[str]:
+    """Types of user elements that the user says are linear, in capitals. Raises UsageError."""
+    known = sorted({group.type for group in model.groups if group.definition is not None})
+    types = frozenset(name.upper() for name in given)
+    for name in sorted(types.difference(known)):
+        has = f"its user elements are {', '.join(known)}" if known else "it has no user elements"
+        raise UsageError(f"--linear {name}: the deck has no elements of this type; {has}")
+    return types
+
+
 def _analyse(
-    model: Model, library: Library, output: JobOutput, solver: str, *, fallback: bool, energy_control: bool
+    assemble: Callable[[], System],
+    model: Model,
+    library: Library,
+    output: JobOutput,
+    solver: str,
+    *,
+    fallback: bool,
+    energy_control: bool,
 ) -> None:
     """Run all steps and write their records to the files, which are closed however the run ends."""
     try:
-        system = TolerantSystem(model, library)
+        system = assemble()
         with one_blas_thread(), guard_values({}):
             for record in run_steps(system, model, library, solver, fallback=fallback, energy_control=energy_control):
                 with held():

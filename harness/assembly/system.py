@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 from scipy import sparse
 
 from harness.assembly.dofs import DofMap
+from harness.assembly.linear import LinearElements
 from harness.elements import FIELD_NAMES, Call, ElementBlock, Motion, PressureBlock
 from harness.model.arrays import ComplexArray, FloatArray, IntArray
 from harness.model.mesh import Mesh
@@ -27,7 +28,7 @@ class Evaluation:
     flux        (fields,) sum of |element nodal force| by field, as FIELD_NAMES orders them
     flux_count  (fields,) number of terms in it, those above the call's floor
     pnewdt      smallest PNEWDT an element returned
-    energy      (8,) sum of ENERGY
+    energy      (8,) sum of ENERGY; that of linear elements that were not called is added by `System.commit`
     load        (n,) sum of column 2 of RHS, increments of the loads that elements apply; None unless NRHS = 2
     damage      dissipated by the damage of built-in elements
     largest     (fields,) largest |element nodal force|
@@ -56,7 +57,15 @@ class System:
     indices  (nnz,) columns, ascending in each row, int32; every diagonal entry is there and the pattern is symmetric
     """
 
-    def __init__(self, mesh: Mesh, blocks: Sequence[ElementBlock], equations: Sequence[Equation] = ()) -> None:
+    def __init__(
+        self,
+        mesh: Mesh,
+        blocks: Sequence[ElementBlock],
+        equations: Sequence[Equation] = (),
+        *,
+        spare_linear: bool = False,
+    ) -> None:
+        """Blocks of a model with this mesh and these constraints; spare_linear: do not call linear elements again."""
         self.blocks = tuple(block for block in blocks if not isinstance(block, PressureBlock))
         self.pressures = tuple(block for block in blocks if isinstance(block, PressureBlock))
         self.dofs = DofMap.build(mesh, self.blocks, equations)
@@ -65,6 +74,7 @@ class System:
         for block, equation_numbers, positions in zip(blocks, numbers, scatter, strict=True):
             block.bind(equation_numbers, positions)
         self._data = np.zeros(len(self.indices))
+        self._linear = LinearElements(self.blocks if spare_linear else (), len(self.indices))
 
     def __len__(self) -> int:
         return len(self.dofs)
@@ -110,7 +120,12 @@ class System:
         """
         columns = np.zeros((nrhs, len(self.dofs)))
         data = self._data if matrix else None
-        if data is not None:
+        linear = self._linear
+        applies = linear.applies(call, motion, nrhs)
+        spared = applies and linear.known
+        if data is not None and spared:
+            linear.fill(data)
+        elif data is not None:
             data.fill(0.0)
         flux, count = np.zeros(len(FIELD_NAMES)), np.zeros(len(FIELD_NAMES), dtype=np.int64)
         largest, entries = np.zeros(len(FIELD_NAMES)), np.zeros(len(FIELD_NAMES), dtype=np.int64)
@@ -118,7 +133,12 @@ class System:
         pnewdt = np.inf
         for block in self.blocks:
             kept = columns if block.group.definition or not call.flags.linear else np.zeros_like(columns)
-            report = block.evaluate(call, u, du, kept if nrhs > 1 else kept[0], data, motion)
+            if spared and block in linear:
+                report = linear.forces(block, call, u, columns[0])
+            elif applies and data is not None and block in linear:
+                report = linear.learn(block, call, u, du, columns[0], data)
+            else:
+                report = block.evaluate(call, u, du, kept if nrhs > 1 else kept[0], data, motion)
             flux += report.flux
             count += report.flux_count
             largest = np.maximum(largest, report.largest)
@@ -129,6 +149,7 @@ class System:
         for face in self.pressures if call.distributed is not None else ():
             energy += face.evaluate(call, u, du, columns[0], data, motion).energy
         load = columns[1] if nrhs > 1 else None
+        linear.passed(call, u, du, energy, spared=spared)
         return Evaluation(columns[0], data, flux, count, pnewdt, energy, load, damage, largest, entries)
 
     def artificial_mass(self, call: Call) -> FloatArray:
@@ -150,7 +171,16 @@ class System:
         return data
 
     def commit(self) -> None:
-        """End of a converged increment: the state of the last normal pass becomes the committed one."""
+        """End of a converged increment: the state of the last normal pass becomes the committed one.
+
+        Raises
+        ------
+        ElementError
+            An element that is linear only because the user says so is not.
+        KernelError
+            UVARM ends the analysis.
+        """
+        self._linear.catch_up()
         for block in (*self.blocks, *self.pressures):
             block.commit()
 

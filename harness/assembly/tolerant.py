@@ -4,6 +4,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Collection
 from contextlib import suppress
 from typing import Any
 
@@ -18,8 +19,10 @@ from harness.usersub import ARRAYS, AS_GOOD_AS_ZERO, Library, guard_values, set_
 class TolerantSystem(System):
     """A system whose elements may read outside their arrays: if that makes NaN, they read zeros from then on."""
 
-    def __init__(self, model: Model, library: Library) -> None:
-        super().__init__(model.mesh, build_blocks(model, library, strict=False, zeros=True), model.equations)
+    def __init__(self, model: Model, library: Library, linear: Collection[str] = ()) -> None:
+        """Blocks of all elements of a model; linear: types of user elements that the user says are linear."""
+        blocks = build_blocks(model, library, strict=False, zeros=True, linear=linear)
+        super().__init__(model.mesh, blocks, model.equations, spare_linear=True)
         self._library = library
         self._tolerated = False
 

@@ -14,7 +14,7 @@ from harness.elements.call import BlockReport, Call, Distributed, Motion, Predef
 from harness.elements.faults import ERRORS, at_point, distortion, material_point, write_outside, wrong_entry
 from harness.elements.fields import FIELD_NAMES, field_of
 from harness.elements.lflags import Flags, Request
-from harness.elements.routine import Routine
+from harness.elements.routine import Linearity, Routine
 from harness.elements.watch import Watch
 from harness.errors import ElementError, KernelError
 from harness.model.arrays import FloatArray, IntArray
@@ -93,12 +93,39 @@ class ElementBlock:
         # (unknowns, fields): sums entries of an element vector by field
         self._by_field = (fields[:, None] == np.arange(len(FIELD_NAMES))).astype(np.float64)
         self._all_terms = np.full(n, -1.0)
+        dofs = [dof for _, dof in unknowns]
+        # of each unknown the first one of the same dof, from 1
+        self._first = np.array([(dofs.index(dof) + 1) * (dof in routine.free) for dof in dofs], dtype=np.int32)
         self._no_fields = np.zeros((1, group.nodes.shape[1], 1 if group.definition else 2, 2))
 
     @property
     def elastic(self) -> bool:
         """Whether its elements are built in and, in small displacements, have a state linear in the displacements."""
         return self._routine.linear
+
+    @property
+    def linear(self) -> bool:
+        """Whether its elements, at rest and in small displacements, have forces that are AMATRX times U."""
+        return self._routine.forces is not Linearity.UNKNOWN
+
+    @property
+    def assumed_linear(self) -> bool:
+        """Whether only the user says so."""
+        return self._routine.forces is Linearity.ASSUMED
+
+    @property
+    def matrix_entries(self) -> int:
+        """Entries of the AMATRX of all elements."""
+        return len(self.group.labels) * len(self.unknowns) ** 2
+
+    def is_loaded(self, distributed: Distributed | None) -> bool:
+        """Whether one of its elements has a distributed load."""
+        return distributed is not None and bool(self._is_mine(distributed).any())
+
+    def _is_mine(self, distributed: Distributed) -> NDArray[np.bool_]:
+        """Which loads are on its elements."""
+        last = self.first + len(self.group.labels)
+        return (distributed.elements >= self.first) & (distributed.elements < last)
 
     def bind(self, equations: NDArray[np.int32], scatter: NDArray[np.int32]) -> None:
         """Say where the unknowns are.
@@ -201,7 +228,7 @@ class ElementBlock:
             motion.acceleration,
             self._loads(call.distributed),
             self._fields(call.predefined),
-            self._all_terms if call.flux_floor is None else self._by_field @ call.flux_floor,
+            self._floor(call),
             np.atleast_2d(residual),
             _NO_MATRIX if matrix is None else matrix,
         )
@@ -220,12 +247,82 @@ class ElementBlock:
             damage, energy[_PLASTIC] = float(energy[_PLASTIC]), 0.0
         return BlockReport.of(outcome, self._by_field, len(self.group.labels), energy, damage)
 
+    def evaluate_apart(
+        self, call: Call, u: FloatArray, du: FloatArray, residual: FloatArray
+    ) -> tuple[BlockReport, FloatArray]:
+        """`evaluate` that returns AMATRX of each element, (m, unknowns, unknowns), columns first, in place of a sum."""
+        assembled = self._arrays.map
+        matrices = np.zeros(assembled.shape)
+        self._arrays.map = np.arange(1, matrices.size + 1, dtype=np.int32).reshape(assembled.shape)
+        try:
+            return self.evaluate(call, u, du, residual, matrices.reshape(-1)), matrices
+        finally:
+            self._arrays.map = assembled
+
+    def add_matrices(self, matrices: FloatArray, data: FloatArray) -> None:
+        """Add matrices of the elements, as `evaluate_apart` returns them, to the CSR values (nnz,) of the system."""
+        _binding.add_matrices(matrices, self._arrays.map, data)
+
+    def linear_pass(self, matrices: FloatArray, call: Call, u: FloatArray, residual: FloatArray) -> BlockReport:
+        """A pass in which matrices stand for the elements, which are not called.
+
+        Parameters
+        ----------
+        matrices
+            Of the elements, as `evaluate_apart` returns them.
+        call
+            Of which only the floor of the flux counts.
+        u
+            (n,) all unknowns of the system.
+        residual
+            (n,), to which the forces, minus the matrices times U, are added.
+
+        Returns
+        -------
+        BlockReport
+            As of `evaluate`, with no ENERGY and no PNEWDT.
+        """
+        outcome = _binding.linear_pass(matrices, self._arrays.equations, self._first, u, self._floor(call), residual)
+        return BlockReport.of(outcome, self._by_field, len(self.group.labels), outcome.energy, 0.0)
+
+    def largest_deviation(
+        self, matrices: FloatArray, call: Call, u: FloatArray, du: FloatArray
+    ) -> tuple[int, int, float, float]:
+        """Where RHS differs most from minus the matrix times U.
+
+        Parameters
+        ----------
+        matrices
+            Of the elements, as `evaluate_apart` returns them.
+        call, u, du
+            As of `evaluate`.
+
+        Returns
+        -------
+        tuple[int, int, float, float]
+            Row of the element in the block from 0, entry of RHS from 1, RHS there, and what the matrix gives.
+        """
+        n = len(self.unknowns)
+        own, places = np.arange(n, dtype=np.int32)[None], np.zeros((1, n, n), dtype=np.int32)
+        called, expected = np.zeros((len(matrices), n)), np.zeros((len(matrices), n))
+        for row, part in enumerate(self.split(strict=False)):
+            at = self._arrays.equations[row] - 1
+            part.bind(own, places)
+            part.evaluate(call, u[at], du[at], called[row], None)
+            expected[row] = -u[at] @ matrices[row]
+        row, entry = divmod(int(np.abs(called - expected).argmax()), n)
+        return row, entry + 1, float(called[row, entry]), float(expected[row, entry])
+
+    def _floor(self, call: Call) -> FloatArray:
+        """Force above which an entry of RHS is a term of the average flux, by unknown."""
+        return self._all_terms if call.flux_floor is None else self._by_field @ call.flux_floor
+
     def _loads(self, distributed: Distributed | None) -> LoadArrays:
         """Loads on the elements of the block, one row for each element, or one for all if there is none."""
         if distributed is None:
             return _NO_LOADS
         m = len(self.group.labels)
-        mine = (distributed.elements >= self.first) & (distributed.elements < self.first + m)
+        mine = self._is_mine(distributed)
         row = distributed.elements[mine] - self.first
         counts = np.bincount(row, minlength=m)
         # number of a load among those of its element

@@ -4,6 +4,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Collection
 from difflib import get_close_matches
 from itertools import pairwise
 from typing import Final
@@ -12,9 +13,9 @@ from harness.elements.block import ElementBlock
 from harness.elements.cohesive import cohesive_routine, cohesive_variables
 from harness.elements.coupled import coupled_routine
 from harness.elements.discrete import discrete_routine, discrete_unknowns, discrete_variables
-from harness.elements.materials import define_material, refuse_fields
+from harness.elements.materials import define_material, linearity, refuse_fields
 from harness.elements.pressure import pressure_blocks
-from harness.elements.routine import Routine
+from harness.elements.routine import Linearity, Routine
 from harness.elements.solid import history_of, solid_routine, solid_variables
 from harness.errors import DeckError, all_of
 from harness.model.element_types import BUILT_IN, CohesiveType, ContinuumType, DiscreteType, Tensor
@@ -32,7 +33,9 @@ TENSORS: Final = {
 """TENSOR= of *USER ELEMENT; TWOD has the components of plane strain."""
 
 
-def build_blocks(model: Model, library: Library, *, strict: bool = True, zeros: bool = False) -> list[ElementBlock]:
+def build_blocks(
+    model: Model, library: Library, *, strict: bool = True, zeros: bool = False, linear: Collection[str] = ()
+) -> list[ElementBlock]:
     """Blocks of all elements of a model.
 
     Parameters
@@ -46,6 +49,8 @@ def build_blocks(model: Model, library: Library, *, strict: bool = True, zeros: 
     zeros
         An entry of RHS or AMATRX that a user element does not set gives a warning and is zero, otherwise it is an
         error.
+    linear
+        Types of user elements that the user says are linear.
 
     Returns
     -------
@@ -61,7 +66,7 @@ def build_blocks(model: Model, library: Library, *, strict: bool = True, zeros: 
     errors: dict[str, DeckError] = {}
     for group in model.groups:
         try:
-            blocks.append(_block_of(model, group, library, strict=strict, zeros=zeros))
+            blocks.append(_block_of(model, group, library, strict=strict, zeros=zeros, linear=linear))
         except DeckError as error:
             errors.setdefault(str(error), error)
         except MemoryError:
@@ -80,14 +85,17 @@ def _too_large(group: ElementGroup) -> DeckError:
     return DeckError(source, f"not enough memory for {len(group.labels)} elements of type {group.type}{cause}")
 
 
-def _block_of(model: Model, group: ElementGroup, library: Library, *, strict: bool, zeros: bool) -> ElementBlock:
+def _block_of(
+    model: Model, group: ElementGroup, library: Library, *, strict: bool, zeros: bool, linear: Collection[str]
+) -> ElementBlock:
     material = getattr(group.section, "material", None)
     kind = group.built_in
     if material is not None and material.expansion and not (isinstance(kind, ContinuumType) and not kind.coupled):
         message = f"*EXPANSION (material {material.name}) is not supported for elements of type {group.type}"
         raise DeckError(group.section.source, message)
     if group.definition is not None:
-        return _user_block(model, group, group.definition, library, strict=strict, zeros=zeros)
+        assumed = group.type.upper() in linear
+        return _user_block(model, group, group.definition, library, strict=strict, zeros=zeros, assumed=assumed)
     match kind:
         case ContinuumType():
             return _solid_block(model, group, kind, library)
@@ -102,7 +110,14 @@ def _block_of(model: Model, group: ElementGroup, library: Library, *, strict: bo
 
 
 def _user_block(
-    model: Model, group: ElementGroup, definition: UserElement, library: Library, *, strict: bool, zeros: bool
+    model: Model,
+    group: ElementGroup,
+    definition: UserElement,
+    library: Library,
+    *,
+    strict: bool,
+    zeros: bool,
+    assumed: bool,
 ) -> ElementBlock:
     section = group.section
     if not isinstance(section, UserProperty):
@@ -112,11 +127,15 @@ def _user_block(
     # COORDS has COORDINATES= of *USER ELEMENT, or more if dofs 1-3 show that the element has a higher dimension
     mcrd = max(definition.coordinates, *(dof for _, dof in definition.dofs if dof <= 3), 1)
     material, tensor, history = 0, 0, (1, 1)
+    forces = Linearity.ASSUMED if assumed else Linearity.UNKNOWN
+    free: tuple[int, ...] = ()
     if section.material is not None:
         refuse_fields(section.material, "user elements")
         tensor = _tensor(definition, section)
         material = define_material(section.material, section.orientation, tensor, section.source, library)
         history = history_of(section.material, definition.integration or MOST_POINTS)
+        if library.is_continuum(definition.number, section.integers):
+            forces, free = linearity(section.material), tuple(range(1, mcrd + 1))
     routine = Routine(
         address=address,
         jtype=definition.number,
@@ -127,6 +146,8 @@ def _user_block(
         material=material,
         tensor=int(tensor),
         history=history,
+        forces=forces,
+        free=free,
     )
     variables = library.variables(definition.number)
     return ElementBlock(

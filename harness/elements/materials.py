@@ -12,6 +12,7 @@ from typing import Final
 
 import numpy as np
 
+from harness.elements.routine import Linearity
 from harness.errors import DeckError, Source
 from harness.model.arrays import FloatArray
 from harness.model.element_types import Tensor
@@ -36,6 +37,13 @@ def history_values(material: Material, *, prestressed: bool = False) -> int:
         return USER_HISTORY_VALUES + state_variables(material)
     kept = material.plastic is not None or prestressed
     return (HISTORY_VALUES if kept else 1) + state_variables(material)
+
+
+def linearity(material: Material, *, prestressed: bool = False) -> Linearity:
+    """Whether continuum elements of a material, which may have an initial stress, have linear forces."""
+    depends = material.user_field is not None or material.elastic is None or material.elastic.table is not None
+    plain = history_values(material, prestressed=prestressed) == 1 and not depends
+    return Linearity.KNOWN if plain else Linearity.UNKNOWN
 
 
 def state_variables(material: Material) -> int:

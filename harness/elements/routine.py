@@ -5,10 +5,24 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from enum import Enum, auto
 
 import numpy as np
 
 from harness.model.arrays import FloatArray, IntArray
+
+
+class Linearity(Enum):
+    """Whether the forces of elements at rest and in small displacements are AMATRX times U, with one AMATRX for all U.
+
+    KNOWN    they are
+    ASSUMED  the user says that they are
+    UNKNOWN  they may not be
+    """
+
+    KNOWN = auto()
+    ASSUMED = auto()
+    UNKNOWN = auto()
 
 
 @dataclass(frozen=True, slots=True)
@@ -26,6 +40,8 @@ class Routine:
     family    number of the family of continuum elements (harness/model/element_types.py), 0 for others
     damages   ENERGY(4) is dissipated by damage, not by plasticity
     linear    the state of built-in elements is linear in small displacements
+    forces    whether the forces are
+    free      dofs along which a translation of an element causes no force, as far as that is known
     stress    places of the stress components of a point among its SVARS, in Abaqus' order; the last one is S12 or
               S23; none: the elements take no initial stress
     """
@@ -46,6 +62,8 @@ class Routine:
     family: int = 0
     damages: bool = False
     linear: bool = False
+    forces: Linearity = Linearity.UNKNOWN
+    free: tuple[int, ...] = ()
     stress: tuple[int, ...] = ()
 
     def set_stress(self, svars: FloatArray, rows: IntArray, values: FloatArray) -> None:

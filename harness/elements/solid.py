@@ -14,6 +14,7 @@ from harness.elements.materials import (
     directions,
     history_values,
     is_global,
+    linearity,
     shear_modulus,
     state_variables,
 )
@@ -92,6 +93,9 @@ def solid_routine(model: Model, group: ElementGroup, section: SolidSection, libr
         statev=state_variables(material),
         uvarm=_output_variables(section, kind.points, library),
         linear=history_values(material) == 1,
+        forces=linearity(material, prestressed=prestressed),
+        # along the radius it strains the circumference
+        free=(2,) if kind.axisymmetric else tuple(range(1, kind.dimension + 1)),
         stress=_places_of_stress(kind),
     )
 

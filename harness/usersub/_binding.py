@@ -199,6 +199,28 @@ def bare_loop(
     )
 
 
+def linear_pass(
+    matrices: FloatArray,
+    equations: Int32Array,
+    first: Int32Array,
+    u: FloatArray,
+    floor: FloatArray,
+    residual: FloatArray,
+) -> Outcome:
+    """Add the forces of elements that are linear to residual (n,): what a pass over them would, without calling them.
+
+    matrices (m, ndofel, ndofel), each by columns; equations (m, ndofel), from 1; first, floor (ndofel,): the
+    entry of U, from 1, that is taken out of each one before the product, 0 for none.
+    """
+    flux, terms = _host.host_linear_pass(matrices.T, equations.T, first, u, floor, residual)
+    return Outcome(Fault.NONE, -1, ARRAYS[0], 0, flux[:, 0], flux[:, 1], terms, np.inf, np.zeros(8))
+
+
+def add_matrices(matrices: FloatArray, places: Int32Array, matrix: FloatArray) -> None:
+    """Add matrices of elements, each by columns, to matrix (nnz,); places, from 1, has the same shape (m, n, n)."""
+    _host.host_add_matrices(matrices.T, places.T, matrix)
+
+
 def external_database(
     address: int, lop: int, lrestart: int, time: tuple[float, float], dtime: float, step: int, increment: int
 ) -> bool:

@@ -157,3 +157,12 @@ def host_bare_loop(
     residual: NDArray[np.float64],
     amatrx: NDArray[np.float64],
 ) -> None: ...
+def host_linear_pass(
+    matrices: NDArray[np.float64],
+    equations: NDArray[np.int32],
+    first: NDArray[np.int32],
+    u: NDArray[np.float64],
+    floor: NDArray[np.float64],
+    residual: NDArray[np.float64],
+) -> tuple[NDArray[np.float64], NDArray[np.int32]]: ...
+def host_add_matrices(matrices: NDArray[np.float64], map: NDArray[np.int32], matrix: NDArray[np.float64]) -> None: ...

@@ -13,6 +13,7 @@ from dataclasses import dataclass
 from functools import cache
 from typing import Final
 
+from harness.model.arrays import IntArray
 from harness.model.records import PointVariables
 from harness.usersub.built import path_of_layout
 
@@ -110,6 +111,15 @@ def variables(jtype: int) -> PointVariables | None:
     if not bottom:
         return PointVariables("continuum", names, layout.points, outline=tuple(range(layout.nodes)))
     return PointVariables("interface", names, layout.points, bottom=bottom, top=top)
+
+
+def is_continuum(jtype: int, integers: IntArray) -> bool:
+    """Whether elements of a type of the project are continuum elements that, with these JPROPS, store no stress."""
+    layout = element_layouts().get(jtype)
+    if layout is None or layout.faces[0]:
+        return False
+    face = next(item.position for item in layout.integers if item.name == "FACE")
+    return len(integers) < face or not integers[face - 1]
 
 
 def markdown() -> str:

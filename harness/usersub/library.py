@@ -14,7 +14,7 @@ from typing import Final
 import numpy as np
 
 from harness.errors import CompileError, UelError
-from harness.model.arrays import FloatArray
+from harness.model.arrays import FloatArray, IntArray
 from harness.model.records import PointVariables
 from harness.model.user_values import AskedAmplitude, GivenAmplitude, UserValues
 from harness.usersub import _binding, layout
@@ -80,6 +80,18 @@ class Library:
             None if the library does not contain the project's elements, or if these have no such type.
         """
         return layout.variables(jtype) if hasattr(self._handle, layout.MARKER) else None
+
+    def is_continuum(self, jtype: int, integers: IntArray) -> bool:
+        """Whether elements are continuum elements of the project whose stress no other element reads.
+
+        Parameters
+        ----------
+        jtype
+            JTYPE: n of type Un.
+        integers
+            JPROPS.
+        """
+        return hasattr(self._handle, layout.MARKER) and layout.is_continuum(jtype, integers)
 
     def external_database(
         self, lop: int, lrestart: int, time: tuple[float, float], dtime: float, step: int, increment: int

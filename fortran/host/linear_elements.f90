@@ -1,0 +1,54 @@
+! SPDX-FileCopyrightText: The uel-harness authors
+! SPDX-License-Identifier: BSD-3-Clause
+!> Elements that are linear, from their matrices: what a pass over them would add, without calling them.
+
+!> Add the forces -K u of all elements to the residual, and measure them as the element loop does. Where a translation causes no
+!> force, that of the first node is taken out before: it would only cost digits.
+subroutine host_linear_pass(matrices, equations, first, u, floor, residual, flux, terms, ndofel, m, n)
+  use host_kinds, only: dp, i4
+  implicit none (type, external)
+  integer(i4), intent(in) :: ndofel, m, n
+  real(dp), intent(in) :: matrices(ndofel, ndofel, m)   !< K of each element
+  integer(i4), intent(in) :: equations(ndofel, m)       !< unknown, from 1
+  integer(i4), intent(in) :: first(ndofel)              !< the entry of u to be taken out of this one, from 1; 0: none
+  real(dp), intent(in) :: u(n), floor(ndofel)           !< |force| above which an entry counts as a term
+  real(dp), intent(inout) :: residual(n)
+  real(dp), intent(out) :: flux(ndofel, 2)              !< sum of |force|, and the largest one
+  integer(i4), intent(out) :: terms(ndofel)             !< number of terms
+  real(dp) :: force(ndofel), at(ndofel)
+  integer :: e, j
+  flux = 0
+  terms = 0
+  do e = 1, m
+    force = 0
+    at = u(equations(:, e))
+    do j = ndofel, 1, -1
+      if (first(j) > 0) at(j) = at(j) - at(first(j))
+      force = force - at(j)*matrices(:, j, e)
+    end do
+    do j = 1, ndofel
+      residual(equations(j, e)) = residual(equations(j, e)) + force(j)
+    end do
+    flux(:, 1) = flux(:, 1) + abs(force)
+    flux(:, 2) = max(flux(:, 2), abs(force))
+    terms = terms + merge(1_i4, 0_i4, abs(force) > floor)
+  end do
+end subroutine host_linear_pass
+
+!> Scatter the matrices of elements into the values of the sparse matrix.
+subroutine host_add_matrices(matrices, map, matrix, ndofel, m, nnz)
+  use host_kinds, only: dp, i4
+  implicit none (type, external)
+  integer(i4), intent(in) :: ndofel, m, nnz
+  real(dp), intent(in) :: matrices(ndofel, ndofel, m)
+  integer(i4), intent(in) :: map(ndofel, ndofel, m)     !< position in matrix, from 1
+  real(dp), intent(inout) :: matrix(nnz)
+  integer :: e, i, j
+  do e = 1, m
+    do j = 1, ndofel
+      do i = 1, ndofel
+        matrix(map(i, j, e)) = matrix(map(i, j, e)) + matrices(i, j, e)
+      end do
+    end do
+  end do
+end subroutine host_add_matrices

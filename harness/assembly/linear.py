@@ -1,0 +1,136 @@
+# SPDX-FileCopyrightText: The uel-harness authors
+# SPDX-License-Identifier: BSD-3-Clause
+"""Elements whose forces are linear in the displacements: called once, then their matrices stand for them."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Final
+
+import numpy as np
+
+from harness.elements import BlockReport, Call, ElementBlock, Motion, Request
+from harness.errors import ElementError
+from harness.model.arrays import FloatArray
+
+STATIC: Final = (1, 2)
+"""LFLAGS(1) of *STATIC, with automatic and with direct increments."""
+
+TOLERANCE: Final = 1e-6
+"""Largest part of the forces in a block by which those of an element may differ from its matrix times U."""
+
+MOST_ENTRIES: Final = 2**31 - 1
+"""Entries of the matrices of a block that the driver can number."""
+
+
+@dataclass(frozen=True, slots=True)
+class Behind:
+    """The last pass that keeps a state, of which the linear elements know nothing yet.
+
+    energy  (8,) sum of ENERGY over the other elements; that of the linear ones is added when they catch up
+    """
+
+    call: Call
+    u: FloatArray
+    du: FloatArray
+    energy: FloatArray
+
+
+class LinearElements:
+    """The blocks of a system whose elements are linear.
+
+    In a static step with small displacements they are called in the first pass; after that a pass adds -K U, with K
+    the AMATRX of that call. Their state is brought up to date at the end of each increment. Elements that are linear
+    only because the user says so are verified then.
+    """
+
+    def __init__(self, blocks: Sequence[ElementBlock], entries: int) -> None:
+        """Blocks of the system in any order; entries of its matrix."""
+        self._blocks = [block for block in blocks if block.linear and block.matrix_entries <= MOST_ENTRIES]
+        self._matrices: dict[int, FloatArray] = {}
+        self._data = np.zeros(entries)
+        self._behind: Behind | None = None
+
+    def applies(self, call: Call, motion: Motion | None, nrhs: int) -> bool:
+        """Whether the matrices stand for the elements in a pass, once they are known.
+
+        Parameters
+        ----------
+        call, motion, nrhs
+            As in `System.evaluate`.
+        """
+        flags = call.flags
+        return (
+            bool(self._blocks)
+            and flags.procedure in STATIC
+            and not (flags.nlgeom or flags.linear)
+            and flags.request in (Request.NORMAL, Request.RESIDUAL)
+            and (motion is None and nrhs == 1 and call.predefined is None)
+            and not any(block.is_loaded(call.distributed) for block in self._blocks)
+        )
+
+    @property
+    def known(self) -> bool:
+        """Whether the matrices are known."""
+        return len(self._matrices) == len(self._blocks)
+
+    def __contains__(self, block: ElementBlock) -> bool:
+        return any(one is block for one in self._blocks)
+
+    def learn(
+        self, block: ElementBlock, call: Call, u: FloatArray, du: FloatArray, residual: FloatArray, data: FloatArray
+    ) -> BlockReport:
+        """A normal pass over a block that keeps its matrices; arguments and result as in `ElementBlock.evaluate`."""
+        report, matrices = block.evaluate_apart(call, u, du, residual)
+        if id(block) not in self._matrices:
+            block.add_matrices(matrices, self._data)
+            self._matrices[id(block)] = matrices
+        block.add_matrices(matrices, data)
+        return report
+
+    def forces(self, block: ElementBlock, call: Call, u: FloatArray, residual: FloatArray) -> BlockReport:
+        """Add -K U of a block to residual (n,); its ENERGY and PNEWDT are left out."""
+        return block.linear_pass(self._matrices[id(block)], call, u, residual)
+
+    def fill(self, data: FloatArray) -> None:
+        """Set the CSR values (nnz,) to the matrices of all linear elements."""
+        np.copyto(data, self._data)
+
+    def passed(self, call: Call, u: FloatArray, du: FloatArray, energy: FloatArray, *, spared: bool) -> None:
+        """End of a pass over all elements; spared: the linear ones were not called. Energy (8,) is completed later."""
+        if call.flags.request is Request.NORMAL:
+            self._behind = Behind(call, u.copy(), du.copy(), energy) if spared else None
+
+    def catch_up(self) -> None:
+        """Call the elements for their state at the end of an increment, and add their ENERGY to that of the pass.
+
+        Raises
+        ------
+        ElementError
+            An element that the user says is linear is not.
+        KernelError
+            An element fails.
+        """
+        behind, self._behind = self._behind, None
+        if behind is None:
+            return
+        for block in self._blocks:
+            called = np.zeros_like(behind.u)
+            report = block.evaluate(behind.call, behind.u, behind.du, called, None)
+            behind.energy[:] += report.energy
+            if block.assumed_linear:
+                self._verify(block, behind, called)
+
+    def _verify(self, block: ElementBlock, behind: Behind, called: FloatArray) -> None:
+        """Compare the forces of a block with those of its matrices."""
+        expected = np.zeros_like(called)
+        report = self.forces(block, behind.call, behind.u, expected)
+        if np.abs(called - expected).max() <= TOLERANCE * report.largest.max():
+            return
+        matrices = self._matrices[id(block)]
+        row, entry, found, linear = block.largest_deviation(matrices, behind.call, behind.u, behind.du)
+        message = f"is not linear: RHS({entry}) is {found:g}, its first AMATRX times U gives {linear:g}"
+        hint = f"run without --linear {block.group.type}"
+        label = int(block.group.labels[row])
+        raise ElementError(label, block.group.type, f"{message} ({behind.call.place}); {hint}")
