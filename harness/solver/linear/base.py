@@ -80,10 +80,12 @@ class LinearSolver(ABC):
         self._data = np.zeros(0)
         self._pivot: float | None = None
         self._probed = False
+        # the factors are those of the data, and no solution has shown that the matrix is singular
+        self._regular = False
         self._passed = SUSPICIOUS
 
     def factorise(self, data: FloatArray) -> None:
-        """Numeric factorisation of the matrix with these CSR values.
+        """Numeric factorisation of the matrix with these CSR values; nothing is done if they are those of the last one.
 
         Parameters
         ----------
@@ -98,6 +100,10 @@ class LinearSolver(ABC):
         """
         if not self.pattern.size:
             return
+        if self._regular and data is not self._data and np.array_equal(data, self._data):
+            self._data = data
+            return
+        self._regular = False
         self._scale = float(np.abs(data[self._diagonal]).max(initial=0.0))
         self._data = data
         self._pivot = self._factorise(data)
@@ -107,6 +113,7 @@ class LinearSolver(ABC):
             self._probed = True
             # a right-hand side without equilibrium reveals an unconstrained body even if no load moves it
             self.solve(np.where(np.random.default_rng(0).random(self.pattern.size) < 0.5, -1.0, 1.0))
+        self._regular = True
 
     def solve(self, rhs: FloatArray) -> FloatArray:
         """Solution (n,) for one right-hand side (n,). Raises SingularMatrixError."""
@@ -123,7 +130,9 @@ class LinearSolver(ABC):
         ratio = pivot / self._scale if self._scale else 0.0
         if ratio > self._passed or not np.isfinite(self._data).all():
             return
+        self._regular = False
         refuse_singular(self.pattern.matrix(self._data), self._name_of, certain=pivot == 0.0)
+        self._regular = True
         # stiff but regular, as with an interface stiffness of 1e12: matrices like it are not examined again
         self._passed = 1e-2 * ratio
 

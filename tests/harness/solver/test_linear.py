@@ -350,6 +350,31 @@ def test_solver_of_its_own_takes_one_entry(monkeypatch) -> None:
         solver_for("lapack", matrix, coordinates)
 
 
+@pytest.mark.filterwarnings("ignore::scipy.linalg.LinAlgWarning")
+def test_the_same_matrix_is_factorised_once(monkeypatch) -> None:
+    """An elastic model has it in every increment."""
+    counted = []
+    ordinary = DenseSolver._factorise
+    monkeypatch.setattr(DenseSolver, "_factorise", lambda self, data: counted.append(1) or ordinary(self, data))
+    matrix = sparse.csr_array(np.array([[4.0, 1.0], [1.0, 3.0]]))
+    solver = DenseSolver(Pattern(matrix.indptr, matrix.indices))
+    for factor, count in ((1.0, 1), (1.0, 1), (2.0, 2), (1.0, 3)):
+        solver.factorise(factor * matrix.data)
+        assert len(counted) == count
+        np.testing.assert_allclose(factor * matrix @ solver.solve(np.array([1.0, 2.0])), [1.0, 2.0], rtol=1e-14)
+    # what a caller writes into the array is a new matrix
+    values = matrix.data.copy()
+    solver.factorise(values)
+    values *= 2.0
+    solver.factorise(values)
+    assert len(counted) == 4
+    np.testing.assert_allclose(2.0 * matrix @ solver.solve(np.array([1.0, 2.0])), [1.0, 2.0], rtol=1e-14)
+    with pytest.raises(SingularMatrixError):
+        solver.factorise(0.0 * values)
+    with pytest.raises(SingularMatrixError):
+        solver.factorise(0.0 * values)
+
+
 def test_solver_that_is_not_installed_is_refused(monkeypatch) -> None:
     from harness.solver.linear import choice  # noqa: PLC0415
 
