@@ -17,7 +17,14 @@ from numpy.f2py import crackfortran
 
 HERE: Final = Path(__file__).parent
 STUB: Final = HERE.parents[1] / "harness" / "usersub" / "_host.pyi"
-SOURCES: Final = ("entry.f90", "entry_shape.f90", "entry_watch.f90", "bare_loop.f90", "linear_elements.f90")
+SOURCES: Final = (
+    "entry.f90",
+    "entry_shape.f90",
+    "entry_watch.f90",
+    "bare_loop.f90",
+    "linear_elements.f90",
+    "scatter_map.f90",
+)
 """As in meson.build."""
 
 SCALARS: Final = {("integer", "i4"): "int", ("integer", "i8"): "int", ("real", "dp"): "float", ("character", ""): "str"}

@@ -17,6 +17,7 @@ from harness.elements import FIELD_NAMES, Call, ElementBlock, Motion, PressureBl
 from harness.model.arrays import ComplexArray, FloatArray, IntArray
 from harness.model.mesh import Mesh
 from harness.model.model import Equation
+from harness.usersub import _binding
 
 
 @dataclass(frozen=True, slots=True)
@@ -208,15 +209,13 @@ def build_pattern(
     numbers holds, per block, the (m, k) unknowns of its elements. Returns row starts, columns and, per block, the
     (m, k, k) positions of the element matrices' (row, column) entries in the CSR values.
     """
-    diagonal = np.arange(n, dtype=np.int32)
-    pairs = [np.broadcast_arrays(number[:, :, None], number[:, None, :]) for number in numbers]
-    rows = np.concatenate([diagonal, *(row.ravel() for row, _ in pairs)])
-    columns = np.concatenate([diagonal, *(column.ravel() for _, column in pairs)])
-    pattern = sparse.coo_array((np.ones(len(rows), dtype=np.int8), (rows, columns)), shape=(n, n)).tocsr()
+    pattern = sparse.csr_array(sparse.eye_array(n, dtype=np.bool_))
+    for number in numbers:
+        elements, unknowns = number.shape
+        starts = np.arange(0, number.size + 1, unknowns)
+        incidence = sparse.csr_array((np.ones(number.size, dtype=np.bool_), number.ravel(), starts), (elements, n))
+        # unlike a list of all entries of all elements it takes no more memory than the pattern
+        pattern = pattern + incidence.T @ incidence
     pattern.sort_indices()
-    # look positions up by indexing the pattern with values that are their own positions
-    positions = sparse.csr_matrix((np.arange(pattern.nnz), pattern.indices, pattern.indptr), shape=(n, n))
-    scatter = [
-        np.asarray(positions[row.ravel(), column.ravel()]).reshape(row.shape).astype(np.int32) for row, column in pairs
-    ]
-    return pattern.indptr.astype(np.int32), pattern.indices.astype(np.int32), scatter
+    indptr, indices = pattern.indptr.astype(np.int32), pattern.indices.astype(np.int32)
+    return indptr, indices, [_binding.scatter_map(number, indptr, indices) for number in numbers]

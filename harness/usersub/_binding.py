@@ -216,6 +216,18 @@ def linear_pass(
     return Outcome(Fault.NONE, -1, ARRAYS[0], 0, flux[:, 0], flux[:, 1], terms, np.inf, np.zeros(8))
 
 
+def scatter_map(equations: Int32Array, indptr: Int32Array, indices: Int32Array) -> Int32Array:
+    """Positions (m, ndofel, ndofel) of (row, column) of element matrices in the values of a CSR matrix, from 0.
+
+    equations (m, ndofel) from 0; the matrix has all their entries, columns ascending in each row.
+    """
+    m, n = equations.shape
+    places = np.zeros((m, n, n), dtype=np.int32)
+    _host.host_scatter_map(equations.T, indptr, indices, places.T)
+    # the driver walks matrices by columns, so that this is a view
+    return places.transpose(0, 2, 1)
+
+
 def add_matrices(matrices: FloatArray, places: Int32Array, matrix: FloatArray) -> None:
     """Add matrices of elements, each by columns, to matrix (nnz,); places, from 1, has the same shape (m, n, n)."""
     _host.host_add_matrices(matrices.T, places.T, matrix)
