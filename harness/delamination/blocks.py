@@ -16,7 +16,8 @@ from harness.delamination.mesh import TwoArmMesh
 class Interface:
     """Interface elements of a deck.
 
-    type       'U2' standard, 'U3' stabilised with four nodes, 'U4' stabilised with eight nodes; 'COH2D4' Abaqus' own
+    type       'U2' standard, 'U3' stabilised with four nodes, 'U4' stabilised with eight nodes, 'COH2D4' Abaqus' own;
+               in space 'U7' standard, 'U8' stabilised, 'COH3D8' Abaqus' own
     cohesive   parameters of the law
     beta       stabilisation parameter beta_n = beta_tau (N/mm^3); 0 computes it by equation (21), -1 by the local
                eigenvalue problem
@@ -30,8 +31,8 @@ class Interface:
     secant     AMATRX without the derivative of the damage (TANGENT 1), equation (24)
     blend      share of that matrix in AMATRX
 
-    COH2D4 is built in: it has the law of `law` 1 or 2, integrates by Newton-Cotes, and ignores beta, weight, sampling,
-    consistent, newton_cotes, secant and blend.
+    COH2D4 and COH3D8 are built in: they have the law of `law` 1 or 2, integrate by Newton-Cotes, and ignore beta,
+    weight, sampling, consistent, newton_cotes, secant and blend.
     """
 
     type: str
@@ -149,21 +150,31 @@ def _interface(specimen: Specimen) -> list[str]:
     ]
 
 
-def cohesive_section(interface: Interface, width: float) -> list[str]:
-    """*COHESIVE SECTION of the set INTERFACE with its material: the law of the user elements in Abaqus' words."""
+def cohesive_section(interface: Interface, width: float | None = None, *, controls: bool = True) -> list[str]:
+    """*COHESIVE SECTION of the set INTERFACE with its material: the law of the user elements in Abaqus' words.
+
+    Parameters
+    ----------
+    interface
+        Elements and law.
+    width
+        Out of the plane (mm); None in space.
+    controls
+        *SECTION CONTROLS by which failed elements still resist compression, like the user elements.
+    """
     law = interface.cohesive
     mixed = ("BK", interface.eta) if interface.eta else ("POWER LAW", interface.power or 1.0)
     evolution = {"TYPE": "ENERGY", "SOFTENING": "LINEAR", "MIXED_MODE_BEHAVIOR": mixed[0], "POWER": number(mixed[1])}
     section = {"ELSET": "INTERFACE", "MATERIAL": "INTERFACE", "RESPONSE": "TRACTION SEPARATION"}
-    # like the user elements, failed ones still resist compression
-    controls = {"NAME": "INTERFACE", "ELEMENT_DELETION": "NO", "MAX_DEGRADATION": "1."}
+    settings = {"NAME": "INTERFACE", "ELEMENT_DELETION": "NO", "MAX_DEGRADATION": "1."}
     if interface.viscosity:
-        controls["VISCOSITY"] = number(interface.viscosity)
+        settings["VISCOSITY"] = number(interface.viscosity)
+    controlled = {"CONTROLS": "INTERFACE"} if controls else {}
     return [
-        "** constitutive thickness, width",
-        keyword("COHESIVE SECTION", CONTROLS="INTERFACE", **section),
-        *wrapped([1.0, width]),
-        keyword("SECTION CONTROLS", **controls),
+        "** constitutive thickness" + (", width" if width else ""),
+        keyword("COHESIVE SECTION", **controlled, **section),
+        *wrapped([1.0, width] if width else [1.0]),
+        *([keyword("SECTION CONTROLS", **settings)] if controls else []),
         keyword("MATERIAL", NAME="INTERFACE"),
         "** normal, first and second shear direction: stiffness, strength, fracture energy",
         keyword("ELASTIC", TYPE="TRACTION"),
@@ -175,12 +186,10 @@ def cohesive_section(interface: Interface, width: float) -> list[str]:
     ]
 
 
-def interface_values(specimen: Specimen) -> dict[str, float]:
-    """Properties of the interface elements by name."""
-    interface, law = specimen.interface, specimen.interface.cohesive
-    below, above = specimen.mesh.offsets
-    values = {
-        "THICKNESS": specimen.width,
+def law_values(interface: Interface) -> dict[str, float]:
+    """Properties of the interface elements that do not depend on the specimen, by name."""
+    law = interface.cohesive
+    return {
         "ALPHAN": law.stiffness_normal,
         "ALPHAT": law.stiffness_shear,
         "SIGMAMAX": law.strength_normal,
@@ -190,22 +199,23 @@ def interface_values(specimen: Specimen) -> dict[str, float]:
         "VISCOSITY": interface.viscosity,
         "ETA": interface.eta,
         "POWER": interface.power,
-        "SHAPEN": 0.0,
-        "SHAPET": 0.0,
         "BLEND": interface.blend,
         "BETAN": interface.beta,
         "BETAT": interface.beta,
         "GAMMABOT": interface.weight,
-        "FRICTION": 0.0,
         "LAW": interface.law,
         "INTEGRATION": int(interface.newton_cotes),
         "TANGENT": int(interface.secant),
         "SAMPLING": interface.sampling,
-        "OFFSETBOTTOM": below,
-        "OFFSETTOP": above,
-        "PLANE": 0,
         "CLOSURE": int(interface.consistent),
     }
+
+
+def interface_values(specimen: Specimen) -> dict[str, float]:
+    """Properties of the interface elements by name."""
+    below, above = specimen.mesh.offsets
+    values = law_values(specimen.interface)
+    values |= {"THICKNESS": specimen.width, "OFFSETBOTTOM": below, "OFFSETTOP": above, "PLANE": 0}
     for side, ply in (("BOTTOM", specimen.bottom), ("TOP", specimen.top)):
         named = zip(("E1", "E2", "NU12", "G12"), ply.in_plane, strict=True)
         values |= {f"{constant} {side}": value for constant, value in named}

@@ -7,7 +7,8 @@ from __future__ import annotations
 import numpy as np
 
 from harness.delamination.kernels import uel_property, user_element
-from harness.delamination.keywords import element_block, keyword, node_block, node_set, number, text
+from harness.delamination.keywords import element_block, node_block, node_set, number, text
+from harness.delamination.steps import Output, static_step
 
 LENGTH, HEIGHT, CRACK = 40.0, 0.4, 10.0
 """Length of the specimen, height of an arm, length of the crack, mm; the width is 1 mm."""
@@ -69,21 +70,16 @@ def _deck(kind: str) -> str:
         "*ELASTIC",
         f"{number(MODULUS)}, 0.",
         *uel_property(int(kind[1:]), "INTERFACE", TYPES[kind]),
-        keyword("STEP", "NLGEOM", "UNSYMM=YES", INC=2000),
-        "*STATIC",
-        "0.01, 1., 1.e-7, 0.02",
-        "*BOUNDARY",
-        "CLAMPED, 1, 2",
-        f"LOAD_TOP, 2, 2, {number(OPENING / 2.0)}",
-        f"LOAD_BOTTOM, 2, 2, {number(-OPENING / 2.0)}",
-        "*OUTPUT, FIELD, FREQUENCY=10",
-        "*NODE OUTPUT",
-        "U, RF",
-        "*ELEMENT OUTPUT",
-        "S, SDEG",
-        "*OUTPUT, HISTORY",
-        "*NODE OUTPUT, NSET=LOAD_TOP",
-        "U1, U2, RF2",
-        "*END STEP",
+        *static_step(
+            (0.01, 1.0, 1.0e-7, 0.02),
+            [
+                "CLAMPED, 1, 2",
+                f"LOAD_TOP, 2, 2, {number(OPENING / 2.0)}",
+                f"LOAD_BOTTOM, 2, 2, {number(-OPENING / 2.0)}",
+            ],
+            Output(history={"LOAD_TOP": "U1, U2, RF2"}),
+            limit=2000,
+            nlgeom=True,
+        ),
     ]
     return text(lines)

@@ -1,9 +1,13 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""HTA/6376C carbon/epoxy and its cohesive parameters: tables 1 and 2 of Ghosh, Duddu and Annavarapu (N, mm, MPa)."""
+"""Plies and cohesive parameters (N, mm, MPa).
+
+HTA/6376C carbon/epoxy is that of tables 1 and 2 of Ghosh, Duddu and Annavarapu.
+"""
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass, replace
 
 
@@ -31,6 +35,44 @@ class Ply:
     def lamina(self) -> tuple[float, ...]:
         """Data line of *ELASTIC, TYPE=LAMINA."""
         return self.e1, self.e2, self.nu12, self.g12, self.g13, self.g23
+
+
+@dataclass(frozen=True, slots=True)
+class SolidPly:
+    """Orthotropic ply in space, as the data lines of *ELASTIC, TYPE=ENGINEERING CONSTANTS.
+
+    name    of its material, its orientation and its element set
+    moduli  E1, E2, E3 (MPa)
+    ratios  nu12, nu13, nu23
+    shear   G12, G13, G23 (MPa)
+    angle   of axis 1 from x about z (degrees); axis 3 is z
+    """
+
+    name: str
+    moduli: tuple[float, float, float]
+    ratios: tuple[float, float, float]
+    shear: tuple[float, float, float]
+    angle: float = 0.0
+
+    @property
+    def isotropic(self) -> bool:
+        """True if no direction differs from another."""
+        same = all(len(set(values)) == 1 for values in (self.moduli, self.ratios, self.shear))
+        return same and math.isclose(self.shear[0], self.moduli[0] / (2.0 * (1.0 + self.ratios[0])), rel_tol=1e-12)
+
+    @property
+    def constants(self) -> dict[str, float]:
+        """The constants by name: E1, ..., NU12, ..., G12, ..."""
+        names = [f"{name}{axes}" for name, pairs in _CONSTANTS.items() for axes in pairs]
+        return dict(zip(names, (*self.moduli, *self.ratios, *self.shear), strict=True))
+
+
+_CONSTANTS = {"E": ("1", "2", "3"), "NU": ("12", "13", "23"), "G": ("12", "13", "23")}
+
+
+def isotropic(name: str, modulus: float, ratio: float) -> SolidPly:
+    """Isotropic material: Young's modulus (MPa), Poisson's ratio."""
+    return SolidPly(name, (modulus,) * 3, (ratio,) * 3, (modulus / (2.0 * (1.0 + ratio)),) * 3)
 
 
 @dataclass(frozen=True, slots=True)

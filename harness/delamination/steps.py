@@ -4,8 +4,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
-from dataclasses import dataclass
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass, field
 
 from harness.delamination.keywords import keyword, number, table
 
@@ -62,22 +62,77 @@ def step_block(
         The interface elements are Abaqus' own: other names of their variables and energies.
     """
     static = (increments.initial, 1.0, increments.smallest, increments.largest)
-    lines = [keyword("STEP", INC=increments.limit, UNSYMM="YES"), title, "*STATIC", *table([static])]
-    lines += _controls(increments)
-    lines += ["*BOUNDARY", *(f"{name}, {dof}, {dof}, {number(value)}" for name, dof, value in prescribed)]
+    head = [keyword("STEP", INC=increments.limit, UNSYMM="YES"), title, "*STATIC", *table([static])]
+    moved = [f"{name}, {dof}, {dof}, {number(value)}" for name, dof, value in prescribed]
     every = f"NUMBER INTERVAL={increments.field_parts}, TIME MARKS=NO"
-    lines += [f"*OUTPUT, FIELD, {every if increments.field_parts else f'FREQUENCY={field_every}'}"]
-    lines += ["*NODE OUTPUT", "U, RF"]
-    lines.append("*OUTPUT, HISTORY, FREQUENCY=1")
-    for name in history:
-        lines += [keyword("NODE OUTPUT", NSET=name), "U2, RF2"]
     dissipated = "ALLDMD, ALLCD" if built_in else "ALLPD, ALLVD"
-    lines += ["*ENERGY OUTPUT", f"ALLIE, ALLSE, {dissipated}, ALLWK, ETOTAL"]
-    for name in history:
+    names = list(history)
+    output = Output(
+        when=every if increments.field_parts else f"FREQUENCY={field_every}",
+        stresses=False,
+        history=dict.fromkeys(names, "U2, RF2"),
+        energies=f"ALLIE, ALLSE, {dissipated}, ALLWK, ETOTAL",
+    )
+    lines = [*head, *_controls(increments), "*BOUNDARY", *moved, *output.lines()]
+    for name in names:
         lines += [keyword("NODE PRINT", NSET=name, FREQUENCY=field_every), "U2, RF2"]
     # the state of the first interface element; Abaqus prints the SVARS of user elements as SDV
     lines += [keyword("EL PRINT", ELSET="TIP", FREQUENCY=field_every), "S, E, SDEG" if built_in else "SDV3, SDV5, SDV7"]
     return [*lines, "*END STEP"]
+
+
+@dataclass(frozen=True, slots=True)
+class Output:
+    """Output requests of a step.
+
+    when      options of the field output; displacements, reactions and, with `stresses`, those of the elements
+    history   node sets with the variables that are written in every increment
+    energies  of the whole model, '' for none
+    """
+
+    when: str = "FREQUENCY=10"
+    stresses: bool = True
+    history: Mapping[str, str] = field(default_factory=dict)
+    energies: str = ""
+
+    def lines(self) -> list[str]:
+        """*OUTPUT."""
+        lines = [f"*OUTPUT, FIELD, {self.when}", "*NODE OUTPUT", "U, RF"]
+        if self.stresses:
+            lines += ["*ELEMENT OUTPUT", "S, SDEG"]
+        lines.append("*OUTPUT, HISTORY, FREQUENCY=1")
+        for name, variables in self.history.items():
+            lines += [keyword("NODE OUTPUT", NSET=name), variables]
+        return [*lines, "*ENERGY OUTPUT", self.energies] if self.energies else lines
+
+
+def static_step(
+    static: Iterable[float],
+    boundary: Iterable[str],
+    output: Output,
+    *,
+    limit: int = 1000,
+    unsymmetric: bool = True,
+    nlgeom: bool = False,
+) -> list[str]:
+    """*STEP to *END STEP with *STATIC and the default solution controls.
+
+    Parameters
+    ----------
+    static
+        Data line of *STATIC: initial increment, period, smallest and largest increment.
+    boundary
+        Data lines of *BOUNDARY.
+    output
+        What is written.
+    limit
+        Number of increments allowed.
+    unsymmetric, nlgeom
+        Options of *STEP.
+    """
+    flags = [*(["NLGEOM"] if nlgeom else []), *(["UNSYMM=YES"] if unsymmetric else [])]
+    lines = [keyword("STEP", *flags, INC=limit), "*STATIC", *table([tuple(float(value) for value in static)])]
+    return [*lines, "*BOUNDARY", *boundary, *output.lines(), "*END STEP"]
 
 
 def _controls(increments: Increments) -> list[str]:

@@ -1,0 +1,150 @@
+# SPDX-FileCopyrightText: The uel-harness authors
+# SPDX-License-Identifier: BSD-3-Clause
+"""Specimens in space: meshes, equilibrium of the loads, and stiffness against beam theory."""
+
+from collections.abc import Callable
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from harness.delamination import plate_specimens as build
+from harness.delamination.blocks import Interface
+from harness.delamination.keywords import text
+from harness.delamination.materials import Cohesive, SolidPly, isotropic
+from harness.delamination.plates import Laminate, TwoPlateMesh
+from harness.delamination.theory import Arms, dcb_compliance, enf_compliance
+from harness.job import run
+from harness.output import Result
+
+PLY = SolidPly("PLY_0", (1.2e5, 1.05e4, 1.05e4), (0.3, 0.3, 0.51), (5.52e3, 5.52e3, 3.48e3))
+CROSS = replace(PLY, name="PLY_90", angle=90.0)
+STRONG = Cohesive(0.0, 0.0, 1.0e3, 1.0e3, 1.0e3, 1.0e3)
+"""Infinitely stiff, and never reached: the specimen stays elastic."""
+INTERFACES = {
+    "U8": Interface("U8", STRONG, law=2, eta=1.0, beta=-1.0, consistent=True),
+    "U7": Interface("U7", STRONG.with_stiffness(1.0e6), law=2, eta=1.0),
+    "COH3D8": Interface("COH3D8", STRONG.with_stiffness(1.0e6), law=2, eta=1.0),
+}
+HEIGHT, WIDTH, LENGTH, CRACK = 1.5, 2.0, 60.0, 30.0
+LINEAR = (1.0, 1.0, 1.0, 1.0)
+
+
+def beam(interface: Interface, plies: tuple[SolidPly, SolidPly] = (PLY, PLY), across: int = 1) -> Laminate:
+    x, y = np.linspace(0.0, LENGTH, 81), np.linspace(0.0, WIDTH, across + 1)
+    z = np.linspace(0.0, HEIGHT, 3)
+    bonded = np.broadcast_to(x[:-1] > CRACK - 1e-9, (across, len(x) - 1))
+    mesh = TwoPlateMesh(x, y, z - HEIGHT, z, bonded)
+    return Laminate(mesh, interface, (plies[0],) * 2, (plies[1],) * 2)
+
+
+@pytest.fixture
+def solved(tmp_path: Path) -> Callable[[list[str]], Result]:
+    def solve(lines: list[str]) -> Result:
+        (tmp_path / "specimen.inp").write_text(text(lines))
+        return run(tmp_path / "specimen.inp", output_dir=tmp_path)
+
+    return solve
+
+
+def total(result: Result, variable: str, name: str) -> float:
+    """Sum of a variable over a node set in the last increment."""
+    found = [values[-1] for key, values in result.history.items() if key.startswith(f"{variable}[{name}")]
+    assert found
+    return float(np.sum(found))
+
+
+def test_interface_elements_lie_between_their_bricks() -> None:
+    mesh = beam(INTERFACES["U8"], across=3).mesh
+    labels, points = mesh.nodes()
+    assert labels.tolist() == list(range(1, len(labels) + 1))
+    below, above = mesh.bricks(0, 1), mesh.bricks(1, 0)
+    bonded = mesh.bonded.ravel()
+    eight = mesh.interface("U8")
+    assert (eight == np.hstack([below[bonded], above[bonded]])).all()
+    assert (mesh.interface("U7") == np.hstack([below[bonded, 4:], above[bonded, :4]])).all()
+    faces = points[mesh.interface("COH3D8") - 1]
+    assert (faces[:, :4] == faces[:, 4:]).all()
+    assert faces[..., 0].min() == CRACK
+    # positive volumes, in total that of the specimen
+    corners = points[np.concatenate([mesh.bricks(plate, layer) for plate in (0, 1) for layer in (0, 1)]) - 1]
+    edges = corners[:, [1, 3, 4]] - corners[:, :1]
+    volumes = np.linalg.det(edges)
+    assert volumes.min() > 0.0
+    assert volumes.sum() == pytest.approx(2.0 * HEIGHT * WIDTH * LENGTH, rel=1e-12)
+
+
+def test_place_turns_the_mesh_lines() -> None:
+    mesh = beam(INTERFACES["U8"], across=3).mesh
+    slope = 0.2
+    turned = replace(mesh, place=lambda x, y: (x + slope * y, y))
+    points, moved = mesh.nodes()[1], turned.nodes()[1]
+    assert np.allclose(moved - points, np.outer(points[:, 1], [slope, 0.0, 0.0]), atol=1e-15)
+
+
+@pytest.mark.parametrize("kind", INTERFACES)
+def test_dcb_has_the_stiffness_of_beam_theory(kind: str, solved: Callable[[list[str]], Result]) -> None:
+    """In plane strain across the width: Williams' crack length correction, a few per cent of a small correction."""
+    result = solved(build.dcb_deck("DCB", beam(INTERFACES[kind]), 0.1, LINEAR, part=build.STRIP))
+    constrained = PLY.moduli[0] / (1.0 - PLY.ratios[0] ** 2 * PLY.moduli[1] / PLY.moduli[0])
+    arms = Arms(WIDTH, HEIGHT, constrained, PLY.moduli[2] / (1.0 - PLY.ratios[2] ** 2), PLY.shear[1])
+    load = total(result, "RF3", "TOP")
+    assert 0.1 / load == pytest.approx(dcb_compliance(arms, CRACK), rel=0.03)
+
+
+@pytest.mark.parametrize("part", [build.WHOLE, build.STRIP])
+def test_enf_has_the_stiffness_of_beam_theory(part: str, solved: Callable[[list[str]], Result]) -> None:
+    """The crack reaches mid-span, its limit in the theory."""
+    result = solved(build.enf_deck("ENF", beam(INTERFACES["U8"]), 0.1, LINEAR, part=part))
+    arms = Arms(WIDTH, HEIGHT, PLY.moduli[0], PLY.moduli[1], PLY.shear[0])
+    assert -0.1 / total(result, "RF3", "MIDSPAN") == pytest.approx(enf_compliance(arms, CRACK, 30.0), rel=0.03)
+
+
+def test_the_lever_of_mixed_mode_bending_is_in_equilibrium(solved: Callable[[list[str]], Result]) -> None:
+    """Supports carry the load: about the left one, P (L + c) = R 2 L. The lever's deflections are those of a line."""
+    laminate, half, lever = beam(INTERFACES["U8"]), 24.0, 20.0
+    lines = build.mmb_deck("MMB", laminate, 2.0 * half, lever, 0.2, LINEAR, part=build.STRIP)
+    mark = lines.index("*NODE OUTPUT, NSET=LEVER")
+    for name in ("LEFT", "RIGHT", "END", "MIDDLE"):
+        lines[mark:mark] = [f"*NODE OUTPUT, NSET={name}", "U3, RF3"]
+    top = laminate.mesh.labels[1]
+    column = int(np.argmin(np.abs(laminate.mesh.x - half)))
+    lines.insert(lines.index("*EQUATION"), f"*NSET, NSET=MIDDLE\n{top[-1, 0, column]},")
+    result = solved(lines)
+    load = -total(result, "RF3", "LEVER")
+    assert load > 0.0
+    left, right = total(result, "RF3", "LEFT"), total(result, "RF3", "RIGHT")
+    assert left + right == pytest.approx(load, rel=1e-9)
+    assert right * 2.0 * half == pytest.approx(load * (half + lever), rel=1e-9)
+    end = total(result, "U3", "END") / 2.0
+    middle = total(result, "U3", "MIDDLE")
+    assert end > 0.0 > middle
+    assert middle == pytest.approx((half * -0.2 + lever * end) / (half + lever), rel=1e-9)
+
+
+def test_half_a_beam_carries_half_the_load(solved: Callable[[list[str]], Result]) -> None:
+    """The half on one side of the symmetry plane, which has no stress across, is a beam of half the width."""
+    laminate = beam(INTERFACES["U8"], (PLY, CROSS), across=4)
+    whole = total(solved(build.dcb_deck("DCB", laminate, 0.1, LINEAR)), "RF3", "TOP")
+    mesh = laminate.mesh
+    part = replace(mesh, y=mesh.y[:3], bonded=mesh.bonded[:2])
+    half = total(
+        solved(build.dcb_deck("DCB", replace(laminate, mesh=part), 0.1, LINEAR, part=build.HALF)), "RF3", "TOP"
+    )
+    assert half == pytest.approx(0.5 * whole, rel=1e-8)
+
+
+def test_bonded_plates_of_a_circular_delamination(solved: Callable[[list[str]], Result]) -> None:
+    """A clamped Kirchhoff plate under a force in the middle: w = P a^2/(16 pi D). A thin plate, a square mesh."""
+    edges = np.linspace(0.0, 30.0, 31)
+    centres = 0.5 * (edges[1:] + edges[:-1])
+    bonded = np.hypot(*np.meshgrid(centres, centres, indexing="ij")) > 20.0
+    z = np.linspace(0.0, 0.5, 2)
+    metal = isotropic("METAL", 7.0e4, 0.3)
+    laminate = Laminate(TwoPlateMesh(edges, edges, z - 0.5, z, bonded), INTERFACES["U8"], (metal,), (metal,))
+    result = solved(build.circular_deck("Circle", laminate, 0.1, LINEAR))
+    bending = 7.0e4 * 0.5**3 / (12.0 * (1.0 - 0.3**2))
+    # a quarter of the load; the radius is known to half an element, and the rim gives way
+    expected = 0.25 * 0.1 * 16.0 * np.pi * bending / 20.0**2
+    assert total(result, "RF3", "TOP") == pytest.approx(expected, rel=0.08)
