@@ -136,6 +136,12 @@ def build_parser() -> argparse.ArgumentParser:
 
     add_law(commands.add_parser("law", help="drive one interface element, plot traction over separation"))
 
+    front = commands.add_parser("front", help="write and draw the front of a delamination in space, with G along it")
+    front.epilog = "Written: JOB_front.csv and JOB_front.png, next to the files of the job."
+    front.add_argument("job", type=Path, metavar="JOB", help="name of a job that has run, with its folder")
+    front.add_argument("--damage", type=PART, default=0.5, metavar="D", help="damage at the front (0.5)")
+    front.set_defaults(function=trace_front)
+
     add_check(commands.add_parser("check", help="check the user elements of a deck with the calls of a run"))
 
     solvers = commands.add_parser("solvers", help="list the linear solvers and say when each is used")
@@ -349,6 +355,20 @@ def explore_law(options: argparse.Namespace) -> int:
     curves, files = explore(Exploration(**asked, path=path, element=element))
     Console().print(summary(curves))
     print("written:", *files)
+    return 0
+
+
+def trace_front(options: argparse.Namespace) -> int:
+    """`uel front`."""
+    from harness.output.front import draw_fronts, fronts, write_fronts  # noqa: PLC0415
+    from harness.output.results import Result  # noqa: PLC0415
+
+    result = Result(options.job)
+    found = fronts(result, options.damage)
+    table, picture = result.file("_front.csv"), result.file("_front.png")
+    write_fronts(table, found)
+    draw_fronts(picture, found)
+    print(f"written: {table} {picture}")
     return 0
 
 

@@ -6,7 +6,8 @@ The crack of the beams begins at x = 0 and grows along x; z is the normal of the
 laminate whatever its plies, its mesh, and its interface elements: the decks differ by loads and supports alone.
 
 A beam can be modelled whole, by the half on one side of its symmetry plane y = 0 (HALF), or in plane strain, by a strip
-whose nodes all keep their y (STRIP). Reactions are those of the part that is modelled.
+whose nodes all keep their y (STRIP). Reactions are those of the part that is modelled. Every increment whose number
+is a multiple of `every` has field output.
 """
 
 from __future__ import annotations
@@ -28,7 +29,9 @@ Static = tuple[float, float, float, float]
 ENERGIES = "ALLIE, ALLSE, ALLPD, ALLDMD, ALLWK"
 
 
-def dcb_deck(title: str, laminate: Laminate, opening: float, static: Static, *, part: str = WHOLE) -> list[str]:
+def dcb_deck(
+    title: str, laminate: Laminate, opening: float, static: Static, *, part: str = WHOLE, every: int = 10
+) -> list[str]:
     """Double cantilever beam: the end clamped, the outer edges at x = 0 pulled apart by `opening` each (mm)."""
     bottom, top = laminate.mesh.labels
     sets = {
@@ -40,10 +43,12 @@ def dcb_deck(title: str, laminate: Laminate, opening: float, static: Static, *, 
     boundary = ["CLAMPED, 1, 3", *boundary]
     boundary += [f"TOP, 3, 3, {number(opening)}", f"BOTTOM, 3, 3, {number(-opening)}"]
     comment = "right end clamped; the left ends of the outer faces are pulled apart, the crack runs to the right"
-    return _deck(title, comment, laminate, sets, [], boundary, {"TOP": "U3, RF3"}, static)
+    return _deck(title, comment, laminate, sets, [], boundary, {"TOP": "U3, RF3"}, static, every)
 
 
-def enf_deck(title: str, laminate: Laminate, deflection: float, static: Static, *, part: str = WHOLE) -> list[str]:
+def enf_deck(
+    title: str, laminate: Laminate, deflection: float, static: Static, *, part: str = WHOLE, every: int = 10
+) -> list[str]:
     """End-notched flexure: supports below both ends, mid-span of the upper face pushed down by `deflection` (mm).
 
     *EQUATION ties the deflections of the crack's faces above the left support, as in the plane.
@@ -55,7 +60,7 @@ def enf_deck(title: str, laminate: Laminate, deflection: float, static: Static, 
     boundary = ["LEFT, 3, 3", "RIGHT, 1, 1", "RIGHT, 3, 3", *boundary, f"MIDSPAN, 3, 3, {number(-deflection)}"]
     equations = _equal(top[0, :, 0], bottom[-1, :, 0])
     comment = "simply supported; mid-span pushed down; the crack's faces have one deflection above the left support"
-    return _deck(title, comment, laminate, sets, equations, boundary, {"MIDSPAN": "U3, RF3"}, static)
+    return _deck(title, comment, laminate, sets, equations, boundary, {"MIDSPAN": "U3, RF3"}, static, every)
 
 
 def mmb_deck(
@@ -67,12 +72,13 @@ def mmb_deck(
     static: Static,
     *,
     part: str = WHOLE,
+    every: int = 10,
 ) -> list[str]:
     """Mixed-mode bending: a rigid lever on a roller at mid-span pulls the upper arm's end up.
 
     Parameters
     ----------
-    title, laminate, static, part
+    title, laminate, static, part, every
         As for the other specimens.
     span
         Distance 2 L of the supports below x = 0 and x = 2 L (mm).
@@ -90,7 +96,7 @@ def mmb_deck(
     middle, right = _column(laminate, half), _column(laminate, span)
     node = int(top.max()) + 1
     # the end of the arm is pulled at its middle, where it has the deflection of a beam
-    end = top[len(mesh.upper) // 2, :, 0]
+    end = top[np.argmin(np.abs(mesh.upper - np.mean(mesh.upper[[0, -1]]))), :, 0]
     sets = {"LEVER": np.array([node]), "END": end, "LEFT": bottom[0, :, 0], "RIGHT": bottom[0, :, right]}
     sets, boundary = _sides(laminate, part, sets, held=bottom[0, 0, right])
     boundary = ["LEFT, 3, 3", "RIGHT, 1, 1", "RIGHT, 3, 3", *boundary, f"LEVER, 3, 3, {number(-displacement)}"]
@@ -101,10 +107,10 @@ def mmb_deck(
     place = [half + lever, float(np.mean(mesh.y)), float(mesh.upper[-1])]
     comment = "a rigid lever pushes mid-span down and pulls the upper arm's left end up"
     extra = ["*NODE", *table([[node, *place]])]
-    return _deck(title, comment, laminate, sets, [*extra, *equations], boundary, {"LEVER": "U3, RF3"}, static)
+    return _deck(title, comment, laminate, sets, [*extra, *equations], boundary, {"LEVER": "U3, RF3"}, static, every)
 
 
-def circular_deck(title: str, laminate: Laminate, opening: float, static: Static) -> list[str]:
+def circular_deck(title: str, laminate: Laminate, opening: float, static: Static, *, every: int = 10) -> list[str]:
     """A quarter of two plates: the middle of the delamination, at x = y = 0, is pulled apart by `opening` each (mm)."""
     bottom, top = laminate.mesh.labels
     sets = {
@@ -116,7 +122,7 @@ def circular_deck(title: str, laminate: Laminate, opening: float, static: Static
     boundary = ["PLANE_X, 1, 1", "PLANE_Y, 2, 2"]
     boundary += [f"TOP, 3, 3, {number(opening)}", f"BOTTOM, 3, 3, {number(-opening)}"]
     comment = "planes of symmetry x = 0 and y = 0; the lines of nodes at x = y = 0 are pulled apart"
-    return _deck(title, comment, laminate, sets, [], boundary, {"TOP": "U3, RF3"}, static)
+    return _deck(title, comment, laminate, sets, [], boundary, {"TOP": "U3, RF3"}, static, every)
 
 
 def _column(laminate: Laminate, x: float) -> int:
@@ -154,11 +160,12 @@ def _deck(
     boundary: Sequence[str],
     history: dict[str, str],
     static: Static,
+    every: int,
 ) -> list[str]:
     lines = ["*HEADING", title, f"** {comment}"]
     lines += ["** written by python -m harness.delamination.decks; units N, mm, MPa", *mesh_blocks(laminate)]
     for name, labels in sets.items():
         lines += node_set(name, labels)
     lines += [*constraints, *property_blocks(laminate)]
-    output = Output(history=history, energies=ENERGIES)
+    output = Output(f"FREQUENCY={every}", history=history, energies=ENERGIES)
     return lines + static_step(static, boundary, output, unsymmetric=not laminate.interface.built_in)

@@ -17,6 +17,7 @@ from harness.delamination.plates import Laminate, TwoPlateMesh
 from harness.delamination.theory import Arms, dcb_compliance, enf_compliance
 from harness.job import run
 from harness.output import Result
+from harness.output.front import fronts
 
 PLY = SolidPly("PLY_0", (1.2e5, 1.05e4, 1.05e4), (0.3, 0.3, 0.51), (5.52e3, 5.52e3, 3.48e3))
 CROSS = replace(PLY, name="PLY_90", angle=90.0)
@@ -148,3 +149,37 @@ def test_bonded_plates_of_a_circular_delamination(solved: Callable[[list[str]], 
     # a quarter of the load; the radius is known to half an element, and the rim gives way
     expected = 0.25 * 0.1 * 16.0 * np.pi * bending / 20.0**2
     assert total(result, "RF3", "TOP") == pytest.approx(expected, rel=0.08)
+
+
+@pytest.mark.parametrize("kind", INTERFACES)
+def test_the_front_releases_the_fracture_energy(kind: str, tmp_path: Path) -> None:
+    """A crack that runs, on mesh lines at 20 degrees to its front: straight, in mode I, G = G_Ic on every place.
+
+    The process zone is three elements long: trapezoids on it are a tenth off at the most.
+    """
+    toughness, size, width = 0.26, 0.5, 4.0
+    x, y, z = np.linspace(0.0, 24.0, 49), np.linspace(0.0, width, 9), np.linspace(0.0, 1.0, 2)
+    law = Cohesive(0.0, 0.0, 30.0, 30.0, toughness, toughness)
+    stiffness = 0.0 if kind == "U8" else 1.0e5
+    interface = replace(INTERFACES[kind], cohesive=law.with_stiffness(stiffness))
+
+    def slanted(x: np.ndarray, y: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        inside = np.clip(np.minimum(x - 2.0, 20.0 - x) / 4.0, 0.0, 1.0)
+        return x + np.tan(np.radians(20.0)) * (y - 0.5 * width) * inside, y
+
+    bonded = np.broadcast_to(x[:-1] > 8.0 - 1e-9, (8, len(x) - 1))
+    laminate = Laminate(TwoPlateMesh(x, y, z - 1.0, z, bonded, slanted), interface, (PLY,), (PLY,))
+    deck = tmp_path / f"{kind}.inp"
+    static = (0.05, 1.0, 1.0e-6, 0.05)
+    deck.write_text(text(build.dcb_deck("Slanted mesh", laminate, 0.25, static, part=build.STRIP)))
+    result = run(deck, output_dir=tmp_path, fallback=True)
+    last = [front for front in fronts(result) if front.time == result.frames[-1].time]
+    assert len(last) == 1
+    # it has left the first, slanted edge
+    assert last[0].places[:, 0].min() > 9.5
+    assert np.ptp(last[0].places[:, 0]) < size
+    # across the specimen; a mesh line has 0.34
+    assert abs(np.mean(last[0].ahead[:, 1])) < 0.1
+    # the first and the last lines leave the surface on their way
+    assert last[0].releases[:, 0] == pytest.approx(np.full(len(last[0].places), toughness), rel=0.1)
+    assert np.abs(last[0].releases[:, 1:]).max() < 0.02 * toughness

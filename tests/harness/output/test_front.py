@@ -1,0 +1,124 @@
+# SPDX-FileCopyrightText: The uel-harness authors
+# SPDX-License-Identifier: BSD-3-Clause
+"""Fronts on surfaces with known fields: places, directions, and Rice's integral."""
+
+from pathlib import Path
+
+import meshio
+import numpy as np
+import pytest
+
+from harness.cli import main
+from harness.errors import UelError
+from harness.output import Result
+from harness.output.field_output import Frame
+from harness.output.front import draw_fronts, fronts, write_fronts
+
+RADIUS, ZONE = 6.0, 3.0
+STRENGTH, FINAL = np.array([30.0, 40.0, 50.0]), np.array([0.01, 0.02, 0.03])
+"""Traction where the zone begins, separation where it ends: normal, radial, around the circle."""
+G = 0.5 * STRENGTH * FINAL
+
+
+class Disc(Result):
+    """A job whose interface is a square mesh of 24 x 24 elements with a round process zone.
+
+    The damage falls linearly over the zone, about the front; tractions are the strengths times 1 - D, separations the
+    final ones times D, so that each mode releases half of their product. tilt turns the surface about the x axis.
+    """
+
+    def __init__(self, tilt: float = 0.0, names: str = "W", grain: int = 24) -> None:
+        self.names = names
+        edges = np.linspace(0.0, 12.0, grain + 1)
+        y, x = np.meshgrid(edges, edges, indexing="ij")
+        self.turn = np.array([[1, 0, 0], [0, np.cos(tilt), -np.sin(tilt)], [0, np.sin(tilt), np.cos(tilt)]])
+        plane = np.column_stack([x.ravel(), y.ravel(), np.zeros(x.size)])
+        number = np.arange(x.size).reshape(x.shape)
+        cells = np.stack([number[:-1, :-1], number[:-1, 1:], number[1:, 1:], number[1:, :-1]], axis=-1).reshape(-1, 4)
+        g = np.sqrt(1.0 / 3.0)
+        xi = np.array([[-g, -g], [g, -g], [g, g], [-g, g]])
+        shapes = 0.25 * np.prod(1.0 + xi[:, None] * np.sign(xi), axis=-1)
+        self.points = (shapes @ plane[cells]).reshape(-1, 3)
+        self.plane, self.cells = plane, cells
+        # elements are numbered neither from one nor in the order of the file
+        self.labels = np.random.default_rng(1).permutation(len(cells)) + 100
+
+    @property
+    def frames(self) -> list[Frame]:
+        return [Frame(1, 3, 0.5, Path("none.vtu"))]
+
+    def file(self, ending: str) -> Path:
+        return Path(f"disc{ending}")
+
+    def mesh(self, increment: int = -1, step: int | None = None) -> meshio.Mesh:
+        some = np.zeros(len(self.cells))
+        nodes = self.plane @ self.turn.T
+        return meshio.Mesh(nodes, [("quad", self.cells)], cell_data={"DAMAGE": [some], "ELEMENT": [self.labels]})
+
+    def interfaces(self) -> list[dict[str, np.ndarray]]:
+        x, y, _ = self.points.T
+        radius = np.hypot(x, y)
+        damage = np.clip(0.5 + (RADIUS - radius) / ZONE, 0.0, 1.0)
+        outward = np.stack([x, y], axis=-1) / radius[:, None]
+        around = np.stack([-outward[:, 1], outward[:, 0]], axis=-1)
+        count = len(x)
+        profile = {"step": np.full(count, 1.0), "increment": np.full(count, 3.0), "time": np.full(count, 0.5)}
+        profile |= {"element": np.repeat(self.labels, 4), "point": np.tile(np.arange(1.0, 5.0), count // 4)}
+        profile |= dict(zip("XYZ", (self.points @ self.turn.T).T, strict=True)) | {"DAMAGE": damage}
+        for name, share, sizes in (("T", 1.0 - damage, STRENGTH), (self.names, damage, FINAL)):
+            shear = sizes[1] * outward + sizes[2] * around
+            vector = np.column_stack([np.full(count, sizes[0]), shear]) * share[:, None]
+            profile |= {f"{name}{axis}": vector[:, k] for k, axis in enumerate("NST")}
+        order = np.lexsort((profile["point"], profile["element"]))
+        return [{name: values[order] for name, values in profile.items()}]
+
+
+@pytest.mark.parametrize("tilt", [0.0, 0.7])
+@pytest.mark.parametrize("names", ["W", "SEP"])
+def test_a_round_front(tilt: float, names: str) -> None:
+    """The errors are those of linear interpolation on elements of a sixth of the process zone."""
+    disc = Disc(tilt, names)
+    (front,) = fronts(disc)
+    assert (front.step, front.increment, front.time, front.surface, front.line) == (1, 3, 0.5, 1, 1)
+    flat = front.places @ disc.turn
+    radius = np.hypot(flat[:, 0], flat[:, 1])
+    assert np.abs(flat[:, 2]).max() < 1e-12
+    assert radius == pytest.approx(RADIUS, abs=0.1 * 0.5)
+    outward = flat / radius[:, None]
+    assert np.sum(front.ahead @ disc.turn * outward, axis=1).min() > 0.99
+    # a quarter of a circle in parts as long as the elements
+    assert len(radius) == pytest.approx(0.5 * np.pi * RADIUS / 0.5, rel=0.1)
+    inner = slice(2, -2)
+    assert np.abs(front.tractions[inner]) == pytest.approx(np.tile(0.5 * STRENGTH, (len(radius) - 4, 1)), rel=0.1)
+    assert front.releases[inner] == pytest.approx(np.tile(G, (len(radius) - 4, 1)), rel=0.08)
+
+
+def test_another_damage_is_elsewhere() -> None:
+    (front,) = fronts(Disc(), 0.75)
+    assert np.hypot(*front.places.T[:2]) == pytest.approx(RADIUS - 0.25 * ZONE, abs=0.05)
+
+
+def test_files_of_a_front(tmp_path: Path) -> None:
+    found = fronts(Disc())
+    write_fronts(tmp_path / "disc_front.csv", found)
+    lines = (tmp_path / "disc_front.csv").read_text().splitlines()
+    names = "step,increment,time,surface,line,point,X,Y,Z,AHEADX,AHEADY,AHEADZ,TN,TII,TIII,GI,GII,GIII,MIX"
+    assert lines[0] == names
+    assert len(lines) == 1 + len(found[0].places)
+    rows = np.loadtxt(lines[1:], delimiter=",")
+    assert rows[:, 6:9] == pytest.approx(found[0].places)
+    assert rows[:, 18] == pytest.approx(found[0].releases[:, 1:].sum(axis=1) / found[0].releases.sum(axis=1))
+    draw_fronts(tmp_path / "disc_front.png", found)
+    assert (tmp_path / "disc_front.png").stat().st_size > 10000
+
+
+def test_jobs_without_a_front(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    deck = Path(__file__).parents[3] / "abaqus_inputs" / "patch_horizontal" / "flat_u2.inp"
+    assert main(["run", str(deck), "--quiet", "--output-dir", str(tmp_path)]) == 0
+    assert main(["front", str(tmp_path / "flat_u2")]) == 1
+    assert "no interface elements in space with a damage; a front is a line on" in capsys.readouterr().err
+    (tmp_path / "flat_u2.pvd").unlink()
+    assert main(["front", str(tmp_path / "flat_u2")]) == 1
+    assert "no field output, from which the front is computed" in capsys.readouterr().err
+    with pytest.raises(UelError, match="no front to draw: the damage of no increment reaches"):
+        draw_fronts(tmp_path / "a.png", fronts(Disc(), 1.0))
