@@ -2,10 +2,10 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Fronts of delaminations in space (NAME_front.csv): where the damage of an interface is one half, and what acts there.
 
-Computed from the field output and the interface profiles of a job, whatever its interface elements. Damage at the nodes
-is the mean of the nearest integration points of their elements; a front is a line of constant damage on that surface,
-given by the middles of equal parts about as long as the elements. Surfaces that share no node are separate; each is
-projected on its mean plane.
+Computed from the field output and the interface profiles of a job, whatever its interface elements. Values at the
+nodes are means of those of their elements, extrapolated from the integration points. A front is a line of constant
+damage on that surface, given by the middles of equal parts about as long as the elements. Surfaces that share no node
+are separate; each is projected on its mean plane.
 
 Energy release rates are Rice's integral along a line through the process zone, normal to the front:
 G_i = -int t_i dw_i, i = I for the normal, II and III for the shears normal to the front and along it. t is the
@@ -42,6 +42,8 @@ DAMAGE = 0.5
 
 _ALIGNED = np.cos(np.radians(0.1))
 """Abaqus takes the z axis for the local direction s where the normal is within 0.1 degrees of the x axis."""
+
+_CORNERS = np.array([[-1.0, -1.0], [1.0, -1.0], [1.0, 1.0], [-1.0, 1.0]])
 
 _SAMPLES = 6
 """Of the process zone, for each element length."""
@@ -106,19 +108,23 @@ class _Surface:
         self.nodes = np.concatenate([self._points, centres])
         plane = np.concatenate([plane, centres @ self.axes.T])
         self.triangulation = Triangulation(plane[:, 0], plane[:, 1], np.concatenate(triangles))
-        self._nearest: IntArray | None = None
+        self._to_corners: tuple[IntArray, FloatArray] | None = None
 
     def at_nodes(self, places: FloatArray, values: FloatArray) -> FloatArray:
-        """(n, ...) values at the nodes from those at the integration points (m, points, ...) at `places`."""
-        if self._nearest is None:
+        """(n, k) values at the nodes from those at the integration points (m, 4, k) at `places` (m, 4, 3)."""
+        if self._to_corners is None:
             corners = self._points[self._cells]
-            distances = np.linalg.norm(corners[:, :, None] - places[:, None], axis=-1)
-            self._nearest = np.argmin(distances, axis=2)
-        near = np.take_along_axis(values, self._nearest.reshape(*self._nearest.shape, *[1] * (values.ndim - 2)), axis=1)
-        sums = np.zeros((len(self._points), *values.shape[2:]))
-        np.add.at(sums, self._cells, near)
-        shares = np.bincount(self._cells.ravel())
-        mean = sums / shares.reshape(-1, *[1] * (values.ndim - 2))
+            nearest = np.argmin(np.linalg.norm(corners[:, :, None] - places[:, None], axis=-1), axis=2)
+            centres = corners.mean(axis=1, keepdims=True)
+            reach = np.linalg.norm(places - centres, axis=-1).mean() / np.linalg.norm(corners - centres, axis=-1).mean()
+            # bilinear functions of the points, at the corners
+            shares = 0.25 * np.prod(1.0 + _CORNERS[:, None] * _CORNERS / reach, axis=-1)
+            self._to_corners = nearest, shares
+        nearest, shares = self._to_corners
+        ordered = np.take_along_axis(values, nearest[..., None], axis=1)
+        sums = np.zeros((len(self._points), values.shape[-1]))
+        np.add.at(sums, self._cells, shares @ ordered)
+        mean = sums / np.bincount(self._cells.ravel())[:, None]
         return np.concatenate([mean, values.mean(axis=1)])
 
 
@@ -254,7 +260,7 @@ def _nodal(surface: _Surface, profile: Mapping[str, FloatArray]) -> dict[str, Fl
         [gather("DAMAGE"), gather("TN", "TS", "TT"), gather(*(f"{separation}{axis}" for axis in "NST"))], axis=-1
     )
     nodal = surface.at_nodes(places, values)
-    return {"DAMAGE": nodal[:, 0], "T": nodal[:, 1:4], "W": nodal[:, 4:7]}
+    return {"DAMAGE": np.clip(nodal[:, 0], 0.0, 1.0), "T": nodal[:, 1:4], "W": nodal[:, 4:7]}
 
 
 def _lines(surface: _Surface, damage: FloatArray, level: float) -> list[FloatArray]:
