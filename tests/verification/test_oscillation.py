@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
+from scipy.special import ellipe
 
 from harness.delamination.oscillation import (
     cancelled,
@@ -15,6 +16,8 @@ from harness.delamination.oscillation import (
     oscillation_index,
     raw_index,
     smooth_variation,
+    surface_index,
+    surface_variation,
     total_variation,
     turns,
 )
@@ -145,3 +148,103 @@ def nearest(profile: FloatArray, pieces: int) -> float:
         for sign in (1, -1):
             best = min(best, max(distance(part, sign * (-1) ** k) for k, part in enumerate(parts)))
     return best
+
+
+SIZE, TURN = 20.0, np.radians(15.0)
+
+
+def front(places: FloatArray, angle: float) -> FloatArray:
+    """A process zone that runs at an angle to the y axis through the middle of a square of 20."""
+    along = (places[..., 0] - SIZE / 2) * np.cos(angle) + (places[..., 1] - SIZE / 2) * np.sin(angle)
+    values: FloatArray = np.interp(along, [-5.0, -2.0, 1.0, 5.0], [0.0, 60.0, -10.0, 0.0])
+    return values
+
+
+def square(points: int, *, turned: float = 0.0, moved: float = 0.0) -> FloatArray:
+    """Points of a square of 20: lines across leaning by an angle, fading out at the ends; or moved at random.
+
+    moved  in distances between points
+    """
+    x, y = np.meshgrid(np.linspace(0.0, SIZE, points), np.linspace(0.0, SIZE, points))
+    lean = np.tan(turned) * np.minimum(1.0, np.minimum(x, SIZE - x) / 4.0)
+    places = np.stack([x + lean * (y - SIZE / 2), y], axis=-1)
+    shift = moved * SIZE / (points - 1) * np.random.default_rng(15).uniform(-1.0, 1.0, places.shape)
+    shift[:, [0, -1], 0] = shift[[0, -1], :, 1] = 0.0
+    return np.asarray(places + shift)
+
+
+SURFACES = {
+    "aligned": square(81),
+    "fine": square(161),
+    "turned": square(81, turned=TURN),
+    "moved": square(81, moved=0.03),
+    "irregular": square(81, turned=TURN, moved=0.25),
+}
+
+
+@pytest.mark.parametrize("angle", [0.0, 7.0, 15.0])
+@pytest.mark.parametrize("mesh", SURFACES)
+def test_smooth_front_has_the_same_variation_on_any_mesh(mesh: str, angle: float) -> None:
+    # up by 60, down by 70, up by 10, over a front of 20/cos(angle)
+    places, turn = SURFACES[mesh], np.radians(angle)
+    variation = surface_variation(places, front(places, turn), SIZE)
+    # its corners lie between the points, of which there are 12 on the steepest flank
+    assert variation == pytest.approx(140.0 / np.cos(turn), rel=0.03)
+
+
+def test_smooth_front_has_index_1_against_finer_points() -> None:
+    fine = square(161)[:-1, :-1]
+    coarse = fine.reshape(80, 2, 80, 2, 2).mean(axis=(1, 3))
+    for turn in (0.0, TURN):
+        real = front(fine, turn).reshape(80, 2, 80, 2).mean(axis=(1, 3))
+        assert surface_index(coarse, front(coarse, turn), real, STRENGTH, SIZE) == pytest.approx(1.0, abs=0.02)
+
+
+def test_field_along_the_front_is_the_profile() -> None:
+    rng = np.random.default_rng(7)
+    profile, x, y = rng.normal(size=50), np.cumsum(rng.uniform(0.1, 1.0, 50)), np.linspace(0.0, 8.0, 9)
+    places = np.stack(np.meshgrid(x, y), axis=-1)
+    field = np.tile(profile, (9, 1))
+    expected = total_variation(profile)
+    assert surface_variation(places, field, 8.0) == pytest.approx(expected, rel=1e-12)
+    real = np.tile(np.linspace(0.0, 70.0, 50), (9, 1))
+    index = surface_index(places, field, real, STRENGTH, 8.0)
+    assert index == pytest.approx(oscillation_index(profile, real[0], STRENGTH), rel=1e-12)
+    # neither the order of rows and columns nor the place of the surface matters
+    c, s = np.cos(0.7), np.sin(0.7)
+    for other, values in (
+        (places[::-1], field[::-1]),
+        (places[:, ::-1], field[:, ::-1]),
+        (np.swapaxes(places, 0, 1), field.T),
+        (places @ np.array([[c, s], [-s, c]]) + 3.0, field),
+    ):
+        assert surface_variation(other, values, 8.0) == pytest.approx(expected, rel=1e-11)
+
+
+@pytest.mark.parametrize("amplitude", [0.5, 2.0])
+def test_checkerboard(amplitude: float) -> None:
+    # slopes of 2 A/h both ways at every corner of a cell; on lines across that lean, 2 A/h along and, across,
+    # (2 A -+ tan 2 A)/h as the diagonal connects equals or not: the sides are h and h/cos long
+    cells = 40
+    x, y = np.meshgrid(np.arange(cells + 1.0), np.arange(cells + 1.0))
+    field = amplitude * (-1.0) ** (x + y)
+    area, slope = float(cells**2), 2.0 * amplitude
+    for lean in (0.0, np.tan(TURN)):
+        places = np.stack([x + lean * y, y], axis=-1)
+        expected = slope * 0.5 * (np.hypot(1.0, 1.0 - lean) + np.hypot(1.0, 1.0 + lean)) * area
+        assert surface_variation(places, field, 1.0) == pytest.approx(expected, rel=1e-12)
+    # on a smooth front the slopes along it add to those of the front and lessen them in turns
+    places = 0.5 * np.stack([x, y], axis=-1)
+    smooth = front(places, 0.0)
+    index = surface_index(places, smooth + field, smooth, STRENGTH, SIZE)
+    steps, change = np.diff(smooth[0]), 2.0 * amplitude
+    variation = np.mean([np.hypot(steps + sign * change, change) for sign in (1.0, -1.0)], axis=0).sum()
+    assert index == pytest.approx(variation / 140.0, rel=1e-12)
+
+
+def test_noise_on_a_surface() -> None:
+    # differences to two neighbours share a point: variances 3 and 1 along the diagonals, whose mean length is this
+    places, deviation = square(201), 0.3
+    noise = np.random.default_rng(3).normal(0.0, deviation, places.shape[:2])
+    mean = np.sqrt(2.0 / np.pi) * np.sqrt(3.0) * ellipe(2.0 / 3.0) * deviation / 0.1
+    assert surface_variation(places, noise, 1.0) == pytest.approx(mean * SIZE**2, rel=0.01)
