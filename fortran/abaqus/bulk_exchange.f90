@@ -1,31 +1,28 @@
 ! SPDX-FileCopyrightText: The uel-harness authors
 ! SPDX-License-Identifier: BSD-3-Clause
-!> The shared module of the paper's section 3.1: what the continuum quads next to an interface (U1 with FACE) store for the
-!> four-node stabilised interface elements (U3), by element number.
+!> The shared module of the paper's section 3.1: what the continuum elements next to an interface (U1 with FACE) store for the
+!> stabilised interface elements that share their stress (U3), by element number.
 !>
-!> It holds the last evaluation of each quad, so the quads must be called before the interface element in every
+!> It holds the last evaluation of each of them, so they must be called before the interface element in every
 !> iteration (lower element numbers), on one thread and in one process.
 module abaqus_bulk_exchange
   use core_kinds, only: dp
-  use elements_quad4, only: quad4_nodes, quad4_points, face_places
   implicit none(type, external)
   private
   public :: bulk_record, records
   public :: store_bulk, slot_of_bulk, clear_bulk_records
 
-  !> Last evaluation of a quad. Stresses are (s11, s22, s12), the places on the face those of `face_places`.
+  !> Last evaluation of an element, in space; in the plane third components are zero. Stresses are nominal ones, which take the
+  !> original normal to the traction per original area: with large rotations Q sigma, to the first order of the strain.
   type :: bulk_record
-    integer :: face = 0
-    real(dp) :: coordinates(2, quad4_nodes) = 0.0_dp
-    real(dp) :: displacement(2, quad4_nodes) = 0.0_dp
-    real(dp) :: area = 0.0_dp
+    integer :: dimension = 0, face = 0
+    real(dp) :: coordinates(3, 4) = 0.0_dp        !< original, of the nodes of the face
+    real(dp) :: displacement(3, 4) = 0.0_dp
+    real(dp) :: middle(3) = 0.0_dp                !< mean of the original coordinates of all its nodes
+    real(dp) :: measure = 0.0_dp                  !< area or volume
     real(dp) :: norm = 0.0_dp                     !< |D| of its stiffness
-    real(dp) :: gauss_stress(3, quad4_points) = 0.0_dp
-    real(dp) :: gauss_gradient(2, quad4_nodes, quad4_points) = 0.0_dp  !< shape function derivatives (entries of B)
-    real(dp) :: gauss_area(quad4_points) = 0.0_dp
-    real(dp) :: face_stress(3, size(face_places)) = 0.0_dp
-    real(dp) :: face_gradient(2, quad4_nodes, size(face_places)) = 0.0_dp
-    real(dp) :: face_length = 0.0_dp
+    real(dp) :: gauss_stress(3, 3, 4) = 0.0_dp    !< of its Gauss points next to the nodes of the face
+    real(dp) :: face_stress(3, 3, 9) = 0.0_dp     !< at the places of elements_solid_faces
   end type bulk_record
 
   type(bulk_record), allocatable, protected :: records(:)

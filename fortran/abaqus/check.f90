@@ -5,8 +5,8 @@ module abaqus_check
   use core_kinds, only: dp
   use core_status, only: status_type, sentence, too_brittle, zero_length, faces_apart, small_beta, &
     too_brittle_mixed, late_secant, no_root
-  use abaqus_layout, only: elements, faces, reals, integers, continuum, with_rotations, with_solids, unknowns_of, variables_of, &
-    reals_of, integers_of, real_position, unpack, &
+  use abaqus_layout, only: elements, faces, reals, integers, every_continuum, with_rotations, with_solids, &
+    unknowns_of, variables_of, reals_of, integers_of, real_position, unpack, &
     positive, not_negative, below_one, up_to_one, exponent, estimated, above_one, any_integer, p_alphan, p_alphat, p_gic, p_giic, &
     p_betan, p_betat, p_shapen, p_shapet, p_friction, j_law, j_closure
   use cohesive_parameters, only: ppr_law
@@ -51,7 +51,7 @@ contains
         call unpack(jtype, nprops, props, njprop, jprops, values, options)
         good = reals_are_good(jtype, jelem, nprops, values)
         if (good) good = integers_are_good(jtype, jelem, njprop, options)
-        if (good .and. element%family /= continuum) good = options_fit(jtype, jelem, values, options)
+        if (good .and. iand(element%family, every_continuum) == 0) good = options_fit(jtype, jelem, values, options)
       end if
     end associate
 

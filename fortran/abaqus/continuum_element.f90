@@ -1,191 +1,426 @@
 ! SPDX-FileCopyrightText: The uel-harness authors
 ! SPDX-License-Identifier: BSD-3-Clause
-!> The continuum quad U1: kinematics and integration here, stress and stiffness from MATERIAL_LIB_MECH.
+!> The continuum elements, quad U1 and brick U9: kinematics and integration here, stress and stiffness from MATERIAL_LIB_MECH.
+!>
+!> The brick has its strains and stresses along the axes of its ply: axis 3 normal to the surface half-way between its faces 1 and
+!> 2, axis 1 at ANGLE from s, the projection of the global x axis on that surface (the directions of U8).
+!>
+!> Incompatible modes are found anew in each call, from zero: what MATERIAL_LIB_MECH makes of a strain does not depend on how the
+!> strain came about within an increment, so the modes follow from the displacements alone, and SVARS need not hold them. A linear
+!> material takes two passes.
 module abaqus_continuum_element
   use core_kinds, only: dp
-  use core_quadrature, only: quad_points
-  use core_shape_functions, only: quad_shape, quad_gradient
-  use core_status, only: status_type, inside_out
+  use core_rotation, only: ply_axes, strain_rotation
+  use core_status, only: status_type, ok
+  use core_strains, only: condense
   use materials_linear_elasticity, only: plane_strain
   use materials_spectral_norm, only: spectral_norm
-  use elements_quad4, only: quad4_nodes, quad4_unknowns, quad4_points, quad4_area, quad4_strain, quad4_add_force, &
-    quad4_add_stiffness, face_point, face_nodes, gauss_of_face, face_places
+  use elements_continuum_solid, only: incompatible_modes, modes_of_brick, solid_points, solid_shape, solid_strains, find_change
+  use elements_interface_faces, only: central_frame
+  use elements_solid_faces, only: face_nodes, face_places, gauss_of_face, middle_place, serves
+  use elements_solid_rotation, only: solid_turn, find_turn, turn_forces, turn_stiffness
   use abaqus_bulk_exchange, only: bulk_record, store_bulk
   use abaqus_check, only: report_status
-  use abaqus_report, only: fatal
-  use abaqus_layout, only: continuum_variables, integer_position, p_thickness, j_plane, j_face, &
-    v_e11, v_e22, v_e33, v_e12, v_s11, v_s22, v_s33, v_s12
+  use abaqus_report, only: fatal, warn
+  use abaqus_layout, only: elements, continuum_variables, brick_variables, integer_position, p_thickness, p_angle, &
+    j_plane, j_face, j_formulation, j_brick_face, v_e11, v_e22, v_e33, v_e12, v_s11, v_s22, v_s33, v_s12, &
+    b_e11, b_e22, b_e33, b_e12, b_e13, b_e23, b_s11, b_s22, b_s33, b_s12, b_s13, b_s23
   implicit none(type, external)
   private
   public :: evaluate_continuum
 
-  !> Marks a stress component that a plane stress material must not write and a plane strain material must.
+  !> Marks a stress component that a material must write, or must not.
   real(dp), parameter :: untouched = -huge(1.0_dp)
 
-  !> Data of the four Gauss points once the stress is known.
-  type :: gauss_state
-    real(dp) :: gradient(2, quad4_nodes, quad4_points), strain(3, quad4_points), stress(3, quad4_points)
-    real(dp) :: stiffness(3, 3, quad4_points), volume(quad4_points)
-  end type gauss_state
+  !> PNEWDT where the increment is too large, Abaqus' own factor.
+  real(dp), parameter :: smaller = 0.25_dp
+
+  !> Smallest share of a change of the modes that is tried.
+  real(dp), parameter :: least_share = 0.01_dp
+
+  !> Positions of the variables of a point, in the order of the strains.
+  type :: point_positions
+    integer :: count, strain(6), stress(6)
+  end type point_positions
+
+  type(point_positions), parameter :: positions(2:3) = [ &
+    point_positions(size(continuum_variables), [v_e11, v_e22, v_e12, 0, 0, 0], [v_s11, v_s22, v_s12, 0, 0, 0]), &
+    point_positions(size(brick_variables), [b_e11, b_e22, b_e33, b_e12, b_e13, b_e23], &
+      [b_s11, b_s22, b_s33, b_s12, b_s13, b_s23])]
+
+  !> What is the same in all points and passes of a call.
+  type :: element_call
+    integer :: jtype, jelem
+    integer :: dim, nodes, strains   !< as many Gauss points as nodes
+    integer :: components            !< of the stress of the material
+    integer :: of_material(6)        !< the strains among them
+    integer :: formulation, face
+    logical :: finite                !< large rotations
+    logical :: with_tangent
+    integer :: npredf                !< predefined fields
+  end type element_call
 
 contains
 
-  !> Evaluates U1; `good` is false after a message.
+  !> Evaluates an element; `good` is false after a message.
   !>
   !> ENERGY(2) grows by the work of the stress, by the trapezoidal rule: the strain energy of an elastic material; for an inelastic
   !> one it includes the work of the inelastic strain, since the material does not separate the two.
-  subroutine evaluate_continuum(jelem, values, options, coordinates, u, predef, npredf, materiallib, with_tangent, &
-    svars, energy, residual, tangent, good)
-    integer, intent(in) :: jelem
+  subroutine evaluate_continuum(jtype, jelem, values, options, coords, u, predef, npredf, materiallib, finite, with_tangent, &
+    svars, energy, pnewdt, residual, tangent, good)
+    integer, intent(in) :: jtype, jelem
     real(dp), intent(in) :: values(:)              !< properties by their rows in the layout
     integer, intent(in) :: options(:)
-    real(dp), intent(in) :: coordinates(2, quad4_nodes), u(quad4_unknowns)
+    real(dp), intent(in) :: coords(:, :), u(:)     !< coords: original ones, (2 or 3, nodes)
     integer, intent(in) :: npredf
-    real(dp), intent(in) :: predef(2, npredf, quad4_nodes)   !< end value and increment at the nodes
+    real(dp), intent(in) :: predef(:, :, :)        !< (2, npredf, nodes) end value and increment at the nodes
     integer, intent(in) :: materiallib(*)          !< handle of the host, passed through
-    logical, intent(in) :: with_tangent
-    real(dp), intent(inout) :: svars(:), energy(8)
-    real(dp), intent(out) :: residual(quad4_unknowns)
-    real(dp), intent(out) :: tangent(quad4_unknowns, quad4_unknowns)   !< zero without
+    logical, intent(in) :: finite, with_tangent
+    real(dp), intent(inout) :: svars(:), energy(8), pnewdt
+    real(dp), intent(out) :: residual(:)
+    real(dp), intent(out) :: tangent(:, :)         !< zero without
     logical, intent(out) :: good
-    type(gauss_state) :: state
-    type(status_type) :: status
-    real(dp) :: jacobian, work, area, length, shape(quad4_nodes), field(npredf), field_change(npredf)
-    integer :: i, k, first
+    type(element_call) :: this
+    integer :: modes, places
 
     residual = 0.0_dp
     tangent = 0.0_dp
-    work = 0.0_dp
-    area = quad4_area(coordinates)
-    length = sqrt(max(area, 0.0_dp))
-    good = .true.
-    do k = 1, quad4_points
-      call quad_gradient(coordinates, quad_points(:, k), state%gradient(:, :, k), jacobian)
-      if (.not. jacobian > 0.0_dp) then
-        good = .false.
-        status = status_type(inside_out, k, jacobian, 0.0_dp)
-        call report_status(1, jelem, status)
-        return
-      end if
-      first = (k - 1)*size(continuum_variables)
-      state%volume(k) = jacobian*values(p_thickness)
-      state%strain(:, k) = quad4_strain(state%gradient(:, :, k), u)
-      shape = quad_shape(quad_points(:, k))
-      do i = 1, npredf
-        field_change(i) = dot_product(shape, predef(2, i, :))
-        field(i) = dot_product(shape, predef(1, i, :)) - field_change(i)
-      end do
-      call call_material(jelem, k, options(j_plane), matmul(coordinates, shape), length, state%volume(k), field, &
-        field_change, materiallib, state%strain(:, k), svars(first + 1:first + size(continuum_variables)), state%stress(:, k), &
-        state%stiffness(:, :, k), work, good)
-      if (.not. good) return
-      call quad4_add_force(state%gradient(:, :, k), state%volume(k), state%stress(:, k), residual)
-      if (with_tangent) then
-        call quad4_add_stiffness(state%gradient(:, :, k), state%volume(k), state%stiffness(:, :, k), tangent)
-      end if
-    end do
-    energy(2) = energy(2) + work
-    if (options(j_face) /= 0) call store_for_neighbours(jelem, options(j_face), coordinates, u, area, values(p_thickness), state)
+    associate (dim => elements(jtype)%dimension, plane => options(j_plane))
+      this = element_call(jtype, jelem, dim, elements(jtype)%nodes, 3*(dim - 1), merge(3 + plane, 6, dim == 2), &
+        [1, 2, merge(4, 3, dim == 2 .and. plane == plane_strain), 4, 5, 6], options(j_formulation), &
+        merge(options(j_face), options(j_brick_face), dim == 2), finite, with_tangent, npredf)
+      modes = merge(modes_of_brick, 0, this%formulation == incompatible_modes)
+      ! those of the face follow the Gauss points
+      places = this%nodes
+      if (this%face /= 0) places = places + middle_place(dim)
+      call integrate(this, dim, this%nodes, this%strains, dim*this%nodes, dim*this%nodes + modes, places, &
+        merge(values(p_thickness), 1.0_dp, dim == 2), values(p_angle), coords(1:dim, :), u, predef, materiallib, svars, energy, &
+        pnewdt, residual, tangent, good)
+    end associate
   end subroutine evaluate_continuum
 
+  !> The same with its sizes.
+  subroutine integrate(this, dim, nodes, strains, m, n, places, thickness, angle, coordinates, u, predef, materiallib, svars, &
+    energy, pnewdt, residual, tangent, good)
+    type(element_call), intent(in) :: this
+    integer, intent(in) :: dim, nodes, strains
+    integer, intent(in) :: m, n                  !< unknowns of the nodes, and with the modes
+    integer, intent(in) :: places                !< Gauss points, then places on the face
+    real(dp), intent(in) :: thickness, angle     !< angle: of the ply, degrees
+    real(dp), intent(in) :: coordinates(dim, nodes), u(m), predef(:, :, :)
+    integer, intent(in) :: materiallib(*)
+    real(dp), intent(inout) :: svars(:), energy(8), pnewdt
+    real(dp), intent(inout) :: residual(m), tangent(m, m)
+    logical, intent(out) :: good
+    real(dp) :: parents(dim, places), b(n, strains, places), volume(places), to_ply(strains, strains), unknowns(n)
+    real(dp) :: strain(strains, nodes), stress(strains, nodes), modulus(strains, strains, nodes)
+    real(dp) :: force(n), matrix(n, n), inverse(n - m, n - m), nodal(m), stiffness(m, m)
+    type(solid_turn) :: turn
+    type(status_type) :: status
+    integer :: k
+
+    parents(:, :nodes) = solid_points(dim)
+    if (this%face /= 0) parents(:, nodes + 1:) = face_places(dim, this%face)
+    call solid_strains(dim, n, strains, this%formulation, coordinates, parents, b, volume, status)
+    good = status%code == ok
+    if (.not. good) then
+      call report_status(this%jtype, this%jelem, status)
+      return
+    end if
+    to_ply = ply_strains(strains, angle, coordinates)
+    do k = 1, merge(places, 0, dim == 3)
+      b(:, :, k) = matmul(b(:, :, k), transpose(to_ply))
+    end do
+    unknowns = 0.0_dp
+    unknowns(:m) = u
+    if (this%finite) then
+      call find_turn(dim, nodes, coordinates, u, turn, unknowns(:m), good)
+      if (.not. good) then
+        call reduce_increment(this, 'its displacements turn its middle inside out', pnewdt)
+        return
+      end if
+    end if
+
+    call find_stress(this, dim, nodes, strains, m, n, thickness, coordinates, u, parents(:, :nodes), predef, materiallib, &
+      b(:, :, :nodes), volume(:nodes), unknowns, svars, energy(2), pnewdt, strain, stress, modulus, force, matrix, inverse, good)
+    if (.not. good) return
+    do k = 1, merge(nodes, 0, this%with_tangent)
+      call add_stiffness(1, m, thickness*volume(k), b(:, :, k), modulus(:, :, k), matrix)
+    end do
+    nodal = force(:m)
+    stiffness = matrix(:m, :m)
+    if (n > m) call condense(m, inverse, force, matrix, nodal, stiffness)
+    residual = -nodal
+    if (this%finite) residual = -turn_forces(dim, nodes, turn, nodal)
+    if (this%with_tangent) then
+      tangent = stiffness
+      if (this%finite) tangent = turn_stiffness(dim, nodes, turn, nodal, stiffness)
+    end if
+    if (this%face == 0) return
+    call store_for_neighbours(this, dim, nodes, strains, n, places - nodes, coordinates, u, unknowns, sum(volume(:nodes)), turn, &
+      to_ply, b(:, :, nodes + 1:), strain, stress, modulus)
+  end subroutine integrate
+
+  !> Strains, stresses and stiffnesses of the Gauss points, with the modes that leave no force on them; SVARS at the end of the
+  !> increment.
+  subroutine find_stress(this, dim, nodes, strains, m, n, thickness, coordinates, u, parents, predef, materiallib, b, volume, &
+    unknowns, svars, energy, pnewdt, strain, stress, modulus, force, matrix, inverse, good)
+    type(element_call), intent(in) :: this
+    integer, intent(in) :: dim, nodes, strains, m, n
+    real(dp), intent(in) :: thickness, coordinates(dim, nodes), u(dim, nodes), parents(dim, nodes), predef(:, :, :)
+    integer, intent(in) :: materiallib(*)
+    real(dp), intent(in) :: b(n, strains, nodes), volume(nodes)
+    real(dp), intent(inout) :: unknowns(n)        !< modes zero on entry
+    real(dp), intent(inout) :: svars(:), energy   !< the work of the stress is added
+    real(dp), intent(inout) :: pnewdt
+    real(dp), intent(out) :: strain(strains, nodes), stress(strains, nodes), modulus(strains, strains, nodes)
+    real(dp), intent(out) :: force(n), matrix(n, n)        !< columns of the modes alone
+    real(dp), intent(out) :: inverse(n - m, n - m)         !< of the stiffness of the modes
+    logical, intent(out) :: good
+    integer, parameter :: most_passes = 50
+    real(dp) :: state(size(svars)), work, stored, start(n - m), change(n - m), share, slope, first_slope
+    integer :: pass
+    logical :: settled
+
+    share = 0.0_dp
+    change = 0.0_dp
+    first_slope = 0.0_dp
+    do pass = 1, most_passes
+      call update_points()
+      if (.not. good) return
+      settled = n == m
+      if (settled) exit
+      slope = dot_product(change, force(m + 1:))
+      if (share > least_share .and. slope > 0.5_dp*abs(first_slope)) then
+        ! too far: to where a straight line between both slopes is zero
+        share = share*max(0.1_dp, abs(first_slope)/(abs(first_slope) + slope))
+      else
+        call find_change(m, force, matrix, stored, inverse, change, settled, good)
+        if (settled .or. .not. good) exit
+        start = unknowns(m + 1:)
+        first_slope = dot_product(change, force(m + 1:))
+        share = 1.0_dp
+      end if
+      unknowns(m + 1:) = start + share*change
+    end do
+    good = good .and. settled
+    if (.not. good) then
+      call reduce_increment(this, 'its incompatible modes are not in equilibrium', pnewdt)
+      return
+    end if
+    svars = state
+    energy = energy + work
+
+  contains
+
+    !> What the unknowns make of the points.
+    subroutine update_points()
+      real(dp) :: shape(nodes), place(dim), weight, length
+      integer :: k
+
+      length = sum(volume)**(1.0_dp/dim)
+      state = svars
+      work = 0.0_dp
+      stored = 0.0_dp
+      force = 0.0_dp
+      matrix = 0.0_dp
+      do k = 1, nodes
+        weight = thickness*volume(k)
+        shape = solid_shape(dim, parents(:, k))
+        place = matmul(coordinates, shape)
+        if (this%finite) place = place + matmul(u, shape)
+        strain(:, k) = matmul(unknowns, b(:, :, k))
+        call call_material(this, k, shape, place, length, weight, predef, materiallib, strain(:, k), state, stress(:, k), &
+          modulus(:, :, k), work, good)
+        if (.not. good) return
+        force = force + weight*matmul(b(:, :, k), stress(:, k))
+        stored = stored + weight*sum(stress(:, k)**2)/max(maxval(abs(modulus(:, :, k))), tiny(1.0_dp))
+        call add_stiffness(m + 1, n, weight, b(:, :, k), modulus(:, :, k), matrix)
+      end do
+    end subroutine update_points
+
+  end subroutine find_stress
+
+  !> Warns, and asks for a smaller increment.
+  subroutine reduce_increment(this, why, pnewdt)
+    type(element_call), intent(in) :: this
+    character(len=*), intent(in) :: why
+    real(dp), intent(inout) :: pnewdt
+
+    call warn(this%jtype, this%jelem, why // '; a smaller increment is needed', [integer ::], [real(dp) ::])
+    pnewdt = min(pnewdt, smaller)
+  end subroutine reduce_increment
+
   !> Stress and stiffness of Gauss point k from the host; its strains and stresses in SVARS go from start to end values.
-  subroutine call_material(jelem, k, plane, place, length, volume, field, field_change, materiallib, strain, variables, &
-    stress, stiffness, work, good)
-    integer, intent(in) :: jelem, k, plane
-    real(dp), intent(in) :: place(2)               !< of the point
+  subroutine call_material(this, k, shape, place, length, volume, predef, materiallib, strain, svars, stress, stiffness, work, good)
+    type(element_call), intent(in) :: this
+    integer, intent(in) :: k
+    real(dp), intent(in) :: shape(:)               !< shape functions of the nodes
+    real(dp), intent(in) :: place(:)               !< of the point
     real(dp), intent(in) :: length                 !< characteristic element length
     real(dp), intent(in) :: volume
-    real(dp), intent(in) :: field(:)               !< predefined fields at the start of the increment
-    real(dp), intent(in) :: field_change(:)
+    real(dp), intent(in) :: predef(:, :, :)
     integer, intent(in) :: materiallib(*)
-    real(dp), intent(in) :: strain(3)              !< at the end of the increment
-    real(dp), intent(inout) :: variables(size(continuum_variables))
-    real(dp), intent(out) :: stress(3), stiffness(3, 3)
+    real(dp), intent(in) :: strain(:)              !< at the end of the increment
+    real(dp), intent(inout) :: svars(:)
+    real(dp), intent(out) :: stress(:), stiffness(:, :)
     real(dp), intent(inout) :: work                !< the work of the stress is added
     logical, intent(out) :: good
     real(dp), parameter :: identity(3, 3) = reshape([1.0_dp, 0.0_dp, 0.0_dp, 0.0_dp, 1.0_dp, 0.0_dp, &
       0.0_dp, 0.0_dp, 1.0_dp], [3, 3])
-    ! components among those of the material: 11, 22, 12 in plane stress, 11, 22, 33, 12 in plane strain
-    integer, parameter :: in_plane(3, 0:1) = reshape([1, 2, 3, 1, 2, 4], [3, 2])
-    ! room for what a host may write if TENSOR does not match PLANE
-    real(dp) :: start(6), change(6), found(6), matrix(36), old_stress(3)
-    integer :: i, j, n, at(3)
+    ! room for what a host may write if TENSOR does not fit
+    real(dp) :: start(6), change(6), found(6), matrix(36), coords(3), field(this%npredf), field_change(this%npredf)
+    integer :: i, j, first, strains, at(size(strain))
     external :: material_lib_mech
 
-    n = 3 + plane
-    at = in_plane(:, plane)
-    start = 0.0_dp
-    change = 0.0_dp
-    start(at) = variables([v_e11, v_e22, v_e12])
-    change(at) = strain - start(at)
-    found = 0.0_dp
-    found(4) = untouched
-    matrix = 0.0_dp
-    call material_lib_mech(materiallib, found, matrix, start, change, k, 1.0_dp, volume, identity, field, &
-      field_change, size(field), length, [place, 0.0_dp])
-    good = (abs(found(4) - untouched) > 0.0_dp) .eqv. (plane == plane_strain)
-    if (.not. good) then
-      call fatal(1, jelem, 'JPROPS(%I) PLANE = %I, but the material has a different number of stress components: ' // &
-        'use TENSOR=PSTRESS with PLANE = 0 and TENSOR=PSTRAIN with PLANE = 1', &
-        [integer_position(1, j_plane), plane], [real(dp) ::])
-      return
-    end if
-
-    do j = 1, 3
-      do i = 1, 3
-        stiffness(i, j) = matrix(at(i) + n*(at(j) - 1))
-      end do
+    strains = size(strain)
+    at = this%of_material(:strains)
+    first = (k - 1)*positions(this%dim)%count
+    do i = 1, this%npredf
+      field_change(i) = dot_product(shape, predef(2, i, :))
+      field(i) = dot_product(shape, predef(1, i, :)) - field_change(i)
     end do
-    stress = found(at)
-    old_stress = variables([v_s11, v_s22, v_s12])
-    work = work + 0.5_dp*volume*dot_product(old_stress + stress, change(at))
-    variables([v_e11, v_e22, v_e12]) = strain
-    variables([v_s11, v_s22, v_s12]) = stress
-    variables(v_e33) = 0.0_dp
-    variables(v_s33) = merge(found(3), 0.0_dp, plane == plane_strain)
+    coords = 0.0_dp
+    coords(:size(place)) = place
+    associate (e => first + positions(this%dim)%strain(:strains), s => first + positions(this%dim)%stress(:strains), &
+      n => this%components)
+      start = 0.0_dp
+      change = 0.0_dp
+      start(at) = svars(e)
+      change(at) = strain - start(at)
+      found = 0.0_dp
+      found(n:min(n + 1, 6)) = untouched
+      matrix = 0.0_dp
+      call material_lib_mech(materiallib, found, matrix, start, change, k, 1.0_dp, volume, identity, field, &
+        field_change, this%npredf, length, coords)
+      ! NaN counts as written
+      good = .not. abs(found(n) - untouched) <= 0.0_dp
+      if (good .and. n < 6) good = abs(found(n + 1) - untouched) <= 0.0_dp
+      if (.not. good) then
+        call refuse_tensor(this)
+        return
+      end if
+      do j = 1, strains
+        do i = 1, strains
+          stiffness(i, j) = matrix(at(i) + n*(at(j) - 1))
+        end do
+      end do
+      stress = found(at)
+      work = work + 0.5_dp*volume*dot_product(svars(s) + stress, change(at))
+      svars(e) = strain
+      svars(s) = stress
+      if (this%dim == 3) return
+      svars(first + v_e33) = 0.0_dp
+      svars(first + v_s33) = merge(found(3), 0.0_dp, n == 4)
+    end associate
   end subroutine call_material
 
-  !> Stores stress, shape function derivatives and areas for the adjacent interface elements. The stress at a place on
-  !> the face is that of the Gauss point next to it, carried there by the stiffness: exact in linear elasticity, without
-  !> another call of the material. In the middle it is the mean of both.
-  subroutine store_for_neighbours(jelem, face, coordinates, u, area, thickness, state)
-    integer, intent(in) :: jelem, face
-    real(dp), intent(in) :: coordinates(2, quad4_nodes), u(quad4_unknowns), area, thickness
-    type(gauss_state), intent(in) :: state
-    type(bulk_record) :: record
-    real(dp) :: strain(3), jacobian, along(2), carried(3, 2)
-    integer :: i, side, k
+  !> The stress components of the material are not those that the element needs.
+  subroutine refuse_tensor(this)
+    type(element_call), intent(in) :: this
 
-    record%face = face
-    record%coordinates = coordinates
-    record%displacement(1, :) = u(1::2)
-    record%displacement(2, :) = u(2::2)
-    record%area = area
-    record%gauss_stress = state%stress
-    record%gauss_gradient = state%gradient
-    record%gauss_area = state%volume/thickness
-    along = coordinates(:, face_nodes(2, face)) - coordinates(:, face_nodes(1, face))
-    record%face_length = hypot(along(1), along(2))
-    record%norm = 0.0_dp
-    do side = 1, 2
-      record%norm = record%norm + 0.5_dp*spectral_norm(state%stiffness(:, :, gauss_of_face(side, face)))
+    if (this%dim == 2) then
+      call fatal(this%jtype, this%jelem, 'JPROPS(%I) PLANE = %I, but the material has a different number of stress ' // &
+        'components: use TENSOR=PSTRESS with PLANE = 0 and TENSOR=PSTRAIN with PLANE = 1', &
+        [integer_position(this%jtype, j_plane), this%components - 3], [real(dp) ::])
+    else
+      call fatal(this%jtype, this%jelem, 'the material has fewer than six stress components: use TENSOR=THREED', &
+        [integer ::], [real(dp) ::])
+    end if
+  end subroutine refuse_tensor
+
+  !> Matrix that takes strains in global axes to those in the axes of the brick's ply; the unit matrix in the plane.
+  pure function ply_strains(strains, angle, coordinates) result(matrix)
+    integer, intent(in) :: strains
+    real(dp), intent(in) :: angle, coordinates(:, :)
+    real(dp) :: matrix(strains, strains)
+    integer :: i
+
+    if (strains == 6) then
+      matrix = strain_rotation(ply_axes(central_frame(coordinates(:, 1:4), coordinates(:, 5:8)), angle))
+      return
+    end if
+    matrix = 0.0_dp
+    do i = 1, strains
+      matrix(i, i) = 1.0_dp
     end do
-    do i = 1, size(face_places)
-      call quad_gradient(coordinates, face_point(face, face_places(i)), record%face_gradient(:, :, i), jacobian)
-      strain = quad4_strain(record%face_gradient(:, :, i), u)
-      do side = 1, 2
-        k = gauss_of_face(side, face)
-        carried(:, side) = state%stress(:, k) + matmul(state%stiffness(:, :, k), strain - state%strain(:, k))
+  end function ply_strains
+
+  !> Adds columns of the stiffness of a point.
+  pure subroutine add_stiffness(first, last, weight, b, modulus, matrix)
+    integer, intent(in) :: first, last
+    real(dp), intent(in) :: weight                       !< volume of the point
+    real(dp), intent(in) :: b(:, :), modulus(:, :)       !< modulus need not be symmetric
+    real(dp), intent(inout) :: matrix(:, :)
+
+    if (last < first) return
+    matrix(:, first:last) = matrix(:, first:last) + matmul(b, weight*matmul(modulus, transpose(b(first:last, :))))
+  end subroutine add_stiffness
+
+  !> Stores stresses and sizes for the adjacent interface elements. The stress at a place on the face is that of the Gauss point
+  !> next to it, carried there by the stiffness: exact in linear elasticity, without another call of the material. In the middle
+  !> it is the mean of those of all these points.
+  subroutine store_for_neighbours(this, dim, nodes, strains, n, places, coordinates, u, unknowns, measure, turn, to_ply, b, &
+    strain, stress, modulus)
+    type(element_call), intent(in) :: this
+    integer, intent(in) :: dim, nodes, strains, n, places
+    real(dp), intent(in) :: coordinates(dim, nodes), u(dim, nodes), unknowns(n)
+    real(dp), intent(in) :: measure                      !< area or volume
+    type(solid_turn), intent(in) :: turn
+    real(dp), intent(in) :: to_ply(strains, strains)
+    real(dp), intent(in) :: b(n, strains, places)        !< strains on the face by the unknowns, in the axes of the ply
+    real(dp), intent(in) :: strain(strains, nodes), stress(strains, nodes), modulus(strains, strains, nodes)   !< of Gauss points
+    type(bulk_record) :: record
+    real(dp) :: carried(strains)
+    integer :: a, i, served, points(2**(dim - 1)), corners(2**(dim - 1))
+
+    corners = face_nodes(dim, this%face)
+    points = gauss_of_face(dim, this%face)
+    record%dimension = dim
+    record%face = this%face
+    record%coordinates(:dim, :size(corners)) = coordinates(:, corners)
+    record%displacement(:dim, :size(corners)) = u(:, corners)
+    record%middle(:dim) = sum(coordinates, 2)/nodes
+    record%measure = measure
+    do a = 1, size(points)
+      associate (d => matmul(transpose(to_ply), matmul(modulus(:, :, points(a)), to_ply)))
+        record%norm = record%norm + spectral_norm(d)/size(points)
+      end associate
+      record%gauss_stress(:, :, a) = nominal(this, turn, matmul(stress(:, points(a)), to_ply))
+    end do
+    do i = 1, places
+      carried = 0.0_dp
+      served = 0
+      do a = 1, size(points)
+        if (.not. serves(dim, a, i)) cycle
+        carried = carried + stress(:, points(a)) &
+          + matmul(modulus(:, :, points(a)), matmul(unknowns, b(:, :, i)) - strain(:, points(a)))
+        served = served + 1
       end do
-      if (face_places(i) < 0.0_dp) then
-        record%face_stress(:, i) = carried(:, 1)
-      else if (face_places(i) > 0.0_dp) then
-        record%face_stress(:, i) = carried(:, 2)
-      else
-        record%face_stress(:, i) = 0.5_dp*(carried(:, 1) + carried(:, 2))
-      end if
+      record%face_stress(:, :, i) = nominal(this, turn, matmul(carried/served, to_ply))
     end do
-    call store_bulk(jelem, record)
+    call store_bulk(this%jelem, record)
   end subroutine store_for_neighbours
+
+  !> Nominal stress from the stress in global axes that turn with the element.
+  pure function nominal(this, turn, stress) result(tensor)
+    type(element_call), intent(in) :: this
+    type(solid_turn), intent(in) :: turn
+    real(dp), intent(in) :: stress(:)
+    real(dp) :: tensor(3, 3)
+
+    tensor = 0.0_dp
+    tensor(1, 1) = stress(1)
+    tensor(2, 2) = stress(2)
+    tensor(1, 2) = stress(this%dim + 1)
+    if (this%dim == 3) then
+      tensor(3, 3) = stress(3)
+      tensor(1, 3) = stress(5)
+      tensor(2, 3) = stress(6)
+    end if
+    tensor(2, 1) = tensor(1, 2)
+    tensor(3, 1:2) = tensor(1:2, 3)
+    if (this%finite) tensor = matmul(turn%rotation, tensor)
+  end function nominal
 
 end module abaqus_continuum_element

@@ -16,7 +16,7 @@ module abaqus_interface_elements
     p_thickness, p_alphan, p_alphat, p_sigmamax, p_taumax, p_gic, p_giic, p_viscosity, p_eta, p_power, &
     p_shapen, p_shapet, p_blend, p_betan, p_betat, p_gammabot, p_friction, p_bottom_e1, p_bottom_nu12, p_top_e1, p_top_nu12, &
     p_bottom_g13, p_bottom_g23, p_top_g13, p_top_g23, &
-    j_law, j_integration, j_tangent, j_sampling, j_offset_bottom, j_offset_top, j_plane, j_closure, &
+    j_law, j_integration, j_tangent, j_sampling, j_plane, j_closure, &
     v_x, v_y, v_sepn, v_sept, v_tn, v_tt, v_damage, v_dissi, v_dissii, v_sn, v_st, v_dmax, v_dissv, v_wn, v_wt, v_dissf, &
     v_maxn, v_maxt, w_x, w_y, w_z, w_sepn, w_seps, w_sept, w_tn, w_ts, w_tt, w_damage, w_dissi, w_dissii, w_sn, w_st, w_dmax, &
     w_dissv, w_wn, w_ws, w_wt, w_dissf, w_maxn, w_maxt
@@ -43,7 +43,7 @@ module abaqus_interface_elements
 
 contains
 
-  !> Evaluates every type but U1; `good` is false after a message. SVARS and ENERGY come back with their end values:
+  !> Evaluates every type but U1 and U9; `good` is false after a message. SVARS and ENERGY come back with their end values:
   !> ENERGY(2) is T.g/2, ENERGY(4) what damage and friction have dissipated, ENERGY(5) what the viscous overstress has.
   subroutine evaluate_interface(jtype, jelem, values, options, coords, u, dtime, finite, with_tangent, svars, energy, residual, &
     tangent, good)
@@ -63,7 +63,7 @@ contains
     type(stabilisation_type) :: stabilisation
     type(interface_point), dimension(elements(jtype)%points) :: old, new
     type(status_type) :: status
-    real(dp) :: energies(3), stress(3, elements(jtype)%points), original(elements(jtype)%dimension, size(coords, 2))
+    real(dp) :: energies(3), stress(3, 3, elements(jtype)%points), original(elements(jtype)%dimension, size(coords, 2))
     real(dp), dimension(3*(elements(jtype)%dimension - 1), 3*(elements(jtype)%dimension - 1), 2) :: stiffness
     real(dp) :: thickness
     integer :: nodes(elements(jtype)%points, 2), n, dim
@@ -90,8 +90,8 @@ contains
         call integrate_interface(dim, n, nodes, solid, law, choice, thickness, original, u, dtime, with_tangent, old, new, &
           residual, tangent, energies, status)
       case (next_to_quads)
-        call stress_of_neighbours(jelem, options([j_offset_bottom, j_offset_top]), choice, original, reshape(u, [2, size(u)/2]), &
-          stabilisation, stress, good)
+        call stress_of_neighbours(jtype, jelem, dim, n, options, choice, original, reshape(u, [dim, size(u)/dim]), stabilisation, &
+          stress, good)
         if (.not. good) return
         call integrate_interface(dim, n, nodes, solid, law, choice, thickness, original, u, dtime, with_tangent, old, new, &
           residual, tangent, energies, status, stabilisation, neighbours=stress)

@@ -37,10 +37,12 @@ module abaqus_layout
   integer, parameter, public :: self_contained = 8   ! stabilised, with its own quads
   integer, parameter, public :: standard_3d = 16
   integer, parameter, public :: self_contained_3d = 32   ! stabilised, with its own bricks
+  integer, parameter, public :: continuum_3d = 64
   integer, parameter, public :: with_solids = self_contained + self_contained_3d
+  integer, parameter, public :: every_continuum = continuum + continuum_3d
   integer, parameter, public :: stabilised = next_to_quads + with_solids
   integer, parameter, public :: every_standard = standard + standard_3d
-  integer, parameter, public :: with_rotations = every_standard + with_solids   ! take NLGEOM
+  integer, parameter, public :: with_rotations = every_continuum + every_standard + with_solids   ! take NLGEOM
   integer, parameter, public :: interfaces = every_standard + stabilised
   integer, parameter, public :: in_space = standard_3d + self_contained_3d
   integer, parameter, public :: in_plane = continuum + standard + next_to_quads + self_contained
@@ -121,8 +123,9 @@ module abaqus_layout
   integer, parameter, public :: p_bottom_g23 = 35
   integer, parameter, public :: p_top_g13 = 36
   integer, parameter, public :: p_top_g23 = 37
+  integer, parameter, public :: p_angle = 38
 
-  type(real_item), parameter, public :: reals(37) = [ &
+  type(real_item), parameter, public :: reals(38) = [ &
     real_item(p_thickness, in_plane, 'THICKNESS', 'length', positive), & !< thickness out of the plane
     real_item(p_alphan, interfaces, 'ALPHAN', 'stress/length', not_negative), &
       !< initial normal stiffness alpha_n; 0: infinite, with CLOSURE 1
@@ -169,7 +172,8 @@ module abaqus_layout
     real_item(p_bottom_g13, self_contained_3d, 'G13 BOTTOM', 'stress', positive), & !< shear modulus in the plane 1-3
     real_item(p_bottom_g23, self_contained_3d, 'G23 BOTTOM', 'stress', positive), & !< shear modulus in the plane 2-3
     real_item(p_top_g13, self_contained_3d, 'G13 TOP', 'stress', positive), & !< shear modulus in the plane 1-3
-    real_item(p_top_g23, self_contained_3d, 'G23 TOP', 'stress', positive)] !< shear modulus in the plane 2-3
+    real_item(p_top_g23, self_contained_3d, 'G23 TOP', 'stress', positive), & !< shear modulus in the plane 2-3
+    real_item(p_angle, continuum_3d, 'ANGLE', 'degree', any_value)] !< of material axis 1, from s about n, which is axis 3
 
   ! rows of the table of integers
   integer, parameter, public :: j_law = 1
@@ -181,8 +185,10 @@ module abaqus_layout
   integer, parameter, public :: j_plane = 7
   integer, parameter, public :: j_face = 8
   integer, parameter, public :: j_closure = 9
+  integer, parameter, public :: j_formulation = 10
+  integer, parameter, public :: j_brick_face = 11
 
-  type(integer_item), parameter, public :: integers(9) = [ &
+  type(integer_item), parameter, public :: integers(11) = [ &
     integer_item(j_law, interfaces, 'LAW', 1, 4), &
       !< 1 bilinear (9) to (11), 2 bilinear by ETA or POWER, 3 exponential by ETA or POWER, 4 PPR
     integer_item(j_integration, interfaces, 'INTEGRATION', 0, 1), & !< 0 Gauss, 1 Newton-Cotes
@@ -196,7 +202,10 @@ module abaqus_layout
       !< element number of the quad above minus its own
     integer_item(j_plane, continuum + self_contained, 'PLANE', 0, 1), & !< 0 plane stress, 1 plane strain
     integer_item(j_face, continuum, 'FACE', 0, 4), & !< face along a four-node stabilised interface (U3), as Abaqus counts; 0 none
-    integer_item(j_closure, stabilised, 'CLOSURE', 0, 1)] !< damage at 0 the displacement jump, 1 a separation of its own
+    integer_item(j_closure, stabilised, 'CLOSURE', 0, 1), & !< damage at 0 the displacement jump, 1 a separation of its own
+    integer_item(j_formulation, continuum_3d, 'FORMULATION', 0, 2), &
+      !< full integration with 0 the strain of the displacements, 1 incompatible modes (C3D8I), 2 the mean volume strain (C3D8)
+    integer_item(j_brick_face, continuum_3d, 'FACE', 0, 6)] !< face along a stabilised interface (U10), as Abaqus counts; 0 none
 
   ! variables of a point of the continuum element
   integer, parameter, public :: v_e11 = 1
@@ -217,6 +226,34 @@ module abaqus_layout
     variable_item(v_s22, 'S22', 'stress'), & !< stress along y
     variable_item(v_s33, 'S33', 'stress'), & !< stress out of the plane
     variable_item(v_s12, 'S12', 'stress')] !< shear stress
+
+  ! variables of a point of the continuum element in space
+  integer, parameter, public :: b_e11 = 1
+  integer, parameter, public :: b_e22 = 2
+  integer, parameter, public :: b_e33 = 3
+  integer, parameter, public :: b_e12 = 4
+  integer, parameter, public :: b_e13 = 5
+  integer, parameter, public :: b_e23 = 6
+  integer, parameter, public :: b_s11 = 7
+  integer, parameter, public :: b_s22 = 8
+  integer, parameter, public :: b_s33 = 9
+  integer, parameter, public :: b_s12 = 10
+  integer, parameter, public :: b_s13 = 11
+  integer, parameter, public :: b_s23 = 12
+
+  type(variable_item), parameter, public :: brick_variables(12) = [ &
+    variable_item(b_e11, 'E11', '1'), & !< strain along material axis 1
+    variable_item(b_e22, 'E22', '1'), & !< strain along material axis 2
+    variable_item(b_e33, 'E33', '1'), & !< strain along material axis 3
+    variable_item(b_e12, 'E12', '1'), & !< engineering shear strain of axes 1 and 2
+    variable_item(b_e13, 'E13', '1'), & !< engineering shear strain of axes 1 and 3
+    variable_item(b_e23, 'E23', '1'), & !< engineering shear strain of axes 2 and 3
+    variable_item(b_s11, 'S11', 'stress'), & !< stress along material axis 1
+    variable_item(b_s22, 'S22', 'stress'), & !< stress along material axis 2
+    variable_item(b_s33, 'S33', 'stress'), & !< stress along material axis 3
+    variable_item(b_s12, 'S12', 'stress'), & !< shear stress of axes 1 and 2
+    variable_item(b_s13, 'S13', 'stress'), & !< shear stress of axes 1 and 3
+    variable_item(b_s23, 'S23', 'stress')] !< shear stress of axes 2 and 3
 
   ! variables of a point of the interface elements
   integer, parameter, public :: v_x = 1
@@ -306,7 +343,7 @@ module abaqus_layout
     variable_item(w_maxn, 'MAXN', 'length'), & !< largest normal separation of the law so far, with LAW 4; else 0
     variable_item(w_maxt, 'MAXT', 'length')] !< largest shear separation of the law so far, with LAW 4; else 0
 
-  type(element_item), parameter, public :: elements(8) = [ &
+  type(element_item), parameter, public :: elements(9) = [ &
     element_item(1, continuum, 2, 4, 4, 1, 2), & !< continuum quad, stress from a material of the deck (UELMAT)
     element_item(2, standard, 2, 4, 2, 13, 3), & !< standard cohesive interface
     element_item(3, next_to_quads, 2, 4, 2, 17, 7), & !< stabilised cohesive interface, four nodes, next to U1 quads
@@ -314,7 +351,8 @@ module abaqus_layout
     element_item(5, standard, 2, 6, 3, 13, 3), & !< standard cohesive interface between edges of three nodes
     element_item(6, self_contained, 2, 16, 3, 33, 6), & !< stabilised cohesive interface of eight-node quads, self-contained; UNSYMM
     element_item(7, standard_3d, 3, 8, 4, 12, 3), & !< standard cohesive interface in space, four nodes on each face
-    element_item(8, self_contained_3d, 3, 16, 4, 36, 5)] !< stabilised cohesive interface of eight-node bricks; UNSYMM
+    element_item(8, self_contained_3d, 3, 16, 4, 36, 5), & !< stabilised cohesive interface of eight-node bricks; UNSYMM
+    element_item(9, continuum_3d, 3, 8, 8, 1, 2)] !< continuum brick, stress from a material of the deck (UELMAT)
 
   type(faces_item), parameter, public :: faces(2:8) = [ &
     faces_item(2, 0, [1, 2, 0, 0], [4, 3, 0, 0]), & !< as COH2D4
@@ -344,8 +382,9 @@ contains
     number = 0
     if (jtype < 1 .or. jtype > size(elements)) return
     number = size(interface_variables)
-    if (elements(jtype)%family == continuum) number = size(continuum_variables)
     if (iand(elements(jtype)%family, in_space) /= 0) number = size(surface_variables)
+    if (elements(jtype)%family == continuum) number = size(continuum_variables)
+    if (elements(jtype)%family == continuum_3d) number = size(brick_variables)
     number = elements(jtype)%points*number
   end function variables_of
 

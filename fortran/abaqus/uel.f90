@@ -1,6 +1,6 @@
 ! SPDX-FileCopyrightText: The uel-harness authors
 ! SPDX-License-Identifier: BSD-3-Clause
-!> Entry point of Abaqus/Standard for the interface elements, all types but U1.
+!> Entry point of Abaqus/Standard for the interface elements, all types but U1 and U9.
 !>
 !> Everything is declared, so that ABA_PARAM.INC and its implicit typing are not needed. The routine sets every entry of RHS and
 !> AMATRX, whatever they hold on entry. SVARS and ENERGY change only in calls whose values are kept, LFLAGS(3) = 1 of a general
@@ -12,7 +12,7 @@ subroutine uel(rhs, amatrx, svars, energy, ndofel, nrhs, nsvars, props, nprops, 
   use core_kinds, only: dp
   use abaqus_check, only: call_is_good
   use abaqus_interface_elements, only: evaluate_interface
-  use abaqus_layout, only: elements, reals, integers, variables_of
+  use abaqus_layout, only: elements, every_continuum, reals, integers, variables_of
   use abaqus_lflags, only: asks_for_nothing, asks_for_tangent, give_answer, large_displacements
   use abaqus_report, only: fatal
   implicit none(type, external)
@@ -27,13 +27,12 @@ subroutine uel(rhs, amatrx, svars, energy, ndofel, nrhs, nsvars, props, nprops, 
 
   rhs(1:ndofel, 1:nrhs) = 0.0_dp
   amatrx = 0.0_dp
-  if (jtype < 2 .or. jtype > size(elements)) then
-    if (jtype == 1) then
-      call fatal(jtype, jelem, 'takes its stress from a material: specify MATERIAL= on *UEL PROPERTY', &
-        [integer ::], [real(dp) ::])
-    else
-      call fatal(jtype, jelem, 'is not an element of this file, which has U1 to U%I', [size(elements)], [real(dp) ::])
-    end if
+  if (jtype < 1 .or. jtype > size(elements)) then
+    call fatal(jtype, jelem, 'is not an element of this file, which has U1 to U%I', [size(elements)], [real(dp) ::])
+    return
+  else if (iand(elements(jtype)%family, every_continuum) /= 0) then
+    call fatal(jtype, jelem, 'takes its stress from a material: specify MATERIAL= on *UEL PROPERTY', &
+      [integer ::], [real(dp) ::])
     return
   end if
   good = call_is_good(jtype, jelem, ndofel, nsvars, nprops, mcrd, nnode, njprop, ndload, lflags, props, jprops, &

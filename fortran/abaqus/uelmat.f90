@@ -1,6 +1,6 @@
 ! SPDX-FileCopyrightText: The uel-harness authors
 ! SPDX-License-Identifier: BSD-3-Clause
-!> Entry point of Abaqus/Standard for the continuum quad U1.
+!> Entry point of Abaqus/Standard for the continuum elements, U1 and U9.
 !>
 !> Everything is declared, so that ABA_PARAM.INC and its implicit typing are not needed. The routine sets every entry of RHS and
 !> AMATRX, whatever they hold on entry. SVARS and ENERGY change only in calls whose values are kept, LFLAGS(3) = 1 of a general
@@ -12,8 +12,8 @@ subroutine uelmat(rhs, amatrx, svars, energy, ndofel, nrhs, nsvars, props, nprop
   use core_kinds, only: dp
   use abaqus_check, only: call_is_good
   use abaqus_continuum_element, only: evaluate_continuum
-  use abaqus_layout, only: reals, integers, variables_of
-  use abaqus_lflags, only: asks_for_nothing, asks_for_tangent, give_answer
+  use abaqus_layout, only: elements, every_continuum, reals, integers, variables_of
+  use abaqus_lflags, only: asks_for_nothing, asks_for_tangent, give_answer, large_displacements
   use abaqus_report, only: fatal
   implicit none(type, external)
   integer, intent(in) :: ndofel, nrhs, nsvars, nprops, mcrd, nnode, jtype, kstep, kinc, jelem, ndload, npredf, mlvarx
@@ -28,8 +28,10 @@ subroutine uelmat(rhs, amatrx, svars, energy, ndofel, nrhs, nsvars, props, nprop
 
   rhs(1:ndofel, 1:nrhs) = 0.0_dp
   amatrx = 0.0_dp
-  if (jtype /= 1) then
-    call fatal(jtype, jelem, 'is not an element with a material: specify MATERIAL= for U1 only', &
+  good = jtype >= 1 .and. jtype <= size(elements)
+  if (good) good = iand(elements(jtype)%family, every_continuum) /= 0
+  if (.not. good) then
+    call fatal(jtype, jelem, 'is not an element with a material: specify MATERIAL= for U1 and U9 only', &
       [integer ::], [real(dp) ::])
     return
   end if
@@ -41,8 +43,8 @@ subroutine uelmat(rhs, amatrx, svars, energy, ndofel, nrhs, nsvars, props, nprop
   n = size(state)
   state = svars(1:n)
   energies = energy
-  call evaluate_continuum(jelem, values, options, coords(1:2, :), u, predef, npredf, materiallib, asks_for_tangent(lflags), state, &
-    energies, residual, tangent, good)
+  call evaluate_continuum(jtype, jelem, values, options, coords, u, predef, npredf, materiallib, large_displacements(lflags), &
+    asks_for_tangent(lflags), state, energies, pnewdt, residual, tangent, good)
   if (.not. good) return
   call give_answer(lflags, du(1:ndofel, 1), residual, tangent, state, energies, rhs(1:ndofel, 1), amatrx, svars(1:n), energy)
 end subroutine uelmat

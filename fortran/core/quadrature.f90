@@ -5,17 +5,13 @@ module core_quadrature
   use core_kinds, only: dp
   implicit none(type, external)
   private
-  public :: gauss_abscissa, outer_abscissa, quad_points, line_points, line_weights
+  public :: gauss_abscissa, outer_abscissa, line_points, line_weights, gauss_point
   public :: gauss_rule, newton_cotes_rule
 
   real(dp), parameter :: gauss_abscissa = 0.577350269189625764509148780501957_dp
 
   !> Outer points of the three-point Gauss rule.
   real(dp), parameter :: outer_abscissa = 0.774596669241483377035853079956480_dp
-
-  !> 2 x 2 Gauss points (xi, eta) in the order Abaqus numbers them in CPS4; every weight is 1.
-  real(dp), parameter :: quad_points(2, 4) = gauss_abscissa*reshape( &
-    [-1.0_dp, -1.0_dp, 1.0_dp, -1.0_dp, -1.0_dp, 1.0_dp, 1.0_dp, 1.0_dp], [2, 4])
 
   integer, parameter :: gauss_rule = 0
   integer, parameter :: newton_cotes_rule = 1
@@ -51,5 +47,24 @@ contains
       weights = [1.0_dp, 4.0_dp, 1.0_dp]/3.0_dp
     end if
   end function line_weights
+
+  !> Point k of a Gauss rule of quads or bricks, the first direction first as in Abaqus' CPS4 and C3D8, and its weight.
+  pure subroutine gauss_point(dim, per_side, k, point, weight)
+    integer, intent(in) :: dim, per_side, k
+    real(dp), intent(out) :: point(dim), weight
+    real(dp) :: s(per_side), w(per_side)
+    integer :: i, at, rest
+
+    s = line_points(per_side, gauss_rule)
+    w = line_weights(per_side, gauss_rule)
+    weight = 1.0_dp
+    rest = k - 1
+    do i = 1, dim
+      at = mod(rest, per_side) + 1
+      rest = rest/per_side
+      point(i) = s(at)
+      weight = weight*w(at)
+    end do
+  end subroutine gauss_point
 
 end module core_quadrature

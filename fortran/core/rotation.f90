@@ -1,12 +1,14 @@
 ! SPDX-FileCopyrightText: The uel-harness authors
 ! SPDX-License-Identifier: BSD-3-Clause
-!> Local frames of lines and surfaces.
+!> Local frames of lines, surfaces and plies, and the rotation of a deformation.
 module core_rotation
   use core_kinds, only: dp
   use core_small_matrix, only: invert
   implicit none(type, external)
   private
-  public :: cross, line_frame, surface_frame, turned_frame, traction_operator, strain_rotation
+  public :: cross, line_frame, surface_frame, ply_axes, turned_frame, polar_rotation, traction_operator, strain_rotation
+
+  real(dp), parameter :: degree = acos(-1.0_dp)/180.0_dp
 
 contains
 
@@ -50,6 +52,20 @@ contains
     frame(2, :) = normal
     frame(3, :) = cross(normal, frame(1, :))
   end subroutine surface_frame
+
+  !> Axes 1, 2 and 3 of a ply in a surface: rows.
+  pure function ply_axes(frame, angle) result(axes)
+    real(dp), intent(in) :: frame(3, 3)   !< rows s, n and t: n is axis 3
+    real(dp), intent(in) :: angle         !< of axis 1 from s to t, degrees
+    real(dp) :: axes(3, 3)
+    real(dp) :: c, s
+
+    c = cos(angle*degree)
+    s = sin(angle*degree)
+    axes(1, :) = c*frame(1, :) + s*frame(3, :)
+    axes(2, :) = c*frame(3, :) - s*frame(1, :)
+    axes(3, :) = frame(2, :)
+  end function ply_axes
 
   !> Frame of a line or surface that has moved, and its derivative by the nodes that it depends on. In the surface, s is along the
   !> material line that was along s before.
@@ -107,6 +123,29 @@ contains
       end do
     end do
   end subroutine turned_frame
+
+  !> Rotation of the polar decomposition of a deformation gradient, by Newton's method for the square root (N.J. Higham,
+  !> Functions of Matrices, 2008, 8.3).
+  pure subroutine polar_rotation(deformation, rotation, good)
+    real(dp), intent(in) :: deformation(3, 3)
+    real(dp), intent(out) :: rotation(3, 3)
+    logical, intent(out) :: good             !< false where the determinant is not positive, or an entry is NaN or infinite
+    integer, parameter :: most_passes = 100  ! a stretch halves in each pass until it is about 1; then convergence is quadratic
+    real(dp) :: inverse(3, 3), determinant, last(3, 3)
+    integer :: pass
+
+    rotation = deformation
+    do pass = 1, most_passes
+      last = rotation
+      call invert(3, last, inverse, determinant)
+      good = determinant > 0.0_dp .and. all(abs(last) <= huge(1.0_dp))
+      if (.not. good) return
+      rotation = 0.5_dp*(last + transpose(inverse))
+      ! the next pass would change it by the square of this
+      if (maxval(abs(rotation - last)) < 1.0e-9_dp) return
+    end do
+    good = .false.
+  end subroutine polar_rotation
 
   !> Cross product.
   pure function cross(a, b) result(c)

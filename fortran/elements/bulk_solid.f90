@@ -7,16 +7,16 @@
 !> other parent coordinates are those of the interface.
 module elements_bulk_solid
   use core_kinds, only: dp
-  use core_quadrature, only: gauss_rule, line_points, line_weights
+  use core_quadrature, only: gauss_point
   use core_rotation, only: traction_operator
   use core_serendipity, only: quad8_gradient, brick_gradient
   use core_shape_functions, only: quad_gradient
   use core_status, only: status_type, ok, inside_out
+  use core_strains, only: strain_matrix
   use elements_face_eigenvalue, only: face_eigenvalue
-  use elements_quad4, only: quad4_area
   implicit none(type, external)
   private
-  public :: solid_traction, solid_size, solid_face_eigenvalue
+  public :: solid_gradient, solid_traction, solid_size, solid_face_eigenvalue
 
 contains
 
@@ -32,7 +32,7 @@ contains
     real(dp) :: gradient(dim, nodes), by_strain(dim, 3*(dim - 1))
     integer :: a
 
-    call gradient_at(dim, nodes, coordinates, point, gradient, status)
+    call solid_gradient(dim, nodes, coordinates, point, gradient, status)
     by_strain = matmul(traction_operator(dim, frame), stiffness)
     if (dim == 2) then
       do a = 1, nodes
@@ -59,18 +59,29 @@ contains
 
     value = 0.0_dp
     if (dim == 2 .and. nodes == 4) then
-      value = quad4_area(coordinates(:, 1:4))
+      value = quad_area(coordinates(:, 1:4))
       status = status_type(merge(ok, inside_out, value > 0.0_dp), 0, value, 0.0_dp)
       return
     end if
     per_side = merge(3, 2, dim == 2)
     do k = 1, per_side**dim
       call gauss_point(dim, per_side, k, point, weight)
-      call gradient_at(dim, nodes, coordinates, point, gradient, status)
+      call solid_gradient(dim, nodes, coordinates, point, gradient, status)
       if (status%code /= ok) return
       value = value + weight*status%value
     end do
   end subroutine solid_size
+
+  !> Area of a quad of four nodes; negative where they run clockwise.
+  pure function quad_area(coordinates) result(area)
+    real(dp), intent(in) :: coordinates(2, 4)
+    real(dp) :: area
+    real(dp) :: diagonal_13(2), diagonal_24(2)
+
+    diagonal_13 = coordinates(:, 3) - coordinates(:, 1)
+    diagonal_24 = coordinates(:, 4) - coordinates(:, 2)
+    area = 0.5_dp*(diagonal_13(1)*diagonal_24(2) - diagonal_13(2)*diagonal_24(1))
+  end function quad_area
 
   !> lambda of the face whose last parent coordinate is `side`, see elements_face_eigenvalue; with as many points along each
   !> direction as an edge has nodes.
@@ -107,51 +118,21 @@ contains
     real(dp), intent(in) :: coordinates(dim, nodes), stiffness(3*(dim - 1), 3*(dim - 1))
     real(dp), intent(out) :: energy(dim*nodes, dim*nodes)
     type(status_type), intent(out) :: status
-    real(dp) :: gradient(dim, nodes), b(3*(dim - 1), dim*nodes), point(dim), weight
+    real(dp) :: gradient(dim, nodes), b(dim*nodes, 3*(dim - 1)), point(dim), weight
     integer :: k
 
     energy = 0.0_dp
-    b = 0.0_dp
     do k = 1, per_side**dim
       call gauss_point(dim, per_side, k, point, weight)
-      call gradient_at(dim, nodes, coordinates, point, gradient, status)
+      call solid_gradient(dim, nodes, coordinates, point, gradient, status)
       if (status%code /= ok) return
-      b(1, 1::dim) = gradient(1, :)
-      b(2, 2::dim) = gradient(2, :)
-      b(dim + 1, 1::dim) = gradient(2, :)
-      b(dim + 1, 2::dim) = gradient(1, :)
-      if (dim == 3) then
-        b(3, 3::3) = gradient(3, :)
-        b(5, 1::3) = gradient(3, :)
-        b(5, 3::3) = gradient(1, :)
-        b(6, 2::3) = gradient(3, :)
-        b(6, 3::3) = gradient(2, :)
-      end if
-      energy = energy + (weight*status%value)*matmul(transpose(b), matmul(stiffness, b))
+      call strain_matrix(dim, dim, nodes, transpose(gradient), b)
+      energy = energy + (weight*status%value)*matmul(b, matmul(stiffness, transpose(b)))
     end do
   end subroutine strain_energy
 
-  !> Point k of a Gauss rule, the first direction first, and its weight.
-  pure subroutine gauss_point(dim, per_side, k, point, weight)
-    integer, intent(in) :: dim, per_side, k
-    real(dp), intent(out) :: point(dim), weight
-    real(dp) :: s(per_side), w(per_side)
-    integer :: i, at, rest
-
-    s = line_points(per_side, gauss_rule)
-    w = line_weights(per_side, gauss_rule)
-    weight = 1.0_dp
-    rest = k - 1
-    do i = 1, dim
-      at = mod(rest, per_side) + 1
-      rest = rest/per_side
-      point(i) = s(at)
-      weight = weight*w(at)
-    end do
-  end subroutine gauss_point
-
   !> Derivatives of the shape functions by position; the value of the status is the Jacobian.
-  pure subroutine gradient_at(dim, nodes, coordinates, point, gradient, status)
+  pure subroutine solid_gradient(dim, nodes, coordinates, point, gradient, status)
     integer, intent(in) :: dim, nodes
     real(dp), intent(in) :: coordinates(dim, nodes), point(dim)
     real(dp), intent(out) :: gradient(dim, nodes)
@@ -166,6 +147,6 @@ contains
       call quad8_gradient(coordinates, point, gradient, jacobian)
     end if
     status = status_type(merge(ok, inside_out, jacobian > 0.0_dp), 0, jacobian, 0.0_dp)
-  end subroutine gradient_at
+  end subroutine solid_gradient
 
 end module elements_bulk_solid

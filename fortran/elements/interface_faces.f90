@@ -15,8 +15,7 @@ module elements_interface_faces
   use core_status, only: status_type, zero_length, faces_apart, ok
   implicit none(type, external)
   private
-  public :: interface_place, measure_interface, central_frame, jump_operator, separation_at, face_shape, &
-    coincidence_tolerance
+  public :: interface_place, measure_interface, central_frame, jump_operator, separation_at, face_shape, most_apart
 
   !> An integration point of the interface.
   type :: interface_place
@@ -25,9 +24,6 @@ module elements_interface_faces
     real(dp) :: frame(3, 3)   !< rows s, n and t; in the plane tau and n, and zero
     real(dp) :: area          !< of the interface that it stands for; in the plane its length
   end type interface_place
-
-  !> Distance, relative to the length, up to which nodes count as coincident: a mesh generator that prints few digits may cause it.
-  real(dp), parameter :: coincidence_tolerance = 1.0e-4_dp
 
   !> Parent coordinates of the points of a quadrilateral among those of a line, each next to the node of its number.
   integer, parameter :: first_of(4) = [1, 2, 2, 1], second_of(4) = [1, 1, 2, 2]
@@ -42,18 +38,17 @@ contains
     integer, intent(in) :: rule
     type(interface_place), intent(out) :: places(nodes)
     type(status_type), intent(out) :: status    !< zero_length, or faces_apart with the distance and its limit
-    real(dp) :: middle(dim, nodes), distance, edge
+    real(dp) :: middle(dim, nodes), distance, limit
     integer :: k
 
     middle = 0.5_dp*(bottom + top)
-    edge = maxval(abs(bottom(:, 2) - bottom(:, 1)))
-    if (dim == 3) edge = max(edge, maxval(abs(bottom(:, 3) - bottom(:, 2))))
+    limit = most_apart(dim, nodes, bottom)
     distance = maxval(abs(top - bottom))
     status = status_type(ok, 0, 0.0_dp, 0.0_dp)
-    if (.not. edge > 0.0_dp) then
-      status = status_type(zero_length, 0, edge, 0.0_dp)
-    else if (distance > coincidence_tolerance*edge) then
-      status = status_type(faces_apart, 0, distance, coincidence_tolerance*edge)
+    if (.not. limit > 0.0_dp) then
+      status = status_type(zero_length, 0, limit, 0.0_dp)
+    else if (distance > limit) then
+      status = status_type(faces_apart, 0, distance, limit)
     end if
     if (status%code /= ok) return
     do k = 1, nodes
@@ -66,6 +61,20 @@ contains
       if (status%code /= ok) return
     end do
   end subroutine measure_interface
+
+  !> Distance along any axis up to which nodes of two faces count as coincident: a mesh generator that prints few digits may cause
+  !> it.
+  pure function most_apart(dim, nodes, face) result(limit)
+    integer, intent(in) :: dim, nodes
+    real(dp), intent(in) :: face(dim, nodes)    !< coordinates of one of them
+    real(dp) :: limit
+    real(dp), parameter :: part_of_edge = 1.0e-4_dp
+    real(dp) :: edge
+
+    edge = maxval(abs(face(:, 2) - face(:, 1)))
+    if (dim == 3) edge = max(edge, maxval(abs(face(:, 3) - face(:, 2))))
+    limit = part_of_edge*edge
+  end function most_apart
 
   !> Point k of a line.
   pure subroutine place_on_line(nodes, middle, rule, k, place, status)

@@ -9,7 +9,6 @@
 !> (15) without B, (16) to (22) with it.
 module elements_interface_kernel
   use core_kinds, only: dp
-  use core_rotation, only: traction_operator
   use core_status, only: status_type, ok
   use cohesive_parameters, only: law_parameters
   use cohesive_law, only: check_law, check_beta
@@ -50,7 +49,8 @@ contains
     type(status_type), intent(out) :: status                  !< its item is the point, the mode or the side
     type(stabilisation_type), intent(in), optional :: stabilisation    !< beta and gamma, or what they follow from
     real(dp), intent(in), optional :: stiffness(:, :, :)         !< D of the bottom and the top element, global axes, stress
-    real(dp), intent(in), optional :: neighbours(3, points)      !< weighted (s11, s22, s12) of each point
+    real(dp), intent(in), optional :: neighbours(3, 3, points)   !< weighted nominal stress of each point: its product with the
+                                                                 !< original normal is the traction per original area
     type(interface_place) :: places(points)
     type(stabilisation_type) :: used
     type(point_response) :: response
@@ -100,7 +100,7 @@ contains
           if (status%code /= ok) return
           bulk_traction(1:dim) = matmul(bulk, moved)
         else
-          bulk_traction(1:dim) = matmul(traction_operator(dim, places(k)%frame), neighbours(:, k))
+          bulk_traction = matmul(here%frame, matmul(neighbours(:, :, k), places(k)%frame(2, :)))
         end if
         call stabilised_point(law, options, dtime, used%beta, separation, bulk_traction, old(k), new(k), response, status)
         if (status%code /= ok) then

@@ -1,6 +1,6 @@
 ! SPDX-FileCopyrightText: The uel-harness authors
 ! SPDX-License-Identifier: BSD-3-Clause
-!> Gradients, strains and rotations at the points of the built-in continuum elements.
+!> Gradients and rotations at the points of the built-in continuum elements.
 !>
 !> `direct` is the number of direct strains: 2 in the plane; 3 in space, and in axisymmetric elements, which have the hoop
 !> strain u_r/r beside those of the plane: direction 1 is the radius, 2 the axis. Their volumes are per angle.
@@ -13,8 +13,7 @@ module host_kinematics
   use host_shape, only: radius_of, rule_of, rule_t
   implicit none (type, external)
   private
-  public :: components, gradients, mean_gradients, strain_matrix, average_volume_strain, point_position, rotation_of, &
-            rotated
+  public :: components, gradients, mean_gradients, point_position, rotation_of, rotated
 
 contains
 
@@ -107,47 +106,6 @@ contains
     end do
     g = g/volume
   end subroutine mean_gradients
-
-  !> Strains by displacements, transposed: 11, 22, 12 in the plane; 11, 22, 33, 12 in axisymmetric elements; 11, 22, 33,
-  !> 12, 13, 23 in space (engineering shear).
-  pure subroutine strain_matrix(dim, direct, nodes, g, b)
-    integer, intent(in) :: dim, direct, nodes
-    real(dp), intent(in) :: g(nodes, direct)
-    real(dp), intent(out) :: b(dim, nodes, direct + 2*dim - 3)
-    integer, parameter :: first(3) = [1, 1, 2], second(3) = [2, 3, 3]
-    integer :: i
-    b = 0
-    do i = 1, dim
-      b(i, :, i) = g(:, i)
-    end do
-    if (direct > dim) b(1, :, direct) = g(:, direct)
-    do i = 1, 2*dim - 3
-      b(first(i), :, direct + i) = g(:, second(i))
-      b(second(i), :, direct + i) = g(:, first(i))
-    end do
-  end subroutine strain_matrix
-
-  !> Replace the volume strain of each point by its mean over the element, with equal parts of the difference in each
-  !> direction (Abaqus Theory Guide, Solid isoparametric quadrilaterals and hexahedra). There are three of them in
-  !> axisymmetric elements (S.A. Chester, C.V. Di Leo, L. Anand, Int. J. of Solids and Structures 52 (2015) 1).
-  pure subroutine average_volume_strain(direct, n, strains, points, volume, b)
-    integer, intent(in) :: direct, n, strains, points
-    real(dp), intent(in) :: volume(points)
-    real(dp), intent(inout) :: b(n, strains, points)
-    real(dp) :: mean(n), change(n)
-    integer :: i, p
-    mean = 0
-    do p = 1, points
-      mean = mean + volume(p)*sum(b(:, :direct, p), dim=2)
-    end do
-    mean = mean/sum(volume)
-    do p = 1, points
-      change = (mean - sum(b(:, :direct, p), dim=2))/direct
-      do i = 1, direct
-        b(:, i, p) = b(:, i, p) + change
-      end do
-    end do
-  end subroutine average_volume_strain
 
   !> Places of m strains (three in the plane: 11, 22, 12) among n components.
   pure function components(m, n) result(place)

@@ -20,6 +20,7 @@
 !> increments; last the incompatible modes.
 module host_solid
   use core_small_matrix, only: cofactors, determinant
+  use core_strains, only: mean_volume_strain, set_volume_strain, strain_matrix
   use host_context, only: current, initial_stresses
   use host_coupling, only: add_heat_source, coupling_t, set_temperature
   use host_forces, only: add_axisymmetric_point, add_geometric, add_plane_point, add_space_point
@@ -28,8 +29,7 @@ module host_solid
   use host_inertia, only: is_dynamic, mass_matrix, respond
   use host_initial_stress, only: begin_point
   use host_kinds, only: dp, i4
-  use host_kinematics, only: average_volume_strain, components, gradients, mean_gradients, point_position, rotated, &
-                             rotation_of, strain_matrix
+  use host_kinematics, only: components, gradients, mean_gradients, point_position, rotated, rotation_of
   use host_materials, only: elastic_energy, find_material, has_fields, material_t, not_solved, set_constants, &
                             stress_update, thickness_strain
   use host_shape, only: is_multilinear, is_quadratic, radius_of, rule_of, rule_t
@@ -308,12 +308,17 @@ contains
     real(dp), intent(in) :: x(rule%dim, rule%nodes)
     real(dp), intent(out) :: g(rule%nodes, direct, rule%points), b(rule%dim*rule%nodes, strains, rule%points)
     real(dp), intent(out) :: volume(rule%points)
+    real(dp) :: mean(rule%dim*rule%nodes)
     integer :: p
     do p = 1, rule%points
       call point_gradients(rule, direct, p, x, g(:, :, p), volume(p))
       call strain_matrix(rule%dim, direct, rule%nodes, g(:, :, p), b(:, :, p))
     end do
-    if (averaged) call average_volume_strain(direct, rule%dim*rule%nodes, strains, rule%points, volume, b)
+    if (.not. averaged) return
+    mean = mean_volume_strain(direct, rule%dim*rule%nodes, strains, rule%points, volume, b)
+    do p = 1, rule%points
+      call set_volume_strain(direct, rule%dim*rule%nodes, strains, mean, b(:, :, p))
+    end do
   end subroutine all_gradients
 
   !> Gradients and volume of a point: those at the point, or their mean where the only one stands for all of a

@@ -3,7 +3,7 @@
 !> Linear elasticity of an orthotropic material, in the plane and in space, from engineering constants.
 module materials_linear_elasticity
   use core_kinds, only: dp
-  use core_rotation, only: strain_rotation
+  use core_rotation, only: ply_axes, strain_rotation
   use core_small_matrix, only: invert
   use core_status, only: status_type, not_positive_definite
   use core_symmetric, only: eigenvalues
@@ -85,7 +85,7 @@ contains
     real(dp), intent(in) :: frame(3, 3)          !< rows s, n and t: the angle is from s to t, and n is the material axis 3
     real(dp), intent(out) :: stiffness(6, 6)     !< stress
     type(status_type), intent(out) :: status     !< not_positive_definite: value is what should be positive
-    real(dp) :: compliance(3, 3), inverse(3, 3), values(3), axes(3, 3), to_local(6, 6), determinant
+    real(dp) :: compliance(3, 3), inverse(3, 3), values(3), to_local(6, 6), determinant
     logical :: good
 
     stiffness = 0.0_dp
@@ -106,12 +106,7 @@ contains
     stiffness(4, 4) = material%g12
     stiffness(5, 5) = material%g13
     stiffness(6, 6) = material%g23
-    associate (c => cos(material%angle*degree), s => sin(material%angle*degree))
-      axes(1, :) = c*frame(1, :) + s*frame(3, :)
-      axes(2, :) = c*frame(3, :) - s*frame(1, :)
-      axes(3, :) = frame(2, :)
-    end associate
-    to_local = strain_rotation(axes)
+    to_local = strain_rotation(ply_axes(frame, material%angle))
     stiffness = matmul(transpose(to_local), matmul(stiffness, to_local))
   end subroutine solid_stiffness
 

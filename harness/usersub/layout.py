@@ -87,15 +87,16 @@ def read_layouts(text: str) -> dict[int, ElementLayout]:
     layouts = {}
     for fields, meaning in tables["elements"]:
         jtype, family, dimension, nodes, points, *_ = map(int, fields)
+        faces = next((_faces(row) for row, _ in tables["faces"] if int(row[0]) == jtype), ((), ()))
         layouts[jtype] = ElementLayout(
             jtype=jtype,
             dimension=dimension,
             nodes=nodes,
             reals=_reals(_of_family(tables["reals"], family)),
             integers=_integers(_of_family(tables["integers"], family)),
-            variables=_variables(tables[_variables_table(jtype, dimension)]),
+            variables=_variables(tables[_variables_table(dimension, bool(any(faces)))]),
             points=points,
-            faces=next((_faces(row) for row, _ in tables["faces"] if int(row[0]) == jtype), ((), ())),
+            faces=faces,
             meaning=meaning,
         )
     return layouts
@@ -109,7 +110,9 @@ def variables(jtype: int) -> PointVariables | None:
     names = tuple(item.name for item in layout.variables)
     bottom, top = layout.faces
     if not bottom:
-        return PointVariables("continuum", names, layout.points, outline=tuple(range(layout.nodes)))
+        # a quad may lie in a model in space
+        outline = tuple(range(layout.nodes)) if layout.dimension == 2 else ()
+        return PointVariables("continuum", names, layout.points, outline=outline)
     return PointVariables("interface", names, layout.points, bottom=bottom, top=top)
 
 
@@ -195,10 +198,10 @@ def _of_family(rows: Rows, family: int) -> Rows:
     return [([str(n), *fields[2:]], text) for n, (fields, text) in enumerate(members, start=1)]
 
 
-def _variables_table(jtype: int, dimension: int) -> str:
+def _variables_table(dimension: int, interface: bool) -> str:
     """The table of the variables of a point."""
-    if jtype == 1:
-        return "continuum_variables"
+    if not interface:
+        return "continuum_variables" if dimension == 2 else "brick_variables"
     return "interface_variables" if dimension == 2 else "surface_variables"
 
 

@@ -14,7 +14,7 @@ from harness.elements import Call, Flags, Request, build_blocks
 from harness.errors import Source
 from harness.model.mesh import ElementGroup, Mesh
 from harness.model.model import Model
-from harness.model.properties import Elastic, ElasticType, Material, UserElement, UserProperty
+from harness.model.properties import Elastic, ElasticType, Material, SolidSection, UserElement, UserProperty
 from harness.usersub.built import path_of_amalgam
 from harness.usersub.layout import element_layouts
 
@@ -39,8 +39,10 @@ PLIES_3D = {
     **{f"{name} {side}": value for name, value in (("G13", 5.52e3), ("G23", 3.48e3)) for side in ("BOTTOM", "TOP")},
 }
 DEFAULTS = {1: {"THICKNESS": 2.0}, 2: LAW, 3: LAW, 4: {**LAW, **PLIES}, 5: LAW, 6: {**LAW, **PLIES}}
-DEFAULTS |= {7: LAW_3D, 8: {**LAW_3D, **PLIES_3D}}
+DEFAULTS |= {7: LAW_3D, 8: {**LAW_3D, **PLIES_3D}, 9: {}}
+TENSORS = {(1, 0): "PSTRESS", (1, 1): "PSTRAIN", (9, 0): "THREED"}  # of continuum elements, by type and PLANE
 ENGINEERING = (1.2e5, 1.05e4, 1.05e4, 0.3, 0.3, 0.51, 5.52e3, 5.52e3, 3.48e3)
+PLY_MATERIAL = Material("PLY", SOURCE, Elastic(ElasticType.ENGINEERING_CONSTANTS, ENGINEERING, SOURCE))
 
 
 @pytest.fixture(scope="session", params=["library", "amalgam"])
@@ -55,10 +57,23 @@ def library(request, tmp_path_factory):
 class Element:
     """One element, or `copies` of it with consecutive labels; its state is that of the last committed increment.
 
-    Arrays of copies have one axis more, the first. `layouts` are those of a library other than the installed one.
+    Arrays of copies have one axis more, the first. `layouts` are those of a library other than the installed one;
+    `material` is that of a continuum element.
     """
 
-    def __init__(self, library, jtype, coordinates, *, label=1, copies=None, definition=None, layouts=None, **values):
+    def __init__(
+        self,
+        library,
+        jtype,
+        coordinates,
+        *,
+        label=1,
+        copies=None,
+        definition=None,
+        layouts=None,
+        material=None,
+        **values,
+    ):
         layout = (layouts or element_layouts())[jtype]
         given = {**DEFAULTS.get(jtype, LAW), **values}
         self.names = [item.name for item in layout.variables]
@@ -66,14 +81,14 @@ class Element:
         reals = [float(given.pop(item.name, 0.0)) for item in layout.reals]
         integers = [int(given.pop(item.name, 0)) for item in layout.integers]
         assert not given, f"no properties of U{jtype}: {given}"
-        plane_strain = jtype == 1 and values.get("PLANE", 0) == 1
+        tensor = TENSORS.get((jtype, int(values.get("PLANE", 0) == 1)), "")
         options = {
             "nodes": layout.nodes,
             "coordinates": layout.dimension,
             "variables": layout.svars,
             "unsymmetric": True,
-            "integration": 4 if jtype == 1 else 0,
-            "tensor": "" if jtype > 1 else "PSTRAIN" if plane_strain else "PSTRESS",
+            "integration": layout.points if tensor else 0,
+            "tensor": tensor,
             "properties": len(reals),
             "integer_properties": len(integers),
             "dofs": tuple((node, dof) for node in range(layout.nodes) for dof in range(1, 1 + layout.dimension)),
@@ -81,22 +96,26 @@ class Element:
         }
         self.copies = copies
         count = copies or 1
-        number, nodes = jtype, np.arange(count * len(coordinates)).reshape(count, -1)
+        number = jtype
         user = UserElement(number, source=SOURCE, **options)
-        material = Material("PLY", SOURCE, Elastic(ElasticType.ENGINEERING_CONSTANTS, ENGINEERING, SOURCE))
         section = UserProperty(
             "ALL",
             SOURCE,
             np.resize(np.array(reals), user.properties),
             np.resize(np.array(integers), user.integer_properties),
-            material if jtype == 1 else None,
+            (material or PLY_MATERIAL) if tensor else None,
         )
-        group = ElementGroup(f"U{number}", label + np.arange(count), nodes, "", section, user, SOURCE)
+        self._build(library, f"U{number}", np.tile(coordinates, (count, 1)), count, label, section, user)
+
+    def _build(self, library, name, coordinates, count, label, section, definition):
+        coordinates = np.asarray(coordinates, dtype=float)
+        nodes = np.arange(len(coordinates)).reshape(count, -1)
+        group = ElementGroup(name, label + np.arange(count), nodes, "", section, definition, SOURCE)
         xyz = np.zeros((nodes.size, 3))
-        xyz[:, : layout.dimension] = np.tile(coordinates, (count, 1))
+        xyz[:, : coordinates.shape[1]] = coordinates
         mesh = Mesh(np.arange(1, len(xyz) + 1), xyz, ("",) * len(xyz))
         (self.block,) = build_blocks(Model(Path("test.inp"), "", mesh, (group,), ()), library)
-        n = self.n = len(user.dofs)
+        n = self.n = len(self.block.unknowns)
         # row-major positions, so that the matrix comes back dense
         equations, entries = (np.arange(count * size, dtype=np.int32) for size in (n, n * n))
         self.block.bind(equations.reshape(count, n), entries.reshape(count, n, n))
@@ -129,6 +148,31 @@ class Element:
         """Committed ENERGY(1:8)."""
         energy = self.block.state(0).energy
         return energy if self.copies else energy[0]
+
+
+class BuiltIn(Element):
+    """A built-in continuum element; strains and stresses are in `state`, incompatible modes are not."""
+
+    def __init__(self, library, name, coordinates, material=PLY_MATERIAL, thickness=1.0):
+        self.copies = None
+        self._build(library, name, coordinates, 1, 1, SolidSection("ALL", material, None, thickness, SOURCE), None)
+        self.names, self.points = self.block.state(0).variables.names, self.block.state(0).variables.points
+
+    @property
+    def state(self):
+        """Committed strains and stresses by name, one value per point."""
+        table = self.block.state(0).svars[0, : self.points * len(self.names)].reshape(self.points, -1)
+        return dict(zip(self.names, table.T, strict=True))
+
+
+@pytest.fixture
+def built_in(library):
+    """Make a built-in element: built_in(name, coordinates, material, thickness)."""
+
+    def make(*arguments, **options):
+        return BuiltIn(library, *arguments, **options)
+
+    return make
 
 
 @pytest.fixture

@@ -91,6 +91,18 @@ def elasticity(ply, angle, plane_strain):
     return np.array([[turned[*p, *q] for q in pairs] for p in pairs])
 
 
+def ply_stress(strain):
+    """(3, 3) stress of the ply of the fixtures from its (3, 3) strain, both along its axes, from its compliance."""
+    e1, e2, e3, nu12, nu13, nu23, g12, g13, g23 = (1.2e5, 1.05e4, 1.05e4, 0.3, 0.3, 0.51, 5.52e3, 5.52e3, 3.48e3)
+    compliance = np.array(
+        [[1 / e1, -nu12 / e1, -nu13 / e1], [-nu12 / e1, 1 / e2, -nu23 / e2], [-nu13 / e1, -nu23 / e2, 1 / e3]]
+    )
+    stress = np.diag(np.linalg.solve(compliance, np.diag(strain)))
+    for (i, j), modulus in {(0, 1): g12, (0, 2): g13, (1, 2): g23}.items():
+        stress[i, j] = stress[j, i] = 2 * modulus * strain[i, j]
+    return stress
+
+
 def strain_matrix(xy, xi, eta):
     """B (3, 8) and Jacobian of a bilinear quad."""
     corner = np.array([[-1, -1], [1, -1], [1, 1], [-1, 1]])

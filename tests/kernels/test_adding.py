@@ -56,13 +56,13 @@ LAW = {
     "abaqus/layout.f90": [
         ("'LAW', 1, 4)", "'LAW', 1, 5)"),
         (
-            "public :: p_top_g23 = 37\n",
-            "public :: p_top_g23 = 37\n  integer, parameter, public :: p_plateau = 38\n",
+            "public :: p_angle = 38\n",
+            "public :: p_angle = 38\n  integer, parameter, public :: p_plateau = 39\n",
         ),
-        ("public :: reals(37)", "public :: reals(38)"),
+        ("public :: reals(38)", "public :: reals(39)"),
         (
-            "'G23 TOP', 'stress', positive)] !< shear modulus in the plane 2-3\n",
-            "'G23 TOP', 'stress', positive), & !< shear modulus in the plane 2-3\n"
+            "'ANGLE', 'degree', any_value)] !< of material axis 1, from s about n, which is axis 3\n",
+            "'ANGLE', 'degree', any_value), & !< of material axis 1, from s about n, which is axis 3\n"
             "    real_item(p_plateau, interfaces, 'PLATEAU', '1', below_one)] !< share of the plateau (LAW 5)\n",
         ),
     ],
@@ -76,20 +76,21 @@ LAW = {
 
 ELEMENT = {
     "abaqus/layout.f90": [
-        ("public :: elements(8)", "public :: elements(9)"),
+        ("public :: elements(9)", "public :: elements(10)"),
         (
-            "36, 5)] !< stabilised cohesive interface of eight-node bricks",
-            "36, 5), & !< stabilised cohesive interface of eight-node bricks",
+            "8, 8, 1, 2)] !< continuum brick",
+            "8, 8, 1, 2), & !< continuum brick",
         ),
         (
             "\n\n  type(faces_item), parameter, public :: faces(2:8)",
-            "\n    element_item(9, standard, 2, 4, 2, 13, 3)] !< U2, left to right\n\n"
-            "  type(faces_item), parameter, public :: faces(2:9)",
+            "\n    element_item(10, standard, 2, 4, 2, 13, 3)] !< U2, left to right\n\n"
+            "  type(faces_item), parameter, public :: faces(2:10)",
         ),
         (
             "[9, 10, 11, 12])] !< face 5-6-7-8 of the brick below, face 1-2-3-4 of that above\n",
             "[9, 10, 11, 12]), & !< face 5-6-7-8 of the brick below, face 1-2-3-4 of that above\n"
-            "    faces_item(9, 0, [1, 2, 0, 0], [3, 4, 0, 0])] !< left to right\n",
+            "    faces_item(9, 0, [0, 0, 0, 0], [0, 0, 0, 0]), & !< none\n"
+            "    faces_item(10, 0, [1, 2, 0, 0], [3, 4, 0, 0])] !< left to right\n",
         ),
     ],
 }
@@ -139,7 +140,7 @@ def test_positions_of_existing_decks_stay(branch):
     for jtype, before in element_layouts().items():
         after = layouts[jtype]
         assert after.reals[: len(before.reals)] == before.reals
-        assert [i.name for i in after.reals[len(before.reals) :]] == (["PLATEAU"] if jtype > 1 else [])
+        assert [i.name for i in after.reals[len(before.reals) :]] == (["PLATEAU"] if jtype not in (1, 9) else [])
         assert [i.name for i in after.integers] == [i.name for i in before.integers]
         assert after.svars == before.svars
 
@@ -215,7 +216,7 @@ def test_the_element_is_u2_in_another_order(branch, element_of):
     order = [0, 1, 3, 2]
     dofs = np.array([[2 * n, 2 * n + 1] for n in order]).ravel()
     expected = element_of(branch[0], 2, FLAT, layouts=branch[1]).evaluate(u)
-    found = element_of(branch[0], 9, FLAT[order], layouts=branch[1]).evaluate(u[order])
+    found = element_of(branch[0], 10, FLAT[order], layouts=branch[1]).evaluate(u[order])
     np.testing.assert_allclose(found[0], expected[0][dofs], rtol=1e-12)
     np.testing.assert_allclose(found[1], expected[1][np.ix_(dofs, dofs)], rtol=1e-12)
 

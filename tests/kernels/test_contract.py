@@ -12,13 +12,19 @@ from harness.usersub.layout import element_layouts
 QUAD = [[0.0, 0.0], [1.1, 0.2], [0.9, 1.3], [-0.2, 0.8]]
 
 
-@pytest.fixture(params=[1, 2, 4], ids=lambda jtype: f"U{jtype}")
+BRICK = [[0, 0, 0], [1, 0, 0.1], [1.1, 1, 0], [0, 1, 0], [0, 0, 1], [1, 0, 1], [1, 0.8, 1], [0, 1, 0.9]]
+
+
+@pytest.fixture(params=[1, 2, 4, 9], ids=lambda jtype: f"U{jtype}")
 def case(request, element, interface):
     """An element with a history, and displacements."""
     jtype = request.param
-    coordinates = {1: QUAD, 2: interface.four, 4: interface.eight}[jtype]
-    item = element(jtype, coordinates)
-    u = interface.displacements(len(coordinates), *interface.states["softening"], seed=0)
+    coordinates = {1: QUAD, 2: interface.four, 4: interface.eight, 9: BRICK}[jtype]
+    item = element(jtype, coordinates, **({"FORMULATION": 1} if jtype == 9 else {}))
+    if jtype == 9:
+        u = 1e-3 * np.random.default_rng(0).normal(size=(8, 3))
+    else:
+        u = interface.displacements(len(coordinates), *interface.states["softening"], seed=0)
     item.advance(0.8 * u)
     return item, u
 

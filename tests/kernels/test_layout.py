@@ -37,12 +37,15 @@ def test_names_of_svars():
     assert {"X", "Y", "SEPN", "SEPT", "TN", "TT", "DAMAGE", "DISSI", "DISSII", "SN", "ST"} < set(eight.names)
     assert (eight.kind, eight.points, eight.bottom, eight.top) == ("interface", 2, (3, 2), (4, 5))
     assert (layout.variables(2).bottom, layout.variables(2).top) == ((0, 1), (3, 2))
-    assert layout.variables(9) is None
+    brick = layout.variables(9)
+    assert brick.names[:6] == ("E11", "E22", "E33", "E12", "E13", "E23") and brick.names[6] == "S11"
+    assert (brick.kind, brick.points, brick.outline) == ("continuum", 8, ())
+    assert layout.variables(10) is None
 
 
 def test_library_names_svars_of_these_elements_only(library, tmp_path):
     assert library.variables(2) == layout.variables(2)
-    assert library.variables(9) is None
+    assert library.variables(10) is None
     other = tmp_path / "other.f"
     other.write_text("      subroutine uel(rhs)\n      real*8 rhs\n      end\n")
     stranger = usersub.load(other, job="other", output_dir=tmp_path)

@@ -1,0 +1,112 @@
+! SPDX-FileCopyrightText: The uel-harness authors
+! SPDX-License-Identifier: BSD-3-Clause
+!> Quads of four nodes and bricks of eight: strains by their unknowns, force and stiffness from the stress at their points.
+!>
+!> The unknowns are the displacements of the nodes, one node after the other, then the incompatible modes, which are found in the
+!> element. The 2 x 2 (x 2) Gauss points have the order of Abaqus' CPS4 and C3D8.
+module elements_continuum_solid
+  use core_kinds, only: dp
+  use core_quadrature, only: gauss_point
+  use core_serendipity, only: brick_places, quad_places, serendipity_functions
+  use core_small_matrix, only: invert_general
+  use core_status, only: status_type, ok
+  use core_strains, only: mean_volume_strain, mode_matrix, set_volume_strain, strain_matrix
+  use elements_bulk_solid, only: solid_gradient
+  implicit none(type, external)
+  private
+  public :: incompatible_modes, mean_volume, modes_of_brick
+  public :: node_places, solid_points, solid_shape, solid_strains, find_change
+
+  !> Formulations other than strains of the displacements alone, 0: those of C3D8I and of C3D8 in Abaqus.
+  integer, parameter :: incompatible_modes = 1
+  integer, parameter :: mean_volume = 2
+  integer, parameter :: modes_of_brick = 13
+
+  !> Work of the forces on the modes that counts as zero, relative to the energy of the stress.
+  real(dp), parameter :: no_work = 1.0e-20_dp
+
+contains
+
+  !> Parent coordinates of the nodes.
+  pure function node_places(dim) result(places)
+    integer, intent(in) :: dim
+    integer :: places(dim, 2**dim)
+
+    if (dim == 2) then
+      places = quad_places(:, :4)
+    else
+      places = brick_places(:, :8)
+    end if
+  end function node_places
+
+  !> Parent coordinates of the Gauss points, whose weights are 1.
+  pure function solid_points(dim) result(points)
+    integer, intent(in) :: dim
+    real(dp) :: points(dim, 2**dim)
+    real(dp) :: weight
+    integer :: k
+
+    do k = 1, 2**dim
+      call gauss_point(dim, 2, k, points(:, k), weight)
+    end do
+  end function solid_points
+
+  !> Shape functions.
+  pure function solid_shape(dim, place) result(shape)
+    integer, intent(in) :: dim
+    real(dp), intent(in) :: place(dim)      !< parent coordinates
+    real(dp) :: shape(2**dim)
+    real(dp) :: by_parent(2**dim, dim)
+
+    call serendipity_functions(dim, 2**dim, node_places(dim), place, shape, by_parent)
+  end function solid_shape
+
+  !> Strains by the unknowns, transposed, and Jacobians at places of which the first 2**dim are the Gauss points.
+  pure subroutine solid_strains(dim, n, strains, formulation, coordinates, places, b, jacobian, status)
+    integer, intent(in) :: dim, n, strains               !< n: unknowns, with those of the modes
+    integer, intent(in) :: formulation
+    real(dp), intent(in) :: coordinates(dim, 2**dim)
+    real(dp), intent(in) :: places(:, :)                 !< parent coordinates, (dim, places)
+    real(dp), intent(out) :: b(n, strains, size(places, 2)), jacobian(size(places, 2))
+    type(status_type), intent(out) :: status             !< inside_out at a Gauss point, with the Jacobian
+    real(dp), parameter :: origin(3) = 0.0_dp
+    real(dp) :: gradient(dim, 2**dim), mean(n), to_parent(dim, dim), at_middle
+    integer :: k, nodes
+
+    nodes = 2**dim
+    call solid_gradient(dim, nodes, coordinates, origin(:dim), gradient, status)
+    to_parent = matmul(real(node_places(dim), dp), transpose(gradient))
+    at_middle = status%value
+    b = 0.0_dp
+    do k = 1, size(places, 2)
+      call solid_gradient(dim, nodes, coordinates, places(:, k), gradient, status)
+      jacobian(k) = status%value
+      if (status%code /= ok .and. k <= nodes) return
+      if (status%code /= ok) cycle
+      call strain_matrix(dim, dim, nodes, transpose(gradient), b(:dim*nodes, :, k))
+      if (formulation == incompatible_modes) call mode_matrix(dim, n - dim*nodes, strains, places(:, k), to_parent, &
+        at_middle/jacobian(k), b(dim*nodes + 1:, :, k))
+    end do
+    status = status_type(ok, 0, 0.0_dp, 0.0_dp)
+    if (formulation /= mean_volume) return
+    mean = mean_volume_strain(dim, n, strains, nodes, jacobian(:nodes), b(:, :, :nodes))
+    do k = 1, size(places, 2)
+      call set_volume_strain(dim, n, strains, mean, b(:, :, k))
+    end do
+  end subroutine solid_strains
+
+  !> Change of the modes, the unknowns after the first n, by Newton's method; `settled` if it does no work beside the energy of the
+  !> stress. Zero, with `good` false, if their stiffness is singular.
+  pure subroutine find_change(n, force, stiffness, energy, inverse, change, settled, good)
+    integer, intent(in) :: n
+    real(dp), intent(in) :: force(:), stiffness(:, :), energy
+    real(dp), intent(out) :: inverse(size(force) - n, size(force) - n)   !< of the stiffness of the modes
+    real(dp), intent(out) :: change(size(force) - n)
+    logical, intent(out) :: settled, good
+
+    call invert_general(stiffness(n + 1:, n + 1:), inverse, good)
+    change = -matmul(inverse, force(n + 1:))
+    settled = abs(dot_product(change, force(n + 1:))) <= no_work*energy
+  end subroutine find_change
+
+end module elements_continuum_solid
