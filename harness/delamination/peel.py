@@ -35,13 +35,22 @@ STANDARD = Interface(
 )
 """U2 with the properties of COH2D4: any mode mix has the same energy, points at the nodes."""
 
+CONSISTENT = replace(
+    STANDARD, type="U4", cohesive=STANDARD.cohesive.with_stiffness(0.0), beta=-1.0, consistent=True, newton_cotes=False
+)
+"""U4 with the consistent law and an infinite stiffness."""
+
+BASE_MODULUS = 1.0e6 * MODULUS
+"""Of the quads in the base that U4 owns, MPa: a rigid body has no stress that could count."""
+
 LIFT = 25.0
 """Of the free end, mm; it may move along the base."""
 
 
 def peel_files() -> dict[str, str]:
-    """The decks: with COH2D4, and with U2 in its place."""
-    return {"peel.inp": _deck(replace(STANDARD, type="COH2D4")), "peel_u2.inp": _deck(STANDARD)}
+    """The decks: with COH2D4, and with U2 and U4 in its place."""
+    standard = {"peel.inp": _deck(replace(STANDARD, type="COH2D4")), "peel_u2.inp": _deck(STANDARD)}
+    return standard | {"peel_u4.inp": _deck(CONSISTENT)}
 
 
 def _deck(interface: Interface) -> str:
@@ -51,10 +60,19 @@ def _deck(interface: Interface) -> str:
     labels = 1 + np.arange((along + 1) * (through + 1)).reshape(through + 1, along + 1)
     y, x = np.meshgrid(np.linspace(0.0, THICKNESS, through + 1), np.linspace(0.0, LENGTH, along + 1), indexing="ij")
     first = round(CRACK / LENGTH * along)
-    base = labels.max() + 1 + np.arange(along + 1 - first)
-    places = np.column_stack([np.append(x, x[0, first:]), np.append(y, y[0, first:])])
+    bonded = x[0, first:]
+    # the surface of the base, with U4 a line of nodes within it as well
+    depths = np.array([0.0, THICKNESS / through][: 2 if kind == "U4" else 1])
+    base = labels.max() + 1 + np.arange(len(depths) * len(bonded)).reshape(len(depths), len(bonded))
+    within, beside = np.meshgrid(-depths, bonded, indexing="ij")
+    places = np.column_stack([np.append(x, beside), np.append(y, within)])
     film = np.stack([labels[:-1, :-1], labels[:-1, 1:], labels[1:, 1:], labels[1:, :-1]], axis=-1).reshape(-1, 4)
-    faces = np.stack([base[:-1], base[1:], labels[0, first + 1 :], labels[0, first:-1]], axis=-1)
+    if kind == "U4":
+        rows = [base[1], base[0], labels[0, first:], labels[1, first:]]
+        ends = [(0, 0), (0, 1), (1, 1), (1, 0), (2, 0), (2, 1), (3, 1), (3, 0)]
+    else:
+        rows, ends = [base[0], labels[0, first:]], [(0, 0), (0, 1), (1, 1), (1, 0)]
+    faces = np.stack([rows[row][end : len(bonded) - 1 + end] for row, end in ends], axis=-1)
     lines = [
         "*HEADING",
         f"Peel test at 90 degrees, CPS4R and {kind} with NLGEOM",
@@ -62,9 +80,9 @@ def _deck(interface: Interface) -> str:
         "** written by python -m harness.delamination.decks; units N, mm, MPa",
         *node_block(np.append(labels, base), places),
         *element_block("CPS4R", "FILM", film, 1),
-        *(user_element(2, "UNSYMM") if kind == "U2" else []),
+        *([] if interface.built_in else user_element(int(kind[1:]), "UNSYMM")),
         *element_block(kind, "INTERFACE", faces, 1 + len(film)),
-        *node_set("BASE", base),
+        *node_set("BASE", base.ravel()),
         *node_set("END", labels[through // 2, :1]),
         "*SECTION CONTROLS, NAME=BENDING, HOURGLASS=ENHANCED",
         "*SOLID SECTION, ELSET=FILM, MATERIAL=FILM, CONTROLS=BENDING",
@@ -89,4 +107,10 @@ def _properties(interface: Interface) -> list[str]:
     """Those of the interface, 1 mm wide."""
     if interface.built_in:
         return cohesive_section(interface, 1.0)
-    return uel_property(2, "INTERFACE", law_values(interface) | {"THICKNESS": 1.0})
+    moduli = {"BOTTOM": BASE_MODULUS, "TOP": MODULUS} if interface.type == "U4" else {}
+    plies = {
+        f"{name} {side}": share * modulus
+        for side, modulus in moduli.items()
+        for name, share in (("E1", 1.0), ("E2", 1.0), ("G12", 0.5))
+    }
+    return uel_property(int(interface.type[1:]), "INTERFACE", law_values(interface) | plies | {"THICKNESS": 1.0})
