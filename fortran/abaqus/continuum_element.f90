@@ -145,7 +145,7 @@ contains
       b(:, :, :nodes), volume(:nodes), unknowns, svars, energy(2), pnewdt, strain, stress, modulus, force, matrix, inverse, good)
     if (.not. good) return
     do k = 1, merge(nodes, 0, this%with_tangent)
-      call add_stiffness(1, m, thickness*volume(k), b(:, :, k), modulus(:, :, k), matrix)
+      call add_stiffness(n, strains, 1, m, thickness*volume(k), b(:, :, k), modulus(:, :, k), matrix)
     end do
     nodal = force(:m)
     stiffness = matrix(:m, :m)
@@ -216,9 +216,9 @@ contains
     !> What the unknowns make of the points.
     subroutine update_points()
       real(dp) :: shape(nodes), place(dim), weight, length
-      integer :: k
+      integer :: a, i, k
 
-      length = sum(volume)**(1.0_dp/dim)
+      length = merge(sqrt(sum(volume)), sum(volume)**(1.0_dp/3.0_dp), dim == 2)
       state = svars
       work = 0.0_dp
       stored = 0.0_dp
@@ -227,15 +227,23 @@ contains
       do k = 1, nodes
         weight = thickness*volume(k)
         shape = solid_shape(dim, parents(:, k))
-        place = matmul(coordinates, shape)
-        if (this%finite) place = place + matmul(u, shape)
-        strain(:, k) = matmul(unknowns, b(:, :, k))
+        place = 0.0_dp
+        do a = 1, nodes
+          place = place + shape(a)*coordinates(:, a)
+          if (this%finite) place = place + shape(a)*u(:, a)
+        end do
+        do i = 1, strains
+          strain(i, k) = sum(unknowns*b(:, i, k))
+        end do
         call call_material(this, k, shape, place, length, weight, predef, materiallib, strain(:, k), state, stress(:, k), &
           modulus(:, :, k), work, good)
         if (.not. good) return
-        force = force + weight*matmul(b(:, :, k), stress(:, k))
+        do i = 1, strains
+          force = force + (weight*stress(i, k))*b(:, i, k)
+        end do
+        if (n == m) cycle
         stored = stored + weight*sum(stress(:, k)**2)/max(maxval(abs(modulus(:, :, k))), tiny(1.0_dp))
-        call add_stiffness(m + 1, n, weight, b(:, :, k), modulus(:, :, k), matrix)
+        call add_stiffness(n, strains, m + 1, n, weight, b(:, :, k), modulus(:, :, k), matrix)
       end do
     end subroutine update_points
 
@@ -347,14 +355,21 @@ contains
   end function ply_strains
 
   !> Adds columns of the stiffness of a point.
-  pure subroutine add_stiffness(first, last, weight, b, modulus, matrix)
-    integer, intent(in) :: first, last
+  pure subroutine add_stiffness(n, strains, first, last, weight, b, modulus, matrix)
+    integer, intent(in) :: n, strains, first, last
     real(dp), intent(in) :: weight                       !< volume of the point
-    real(dp), intent(in) :: b(:, :), modulus(:, :)       !< modulus need not be symmetric
-    real(dp), intent(inout) :: matrix(:, :)
+    real(dp), intent(in) :: b(n, strains), modulus(strains, strains)   !< modulus need not be symmetric
+    real(dp), intent(inout) :: matrix(n, n)
+    real(dp) :: stress
+    integer :: i, j
 
-    if (last < first) return
-    matrix(:, first:last) = matrix(:, first:last) + matmul(b, weight*matmul(modulus, transpose(b(first:last, :))))
+    ! loops: for such small matrices matmul costs more than the products
+    do j = first, last
+      do i = 1, strains
+        stress = weight*sum(modulus(i, :)*b(j, :))
+        matrix(:, j) = matrix(:, j) + stress*b(:, i)
+      end do
+    end do
   end subroutine add_stiffness
 
   !> Stores stresses and sizes for the adjacent interface elements. The stress at a place on the face is that of the Gauss point

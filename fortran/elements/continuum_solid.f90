@@ -7,7 +7,7 @@
 module elements_continuum_solid
   use core_kinds, only: dp
   use core_quadrature, only: gauss_point
-  use core_serendipity, only: brick_places, quad_places, serendipity_functions
+  use core_serendipity, only: brick_places, quad_places
   use core_small_matrix, only: invert_general
   use core_status, only: status_type, ok
   use core_strains, only: mean_volume_strain, mode_matrix, set_volume_strain, strain_matrix
@@ -56,9 +56,13 @@ contains
     integer, intent(in) :: dim
     real(dp), intent(in) :: place(dim)      !< parent coordinates
     real(dp) :: shape(2**dim)
-    real(dp) :: by_parent(2**dim, dim)
+    integer :: i, nodes(dim, 2**dim)
 
-    call serendipity_functions(dim, 2**dim, node_places(dim), place, shape, by_parent)
+    nodes = node_places(dim)
+    shape = 0.5_dp**dim
+    do i = 1, dim
+      shape = shape*(1.0_dp + place(i)*nodes(i, :))
+    end do
   end function solid_shape
 
   !> Strains by the unknowns, transposed, and Jacobians at places of which the first 2**dim are the Gauss points.
