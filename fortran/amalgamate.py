@@ -22,8 +22,8 @@ TITLE = """\
 ! Cohesive interface elements for Abaqus/Standard: U1 continuum quad
 ! and U9 brick (UELMAT); U2 standard, U3 four-node and U4 eight-node
 ! stabilised interface, U5 and U6 standard and stabilised interface of
-! quadratic quads, U7 and U8 standard and stabilised interface in space
-! (UEL).
+! quadratic quads, U7 standard, U8 and U10 stabilised interface in
+! space (UEL).
 !
 !   abaqus job=NAME user=FILE
 !

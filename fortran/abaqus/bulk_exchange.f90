@@ -1,7 +1,7 @@
 ! SPDX-FileCopyrightText: The uel-harness authors
 ! SPDX-License-Identifier: BSD-3-Clause
-!> The shared module of the paper's section 3.1: what the continuum elements next to an interface (U1 with FACE) store for the
-!> stabilised interface elements that share their stress (U3), by element number.
+!> The shared module of the paper's section 3.1: what the continuum elements next to an interface (U1, U9 with FACE) store for the
+!> stabilised interface elements that share their stress (U3, U10), by element number.
 !>
 !> It holds the last evaluation of each of them, so they must be called before the interface element in every
 !> iteration (lower element numbers), on one thread and in one process.

@@ -5,12 +5,11 @@ module abaqus_check
   use core_kinds, only: dp
   use core_status, only: status_type, sentence, too_brittle, zero_length, faces_apart, small_beta, &
     too_brittle_mixed, late_secant, no_root
-  use abaqus_layout, only: elements, faces, reals, integers, every_continuum, with_rotations, with_solids, &
+  use abaqus_layout, only: elements, faces, reals, integers, every_continuum, with_solids, &
     unknowns_of, variables_of, reals_of, integers_of, real_position, unpack, &
     positive, not_negative, below_one, up_to_one, exponent, estimated, above_one, any_integer, p_alphan, p_alphat, p_gic, p_giic, &
     p_betan, p_betat, p_shapen, p_shapet, p_friction, j_law, j_closure
   use cohesive_parameters, only: ppr_law
-  use abaqus_lflags, only: large_displacements
   use abaqus_report, only: fatal
   implicit none(type, external)
   private
@@ -19,9 +18,9 @@ module abaqus_check
 contains
 
   !> True if the counts fit the element type and every property is in its range; if not, a message has been sent.
-  function call_is_good(jtype, jelem, ndofel, nsvars, nprops, mcrd, nnode, njprop, ndload, lflags, props, jprops, values, &
+  function call_is_good(jtype, jelem, ndofel, nsvars, nprops, mcrd, nnode, njprop, ndload, props, jprops, values, &
     options) result(good)
-    integer, intent(in) :: jtype, jelem, ndofel, nsvars, nprops, mcrd, nnode, njprop, ndload, lflags(*)
+    integer, intent(in) :: jtype, jelem, ndofel, nsvars, nprops, mcrd, nnode, njprop, ndload
     real(dp), intent(in) :: props(*)
     integer, intent(in) :: jprops(*)
     real(dp), intent(out) :: values(size(reals))         !< properties by their rows in the layout, if the counts fit
@@ -42,9 +41,6 @@ contains
         call fatal(jtype, jelem, 'VARIABLES = %I: expected at least %I', [nsvars, variables_of(jtype)], [real(dp) ::])
       else if (mcrd < element%dimension .or. mcrd > 3) then
         call fatal(jtype, jelem, 'COORDINATES = %I: expected %I', [mcrd, element%dimension], [real(dp) ::])
-      else if (large_displacements(lflags) .and. iand(element%family, with_rotations) == 0) then
-        call fatal(jtype, jelem, 'NLGEOM is on, but this element is for small displacements: use NLGEOM=NO', &
-          [integer ::], [real(dp) ::])
       else if (ndload /= 0) then
         call fatal(jtype, jelem, 'does not take distributed loads: load its nodes', [integer ::], [real(dp) ::])
       else

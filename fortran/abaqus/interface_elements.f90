@@ -12,7 +12,7 @@ module abaqus_interface_elements
   use elements_interface_kernel, only: integrate_interface
   use elements_interface_point, only: interface_options, interface_point
   use abaqus_layout, only: elements, faces, reals, real_position, interface_variables, surface_variables, standard, standard_3d, &
-    next_to_quads, &
+    next_to_quads, next_to_bricks, &
     p_thickness, p_alphan, p_alphat, p_sigmamax, p_taumax, p_gic, p_giic, p_viscosity, p_eta, p_power, &
     p_shapen, p_shapet, p_blend, p_betan, p_betat, p_gammabot, p_friction, p_bottom_e1, p_bottom_nu12, p_top_e1, p_top_nu12, &
     p_bottom_g13, p_bottom_g23, p_top_g13, p_top_g23, &
@@ -89,7 +89,7 @@ contains
       case (standard, standard_3d)
         call integrate_interface(dim, n, nodes, solid, law, choice, thickness, original, u, dtime, with_tangent, old, new, &
           residual, tangent, energies, status)
-      case (next_to_quads)
+      case (next_to_quads, next_to_bricks)
         call stress_of_neighbours(jtype, jelem, dim, n, options, choice, original, reshape(u, [dim, size(u)/dim]), stabilisation, &
           stress, good)
         if (.not. good) return

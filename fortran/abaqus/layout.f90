@@ -38,13 +38,14 @@ module abaqus_layout
   integer, parameter, public :: standard_3d = 16
   integer, parameter, public :: self_contained_3d = 32   ! stabilised, with its own bricks
   integer, parameter, public :: continuum_3d = 64
+  integer, parameter, public :: next_to_bricks = 128   ! stabilised, with the stress of U9 next to it
   integer, parameter, public :: with_solids = self_contained + self_contained_3d
   integer, parameter, public :: every_continuum = continuum + continuum_3d
-  integer, parameter, public :: stabilised = next_to_quads + with_solids
+  integer, parameter, public :: next_to_solids = next_to_quads + next_to_bricks
+  integer, parameter, public :: stabilised = next_to_solids + with_solids
   integer, parameter, public :: every_standard = standard + standard_3d
-  integer, parameter, public :: with_rotations = every_continuum + every_standard + with_solids   ! take NLGEOM
   integer, parameter, public :: interfaces = every_standard + stabilised
-  integer, parameter, public :: in_space = standard_3d + self_contained_3d
+  integer, parameter, public :: in_space = standard_3d + self_contained_3d + next_to_bricks
   integer, parameter, public :: in_plane = continuum + standard + next_to_quads + self_contained
 
   !> A real property of the elements of these families.
@@ -193,13 +194,13 @@ module abaqus_layout
       !< 1 bilinear (9) to (11), 2 bilinear by ETA or POWER, 3 exponential by ETA or POWER, 4 PPR
     integer_item(j_integration, interfaces, 'INTEGRATION', 0, 1), & !< 0 Gauss, 1 Newton-Cotes
     integer_item(j_tangent, interfaces, 'TANGENT', 0, 1), &
-      !< 0 consistent (23), 1 secant (24), that is without the derivative of the damage; U3: at constant bulk stress
+      !< 0 consistent (23), 1 secant (24), that is without the derivative of the damage; U3, U10: at constant bulk stress
     integer_item(j_sampling, stabilised, 'SAMPLING', 0, 2), &
       !< bulk stress: 0 middle of the face (U6: line), 1 face, 2 nearest Gauss point
-    integer_item(j_offset_bottom, next_to_quads, 'OFFSETBOTTOM', -any_integer, any_integer), &
-      !< element number of the quad below minus its own
-    integer_item(j_offset_top, next_to_quads, 'OFFSETTOP', -any_integer, any_integer), &
-      !< element number of the quad above minus its own
+    integer_item(j_offset_bottom, next_to_solids, 'OFFSETBOTTOM', -any_integer, any_integer), &
+      !< element number of the quad or brick below minus its own
+    integer_item(j_offset_top, next_to_solids, 'OFFSETTOP', -any_integer, any_integer), &
+      !< element number of the quad or brick above minus its own
     integer_item(j_plane, continuum + self_contained, 'PLANE', 0, 1), & !< 0 plane stress, 1 plane strain
     integer_item(j_face, continuum, 'FACE', 0, 4), & !< face along a four-node stabilised interface (U3), as Abaqus counts; 0 none
     integer_item(j_closure, stabilised, 'CLOSURE', 0, 1), & !< damage at 0 the displacement jump, 1 a separation of its own
@@ -343,7 +344,7 @@ module abaqus_layout
     variable_item(w_maxn, 'MAXN', 'length'), & !< largest normal separation of the law so far, with LAW 4; else 0
     variable_item(w_maxt, 'MAXT', 'length')] !< largest shear separation of the law so far, with LAW 4; else 0
 
-  type(element_item), parameter, public :: elements(9) = [ &
+  type(element_item), parameter, public :: elements(10) = [ &
     element_item(1, continuum, 2, 4, 4, 1, 2), & !< continuum quad, stress from a material of the deck (UELMAT)
     element_item(2, standard, 2, 4, 2, 13, 3), & !< standard cohesive interface
     element_item(3, next_to_quads, 2, 4, 2, 17, 7), & !< stabilised cohesive interface, four nodes, next to U1 quads
@@ -352,16 +353,19 @@ module abaqus_layout
     element_item(6, self_contained, 2, 16, 3, 33, 6), & !< stabilised cohesive interface of eight-node quads, self-contained; UNSYMM
     element_item(7, standard_3d, 3, 8, 4, 12, 3), & !< standard cohesive interface in space, four nodes on each face
     element_item(8, self_contained_3d, 3, 16, 4, 36, 5), & !< stabilised cohesive interface of eight-node bricks; UNSYMM
-    element_item(9, continuum_3d, 3, 8, 8, 1, 2)] !< continuum brick, stress from a material of the deck (UELMAT)
+    element_item(9, continuum_3d, 3, 8, 8, 1, 2), & !< continuum brick, stress from a material of the deck (UELMAT)
+    element_item(10, next_to_bricks, 3, 8, 4, 16, 7)] !< stabilised cohesive interface in space, eight nodes, next to U9 bricks
 
-  type(faces_item), parameter, public :: faces(2:8) = [ &
+  type(faces_item), parameter, public :: faces(2:10) = [ &
     faces_item(2, 0, [1, 2, 0, 0], [4, 3, 0, 0]), & !< as COH2D4
     faces_item(3, 0, [1, 2, 0, 0], [4, 3, 0, 0]), & !< as U2
     faces_item(4, 4, [4, 3, 0, 0], [5, 6, 0, 0]), & !< edge 4-3 of the quad below, edge 1-2 of that above
     faces_item(5, 0, [1, 2, 5, 0], [4, 3, 6, 0]), & !< as U2, with middles
     faces_item(6, 8, [4, 3, 7, 0], [9, 10, 13, 0]), & !< as U4, with middles
     faces_item(7, 0, [1, 2, 3, 4], [5, 6, 7, 8]), & !< as COH3D8
-    faces_item(8, 8, [5, 6, 7, 8], [9, 10, 11, 12])] !< face 5-6-7-8 of the brick below, face 1-2-3-4 of that above
+    faces_item(8, 8, [5, 6, 7, 8], [9, 10, 11, 12]), & !< face 5-6-7-8 of the brick below, face 1-2-3-4 of that above
+    faces_item(9, 0, [0, 0, 0, 0], [0, 0, 0, 0]), & !< none
+    faces_item(10, 0, [1, 2, 3, 4], [5, 6, 7, 8])] !< as U7
 
 contains
 

@@ -1,6 +1,6 @@
 ! SPDX-FileCopyrightText: The uel-harness authors
 ! SPDX-License-Identifier: BSD-3-Clause
-!> The two continuum elements next to a stabilised interface that shares their stress (U3), found by element number offsets.
+!> The two continuum elements next to a stabilised interface that shares their stress (U3, U10), found by element number offsets.
 module abaqus_neighbours
   use core_kinds, only: dp
   use core_quadrature, only: gauss_rule
@@ -92,14 +92,18 @@ contains
     real(dp), parameter :: round_off = 16.0_dp*epsilon(1.0_dp)
     integer :: position, k
     character(len=40) :: property
+    character(len=2) :: bulk
+    character(len=4) :: shared
 
+    bulk = merge('U1', 'U9', dim == 2)
+    shared = merge('edge', 'face', dim == 2)
     good = .false.
     matching = 0
     position = integer_position(jtype, offset_rows(side))
     property = 'JPROPS(%I) ' // trim(integers(offset_rows(side))%name) // ' = %I'
     if (slot == 0) then
-      call fatal(jtype, jelem, trim(property) // ': bulk element %I has not been evaluated before; it must be a U1 ' // &
-        'with FACE, have a lower number than the interface element, and the job must run on one thread', &
+      call fatal(jtype, jelem, trim(property) // ': bulk element %I has not been evaluated before; it must be a ' // bulk // &
+        ' with FACE, have a lower number than the interface element, and the job must run on one thread', &
         [position, offset, jelem + offset], [real(dp) ::])
       return
     end if
@@ -107,7 +111,7 @@ contains
       matching = match(dim, points, record, coordinates)
       if (any(matching == 0) .or. .not. lies_on(side, record, place)) then
         call fatal(jtype, jelem, trim(property) // ': bulk element %I is not a neighbour: its face %I does not lie on ' // &
-          'that edge of the interface', [position, offset, jelem + offset, record%face], [real(dp) ::])
+          'that ' // shared // ' of the interface', [position, offset, jelem + offset, record%face], [real(dp) ::])
         return
       end if
       good = .true.

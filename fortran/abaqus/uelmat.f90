@@ -35,7 +35,7 @@ subroutine uelmat(rhs, amatrx, svars, energy, ndofel, nrhs, nsvars, props, nprop
       [integer ::], [real(dp) ::])
     return
   end if
-  good = call_is_good(jtype, jelem, ndofel, nsvars, nprops, mcrd, nnode, njprop, ndload, lflags, props, jprops, &
+  good = call_is_good(jtype, jelem, ndofel, nsvars, nprops, mcrd, nnode, njprop, ndload, props, jprops, &
     values, options)
   if (.not. good) return
   if (asks_for_nothing(lflags)) return

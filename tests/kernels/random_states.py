@@ -16,7 +16,7 @@ LAWS, PPR = {1: (), 2: ("ETA", "POWER"), 3: ("ETA", "POWER"), 4: ("SHAPE",)}, 4
 # type and closure; what a law may have besides, each of which is a case of its own
 VARIANTS = {"U2": (2, 0), "U3": (3, 0), "U3 consistent": (3, 1), "U4": (4, 0), "U4 consistent": (4, 1)}
 VARIANTS |= {"U5": (5, 0), "U6": (6, 0), "U6 consistent": (6, 1)}
-IN_SPACE = {"U7": (7, 0), "U8": (8, 0), "U8 consistent": (8, 1)}
+IN_SPACE = {"U7": (7, 0), "U8": (8, 0), "U8 consistent": (8, 1), "U10": (10, 0), "U10 consistent": (10, 1)}
 EXTRAS = {0: ("plain", "viscous"), 1: ("plain", "viscous", "friction", "rigid", "rigid, viscous, friction")}
 CASES = [(v, k, e) for v, (_, closure) in VARIANTS.items() for k in LAWS for e in EXTRAS[closure]]
 SPACE_CASES = [(v, k, e) for v, (_, closure) in IN_SPACE.items() for k in LAWS for e in EXTRAS[closure]]
@@ -25,9 +25,9 @@ COPIES, INCREMENTS, DTIME = 32, 4, 0.3
 STATES = COPIES * INCREMENTS
 # where the two edges of the interface are among the nodes: left, right, middle
 EDGES = {2: ([0, 1], [3, 2]), 4: ([3, 2], [4, 5]), 5: ([0, 1, 4], [3, 2, 5]), 6: ([3, 2, 6], [8, 9, 12])}
-FACES = {7: (slice(0, 4), slice(4, 8)), 8: (slice(4, 8), slice(8, 12))}
+FACES = {7: (slice(0, 4), slice(4, 8)), 8: (slice(4, 8), slice(8, 12)), 10: (slice(4, 8), slice(8, 12))}
 SIX = [3, 2, 9, 8, 6, 12]  # nodes of U5 among those of U6
-BOTTOM, TOP, FOUR = 1, 1001, 2001  # first labels of the quads of U3, and its own
+BOTTOM, TOP, FOUR = 1, 1001, 2001  # first labels of the quads of U3 and of the bricks of U10, and their own
 
 sampling = settings(deadline=None, database=None, phases=[Phase.generate], suppress_health_check=list(HealthCheck))
 one_library = pytest.mark.parametrize("library", ["library"], indirect=True)  # the amalgam has the same formulas
@@ -94,11 +94,11 @@ def betas(draw, reference, values):
 def options(rng, jtype, closure):
     """Integration, and what the stabilised elements have besides."""
     values = {"INTEGRATION": int(rng.integers(2))}
-    if jtype in (3, 4, 6, 8):
+    if jtype in (3, 4, 6, 8, 10):
         values["SAMPLING"] = int(rng.integers(3))
         if not closure and rng.integers(2):
             values |= {"BETAN": 10 ** rng.uniform(3, 6), "BETAT": 10 ** rng.uniform(3, 6), "GAMMABOT": 0.3}
-        elif not closure and jtype != 3 and rng.integers(2):
+        elif not closure and jtype not in (3, 10) and rng.integers(2):
             values |= {"BETAN": -1, "BETAT": -1}
     if jtype in (4, 6):
         values["PLANE"] = int(rng.integers(2))
@@ -172,7 +172,12 @@ class SpaceCrowd:
         face = np.array([[0.0, 0.0, 0.0], [1.1, -0.15, 0.0], [0.8, 1.1, 0.0], [0.05, 1.2, 0.0]])
         below, above = face - np.array([0.1, 0, 0.8]), face + np.array([0, 0.1, 0.9])
         xyz = np.vstack([face, face] if jtype == 7 else [below, face, face, above])
-        self.nodes, self.jtype = len(xyz), jtype
+        self.nodes, self.jtype, self.places, self.bricks = len(xyz), jtype, xyz, []
+        if jtype == 10:
+            values |= {"OFFSETBOTTOM": BOTTOM - FOUR, "OFFSETTOP": TOP - FOUR}
+            sides = ((BOTTOM, xyz[:8], 2), (TOP, xyz[8:], 1))
+            self.bricks = [make(9, side, label=label, copies=COPIES, FACE=face) for label, side, face in sides]
+            xyz = xyz[4:12]
         self.item = make(jtype, xyz, label=FOUR, copies=COPIES, **values)
         angle = rng.uniform(-np.pi, np.pi, COPIES)
         along = np.column_stack([np.cos(angle), np.sin(angle), np.zeros(COPIES)])
@@ -186,16 +191,22 @@ class SpaceCrowd:
         return u
 
     def own(self, u):
-        """What is of the nodes of the element, in a row."""
-        return u.reshape(COPIES, -1)
+        """What is of the nodes of the element itself, in a row."""
+        return (u[:, 4:12] if self.bricks else u).reshape(COPIES, -1)
 
     def call(self, method, u, dtime):
-        """`evaluate` or `advance` of the element."""
+        """`evaluate` or `advance` of the element, after its bricks."""
+        for brick, nodes in zip(self.bricks, (slice(0, 8), slice(8, 16)), strict=False):
+            brick.evaluate(u[:, nodes], dtime=dtime)
         return getattr(self.item, method)(self.own(u), dtime=dtime)
 
     def direction(self, rng):
-        """Of displacements, random."""
-        return rng.normal(size=(COPIES, self.nodes, 3)) / np.sqrt(3 * self.nodes)
+        """Of displacements, random; the bricks of U10 move rigidly, as AMATRX is that at constant stress."""
+        shape = (COPIES, self.nodes, 3)
+        if not self.bricks:
+            return rng.normal(size=shape) / np.sqrt(3 * self.nodes)
+        move, turn = rng.normal(size=(2, COPIES, 2, 1, 3))
+        return 0.3 * (move + np.cross(turn, self.places.reshape(2, 8, 3))).reshape(shape)
 
 
 def separations(rng, values, pure=1 / 6):

@@ -76,21 +76,19 @@ LAW = {
 
 ELEMENT = {
     "abaqus/layout.f90": [
-        ("public :: elements(9)", "public :: elements(10)"),
+        ("public :: elements(10)", "public :: elements(11)"),
         (
-            "8, 8, 1, 2)] !< continuum brick",
-            "8, 8, 1, 2), & !< continuum brick",
+            "8, 4, 16, 7)] !< stabilised cohesive interface in space",
+            "8, 4, 16, 7), & !< stabilised cohesive interface in space",
         ),
         (
-            "\n\n  type(faces_item), parameter, public :: faces(2:8)",
-            "\n    element_item(10, standard, 2, 4, 2, 13, 3)] !< U2, left to right\n\n"
-            "  type(faces_item), parameter, public :: faces(2:10)",
+            "\n\n  type(faces_item), parameter, public :: faces(2:10)",
+            "\n    element_item(11, standard, 2, 4, 2, 13, 3)] !< U2, left to right\n\n"
+            "  type(faces_item), parameter, public :: faces(2:11)",
         ),
         (
-            "[9, 10, 11, 12])] !< face 5-6-7-8 of the brick below, face 1-2-3-4 of that above\n",
-            "[9, 10, 11, 12]), & !< face 5-6-7-8 of the brick below, face 1-2-3-4 of that above\n"
-            "    faces_item(9, 0, [0, 0, 0, 0], [0, 0, 0, 0]), & !< none\n"
-            "    faces_item(10, 0, [1, 2, 0, 0], [3, 4, 0, 0])] !< left to right\n",
+            "[5, 6, 7, 8])] !< as U7\n",
+            "[5, 6, 7, 8]), & !< as U7\n    faces_item(11, 0, [1, 2, 0, 0], [3, 4, 0, 0])] !< left to right\n",
         ),
     ],
 }
@@ -216,7 +214,7 @@ def test_the_element_is_u2_in_another_order(branch, element_of):
     order = [0, 1, 3, 2]
     dofs = np.array([[2 * n, 2 * n + 1] for n in order]).ravel()
     expected = element_of(branch[0], 2, FLAT, layouts=branch[1]).evaluate(u)
-    found = element_of(branch[0], 10, FLAT[order], layouts=branch[1]).evaluate(u[order])
+    found = element_of(branch[0], 11, FLAT[order], layouts=branch[1]).evaluate(u[order])
     np.testing.assert_allclose(found[0], expected[0][dofs], rtol=1e-12)
     np.testing.assert_allclose(found[1], expected[1][np.ix_(dofs, dofs)], rtol=1e-12)
 

@@ -1,9 +1,13 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""Interfaces with NLGEOM: the frame goes with the mid-surface, tractions are per original area."""
+"""Interfaces with NLGEOM: the frame goes with the mid-surface, tractions are per original area.
+
+U3 and U10 are tested with the quads or bricks whose stress they take.
+"""
 
 import numpy as np
 import pytest
+from neighbours import Sandwich
 from scipy.spatial.transform import Rotation
 
 NLGEOM = (1, 1, 0, 0)
@@ -30,13 +34,30 @@ ELEMENTS = {
     6: (np.vstack([with_middles(np.array(QUADS[:4]), 2), with_middles(np.array(QUADS[4:]), 0)]), [3, 2, 6], [8, 9, 12]),
     8: (np.vstack([BELOW, SQUARE, SQUARE, ABOVE]), [4, 5, 6, 7], [8, 9, 10, 11]),
 }
+ELEMENTS |= {3: ELEMENTS[4], 10: ELEMENTS[8]}
 OPTIONS = {"Gauss": {}, "nodes, viscous": {"INTEGRATION": 1, "VISCOSITY": 0.3}, "BK": {"LAW": 2, "ETA": 1.45}}
 RIGID = {"CLOSURE": 1, "ALPHAN": 0.0, "ALPHAT": 0.0, "BETAN": -1.0, "BETAT": -1.0, "FRICTION": 0.3}
 OF_SOLIDS = {"rigid": RIGID, "rigid, viscous, face": {**RIGID, "VISCOSITY": 0.3, "SAMPLING": 1}}
+GIVEN = {"BETAN": 1e5, "BETAT": 1.2e5}  # U3 and U10 know no local eigenvalues
 CASES = [(jtype, name) for jtype in ELEMENTS for name in (OPTIONS if jtype in (2, 5, 7) else OPTIONS | OF_SOLIDS)]
 OPTIONS |= OF_SOLIDS
 every = pytest.mark.parametrize("jtype", ELEMENTS)
 options = pytest.mark.parametrize(("jtype", "name"), CASES)
+
+
+@pytest.fixture
+def interface_element(element, library):
+    """Make an interface element, with the solids next to it: interface_element(jtype, name of its options)."""
+    library.external_database(0, 0, (0.0, 0.0), 0.0, 0, 0)
+
+    def make(jtype, name=None):
+        values = OPTIONS[name] if name else {}
+        if jtype not in (3, 10):
+            return element(jtype, ELEMENTS[jtype][0], **values)
+        given = GIVEN if "BETAN" in values else {}
+        return Sandwich(element, jtype, ELEMENTS[jtype][0], **values | given)
+
+    return make
 
 
 def turn(dim, degrees):
@@ -62,12 +83,25 @@ def opened(jtype, size, seed):
     return u
 
 
+def motions(places):
+    """Motions that AMATRX at constant stress knows: both solids as one rigid body, and one away from the other."""
+    dim = places.shape[1]
+    upper = np.repeat([0.0, 1.0], len(places) // 2)[:, None]
+    moves = [upper * axis for axis in np.eye(dim)]
+    spins = [(0, 1), (0, 2), (1, 2)] if dim == 3 else [(0, 1)]
+    for i, j in spins:
+        spin = np.zeros((dim, dim))
+        spin[i, j], spin[j, i] = -1.0, 1.0
+        moves.append(places @ spin.T)
+    return np.array([move.ravel() for move in moves])
+
+
 @options
-def test_no_force_under_rigid_motions(element, jtype, name):
+def test_no_force_under_rigid_motions(interface_element, jtype, name):
     """By 180 degrees in 50 increments, and far away."""
     coordinates = ELEMENTS[jtype][0]
     dim = coordinates.shape[1]
-    item = element(jtype, coordinates, **OPTIONS[name])
+    item = interface_element(jtype, name)
     for degrees in np.linspace(0, 180, 51)[1:]:
         rhs = item.advance((coordinates - 3.0) @ turn(dim, degrees).T - coordinates, flags=NLGEOM)[0]
         assert abs(rhs).max() <= 1e-9 * 3e5
@@ -76,24 +110,29 @@ def test_no_force_under_rigid_motions(element, jtype, name):
 
 @options
 @pytest.mark.parametrize("size", [5e-4, 4e-3, 8e-3, -1e-3])
-def test_tangent(element, reference, jtype, name, size):
+def test_tangent(interface_element, reference, jtype, name, size):
     coordinates = ELEMENTS[jtype][0]
     q = turn(coordinates.shape[1], 50.0)
-    item = element(jtype, coordinates, **OPTIONS[name])
+    item = interface_element(jtype, name)
     item.advance((coordinates + opened(jtype, 1e-3, 1)) @ q.T - coordinates, flags=NLGEOM)
     u = (coordinates + opened(jtype, size, 2)) @ q.T - coordinates
     tangent = item.evaluate(u, flags=NLGEOM)[1]
-    differences = -reference.central_differences(lambda x: item.evaluate(x, flags=NLGEOM)[0], u.ravel(), step=2e-7)
     assert abs(tangent).max() > 0
-    assert abs(tangent - differences).max() <= 1e-6 * abs(tangent).max()
+    along = np.eye(u.size) if jtype not in (3, 10) else motions(coordinates + u)
+
+    def forces(x):
+        return item.evaluate(u.ravel() + x @ along, flags=NLGEOM)[0]
+
+    differences = -reference.central_differences(forces, np.zeros(len(along)), step=2e-7)
+    assert abs(tangent @ along.T - differences).max() <= 1e-6 * abs(tangent).max()
 
 
 @options
-def test_an_element_that_turns_while_it_opens(element, jtype, name):
+def test_an_element_that_turns_while_it_opens(interface_element, jtype, name):
     """Forces turn along; damage, tractions in their frame and energies are those without the rotation."""
     coordinates = ELEMENTS[jtype][0]
     dim = coordinates.shape[1]
-    still, turned = (element(jtype, coordinates, **OPTIONS[name]) for _ in range(2))
+    still, turned = (interface_element(jtype, name) for _ in range(2))
     for k, size in enumerate((5e-4, 3e-3, 2e-3, 6e-3, -5e-4, 8e-3)):
         q, u = turn(dim, 45.0 * (k + 1)), opened(jtype, size, 7 + k)
         force = still.advance(u, flags=NLGEOM)[0].reshape(-1, dim)
@@ -107,11 +146,11 @@ def test_an_element_that_turns_while_it_opens(element, jtype, name):
 
 
 @every
-def test_forces_are_in_equilibrium(element, jtype):
+def test_forces_are_in_equilibrium(interface_element, jtype):
     """Node by node: what a face gets, the other gives."""
     coordinates, bottom, top = ELEMENTS[jtype]
     dim = coordinates.shape[1]
-    item = element(jtype, coordinates)
+    item = interface_element(jtype)
     u = opened(jtype, 5e-3, 3)
     force = item.evaluate(u, flags=NLGEOM)[0].reshape(-1, dim)
     np.testing.assert_allclose(force[bottom], -force[top], atol=1e-12 * abs(force).max())
@@ -119,11 +158,23 @@ def test_forces_are_in_equilibrium(element, jtype):
 
 
 @every
-def test_small_displacements(element, jtype):
+def test_small_displacements(interface_element, jtype):
     """Forces of displacements of 1e-7 of the size are those without NLGEOM to that order."""
     coordinates = ELEMENTS[jtype][0]
-    item = element(jtype, coordinates)
+    item = interface_element(jtype)
     u = 1e-7 * np.random.default_rng(3).normal(size=coordinates.shape)
     linear, finite = item.evaluate(u)[0], item.evaluate(u, flags=NLGEOM)[0]
     np.testing.assert_allclose(finite, linear, atol=1e-6 * abs(linear).max())
     assert abs(finite - linear).max() > 0
+
+
+@pytest.mark.parametrize("size", [5e-4, 4e-3, -1e-3])
+@pytest.mark.parametrize(("shared", "own"), [(3, 4), (10, 8)])
+def test_stress_shared_with_neighbours(element, interface_element, shared, own, size):
+    """U3 as U4, U10 as U8, but for the order of the strain: their solids turn by themselves, not with each point."""
+    coordinates = ELEMENTS[own][0]
+    q = turn(coordinates.shape[1], 70.0)
+    u = (coordinates + opened(own, size, 5)) @ q.T - coordinates
+    expected = element(own, coordinates).evaluate(u, flags=NLGEOM)[0]
+    found = interface_element(shared).evaluate(u, flags=NLGEOM)[0]
+    np.testing.assert_allclose(found, expected, atol=2e-3 * abs(expected).max())

@@ -19,7 +19,7 @@ def test_tables_of_the_documentation_are_current():
 def test_user_element_lines_of_the_documentation_are_current():
     text = (ROOT / "fortran/README.md").read_text()
     for jtype, item in layout.element_layouts().items():
-        line = next(line for line in text.splitlines() if f"TYPE=U{jtype}" in line)
+        line = next(line for line in text.splitlines() if f"TYPE=U{jtype}," in line)
         for option in (
             f"NODES={item.nodes},",
             f" PROPERTIES={len(item.reals)},",
@@ -40,12 +40,14 @@ def test_names_of_svars():
     brick = layout.variables(9)
     assert brick.names[:6] == ("E11", "E22", "E33", "E12", "E13", "E23") and brick.names[6] == "S11"
     assert (brick.kind, brick.points, brick.outline) == ("continuum", 8, ())
-    assert layout.variables(10) is None
+    ten = layout.variables(10)
+    assert (ten.kind, ten.points, ten.bottom, ten.top) == ("interface", 4, (0, 1, 2, 3), (4, 5, 6, 7))
+    assert layout.variables(11) is None
 
 
 def test_library_names_svars_of_these_elements_only(library, tmp_path):
     assert library.variables(2) == layout.variables(2)
-    assert library.variables(10) is None
+    assert library.variables(11) is None
     other = tmp_path / "other.f"
     other.write_text("      subroutine uel(rhs)\n      real*8 rhs\n      end\n")
     stranger = usersub.load(other, job="other", output_dir=tmp_path)

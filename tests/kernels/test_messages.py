@@ -154,13 +154,6 @@ def test_wrong_number_of_nodes(element):
         item.evaluate(np.zeros(item.n))
 
 
-def test_large_displacements_are_refused(element):
-    """By the interface that shares the stress of quads."""
-    item = element(3, FLAT, label=42)
-    with pytest.raises(KernelError, match=r"U3 element 42: NLGEOM is on.*use NLGEOM=NO"):
-        item.evaluate(np.zeros(8), flags=(1, 1, 0, 0))
-
-
 def test_state_of_stress_of_the_material_must_fit(element):
     for plane, tensor in ((0, "PSTRAIN"), (1, "PSTRESS")):
         item = element(1, QUAD, label=42, PLANE=plane, definition={"tensor": tensor})
@@ -170,14 +163,14 @@ def test_state_of_stress_of_the_material_must_fit(element):
 
 def test_unknown_types(library, element):
     item = element(2, FLAT, label=42)
-    item.block._routine = replace(item.block._routine, jtype=10)
-    with pytest.raises(KernelError, match="U10 element 42: is not an element of this file, which has U1 to U9"):
+    item.block._routine = replace(item.block._routine, jtype=11)
+    with pytest.raises(KernelError, match="U11 element 42: is not an element of this file, which has U1 to U10"):
         item.evaluate(np.zeros(8))
     item.block._routine = replace(item.block._routine, jtype=1)
     with pytest.raises(KernelError, match="U1 element 42: takes its stress from a material: specify MATERIAL="):
         item.evaluate(np.zeros(8))
     quad = element(1, QUAD, label=42)
-    for jtype in (2, 10):
+    for jtype in (2, 11):
         quad.block._routine = replace(quad.block._routine, jtype=jtype)
         message = f"U{jtype} element 42: is not an element with a material: specify MATERIAL= for U1 and U9 only"
         with pytest.raises(KernelError, match=message):
