@@ -152,4 +152,5 @@ def advice_on_order(kind: TypeVerdict, *, ours: bool) -> str:
         f"{kind.type}: it depends on what calls of other elements leave: give those elements lower "
         f"numbers, and {THREADS}."
     )
-    return f"{advice} U4 is the same element without this dependence." if ours and kind.type == "U3" else advice
+    own_solids = {"U3": "U4", "U10": "U8"}.get(kind.type) if ours else None
+    return f"{advice} {own_solids} is the same element without this dependence." if own_solids else advice

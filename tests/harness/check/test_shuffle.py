@@ -11,9 +11,10 @@ import pytest
 from harness.assembly import System
 from harness.check.recording import Pass, opened, record
 from harness.check.replay import abaqus_order, replay
-from harness.check.shuffle import ORDERS, shuffle
+from harness.check.shuffle import ORDERS, TypeVerdict, advice_on_order, shuffle
 from harness.cli import main
 from harness.elements import build_blocks
+from harness.errors import KernelError
 
 PATCH = Path(__file__).parents[3] / "abaqus_inputs" / "patch_horizontal"
 COUNTER = Path(__file__).parent / "counter.f"
@@ -86,6 +87,16 @@ def test_four_node_element_is_refused(capsys):
     assert "give those elements lower numbers" in printed
     assert "U4 is the same element without this dependence" in printed
     assert re.search(r"U1 │ 100 │ \d+ │ the same in any", printed)
+
+
+@pytest.mark.parametrize(("name", "other"), [("U3", "U4"), ("U10", "U8"), ("U7", "")])
+@pytest.mark.parametrize("ours", [True, False])
+def test_advice_names_the_element_with_its_own_solids(name, other, ours):
+    verdict = TypeVerdict(name, 1, refusal=KernelError(1, name, "stopped the analysis"))
+    advice = advice_on_order(verdict, ours=ours)
+    assert advice.startswith(f"{name}: it depends on what calls of other elements leave")
+    assert ("is the same element without" in advice) == bool(ours and other)
+    assert not (ours and other) or f"{other} is the same element" in advice
 
 
 @pytest.mark.parametrize(
