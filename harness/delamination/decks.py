@@ -17,6 +17,7 @@ from harness.delamination.bricks import bricks_files, stabilised_bricks_files
 from harness.delamination.comparator import comparator_files
 from harness.delamination.cook import cook_files
 from harness.delamination.elastica import elastica_files
+from harness.delamination.literature import literature_files
 from harness.delamination.materials import TABLE_2
 from harness.delamination.peel import peel_files
 from harness.delamination.reproduce.cases import PROBLEMS, comparator_cases, longer_cases, paper_cases
@@ -117,6 +118,7 @@ def all_files() -> dict[Path, str]:
         "dcb_elastica": elastica_files,
     }
     problems |= {f"paper_{name}": partial(paper, name) for name in PROBLEMS}
+    problems |= literature_files()
     return {Path(folder, name): text for folder, problem in problems.items() for name, text in problem().items()}
 
 

@@ -9,6 +9,7 @@ from collections.abc import Callable, Mapping
 import numpy as np
 
 from harness.delamination.beams import branch_deviation
+from harness.delamination.literature_measures import MEASURES
 from harness.delamination.materials import TABLE_2
 from harness.delamination.specimens import ARMS, CRACK, WIDTH
 from harness.delamination.theory import dcb_crack, dcb_curve
@@ -17,13 +18,15 @@ from harness.output import Result
 
 
 def load(result: Result) -> FloatArray:
-    """Load of a specimen (N), positive the way it is loaded, by increment; in space that of the line TOP."""
+    """Load of a specimen (N), positive the way it is loaded, by increment; in space that of the line TOP or a lever."""
     history = result.history
+    if "RF3[LEVER]" in history:
+        return -history["RF3[LEVER]"]
     if "RF2[LOAD_TOP]" in history:
         return history["RF2[LOAD_TOP]"]
     if "RF2[MIDSPAN]" in history:
         return -history["RF2[MIDSPAN]"]
-    line: FloatArray = np.sum([history[name] for name in history if name.startswith("RF3[TOP:")], axis=0)
+    line: FloatArray = np.sum([history[name] for name in history if name.startswith(("RF3[TOP]", "RF3[TOP:"))], axis=0)
     return line
 
 
@@ -193,7 +196,7 @@ QUANTITIES: dict[str, Callable[[Result], float]] = {
         *(enf_deviation, frmm_deviation, frmm_mode_ratio, cutbacks),
         *(traction_mean, traction_deviation, traction_lowest, traction_highest, traction_variation, damage_variation),
     )
-}
+} | MEASURES
 COMPARISONS: dict[str, Callable[[Result, Result], float]] = {
     function.__name__: function for function in (curve_distance, whole_curve_distance)
 }
