@@ -119,7 +119,7 @@ contains
   !> What a rule asks for, in words.
   pure function expectation(rule) result(text)
     integer, intent(in) :: rule
-    character(len=48) :: text
+    character(len=64) :: text
 
     select case (rule)
     case (positive)
@@ -129,7 +129,7 @@ contains
     case (up_to_one)
       text = 'a value from 0 to 1'
     case (estimated)
-      text = 'zero or a positive value, or -1 in U4, U6 and U8'
+      text = 'zero or a positive value, or -1 in a self-contained element'
     case (below_one)
       text = 'zero or a value between 0 and 1'
     case (exponent)
@@ -196,7 +196,7 @@ contains
     end do
   end function options_fit
 
-  !> Sends the message for the status of a kernel; U4, U6 and U8 count their quads or bricks in status%item.
+  !> Sends the message for the status of a kernel; self-contained elements count their quads or bricks in status%item.
   subroutine report_status(jtype, jelem, status)
     integer, intent(in) :: jtype, jelem
     type(status_type), intent(in) :: status
@@ -230,6 +230,7 @@ contains
       associate (top => faces(jtype)%top, bottom => faces(jtype)%bottom)
         if (elements(jtype)%dimension == 3) then
           call fatal(jtype, jelem, trim(sentence(status%code)) // ': nodes %I to %I must lie on %I to %I' // &
+            trim(merge(', and the middle nodes on each other', repeat(' ', 36), faces(jtype)%top_middles(1) > 0)) // &
             '; they are %R apart, expected at most %R', [top(1), top(4), bottom(1), bottom(4)], [status%value, status%expected])
           return
         end if

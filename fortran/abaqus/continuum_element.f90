@@ -345,7 +345,7 @@ contains
     integer :: i
 
     if (strains == 6) then
-      matrix = strain_rotation(ply_axes(central_frame(coordinates(:, 1:4), coordinates(:, 5:8)), angle))
+      matrix = strain_rotation(ply_axes(central_frame(4, coordinates(:, 1:4), coordinates(:, 5:8)), angle))
       return
     end if
     matrix = 0.0_dp

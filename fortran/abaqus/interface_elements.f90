@@ -12,7 +12,7 @@ module abaqus_interface_elements
   use elements_interface_kernel, only: integrate_interface
   use elements_interface_point, only: interface_options, interface_point
   use abaqus_layout, only: elements, faces, reals, real_position, interface_variables, surface_variables, standard, standard_3d, &
-    next_to_quads, next_to_bricks, &
+    next_to_quads, next_to_bricks, face_nodes, nodes_of_face, &
     p_thickness, p_alphan, p_alphat, p_sigmamax, p_taumax, p_gic, p_giic, p_viscosity, p_eta, p_power, &
     p_shapen, p_shapet, p_blend, p_betan, p_betat, p_gammabot, p_friction, p_bottom_e1, p_bottom_nu12, p_top_e1, p_top_nu12, &
     p_bottom_g13, p_bottom_g23, p_top_g13, p_top_g23, &
@@ -66,7 +66,7 @@ contains
     real(dp) :: energies(3), stress(3, 3, elements(jtype)%points), original(elements(jtype)%dimension, size(coords, 2))
     real(dp), dimension(3*(elements(jtype)%dimension - 1), 3*(elements(jtype)%dimension - 1), 2) :: stiffness
     real(dp) :: thickness
-    integer :: nodes(elements(jtype)%points, 2), n, dim
+    integer :: nodes(nodes_of_face(jtype), 2), n, dim
 
     call prepare_law(values, options, law, status)
     good = status%code == ok
@@ -81,8 +81,7 @@ contains
     original = coords(1:dim, :)
     thickness = merge(values(p_thickness), 1.0_dp, dim == 2)
     n = elements(jtype)%points
-    nodes(:, 1) = faces(jtype)%bottom(1:n)
-    nodes(:, 2) = faces(jtype)%top(1:n)
+    nodes = face_nodes(jtype)
     old = points_from(svars, n, dim)
     associate (solid => faces(jtype)%solid)
       select case (elements(jtype)%family)
@@ -143,7 +142,7 @@ contains
     if (values(p_power) > 0.0_dp) law%power = values(p_power)
   end subroutine prepare_law
 
-  !> Stiffness of the bottom and the top element of U4, U6 and U8.
+  !> Stiffness of the bottom and the top element of a self-contained interface.
   subroutine elasticity_of_solids(jtype, jelem, values, plane, bottom, top, stiffness, good)
     integer, intent(in) :: jtype, jelem
     real(dp), intent(in) :: values(:)
@@ -166,7 +165,7 @@ contains
       if (size(bottom, 1) == 2) then
         call plane_stiffness(material, plane, stiffness(:, :, side), status)
       else
-        call solid_stiffness(material, central_frame(bottom, top), stiffness(:, :, side), status)
+        call solid_stiffness(material, central_frame(size(bottom, 2), bottom, top), stiffness(:, :, side), status)
       end if
       good = status%code == ok
       if (.not. good) then

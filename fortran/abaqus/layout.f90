@@ -16,7 +16,7 @@ module abaqus_layout
   implicit none(type, external)
   private
   public :: real_item, integer_item, variable_item, element_item, faces_item
-  public :: unknowns_of, variables_of, reals_of, integers_of, real_position, integer_position, unpack
+  public :: unknowns_of, variables_of, nodes_of_face, face_nodes, reals_of, integers_of, real_position, integer_position, unpack
   public :: delamination_layout_version
 
   !> Permitted values of a real property. A property that may be zero is 0 if the deck leaves it out.
@@ -26,7 +26,7 @@ module abaqus_layout
   integer, parameter, public :: up_to_one = 4       ! 0 <= value <= 1
   integer, parameter, public :: any_value = 5
   integer, parameter, public :: exponent = 6        ! 0 or at least 1/2
-  integer, parameter, public :: estimated = 7       ! 0 <= value, or -1 in U4, U6 and U8
+  integer, parameter, public :: estimated = 7       ! 0 <= value, or -1 in a self-contained element
   integer, parameter, public :: above_one = 8       ! 0 or above 1
   integer, parameter, public :: any_integer = huge(1)
 
@@ -79,11 +79,12 @@ module abaqus_layout
   end type element_item
 
   !> The nodes of an interface element on its bottom and top face; 0 where there is none. In the plane left to right, the middle
-  !> last, in space counter-clockwise seen from the top.
+  !> last, in space counter-clockwise seen from the top, first the corners, then the midside nodes of the edges that begin there.
   type :: faces_item
     integer :: jtype
     integer :: solid               !< nodes of each of its own quads or bricks, of which the bottom one comes first; 0 without
     integer :: bottom(4), top(4)
+    integer :: bottom_middles(4) = 0, top_middles(4) = 0
   end type faces_item
 
   ! rows of the table of reals
@@ -152,24 +153,27 @@ module abaqus_layout
     real_item(p_bottom_e1, with_solids, 'E1 BOTTOM', 'stress', positive), & !< Young's modulus along material axis 1
     real_item(p_bottom_e2, with_solids, 'E2 BOTTOM', 'stress', positive), & !< Young's modulus along material axis 2
     real_item(p_bottom_e3, with_solids, 'E3 BOTTOM', 'stress', not_negative), &
-      !< Young's modulus along material axis 3; plane strain, U8
+      !< Young's modulus along material axis 3; plane strain, bricks
     real_item(p_bottom_nu12, with_solids, 'NU12 BOTTOM', '1', any_value), & !< contraction along 2 under stress along 1
     real_item(p_bottom_nu13, with_solids, 'NU13 BOTTOM', '1', any_value), &
-      !< contraction along 3 under stress along 1; plane strain, U8
+      !< contraction along 3 under stress along 1; plane strain, bricks
     real_item(p_bottom_nu23, with_solids, 'NU23 BOTTOM', '1', any_value), &
-      !< contraction along 3 under stress along 2; plane strain, U8
+      !< contraction along 3 under stress along 2; plane strain, bricks
     real_item(p_bottom_g12, with_solids, 'G12 BOTTOM', 'stress', positive), & !< shear modulus in the plane 1-2
     real_item(p_bottom_angle, with_solids, 'ANGLE BOTTOM', 'degree', any_value), &
-      !< of material axis 1 from x, counter-clockwise; U8: from s about n, which is axis 3
+      !< of material axis 1 from x, counter-clockwise; bricks: from s about n, which is axis 3
     real_item(p_top_e1, with_solids, 'E1 TOP', 'stress', positive), & !< Young's modulus along material axis 1
     real_item(p_top_e2, with_solids, 'E2 TOP', 'stress', positive), & !< Young's modulus along material axis 2
-    real_item(p_top_e3, with_solids, 'E3 TOP', 'stress', not_negative), & !< Young's modulus along material axis 3; plane strain, U8
+    real_item(p_top_e3, with_solids, 'E3 TOP', 'stress', not_negative), &
+      !< Young's modulus along material axis 3; plane strain, bricks
     real_item(p_top_nu12, with_solids, 'NU12 TOP', '1', any_value), & !< contraction along 2 under stress along 1
-    real_item(p_top_nu13, with_solids, 'NU13 TOP', '1', any_value), & !< contraction along 3 under stress along 1; plane strain, U8
-    real_item(p_top_nu23, with_solids, 'NU23 TOP', '1', any_value), & !< contraction along 3 under stress along 2; plane strain, U8
+    real_item(p_top_nu13, with_solids, 'NU13 TOP', '1', any_value), &
+      !< contraction along 3 under stress along 1; plane strain, bricks
+    real_item(p_top_nu23, with_solids, 'NU23 TOP', '1', any_value), &
+      !< contraction along 3 under stress along 2; plane strain, bricks
     real_item(p_top_g12, with_solids, 'G12 TOP', 'stress', positive), & !< shear modulus in the plane 1-2
     real_item(p_top_angle, with_solids, 'ANGLE TOP', 'degree', any_value), &
-      !< of material axis 1 from x, counter-clockwise; U8: from s about n, which is axis 3
+      !< of material axis 1 from x, counter-clockwise; bricks: from s about n, which is axis 3
     real_item(p_bottom_g13, self_contained_3d, 'G13 BOTTOM', 'stress', positive), & !< shear modulus in the plane 1-3
     real_item(p_bottom_g23, self_contained_3d, 'G23 BOTTOM', 'stress', positive), & !< shear modulus in the plane 2-3
     real_item(p_top_g13, self_contained_3d, 'G13 TOP', 'stress', positive), & !< shear modulus in the plane 1-3
@@ -196,7 +200,7 @@ module abaqus_layout
     integer_item(j_tangent, interfaces, 'TANGENT', 0, 1), &
       !< 0 consistent (23), 1 secant (24), that is without the derivative of the damage; U3, U10: at constant bulk stress
     integer_item(j_sampling, stabilised, 'SAMPLING', 0, 2), &
-      !< bulk stress: 0 middle of the face (U6: line), 1 face, 2 nearest Gauss point
+      !< bulk stress: 0 middle of the face (quadratic elements: through two or four points), 1 face, 2 nearest Gauss point
     integer_item(j_offset_bottom, next_to_solids, 'OFFSETBOTTOM', -any_integer, any_integer), &
       !< element number of the quad or brick below minus its own
     integer_item(j_offset_top, next_to_solids, 'OFFSETTOP', -any_integer, any_integer), &
@@ -344,7 +348,7 @@ module abaqus_layout
     variable_item(w_maxn, 'MAXN', 'length'), & !< largest normal separation of the law so far, with LAW 4; else 0
     variable_item(w_maxt, 'MAXT', 'length')] !< largest shear separation of the law so far, with LAW 4; else 0
 
-  type(element_item), parameter, public :: elements(10) = [ &
+  type(element_item), parameter, public :: elements(12) = [ &
     element_item(1, continuum, 2, 4, 4, 1, 2), & !< continuum quad, stress from a material of the deck (UELMAT)
     element_item(2, standard, 2, 4, 2, 13, 3), & !< standard cohesive interface
     element_item(3, next_to_quads, 2, 4, 2, 17, 7), & !< stabilised cohesive interface, four nodes, next to U1 quads
@@ -354,9 +358,11 @@ module abaqus_layout
     element_item(7, standard_3d, 3, 8, 4, 12, 3), & !< standard cohesive interface in space, four nodes on each face
     element_item(8, self_contained_3d, 3, 16, 4, 36, 5), & !< stabilised cohesive interface of eight-node bricks; UNSYMM
     element_item(9, continuum_3d, 3, 8, 8, 1, 2), & !< continuum brick, stress from a material of the deck (UELMAT)
-    element_item(10, next_to_bricks, 3, 8, 4, 16, 7)] !< stabilised cohesive interface in space, eight nodes, next to U9 bricks
+    element_item(10, next_to_bricks, 3, 8, 4, 16, 7), & !< stabilised cohesive interface in space, eight nodes, next to U9 bricks
+    element_item(11, standard_3d, 3, 16, 9, 12, 3), & !< standard cohesive interface in space, eight nodes on each face
+    element_item(12, self_contained_3d, 3, 40, 9, 36, 5)] !< stabilised cohesive interface of 20-node bricks; UNSYMM
 
-  type(faces_item), parameter, public :: faces(2:10) = [ &
+  type(faces_item), parameter, public :: faces(2:12) = [ &
     faces_item(2, 0, [1, 2, 0, 0], [4, 3, 0, 0]), & !< as COH2D4
     faces_item(3, 0, [1, 2, 0, 0], [4, 3, 0, 0]), & !< as U2
     faces_item(4, 4, [4, 3, 0, 0], [5, 6, 0, 0]), & !< edge 4-3 of the quad below, edge 1-2 of that above
@@ -365,7 +371,9 @@ module abaqus_layout
     faces_item(7, 0, [1, 2, 3, 4], [5, 6, 7, 8]), & !< as COH3D8
     faces_item(8, 8, [5, 6, 7, 8], [9, 10, 11, 12]), & !< face 5-6-7-8 of the brick below, face 1-2-3-4 of that above
     faces_item(9, 0, [0, 0, 0, 0], [0, 0, 0, 0]), & !< none
-    faces_item(10, 0, [1, 2, 3, 4], [5, 6, 7, 8])] !< as U7
+    faces_item(10, 0, [1, 2, 3, 4], [5, 6, 7, 8]), & !< as U7
+    faces_item(11, 0, [1, 2, 3, 4], [5, 6, 7, 8], [9, 10, 11, 12], [13, 14, 15, 16]), & !< as C3D20 without nodes 17 to 20
+    faces_item(12, 20, [5, 6, 7, 8], [21, 22, 23, 24], [13, 14, 15, 16], [29, 30, 31, 32])] !< as U8, with middles
 
 contains
 
@@ -391,6 +399,25 @@ contains
     if (elements(jtype)%family == continuum_3d) number = size(brick_variables)
     number = elements(jtype)%points*number
   end function variables_of
+
+  !> Number of nodes of each face of the interface element Un.
+  pure function nodes_of_face(jtype) result(number)
+    integer, intent(in) :: jtype
+    integer :: number
+
+    number = count(faces(jtype)%bottom > 0) + count(faces(jtype)%bottom_middles > 0)
+  end function nodes_of_face
+
+  !> Nodes of its bottom and its top face, a column each.
+  pure function face_nodes(jtype) result(nodes)
+    integer, intent(in) :: jtype
+    integer :: nodes(nodes_of_face(jtype), 2)
+
+    associate (bottom => [faces(jtype)%bottom, faces(jtype)%bottom_middles], top => [faces(jtype)%top, faces(jtype)%top_middles])
+      nodes(:, 1) = pack(bottom, bottom > 0)
+      nodes(:, 2) = pack(top, top > 0)
+    end associate
+  end function face_nodes
 
   !> Number of real properties that Un may have, PROPERTIES of *USER ELEMENT.
   pure function reals_of(jtype) result(number)

@@ -54,7 +54,7 @@ contains
       text = 'is inside out or degenerate: the Jacobian is not positive, ' // &
         'number the nodes counter-clockwise'
     case (zero_length)
-      text = 'the interface has no length'
+      text = 'the interface has no length or area, or folds back on itself'
     case (faces_apart)
       text = 'the two faces of the interface do not coincide'
     case (small_beta)

@@ -1,7 +1,7 @@
 ! SPDX-FileCopyrightText: The uel-harness authors
 ! SPDX-License-Identifier: BSD-3-Clause
 !> A continuum element next to an interface: traction from its displacements, area or volume, local eigenvalue. Quads have four or
-!> eight nodes, bricks eight.
+!> eight nodes, bricks eight or 20.
 !>
 !> The interface is the face where the last parent coordinate (eta, zeta) is 1 in the element below it and -1 in that above; the
 !> other parent coordinates are those of the interface.
@@ -63,7 +63,7 @@ contains
       status = status_type(merge(ok, inside_out, value > 0.0_dp), 0, value, 0.0_dp)
       return
     end if
-    per_side = merge(3, 2, dim == 2)
+    per_side = points_per_side(dim, nodes)
     do k = 1, per_side**dim
       call gauss_point(dim, per_side, k, point, weight)
       call solid_gradient(dim, nodes, coordinates, point, gradient, status)
@@ -100,7 +100,7 @@ contains
     integer :: k
 
     lambda = 0.0_dp
-    call strain_energy(dim, nodes, coordinates, merge(points, 2, dim == 2), stiffness, energy, status)
+    call strain_energy(dim, nodes, coordinates, stiffness, energy, status)
     if (status%code /= ok) return
     do k = 1, points
       point(1:dim - 1) = parents(1:dim - 1, k)
@@ -113,15 +113,16 @@ contains
   end subroutine solid_face_eigenvalue
 
   !> Stiffness matrix, in the plane for thickness 1.
-  pure subroutine strain_energy(dim, nodes, coordinates, per_side, stiffness, energy, status)
-    integer, intent(in) :: dim, nodes, per_side
+  pure subroutine strain_energy(dim, nodes, coordinates, stiffness, energy, status)
+    integer, intent(in) :: dim, nodes
     real(dp), intent(in) :: coordinates(dim, nodes), stiffness(3*(dim - 1), 3*(dim - 1))
     real(dp), intent(out) :: energy(dim*nodes, dim*nodes)
     type(status_type), intent(out) :: status
     real(dp) :: gradient(dim, nodes), b(dim*nodes, 3*(dim - 1)), point(dim), weight
-    integer :: k
+    integer :: k, per_side
 
     energy = 0.0_dp
+    per_side = points_per_side(dim, nodes)
     do k = 1, per_side**dim
       call gauss_point(dim, per_side, k, point, weight)
       call solid_gradient(dim, nodes, coordinates, point, gradient, status)
@@ -130,6 +131,13 @@ contains
       energy = energy + (weight*status%value)*matmul(b, matmul(stiffness, transpose(b)))
     end do
   end subroutine strain_energy
+
+  !> Of the rule of full integration: as many along each direction as an edge has nodes.
+  pure integer function points_per_side(dim, nodes)
+    integer, intent(in) :: dim, nodes
+
+    points_per_side = merge(2, 3, nodes == 2**dim)
+  end function points_per_side
 
   !> Derivatives of the shape functions by position; the value of the status is the Jacobian.
   pure subroutine solid_gradient(dim, nodes, coordinates, point, gradient, status)

@@ -5,6 +5,7 @@
 module elements_interface_bulk
   use core_kinds, only: dp
   use core_quadrature, only: gauss_rule, gauss_abscissa, outer_abscissa
+  use core_serendipity, only: quad_places
   use core_status, only: status_type, ok
   use cohesive_shear, only: mode_of
   use materials_spectral_norm, only: spectral_norm
@@ -15,12 +16,15 @@ module elements_interface_bulk
   public :: stabilisation_type, nitsche_parameters, stabilise, bulk_operator
   public :: sample_middle, sample_face, sample_gauss
 
-  !> Where to take the bulk stress: where it is most accurate along the face (in its middle, or in eight-node quads on the line
-  !> through two points), on the face at the point, or at the nearest Gauss point of the element. In linear elements the stress
-  !> varies spuriously along the face; only the first option avoids this.
+  !> Where to take the bulk stress: where it is most accurate along the face (in its middle, or in quadratic elements on the line
+  !> through two points, in space bilinear through four), on the face at the point, or at the nearest Gauss point of the element. In
+  !> linear elements the stress varies spuriously along the face; only the first option avoids this.
   integer, parameter :: sample_middle = 0
   integer, parameter :: sample_face = 1
   integer, parameter :: sample_gauss = 2
+
+  !> Points of an element that stand for a place on its face, at most.
+  integer, parameter :: most_samples = 4
 
   !> Last parent coordinate of the interface in the element below and in that above.
   real(dp), parameter :: face_of_side(2) = [1.0_dp, -1.0_dp]
@@ -57,8 +61,8 @@ contains
     type(stabilisation_type), intent(in) :: given
     integer, intent(in) :: dim
     integer, intent(in) :: nodes                        !< of the element on a side
-    integer, intent(in) :: points                       !< nodes of a face
-    integer, intent(in) :: faces(points, 2)             !< nodes of the bottom and the top face
+    integer, intent(in) :: points                       !< integration points
+    integer, intent(in) :: faces(:, :)                  !< nodes of the bottom and the top face, a column each
     real(dp), intent(in) :: coordinates(dim, 2*nodes)   !< original coordinates, length
     real(dp), intent(in) :: stiffness(:, :, :)          !< D of bottom and top, stress
     type(stabilisation_type), intent(out) :: used
@@ -70,7 +74,8 @@ contains
 
     used = given
     local = minval(given%beta) < 0.0_dp
-    call measure_interface(dim, points, coordinates(:, faces(:, 1)), coordinates(:, faces(:, 2)), gauss_rule, places, status)
+    call measure_interface(dim, size(faces, 1), points, coordinates(:, faces(:, 1)), coordinates(:, faces(:, 2)), gauss_rule, &
+      places, status)
     if (status%code /= ok) return
     do k = 1, points
       parents(:, k) = places(k)%parent
@@ -105,7 +110,7 @@ contains
     real(dp), intent(in) :: coordinates(dim, 2*nodes)
     real(dp), intent(out) :: matrix(dim, 2*dim*nodes)
     type(status_type), intent(out) :: status            !< inside_out: item 1 for the bottom element, 2 for the top one
-    real(dp) :: weights(2, 2), points(dim, 2), shares(2), part(dim, dim*nodes)
+    real(dp) :: weights(2, 2), points(dim, most_samples), shares(most_samples), part(dim, dim*nodes)
     integer :: side, i, j, first
 
     matrix = 0.0_dp
@@ -114,7 +119,7 @@ contains
     do side = 1, 2
       call sample(sampling, dim, nodes, place%parent, face_of_side(side), points, shares)
       first = dim*nodes*(side - 1)
-      do i = 1, 2
+      do i = 1, most_samples
         if (.not. abs(shares(i)) > 0.0_dp) cycle
         call solid_traction(dim, nodes, coordinates(:, (side - 1)*nodes + 1:side*nodes), points(:, i), place%frame, &
           stiffness(:, :, side), part, status)
@@ -132,17 +137,18 @@ contains
 
   !> Points of an element whose stresses, in these shares, stand for a position on its face: the face itself, the nearest Gauss
   !> point, or where the stress of the face is most accurate (Barlow 1976): the middle in linear elements, the line through
-  !> xi = +-1/sqrt(3) in the eight-node quad.
+  !> xi = +-1/sqrt(3) in the eight-node quad, the bilinear function through xi, eta = +-1/sqrt(3) in the brick of 20 nodes.
   pure subroutine sample(sampling, dim, nodes, parent, face, points, shares)
     integer, intent(in) :: sampling, dim, nodes
     real(dp), intent(in) :: parent(2)            !< of the position
     real(dp), intent(in) :: face                 !< last parent coordinate of the face
-    real(dp), intent(out) :: points(dim, 2), shares(2)
+    real(dp), intent(out) :: points(dim, most_samples), shares(most_samples)
     logical :: linear
     integer :: i
 
     linear = nodes == 2**dim
-    shares = [1.0_dp, 0.0_dp]
+    shares = 0.0_dp
+    shares(1) = 1.0_dp
     do i = 1, dim - 1
       points(i, :) = parent(i)
     end do
@@ -155,15 +161,18 @@ contains
         points(1:dim - 1, 1) = sign(gauss_abscissa, parent(1:dim - 1))
         points(dim, 1) = gauss_abscissa*face
       else
-        points(1, :) = merge(sign(outer_abscissa, parent(1)), 0.0_dp, abs(parent(1)) > 0.5_dp)
-        points(2, :) = outer_abscissa*face
+        points(1:dim - 1, 1) = merge(sign(outer_abscissa, parent(1:dim - 1)), 0.0_dp, abs(parent(1:dim - 1)) > 0.5_dp)
+        points(dim, 1) = outer_abscissa*face
       end if
     case default
       if (linear) then
         points(1:dim - 1, :) = 0.0_dp
       else
-        points(1, :) = [-gauss_abscissa, gauss_abscissa]
-        shares = 0.5_dp*(1.0_dp + parent(1)*points(1, :)/gauss_abscissa**2)
+        shares(1:2**(dim - 1)) = 1.0_dp
+        do i = 1, dim - 1
+          points(i, :) = gauss_abscissa*quad_places(i, 1:most_samples)
+          shares = shares*(0.5_dp*(1.0_dp + parent(i)*points(i, :)/gauss_abscissa**2))
+        end do
       end if
     end select
   end subroutine sample

@@ -4,18 +4,19 @@
 !>
 !> In the plane, faces are edges of two or three nodes, the middle node last: tau runs along the mid-line of the original
 !> coordinates, from the first node to the second, and n is tau rotated by +90 degrees: bottom to top. In space, they are
-!> quadrilaterals, their nodes counter-clockwise seen from the top: n is normal to the mid-surface, s the projection of the global x
-!> axis on it, or of the z axis where x is within 0.1 degrees of n (Abaqus' local directions), and t = n x s. Faces may be curved:
-!> each point has its own frame.
+!> quadrilaterals of four or eight nodes, corners and then midside nodes counter-clockwise seen from the top: n is normal to the
+!> mid-surface, s the projection of the global x axis on it, or of the z axis where x is within 0.1 degrees of n (Abaqus' local
+!> directions), and t = n x s. Faces may be curved: each point has its own frame.
 module elements_interface_faces
   use core_kinds, only: dp
   use core_quadrature, only: line_points, line_weights
-  use core_rotation, only: line_frame, surface_frame
-  use core_shape_functions, only: line_shape, line_slope, quad_shape, quad_slope
+  use core_rotation, only: cross, line_frame, surface_frame
+  use core_serendipity, only: serendipity_functions, quad_places
+  use core_shape_functions, only: line_shape, line_slope
   use core_status, only: status_type, zero_length, faces_apart, ok
   implicit none(type, external)
   private
-  public :: interface_place, measure_interface, central_frame, jump_operator, separation_at, face_shape, most_apart
+  public :: interface_place, measure_interface, central_frame, jump_operator, separation_at, face_shape, face_slope, most_apart
 
   !> An integration point of the interface.
   type :: interface_place
@@ -25,18 +26,18 @@ module elements_interface_faces
     real(dp) :: area          !< of the interface that it stands for; in the plane its length
   end type interface_place
 
-  !> Parent coordinates of the points of a quadrilateral among those of a line, each next to the node of its number.
-  integer, parameter :: first_of(4) = [1, 2, 2, 1], second_of(4) = [1, 1, 2, 2]
 
 contains
 
-  !> Integration points on the mid-line or mid-surface of two coincident faces, as many as a face has nodes.
-  pure subroutine measure_interface(dim, nodes, bottom, top, rule, places, status)
+  !> Integration points on the mid-line or mid-surface of two coincident faces: on a line from its first to its second node, on a
+  !> surface each next to the node of its number, with eight nodes a ninth point in the middle.
+  pure subroutine measure_interface(dim, nodes, points, bottom, top, rule, places, status)
     integer, intent(in) :: dim                                    !< 2 or 3
-    integer, intent(in) :: nodes                                  !< of a face, and points
+    integer, intent(in) :: nodes                                  !< of a face
+    integer, intent(in) :: points                                 !< as many as nodes, on surfaces of eight nodes nine
     real(dp), intent(in) :: bottom(dim, nodes), top(dim, nodes)   !< original coordinates
     integer, intent(in) :: rule
-    type(interface_place), intent(out) :: places(nodes)
+    type(interface_place), intent(out) :: places(points)
     type(status_type), intent(out) :: status    !< zero_length, or faces_apart with the distance and its limit
     real(dp) :: middle(dim, nodes), distance, limit
     integer :: k
@@ -51,12 +52,12 @@ contains
       status = status_type(faces_apart, 0, distance, limit)
     end if
     if (status%code /= ok) return
-    do k = 1, nodes
+    do k = 1, points
       places(k)%position = 0.0_dp
       if (dim == 2) then
         call place_on_line(nodes, middle, rule, k, places(k), status)
       else
-        call place_on_surface(middle, rule, k, places(k), status)
+        call place_on_surface(nodes, middle, rule, k, places(k), status)
       end if
       if (status%code /= ok) return
     end do
@@ -102,33 +103,40 @@ contains
     place%area = w(k)*place%area
   end subroutine place_on_line
 
-  !> Point k of a quadrilateral of four nodes, next to node k.
-  pure subroutine place_on_surface(middle, rule, k, place, status)
-    real(dp), intent(in) :: middle(3, 4)
-    integer, intent(in) :: rule, k
+  !> Point k of a quadrilateral, next to node k or in the middle.
+  pure subroutine place_on_surface(nodes, middle, rule, k, place, status)
+    integer, intent(in) :: nodes, rule, k
+    real(dp), intent(in) :: middle(3, nodes)
     type(interface_place), intent(inout) :: place
     type(status_type), intent(inout) :: status
-    real(dp) :: s(2), w(2), slopes(3, 2)
+    real(dp), dimension(merge(2, 3, nodes == 4)) :: s, w
+    real(dp) :: slopes(3, 2), upright
+    integer :: at(2)
 
-    s = line_points(2, rule)
-    w = line_weights(2, rule)
-    place%parent = [s(first_of(k)), s(second_of(k))]
-    place%position = matmul(middle, quad_shape(place%parent))
-    slopes = matmul(middle, quad_slope(place%parent))
+    s = line_points(size(s), rule)
+    w = line_weights(size(s), rule)
+    at = 0
+    if (k <= nodes) at = quad_places(:, k)
+    at = 1 + (at + 1)*(size(s) - 1)/2
+    place%parent = s(at)
+    place%position = matmul(middle, face_shape(3, nodes, place%parent))
+    slopes = matmul(middle, face_slope(3, nodes, place%parent))
     call surface_frame(slopes(:, 1), slopes(:, 2), place%frame, place%area)
-    if (.not. place%area > 0.0_dp) status = status_type(zero_length, 0, place%area, 0.0_dp)
-    place%area = w(first_of(k))*w(second_of(k))*place%area
+    ! a midside node too close to a corner, or a corner beyond the line of its neighbours, folds the surface back
+    upright = dot_product(place%frame(2, :), cross(middle(:, 3) - middle(:, 1), middle(:, 4) - middle(:, 2)))
+    if (.not. upright > 0.0_dp) status = status_type(zero_length, 0, upright, 0.0_dp)
+    place%area = product(w(at))*place%area
   end subroutine place_on_surface
 
   !> Frame in the middle of the surface between two faces in space.
-  pure function central_frame(bottom, top) result(frame)
-    real(dp), intent(in) :: bottom(3, 4), top(3, 4)
+  pure function central_frame(nodes, bottom, top) result(frame)
+    integer, intent(in) :: nodes       !< of a face
+    real(dp), intent(in) :: bottom(3, nodes), top(3, nodes)
     real(dp) :: frame(3, 3)
     real(dp), parameter :: parent(2) = 0.0_dp
-    real(dp) :: by_parent(4, 2), slopes(3, 2), area
+    real(dp) :: slopes(3, 2), area
 
-    by_parent = quad_slope(parent)
-    slopes = matmul(0.5_dp*(bottom + top), by_parent)
+    slopes = matmul(0.5_dp*(bottom + top), face_slope(3, nodes, parent))
     call surface_frame(slopes(:, 1), slopes(:, 2), frame, area)
   end function central_frame
 
@@ -137,13 +145,28 @@ contains
     integer, intent(in) :: dim, nodes
     real(dp), intent(in) :: parent(2)
     real(dp) :: shape(nodes)
+    real(dp) :: slope(nodes, 2)
 
     if (dim == 2) then
       shape = line_shape(nodes, parent(1))
     else
-      shape = quad_shape(parent)
+      call serendipity_functions(2, nodes, quad_places(:, 1:nodes), parent, shape, slope)
     end if
   end function face_shape
+
+  !> Their derivatives by the parent coordinates.
+  pure function face_slope(dim, nodes, parent) result(slope)
+    integer, intent(in) :: dim, nodes
+    real(dp), intent(in) :: parent(2)
+    real(dp) :: slope(nodes, dim - 1)
+    real(dp) :: shape(nodes)
+
+    if (dim == 2) then
+      slope(:, 1) = line_slope(nodes, parent(1))
+    else
+      call serendipity_functions(2, nodes, quad_places(:, 1:nodes), parent, shape, slope)
+    end if
+  end function face_slope
 
   !> N: the matrix that takes the displacements of an element to the separation (tau, n) or (s, n, t) at a point.
   pure function jump_operator(dim, place, nodes, faces, unknowns) result(matrix)

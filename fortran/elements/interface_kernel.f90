@@ -31,8 +31,8 @@ contains
   pure subroutine integrate_interface(dim, points, faces, solid, law, options, thickness, coordinates, u, dtime, with_tangent, &
     old, new, residual, tangent, energies, status, stabilisation, stiffness, neighbours)
     integer, intent(in) :: dim                                !< 2 or 3
-    integer, intent(in) :: points                             !< integration points, and nodes of a face
-    integer, intent(in) :: faces(points, 2)                   !< nodes of the bottom and the top face
+    integer, intent(in) :: points                             !< integration points
+    integer, intent(in) :: faces(:, :)                        !< nodes of the bottom and the top face, a column each
     integer, intent(in) :: solid                              !< nodes of each of its own elements, the bottom one first; 0 without
     type(law_parameters), intent(in) :: law
     type(interface_options), intent(in) :: options
@@ -58,8 +58,8 @@ contains
     real(dp), dimension(dim, size(u)) :: jump, bulk, by_displacement
     real(dp) :: spread(dim, size(u))             ! of tractions to the nodes
     real(dp), dimension(size(u)) :: moved, original, shifted
-    real(dp) :: turning(3, dim, dim, points), bulk_traction(3), separation(3), area
-    integer :: k
+    real(dp) :: turning(3, dim, dim, size(faces, 1)), bulk_traction(3), separation(3), area
+    integer :: k, nodes
 
     residual = 0.0_dp
     tangent = 0.0_dp
@@ -71,7 +71,8 @@ contains
     end if
     call check_law(law, status)
     if (status%code /= ok) return
-    call measure_interface(dim, points, coordinates(:, faces(:, 1)), coordinates(:, faces(:, 2)), options%rule, places, &
+    nodes = size(faces, 1)
+    call measure_interface(dim, nodes, points, coordinates(:, faces(:, 1)), coordinates(:, faces(:, 2)), options%rule, places, &
       status)
     if (status%code /= ok) return
     if (present(stabilisation)) then
@@ -88,11 +89,11 @@ contains
       here = places(k)
       moved = u
       if (options%finite) then
-        call turn_place(dim, points, faces, original, shifted, here, turning, status)
+        call turn_place(dim, nodes, faces, original, shifted, here, turning, status)
         if (status%code /= ok) return
         moved = co_rotated(dim, places(k)%frame, here%frame, original, shifted)
       end if
-      separation = separation_at(dim, places(k), points, faces, moved)
+      separation = separation_at(dim, places(k), nodes, faces, moved)
       if (present(stabilisation)) then
         if (present(stiffness)) then
           call bulk_operator(options%sampling, dim, places(k), used%gamma_bottom, solid, stiffness, coordinates, bulk, &
@@ -112,16 +113,16 @@ contains
       end if
       area = places(k)%area*thickness
       energies = energies + point_energies(area, new(k))
-      jump = jump_operator(dim, places(k), points, faces, size(u))
+      jump = jump_operator(dim, places(k), nodes, faces, size(u))
       spread = jump
-      if (options%finite) spread = jump_operator(dim, here, points, faces, size(u))
+      if (options%finite) spread = jump_operator(dim, here, nodes, faces, size(u))
       residual = residual - area*matmul(new(k)%traction(1:dim), spread)
       if (.not. with_tangent) cycle
       by_displacement = matmul(response%by_jump(1:dim, 1:dim), jump)
       if (present(stiffness)) by_displacement = by_displacement + matmul(response%by_bulk(1:dim, 1:dim), bulk)
       if (options%finite) then
-        by_displacement = by_displacements(dim, points, faces, places(k)%frame, here%frame, turning, shifted, by_displacement)
-        call add_turning(area, dim, points, faces, face_shape(dim, points, places(k)%parent), new(k)%traction, turning, tangent)
+        by_displacement = by_displacements(dim, nodes, faces, places(k)%frame, here%frame, turning, shifted, by_displacement)
+        call add_turning(area, dim, nodes, faces, face_shape(dim, nodes, places(k)%parent), new(k)%traction, turning, tangent)
       end if
       call add_product(area, spread, by_displacement, tangent)
     end do

@@ -10,9 +10,8 @@
 module elements_interface_rotation
   use core_kinds, only: dp
   use core_rotation, only: turned_frame
-  use core_shape_functions, only: line_slope, quad_slope
   use core_status, only: status_type, zero_length, ok
-  use elements_interface_faces, only: interface_place
+  use elements_interface_faces, only: interface_place, face_slope
   implicit none(type, external)
   private
   public :: about_mean, turn_place, co_rotated, by_displacements, add_turning
@@ -42,11 +41,7 @@ contains
 
     start = middle_of(dim, nodes, faces, original)
     now = middle_of(dim, nodes, faces, present)
-    if (dim == 2) then
-      by_node(:, 1) = line_slope(nodes, place%parent(1))
-    else
-      by_node = quad_slope(place%parent)
-    end if
+    by_node = face_slope(dim, nodes, place%parent)
     call turned_frame(dim, nodes, matmul(start, by_node), matmul(now, by_node), place%frame, by_node, turned, turning, measure)
     place%frame = turned
     status = status_type(merge(ok, zero_length, measure > 0.0_dp), 0, measure, 0.0_dp)

@@ -108,7 +108,7 @@ def deck_properties(path: Path, elset: str | None = None) -> tuple[int, dict[str
             return definition.number if definition.number in NODES else STANDARD, values
         sections.append(section.elset)
     if not sections:
-        raise UelError(f"{path}: no interface elements (U2 to U8) with *UEL PROPERTY")
+        raise UelError(f"{path}: no interface elements of the project with *UEL PROPERTY")
     known = ", ".join(sections)
     raise UelError(f"{path}: no interface elements with *UEL PROPERTY, ELSET={elset}; expected one of {known}")
 

@@ -13,6 +13,8 @@ from dataclasses import dataclass
 from functools import cache
 from typing import Final
 
+import numpy as np
+
 from harness.model.arrays import IntArray
 from harness.model.records import PointVariables
 from harness.usersub.built import path_of_layout
@@ -25,7 +27,7 @@ RULES: Final = {
     "not_negative": ">= 0, default 0",
     "below_one": ">= 0 and < 1, default 0",
     "up_to_one": "0 to 1, default 0",
-    "estimated": ">= 0 or, in U4, U6 and U8, -1, default 0",
+    "estimated": ">= 0 or, in a self-contained element, -1, default 0",
     "exponent": "0 or >= 0.5, default 0",
     "above_one": "0 or > 1, default 0",
     "any_value": "any, default 0",
@@ -55,7 +57,7 @@ class ElementLayout:
     variables SVARS of an integration point
     points    number of integration points
     faces     nodes, from 0, of the bottom and the top face of an interface element: left, right, middle; in space
-              counter-clockwise seen from the top
+              counter-clockwise seen from the top, corners and then middles
     meaning   what the element is
     """
 
@@ -207,9 +209,8 @@ def _variables_table(dimension: int, interface: bool) -> str:
 
 def _faces(fields: list[str]) -> tuple[tuple[int, ...], tuple[int, ...]]:
     """Nodes of the bottom and the top face from a row of `faces`."""
-    nodes = [int(field) for field in fields[2:]]
-    half = len(nodes) // 2
-    bottom, top = (tuple(node - 1 for node in part if node) for part in (nodes[:half], nodes[half:]))
+    nodes = np.array(fields[2:], dtype=int).reshape(-1, 2, 4)  # corners, in space midside nodes; bottom, top
+    bottom, top = (tuple((side[side > 0] - 1).tolist()) for side in (nodes[:, 0], nodes[:, 1]))
     return bottom, top
 
 

@@ -40,6 +40,7 @@ PLIES_3D = {
 }
 DEFAULTS = {1: {"THICKNESS": 2.0}, 2: LAW, 3: LAW, 4: {**LAW, **PLIES}, 5: LAW, 6: {**LAW, **PLIES}}
 DEFAULTS |= {7: LAW_3D, 8: {**LAW_3D, **PLIES_3D}, 9: {}, 10: LAW_3D}
+DEFAULTS |= {11: LAW_3D, 12: {**LAW_3D, **PLIES_3D}}
 TENSORS = {(1, 0): "PSTRESS", (1, 1): "PSTRAIN", (9, 0): "THREED"}  # of continuum elements, by type and PLANE
 ENGINEERING = (1.2e5, 1.05e4, 1.05e4, 0.3, 0.3, 0.51, 5.52e3, 5.52e3, 3.48e3)
 PLY_MATERIAL = Material("PLY", SOURCE, Elastic(ElasticType.ENGINEERING_CONSTANTS, ENGINEERING, SOURCE))

@@ -11,12 +11,16 @@ import numpy as np
 import pytest
 from hypothesis import HealthCheck, Phase, assume, given, settings
 from hypothesis import strategies as st
+from reference_cells import EDGES as EDGES_OF_CELLS
+from reference_cells import SQUARE_EDGES, with_middles
+from space import QUADRATIC, STANDARD, bottom_of, top_of
 
 LAWS, PPR = {1: (), 2: ("ETA", "POWER"), 3: ("ETA", "POWER"), 4: ("SHAPE",)}, 4
 # type and closure; what a law may have besides, each of which is a case of its own
 VARIANTS = {"U2": (2, 0), "U3": (3, 0), "U3 consistent": (3, 1), "U4": (4, 0), "U4 consistent": (4, 1)}
 VARIANTS |= {"U5": (5, 0), "U6": (6, 0), "U6 consistent": (6, 1)}
 IN_SPACE = {"U7": (7, 0), "U8": (8, 0), "U8 consistent": (8, 1), "U10": (10, 0), "U10 consistent": (10, 1)}
+IN_SPACE |= {"U11": (11, 0), "U12": (12, 0), "U12 consistent": (12, 1)}
 EXTRAS = {0: ("plain", "viscous"), 1: ("plain", "viscous", "friction", "rigid", "rigid, viscous, friction")}
 CASES = [(v, k, e) for v, (_, closure) in VARIANTS.items() for k in LAWS for e in EXTRAS[closure]]
 SPACE_CASES = [(v, k, e) for v, (_, closure) in IN_SPACE.items() for k in LAWS for e in EXTRAS[closure]]
@@ -25,7 +29,6 @@ COPIES, INCREMENTS, DTIME = 32, 4, 0.3
 STATES = COPIES * INCREMENTS
 # where the two edges of the interface are among the nodes: left, right, middle
 EDGES = {2: ([0, 1], [3, 2]), 4: ([3, 2], [4, 5]), 5: ([0, 1, 4], [3, 2, 5]), 6: ([3, 2, 6], [8, 9, 12])}
-FACES = {7: (slice(0, 4), slice(4, 8)), 8: (slice(4, 8), slice(8, 12)), 10: (slice(4, 8), slice(8, 12))}
 SIX = [3, 2, 9, 8, 6, 12]  # nodes of U5 among those of U6
 BOTTOM, TOP, FOUR = 1, 1001, 2001  # first labels of the quads of U3 and of the bricks of U10, and their own
 
@@ -94,7 +97,7 @@ def betas(draw, reference, values):
 def options(rng, jtype, closure):
     """Integration, and what the stabilised elements have besides."""
     values = {"INTEGRATION": int(rng.integers(2))}
-    if jtype in (3, 4, 6, 8, 10):
+    if jtype in (3, 4, 6, 8, 10, 12):
         values["SAMPLING"] = int(rng.integers(3))
         if not closure and rng.integers(2):
             values |= {"BETAN": 10 ** rng.uniform(3, 6), "BETAT": 10 ** rng.uniform(3, 6), "GAMMABOT": 0.3}
@@ -102,7 +105,7 @@ def options(rng, jtype, closure):
             values |= {"BETAN": -1, "BETAT": -1}
     if jtype in (4, 6):
         values["PLANE"] = int(rng.integers(2))
-    if jtype in (4, 6, 8):
+    if jtype in (4, 6, 8, 12):
         values |= {"ANGLE BOTTOM": 30.0 * rng.integers(2), "ANGLE TOP": -55.0}
     return values
 
@@ -144,11 +147,11 @@ class Crowd:
         """What is of the nodes of the element itself, in a row."""
         return (u[:, list(self.interface.owned)] if self.quads else u).reshape(COPIES, -1)
 
-    def call(self, method, u, dtime):
+    def call(self, method, u, dtime, **options):
         """`evaluate` or `advance` of the element, after its quads."""
         for quad, nodes in zip(self.quads, (slice(0, 4), slice(4, 8)), strict=False):
             quad.evaluate(u[:, nodes], dtime=dtime)
-        return getattr(self.item, method)(self.own(u), dtime=dtime)
+        return getattr(self.item, method)(self.own(u), dtime=dtime, **options)
 
     def direction(self, rng):
         """Of displacements, random; AMATRX of U3 is that at constant stress of its quads, which move rigidly."""
@@ -171,7 +174,12 @@ class SpaceCrowd:
     def __init__(self, make, rng, jtype, **values):
         face = np.array([[0.0, 0.0, 0.0], [1.1, -0.15, 0.0], [0.8, 1.1, 0.0], [0.05, 1.2, 0.0]])
         below, above = face - np.array([0.1, 0, 0.8]), face + np.array([0, 0.1, 0.9])
-        xyz = np.vstack([face, face] if jtype == 7 else [below, face, face, above])
+        if jtype in STANDARD:
+            middles = with_middles(face, SQUARE_EDGES)[4:] if jtype in QUADRATIC else face[:0]
+            xyz = np.vstack([face, face, middles, middles])
+        else:
+            edges = EDGES_OF_CELLS["hexahedron"] if jtype in QUADRATIC else []
+            xyz = np.vstack([with_middles(np.vstack(pair), edges) for pair in ((below, face), (face, above))])
         self.nodes, self.jtype, self.places, self.bricks = len(xyz), jtype, xyz, []
         if jtype == 10:
             values |= {"OFFSETBOTTOM": BOTTOM - FOUR, "OFFSETTOP": TOP - FOUR}
@@ -185,20 +193,21 @@ class SpaceCrowd:
 
     def displacements(self, ends, noise):
         """With separations (copies, 2 ends, 2) in (tau, n) upon other displacements."""
-        bottom, top = FACES[self.jtype]
-        u = noise.copy()
-        u[:, top] = u[:, bottom] + (ends @ self.axes)[:, [0, 1, 1, 0]]
+        u, top = noise.copy(), top_of(self.jtype)
+        gaps = (ends @ self.axes)[:, [0, 1, 1, 0]]
+        gaps = np.concatenate([gaps, (gaps + np.roll(gaps, -1, axis=1)) / 2], axis=1)[:, : len(top)]
+        u[:, top] = u[:, bottom_of(self.jtype)] + gaps
         return u
 
     def own(self, u):
         """What is of the nodes of the element itself, in a row."""
         return (u[:, 4:12] if self.bricks else u).reshape(COPIES, -1)
 
-    def call(self, method, u, dtime):
+    def call(self, method, u, dtime, **options):
         """`evaluate` or `advance` of the element, after its bricks."""
         for brick, nodes in zip(self.bricks, (slice(0, 8), slice(8, 16)), strict=False):
             brick.evaluate(u[:, nodes], dtime=dtime)
-        return getattr(self.item, method)(self.own(u), dtime=dtime)
+        return getattr(self.item, method)(self.own(u), dtime=dtime, **options)
 
     def direction(self, rng):
         """Of displacements, random; the bricks of U10 move rigidly, as AMATRX is that at constant stress."""

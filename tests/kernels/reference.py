@@ -6,6 +6,8 @@ Ghosh, Duddu, Annavarapu, "A stabilized finite element method for delamination a
 elements". Signs as in fortran/README.md; vectors are (tau, n).
 """
 
+from itertools import combinations, product
+
 import numpy as np
 from scipy.optimize import brentq
 
@@ -113,6 +115,42 @@ def strain_matrix(xy, xi, eta):
     b[0, 0::2], b[1, 1::2] = by_x, by_y
     b[2, 0::2], b[2, 1::2] = by_y, by_x
     return b, np.linalg.det(jacobian)
+
+
+def serendipity(places, point):
+    """Shape functions at a point and their derivatives (dimension, nodes), from the monomials that they span.
+
+    With middles of edges these have one square at most (O.C. Zienkiewicz, R.L. Taylor, The Finite Element Method).
+    """
+    places, dim = np.asarray(places, dtype=float), len(point)
+    squares = int(len(places) > 2**dim)
+    powers = np.array([p for p in product(range(3), repeat=dim) if p.count(2) <= squares])
+    coefficients = np.linalg.inv(np.prod(places[:, None] ** powers, axis=2))
+    slopes = []
+    for i in range(dim):
+        less = powers.copy()
+        less[:, i] = np.maximum(less[:, i] - 1, 0)
+        slopes.append(powers[:, i] * np.prod(np.asarray(point) ** less, axis=1))
+    return np.prod(np.asarray(point) ** powers, axis=1) @ coefficients, np.array(slopes) @ coefficients
+
+
+def serendipity_strain(places, coordinates, point):
+    """B and the Jacobian matrix of such an element: strains (11, 22, 12) or (11, 22, 33, 12, 13, 23)."""
+    slopes = serendipity(places, point)[1]
+    jacobian = slopes @ coordinates
+    g, dim = np.linalg.solve(jacobian, slopes), len(point)
+    b = np.zeros((3 * (dim - 1), dim * len(places)))
+    for i in range(dim):
+        b[i, i::dim] = g[i]
+    for k, (i, j) in enumerate(combinations(range(dim), 2), start=dim):
+        b[k, i::dim], b[k, j::dim] = g[j], g[i]
+    return b, jacobian
+
+
+def gauss(count, dim):
+    """Points (count**dim, dim) and weights of the product rule."""
+    line, weights = np.polynomial.legendre.leggauss(count)
+    return np.array(list(product(line, repeat=dim))), np.prod(list(product(weights, repeat=dim)), axis=1)
 
 
 def frame(start, finish):

@@ -76,19 +76,20 @@ LAW = {
 
 ELEMENT = {
     "abaqus/layout.f90": [
-        ("public :: elements(10)", "public :: elements(11)"),
+        ("public :: elements(12)", "public :: elements(13)"),
         (
-            "8, 4, 16, 7)] !< stabilised cohesive interface in space",
-            "8, 4, 16, 7), & !< stabilised cohesive interface in space",
+            "36, 5)] !< stabilised cohesive interface of 20-node bricks",
+            "36, 5), & !< stabilised cohesive interface of 20-node bricks",
         ),
         (
-            "\n\n  type(faces_item), parameter, public :: faces(2:10)",
-            "\n    element_item(11, standard, 2, 4, 2, 13, 3)] !< U2, left to right\n\n"
-            "  type(faces_item), parameter, public :: faces(2:11)",
+            "\n\n  type(faces_item), parameter, public :: faces(2:12)",
+            "\n    element_item(13, standard, 2, 4, 2, 13, 3)] !< U2, left to right\n\n"
+            "  type(faces_item), parameter, public :: faces(2:13)",
         ),
         (
-            "[5, 6, 7, 8])] !< as U7\n",
-            "[5, 6, 7, 8]), & !< as U7\n    faces_item(11, 0, [1, 2, 0, 0], [3, 4, 0, 0])] !< left to right\n",
+            "[29, 30, 31, 32])] !< as U8, with middles\n",
+            "[29, 30, 31, 32]), & !< as U8, with middles\n"
+            "    faces_item(13, 0, [1, 2, 0, 0], [3, 4, 0, 0])] !< left to right\n",
         ),
     ],
 }
@@ -214,7 +215,7 @@ def test_the_element_is_u2_in_another_order(branch, element_of):
     order = [0, 1, 3, 2]
     dofs = np.array([[2 * n, 2 * n + 1] for n in order]).ravel()
     expected = element_of(branch[0], 2, FLAT, layouts=branch[1]).evaluate(u)
-    found = element_of(branch[0], 11, FLAT[order], layouts=branch[1]).evaluate(u[order])
+    found = element_of(branch[0], 13, FLAT[order], layouts=branch[1]).evaluate(u[order])
     np.testing.assert_allclose(found[0], expected[0][dofs], rtol=1e-12)
     np.testing.assert_allclose(found[1], expected[1][np.ix_(dofs, dofs)], rtol=1e-12)
 

@@ -6,6 +6,9 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from reference import gauss, serendipity_strain
+from reference_cells import EDGES, SQUARE_EDGES, with_middles
+from reference_cells import nodes_of as cell_nodes
 from scipy.linalg import eigh
 
 from harness.errors import KernelError
@@ -23,10 +26,9 @@ def quads(length, height, shear=0.0, bottom=None):
     return np.array(low + high)
 
 
-def with_middles(corners):
+def eight_nodes(corners):
     """Nodes of U6 from those of U4."""
-    halves = corners[:4], corners[4:]
-    return np.vstack([xy for half in halves for xy in (half, (half + np.roll(half, -1, axis=0)) / 2)])
+    return np.vstack([with_middles(half, SQUARE_EDGES) for half in (corners[:4], corners[4:])])
 
 
 SHAPES = {
@@ -39,6 +41,7 @@ SHAPES = {
     "trapezoid, 0.1 and 0.2 x 0.1": quads(0.1, 0.1, bottom=0.2),
 }
 LAYUPS = ("0/0", "0/90", "90/90")
+CUBE = np.array([[-1, -1], [1, -1], [1, 1], [-1, 1]])
 
 
 def beta_of(element, coordinates, **values):
@@ -143,11 +146,8 @@ def test_coercivity(element, interface, ply, reference):
     assert smallest(BETAN=computed[1] / 16, BETAT=computed[0] / 16) < -1e-6
 
 
-CUBE = np.array([[-1, -1], [1, -1], [1, 1], [-1, 1]])
-
-
-def solids(rng, dim):
-    """Two elements on an interface, slender up to 1 to 20 either way, skew and distorted."""
+def solids(rng, dim, middles=False):
+    """Two elements on an interface, slender up to 1 to 20 either way, skew and distorted; with middles also curved."""
     face = np.array([[0.0], [1.0]]) if dim == 2 else (CUBE + 1.0) / 2.0
     face = np.column_stack([face, np.zeros(len(face))])
     face[:, :-1] += 0.15 * rng.uniform(-1, 1, size=(len(face), dim - 1))
@@ -160,27 +160,30 @@ def solids(rng, dim):
         outer[:, -1] *= 1 + 0.2 * rng.uniform(-1, 1, size=len(face)) / max(1.0, height)
         pair = [outer, face] if side < 0 else [face, outer]
         # counter-clockwise: back along the upper edge in the plane
-        halves += [pair[0], pair[1][::-1] if dim == 2 else pair[1]]
+        halves.append(np.vstack([pair[0], pair[1][::-1] if dim == 2 else pair[1]]))
+    if middles:
+        halves = [with_middles(corners, SQUARE_EDGES if dim == 2 else EDGES["hexahedron"]) for corners in halves]
+        below, above = ([6], [4]) if dim == 2 else ([12, 13, 14, 15], [8, 9, 10, 11])
+        flattest = min(np.ptp(half[:, -1]) for half in halves)
+        halves[0][below] += 0.03 * min(1.0, flattest) * rng.uniform(-1, 1, size=(len(below), dim))
+        halves[1][above] = halves[0][below]
     return np.vstack(halves)
 
 
+def places_of(coordinates):
+    """Parent coordinates of the nodes of an element."""
+    nodes, dim = coordinates.shape
+    shape = "quad" if dim == 2 else "hexahedron"
+    return cell_nodes(shape if nodes == 2**dim else f"{shape}{nodes}")
+
+
 def strain_energy(coordinates, stiffness):
-    """Stiffness matrix of a quad or brick, 2 points along each direction."""
-    dim = coordinates.shape[1]
-    parent = CUBE if dim == 2 else np.array([[*corner, z] for z in (-1, 1) for corner in CUBE])
+    """Stiffness matrix of an element, as many points along each direction as an edge has nodes."""
+    nodes, dim = coordinates.shape
     energy = 0.0
-    for point in parent / np.sqrt(3):
-        terms = 1 + parent * point
-        slopes = np.array([parent[:, i] * np.prod(np.delete(terms, i, axis=1), axis=1) for i in range(dim)]) / 2**dim
-        jacobian = slopes @ coordinates
-        g = np.linalg.solve(jacobian, slopes)
-        b = np.zeros((len(stiffness), dim * len(parent)))
-        pairs = [(0, 1)] if dim == 2 else [(0, 1), (0, 2), (1, 2)]
-        for i in range(dim):
-            b[i, i::dim] = g[i]
-        for k, (i, j) in enumerate(pairs, start=dim):
-            b[k, i::dim], b[k, j::dim] = g[j], g[i]
-        energy = energy + np.linalg.det(jacobian) * b.T @ stiffness @ b
+    for point, weight in zip(*gauss(2 if nodes == 2**dim else 3, dim), strict=True):
+        b, jacobian = serendipity_strain(places_of(coordinates), coordinates, point)
+        energy = energy + weight * np.linalg.det(jacobian) * b.T @ stiffness @ b
     return energy
 
 
@@ -196,41 +199,40 @@ def solid_stiffness():
 
 
 @pytest.mark.parametrize("height", [0.25, 1.0, 4.0])
-def test_bricks_by_a_dense_solution(element, height):
+@pytest.mark.parametrize("jtype", [8, 12])
+def test_bricks_by_a_dense_solution(element, jtype, height):
     """beta_n and beta_tau of two like bricks are lambda, from the rows of D B at the Gauss points of a face."""
     face = np.column_stack([(CUBE + 1.0) / 2.0, np.zeros(4)])
     up = np.array([0.0, 0.0, height])
-    coordinates = np.vstack([face - up, face, face, face + up])
-    item = element(8, coordinates, BETAN=-1, ALPHAN=1e6, ALPHAT=1e6)
-    item.advance(np.zeros(48))
-    d, gauss = solid_stiffness(), 1 / np.sqrt(3)
-    values, vectors = np.linalg.eigh(strain_energy(coordinates[:8], d))
+    halves = [np.vstack([face - up, face]), np.vstack([face, face + up])]
+    if jtype == 12:
+        halves = [with_middles(corners, EDGES["hexahedron"]) for corners in halves]
+    item = element(jtype, np.vstack(halves), BETAN=-1, ALPHAN=1e6, ALPHAT=1e6)
+    item.advance(np.zeros(item.n))
+    d, below = solid_stiffness(), halves[0]
+    values, vectors = np.linalg.eigh(strain_energy(below, d))
     kept = vectors[:, 6:] / np.sqrt(values[6:])
-    parent = np.array([[*corner, z] for z in (-1, 1) for corner in CUBE])
-    expected = np.zeros((2, 18, 18))
-    for corner in CUBE:
-        terms = 1 + parent * np.array([*(gauss * corner), 1.0])
-        slopes = [parent[:, i] * np.prod(np.delete(terms, i, axis=1), axis=1) / 8 for i in range(3)]
-        g = np.array(slopes) * (2 / np.array([1.0, 1.0, height]))[:, None]
-        u, v, w = (np.eye(24)[i::3] for i in range(3))
-        strain = [g[0] @ u, g[1] @ v, g[2] @ w, g[1] @ u + g[0] @ v, g[2] @ u + g[0] @ w, g[2] @ v + g[1] @ w]
-        t = (d @ np.array(strain))[[4, 5, 2]] @ kept
-        expected += 0.25 * np.array([t[:2].T @ t[:2], t[2:].T @ t[2:]])
+    expected = np.zeros((2, kept.shape[1], kept.shape[1]))
+    for point, weight in zip(*gauss(2 if jtype == 8 else 3, 2), strict=True):
+        b, jacobian = serendipity_strain(places_of(below), below, [*point, 1.0])
+        t = (d @ b)[[4, 5, 2]] @ kept
+        area = weight * np.linalg.norm(np.cross(jacobian[0], jacobian[1]))
+        expected += area * np.array([t[:2].T @ t[:2], t[2:].T @ t[2:]])
     for name, matrix in zip("TN", expected, strict=True):
         s = item.state[f"S{name}"][0]
         assert 1e6 * s / (1 - s) == pytest.approx(np.linalg.eigvalsh(matrix)[-1], rel=1e-8)
 
 
-@pytest.mark.parametrize("jtype", [4, 8])
+@pytest.mark.parametrize("jtype", [4, 6, 8, 12])
 def test_coercivity_of_any_element_between_two_interfaces(element, ply, reference, jtype):
     """Half of each element's energy is left for this interface; still no negative eigenvalue with BETAN = -1.
 
     A sixteenth of it is too little for some of the elements.
     """
-    rng, worst, dim = np.random.default_rng(6), [], 2 if jtype == 4 else 3
+    rng, worst, dim = np.random.default_rng(6), [], 2 if jtype in (4, 6) else 3
     stiff = {"ALPHAN": 1e18, "ALPHAT": 1e18, "SIGMAMAX": 1e12, "TAUMAX": 1e12, "GIC": 1e12, "GIIC": 1e12}
     for sampling in (0, 1) * 12:
-        coordinates = solids(rng, dim)
+        coordinates = solids(rng, dim, middles=jtype in (6, 12))
         half = len(coordinates) // 2
         constants = reference.elasticity(ply, 0.0, False) if dim == 2 else solid_stiffness()
         values = {"SAMPLING": sampling} | ({"THICKNESS": 1.0} if dim == 2 else {})
@@ -266,7 +268,7 @@ def test_quad_inside_out_at_a_gauss_point(element):
 def test_table_of_the_documentation_is_current(element, ply):
     """The rows that README.md prints, worked out by the element."""
     text = README.read_text()
-    quadratic = {f"{shape}, eight nodes": with_middles(xy) for shape, xy in list(SHAPES.items())[:3]}
+    quadratic = {f"{shape}, eight nodes": eight_nodes(xy) for shape, xy in list(SHAPES.items())[:3]}
     for shape, coordinates in (SHAPES | quadratic).items():
         cells = [shape]
         for layup in LAYUPS:

@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 from neighbours import Sandwich
 from scipy.spatial.transform import Rotation
+from space import QUADRATIC, bottom_of, nodes_of, top_of
 
 NLGEOM = (1, 1, 0, 0)
 LINE = np.array([[0.1, 0.2], [1.0, 0.5]])
@@ -33,13 +34,15 @@ ELEMENTS = {
     4: (np.array(QUADS), [3, 2], [4, 5]),
     6: (np.vstack([with_middles(np.array(QUADS[:4]), 2), with_middles(np.array(QUADS[4:]), 0)]), [3, 2, 6], [8, 9, 12]),
     8: (np.vstack([BELOW, SQUARE, SQUARE, ABOVE]), [4, 5, 6, 7], [8, 9, 10, 11]),
+    11: (nodes_of(11, "warped"), bottom_of(11), top_of(11)),
+    12: (nodes_of(12, "warped"), bottom_of(12), top_of(12)),
 }
 ELEMENTS |= {3: ELEMENTS[4], 10: ELEMENTS[8]}
 OPTIONS = {"Gauss": {}, "nodes, viscous": {"INTEGRATION": 1, "VISCOSITY": 0.3}, "BK": {"LAW": 2, "ETA": 1.45}}
 RIGID = {"CLOSURE": 1, "ALPHAN": 0.0, "ALPHAT": 0.0, "BETAN": -1.0, "BETAT": -1.0, "FRICTION": 0.3}
 OF_SOLIDS = {"rigid": RIGID, "rigid, viscous, face": {**RIGID, "VISCOSITY": 0.3, "SAMPLING": 1}}
 GIVEN = {"BETAN": 1e5, "BETAT": 1.2e5}  # U3 and U10 know no local eigenvalues
-CASES = [(jtype, name) for jtype in ELEMENTS for name in (OPTIONS if jtype in (2, 5, 7) else OPTIONS | OF_SOLIDS)]
+CASES = [(jtype, name) for jtype in ELEMENTS for name in (OPTIONS if jtype in (2, 5, 7, 11) else OPTIONS | OF_SOLIDS)]
 OPTIONS |= OF_SOLIDS
 every = pytest.mark.parametrize("jtype", ELEMENTS)
 options = pytest.mark.parametrize(("jtype", "name"), CASES)
@@ -115,15 +118,19 @@ def test_tangent(interface_element, reference, jtype, name, size):
     q = turn(coordinates.shape[1], 50.0)
     item = interface_element(jtype, name)
     item.advance((coordinates + opened(jtype, 1e-3, 1)) @ q.T - coordinates, flags=NLGEOM)
-    u = (coordinates + opened(jtype, size, 2)) @ q.T - coordinates
+    present = (coordinates + opened(jtype, size, 2)) @ q.T
+    u = (present - coordinates).ravel()
+    along = np.eye(u.size)
+    if jtype in QUADRATIC:
+        # of many unknowns some random directions
+        along = np.random.default_rng(3).normal(size=(6, u.size)) / np.sqrt(u.size)
+    elif jtype in (3, 10):
+        along = motions(present)
     tangent = item.evaluate(u, flags=NLGEOM)[1]
+    differences = -reference.central_differences(
+        lambda x: item.evaluate(u + x @ along, flags=NLGEOM)[0], np.zeros(len(along)), step=2e-7
+    )
     assert abs(tangent).max() > 0
-    along = np.eye(u.size) if jtype not in (3, 10) else motions(coordinates + u)
-
-    def forces(x):
-        return item.evaluate(u.ravel() + x @ along, flags=NLGEOM)[0]
-
-    differences = -reference.central_differences(forces, np.zeros(len(along)), step=2e-7)
     assert abs(tangent @ along.T - differences).max() <= 1e-6 * abs(tangent).max()
 
 

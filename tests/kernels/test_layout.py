@@ -42,12 +42,15 @@ def test_names_of_svars():
     assert (brick.kind, brick.points, brick.outline) == ("continuum", 8, ())
     ten = layout.variables(10)
     assert (ten.kind, ten.points, ten.bottom, ten.top) == ("interface", 4, (0, 1, 2, 3), (4, 5, 6, 7))
-    assert layout.variables(11) is None
+    assert (layout.variables(11).points, layout.variables(11).top) == (9, (4, 5, 6, 7, 12, 13, 14, 15))
+    assert layout.variables(12).bottom == (4, 5, 6, 7, 12, 13, 14, 15)
+    assert layout.variables(12).top == (20, 21, 22, 23, 28, 29, 30, 31)
+    assert layout.variables(13) is None
 
 
 def test_library_names_svars_of_these_elements_only(library, tmp_path):
     assert library.variables(2) == layout.variables(2)
-    assert library.variables(11) is None
+    assert library.variables(13) is None
     other = tmp_path / "other.f"
     other.write_text("      subroutine uel(rhs)\n      real*8 rhs\n      end\n")
     stranger = usersub.load(other, job="other", output_dir=tmp_path)

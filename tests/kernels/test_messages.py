@@ -45,12 +45,12 @@ NODES = {1: QUAD, 2: FLAT, 3: FLAT, 4: EIGHT}
         (
             4,
             {"BETAN": -2.0},
-            r"U4 element 42: PROPS\(14\) BETAN = -2.*zero or a positive value, or -1 in U4, U6 and U8",
+            r"U4 element 42: PROPS\(14\) BETAN = -2.*zero or a positive value, or -1 in a self-contained element",
         ),
         (
             3,
             {"BETAN": -1.0},
-            r"U3 element 42: PROPS\(14\) BETAN = -1.*zero or a positive value, or -1 in U4, U6 and U8",
+            r"U3 element 42: PROPS\(14\) BETAN = -1.*zero or a positive value, or -1 in a self-contained element",
         ),
         (4, {"BETAT": -0.5}, r"PROPS\(15\) BETAT = -0?.5.*zero or a positive value"),
         (4, {"GAMMABOT": 1.0}, r"PROPS\(16\) GAMMABOT = 1.*between 0 and 1"),
@@ -163,8 +163,8 @@ def test_state_of_stress_of_the_material_must_fit(element):
 
 def test_unknown_types(library, element):
     item = element(2, FLAT, label=42)
-    item.block._routine = replace(item.block._routine, jtype=11)
-    with pytest.raises(KernelError, match="U11 element 42: is not an element of this file, which has U1 to U10"):
+    item.block._routine = replace(item.block._routine, jtype=13)
+    with pytest.raises(KernelError, match="U13 element 42: is not an element of this file, which has U1 to U12"):
         item.evaluate(np.zeros(8))
     item.block._routine = replace(item.block._routine, jtype=1)
     with pytest.raises(KernelError, match="U1 element 42: takes its stress from a material: specify MATERIAL="):

@@ -259,7 +259,7 @@ def test_names():
         (5, {"TANGENT": 2}, r"U5 element 42: JPROPS\(3\) TANGENT = 2: expected 0 to 1"),
         (5, {"ALPHAN": 0.0, "ALPHAT": 0.0}, r"U5 element 42: .* ALPHAN = 0.*expected a positive"),
         (5, {"GIC": 0.0225}, r"U5 element 42: PROPS\(6\) GIC = .*too brittle"),
-        (6, {"BETAN": -2.0}, r"U6 element 42: .* BETAN = -2.*, or -1 in U4, U6 and U8"),
+        (6, {"BETAN": -2.0}, r"U6 element 42: .* BETAN = -2.*, or -1 in a self-contained element"),
         (6, {"CLOSURE": 2}, r"U6 element 42: JPROPS\(6\) CLOSURE = 2: expected 0 to 1"),
         (6, {"GIC": 0.0225}, r"U6 element 42: PROPS\(6\) GIC = .*too brittle"),
         (6, {"CLOSURE": 1, "BETAN": 1.0, "BETAT": 1.0}, r"U6 element 42: .*: beta = 1.0.*, too small"),

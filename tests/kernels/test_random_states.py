@@ -53,7 +53,7 @@ def check_tangents(tools, variant, kind, extra, data):
     item, compared = crowd.item, 0
     # what multiplies rounded separations, and the rounded damage of the paper's closure
     stiffness = 0.0 if closure else max(values["ALPHAN"], values["ALPHAT"])
-    stiffness += 0.0 if jtype in (2, 5, 7) else 1e7
+    stiffness += 0.0 if jtype in (2, 5, 7, 11) else 1e7
     stiffness += max(values.get("BETAN", 0.0), values.get("BETAT", 0.0))
     for increment in range(INCREMENTS):
         # with a history, a state without sliding lies between two kinks that look alike from both sides
@@ -63,11 +63,11 @@ def check_tangents(tools, variant, kind, extra, data):
         u = crowd.displacements(ends, noise)
         # small beside the separations of both ends and beside that at the onset
         step = 1e-4 * sizes.min(axis=1)[:, None, None]
-        if jtype in (2, 5, 7):
+        if jtype in (2, 5, 7, 11):
             onset = min(values["SIGMAMAX"], values["TAUMAX"]) / max(values["ALPHAN"], values["ALPHAT"])
             step = np.minimum(step, 0.01 * onset)
         along = step * crowd.direction(rng)
-        slopes = differences(lambda n, u=u, along=along: crowd.call("evaluate", u + n * along, DTIME)[0], 5)
+        slopes = differences(lambda n, u=u, along=along: crowd.call("evaluate", u + n * along, DTIME, request=5)[0], 5)
         before, (_, tangent) = item.state, crowd.call("advance", u, DTIME)
         expected = -np.einsum("kij,kj->ki", tangent, crowd.own(along))
         # of any side: in a pure mode the state itself is one where a curvature jumps

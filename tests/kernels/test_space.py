@@ -1,21 +1,28 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""Interfaces in space: U7 between faces of four nodes, U8 with its own bricks."""
+"""Interfaces in space: between faces of four nodes (U7) and eight (U11), with their own bricks (U8, U12)."""
 
 import numpy as np
 import pytest
+from reference import serendipity
 from scipy.spatial.transform import Rotation
+from space import (
+    FACE,
+    QUADRATIC,
+    STANDARD,
+    SURFACES,
+    bottom_of,
+    frames,
+    nodes_of,
+    opened,
+    points_of,
+    stress_of,
+    top_of,
+    weights_of,
+)
 
 from harness.errors import KernelError
 
-SQUARE = np.array([[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]])
-# mid-surfaces: height over the square
-SURFACES = {
-    "flat": np.zeros(4),
-    "sloping": np.array([0.0, 0.2, 0.35, 0.15]),
-    "warped": np.array([0.05, -0.1, 0.12, -0.06]),
-}
-SKEW = np.array([[0.0, 0.0], [0.1, -0.15], [-0.2, 0.1], [0.05, 0.2]])
 LAWS = {
     "bilinear": {"LAW": 1},
     "BK": {"LAW": 2, "ETA": 1.45},
@@ -36,55 +43,13 @@ ELEMENTS = {
     "consistent, viscous, friction": (8, {"CLOSURE": 1, **BETA, "VISCOSITY": 0.4, "FRICTION": 0.4}),
     "rigid": (8, {**RIGID, **BETA, "FRICTION": 0.3, "INTEGRATION": 1}),
     "rigid, viscous, local beta": (8, {**RIGID, "BETAN": -1.0, "BETAT": -1.0, "VISCOSITY": 0.4}),
+    "quadratic, standard": (11, {}),
+    "quadratic, viscous, nodal": (11, {"VISCOSITY": 0.4, "INTEGRATION": 1}),
+    "quadratic, paper": (12, {"INTEGRATION": 1, "SAMPLING": 1, "ANGLE TOP": 40.0}),
+    "quadratic, consistent, viscous, friction": (12, {"CLOSURE": 1, **BETA, "VISCOSITY": 0.4, "FRICTION": 0.4}),
+    "quadratic, rigid": (12, {**RIGID, "BETAN": -1.0, "BETAT": -1.0, "SAMPLING": 2, "FRICTION": 0.3}),
 }
 COMPONENTS = ("S", "N", "T")
-
-
-def faces(surface, skew=1.0):
-    """(4, 3) nodes of a face."""
-    return np.column_stack([SQUARE + skew * SKEW, SURFACES[surface]])
-
-
-def nodes_of(jtype, surface, skew=1.0):
-    """Nodes of U7, or of U8 with distorted bricks."""
-    face = faces(surface, skew)
-    if jtype == 7:
-        return np.vstack([face, face])
-    below, above = face + np.array([0.05 * skew, 0, -0.8]), face + np.array([0, -0.1 * skew, 0.9])
-    below[2, 2] -= 0.1 * skew
-    above[0, 2] += 0.15 * skew
-    return np.vstack([below, face, face, above])
-
-
-def top_of(jtype):
-    """Nodes of the top face."""
-    return slice(4, 8) if jtype == 7 else slice(8, 12)
-
-
-def frames(coordinates, jtype, parents):
-    """Rows s, n, t at points of the mid-surface (Abaqus: s is the projection of the x axis)."""
-    face = coordinates[top_of(jtype)]
-    found = []
-    for xi, eta in parents:
-        along = np.array([-(1 - eta), 1 - eta, 1 + eta, -(1 + eta)]) @ face / 4
-        across = np.array([-(1 - xi), -(1 + xi), 1 + xi, 1 - xi]) @ face / 4
-        n = np.cross(along, across)
-        n /= np.linalg.norm(n)
-        s = np.array([1.0, 0, 0]) - n[0] * n
-        s /= np.linalg.norm(s)
-        found.append([s, n, np.cross(n, s)])
-    return np.array(found)
-
-
-def opened(jtype, gaps, seed, strain=0.0):
-    """Displacements whose top face is moved by gaps (4, 3), with random strains of the bricks."""
-    count = 8 if jtype == 7 else 16
-    u = strain * np.random.default_rng(seed).normal(size=(count, 3))
-    bottom = slice(0, 4) if jtype == 7 else slice(4, 8)
-    u[top_of(jtype)] = u[bottom] + gaps
-    if jtype == 8:
-        u[12:] += gaps
-    return u
 
 
 def vectors(state, name):
@@ -105,7 +70,10 @@ GAPS = {
 @pytest.mark.parametrize("name", ELEMENTS)
 @pytest.mark.parametrize("state", GAPS)
 def test_tangent(element, reference, name, law, state):
-    """AMATRX is the derivative of RHS, with a history of another direction; differences have an error of 1e-8."""
+    """AMATRX is the derivative of RHS, with a history of another direction; differences have an error of 1e-8.
+
+    Along each unknown, of the many of quadratic elements along some random directions.
+    """
     jtype, options = ELEMENTS[name]
     rng = np.random.default_rng(5)
     for surface, seed in (("flat", 1), ("warped", 2)):
@@ -113,11 +81,14 @@ def test_tangent(element, reference, name, law, state):
         item = element(jtype, coordinates, **{**LAWS[law], **options})
         before = np.array([-2e-3, 1.5e-3, 2.5e-3]) * (1 + 0.1 * rng.normal(size=(4, 3)))
         item.advance(opened(jtype, before, seed, 2e-5))
-        u = opened(jtype, np.array(GAPS[state]) * (1 + 0.1 * rng.normal(size=(4, 3))), seed + 10, 2e-5)
+        u = opened(jtype, np.array(GAPS[state]) * (1 + 0.1 * rng.normal(size=(4, 3))), seed + 10, 2e-5).ravel()
+        along = rng.normal(size=(6, u.size)) / np.sqrt(u.size) if jtype in QUADRATIC else np.eye(u.size)
         tangent = item.evaluate(u)[1]
-        differences = -reference.central_differences(lambda x, e=item: e.evaluate(x)[0], u.ravel(), step=2e-7)
+        differences = -reference.central_differences(
+            lambda x, u=u, a=along, e=item: e.evaluate(u + x @ a)[0], np.zeros(len(along)), step=2e-7
+        )
         assert np.abs(tangent).max() > 0
-        assert np.abs(tangent - differences).max() <= 1e-6 * np.abs(tangent).max()
+        assert np.abs(tangent @ along.T - differences).max() <= 1e-7 * np.abs(tangent).max()
 
 
 @pytest.mark.parametrize("law", LAWS)
@@ -129,7 +100,7 @@ def test_nothing_depends_on_the_frame(element, name, law):
     """
     jtype, options = ELEMENTS[name]
     options = {key: value for key, value in options.items() if "ANGLE" not in key}
-    if jtype == 8:
+    if jtype not in STANDARD:
         for side in ("BOTTOM", "TOP"):
             options |= {
                 f"E1 {side}": 1.05e4,
@@ -164,12 +135,12 @@ def test_turning_shear_at_constant_resultant_does_no_damage(element, name, law):
     jtype, options = ELEMENTS[name]
     options = {key: value for key, value in options.items() if key not in ("VISCOSITY", "FRICTION")}
     item = element(jtype, nodes_of(jtype, "flat", 0.0), **{**LAWS[law], **options})
-    item.advance(opened(jtype, np.array([[5e-3, 2e-3, 0.0]])[:, [0, 2, 1]], 0))
+    item.advance(opened(jtype, np.array([5e-3, 0.0, 2e-3]), 0))
     damage = item.state["DAMAGE"]
     assert (damage > 0.05).all() and (damage < 1).all()
     for angle in np.deg2rad([40, 100, 190, 300]):
         gap = [5e-3 * np.cos(angle), 5e-3 * np.sin(angle), 2e-3]
-        item.advance(opened(jtype, np.array([gap]), 0))
+        item.advance(opened(jtype, gap, 0))
         np.testing.assert_allclose(item.state["DAMAGE"], damage, rtol=1e-10)
         shear = vectors(item.state, "T")[:, [0, 2]]
         # x, y, z are s, -t, n: the surface lies in the plane z = 0
@@ -234,18 +205,18 @@ def test_strip_is_the_plane_element(element, law, closure, integration):
 
 
 @pytest.mark.parametrize("law", LAWS)
-@pytest.mark.parametrize("name", ["standard", "viscous", "nodal"])
+@pytest.mark.parametrize("name", ["standard", "viscous", "nodal", "quadratic, standard", "quadratic, viscous, nodal"])
 def test_energies_sum_up_to_the_work(element, name, law):
     """Stored, dissipated and viscous energy are the work of the traction by the trapezoidal rule, in any direction."""
-    options = ELEMENTS[name][1]
+    jtype, options = ELEMENTS[name]
     rng = np.random.default_rng(12)
-    item = element(7, nodes_of(7, "flat"), **{**LAWS[law], **options})
-    work, old, before = 0.0, np.zeros((8, 3)), np.zeros(24)
+    item = element(jtype, nodes_of(jtype, "flat"), **{**LAWS[law], **options})
+    work, old, before = 0.0, np.zeros((item.n // 3, 3)), np.zeros(item.n)
     gap = np.zeros((4, 3))
     for _ in range(12):
         gap = gap + np.array([1.5e-3, 1.5e-3, 1e-3]) * rng.normal(size=(4, 3))
         gap[:, 2] = abs(gap[:, 2])
-        u = opened(7, gap, 0)
+        u = opened(jtype, gap, 0)
         force = item.advance(u, dtime=0.2)[0]
         work -= 0.5 * (force + before) @ (u - old).ravel()
         old, before = u, force
@@ -255,7 +226,7 @@ def test_energies_sum_up_to_the_work(element, name, law):
 
 
 @pytest.mark.parametrize("surface", SURFACES)
-@pytest.mark.parametrize("jtype", [7, 8])
+@pytest.mark.parametrize("jtype", [7, 8, 11, 12])
 def test_rigid_motion(element, jtype, surface):
     """Infinitesimal ones, of any size, open nothing, but for the strain of bricks that a linear rotation has not."""
     coordinates = nodes_of(jtype, surface)
@@ -268,51 +239,44 @@ def test_rigid_motion(element, jtype, surface):
             assert abs(tangent @ motion.ravel()).max() <= 1e-11 * abs(tangent).max()
 
 
-@pytest.mark.parametrize("surface", ["flat", "sloping"])
-@pytest.mark.parametrize("sampling", [0, 1, 2])
+@pytest.mark.parametrize("surface", SURFACES)
+@pytest.mark.parametrize(("sampling", "rule"), [(0, 0), (1, 0), (2, 0), (0, 1)])
 @pytest.mark.parametrize("angles", [(0.0, 0.0), (30.0, 30.0)])
-def test_patch(element, reference, surface, sampling, angles):
+@pytest.mark.parametrize("jtype", [8, 12])
+def test_patch(element, jtype, surface, sampling, rule, angles):
     """Bricks in a constant strain: a rigid interface transmits sigma.n to its nodes as the area of each has it.
 
-    Both sides have the same plies, so one strain has one traction; a plane but skew and sloping surface.
+    Both sides have the same plies, so one strain has one traction; a skew, sloping or warped surface.
     """
-    coordinates = nodes_of(8, surface)
-    if surface == "sloping":
-        # a plane through three corners
-        plane = np.linalg.solve(np.column_stack([coordinates[4:7, :2], np.ones(3)]), coordinates[4:7, 2])
-        coordinates[7, 2] = coordinates[11, 2] = plane @ [*coordinates[7, :2], 1.0]
-    values = {"ANGLE BOTTOM": angles[0], "ANGLE TOP": angles[1], "SAMPLING": sampling, **RIGID}
+    coordinates = nodes_of(jtype, surface)
+    values = {"ANGLE BOTTOM": angles[0], "ANGLE TOP": angles[1], "SAMPLING": sampling, "INTEGRATION": rule, **RIGID}
     strong = {"SIGMAMAX": 1e4, "TAUMAX": 1e4, "GIC": 1e3, "GIIC": 1e3}
-    item = element(8, coordinates, **{**values, **strong})
+    item = element(jtype, coordinates, **{**values, **strong})
     gradient = 1e-3 * np.random.default_rng(2).normal(size=(3, 3))
     force = item.evaluate(coordinates @ gradient.T)[0].reshape(-1, 3)
-    traction = stress_of(reference, gradient, coordinates, angles[0]) @ frames(coordinates, 8, [(0, 0)])[0][1]
-    area = np.cross(coordinates[10] - coordinates[8], coordinates[11] - coordinates[9])
-    total = traction * np.linalg.norm(area) / 2
-    np.testing.assert_allclose(force[8:12].sum(axis=0), -total, rtol=1e-9, atol=1e-9)
-    np.testing.assert_allclose(force[4:8], -force[8:12], atol=1e-12 * abs(force).max())
-    assert not force[:4].any() and not force[12:].any()
+    stress = stress_of(gradient, coordinates, jtype, angles[0])
+    bottom, top = bottom_of(jtype), top_of(jtype)
+    expected = np.zeros((len(top), 3))
+    for parent, weight in zip(points_of(jtype, rule), weights_of(jtype, rule), strict=True):
+        shape, slopes = serendipity(FACE[: len(top)], parent)
+        expected += weight * np.outer(shape, stress @ np.cross(*(slopes @ coordinates[top])))
+    np.testing.assert_allclose(force[top], -expected, rtol=1e-9, atol=1e-9 * abs(expected).max())
+    np.testing.assert_allclose(force[bottom], -force[top], atol=1e-12 * abs(force).max())
+    assert not np.delete(force, bottom + top, axis=0).any()
 
 
-def stress_of(reference, gradient, coordinates, angle):
-    """Stress of the ply of the fixtures, from its compliance in material axes: 3 is n, 1 at an angle from s to t."""
-    s, n, t = frames(coordinates, 8, [(0, 0)])[0]
-    c, d = np.cos(np.deg2rad(angle)), np.sin(np.deg2rad(angle))
-    axes = np.array([c * s + d * t, c * t - d * s, n])
-    return axes.T @ reference.ply_stress(axes @ (0.5 * (gradient + gradient.T)) @ axes.T) @ axes
-
-
-def test_positions_and_directions(element):
-    """X, Y and Z of the points, and the components of a separation, on a sloping face."""
-    coordinates = nodes_of(7, "sloping", 0.0)
-    item = element(7, coordinates)
-    parents = np.array([(-1, -1), (1, -1), (1, 1), (-1, 1)]) / np.sqrt(3)
+@pytest.mark.parametrize("rule", [0, 1])
+@pytest.mark.parametrize(("jtype", "surface"), [(7, "sloping"), (7, "warped"), (11, "sloping"), (11, "warped")])
+def test_positions_and_directions(element, jtype, surface, rule):
+    """X, Y and Z of the points, and the components of a separation."""
+    coordinates = nodes_of(jtype, surface)
+    item = element(jtype, coordinates, INTEGRATION=rule)
     gap = np.array([1e-4, 2e-4, 3e-4])
-    item.advance(opened(7, np.tile(gap, (4, 1)), 0))
-    for k, (xi, eta) in enumerate(parents):
-        shape = np.array([(1 - xi) * (1 - eta), (1 + xi) * (1 - eta), (1 + xi) * (1 + eta), (1 - xi) * (1 + eta)]) / 4
-        np.testing.assert_allclose([item.state[i][k] for i in "XYZ"], shape @ coordinates[:4], rtol=1e-14)
-        np.testing.assert_allclose(vectors(item.state, "SEP")[k], frames(coordinates, 7, parents)[k] @ gap, rtol=1e-13)
+    item.advance(opened(jtype, gap, 0))
+    parents, face = points_of(jtype, rule), coordinates[bottom_of(jtype)]
+    places = [serendipity(FACE[: len(face)], parent)[0] @ face for parent in parents]
+    np.testing.assert_allclose(np.transpose([item.state[i] for i in "XYZ"]), places, rtol=1e-13, atol=1e-15)
+    np.testing.assert_allclose(vectors(item.state, "SEP"), frames(coordinates, jtype, parents) @ gap, rtol=1e-12)
 
 
 @pytest.mark.parametrize("axis", [0, 1, 2])
@@ -330,24 +294,25 @@ def test_local_directions_are_those_of_abaqus(element, axis):
 
 @pytest.mark.parametrize("law", ["bilinear", "BK", "PPR"])
 @pytest.mark.parametrize("alpha", [2.0e4, 1.0e8, 0.0])
-def test_friction_is_a_radial_return(element, law, alpha):
+@pytest.mark.parametrize("jtype", [8, 12])
+def test_friction_is_a_radial_return(element, jtype, law, alpha):
     """A failed point in contact slides along a path that turns: |T| = mu |T_n|, against the increment of the slip.
 
     Backward Euler: T points along the increment of w.
     """
     mu = 0.4
     item = element(
-        8,
-        nodes_of(8, "flat", 0.0),
+        jtype,
+        nodes_of(jtype, "flat", 0.0),
         **{**LAWS[law], "ALPHAN": alpha, "ALPHAT": alpha, "CLOSURE": 1, **BETA, "FRICTION": mu},
     )
-    item.advance(opened(8, np.array([[0.2, 0.0, -1e-3]]), 0))
+    item.advance(opened(jtype, np.array([[0.2, 0.0, -1e-3]]), 0))
     assert (item.state["DAMAGE"] == 1).all()
     slid, work = vectors(item.state, "W")[:, [0, 2]], 0.0
     for angle in np.deg2rad([10, 40, 90, 170, 260]):
         # z is n, and y is t: t = n x s
         gap = [0.2 * np.cos(angle), 0.2 * np.sin(angle), -1.5e-3]
-        item.advance(opened(8, np.array([gap]), 0))
+        item.advance(opened(jtype, np.array([gap]), 0))
         traction, now = vectors(item.state, "T"), vectors(item.state, "W")[:, [0, 2]]
         shear, step = traction[:, [0, 2]], now - slid
         np.testing.assert_allclose(np.linalg.norm(shear, axis=1), -mu * traction[:, 1], rtol=1e-9)
@@ -357,7 +322,7 @@ def test_friction_is_a_radial_return(element, law, alpha):
         slid = now
         np.testing.assert_allclose(item.state["DISSF"], work, rtol=1e-9)
     # a small step back sticks
-    item.advance(opened(8, np.array([[0.2 * np.cos(angle) - 1e-5, 0.2 * np.sin(angle), -1.5e-3]]), 0))
+    item.advance(opened(jtype, np.array([[0.2 * np.cos(angle) - 1e-5, 0.2 * np.sin(angle), -1.5e-3]]), 0))
     np.testing.assert_array_equal(vectors(item.state, "W")[:, [0, 2]], slid)
 
 
@@ -366,15 +331,17 @@ def test_bad_geometry_and_properties(element):
     upside_down = flat[[0, 3, 2, 1, 4, 7, 6, 5, 8, 11, 10, 9, 12, 15, 14, 13]]
     apart = flat + np.repeat([0.0, 0.01], 8)[:, None]
     seven = nodes_of(7, "flat", 0.0)
+    concave = np.where((seven == [1.0, 1.0, 0.0]).all(axis=1, keepdims=True), [0.2, 0.2, 0.0], seven)
     for jtype, coordinates, values, message in (
         (8, upside_down, {}, "U8 element 42: bottom brick is inside out or degenerate"),
         (8, apart, {}, "the two faces .* do not coincide: nodes 9 to 12 must lie on 5 to 8; they are 1.0.*E-02 apart"),
         (7, seven + np.repeat([0.0, 0.01], 4)[:, None], {}, "U7 element 42: .* nodes 5 to 8 must lie on 1 to 4"),
         (7, np.zeros((8, 3)), {}, "U7 element 42: the interface has no length"),
+        (7, concave, {}, "U7 element 42: .*folds back on itself"),
         (8, flat, {"NU12 TOP": 4.0}, r"PROPS\(28\) NU12 TOP = 4.*not positive definite"),
         (8, flat, {"E3 BOTTOM": 0.0}, r"NU12 BOTTOM .*not positive definite; 0\.0.*must be positive"),
         (8, flat, {"G13 TOP": 0.0}, r"PROPS\(35\) G13 TOP = 0.*: expected a positive value"),
-        (8, flat, {"BETAN": -2.0}, "or -1 in U4, U6 and U8"),
+        (8, flat, {"BETAN": -2.0}, "or -1 in a self-contained element"),
         (7, seven, {"ALPHAN": 0.0}, r"PROPS\(1\) ALPHAN = 0"),
     ):
         item = element(jtype, coordinates, label=42, **values)
