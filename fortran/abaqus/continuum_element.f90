@@ -11,14 +11,15 @@
 module abaqus_continuum_element
   use core_kinds, only: dp
   use core_rotation, only: ply_axes, strain_rotation
+  use core_solid_rotation, only: solid_turn, find_turn, turn_forces, turn_stiffness
   use core_status, only: status_type, ok
   use core_strains, only: condense
   use materials_linear_elasticity, only: plane_strain
   use materials_spectral_norm, only: spectral_norm
+  use elements_bulk_solid, only: solid_gradient
   use elements_continuum_solid, only: incompatible_modes, modes_of_brick, solid_points, solid_shape, solid_strains, find_change
   use elements_interface_faces, only: central_frame
   use elements_solid_faces, only: face_nodes, face_places, gauss_of_face, middle_place, serves
-  use elements_solid_rotation, only: solid_turn, find_turn, turn_forces, turn_stiffness
   use abaqus_bulk_exchange, only: bulk_record, store_bulk
   use abaqus_check, only: report_status
   use abaqus_report, only: fatal, warn
@@ -115,6 +116,8 @@ contains
     real(dp) :: parents(dim, places), b(n, strains, places), volume(places), to_ply(strains, strains), unknowns(n)
     real(dp) :: strain(strains, nodes), stress(strains, nodes), modulus(strains, strains, nodes)
     real(dp) :: force(n), matrix(n, n), inverse(n - m, n - m), nodal(m), stiffness(m, m)
+    real(dp), parameter :: middle(3) = 0.0_dp    ! parent coordinates
+    real(dp) :: gradient(dim, nodes)
     type(solid_turn) :: turn
     type(status_type) :: status
     integer :: k
@@ -134,7 +137,8 @@ contains
     unknowns = 0.0_dp
     unknowns(:m) = u
     if (this%finite) then
-      call find_turn(dim, nodes, coordinates, u, turn, unknowns(:m), good)
+      call solid_gradient(dim, nodes, coordinates, middle(:dim), gradient, status)
+      call find_turn(dim, nodes, gradient, coordinates, u, turn, unknowns(:m), good)
       if (.not. good) then
         call reduce_increment(this, 'its displacements turn its middle inside out', pnewdt)
         return

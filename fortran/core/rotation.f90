@@ -6,7 +6,7 @@ module core_rotation
   use core_small_matrix, only: invert
   implicit none(type, external)
   private
-  public :: cross, line_frame, surface_frame, ply_axes, turned_frame, polar_rotation, traction_operator, strain_rotation
+  public :: about_mean, cross, line_frame, surface_frame, ply_axes, turned_frame, polar_rotation, traction_operator, strain_rotation
 
   real(dp), parameter :: degree = acos(-1.0_dp)/180.0_dp
 
@@ -146,6 +146,18 @@ contains
     end do
     good = .false.
   end subroutine polar_rotation
+
+  !> Coordinates about their mean: of two configurations that differ by a translation they are the same.
+  pure function about_mean(dim, coordinates) result(centred)
+    integer, intent(in) :: dim
+    real(dp), intent(in) :: coordinates(:)
+    real(dp) :: centred(size(coordinates))
+    integer :: i
+
+    do i = 1, dim
+      centred(i::dim) = coordinates(i::dim) - dim*sum(coordinates(i::dim))/size(coordinates)
+    end do
+  end function about_mean
 
   !> Cross product.
   pure function cross(a, b) result(c)

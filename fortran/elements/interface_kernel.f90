@@ -9,6 +9,7 @@
 !> (15) without B, (16) to (22) with it.
 module elements_interface_kernel
   use core_kinds, only: dp
+  use core_rotation, only: about_mean
   use core_status, only: status_type, ok
   use cohesive_parameters, only: law_parameters
   use cohesive_law, only: check_law, check_beta
@@ -16,7 +17,7 @@ module elements_interface_kernel
   use elements_interface_faces, only: interface_place, measure_interface, jump_operator, separation_at, face_shape
   use elements_interface_point, only: interface_options, interface_point, point_response, standard_point, &
     stabilised_point, point_energies
-  use elements_interface_rotation, only: about_mean, turn_place, co_rotated, by_displacements, add_turning
+  use elements_interface_rotation, only: turn_place, co_rotated, by_displacements, add_turning
   implicit none(type, external)
   private
   public :: integrate_interface

@@ -14,21 +14,9 @@ module elements_interface_rotation
   use elements_interface_faces, only: interface_place, face_slope
   implicit none(type, external)
   private
-  public :: about_mean, turn_place, co_rotated, by_displacements, add_turning
+  public :: turn_place, co_rotated, by_displacements, add_turning
 
 contains
-
-  !> Coordinates about their mean: of two configurations that differ by a translation they are the same.
-  pure function about_mean(dim, coordinates) result(centred)
-    integer, intent(in) :: dim
-    real(dp), intent(in) :: coordinates(:)
-    real(dp) :: centred(size(coordinates))
-    integer :: i
-
-    do i = 1, dim
-      centred(i::dim) = coordinates(i::dim) - dim*sum(coordinates(i::dim))/size(coordinates)
-    end do
-  end function about_mean
 
   !> Turns the frame of a point with the mid-line or mid-surface, and gives the derivative of the frame by the nodes of that.
   pure subroutine turn_place(dim, nodes, faces, original, present, place, turning, status)

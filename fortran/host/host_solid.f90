@@ -11,7 +11,8 @@
 !>
 !> Large displacements: Cauchy stress, rotated and updated increment by increment with the strain and the rotation at the middle of
 !> the increment (Jaumann rate; Hughes and Winget). The tangent leaves out the change of the volume and of the middle of the
-!> increment.
+!> increment. Elements with incompatible modes have small strains in axes that turn with their middle (core_solid_rotation), to the
+!> order of the strain the same; their tangent is exact.
 !>
 !> The last of the predefined fields is the initial temperature; thermal strain is that of *EXPANSION since then.
 !>
@@ -20,6 +21,7 @@
 !> increments; last the incompatible modes.
 module host_solid
   use core_small_matrix, only: cofactors, determinant
+  use core_solid_rotation, only: find_turn, solid_turn, turn_forces, turn_stiffness
   use core_strains, only: mean_volume_strain, set_volume_strain, strain_matrix
   use host_context, only: current, initial_stresses
   use host_coupling, only: add_heat_source, coupling_t, set_temperature
@@ -30,6 +32,7 @@ module host_solid
   use host_initial_stress, only: begin_point
   use host_kinds, only: dp, i4
   use host_kinematics, only: components, gradients, mean_gradients, point_position, rotated, rotation_of
+  use host_protect, only: escape
   use host_materials, only: elastic_energy, find_material, has_fields, material_t, not_solved, set_constants, &
                             stress_update, thickness_strain
   use host_shape, only: is_multilinear, is_quadratic, radius_of, rule_of, rule_t
@@ -81,8 +84,9 @@ contains
     amatrx(1:n*n) = 0
     if (lflags(3) /= 3 .and. lflags(3) /= 4) then
       if (modes > 0) then
-        call integrate_with_modes(rule, direct + 2*dim - 3, modes, lflags(3) == initial_stresses, material, props(1), coords, &
-                                  int(npredf), predef, u, du, rhs, amatrx, svars, svars(nsvars - modes + 1:nsvars), energy)
+        call integrate_with_modes(rule, direct + 2*dim - 3, modes, lflags(3) == initial_stresses, lflags(2) /= 0, material, &
+                                  props(1), coords, int(npredf), predef, u, du, rhs, amatrx, svars, &
+                                  svars(nsvars - modes + 1:nsvars), energy)
       else
         call integrate(rule, direct, direct + 2*dim - 3, modes, lflags(3) == initial_stresses, lflags(2) /= 0, material, &
                        props(1), props(3), jprops(4) /= 0, coords, int(npredf), predef, u, du, rhs, amatrx, svars, energy, &
@@ -99,12 +103,13 @@ contains
     values_of_point = merge(8, 12, dim == 2)
   end function values_of_point
 
-  !> The same with incompatible modes, in small displacements: they are sought at the displacements of the nodes.
-  subroutine integrate_with_modes(rule, strains, modes, begins, material, thickness, x, fields, predef, u, du, force, &
+  !> The same with incompatible modes: they are sought at the displacements of the nodes. With large displacements (finite)
+  !> strains are small in axes that turn with the middle of the element (core_solid_rotation).
+  subroutine integrate_with_modes(rule, strains, modes, begins, finite, material, thickness, x, fields, predef, u, du, force, &
                                   stiffness, svars, alpha, energy)
     type(rule_t), intent(in) :: rule
     integer, intent(in) :: strains, modes, fields
-    logical, intent(in) :: begins
+    logical, intent(in) :: begins, finite
     type(material_t), intent(inout) :: material
     real(dp), intent(in) :: thickness, predef(2, fields, rule%nodes)
     real(dp), dimension(rule%dim*rule%nodes), intent(in) :: x, u, du
@@ -114,9 +119,17 @@ contains
     real(dp), dimension(rule%dim*rule%nodes + modes) :: all_force
     real(dp), dimension(rule%dim*rule%nodes + modes, rule%dim*rule%nodes + modes) :: all_stiffness
     real(dp) :: b(modes, strains, rule%points), change(modes), svars_start(size(svars)), energy_start(8)
+    real(dp), dimension(rule%dim*rule%nodes) :: moved
+    type(solid_turn) :: turn
     integer :: pass
     logical :: settled, good
     call mode_strains(rule, x, modes, strains, b)
+    moved = u
+    if (finite) then
+      call turn_of(rule, x, u - du, turn, moved)
+      if (.not. material%turned) call turn_states(rule, transpose(turn%rotation), svars)
+      call turn_of(rule, x, u, turn, moved)
+    end if
     svars_start = svars
     energy_start = energy
     do pass = 1, most_passes
@@ -125,18 +138,53 @@ contains
       all_force = 0
       all_stiffness = 0
       call integrate(rule, rule%dim, strains, modes, begins, .false., material, thickness, 0.0_dp, .false., x, fields, predef, &
-                     u, du, all_force, all_stiffness, svars, energy, alpha=alpha, by_modes=b)
+                     moved, du, all_force, all_stiffness, svars, energy, alpha=alpha, by_modes=b)
       if (begins) then
         force = all_force(:size(force))
         return
       end if
-      call find_change([u, alpha], all_force, all_stiffness, change, settled, good)
+      call find_change([moved, alpha], all_force, all_stiffness, change, settled, good)
       if (settled .or. .not. good) exit
       alpha = alpha + change
     end do
     if (.not. (settled .and. good)) call not_solved('the incompatible modes are not in equilibrium')
     call condense(all_force, all_stiffness, force, stiffness)
+    if (.not. finite) return
+    stiffness = turn_stiffness(rule%dim, rule%nodes, turn, force, stiffness)
+    force = turn_forces(rule%dim, rule%nodes, turn, force)
+    if (.not. material%turned) call turn_states(rule, turn%rotation, svars)
   end subroutine integrate_with_modes
+
+  !> The rotation of an element, and its displacements less it. Leaves the pass if its middle is inside out.
+  subroutine turn_of(rule, x, u, turn, moved)
+    type(rule_t), intent(in) :: rule
+    real(dp), dimension(rule%dim*rule%nodes), intent(in) :: x, u
+    type(solid_turn), intent(out) :: turn
+    real(dp), intent(out) :: moved(rule%dim*rule%nodes)
+    type(rule_t), pointer :: middle
+    real(dp) :: g(rule%nodes, rule%dim), volume
+    logical :: good
+    middle => rule_of(rule%family, 1)
+    current%deformed = .false.
+    call gradients(middle, rule%dim, 1, x, g, volume)
+    call find_turn(rule%dim, rule%nodes, transpose(g), x, u, turn, moved, good)
+    if (good) return
+    current%distorted = 1
+    call escape()
+  end subroutine turn_of
+
+  !> Strains and stresses of all points, turned by a rotation.
+  pure subroutine turn_states(rule, rotation, states)
+    type(rule_t), intent(in) :: rule
+    real(dp), intent(in) :: rotation(3, 3)
+    real(dp), intent(inout) :: states(values_of_point(rule%dim), rule%points)
+    integer :: n, p
+    n = values_of_point(rule%dim)/2
+    do p = 1, rule%points
+      states(:n, p) = rotated(n, states(:n, p), rotation, 2.0_dp)
+      states(n + 1:, p) = rotated(n, states(n + 1:, p), rotation, 1.0_dp)
+    end do
+  end subroutine turn_states
 
   !> Force, tangent, state and energies; begins: of the initial stresses, without a tangent. The unknowns are those of the
   !> nodes, then the incompatible modes.

@@ -56,8 +56,9 @@ def solid_routine(model: Model, group: ElementGroup, section: SolidSection, libr
         message = f"material {material.name} has no *DENSITY, which elements of type {group.type} need in *DYNAMIC"
         raise DeckError(material.source, message)
     nonlinear = next((step for step in model.steps if step.nlgeom), None)
-    if kind.incompatible and nonlinear is not None:
-        raise DeckError(nonlinear.source, f"NLGEOM is not supported for elements of type {group.type}")
+    if kind.incompatible and nonlinear is not None and (material.user or material.user_field):
+        message = f"NLGEOM is not supported for elements of type {group.type} with UMAT or USDFLD"
+        raise DeckError(nonlinear.source, message)
     orientation = _orientation(model, group, section, library)
     hourglass = _hourglass_stiffness(group, kind, section)
     _warn_of_enhanced(model, group, kind, library)
@@ -129,11 +130,12 @@ def _is_prestressed(model: Model, group: ElementGroup, material: Material) -> bo
 def _orientation(model: Model, group: ElementGroup, section: SolidSection, library: Library) -> Orientation | None:
     """Directions of the material; with NLGEOM only those that do not change the solution are accepted, and ignored.
 
-    These are global ones, and any of an isotropic material. UMAT would get stresses in rotating directions.
+    These are global ones, and any of an isotropic material. UMAT would get stresses in rotating directions. Elements
+    with incompatible modes accept all, as their strains are in axes that turn with them.
     """
     nonlinear = next((step for step in model.steps if step.nlgeom), None)
     orientation, material = section.orientation, section.material
-    if nonlinear is None or orientation is None:
+    if nonlinear is None or orientation is None or solid_of(group).incompatible:
         return orientation
     isotropic = material.elastic is not None and material.elastic.type is ElasticType.ISOTROPIC
     if material.user is not None or material.user_field is not None or not (isotropic or is_global(orientation)):

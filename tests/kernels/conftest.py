@@ -14,7 +14,15 @@ from harness.elements import Call, Flags, Request, build_blocks
 from harness.errors import Source
 from harness.model.mesh import ElementGroup, Mesh
 from harness.model.model import Model
-from harness.model.properties import Elastic, ElasticType, Material, SolidSection, UserElement, UserProperty
+from harness.model.properties import (
+    Elastic,
+    ElasticType,
+    Material,
+    Orientation,
+    SolidSection,
+    UserElement,
+    UserProperty,
+)
 from harness.usersub.built import path_of_amalgam
 from harness.usersub.layout import element_layouts
 
@@ -154,9 +162,11 @@ class Element:
 class BuiltIn(Element):
     """A built-in continuum element; strains and stresses are in `state`, incompatible modes are not."""
 
-    def __init__(self, library, name, coordinates, material=PLY_MATERIAL, thickness=1.0):
+    def __init__(self, library, name, coordinates, material=PLY_MATERIAL, thickness=1.0, axes=None):
         self.copies = None
-        self._build(library, name, coordinates, 1, 1, SolidSection("ALL", material, None, thickness, SOURCE), None)
+        orientation = None if axes is None else Orientation("PLY", axes, SOURCE)
+        section = SolidSection("ALL", material, orientation, thickness, SOURCE)
+        self._build(library, name, coordinates, 1, 1, section, None)
         self.names, self.points = self.block.state(0).variables.names, self.block.state(0).variables.points
 
     @property
@@ -168,7 +178,7 @@ class BuiltIn(Element):
 
 @pytest.fixture
 def built_in(library):
-    """Make a built-in element: built_in(name, coordinates, material, thickness)."""
+    """Make a built-in element: built_in(name, coordinates, material, thickness, axes of the material)."""
 
     def make(*arguments, **options):
         return BuiltIn(library, *arguments, **options)

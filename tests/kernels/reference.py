@@ -12,6 +12,7 @@ import numpy as np
 from scipy.optimize import brentq
 
 GAUSS = 1 / np.sqrt(3)
+PAIRS = ((0, 0), (1, 1), (2, 2), (0, 1), (0, 2), (1, 2))
 POINTS = {0: (-GAUSS, GAUSS), 1: (-1.0, 1.0)}
 
 
@@ -103,6 +104,28 @@ def ply_stress(strain):
     for (i, j), modulus in {(0, 1): g12, (0, 2): g13, (1, 2): g23}.items():
         stress[i, j] = stress[j, i] = 2 * modulus * strain[i, j]
     return stress
+
+
+def tensors(state, name):
+    """(points, 3, 3) stress or strain of the points of a brick."""
+    full = np.empty((8, 3, 3))
+    for (i, j), component in zip(PAIRS, ("11", "22", "33", "12", "13", "23"), strict=True):
+        values = state[f"{name}{component}"] / (2 if name == "E" and i != j else 1)
+        full[:, i, j] = full[:, j, i] = values
+    return full
+
+
+def ply_axes(coordinates, angle=0.0):
+    """Rows: axes of the ply. 3 is normal to the surface half-way between both faces, 1 at an angle from s to t = n x s,
+    s being the projection of the x axis."""
+    middle = (coordinates[:4] + coordinates[4:]) / 2
+    n = np.cross(middle[1] + middle[2] - middle[0] - middle[3], middle[2] + middle[3] - middle[0] - middle[1])
+    n /= np.linalg.norm(n)
+    s = np.array([1.0, 0, 0]) - n[0] * n
+    s /= np.linalg.norm(s)
+    c, d = np.cos(np.deg2rad(angle)), np.sin(np.deg2rad(angle))
+    t = np.cross(n, s)
+    return np.array([c * s + d * t, c * t - d * s, n])
 
 
 def strain_matrix(xy, xi, eta):

@@ -37,30 +37,7 @@ PATCH = np.vstack([CORNERS, INNER])
 # the inner brick, and one on each face of the cube
 FACES = [(0, 1, 2, 3), (7, 6, 5, 4), (0, 4, 5, 1), (1, 5, 6, 2), (2, 6, 7, 3), (3, 7, 4, 0)]
 BRICKS = [tuple(range(8, 16)), *(tuple(face) + tuple(8 + node for node in face) for face in FACES)]
-COMPONENTS = ("11", "22", "33", "12", "13", "23")
 PAIRS = ((0, 0), (1, 1), (2, 2), (0, 1), (0, 2), (1, 2))
-
-
-def tensors(state, name):
-    """(points, 3, 3) stress or strain along the axes of the ply."""
-    full = np.empty((8, 3, 3))
-    for (i, j), component in zip(PAIRS, COMPONENTS, strict=True):
-        values = state[f"{name}{component}"] / (2 if name == "E" and i != j else 1)
-        full[:, i, j] = full[:, j, i] = values
-    return full
-
-
-def axes_of(coordinates, angle=0.0):
-    """Rows: axes of the ply. 3 is normal to the surface half-way between both faces, 1 at an angle from s to t = n x s,
-    s being the projection of the x axis."""
-    middle = (coordinates[:4] + coordinates[4:]) / 2
-    n = np.cross(middle[1] + middle[2] - middle[0] - middle[3], middle[2] + middle[3] - middle[0] - middle[1])
-    n /= np.linalg.norm(n)
-    s = np.array([1.0, 0, 0]) - n[0] * n
-    s /= np.linalg.norm(s)
-    c, d = np.cos(np.deg2rad(angle)), np.sin(np.deg2rad(angle))
-    t = np.cross(n, s)
-    return np.array([c * s + d * t, c * t - d * s, n])
 
 
 def lame(young, nu):
@@ -88,7 +65,7 @@ def strain_matrices(coordinates):
 
 
 @every
-def test_patch(element, formulation):
+def test_patch(element, reference, formulation):
     """Constant strain on distorted bricks: exact stress everywhere, no residual at the inner nodes."""
     gradient = 1e-3 * np.array([[1.0, 0.4, -0.3], [0.7, -0.5, 0.2], [0.1, 0.6, 0.8]])
     strain = (gradient + gradient.T) / 2
@@ -103,17 +80,19 @@ def test_patch(element, formulation):
         rhs, tangent = item.advance(u)
         residual[list(brick)] += rhs.reshape(8, 3)
         np.testing.assert_allclose(tangent @ u.ravel(), -rhs, atol=1e-11 * abs(rhs).max())
-        axes = axes_of(nodes)
+        axes = reference.ply_axes(nodes)
         for name, expected in (("E", strain), ("S", stress)):
             turned = axes @ expected @ axes.T
-            np.testing.assert_allclose(tensors(item.state, name), [turned] * 8, atol=1e-11 * abs(expected).max())
+            np.testing.assert_allclose(
+                reference.tensors(item.state, name), [turned] * 8, atol=1e-11 * abs(expected).max()
+            )
         volume += item.energy[1] / (0.5 * np.sum(stress * strain))
     assert volume == pytest.approx(1.0, rel=1e-12)
     assert abs(residual[8:]).max() < 1e-12 * abs(residual[:8]).max()
 
 
 @pytest.mark.parametrize("angle", [0.0, 35.0])
-def test_patch_of_plies(element, angle):
+def test_patch_of_plies(element, reference, angle):
     """The same with plies, in prisms, which lie alike: a distorted patch of quads between two planes."""
     plane = np.array(
         [[0, 0], [0.24, 0], [0.24, 0.12], [0, 0.12], [0.04, 0.02], [0.18, 0.03], [0.16, 0.08], [0.08, 0.08]]
@@ -128,7 +107,7 @@ def test_patch_of_plies(element, angle):
             brick = [*quad, *(8 + node for node in quad)]
             item = element(9, nodes[brick], ANGLE=angle, FORMULATION=formulation)
             residual[brick] += item.advance(nodes[brick] @ gradient.T)[0].reshape(8, 3)
-            states.append(tensors(item.state, "S"))
+            states.append(reference.tensors(item.state, "S"))
         np.testing.assert_allclose(
             states, np.broadcast_to(states[0][0], (5, 8, 3, 3)), atol=1e-10 * np.abs(states).max()
         )
@@ -143,15 +122,15 @@ def test_forces_are_integrals_of_the_stress(element, reference, angle):
     item = element(9, DISTORTED, ANGLE=angle)
     u = 1e-3 * np.random.default_rng(1).normal(size=24)
     rhs, _ = item.advance(u)
-    axes = axes_of(DISTORTED, angle)
+    axes = reference.ply_axes(DISTORTED, angle)
     force = np.zeros(24)
-    stresses = tensors(item.state, "S")
+    stresses = reference.tensors(item.state, "S")
     for k, (b, jacobian) in enumerate(zip(*strain_matrices(DISTORTED), strict=True)):
         strain = np.zeros((3, 3))
         for (i, j), value in zip(PAIRS, b @ u, strict=True):
             strain[i, j] = strain[j, i] = value / (1 if i == j else 2)
         local = axes @ strain @ axes.T
-        np.testing.assert_allclose(tensors(item.state, "E")[k], local, atol=1e-11 * abs(local).max())
+        np.testing.assert_allclose(reference.tensors(item.state, "E")[k], local, atol=1e-11 * abs(local).max())
         stress = reference.ply_stress(local)
         np.testing.assert_allclose(stresses[k], stress, atol=1e-11 * abs(stress).max())
         whole = axes.T @ stress @ axes
@@ -161,20 +140,22 @@ def test_forces_are_integrals_of_the_stress(element, reference, angle):
 
 @pytest.mark.parametrize("formulation", BUILT_IN)
 @pytest.mark.parametrize("material", [STEEL, RUBBER, YIELDING], ids=lambda material: material.name)
-def test_same_as_the_built_in_brick(element, built_in, formulation, material):
+def test_same_as_the_built_in_brick(element, built_in, reference, formulation, material):
     """C3D8I and C3D8, over two increments."""
     item = element(9, DISTORTED, FORMULATION=formulation, material=material)
     other = built_in(BUILT_IN[formulation], DISTORTED, material)
     rng = np.random.default_rng(1)
-    turn = axes_of(DISTORTED)
+    turn = reference.ply_axes(DISTORTED)
     for _ in range(2):
         u = 4e-3 * rng.normal(size=24)
         for method in ("evaluate", "advance"):
             (rhs, tangent), (expected, matrix) = (getattr(brick, method)(u) for brick in (item, other))
             np.testing.assert_allclose(rhs, expected, atol=1e-9 * abs(expected).max())
             np.testing.assert_allclose(tangent, matrix, atol=1e-9 * abs(matrix).max())
-        stress = tensors(other.state, "S")
-        np.testing.assert_allclose(turn.T @ tensors(item.state, "S") @ turn, stress, atol=1e-8 * abs(stress).max())
+        stress = reference.tensors(other.state, "S")
+        np.testing.assert_allclose(
+            turn.T @ reference.tensors(item.state, "S") @ turn, stress, atol=1e-8 * abs(stress).max()
+        )
     if material is YIELDING:
         assert item.energy[1] > 0.5 * u @ tangent @ u
 
@@ -286,7 +267,7 @@ def test_uneven_response_of_the_material_needs_equilibrium_of_the_modes(element,
         differences = -reference.central_differences(lambda w: item.evaluate(w)[0], u.ravel(), step=1e-7)
         assert abs(tangent - differences).max() <= 1e-6 * abs(tangent).max()
         item.advance(u)
-    stress = tensors(item.state, "S")
+    stress = reference.tensors(item.state, "S")
     # the modes see to it that the stress across the brick is small where the fibres yield
     assert abs(stress[:, 0, 0]).min() > 190 and abs(stress[:, 2, 2]).max() < 0.1 * abs(stress[:, 0, 0]).max()
 

@@ -14,13 +14,10 @@
 !> So the forces are in equilibrium on the deformed element, the matrix of an elastic one is symmetric, and no energy is lost in
 !> rotations. (The element-independent co-rotational formulation: C.A. Felippa, B. Haugen, Computer Methods in Applied Mechanics
 !> and Engineering 194 (2005) 2285; this is for solids, with the exact derivative.)
-module elements_solid_rotation
+module core_solid_rotation
   use core_kinds, only: dp
-  use core_rotation, only: cross, polar_rotation
+  use core_rotation, only: about_mean, cross, polar_rotation
   use core_small_matrix, only: invert
-  use core_status, only: status_type
-  use elements_bulk_solid, only: solid_gradient
-  use elements_interface_rotation, only: about_mean
   implicit none(type, external)
   private
   public :: solid_turn, find_turn, turn_forces, turn_stiffness
@@ -36,29 +33,26 @@ module elements_solid_rotation
 contains
 
   !> The rotation, and the displacements less it.
-  pure subroutine find_turn(dim, nodes, coordinates, u, turn, moved, good)
+  pure subroutine find_turn(dim, nodes, gradient, coordinates, u, turn, moved, good)
     integer, intent(in) :: dim, nodes
-    real(dp), intent(in) :: coordinates(dim, nodes), u(dim*nodes)
+    real(dp), intent(in) :: gradient(dim, nodes)     !< of the shape functions in the middle of the original element
+    real(dp), intent(in) :: coordinates(dim*nodes), u(dim*nodes)
     type(solid_turn), intent(out) :: turn
-    real(dp), intent(out) :: moved(dim*nodes)     !< v
-    logical, intent(out) :: good                  !< false where the middle is inside out
-    real(dp), parameter :: origin(3) = 0.0_dp
-    real(dp), dimension(dim*nodes) :: original
+    real(dp), intent(out) :: moved(dim*nodes)        !< v
+    logical, intent(out) :: good                     !< false where the middle is inside out
     real(dp) :: deformation(3, 3), stretch(3, 3), moment(3, 3), present(3, 8), determinant
-    type(status_type) :: status
     integer :: i
 
-    original = about_mean(dim, reshape(coordinates, [dim*nodes]))
     present = 0.0_dp
-    present(:dim, :nodes) = reshape(about_mean(dim, reshape(coordinates, [dim*nodes]) + u), [dim, nodes])
-    call solid_gradient(dim, nodes, coordinates, origin(:dim), turn%gradient(:dim, :nodes), status)
+    present(:dim, :nodes) = reshape(about_mean(dim, coordinates + u), [dim, nodes])
+    turn%gradient(:dim, :nodes) = gradient
     deformation = matmul(present, transpose(turn%gradient))
     if (dim == 2) deformation(3, 3) = 1.0_dp
     moved = 0.0_dp
     call polar_rotation(deformation, turn%rotation, good)
     if (.not. good) return
     turn%place = matmul(transpose(turn%rotation), present)
-    moved = reshape(turn%place(:dim, :nodes), [dim*nodes]) - original
+    moved = reshape(turn%place(:dim, :nodes), [dim*nodes]) - about_mean(dim, coordinates)
     stretch = matmul(transpose(turn%rotation), deformation)
     moment = -stretch
     do i = 1, 3
@@ -180,4 +174,4 @@ contains
     unit(i) = 1.0_dp
   end function axis
 
-end module elements_solid_rotation
+end module core_solid_rotation
