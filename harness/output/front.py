@@ -161,8 +161,11 @@ def fronts(result: Result, damage: float = DAMAGE) -> list[Front]:
             continue
         for number, surface in enumerate(surfaces, 1):
             nodal = _nodal(surface, profile)
-            for line, front in enumerate(_lines(surface, nodal["DAMAGE"], damage), 1):
-                places, ahead, tractions, releases = _along(surface, nodal, front)
+            lines = _lines(surface, nodal["DAMAGE"], damage)
+            for line, (front, reach) in enumerate(
+                zip(lines, _reaches(surface, nodal["DAMAGE"], lines), strict=True), 1
+            ):
+                places, ahead, tractions, releases = _along(surface, nodal, front, reach)
                 found.append(
                     Front(frame.step, frame.increment, frame.time, number, line, places, ahead, tractions, releases)
                 )
@@ -231,7 +234,7 @@ def _surfaces(mesh: meshio.Mesh) -> list[_Surface]:
         if block.type == "quad" and np.isfinite(values).all():
             cells.append(block.data)
             labels.append(names)
-    if not cells or not np.ptp(mesh.points[np.concatenate(cells).ravel()], axis=0).astype(bool).any():
+    if not cells:
         return []
     faces, elements = np.concatenate(cells), np.concatenate(labels)
     rows = np.repeat(np.arange(len(faces)), 4)
@@ -285,7 +288,7 @@ def _even(line: FloatArray, distance: float) -> FloatArray:
 
 
 def _along(
-    surface: _Surface, nodal: Mapping[str, FloatArray], line: FloatArray
+    surface: _Surface, nodal: Mapping[str, FloatArray], line: FloatArray, reach: float
 ) -> tuple[FloatArray, FloatArray, FloatArray, FloatArray]:
     """Places, normals, tractions and energy release rates of a front, as in `Front`."""
     triangulation = surface.triangulation
@@ -303,7 +306,6 @@ def _along(
     ahead = ahead * (-1.0 if np.sum(slope) > 0.0 else 1.0)
     tangent = np.stack([-ahead[:, 1], ahead[:, 0]], axis=-1)
 
-    reach = _reach(surface, nodal["DAMAGE"], line)
     offsets = np.linspace(-reach, reach, 1 + 2 * max(1, round(_SAMPLES * reach / surface.size)))
     where = line[:, None] + offsets[:, None] * ahead[:, None]
     traction = np.stack([np.nan_to_num(at(values, where)) for values in nodal["T"].T], axis=-1)
@@ -330,11 +332,17 @@ def _tangents(line: FloatArray) -> FloatArray:
     return np.asarray(chords / np.linalg.norm(chords, axis=1)[:, None])
 
 
-def _reach(surface: _Surface, damage: FloatArray, line: FloatArray) -> float:
-    """Half the length of the lines through the process zone: it holds all that is damaged in part, and three faces."""
+def _reaches(surface: _Surface, damage: FloatArray, lines: list[FloatArray]) -> list[float]:
+    """Half the length of the lines through the process zone of each front.
+
+    It holds all that is damaged in part and closer to this front than to others, and three faces.
+    """
+    if not lines:
+        return []
     partly = (damage > 1e-3) & (damage < 1.0 - 1e-3)
     plane = np.column_stack([surface.triangulation.x, surface.triangulation.y])[partly]
-    distances = cKDTree(line).query(plane)[0] if len(plane) else np.zeros(1)
-    # a place far from this front belongs to another
-    spread = np.percentile(distances, 99.0) if len(distances) > 100 else distances.max()
-    return float(spread) + 3.0 * surface.size
+    # a front passes between nodes, which may all be undamaged or failed
+    distances = np.stack([cKDTree(line).query(plane)[0] for line in lines])
+    closest = np.argmin(distances, axis=0)
+    spreads = [np.append(0.0, distances[k, closest == k]).max() for k in range(len(lines))]
+    return [float(spread) + 3.0 * surface.size for spread in spreads]

@@ -43,6 +43,10 @@ class Disc(Result):
         # elements are numbered neither from one nor in the order of the file
         self.labels = np.random.default_rng(1).permutation(len(cells)) + 100
 
+    @staticmethod
+    def damage(radius: np.ndarray) -> np.ndarray:
+        return np.clip(0.5 + (RADIUS - radius) / ZONE, 0.0, 1.0)
+
     @property
     def frames(self) -> list[Frame]:
         return [Frame(1, 3, 0.5, Path("none.vtu"))]
@@ -58,7 +62,7 @@ class Disc(Result):
     def interfaces(self) -> list[dict[str, np.ndarray]]:
         x, y, _ = self.points.T
         radius = np.hypot(x, y)
-        damage = np.clip(0.5 + (RADIUS - radius) / ZONE, 0.0, 1.0)
+        damage = self.damage(radius)
         outward = np.stack([x, y], axis=-1) / radius[:, None]
         around = np.stack([-outward[:, 1], outward[:, 0]], axis=-1)
         count = len(x)
@@ -91,6 +95,26 @@ def test_a_round_front(tilt: float, names: str) -> None:
     inner = slice(2, -2)
     assert np.abs(front.tractions[inner]) == pytest.approx(np.tile(0.5 * STRENGTH, (len(radius) - 4, 1)), rel=0.1)
     assert front.releases[inner] == pytest.approx(np.tile(G, (len(radius) - 4, 1)), rel=0.08)
+
+
+class Ring(Disc):
+    """The delamination between two circles, which grows inwards and outwards; its zones are 1.5 long."""
+
+    @staticmethod
+    def damage(radius: np.ndarray) -> np.ndarray:
+        return np.clip(0.5 + (2.0 - np.abs(radius - RADIUS)) / 1.5, 0.0, 1.0)
+
+
+def test_two_fronts_of_one_surface() -> None:
+    """Each has its own process zone, of three elements."""
+    inner, outer = sorted(fronts(Ring()), key=lambda front: np.abs(front.places).max())
+    assert (inner.surface, outer.surface) == (1, 1)
+    for front, radius, side in ((inner, 4.0, -1.0), (outer, 8.0, 1.0)):
+        places = front.places[:, :2]
+        assert np.hypot(*places.T) == pytest.approx(radius, abs=0.15)
+        assert (side * np.sum(front.ahead[:, :2] * places, axis=1)).min() > 0.9 * radius
+        middle = slice(3, -3)
+        assert front.releases[middle].mean(axis=0) == pytest.approx(G, rel=0.15)
 
 
 def test_another_damage_is_elsewhere() -> None:
