@@ -9,6 +9,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from harness.cli import main
 from harness.delamination import plate_specimens as build
 from harness.delamination.blocks import Interface
 from harness.delamination.keywords import text
@@ -183,3 +184,9 @@ def test_the_front_releases_the_fracture_energy(kind: str, tmp_path: Path) -> No
     # the first and the last lines leave the surface on their way
     assert last[0].releases[:, 0] == pytest.approx(np.full(len(last[0].places), toughness), rel=0.1)
     assert np.abs(last[0].releases[:, 1:]).max() < 0.02 * toughness
+    # the command gives the same
+    assert main(["front", str(tmp_path / kind)]) == 0
+    rows = np.genfromtxt(tmp_path / f"{kind}_front.csv", delimiter=",", names=True)
+    ends = rows[rows["time"] == last[0].time]
+    assert ends["GI"] == pytest.approx(last[0].releases[:, 0], rel=1e-6)
+    assert (tmp_path / f"{kind}_front.png").exists()
