@@ -190,3 +190,25 @@ def test_the_front_releases_the_fracture_energy(kind: str, tmp_path: Path) -> No
     ends = rows[rows["time"] == last[0].time]
     assert ends["GI"] == pytest.approx(last[0].releases[:, 0], rel=1e-6)
     assert (tmp_path / f"{kind}_front.png").exists()
+
+
+@pytest.mark.parametrize("kind", INTERFACES)
+def test_a_sliding_front_releases_the_shear_toughness(kind: str, tmp_path: Path) -> None:
+    """End-notched flexure beyond its peak: G_II = G_IIc, and nothing in the other modes."""
+    toughness = 1.0
+    x, z = np.linspace(0.0, LENGTH, 121), np.linspace(0.0, HEIGHT, 2)
+    law = Cohesive(0.0, 0.0, 30.0, 60.0, 0.26, toughness)
+    stiffness = 0.0 if kind == "U8" else 1.0e5
+    interface = replace(INTERFACES[kind], cohesive=law.with_stiffness(stiffness), eta=2.0)
+    bonded = np.broadcast_to(x[:-1] > 22.0 - 1e-9, (1, len(x) - 1))
+    mesh = TwoPlateMesh(x, np.array([0.0, WIDTH]), z - HEIGHT, z, bonded)
+    deck = tmp_path / "enf.inp"
+    lines = build.enf_deck(
+        "ENF", Laminate(mesh, interface, (PLY,), (PLY,)), 1.4, (0.05, 1.0, 1.0e-6, 0.05), part=build.STRIP, every=2
+    )
+    deck.write_text(text(lines))
+    last = fronts(run(deck, output_dir=tmp_path, fallback=True))[-1]
+    assert last.places[:, 0].min() > 26.0
+    # the process zone is 14 elements long
+    assert last.releases[:, 1] == pytest.approx(np.full(len(last.places), toughness), rel=0.03)
+    assert np.abs(last.releases[:, [0, 2]]).max() < 0.01 * toughness
