@@ -11,7 +11,7 @@ import pytest
 from harness.delamination.batch import run_deck
 from harness.delamination.oscillation import surface_variation
 from harness.delamination.study import surface
-from harness.delamination.study.reference import FOLDER
+from harness.delamination.study.reference import FOLDER, run_reference
 from harness.delamination.study.spatial import field, refined, restricted, stacked
 from harness.delamination.study.surface import ALLOWED, COLUMNS, SurfaceCase, SurfaceMesh
 
@@ -114,7 +114,7 @@ def test_table_of_the_page() -> None:
 @pytest.mark.parametrize("mesh", ["turned", "bumpy"])
 def test_rows_of_the_page(mesh: str, tmp_path: Path) -> None:
     cases = [case for case in surface.all_cases() if case.mesh.name == mesh and case.stiffness == "1e8"]
-    surface.run_reference(cases[0].reference, tmp_path / FOLDER)
+    run_reference(cases[0].reference, tmp_path / FOLDER)
     for case in cases:
         found = surface.run_case(case, tmp_path / surface.ROWS)
         (row,) = (

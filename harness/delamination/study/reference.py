@@ -19,7 +19,7 @@ from dataclasses import dataclass
 from functools import lru_cache
 from pathlib import Path
 
-from harness.delamination.batch import run_deck
+from harness.delamination.batch import Deck, run_deck
 from harness.delamination.blocks import Interface
 from harness.delamination.materials import TABLE_2
 from harness.delamination.mesh import refined
@@ -85,7 +85,7 @@ def reference_of(case: StudyCase) -> StudyReference:
     return StudyReference(case.specimen, case.layup, case.mesh)
 
 
-def run_reference(reference: StudyReference, folder: Path) -> ReferenceRun:
+def run_reference(reference: Deck, folder: Path) -> ReferenceRun:
     """Run a reference in a folder of its name below `folder`, with the fall-back."""
     outcome = run_deck(reference, folder, fallback=True)
     return ReferenceRun(outcome.stopped, outcome.seconds)

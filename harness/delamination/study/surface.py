@@ -32,7 +32,7 @@ from harness.delamination.measures import cutbacks, iterations, load
 from harness.delamination.mesh import graded_columns
 from harness.delamination.oscillation import surface_index, surface_variation
 from harness.delamination.study.digests import head, line
-from harness.delamination.study.reference import FOLDER, ReferenceRun
+from harness.delamination.study.reference import FOLDER, ReferenceRun, run_reference
 from harness.delamination.study.spatial import Cantilever, Field, field, refined, restricted, stacked
 from harness.model.arrays import FloatArray
 from harness.output import Result
@@ -197,12 +197,6 @@ class SurfaceRow:
     def from_json(cls, entries: Mapping[str, object]) -> SurfaceRow:
         """Row of the entries that `to_json` gave."""
         return cls(**entries)  # type: ignore[arg-type]
-
-
-def run_reference(case: SurfaceCase, folder: Path) -> ReferenceRun:
-    """Run a reference in a folder of its name below `folder`, with the fall-back."""
-    outcome = run_deck(case, folder, fallback=True)
-    return ReferenceRun(outcome.stopped, outcome.seconds)
 
 
 def run_case(case: SurfaceCase, folder: Path) -> SurfaceRow:
