@@ -216,7 +216,10 @@ def test_tangent_is_that_of_the_own_nodes(element, reference):
             r"bulk element 12 is not a neighbour: its face 4 does not lie on that face of the interface",
         ),
         ({"OFFSETBOTTOM": -388, "OFFSETTOP": -389}, r"U10 element 400: .*bulk element 12 is not a neighbour"),
-        ({"BETAN": -1.0}, r"U10 element 400: PROPS\(13\) BETAN = -1.*zero or a positive value, or -1 in a self-contained element"),
+        (
+            {"BETAN": -1.0},
+            r"U10 element 400: PROPS\(13\) BETAN = -1.*zero or a positive value, or -1 in a self-contained element",
+        ),
         ({"ALPHAN": 0.0}, r"U10 element 400: PROPS\(1\) ALPHAN = 0.*requires CLOSURE = 1"),
         (
             {"CLOSURE": 1, "BETAN": 1.0e3},
