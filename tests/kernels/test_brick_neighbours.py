@@ -76,7 +76,7 @@ def opened(gap, seed, strain=2e-5):
 @every_option
 @pytest.mark.parametrize("state", GAPS)
 def test_same_as_sixteen_nodes(element, options, state):
-    """Plies between parallel faces: traction, state and forces of U8, over two increments."""
+    """Plies between parallel faces: traction, state, energies and forces of U8, over two increments."""
     eight = element(8, places(), **{"ANGLE BOTTOM": 30.0, "ANGLE TOP": 30.0}, **options)
     ten = Sandwich(element, 10, places(), solids={"ANGLE": 30.0}, **options)
     for u in (opened((-1e-3, 1e-3, 1.5e-3), 1), opened(GAPS[state], 2)):
@@ -85,6 +85,7 @@ def test_same_as_sixteen_nodes(element, options, state):
         np.testing.assert_allclose(found, forces, atol=1e-9 * abs(forces).max() + 1e-10)
         for name, values in ten.state.items():
             np.testing.assert_allclose(values, eight.state[name], rtol=1e-8, atol=1e-9, err_msg=name)
+        np.testing.assert_allclose(ten.energy, eight.energy, rtol=1e-8, atol=1e-12)
 
 
 @pytest.mark.parametrize("sampling", [0, 1, 2])
