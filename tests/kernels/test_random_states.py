@@ -24,6 +24,7 @@ from random_states import (
     run,
     separations,
 )
+from space import QUADRATIC
 
 cases = pytest.mark.parametrize(("variant", "kind", "extra"), CASES + SPACE_CASES)
 
@@ -96,7 +97,9 @@ def tools(element, interface, library, reference):
 @one_library
 @cases
 def test_tangents(tools, variant, kind, extra):
-    assert sum(run(check_tangents, 2, tools, variant, kind, extra, again=True)) > STATES
+    # a quadratic element in space takes as long as ten others
+    examples = 1 if IN_SPACE.get(variant, (0, 0))[0] in QUADRATIC else 2
+    assert sum(run(check_tangents, examples, tools, variant, kind, extra, again=True)) > examples * STATES / 2
 
 
 @pytest.mark.long

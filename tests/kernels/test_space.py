@@ -4,6 +4,7 @@
 
 import numpy as np
 import pytest
+from random_states import one_library
 from reference import serendipity
 from scipy.spatial.transform import Rotation
 from space import (
@@ -66,6 +67,7 @@ GAPS = {
 }
 
 
+@one_library
 @pytest.mark.parametrize("law", LAWS)
 @pytest.mark.parametrize("name", ELEMENTS)
 @pytest.mark.parametrize("state", GAPS)
