@@ -364,14 +364,20 @@ contains
     real(dp), intent(in) :: weight                       !< volume of the point
     real(dp), intent(in) :: b(n, strains), modulus(strains, strains)   !< modulus need not be symmetric
     real(dp), intent(inout) :: matrix(n, n)
-    real(dp) :: stress
+    real(dp) :: stress(n, strains)      ! by the unknowns
     integer :: i, j
 
-    ! loops: for such small matrices matmul costs more than the products
+    ! loops: for such small matrices matmul costs more than the products; strains come in threes
+    stress = 0.0_dp
+    do j = 1, strains
+      do i = 1, strains, 3
+        stress(:, j) = stress(:, j) + (weight*modulus(j, i))*b(:, i) + (weight*modulus(j, i + 1))*b(:, i + 1) &
+          + (weight*modulus(j, i + 2))*b(:, i + 2)
+      end do
+    end do
     do j = first, last
-      do i = 1, strains
-        stress = weight*sum(modulus(i, :)*b(j, :))
-        matrix(:, j) = matrix(:, j) + stress*b(:, i)
+      do i = 1, strains, 3
+        matrix(:, j) = matrix(:, j) + stress(j, i)*b(:, i) + stress(j, i + 1)*b(:, i + 1) + stress(j, i + 2)*b(:, i + 2)
       end do
     end do
   end subroutine add_stiffness
