@@ -76,6 +76,7 @@ contains
     real(dp), intent(out) :: gradient(dim, nodes)     !< 1/length
     real(dp), intent(out) :: jacobian                 !< area or volume
     real(dp) :: by_xi(2), by_eta(2), inverse(3, 3)
+    integer :: a
 
     if (dim == 3) then
       call invert(3, matmul(coordinates, by_parent), inverse, jacobian)
@@ -83,8 +84,12 @@ contains
       if (.not. jacobian > 0.0_dp) gradient = 0.0_dp
       return
     end if
-    by_xi = matmul(coordinates, by_parent(:, 1))
-    by_eta = matmul(coordinates, by_parent(:, 2))
+    by_xi = 0.0_dp
+    by_eta = 0.0_dp
+    do a = 1, nodes
+      by_xi = by_xi + coordinates(1:2, a)*by_parent(a, 1)
+      by_eta = by_eta + coordinates(1:2, a)*by_parent(a, 2)
+    end do
     jacobian = by_xi(1)*by_eta(2) - by_xi(2)*by_eta(1)
     if (jacobian > 0.0_dp) then
       gradient(1, :) = (by_eta(2)*by_parent(:, 1) - by_xi(2)*by_parent(:, 2))/jacobian

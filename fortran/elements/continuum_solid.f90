@@ -78,9 +78,13 @@ contains
     integer :: k, nodes
 
     nodes = 2**dim
-    call solid_gradient(dim, nodes, coordinates, origin(:dim), gradient, status)
-    to_parent = matmul(real(node_places(dim), dp), transpose(gradient))
-    at_middle = status%value
+    to_parent = 0.0_dp
+    at_middle = 0.0_dp
+    if (formulation == incompatible_modes) then
+      call solid_gradient(dim, nodes, coordinates, origin(:dim), gradient, status)
+      to_parent = matmul(real(node_places(dim), dp), transpose(gradient))
+      at_middle = status%value
+    end if
     b = 0.0_dp
     do k = 1, size(places, 2)
       call solid_gradient(dim, nodes, coordinates, places(:, k), gradient, status)
