@@ -27,6 +27,7 @@ from harness.model.element_types import CONTINUUM
 
 SPRING = """! a spring of a node to the ground along x: PROPS(1) U + PROPS(2) U**3
       include '{include}'
+      if (nrhs == 2) rhs(1,2) = 0
       rhs(1,1) = -props(1)*u(1) - props(2)*u(1)**3
       amatrx(1,1) = props(1) + 3*props(2)*u(1)**2
       energy(2) = props(1)*u(1)**2/2 + props(2)*u(1)**4/4

@@ -117,8 +117,9 @@ def test_what_lies_outside_arguments(findings, mistake, check, message):
             "open (newunit=k, status='scratch')",
             r"100 equal calls leave 100 files open, .*gfortrantmp.* among them",
         ),
-        # 64 bytes and the 16 of malloc in each call, more or less what else this process takes and frees
-        ("call leak(64)", r"100 equal calls allocate [78]\d\d\d bytes that they do not free"),
+        # 64 bytes and the 16 of malloc in each call, or 32 where it finds a piece too small to split, more or less what
+        # else this process takes and frees
+        ("call leak(64)", r"100 equal calls allocate [7-9]\d\d\d bytes that they do not free"),
         ("call leak(200000)", r"100 equal calls allocate \d+ bytes that they do not free"),
     ],
 )
