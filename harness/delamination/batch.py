@@ -11,11 +11,11 @@ import shutil
 import time
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from concurrent.futures import Future, ProcessPoolExecutor, as_completed
-from dataclasses import dataclass
+from dataclasses import asdict, dataclass
 from functools import cache
 from multiprocessing import get_context
 from pathlib import Path
-from typing import Generic, Protocol, TypeVar
+from typing import Generic, Protocol, Self, TypeVar
 
 from rich.console import Console
 from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeElapsedColumn
@@ -40,13 +40,23 @@ class Deck(Protocol):
         """The deck and the files that it includes, by name."""
 
 
-class _Entry(Protocol):
+class StoredRow:
+    """What a `Store` keeps of a run: base of dataclasses of numbers and texts."""
+
+    __slots__ = ()
+
     def to_json(self) -> dict[str, object]:
-        """Entries by name, in types of JSON."""
+        """Values by name, in types of JSON."""
+        return asdict(self)  # type: ignore[call-overload, no-any-return]
+
+    @classmethod
+    def from_json(cls, values: Mapping[str, object]) -> Self:
+        """Entry of the values that `to_json` gave."""
+        return cls(**values)
 
 
 DeckT = TypeVar("DeckT", bound=Deck)
-EntryT = TypeVar("EntryT", bound=_Entry)
+EntryT = TypeVar("EntryT", bound=StoredRow)
 T = TypeVar("T")
 
 

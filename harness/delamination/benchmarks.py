@@ -11,7 +11,7 @@ import subprocess
 import sys
 import time
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import asdict, dataclass
+from dataclasses import dataclass
 from functools import partial
 from pathlib import Path
 
@@ -19,7 +19,7 @@ import numpy as np
 from rich.console import Console
 
 from harness.delamination import literature, literature_measures, measures
-from harness.delamination.batch import Store, complete
+from harness.delamination.batch import Store, StoredRow, complete
 from harness.delamination.decks import FOLDER
 from harness.errors import UelError
 from harness.model.arrays import FloatArray
@@ -48,7 +48,7 @@ class Benchmark:
 
 
 @dataclass(frozen=True, slots=True)
-class Row:
+class Row(StoredRow):
     """What a run took, and what it gave.
 
     stopped     '' for a run to the end, else why not
@@ -67,10 +67,6 @@ class Row:
     wall: float
     memory: float
     values: dict[str, tuple[float, float]]
-
-    def to_json(self) -> dict[str, object]:
-        """Entries by name, in types of JSON."""
-        return asdict(self)
 
 
 def read_row(entry: Mapping[str, object]) -> Row:

@@ -5,14 +5,14 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import asdict, dataclass
+from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
 
 import numpy as np
 from rich.console import Console
 
-from harness.delamination.batch import Store, complete, run_deck
+from harness.delamination.batch import Store, StoredRow, complete, run_deck
 from harness.delamination.reproduce.cases import PaperCase
 from harness.delamination.reproduce.patch_cases import PatchCase
 from harness.delamination.study.rows import bonded_part
@@ -26,7 +26,7 @@ Profile = dict[str, FloatArray]
 
 
 @dataclass(frozen=True, slots=True)
-class Entry:
+class Entry(StoredRow):
     """How a run ended.
 
     stopped   why it stopped early; empty for a run that finished
@@ -39,15 +39,6 @@ class Entry:
     iterations: int
     cutbacks: int
     seconds: float
-
-    def to_json(self) -> dict[str, object]:
-        """Entries by name."""
-        return asdict(self)
-
-    @classmethod
-    def from_json(cls, entries: Mapping[str, object]) -> Entry:
-        """Entry of the mapping that `to_json` gave."""
-        return cls(**entries)  # type: ignore[arg-type]
 
     def __str__(self) -> str:
         end = f"stopped: {self.stopped}" if self.stopped else "finished"

@@ -18,13 +18,13 @@ import argparse
 import os
 import sys
 from collections.abc import Mapping, Sequence
-from dataclasses import asdict, dataclass, replace
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 import numpy as np
 from rich.console import Console
 
-from harness.delamination.batch import Store, complete, run_deck
+from harness.delamination.batch import Store, StoredRow, complete, run_deck
 from harness.delamination.blocks import Interface
 from harness.delamination.materials import TABLE_2
 from harness.delamination.measures import cutbacks, iterations, load
@@ -179,7 +179,7 @@ Case = BetaCase | SpaceCase
 
 
 @dataclass(frozen=True, slots=True)
-class BetaRow:
+class BetaRow(StoredRow):
     """Numbers of a run.
 
     stopped    why it stopped early; empty for a run that finished
@@ -197,15 +197,6 @@ class BetaRow:
     cutbacks: int
     iterations: int
     index: float
-
-    def to_json(self) -> dict[str, object]:
-        """Entries by name."""
-        return asdict(self)
-
-    @classmethod
-    def from_json(cls, entries: Mapping[str, object]) -> BetaRow:
-        """Row of the entries that `to_json` gave."""
-        return cls(**entries)  # type: ignore[arg-type]
 
 
 def run_case(case: Case, folder: Path) -> BetaRow:

@@ -14,12 +14,11 @@ the two are compared: the two Gauss points of a facet have the same weight, and 
 
 from __future__ import annotations
 
-from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import lru_cache
 from pathlib import Path
 
-from harness.delamination.batch import Deck, run_deck
+from harness.delamination.batch import Deck, StoredRow, run_deck
 from harness.delamination.blocks import Interface
 from harness.delamination.materials import TABLE_2
 from harness.delamination.mesh import refined
@@ -64,7 +63,7 @@ class StudyReference:
 
 
 @dataclass(frozen=True, slots=True)
-class ReferenceRun:
+class ReferenceRun(StoredRow):
     """How a reference ended: `stopped` says why it stopped early, empty if it finished; wall-clock time."""
 
     stopped: str
@@ -73,11 +72,6 @@ class ReferenceRun:
     def to_json(self) -> dict[str, object]:
         """Entries by name."""
         return {"stopped": self.stopped, "seconds": self.seconds}
-
-    @classmethod
-    def from_json(cls, entries: Mapping[str, object]) -> ReferenceRun:
-        """Run of the entries that `to_json` gave."""
-        return cls(**entries)  # type: ignore[arg-type]
 
 
 def reference_of(case: StudyCase) -> StudyReference:

@@ -4,11 +4,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-from dataclasses import asdict, dataclass
+from dataclasses import dataclass
 
 import numpy as np
 
+from harness.delamination.batch import StoredRow
 from harness.delamination.materials import TABLE_2
 from harness.delamination.measures import dissipated
 from harness.delamination.oscillation import error_index, oscillation_index, raw_index, total_variation
@@ -25,7 +25,7 @@ STRENGTHS = {"TN": TABLE_2.strength_normal, "TT": TABLE_2.strength_shear}
 
 
 @dataclass(frozen=True, slots=True)
-class StudyRow:
+class StudyRow(StoredRow):
     """Numbers of one row. If the run stopped early, they hold up to that point.
 
     reached      part of the final displacement
@@ -86,15 +86,6 @@ class StudyRow:
     def iterations_per_increment(self) -> float:
         """Mean number of iterations of the increments without a snap."""
         return (self.iterations - self.snap_iterations) / max(self.increments - self.snaps, 1)
-
-    def to_json(self) -> dict[str, object]:
-        """Entries by name."""
-        return asdict(self)
-
-    @classmethod
-    def from_json(cls, entries: Mapping[str, object]) -> StudyRow:
-        """Row of the entries that `to_json` gave."""
-        return cls(**entries)  # type: ignore[arg-type]
 
 
 def measure(case: StudyCase, result: Result, stopped: str, seconds: float, real: list[Profile]) -> StudyRow:

@@ -16,7 +16,7 @@ import os
 import sys
 from bisect import bisect_left
 from collections.abc import Mapping, Sequence
-from dataclasses import asdict, dataclass
+from dataclasses import dataclass
 from functools import lru_cache
 from operator import itemgetter
 from pathlib import Path
@@ -27,7 +27,7 @@ from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 from rich.console import Console
 
-from harness.delamination.batch import Store, complete, run_deck
+from harness.delamination.batch import Store, StoredRow, complete, run_deck
 from harness.delamination.measures import cutbacks, iterations, load
 from harness.delamination.mesh import graded_columns
 from harness.delamination.oscillation import surface_index, surface_variation
@@ -168,7 +168,7 @@ def all_cases() -> list[SurfaceCase]:
 
 
 @dataclass(frozen=True, slots=True)
-class SurfaceRow:
+class SurfaceRow(StoredRow):
     """Numbers of one row. If the run stopped early, they hold up to that point.
 
     stopped      why it stopped early; empty for a run that finished
@@ -188,15 +188,6 @@ class SurfaceRow:
     real: float
     index: float
     growth: float
-
-    def to_json(self) -> dict[str, object]:
-        """Entries by name."""
-        return asdict(self)
-
-    @classmethod
-    def from_json(cls, entries: Mapping[str, object]) -> SurfaceRow:
-        """Row of the entries that `to_json` gave."""
-        return cls(**entries)  # type: ignore[arg-type]
 
 
 def run_case(case: SurfaceCase, folder: Path) -> SurfaceRow:
