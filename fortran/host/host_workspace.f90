@@ -23,6 +23,8 @@ module host_workspace
   !> Entries of a guard that belong to the array after it. As many as the array before it has, within limits, belong to that one, so
   !> a routine that assumes an array twice as large hits the guard and not the next array. A check may ask for more.
   integer, parameter :: before = 100, least = 100, most = 20000
+  !> Space after the last array: a write beyond all guards does no harm to this process.
+  integer, parameter :: spare = 20480
   !> Entries of a cache line: each array starts on one; otherwise its position would affect the speed of an element.
   integer, parameter :: line = 8
 
@@ -42,7 +44,7 @@ contains
   subroutine lay_out(work, length)
     type(workspace_t), intent(inout), target :: work
     integer, intent(in) :: length(n_arrays)
-    integer :: k, total
+    integer :: k, needed, total
     if (allocated(work%memory) .and. all(work%length == length)) then
       do k = 1, n_arrays
         work%memory(work%start(k):work%start(k) + length(k) - 1) = 0
@@ -50,9 +52,14 @@ contains
       call fence_arrays(work)
       return
     end if
-    if (allocated(work%memory)) deallocate (work%memory)
     work%behind = max(min(max(length, least), most), work%room)
-    allocate (work%memory(sum(length + work%behind) + (n_arrays + 1)*(before + line)), source=0.0_dp)
+    needed = sum(length + work%behind) + (n_arrays + 1)*(before + line)
+    if (allocated(work%memory)) then
+      if (size(work%memory) < needed + spare) deallocate (work%memory)
+    end if
+    if (.not. allocated(work%memory)) allocate (work%memory(needed + spare))
+    call open_fences()
+    work%memory(:needed) = 0
     ! entries from the beginning of the memory to its first cache line, and whole lines before the first array
     total = int(modulo(-transfer(c_loc(work%memory), 0_c_intptr_t)/8, int(line, c_intptr_t)))
     total = total + before + modulo(-before, line)
@@ -65,13 +72,15 @@ contains
     call arm_guards(work)
   end subroutine lay_out
 
-  !> The guards are out of bounds for AddressSanitizer, where it is used.
+  !> The guards and the space behind them are out of bounds for AddressSanitizer, where it is used.
   subroutine fence_arrays(work)
     type(workspace_t), intent(in) :: work
-    integer :: k
+    integer :: behind, k
     do k = 1, n_arrays
+      behind = work%behind(k)
+      if (k == n_arrays) behind = size(work%memory) - (work%start(k) + work%length(k) - 1)
       call fence(int(k - 1, i4), arrays(k), work%memory(work%start(k)), int(work%length(k), i4), int(before, i4), &
-                 int(work%behind(k), i4))
+                 int(behind, i4))
     end do
   end subroutine fence_arrays
 
