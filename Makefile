@@ -69,7 +69,8 @@ test-matrix:
 	$(PYTHON) tests/programs/matrix.py
 
 bench: $(INSTALLED)
-	$(RUN) $(BIN)/python tests/programs/benchmarks/bench.py
+	$(RUN) $(BIN)/python tests/programs/benchmarks/bench.py; first=$$?; \
+	$(BIN)/python tests/programs/benchmarks/threads.py && exit $$first
 
 lint: $(INSTALLED)
 	$(RUN) $(BIN)/ruff check .

@@ -20,7 +20,7 @@ ABAQUS_OPTIONS = {
     "job": "--job",
     "input": "deck",
     "user": "--user",
-    "cpus": None,
+    "cpus": "--cpus",
     "interactive": None,
     "ask_delete": None,
     "double": None,
@@ -114,6 +114,16 @@ def build_parser() -> argparse.ArgumentParser:
         metavar="Un",
         help="user elements of this type are linear and need not be called in each iteration; verified in each "
         "increment; repeat for each type",
+    )
+    run.add_argument(
+        "--cpus", type=int, default=1, metavar="N", help="threads that call the elements: the same results (1)"
+    )
+    run.add_argument(
+        "--thread-safe",
+        action="append",
+        default=[],
+        metavar="NAME",
+        help="user elements of this type (Un), UMAT or USDFLD may be called by several threads; repeat for each",
     )
     add_isolation(run)
     run.add_argument(
@@ -307,6 +317,8 @@ def run_job(options: argparse.Namespace) -> int:
         fallback=options.fallback,
         energy_control=options.control == "energy",
         linear=options.linear,
+        cpus=options.cpus,
+        thread_safe=options.thread_safe,
         call_limit=options.call_limit,
         debug=options.debug,
         quiet=options.quiet,

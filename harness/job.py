@@ -13,6 +13,7 @@ from pathlib import Path
 from harness import usersub
 from harness.assembly import System, TolerantSystem
 from harness.deck import read_deck
+from harness.elements.threads import MOST_THREADS, known_routines, use_threads
 from harness.errors import ConvergenceError, ElementError, UelError, UsageError, in_words, note_warnings
 from harness.interrupts import complete, held
 from harness.model.model import Model
@@ -35,6 +36,8 @@ def run(
     fallback: bool = False,
     energy_control: bool = False,
     linear: Collection[str] = (),
+    cpus: int = 1,
+    thread_safe: Collection[str] = (),
     call_limit: float = 0.0,
     debug: bool = False,
     quiet: bool = True,
@@ -63,6 +66,12 @@ def run(
         Types of user elements, such as 'U5', that are linear: in static steps with small displacements their first
         AMATRX stands for them, and they are called again only at the end of each increment, which verifies it. Elastic
         continuum elements, built in and the project's own, are always treated so.
+    cpus
+        Threads that call the elements, with the results of one to the bit. Built-in elements and the project's own
+        are called by all of them, but for U3 and U10, which share stress; other routines if `thread_safe` names them.
+    thread_safe
+        Types of user elements, such as 'U5', UMAT and USDFLD: routines that several threads may call at the same time,
+        as Abaqus does with cpus=2. They pass the checks 'shuffle' and 'threads' of `uel check`.
     call_limit
         Seconds that one call of a user routine may take; 0: no limit.
     debug
@@ -80,13 +89,17 @@ def run(
     Raises
     ------
     UelError
-        UsageError for a wrong `job`, `solver` or `linear`, DeckError, CompileError, KernelError, CallLimitError,
-        SingularMatrixError or ConvergenceError; LockedError if another process runs a job of this name; UelError itself
-        if a user routine other than an element ends the analysis. What was written until then stays readable. The notes
-        of the error are the first warnings before it, how far the run got, and what may help.
+        UsageError for a wrong `job`, `solver`, `linear`, `cpus` or `thread_safe`, DeckError, CompileError, KernelError,
+        CallLimitError, SingularMatrixError or ConvergenceError; LockedError if another process runs a job of this name;
+        UelError itself if a user routine other than an element ends the analysis. What was written until then stays
+        readable. The notes of the error are the first warnings before it, how far the run got, and what may help.
     OSError
         A file cannot be written.
     """
+    if not 1 <= cpus <= MOST_THREADS:
+        raise UsageError(f"--cpus {cpus}: expected a number from 1 to {MOST_THREADS}")
+    if cpus > 1 and debug:
+        raise UsageError(f"--cpus {cpus}: run-time checks (--debug) need one thread")
     deck = Path(deck)
     stem = job_stem(deck.stem if job is None else job, output_dir)
     files = [user] if isinstance(user, str | Path) else user or ()
@@ -97,20 +110,23 @@ def run(
         try:
             model = read_deck(deck)
             types = _linear_types(model, linear)
+            safe = _safe_routines(model, thread_safe)
             usersub.limit_calls(call_limit)
             sources = [Path(file) for file in files]
             job, folder = stem.name, stem.parent
             library = usersub.load(sources, job=job, output_dir=folder, deck=deck, zero_locals=not debug, debug=debug)
             trapping = usersub.trap(True) if debug else None
+            usersub.set_threads(cpus)
             try:
                 output = JobOutput(model, job, folder, quiet=quiet)
-                system = partial(TolerantSystem, model, library, types)
-                _analyse(system, model, library, output, solver, fallback=fallback, energy_control=energy_control)
+                assemble = partial(_assemble, model, library, types, cpus, safe)
+                _analyse(assemble, model, library, output, solver, fallback=fallback, energy_control=energy_control)
             except ElementError as error:
                 if not debug and _debug_helps(sources, str(error)):
                     error.add_note("run again with --debug to see file and line")
                 raise
             finally:
+                usersub.set_threads(1)
                 if trapping is not None:
                     usersub.trap(trapping)
                 library.close()
@@ -120,6 +136,23 @@ def run(
                 write_verdict(stem, in_words(error))
             raise
     return Result(stem, seconds=time.perf_counter() - started, warnings=output.warnings)
+
+
+def _assemble(model: Model, library: Library, linear: Collection[str], cpus: int, safe: Collection[str]) -> System:
+    system = TolerantSystem(model, library, linear)
+    if cpus > 1:
+        use_threads(system.blocks, library, cpus, safe)
+    return system
+
+
+def _safe_routines(model: Model, given: Collection[str]) -> frozenset[str]:
+    """Routines that the user says several threads may call, in capitals. Raises UsageError."""
+    known = known_routines(model)
+    names = frozenset(name.upper() for name in given)
+    for name in sorted(names.difference(known)):
+        has = f"it calls {', '.join(known)}" if known else "it calls no user elements or materials"
+        raise UsageError(f"--thread-safe {name}: the deck does not call it; {has}")
+    return names
 
 
 def _linear_types(model: Model, given: Collection[str]) -> frozenset[str]:

@@ -4,15 +4,16 @@
 !> are those that Python sees (harness/usersub/_host.pyi, written by stub.py). They only pack and unpack.
 
 !> One pass over a block; see block_t for the arrays.
-subroutine host_evaluate(address, material, tensor, jtype, symmetric, want_matrix, kstep, kinc, guards, entries, iteration, &
-                         lflags, time, dtime, period, params, labels, jprops, equations, map, props, coords, u, du, v, a, &
-                         counts, kinds, loads, predef, floor, svars, svars_trial, energy, energy_trial, history, &
-                         history_trial, residual, matrix, flux, terms, pnewdt, energy_sum, fault, position, array, item, &
-                         ndofel, nsvars, nprops, njprop, mcrd, nnode, m, n, nrhs, nnz, values, points, most, nfield, nrate, &
-                         mload, mfield)
+subroutine host_evaluate(address, material, tensor, jtype, symmetric, want_matrix, kstep, kinc, guards, entries, &
+                         iteration, parallel, lflags, time, dtime, period, params, labels, jprops, equations, map, &
+                         props, coords, u, du, v, a, counts, kinds, loads, predef, floor, svars, svars_trial, energy, &
+                         energy_trial, history, history_trial, residual, matrix, flux, terms, pnewdt, energy_sum, &
+                         fault, position, array, item, alone, ndofel, nsvars, nprops, njprop, mcrd, nnode, m, n, &
+                         nrhs, nnz, values, points, most, nfield, nrate, mload, mfield)
   use, intrinsic :: iso_c_binding, only: c_funptr, c_intptr_t
   use host_context, only: initial_stresses
-  use host_driver, only: block_t, run_block
+  use host_driver, only: run_block
+  use host_element, only: block_t
   use host_kinds, only: dp, i4, i8
   implicit none (type, external)
   integer(i8), intent(in) :: address          !< of UEL or UELMAT
@@ -20,6 +21,7 @@ subroutine host_evaluate(address, material, tensor, jtype, symmetric, want_matri
   integer(i4), intent(in) :: tensor, jtype, kstep, kinc
   integer(i4), intent(in) :: symmetric, want_matrix   !< 0 or 1
   integer(i4), intent(in) :: guards, entries, iteration
+  integer(i4), intent(in) :: parallel         !< 0 or 1
   integer(i4), intent(in) :: lflags(7)
   real(dp), intent(in) :: time(2), dtime, period, params(3)
   integer(i4), intent(in) :: ndofel, nsvars, nprops, njprop, mcrd, nnode, m, n, nrhs, nnz, values, points, most, nfield
@@ -37,6 +39,7 @@ subroutine host_evaluate(address, material, tensor, jtype, symmetric, want_matri
   integer(i4), intent(out), target :: terms(ndofel)
   real(dp), intent(out) :: pnewdt, energy_sum(8)
   integer(i4), intent(out) :: fault, position, array, item   !< as block_t has them; item is its index
+  integer(i4), intent(out) :: alone           !< as block_t has it
   type(block_t), target :: block
   block%address = transfer(int(address, c_intptr_t), block%address)
   block%with_material = material > 0
@@ -48,6 +51,7 @@ subroutine host_evaluate(address, material, tensor, jtype, symmetric, want_matri
   block%want_residual = any(lflags(3) == [1_i4, 5_i4, 6_i4, 100_i4, initial_stresses])
   block%kstep = kstep
   block%kinc = kinc
+  block%parallel = parallel /= 0
   block%guards = guards
   block%entries = entries
   block%iteration = iteration
@@ -92,6 +96,7 @@ subroutine host_evaluate(address, material, tensor, jtype, symmetric, want_matri
   position = block%position
   array = block%array
   item = block%index
+  alone = block%alone
 end subroutine host_evaluate
 
 !> Swap the values that the guards of each array (in the order of host_workspace) and, last, unset entries hold.
@@ -134,6 +139,15 @@ subroutine host_open_job(name, directory, file6, file7, status)
   call clear_arrays()
   call connect_units(file6, file7, status)
 end subroutine host_open_job
+
+!> Threads that call the elements of the job where that is possible.
+subroutine host_set_threads(number)
+  use host_context, only: threads
+  use host_kinds, only: i4
+  implicit none (type, external)
+  integer(i4), intent(in) :: number
+  threads = number
+end subroutine host_set_threads
 
 !> Time in seconds that one call of a user routine may take; 0: any.
 subroutine host_limit_calls(seconds)

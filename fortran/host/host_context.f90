@@ -5,7 +5,7 @@ module host_context
   use host_kinds, only: dp, i4
   implicit none (type, external)
   private
-  public :: call_context, current, heat_t, initial_stresses, job_name, names_cut, output_directory
+  public :: call_context, current, heat_t, initial_stresses, job_name, names_cut, output_directory, threads
 
   !> LFLAGS(3) of the host's own pass before an analysis, in which built-in elements take their stresses from SVARS.
   integer(i4), parameter :: initial_stresses = -1
@@ -25,6 +25,7 @@ module host_context
     integer(i4) :: increment = 0
     integer(i4) :: iteration = 0  !< 0 before the first solution, and outside an element loop
     integer(i4) :: point = 0      !< material point, from 1
+    integer(i4) :: thread = 0     !< of the call, from 0
     real(dp) :: time(2) = 0       !< step and total time at the start of the increment
     real(dp) :: dtime = 0
     real(dp) :: place(3) = 0      !< coordinates of the material point
@@ -45,7 +46,10 @@ module host_context
     integer :: statev = 0         !< number of STATEV, the last values of the history, for GETVRM
   end type call_context
 
-  type(call_context), save :: current
+  ! each thread has its own
+  type(call_context), target, save :: current
+  !$omp threadprivate(current)
+  integer(i4), save :: threads = 1         !< that call the elements of the job
   character(len=4096), save :: job_name = ' '
   character(len=4096), save :: output_directory = ' '
   logical, save :: names_cut(2) = .false.   !< job name, output directory: a user routine took a part of it

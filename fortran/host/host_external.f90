@@ -37,7 +37,7 @@ contains
     arguments%dtime = dtime
     current%routine = 'UEXTERNALDB'
     current%element = 0
-    call begin_call(current%element)
+    call begin_call(0_i4, current%element)
     current%step = kstep
     current%increment = kinc
     left = int(protect(c_funloc(invoke), c_loc(arguments)), i4)

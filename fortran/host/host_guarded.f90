@@ -71,11 +71,12 @@ contains
       call fill(work%behind(k), mark, work%memory(work%start(k) + length))
       call fill(before, mark, work%memory(work%start(k) - before))
       if (reported(k)) cycle
-      reported(k) = .true.
       write (text, '(a,i0,5a,i0,a,i0,3a,i0)') 'element ', current%element, ': ', trim(current%routine), &
         ' writes outside ', trim(names(k)), ': entry ', entry, ' of ', length, ' (', trim(sizes(k)), ') at integration point ', &
         point
+      ! does not return on one thread of several, and is reported later
       call add_message(-1_i4, trim(text)//'; the run goes on, but what is written there is lost')
+      reported(k) = .true.
     end do
   end subroutine warn_of_writes
 
@@ -90,12 +91,12 @@ contains
     do k = 1, size(work%length)
       associate (array => work%memory(work%start(k):work%start(k) + work%length(k) - 1))
         if (all_finite(size(array), array) .or. reported(k)) cycle
-        reported(k) = .true.
         entry = findloc([(all_finite(1, array(entry:entry)), entry=1, size(array))], .false., dim=1)
       end associate
       write (text, '(a,i0,5a,i0,a,i0)') 'element ', current%element, ': ', trim(current%routine), ' sets an entry of ', &
         trim(names(k)), ' to NaN or infinity, entry ', entry, ', at integration point ', point
       call add_message(-1_i4, trim(text))
+      reported(k) = .true.
     end do
   end subroutine warn_of_no_numbers
 end module host_guarded

@@ -5,6 +5,7 @@ module host_messages
   use, intrinsic :: iso_c_binding, only: c_char, c_int32_t, c_null_char
   use host_kinds, only: dp, i4
   use host_context, only: current, names_cut
+  use host_protect, only: go_alone
   implicit none (type, external)
   private
   public :: message_t, add_message, pass_name, take_message, substitute
@@ -24,11 +25,13 @@ module host_messages
 
 contains
 
-  !> Append a message; the element, step and increment are those of the current call.
+  !> Append a message; the element, step and increment are those of the current call. One thread of several does not return from
+  !> here: its strip is repeated on one.
   subroutine add_message(level, text)
     integer(i4), intent(in) :: level
     character(len=*), intent(in) :: text
     type(message_t), allocatable :: larger(:)
+    call go_alone()
     if (.not. allocated(queue)) allocate (queue(16))
     if (last == size(queue)) then
       allocate (larger(2*size(queue)))
@@ -78,10 +81,10 @@ contains
     variable = name
     length = int(min(len_trim(name), len(variable)), i4)
     if (len_trim(name) <= len(variable) .or. names_cut(number)) return
-    names_cut(number) = .true.
     write (text, '(2a,i0,a,i0,a)') what, ' has ', len_trim(name), ' characters, but the variable holds ', len(variable), &
       ' (CHARACTER*256 in Abaqus); the truncated name leads elsewhere'
     call add_message(-1_i4, trim(text))
+    names_cut(number) = .true.
   end subroutine pass_name
 
   !> Oldest message not yet taken; level 0 when there is none.

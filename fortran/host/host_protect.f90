@@ -7,15 +7,16 @@ module host_protect
   private
   public :: protect, escape, clear_arrays, begin_call, limit_calls, trap, take_frames, watch, take_changes, &
             fill_stack, exchange_around, take_outside, allocated_bytes, attempt, share, loading, sanitizing, sanitize, fence, &
-            open_fences
+            open_fences, most_seats, on_seat, on_threads, go_alone
 
   integer, parameter :: most_frames = 64   !< as in frames.c
+  integer, parameter :: most_seats = 64    !< threads, as in protect.c
 
   interface
     !> A user routine is about to be called for this element (0: for none); this tells the clock that it is a new call.
-    subroutine begin_call(element) bind(c, name='uel_host_begin')
+    subroutine begin_call(thread, element) bind(c, name='uel_host_begin')
       import :: c_int32_t
-      integer(c_int32_t), value :: element
+      integer(c_int32_t), value :: thread, element   !< thread: from 0
     end subroutine begin_call
 
     !> Run routine(context); 0 if it returned, 1 if it was left through escape or a signal, 2 if a call did not return.
@@ -25,6 +26,26 @@ module host_protect
       type(c_ptr), value :: context
       integer(c_int) :: left
     end function protect
+
+    !> Run routine(context), which calls user routines on several threads, each through on_seat.
+    subroutine on_threads(routine, context) bind(c, name='uel_host_on_threads')
+      import :: c_funptr, c_ptr
+      type(c_funptr), value :: routine
+      type(c_ptr), value :: context
+    end subroutine on_threads
+
+    !> Run routine(context) on this thread, numbered from 0; 0 if it returned, 1 if it was left.
+    function on_seat(thread, routine, context) bind(c, name='uel_host_on_seat') result(left)
+      import :: c_funptr, c_int, c_int32_t, c_ptr
+      integer(c_int32_t), value :: thread
+      type(c_funptr), value :: routine
+      type(c_ptr), value :: context
+      integer(c_int) :: left
+    end function on_seat
+
+    !> What follows needs the host to itself: leaves the routine where several threads run, else returns.
+    subroutine go_alone() bind(c, name='uel_host_go_alone')
+    end subroutine go_alone
 
     !> Run routine(context), statements on units 6 and 7; 1 if a call that was left has them locked, else 0.
     function attempt(routine, context) bind(c, name='uel_host_attempt') result(lost)

@@ -55,7 +55,7 @@ contains
       current%element = pass%labels(e)
       do point = 1, size(pass%statev, 2, kind=i4)
         current%point = point
-        call begin_call(current%element)
+        call begin_call(0_i4, current%element)
         coords = 0
         if (pass%family > 0) then
           coords = point_position(rule_of(pass%family, size(pass%statev, 2)), int(point), pass%coords(:, :, e))

@@ -50,7 +50,7 @@ contains
     current%element = 0
     current%step = arguments%info(4)
     current%increment = kinc
-    call begin_call(current%element)
+    call begin_call(0_i4, current%element)
     running => arguments
     left = int(protect(c_funloc(invoke), c_loc(arguments)), i4)
     nullify (running)

@@ -22,7 +22,8 @@ module host_umat
   character(len=6), parameter :: names(outputs) = [character(len=6) :: 'STRESS', 'DDSDDE', 'DDSDDT', 'DRPLDE', 'STATEV']
   character(len=13), parameter :: sizes(outputs) = [character(len=13) :: &
     'NTENS', 'NTENS x NTENS', 'NTENS', 'NTENS', '*DEPVAR']
-  type(guarded_t), save, target :: work
+  type(guarded_t), save, target :: work   ! each thread has its own
+  !$omp threadprivate(work)
 
   type :: user_material_t
     type(c_funptr) :: umat

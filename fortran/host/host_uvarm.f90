@@ -66,7 +66,7 @@ contains
       current%history => pass%history(:, :, e)
       do point = 1, size(pass%uvar, 2, kind=i4)
         current%point = point
-        call begin_call(current%element)
+        call begin_call(0_i4, current%element)
         current%values => pass%svars(:, point, e)
         call call_uvarm(pass, point, pass%coords(:, :, e), pass%uvar(:, point, e))
       end do

@@ -62,11 +62,11 @@ contains
     do k = 1, size(pass%values, kind=i4)
       pass%last = k
       if (size(pass%places, 1) == rows_of_disp) then
-        call begin_call(0_i4)
+        call begin_call(0_i4, 0_i4)
         call prescribe(pass, pass%places(:, k), pass%coords(:, k), pass%values(k))
       else
         current%element = pass%places(1, k)
-        call begin_call(current%element)
+        call begin_call(0_i4, current%element)
         call load(pass, pass%places(:, k), pass%coords(:, k), pass%values(k))
       end if
     end do

@@ -11,7 +11,7 @@ module host_workspace
   implicit none (type, external)
   private
   public :: workspace_t, arrays, n_arrays, lay_out, exchange_guard_values, arm_guards, find_damage, fill, same_bits, all_finite
-  public :: first_difference, set_room
+  public :: first_difference, set_room, take_guards
   public :: i_rhs, i_amatrx, i_svars, i_energy, i_props, i_coords, i_u, i_du, i_v, i_a, i_predef
 
   integer, parameter :: n_arrays = 11
@@ -106,6 +106,17 @@ contains
     work%room = asked
     if (allocated(work%memory)) deallocate (work%memory)
   end subroutine set_room
+
+  !> Guards as those of another workspace.
+  subroutine take_guards(work, from)
+    type(workspace_t), intent(inout) :: work
+    type(workspace_t), intent(in) :: from
+    if (all(work%guard == from%guard) .and. work%unset == from%unset .and. work%room == from%room) return
+    work%guard = from%guard
+    work%unset = from%unset
+    work%room = from%room
+    if (allocated(work%memory)) deallocate (work%memory)
+  end subroutine take_guards
 
   !> Write the patterns of the guards: entries not in the guard after an array belong to the next array.
   subroutine arm_guards(work)

@@ -11,6 +11,9 @@
 // A call that is left inside a statement of input or output keeps the lock of its unit, and the next one of the unit waits
 // for ever: the host then touches the units only through uel_host_attempt. Another process that shares the slate sees where
 // user code is, whatever state this one is in.
+//
+// Several threads may call elements at once (host_team.f90). Each has a seat: where it lands when its call is left. Nothing is
+// told of such a call, since one thread repeats it.
 
 #define _GNU_SOURCE
 #include <fenv.h>
@@ -37,6 +40,9 @@ void uel_host_keep_frames(const void *context);
 // sanitizer.c
 void uel_host_clear_stack(const char *from, const char *to);
 
+// mutexes.c
+void uel_host_new_mutexes(void);
+
 // exceptions.c
 void uel_host_watch_exceptions(void);
 
@@ -56,26 +62,31 @@ static struct slate *slate = &own;
 
 enum { STACK = 1000, INVALID, DIVISION, OVERFLOW, OVERRUN };
 
-static sigjmp_buf landing;
-static pthread_t thread;            // in which the call is
-static volatile int reason;         // the signal, or one of the enumeration above; 0 for XIT
+enum { SEATS = 64 };   // as in host_protect.f90
+static struct seat {
+    pthread_t thread;
+    volatile sig_atomic_t armed;     // it runs a call
+    volatile sig_atomic_t late;      // its call has taken too long
+    sigjmp_buf landing;
+    char *stack_at_entry;
+    volatile int reason;             // the signal, or one of the enumeration above; 0 for XIT
+    volatile int64_t calls, watched; // calls so far; the one that the clock saw last
+    volatile double waited;          // how long it has seen it
+    char handler_stack[1 << 16];
+} seats[SEATS];                      // the first is that of all that runs on one thread
 static volatile sig_atomic_t armed = 0;
+static int together = 0;            // several threads have seats
 static char overrun[256];           // what AddressSanitizer has found in the call; '' for nothing
 static int registered = 0;          // at_exit is
 
 static const int caught[] = {SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT, SIGALRM};
 enum { CAUGHT = sizeof caught / sizeof *caught };
 static struct sigaction before[CAUGHT];
-static stack_t stack_before;
-static char handler_stack[1 << 16];
 
-static char *stack_at_entry;
 static double limit = 0;            // seconds for one call; 0: none
 static double allowed;              // seconds for what runs now; 0: any
 static const double patience = 3;   // seconds for statements of the host on units that may be locked
 static int lost = 0;                // the units are
-static volatile int64_t watched;    // the call that the clock saw last
-static volatile double waited;      // how long it has seen it
 static const double tick = 0.25;
 
 static void describe(int signal, char *text, size_t size)
@@ -119,8 +130,11 @@ static void describe(int signal, char *text, size_t size)
 
 static void note_place(void) { uel_host_place(slate->routine, slate->place); }
 
-void uel_host_begin(int32_t element)
+void uel_host_begin(int32_t seat, int32_t element)
 {
+    seats[seat].calls++;
+    if (seat > 0)
+        return;
     slate->calls++;
     slate->place[0] = element;
 }
@@ -144,7 +158,33 @@ static void unguard(void)
 {
     for (int k = 0; k < CAUGHT; k++)
         sigaction(caught[k], &before[k], NULL);
-    sigaltstack(&stack_before, NULL);
+}
+
+// The seat of this thread, NULL if it has none.
+static struct seat *own_seat(void)
+{
+    for (struct seat *seat = seats; seat < seats + SEATS; seat++)
+        if (seat->armed && pthread_equal(seat->thread, pthread_self()))
+            return seat;
+    return NULL;
+}
+
+// A tick of the clock: wakes the threads whose calls have taken too long.
+static void look_at_clock(void)
+{
+    for (struct seat *seat = seats; seat < seats + SEATS; seat++) {
+        if (!seat->armed)
+            continue;
+        if (seat->watched != seat->calls) {
+            seat->watched = seat->calls;
+            seat->waited = 0;
+        }
+        seat->waited += tick;
+        if (allowed > 0 && seat->waited > allowed && !seat->late) {
+            seat->late = 1;
+            pthread_kill(seat->thread, SIGALRM);
+        }
+    }
 }
 
 static void catch(int signal, siginfo_t *info, void *context)
@@ -155,7 +195,12 @@ static void catch(int signal, siginfo_t *info, void *context)
         say_end("abort: memory is damaged, usually by a write outside an array");
         return;  // abort() goes on and ends the process
     }
-    if (!pthread_equal(pthread_self(), thread)) {
+    struct seat *seat = own_seat();
+    if (signal == SIGALRM && !(seat && seat->late)) {
+        look_at_clock();
+        return;
+    }
+    if (!seat) {
         // the call is not on the stack of a thread of the user's, or of a library
         if (signal != SIGALRM) {
             char text[sizeof slate->reason];
@@ -167,28 +212,19 @@ static void catch(int signal, siginfo_t *info, void *context)
     }
     if (signal == SIGFPE && info->si_code != FPE_INTDIV)
         signal = info->si_code == FPE_FLTDIV ? DIVISION : info->si_code == FPE_FLTOVF ? OVERFLOW : INVALID;
-    if (signal == SIGALRM) {
-        if (watched != slate->calls) {
-            watched = slate->calls;
-            waited = 0;
-        }
-        waited += tick;
-        if (!(allowed > 0 && waited > allowed))
-            return;
-    }
     if (signal == SIGSEGV) {
         struct rlimit size;
         const char *address = info->si_addr;
         getrlimit(RLIMIT_STACK, &size);
-        if (address < stack_at_entry && size.rlim_cur != RLIM_INFINITY &&
-            (uintptr_t)(stack_at_entry - address) + (1 << 22) > size.rlim_cur &&
-            (uintptr_t)(stack_at_entry - address) < size.rlim_cur + (1 << 24))
+        if (address < seat->stack_at_entry && size.rlim_cur != RLIM_INFINITY &&
+            (uintptr_t)(seat->stack_at_entry - address) + (1 << 22) > size.rlim_cur &&
+            (uintptr_t)(seat->stack_at_entry - address) < size.rlim_cur + (1 << 24))
             signal = STACK;
     }
-    if (!overrun[0])
+    if (!overrun[0] && !together)
         uel_host_keep_frames(context);
-    reason = signal;
-    siglongjmp(landing, 1);
+    seat->reason = signal;
+    siglongjmp(seat->landing, 1);
 }
 
 // A finding of AddressSanitizer ends the call; from within its runtime, which cannot be left, where it returns.
@@ -198,8 +234,9 @@ void uel_host_overrun(const char *text, int at_once)
         return;
     snprintf(overrun, sizeof overrun, "%s", text);
     uel_host_keep_frames(NULL);
-    if (at_once && pthread_equal(pthread_self(), thread))
-        siglongjmp(landing, 1);
+    struct seat *seat = own_seat();
+    if (at_once && seat)
+        siglongjmp(seat->landing, 1);
 }
 
 static void guard(void)
@@ -208,8 +245,6 @@ static void guard(void)
     memset(&action, 0, sizeof action);
     action.sa_sigaction = catch;
     action.sa_flags = SA_SIGINFO | SA_ONSTACK | SA_RESTART;
-    const stack_t own = {.ss_sp = handler_stack, .ss_size = sizeof handler_stack};
-    sigaltstack(&own, &stack_before);
     for (int k = 0; k < CAUGHT; k++)
         sigaction(caught[k], &action, &before[k]);
 }
@@ -290,48 +325,75 @@ static void clear_stack(void)
 {
     struct rlimit size;
     getrlimit(RLIMIT_STACK, &size);
-    if (size.rlim_cur != RLIM_INFINITY && size.rlim_cur < (uintptr_t)stack_at_entry)
-        uel_host_clear_stack(stack_at_entry - size.rlim_cur, stack_at_entry);
+    char *entry = seats[0].stack_at_entry;
+    if (size.rlim_cur != RLIM_INFINITY && size.rlim_cur < (uintptr_t)entry)
+        uel_host_clear_stack(entry - size.rlim_cur, entry);
 }
 
-// Runs routine(context) for so many seconds (0: any); 0 if it returned, 1 if it was left.
-static int run(void (*routine)(void *), void *context, double seconds)
+// Runs routine(context) on this thread, which takes the seat; 0 if it returned, 1 if it was left.
+int uel_host_on_seat(int32_t number, void (*routine)(void *), void *context)
 {
     char here;
-    stack_at_entry = &here;
-    reason = 0;
-    overrun[0] = 0;
-    watched = -1;
-    waited = 0;
-    allowed = seconds;
-    if (sigsetjmp(landing, 1)) {
-        leave();
-        clear_stack();
-        reason = overrun[0] ? OVERRUN : reason;
-        return 1;
+    struct seat *seat = &seats[number];
+    const stack_t own = {.ss_sp = seat->handler_stack, .ss_size = sizeof seat->handler_stack};
+    stack_t before_it;
+    seat->stack_at_entry = &here;
+    seat->reason = 0;
+    seat->watched = -1;
+    seat->waited = 0;
+    seat->late = 0;
+    seat->thread = pthread_self();
+    sigaltstack(&own, &before_it);
+    const int left = sigsetjmp(seat->landing, 1);
+    if (!left) {
+        seat->armed = 1;
+        routine(context);
     }
+    seat->armed = 0;
+    sigaltstack(&before_it, NULL);
+    return left;
+}
+
+// Signals are caught, and calls may take so many seconds (0: any).
+static void arm(double seconds)
+{
+    overrun[0] = 0;
+    allowed = seconds;
     uel_host_prepare_frames();
     guard();
-    thread = pthread_self();
     armed = 1;
     trap(slate->within);
     if (seconds > 0)
         set_clock(tick);
-    routine(context);
+}
+
+// Runs routine(context) for so many seconds; 0 if it returned, 1 if it was left.
+static int run(void (*routine)(void *), void *context, double seconds)
+{
+    arm(seconds);
+    const int left = uel_host_on_seat(0, routine, context);
     leave();
-    reason = overrun[0] ? OVERRUN : 0;
-    return reason != 0;
+    if (left)
+        clear_stack();
+    if (overrun[0])
+        seats[0].reason = OVERRUN;
+    return left || overrun[0];
+}
+
+static void begin_calls(void)
+{
+    if (!registered)
+        registered = atexit(at_exit) == 0;
+    note_place();
+    slate->within = IN_CALL;
 }
 
 // Runs routine(context); 0 if it returned, 1 if it was left, with a message in the queue unless by XIT, 2 if that was
 // because a call did not return.
 int uel_host_protect(void (*routine)(void *), void *context)
 {
-    if (!registered)
-        registered = atexit(at_exit) == 0;
-    note_place();
-    slate->within = IN_CALL;
-    const int left = run(routine, context, limit);
+    begin_calls();
+    const int left = run(routine, context, limit), reason = seats[0].reason;
     if (left) {
         // before anything that may wait for a lock
         note_place();
@@ -343,6 +405,21 @@ int uel_host_protect(void (*routine)(void *), void *context)
         uel_host_fault(slate->reason);
     return left && reason == SIGALRM ? 2 : left;
 }
+
+// Runs routine(context), in which several threads take seats.
+void uel_host_on_threads(void (*routine)(void *), void *context)
+{
+    begin_calls();
+    uel_host_new_mutexes();
+    together = 1;
+    arm(limit);
+    routine(context);
+    leave();
+    together = 0;
+    slate->within = OUTSIDE;
+}
+
+int uel_host_together(void) { return together; }
 
 // libgfortran closes its units when the process ends, and would wait for their locks.
 static void leave_units(int code, void *none)
@@ -369,8 +446,15 @@ int uel_host_in_call(void) { return armed && slate->within; }
 
 void uel_host_escape(void)
 {
-    if (armed)
-        siglongjmp(landing, 1);
+    struct seat *seat = armed ? own_seat() : NULL;
+    if (seat)
+        siglongjmp(seat->landing, 1);
     fputs("XIT was called outside a call of the host; the process ends\n", stderr);
     exit(EXIT_FAILURE);
+}
+
+void uel_host_go_alone(void)
+{
+    if (together)
+        uel_host_escape();
 }

@@ -3,13 +3,14 @@
 //
 // Allocatable arrays that user routines share by number (Abaqus User Subroutines Guide, Allocatable arrays):
 // SMA[Local]IntArray* and SMA[Local]FloatArray*. Integers are 4 bytes, floats 4 or 8 by the type of the initial value.
-// Local arrays differ from global ones between threads only, and the host has one thread; their numbers are separate.
+// Local arrays differ from global ones between threads only, and calls that use arrays run on one; their numbers are separate.
 
 #include <stdint.h>
 #include <stdlib.h>
 #include <string.h>
 
 void uel_host_fail(const char *routine, int32_t id, const char *reason);
+void uel_host_go_alone(void);   // protect.c
 
 enum kind { INT_GLOBAL, FLOAT_GLOBAL, INT_LOCAL, FLOAT_LOCAL };
 
@@ -26,6 +27,7 @@ static struct array *first = NULL;
 
 static struct array *find(enum kind kind, int32_t id)
 {
+    uel_host_go_alone();
     for (struct array *a = first; a; a = a->next)
         if (a->kind == kind && a->id == id)
             return a;
@@ -50,6 +52,7 @@ static int32_t size_of_array(enum kind kind, const int32_t *id, const char *rout
 
 static void delete_array(enum kind kind, const int32_t *id)
 {
+    uel_host_go_alone();
     for (struct array **link = &first; *link; link = &(*link)->next) {
         struct array *a = *link;
         if (a->kind == kind && a->id == *id) {

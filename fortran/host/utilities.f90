@@ -70,20 +70,22 @@ subroutine getrank(kprocessnum)
   kprocessnum = 0
 end subroutine getrank
 
-!> Number of threads: the element loop runs on one.
-function getnumthreads() result(threads)
+!> Number of threads that call the elements.
+function getnumthreads() result(number)
+  use host_context, only: threads
   use host_kinds, only: i4
   implicit none (type, external)
-  integer(i4) :: threads
-  threads = 1
+  integer(i4) :: number
+  number = threads
 end function getnumthreads
 
 !> Number of the calling thread, from 0.
 function get_thread_id() result(thread)
+  use host_context, only: current
   use host_kinds, only: i4
   implicit none (type, external)
   integer(i4) :: thread
-  thread = 0
+  thread = current%thread
 end function get_thread_id
 
 !> Value of an environment variable, and its length.
@@ -95,22 +97,3 @@ subroutine getenvvar(envvarname, envvar, lenenvvar)
   integer(i4), intent(out) :: lenenvvar
   call get_environment_variable(trim(envvarname), envvar, lenenvvar)
 end subroutine getenvvar
-
-!> Mutexes 1 to 100: with one thread there is nothing to wait for.
-subroutine mutexinit(id)
-  use host_kinds, only: i4
-  implicit none (type, external)
-  integer(i4), intent(in) :: id
-end subroutine mutexinit
-
-subroutine mutexlock(id)
-  use host_kinds, only: i4
-  implicit none (type, external)
-  integer(i4), intent(in) :: id
-end subroutine mutexlock
-
-subroutine mutexunlock(id)
-  use host_kinds, only: i4
-  implicit none (type, external)
-  integer(i4), intent(in) :: id
-end subroutine mutexunlock

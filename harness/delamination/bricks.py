@@ -35,8 +35,8 @@ CONSISTENT = Interface("U8", LAW, law=2, eta=1.0, beta=-1.0, consistent=True)
 def bricks_files() -> dict[str, str]:
     """The decks of the public model: with built-in elements, and with U7."""
     return {
-        "dcb_3d.inp": _deck("C3D8", replace(STANDARD, type="COH3D8"), BRICKS),
-        "dcb_3d_u7.inp": _deck("C3D8", STANDARD, BRICKS),
+        "dcb_3d.inp": dcb_of_bricks("C3D8", replace(STANDARD, type="COH3D8"), BRICKS),
+        "dcb_3d_u7.inp": dcb_of_bricks("C3D8", STANDARD, BRICKS),
     }
 
 
@@ -44,13 +44,13 @@ def stabilised_bricks_files() -> dict[str, str]:
     """The specimen with U8 between incompatible bricks, at a stiffness of 1e8 N/mm^3 and an infinite one (0)."""
     stiff, infinite = (replace(CONSISTENT, cohesive=LAW.with_stiffness(stiffness)) for stiffness in (1.0e8, 0.0))
     return {
-        "dcb_3d_u8_1e8.inp": _deck("C3D8I", stiff, STABILISED_BRICKS),
-        "dcb_3d_u8_infinite.inp": _deck("C3D8I", infinite, STABILISED_BRICKS),
-        "dcb_3d_u8_fine.inp": _deck("C3D8I", infinite, FINE_BRICKS),
+        "dcb_3d_u8_1e8.inp": dcb_of_bricks("C3D8I", stiff, STABILISED_BRICKS),
+        "dcb_3d_u8_infinite.inp": dcb_of_bricks("C3D8I", infinite, STABILISED_BRICKS),
+        "dcb_3d_u8_fine.inp": dcb_of_bricks("C3D8I", infinite, FINE_BRICKS),
     }
 
 
-def _deck(bricks: str, interface: Interface, count: tuple[int, int, int]) -> str:
+def dcb_of_bricks(bricks: str, interface: Interface, count: tuple[int, int, int]) -> str:
     """The deck with a type of bricks, an interface and a number of bricks."""
     x, y, z = (np.linspace(0.0, size, parts + 1) for size, parts in zip((LENGTH, WIDTH, HEIGHT), count, strict=True))
     bonded = np.broadcast_to(x[:-1] > CRACK - 1e-9, (count[1], count[0]))

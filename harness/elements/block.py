@@ -27,6 +27,9 @@ from harness.usersub.faults import Entries, Fault, Guards
 _PLASTIC: Final = 3
 """Index of ENERGY(4)."""
 
+MOST_INTERRUPTED: Final = 5
+"""Passes in a row that several threads may leave to one."""
+
 _NO_MATRIX = np.zeros(1)
 _AT_REST = Motion(np.zeros(1), np.zeros(1))
 _NO_LOADS = LoadArrays(np.zeros(1, np.int32), np.zeros((1, 1), np.int32), np.zeros((1, 1, 2)))
@@ -38,6 +41,7 @@ class ElementBlock:
     unknowns     (local node, dof) of each element unknown, in the order of U and RHS
     unsymmetric  False: (A + A^T)/2 is assembled
     first        position of the first element in the model
+    parallel     several threads may call its elements at the same time
     strict       a write outside an array is an error, otherwise a warning
     zeros        an entry of RHS or AMATRX that is not set gives a warning and is zero from then on, otherwise an error
     variables    meaning of the state's SVARS, None if unknown; those of a point of a built-in element continue with
@@ -65,6 +69,8 @@ class ElementBlock:
         self._routine = routine
         self._library = library
         self.first = 0
+        self.parallel = False
+        self._interrupted = 0
         self._guards = Guards.STOP if strict else Guards.NOTICE
         self._entries = Entries.NOTICE if zeros else Entries.STOP
         self._noticed: Outcome | None = None
@@ -233,6 +239,7 @@ class ElementBlock:
             _NO_MATRIX if matrix is None else matrix,
         )
         self._last = call
+        self._count_interrupted(outcome)
         if outcome.fault is Fault.UNSET and self._entries is not Entries.STOP:
             self._entries = Entries.ZERO
             error = self._error(outcome, residual.ndim, call)
@@ -246,6 +253,17 @@ class ElementBlock:
         if self._routine.damages:
             damage, energy[_PLASTIC] = float(energy[_PLASTIC]), 0.0
         return BlockReport.of(outcome, self._by_field, len(self.group.labels), energy, damage)
+
+    def _count_interrupted(self, outcome: Outcome) -> None:
+        """Give threads up where they keep being interrupted: each time costs a part of a pass."""
+        self._interrupted = self._interrupted + 1 if outcome.alone else 0
+        if self._interrupted == MOST_INTERRUPTED:
+            self.parallel = False
+            self._library.warn(
+                f"elements of type {self.group.type} are called by one thread from now on: in "
+                f"{MOST_INTERRUPTED} passes in a row one of them sent a message, used shared arrays or failed, which "
+                "one thread has to repeat"
+            )
 
     def evaluate_apart(
         self, call: Call, u: FloatArray, du: FloatArray, residual: FloatArray
@@ -406,6 +424,8 @@ class ElementBlock:
             "guards": self._guards,
             "entries": self._entries,
             "iteration": call.iteration,
+            # in their first calls routines, and the host, set up what they keep
+            "parallel": self.parallel and self._last is not None,
             "params": call.params,
         }
 

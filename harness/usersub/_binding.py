@@ -20,6 +20,8 @@ from harness.model.user_values import AskedAmplitude, UserValues
 from harness.usersub.exchange import BlockArrays, Int32Array, LoadArrays, Outcome, RawMessage
 from harness.usersub.faults import Fault
 
+# threads that wait for each other give their core away soon: on a busy machine another process has work for it
+os.environ.setdefault("GOMP_SPINCOUNT", "2000")
 _flags = sys.getdlopenflags()
 sys.setdlopenflags(_flags | os.RTLD_GLOBAL)
 try:
@@ -53,6 +55,7 @@ class PassOptions(TypedDict):
     guards: int
     entries: int
     iteration: int
+    parallel: bool
     params: tuple[float, float, float]
 
 
@@ -81,7 +84,7 @@ def evaluate(
     """
     if _watching:
         scalars = {**scalars, "address": _host.host_watch(scalars["address"], scalars["material"])}
-    flux, terms, pnewdt, energy, fault, position, array, index = _host.host_evaluate(
+    flux, terms, pnewdt, energy, fault, position, array, index, alone = _host.host_evaluate(
         **scalars,
         **options,
         lflags=lflags,
@@ -119,6 +122,7 @@ def evaluate(
         terms=terms,
         pnewdt=pnewdt,
         energy=energy,
+        alone=alone,
     )
 
 
@@ -213,7 +217,7 @@ def linear_pass(
     entry of U, from 1, that is taken out of each one before the product, 0 for none.
     """
     flux, terms = _host.host_linear_pass(matrices.T, equations.T, first, u, floor, residual)
-    return Outcome(Fault.NONE, -1, ARRAYS[0], 0, flux[:, 0], flux[:, 1], terms, np.inf, np.zeros(8))
+    return Outcome(Fault.NONE, -1, ARRAYS[0], 0, flux[:, 0], flux[:, 1], terms, np.inf, np.zeros(8), 0)
 
 
 def scatter_map(equations: Int32Array, indptr: Int32Array, indices: Int32Array) -> Int32Array:
@@ -388,6 +392,11 @@ def open_job(name: str, directory: str, file6: str, file7: str) -> int:
     """
     encode = os.fsencode
     return int(_host.host_open_job(encode(name), encode(directory), encode(file6), encode(file7)))
+
+
+def set_threads(number: int) -> None:
+    """Let so many threads call the elements of the jobs of this process from now on, where that is possible."""
+    _host.host_set_threads(number)
 
 
 def limit_calls(seconds: float) -> None:

@@ -21,6 +21,7 @@ class Outcome:
 
     position  element of the fault (from 0; -1 unknown)
     array, index  array of the fault and entry, from 1 (beyond its ends for a write outside); or the point
+    alone     elements that one thread has called again, because several could not go on
     flux, largest, terms  (ndofel,) sum over the elements of |RHS|, the largest one, number of those above the floor
     """
 
@@ -33,6 +34,7 @@ class Outcome:
     terms: Int32Array
     pnewdt: float
     energy: FloatArray
+    alone: int
 
 
 @dataclass(slots=True)

@@ -127,6 +127,16 @@ def is_continuum(jtype: int, integers: IntArray) -> bool:
     return len(integers) < face or not integers[face - 1]
 
 
+def shares_stress(jtype: int, integers: IntArray) -> bool:
+    """Whether elements of a type of the project, with these JPROPS, store stress for their neighbours, or take it."""
+    layout = element_layouts().get(jtype)
+    if layout is None:
+        return False
+    # interface elements that take it have the numbers of their neighbours
+    takes = any(item.name == "OFFSETBOTTOM" for item in layout.integers)
+    return takes or not (layout.faces[0] or is_continuum(jtype, integers))
+
+
 def markdown() -> str:
     """Tables of every element type."""
     return "\n".join(_markdown_lines())

@@ -79,7 +79,7 @@ class Library:
         PointVariables | None
             None if the library does not contain the project's elements, or if these have no such type.
         """
-        return layout.variables(jtype) if hasattr(self._handle, layout.MARKER) else None
+        return layout.variables(jtype) if self.is_own else None
 
     def is_continuum(self, jtype: int, integers: IntArray) -> bool:
         """Whether elements are continuum elements of the project whose stress no other element reads.
@@ -91,7 +91,16 @@ class Library:
         integers
             JPROPS.
         """
-        return hasattr(self._handle, layout.MARKER) and layout.is_continuum(jtype, integers)
+        return self.is_own and layout.is_continuum(jtype, integers)
+
+    @property
+    def is_own(self) -> bool:
+        """Whether it has the elements of the project."""
+        return hasattr(self._handle, layout.MARKER)
+
+    def shares_stress(self, jtype: int, integers: IntArray) -> bool:
+        """Whether elements of the project store stress for others, or take it; arguments as of `is_continuum`."""
+        return self.is_own and layout.shares_stress(jtype, integers)
 
     def external_database(
         self, lop: int, lrestart: int, time: tuple[float, float], dtime: float, step: int, increment: int

@@ -1,0 +1,283 @@
+! SPDX-FileCopyrightText: The uel-harness authors
+! SPDX-License-Identifier: BSD-3-Clause
+!> A call of a user element: arguments gathered between guards, results checked, its trial state kept.
+module host_element
+  use, intrinsic :: iso_c_binding, only: c_funptr
+  use host_context, only: call_context, current, initial_stresses
+  use host_interfaces, only: uel_procedure, uelmat_procedure
+  use host_kinds, only: dp, i4, i8
+  use host_protect, only: begin_call
+  use host_workspace, only: all_finite, fill, i_a, i_amatrx, i_coords, i_du, i_energy, i_predef, i_props, i_rhs, i_svars, &
+                            i_u, i_v, lay_out, n_arrays, same_bits, workspace_t
+  implicit none (type, external)
+  private
+  public :: block_t, work, prepare, call_element, check_results, keeps_state, untouched
+  public :: fault_none, fault_left, fault_outside, fault_unset, fault_not_finite, fault_endless, fault_distorted
+  public :: guards_stop, guards_notice, guards_search, entries_notice, entries_zero
+
+  integer(i4), parameter :: fault_none = 0        !< all went well
+  integer(i4), parameter :: fault_left = 1        !< the user routine ended the analysis
+  integer(i4), parameter :: fault_outside = 2     !< a write outside an array
+  integer(i4), parameter :: fault_unset = 3       !< an entry was not set
+  integer(i4), parameter :: fault_not_finite = 4  !< an entry is NaN or infinite
+  integer(i4), parameter :: fault_endless = 5     !< a call did not return within the time limit
+
+  integer(i4), parameter :: fault_distorted = 6   !< a built-in element has turned inside out
+
+  integer(i4), parameter :: guards_stop = 0       !< a write outside an array ends the pass; the element is searched for
+  integer(i4), parameter :: guards_notice = 1     !< it is reported after the pass
+  integer(i4), parameter :: guards_search = 2     !< each element is checked for it
+  integer(i4), parameter :: guards_ignore = 3     !< it is ignored
+
+  integer(i4), parameter :: entries_stop = 0      !< an entry of RHS or AMATRX that is not set ends the pass
+  integer(i4), parameter :: entries_notice = 1    !< from the first one on, and after the pass, RHS and AMATRX are zero on entry
+  integer(i4), parameter :: entries_zero = 2      !< RHS and AMATRX are zero on entry
+
+  !> PNEWDT on entry: larger than any value that a user routine would return.
+  real(dp), parameter :: untouched = 1.0e36_dp
+
+  !> One pass over a block: what is called, with what, and where the results go. Arrays belong to the caller.
+  type :: block_t
+    type(c_funptr) :: address
+    logical :: with_material = .false.   !< call with UELMAT's 37 arguments
+    logical :: symmetric = .false.       !< assemble (A + A^T)/2
+    logical :: parallel = .false.        !< several threads may call elements at the same time
+    integer(i4) :: guards = guards_stop  !< one of guards_*
+    integer(i4) :: entries = entries_stop  !< one of entries_*
+    logical :: want_matrix = .false.     !< check and assemble AMATRX
+    logical :: want_residual = .false.   !< check and assemble RHS
+    integer(i4) :: material = 0, tensor = 0, jtype = 0, kstep = 0, kinc = 0, iteration = 0
+    integer(i4) :: lflags(7) = 0
+    real(dp) :: time(2) = 0, dtime = 0, period = 0
+    real(dp) :: params(3) = 0             !< PARAMS: alpha, beta, gamma of a dynamic step
+    integer(i4), pointer, contiguous :: labels(:) => null(), jprops(:) => null()
+    integer(i4), pointer, contiguous :: equations(:, :) => null()  !< (ndofel, m) unknown, from 1
+    integer(i4), pointer, contiguous :: map(:, :, :) => null()     !< (ndofel, ndofel, m) position in matrix, from 1
+    real(dp), pointer, contiguous :: props(:) => null()
+    real(dp), pointer, contiguous :: coords(:, :, :) => null()     !< (mcrd, nnode, m)
+    real(dp), pointer, contiguous :: u(:) => null(), du(:) => null()
+    real(dp), pointer, contiguous :: v(:) => null(), a(:) => null()   !< velocity and acceleration; (1) if nothing moves
+    ! of the m elements, or of one that stands for all
+    integer(i4), pointer, contiguous :: counts(:) => null()        !< (m) distributed loads
+    integer(i4), pointer, contiguous :: kinds(:, :) => null()      !< (most, m) JDLTYP
+    real(dp), pointer, contiguous :: loads(:, :, :) => null()      !< (2, most, m) magnitude at the end, increment
+    real(dp), pointer, contiguous :: predef(:, :, :, :) => null()  !< (2, NPREDF, nnode, m)
+    real(dp), pointer, contiguous :: svars(:, :) => null(), svars_trial(:, :) => null()     !< (nsvars, m)
+    real(dp), pointer, contiguous :: energy(:, :) => null(), energy_trial(:, :) => null()   !< (8, m)
+    real(dp), pointer, contiguous :: history(:, :, :) => null(), history_trial(:, :, :) => null()  !< (values, npt, m)
+    real(dp), pointer, contiguous :: residual(:, :) => null()  !< (n, NRHS)
+    real(dp), pointer, contiguous :: matrix(:) => null()
+    real(dp), pointer, contiguous :: floor(:) => null()            !< (ndofel) |RHS| above which an entry counts as a term
+    real(dp), pointer, contiguous :: flux(:, :) => null()          !< (ndofel, 2) sum of |RHS|, and the largest one
+    integer(i4), pointer, contiguous :: terms(:) => null()         !< (ndofel) number of terms
+    integer :: first = 1                  !< element at which the loop on one thread begins
+    integer(i4) :: alone = 0              !< elements that it has called again, since several threads could not go on
+    real(dp) :: pnewdt = untouched        !< smallest returned, or one that is not finite
+    real(dp) :: energy_sum(8) = 0
+    integer(i4) :: fault = fault_none     !< one of fault_*
+    integer(i4) :: position = 0           !< element of the fault, from 1; 0 if unknown
+    integer(i4) :: culprit(3) = 0         !< first element that wrote outside an array, array and entry, with guards_search
+    integer(i4) :: array = 0, index = 0   !< array (number in host_workspace) and entry of the fault, or material point
+    integer(i4) :: unset(3) = 0           !< element, array and entry after which entries_notice became entries_zero
+    procedure(uel_procedure), pointer, nopass :: uel => null()
+    procedure(uelmat_procedure), pointer, nopass :: uelmat => null()
+  end type block_t
+
+  ! each thread has its own
+  type(workspace_t), target, save :: work
+  real(dp), allocatable, target, save :: discarded(:, :)   !< material history that a call leaves and that is not kept
+  !$omp threadprivate(work, discarded)
+
+contains
+
+  !> Workspace and context of this block, with intact guards. Column 2 of DU is always zero.
+  subroutine prepare(block)
+    type(block_t), intent(in) :: block
+    integer :: length(n_arrays), ndofel, nnode
+    ndofel = size(block%equations, 1)
+    nnode = size(block%coords, 2)
+    length = ndofel
+    length(i_rhs) = ndofel*size(block%residual, 2)
+    length(i_du) = length(i_rhs)   ! column 2 stays zero
+    length(i_amatrx) = ndofel*ndofel
+    length(i_svars) = size(block%svars, 1)
+    length(i_energy) = 8
+    length(i_props) = size(block%props)
+    length(i_coords) = size(block%coords, 1)*nnode
+    length(i_predef) = 2*size(block%predef, 2)*nnode
+    call lay_out(work, length)
+    nullify (current%history, current%history_trial)
+    if (associated(block%history)) then
+      if (allocated(discarded)) deallocate (discarded)
+      allocate (discarded(size(block%history, 1), size(block%history, 2)))
+    end if
+    current%step = block%kstep
+    current%increment = block%kinc
+    current%iteration = block%iteration
+    current%tensor = block%tensor
+    current%finite = .false.
+    current%deformed = .false.
+    current%distorted = 0
+    current%routine = merge('UELMAT', 'UEL   ', block%with_material)
+    current%time = block%time - block%dtime
+    current%dtime = block%dtime
+  end subroutine prepare
+
+  !> Set the fault if an entry of RHS or AMATRX of the current element is not a number, as far as they are checked.
+  subroutine check_results(block, work)
+    type(block_t), intent(inout) :: block
+    type(workspace_t), intent(in) :: work
+    if (block%want_residual) call check(block, work, i_rhs)
+    if (block%want_matrix .and. block%fault == fault_none) call check(block, work, i_amatrx)
+  end subroutine check_results
+
+  !> Gather the arguments of an element, call it, and keep its trial state.
+  subroutine call_element(block, e, work, now)
+    type(block_t), intent(inout) :: block
+    integer, intent(in) :: e
+    ! those of the thread, which finds them once for all elements
+    type(workspace_t), intent(inout), target :: work
+    type(call_context), intent(inout), target :: now
+    integer(i4) :: ndofel, nsvars, nprops
+    integer(i8) :: on_entry
+    ndofel = int(work%length(i_u), i4)
+    nsvars = int(work%length(i_svars), i4)
+    nprops = int(work%length(i_props), i4)
+    now%element = block%labels(e)
+    call begin_call(now%thread, now%element)
+    if (associated(block%history)) then
+      now%history => block%history(:, :, e)
+      if (keeps_state(block%lflags(3))) then
+        now%history_trial => block%history_trial(:, :, e)
+      else
+        now%history_trial => discarded
+      end if
+      now%history_trial = now%history
+    end if
+    ! explicit-shape helpers: their loops compile to plain vector code
+    associate (x => work%memory, s => work%start)
+      call gather(ndofel, block%equations(:, e), block%u, x(s(i_u)))
+      call gather(ndofel, block%equations(:, e), block%du, x(s(i_du)))
+      if (size(block%v) < size(block%u)) then
+        call fill(ndofel, 0_i8, x(s(i_v)))
+        call fill(ndofel, 0_i8, x(s(i_a)))
+      else
+        call gather(ndofel, block%equations(:, e), block%v, x(s(i_v)))
+        call gather(ndofel, block%equations(:, e), block%a, x(s(i_a)))
+      end if
+      on_entry = merge(0_i8, work%unset, block%entries == entries_zero)
+      call fill(work%length(i_rhs), on_entry, x(s(i_rhs)))
+      call fill(ndofel*ndofel, on_entry, x(s(i_amatrx)))
+      call copy(nsvars, block%svars(:, e), x(s(i_svars)))
+      call copy(8, block%energy(:, e), x(s(i_energy)))
+      call copy(nprops, block%props, x(s(i_props)))
+      call copy(work%length(i_coords), block%coords(:, :, e), x(s(i_coords)))
+      call copy(work%length(i_predef), block%predef(:, :, :, min(e, size(block%predef, 4))), x(s(i_predef)))
+      call invoke(block, min(e, size(block%counts)), now, x, s, ndofel, nsvars, nprops)
+      if (keeps_state(block%lflags(3))) then
+        call copy(nsvars, x(s(i_svars)), block%svars_trial(:, e))
+        call copy(8, x(s(i_energy)), block%energy_trial(:, e))
+      end if
+    end associate
+  end subroutine call_element
+
+  !> Calls whose SVARS and ENERGY are kept: the normal one, that for initial stresses, and that for the initial acceleration,
+  !> as the example of UEL in the User Subroutines Guide needs for the forces at the start of the first increment.
+  elemental logical function keeps_state(request)
+    integer(i4), intent(in) :: request   !< LFLAGS(3)
+    keeps_state = any(request == [1_i4, 6_i4, initial_stresses])
+  end function keeps_state
+
+  !> The call itself; scalars are copies, so a user routine that changes them affects nothing else.
+  subroutine invoke(block, row, now, x, s, ndofel, nsvars, nprops)
+    type(block_t), intent(inout) :: block
+    integer, intent(in) :: row   !< of the element in the distributed loads
+    type(call_context), intent(inout), target :: now
+    real(dp), intent(inout) :: x(*)
+    integer, intent(in) :: s(n_arrays)
+    integer(i4), value :: ndofel, nsvars, nprops
+    integer(i4) :: mlvarx, njprop, mcrd, nnode, nrhs, jtype, kstep, kinc, jelem, ndload, npredf, mdload, materiallib
+    integer(i4) :: jdltyp(max(block%counts(row), 1), 2), lflags(7), jprops(size(block%jprops))
+    real(dp) :: adlmag(max(block%counts(row), 1), 2), ddlmag(max(block%counts(row), 1), 2)
+    real(dp) :: time(2), dtime, params(3), pnewdt, period
+    mlvarx = ndofel
+    njprop = size(block%jprops, kind=i4)
+    mcrd = size(block%coords, 1, kind=i4)
+    nnode = size(block%coords, 2, kind=i4)
+    nrhs = size(block%residual, 2, kind=i4)
+    jtype = block%jtype
+    kstep = block%kstep
+    kinc = block%kinc
+    jelem = now%element
+    ndload = block%counts(row)
+    mdload = size(jdltyp, 1, kind=i4)
+    ! the second column, of the other load case with NRHS = 2, is zero
+    jdltyp = 0
+    adlmag = 0
+    ddlmag = 0
+    jdltyp(:ndload, 1) = block%kinds(:ndload, row)
+    adlmag(:ndload, 1) = block%loads(1, :ndload, row)
+    ddlmag(:ndload, 1) = block%loads(2, :ndload, row)
+    npredf = size(block%predef, 2, kind=i4)
+    lflags = block%lflags
+    jprops = block%jprops
+    materiallib = block%material
+    time = block%time
+    dtime = block%dtime
+    period = block%period
+    params = block%params
+    pnewdt = untouched
+    now%pnewdt = untouched
+    if (block%with_material) then
+      call block%uelmat(x(s(i_rhs)), x(s(i_amatrx)), x(s(i_svars)), x(s(i_energy)), ndofel, nrhs, nsvars, x(s(i_props)), &
+                        nprops, x(s(i_coords)), mcrd, nnode, x(s(i_u)), x(s(i_du)), x(s(i_v)), x(s(i_a)), jtype, time, &
+                        dtime, kstep, kinc, jelem, params, ndload, jdltyp, adlmag, x(s(i_predef)), npredf, lflags, mlvarx, &
+                        ddlmag, mdload, pnewdt, jprops, njprop, period, materiallib)
+    else
+      call block%uel(x(s(i_rhs)), x(s(i_amatrx)), x(s(i_svars)), x(s(i_energy)), ndofel, nrhs, nsvars, x(s(i_props)), &
+                     nprops, x(s(i_coords)), mcrd, nnode, x(s(i_u)), x(s(i_du)), x(s(i_v)), x(s(i_a)), jtype, time, &
+                     dtime, kstep, kinc, jelem, params, ndload, jdltyp, adlmag, x(s(i_predef)), npredf, lflags, mlvarx, &
+                     ddlmag, mdload, pnewdt, jprops, njprop, period)
+    end if
+    ! a NaN stays, for the caller to see: no comparison finds it
+    if (block%lflags(3) == 1 .and. all_finite(1, [block%pnewdt])) then
+      block%pnewdt = min(block%pnewdt, pnewdt, now%pnewdt)
+      if (.not. all_finite(1, [pnewdt])) block%pnewdt = pnewdt
+    end if
+  end subroutine invoke
+
+  !> Set the fault if an entry of an array of the current element is not a number.
+  subroutine check(block, work, array)
+    type(block_t), intent(inout) :: block
+    type(workspace_t), intent(in) :: work
+    integer, intent(in) :: array
+    integer :: i, n, s
+    s = work%start(array)
+    n = work%length(array)
+    if (all_finite(n, work%memory(s))) return
+    do i = 1, n
+      if (all_finite(1, work%memory(s + i - 1))) cycle
+      block%fault = merge(fault_unset, fault_not_finite, same_bits(work%memory(s + i - 1), work%unset))
+      block%array = array
+      block%index = i
+      return
+    end do
+  end subroutine check
+
+  !> y = x
+  subroutine copy(n, x, y)
+    integer, intent(in) :: n
+    real(dp), intent(in) :: x(n)
+    real(dp), intent(inout) :: y(n)
+    y = x
+  end subroutine copy
+
+  !> Entries of a vector of the system.
+  subroutine gather(n, equations, x, y)
+    integer, intent(in) :: n
+    integer(i4), intent(in) :: equations(n)
+    real(dp), intent(in) :: x(*)
+    real(dp), intent(inout) :: y(n)
+    y = x(equations)
+  end subroutine gather
+end module host_element

@@ -1,0 +1,105 @@
+! SPDX-FileCopyrightText: The uel-harness authors
+! SPDX-License-Identifier: BSD-3-Clause
+!> Results of elements into the sums of the system.
+module host_scatter
+  use host_kinds, only: dp, i4
+  implicit none (type, external)
+  private
+  public :: add, add_residual, add_magnitude, add_matrix, add_own_residual, add_own_matrix
+
+contains
+
+  !> y = y + x
+  subroutine add(n, x, y)
+    integer, intent(in) :: n
+    real(dp), intent(in) :: x(n)
+    real(dp), intent(inout) :: y(n)
+    y = y + x
+  end subroutine add
+
+  !> Scatter a column of RHS.
+  subroutine add_residual(n, rhs, equations, residual)
+    integer, intent(in) :: n
+    real(dp), intent(in) :: rhs(n)
+    integer(i4), intent(in) :: equations(n)
+    real(dp), intent(inout) :: residual(*)
+    integer :: i
+    do i = 1, n
+      residual(equations(i)) = residual(equations(i)) + rhs(i)
+    end do
+  end subroutine add_residual
+
+  !> Add |x| to the sums of magnitudes, keep the largest ones, and count those above the floor.
+  subroutine add_magnitude(n, x, floor, y, terms)
+    integer, intent(in) :: n
+    real(dp), intent(in) :: x(n), floor(n)
+    real(dp), intent(inout) :: y(n, 2)
+    integer(i4), intent(inout) :: terms(n)
+    y(:, 1) = y(:, 1) + abs(x)
+    y(:, 2) = max(y(:, 2), abs(x))
+    terms = terms + merge(1_i4, 0_i4, abs(x) > floor)
+  end subroutine add_magnitude
+
+  !> Scatter AMATRX, or its symmetric part, into the values of the sparse matrix.
+  subroutine add_matrix(n, a, map, symmetric, matrix)
+    integer, intent(in) :: n
+    real(dp), intent(in) :: a(n, n)
+    integer(i4), intent(in) :: map(n, n)
+    logical, intent(in) :: symmetric
+    real(dp), intent(inout) :: matrix(*)
+    real(dp) :: mean
+    integer :: i, j
+    if (.not. symmetric) then
+      do j = 1, n
+        do i = 1, n
+          matrix(map(i, j)) = matrix(map(i, j)) + a(i, j)
+        end do
+      end do
+      return
+    end if
+    do j = 1, n
+      matrix(map(j, j)) = matrix(map(j, j)) + a(j, j)
+      do i = j + 1, n
+        mean = 0.5_dp*(a(i, j) + a(j, i))
+        matrix(map(i, j)) = matrix(map(i, j)) + mean
+        matrix(map(j, i)) = matrix(map(j, i)) + mean
+      end do
+    end do
+  end subroutine add_matrix
+
+  !> The entries of a column of RHS that belong to a thread.
+  subroutine add_own_residual(n, own, rhs, equations, residual)
+    integer, intent(in) :: n
+    logical, intent(in) :: own(n)          !< by unknown
+    real(dp), intent(in) :: rhs(n)
+    integer(i4), intent(in) :: equations(n)
+    real(dp), intent(inout) :: residual(*)
+    integer :: i
+    do i = 1, n
+      if (own(i)) residual(equations(i)) = residual(equations(i)) + rhs(i)
+    end do
+  end subroutine add_own_residual
+
+  !> The columns of AMATRX, or of its symmetric part, that belong to a thread; to the bit what add_matrix adds.
+  subroutine add_own_matrix(n, own, a, map, symmetric, matrix)
+    integer, intent(in) :: n
+    logical, intent(in) :: own(n)          !< by unknown
+    real(dp), intent(in) :: a(n, n)
+    integer(i4), intent(in) :: map(n, n)
+    logical, intent(in) :: symmetric
+    real(dp), intent(inout) :: matrix(*)
+    integer :: i, j
+    do j = 1, n
+      if (.not. own(j)) cycle
+      if (symmetric) then
+        do i = 1, n
+          matrix(map(i, j)) = matrix(map(i, j)) + 0.5_dp*(a(i, j) + a(j, i))
+        end do
+      else
+        do i = 1, n
+          matrix(map(i, j)) = matrix(map(i, j)) + a(i, j)
+        end do
+      end if
+    end do
+  end subroutine add_own_matrix
+end module host_scatter

@@ -1,0 +1,99 @@
+# SPDX-FileCopyrightText: The uel-harness authors
+# SPDX-License-Identifier: BSD-3-Clause
+"""Which elements several threads may call at the same time."""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Iterable
+from typing import Final
+
+from harness.elements.block import ElementBlock
+from harness.errors import UsageError
+from harness.model.mesh import ElementGroup
+from harness.model.model import Model
+from harness.model.properties import UserProperty
+from harness.usersub import Library
+
+MOST_THREADS: Final = 64
+"""As in fortran/host/protect.c."""
+
+USER_MATERIAL: Final = "UMAT"
+USER_FIELD: Final = "USDFLD"
+
+
+def known_routines(model: Model) -> list[str]:
+    """What the user can call safe in a model: its user element types, UMAT and USDFLD if it has them."""
+    names = {group.type.upper() for group in model.groups if group.definition is not None}
+    for group in model.groups:
+        names |= _called(group)
+    return sorted(names)
+
+
+def use_threads(blocks: Iterable[ElementBlock], library: Library, number: int, safe: Collection[str]) -> None:
+    """Let several threads call the elements of each block that allows it; the others give a warning.
+
+    Parameters
+    ----------
+    blocks
+        Of the system.
+    library
+        The loaded user routines, which takes the warnings.
+    number
+        Threads, for the messages.
+    safe
+        User element types, UMAT and USDFLD in capitals, that the user says several threads may call.
+
+    Raises
+    ------
+    UsageError
+        Elements read what others have stored in memory that all threads share.
+    """
+    warned: set[str] = set()
+    for block in blocks:
+        reason = _reason_for_one(block.group, library, number, safe)
+        block.parallel = not reason
+        if reason and reason not in warned:
+            warned.add(reason)
+            library.warn(reason)
+
+
+def _reason_for_one(group: ElementGroup, library: Library, number: int, safe: Collection[str]) -> str:
+    """Why one thread has to call the elements, '' if it has not to."""
+    kind = group.type.upper()
+    if group.definition is not None:
+        assert isinstance(group.section, UserProperty)  # build_blocks has refused others
+        if library.shares_stress(group.definition.number, group.section.integers):
+            raise UsageError(
+                f"--cpus {number}: elements of type {kind} ({group.source}) store or take the stress of their "
+                "neighbours in memory that all threads share; run with --cpus 1, or take an interface element that "
+                "has the stress itself (U4, U5, U8, U11, U12) and FACE = 0"
+            )
+        if not library.is_own and kind not in safe:
+            return _undeclared(f"elements of type {kind}", [kind], number)
+    missing = sorted(_called(group).difference(safe))
+    if missing:
+        return _undeclared(f"elements of type {kind}", missing, number)
+    material = getattr(group.section, "material", None)
+    if material is not None and material.elastic is not None and material.elastic.table is not None:
+        return (
+            f"elements of type {kind} are called by one thread: *ELASTIC of material {material.name} depends on "
+            "temperature or field variables"
+        )
+    return ""
+
+
+def _called(group: ElementGroup) -> set[str]:
+    """User routines that elements call at their points."""
+    material = getattr(group.section, "material", None)
+    if material is None:
+        return set()
+    routines = {USER_MATERIAL: material.user, USER_FIELD: material.user_field}
+    return {name for name, given in routines.items() if given is not None}
+
+
+def _undeclared(what: str, missing: list[str], number: int) -> str:
+    options = " ".join(f"--thread-safe {name}" for name in missing)
+    return (
+        f"{what} are called by one thread; {options} lets {number} threads call them, if the user's file passes the "
+        "checks 'shuffle' and 'threads' of uel check"
+    )
