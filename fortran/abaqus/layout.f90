@@ -413,11 +413,24 @@ contains
     integer, intent(in) :: jtype
     integer :: nodes(nodes_of_face(jtype), 2)
 
-    associate (bottom => [faces(jtype)%bottom, faces(jtype)%bottom_middles], top => [faces(jtype)%top, faces(jtype)%top_middles])
-      nodes(:, 1) = pack(bottom, bottom > 0)
-      nodes(:, 2) = pack(top, top > 0)
-    end associate
+    nodes(:, 1) = present_of(size(nodes, 1), [faces(jtype)%bottom, faces(jtype)%bottom_middles])
+    nodes(:, 2) = present_of(size(nodes, 1), [faces(jtype)%top, faces(jtype)%top_middles])
   end function face_nodes
+
+  !> The entries that are not zero, as the intrinsic pack, which allocates memory in each call.
+  pure function present_of(n, entries) result(present_ones)
+    integer, intent(in) :: n
+    integer, intent(in) :: entries(:)
+    integer :: present_ones(n)
+    integer :: i, k
+
+    k = 0
+    do i = 1, size(entries)
+      if (entries(i) == 0) cycle
+      k = k + 1
+      present_ones(k) = entries(i)
+    end do
+  end function present_of
 
   !> Number of real properties that Un may have, PROPERTIES of *USER ELEMENT.
   pure function reals_of(jtype) result(number)

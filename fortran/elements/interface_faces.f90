@@ -83,12 +83,14 @@ contains
     real(dp), intent(in) :: middle(2, nodes)
     type(interface_place), intent(inout) :: place
     type(status_type), intent(inout) :: status
-    real(dp) :: s(nodes), w(nodes), slope(2), along, frame(2, 2)
+    real(dp), dimension(nodes) :: s, w, shape, shape_slope   ! variables: function results in matmul would be allocated
+    real(dp) :: slope(2), along, frame(2, 2)
     real(dp), parameter :: origin(2) = 0.0_dp
 
     s = line_points(nodes, rule)
     w = line_weights(nodes, rule)
-    slope = matmul(middle, line_slope(nodes, s(k)))
+    shape_slope = line_slope(nodes, s(k))
+    slope = matmul(middle, shape_slope)
     ! a middle node too close to an end folds the edge back
     along = dot_product(slope, middle(:, 2) - middle(:, 1))
     if (.not. along > 0.0_dp) then
@@ -96,7 +98,8 @@ contains
       return
     end if
     place%parent = [s(k), 0.0_dp]
-    place%position(1:2) = matmul(middle, line_shape(nodes, s(k)))
+    shape = line_shape(nodes, s(k))
+    place%position(1:2) = matmul(middle, shape)
     call line_frame(origin, slope, frame, place%area)
     place%frame = 0.0_dp
     place%frame(1:2, 1:2) = frame

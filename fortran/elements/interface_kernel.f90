@@ -60,6 +60,7 @@ contains
     real(dp) :: spread(dim, size(u))             ! of tractions to the nodes
     real(dp), dimension(size(u)) :: moved, original, shifted
     real(dp) :: turning(3, dim, dim, size(faces, 1)), bulk_traction(3), separation(3), area
+    real(dp), dimension(dim, size(faces, 1)) :: bottom, top
     integer :: k, nodes
 
     residual = 0.0_dp
@@ -73,8 +74,9 @@ contains
     call check_law(law, status)
     if (status%code /= ok) return
     nodes = size(faces, 1)
-    call measure_interface(dim, nodes, points, coordinates(:, faces(:, 1)), coordinates(:, faces(:, 2)), options%rule, places, &
-      status)
+    bottom = coordinates(:, faces(:, 1))
+    top = coordinates(:, faces(:, 2))
+    call measure_interface(dim, nodes, points, bottom, top, options%rule, places, status)
     if (status%code /= ok) return
     if (present(stabilisation)) then
       used = stabilisation
@@ -133,12 +135,14 @@ contains
   pure subroutine add_product(area, jump, x, matrix)
     real(dp), intent(in) :: area
     real(dp), intent(in) :: jump(:, :), x(:, :)     !< (2 or 3, unknowns)
-    real(dp), intent(inout) :: matrix(:, :)
+    real(dp), intent(inout) :: matrix(size(jump, 2), size(x, 2))
+    real(dp) :: by_node(size(jump, 2), size(jump, 1))   ! so that the innermost loop is along the memory
     integer :: i, j
 
+    by_node = transpose(jump)
     do j = 1, size(x, 2)
       do i = 1, size(x, 1)
-        matrix(:, j) = matrix(:, j) + (area*x(i, j))*jump(i, :)
+        matrix(:, j) = matrix(:, j) + (area*x(i, j))*by_node(:, i)
       end do
     end do
   end subroutine add_product
