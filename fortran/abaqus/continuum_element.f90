@@ -364,6 +364,22 @@ contains
     real(dp), intent(in) :: weight                       !< volume of the point
     real(dp), intent(in) :: b(n, strains), modulus(strains, strains)   !< modulus need not be symmetric
     real(dp), intent(inout) :: matrix(n, n)
+
+    ! a compiler makes more of loops whose length it knows
+    if (n == 8 .and. strains == 3) then
+      call add_columns(8, 3, first, last, weight, b, modulus, matrix)
+    else
+      call add_columns(n, strains, first, last, weight, b, modulus, matrix)
+    end if
+  end subroutine add_stiffness
+
+  !> The same with its sizes.
+  pure subroutine add_columns(n, strains, first, last, weight, b, modulus, matrix)
+    integer, value :: n, strains
+    integer, intent(in) :: first, last
+    real(dp), intent(in) :: weight                       !< volume of the point
+    real(dp), intent(in) :: b(n, strains), modulus(strains, strains)   !< modulus need not be symmetric
+    real(dp), intent(inout) :: matrix(n, n)
     real(dp) :: stress(n, strains)      ! by the unknowns
     integer :: i, j
 
@@ -380,7 +396,7 @@ contains
         matrix(:, j) = matrix(:, j) + stress(j, i)*b(:, i) + stress(j, i + 1)*b(:, i + 1) + stress(j, i + 2)*b(:, i + 2)
       end do
     end do
-  end subroutine add_stiffness
+  end subroutine add_columns
 
   !> Stores stresses and sizes for the adjacent interface elements. The stress at a place on the face is that of the Gauss point
   !> next to it, carried there by the stiffness: exact in linear elasticity, without another call of the material. In the middle
