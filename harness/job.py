@@ -65,7 +65,8 @@ def run(
     linear
         Types of user elements, such as 'U5', that are linear: in static steps with small displacements their first
         AMATRX stands for them, and they are called again only at the end of each increment, which verifies it. Elastic
-        continuum elements, built in and the project's own, are always treated so.
+        continuum elements, built in and the project's own, are always treated so, and called again only where their
+        state is read.
     cpus
         Threads that call the elements, with the results of one to the bit. Built-in elements and the project's own
         are called by all of them, but for U3 and U10, which share stress; other routines if `thread_safe` names them.

@@ -3,8 +3,8 @@
 !> Elements that are linear, from their matrices: what a pass over them would add, without calling them.
 
 !> Add the forces -K u of all elements to the residual, and measure them as the element loop does. Where a translation causes no
-!> force, that of the first node is taken out before: it would only cost digits.
-subroutine host_linear_pass(matrices, equations, first, u, floor, residual, flux, terms, ndofel, m, n)
+!> force, that of the first node is taken out before: it would only cost digits. The energy is that which the elements store.
+subroutine host_linear_pass(matrices, equations, first, u, floor, residual, flux, terms, energy, ndofel, m, n)
   use host_kinds, only: dp, i4
   implicit none (type, external)
   integer(i4), intent(in) :: ndofel, m, n
@@ -15,10 +15,12 @@ subroutine host_linear_pass(matrices, equations, first, u, floor, residual, flux
   real(dp), intent(inout) :: residual(n)
   real(dp), intent(out) :: flux(ndofel, 2)              !< sum of |force|, and the largest one
   integer(i4), intent(out) :: terms(ndofel)             !< number of terms
+  real(dp), intent(out) :: energy                       !< sum of u.K u/2
   real(dp) :: force(ndofel), at(ndofel)
   integer :: e, j
   flux = 0
   terms = 0
+  energy = 0
   do e = 1, m
     force = 0
     at = u(equations(:, e))
@@ -26,6 +28,7 @@ subroutine host_linear_pass(matrices, equations, first, u, floor, residual, flux
       if (first(j) > 0) at(j) = at(j) - at(first(j))
       force = force - at(j)*matrices(:, j, e)
     end do
+    energy = energy - 0.5_dp*dot_product(force, at)
     do j = 1, ndofel
       residual(equations(j, e)) = residual(equations(j, e)) + force(j)
     end do

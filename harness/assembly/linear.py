@@ -28,7 +28,7 @@ MOST_ENTRIES: Final = 2**31 - 1
 class Behind:
     """The last pass that keeps a state, of which the linear elements know nothing yet.
 
-    energy  (8,) sum of ENERGY over the other elements; that of the linear ones is added when they catch up
+    energy  (8,) sum of ENERGY; that of elements that are called at the end of the increment is added then
     """
 
     call: Call
@@ -41,8 +41,9 @@ class LinearElements:
     """The blocks of a system whose elements are linear.
 
     In a static step with small displacements they are called in the first pass; after that a pass adds -K U, with K
-    the AMATRX of that call. Their state is brought up to date at the end of each increment. Elements that are linear
-    only because the user says so are verified then.
+    the AMATRX of that call. Their state is brought up to date when it is read, or needed by a pass that calls them; at
+    the end of each increment if they have other energies than that of K (hourglass control), or are linear only because
+    the user says so, which is verified then.
     """
 
     def __init__(self, blocks: Sequence[ElementBlock], entries: int) -> None:
@@ -51,6 +52,7 @@ class LinearElements:
         self._matrices: dict[int, FloatArray] = {}
         self._data = np.zeros(entries)
         self._behind: Behind | None = None
+        self._unread: Behind | None = None
 
     def applies(self, call: Call, motion: Motion | None, nrhs: int) -> bool:
         """Whether the matrices stand for the elements in a pass, once they are known.
@@ -90,7 +92,7 @@ class LinearElements:
         return report
 
     def forces(self, block: ElementBlock, call: Call, u: FloatArray, residual: FloatArray) -> BlockReport:
-        """Add -K U of a block to residual (n,); its ENERGY and PNEWDT are left out."""
+        """Add -K U of a block to residual (n,); see `ElementBlock.linear_pass`."""
         return block.linear_pass(self._matrices[id(block)], call, u, residual)
 
     def fill(self, data: FloatArray) -> None:
@@ -103,7 +105,7 @@ class LinearElements:
             self._behind = Behind(call, u.copy(), du.copy(), energy) if spared else None
 
     def catch_up(self) -> None:
-        """Call the elements for their state at the end of an increment, and add their ENERGY to that of the pass.
+        """End of an increment: call the elements that cannot wait, and add their ENERGY to that of the pass.
 
         Raises
         ------
@@ -113,14 +115,36 @@ class LinearElements:
             An element fails.
         """
         behind, self._behind = self._behind, None
+        self._unread = behind
         if behind is None:
             return
         for block in self._blocks:
+            if block.can_wait:
+                continue
             called = np.zeros_like(behind.u)
             report = block.evaluate(behind.call, behind.u, behind.du, called, None)
             behind.energy[:] += report.energy
             if block.assumed_linear:
                 self._verify(block, behind, called)
+
+    def waits(self, block: ElementBlock) -> bool:
+        """Whether the state of a block is older than the end of the last increment."""
+        return self._unread is not None and block.can_wait and block in self
+
+    def bring_up(self) -> None:
+        """Call the elements that wait for their state at the end of the last increment.
+
+        Raises
+        ------
+        KernelError
+            An element fails.
+        """
+        for block in [block for block in self._blocks if self.waits(block)]:
+            unread = self._unread
+            assert unread is not None
+            block.evaluate(unread.call, unread.u, unread.du, np.zeros_like(unread.u), None)
+            block.commit()
+        self._unread = None
 
     def _verify(self, block: ElementBlock, behind: Behind, called: FloatArray) -> None:
         """Compare the forces of a block with those of its matrices."""

@@ -13,10 +13,12 @@ from scipy import sparse
 
 from harness.assembly.dofs import DofMap
 from harness.assembly.linear import LinearElements
+from harness.assembly.states import States
 from harness.elements import FIELD_NAMES, Call, ElementBlock, Motion, PressureBlock
 from harness.model.arrays import ComplexArray, FloatArray, IntArray
 from harness.model.mesh import Mesh
 from harness.model.model import Equation
+from harness.model.records import ElementState
 from harness.usersub import _binding
 
 
@@ -75,6 +77,7 @@ class System:
         for block, equation_numbers, positions in zip(blocks, numbers, scatter, strict=True):
             block.bind(equation_numbers, positions)
         self._data = np.zeros(len(self.indices))
+        self._committed = 0
         self._linear = LinearElements(self.blocks if spare_linear else (), len(self.indices))
 
     def __len__(self) -> int:
@@ -124,6 +127,8 @@ class System:
         linear = self._linear
         applies = linear.applies(call, motion, nrhs)
         spared = applies and linear.known
+        if not spared:
+            linear.bring_up()
         if data is not None and spared:
             linear.fill(data)
         elif data is not None:
@@ -182,8 +187,25 @@ class System:
             UVARM ends the analysis.
         """
         self._linear.catch_up()
+        self._committed += 1
         for block in (*self.blocks, *self.pressures):
-            block.commit()
+            if not self._linear.waits(block):
+                block.commit()
+
+    def states(self) -> States:
+        """Committed states of all elements.
+
+        Returns
+        -------
+        States
+            A state for each block. They have to be read, if at all, before the next increment ends.
+        """
+        increment = self._committed
+        return States(self._read_states, lambda: self._committed == increment)
+
+    def _read_states(self) -> tuple[ElementState, ...]:
+        self._linear.bring_up()
+        return tuple(block.state(k) for k, block in enumerate(self.blocks))
 
     def matrix(self, data: FloatArray | ComplexArray) -> sparse.csr_array:
         """The matrix with the given CSR values.

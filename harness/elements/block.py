@@ -120,6 +120,12 @@ class ElementBlock:
         return self._routine.forces is Linearity.ASSUMED
 
     @property
+    def can_wait(self) -> bool:
+        """Whether linear elements need not be called at the end of an increment whose state nobody reads."""
+        known = self._routine.forces is Linearity.KNOWN and self._routine.stores
+        return known and self._uvar is None
+
+    @property
     def matrix_entries(self) -> int:
         """Entries of the AMATRX of all elements."""
         return len(self.group.labels) * len(self.unknowns) ** 2
@@ -298,10 +304,11 @@ class ElementBlock:
         Returns
         -------
         BlockReport
-            As of `evaluate`, with no ENERGY and no PNEWDT.
+            As of `evaluate`, without PNEWDT; ENERGY(2) if the elements have no other, and none if they have.
         """
         outcome = _binding.linear_pass(matrices, self._arrays.equations, self._first, u, self._floor(call), residual)
-        return BlockReport.of(outcome, self._by_field, len(self.group.labels), outcome.energy, 0.0)
+        energy = outcome.energy if self.can_wait else np.zeros(8)
+        return BlockReport.of(outcome, self._by_field, len(self.group.labels), energy, 0.0)
 
     def largest_deviation(
         self, matrices: FloatArray, call: Call, u: FloatArray, du: FloatArray

@@ -147,6 +147,7 @@ def _user_block(
         tensor=int(tensor),
         history=history,
         forces=forces,
+        stores=forces is Linearity.KNOWN,
         free=free,
     )
     variables = library.variables(definition.number)

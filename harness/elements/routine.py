@@ -41,6 +41,7 @@ class Routine:
     damages   ENERGY(4) is dissipated by damage, not by plasticity
     linear    the state of built-in elements is linear in small displacements
     forces    whether the forces are
+    stores    whether linear elements have no ENERGY but ENERGY(2), which is what AMATRX stores
     free      dofs along which a translation of an element causes no force, as far as that is known
     stress    places of the stress components of a point among its SVARS, in Abaqus' order; the last one is S12 or
               S23; none: the elements take no initial stress
@@ -63,6 +64,7 @@ class Routine:
     damages: bool = False
     linear: bool = False
     forces: Linearity = Linearity.UNKNOWN
+    stores: bool = False
     free: tuple[int, ...] = ()
     stress: tuple[int, ...] = ()
 

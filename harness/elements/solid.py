@@ -95,6 +95,8 @@ def solid_routine(model: Model, group: ElementGroup, section: SolidSection, libr
         uvarm=_output_variables(section, kind.points, library),
         linear=history_values(material) == 1,
         forces=linearity(material, prestressed=prestressed),
+        # the energy of hourglass control is another one
+        stores=not kind.hourglass_control,
         # along the radius it strains the circumference
         free=(2,) if kind.axisymmetric else tuple(range(1, kind.dimension + 1)),
         stress=_places_of_stress(kind),

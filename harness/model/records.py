@@ -4,6 +4,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass, field
 from enum import StrEnum
 from typing import Final
@@ -251,6 +252,7 @@ class Solution:
     velocity, acceleration  (n,) V and A
     energies          whole model, by Abaqus name: ALLSE, ALLPD, ALLDMD, ALLCD, ALLVD, ALLAE, ALLKE, ALLIE, ALLWK,
                       ETOTAL
+    elements          a state for each block; read it before the next increment ends
     imaginary         the imaginary part of a harmonic response, of which this is the real one
     """
 
@@ -260,7 +262,7 @@ class Solution:
     reaction: FloatArray
     load: FloatArray
     energies: dict[str, float] = field(default_factory=dict)
-    elements: tuple[ElementState, ...] = ()
+    elements: Sequence[ElementState] = ()
     velocity: FloatArray = field(default_factory=lambda: np.zeros(0))
     acceleration: FloatArray = field(default_factory=lambda: np.zeros(0))
     imaginary: Solution | None = None

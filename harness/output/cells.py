@@ -14,6 +14,7 @@ Which cell an element becomes:
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -67,7 +68,7 @@ def is_solid(model: Model) -> bool:
     return bool(len(z)) and bool(np.ptp(z) > 0.0)
 
 
-def cell_values(states: tuple[ElementState, ...], cells: tuple[Cells, ...]) -> dict[str, list[FloatArray]]:
+def cell_values(states: Sequence[ElementState], cells: tuple[Cells, ...]) -> dict[str, list[FloatArray]]:
     """Means over the integration points, by variable, an array for each group; NaN where a group lacks the variable.
 
     Coordinates of the points are left out, because the cell shows them.

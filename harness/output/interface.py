@@ -38,13 +38,15 @@ class InterfaceFile:
 
     def write(self, record: IncrementDone, *, last: bool) -> None:
         """Append the block of an increment if the step writes field output."""
+        step = self._model.steps[record.step - 1]
+        if not self._schedule.due_field(step, record, last=last):
+            return
         states = [
             (state, state.variables)
             for state in record.solution.elements
             if state.variables is not None and state.variables.kind == "interface"
         ]
-        step = self._model.steps[record.step - 1]
-        if not states or not self._schedule.due_field(step, record, last=last):
+        if not states:
             return
         if self._file is None:
             self._names = list(dict.fromkeys(name for _, variables in states for name in variables.names))

@@ -145,9 +145,10 @@ class PerturbationStep:
         call = self._call(Request.NORMAL)
         end, scratch = self._state.displacement + change, np.zeros_like(change)
         found = []
+        before = self._system.states()[:]
         for k, block in enumerate(self._system.blocks):
             if block.elastic:
                 block.evaluate(call, end, change, scratch, None)
-                trial, base = block.trial(k), block.state(k)
+                trial, base = block.trial(k), before[k]
                 found.append(replace(trial, svars=trial.svars - base.svars, energy=trial.energy - base.energy))
         return tuple(found)

@@ -91,7 +91,7 @@ class ConvergedState:
         self.damage = converged.evaluation.damage
 
     def solution(self, system: System) -> Solution:
-        """Copy of the state for output; element states are the committed ones."""
+        """Copy of the state for output; element states are the committed ones, and copied when they are read."""
         return Solution(
             node=system.dofs.node,
             dof=system.dofs.dof,
@@ -101,7 +101,7 @@ class ConvergedState:
             velocity=self.velocity,
             acceleration=self.acceleration,
             energies=self._energies(),
-            elements=tuple(block.state(k) for k, block in enumerate(system.blocks)),
+            elements=system.states(),
         )
 
     def _energies(self) -> dict[str, float]:

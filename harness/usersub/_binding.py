@@ -33,6 +33,10 @@ ARRAYS: Final = ("RHS", "AMATRX", "SVARS", "ENERGY", "PROPS", "COORDS", "U", "DU
 """Guarded arrays, in the order of fortran/host/host_workspace.f90."""
 
 
+_STRAIN_ENERGY: Final = 1
+"""Index of ENERGY(2)."""
+
+
 class Scalars(TypedDict):
     """Scalar arguments of a pass, as host_evaluate in fortran/host/entry.f90 has them."""
 
@@ -214,10 +218,12 @@ def linear_pass(
     """Add the forces of elements that are linear to residual (n,): what a pass over them would, without calling them.
 
     matrices (m, ndofel, ndofel), each by columns; equations (m, ndofel), from 1; first, floor (ndofel,): the
-    entry of U, from 1, that is taken out of each one before the product, 0 for none.
+    entry of U, from 1, that is taken out of each one before the product, 0 for none. ENERGY(2) is what they store.
     """
-    flux, terms = _host.host_linear_pass(matrices.T, equations.T, first, u, floor, residual)
-    return Outcome(Fault.NONE, -1, ARRAYS[0], 0, flux[:, 0], flux[:, 1], terms, np.inf, np.zeros(8), 0)
+    flux, terms, stored = _host.host_linear_pass(matrices.T, equations.T, first, u, floor, residual)
+    energy = np.zeros(8)
+    energy[_STRAIN_ENERGY] = stored
+    return Outcome(Fault.NONE, -1, ARRAYS[0], 0, flux[:, 0], flux[:, 1], terms, np.inf, energy, 0)
 
 
 def scatter_map(equations: Int32Array, indptr: Int32Array, indices: Int32Array) -> Int32Array:

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""Linear elements, which are not called in each iteration: the same results with fewer calls."""
+"""Linear elements, which are called for their state alone: the same results with fewer calls."""
 
 from __future__ import annotations
 
@@ -13,17 +13,22 @@ import pytest
 from reference_cells import patch_of
 
 import harness
+from harness import usersub
+from harness.assembly import System
 from harness.assembly.linear import LinearElements
 from harness.cli import main
+from harness.deck import read_deck
 from harness.delamination.blocks import Interface
 from harness.delamination.keywords import element_block, node_block
 from harness.delamination.materials import TABLE_2
 from harness.delamination.mesh import two_arms
 from harness.delamination.specimens import ARM_HEIGHT, dcb_deck, dcb_specimen, mesh_files
 from harness.delamination.steps import Increments
-from harness.elements import ElementBlock
-from harness.errors import ElementError, UsageError
+from harness.elements import ElementBlock, build_blocks
+from harness.errors import ElementError, UelError, UsageError
 from harness.model.element_types import CONTINUUM
+from harness.model.records import IncrementDone
+from harness.procedures import run_steps
 
 SPRING = """! a spring of a node to the ground along x: PROPS(1) U + PROPS(2) U**3
       include '{include}'
@@ -205,3 +210,38 @@ def test_a_type_that_the_deck_does_not_have(tmp_path, spring, capsys):
     assert main([*arguments, "U1", "--quiet"]) == 0
     assert main([*arguments, "U7"]) == 2
     assert message in capsys.readouterr().err
+
+
+def test_states_are_brought_up_to_date_when_they_are_read(tmp_path, monkeypatch, calls):
+    """Quads between two increments of field output are not called; the energies do not need them."""
+    mesh = two_arms(np.linspace(0.0, 60.0, 31), ARM_HEIGHT, 2, 35.0)
+    specimen = dcb_specimen("beam", mesh, Interface("U2", TABLE_2.with_stiffness(1e4)))
+    increments = Increments(0.05, 1e-6, 0.05)
+    files = mesh_files("beam", mesh, (4,)) | {"dcb.inp": dcb_deck("DCB", specimen, 1.5, increments, 7)}
+    for name, content in files.items():
+        (tmp_path / name).write_text(content)
+    found = harness.run(tmp_path / "dcb.inp", output_dir=tmp_path / "spared")
+    written = len(found.frames)
+    assert 2 < written < len(found.status) / 3
+    # in the first increment .dat compares what it is asked for with what there is
+    assert calls["U1"] == 2 * (2 + 1 + written)
+    always_called(monkeypatch)
+    expected = harness.run(tmp_path / "dcb.inp", output_dir=tmp_path / "called")
+    for name, column in expected.history.items():
+        np.testing.assert_allclose(found.history[name], column, rtol=0, atol=1e-10 * (1 + np.abs(column).max()))
+    for name, parts in expected.mesh(-1).cell_data.items():
+        for part, others in zip(found.mesh(-1).cell_data[name], parts, strict=True):
+            np.testing.assert_allclose(part, others, rtol=0, atol=1e-10 * (1 + np.nanmax(np.abs(others), initial=0.0)))
+
+
+def test_states_are_not_read_too_late(tmp_path, spring):
+    deck = tmp_path / "patch.inp"
+    deck.write_text(deck_of("CPS4"))
+    model = read_deck(deck)
+    library = usersub.load([spring], job="late", output_dir=tmp_path, deck=deck)
+    system = System(model.mesh, build_blocks(model, library), model.equations, spare_linear=True)
+    done = [record.solution for record in run_steps(system, model, library) if isinstance(record, IncrementDone)]
+    with pytest.raises(UelError, match="element states have to be read before the next increment ends"):
+        len(done[0].elements)
+    assert len(done[-1].elements) == len(system.blocks)
+    library.close()

@@ -59,9 +59,14 @@ def run(tmp_path):
         read = read_deck(deck)
         library = usersub.load(USER, job="job", output_dir=tmp_path)
         system = System(read.mesh, build_blocks(read, library), read.equations)
-        done = [r.solution for r in run_steps(system, read, library) if isinstance(r, IncrementDone)]
+        done = [
+            (np.vstack([e.svars for e in r.solution.elements]), r.solution.displacement[-1])
+            for r in run_steps(system, read, library)
+            if isinstance(r, IncrementDone)
+        ]
         library.close()
-        return np.array([np.vstack([e.svars for e in s.elements]) for s in done]), [s.displacement[-1] for s in done]
+        states, displacements = zip(*done, strict=True)
+        return np.array(states), list(displacements)
 
     return run
 
