@@ -12,7 +12,7 @@ from harness.delamination.blocks import Interface
 from harness.delamination.keywords import text
 from harness.delamination.materials import Cohesive, isotropic
 from harness.delamination.plate_specimens import dcb_deck
-from harness.delamination.plates import Laminate, TwoPlateMesh
+from harness.delamination.plates import Laminate, two_plates
 
 LENGTH, WIDTH, HEIGHT, CRACK = 60.0, 4.0, 2.0, 20.0
 """Length, width, height of an arm and length of the crack, mm."""
@@ -53,9 +53,7 @@ def stabilised_bricks_files() -> dict[str, str]:
 def dcb_of_bricks(bricks: str, interface: Interface, count: tuple[int, int, int]) -> str:
     """The deck with a type of bricks, an interface and a number of bricks."""
     x, y, z = (np.linspace(0.0, size, parts + 1) for size, parts in zip((LENGTH, WIDTH, HEIGHT), count, strict=True))
-    bonded = np.broadcast_to(x[:-1] > CRACK - 1e-9, (count[1], count[0]))
-    mesh = TwoPlateMesh(x, y, z - HEIGHT, z, bonded)
-    plies = (ARM,) * count[2]
+    mesh, plies = two_plates(x, y, z, CRACK), (ARM,) * count[2]
     title = f"Double cantilever beam of {bricks} and {interface.type}, bilinear law with BK"
     # the step time is the opening
     static = (0.01, OPENING, 1.0e-10, 0.1)

@@ -14,7 +14,7 @@ import numpy as np
 
 from harness.delamination.blocks import Specimen
 from harness.delamination.keywords import node_set, table, text
-from harness.delamination.mesh import TwoArmMesh, graded_columns, two_arms
+from harness.delamination.mesh import TwoArmMesh, crack_columns, two_arms
 from harness.delamination.specimens import ARM_HEIGHT, CRACK, deck_head
 from harness.delamination.steps import Increments, step_block
 
@@ -34,9 +34,7 @@ def frmm_mesh(size: float = 0.125, bump: float = 0.0, crack: float = CRACK) -> T
     The specimen is as many times longer than the paper's as its `crack` (mm).
     """
     start, length = crack - 1.5, FRMM_LENGTH * crack / CRACK
-    left = graded_columns(start, 0.0, size, 1.15, 0.5)[::-1]
-    fine = np.linspace(start, length, round((length - start) / size) + 1)
-    x = np.round(np.concatenate([left[:-1], fine]), 6)
+    x = crack_columns(length, (start, length), size, ratio=1.15, largest=(0.5, 0.5))
     return two_arms(x, ARM_HEIGHT, 4, crack, bump)
 
 

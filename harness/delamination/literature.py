@@ -19,9 +19,9 @@ import numpy as np
 from harness.delamination.blocks import Interface
 from harness.delamination.keywords import text
 from harness.delamination.materials import Cohesive, SolidPly, isotropic
-from harness.delamination.mesh import graded_columns
+from harness.delamination.mesh import crack_columns, graded_columns
 from harness.delamination.plate_specimens import HALF, STRIP, circular_deck, dcb_deck, mmb_deck
-from harness.delamination.plates import Laminate, TwoPlateMesh
+from harness.delamination.plates import Laminate, TwoPlateMesh, two_plates
 from harness.model.arrays import FloatArray
 
 T300 = SolidPly("T300_1076", (139400.0, 10160.0, 10160.0), (0.30, 0.30, 0.436), (4600.0, 4600.0, 3540.0))
@@ -57,6 +57,9 @@ MMB_ETA = 2.1
 
 MMB_CRITICAL = {0.2: (92.9, 1.64, 128.5), 0.5: (41.3, 1.34, 385.0), 0.8: (27.3, 1.65, 751.0)}
 """G_II/G: length of the lever (mm), displacement (mm) and load (N) at which the crack starts to grow."""
+
+GRADING = 1.3, (3.0, 6.0)
+"""Of the columns away from the crack's tip: ratio of neighbours, and the largest ones before and behind (mm)."""
 
 METAL = isotropic("METAL", 70000.0, 0.3)
 CIRCLE_ARM, CIRCLE_CRACK, CIRCLE_TOUGHNESS, CIRCLE_STRENGTH = 1.0, 20.0, 0.5, 30.0
@@ -101,7 +104,7 @@ def dcb_benchmark(
     opening, increment, every
         Of each arm (mm), in increments of at most this part; field output in every so many.
     """
-    x = _graded(DCB_LENGTH, fine, size)
+    x = crack_columns(DCB_LENGTH, fine, size, *GRADING)
     y = 0.5 * DCB_WIDTH * (1.0 - (1.0 - np.linspace(0.0, 1.0, across + 1)) ** 1.4)
     law = Cohesive(0.0, 0.0, DCB_STRENGTH, DCB_STRENGTH, DCB_TOUGHNESS, DCB_TOUGHNESS)
     z = np.round(np.linspace(0.0, DCB_ARM, layers + 1), 6)
@@ -120,7 +123,8 @@ def mmb_benchmark(ratio: float, size: float = 0.25) -> str:
     """Strip of 1 mm in plane strain of the mixed-mode bending specimen at G_II/G; size: of the bricks (mm)."""
     lever, displacement, _ = MMB_CRITICAL[ratio]
     half = 0.5 * MMB_SPAN
-    before, after = _graded(half, (24.4, half), size), np.linspace(half, 70.0, round((70.0 - half) / size) + 1)
+    before = crack_columns(half, (24.4, half), size, *GRADING)
+    after = np.linspace(half, 70.0, round((70.0 - half) / size) + 1)
     right = graded_columns(70.0, MMB_SPAN, size, 1.2, 1.0)
     x = np.concatenate([before, after[1:], right[1:], np.linspace(MMB_SPAN, MMB_LENGTH, 10)[1:]])
     y, z = np.array([0.0, 1.0]), np.array([0.0, 0.25, 0.75, 1.5, MMB_ARM])
@@ -161,17 +165,7 @@ def circle_bending() -> float:
     return modulus * CIRCLE_ARM**3 / (12.0 * (1.0 - ratio**2))
 
 
-def _graded(length: float, fine: tuple[float, float], size: float) -> FloatArray:
-    """Edges of columns along a beam: of `size` in the interval, longer outside (mm)."""
-    begin, end = fine
-    middle = np.linspace(begin, end, round((end - begin) / size) + 1)
-    left = graded_columns(begin, 0.0, size, 1.3, 3.0)[::-1]
-    right = graded_columns(end, length, size, 1.3, 6.0) if length > end else middle[-1:]
-    return np.round(np.concatenate([left[:-1], middle, right[1:]]), 6)
-
-
 def _beam(x: FloatArray, y: FloatArray, z: FloatArray, crack: float, ply: SolidPly, interface: Interface) -> Laminate:
     """Two like arms with a straight front; z: heights of the layers of nodes above the interface (mm)."""
-    bonded = np.broadcast_to(x[:-1] > crack - 1e-6, (len(y) - 1, len(x) - 1))
     plies = (ply,) * (len(z) - 1)
-    return Laminate(TwoPlateMesh(x, y, -z[::-1], z, bonded), interface, plies, plies)
+    return Laminate(two_plates(x, y, z, crack), interface, plies, plies)

@@ -135,12 +135,17 @@ def two_arms(x: FloatArray, height: float, rows: int, crack: float, bump: float 
 
 def refined(mesh: TwoArmMesh, factor: int) -> TwoArmMesh:
     """Every quad cut into factor x factor quads; the interface keeps its shape, bumps and all."""
-    places = np.arange(factor * mesh.columns + 1) / factor
-    x, bumps = (np.interp(places, np.arange(len(mesh.x)), values) for values in (mesh.x, mesh.bumps))
-    below, above = mesh.rows
-    lower = np.interp(np.arange(factor * below + 1) / factor, np.arange(below + 1), mesh.lower)
-    upper = np.interp(np.arange(factor * above + 1) / factor, np.arange(above + 1), mesh.upper)
+    x, lower, upper, bumps = (cut(values, factor) for values in (mesh.x, mesh.lower, mesh.upper, mesh.bumps))
     return TwoArmMesh(np.round(x, 9), lower, upper, factor * mesh.first, bumps)
+
+
+def cut(values: FloatArray, factor: int, axis: int = 0) -> FloatArray:
+    """Values at the ends of intervals along an axis and, interpolated, at those of `factor` parts of each."""
+    last = values.shape[axis] - 1
+    along = np.arange(factor * last + 1) / factor
+    before = np.minimum(along.astype(int), last - 1)
+    share = (along - before).reshape([-1 if k == axis else 1 for k in range(values.ndim)])
+    return np.asarray(values.take(before, axis) * (1.0 - share) + values.take(before + 1, axis) * share)
 
 
 def graded_columns(start: float, end: float, size: float, ratio: float, largest: float) -> FloatArray:
@@ -148,6 +153,8 @@ def graded_columns(start: float, end: float, size: float, ratio: float, largest:
 
     With end < start the edges run backwards. Lengths in mm.
     """
+    if start == end:
+        return np.array([start])
     length, step = abs(end - start), size
     sizes: list[float] = []
     while sum(sizes) < length:
@@ -162,12 +169,17 @@ def graded_columns(start: float, end: float, size: float, ratio: float, largest:
     return edges
 
 
-def crack_columns(length: float, fine: tuple[float, float], size: float, ratio: float, largest: float) -> FloatArray:
-    """Edges from 0 to `length`: columns of `size` in the interval `fine`, graded towards both ends (mm)."""
+def crack_columns(
+    length: float, fine: tuple[float, float], size: float, ratio: float, largest: tuple[float, float]
+) -> FloatArray:
+    """Edges from 0 to `length`: columns of `size` in the interval `fine`, graded towards both ends (mm).
+
+    The neighbours before and behind the interval grow by `ratio` up to the `largest` of each side.
+    """
     begin, end = fine
     middle = np.linspace(begin, end, round((end - begin) / size) + 1)
-    left = graded_columns(begin, 0.0, size, ratio, largest)[::-1]
-    right = graded_columns(end, length, size, ratio, 2.0 * largest)
+    left = graded_columns(begin, 0.0, size, ratio, largest[0])[::-1]
+    right = graded_columns(end, length, size, ratio, largest[1])
     edges = np.concatenate([left[:-1], middle, right[1:]])
     # a node's position is written with six decimals; rounded here, the deck and the builder agree
     return np.round(edges, 6)

@@ -8,7 +8,6 @@ after the bricks.
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
@@ -18,17 +17,11 @@ from harness.delamination.blocks import Interface, cohesive_section, law_values
 from harness.delamination.kernels import uel_property, user_element
 from harness.delamination.keywords import element_block, keyword, node_block, number, wrapped
 from harness.delamination.materials import SolidPly
+from harness.delamination.mesh import cut
 from harness.model.arrays import FloatArray, IntArray
 
-Placement = Callable[[FloatArray, FloatArray], tuple[FloatArray, FloatArray]]
-
-_AROUND = ((0, 0), (0, 1), (1, 1), (1, 0))
-"""Corners of a face counter-clockwise from above, along y and along x."""
-
-
-def unmoved(x: FloatArray, y: FloatArray) -> tuple[FloatArray, FloatArray]:
-    """Leave the nodes where they are."""
-    return x, y
+AROUND = ((0, 0), (0, 1), (1, 1), (1, 0))
+"""Corners of a face, and the points next to them, counter-clockwise from above, along y and along x."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -38,7 +31,7 @@ class TwoPlateMesh:
     x, y          (nx+1,), (ny+1,) edges of the columns, ascending (mm)
     lower, upper  (n+1,) heights of the layers of nodes of the two plates; lower[-1] = upper[0] is the interface
     bonded        (ny, nx) columns that have an interface element: the others are the initial crack
-    place         maps the plane positions x, y of the nodes to others, to turn mesh lines against the front
+    moved         positions of the nodes that are not in those columns and layers, shaped as `positions`
     """
 
     x: FloatArray
@@ -46,7 +39,15 @@ class TwoPlateMesh:
     lower: FloatArray
     upper: FloatArray
     bonded: NDArray[np.bool_]
-    place: Placement = unmoved
+    moved: FloatArray | None = None
+
+    @property
+    def positions(self) -> FloatArray:
+        """Nodes of both plates by layer from below, by y and by x, (layers, ny+1, nx+1, 3) (mm)."""
+        if self.moved is not None:
+            return self.moved
+        z, y, x = np.meshgrid(np.concatenate([self.lower, self.upper]), self.y, self.x, indexing="ij")
+        return np.stack([x, y, z], axis=-1)
 
     @property
     def labels(self) -> tuple[IntArray, IntArray]:
@@ -57,13 +58,7 @@ class TwoPlateMesh:
 
     def nodes(self) -> tuple[IntArray, FloatArray]:
         """Labels (n,) and coordinates (n, 3) of all nodes."""
-        y, x = np.meshgrid(self.y, self.x, indexing="ij")
-        x, y = self.place(x, y)
-        points = [
-            np.stack([x, y, np.full_like(x, height)], axis=-1).reshape(-1, 3)
-            for height in np.concatenate([self.lower, self.upper])
-        ]
-        return np.concatenate([labels.ravel() for labels in self.labels]), np.concatenate(points)
+        return np.concatenate([labels.ravel() for labels in self.labels]), self.positions.reshape(-1, 3)
 
     def bricks(self, plate: int, layer: int) -> IntArray:
         """(nx*ny, 8) nodes of the bricks in a layer, from 0, of the lower (0) or the upper plate (1)."""
@@ -80,8 +75,33 @@ class TwoPlateMesh:
 def _faces(layer: IntArray) -> IntArray:
     """Corners of the faces between the nodes of a layer (y, x), counter-clockwise from above."""
     across, along = layer.shape
-    corners = [layer[j : across - 1 + j, i : along - 1 + i].ravel() for j, i in _AROUND]
+    corners = [layer[j : across - 1 + j, i : along - 1 + i].ravel() for j, i in AROUND]
     return np.stack(corners, axis=-1)
+
+
+def two_plates(x: FloatArray, y: FloatArray, z: FloatArray, crack: float) -> TwoPlateMesh:
+    """Mesh of two plates of equal height with a straight front.
+
+    Parameters
+    ----------
+    x, y
+        Edges of the columns (mm); one of x is the crack's tip.
+    z
+        Heights of the layers of nodes of the upper plate above the interface (mm); the lower plate mirrors them.
+    crack
+        Length of the initial crack, from x = 0 (mm).
+    """
+    bonded = np.broadcast_to(x[:-1] > crack - 1e-6, (len(y) - 1, len(x) - 1))
+    return TwoPlateMesh(x, y, -z[::-1], z, bonded)
+
+
+def refined(mesh: TwoPlateMesh, factor: int) -> TwoPlateMesh:
+    """Every brick cut into factor x factor x factor; faces keep their shape, bumps and all."""
+    x, y, lower, upper = (cut(values, factor) for values in (mesh.x, mesh.y, mesh.lower, mesh.upper))
+    bonded = mesh.bonded.repeat(factor, axis=0).repeat(factor, axis=1)
+    plates = np.split(mesh.positions, [len(mesh.lower)])
+    moved = np.concatenate([cut(cut(cut(plate, factor, 0), factor, 1), factor, 2) for plate in plates])
+    return TwoPlateMesh(x, y, lower, upper, bonded, moved)
 
 
 @dataclass(frozen=True, slots=True)

@@ -36,7 +36,7 @@ def patch_mesh(bump: float) -> TwoArmMesh:
 
 def dcb_mesh(size: float = 0.125, bump: float = 0.0) -> TwoArmMesh:
     """Quads of `size` (mm) where the crack runs (up to 3 mm of opening), up to 0.5 mm before and 1 mm behind."""
-    x = crack_columns(LENGTH, (33.5, 61.0), size, ratio=1.15, largest=0.5)
+    x = crack_columns(LENGTH, (33.5, 61.0), size, ratio=1.15, largest=(0.5, 1.0))
     return two_arms(x, ARM_HEIGHT, 4, CRACK, bump)
 
 

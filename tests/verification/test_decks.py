@@ -133,6 +133,8 @@ def test_graded_columns() -> None:
     assert sizes.max() < 1.3
     backwards = graded_columns(8.0, 0.0, 0.1, 1.2, 1.0)
     assert backwards == pytest.approx(10.0 - edges)
-    both = crack_columns(20.0, (8.0, 10.0), 0.1, 1.2, 1.0)
+    both = crack_columns(20.0, (8.0, 10.0), 0.1, 1.2, (1.0, 2.0))
     assert np.diff(both).min() > 0.0
     assert np.sum(np.isclose(np.diff(both), 0.1)) == 20
+    # nothing behind the fine columns
+    assert crack_columns(10.0, (8.0, 10.0), 0.1, 1.2, (1.0, 1.0)) == pytest.approx(both[both < 10.05], abs=1e-6)

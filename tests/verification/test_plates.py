@@ -14,7 +14,7 @@ from harness.delamination import plate_specimens as build
 from harness.delamination.blocks import Interface
 from harness.delamination.keywords import text
 from harness.delamination.materials import Cohesive, SolidPly, isotropic
-from harness.delamination.plates import Laminate, TwoPlateMesh
+from harness.delamination.plates import Laminate, TwoPlateMesh, two_plates
 from harness.delamination.theory import Arms, dcb_compliance, enf_compliance
 from harness.job import run
 from harness.output import Result
@@ -36,9 +36,7 @@ LINEAR = (1.0, 1.0, 1.0, 1.0)
 def beam(interface: Interface, plies: tuple[SolidPly, SolidPly] = (PLY, PLY), across: int = 1) -> Laminate:
     x, y = np.linspace(0.0, LENGTH, 81), np.linspace(0.0, WIDTH, across + 1)
     z = np.linspace(0.0, HEIGHT, 3)
-    bonded = np.broadcast_to(x[:-1] > CRACK - 1e-9, (across, len(x) - 1))
-    mesh = TwoPlateMesh(x, y, z - HEIGHT, z, bonded)
-    return Laminate(mesh, interface, (plies[0],) * 2, (plies[1],) * 2)
+    return Laminate(two_plates(x, y, z, CRACK), interface, (plies[0],) * 2, (plies[1],) * 2)
 
 
 @pytest.fixture
@@ -77,12 +75,22 @@ def test_interface_elements_lie_between_their_bricks() -> None:
     assert volumes.sum() == pytest.approx(2.0 * HEIGHT * WIDTH * LENGTH, rel=1e-12)
 
 
-def test_place_turns_the_mesh_lines() -> None:
+def test_positions_of_two_plates() -> None:
+    x, y, z = np.array([0.0, 1.0, 3.0]), np.array([0.0, 2.0]), np.array([0.0, 0.5, 2.0])
+    mesh = two_plates(x, y, z, 1.0)
+    assert mesh.positions.shape == (6, 2, 3, 3)
+    assert mesh.positions[:3, 1, 2].tolist() == [[3.0, 2.0, -2.0], [3.0, 2.0, -0.5], [3.0, 2.0, 0.0]]
+    assert mesh.positions[4, 1, 2].tolist() == [3.0, 2.0, 0.5]
+    assert mesh.bonded.tolist() == [[False, True]]
+
+
+def test_moved_nodes_turn_the_mesh_lines() -> None:
     mesh = beam(INTERFACES["U8"], across=3).mesh
-    slope = 0.2
-    turned = replace(mesh, place=lambda x, y: (x + slope * y, y))
-    points, moved = mesh.nodes()[1], turned.nodes()[1]
-    assert np.allclose(moved - points, np.outer(points[:, 1], [slope, 0.0, 0.0]), atol=1e-15)
+    points, slope = mesh.positions, 0.2
+    turned = replace(mesh, moved=points + slope * points[..., 1:2] * [1.0, 0.0, 0.0])
+    labels, moved = turned.nodes()
+    assert labels.tolist() == mesh.nodes()[0].tolist()
+    assert np.allclose(moved - mesh.nodes()[1], np.outer(moved[:, 1], [slope, 0.0, 0.0]), atol=1e-15)
 
 
 @pytest.mark.parametrize("kind", INTERFACES)
@@ -163,13 +171,10 @@ def test_the_front_releases_the_fracture_energy(kind: str, tmp_path: Path) -> No
     law = Cohesive(0.0, 0.0, 30.0, 30.0, toughness, toughness)
     stiffness = 0.0 if kind == "U8" else 1.0e5
     interface = replace(INTERFACES[kind], cohesive=law.with_stiffness(stiffness))
-
-    def slanted(x: np.ndarray, y: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-        inside = np.clip(np.minimum(x - 2.0, 20.0 - x) / 4.0, 0.0, 1.0)
-        return x + np.tan(np.radians(20.0)) * (y - 0.5 * width) * inside, y
-
-    bonded = np.broadcast_to(x[:-1] > 8.0 - 1e-9, (8, len(x) - 1))
-    laminate = Laminate(TwoPlateMesh(x, y, z - 1.0, z, bonded, slanted), interface, (PLY,), (PLY,))
+    mesh = two_plates(x, y, z, 8.0)
+    slanted, inside = mesh.positions, np.clip(np.minimum(x - 2.0, 20.0 - x) / 4.0, 0.0, 1.0)
+    slanted[..., 0] += np.tan(np.radians(20.0)) * (y[:, None] - 0.5 * width) * inside
+    laminate = Laminate(replace(mesh, moved=slanted), interface, (PLY,), (PLY,))
     deck = tmp_path / f"{kind}.inp"
     static = (0.05, 1.0, 1.0e-6, 0.05)
     deck.write_text(text(build.dcb_deck("Slanted mesh", laminate, 0.25, static, part=build.STRIP)))

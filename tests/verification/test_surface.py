@@ -10,27 +10,34 @@ import pytest
 
 from harness.delamination.batch import run_deck
 from harness.delamination.oscillation import surface_variation
+from harness.delamination.plates import TwoPlateMesh, refined
 from harness.delamination.study import surface
 from harness.delamination.study.reference import FOLDER, run_reference
-from harness.delamination.study.spatial import field, refined, restricted, stacked
+from harness.delamination.study.spatial import field, restricted
 from harness.delamination.study.surface import ALLOWED, COLUMNS, SurfaceCase, SurfaceMesh
 
 PAGE = Path(__file__).parents[2] / "fortran" / "stabilised.md"
 
 
+def tip_of(mesh: TwoPlateMesh) -> int:
+    """Column of the crack's tip."""
+    return int(np.argmax(mesh.bonded[0]))
+
+
 def test_meshes_of_one_specimen() -> None:
-    aligned, tip = SurfaceMesh("aligned").nodes()
+    aligned = SurfaceMesh("aligned").plates().positions
     for name in surface.MESHES:
-        places, column = SurfaceMesh(name).nodes()
-        assert column == tip
-        assert (places[0, -1] == places[1, 0]).all()
+        mesh = SurfaceMesh(name).plates()
+        places, tip = mesh.positions, tip_of(mesh)
+        assert mesh.x[tip] == 20.0
+        assert (places[2] == places[3]).all()
         # outline
         np.testing.assert_array_equal(places[..., [0, -1], 0], aligned[..., [0, -1], 0])
-        np.testing.assert_array_equal(places[:, :, [0, -1], :, 1], aligned[:, :, [0, -1], :, 1])
-        shift = np.abs(places - aligned).max(axis=(0, 1, 2, 3))
+        np.testing.assert_array_equal(places[:, [0, -1], :, 1], aligned[:, [0, -1], :, 1])
+        shift = np.abs(places - aligned).max(axis=(0, 1, 2))
         if name == "turned":
-            x, y = places[0, 0, ..., 0], places[0, 0, ..., 1]
-            lines = (aligned[0, 0, 0, :, 0] >= 23.0) & (aligned[0, 0, 0, :, 0] <= 31.0)
+            x, y = places[0, ..., 0], places[0, ..., 1]
+            lines = (aligned[0, 0, :, 0] >= 23.0) & (aligned[0, 0, :, 0] <= 31.0)
             slope = np.diff(x, axis=0)[:, lines] / np.diff(y, axis=0)[:, lines]
             np.testing.assert_allclose(np.degrees(np.arctan(slope)), 15.0, rtol=1e-6)
             assert (x[:, tip] == 20.0).all()
@@ -38,24 +45,19 @@ def test_meshes_of_one_specimen() -> None:
             moved = surface.MESHES[name]
             assert [0.02 < value <= 0.03 for value in shift] == ["x" in moved, "y" in moved, "z" in moved]
             # nothing but the interface
-            np.testing.assert_array_equal(np.delete(places[0], -1, axis=0), np.delete(aligned[0], -1, axis=0))
+            np.testing.assert_array_equal(places[[0, 1, 4, 5]], aligned[[0, 1, 4, 5]])
 
 
 def test_finer_bricks_keep_the_shape() -> None:
-    places, tip = SurfaceMesh("bumpy").nodes()
-    finer, fine_tip = SurfaceMesh("bumpy", 2).nodes()
-    assert fine_tip == 2 * tip
-    np.testing.assert_allclose(finer[:, ::2, ::2, ::2], places, atol=1e-9)
-    np.testing.assert_allclose(finer[:, ::2, ::2, 1::2], 0.5 * (places[..., 1:, :] + places[..., :-1, :]), atol=2e-9)
-    assert (refined(places, 1) == places).all()
-
-
-def test_places_of_two_arms() -> None:
-    x, y = np.meshgrid([0.0, 1.0, 3.0], [0.0, 2.0])
-    places = stacked(x, y, np.array([0.0, 0.5, 2.0]))
-    assert places.shape == (2, 3, 2, 3, 3)
-    assert places[0, :, 1, 2].tolist() == [[3.0, 2.0, -2.0], [3.0, 2.0, -1.5], [3.0, 2.0, 0.0]]
-    assert places[1, 1, 1, 2].tolist() == [3.0, 2.0, 0.5]
+    mesh, fine = SurfaceMesh("bumpy").plates(), SurfaceMesh("bumpy", 2).plates()
+    assert tip_of(fine) == 2 * tip_of(mesh)
+    places = mesh.positions
+    # layers of both plates, two of them at the interface
+    finer = fine.positions[[0, 2, 4, 5, 7, 9]]
+    np.testing.assert_allclose(finer[:, ::2, ::2], places, atol=1e-9)
+    np.testing.assert_allclose(finer[:, ::2, 1::2], 0.5 * (places[..., 1:, :] + places[..., :-1, :]), atol=2e-9)
+    assert (fine.positions[4] == fine.positions[5]).all()
+    assert (refined(mesh, 1).positions == places).all()
 
 
 def test_points_in_rows_and_columns() -> None:

@@ -26,14 +26,15 @@ from rich.console import Console
 
 from harness.delamination.batch import Store, StoredRow, complete, run_deck
 from harness.delamination.blocks import Interface
-from harness.delamination.materials import TABLE_2
+from harness.delamination.materials import TABLE_2, SolidPly
 from harness.delamination.measures import cutbacks, iterations, load
-from harness.delamination.mesh import graded_columns, refined
+from harness.delamination.mesh import crack_columns, refined
+from harness.delamination.plates import Laminate, two_plates
 from harness.delamination.study.cases import KINDS, LAYUPS, MESHES, deck_files
 from harness.delamination.study.digests import head, line
 from harness.delamination.study.reference import Profile, restricted
 from harness.delamination.study.rows import at_tenths, oscillations, same_moments
-from harness.delamination.study.spatial import Cantilever, Constants, stacked
+from harness.delamination.study.spatial import opened
 from harness.output import Result
 
 BETAS = {
@@ -49,6 +50,9 @@ BETAS = {
 
 UNSTABLE = "2e3"
 """Below the bound of the elements: in the first table alone, as it takes fifty times as many iterations."""
+
+CONSISTENT = Interface("U4", TABLE_2.with_stiffness(0.0), consistent=True)
+"""With an infinite stiffness."""
 
 SPECIMENS = ("dcb025", "enf")
 FACTOR = 2
@@ -67,15 +71,9 @@ SIZE, ROWS = 0.5, 2
 """Length of the bricks there (mm), half of it on the finer mesh, and bricks across."""
 
 # table 1 in space, isotropic in the plane 2-3; fibres along x, and along y
-PLY_0 = {
-    **{"E1": 1.2e5, "E2": 1.05e4, "E3": 1.05e4, "NU12": 0.3, "NU13": 0.3, "NU23": 0.51},
-    **{"G12": 5.52e3, "G13": 5.52e3, "G23": 3.48e3},
-}
-PLY_90 = {
-    **{"E1": 1.05e4, "E2": 1.2e5, "E3": 1.05e4, "NU12": 0.3 * 1.05e4 / 1.2e5, "NU13": 0.51, "NU23": 0.3},
-    **{"G12": 5.52e3, "G13": 3.48e3, "G23": 5.52e3},
-}
-PLATES: dict[str, tuple[Constants, Constants, float]] = {"0/0": (PLY_0, PLY_0, 1.0), "0/90": (PLY_90, PLY_0, 2.2)}
+PLY_0 = SolidPly("PLY_0", (1.2e5, 1.05e4, 1.05e4), (0.3, 0.3, 0.51), (5.52e3, 5.52e3, 3.48e3))
+PLY_90 = replace(PLY_0, name="PLY_90", angle=90.0)
+PLATES = {"0/0": (PLY_0, PLY_0, 1.0), "0/90": (PLY_90, PLY_0, 2.2)}
 """Ply of the lower and of the upper arm, and the distance of the loaded edges at the end (mm)."""
 
 
@@ -113,7 +111,7 @@ class BetaCase:
     def files(self) -> dict[str, str]:
         """Deck `NAME.inp` and the files that it includes."""
         kind = KINDS[self.specimen]
-        interface = Interface("U4", TABLE_2.with_stiffness(0.0), beta=BETAS[self.beta], consistent=True)
+        interface = replace(CONSISTENT, beta=BETAS[self.beta])
         mesh = refined(kind.mesh(kind.size, MESHES[self.mesh] * kind.size), self.factor)
         return deck_files(self.name, self.name, kind, self.layup, mesh, interface)
 
@@ -145,16 +143,11 @@ class SpaceCase:
         """Deck `NAME.inp`."""
         lower, upper, opening = PLATES[self.layup]
         size = SIZE / 2 if self.layers == FINE_LAYERS else SIZE
-        before = graded_columns(CRACK, 0.0, size, 1.2, 2.0)[::-1]
-        growth = np.linspace(CRACK, GROWTH, round((GROWTH - CRACK) / size) + 1)
-        columns = np.concatenate([before[:-1], growth, graded_columns(GROWTH, LENGTH, size, 1.2, 2.0)[1:]])
-        x, y = np.meshgrid(columns, np.linspace(0.0, WIDTH, ROWS + 1))
-        places = np.round(stacked(x, y, np.linspace(0.0, HEIGHT, self.layers + 1)), 9)
-        values = {"SIGMAMAX": TABLE_2.strength_normal, "TAUMAX": TABLE_2.strength_shear, "LAW": 1, "CLOSURE": 1}
-        values |= {"GIC": TABLE_2.toughness_1, "GIIC": TABLE_2.toughness_2}
-        values |= dict.fromkeys(("BETAN", "BETAT"), self._beta())
-        specimen = Cantilever(places, len(before) - 1, lower, upper, "U8", values, opening, "NUMBER INTERVAL=10")
-        return {f"{self.name}.inp": specimen.deck(self.name)}
+        x = crack_columns(LENGTH, (CRACK, GROWTH), size, 1.2, (2.0, 2.0))
+        y, z = np.linspace(0.0, WIDTH, ROWS + 1), np.linspace(0.0, HEIGHT, self.layers + 1)
+        interface = replace(CONSISTENT, type="U8", beta=self._beta())
+        laminate = Laminate(two_plates(x, y, z, CRACK), interface, (lower,) * self.layers, (upper,) * self.layers)
+        return {f"{self.name}.inp": opened(self.name, laminate, opening, every=10)}
 
     def _beta(self) -> float:
         """BETAN = BETAT; by (21) and (22) of two bricks of like size and |D|, |D|/h."""
@@ -164,11 +157,11 @@ class SpaceCase:
         return 0.0 if share == 1.0 else share * spectral_norm(PLY_0) * self.layers / HEIGHT
 
 
-def spectral_norm(ply: Constants) -> float:
+def spectral_norm(ply: SolidPly) -> float:
     """|D| of a ply in space (MPa)."""
-    compliance = np.diag([1.0 / ply[name] for name in ("E1", "E2", "E3", "G12", "G13", "G23")])
-    for i, j in ((0, 1), (0, 2), (1, 2)):
-        compliance[i, j] = compliance[j, i] = -ply[f"NU{i + 1}{j + 1}"] / ply[f"E{i + 1}"]
+    compliance = np.diag([1.0 / modulus for modulus in (*ply.moduli, *ply.shear)])
+    for (i, j), ratio in zip(((0, 1), (0, 2), (1, 2)), ply.ratios, strict=True):
+        compliance[i, j] = compliance[j, i] = -ratio / ply.moduli[i]
     return float(1.0 / np.linalg.eigvalsh(compliance)[0])
 
 

@@ -69,10 +69,6 @@ class ReferenceRun(StoredRow):
     stopped: str
     seconds: float
 
-    def to_json(self) -> dict[str, object]:
-        """Entries by name."""
-        return {"stopped": self.stopped, "seconds": self.seconds}
-
 
 def reference_of(case: StudyCase) -> StudyReference:
     """Reference that a row is compared with."""

@@ -16,7 +16,7 @@ import os
 import sys
 from bisect import bisect_left
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import lru_cache
 from operator import itemgetter
 from pathlib import Path
@@ -28,17 +28,20 @@ from matplotlib.figure import Figure
 from rich.console import Console
 
 from harness.delamination.batch import Store, StoredRow, complete, run_deck
+from harness.delamination.blocks import Interface
+from harness.delamination.bricks import ARM, CRACK, HEIGHT, LAW, LENGTH
 from harness.delamination.measures import cutbacks, iterations, load
-from harness.delamination.mesh import graded_columns
+from harness.delamination.mesh import crack_columns
 from harness.delamination.oscillation import surface_index, surface_variation
+from harness.delamination.plates import Laminate, TwoPlateMesh, refined, two_plates
 from harness.delamination.study.digests import head, line
 from harness.delamination.study.reference import FOLDER, ReferenceRun, run_reference
-from harness.delamination.study.spatial import Cantilever, Field, field, refined, restricted, stacked
+from harness.delamination.study.spatial import Field, field, opened, restricted
 from harness.model.arrays import FloatArray
 from harness.output import Result
 
-LENGTH, WIDTH, HEIGHT, CRACK = 60.0, 6.0, 2.0, 20.0
-"""Length, width, height of an arm and length of the crack (mm), as in `bricks.py` but wider."""
+WIDTH = 6.0
+"""Of the specimen (mm); the rest is that of `bricks.py`."""
 
 OPENING = 1.6
 """Distance of the outer edges of the arms at the end (mm)."""
@@ -59,20 +62,12 @@ SEED = 15
 MESHES = {"aligned": "", "turned": "", "moved": "xy", "bumpy": "xyz"}
 """Directions in which the interface nodes are moved."""
 
-MODULUS, POISSON, STRENGTH, TOUGHNESS = 70000.0, 0.3, 30.0, 0.5
-ARM = (
-    {f"E{k}": MODULUS for k in "123"}
-    | {f"NU{pair}": POISSON for pair in ("12", "13", "23")}
-    | {f"G{pair}": MODULUS / (2.0 * (1.0 + POISSON)) for pair in ("12", "13", "23")}
-)
-LAW = {
-    **{"LAW": 2, "ETA": 1.0, "SIGMAMAX": STRENGTH, "TAUMAX": STRENGTH, "GIC": TOUGHNESS, "GIIC": TOUGHNESS},
-    **{"CLOSURE": 1, "BETAN": -1.0, "BETAT": -1.0},
-}
-"""The last three are those of the consistent element."""
-
+STRENGTH = LAW.strength_normal
 STIFFNESSES = {"1e6": 1.0e6, "1e8": 1.0e8, "inf": 0.0}
-ELEMENTS = {"standard": "U7", "consistent": "U8"}
+ELEMENTS = {
+    "standard": Interface("U7", LAW, law=2, eta=1.0),
+    "consistent": Interface("U8", LAW, law=2, eta=1.0, beta=-1.0, consistent=True),
+}
 ALLOWED = 1.1
 """Index over that of the same element on the aligned mesh at 1e6 N/mm^3."""
 
@@ -102,21 +97,19 @@ class SurfaceMesh:
         """Bricks across."""
         return self.factor * round(WIDTH / self.size)
 
-    def nodes(self) -> tuple[FloatArray, int]:
-        """Places of the nodes and column of the crack's tip, as a `Cantilever` has them."""
-        before = graded_columns(CRACK, 0.0, self.size, RATIO, LARGEST)[::-1]
-        growth = np.linspace(CRACK, GROWTH, round((GROWTH - CRACK) / self.size) + 1)
-        columns = np.concatenate([before[:-1], growth, graded_columns(GROWTH, LENGTH, self.size, RATIO, LARGEST)[1:]])
-        x, y = np.meshgrid(columns, np.linspace(0.0, WIDTH, round(WIDTH / self.size) + 1))
+    def plates(self) -> TwoPlateMesh:
+        """The two arms."""
+        x = crack_columns(LENGTH, (CRACK, GROWTH), self.size, RATIO, (LARGEST, LARGEST))
+        y = np.linspace(0.0, WIDTH, round(WIDTH / self.size) + 1)
+        mesh = two_plates(x, y, np.linspace(0.0, HEIGHT, self.layers + 1), CRACK)
+        positions = mesh.positions
         if self.name == "turned":
-            slope = np.interp(columns, [CRACK, CRACK + RAMP, GROWTH, LENGTH], [0.0, 1.0, 1.0, 0.0])
-            x = x + slope * np.tan(np.radians(TURN)) * (y - WIDTH / 2)
-        places = stacked(x, y, np.linspace(0.0, HEIGHT, self.layers + 1))
-        shift = self._shift(x.shape)
-        places[0, -1] += shift
-        places[1, 0] += shift
+            slope = np.interp(x, [CRACK, CRACK + RAMP, GROWTH, LENGTH], [0.0, 1.0, 1.0, 0.0])
+            positions[..., 0] += slope * np.tan(np.radians(TURN)) * (y[:, None] - WIDTH / 2)
+        positions[self.layers : self.layers + 2] += self._shift((len(y), len(x)))
+        finer = refined(replace(mesh, moved=positions), self.factor)
         # rounded, the deck does not depend on the processor
-        return np.round(refined(places, self.factor), 9), self.factor * (len(before) - 1)
+        return replace(finer, moved=np.round(finer.positions, 9))
 
     def _shift(self, shape: tuple[int, ...]) -> FloatArray:
         shift = MOVED * self.size * np.random.default_rng(SEED).uniform(-1.0, 1.0, (*shape, 3))
@@ -149,11 +142,11 @@ class SurfaceCase:
     def files(self) -> dict[str, str]:
         """Deck `NAME.inp`."""
         stiffness = STIFFNESSES[self.stiffness]
-        law = LAW | {"ALPHAN": stiffness, "ALPHAT": stiffness}
-        places, tip = self.mesh.nodes()
-        specimen = Cantilever(places, tip, ARM, ARM, ELEMENTS[self.element], law, self.opening, "FREQUENCY=1")
+        interface = replace(ELEMENTS[self.element], cohesive=LAW.with_stiffness(stiffness))
+        mesh = self.mesh.plates()
+        arm = (ARM,) * (len(mesh.lower) - 1)
         title = f"Double cantilever beam, {self.mesh.name} mesh, {self.element} element, {self.stiffness} N/mm^3"
-        return {f"{self.name}.inp": specimen.deck(title)}
+        return {f"{self.name}.inp": opened(title, Laminate(mesh, interface, arm, arm), self.opening, every=1)}
 
 
 def all_cases() -> list[SurfaceCase]:
