@@ -4,15 +4,13 @@
 
 from __future__ import annotations
 
-import argparse
-import os
 import sys
 from collections.abc import Sequence
 from pathlib import Path
 
 from rich.console import Console
 
-from harness.delamination.batch import complete
+from harness.delamination.batch import complete, study_parser
 from harness.delamination.study.cases import StudyCase, all_cases, select
 from harness.delamination.study.criteria import check
 from harness.delamination.study.reference import FOLDER, ReferenceRun, reference_of, run_reference
@@ -24,12 +22,8 @@ from harness.errors import UelError
 
 def main(arguments: Sequence[str] | None = None) -> int:
     """Run the command; returns the exit code: 0 if all rows are complete, 1 if interrupted, 2 on wrong usage."""
-    parser = argparse.ArgumentParser(
-        prog="python -m harness.delamination.study",
-        description="Run delamination specimens with the standard and the stabilised elements, and compare them.",
-        epilog="An interrupted study resumes where it stopped.",
-    )
-    parser.add_argument("--output-dir", type=Path, default=Path("study"), help="folder of all files written (study)")
+    description = "Run delamination specimens with the standard and the stabilised elements, and compare them."
+    parser = study_parser("harness.delamination.study", description, "study", resumes=True)
     parser.add_argument(
         "--only",
         nargs="+",
@@ -41,7 +35,6 @@ def main(arguments: Sequence[str] | None = None) -> int:
         "--page", type=Path, help="file of the table, with the same as .csv beside it (study.md in the output folder)"
     )
     parser.add_argument("--kept", action="store_true", help="run nothing: write the table of the rows kept so far")
-    parser.add_argument("--workers", type=int, default=os.cpu_count(), help="processes (one for each core)")
     options = parser.parse_args(arguments)
     console = Console()
     try:

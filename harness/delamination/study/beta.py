@@ -14,8 +14,6 @@ bricks through an arm, as an engineer would mesh it.
 
 from __future__ import annotations
 
-import argparse
-import os
 import sys
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
@@ -24,13 +22,13 @@ from pathlib import Path
 import numpy as np
 from rich.console import Console
 
-from harness.delamination.batch import Store, StoredRow, complete, run_deck
+from harness.delamination.batch import Store, StoredRow, complete, run_deck, study_parser
 from harness.delamination.blocks import Interface
 from harness.delamination.materials import TABLE_2, SolidPly
 from harness.delamination.measures import cutbacks, iterations, load
-from harness.delamination.mesh import crack_columns, refined
+from harness.delamination.mesh import crack_columns
 from harness.delamination.plates import Laminate, two_plates
-from harness.delamination.study.cases import KINDS, LAYUPS, MESHES, deck_files
+from harness.delamination.study.cases import KINDS, LAYUPS, MESHES, deck_files, mesh_of
 from harness.delamination.study.digests import head, line
 from harness.delamination.study.reference import Profile, restricted
 from harness.delamination.study.rows import at_tenths, oscillations, same_moments
@@ -112,7 +110,7 @@ class BetaCase:
         """Deck `NAME.inp` and the files that it includes."""
         kind = KINDS[self.specimen]
         interface = replace(CONSISTENT, beta=BETAS[self.beta])
-        mesh = refined(kind.mesh(kind.size, MESHES[self.mesh] * kind.size), self.factor)
+        mesh = mesh_of(kind, self.mesh, self.factor)
         return deck_files(self.name, self.name, kind, self.layup, mesh, interface)
 
 
@@ -282,14 +280,9 @@ def _line(name: str, row: BetaRow, finer: BetaRow) -> str:
 
 def main(arguments: Sequence[str] | None = None) -> int:
     """Run what is missing, print the tables; returns the exit code."""
-    parser = argparse.ArgumentParser(
-        prog="python -m harness.delamination.study.beta",
-        description="Load and oscillation of the consistent element against the stabilisation parameter beta.",
-        epilog="An interrupted study resumes where it stopped.",
-    )
-    parser.add_argument("--output-dir", type=Path, default=Path("study/beta"), help="folder of all files written")
+    description = "Load and oscillation of the consistent element against the stabilisation parameter beta."
+    parser = study_parser("harness.delamination.study.beta", description, "study/beta", resumes=True)
     parser.add_argument("--page", type=Path, help="file whose tables are written again, those below its mark")
-    parser.add_argument("--workers", type=int, default=os.cpu_count(), help="processes (one for each core)")
     options = parser.parse_args(arguments)
     cases = all_cases()
     rows: dict[Case, BetaRow] = {}

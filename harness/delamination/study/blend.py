@@ -8,21 +8,18 @@ damage makes the corrections shorter, which helps there, at the price of linear 
 
 from __future__ import annotations
 
-import argparse
 import sys
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from itertools import product
 from pathlib import Path
 
 from rich.console import Console
 from rich.table import Table
 
-from harness.delamination.batch import RunOutcome, run_deck
-from harness.delamination.blocks import Interface
-from harness.delamination.materials import TABLE_2
+from harness.delamination.batch import RunOutcome, run_deck, study_parser
 from harness.delamination.measures import iterations, peak_load
-from harness.delamination.study.cases import KINDS, MESHES, STIFFNESSES, deck_files
+from harness.delamination.study.cases import KINDS, MESHES, deck_files, interface_of, mesh_of
 
 KIND = KINDS["dcb"]
 SHARES = (0.0, 0.05, 0.1, 0.25)
@@ -48,10 +45,8 @@ class Beam:
 
     def files(self) -> dict[str, str]:
         """Deck `NAME.inp` and the files that it includes."""
-        cohesive = TABLE_2.with_stiffness(STIFFNESSES[self.stiffness])
-        interface = Interface("U4", cohesive, consistent=True, blend=self.share)
-        mesh = KIND.mesh(KIND.size, MESHES[self.mesh] * KIND.size)
-        return deck_files(self.name, f"BLEND {self.share:g}", KIND, "0/0", mesh, interface)
+        interface = replace(interface_of("consistent", self.stiffness), blend=self.share)
+        return deck_files(self.name, f"BLEND {self.share:g}", KIND, "0/0", mesh_of(KIND, self.mesh), interface)
 
 
 def described(outcome: RunOutcome) -> str:
@@ -64,11 +59,8 @@ def described(outcome: RunOutcome) -> str:
 
 def main(arguments: Sequence[str] | None = None) -> int:
     """Run all shares, print a table; returns the exit code."""
-    parser = argparse.ArgumentParser(
-        prog="python -m harness.delamination.study.blend",
-        description="A double cantilever beam by BLEND: increments / cutbacks / iterations, peak load in N.",
-    )
-    parser.add_argument("--output-dir", type=Path, default=Path("study/blend"), help="folder of all files written")
+    description = "A double cantilever beam by BLEND: increments / cutbacks / iterations, peak load in N."
+    parser = study_parser("harness.delamination.study.blend", description, "study/blend")
     folder: Path = parser.parse_args(arguments).output_dir
     table = Table("BLEND", *map(", ".join, CHOSEN))
     for share in SHARES:

@@ -6,13 +6,13 @@ from __future__ import annotations
 
 import itertools
 from collections.abc import Callable, Iterable, Sequence
-from dataclasses import dataclass, fields
+from dataclasses import dataclass, fields, replace
 from typing import NamedTuple
 
 from harness.delamination import flexure, specimens
 from harness.delamination.blocks import Interface, Specimen
 from harness.delamination.materials import PLY_0, PLY_90, TABLE_2
-from harness.delamination.mesh import TwoArmMesh
+from harness.delamination.mesh import TwoArmMesh, refined
 from harness.delamination.steps import Increments
 from harness.errors import UelError
 
@@ -122,26 +122,41 @@ class StudyCase:
 
     def files(self) -> dict[str, str]:
         """Deck `NAME.inp` and the files that it includes."""
-        kind = self.kind
-        element, consistent = ELEMENTS[self.element]
-        cohesive = TABLE_2.with_stiffness(STIFFNESSES[self.stiffness])
         _, viscosity = SOLUTIONS[self.solution]
         law, eta = LAWS[self.law]
-        interface = Interface(element, cohesive, viscosity=viscosity, consistent=consistent, law=law, eta=eta)
-        title = f"{kind.title}, [{self.layup}], {self.stiffness} N/mm^3, {self.element} element, {self.mesh} mesh"
-        mesh = kind.mesh(kind.size, MESHES[self.mesh] * kind.size)
-        return deck_files(self.name, title, kind, self.layup, mesh, interface)
+        interface = replace(interface_of(self.element, self.stiffness), viscosity=viscosity, law=law, eta=eta)
+        title = f"{self.kind.title}, [{self.layup}], {self.stiffness} N/mm^3, {self.element} element, {self.mesh} mesh"
+        return deck_files(self.name, title, self.kind, self.layup, mesh_of(self.kind, self.mesh), interface)
+
+
+def interface_of(element: str, stiffness: str) -> Interface:
+    """Interface elements with the law of the paper, by the names of the tables."""
+    kind, consistent = ELEMENTS[element]
+    return Interface(kind, TABLE_2.with_stiffness(STIFFNESSES[stiffness]), consistent=consistent)
+
+
+def mesh_of(kind: MeshedSpecimen, mesh: str, factor: int = 1) -> TwoArmMesh:
+    """Mesh of a specimen with every quad cut into factor x factor; the bumps are those of the mesh with 1."""
+    return refined(kind.mesh(kind.size, MESHES[mesh] * kind.size), factor)
 
 
 def deck_files(
-    name: str, title: str, kind: MeshedSpecimen, layup: str, mesh: TwoArmMesh, interface: Interface
+    name: str,
+    title: str,
+    kind: MeshedSpecimen,
+    layup: str,
+    mesh: TwoArmMesh,
+    interface: Interface,
+    *,
+    displacement: float | None = None,
+    increments: Increments = INCREMENTS,
 ) -> dict[str, str]:
-    """Deck `NAME.inp` of a specimen with the displacement and the increments of the study, and its mesh files."""
+    """Deck `NAME.inp` of a specimen and its mesh files; by default with the displacement (mm) of the study."""
     top, bottom = LAYUPS[layup]
     specimen = Specimen("mesh", mesh, interface, specimens.WIDTH, bottom, top)
-    deck = kind.deck(title, specimen, kind.displacement[layup], INCREMENTS, FIELD_EVERY)
-    nodes = 8 if interface.type == "U4" else 4
-    return specimens.mesh_files("mesh", mesh, (nodes,)) | {f"{name}.inp": deck}
+    end = kind.displacement[layup] if displacement is None else displacement
+    deck = kind.deck(title, specimen, end, increments, FIELD_EVERY)
+    return specimens.mesh_files("mesh", mesh, (interface.nodes,)) | {f"{name}.inp": deck}
 
 
 TABLES: dict[str, Iterable[str]] = {

@@ -19,10 +19,7 @@ from functools import lru_cache
 from pathlib import Path
 
 from harness.delamination.batch import Deck, StoredRow, run_deck
-from harness.delamination.blocks import Interface
-from harness.delamination.materials import TABLE_2
-from harness.delamination.mesh import refined
-from harness.delamination.study.cases import ELEMENTS, KINDS, MESHES, STIFFNESSES, StudyCase, deck_files
+from harness.delamination.study.cases import KINDS, StudyCase, deck_files, interface_of, mesh_of
 from harness.model.arrays import FloatArray
 from harness.output import Result
 
@@ -55,11 +52,9 @@ class StudyReference:
     def files(self) -> dict[str, str]:
         """Deck `NAME.inp` and the files that it includes."""
         kind = KINDS[self.specimen]
-        element, consistent = ELEMENTS["consistent"]
-        interface = Interface(element, TABLE_2.with_stiffness(STIFFNESSES["inf"]), consistent=consistent)
-        mesh = refined(kind.mesh(kind.size, MESHES[self.mesh] * kind.size), self.factor)
+        mesh = mesh_of(kind, self.mesh, self.factor)
         title = f"{kind.title}, [{self.layup}], {self.mesh} mesh, quads cut into {self.factor} x {self.factor}"
-        return deck_files(self.name, title, kind, self.layup, mesh, interface)
+        return deck_files(self.name, title, kind, self.layup, mesh, interface_of("consistent", "inf"))
 
 
 @dataclass(frozen=True, slots=True)

@@ -19,7 +19,6 @@ tractions are averaged over the share of each point of the coarsest mesh, as the
 
 from __future__ import annotations
 
-import argparse
 import sys
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
@@ -29,14 +28,12 @@ import numpy as np
 from rich.console import Console
 from rich.table import Table
 
-from harness.delamination import specimens
-from harness.delamination.batch import run_deck
-from harness.delamination.blocks import Interface, Specimen
+from harness.delamination.batch import run_deck, study_parser
 from harness.delamination.materials import PLY_0, TABLE_2
-from harness.delamination.mesh import TwoArmMesh, refined
+from harness.delamination.mesh import TwoArmMesh
 from harness.delamination.oscillation import total_variation
 from harness.delamination.steps import LINEAR
-from harness.delamination.study.cases import ELEMENTS, KINDS, LAYUPS, MESHES, STIFFNESSES, deck_files
+from harness.delamination.study.cases import KINDS, LAYUPS, deck_files, interface_of, mesh_of
 from harness.delamination.study.reference import Profile, restricted
 from harness.delamination.study.rows import at_tenths, bonded_part
 from harness.model.arrays import FloatArray
@@ -73,18 +70,13 @@ class Bonded:
     @property
     def refined_mesh(self) -> TwoArmMesh:
         """Every quad cut into factor x factor."""
-        return refined_mesh(self.specimen, self.mesh, self.factor)
+        return mesh_of(KINDS[self.specimen], self.mesh, self.factor)
 
     def files(self) -> dict[str, str]:
         """Deck `NAME.inp` and the files that it includes."""
-        kind = KINDS[self.specimen]
-        top, bottom = LAYUPS[self.layup]
-        element, consistent = ELEMENTS[self.element]
-        interface = Interface(element, INTACT, consistent=consistent)
-        specimen = Specimen("mesh", self.refined_mesh, interface, specimens.WIDTH, bottom, top)
-        deck = kind.deck("bumps", specimen, 1.0, LINEAR, 1)
-        nodes = 8 if element == "U4" else 4
-        return specimens.mesh_files("mesh", self.refined_mesh, (nodes,)) | {f"{self.name}.inp": deck}
+        kind, interface = KINDS[self.specimen], replace(interface_of(self.element, "1e8"), cohesive=INTACT)
+        mesh = self.refined_mesh
+        return deck_files(self.name, "bumps", kind, self.layup, mesh, interface, displacement=1.0, increments=LINEAR)
 
 
 @dataclass(frozen=True, slots=True)
@@ -103,16 +95,9 @@ class Failing:
 
     def files(self) -> dict[str, str]:
         """Deck `NAME.inp` and the files that it includes."""
-        element, consistent = ELEMENTS[self.element]
-        interface = Interface(element, TABLE_2.with_stiffness(STIFFNESSES[self.stiffness]), consistent=consistent)
-        mesh = refined_mesh(self.specimen, "perturbed", self.factor)
-        return deck_files(self.name, "bumps", KINDS[self.specimen], "0/0", mesh, interface)
-
-
-def refined_mesh(specimen: str, mesh: str, factor: int) -> TwoArmMesh:
-    """Mesh of a specimen with every quad cut into factor x factor; the bumps are those of the mesh with 1."""
-    kind = KINDS[specimen]
-    return refined(kind.mesh(kind.size, MESHES[mesh] * kind.size), factor)
+        kind, interface = KINDS[self.specimen], interface_of(self.element, self.stiffness)
+        mesh = mesh_of(kind, "perturbed", self.factor)
+        return deck_files(self.name, "bumps", kind, "0/0", mesh, interface)
 
 
 def bonded(problem: Bonded, folder: Path) -> dict[str, FloatArray]:
@@ -128,7 +113,7 @@ def turned(specimen: str, folder: Path) -> dict[str, FloatArray]:
     profile = restricted(outcome.result.interface(), problem.factor)
     strain = _strain_along(outcome.result, problem.refined_mesh)
     stress = (PLY_0.e1 * strain + PLY_0.nu12 * profile["TN"], profile["TN"], profile["TT"])
-    coarse = refined_mesh(specimen, "perturbed", 1)
+    coarse = mesh_of(KINDS[specimen], "perturbed")
     angle = np.arctan(np.diff(coarse.bumps) / np.diff(coarse.x))[coarse.first :]
     normal, tangential = on_facets(stress, np.repeat(angle, 2))
     return _stretch(specimen, profile | {"TN": normal, "TT": tangential})
@@ -175,11 +160,8 @@ def _variation(values: FloatArray) -> str:
 
 def main(arguments: Sequence[str] | None = None) -> int:
     """Run all, print the tables; returns the exit code."""
-    parser = argparse.ArgumentParser(
-        prog="python -m harness.delamination.study.refinement",
-        description="Refine meshes inside the bumps of an interface: what of its tractions stays is real.",
-    )
-    parser.add_argument("--output-dir", type=Path, default=Path("study/refinement"), help="folder of all files written")
+    description = "Refine meshes inside the bumps of an interface: what of its tractions stays is real."
+    parser = study_parser("harness.delamination.study.refinement", description, "study/refinement")
     folder: Path = parser.parse_args(arguments).output_dir
     console = Console()
     variations = tuple(f"TV, h/{factor} (MPa)" for factor in FACTORS)

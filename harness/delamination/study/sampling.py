@@ -9,25 +9,21 @@ more than twice the strength; a zig-zag within every element adds to it.
 
 from __future__ import annotations
 
-import argparse
 import sys
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 from rich.console import Console
 from rich.table import Table
 
-from harness.delamination import specimens
-from harness.delamination.blocks import Interface, Specimen
-from harness.delamination.materials import TABLE_2
+from harness.delamination.batch import study_parser
 from harness.delamination.measures import iterations
 from harness.delamination.oscillation import total_variation
-from harness.delamination.study.cases import FIELD_EVERY, INCREMENTS, KINDS, LAYUPS
+from harness.delamination.study.cases import KINDS, deck_files, interface_of
 from harness.job import run
 
 SAMPLINGS = ("middle of the face", "face, xi of the point", "Gauss point")
-STIFFNESS = 1.0e8
 
 
 @dataclass(frozen=True, slots=True)
@@ -54,27 +50,22 @@ def flexure(sampling: int, displacement: float, folder: Path, size: float | None
         Length of the elements (mm); None: that of the study.
     """
     kind = KINDS["enf"]
-    top, bottom = LAYUPS["0/0"]
     mesh = kind.mesh(size or kind.size, 0.0)
-    interface = Interface("U4", TABLE_2.with_stiffness(STIFFNESS), sampling=sampling, consistent=True)
-    specimen = Specimen("mesh", mesh, interface, specimens.WIDTH, bottom, top)
-    deck = kind.deck(f"SAMPLING {sampling}", specimen, displacement, INCREMENTS, FIELD_EVERY)
-    name = f"sampling_{sampling}.inp"
+    interface = replace(interface_of("consistent", "1e8"), sampling=sampling)
+    name, title = f"sampling_{sampling}", f"SAMPLING {sampling}"
     folder.mkdir(parents=True, exist_ok=True)
-    for file, content in (specimens.mesh_files("mesh", mesh, (8,)) | {name: deck}).items():
+    files = deck_files(name, title, kind, "0/0", mesh, interface, displacement=displacement)
+    for file, content in files.items():
         (folder / file).write_text(content, encoding="ascii")
-    result = run(folder / name, output_dir=folder)
+    result = run(folder / f"{name}.inp", output_dir=folder)
     profile, load = result.interface(), result.history[f"RF2[{kind.load}]"]
     return SamplingResult(total_variation(profile["TT"]), kind.sign * float(load[-1]), iterations(result))
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
     """Run the three samplings, print a table; returns the exit code."""
-    parser = argparse.ArgumentParser(
-        prog="python -m harness.delamination.study.sampling",
-        description="Oscillation of the end-notched flexure by the place where the bulk stress is sampled.",
-    )
-    parser.add_argument("--output-dir", type=Path, default=Path("study/sampling"), help="folder of all files written")
+    description = "Oscillation of the end-notched flexure by the place where the bulk stress is sampled."
+    parser = study_parser("harness.delamination.study.sampling", description, "study/sampling")
     folder: Path = parser.parse_args(arguments).output_dir
     displacement = KINDS["enf"].displacement["0/0"]
     table = Table("SAMPLING", "stress from", "TV of TT (MPa)", "load (N)", "iterations")

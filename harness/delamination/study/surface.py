@@ -11,8 +11,6 @@ bonded, as what really acts, bumps included.
 
 from __future__ import annotations
 
-import argparse
-import os
 import sys
 from bisect import bisect_left
 from collections.abc import Mapping, Sequence
@@ -27,7 +25,7 @@ from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 from rich.console import Console
 
-from harness.delamination.batch import Store, StoredRow, complete, run_deck
+from harness.delamination.batch import Store, StoredRow, complete, run_deck, study_parser
 from harness.delamination.blocks import Interface
 from harness.delamination.bricks import ARM, CRACK, HEIGHT, LAW, LENGTH
 from harness.delamination.measures import cutbacks, iterations, load
@@ -35,7 +33,8 @@ from harness.delamination.mesh import crack_columns
 from harness.delamination.oscillation import surface_index, surface_variation
 from harness.delamination.plates import Laminate, TwoPlateMesh, refined, two_plates
 from harness.delamination.study.digests import head, line
-from harness.delamination.study.reference import FOLDER, ReferenceRun, run_reference
+from harness.delamination.study.reference import FOLDER, run_reference
+from harness.delamination.study.runner import reference_store
 from harness.delamination.study.spatial import Field, field, opened, restricted
 from harness.model.arrays import FloatArray
 from harness.output import Result
@@ -283,19 +282,14 @@ def last_fields(folder: Path) -> list[dict[str, Field]]:
 
 def main(arguments: Sequence[str] | None = None) -> int:
     """Run what is missing, print the table, draw the fields; returns the exit code."""
-    parser = argparse.ArgumentParser(
-        prog="python -m harness.delamination.study.surface",
-        description="Oscillation of the tractions over an interface in space on aligned, turned and moved meshes.",
-        epilog="An interrupted study resumes where it stopped.",
-    )
-    parser.add_argument("--output-dir", type=Path, default=Path("study/surface"), help="folder of all files written")
-    parser.add_argument("--workers", type=int, default=os.cpu_count(), help="processes (one for each core)")
+    description = "Oscillation of the tractions over an interface in space on aligned, turned and moved meshes."
+    parser = study_parser("harness.delamination.study.surface", description, "study/surface", resumes=True)
     options = parser.parse_args(arguments)
     folder: Path = options.output_dir
     console, cases = Console(), all_cases()
     complete(
         list(dict.fromkeys(case.reference for case in cases)),
-        Store(folder / "references.json", ReferenceRun.from_json),
+        reference_store(folder),
         run_reference,
         folder / FOLDER,
         workers=options.workers,
