@@ -150,8 +150,10 @@ def _interface(specimen: Specimen) -> list[str]:
     ]
 
 
-def cohesive_section(interface: Interface, width: float | None = None, *, controls: bool = True) -> list[str]:
+def cohesive_section(interface: Interface, width: float | None = None) -> list[str]:
     """*COHESIVE SECTION of the set INTERFACE with its material: the law of the user elements in Abaqus' words.
+
+    *SECTION CONTROLS let failed elements still resist compression, like the user elements.
 
     Parameters
     ----------
@@ -159,22 +161,19 @@ def cohesive_section(interface: Interface, width: float | None = None, *, contro
         Elements and law.
     width
         Out of the plane (mm); None in space.
-    controls
-        *SECTION CONTROLS by which failed elements still resist compression, like the user elements.
     """
     law = interface.cohesive
     mixed = ("BK", interface.eta) if interface.eta else ("POWER LAW", interface.power or 1.0)
     evolution = {"TYPE": "ENERGY", "SOFTENING": "LINEAR", "MIXED_MODE_BEHAVIOR": mixed[0], "POWER": number(mixed[1])}
-    section = {"ELSET": "INTERFACE", "MATERIAL": "INTERFACE", "RESPONSE": "TRACTION SEPARATION"}
+    section = {"CONTROLS": "INTERFACE", "ELSET": "INTERFACE", "MATERIAL": "INTERFACE"}
     settings = {"NAME": "INTERFACE", "ELEMENT_DELETION": "NO", "MAX_DEGRADATION": "1."}
     if interface.viscosity:
         settings["VISCOSITY"] = number(interface.viscosity)
-    controlled = {"CONTROLS": "INTERFACE"} if controls else {}
     return [
         "** constitutive thickness" + (", width" if width else ""),
-        keyword("COHESIVE SECTION", **controlled, **section),
+        keyword("COHESIVE SECTION", **section, RESPONSE="TRACTION SEPARATION"),
         *wrapped([1.0, width] if width else [1.0]),
-        *([keyword("SECTION CONTROLS", **settings)] if controls else []),
+        keyword("SECTION CONTROLS", **settings),
         keyword("MATERIAL", NAME="INTERFACE"),
         "** normal, first and second shear direction: stiffness, strength, fracture energy",
         keyword("ELASTIC", TYPE="TRACTION"),

@@ -74,7 +74,7 @@ def turns(profile: FloatArray) -> FloatArray:
     return np.asarray(values[np.concatenate([[True], rises[1:] != rises[:-1], [True]])])
 
 
-def cancelled(profile: FloatArray, pieces: int = PIECES) -> tuple[FloatArray, float]:
+def cancelled(profile: FloatArray, pieces: int) -> tuple[FloatArray, float]:
     """Turns that are left (m <= pieces + 1,), ends included, and the largest difference c of those that cancelled.
 
     Parameters
@@ -95,9 +95,9 @@ def cancelled(profile: FloatArray, pieces: int = PIECES) -> tuple[FloatArray, fl
     return kept, largest
 
 
-def smooth_variation(profile: FloatArray, pieces: int = PIECES) -> float:
-    """TV(g): total variation of the nearest profile of at most `pieces` monotone pieces, of the least one of these."""
-    kept, largest = cancelled(profile, pieces)
+def smooth_variation(profile: FloatArray) -> float:
+    """TV(g): total variation of the nearest profile of at most PIECES monotone pieces, of the least one of these."""
+    kept, largest = cancelled(profile, PIECES)
     return float(np.sum(np.abs(np.diff(kept)) - largest))
 
 
@@ -156,7 +156,7 @@ def error_index(profile: FloatArray, real: FloatArray, scale: float) -> float:
     return _index(total_variation(profile - real), total_variation(real), scale)
 
 
-def raw_index(profile: FloatArray, scale: float, pieces: int = PIECES) -> float:
-    """1 + (TV(f) - TV(g))/max(TV(g), scale) with the smooth profile g of at most `pieces` >= 1 monotone pieces."""
-    smooth = smooth_variation(profile, pieces)
+def raw_index(profile: FloatArray, scale: float) -> float:
+    """1 + (TV(f) - TV(g))/max(TV(g), scale) with the smooth profile g of at most PIECES monotone pieces."""
+    smooth = smooth_variation(profile)
     return _index(total_variation(profile) - smooth, smooth, scale)

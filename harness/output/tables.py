@@ -33,13 +33,17 @@ _COORDINATES = ("COOR1", "COOR2", "COOR3")
 
 @dataclass(frozen=True, slots=True)
 class _Table:
-    """Columns of values (rows, columns) with the heads of lines and columns.
+    """Columns of values (rows, columns) with the heads of lines and columns, COLUMNS of them beside each other.
 
+    head, width    head of the lines; of a name of a column
+    note           line below the head
     indent, where  of the extremes, and the head of the line below that says where they are
     """
 
     title: str
     head: str
+    width: int
+    note: str
     indent: int
     names: list[str]
     lines: list[str]
@@ -50,21 +54,23 @@ class _Table:
     totals: bool = False
 
     def __str__(self) -> str:
-        if not len(self.values) or not self.values.any():
+        return "".join(self._part(slice(k, k + COLUMNS)) for k in range(0, len(self.names), COLUMNS))
+
+    def _part(self, columns: slice) -> str:
+        values = self.values[:, columns]
+        if not values.any():
             return f"\n\n{self.title}\n\n          ALL VALUES IN THIS TABLE ARE ZERO\n"
-        text = f"\n\n{self.title}\n\n{self.head}\n\n"
-        for line, values in zip(self.lines, self.values.tolist(), strict=True):
-            if any(values):
-                text += line + "".join(map(self.number, values)) + "\n"
-        for name, best in (
-            ("MAXIMUM", first_largest(self.values)),
-            ("MINIMUM", first_largest(-self.values)),
-        ):
-            extremes = np.take_along_axis(self.values, best[None, :], axis=0)[0]
+        head = self.head + "".join(f"{name:<{self.width}}" for name in self.names[columns])
+        text = f"\n\n{self.title}\n\n{head}\n{self.note}\n\n"
+        for line, row in zip(self.lines, values.tolist(), strict=True):
+            if any(row):
+                text += line + "".join(map(self.number, row)) + "\n"
+        for name, best in (("MAXIMUM", first_largest(values)), ("MINIMUM", first_largest(-values))):
+            extremes = np.take_along_axis(values, best[None, :], axis=0)[0]
             text += f"\n{f' {name}':<{self.indent}}{_row(extremes.tolist())}\n"
             text += self.where + "".join(f"{self.labels[k]:>12}" for k in best) + "\n"
         if self.totals:
-            text += f"\n{' TOTAL':<{self.indent}}{_row(self.values.sum(axis=0).tolist())}\n"
+            text += f"\n{' TOTAL':<{self.indent}}{_row(values.sum(axis=0).tolist())}\n"
         return text
 
 
@@ -90,26 +96,25 @@ def node_tables(request: NodeRequest, model: Model, solution: Solution, index: N
     columns: dict[str, FloatArray] = {}
     for variable in request.variables:
         columns |= _node_values(variable, nodes, model, solution, index, nlgeom=nlgeom)
-    names = list(columns)
+    if not columns:
+        return ""
     labels = [_label(model.mesh, node) for node in nodes.tolist()]
-    text = ""
-    for first in range(0, len(names), COLUMNS):
-        part = names[first : first + COLUMNS]
-        text += str(
-            _Table(
-                title,
-                "       NODE FOOT-  " + "".join(f"{name:<15}" for name in part) + "\n            NOTE",
-                15,
-                part,
-                [f"{label:>11}    " for label in labels],
-                labels,
-                np.stack([columns[name] for name in part], axis=1),
-                " AT NODE      ",
-                exponential,
-                request.totals,
-            )
+    return str(
+        _Table(
+            title,
+            "       NODE FOOT-  ",
+            15,
+            "            NOTE",
+            15,
+            list(columns),
+            [f"{label:>11}    " for label in labels],
+            labels,
+            np.stack(list(columns.values()), axis=1),
+            " AT NODE      ",
+            exponential,
+            request.totals,
         )
-    return text
+    )
 
 
 def _node_values(
@@ -244,23 +249,21 @@ def _element_table(
     title = "   THE FOLLOWING TABLE IS PRINTED FOR " + (
         f"{which} AND BELONGING TO ELEMENT SET {request.elset}" if request.elset else f"ALL {which}"
     )
-    text = ""
-    for start in range(0, len(names), COLUMNS):
-        part = names[start : start + COLUMNS]
-        text += str(
-            _Table(
-                title,
-                layout.head + "".join(f"{name:<12}" for name in part) + f"\n{'':{layout.note}}NOTE",
-                layout.indent,
-                part,
-                lines,
-                labels,
-                values[:, start : start + COLUMNS],
-                layout.where,
-                _short,
-            )
+    return str(
+        _Table(
+            title,
+            layout.head,
+            12,
+            f"{'':{layout.note}}NOTE",
+            layout.indent,
+            names,
+            lines,
+            labels,
+            values,
+            layout.where,
+            _short,
         )
-    return text
+    )
 
 
 def _at_position(

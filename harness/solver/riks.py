@@ -36,9 +36,9 @@ class ArcLength:
         if state.iteration == 0:
             if not self._scale:
                 self._scale = float(np.abs(v).max(initial=0.0)) or 1.0
-                self._unit = self._norm(v, 1.0)
+                self._unit = self._norm(v)
             self._tangent = v
-            return self._sign(v) * self.length * self._unit / self._norm(v, 1.0) - state.factor
+            return self._sign(v) * self.length * self._unit / self._norm(v) - state.factor
         assert self._tangent is not None
         scale = self._scale**2
         return -float(directions.particular @ self._tangent) / (float(v @ self._tangent) + scale)
@@ -53,5 +53,5 @@ class ArcLength:
         increment, factor = self._last
         return 1.0 if float(increment @ v) / self._scale**2 + factor >= 0.0 else -1.0
 
-    def _norm(self, u: FloatArray, factor: float) -> float:
-        return float(np.sqrt(u @ u / self._scale**2 + factor**2))
+    def _norm(self, v: FloatArray) -> float:
+        return float(np.sqrt(v @ v / self._scale**2 + 1.0))
