@@ -39,29 +39,25 @@ subroutine host_bare_loop(address, material, jtype, kstep, kinc, lflags, time, d
   pnewdt = 1
   if (material > 0) then
     call c_f_procpointer(pointer, uelmat)
-    do e = 1, m
-      u_element = u(equations(:, e))
-      du_element = du(equations(:, e))
-      svars_trial(:, e) = svars(:, e)
-      energy_trial(:, e) = energy(:, e)
+  else
+    call c_f_procpointer(pointer, uel)
+  end if
+  do e = 1, m
+    u_element = u(equations(:, e))
+    du_element = du(equations(:, e))
+    svars_trial(:, e) = svars(:, e)
+    energy_trial(:, e) = energy(:, e)
+    if (material > 0) then
       call uelmat(rhs, amatrx, svars_trial(:, e), energy_trial(:, e), sizes(1), sizes(2), sizes(3), props, sizes(4), &
                   coords(:, :, e), sizes(5), sizes(6), u_element, du_element, rates, rates, place(1), clock(1:2), clock(3), &
                   place(2), place(3), labels(e), params, sizes(7), jdltyp, load, predef, sizes(8), lflags, sizes(1), load, &
                   sizes(8), pnewdt, jprops, integers, clock(4), place(4))
-      residual(equations(:, e)) = residual(equations(:, e)) + rhs
-    end do
-  else
-    call c_f_procpointer(pointer, uel)
-    do e = 1, m
-      u_element = u(equations(:, e))
-      du_element = du(equations(:, e))
-      svars_trial(:, e) = svars(:, e)
-      energy_trial(:, e) = energy(:, e)
+    else
       call uel(rhs, amatrx, svars_trial(:, e), energy_trial(:, e), sizes(1), sizes(2), sizes(3), props, sizes(4), &
                coords(:, :, e), sizes(5), sizes(6), u_element, du_element, rates, rates, place(1), clock(1:2), clock(3), &
                place(2), place(3), labels(e), params, sizes(7), jdltyp, load, predef, sizes(8), lflags, sizes(1), load, &
                sizes(8), pnewdt, jprops, integers, clock(4))
-      residual(equations(:, e)) = residual(equations(:, e)) + rhs
-    end do
-  end if
+    end if
+    residual(equations(:, e)) = residual(equations(:, e)) + rhs
+  end do
 end subroutine host_bare_loop

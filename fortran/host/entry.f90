@@ -456,42 +456,18 @@ subroutine host_uamp_call(address, name, clock, props, svars, info, sensors, nam
   define = arguments%define
 end subroutine host_uamp_call
 
-!> Address of the built-in continuum elements.
-subroutine host_solid_address(address)
-  use, intrinsic :: iso_c_binding, only: c_funloc, c_intptr_t
-  use host_kinds, only: i8
+!> Address of built-in elements: 1 continuum, 2 coupled temperature-displacement, 3 cohesive, 4 trusses, springs and masses.
+subroutine host_element_address(elements, address)
+  use, intrinsic :: iso_c_binding, only: c_funloc, c_funptr, c_intptr_t
+  use host_cohesive, only: cohesive_uel
+  use host_coupled, only: coupled_uelmat
+  use host_discrete, only: discrete_uel
+  use host_kinds, only: i4, i8
   use host_solid, only: solid_uelmat
   implicit none (type, external)
+  integer(i4), intent(in) :: elements
   integer(i8), intent(out) :: address
-  address = int(transfer(c_funloc(solid_uelmat), 1_c_intptr_t), i8)
-end subroutine host_solid_address
-
-!> Address of the built-in coupled temperature-displacement elements.
-subroutine host_coupled_address(address)
-  use, intrinsic :: iso_c_binding, only: c_funloc, c_intptr_t
-  use host_coupled, only: coupled_uelmat
-  use host_kinds, only: i8
-  implicit none (type, external)
-  integer(i8), intent(out) :: address
-  address = int(transfer(c_funloc(coupled_uelmat), 1_c_intptr_t), i8)
-end subroutine host_coupled_address
-
-!> Address of the built-in cohesive elements.
-subroutine host_cohesive_address(address)
-  use, intrinsic :: iso_c_binding, only: c_funloc, c_intptr_t
-  use host_cohesive, only: cohesive_uel
-  use host_kinds, only: i8
-  implicit none (type, external)
-  integer(i8), intent(out) :: address
-  address = int(transfer(c_funloc(cohesive_uel), 1_c_intptr_t), i8)
-end subroutine host_cohesive_address
-
-!> Address of the built-in trusses, springs and masses.
-subroutine host_discrete_address(address)
-  use, intrinsic :: iso_c_binding, only: c_funloc, c_intptr_t
-  use host_discrete, only: discrete_uel
-  use host_kinds, only: i8
-  implicit none (type, external)
-  integer(i8), intent(out) :: address
-  address = int(transfer(c_funloc(discrete_uel), 1_c_intptr_t), i8)
-end subroutine host_discrete_address
+  type(c_funptr) :: all(4)
+  all = [c_funloc(solid_uelmat), c_funloc(coupled_uelmat), c_funloc(cohesive_uel), c_funloc(discrete_uel)]
+  address = int(transfer(all(elements), 1_c_intptr_t), i8)
+end subroutine host_element_address

@@ -14,8 +14,9 @@ module host_coupled
   use core_small_matrix, only: invert
   use host_context, only: initial_stresses
   use host_coupling, only: coupling_t
+  use host_inertia, only: scalar_mass
   use host_kinds, only: dp, i4
-  use host_shape, only: is_quadratic, radius_of, rule_of, rule_t
+  use host_shape, only: radius_of, rule_of, rule_t
   use host_solid, only: solid_element
   implicit none (type, external)
   private
@@ -89,20 +90,8 @@ contains
     real(dp), intent(in) :: capacity   !< per volume, times thickness or 2 pi, over the time increment
     real(dp), intent(in) :: x(geometry%dim, geometry%nodes), dt(field%nodes)
     real(dp), intent(inout) :: heat(field%nodes), tangent(field%nodes, field%nodes)
-    real(dp) :: matrix(field%nodes, field%nodes), inverse(field%dim, field%dim), determinant, weight
-    integer :: k, p
-    matrix = 0
-    do p = 1, field%points
-      call invert(field%dim, matmul(x, geometry%dn(:, :, p)), inverse, determinant)
-      weight = capacity*field%weight(p)*determinant*radius_of(geometry, p, axisymmetric, x)
-      do k = 1, field%nodes
-        if (is_quadratic(geometry)) then
-          matrix(:, k) = matrix(:, k) + weight*field%n(k, p)*field%n(:, p)
-        else
-          matrix(k, k) = matrix(k, k) + weight*field%n(k, p)
-        end if
-      end do
-    end do
+    real(dp) :: matrix(field%nodes, field%nodes)
+    call scalar_mass(geometry, field, axisymmetric, capacity, x, matrix)
     heat = heat - matmul(matrix, dt)
     tangent = tangent + matrix
   end subroutine store

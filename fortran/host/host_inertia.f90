@@ -11,7 +11,7 @@ module host_inertia
   use host_shape, only: is_quadratic, radius_of, rule_t
   implicit none (type, external)
   private
-  public :: is_dynamic, mass_matrix, respond
+  public :: is_dynamic, mass_matrix, respond, scalar_mass
 
 contains
 
@@ -21,32 +21,43 @@ contains
     is_dynamic = procedure_code == 11 .or. procedure_code == 12
   end function is_dynamic
 
-  !> Mass matrix: lumped in elements with straight edges, consistent in those with middle nodes, as in Abaqus, and
-  !> always fully integrated.
+  !> Mass matrix, always fully integrated.
   pure subroutine mass_matrix(rule, axisymmetric, density, x, mass)
     type(rule_t), intent(in) :: rule   !< that integrates it fully
     logical, intent(in) :: axisymmetric
     real(dp), intent(in) :: density    !< per volume; in the plane per area; in axisymmetric elements times 2 pi
     real(dp), intent(in) :: x(rule%dim, rule%nodes)
     real(dp), intent(out) :: mass(rule%dim*rule%nodes, rule%dim*rule%nodes)
-    real(dp) :: weight, at_nodes(rule%nodes, rule%nodes)
-    integer :: i, k, p
-    at_nodes = 0
-    do p = 1, rule%points
-      weight = density*rule%weight(p)*determinant(matmul(x, rule%dn(:, :, p)))*radius_of(rule, p, axisymmetric, x)
-      do k = 1, rule%nodes
-        if (is_quadratic(rule)) then
-          at_nodes(:, k) = at_nodes(:, k) + weight*rule%n(k, p)*rule%n(:, p)
-        else
-          at_nodes(k, k) = at_nodes(k, k) + weight*rule%n(k, p)
-        end if
-      end do
-    end do
+    real(dp) :: at_nodes(rule%nodes, rule%nodes)
+    integer :: i
+    call scalar_mass(rule, rule, axisymmetric, density, x, at_nodes)
     mass = 0
     do i = 1, rule%dim
       mass(i::rule%dim, i::rule%dim) = at_nodes
     end do
   end subroutine mass_matrix
+
+  !> The same for one unknown per node: lumped in elements with straight edges, consistent in those with middle nodes, as in Abaqus.
+  pure subroutine scalar_mass(geometry, field, axisymmetric, density, x, mass)
+    type(rule_t), intent(in) :: geometry, field   !< of the shape, and of the unknowns
+    logical, intent(in) :: axisymmetric
+    real(dp), intent(in) :: density               !< as in mass_matrix
+    real(dp), intent(in) :: x(geometry%dim, geometry%nodes)
+    real(dp), intent(out) :: mass(field%nodes, field%nodes)
+    real(dp) :: weight
+    integer :: k, p
+    mass = 0
+    do p = 1, field%points
+      weight = density*field%weight(p)*determinant(matmul(x, geometry%dn(:, :, p)))*radius_of(geometry, p, axisymmetric, x)
+      do k = 1, field%nodes
+        if (is_quadratic(geometry)) then
+          mass(:, k) = mass(:, k) + weight*field%n(k, p)*field%n(:, p)
+        else
+          mass(k, k) = mass(k, k) + weight*field%n(k, p)
+        end if
+      end do
+    end do
+  end subroutine scalar_mass
 
   !> RHS and AMATRX, which hold internal force and stiffness on entry. mass is used by dynamic steps and where it is asked
   !> for; old: forces of the last two increments, changed where the call keeps state; kinetic: ENERGY(1).

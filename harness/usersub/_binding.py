@@ -370,15 +370,13 @@ def integration_rule(family: int, points: int, nodes: int, dimension: int) -> tu
     return weights, shapes, slopes.transpose(0, 2, 1)
 
 
+_ELEMENTS: Final = ("solid", "coupled", "cohesive", "discrete")
+"""In the order of host_element_address."""
+
+
 def address_of(elements: Literal["solid", "coupled", "cohesive", "discrete"]) -> int:
     """Address of built-in elements: solid and coupled ones are called like UELMAT, the others like UEL."""
-    address = {
-        "solid": _host.host_solid_address,
-        "coupled": _host.host_coupled_address,
-        "cohesive": _host.host_cohesive_address,
-        "discrete": _host.host_discrete_address,
-    }
-    return int(address[elements]())
+    return int(_host.host_element_address(1 + _ELEMENTS.index(elements)))
 
 
 def take_messages() -> list[RawMessage]:
