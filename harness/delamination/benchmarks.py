@@ -21,6 +21,7 @@ from rich.console import Console
 from harness.delamination import literature, literature_measures, measures
 from harness.delamination.batch import Store, StoredRow, complete
 from harness.delamination.decks import FOLDER
+from harness.delamination.markdown import head, line
 from harness.errors import UelError
 from harness.model.arrays import FloatArray
 from harness.output import Result
@@ -182,27 +183,23 @@ attempts given up count.
 def page(rows: Mapping[str, Row]) -> str:
     """The page of these rows, by name of the deck."""
     header = ("run", "unknowns", "increments", "given up", "iterations", "away from snaps", "CPU", "wall", "memory")
-    lines = [_line(header), _line(["---"] * len(header))]
+    lines = head(header)
     for name, row in rows.items():
         held = row.cutbacks <= 5 and row.calm <= 5.0 and not row.stopped
         cells = (f"`{name}`", f"{row.unknowns:,}", row.increments, row.cutbacks, f"{row.iterations}")
         mean = f"{row.calm:.2f}" + ("" if held else ", **not met**")
         cost = (f"{row.cpu:.0f} s", f"{row.wall / 60.0:.0f} min", f"{row.memory:.0f} MB")
-        lines.append(_line((*cells, mean, *cost)))
+        lines.append(line((*cells, mean, *cost)))
     for name, row in rows.items():
         if row.stopped:
             lines += ["", f"`{name}` stopped: {row.stopped}"]
     lines += ["", "## Against the benchmarks", ""]
-    lines += [_line(("run", "quantity", "benchmark", "here", "difference")), _line(["---"] * 5)]
+    lines += head(("run", "quantity", "benchmark", "here", "difference"))
     for name, row in rows.items():
         for quantity, (expected, found) in row.values.items():
             away = f"{100.0 * (found / expected - 1.0):+.1f} %" if expected else ""
-            lines.append(_line((f"`{name}`", quantity, f"{expected:.4g}", f"{found:.4g}", away)))
+            lines.append(line((f"`{name}`", quantity, f"{expected:.4g}", f"{found:.4g}", away)))
     return HEAD + "\n".join(lines) + "\n"
-
-
-def _line(cells: Sequence[object]) -> str:
-    return "| " + " | ".join(map(str, cells)) + " |"
 
 
 def row_store(path: Path) -> Store[Row]:

@@ -79,8 +79,8 @@ class IterationDone:
 
 
 @dataclass(frozen=True, slots=True)
-class AttemptAbandoned:
-    """The attempt is abandoned; `next_increment` is tried next (0: no attempt is left)."""
+class AttemptEnded:
+    """An attempt at an increment that is over, with its iterations."""
 
     step: int
     increment: int
@@ -89,25 +89,24 @@ class AttemptAbandoned:
     step_time: float
     total_time: float
     time_increment: float
+
+
+@dataclass(frozen=True, slots=True)
+class AttemptAbandoned(AttemptEnded):
+    """It is abandoned, and the times are those of its start; `next_increment` is tried next (0: no attempt is left)."""
+
     next_increment: float
     reason: str
 
 
 @dataclass(frozen=True, slots=True)
-class IncrementDone:
+class IncrementDone(AttemptEnded):
     """A converged increment, after commit. Times are those of its end.
 
     `next_increment` is what the next increment starts with; 0 where none follows in the step. `load_factor`, where it
     is part of the solution, is the step time then, and the total time is the length of the path.
     """
 
-    step: int
-    increment: int
-    attempt: int
-    iterations: int
-    step_time: float
-    total_time: float
-    time_increment: float
     solution: Solution
     next_increment: float = 0.0
     load_factor: float | None = None

@@ -17,6 +17,7 @@ from harness.errors import UelError
 from harness.model.model import Model
 from harness.model.records import (
     AttemptAbandoned,
+    AttemptEnded,
     AttemptStarted,
     HarmonicResponse,
     IncrementDone,
@@ -195,16 +196,20 @@ class JobOutput:
 
     def _abandoned(self, record: AttemptAbandoned) -> None:
         self._message.abandoned(record)
+        self._attempt(record)
+
+    def _attempt(self, record: AttemptEnded, *, monitor: float | None = None) -> None:
         self._status.write(
             StatusRow(
                 record.step,
                 record.increment,
                 record.attempt,
-                True,
+                isinstance(record, AttemptAbandoned),
                 record.iterations,
                 record.total_time,
                 record.step_time,
                 record.time_increment,
+                monitor,
                 riks=self._model.steps[record.step - 1].procedure.riks is not None,
             )
         )
@@ -222,20 +227,7 @@ class JobOutput:
         self._requested(record, last=last)
         self._pending = self._last = record
         self._message.increment(record)
-        self._status.write(
-            StatusRow(
-                record.step,
-                record.increment,
-                record.attempt,
-                False,
-                record.iterations,
-                record.total_time,
-                record.step_time,
-                record.time_increment,
-                self._monitored(record),
-                riks=procedure.riks is not None,
-            )
-        )
+        self._attempt(record, monitor=self._monitored(record))
 
     def _finish_step(self) -> None:
         """Write the last increment of a step where its frequency left it out."""

@@ -6,8 +6,8 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from manufactured import Field, errors, plate, write_plate_deck
 
-from harness.delamination.manufactured import Field, errors, plate, write_plate_deck
 from harness.job import run
 
 FIELD = Field()

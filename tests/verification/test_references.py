@@ -12,10 +12,10 @@ from typing import NamedTuple
 
 import numpy as np
 import pytest
+from reference_values import Reference, read_references
 
 from harness.delamination import measures
 from harness.delamination.decks import FOLDER
-from harness.delamination.references import Reference, read_references
 from harness.job import run
 from harness.output import Result
 

@@ -7,6 +7,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
 
+from harness.delamination.markdown import head, line
 from harness.delamination.study.cases import ELEMENTS, VISCOSITIES, StudyCase
 from harness.delamination.study.criteria import index_ratios, is_stiff_on_bumps
 from harness.delamination.study.rows import StudyRow
@@ -15,16 +16,6 @@ STIFFNESS = "1e8"
 TRACTIONS = {"TN": ("n", "normal"), "TT": ("t", "tangential")}
 
 Rows = Mapping[StudyCase, StudyRow]
-
-
-def line(cells: Sequence[str]) -> str:
-    """A line of a Markdown table."""
-    return f"| {' | '.join(cells)} |"
-
-
-def head(cells: Sequence[str]) -> list[str]:
-    """The first two lines of a Markdown table."""
-    return [line(cells), line(["---"] * len(cells))]
 
 
 def variations(rows: Rows) -> list[str]:

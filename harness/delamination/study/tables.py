@@ -11,9 +11,10 @@ from dataclasses import asdict
 
 from rich.table import Table
 
+from harness.delamination.markdown import head, line
 from harness.delamination.study.cases import KINDS, OWN_LAW, StudyCase
 from harness.delamination.study.criteria import JudgedCriterion
-from harness.delamination.study.digests import head, line, ratios, variations, viscosity
+from harness.delamination.study.digests import ratios, variations, viscosity
 from harness.delamination.study.rows import StudyRow
 
 SHOWN = 4
