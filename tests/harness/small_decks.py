@@ -1,8 +1,20 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""Decks of a few springs."""
+"""Decks of a few springs, and the mesh of one body."""
 
 from pathlib import Path
+
+
+def body_lines(element_type, nodes, elements):
+    """*NODE of the set ALL, (n, dimension), and *ELEMENT of the set BODY, which counts the nodes from 0."""
+    lines = ["*NODE, NSET=ALL"]
+    lines += [", ".join([str(k), *map(repr, map(float, x))]) for k, x in enumerate(nodes, start=1)]
+    lines.append(f"*ELEMENT, TYPE={element_type}, ELSET=BODY")
+    for k, element in enumerate(elements, start=1):
+        numbers = [str(k), *(str(node + 1) for node in element)]
+        lines.append(", ".join(numbers[:12]) + ("," if len(numbers) > 12 else ""))
+        lines += [", ".join(numbers[12:])] if len(numbers) > 12 else []
+    return lines
 
 
 def snapping(folder: Path, static: str) -> Path:

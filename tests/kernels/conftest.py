@@ -2,12 +2,15 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Single elements of the project's kernels, driven as a job would drive them."""
 
+import ctypes
+import subprocess
 from pathlib import Path
 from typing import ClassVar
 
 import numpy as np
 import pytest
 import reference as independent
+from random_states import Tools
 
 from harness import usersub
 from harness.elements import Call, Flags, Request, build_blocks
@@ -146,6 +149,18 @@ class Element:
         self.block.commit()
         return outcome
 
+    def follow(self, path):
+        """Advance to each target of a path in three parts; after each of them, the trapezoidal work of RHS so far."""
+        u, rhs, work = np.zeros(self.n), np.zeros(self.n), 0.0
+        for target in path:
+            start = u
+            for fraction in (0.3, 0.6, 1.0):
+                new = start + fraction * (target.ravel() - start)
+                new_rhs, _ = self.advance(new, dtime=0.1)
+                work += -0.5 * (rhs + new_rhs) @ (new - u)
+                u, rhs = new, new_rhs
+                yield work
+
     @property
     def state(self):
         """Committed SVARS by name, one value per point."""
@@ -203,9 +218,29 @@ def element_of():
 
 
 @pytest.fixture(scope="session")
+def compiled(tmp_path_factory):
+    """Make a shared library of Fortran files: of this folder, and before it of fortran/."""
+
+    def compiled(file, sources):
+        folder, here = tmp_path_factory.mktemp(file), Path(__file__).parent
+        files = [*(here.parents[1] / "fortran" / f"{name}.f90" for name in sources), here / f"{file}.f90"]
+        library = folder / f"{file}.so"
+        subprocess.run(["gfortran", "-O2", "-shared", "-fPIC", "-o", library, *files], cwd=folder, check=True)
+        return ctypes.CDLL(str(library))
+
+    return compiled
+
+
+@pytest.fixture(scope="session")
 def reference():
     """Module reference.py of this folder."""
     return independent
+
+
+@pytest.fixture
+def tools(element, interface, library, reference):
+    """What a check of random states works with."""
+    return Tools(element, interface, library, reference)
 
 
 @pytest.fixture(scope="session")

@@ -113,13 +113,33 @@ def options(rng, jtype, closure):
 # --- crowds
 
 
-class Crowd:
+class AnyCrowd:
+    """Like elements with the continuum elements beside them, if they take their stress.
+
+    item, neighbours  of the interface and beside it
+    parts             nodes of each neighbour among all
+    owned             those of the interface among all, where it has neighbours
+    """
+
+    def own(self, u):
+        """What is of the nodes of the element itself, in a row."""
+        return (u[:, self.owned] if self.neighbours else u).reshape(COPIES, -1)
+
+    def call(self, method, u, dtime, **options):
+        """`evaluate` or `advance` of the element, after its neighbours."""
+        for neighbour, nodes in zip(self.neighbours, self.parts, strict=False):
+            neighbour.evaluate(u[:, nodes], dtime=dtime)
+        return getattr(self.item, method)(self.own(u), dtime=dtime, **options)
+
+
+class Crowd(AnyCrowd):
     """Like elements with one way of moving: u (copies, nodes, 2), of the nodes of their quads too."""
 
     dim = 2
+    parts = slice(0, 4), slice(4, 8)
 
     def __init__(self, make, interface, jtype, **values):
-        self.interface, self.jtype, self.quads = interface, jtype, []
+        self.interface, self.jtype, self.neighbours, self.owned = interface, jtype, [], list(interface.owned)
         corners = interface.eight
         if jtype in (5, 6):
             sides = [np.vstack([xy, (xy + np.roll(xy, -1, axis=0)) / 2]) for xy in (corners[:4], corners[4:])]
@@ -130,7 +150,7 @@ class Crowd:
         if jtype == 3:
             values |= {"OFFSETBOTTOM": BOTTOM - FOUR, "OFFSETTOP": TOP - FOUR}
             faces = ((BOTTOM, corners[:4], 3), (TOP, corners[4:], 1))
-            self.quads = [make(1, side, label=label, copies=COPIES, FACE=face) for label, side, face in faces]
+            self.neighbours = [make(1, side, label=label, copies=COPIES, FACE=face) for label, side, face in faces]
         self.item = make(jtype, xy, label=FOUR, copies=COPIES, **values)
         tau = (interface.edge[1] - interface.edge[0]) / np.linalg.norm(interface.edge[1] - interface.edge[0])
         self.axes = np.array([tau, [-tau[1], tau[0]]])
@@ -143,33 +163,24 @@ class Crowd:
         u[:, top] = u[:, bottom] + gaps @ self.axes
         return u
 
-    def own(self, u):
-        """What is of the nodes of the element itself, in a row."""
-        return (u[:, list(self.interface.owned)] if self.quads else u).reshape(COPIES, -1)
-
-    def call(self, method, u, dtime, **options):
-        """`evaluate` or `advance` of the element, after its quads."""
-        for quad, nodes in zip(self.quads, (slice(0, 4), slice(4, 8)), strict=False):
-            quad.evaluate(u[:, nodes], dtime=dtime)
-        return getattr(self.item, method)(self.own(u), dtime=dtime, **options)
-
     def direction(self, rng):
         """Of displacements, random; AMATRX of U3 is that at constant stress of its quads, which move rigidly."""
         shape = (COPIES, self.nodes, 2)
-        if not self.quads:
+        if not self.neighbours:
             return rng.normal(size=shape) / np.sqrt(2 * self.nodes)
         move, turn = rng.normal(size=(COPIES, 2, 1, 2)), rng.normal(size=(COPIES, 2, 1, 1))
         across = self.interface.eight.reshape(2, 4, 2) @ [[0.0, 1.0], [-1.0, 0.0]]
         return 0.3 * (move + turn * across).reshape(shape)
 
 
-class SpaceCrowd:
+class SpaceCrowd(AnyCrowd):
     """Like elements in space, on a skew face in the plane z = 0: u (copies, nodes, 3).
 
     Each copy shears in a direction of its own.
     """
 
     dim = 3
+    parts, owned = (slice(0, 8), slice(8, 16)), slice(4, 12)
 
     def __init__(self, make, rng, jtype, **values):
         face = np.array([[0.0, 0.0, 0.0], [1.1, -0.15, 0.0], [0.8, 1.1, 0.0], [0.05, 1.2, 0.0]])
@@ -180,11 +191,11 @@ class SpaceCrowd:
         else:
             edges = EDGES_OF_CELLS["hexahedron"] if jtype in QUADRATIC else []
             xyz = np.vstack([with_middles(np.vstack(pair), edges) for pair in ((below, face), (face, above))])
-        self.nodes, self.jtype, self.places, self.bricks = len(xyz), jtype, xyz, []
+        self.nodes, self.jtype, self.places, self.neighbours = len(xyz), jtype, xyz, []
         if jtype == 10:
             values |= {"OFFSETBOTTOM": BOTTOM - FOUR, "OFFSETTOP": TOP - FOUR}
             sides = ((BOTTOM, xyz[:8], 2), (TOP, xyz[8:], 1))
-            self.bricks = [make(9, side, label=label, copies=COPIES, FACE=face) for label, side, face in sides]
+            self.neighbours = [make(9, side, label=label, copies=COPIES, FACE=face) for label, side, face in sides]
             xyz = xyz[4:12]
         self.item = make(jtype, xyz, label=FOUR, copies=COPIES, **values)
         angle = rng.uniform(-np.pi, np.pi, COPIES)
@@ -199,20 +210,10 @@ class SpaceCrowd:
         u[:, top] = u[:, bottom_of(self.jtype)] + gaps
         return u
 
-    def own(self, u):
-        """What is of the nodes of the element itself, in a row."""
-        return (u[:, 4:12] if self.bricks else u).reshape(COPIES, -1)
-
-    def call(self, method, u, dtime, **options):
-        """`evaluate` or `advance` of the element, after its bricks."""
-        for brick, nodes in zip(self.bricks, (slice(0, 8), slice(8, 16)), strict=False):
-            brick.evaluate(u[:, nodes], dtime=dtime)
-        return getattr(self.item, method)(self.own(u), dtime=dtime, **options)
-
     def direction(self, rng):
         """Of displacements, random; the bricks of U10 move rigidly, as AMATRX is that at constant stress."""
         shape = (COPIES, self.nodes, 3)
-        if not self.bricks:
+        if not self.neighbours:
             return rng.normal(size=shape) / np.sqrt(3 * self.nodes)
         move, turn = rng.normal(size=(2, COPIES, 2, 1, 3))
         return 0.3 * (move + np.cross(turn, self.places.reshape(2, 8, 3))).reshape(shape)

@@ -4,26 +4,18 @@
 
 import ctypes
 import itertools
-import subprocess
-from pathlib import Path
 
 import numpy as np
 import pytest
 
-HERE = Path(__file__).parent
-CORE = HERE.parents[1] / "fortran" / "core"
 SOURCES = ("kinds", "root", "small_matrix", "shape_functions", "serendipity", "symmetric")
 RNG = np.random.default_rng(11)
 
 
 @pytest.fixture(scope="module")
-def core(tmp_path_factory):
+def core(compiled):
     """Call a procedure of `core_procedures`: numbers by value, arrays by address."""
-    folder = tmp_path_factory.mktemp("core")
-    files = [*(str(CORE / f"{name}.f90") for name in SOURCES), str(HERE / "core_procedures.f90")]
-    library = folder / "core.so"
-    subprocess.run(["gfortran", "-O2", "-shared", "-fPIC", "-o", library, *files], cwd=folder, check=True)
-    loaded = ctypes.CDLL(str(library))
+    loaded = compiled("core_procedures", [f"core/{name}" for name in SOURCES])
 
     def converted(value):
         if isinstance(value, float):

@@ -11,7 +11,6 @@ from random_states import (
     PPR,
     VARIANTS,
     Crowd,
-    Tools,
     one_library,
     properties,
     run,
@@ -142,12 +141,6 @@ def check_energies(tools, variant, kind, extra, data):
         assert "VISCOSITY" in values or not energy[:, VISCOUS].any()
         assert (state["DISSF"] >= rubbed - 1e-12 * largest[:, None]).all(), where
         assert (state["DAMAGE"] <= 1).all()
-
-
-@pytest.fixture
-def tools(element, interface, library, reference):
-    """What a check works with."""
-    return Tools(element, interface, library, reference)
 
 
 @one_library

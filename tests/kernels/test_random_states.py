@@ -17,7 +17,6 @@ from random_states import (
     VARIANTS,
     Crowd,
     SpaceCrowd,
-    Tools,
     one_library,
     options,
     properties,
@@ -86,12 +85,6 @@ def check_tangents(tools, variant, kind, extra, data):
         assert (item.state["DAMAGE"] <= 1).all()
     event(f"{compared / STATES:.1f} of the states compared")
     return compared
-
-
-@pytest.fixture
-def tools(element, interface, library, reference):
-    """What a check works with."""
-    return Tools(element, interface, library, reference)
 
 
 @one_library

@@ -3,14 +3,10 @@
 """The local solves: how many steps they take."""
 
 import ctypes
-import subprocess
-from pathlib import Path
 
 import numpy as np
 import pytest
 
-HERE = Path(__file__).parent
-FORTRAN = HERE.parents[1] / "fortran"
 SOURCES = (
     *("core/kinds", "core/status", "core/root", "core/small_matrix", "cohesive/parameters", "cohesive/shear"),
     "cohesive/state",
@@ -21,13 +17,9 @@ SOURCES = (
 
 
 @pytest.fixture(scope="module")
-def solves(tmp_path_factory):
+def solves(compiled):
     """The compiled `local_solve_steps`."""
-    folder = tmp_path_factory.mktemp("solves")
-    files = [*(str(FORTRAN / f"{name}.f90") for name in SOURCES), str(HERE / "local_solve_steps.f90")]
-    library = folder / "solves.so"
-    subprocess.run(["gfortran", "-O2", "-shared", "-fPIC", "-o", library, *files], cwd=folder, check=True)
-    return ctypes.CDLL(str(library)).local_solve_steps
+    return compiled("local_solve_steps", SOURCES).local_solve_steps
 
 
 @pytest.mark.parametrize("law, mean, most", [(1, 3.0, 20), (2, 3.0, 20), (3, 5.0, 20)])

@@ -7,6 +7,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 from scipy.integrate import quad
+from small_decks import body_lines
 
 import harness
 from harness.errors import ConvergenceError, DeckError
@@ -49,9 +50,7 @@ def strip(element_type, count, height, inner=INNER, outer=OUTER):
 
 def deck(element_type, mesh, step, *, material=f"*ELASTIC\n{YOUNG}, 0.3", options="", procedure="*STATIC\n1., 1."):
     nodes, elements = mesh
-    lines = ["*NODE, NSET=ALL", *(f"{k}, {r!r}, {z!r}" for k, (r, z) in enumerate(nodes.tolist(), start=1))]
-    lines += [f"*ELEMENT, TYPE={element_type}, ELSET=BODY"]
-    lines += [", ".join(map(str, [k, *(element + 1).tolist()])) for k, element in enumerate(elements, start=1)]
+    lines = body_lines(element_type, nodes, elements)
     # a thickness that must not count
     lines += ["*SOLID SECTION, ELSET=BODY, MATERIAL=M", "7.", "*MATERIAL, NAME=M", material, "*DENSITY", f"{DENSITY}"]
     for name, chosen in (("BOTTOM", nodes[:, 1] == 0), ("TOP", nodes[:, 1] == nodes[:, 1].max())):

@@ -4,6 +4,7 @@
 
 import numpy as np
 import pytest
+from small_decks import body_lines
 
 import harness
 from harness.errors import DeckError
@@ -62,14 +63,8 @@ def mesh(element_type):
 def deck(element_type, nodes, elements, step, *, material=MATERIAL, procedure=""):
     """A deck of one body with history output of temperatures, heat, displacements and forces at all nodes."""
     procedure = procedure or "*COUPLED TEMPERATURE-DISPLACEMENT, STEADY STATE\n1., 1."
-    lines = ["*NODE, NSET=ALL"]
-    lines += [", ".join([str(k), *map(repr, map(float, x))]) for k, x in enumerate(nodes, start=1)]
-    lines += [f"*ELEMENT, TYPE={element_type}, ELSET=BODY"]
-    for k, element in enumerate(elements, start=1):
-        numbers = [str(k), *(str(node + 1) for node in element)]
-        lines += [", ".join(numbers[:12]) + ("," if len(numbers) > 12 else "")]
-        lines += [", ".join(numbers[12:])] if len(numbers) > 12 else []
-    lines += [
+    lines = [
+        *body_lines(element_type, nodes, elements),
         "*SOLID SECTION, ELSET=BODY, MATERIAL=M",
         f"{THICKNESS}",
         material.strip(),

@@ -6,6 +6,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from small_decks import body_lines
 
 import harness
 from harness.errors import DeckError
@@ -19,8 +20,7 @@ UMAT = Path(__file__).with_name("thermal.f")
 def deck(element_type, held, *, material=ELASTIC, options="", more="", temperature="*TEMPERATURE\nALL, 70.\n"):
     """A quadrilateral or a hexahedron that warms from 20 to 70 in two increments."""
     nodes = CUBE if element_type.startswith("C3D") else CUBE[:4, :2]
-    lines = ["*NODE, NSET=ALL", *(", ".join([str(k), *map(repr, x.tolist())]) for k, x in enumerate(nodes, start=1))]
-    lines += [f"*ELEMENT, TYPE={element_type}, ELSET=BODY", ", ".join(map(str, [1, *range(1, len(nodes) + 1)]))]
+    lines = body_lines(element_type, nodes, [range(len(nodes))])
     lines += ["*SOLID SECTION, ELSET=BODY, MATERIAL=M", "1.", "*MATERIAL, NAME=M", material, "*EXPANSION", f"{ALPHA}"]
     lines += [
         "*INITIAL CONDITIONS, TYPE=TEMPERATURE",

@@ -7,6 +7,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from small_decks import body_lines
 
 import harness
 from harness.elements import Flags
@@ -48,15 +49,7 @@ def bar(element_type, count):
 
 def deck(element_type, mesh, material, step, *, procedure, options=""):
     """A deck of one body, with temperatures, heat, displacements and forces at all nodes."""
-    nodes, elements = mesh
-    lines = ["*NODE, NSET=ALL"]
-    lines += [", ".join([str(k), *map(repr, map(float, x))]) for k, x in enumerate(nodes, start=1)]
-    lines += [f"*ELEMENT, TYPE={element_type}, ELSET=BODY"]
-    for k, element in enumerate(elements, start=1):
-        numbers = [str(k), *(str(node + 1) for node in element)]
-        lines += [", ".join(numbers[:12]) + ("," if len(numbers) > 12 else "")]
-        lines += [", ".join(numbers[12:])] if len(numbers) > 12 else []
-    lines += ["*SOLID SECTION, ELSET=BODY, MATERIAL=M", f"{THICKNESS}"]
+    lines = [*body_lines(element_type, *mesh), "*SOLID SECTION, ELSET=BODY, MATERIAL=M", f"{THICKNESS}"]
     if COUPLED.get(element_type) and COUPLED[element_type].hourglass_control:
         lines += ["*HOURGLASS STIFFNESS", "1."]
     lines += ["*MATERIAL, NAME=M", material, f"*STEP{options}, INC=1000", procedure, step]
