@@ -10,6 +10,7 @@ import numpy as np
 
 from harness.elements import Call, ElementBlock, Motion
 from harness.model.arrays import FloatArray
+from harness.model.mesh import full_name
 
 
 @dataclass(frozen=True, slots=True)
@@ -69,8 +70,7 @@ class Single:
     def name(self) -> str:
         """Its number, or INSTANCE.number."""
         group = self.block.group
-        label = int(group.labels[0])
-        return f"{group.instance}.{label}" if group.instance else str(label)
+        return full_name(group.instance, int(group.labels[0]))
 
     @property
     def svars(self) -> FloatArray:

@@ -7,12 +7,14 @@ from __future__ import annotations
 import bisect
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, field
-from typing import Final
+from typing import Final, TypeVar
 
 from harness.deck.abaqus_names import ABAQUS_KEYWORDS
 from harness.deck.numbers import read_integer, read_real
 from harness.deck.table import Keyword, Options, split_fields, unquote
 from harness.errors import DeckError, Source
+
+NumberT = TypeVar("NumberT", int, float)
 
 
 @dataclass(frozen=True, slots=True)
@@ -45,19 +47,17 @@ class Row:
 
     def real(self, index: int, what: str, default: float | None = None) -> float:
         """A real number, or the default for an empty field."""
-        if default is not None and self.blank(index):
-            return default
-        try:
-            return read_real(self.text(index, what))
-        except ValueError as error:
-            raise self.error(f"{what}: {error}") from None
+        return self._number(read_real, index, what, default)
 
     def integer(self, index: int, what: str, default: int | None = None) -> int:
         """An integer, or the default for an empty field."""
+        return self._number(read_integer, index, what, default)
+
+    def _number(self, read: Callable[[str], NumberT], index: int, what: str, default: NumberT | None) -> NumberT:
         if default is not None and self.blank(index):
             return default
         try:
-            return read_integer(self.text(index, what))
+            return read(self.text(index, what))
         except ValueError as error:
             raise self.error(f"{what}: {error}") from None
 

@@ -20,7 +20,7 @@ from harness.deck.user_elements import ElementType
 from harness.errors import DeckError, Source
 from harness.model.arrays import IntArray
 from harness.model.element_types import HOURGLASS_CONTROLLED
-from harness.model.mesh import ElementGroup
+from harness.model.mesh import ElementGroup, full_name
 from harness.model.properties import Material, Orientation, Section, SectionControls, SolidSection
 
 
@@ -185,8 +185,7 @@ def _owner(flat: FlatMesh, position: int) -> Owner:
 
 def _label(flat: FlatMesh, position: int) -> str:
     owner = _owner(flat, position)
-    label = int(owner.elements[position - owner.element_offset])
-    return f"{owner.name}.{label}" if owner.name else str(label)
+    return full_name(owner.name, int(owner.elements[position - owner.element_offset]))
 
 
 def _source(flat: FlatMesh, position: int) -> Source:

@@ -125,8 +125,8 @@ def surface_variation(places: FloatArray, field: FloatArray, width: float) -> fl
     return 0.25 * integral / width
 
 
-def _index(excess: float, variation: float, scale: float) -> float:
-    return 1.0 + excess / max(variation, scale)
+def _index(variation: float, real: float, scale: float) -> float:
+    return 1.0 + (variation - real) / max(real, scale)
 
 
 def oscillation_index(profile: FloatArray, real: FloatArray, scale: float) -> float:
@@ -141,22 +141,19 @@ def oscillation_index(profile: FloatArray, real: FloatArray, scale: float) -> fl
     scale
         Variation, in the unit of the profile, below which g counts as flat: the strength of the mode.
     """
-    variation = total_variation(real)
-    return _index(total_variation(profile) - variation, variation, scale)
+    return _index(total_variation(profile), total_variation(real), scale)
 
 
 def surface_index(places: FloatArray, field: FloatArray, real: FloatArray, scale: float, width: float) -> float:
     """`oscillation_index` of fields (rows, columns) on a surface; places and width as in `surface_variation`."""
-    variation = surface_variation(places, real, width)
-    return _index(surface_variation(places, field, width) - variation, variation, scale)
+    return _index(surface_variation(places, field, width), surface_variation(places, real, width), scale)
 
 
 def error_index(profile: FloatArray, real: FloatArray, scale: float) -> float:
     """1 + TV(f - g)/max(TV(g), scale), of profiles (n,) at the same points; parameters of `oscillation_index`."""
-    return _index(total_variation(profile - real), total_variation(real), scale)
+    return 1.0 + total_variation(profile - real) / max(total_variation(real), scale)
 
 
 def raw_index(profile: FloatArray, scale: float) -> float:
     """1 + (TV(f) - TV(g))/max(TV(g), scale) with the smooth profile g of at most PIECES monotone pieces."""
-    smooth = smooth_variation(profile)
-    return _index(total_variation(profile) - smooth, smooth, scale)
+    return _index(total_variation(profile), smooth_variation(profile), scale)

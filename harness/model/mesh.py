@@ -27,8 +27,12 @@ class Mesh:
 
     def name(self, node: int) -> str:
         """Name of a node as Abaqus prints it: its label, or INSTANCE.label."""
-        label, instance = int(self.labels[node]), self.instances[node]
-        return f"{instance}.{label}" if instance else str(label)
+        return full_name(self.instances[node], int(self.labels[node]))
+
+
+def full_name(instance: str, label: int) -> str:
+    """Name of a node or element: its label, or INSTANCE.label."""
+    return f"{instance}.{label}" if instance else str(label)
 
 
 @dataclass(frozen=True, slots=True)

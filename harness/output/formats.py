@@ -76,6 +76,10 @@ class TextFile:
             error.filename = str(self._path)
             raise
 
+    def write_lines(self, text: str) -> None:
+        """Append text whose last line may lack its end."""
+        self.write(text if text.endswith("\n") else f"{text}\n")
+
     def close(self) -> None:
         """Close the file; it is not written to again."""
         os.close(self._descriptor)

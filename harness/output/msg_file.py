@@ -116,7 +116,7 @@ class MessageFile:
 
     def text(self, text: str) -> None:
         """Text of a user routine, unchanged."""
-        self._file.write(text if text.endswith("\n") else f"{text}\n")
+        self._file.write_lines(text)
 
     def close(self, error: str | None) -> None:
         """Verdict, summary and times of the job."""

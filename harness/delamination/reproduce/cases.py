@@ -148,6 +148,10 @@ class PaperCase:
             return self.size
         return QUICK_SIZES[self.problem] if self.coarse else self.kind.size
 
+    def sized(self, size: float) -> PaperCase:
+        """The case with another length of the elements; itself if it has that length."""
+        return self if size == self.element_size else replace(self, size=size)
+
     @property
     def displacement(self) -> float:
         """Displacement at the end (mm)."""

@@ -101,14 +101,10 @@ def pairs(*, coarse: bool) -> list[tuple[PaperCase, PaperCase]]:
     if coarse:
         return [(base, ours)]
     size = base.element_size
-    built_in = [_sized(replace(base, rows=rows), s) for s, rows in ((2.0 * size, 4), (size, 4), (size, 8), (size, 16))]
+    built_in = [replace(base, rows=rows).sized(s) for s, rows in ((2.0 * size, 4), (size, 4), (size, 8), (size, 16))]
     # beta is given with the weight, so that it stays that of (21) with the weights (22)
     variants = [replace(ours, beta=10.0), replace(ours, beta=1.0001, weight=0.5)]
     return [*((case, replace(case, element=ours.element)) for case in built_in), *((base, case) for case in variants)]
-
-
-def _sized(case: PaperCase, size: float) -> PaperCase:
-    return case if size == case.element_size else replace(case, size=size)
 
 
 def steady(run: Run) -> Steady:

@@ -55,10 +55,6 @@ def _bases(problem: str, methods: Sequence[tuple[str, str]], *, coarse: bool) ->
     }
 
 
-def _sized(case: PaperCase, size: float) -> PaperCase:
-    return case if size == case.element_size else replace(case, size=size)
-
-
 def _possible(element: str, *, coarse: bool) -> set[str]:
     """Stiffnesses of an element; at 1e12 the standard one takes thousands of iterations."""
     without = {"consistent": set[str](), "stabilised": {"inf"}, "standard": {"inf", "1e12"} if coarse else {"inf"}}
@@ -82,7 +78,7 @@ def studies(*, coarse: bool) -> list[Study]:
         Study(
             "Mesh",
             "length of the elements (mm)",
-            {label: [(f"{s:.3g}", _sized(case, s)) for s in kept[case.problem]] for label, case in shown.items()},
+            {label: [(f"{s:.3g}", case.sized(s)) for s in kept[case.problem]] for label, case in shown.items()},
             number=True,
             advice=ADVICE["mesh"],
         ),
