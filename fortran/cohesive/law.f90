@@ -16,7 +16,7 @@
 module cohesive_law
   use core_kinds, only: dp
   use core_status, only: status_type, ok, small_beta
-  use cohesive_parameters, only: law_parameters, bilinear_law, exponential_law, ppr_law
+  use cohesive_parameters, only: law_parameters, exponential_law, ppr_law
   use cohesive_shear, only: mode_of, resultant, shears
   use cohesive_state, only: point_history, damage_state
   use cohesive_mode_mix, only: check_mode_mix

@@ -37,7 +37,7 @@ LAW = {
         ),
     ],
     "cohesive/law.f90": [
-        ("bilinear_law, exponential_law, ppr_law\n", "bilinear_law, exponential_law, ppr_law, plateau_law\n"),
+        ("law_parameters, exponential_law, ppr_law\n", "law_parameters, exponential_law, ppr_law, plateau_law\n"),
         (
             "  use cohesive_ppr,",
             "  use cohesive_plateau, only: plateau_softening, plateau_steepest\n  use cohesive_ppr,",
