@@ -4,13 +4,14 @@
 
 from __future__ import annotations
 
+from contextlib import AbstractContextManager
 from dataclasses import dataclass, replace
 from typing import Any, Final
 
 import numpy as np
 
 from harness.check.recording import Pass
-from harness.check.single import Returned, Single
+from harness.check.single import Returned, Single, first_difference
 from harness.elements import Call, Motion, Request
 from harness.errors import KernelError
 from harness.model.arrays import FloatArray
@@ -47,6 +48,14 @@ class ElementState:
     def evaluate(self, *, matrix: bool = True) -> Returned:
         """Make the call. Raises KernelError."""
         return self.single.evaluate(self.call, self.u, self.du, self.motion, matrix=matrix, nrhs=self.nrhs)
+
+    def influence(self, surroundings: AbstractContextManager[None], expected: Returned) -> str:
+        """How surroundings of the call change what it returns, as a sentence; '' if they do not."""
+        with surroundings:
+            try:
+                return first_difference(expected, self.evaluate())
+            except KernelError as error:
+                return str(error)
 
     def moved(self, shift: FloatArray) -> ElementState:
         """The state with another end of the increment: shift (n,) added to U and DU; in dynamics V and A follow."""

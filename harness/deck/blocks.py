@@ -14,7 +14,7 @@ from harness.deck.numbers import read_integer, read_real
 from harness.deck.table import Keyword, Options, split_fields, unquote
 from harness.errors import DeckError, Source
 
-NumberT = TypeVar("NumberT", int, float)
+ValueT = TypeVar("ValueT", int, float)
 
 
 @dataclass(frozen=True, slots=True)
@@ -53,7 +53,7 @@ class Row:
         """An integer, or the default for an empty field."""
         return self._number(read_integer, index, what, default)
 
-    def _number(self, read: Callable[[str], NumberT], index: int, what: str, default: NumberT | None) -> NumberT:
+    def _number(self, read: Callable[[str], ValueT], index: int, what: str, default: ValueT | None) -> ValueT:
         if default is not None and self.blank(index):
             return default
         try:

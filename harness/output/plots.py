@@ -65,14 +65,7 @@ class Panel:
     y_range: tuple[float, float] | None = None
 
 
-def load_displacement(
-    curves: Sequence[Curve],
-    path: Path,
-    *,
-    x_label: str = "Displacement [mm]",
-    y_label: str = "Load [N]",
-    title: str = "",
-) -> Path:
+def load_displacement(curves: Sequence[Curve], path: Path, *, x_label: str = "Displacement [mm]") -> Path:
     """Load over displacement, both axes from zero if the data allow it.
 
     Parameters
@@ -81,44 +74,23 @@ def load_displacement(
         At least one.
     path
         .png (300 dots per inch), .pdf or .svg.
-    x_label, y_label
-        With units.
-    title
-        Above the legend, none by default: print has a caption.
+    x_label
+        With its unit; loads are in N.
 
     Returns
     -------
     Path
         `path`.
     """
-    return _draw([curves], path, x_label, [y_label], title, from_zero=True)
+    return _draw([curves], path, x_label, ["Load [N]"], from_zero=True)
 
 
-def profile(
-    curves: Sequence[Curve],
-    path: Path,
-    *,
-    x_label: str = "Position along the interface [mm]",
-    y_label: str = "Normal traction [MPa]",
-    title: str = "",
-) -> Path:
-    """A quantity along an interface; arguments as in `load_displacement`."""
-    return _draw([curves], path, x_label, [y_label], title)
-
-
-def profiles(
-    panels: Sequence[Sequence[Curve]],
-    path: Path,
-    *,
-    y_labels: Sequence[str],
-    x_label: str = "Position along the interface [mm]",
-    title: str = "",
-) -> Path:
+def profiles(panels: Sequence[Sequence[Curve]], path: Path, *, y_labels: Sequence[str]) -> Path:
     """Several quantities along one interface, one panel each above a common axis.
 
     Curves of the same label look the same in every panel and appear once in the legend.
     """
-    return _draw(panels, path, x_label, y_labels, title)
+    return _draw(panels, path, "Position along the interface [mm]", y_labels)
 
 
 def grid(rows: Sequence[Sequence[Panel]], path: Path, *, share_y: bool = False) -> Path:
@@ -176,7 +148,6 @@ def _draw(
     path: Path,
     x_label: str,
     y_labels: Sequence[str],
-    title: str,
     *,
     from_zero: bool = False,
 ) -> Path:
@@ -196,8 +167,6 @@ def _draw(
         axes[-1].set_xlabel(x_label)
         figure.align_ylabels(axes)
         _legend(figure, axes, 84)
-        if title:
-            figure.suptitle(title, fontsize=10)
         figure.savefig(path, dpi=300)
     return path
 

@@ -9,7 +9,6 @@ from typing import Final
 from harness.check.finding import Finding, failed, not_applicable, passed
 from harness.check.single import first_difference
 from harness.check.subject import Subject
-from harness.errors import KernelError
 from harness.usersub import local_variables
 
 NUMBERS: Final = float("nan"), 7.3, -2.9e5
@@ -36,12 +35,7 @@ def check(subject: Subject) -> Finding:
             if first_difference(expected, state.evaluate()):
                 return not_applicable("the same call returns different values anyway")
         for number in NUMBERS:
-            with local_variables(number):
-                try:
-                    difference = first_difference(expected, state.evaluate())
-                except KernelError as error:
-                    difference = str(error)
-            if difference:
+            if difference := state.influence(local_variables(number), expected):
                 message = f"{state}: leftovers in the memory of local variables change the result: {difference}"
                 return failed(message, ADVICE)
     return passed(f"leftovers in memory have no effect at {len(subject.states)} states")

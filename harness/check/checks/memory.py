@@ -99,12 +99,7 @@ def check_undeclared(subject: Subject) -> Finding:
             if first_difference(expected, state.evaluate()):
                 return not_applicable("the same call returns different values anyway")
             for array, poisoned in _poisons():
-                with poisoned:
-                    try:
-                        difference = first_difference(expected, state.evaluate())
-                    except KernelError as error:
-                        difference = str(error)
-                if difference:
+                if difference := state.influence(poisoned, expected):
                     message = f"{state}: what lies outside {array} changes the result: {difference}"
                     return _reads(subject, message, array)
     return passed(f"nothing outside the arrays has an effect at {len(subject.states)} states")

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 from matplotlib.colors import to_rgb
 
-from harness.output.plots import COLOURS, Curve, load_displacement, profile, profiles
+from harness.output.plots import COLOURS, Curve, load_displacement, profiles
 
 X = np.linspace(0.0, 3.0, 50)
 
@@ -37,5 +37,6 @@ def test_curves_of_one_label_look_alike_in_all_panels(tmp_path: Path) -> None:
 @pytest.mark.parametrize("kind", ["line", "reference", "points", "marked"])
 @pytest.mark.parametrize("ending", [".png", ".pdf", ".svg"])
 def test_kinds_of_curves_and_of_files(tmp_path: Path, kind: str, ending: str) -> None:
-    path = profile([Curve("a", X, np.sin(X), kind), Curve("b", X, X)], tmp_path / f"p{ending}", title="A title")
+    panels = [[Curve("a", X, np.sin(X), kind), Curve("b", X, X)]]
+    path = profiles(panels, tmp_path / f"p{ending}", y_labels=["Normal traction [MPa]"])
     assert path.stat().st_size > 1000
