@@ -185,6 +185,18 @@ def cohesive_section(interface: Interface, width: float | None = None) -> list[s
     ]
 
 
+def bending_section(elset: str, material: str, modulus: float) -> list[str]:
+    """Section of quads that bend exactly (CPS4R), 1 mm wide; its material has a modulus (MPa) and nu = 0."""
+    return [
+        "*SECTION CONTROLS, NAME=BENDING, HOURGLASS=ENHANCED",
+        keyword("SOLID SECTION", ELSET=elset, MATERIAL=material, CONTROLS="BENDING"),
+        "1.",
+        keyword("MATERIAL", NAME=material),
+        "*ELASTIC",
+        f"{number(modulus)}, 0.",
+    ]
+
+
 def law_values(interface: Interface) -> dict[str, float]:
     """Properties of the interface elements that do not depend on the specimen, by name."""
     law = interface.cohesive

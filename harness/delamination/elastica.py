@@ -6,8 +6,10 @@ from __future__ import annotations
 
 import numpy as np
 
+from harness.delamination.blocks import bending_section
 from harness.delamination.kernels import uel_property, user_element
 from harness.delamination.keywords import element_block, node_block, node_set, number, text
+from harness.delamination.plates import faces
 from harness.delamination.steps import Output, static_step
 
 LENGTH, HEIGHT, CRACK = 40.0, 0.4, 10.0
@@ -46,11 +48,10 @@ def _deck(kind: str) -> str:
     y = np.stack([heights - HEIGHT, heights])
     places = np.column_stack([np.tile(x.ravel(), 2), y.ravel()])
     first = round(CRACK / LENGTH * along)
-    quads = np.stack([labels[:, :-1, :-1], labels[:, :-1, 1:], labels[:, 1:, 1:], labels[:, 1:, :-1]], axis=-1)
-    below, above = quads[0, -1, first:], quads[1, 0, first:]
-    faces = np.column_stack([below[:, [3, 2]], above[:, [1, 0]]])
-    interface = np.hstack([below, above]) if kind == "U4" else faces
-    arms = quads.reshape(-1, 4)
+    below, above = (faces(rows)[first:] for rows in (labels[0, -2:], labels[1, :2]))
+    edges = np.column_stack([below[:, [3, 2]], above[:, [1, 0]]])
+    interface = np.hstack([below, above]) if kind == "U4" else edges
+    arms = np.concatenate([faces(arm) for arm in labels])
     lines = [
         "*HEADING",
         f"Double cantilever beam in large rotations, CPS4R and {kind} with NLGEOM",
@@ -63,12 +64,7 @@ def _deck(kind: str) -> str:
         *node_set("CLAMPED", labels[..., -1].ravel()),
         *node_set("LOAD_TOP", labels[1, through // 2, :1]),
         *node_set("LOAD_BOTTOM", labels[0, through // 2, :1]),
-        "*SECTION CONTROLS, NAME=BENDING, HOURGLASS=ENHANCED",
-        "*SOLID SECTION, ELSET=ARMS, MATERIAL=ARM, CONTROLS=BENDING",
-        "1.",
-        "*MATERIAL, NAME=ARM",
-        "*ELASTIC",
-        f"{number(MODULUS)}, 0.",
+        *bending_section("ARMS", "ARM", MODULUS),
         *uel_property(int(kind[1:]), "INTERFACE", TYPES[kind]),
         *static_step(
             (0.01, 1.0, 1.0e-7, 0.02),

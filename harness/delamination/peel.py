@@ -8,10 +8,11 @@ from dataclasses import replace
 
 import numpy as np
 
-from harness.delamination.blocks import Interface, cohesive_section, law_values
+from harness.delamination.blocks import Interface, bending_section, cohesive_section, law_values
 from harness.delamination.kernels import uel_property, user_element
 from harness.delamination.keywords import element_block, node_block, node_set, number, text
 from harness.delamination.materials import Cohesive
+from harness.delamination.plates import faces
 from harness.delamination.steps import Output, static_step
 
 LENGTH, THICKNESS, CRACK = 40.0, 0.4, 6.0
@@ -66,13 +67,11 @@ def _deck(interface: Interface) -> str:
     base = labels.max() + 1 + np.arange(len(depths) * len(bonded)).reshape(len(depths), len(bonded))
     within, beside = np.meshgrid(-depths, bonded, indexing="ij")
     places = np.column_stack([np.append(x, beside), np.append(y, within)])
-    film = np.stack([labels[:-1, :-1], labels[:-1, 1:], labels[1:, 1:], labels[1:, :-1]], axis=-1).reshape(-1, 4)
+    film = faces(labels)
     if kind == "U4":
-        rows = [base[1], base[0], labels[0, first:], labels[1, first:]]
-        ends = [(0, 0), (0, 1), (1, 1), (1, 0), (2, 0), (2, 1), (3, 1), (3, 0)]
+        interface_nodes = np.hstack([faces(base[::-1]), faces(labels[:2, first:])])
     else:
-        rows, ends = [base[0], labels[0, first:]], [(0, 0), (0, 1), (1, 1), (1, 0)]
-    faces = np.stack([rows[row][end : len(bonded) - 1 + end] for row, end in ends], axis=-1)
+        interface_nodes = faces(np.stack([base[0], labels[0, first:]]))
     lines = [
         "*HEADING",
         f"Peel test at 90 degrees, CPS4R and {kind} with NLGEOM",
@@ -81,15 +80,10 @@ def _deck(interface: Interface) -> str:
         *node_block(np.append(labels, base), places),
         *element_block("CPS4R", "FILM", film, 1),
         *([] if interface.built_in else user_element(int(kind[1:]), "UNSYMM")),
-        *element_block(kind, "INTERFACE", faces, 1 + len(film)),
+        *element_block(kind, "INTERFACE", interface_nodes, 1 + len(film)),
         *node_set("BASE", base.ravel()),
         *node_set("END", labels[through // 2, :1]),
-        "*SECTION CONTROLS, NAME=BENDING, HOURGLASS=ENHANCED",
-        "*SOLID SECTION, ELSET=FILM, MATERIAL=FILM, CONTROLS=BENDING",
-        "1.",
-        "*MATERIAL, NAME=FILM",
-        "*ELASTIC",
-        f"{number(MODULUS)}, 0.",
+        *bending_section("FILM", "FILM", MODULUS),
         *_properties(interface),
         *static_step(
             (0.005, 1.0, 1.0e-7, 0.01),

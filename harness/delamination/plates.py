@@ -63,17 +63,17 @@ class TwoPlateMesh:
     def bricks(self, plate: int, layer: int) -> IntArray:
         """(nx*ny, 8) nodes of the bricks in a layer, from 0, of the lower (0) or the upper plate (1)."""
         labels = self.labels[plate]
-        return np.hstack([_faces(labels[layer]), _faces(labels[layer + 1])])
+        return np.hstack([faces(labels[layer]), faces(labels[layer + 1])])
 
     def interface(self, kind: str) -> IntArray:
         """Nodes of the interface elements: both faces, or the bricks below and above for U8."""
         below, above = self.labels
         layers = [*below[-2:], *above[:2]] if kind == "U8" else [below[-1], above[0]]
-        return np.hstack([_faces(layer)[self.bonded.ravel()] for layer in layers])
+        return np.hstack([faces(layer)[self.bonded.ravel()] for layer in layers])
 
 
-def _faces(layer: IntArray) -> IntArray:
-    """Corners of the faces between the nodes of a layer (y, x), counter-clockwise from above."""
+def faces(layer: IntArray) -> IntArray:
+    """(n, 4) corners of the faces between the nodes of a layer (y, x), row after row, counter-clockwise from above."""
     across, along = layer.shape
     corners = [layer[j : across - 1 + j, i : along - 1 + i].ravel() for j, i in AROUND]
     return np.stack(corners, axis=-1)
