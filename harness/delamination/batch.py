@@ -4,11 +4,9 @@
 
 from __future__ import annotations
 
-import argparse
 import hashlib
 import inspect
 import json
-import os
 import shutil
 import time
 from collections.abc import Callable, Iterator, Mapping, Sequence
@@ -40,19 +38,6 @@ class Deck(Protocol):
 
     def files(self) -> dict[str, str]:
         """The deck and the files that it includes, by name."""
-
-
-def study_parser(module: str, description: str, folder: str, *, resumes: bool = False) -> argparse.ArgumentParser:
-    """Options of `python -m MODULE`: the folder of its files and, if an interrupted study resumes, the processes."""
-    parser = argparse.ArgumentParser(
-        prog=f"python -m {module}",
-        description=description,
-        epilog="An interrupted study resumes where it stopped." if resumes else None,
-    )
-    parser.add_argument("--output-dir", type=Path, default=Path(folder), help=f"folder of all files written ({folder})")
-    if resumes:
-        parser.add_argument("--workers", type=int, default=os.cpu_count(), help="processes (one for each core)")
-    return parser
 
 
 class StoredRow:

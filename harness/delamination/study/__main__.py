@@ -10,9 +10,10 @@ from pathlib import Path
 
 from rich.console import Console
 
-from harness.delamination.batch import complete, study_parser
+from harness.delamination.batch import complete
 from harness.delamination.study.cases import StudyCase, all_cases, select
 from harness.delamination.study.criteria import check
+from harness.delamination.study.options import study_parser
 from harness.delamination.study.reference import FOLDER, ReferenceRun, reference_of, run_reference
 from harness.delamination.study.rows import StudyRow
 from harness.delamination.study.runner import reference_store, row_store, run_case

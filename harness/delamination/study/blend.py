@@ -17,9 +17,10 @@ from pathlib import Path
 from rich.console import Console
 from rich.table import Table
 
-from harness.delamination.batch import RunOutcome, run_deck, study_parser
+from harness.delamination.batch import RunOutcome, run_deck
 from harness.delamination.measures import iterations, peak_load
 from harness.delamination.study.cases import KINDS, MESHES, deck_files, interface_of, mesh_of
+from harness.delamination.study.options import study_parser
 
 KIND = KINDS["dcb"]
 SHARES = (0.0, 0.05, 0.1, 0.25)

@@ -28,12 +28,13 @@ import numpy as np
 from rich.console import Console
 from rich.table import Table
 
-from harness.delamination.batch import run_deck, study_parser
+from harness.delamination.batch import run_deck
 from harness.delamination.materials import PLY_0, TABLE_2
 from harness.delamination.mesh import TwoArmMesh
 from harness.delamination.oscillation import total_variation
 from harness.delamination.steps import LINEAR
 from harness.delamination.study.cases import KINDS, LAYUPS, deck_files, interface_of, mesh_of
+from harness.delamination.study.options import study_parser
 from harness.delamination.study.reference import Profile, restricted
 from harness.delamination.study.rows import at_tenths, bonded_part
 from harness.model.arrays import FloatArray

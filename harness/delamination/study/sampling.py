@@ -17,10 +17,10 @@ from pathlib import Path
 from rich.console import Console
 from rich.table import Table
 
-from harness.delamination.batch import study_parser
 from harness.delamination.measures import iterations
 from harness.delamination.oscillation import total_variation
 from harness.delamination.study.cases import KINDS, deck_files, interface_of
+from harness.delamination.study.options import study_parser
 from harness.job import run
 
 SAMPLINGS = ("middle of the face", "face, xi of the point", "Gauss point")
