@@ -103,6 +103,14 @@ def build_parser() -> argparse.ArgumentParser:
     )
     run.add_argument("--job", metavar="NAME", help="name of the output files (the deck's name)")
     run.add_argument("--output-dir", type=Path, metavar="DIR", help="folder of the output files (the current folder)")
+    run.add_argument(
+        "--parameter",
+        type=assignment,
+        action="append",
+        default=[],
+        metavar="NAME=VALUE",
+        help="value of a parameter in place of the one in the deck's *PARAMETER; repeat for each parameter",
+    )
     run.add_argument("--solver", default="auto", metavar="NAME", help="linear solver, see `uel solvers` (auto)")
     help_ = run.add_mutually_exclusive_group()
     help_.add_argument("--fallback", action="store_true", help="search downhill where Newton's method fails")
@@ -280,13 +288,24 @@ def positive(text: str) -> int:
     )
 
 
+def assignment(text: str) -> tuple[str, float]:
+    """Name and value of a parameter, given as an option."""
+    from harness.batch.values import value_of  # noqa: PLC0415 (keeps the other commands quick)
+
+    name, _, value = text.partition("=")
+    try:
+        return name.strip(), value_of(value)
+    except ValueError:
+        raise argparse.ArgumentTypeError(f"expected NAME=VALUE with a number, found '{text}'") from None
+
+
 def from_abaqus(parser: argparse.ArgumentParser, words: list[str]) -> list[str]:
     """Translate `job=NAME input=DECK user=FILE cpus=2` into this command's options."""
     given: list[tuple[str, str]] = []
     rest: list[str] = []
-    for word in words:
+    for before, word in zip(["", *words], words, strict=False):
         key, equals, value = word.partition("=")
-        if word.startswith("-") or not (equals or key.lower() in ABAQUS_OPTIONS):
+        if word.startswith("-") or before == "--parameter" or not (equals or key.lower() in ABAQUS_OPTIONS):
             rest.append(word)
         elif key.lower() in ABAQUS_OPTIONS:
             given.append((key.lower(), value))
@@ -313,6 +332,7 @@ def run_job(options: argparse.Namespace) -> int:
         options.user,
         job=options.job,
         output_dir=options.output_dir,
+        parameters=dict(options.parameter),
         solver=options.solver,
         fallback=options.fallback,
         energy_control=options.control == "energy",

@@ -5,7 +5,7 @@
 from __future__ import annotations
 
 import time
-from collections.abc import Callable, Collection, Sequence
+from collections.abc import Callable, Collection, Mapping, Sequence
 from contextlib import suppress
 from functools import partial
 from pathlib import Path
@@ -32,6 +32,7 @@ def run(
     *,
     job: str | None = None,
     output_dir: str | Path | None = None,
+    parameters: Mapping[str, float] | None = None,
     solver: str = "auto",
     fallback: bool = False,
     energy_control: bool = False,
@@ -55,6 +56,8 @@ def run(
         Name of the output files; the deck's name without its ending by default.
     output_dir
         Folder of the output files, created if missing; the current folder by default.
+    parameters
+        Values of parameters in place of those in the deck's *PARAMETER.
     solver
         Linear solver, see `uel solvers`.
     fallback
@@ -90,10 +93,11 @@ def run(
     Raises
     ------
     UelError
-        UsageError for a wrong `job`, `solver`, `linear`, `cpus` or `thread_safe`, DeckError, CompileError, KernelError,
-        CallLimitError, SingularMatrixError or ConvergenceError; LockedError if another process runs a job of this name;
-        UelError itself if a user routine other than an element ends the analysis. What was written until then stays
-        readable. The notes of the error are the first warnings before it, how far the run got, and what may help.
+        UsageError for a wrong `job`, `parameters`, `solver`, `linear`, `cpus` or `thread_safe`, DeckError,
+        CompileError, KernelError, CallLimitError, SingularMatrixError or ConvergenceError; LockedError if another
+        process runs a job of this name; UelError itself if a user routine other than an element ends the analysis. What
+        was written until then stays readable. The notes of the error are the first warnings before it, how far the run
+        got, and what may help.
     OSError
         A file cannot be written.
     """
@@ -109,7 +113,7 @@ def run(
     with locked(stem):
         forget_verdict(stem)
         try:
-            model = read_deck(deck)
+            model = read_deck(deck, parameters)
             types = _linear_types(model, linear)
             safe = _safe_routines(model, thread_safe)
             usersub.limit_calls(call_limit)

@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Abaqus input decks: keyword table, lexer and reader."""
 
-from harness.deck.reader import read_deck
+from harness.deck.lexer import Survey
+from harness.deck.reader import read_deck, survey_deck
 
-__all__ = ["read_deck"]
+__all__ = ["Survey", "read_deck", "survey_deck"]

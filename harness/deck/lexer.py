@@ -7,12 +7,12 @@ from __future__ import annotations
 import bisect
 import codecs
 import re
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
 from harness.deck.blocks import Block
-from harness.deck.error_report import Problems
+from harness.deck.error_report import Problems, nearest
 from harness.deck.expressions import Value, assign, find
 from harness.deck.table import (
     Keyword,
@@ -27,7 +27,7 @@ from harness.deck.table import (
     refused,
     split_fields,
 )
-from harness.errors import DeckError, Source
+from harness.errors import DeckError, Source, UsageError
 from harness.files import read_whole
 
 # other characters that some programs take for line ends; a message of ours is one line
@@ -39,19 +39,60 @@ _COMMENT = re.compile(r"(?<=[\s,])\*\*")
 _PARAMETER = re.compile(r"<\s*([A-Za-z_]\w*)\s*>")
 
 
-def read_blocks(deck: Path, keywords: Mapping[str, Keyword], problems: Problems) -> list[Block]:
+def read_blocks(
+    deck: Path, keywords: Mapping[str, Keyword], problems: Problems, given: Mapping[str, Value] | None = None
+) -> list[Block]:
     """Keyword blocks of a deck in order, read against the keyword table.
 
-    What is wrong goes to `problems`; DeckError if the deck cannot be read.
+    given: values of parameters in place of those in the deck. What is wrong goes to `problems`; DeckError if the deck
+    cannot be read, UsageError if a given parameter is none of its own.
     """
-    lexer = _Lexer(deck, keywords, problems)
+    lexer = _read(deck, keywords, problems, given or {})
+    defined = list(lexer.parameters)
+    for name in lexer.given:
+        if find(name, lexer.parameters) is None:
+            raise UsageError(f"--parameter {name}: {unknown_parameter(name, deck, defined)}")
+    return lexer.blocks
+
+
+@dataclass(frozen=True, slots=True)
+class Survey:
+    """What a deck consists of.
+
+    files       the deck, then the files that it includes
+    parameters  names that it defines, in order
+    depends     whether its parameters choose the files
+    """
+
+    files: tuple[Path, ...]
+    parameters: tuple[str, ...]
+    depends: bool
+
+
+def survey_blocks(deck: Path, keywords: Mapping[str, Keyword], given: Mapping[str, Value] | None = None) -> Survey:
+    """What a deck consists of, as far as it can be read: what is wrong with it is for `read_blocks`.
+
+    DeckError if the deck itself cannot be read.
+    """
+    lexer = _read(deck, keywords, Problems(), given or {})
+    return Survey((deck, *dict.fromkeys(lexer.included)), tuple(lexer.parameters), lexer.depends)
+
+
+def unknown_parameter(name: str, deck: Path, defined: Sequence[str]) -> str:
+    """Sentence about a name that is no parameter of a deck, which defines others."""
+    has = f"its parameters are {', '.join(defined)}{nearest(name, defined)}" if defined else "it has no *PARAMETER"
+    return f"{deck} defines no parameter of this name; {has}"
+
+
+def _read(deck: Path, keywords: Mapping[str, Keyword], problems: Problems, given: Mapping[str, Value]) -> _Lexer:
+    lexer = _Lexer(deck, keywords, problems, given)
     start = Source(str(deck), 1)
     lines = _load(deck, start)
     if not any(line and not line.startswith("**") for line in lines):
         raise DeckError(start, "the deck is empty")
     lexer.read(lines, str(deck), (deck.resolve(),))
     lexer.close()
-    return lexer.blocks
+    return lexer
 
 
 def _load(path: Path, source: Source) -> list[str]:
@@ -86,16 +127,20 @@ class _Header:
 class _Lexer:
     """Walks the lines of a deck and of its includes; `open` is the block that takes data lines."""
 
-    def __init__(self, deck: Path, keywords: Mapping[str, Keyword], problems: Problems) -> None:
+    def __init__(
+        self, deck: Path, keywords: Mapping[str, Keyword], problems: Problems, given: Mapping[str, Value]
+    ) -> None:
         self.blocks: list[Block] = []
+        self.parameters: dict[str, Value] = {}
+        self.given = given
+        self.included: list[Path] = []
+        self.depends = False
         self._folder = deck.parent
         self._keywords = keywords
         self._problems = problems
-        self._parameters: dict[str, Value] = {}
         self._open: Block | None = None
         self._discard = False
         self._commented = False
-        self._included = 0
 
     def read(self, lines: list[str], file: str, stack: tuple[Path, ...]) -> None:
         """Take all lines of one file."""
@@ -133,11 +178,15 @@ class _Lexer:
 
     def _assign(self, statement: str, source: Source) -> None:
         try:
-            name, value = assign(statement, self._parameters)
+            name, value = assign(statement, self.parameters)
         except ValueError as error:
-            self._parameters.setdefault(statement.partition("=")[0].strip(), 0.0)
+            self.parameters.setdefault(statement.partition("=")[0].strip(), 0.0)
             raise DeckError(source, f"*PARAMETER: {error}") from None
-        self._parameters[name] = value
+        given = find(name, self.given)
+        if given is not None:
+            # 5 for 2. would make length/2 a quotient of integers
+            value = float(given) if isinstance(value, float) else given
+        self.parameters[name] = value
 
     def _data(self, lines: list[str], file: str, first: int) -> None:
         """Take data lines that follow each other, the first with this number."""
@@ -173,7 +222,7 @@ class _Lexer:
 
     def _substitute(self, line: str, source: Source) -> str:
         def value(match: re.Match[str]) -> str:
-            found = find(match[1], self._parameters)
+            found = find(match[1], self.parameters)
             if found is None:
                 raise DeckError(source, f"parameter <{match[1]}> is not defined")
             return str(found)
@@ -211,6 +260,7 @@ class _Lexer:
         self._discard, previous, self._open = True, self._open, None
         source = header.source
         text = self._substitute(header.text, source)
+        self.depends |= text != header.text and "INPUT" in text.upper()
         fields = split_fields(text[1:])
         keyword = find_keyword(self._keywords, fields[0], source)
         if keyword.name == "INCLUDE":
@@ -236,8 +286,8 @@ class _Lexer:
         if resolved in stack:
             loop = " -> ".join(entry.name for entry in (*stack[stack.index(resolved) :], resolved))
             raise DeckError(source, f"include loop: {loop}")
-        self._included += 1
-        if len(stack) > DEEPEST or self._included > MOST_INCLUDED:
+        self.included.append(path)
+        if len(stack) > DEEPEST or len(self.included) > MOST_INCLUDED:
             # files that include each other several times multiply without limit
             limit = f"{MOST_INCLUDED} of them are" if len(stack) <= DEEPEST else f"{DEEPEST} within each other are"
             raise DeckError(source, f"too many included files: {limit} read")

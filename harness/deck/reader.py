@@ -4,6 +4,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from pathlib import Path
 
 import numpy as np
@@ -15,7 +16,7 @@ from harness.deck.flatten import FlatMesh
 from harness.deck.groups import make_groups
 from harness.deck.initial import read_initial_solutions, read_initial_stresses, read_initial_values
 from harness.deck.keywords import KEYWORDS
-from harness.deck.lexer import read_blocks
+from harness.deck.lexer import Survey, read_blocks, survey_blocks
 from harness.deck.materials import read_materials
 from harness.deck.prescribed import Prescription
 from harness.deck.requests import RequestReader
@@ -30,13 +31,15 @@ from harness.model.model import Model
 from harness.model.steps import Boundary
 
 
-def read_deck(path: Path) -> Model:
+def read_deck(path: Path, given: Mapping[str, float] | None = None) -> Model:
     """Read an Abaqus input deck.
 
     Parameters
     ----------
     path
         The deck. Included files are looked up in its folder, then in that of the including file.
+    given
+        Values of parameters in place of those in its *PARAMETER; what the deck computes from them follows.
 
     Returns
     -------
@@ -48,9 +51,11 @@ def read_deck(path: Path) -> Model:
     DeckError
         Something is wrong or not supported, or cannot be read: a line with file:line for each of the first 50 places
         that one stage of reading finds.
+    UsageError
+        A given parameter is none of the deck's.
     """
     problems = Problems()
-    blocks = read_blocks(path, KEYWORDS, problems)
+    blocks = read_blocks(path, KEYWORDS, problems, given)
     structure = sort_blocks(blocks, problems)
     problems.check()
     materials = read_materials(structure.root, problems)
@@ -96,9 +101,33 @@ def read_deck(path: Path) -> Model:
         initial_fields=fields,
         initial_solutions=tuple(solutions),
         initial_stresses=tuple(stresses),
+        given=dict(given or {}),
         ignored=tuple(structure.ignored),
         warnings=problems.warnings,
     )
+
+
+def survey_deck(path: Path, given: Mapping[str, float] | None = None) -> Survey:
+    """Files and parameters of a deck, without reading what its keywords mean.
+
+    Parameters
+    ----------
+    path
+        The deck.
+    given
+        As in `read_deck`.
+
+    Returns
+    -------
+    Survey
+        What was found as far as the deck can be read; a file that does not exist is in it.
+
+    Raises
+    ------
+    DeckError
+        The deck itself cannot be read, or is empty.
+    """
+    return survey_blocks(path, KEYWORDS, given)
 
 
 def _active_dofs(groups: tuple[ElementGroup, ...]) -> frozenset[int]:

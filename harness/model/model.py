@@ -33,6 +33,7 @@ class Model:
     initial_fields        TYPE=FIELD; their dof is the number of the field
     initial_solutions     TYPE=SOLUTION
     initial_stresses      TYPE=STRESS
+    given      values of parameters that replace those in the deck: listed in .dat
     ignored    keywords that cannot change the solution, with their places: listed once in .dat
     warnings   places where the deck is odd but understood
     """
@@ -51,5 +52,6 @@ class Model:
     initial_fields: tuple[InitialValue, ...] = ()
     initial_solutions: tuple[InitialSolution, ...] = ()
     initial_stresses: tuple[InitialStress, ...] = ()
+    given: dict[str, float] = field(default_factory=dict)
     ignored: tuple[tuple[str, Source], ...] = ()
     warnings: tuple[str, ...] = ()

@@ -167,6 +167,9 @@ class DataFile:
             text += "\n\n                            U S E R   E L E M E N T S\n\n"
             text += "".join(_user_element(name, definition) for name, definition in definitions.items())
             text += "\n" + remark("NOTE", _USER_ELEMENT_OUTPUT)
+        if model.given:
+            given = ", ".join(f"{name} = {value}" for name, value in model.given.items())
+            text += "\n" + remark("NOTE", f"PARAMETERS GIVEN IN PLACE OF THE VALUES IN THE DECK: {given}")
         if model.ignored:
             text += "\n" + remark("NOTE", "THESE OPTIONS DO NOT CHANGE THE SOLUTION AND ARE IGNORED:")
             places: dict[str, list[str]] = {}

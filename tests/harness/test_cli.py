@@ -184,6 +184,29 @@ def test_several_user_files(tmp_path: Path, option: tuple[str, ...]) -> None:
     assert "at the end" in (tmp_path / "pulled.msg").read_text()
 
 
+def test_parameter(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    """In place of the deck's own value, in both spellings of the command, and named in .dat."""
+    deck = pulled(tmp_path)
+    output = "*OUTPUT, HISTORY\n*NODE OUTPUT\nRF1\n*END STEP"
+    text = deck.read_text().replace("*END STEP", output).replace("1, 1, 0.1", "1, 1, <pull>")
+    deck.write_text(f"*PARAMETER\npull = 0.1\n{text}")
+    words = [f"--user={SPRING_IN_C}", "--quiet", f"--output-dir={tmp_path}"]
+    for spelling in (str(deck), f"input={deck}"):
+        assert main(["run", spelling, "--parameter", "pull=-3e-1", *words]) == 0
+        assert Result(tmp_path / "pulled").history["RF1[2]"] == pytest.approx([-0.3])
+        printed = " ".join((tmp_path / "pulled.dat").read_text().split())
+        assert "PARAMETERS GIVEN IN PLACE OF THE VALUES IN THE DECK: pull = -0.3" in printed
+    assert main(["run", str(deck), "--parameter", "push=1", *words]) == 2
+    assert "uel: --parameter push: " in capsys.readouterr().err
+
+
+@pytest.mark.parametrize("wrong", ["pull", "pull=", "pull=far", "pull=nan", "pull=1_0"])
+def test_parameter_without_a_number(wrong: str, capsys: pytest.CaptureFixture[str]) -> None:
+    with pytest.raises(SystemExit):
+        main(["run", str(FLAT), "--parameter", wrong])
+    assert f"argument --parameter: expected NAME=VALUE with a number, found '{wrong}'" in capsys.readouterr().err
+
+
 def test_unknown_option_of_abaqus(capsys: pytest.CaptureFixture[str]) -> None:
     with pytest.raises(SystemExit) as stop:
         main(["run", "job=a", "oldjob=b"])
