@@ -1,12 +1,17 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""The process that isolation.py starts: `python -m harness.apart DESCRIPTOR MODULE WORD ...` calls MODULE.main(words).
+"""The process that isolation.py starts, to call MODULE.main(words).
+
+    python -m harness.apart PARENT DESCRIPTOR MODULE WORD ...
 
 It notes on the slate that it has finished: user code may end a process with the exit code of success.
 """
 
 from __future__ import annotations
 
+import ctypes
+import os
+import signal
 import sys
 from collections.abc import Sequence
 from importlib import import_module
@@ -15,6 +20,19 @@ from harness import sanitizer
 from harness.errors import tell_error
 from harness.interrupts import held, raise_interrupts
 from harness.shared_progress import open_slate
+
+_PRCTL = getattr(ctypes.CDLL(None), "prctl", None)
+_PR_SET_PDEATHSIG = 1
+"""Linux: a signal for a process whose parent has ended."""
+
+
+def end_with(parent: int) -> None:
+    """Let the system end this process when the one that watches it has ended."""
+    if _PRCTL is not None:
+        _PRCTL(_PR_SET_PDEATHSIG, signal.SIGKILL)
+    if os.getppid() != parent:
+        # too late for a signal
+        os._exit(1)
 
 
 def work(descriptor: int, module: str, words: Sequence[str]) -> int:
@@ -36,4 +54,5 @@ def work(descriptor: int, module: str, words: Sequence[str]) -> int:
 
 
 if __name__ == "__main__":
-    sys.exit(work(int(sys.argv[1]), sys.argv[2], sys.argv[3:]))
+    end_with(int(sys.argv[1]))
+    sys.exit(work(int(sys.argv[2]), sys.argv[3], sys.argv[4:]))

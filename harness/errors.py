@@ -10,7 +10,7 @@ from collections.abc import Sequence
 from contextlib import suppress
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Final
+from typing import IO, Final
 
 
 @dataclass(frozen=True, slots=True)
@@ -46,10 +46,14 @@ def in_words(error: BaseException) -> str:
     return f"{type(error).__name__}: {error}"
 
 
-def tell_error(text: str) -> None:
-    """Print an error of the command, as far as that is possible."""
+SPEAKER: Final = "uel: "
+"""Begins each error of the command."""
+
+
+def tell_error(text: str, stream: IO[str] | None = None) -> None:
+    """Print an error of the command, to stderr unless there is another stream, as far as that is possible."""
     with suppress(OSError):
-        print(f"uel: {text}", file=sys.stderr, flush=True)
+        print(f"{SPEAKER}{text}", file=sys.stderr if stream is None else stream, flush=True)
 
 
 def tell(text: str) -> None:

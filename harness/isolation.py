@@ -4,13 +4,13 @@
 
 from __future__ import annotations
 
-import ctypes
 import os
 import resource
 import signal
 import subprocess
 import sys
 from collections.abc import Callable, Sequence
+from contextlib import nullcontext
 from dataclasses import dataclass
 from pathlib import Path
 from typing import IO, Final
@@ -22,10 +22,6 @@ from harness.shared_progress import Slate, Within, new_slate
 
 SAME_PROCESS: Final = "--same-process"
 """Option of `uel run` and `uel check`: no separate process."""
-
-_PRCTL = getattr(ctypes.CDLL(None), "prctl", None)
-_PR_SET_PDEATHSIG = 1
-"""Linux: a signal for a process whose parent has ended."""
 
 _ENDED = 2
 """Exit code with which the Fortran library ends a process; usage errors, which have it too, were found before."""
@@ -64,20 +60,29 @@ class End:
     interrupted: bool = False
 
 
-def supervise(words: Sequence[str], stem: Path, call_limit: float, *, sanitized: bool = False) -> int:
+def supervise(
+    words: Sequence[str],
+    stem: Path,
+    call_limit: float,
+    *,
+    sanitized: bool = False,
+    log: IO[str] | None = None,
+    signals: Sequence[int] | None = None,
+) -> int:
     """Run `uel` with these words, a subcommand first, in a separate process; returns the exit code.
 
-    stem is the folder and name of the job; sanitized: see `run_apart`. A run that ends without closing its files gets
-    them closed here.
+    stem is the folder and name of the job; sanitized, signals: see `run_apart`. log: gets all that the run prints. A
+    run that ends without closing its files gets them closed here.
     """
-    end = run_apart("harness.cli", [words[0], SAME_PROCESS, *words[1:]], call_limit, sanitized=sanitized)
+    words = [words[0], SAME_PROCESS, *words[1:]]
+    end = run_apart("harness.cli", words, call_limit, sanitized=sanitized, output=log, errors=log, signals=signals)
     if end.finished:
         return end.code
     from harness.output.verdict import close_ended_run  # noqa: PLC0415 (numpy, after the process has begun)
 
     reason = f"the run was {end.reason}" + (f", {end.place}" if end.place else "")
     close_ended_run(stem, reason)
-    tell_error(f"{reason}; the output written so far is readable")
+    tell_error(f"{reason}; the output written so far is readable", log)
     return 1
 
 
@@ -87,14 +92,17 @@ def run_apart(
     call_limit: float,
     *,
     sanitized: bool = False,
+    output: IO[str] | None = None,
     errors: IO[str] | None = None,
     meanwhile: Callable[[], None] | None = None,
+    signals: Sequence[int] | None = None,
 ) -> End:
     """Call `main` of a module with words in a process that user code may end, and that is ended if it hangs.
 
     call_limit: seconds that one call of a user routine may take, 0: no limit; the process enforces it itself if it can.
     sanitized: debug builds have AddressSanitizer in it; where that is not possible, a message says why.
-    errors: where its messages go, by default to stderr of this process. meanwhile: is called now and then.
+    output, errors: where stdout and stderr go, by default to those of this process. meanwhile: is called now and then.
+    signals: those that the main thread collects for this one, which cannot do so itself; the process gets them too.
     """
     _take_all_stack()
     variables = None
@@ -102,17 +110,22 @@ def run_apart(
         try:
             variables = sanitizer.environment()
         except sanitizer.NoSanitizerError as error:
-            tell_error(str(error))
+            tell_error(str(error), errors)
     descriptor, slate = new_slate()
-    with collected() as signals:
-        process = subprocess.Popen(
-            [sys.executable, "-m", "harness.apart", str(descriptor), module, *words],
-            env=variables,
-            stderr=errors,
-            pass_fds=[descriptor],
-            preexec_fn=_prepare,  # noqa: PLW1509 (takes no lock: two calls of the system)
-        )
-        os.close(descriptor)
+    with collected() if signals is None else nullcontext(signals) as arrived:
+        # the process has them blocked until it can take them
+        before = signal.pthread_sigmask(signal.SIG_BLOCK, ENDS)
+        try:
+            process = subprocess.Popen(
+                [sys.executable, "-m", "harness.apart", str(os.getpid()), str(descriptor), module, *words],
+                env=variables,
+                stdout=output,
+                stderr=errors,
+                pass_fds=[descriptor],
+            )
+        finally:
+            signal.pthread_sigmask(signal.SIG_SETMASK, before)
+            os.close(descriptor)
         watch = _Watch(process, slate, call_limit)
         code, why = None, ""
         while code is None:
@@ -121,13 +134,13 @@ def run_apart(
             except subprocess.TimeoutExpired:
                 if meanwhile:
                     meanwhile()
-                why = why or watch.glance(signals)
+                why = why or watch.glance(arrived)
                 if why:
                     process.kill()
     if slate.finished:
-        return End(slate.finished - 1, True, "", "", bool(signals))
+        return End(slate.finished - 1, True, "", "", bool(arrived))
     inside = bool(slate.within) or why == HANGS
-    return End(code, False, why or describe_end(code), slate.where() if inside else "", bool(signals))
+    return End(code, False, why or describe_end(code), slate.where() if inside else "", bool(arrived))
 
 
 ENDLESS: Final = "ended because {what} took longer than {limit:g} s (--call-limit)"
@@ -192,13 +205,6 @@ def _state(process: int) -> tuple[str, int]:
     except OSError:
         return "", 0
     return "" if children and fields[0] == "S" else fields[0], int(fields[11]) + int(fields[12])
-
-
-def _prepare() -> None:
-    """Block signals until the process can take them, and let it end if its parent is killed."""
-    signal.pthread_sigmask(signal.SIG_BLOCK, ENDS)
-    if _PRCTL is not None:
-        _PRCTL(_PR_SET_PDEATHSIG, signal.SIGKILL)
 
 
 def describe_end(code: int) -> str:

@@ -7,6 +7,7 @@ import signal
 import subprocess
 import sys
 import time
+from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
 import pytest
@@ -145,3 +146,20 @@ def test_command_as_a_module() -> None:
         [sys.executable, "-m", "harness", "solvers"], capture_output=True, text=True, check=True, env=os.environ
     )
     assert "superlu" in result.stdout
+
+
+def test_process_that_another_thread_watches(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """It gets the signals that the main thread collects, and all that it prints is in one file."""
+    text = "import time\ndef main(words):\n    print('begun', flush=True)\n    time.sleep(600)\n"
+    (tmp_path / "apart_module.py").write_text(text)
+    monkeypatch.setenv("PYTHONPATH", str(tmp_path))
+    signals: list[int] = []
+    said = tmp_path / "said"
+    with said.open("w") as log, ThreadPoolExecutor(1) as thread:
+        future = thread.submit(run_apart, "apart_module", [], 0.0, output=log, errors=log, signals=signals)
+        while "begun" not in said.read_text():
+            assert not future.done()
+            time.sleep(0.01)
+        signals.append(signal.SIGTERM)
+        assert future.result() == End(1, True, "", "", True)
+    assert said.read_text() == "begun\nuel: ended by a user or the system (SIGTERM)\n"
