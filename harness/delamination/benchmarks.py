@@ -18,8 +18,8 @@ from pathlib import Path
 import numpy as np
 from rich.console import Console
 
+from harness.batch.engine import Store, StoredRow, complete
 from harness.delamination import literature, literature_measures, measures
-from harness.delamination.batch import Store, StoredRow, complete
 from harness.delamination.decks import FOLDER
 from harness.delamination.markdown import head, line
 from harness.errors import UelError

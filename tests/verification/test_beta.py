@@ -7,8 +7,8 @@ from pathlib import Path
 
 import pytest
 
-from harness.delamination.batch import run_deck
 from harness.delamination.materials import SolidPly, isotropic
+from harness.delamination.run_deck import run_deck
 from harness.delamination.study.beta import (
     MULTIPLES,
     PLATES,

@@ -8,8 +8,8 @@ from pathlib import Path
 
 import pytest
 
-from harness.delamination.batch import run_deck
 from harness.delamination.measures import peak_load
+from harness.delamination.run_deck import run_deck
 from harness.delamination.study.blend import Beam, described
 from harness.delamination.study.cases import SOLUTIONS, StudyCase, all_cases
 from harness.delamination.study.criteria import check

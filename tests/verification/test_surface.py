@@ -8,9 +8,9 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from harness.delamination.batch import run_deck
 from harness.delamination.oscillation import surface_variation
 from harness.delamination.plates import TwoPlateMesh, refined
+from harness.delamination.run_deck import run_deck
 from harness.delamination.study import surface
 from harness.delamination.study.reference import FOLDER, run_reference
 from harness.delamination.study.spatial import field, restricted

@@ -12,9 +12,10 @@ from pathlib import Path
 import numpy as np
 from rich.console import Console
 
-from harness.delamination.batch import Store, StoredRow, complete, run_deck
+from harness.batch.engine import Store, StoredRow, complete
 from harness.delamination.reproduce.cases import PaperCase
 from harness.delamination.reproduce.patch_cases import PatchCase
+from harness.delamination.run_deck import run_deck
 from harness.delamination.study.rows import bonded_part
 from harness.errors import UelError
 from harness.model.arrays import FloatArray

@@ -10,7 +10,7 @@ from pathlib import Path
 
 from rich.console import Console
 
-from harness.delamination.batch import complete
+from harness.batch.engine import complete
 from harness.delamination.study.cases import StudyCase, all_cases, select
 from harness.delamination.study.criteria import check
 from harness.delamination.study.options import study_parser

@@ -22,13 +22,14 @@ from pathlib import Path
 import numpy as np
 from rich.console import Console
 
-from harness.delamination.batch import Store, StoredRow, complete, run_deck
+from harness.batch.engine import Store, StoredRow, complete
 from harness.delamination.blocks import Interface
 from harness.delamination.markdown import head, line
 from harness.delamination.materials import TABLE_2, SolidPly
 from harness.delamination.measures import cutbacks, iterations, load
 from harness.delamination.mesh import crack_columns
 from harness.delamination.plates import Laminate, two_plates
+from harness.delamination.run_deck import run_deck
 from harness.delamination.study.cases import KINDS, LAYUPS, MESHES, deck_files, mesh_of
 from harness.delamination.study.options import study_parser
 from harness.delamination.study.reference import Profile, restricted

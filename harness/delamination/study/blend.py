@@ -17,8 +17,8 @@ from pathlib import Path
 from rich.console import Console
 from rich.table import Table
 
-from harness.delamination.batch import RunOutcome, run_deck
 from harness.delamination.measures import iterations, peak_load
+from harness.delamination.run_deck import RunOutcome, run_deck
 from harness.delamination.study.cases import KINDS, MESHES, deck_files, interface_of, mesh_of
 from harness.delamination.study.options import study_parser
 

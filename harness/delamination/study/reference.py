@@ -18,7 +18,8 @@ from dataclasses import dataclass
 from functools import lru_cache
 from pathlib import Path
 
-from harness.delamination.batch import Deck, StoredRow, run_deck
+from harness.batch.engine import Deck, StoredRow
+from harness.delamination.run_deck import run_deck
 from harness.delamination.study.cases import KINDS, StudyCase, deck_files, interface_of, mesh_of
 from harness.model.arrays import FloatArray
 from harness.output import Result

@@ -28,10 +28,10 @@ import numpy as np
 from rich.console import Console
 from rich.table import Table
 
-from harness.delamination.batch import run_deck
 from harness.delamination.materials import PLY_0, TABLE_2
 from harness.delamination.mesh import TwoArmMesh
 from harness.delamination.oscillation import total_variation
+from harness.delamination.run_deck import run_deck
 from harness.delamination.steps import LINEAR
 from harness.delamination.study.cases import KINDS, LAYUPS, deck_files, interface_of, mesh_of
 from harness.delamination.study.options import study_parser

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from harness.delamination.batch import StoredRow
+from harness.batch.engine import StoredRow
 from harness.delamination.materials import TABLE_2
 from harness.delamination.measures import dissipated
 from harness.delamination.oscillation import error_index, oscillation_index, raw_index, total_variation

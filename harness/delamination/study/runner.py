@@ -6,7 +6,8 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from harness.delamination.batch import Store, run_deck
+from harness.batch.engine import Store
+from harness.delamination.run_deck import run_deck
 from harness.delamination.study.cases import SOLUTIONS, StudyCase
 from harness.delamination.study.reference import FOLDER, ReferenceRun, real_profiles, reference_of
 from harness.delamination.study.rows import StudyRow, measure

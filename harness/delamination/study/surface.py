@@ -25,7 +25,7 @@ from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 from rich.console import Console
 
-from harness.delamination.batch import Store, StoredRow, complete, run_deck
+from harness.batch.engine import Store, StoredRow, complete
 from harness.delamination.blocks import Interface
 from harness.delamination.bricks import ARM, CRACK, HEIGHT, LAW, LENGTH
 from harness.delamination.markdown import head, line
@@ -33,6 +33,7 @@ from harness.delamination.measures import cutbacks, iterations, load
 from harness.delamination.mesh import crack_columns
 from harness.delamination.oscillation import surface_index, surface_variation
 from harness.delamination.plates import Laminate, TwoPlateMesh, refined, two_plates
+from harness.delamination.run_deck import run_deck
 from harness.delamination.study.options import study_parser
 from harness.delamination.study.reference import FOLDER, run_reference
 from harness.delamination.study.runner import reference_store

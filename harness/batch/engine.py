@@ -1,43 +1,45 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""Runs of many decks on several processes, whose entries are kept: an interrupted batch resumes where it stopped."""
+"""Runs of many decks, several at a time, whose entries are kept: an interrupted batch resumes where it stopped."""
 
 from __future__ import annotations
 
 import hashlib
 import inspect
 import json
-import shutil
-import time
 from collections.abc import Callable, Iterator, Mapping, Sequence
-from concurrent.futures import Future, ProcessPoolExecutor, as_completed
-from dataclasses import asdict, dataclass
+from concurrent.futures import Executor, Future, ProcessPoolExecutor, ThreadPoolExecutor, as_completed
+from dataclasses import asdict
 from functools import cache
 from multiprocessing import get_context
 from pathlib import Path
 from typing import Generic, Protocol, Self, TypeVar
 
 from rich.console import Console
-from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeElapsedColumn
+from rich.progress import (
+    BarColumn,
+    MofNCompleteColumn,
+    Progress,
+    TextColumn,
+    TimeElapsedColumn,
+    TimeRemainingColumn,
+)
 
 import harness.elements
 import harness.procedures
 import harness.solver
-from harness.errors import ConvergenceError
-from harness.job import run
-from harness.output import Result
 from harness.usersub.built import path_of_amalgam
 
 
 class Deck(Protocol):
-    """A deck that a batch runs."""
+    """A deck that a batch runs, and what its results depend on beside the sources of the harness."""
 
     @property
     def name(self) -> str:
         """Name of the deck `NAME.inp`, of its folder and of its entry."""
 
     def files(self) -> dict[str, str]:
-        """The deck and the files that it includes, by name."""
+        """The deck and the files that it includes, by name: their texts, or digests of them."""
 
 
 class StoredRow:
@@ -56,8 +58,19 @@ class StoredRow:
 
 
 DeckT = TypeVar("DeckT", bound=Deck)
+DeckT_contra = TypeVar("DeckT_contra", bound=Deck, contravariant=True)
 EntryT = TypeVar("EntryT", bound=StoredRow)
 T = TypeVar("T")
+
+
+class Keeper(Protocol[DeckT_contra, EntryT]):
+    """Keeps the entries of runs."""
+
+    def get(self, deck: DeckT_contra, /) -> EntryT | None:
+        """Entry of a deck; None if it has to run."""
+
+    def put(self, deck: DeckT_contra, entry: EntryT, /) -> None:
+        """Keep an entry."""
 
 
 class Store(Generic[EntryT]):
@@ -72,7 +85,6 @@ class Store(Generic[EntryT]):
     """
 
     def __init__(self, path: Path, decode: Callable[[Mapping[str, object]], EntryT]) -> None:
-        path.parent.mkdir(parents=True, exist_ok=True)
         self._path = path
         self._decode = decode
         self._entries: dict[str, dict[str, object]] = {}
@@ -91,6 +103,7 @@ class Store(Generic[EntryT]):
     def put(self, deck: Deck, entry: EntryT) -> None:
         """Keep an entry."""
         self._entries[deck.name] = {"fingerprint": fingerprint(deck), "row": entry.to_json()}
+        self._path.parent.mkdir(parents=True, exist_ok=True)
         new = self._path.with_suffix(".new")
         new.write_text(json.dumps(self._entries, indent=1, sort_keys=True) + "\n", encoding="utf-8")
         new.replace(self._path)
@@ -115,52 +128,15 @@ def _sources() -> bytes:
     return digest.digest()
 
 
-@dataclass(frozen=True, slots=True)
-class RunOutcome:
-    """A run and how it ended: `stopped` says why it stopped early, empty for a run that finished."""
-
-    result: Result
-    stopped: str
-    seconds: float
-
-
-def run_deck(deck: Deck, folder: Path, *, fallback: bool, fields: bool = False) -> RunOutcome:
-    """Write a deck, run it.
-
-    Parameters
-    ----------
-    deck
-        The deck.
-    folder
-        Gets a folder of the deck's name with the deck and all that a job writes.
-    fallback
-        Search downhill where Newton's method fails, as `uel run --fallback`.
-    fields
-        Keep the field output, fifty times as large as the rest, which tables and profiles do not need.
-    """
-    place = folder / deck.name
-    place.mkdir(parents=True, exist_ok=True)
-    for name, content in deck.files().items():
-        (place / name).write_text(content, encoding="ascii")
-    started, stopped = time.perf_counter(), ""
-    try:
-        run(place / f"{deck.name}.inp", output_dir=place, fallback=fallback)
-    except ConvergenceError as error:
-        stopped = str(error)
-    if not fields:
-        shutil.rmtree(place / f"{deck.name}_vtu", ignore_errors=True)
-    return RunOutcome(Result(place / deck.name), stopped, time.perf_counter() - started)
-
-
 def run_all(
-    function: Callable[[DeckT, Path], T], decks: Sequence[DeckT], folder: Path, workers: int
+    function: Callable[[DeckT, Path], T], decks: Sequence[DeckT], folder: Path, workers: int, *, threads: bool = False
 ) -> Iterator[tuple[DeckT, T]]:
-    """Call `function(deck, folder)` on several processes; yields each deck with its value as it ends.
+    """Call `function(deck, folder)` in several processes; yields each deck with its value as it ends.
 
-    If the caller stops early, runs that have begun are finished.
+    threads: in threads of this process, for a function that starts a process itself. If the caller stops early, runs
+    that have begun are finished.
     """
-    # a fresh process: what a Fortran library keeps and where it writes is its process's own
-    with ProcessPoolExecutor(workers, mp_context=get_context("spawn")) as pool:
+    with _pool(workers, threads=threads) as pool:
         futures: dict[Future[T], DeckT] = {pool.submit(function, deck, folder): deck for deck in decks}
         try:
             for future in as_completed(futures):
@@ -169,35 +145,56 @@ def run_all(
             pool.shutdown(wait=False, cancel_futures=True)
 
 
+def _pool(workers: int, *, threads: bool) -> Executor:
+    if threads:
+        return ThreadPoolExecutor(workers)
+    # a fresh process: what a Fortran library keeps and where it writes is its process's own
+    return ProcessPoolExecutor(workers, mp_context=get_context("spawn"))
+
+
 def complete(
     decks: Sequence[DeckT],
-    store: Store[EntryT],
-    function: Callable[[DeckT, Path], EntryT],
+    store: Keeper[DeckT, EntryT],
+    function: Callable[[DeckT, Path], EntryT | None],
     folder: Path,
     *,
     workers: int,
     console: Console,
     describe: Callable[[EntryT], str],
+    threads: bool = False,
 ) -> dict[DeckT, EntryT]:
     """Entries of all decks, in their order; those not in the store are computed and kept.
+
+    A deck is left out for which the function returns None: it has not run to an end.
 
     Parameters
     ----------
     decks, store
         The decks wanted, and the entries there are.
-    function, folder, workers
+    function, folder, workers, threads
         As in `run_all`.
     console, describe
         Gets a progress bar, and a line for each deck that ends: its name and what `describe` says about the entry.
     """
     known = {deck: entry for deck in decks if (entry := store.get(deck)) is not None}
     missing = [deck for deck in decks if deck not in known]
-    columns = (TextColumn("{task.description}"), BarColumn(), MofNCompleteColumn(), TimeElapsedColumn())
+    columns = (
+        *(
+            TextColumn("{task.description}"),
+            BarColumn(),
+            MofNCompleteColumn(),
+            TextColumn("{task.fields[running]} running"),
+        ),
+        *(TimeElapsedColumn(), TextColumn("left"), TimeRemainingColumn()),
+    )
     with Progress(*columns, console=console) as progress:
-        task = progress.add_task("runs", total=len(decks), completed=len(known))
-        for deck, entry in run_all(function, missing, folder, workers):
-            store.put(deck, entry)
-            known[deck] = entry
-            progress.print(f"{deck.name}: {describe(entry)}", highlight=False)
-            progress.advance(task)
-    return {deck: known[deck] for deck in decks}
+        running = min(workers, len(missing))
+        task = progress.add_task("runs", total=len(decks), completed=len(known), running=running)
+        runs = run_all(function, missing, folder, workers, threads=threads)
+        for ended, (deck, entry) in enumerate(runs, 1):
+            if entry is not None:
+                store.put(deck, entry)
+                known[deck] = entry
+                progress.print(f"{deck.name}: {describe(entry)}", highlight=False, markup=False)
+            progress.update(task, advance=1, running=min(workers, len(missing) - ended))
+    return {deck: known[deck] for deck in decks if deck in known}
