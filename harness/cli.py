@@ -94,13 +94,7 @@ def build_parser() -> argparse.ArgumentParser:
         "Exit code: 0 the analysis has completed; 1 an error, an interrupt or the system ended it; 2 wrong usage."
     )
     run.add_argument("deck", type=Path, metavar="DECK.inp")
-    run.add_argument(
-        "--user",
-        type=Path,
-        action="append",
-        metavar="FILE",
-        help="user routines (.f .for .f90 .c .cpp .so); repeat for each file, in compilation order (the project's own)",
-    )
+    add_run_options(run)
     run.add_argument("--job", metavar="NAME", help="name of the output files (the deck's name)")
     run.add_argument("--output-dir", type=Path, metavar="DIR", help="folder of the output files (the current folder)")
     run.add_argument(
@@ -110,18 +104,6 @@ def build_parser() -> argparse.ArgumentParser:
         default=[],
         metavar="NAME=VALUE",
         help="value of a parameter in place of the one in the deck's *PARAMETER; repeat for each parameter",
-    )
-    run.add_argument("--solver", default="auto", metavar="NAME", help="linear solver, see `uel solvers` (auto)")
-    help_ = run.add_mutually_exclusive_group()
-    help_.add_argument("--fallback", action="store_true", help="search downhill where Newton's method fails")
-    help_.add_argument("--control", choices=("load", "energy"), default="load", help="energy: trace snap-backs (load)")
-    run.add_argument(
-        "--linear",
-        action="append",
-        default=[],
-        metavar="Un",
-        help="user elements of this type are linear and need not be called in each iteration; verified in each "
-        "increment; repeat for each type",
     )
     run.add_argument(
         "--cpus", type=int, default=1, metavar="N", help="threads that call the elements: the same results (1)"
@@ -133,12 +115,11 @@ def build_parser() -> argparse.ArgumentParser:
         metavar="NAME",
         help="user elements of this type (Un), UMAT or USDFLD may be called by several threads; repeat for each",
     )
-    add_isolation(run)
-    run.add_argument(
-        "--debug", action="store_true", help="run-time checks: errors in user code come with file and line"
-    )
+    add_same_process(run)
     run.add_argument("--quiet", action="store_true", help="no progress display")
     run.set_defaults(function=run_job)
+
+    add_batch(commands.add_parser("batch", help="run many decks, or one deck with many values, several at a time"))
 
     new = commands.add_parser("new", help="start a user element: kernel, deck, tests, CI")
     new.add_argument("name", type=Path, metavar="NAME", help="name of the element and of its new folder")
@@ -165,6 +146,83 @@ def build_parser() -> argparse.ArgumentParser:
     solvers = commands.add_parser("solvers", help="list the linear solvers and say when each is used")
     solvers.set_defaults(function=list_solvers)
     return parser
+
+
+def add_run_options(command: argparse.ArgumentParser) -> list[argparse.Action]:
+    """Options that say how a deck runs, of commands that run decks."""
+    user = command.add_argument(
+        "--user",
+        type=Path,
+        action="append",
+        default=[],
+        metavar="FILE",
+        help="user routines (.f .for .f90 .c .cpp .so); repeat for each file, in compilation order (the project's own)",
+    )
+    solver = command.add_argument(
+        "--solver", default="auto", metavar="NAME", help="linear solver, see `uel solvers` (auto)"
+    )
+    help_ = command.add_mutually_exclusive_group()
+    fallback = help_.add_argument("--fallback", action="store_true", help="search downhill where Newton's method fails")
+    control = help_.add_argument(
+        "--control", choices=("load", "energy"), default="load", help="energy: trace snap-backs (load)"
+    )
+    linear = command.add_argument(
+        "--linear",
+        action="append",
+        default=[],
+        metavar="Un",
+        help="user elements of this type are linear and need not be called in each iteration; verified in each "
+        "increment; repeat for each type",
+    )
+    limit = add_call_limit(command)
+    debug = command.add_argument(
+        "--debug", action="store_true", help="run-time checks: errors in user code come with file and line"
+    )
+    return [user, solver, fallback, control, linear, limit, debug]
+
+
+def add_batch(batch: argparse.ArgumentParser) -> None:
+    """Options of `uel batch`."""
+    batch.formatter_class = argparse.RawDescriptionHelpFormatter
+    batch.description = (
+        "Each run has a folder of its own in the output folder, and a line of its table results.csv. The same command\n"
+        "again runs what has not completed, and what has other inputs than before: deck, included files, user files,\n"
+        "values, options, or another version of this program."
+    )
+    batch.epilog = (
+        "On a cluster each task of a job array runs a part; all have one output folder:\n"
+        "  Slurm  --part $SLURM_ARRAY_TASK_ID/20   after sbatch --array=1-20\n"
+        "  PBS    --part $PBS_ARRAY_INDEX/20       after qsub -J 1-20\n"
+        "  LSF    --part $LSB_JOBINDEX/20          after bsub -J 'NAME[1-20]'\n"
+        "Exit code: 0 all runs (of the part) have completed; 1 one has not, or nothing could be run; 2 wrong usage."
+    )
+    batch.add_argument(
+        "decks",
+        nargs="+",
+        type=Path,
+        metavar="DECK.inp",
+        help="decks, or folders: all their decks that no other includes",
+    )
+    batch.add_argument(
+        "--table",
+        type=Path,
+        metavar="FILE.csv",
+        help="values for the parameters of one deck's *PARAMETER: their names in the first line, then a line for each "
+        "run; a column `job` names the runs (DECK-1, DECK-2, ...)",
+    )
+    batch.add_argument(
+        *("-o", "--output-dir"), type=Path, default=Path("batch"), metavar="DIR", help="folder of the output (batch)"
+    )
+    batch.add_argument("--cpus", type=positive, metavar="N", help="runs at a time (one for each core)")
+    batch.add_argument(
+        "--part", type=part, default=(1, 1), metavar="I/N", help="run the I-th of N parts only, I from 1 to N"
+    )
+    batch.add_argument(
+        "--keep-failed", action="store_true", help="do not repeat runs that did not complete, if nothing has changed"
+    )
+    batch.add_argument("--collect", action="store_true", help="run nothing: write the table of what has run")
+    batch.add_argument("--quiet", action="store_true", help="neither progress nor a summary")
+    batch.set_defaults(function=run_batch, of_runs=add_run_options(batch))
 
 
 def add_law(law: argparse.ArgumentParser) -> None:
@@ -242,19 +300,24 @@ def add_check(check: argparse.ArgumentParser) -> None:
         "--seed", type=positive, default=1, metavar="N", help="seed of random orders and displacements (1)"
     )
     check.add_argument("--increments", type=positive, default=3, metavar="K", help="increments of the deck to run (3)")
-    add_isolation(check)
+    add_call_limit(check)
+    add_same_process(check)
     check.set_defaults(function=check_elements)
 
 
-def add_isolation(command: argparse.ArgumentParser) -> None:
-    """Options of commands that call user code."""
-    command.add_argument(
+def add_call_limit(command: argparse.ArgumentParser) -> argparse.Action:
+    """Option of commands that call user code."""
+    return command.add_argument(
         "--call-limit",
         type=NOT_NEGATIVE,
         default=60.0,
         metavar="SECONDS",
         help="time limit of one call of a user routine, and of loading the library; 0: none (60)",
     )
+
+
+def add_same_process(command: argparse.ArgumentParser) -> None:
+    """Option of commands that work in a separate process."""
     command.add_argument(isolation.SAME_PROCESS, action="store_true", help="for debuggers: run in this process")
 
 
@@ -286,6 +349,27 @@ def positive(text: str) -> int:
             text
         )
     )
+
+
+def part(text: str) -> tuple[int, int]:
+    """Which of how many parts, given as an option."""
+    index, _, count = text.partition("/")
+    if index.isdecimal() and count.isdecimal() and 1 <= int(index) <= int(count) < _MANY:
+        return int(index), int(count)
+    raise argparse.ArgumentTypeError(f"expected I/N with I from 1 to N, such as 3/20, found '{text}'")
+
+
+def words_of(actions: Sequence[argparse.Action], options: argparse.Namespace) -> list[str]:
+    """Words of the command line that give these options."""
+    words: list[str] = []
+    for action in actions:
+        value = getattr(options, action.dest)
+        if value is True:
+            words.append(action.option_strings[0])
+        elif value != action.default:
+            each = value if isinstance(value, list) else [value]
+            words += [f"{action.option_strings[0]}={one}" for one in each]
+    return words
 
 
 def assignment(text: str) -> tuple[str, float]:
@@ -352,6 +436,26 @@ def run_job(options: argparse.Namespace) -> int:
         warned = f", warnings in .dat and .msg: {len(result.warnings)}" if result.warnings else ""
         tell(f"{result.job}: completed, {len(result.status)} lines in .sta{ending}{warned}")
     return 0
+
+
+def run_batch(options: argparse.Namespace) -> int:
+    """`uel batch`."""
+    from harness.batch.command import batch  # noqa: PLC0415
+    from harness.batch.runs import Settings  # noqa: PLC0415
+
+    how = [action for action in options.of_runs if action.dest not in ("user", "call_limit")]
+    completed = batch(
+        options.decks,
+        options.output_dir,
+        Settings(options.user, words_of(how, options), options.call_limit),
+        table=options.table,
+        part=options.part,
+        workers=options.cpus,
+        keep_failed=options.keep_failed,
+        collect=options.collect,
+        quiet=options.quiet,
+    )
+    return 0 if completed else 1
 
 
 def begin_element(options: argparse.Namespace) -> int:

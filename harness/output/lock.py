@@ -29,13 +29,13 @@ class LockedError(UelError):
 
 
 @contextmanager
-def locked(stem: Path) -> Iterator[None]:
-    """Hold STEM.lck in the block; raises LockedError where another process does.
+def locked(stem: Path, *, wait: bool = False) -> Iterator[None]:
+    """Hold STEM.lck in the block; where another process does, wait for it, or raise LockedError.
 
     The system releases it when a process ends, in whatever way: a leftover file locks nothing.
     """
     path = stem.with_name(stem.name + ".lck")
-    descriptor = _open(path)
+    descriptor = _open(path, 0 if wait else fcntl.LOCK_NB)
     try:
         yield
     finally:
@@ -43,12 +43,12 @@ def locked(stem: Path) -> Iterator[None]:
         os.close(descriptor)
 
 
-def _open(path: Path) -> int:
-    """Open the file and lock it."""
+def _open(path: Path, how: int) -> int:
+    """Open the file and lock it; how: LOCK_NB to wait for nobody."""
     while True:
         descriptor = os.open(path, os.O_RDWR | os.O_CREAT, 0o666)
         try:
-            fcntl.flock(descriptor, fcntl.LOCK_EX | fcntl.LOCK_NB)
+            fcntl.flock(descriptor, fcntl.LOCK_EX | how)
             # the process that held it may have removed the file in the meantime
             if not path.exists() or not os.path.samestat(os.fstat(descriptor), path.stat()):
                 os.close(descriptor)

@@ -8,9 +8,12 @@ Layout and words are those of the message files of Abaqus 6.14 to 2023. Left out
 
 from __future__ import annotations
 
+import os
+import re
 import time
 from datetime import datetime
 from pathlib import Path
+from typing import Final
 
 from harness.model.model import Model
 from harness.model.records import (
@@ -178,6 +181,21 @@ class MessageFile:
             + f"       TOTAL CPU TIME (SEC) ={general(cpu, 13, 5)}\n"
             + f"       WALLCLOCK TIME (SEC) ={general(wall, 13, 5)}\n"
         )
+
+
+def read_processor_time(path: Path) -> float | None:
+    """Processor time of a job in seconds, from its message file; None if that was not written to its end."""
+    if not path.exists():
+        return None
+    with path.open("rb") as file:
+        file.seek(max(file.seek(0, os.SEEK_END) - _LONGEST_END, 0))
+        found = _PROCESSOR_TIME.findall(file.read())
+    return float(found[-1]) if found else None
+
+
+_PROCESSOR_TIME: Final = re.compile(rb"TOTAL CPU TIME \(SEC\) = *(\S+)")
+_LONGEST_END: Final = 4096
+"""Bytes that have the times of a job, which are last."""
 
 
 def _origin(check: FieldCheck) -> str:

@@ -16,6 +16,7 @@ from harness.model.arrays import FloatArray
 from harness.output.field_output import Frame, read_field_mesh, read_frames
 from harness.output.history import read_history
 from harness.output.interface import read_interface, read_profiles
+from harness.output.msg_file import read_processor_time
 from harness.output.sta_file import StatusRow, has_completed, read_status
 
 
@@ -73,6 +74,11 @@ class Result:
     def completed(self) -> bool:
         """True if the analysis has completed."""
         return has_completed(self.file(".sta"))
+
+    @property
+    def processor_time(self) -> float | None:
+        """Processor time of the analysis in seconds; None if it did not close its files itself."""
+        return read_processor_time(self.file(".msg"))
 
     @cached_property
     def history(self) -> dict[str, FloatArray]:

@@ -4,8 +4,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+import os
+from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
+from typing import Final
 
 from threadpoolctl import threadpool_limits
 
@@ -20,3 +22,24 @@ def one_blas_thread() -> Iterator[None]:
     """
     with threadpool_limits(limits={"libopenblas": 1, "libscipy_openblas": 1}):
         yield
+
+
+ONE_THREAD: Final[Mapping[str, str]] = dict.fromkeys(
+    ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS"), "1"
+)
+"""Variables with which a process uses one thread, in PARDISO and MUMPS too."""
+
+
+@contextmanager
+def one_thread_each() -> Iterator[None]:
+    """Let every process that begins in the block use one thread: where each core has a process, more only wait."""
+    before = {name: os.environ.get(name) for name in ONE_THREAD}
+    os.environ.update(ONE_THREAD)
+    try:
+        yield
+    finally:
+        for name, value in before.items():
+            if value is None:
+                del os.environ[name]
+            else:
+                os.environ[name] = value

@@ -12,7 +12,7 @@ from harness.usersub._binding import allocated, limit_calls, set_threads, share_
 from harness.usersub.guards import ARRAYS, AS_GOOD_AS_ZERO, UNSET, guard_values, room, set_guard_values
 from harness.usersub.inputs import Change, around, local_variables, watched_inputs, writes_outside
 from harness.usersub.languages import is_source
-from harness.usersub.library import Library, load
+from harness.usersub.library import Library, compile_ahead, load
 from harness.usersub.messages import Message
 from harness.usersub.source_lines import names_line
 from harness.usersub.suspicions import Suspicion, suspicions
@@ -27,6 +27,7 @@ __all__ = [
     "Suspicion",
     "allocated",
     "around",
+    "compile_ahead",
     "guard_values",
     "is_source",
     "limit_calls",

@@ -34,10 +34,15 @@ _BETWEEN: Final = re.compile(r"(?<!\\)\s+")
 
 @dataclass(frozen=True, slots=True)
 class Built:
-    """A shared library, with notes for the user: what was changed to compile it, and warnings, one sentence each."""
+    """A shared library.
+
+    notes  for the user: what was changed to compile it, and warnings, one sentence each
+    read   digest of the user's own files that only the compiler knows it has read, the same on any machine
+    """
 
     library: Path
     notes: tuple[str, ...]
+    read: str = ""
 
 
 def cache_folder() -> Path | None:
@@ -72,7 +77,7 @@ def find(name: str, folders: Sequence[Path]) -> Built | None:
                 continue
             entry, library = json.loads(text), file.with_suffix(".so")
             if entry["modules"] == modules and _digest(library) == entry["library"] and _as_read(entry, folders):
-                return Built(library, tuple(map(str, entry["notes"])))
+                return Built(library, tuple(map(str, entry["notes"])), _digest_of_own(entry))
         except (OSError, ValueError, LookupError, TypeError):
             # damaged, or from another version
             continue
@@ -84,7 +89,7 @@ def keep(name: str, library: Path, notes: Sequence[str], read: Iterable[Path], f
 
     read: files that it depends on beside those that the name stands for; folders: the search folders, in order.
     """
-    entry = {
+    entry: dict[str, Any] = {
         "library": _digest(library),
         "modules": _modules(folders),
         "notes": list(notes),
@@ -101,10 +106,17 @@ def keep(name: str, library: Path, notes: Sequence[str], read: Iterable[Path], f
                 partial.replace(cache / f"{stem}.so")
                 partial.write_text(text, encoding="utf-8")
                 partial.replace(cache / f"{stem}.json")
-            return Built(cache / f"{stem}.so", tuple(notes))
+            return Built(cache / f"{stem}.so", tuple(notes), _digest_of_own(entry))
         except OSError:
             pass
-    return keep_for_now(name, library, notes)
+    return keep_for_now(name, library, notes, _digest_of_own(entry))
+
+
+def _digest_of_own(entry: dict[str, Any]) -> str:
+    """Digest of the files of an entry that are in the search folders, and of the modules there."""
+    # one may be in several of them, by other names
+    own = {(Path(name).name, digest) for place, name, digest in entry["read"] if digest and place != _ABSOLUTE}
+    return hashlib.sha256(json.dumps([entry["modules"], sorted(own)]).encode()).hexdigest()
 
 
 def _stem(name: str, text: bytes) -> str:
@@ -112,10 +124,10 @@ def _stem(name: str, text: bytes) -> str:
     return f"{name}-{hashlib.sha256(text).hexdigest()[:16]}"
 
 
-def keep_for_now(name: str, library: Path, notes: Sequence[str]) -> Built:
-    """Put a library into a folder that is removed with this process."""
+def keep_for_now(name: str, library: Path, notes: Sequence[str], read: str = "") -> Built:
+    """Put a library into a folder that is removed with this process; read: '' if nobody knows, unlike any other."""
     folder = tempfile.mkdtemp(dir=_scratch().name)
-    return Built(Path(shutil.copyfile(library, Path(folder) / f"{name}.so")), tuple(notes))
+    return Built(Path(shutil.copyfile(library, Path(folder) / f"{name}.so")), tuple(notes), read or _digest(library))
 
 
 @functools.cache

@@ -87,6 +87,12 @@ def build(
         return cache.keep(name, library, notes, [file for file in read if file.resolve() not in known], folders)
 
 
+def digest_of_sources(files: Sequence[Path], include: Sequence[Path] = ()) -> str:
+    """Digest of the files and of what their INCLUDE lines name, the same on any machine; arguments as for `build`."""
+    _, texts, _ = _scan(files, _folders(files, include))
+    return hashlib.sha256("\0".join(texts).encode()).hexdigest()
+
+
 def _flags(language: Language, zero_locals: bool, debug: bool, sanitized: bool) -> tuple[str, ...]:
     """Additional flags of the compiler of a language."""
     checks = (*language.checks, *(SANITIZED if sanitized else ())) if debug else ()

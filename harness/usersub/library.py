@@ -5,6 +5,7 @@
 from __future__ import annotations
 
 import ctypes
+import hashlib
 import shutil
 import tempfile
 from collections.abc import Sequence
@@ -20,7 +21,7 @@ from harness.model.user_values import AskedAmplitude, GivenAmplitude, UserValues
 from harness.usersub import _binding, layout
 from harness.usersub.built import path_of_kernels
 from harness.usersub.cache import Built
-from harness.usersub.compiler import build
+from harness.usersub.compiler import build, digest_of_sources
 from harness.usersub.languages import CPP, SUFFIXES, C
 from harness.usersub.linker import undefined_routine
 from harness.usersub.messages import Inbox, Message
@@ -270,14 +271,31 @@ def load(
         The files of units 6 and 7 cannot be written.
     """
     files = [] if user is None else [user] if isinstance(user, Path) else list(user)
-    include = () if deck is None else (deck.resolve().parent,)
     sanitized = debug and _binding.sanitizing()
-    built = _shared_library(files, include, zero_locals=zero_locals, debug=debug, sanitized=sanitized)
+    built = _shared_library(files, _include(deck), zero_locals=zero_locals, debug=debug, sanitized=sanitized)
     name = _name_of(files)
     library = Library(name, built.library, _open(built.library, name), Inbox(job, output_dir), sanitized=sanitized)
     for note in built.notes:
         library.warn(note)
     return library
+
+
+def compile_ahead(user: Sequence[Path], *, deck: Path, zero_locals: bool = False, debug: bool = False) -> str:
+    """Compile files for the jobs that follow, which find them in the cache; arguments and CompileError as in `load`.
+
+    Returns a digest of all that the user's files consist of, the same on any machine; '' without files.
+    """
+    if not user:
+        return ""
+    if _is_shared(user):
+        return hashlib.sha256(user[0].read_bytes()).hexdigest()
+    built = _shared_library(user, _include(deck), zero_locals=zero_locals, debug=debug)
+    return hashlib.sha256(f"{digest_of_sources(user, _include(deck))} {built.read}".encode()).hexdigest()
+
+
+def _include(deck: Path | None) -> tuple[Path, ...]:
+    """Folders in which INCLUDE lines are looked up after those of the sources."""
+    return () if deck is None else (deck.resolve().parent,)
 
 
 def _name_of(files: Sequence[Path]) -> str:
@@ -289,6 +307,11 @@ def _name_of(files: Sequence[Path]) -> str:
 def _shared_library(files: Sequence[Path], include: Sequence[Path], **how: bool) -> Built:
     if not files:
         return Built(path_of_kernels(), ())
+    return Built(files[0], ()) if _is_shared(files) else build(files, include, **how)
+
+
+def _is_shared(files: Sequence[Path]) -> bool:
+    """Whether the files are a shared library; raises CompileError if they are neither that nor sources."""
     for file in files:
         if not file.is_file():
             raise CompileError(file, "not a file" if file.exists() else "no such file")
@@ -297,8 +320,8 @@ def _shared_library(files: Sequence[Path], include: Sequence[Path], **how: bool)
     if any(file.suffix.lower() == ".so" for file in files):
         if len(files) > 1:
             raise CompileError(files[0], "a shared library cannot be combined with other files")
-        return Built(files[0], ())
-    return build(files, include, **how)
+        return True
+    return False
 
 
 def _open(shared: Path, name: str) -> ctypes.CDLL:
