@@ -13,7 +13,7 @@ from dataclasses import asdict
 from functools import cache
 from multiprocessing import get_context
 from pathlib import Path
-from typing import Generic, Protocol, Self, TypeVar
+from typing import Final, Generic, Protocol, Self, TypeVar
 
 from rich.console import Console
 from rich.progress import (
@@ -25,9 +25,13 @@ from rich.progress import (
     TimeRemainingColumn,
 )
 
+import harness.assembly
+import harness.deck
 import harness.elements
+import harness.model
 import harness.procedures
 import harness.solver
+import harness.usersub
 from harness.usersub.built import path_of_amalgam
 
 
@@ -92,7 +96,7 @@ class Store(Generic[EntryT]):
             self._entries = json.loads(path.read_text(encoding="utf-8"))
 
     def get(self, deck: Deck) -> EntryT | None:
-        """Entry of a deck; None if there is none, or if the deck, the elements or the solver have changed since."""
+        """Entry of a deck; None if there is none, or if the deck or the sources have changed since."""
         entry = self._entries.get(deck.name)
         if entry is None or entry["fingerprint"] != fingerprint(deck):
             return None
@@ -110,18 +114,25 @@ class Store(Generic[EntryT]):
 
 
 def fingerprint(deck: Deck) -> str:
-    """Digest of a deck with all its files, and of the sources of the elements and of the solution procedure."""
+    """Digest of a deck with all its files, and of the sources that its results depend on."""
     digest = hashlib.sha256(_sources())
     for name, content in sorted(deck.files().items()):
         digest.update(f"{name}\n{content}".encode())
     return digest.hexdigest()[:16]
 
 
+_PACKAGES: Final = (
+    *(harness.assembly, harness.deck, harness.elements, harness.model, harness.procedures, harness.solver),
+    harness.usersub,
+)
+"""From the deck to the records of a run."""
+
+
 @cache
 def _sources() -> bytes:
     """Digest of the sources at the first call: a batch continues with what it has imported."""
     digest = hashlib.sha256(path_of_amalgam().read_bytes())
-    for package in (harness.elements, harness.procedures, harness.solver):
+    for package in _PACKAGES:
         # __path__ of an editable installation is not a folder
         for file in sorted(Path(inspect.getfile(package)).parent.rglob("*.py")):
             digest.update(file.read_bytes())

@@ -3,11 +3,15 @@
 """The engine of batches and studies."""
 
 import io
+import tomllib
 from dataclasses import dataclass
+from importlib import import_module
 from pathlib import Path
 
+import pytest
 from rich.console import Console
 
+from harness.batch import engine
 from harness.batch.engine import Store, StoredRow, complete
 
 
@@ -69,3 +73,27 @@ def test_decks_are_run_once_and_kept(tmp_path: Path) -> None:
     found, said = batch(changed)
     assert found[changed[1]] == Length(5)
     assert sorted(ran) == ["b", "none"]
+
+
+def test_sources_of_all_that_computes_results(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """From the deck to the records: each package between the errors and the output."""
+    layers = tomllib.loads((Path(__file__).parents[3] / "pyproject.toml").read_text())["tool"]["importlinter"][
+        "contracts"
+    ]
+    names = [name for layer in layers[0]["layers"] for name in layer.split(" | ")]
+    above = ("cli", "delamination", "check", "project", "batch", "job", "output", "errors")
+    expected = set(names) - {f"harness.{name}" for name in above}
+    assert {package.__name__ for package in engine._PACKAGES} == expected
+    before = engine.fingerprint(DECKS[0])
+    package = tmp_path / "batch_sources"
+    package.mkdir()
+    (package / "__init__.py").write_text("changed = True\n")
+    monkeypatch.syspath_prepend(str(tmp_path))
+    monkeypatch.setattr(engine, "_PACKAGES", (*engine._PACKAGES, import_module("batch_sources")))
+    engine._sources.cache_clear()
+    try:
+        assert engine.fingerprint(DECKS[0]) != before
+    finally:
+        monkeypatch.undo()
+        engine._sources.cache_clear()
+    assert engine.fingerprint(DECKS[0]) == before
