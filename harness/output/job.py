@@ -224,6 +224,8 @@ class JobOutput:
         # the end of a path, or of a sequence of frequencies, is known only when its step is done
         timeless = procedure.riks is not None or isinstance(record, HarmonicResponse)
         last = not timeless and record.step_time >= procedure.period * (1.0 - 1e-9)
+        # the one before owes nothing any more, even if this one cannot be written
+        self._pending = None
         self._requested(record, last=last)
         self._pending = self._last = record
         self._message.increment(record)
