@@ -104,10 +104,15 @@ def test_table_of_the_page() -> None:
     assert [(row["element"], row["mesh"], row["stiffness"]) for row in rows] == [
         (case.element, case.mesh.name, case.stiffness) for case in surface.all_cases()
     ]
+    (least,) = (row for row in rows if (row["element"], row["stiffness"]) == ("consistent", "1e6"))
     for row in rows:
         ratios = float(row["ratio"]), float(row["ratio in growth"])
+        assert float(row["from"]) <= min(float(row["in growth"]), float(row["at the end"]))
+        assert float(row["to"]) >= max(float(row["in growth"]), float(row["at the end"]))
         if row["element"] == "consistent":
             assert max(ratios) <= ALLOWED
+            # the waves as the front passes the bricks
+            assert max(float(row[name]) / float(least[name]) for name in ("from", "to")) <= ALLOWED
         elif row["stiffness"] != "1e6":
             assert min(ratios) > ALLOWED
 
@@ -124,4 +129,5 @@ def test_rows_of_the_page(mesh: str, tmp_path: Path) -> None:
         )
         # regression: a point more or less that fails changes the tractions by a few per cent
         assert found.index == pytest.approx(float(row["index"]), rel=0.05)
+        assert found.most == pytest.approx(float(row["to"]), rel=0.05)
         assert found.final == pytest.approx(float(row["end (N)"]), rel=5e-3)

@@ -74,7 +74,7 @@ ALLOWED = 1.1
 
 COLUMNS = (
     *("element", "mesh", "stiffness", "peak (N)", "end (N)", "cutbacks", "iterations"),
-    *("variation (MPa)", "real", "index", "ratio", "in growth", "ratio in growth"),
+    *("variation (MPa)", "real", "index", "ratio", "in growth", "ratio in growth", "from", "to", "at the end"),
 )
 ROWS = "rows"
 """Folder of the runs of the table, beside that of the references."""
@@ -171,6 +171,8 @@ class SurfaceRow(StoredRow):
     index        largest oscillation index of the normal traction in all increments
     variation, real  of the normal traction, and what really acts, per unit of width, where the index is largest (MPa)
     growth       mean of the index over the second half of the opening
+    least, most  of the index in the second half of the opening
+    last         index in the last increment
     """
 
     stopped: str
@@ -182,6 +184,9 @@ class SurfaceRow(StoredRow):
     real: float
     index: float
     growth: float
+    least: float
+    most: float
+    last: float
 
 
 def run_case(case: SurfaceCase, folder: Path) -> SurfaceRow:
@@ -200,6 +205,7 @@ def measure(case: SurfaceCase, result: Result, stopped: str, real: Fields) -> Su
         found.append((index, *(surface_variation(places, values, WIDTH) for values in pair), time))
     index, variation, acting, _ = max(found)
     curve = load(result)
+    grown = [each for each, *_, time in found if time > 0.5 * case.opening]
     return SurfaceRow(
         stopped=stopped,
         peak=float(curve.max()),
@@ -209,7 +215,10 @@ def measure(case: SurfaceCase, result: Result, stopped: str, real: Fields) -> Su
         variation=variation,
         real=acting,
         index=index,
-        growth=float(np.mean([each for each, *_, time in found if time > 0.5 * case.opening])),
+        growth=float(np.mean(grown)),
+        least=min(grown),
+        most=max(grown),
+        last=grown[-1],
     )
 
 
@@ -246,7 +255,8 @@ def markdown(rows: Mapping[SurfaceCase, SurfaceRow]) -> list[str]:
         spent = str(row.cutbacks), str(row.iterations)
         measured = f"{row.variation:.1f}", f"{row.real:.1f}", f"{row.index:.3f}", f"{row.index / least.index:.3f}"
         growth = f"{row.growth:.3f}", f"{row.growth / least.growth:.3f}"
-        lines.append(line([case.element, case.mesh.name, case.stiffness, *loads, *spent, *measured, *growth]))
+        waves = f"{row.least:.3f}", f"{row.most:.3f}", f"{row.last:.3f}"
+        lines.append(line([case.element, case.mesh.name, case.stiffness, *loads, *spent, *measured, *growth, *waves]))
     return lines
 
 
