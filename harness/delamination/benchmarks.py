@@ -19,7 +19,7 @@ import numpy as np
 from rich.console import Console
 
 from harness.batch.engine import Store, StoredRow, complete
-from harness.delamination import literature, literature_measures, measures
+from harness.delamination import literature, literature_measures, measures, space_beam_measures, space_beams
 from harness.delamination.decks import FOLDER
 from harness.delamination.markdown import head, line
 from harness.errors import UelError
@@ -34,6 +34,8 @@ SNAP = 0.05
 DECKS: dict[str, Callable[[], str]] = {"krueger_dcb": literature.dcb_benchmark}
 DECKS |= {f"mmb_{100 * ratio:.0f}": partial(literature.mmb_benchmark, ratio) for ratio in literature.MMB_CRITICAL}
 DECKS |= {"circle": literature.circle, "dcb_100k": literature.large_dcb}
+BEAMS = {case.name: case for case in space_beams.CASES}
+DECKS |= {name: case.deck for name, case in BEAMS.items()}
 """By name."""
 
 
@@ -121,6 +123,8 @@ def calm_iterations(result: Result, load: FloatArray) -> float:
 
 def values_of(name: str, result: Result) -> dict[str, tuple[float, float]]:
     """The benchmark's values and those of a run, by quantity."""
+    if name in BEAMS:
+        return space_beam_measures.against_theory(BEAMS[name], result)
     if name.startswith("mmb"):
         ratio = float(name.removeprefix("mmb_")) / 100.0
         _, displacement, load = literature.MMB_CRITICAL[ratio]
@@ -145,6 +149,7 @@ def values_of(name: str, result: Result) -> dict[str, tuple[float, float]]:
     releases = {"G by Rice's integral along the front (N/mm)": literature_measures.front_release}
     if name == "krueger_dcb":
         # the large one has few fronts
+        found["load at the compliance of a = {:g} mm (N)"] = literature_measures.loads_at_compliances(result)
         found["load at a front at a = {:g} mm (N)"] = literature_measures.mid_width_loads(result)
         releases["G by dissipation per area (N/mm)"] = literature_measures.dissipated_release
         releases["G by the compliance (N/mm)"] = literature_measures.compliance_release
@@ -163,7 +168,8 @@ HEAD = """<!-- SPDX-FileCopyrightText: The uel-harness authors -->
 Delaminations with `U8` of infinite stiffness between `C3D8I`: Abaqus' default tolerances, no viscosity,
 `uel run --fallback`. Pages of the specimens: [double cantilever beam](krueger_dcb/README.md),
 [mixed-mode bending](krueger_mmb/README.md), [circular delamination](circle/README.md). `dcb_100k` is the double
-cantilever beam on a finer mesh, until its crack is 33 mm long; its deck is built, not kept.
+cantilever beam on a finer mesh, until its crack is 33 mm long; its deck is built, not kept. The decks of
+[beams on turned meshes](space_beams/README.md) are small; beam theory and the fracture energies are their benchmarks.
 
 The linear solver is the one that `--solver auto` takes: PARDISO if it is installed (`pip install .[fast]`), as it was
 here.
@@ -180,6 +186,11 @@ attempts given up count.
 """
 
 
+FRONT = """Krueger's cracks are straight and sharp. A front of damage 0.5 in the middle of the width is ahead of the one
+that has the same compliance; [the page](krueger_dcb/README.md#position-of-the-front) says by how much, and why.
+"""
+
+
 def page(rows: Mapping[str, Row]) -> str:
     """The page of these rows, by name of the deck."""
     header = ("run", "unknowns", "increments", "given up", "iterations", "away from snaps", "CPU", "wall", "memory")
@@ -193,7 +204,7 @@ def page(rows: Mapping[str, Row]) -> str:
     for name, row in rows.items():
         if row.stopped:
             lines += ["", f"`{name}` stopped: {row.stopped}"]
-    lines += ["", "## Against the benchmarks", ""]
+    lines += ["", "## Against the benchmarks", "", FRONT]
     lines += head(("run", "quantity", "benchmark", "here", "difference"))
     for name, row in rows.items():
         for quantity, (expected, found) in row.values.items():

@@ -22,6 +22,7 @@ from harness.delamination.materials import TABLE_2
 from harness.delamination.peel import peel_files
 from harness.delamination.reproduce.cases import PROBLEMS, comparator_cases, longer_cases, paper_cases
 from harness.delamination.reproduce.patch_cases import inclined_cases
+from harness.delamination.space_beams import space_beam_files
 from harness.delamination.steps import LINEAR, Increments
 
 FOLDER = Path(__file__).parents[2] / "abaqus_inputs"
@@ -114,6 +115,7 @@ def all_files() -> dict[Path, str]:
         "cohesive": comparator_files,
         "dcb_3d": bricks_files,
         "dcb_3d_stabilised": stabilised_bricks_files,
+        "space_beams": space_beam_files,
         "peel": peel_files,
         "dcb_elastica": elastica_files,
     }

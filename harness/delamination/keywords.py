@@ -46,8 +46,11 @@ def node_block(labels: IntArray, coordinates: FloatArray) -> list[str]:
     return ["*NODE", *table([label, *point] for label, point in rows)]
 
 
-def node_set(name: str, labels: IntArray) -> list[str]:
-    """*NSET by labels."""
+def node_set(name: str, labels: IntArray, *, generate: bool = False) -> list[str]:
+    """*NSET by labels; with `generate` by the first, the last and their difference where they are equidistant."""
+    steps = np.unique(np.diff(labels))
+    if generate and len(steps) == 1:
+        return [keyword("NSET", "GENERATE", NSET=name), *table([(int(labels[0]), int(labels[-1]), int(steps[0]))])]
     return [keyword("NSET", NSET=name), *wrapped(labels.tolist())]
 
 

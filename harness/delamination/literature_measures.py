@@ -8,16 +8,10 @@ from collections.abc import Callable
 
 import numpy as np
 
-from harness.delamination import literature
-from harness.model.arrays import FloatArray
+from harness.delamination import front_measures, literature
+from harness.delamination.front_measures import displacement, last_front, load
 from harness.output import Result
-from harness.output.front import Front, fronts
-
-
-def last_front(result: Result) -> Front:
-    """The longest front of the last increment that has one."""
-    found = fronts(result)
-    return max((front for front in found if front.time == found[-1].time), key=lambda front: len(front.places))
+from harness.output.front import fronts
 
 
 def mid_width_loads(result: Result) -> dict[float, float]:
@@ -25,25 +19,41 @@ def mid_width_loads(result: Result) -> dict[float, float]:
 
     The front is straight at first: the load at the initial length is the largest one.
     """
-    load = 2.0 * _reaction(result)
+    curve = 2.0 * load(result)
     lengths, loads = [], []
     for front in fronts(result):
         middle = np.argmin(front.places[:, 1])
         lengths.append(front.places[middle, 0])
-        loads.append(np.interp(front.time, result.history["time"], load))
+        loads.append(np.interp(front.time, result.history["time"], curve))
     known = [length for length in literature.DCB_CRITICAL if lengths[0] < length < lengths[-1]]
     values = np.interp(known, lengths, loads)
-    return {literature.DCB_CRACK: float(load.max())} | dict(zip(known, values.tolist(), strict=True))
+    return {literature.DCB_CRACK: float(curve.max())} | dict(zip(known, values.tolist(), strict=True))
 
 
 def loads_at_openings(result: Result) -> dict[float, float]:
     """Load (N) at the displacements of the benchmark that were reached, by its crack length (mm)."""
-    name = next(name for name in result.history if name.startswith("U3[TOP:"))
-    opening, load = result.history[name], 2.0 * _reaction(result)
+    opening, curve = 0.5 * displacement(result), 2.0 * load(result)
     return {
-        length: float(np.interp(displacement, opening, load))
-        for length, (displacement, _) in literature.DCB_CRITICAL.items()
-        if displacement <= opening[-1]
+        length: float(np.interp(critical, opening, curve))
+        for length, (critical, _) in literature.DCB_CRITICAL.items()
+        if critical <= opening[-1]
+    }
+
+
+def loads_at_compliances(result: Result) -> dict[float, float]:
+    """Load (N) at the compliances of the benchmark that were reached, by its crack length (mm).
+
+    A straight crack of that length has this compliance, whatever the shape of the front and of its process zone.
+    """
+    opening, curve = 0.5 * displacement(result), 2.0 * load(result)
+    # a running crack: before the largest load the compliance is that of the initial length
+    grown = slice(int(curve.argmax()), None)
+    compliances = np.maximum.accumulate(opening[grown] / curve[grown])
+    critical = {length: moved / force for length, (moved, force) in literature.DCB_CRITICAL.items()}
+    return {
+        length: float(np.interp(compliance, compliances, curve[grown]))
+        for length, compliance in critical.items()
+        if compliances[0] <= compliance <= compliances[-1]
     }
 
 
@@ -59,6 +69,12 @@ def opening_deviation(result: Result) -> float:
     return max(abs(load / literature.DCB_CRITICAL[length][1] - 1.0) for length, load in loads.items())
 
 
+def compliance_deviation(result: Result) -> float:
+    """Largest relative deviation of `loads_at_compliances` from the benchmark."""
+    loads = loads_at_compliances(result)
+    return max(abs(load / literature.DCB_CRITICAL[length][1] - 1.0) for length, load in loads.items())
+
+
 def thumbnail(result: Result) -> float:
     """Distance (mm) by which the front is ahead in the middle of the width, at the end."""
     return float(np.ptp(last_front(result).places[:, 0]))
@@ -71,29 +87,12 @@ def front_release(result: Result) -> float:
 
 def dissipated_release(result: Result) -> float:
     """Energy dissipated per area that the mean front has covered (N/mm), over the second half of its way."""
-    times, places = _mean_front(result)
-    begin = int(np.argmax(places > 0.5 * (places[0] + places[-1])))
-    spent = np.interp(times[[begin, -1]], result.history["time"], result.history["ALLPD"])
-    return float(np.diff(spent)[0] / (0.5 * literature.DCB_WIDTH * (places[-1] - places[begin])))
+    return front_measures.dissipated_release(result, literature.DCB_CRACK, 0.5 * literature.DCB_WIDTH)
 
 
 def compliance_release(result: Result) -> float:
     """Energy release rate P^2/(2 B) dC/da of the mean front (N/mm), over the second half of its way."""
-    times, places = _mean_front(result)
-    history = result.history
-    name = next(name for name in history if name.startswith("U3[TOP:"))
-    load = np.interp(times, history["time"], 2.0 * _reaction(result))
-    compliance = 2.0 * np.interp(times, history["time"], history[name]) / load
-    later = places > 0.5 * (places[0] + places[-1])
-    fit = np.polynomial.Polynomial.fit(places[later], compliance[later], 2).deriv()
-    releases = load[later] ** 2 / (2.0 * literature.DCB_WIDTH) * fit(places[later])
-    return float(releases.mean())
-
-
-def _mean_front(result: Result) -> tuple[FloatArray, FloatArray]:
-    """Times and mean positions (mm) of the fronts that have left the initial edge."""
-    found = [front for front in fronts(result) if front.places[:, 0].min() > literature.DCB_CRACK + 0.5]
-    return np.array([front.time for front in found]), np.array([front.places[:, 0].mean() for front in found])
+    return front_measures.compliance_release(result, literature.DCB_CRACK, 0.5 * literature.DCB_WIDTH)
 
 
 def first_mode_mix(result: Result) -> float:
@@ -105,15 +104,14 @@ def first_mode_mix(result: Result) -> float:
 def circle_radii(result: Result) -> list[tuple[float, float, float]]:
     """Radius of the front (mm), load and corrected closed form (N), by increment of the field output."""
     rows = []
-    history = result.history
-    name = next(name for name in history if name.startswith("U3[TOP:"))
+    times, distances, loads = result.history["time"], displacement(result), load(result)
     for front in fronts(result):
         radius = float(np.hypot(*front.places[:, :2].T).mean())
-        load = 4.0 * float(np.interp(front.time, history["time"], _reaction(result)))
-        opening = float(np.interp(front.time, history["time"], history[name]))
+        force = 4.0 * float(np.interp(front.time, times, loads))
+        opening = 0.5 * float(np.interp(front.time, times, distances))
         # the clamped plate of the same compliance
-        clamped = np.sqrt(16.0 * np.pi * literature.circle_bending() * opening / load)
-        rows.append((radius, load, literature.circle_load() * float(np.sqrt(radius / clamped))))
+        clamped = np.sqrt(16.0 * np.pi * literature.circle_bending() * opening / force)
+        rows.append((radius, force, literature.circle_load() * float(np.sqrt(radius / clamped))))
     return rows
 
 
@@ -133,20 +131,13 @@ def circle_roundness(result: Result) -> float:
     return float(np.ptp(np.hypot(*last_front(result).places[:, :2].T)))
 
 
-def _reaction(result: Result) -> FloatArray:
-    """Sum of the reactions on TOP (N), by increment."""
-    total: FloatArray = np.sum(
-        [values for name, values in result.history.items() if name.startswith("RF3[TOP:")], axis=0
-    )
-    return total
-
-
 MEASURES: dict[str, Callable[[Result], float]] = {
     function.__name__: function
     for function in (
         *(
             mid_width_deviation,
             opening_deviation,
+            compliance_deviation,
             thumbnail,
             front_release,
             dissipated_release,

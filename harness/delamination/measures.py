@@ -8,8 +8,8 @@ from collections.abc import Callable, Mapping
 
 import numpy as np
 
+from harness.delamination import front_measures, literature_measures, space_beam_measures
 from harness.delamination.beams import branch_deviation
-from harness.delamination.literature_measures import MEASURES
 from harness.delamination.materials import TABLE_2
 from harness.delamination.specimens import ARMS, CRACK, WIDTH
 from harness.delamination.theory import dcb_crack, dcb_curve
@@ -18,21 +18,21 @@ from harness.output import Result
 
 
 def load(result: Result) -> FloatArray:
-    """Load of a specimen (N), positive the way it is loaded, by increment; in space that of the line TOP or a lever."""
+    """Load of a specimen (N), positive the way it is loaded, by increment."""
     history = result.history
-    if "RF3[LEVER]" in history:
-        return -history["RF3[LEVER]"]
     if "RF2[LOAD_TOP]" in history:
         return history["RF2[LOAD_TOP]"]
     if "RF2[MIDSPAN]" in history:
         return -history["RF2[MIDSPAN]"]
-    line: FloatArray = np.sum([history[name] for name in history if name.startswith(("RF3[TOP]", "RF3[TOP:"))], axis=0)
-    return line
+    return front_measures.load(result)
 
 
 def displacement(result: Result) -> FloatArray:
-    """Displacement of the load (mm), by increment."""
-    return result.history["U2[LOAD_TOP]"] if "U2[LOAD_TOP]" in result.history else -result.history["U2[MIDSPAN]"]
+    """Displacement of the load (mm), by increment; in space that on which it works, for which both ends count."""
+    history = result.history
+    if "U2[LOAD_TOP]" in history:
+        return history["U2[LOAD_TOP]"]
+    return -history["U2[MIDSPAN]"] if "U2[MIDSPAN]" in history else front_measures.displacement(result)
 
 
 def dissipated(result: Result) -> FloatArray:
@@ -196,7 +196,8 @@ QUANTITIES: dict[str, Callable[[Result], float]] = {
         *(enf_deviation, frmm_deviation, frmm_mode_ratio, cutbacks),
         *(traction_mean, traction_deviation, traction_lowest, traction_highest, traction_variation, damage_variation),
     )
-} | MEASURES
+}
+QUANTITIES |= literature_measures.MEASURES | space_beam_measures.MEASURES
 COMPARISONS: dict[str, Callable[[Result, Result], float]] = {
     function.__name__: function for function in (curve_distance, whole_curve_distance)
 }

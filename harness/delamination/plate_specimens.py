@@ -165,7 +165,7 @@ def _deck(
     lines = ["*HEADING", title, f"** {comment}"]
     lines += ["** written by python -m harness.delamination.decks; units N, mm, MPa", *mesh_blocks(laminate)]
     for name, labels in sets.items():
-        lines += node_set(name, labels)
+        lines += node_set(name, labels, generate=laminate.generated)
     lines += [*constraints, *property_blocks(laminate)]
     output = Output(f"FREQUENCY={every}", history=history, energies=ENERGIES)
     return lines + static_step(static, boundary, output, unsymmetric=not laminate.interface.built_in)

@@ -184,3 +184,14 @@ def frmm_compliance(arms: Arms, crack: float, length: float) -> float:
     mode_1 = (crack + arms.correction) ** 3 / 6.0
     mode_2 = (crack + MODE_2_CORRECTION * arms.correction) ** 3 / 8.0
     return (mode_1 + mode_2 + length**3 / 24.0) / arms.bending_stiffness
+
+
+def mmb_mode_mix(arms: Arms, crack: float, half_span: float, lever: float) -> float:
+    """G_II/G of a mixed-mode bending specimen with the load at the distance c from mid-span, for a crack (mm).
+
+    G_I = 12 P^2 (3 c - L)^2 (a + chi h)^2/(16 B^2 h^3 L^2 E11), G_II = 9 P^2 (c + L)^2 (a + 0.42 chi h)^2 over the same
+    (J. R. Reeder and J. H. Crews, AIAA Journal 28 (1990) 1270-1276, with the corrections above).
+    """
+    mode_1 = 12.0 * ((3.0 * lever - half_span) * (crack + arms.correction)) ** 2
+    mode_2 = 9.0 * ((lever + half_span) * (crack + MODE_2_CORRECTION * arms.correction)) ** 2
+    return mode_2 / (mode_1 + mode_2)

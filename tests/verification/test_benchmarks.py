@@ -9,7 +9,7 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
-from harness.delamination import benchmarks, literature
+from harness.delamination import benchmarks, literature, literature_measures
 from harness.delamination.benchmarks import DECKS, PAGE, Benchmark, Row, calm_iterations, kept_rows, main, page
 
 PULLED = """*NODE
@@ -90,6 +90,15 @@ def test_a_name_that_is_none(capsys: pytest.CaptureFixture[str]) -> None:
     with pytest.raises(SystemExit):
         main(["circles"])
     assert "no benchmark circles; expected one of krueger_dcb, mmb_20" in capsys.readouterr().err
+
+
+def test_loads_of_the_benchmark_itself() -> None:
+    """By displacement and by compliance: a run that has the values of the report."""
+    moved, force = np.array([(0.0, 0.0), *literature.DCB_CRITICAL.values()]).T
+    result = SimpleNamespace(history={"U3[TOP:7]": moved, "RF3[TOP:7]": 0.3 * force, "RF3[TOP:8]": 0.2 * force})
+    for function in (literature_measures.loads_at_openings, literature_measures.loads_at_compliances):
+        found = function(result)  # type: ignore[arg-type]
+        assert found == pytest.approx({length: load for length, (_, load) in literature.DCB_CRITICAL.items()})
 
 
 def test_circular_delamination_by_its_energy() -> None:

@@ -10,7 +10,9 @@ import numpy as np
 import pytest
 
 from harness.cli import main
+from harness.deck import read_deck
 from harness.delamination import plate_specimens as build
+from harness.delamination import space_beams
 from harness.delamination.blocks import Interface
 from harness.delamination.keywords import text
 from harness.delamination.materials import Cohesive, SolidPly, isotropic
@@ -91,6 +93,23 @@ def test_moved_nodes_turn_the_mesh_lines() -> None:
     labels, moved = turned.nodes()
     assert labels.tolist() == mesh.nodes()[0].tolist()
     assert np.allclose(moved - mesh.nodes()[1], np.outer(moved[:, 1], [slope, 0.0, 0.0]), atol=1e-15)
+
+
+@pytest.mark.parametrize("case", space_beams.CASES, ids=lambda case: case.name)
+def test_a_generated_mesh_is_the_one_of_the_tables(case: space_beams.SpaceBeam, tmp_path: Path) -> None:
+    models = []
+    for generated in (True, False):
+        lines = case.deck(generated).splitlines()
+        (tmp_path / "beam.inp").write_text(text(lines))
+        models.append((read_deck(tmp_path / "beam.inp"), len(lines)))
+    (short, few), (long, many) = models
+    assert 20 * few < many
+    assert (short.mesh.labels == long.mesh.labels).all()
+    assert short.mesh.coordinates == pytest.approx(long.mesh.coordinates, abs=1e-8)
+    for group, other in zip(short.groups, long.groups, strict=True):
+        assert (group.type, group.section.elset) == (other.type, other.section.elset)
+        assert (group.labels == other.labels).all()
+        assert (group.nodes == other.nodes).all()
 
 
 @pytest.mark.parametrize("kind", INTERFACES)

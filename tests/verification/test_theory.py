@@ -17,6 +17,7 @@ from harness.delamination.theory import (
     dcb_load,
     enf_load,
     frmm_load,
+    mmb_mode_mix,
 )
 
 ARMS = Arms(width=20.0, height=1.55, e11=PLY_0.e1, e22=PLY_0.e2, g12=PLY_0.g12)
@@ -36,6 +37,14 @@ def test_mode_2_and_mixed_mode_by_hand() -> None:
     assert enf_load(ARMS, 35.0, G_2) == pytest.approx(494.3, abs=0.5)
     # sqrt(20 7.4478e5/(37.614^2/1.04 + 3 36.098^2/16.032)) = sqrt(1.48956e7/(1360.4 + 243.8))
     assert frmm_load(ARMS, 35.0, G_1, G_2) == pytest.approx(96.4, abs=0.1)
+
+
+def test_mode_mix_of_mixed_mode_bending() -> None:
+    """The levers of NASA/CR-2012-217562, whose ratios are those of virtual crack closure in plane strain."""
+    e1, e2 = 161000.0, 11380.0
+    arms = Arms(width=25.4, height=2.25, e11=e1 / (1.0 - 0.32**2 * e2 / e1), e22=e2 / (1.0 - 0.45**2), g12=5200.0)
+    for lever, mix in ((92.9, 0.2), (41.3, 0.5), (27.3, 0.8)):
+        assert mmb_mode_mix(arms, 25.4, 50.4, lever) == pytest.approx(mix, abs=0.01)
 
 
 def test_energy_release_rate_is_the_derivative_of_the_compliance() -> None:
