@@ -27,6 +27,7 @@ from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.collections import LineCollection
 from matplotlib.figure import Figure
 from matplotlib.tri import LinearTriInterpolator, Triangulation
+from numpy.typing import NDArray
 from scipy.sparse import coo_array
 from scipy.sparse.csgraph import connected_components
 from scipy.spatial import cKDTree
@@ -47,6 +48,9 @@ _CORNERS = np.array([[-1.0, -1.0], [1.0, -1.0], [1.0, 1.0], [-1.0, 1.0]])
 
 _SAMPLES = 6
 """Of the process zone, for each element length."""
+
+_HALVINGS = 20
+"""Of a distance of samples, to find the edge of the surface."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -307,16 +311,38 @@ def _along(
     tangent = np.stack([-ahead[:, 1], ahead[:, 0]], axis=-1)
 
     offsets = np.linspace(-reach, reach, 1 + 2 * max(1, round(_SAMPLES * reach / surface.size)))
-    where = line[:, None] + offsets[:, None] * ahead[:, None]
+    where = _to_edges(triangulation, line[:, None] + offsets[:, None] * ahead[:, None])
     traction = np.stack([np.nan_to_num(at(values, where)) for values in nodal["T"].T], axis=-1)
     opening = np.stack([at(values, where) for values in nodal["W"].T], axis=-1)
     traction, opening = (_turned(values, ahead[:, None], tangent[:, None]) for values in (traction, opening))
     mean = 0.5 * (traction[:, 1:] + traction[:, :-1])
-    # steps to and from what is beyond the edge of the surface count nothing
+    # steps beyond the edge of the surface count nothing
     releases = -np.nansum(mean * np.diff(opening, axis=1), axis=1)
     middle = np.stack([np.nan_to_num(at(values, line)) for values in nodal["T"].T], axis=-1)
     places = np.stack([at(values, line) for values in surface.nodes.T], axis=-1)
     return places, ahead @ surface.axes, _turned(middle, ahead, tangent), releases
+
+
+def _to_edges(triangulation: Triangulation, where: FloatArray) -> FloatArray:
+    """Points of lines (n, m, 2), those beside an edge of the surface moved to it, whose last step would be lost."""
+    finder = triangulation.get_trifinder()
+
+    def on(places: FloatArray) -> NDArray[np.bool_]:
+        return np.asarray(finder(places[..., 0], places[..., 1])) >= 0
+
+    inside = on(where)
+    moved = where.copy()
+    for step in (1, -1):
+        outer, inner = (slice(None, -1), slice(1, None))[::step]
+        rows, columns = np.nonzero(~inside[:, outer] & inside[:, inner])
+        places = np.arange(where.shape[1])
+        beyond, within = where[rows, places[outer][columns]], where[rows, places[inner][columns]]
+        for _ in range(_HALVINGS):
+            middle = 0.5 * (beyond + within)
+            found = on(middle)[:, None]
+            beyond, within = np.where(found, beyond, middle), np.where(found, middle, within)
+        moved[rows, places[outer][columns]] = within
+    return moved
 
 
 def _turned(values: FloatArray, ahead: FloatArray, tangent: FloatArray) -> FloatArray:

@@ -117,6 +117,26 @@ def test_two_fronts_of_one_surface() -> None:
         assert front.releases[middle].mean(axis=0) == pytest.approx(G, rel=0.15)
 
 
+class Edge(Disc):
+    """A process zone that forms at the edge x = 0 of the surface: damage 0.4 there, none from x = 1.5 on."""
+
+    def interfaces(self) -> list[dict[str, np.ndarray]]:
+        (profile,) = super().interfaces()
+        damage = 0.4 * np.clip(1.0 - profile["X"] / 1.5, 0.0, 1.0)
+        profile["DAMAGE"] = damage
+        for k, axis in enumerate("NST"):
+            profile[f"T{axis}"], profile[f"W{axis}"] = STRENGTH[k] * (1.0 - damage), FINAL[k] * damage
+        return [profile]
+
+
+@pytest.mark.parametrize("level", [0.03, 0.1, 0.2])
+def test_a_zone_counts_up_to_the_edge_of_the_surface(level: float) -> None:
+    """The integral of t dw from d = 0 to 0.4 is that of (1 - d) dd."""
+    (front,) = fronts(Edge(), level)
+    assert front.places[:, 0] == pytest.approx(1.5 * (1.0 - level / 0.4), abs=0.02)
+    assert np.abs(front.releases) == pytest.approx(np.tile((0.4 - 0.08) * 2.0 * G, (len(front.places), 1)), rel=1e-2)
+
+
 def test_another_damage_is_elsewhere() -> None:
     (front,) = fronts(Disc(), 0.75)
     assert np.hypot(*front.places.T[:2]) == pytest.approx(RADIUS - 0.25 * ZONE, abs=0.05)
