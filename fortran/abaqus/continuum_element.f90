@@ -10,6 +10,7 @@
 !> material takes two passes.
 module abaqus_continuum_element
   use core_kinds, only: dp
+  use core_mode_search, only: mode_search, find_modes, most_passes
   use core_rotation, only: ply_axes, strain_rotation
   use core_solid_rotation, only: solid_turn, find_turn, turn_forces, turn_stiffness
   use core_status, only: status_type, ok
@@ -17,7 +18,7 @@ module abaqus_continuum_element
   use materials_linear_elasticity, only: plane_strain
   use materials_spectral_norm, only: spectral_norm
   use elements_bulk_solid, only: solid_gradient
-  use elements_continuum_solid, only: incompatible_modes, modes_of_brick, solid_points, solid_shape, solid_strains, find_change
+  use elements_continuum_solid, only: incompatible_modes, modes_of_brick, solid_points, solid_shape, solid_strains
   use elements_interface_faces, only: central_frame
   use elements_solid_faces, only: face_nodes, face_places, gauss_of_face, middle_place, serves
   use abaqus_bulk_exchange, only: bulk_record, store_bulk
@@ -35,9 +36,6 @@ module abaqus_continuum_element
 
   !> PNEWDT where the increment is too large, Abaqus' own factor.
   real(dp), parameter :: smaller = 0.25_dp
-
-  !> Smallest share of a change of the modes that is tried.
-  real(dp), parameter :: least_share = 0.01_dp
 
   !> Positions of the variables of a point, in the order of the strains.
   type :: point_positions
@@ -181,31 +179,18 @@ contains
     real(dp), intent(out) :: force(n), matrix(n, n)        !< columns of the modes alone
     real(dp), intent(out) :: inverse(n - m, n - m)         !< of the stiffness of the modes
     logical, intent(out) :: good
-    integer, parameter :: most_passes = 50
-    real(dp) :: state(size(svars)), work, stored, start(n - m), change(n - m), share, slope, first_slope
+    real(dp) :: state(size(svars)), work, stored
+    type(mode_search) :: search
     integer :: pass
     logical :: settled
 
-    share = 0.0_dp
-    change = 0.0_dp
-    first_slope = 0.0_dp
     do pass = 1, most_passes
       call update_points()
       if (.not. good) return
       settled = n == m
       if (settled) exit
-      slope = dot_product(change, force(m + 1:))
-      if (share > least_share .and. slope > 0.5_dp*abs(first_slope)) then
-        ! too far: to where a straight line between both slopes is zero
-        share = share*max(0.1_dp, abs(first_slope)/(abs(first_slope) + slope))
-      else
-        call find_change(m, force, matrix, stored, inverse, change, settled, good)
-        if (settled .or. .not. good) exit
-        start = unknowns(m + 1:)
-        first_slope = dot_product(change, force(m + 1:))
-        share = 1.0_dp
-      end if
-      unknowns(m + 1:) = start + share*change
+      call find_modes(search, force(m + 1:), matrix(m + 1:, m + 1:), stored, unknowns(m + 1:), inverse, settled, good)
+      if (settled .or. .not. good) exit
     end do
     good = good .and. settled
     if (.not. good) then

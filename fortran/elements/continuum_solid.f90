@@ -8,22 +8,18 @@ module elements_continuum_solid
   use core_kinds, only: dp
   use core_quadrature, only: gauss_point
   use core_serendipity, only: brick_places, quad_places
-  use core_small_matrix, only: invert_general
   use core_status, only: status_type, ok
   use core_strains, only: mean_volume_strain, mode_matrix, set_volume_strain, strain_matrix
   use elements_bulk_solid, only: solid_gradient
   implicit none(type, external)
   private
   public :: incompatible_modes, mean_volume, modes_of_brick
-  public :: node_places, solid_points, solid_shape, solid_strains, find_change
+  public :: node_places, solid_points, solid_shape, solid_strains
 
   !> Formulations other than strains of the displacements alone, 0: those of C3D8I and of C3D8 in Abaqus.
   integer, parameter :: incompatible_modes = 1
   integer, parameter :: mean_volume = 2
   integer, parameter :: modes_of_brick = 13
-
-  !> Work of the forces on the modes that counts as zero, relative to the energy of the stress.
-  real(dp), parameter :: no_work = 1.0e-20_dp
 
 contains
 
@@ -102,19 +98,5 @@ contains
       call set_volume_strain(dim, n, strains, mean, b(:, :, k))
     end do
   end subroutine solid_strains
-
-  !> Change of the modes, the unknowns after the first n, by Newton's method; `settled` if it does no work beside the energy of the
-  !> stress. Zero, with `good` false, if their stiffness is singular.
-  pure subroutine find_change(n, force, stiffness, energy, inverse, change, settled, good)
-    integer, intent(in) :: n
-    real(dp), intent(in) :: force(:), stiffness(:, :), energy
-    real(dp), intent(out) :: inverse(size(force) - n, size(force) - n)   !< of the stiffness of the modes
-    real(dp), intent(out) :: change(size(force) - n)
-    logical, intent(out) :: settled, good
-
-    call invert_general(stiffness(n + 1:, n + 1:), inverse, good)
-    change = -matmul(inverse, force(n + 1:))
-    settled = abs(dot_product(change, force(n + 1:))) <= no_work*energy
-  end subroutine find_change
 
 end module elements_continuum_solid

@@ -20,14 +20,15 @@
 !> *ORIENTATION where the section has one, as Abaqus prints them; in dynamic analyses then the forces of the last two
 !> increments; last the incompatible modes.
 module host_solid
+  use core_mode_search, only: find_modes, mode_search, most_passes
   use core_small_matrix, only: cofactors, determinant
   use core_solid_rotation, only: find_turn, solid_turn, turn_forces, turn_stiffness
-  use core_strains, only: mean_volume_strain, set_volume_strain, strain_matrix
+  use core_strains, only: condense, mean_volume_strain, set_volume_strain, strain_matrix
   use host_context, only: current, initial_stresses
   use host_coupling, only: add_heat_source, coupling_t, set_temperature
   use host_forces, only: add_axisymmetric_point, add_geometric, add_plane_point, add_space_point
   use host_hourglass, only: has_hourglass_modes, resist_hourglass
-  use host_incompatible, only: condense, find_change, mode_strains
+  use host_incompatible, only: mode_strains
   use host_inertia, only: is_dynamic, mass_matrix, respond
   use host_initial_stress, only: begin_point
   use host_kinds, only: dp, i4
@@ -115,15 +116,17 @@ contains
     real(dp), dimension(rule%dim*rule%nodes), intent(in) :: x, u, du
     real(dp), intent(inout) :: force(rule%dim*rule%nodes), stiffness(rule%dim*rule%nodes, rule%dim*rule%nodes)
     real(dp), intent(inout) :: svars(values_of_point(rule%dim)*rule%points), alpha(modes), energy(8)
-    integer, parameter :: most_passes = 30
     real(dp), dimension(rule%dim*rule%nodes + modes) :: all_force
     real(dp), dimension(rule%dim*rule%nodes + modes, rule%dim*rule%nodes + modes) :: all_stiffness
-    real(dp) :: b(modes, strains, rule%points), change(modes), svars_start(size(svars)), energy_start(8)
+    real(dp) :: b(modes, strains, rule%points), inverse(modes, modes), svars_start(size(svars)), energy_start(8)
     real(dp), dimension(rule%dim*rule%nodes) :: moved
+    real(dp) :: all_work
     type(solid_turn) :: turn
-    integer :: pass
+    type(mode_search) :: search
+    integer :: pass, n
     logical :: settled, good
     call mode_strains(rule, x, modes, strains, b)
+    n = size(force)
     moved = u
     if (finite) then
       call turn_of(rule, x, u - du, turn, moved)
@@ -143,12 +146,12 @@ contains
         force = all_force(:size(force))
         return
       end if
-      call find_change([moved, alpha], all_force, all_stiffness, change, settled, good)
+      all_work = dot_product(abs([moved, alpha]), matmul(abs(all_stiffness), abs([moved, alpha])))
+      call find_modes(search, all_force(n + 1:), all_stiffness(n + 1:, n + 1:), all_work, alpha, inverse, settled, good)
       if (settled .or. .not. good) exit
-      alpha = alpha + change
     end do
     if (.not. (settled .and. good)) call not_solved('the incompatible modes are not in equilibrium')
-    call condense(all_force, all_stiffness, force, stiffness)
+    call condense(n, inverse, all_force, all_stiffness, force, stiffness)
     if (.not. finite) return
     stiffness = turn_stiffness(rule%dim, rule%nodes, turn, force, stiffness)
     force = turn_forces(rule%dim, rule%nodes, turn, force)

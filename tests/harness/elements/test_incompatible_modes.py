@@ -216,6 +216,72 @@ def test_plastic_bending(tmp_path, element_type):
     assert 5.0 / 6 < moment < 2 / np.sqrt(3) * 25.0 / 4
 
 
+BENT = """*HEADING
+beam that is bent at once
+*NODE
+{nodes}
+*ELEMENT, TYPE={type}, ELSET=ALL
+{elements}
+*NSET, NSET=HELD
+{held}
+*NSET, NSET=LOWER
+{lower}
+*NSET, NSET=UPPER
+{upper}
+*SOLID SECTION, ELSET=ALL, MATERIAL=M
+1.
+*MATERIAL, NAME=M
+*ELASTIC
+1000., 0.3
+*PLASTIC
+{hardening}
+*STEP, INC=1000
+*STATIC, DIRECT
+{increment}, 1.
+*BOUNDARY
+HELD, 1
+1, 2, 3
+{edge}, 2
+UPPER, 1, 1, -{turned}
+LOWER, 1, 1, {turned}
+*OUTPUT, HISTORY
+*NODE OUTPUT, NSET=UPPER
+RF1
+*END STEP
+"""
+
+
+@pytest.mark.parametrize("turned", [0.1, 1.0])
+@pytest.mark.parametrize("hardening", ["5., 0.\n25., 1.", "5., 0.\n5.02, 1.", "5., 0.\n8., 0.002\n9., 1."])
+@pytest.mark.parametrize("element_type", ["CPS4I", "CPE4I", "C3D8I"])
+def test_bending_far_beyond_yield_at_once(tmp_path, element_type, hardening, turned):
+    """The modes are found where Newton's method alone would oscillate: strains of 5 and 50 times the one at yield.
+
+    No fibre unloads, so that one increment gives the force of fifty, in plane strain to 0.3 %.
+    """
+    axes = [np.linspace(0, 4, 3), np.array([0, 1.0]), np.array([0.0, 1.0])]
+    nodes, elements = grid(*axes[: CONTINUUM[element_type].dimension])
+    sets = {
+        "held": nodes[:, 0] == 0,
+        "lower": (nodes[:, 0] == 4) & (nodes[:, 1] == 0),
+        "upper": (nodes[:, 0] == 4) & (nodes[:, 1] == 1),
+    }
+    lines = {name: ", ".join(map(str, np.flatnonzero(chosen) + 1)) for name, chosen in sets.items()}
+    lines["nodes"] = "\n".join(f"{k + 1}, {x}, {y}, {z}" for k, (x, y, z) in enumerate(nodes.tolist()))
+    lines["elements"] = "\n".join(f"{k + 1}, " + ", ".join(map(str, row + 1)) for k, row in enumerate(elements))
+    # both ends of a brick's lower edge: it could turn about the axis of the beam
+    edge = np.flatnonzero(sets["held"] & (nodes[:, 1] == 0))[-1] + 1
+    forces = []
+    for increment in (1.0, 0.02):
+        deck = tmp_path / "bent.inp"
+        values = {"type": element_type, "hardening": hardening, "turned": turned, "increment": increment, "edge": edge}
+        deck.write_text(BENT.format(**values, **lines))
+        result = harness.run(deck, output_dir=tmp_path)
+        assert result.completed
+        forces.append(sum(values[-1] for name, values in result.history.items() if name.startswith("RF1")))
+    assert forces[0] == pytest.approx(forces[1], rel=5e-3)
+
+
 ELASTICA = """*HEADING
 cantilever of {type}
 *NODE
