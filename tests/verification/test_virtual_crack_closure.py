@@ -34,7 +34,7 @@ LONGER = 8
 
 def laminate() -> Laminate:
     """One half of the width, with the edge of the crack at CRACK."""
-    x = crack_columns(LENGTH, (CRACK - 0.5, CRACK + 1.5), SIZE, 1.5, 1.0)
+    x = crack_columns(LENGTH, (CRACK - 0.5, CRACK + 1.5), SIZE, 1.5, (1.0, 2.0))
     y = np.round(0.5 * WIDTH * (1.0 - (1.0 - np.linspace(0.0, 1.0, 9)) ** 1.5), 6)
     z = np.linspace(0.0, HEIGHT, 3)
     bonded = np.broadcast_to(x[:-1] > CRACK - 1e-9, (len(y) - 1, len(x) - 1))
