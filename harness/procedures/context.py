@@ -15,7 +15,7 @@ from harness.model.arrays import FloatArray, IntArray
 from harness.model.user_values import UserValues
 from harness.procedures.convergence_checks import Checker, length_of_moments
 from harness.procedures.loads import fading_forces
-from harness.procedures.step_setting import Setting, choose_solver
+from harness.procedures.step_setting import Setting, SolverTimes, choose_solver
 from harness.procedures.unconstrained import UnconstrainedSolver
 from harness.solver.newton import Factoriser
 
@@ -26,6 +26,7 @@ class StepContext:
     start       total time at the start of the step
     step_time   at the start of the increment; the total time is that of the state
     increment   number of the current increment
+    times_of_solver  of the linear solver in this step
     choice      which linear solver was chosen and why; '' if that of the last step is kept
     """
 
@@ -49,6 +50,7 @@ class StepContext:
         self.released = fading_forces(state.reaction, self.unknowns, step, state.unbalanced)
         state.unbalanced = np.zeros_like(state.unbalanced)
         self.choice = ""
+        self.times_of_solver = SolverTimes(state.effort)
         self._constrain(setting, fallback=fallback)
         length = length_of_moments(system, setting.model.mesh)
         self.checker = Checker(system.dofs, self.constraints, step.controls, state.flux, length)
@@ -60,11 +62,12 @@ class StepContext:
         constraints, solver = state.constraints, state.solver
         if constraints is None or solver is None or not constraints.matches(self.unknowns, equations):
             constraints = Constraints(self.system, self.unknowns, equations, state.boundaries.sources)
-            chosen = choose_solver(setting.solver, constraints)
+            choose = partial(choose_solver, setting.solver, constraints, state.effort)
+            chosen = choose()
             # the search handles a singular matrix itself
             solver = chosen if fallback else UnconstrainedSolver(chosen)
             self.choice = f"LINEAR SOLVER {chosen.name.upper()}: {chosen.reason}"
-            state.majoriser.use(self.system, constraints, partial(choose_solver, setting.solver, constraints))
+            state.majoriser.use(self.system, constraints, choose)
         state.constraints = self.constraints = constraints
         state.solver = self.solver = solver
 

@@ -79,6 +79,7 @@ class GeneralStep:
             for given in (self._state.boundaries, self._state.loads, self._state.conditions):
                 given.conclude(context.step_time)
         self._state.flux = self._checker.histories(self._state.flux)
+        yield context.times_of_solver.note()
         yield StepDone(self._step.number, context.increment, cutbacks, iterations)
 
     def _attempt(self, increment: int) -> Generator[Record, None, tuple[bool, int]]:

@@ -26,7 +26,7 @@ from harness.model.records import (
     StepDone,
     Warned,
 )
-from harness.procedures.step_setting import Setting, choose_solver
+from harness.procedures.step_setting import Setting, SolverTimes, choose_solver
 from harness.solver.linear import LinearSolver
 
 BASE_FORCES = (
@@ -46,6 +46,7 @@ class PerturbationStep:
         boundaries = setting.state.boundaries
         unknowns = boundaries.in_perturbation(setting.step)
         self._constraints = Constraints(setting.system, unknowns, setting.model.equations, boundaries.sources)
+        self._times = SolverTimes(self._state.effort)
         self._solver = self._choose_solver(setting.solver)
         self._increment = 1
 
@@ -58,11 +59,12 @@ class PerturbationStep:
         """Records of the step. Raises KernelError, SingularMatrixError, DeckError."""
         yield Noted(f"LINEAR SOLVER {self._solver.name.upper()}: {self._solver.reason}")
         yield from self._increments()
+        yield self._times.note()
         yield StepDone(self._step.number, self._increment, 0, self._increment)
 
     def _choose_solver(self, name: str) -> LinearSolver:
         """Linear solver of the step."""
-        return choose_solver(name, self._constraints)
+        return choose_solver(name, self._constraints, self._state.effort)
 
     def _increments(self) -> Iterator[Record]:
         """Records of all increments."""

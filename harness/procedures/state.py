@@ -20,6 +20,7 @@ from harness.procedures.element_loads import AllLoads
 from harness.procedures.loads import Boundaries, initial_values
 from harness.procedures.user_amplitudes import UserAmplitudes
 from harness.solver.descent import Majoriser
+from harness.solver.linear import Effort
 from harness.solver.newton import Factoriser, Iterate
 
 
@@ -37,6 +38,7 @@ class ConvergedState:
     stabilization  energy that *STATIC, STABILIZE has dissipated
     flux       flux history by field
     predefined predefined fields, which are constant
+    effort     what all linear solvers have done
     majoriser  matrix of the start of the analysis, for the fall-back
     """
 
@@ -53,6 +55,7 @@ class ConvergedState:
     unbalanced: FloatArray
     constraints: Constraints | None = None
     solver: Factoriser | None = None
+    effort: Effort = field(default_factory=Effort)
     majoriser: Majoriser = field(default_factory=Majoriser)
     total_time: float = 0.0
     work: float = 0.0

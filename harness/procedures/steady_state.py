@@ -49,6 +49,7 @@ class SteadyStateStep(PerturbationStep):
             coordinates=constraints.coordinates,
             name_of=constraints.name_of,
         )
+        self._complex.real.effort = self._state.effort
         return self._complex.real
 
     @property

@@ -5,16 +5,16 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Protocol
 
 from harness.assembly import Constraints, System
 from harness.model.model import Model
-from harness.model.records import Record
+from harness.model.records import Noted, Record
 from harness.model.steps import Step
 from harness.model.user_values import GivesValues
 from harness.procedures.state import ConvergedState
-from harness.solver.linear import LinearSolver, choose
+from harness.solver.linear import Effort, LinearSolver, choose
 
 
 class UserRoutines(GivesValues, Protocol):
@@ -59,12 +59,34 @@ class StepRun(Protocol):
         """Records of the step. Raises ConvergenceError, KernelError, SingularMatrixError, DeckError."""
 
 
-def choose_solver(name: str, constraints: Constraints) -> LinearSolver:
-    """Linear solver for the matrices of free unknowns; name as `harness.solver.linear.choose` takes it."""
-    return choose(
+def choose_solver(name: str, constraints: Constraints, effort: Effort) -> LinearSolver:
+    """Linear solver for the matrices of free unknowns; name as `harness.solver.linear.choose` takes it.
+
+    What the solver does is added to the effort.
+    """
+    solver = choose(
         name,
         constraints.reduced_indptr,
         constraints.reduced_indices,
         coordinates=constraints.coordinates,
         name_of=constraints.name_of,
     )
+    solver.effort = effort
+    return solver
+
+
+class SolverTimes:
+    """Times of the linear solver in a step, which begins now."""
+
+    def __init__(self, effort: Effort) -> None:
+        self._effort, self._before = effort, replace(effort)
+
+    def note(self) -> Noted:
+        """Times since then, for the message file."""
+        done = self._effort - self._before
+        refused = f", {done.refused} OF WHICH HAD TO BE REPEATED IN FULL" if done.refused else ""
+        return Noted(
+            f"LINEAR SOLVER: {done.factorisations} FACTORISATIONS, {done.in_part} ONLY WHERE THE MATRIX HAD CHANGED"
+            f"{refused}, CPU TIME (SEC) = {done.factorising:.3G}; {done.solutions} SOLUTIONS, "
+            f"CPU TIME (SEC) = {done.solving:.3G}"
+        )
