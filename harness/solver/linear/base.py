@@ -55,6 +55,11 @@ class Pattern:
         return len(self.indptr) - 1
 
     @property
+    def in_space(self) -> bool:
+        """Whether the nodes are not all in one plane of two coordinates; False if their coordinates are not known."""
+        return self.size > 0 and self.coordinates is not None and bool((np.ptp(self.coordinates, axis=0) > 0.0).all())
+
+    @property
     def rows(self) -> NDArray[np.int32]:
         """(nnz,) row of each entry."""
         return np.repeat(np.arange(self.size, dtype=np.int32), np.diff(self.indptr))
@@ -90,6 +95,13 @@ class Pattern:
             Positions to look at; None: all.
         """
         size = np.sqrt(np.abs(data[self.diagonal]))
+        if entries is None:
+            # A x - A^T x tells most unsymmetric matrices without the positions of all transposed entries
+            x = np.where(np.random.default_rng(0).random(self.size) < 0.5, -1.0, 1.0)
+            matrix = self.matrix(data)
+            bound = 2.0 * SYMMETRIC * size * size.max(initial=0.0) * np.diff(self.indptr)
+            if (np.abs(matrix @ x - x @ matrix) > bound).any():
+                return False
         count = len(data) if entries is None else len(entries)
         for start in range(0, count, CHUNK):
             some = np.arange(start, min(start + CHUNK, count))
@@ -128,7 +140,7 @@ class LinearSolver(ABC):
 
     name         by which it is requested
     module, distribution  that it needs: to import, and to install
-    widest_band  half bandwidth up to which the band solver beats it, measured as in `choice`
+    widest_band  half bandwidths, in the plane and in space, up to which the band solver beats it, see `choice`
     reason       why this solver was chosen, a phrase for the message file
     effort       what it has done so far
     """
@@ -136,7 +148,7 @@ class LinearSolver(ABC):
     name: ClassVar[str]
     module: ClassVar[str] = "scipy"
     distribution: ClassVar[str] = "scipy"
-    widest_band: ClassVar[int] = 0
+    widest_band: ClassVar[tuple[int, int]] = (0, 0)
 
     def __init__(self, pattern: Pattern, name_of: Callable[[int], tuple[str, int]] | None = None) -> None:
         """Symbolic work.
@@ -206,16 +218,15 @@ class LinearSolver(ABC):
         """Solution (n,) for one right-hand side (n,). Raises SingularMatrixError."""
         if not self.pattern.size:
             return np.zeros(0)
-        start = time.process_time()
+        start, factorising = time.process_time(), self.effort.factorising
         solution = self._solve(rhs)
         if self._unverified:
             self._unverified = False
             self._trusted = self._is_accurate(solution, rhs)
             if not self._trusted:
-                self.effort.refused += 1
-                self._pivot = self._factorise(self._data)
+                self._repeat_in_full()
                 solution = self._solve(rhs)
-        self.effort.solving += time.process_time() - start
+        self.effort.solving += time.process_time() - start - (self.effort.factorising - factorising)
         self.effort.solutions += 1
         if self._pivot is None:
             largest = float(np.abs(solution).max())
@@ -230,6 +241,15 @@ class LinearSolver(ABC):
             return True
         # the residual of a stiff part is as large as the rounding of its terms
         return not (error > ACCURATE * (abs(matrix) @ np.abs(solution) + np.abs(rhs))).any()
+
+    def _repeat_in_full(self) -> None:
+        """Factorise the whole matrix, as the factors that were kept do not serve. Raises SingularMatrixError."""
+        start = time.process_time()
+        self._pivot = self._factorise(self._data)
+        self.effort.factorising += time.process_time() - start
+        self.effort.refused += 1
+        if self._pivot is not None:
+            self._examine(self._pivot)
 
     def _examine(self, pivot: float) -> None:
         """Raise SingularMatrixError if the matrix is singular; `pivot` is its smallest pivot or an estimate."""

@@ -31,14 +31,8 @@ SOLVERS: Final[dict[str, type[LinearSolver]]] = {
 }
 """By name. `auto` takes the band solver for narrow models, else the first of the others that is installed.
 
-How narrow, `widest_band`, is measured: the time of the band solver per unknown grows with the square of the half
-bandwidth, that of the others hardly at all. One thread, factorisation and solution in ms, plane quads with an
-interface (MUMPS is between the others):
-
-    unknowns, half bandwidth   10k, 71   10k, 135   40k, 71   40k, 135   40k, 263   163k, 71
-    band                             9         17        46         89        221        226
-    pardiso                         11         11        46         57         63        237
-    superlu                         22         25       100        136        169        420
+How narrow, `widest_band`, is measured: measured.json. The time of the band solver per unknown grows with the square of
+the half bandwidth, that of the others hardly at all in the plane, and in space like the size of the model.
 """
 
 LARGEST_BAND: Final = 2**31
@@ -73,8 +67,8 @@ def _when(solver: type[LinearSolver]) -> str:
     """When `auto` takes a solver."""
     others = [other for other in SOLVERS.values() if other is not BandSolver]
     if solver is BandSolver:
-        widths = ", ".join(f"{other.widest_band} (against {other.name})" for other in others)
-        return f"auto, half bandwidth up to {widths}, as in slender bodies"
+        widths = ", ".join(f"{'/'.join(map(str, other.widest_band))} (against {other.name})" for other in others)
+        return f"auto, half bandwidth in the plane/in space up to {widths}, as in slender bodies"
     first = [other.name for other in others[: others.index(solver)]]
     return "auto, wider models" + (f" without {' and '.join(first)}" if first else "")
 
@@ -132,7 +126,7 @@ def _quickest(pattern: Pattern, name_of: Callable[[int], tuple[str, int]] | None
 
 def _band_is_quicker(pattern: Pattern, ordering: BandOrdering, other: type[LinearSolver]) -> bool:
     storage = 8 * pattern.size * (3 * ordering.width + 1)
-    return ordering.width <= other.widest_band and storage <= LARGEST_BAND
+    return ordering.width <= other.widest_band[pattern.in_space] and storage <= LARGEST_BAND
 
 
 @cache

@@ -76,7 +76,7 @@ class PardisoSolver(LinearSolver):
     name: ClassVar[str] = "pardiso"
     module: ClassVar[str] = "pypardiso"
     distribution: ClassVar[str] = "pypardiso"
-    widest_band: ClassVar[int] = 75
+    widest_band: ClassVar[tuple[int, int]] = (40, 300)
 
     def __init__(self, pattern: Pattern, name_of: Callable[[int], tuple[str, int]] | None = None) -> None:
         super().__init__(pattern, name_of)

@@ -9,7 +9,7 @@ from scipy.linalg import lu_factor, lu_solve
 from scipy.sparse.linalg import splu
 
 from harness.errors import SingularMatrixError, UelError
-from harness.solver.linear import LinearSolver, available, choose, singular
+from harness.solver.linear import LinearSolver, available, choose, singular, superlu
 from harness.solver.linear.base import Pattern
 from harness.solver.linear.choice import SOLVERS
 from harness.solver.linear.ordering import narrowest
@@ -477,6 +477,63 @@ def test_factors_that_are_not_accurate_are_refused() -> None:
         solver.factorise(factor * matrix.data)
         assert backward_error(matrix, factor * matrix.data, solver.solve(rhs), rhs) < 1e-13
     assert (solver.effort.refused, solver.effort.in_part, solver.effort.factorisations) == (1, 1, 3)
+
+
+@pytest.fixture
+def kept_factors(monkeypatch):
+    """SuperLU with the factors of a beam, which it keeps though the beam is small: (solver, matrix, coordinates)."""
+    monkeypatch.setattr(superlu, "FILL_PER_ITERATION", 1)
+    monkeypatch.setattr(superlu, "LARGEST_SHARE", 0.3)
+    matrix, coordinates = clamped(60, 3)
+    solver = solver_for("superlu", matrix, coordinates)
+    solver.factorise(matrix.data)
+    return solver, matrix, coordinates
+
+
+def test_last_factors_precondition_gmres(kept_factors) -> None:
+    solver, matrix, coordinates = kept_factors
+    rhs = np.random.default_rng(4).normal(size=matrix.shape[0])
+    factors = solver._lu
+    for zone, kind in (((10.0, 11.0), "symmetric"), ((11.0, 12.0), "unsymmetric"), ((0.0, 1.0), "unsymmetric")):
+        data = softened(matrix, coordinates, zone, kind=kind)
+        solver.factorise(data)
+        for _ in range(2):
+            assert backward_error(matrix, data, solver.solve(rhs), rhs) < 1e-10
+        assert solver._lu is factors
+    assert (solver.effort.factorisations, solver.effort.in_part, solver.effort.refused) == (4, 3, 0)
+
+
+def test_matrix_with_many_changes_is_factorised_at_once(kept_factors) -> None:
+    solver, matrix, coordinates = kept_factors
+    data = softened(matrix, coordinates, (0.0, 30.0))
+    solver.factorise(data)
+    rhs = np.random.default_rng(4).normal(size=matrix.shape[0])
+    assert backward_error(matrix, data, solver.solve(rhs), rhs) < 1e-10
+    assert (solver.effort.in_part, solver.effort.refused) == (0, 0)
+
+
+def test_gmres_that_does_not_converge_ends_in_a_factorisation(kept_factors) -> None:
+    """The changes have more than eight eigenvalues far from each other."""
+    solver, matrix, coordinates = kept_factors
+    solver._most = superlu.FEWEST
+    rhs = np.random.default_rng(4).normal(size=matrix.shape[0])
+    data = softened(matrix, coordinates, (8.0, 11.0))
+    inside = data != matrix.data
+    data[inside] *= np.random.default_rng(1).uniform(0.1, 10.0, np.count_nonzero(inside))
+    solver.factorise(data)
+    assert backward_error(matrix, data, solver.solve(rhs), rhs) < 1e-10
+    assert (solver.effort.in_part, solver.effort.refused) == (1, 1)
+
+
+def test_matrix_that_turns_singular_under_gmres_is_named(kept_factors) -> None:
+    """An unknown loses all of its stiffness."""
+    solver, matrix, _ = kept_factors
+    row = np.repeat(np.arange(matrix.shape[0]), np.diff(matrix.indptr))
+    data = np.where((row == 9) | (matrix.indices == 9), 0.0, matrix.data)
+    solver.factorise(data)
+    assert solver.effort.in_part == 1
+    with pytest.raises(SingularMatrixError, match=r"of unknown 9, dof 0"):
+        solver.solve(np.ones(matrix.shape[0]))
 
 
 def test_symmetry_to_rounding() -> None:
