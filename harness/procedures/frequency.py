@@ -11,7 +11,6 @@ from __future__ import annotations
 import math
 
 import numpy as np
-from scipy import sparse
 
 from harness.elements import Request
 from harness.errors import DeckError
@@ -74,10 +73,8 @@ class FrequencyStep(PerturbationStep):
         """CSR values of the symmetric part of a matrix of the free unknowns."""
         evaluation = self._pass(request)
         assert evaluation.data is not None
-        constraints, data = self._constraints, self._constraints.reduce(evaluation.data)
-        # a matrix whose entries are their own positions, transposed
-        positions = sparse.csr_array((np.arange(len(data)), constraints.reduced_indices, constraints.reduced_indptr))
-        symmetric: FloatArray = 0.5 * (data + data[positions.T.tocsr().data])
+        data = self._constraints.reduce(evaluation.data)
+        symmetric: FloatArray = 0.5 * (data + data[self._solver.pattern.transposed])
         return symmetric
 
     def _scaled(self, vectors: FloatArray) -> tuple[FloatArray, FloatArray]:

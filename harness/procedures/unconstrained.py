@@ -41,7 +41,7 @@ class UnconstrainedSolver:
         self.free: SingularMatrixError | None = None
         self._matrix = sparse.csr_array((0, 0))
         self._stand_ins: Iterator[FloatArray] = iter(())
-        self._diagonal = np.flatnonzero(solver.pattern.rows == solver.pattern.indices)
+        self._diagonal = solver.pattern.diagonal
 
     def factorise(self, data: FloatArray) -> None:
         """Take the CSR values of the reduced matrix. Raises SingularMatrixError if it has no stiffness at all."""
