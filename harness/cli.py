@@ -532,12 +532,22 @@ def list_solvers(_: argparse.Namespace) -> int:
     from rich.console import Console  # noqa: PLC0415
     from rich.table import Table  # noqa: PLC0415
 
-    from harness.solver.linear import available  # noqa: PLC0415
+    from harness.solver.linear import available, measured  # noqa: PLC0415
 
+    console = Console()
     table = Table("solver", "installed", "version", "when it is used")
     for row in available():
         table.add_row(row.name, "yes" if row.installed else "no", row.version, row.note)
-    Console().print(table)
+    console.print(table)
+    machine, rows = measured.read()
+    times = Table(*measured.HEADER, title=f"CPU times in ms, {machine}", title_justify="left")
+    for measurement in rows:
+        times.add_row(*measurement.cells)
+    console.print(times)
+    console.print(
+        "first: with the analysis; in part: after a change in the process zone of a crack; GMRES: iterations after it "
+        "on the last factors. auto goes by these times; see harness/solver/linear/solvers.md"
+    )
     return 0
 
 

@@ -372,6 +372,7 @@ def test_solvers(capsys: pytest.CaptureFixture[str]) -> None:
     printed = capsys.readouterr().out
     assert "band" in printed
     assert "superlu" in printed.lower()
+    assert "CPU times in ms" in printed
 
 
 def test_amalgamate(tmp_path: Path) -> None:

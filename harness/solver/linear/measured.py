@@ -1,0 +1,93 @@
+# SPDX-FileCopyrightText: The uel-harness authors
+# SPDX-License-Identifier: BSD-3-Clause
+"""Measured times of the linear solvers: what `auto` goes by, `uel solvers` prints, and solvers.md says.
+
+`tests/programs/benchmarks/solvers.py` measures them.
+"""
+
+from __future__ import annotations
+
+import json
+import platform
+from dataclasses import asdict, dataclass
+from datetime import date
+from pathlib import Path
+from typing import Final
+
+ROWS: Final = Path(__file__).with_name("measured.json")
+PAGE: Final = Path(__file__).with_name("solvers.md")
+
+BEGIN, END = "<!-- rows of tests/programs/benchmarks/solvers.py -->", "<!-- end of the rows -->"
+
+HEADER: Final = ("matrix", "unknowns", "half bandwidth", "solver", "first", "in full", "in part", "solution", "GMRES")
+"""Of the table; times are CPU times in ms."""
+
+
+@dataclass(frozen=True, slots=True)
+class Measured:
+    """A solver on a matrix. Times are CPU times in ms.
+
+    width       half bandwidth
+    first       first factorisation with the analysis, or set-up
+    full        factorisation of another matrix, None if there is none
+    part        of one that differs in the process zone of a crack, None if it is the same as in full
+    solution    for one right-hand side
+    iterations  of GMRES on the matrix that differs, preconditioned by the factors of the one before; or those of an
+                iterative solver
+    """
+
+    matrix: str
+    unknowns: int
+    width: int
+    solver: str
+    first: float
+    full: float | None
+    part: float | None
+    solution: float
+    iterations: int
+
+    @property
+    def cells(self) -> tuple[str, ...]:
+        """Cells of the table, as `HEADER` names them."""
+        times = (_time(value) for value in (self.first, self.full, self.part, self.solution))
+        return self.matrix, f"{self.unknowns:,}", str(self.width), self.solver, *times, str(self.iterations)
+
+
+Table = tuple[str, list[Measured]]
+"""Machine and date, and the rows."""
+
+
+def _time(value: float | None) -> str:
+    return "" if value is None else f"{value:.1f}" if value < 10.0 else f"{value:,.0f}"
+
+
+def machine() -> str:
+    """This machine and the date, for the table."""
+    model = platform.processor() or platform.machine()
+    cpuinfo = Path("/proc/cpuinfo")
+    if cpuinfo.exists():
+        names = [line.partition(":")[2].strip() for line in cpuinfo.read_text().splitlines() if "model name" in line]
+        model = names[0] if names else model
+    return f"{model}, {date.today():%d %B %Y}"
+
+
+def read() -> Table:
+    """The rows kept."""
+    kept = json.loads(ROWS.read_text(encoding="utf-8"))
+    return kept["machine"], [Measured(**row) for row in kept["rows"]]
+
+
+def write(table: Table) -> None:
+    """Keep rows, and write them into the page."""
+    kept = {"machine": table[0], "rows": [asdict(row) for row in table[1]]}
+    ROWS.write_text(json.dumps(kept, indent=1) + "\n", encoding="utf-8")
+    PAGE.write_text(page(PAGE.read_text(encoding="utf-8"), table), encoding="utf-8")
+
+
+def page(text: str, table: Table) -> str:
+    """The page with these rows in place of those in it."""
+    name, rows = table
+    lines = [HEADER, ("---",) * len(HEADER), *(row.cells for row in rows)]
+    body = "\n".join("| " + " | ".join(cells) + " |" for cells in lines)
+    before, after = text.partition(BEGIN)[0], text.partition(END)[2]
+    return f"{before}{BEGIN}\n\n{name}:\n\n{body}\n\n{END}{after}"
