@@ -27,6 +27,9 @@ ACCURATE: Final = 1e-10
 Of the right-hand side, or else of the terms of each row. Measured: below 2e-13 of the right-hand side.
 """
 
+LARGEST_PART: Final = 0.4
+"""Share of the entries above which no solver gains from those that have not changed."""
+
 SYMMETRIC: Final = 1e-13
 """Difference of a_ij and a_ji, over the root of |a_ii a_jj|, that passes for rounding.
 
@@ -191,11 +194,14 @@ class LinearSolver(ABC):
         """
         if not self.pattern.size:
             return
-        changed = np.flatnonzero(data != self._data) if self._regular else None
-        if changed is not None and not len(changed):
-            return
-        if not self._trusted:
-            changed = None
+        changed: IntArray | None = None
+        if self._regular:
+            different = data != self._data
+            count = np.count_nonzero(different)
+            if not count:
+                return
+            if self._trusted and count <= LARGEST_PART * len(data):
+                changed = np.flatnonzero(different)
         self._regular = self._unverified = False
         if len(self._data):
             self._data[:] = data
