@@ -69,8 +69,8 @@ test-matrix:
 	$(PYTHON) tests/programs/matrix.py
 
 bench: $(INSTALLED)
-	$(RUN) $(BIN)/python tests/programs/benchmarks/bench.py; first=$$?; \
-	$(BIN)/python tests/programs/benchmarks/threads.py && exit $$first
+	@failed=0; for program in bench limit; do \
+		$(RUN) $(BIN)/python tests/programs/benchmarks/$$program.py || failed=1; done; exit $$failed
 
 lint: $(INSTALLED)
 	$(RUN) $(BIN)/ruff check .

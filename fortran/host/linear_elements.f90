@@ -6,6 +6,7 @@
 !> force, that of the first node is taken out before: it would only cost digits. The energy is that which the elements store.
 subroutine host_linear_pass(matrices, equations, first, u, floor, residual, flux, terms, energy, ndofel, m, n)
   use host_kinds, only: dp, i4
+  use host_linear, only: add_linear_forces
   implicit none (type, external)
   integer(i4), intent(in) :: ndofel, m, n
   real(dp), intent(in) :: matrices(ndofel, ndofel, m)   !< K of each element
@@ -16,26 +17,10 @@ subroutine host_linear_pass(matrices, equations, first, u, floor, residual, flux
   real(dp), intent(out) :: flux(ndofel, 2)              !< sum of |force|, and the largest one
   integer(i4), intent(out) :: terms(ndofel)             !< number of terms
   real(dp), intent(out) :: energy                       !< sum of u.K u/2
-  real(dp) :: force(ndofel), at(ndofel)
-  integer :: e, j
   flux = 0
   terms = 0
   energy = 0
-  do e = 1, m
-    force = 0
-    at = u(equations(:, e))
-    do j = ndofel, 1, -1
-      if (first(j) > 0) at(j) = at(j) - at(first(j))
-      force = force - at(j)*matrices(:, j, e)
-    end do
-    energy = energy - 0.5_dp*dot_product(force, at)
-    do j = 1, ndofel
-      residual(equations(j, e)) = residual(equations(j, e)) + force(j)
-    end do
-    flux(:, 1) = flux(:, 1) + abs(force)
-    flux(:, 2) = max(flux(:, 2), abs(force))
-    terms = terms + merge(1_i4, 0_i4, abs(force) > floor)
-  end do
+  call add_linear_forces(ndofel, m, matrices, equations, first, u, floor, residual, flux, terms, energy)
 end subroutine host_linear_pass
 
 !> Scatter the matrices of elements into the values of the sparse matrix.

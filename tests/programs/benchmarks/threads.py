@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""Element loops on one thread and on several, on models in space: part of `make bench`.
+"""Element loops on one thread and on several, on models in space; on a machine that has nothing else to do.
 
 Each pass calls all elements and assembles their matrices. One thread and several take turns in one run; the median of
 the ratios of neighbouring passes is judged, so that what other processes take affects both alike. `--check` compares
