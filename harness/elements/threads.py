@@ -66,7 +66,7 @@ def _reason_for_one(group: ElementGroup, library: Library, number: int, safe: Co
             raise UsageError(
                 f"--cpus {number}: elements of type {kind} ({group.source}) store or take the stress of their "
                 "neighbours in memory that all threads share; run with --cpus 1, or take an interface element that "
-                "has the stress itself (U4, U5, U8, U11, U12) and FACE = 0"
+                "has the stress itself (U4, U6, U8, U12) and FACE = 0"
             )
         if not library.is_own and kind not in safe:
             return _undeclared(f"elements of type {kind}", [kind], number)
