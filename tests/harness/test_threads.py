@@ -89,7 +89,11 @@ def test_same_bits_of_user_elements(chain):
     [
         pytest.param(lambda: dcb_of_bricks("C3D8I", CONSISTENT, STABILISED_BRICKS), id="U8"),
         pytest.param(lambda: dcb_of_bricks("C3D8", replace(STANDARD, type="COH3D8"), (60, 4, 2)), id="COH3D8"),
-        pytest.param(lambda: dcb_of_bricks("C3D8", STANDARD, (60, 4, 2)).replace("*STEP", "*STEP, NLGEOM", 1), id="U7"),
+        pytest.param(
+            lambda: dcb_of_bricks("C3D8", STANDARD, (60, 4, 2)).replace("*STEP", "*STEP, NLGEOM", 1),
+            id="U7",
+            marks=pytest.mark.long,
+        ),
     ],
 )
 def test_same_bits_in_space(tmp_path, deck):

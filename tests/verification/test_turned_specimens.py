@@ -141,8 +141,8 @@ def deviation(specimen: Specimen, folder: Path, increments: int = INCREMENTS) ->
         (in_the_plane, "CPE4I", "U2"),
         (in_the_plane, "CPE4I", "COH2D4"),
         (in_space, "C3D8I", "U8"),
-        (in_space, "C3D8I", "U7"),
-        (in_space, "C3D8I", "COH3D8"),
+        pytest.param(in_space, "C3D8I", "U7", marks=pytest.mark.long),
+        pytest.param(in_space, "C3D8I", "COH3D8", marks=pytest.mark.long),
     ],
 )
 def test_a_specimen_that_turns_while_it_is_loaded(build: Build, solid: str, kind: str, tmp_path: Path) -> None:

@@ -273,7 +273,8 @@ def members(group: int) -> list[str]:
     return found
 
 
-@pytest.mark.parametrize("way", ["one process", pytest.param("all", marks=pytest.mark.long)])
+@pytest.mark.long
+@pytest.mark.parametrize("way", ["one process", "all"])
 def test_batch_that_is_interrupted(crashing: Path, results: Results, started: list[str], way: str) -> None:
     """By a user or a scheduler, which may send the signal to all processes."""
     process = endless(crashing)
