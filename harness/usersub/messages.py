@@ -103,13 +103,16 @@ class Inbox:
             self._lost = True
             self.warn(f"{_LOCKED}: the last text printed there is lost")
         for file, path in self._files.items():
-            if not path.exists():
+            try:
+                left = path.stat().st_size - self._read[file]
+            except FileNotFoundError:
+                continue
+            if left <= 0:
                 continue
             with path.open("rb") as stream:
                 stream.seek(self._read[file])
-                text = stream.read(MOST)
-            if len(text) == MOST:
+                text = stream.read(min(left, MOST))
+            if left > MOST:
                 self.warn(f"more was printed than is read at once: what is left at the end stays in {path.name}")
-            if text:
-                self._read[file] += len(text)
-                self._sent.append(Message(file, "print", text.decode(errors="replace")))
+            self._read[file] += len(text)
+            self._sent.append(Message(file, "print", text.decode(errors="replace")))
