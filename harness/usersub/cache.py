@@ -66,11 +66,12 @@ def find(name: str, folders: Sequence[Path]) -> Built | None:
     if cache is None:
         return None
     try:
-        lists = sorted(file for file in cache.iterdir() if file.name.startswith(f"{name}-") and file.suffix == ".json")
+        entries = os.listdir(cache)  # noqa: PTH208 (there may be thousands, and a Path of each takes longer than the rest)
+        lists = sorted(file for file in entries if file.startswith(f"{name}-") and file.endswith(".json"))
     except OSError:
         return None
     modules = _modules(folders)
-    for file in lists:
+    for file in map(cache.joinpath, lists):
         try:
             text = read_whole(file)
             if file.stem != _stem(name, text):
