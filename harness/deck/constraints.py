@@ -8,9 +8,9 @@ Rotations are small: with NLGEOM, what couples displacements to rotations is ref
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Sequence
+from typing import TYPE_CHECKING
 
 import numpy as np
-from scipy.spatial import cKDTree
 
 from harness.deck.blocks import Block, Row
 from harness.deck.error_report import Problems
@@ -24,6 +24,9 @@ from harness.model.arrays import IntArray
 from harness.model.mesh import ElementGroup
 from harness.model.model import Equation
 from harness.model.steps import Step
+
+if TYPE_CHECKING:
+    from scipy.spatial import cKDTree
 
 ROTATIONS = (4, 5, 6)
 CLOSE = 0.05
@@ -184,7 +187,7 @@ class ConstraintReader:
             second, main = (self._surfaces.nodes(row.name(k, "surface"), row.source, owner.name) for k in range(2))
             if not len(main) or not len(second):
                 raise row.error("a surface has no nodes")
-            tree = cKDTree(self._points[main])
+            tree = _search_tree(self._points[main])
             tolerance = block.options.real("POSITION TOLERANCE", CLOSE * _spacing(self._points[main]))
             distance, nearest = tree.query(self._points[second])
             apart = second[distance > tolerance]
@@ -217,8 +220,14 @@ def _spacing(points: np.ndarray) -> float:
     """Largest distance of a point to the one nearest to it; 1 for a single point."""
     if len(points) == 1:
         return 1.0
-    distance, _ = cKDTree(points).query(points, k=2)
+    distance, _ = _search_tree(points).query(points, k=2)
     return float(distance[:, 1].max())
+
+
+def _search_tree(points: np.ndarray) -> cKDTree:
+    from scipy.spatial import cKDTree  # noqa: PLC0415 (takes 0.2 s, and few decks have ties)
+
+    return cKDTree(points)
 
 
 def read_equations(flat: FlatMesh, problems: Problems) -> tuple[Equation, ...]:
