@@ -38,7 +38,7 @@ DECK = """\
 *END STEP
 """
 WHERE = "in UEL for element 7, step 1, increment 2, iteration 0"
-ENDLESS = r"in UEL, crashes.f line \d+.*: the call did not return within 4 s, the limit for one call \(--call-limit\)"
+ENDLESS = r"in UEL, crashes.f line \d+.*: the call did not return within 2 s, the limit for one call \(--call-limit\)"
 STOPPED = r"element 7 \(type U1\): stopped the analysis{} \(step 1, increment 2, iteration 0\)"
 PLACE = STOPPED.format(": {}")
 
@@ -75,7 +75,7 @@ PLACE = STOPPED.format(": {}")
 def test_the_end_is_reported(tmp_path: Path, way: int, message: str) -> None:
     deck = tmp_path / "crash.inp"
     deck.write_text(DECK.format(way=way))
-    command = [sys.executable, "-m", "harness.cli", "run", "crash.inp", "--user", str(USER), "--call-limit", "4"]
+    command = [sys.executable, "-m", "harness.cli", "run", "crash.inp", "--user", str(USER), "--call-limit", "2"]
     result = subprocess.run([*command, "--quiet"], cwd=tmp_path, capture_output=True, text=True, check=False)
     assert result.returncode == 1
     assert "Traceback" not in result.stderr
