@@ -12,7 +12,7 @@ PYTEST_ARGS ?=
 SELECT ?= not long
 # processes that share the tests
 WORKERS ?= auto
-# what tests/programs/machine.py makes of the processor, how many cores it takes; WORKERS=0 for none
+# what tests/programs/machine.py makes of the processor, how many cores it takes (each: one for a worker); WORKERS=0 for none
 PROCESSOR ?= this
 CORES ?= all
 # a number: tests come in a random order, and hypothesis takes other examples; with WORKERS=1 the same run each time

@@ -5,6 +5,7 @@
 Examples of hypothesis are the same in every run, whatever the machine; others with --hypothesis-profile=other.
 """
 
+import os
 import signal
 
 from hypothesis import settings
@@ -13,6 +14,12 @@ from hypothesis import settings
 for each, handler in {signal.SIGINT: signal.default_int_handler, signal.SIGHUP: signal.SIG_DFL}.items():
     if signal.getsignal(each) == signal.SIG_IGN:
         signal.signal(each, handler)
+
+# make test CORES=each: a worker sees one core, as on a machine that has no other
+worker = os.environ.get("PYTEST_XDIST_WORKER", "")
+if worker and "UEL_TESTS_OWN_CORE" in os.environ:
+    cores = sorted(os.sched_getaffinity(0))
+    os.sched_setaffinity(0, {cores[int(worker.removeprefix("gw")) % len(cores)]})
 
 # no deadline: another program may take the processor for a while
 settings.register_profile("same", deadline=None, derandomize=True)

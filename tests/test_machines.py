@@ -3,6 +3,8 @@
 """Other machines: what machine.py makes of this one, and the runs and rows of matrix.py."""
 
 import json
+import os
+import re
 import subprocess
 import sys
 from pathlib import Path
@@ -26,6 +28,22 @@ def on(*words: str) -> subprocess.CompletedProcess[str]:
 def test_an_older_processor_with_one_core() -> None:
     found = on("--processor", "Nehalem", "--cores", "1", sys.executable, "-c", SEEN)
     assert json.loads(found.stdout) == [1, "Nehalem", []], found.stderr
+
+
+def test_one_core_for_each_worker(tmp_path) -> None:
+    count = max(len(os.sched_getaffinity(0)), 2)
+    tests = "".join(
+        f"def test_{k}():\n    print(os.getpid(), *os.sched_getaffinity(0))\n    time.sleep(0.1)\n" for k in range(8)
+    )
+    (tmp_path / "test_seen.py").write_text(f"import os, time\n{tests}")
+    (tmp_path / "conftest.py").write_text((HERE / "conftest.py").read_text())
+    words = ["-m", "pytest", "-n", str(count), "-rP", "-p", "no:cacheprovider", "-c", os.devnull, str(tmp_path)]
+    found = on("--cores", "each", sys.executable, *words)
+    seen = dict(re.findall(r"^(\d+) (\d+)$", found.stdout, re.MULTILINE))
+    assert found.returncode == 0, found.stdout
+    assert seen
+    assert set(seen.values()) <= set(map(str, os.sched_getaffinity(0)))
+    assert len(set(seen.values())) == min(len(seen), len(os.sched_getaffinity(0)))
 
 
 def test_this_machine_is_left_as_it_is() -> None:

@@ -17,9 +17,10 @@ def case(tmp_path):
 
 
 SHORT = ("delamination, user elements", "dynamic", "frequency", "large displacements", "coupled", "heat, user elements")
+QUICK = SHORT[:3]
 
 
-@pytest.mark.parametrize("name", SHORT)
+@pytest.mark.parametrize("name", [*QUICK, *(pytest.param(name, marks=pytest.mark.long) for name in SHORT[3:])])
 def test_units_numbers_and_threads(case, tmp_path, name):
     rows = list(invariances.examine(case(name), tmp_path / "runs", seeds=1, threads=(2,)))
     assert len(rows) == 5
@@ -51,6 +52,7 @@ def test_differences_are_seen(case, tmp_path):
     assert invariances.difference(beam, one, one, wrong) > 1.0
 
 
+@pytest.mark.long
 def test_command():
     command = [sys.executable, invariances.__file__, "--seeds", "1", "heat"]
     result = subprocess.run(command, capture_output=True, text=True, check=False)

@@ -6,6 +6,7 @@ import kills
 import pytest
 
 
-def test_files_of_runs_that_are_killed(capsys: pytest.CaptureFixture[str]) -> None:
-    bad = kills.main(count=6, jobs=2, seed=2, longest=4.0)
+@pytest.mark.parametrize("count", [3, pytest.param(12, marks=pytest.mark.long)])
+def test_files_of_runs_that_are_killed(count: int, capsys: pytest.CaptureFixture[str]) -> None:
+    bad = kills.main(count=count, jobs=2, seed=2, longest=4.0)
     assert not bad, capsys.readouterr().out

@@ -60,13 +60,13 @@ PLACE = STOPPED.format(": {}")
         (6, r"uel: the run was ended by the Fortran library, .*, " + WHERE + ": the process ends"),
         pytest.param(7, PLACE.format("STOP 'enough'"), marks=pytest.mark.long),
         # inside a WRITE, whose unit stays locked
-        (8, PLACE.format(r"in UEL, crashes.f line \d+.*: segmentation fault: .*")),
+        pytest.param(8, PLACE.format(r"in UEL, crashes.f line \d+.*: segmentation fault: .*"), marks=pytest.mark.long),
         (9, STOPPED.format(r" \(XIT\) without a message") + r"\nuel: earlier warning: .* unit 6 or 7 locked"),
         pytest.param(10, PLACE.format("STOP 'no value'"), marks=pytest.mark.long),
         pytest.param(
             11, PLACE.format(r"in UEL, crashes.f line \d+.*: division of an integer by zero"), marks=pytest.mark.long
         ),
-        (12, PLACE.format(ENDLESS)),
+        pytest.param(12, PLACE.format(ENDLESS), marks=pytest.mark.long),
         # what it has printed before
         (13, STOPPED.format(r" \(XIT\); last printed: second / stiffness is negative / see page 7")),
         (14, STOPPED.format(r" \(XIT\); last printed: no convergence of the local iteration")),
@@ -104,7 +104,11 @@ def begin(folder: Path, user: Path, way: int, *words: str) -> subprocess.Popen[s
         pytest.param(4, PLACE.format(r"_exit\(0\)"), marks=pytest.mark.long),
         # exit code 0, without the end of the run
         (5, KILLED.format(r"ended \(exit code 0\)")),
-        (6, KILLED.format(r"ended because a call of a user routine took longer than 1 s \(--call-limit\)")),
+        pytest.param(
+            6,
+            KILLED.format(r"ended because a call of a user routine took longer than 1 s \(--call-limit\)"),
+            marks=pytest.mark.long,
+        ),
     ],
 )
 def test_ends_of_the_process_in_c(tmp_path: Path, way: int, message: str) -> None:

@@ -12,6 +12,8 @@ import sys
 
 import numpy as np
 
+OWN_CORE = "UEL_TESTS_OWN_CORE"
+"""Set where each worker of the tests takes one core (tests/conftest.py)."""
 WITHOUT_AVX2 = ("Prescott", "Nehalem", "Sandybridge")
 WITHOUT_AVX512 = (*WITHOUT_AVX2, "Haswell")
 PROCESSORS = ("this", *WITHOUT_AVX512)
@@ -36,12 +38,18 @@ def environment(processor: str) -> dict[str, str]:
 def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--processor", choices=PROCESSORS, default="this", help="processor to imitate (%(default)s)")
-    parser.add_argument("--cores", default="all", help="how many of the cores to use (%(default)s)")
+    parser.add_argument(
+        "--cores",
+        default="all",
+        help="how many of the cores to use; 'each': one for each worker of the tests (%(default)s)",
+    )
     parser.add_argument("command", nargs=argparse.REMAINDER)
     options = parser.parse_args()
     if not options.command:
         parser.error("no command")
-    if options.cores != "all":
+    if options.cores == "each":
+        os.environ[OWN_CORE] = "1"
+    elif options.cores != "all":
         os.sched_setaffinity(0, sorted(os.sched_getaffinity(0))[: int(options.cores)])
     os.environ.update(environment(options.processor))
     os.execvp(options.command[0], options.command)

@@ -245,6 +245,7 @@ def files(tmp_path):
     return source, deck
 
 
+@pytest.mark.long
 def test_commands(variables, files, tmp_path):
     source, deck = files
     expected = f"in UEL, my_uel.for line {line_of('my_uel.for', 'add')} (ADD): it reads outside the variable 'table'"
