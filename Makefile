@@ -1,7 +1,7 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
 #
-# make demo   install what is missing, build, run a double cantilever beam, draw it, compare it with beam theory
+# make demo   install what is missing, build, run three elements and a snap-back, draw them, compare with beam theory
 # make test   the same set-up, then the quick test suite on all cores
 # make help   the rest
 

@@ -11,6 +11,7 @@ import numpy as np
 from harness.delamination import front_measures, literature_measures, space_beam_measures
 from harness.delamination.beams import branch_deviation
 from harness.delamination.materials import TABLE_2
+from harness.delamination.oscillation import total_variation
 from harness.delamination.specimens import ARMS, CRACK, WIDTH
 from harness.delamination.theory import dcb_crack, dcb_curve
 from harness.model.arrays import FloatArray
@@ -122,12 +123,17 @@ def traction_highest(result: Result) -> float:
 
 def traction_variation(result: Result) -> float:
     """Total variation of the normal traction along the interface at the end (MPa)."""
-    return float(np.sum(np.abs(np.diff(result.interface()["TN"]))))
+    return total_variation(result.interface()["TN"])
+
+
+def shear_variation(result: Result) -> float:
+    """Total variation of the shear traction along the interface at the end (MPa)."""
+    return total_variation(result.interface()["TT"])
 
 
 def damage_variation(result: Result) -> float:
     """Total variation of the damage along the interface at the end; 1 where it falls steadily from 1 to 0."""
-    return float(np.sum(np.abs(np.diff(result.interface()["DAMAGE"]))))
+    return total_variation(result.interface()["DAMAGE"])
 
 
 def enf_deviation(result: Result) -> float:

@@ -93,7 +93,7 @@ def profiles(panels: Sequence[Sequence[Curve]], path: Path, *, y_labels: Sequenc
     return _draw(panels, path, "Position along the interface [mm]", y_labels)
 
 
-def grid(rows: Sequence[Sequence[Panel]], path: Path, *, share_y: bool = False) -> Path:
+def grid(rows: Sequence[Sequence[Panel]], path: Path, *, share_y: bool = False, legend: bool = True) -> Path:
     """Panels in rows and columns, each with axes of its own.
 
     Parameters
@@ -104,6 +104,8 @@ def grid(rows: Sequence[Sequence[Panel]], path: Path, *, share_y: bool = False) 
         .png (200 dots per inch), .pdf or .svg.
     share_y
         One range of ordinates for the panels of a row, so that heights compare.
+    legend
+        False where titles and labels of the axes say all.
 
     Curves of the same label look the same in every panel and appear once in the legend.
     """
@@ -124,7 +126,8 @@ def grid(rows: Sequence[Sequence[Panel]], path: Path, *, share_y: bool = False) 
             if panel.y_range:
                 axis.set_ylim(panel.y_range)
             axis.tick_params(labelleft=True)
-        _legend(figure, axes.flat, 42 * max(2, width))
+        if legend:
+            _legend(figure, axes.flat, 42 * max(2, width))
         figure.savefig(path, dpi=200)
     return path
 
