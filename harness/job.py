@@ -13,10 +13,12 @@ from pathlib import Path
 from harness import usersub
 from harness.assembly import System, TolerantSystem
 from harness.deck import read_deck
+from harness.elements.process_zone import LongElements
 from harness.elements.threads import MOST_THREADS, known_routines, use_threads
 from harness.errors import ConvergenceError, ElementError, UelError, UsageError, in_words, note_warnings
 from harness.interrupts import complete, held
 from harness.model.model import Model
+from harness.model.records import IncrementDone
 from harness.output import JobOutput, Result
 from harness.output.lock import job_stem, locked
 from harness.output.verdict import forget_verdict, write_verdict
@@ -183,11 +185,15 @@ def _analyse(
     """Run all steps and write their records to the files, which are closed however the run ends."""
     try:
         system = assemble()
+        long_elements = LongElements(model, library)
         with one_blas_thread(), guard_values({}):
             for record in run_steps(system, model, library, solver, fallback=fallback, energy_control=energy_control):
                 with held():
                     _pass_on(library, output)
                     output.write(record)
+                    if isinstance(record, IncrementDone):
+                        for warning in long_elements.warnings(record):
+                            output.user_text(".dat", "warning", warning)
         with held():
             _pass_on(library, output)
             output.close(None)

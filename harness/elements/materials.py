@@ -124,6 +124,14 @@ def define_material(
     return _binding.define_material(stiffness, reduced, compliance[2, components[:3]], axes, constants, table)
 
 
+def global_compliance(material: Material, orientation: Orientation | None, tensor: Tensor) -> FloatArray | None:
+    """(6, 6) compliance in global axes; None of a material without constants of *ELASTIC. Raises DeckError."""
+    elastic = material.elastic
+    if elastic is None or elastic.type is ElasticType.TRACTION:
+        return None
+    return _rotated(_compliance(elastic, tensor), directions(orientation)[0])
+
+
 def shear_modulus(elastic: Elastic, tensor: Tensor) -> float:
     """Mean of the shear moduli; in the plane that of the plane."""
     moduli = 1.0 / np.diag(_compliance(elastic, tensor))[3:]

@@ -1,0 +1,253 @@
+# SPDX-FileCopyrightText: The uel-harness authors
+# SPDX-License-Identifier: BSD-3-Clause
+"""Interface elements that are too long for the process zone: a warning when the first one fails.
+
+The length of the zone, in each pure mode the smaller of that in a large body and that between slender arms,
+
+    l_I  = m min(E_n G_Ic/s^2, (E_t G_Ic/s^2)^(1/4) h^(3/4)),
+    l_II = m min(sqrt(E_n E_t) G_IIc/t^2, sqrt(E_t G_IIc/t^2 h)),    m = 1/2,
+
+with the moduli of the plies across (E_n) and along the interface (E_t), strengths s and t, and the height h of the
+thinner arm: Q. Yang and B. Cox, "Cohesive models for damage evolution in laminated composites", International Journal
+of Fracture 133 (2005) 107-137, and P. W. Harper and S. R. Hallett, "Cohesive zone length in numerical simulations of
+composite delamination", Engineering Fracture Mechanics 75 (2008) 4774-4792, who give m and ask for three elements. E_n
+is the modulus of A. Turon and others, Engineering Fracture Mechanics 74 (2007) 1665-1682; that the moduli of the modes
+have the ratio sqrt(E_t/E_n) follows from G. C. Sih, P. C. Paris and G. R. Irwin, International Journal of Fracture
+Mechanics 1 (1965) 189-203.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Final
+
+import numpy as np
+
+from harness.elements.build import TENSORS
+from harness.elements.materials import global_compliance
+from harness.model.arrays import FloatArray, IntArray
+from harness.model.element_types import CohesiveType, ContinuumType, Tensor
+from harness.model.mesh import ElementGroup
+from harness.model.model import Model
+from harness.model.properties import CohesiveSection, Material, Orientation, SolidSection, UserProperty
+from harness.model.records import IncrementDone
+from harness.usersub import Library
+from harness.usersub.layout import element_layouts
+
+FACTOR: Final = 0.5
+"""m of Harper and Hallett."""
+ELEMENTS: Final = 3
+"""That the zone has to hold."""
+FAILED: Final = 0.5
+"""Damage from which on an element counts as failing; a law may give a bonded point a little."""
+_FLAT: Final = 0.999
+"""Length of the mean of unit normals above which an interface counts as flat: within 3 degrees or so."""
+
+
+@dataclass(frozen=True, slots=True)
+class _Law:
+    """Strengths and fracture energies of modes I and II."""
+
+    strengths: tuple[float, float]
+    energies: tuple[float, float]
+
+    @property
+    def valid(self) -> bool:
+        """Whether all are positive; elsewhere the elements themselves say what is wrong."""
+        return min(*self.strengths, *self.energies) > 0.0
+
+
+@dataclass(frozen=True, slots=True)
+class _Long:
+    """Elements of a group that are too long: their rows, lengths (k,), zones (k,) and the modes (k,) of these."""
+
+    rows: IntArray
+    lengths: FloatArray
+    zones: FloatArray
+    modes: IntArray
+
+
+class LongElements:
+    """Watches the interface elements that are longer than a third of the process zone.
+
+    Parameters
+    ----------
+    model, library
+        The deck and the user routines; without the project's own interface elements, and cohesive ones, and without an
+        elastic material beside them, nothing is watched.
+    """
+
+    def __init__(self, model: Model, library: Library) -> None:
+        self._model = model
+        self._watched: dict[int, _Long] = {}
+        plies: _Plies | None = None
+        for index, group in enumerate(model.groups):
+            law, faces = _law(group, library), _faces(group, library)
+            if law is None or faces is None or not law.valid:
+                continue
+            plies = plies or _Plies(model)
+            long = _long_elements(model, group, law, faces, plies)
+            if len(long.rows):
+                self._watched[index] = long
+
+    def warnings(self, record: IncrementDone) -> list[str]:
+        """What has to be said after an increment: once for each group, when the first of its long elements fails."""
+        found = []
+        for index, long in list(self._watched.items()):
+            state = record.solution.elements[index]
+            assert state.variables is not None  # of elements that we know
+            names, points = state.variables.names, state.variables.points
+            damage = state.svars.reshape(len(state.svars), points, -1)[long.rows, :, names.index("DAMAGE")]
+            failed = np.flatnonzero(damage.max(axis=1) > FAILED)
+            if len(failed):
+                del self._watched[index]
+                found.append(_message(self._model.groups[index], long, int(failed[0])))
+        return found
+
+
+def _message(group: ElementGroup, long: _Long, row: int) -> str:
+    mode = ("I", "II")[long.modes[row]]
+    return (
+        f"{group.section.source}: element {group.labels[long.rows[row]]} (type {group.type}) fails and is "
+        f"{long.lengths[row]:.3g} long, the process zone of mode {mode} about {long.zones[row]:.2g}: expected at least "
+        f"{ELEMENTS} elements in it; with fewer the load comes out too high"
+    )
+
+
+def _law(group: ElementGroup, library: Library) -> _Law | None:
+    """Strengths and fracture energies of a group of interface elements; None of other elements."""
+    section = group.section
+    if isinstance(section, CohesiveSection):
+        return _built_in_law(section)
+    if group.definition is None or not isinstance(section, UserProperty) or not library.is_own:
+        return None
+    layout = element_layouts().get(group.definition.number)
+    if layout is None or not layout.faces[0]:
+        return None
+    values = {item.name: float(section.values[item.position - 1]) for item in layout.reals}
+    return _Law((values["SIGMAMAX"], values["TAUMAX"]), (values["GIC"], values["GIIC"]))
+
+
+def _built_in_law(section: CohesiveSection) -> _Law | None:
+    """Law of cohesive elements, where the fracture energies and the strengths are given."""
+    damage = section.material.damage
+    if damage is None or damage.evolution is None or damage.evolution.type != "ENERGY":
+        return None
+    if damage.criterion not in ("MAXS", "QUADS"):
+        return None
+    values = damage.evolution.values
+    second = values[1] if damage.evolution.mixed_mode else values[0]
+    return _Law((damage.onset[0], damage.onset[1]), (values[0], second))
+
+
+def _faces(group: ElementGroup, library: Library) -> tuple[IntArray, IntArray] | None:
+    """Local nodes of the corners of the bottom and the top face of interface elements."""
+    kind = group.built_in
+    if isinstance(kind, CohesiveType):
+        corners, faces = kind.face.corners, (kind.bottom, kind.top)
+    elif group.definition is not None and (known := library.variables(group.definition.number)) is not None:
+        corners, faces = (2 if len(known.bottom) < 4 else 4), (known.bottom, known.top)
+    else:
+        return None
+    bottom, top = (np.array(face[:corners]) for face in faces)
+    return bottom, top
+
+
+class _Plies:
+    """The elastic materials at the nodes of a model, in global axes."""
+
+    def __init__(self, model: Model) -> None:
+        count = len(model.mesh.coordinates)
+        self._compliances: list[FloatArray] = []
+        # the material of a node; the faces of an interface have nodes of their own, so that it is unique there
+        self._owner = np.full(count, -1)
+        for group in model.groups:
+            compliance = _compliance(group)
+            if compliance is not None:
+                self._owner[group.nodes] = len(self._compliances)
+                self._compliances.append(compliance)
+        self.nodes = np.flatnonzero(self._owner >= 0)
+
+    def modulus(self, nodes: IntArray, directions: FloatArray) -> FloatArray:
+        """Young's modulus at nodes (m,) along unit vectors (m, 3); infinite where no material is known."""
+        x, y, z = directions.T
+        stress = np.column_stack([x * x, y * y, z * z, x * y, x * z, y * z])
+        found = np.full(len(nodes), np.inf)
+        for number, compliance in enumerate(self._compliances):
+            here = self._owner[nodes] == number
+            strain = np.einsum("mi,ij,mj->m", stress[here], compliance, stress[here])
+            # a face without length has no direction
+            found[here] = np.divide(1.0, strain, out=np.full(len(strain), np.inf), where=strain > 0.0)
+        return found
+
+
+def _compliance(group: ElementGroup) -> FloatArray | None:
+    section, kind = group.section, group.built_in
+    material: Material | None
+    orientation: Orientation | None
+    tensor: Tensor | None
+    if isinstance(section, SolidSection) and isinstance(kind, ContinuumType):
+        material, orientation, tensor = section.material, section.orientation, kind.tensor
+    elif isinstance(section, UserProperty) and group.definition is not None:
+        material, orientation = section.material, section.orientation
+        tensor = TENSORS.get(group.definition.tensor.upper())
+    else:
+        return None
+    return None if material is None or tensor is None else global_compliance(material, orientation, tensor)
+
+
+def _long_elements(
+    model: Model, group: ElementGroup, law: _Law, faces: tuple[IntArray, IntArray], plies: _Plies
+) -> _Long:
+    place, nodes = model.mesh.coordinates, [group.nodes[:, face] for face in faces]
+    middle = 0.5 * (place[nodes[0]] + place[nodes[1]])
+    # the crack may go any way: the shortest edge is what a mesh is refined to
+    edges = np.roll(middle, -1, axis=1) - middle
+    lengths = np.linalg.norm(edges, axis=2)
+    shortest = lengths.argmin(axis=1)
+    rows = np.arange(len(group.labels))
+    along, length = edges[rows, shortest], lengths[rows, shortest]
+    along, normal = _unit(along), _normals(middle)
+    sides = [side[:, 0] for side in nodes]
+    across, axial = (np.minimum(*(plies.modulus(side, direction) for side in sides)) for direction in (normal, along))
+    height = _arm_height(place[plies.nodes], middle.reshape(-1, 3), normal)
+    zones = _zones(law, across, axial, height)
+    modes = zones.argmin(axis=0)
+    zone = zones.min(axis=0)
+    found = np.flatnonzero(np.isfinite(zone) & (ELEMENTS * length > zone))
+    return _Long(found, length[found], zone[found], modes[found])
+
+
+def _normals(middle: FloatArray) -> FloatArray:
+    """Unit normals (m, 3) of faces whose corners are `middle` (m, corners, 3)."""
+    if middle.shape[1] == 2:
+        x, y, _ = (middle[:, 1] - middle[:, 0]).T
+        normal = np.column_stack([-y, x, np.zeros(len(x))])
+    else:
+        # the diagonals of a quadrilateral, two edges of a triangle
+        normal = np.cross(middle[:, 2] - middle[:, 0], middle[:, -1] - middle[:, 1])
+    return _unit(normal)
+
+
+def _unit(vectors: FloatArray) -> FloatArray:
+    """Vectors (m, 3) at length 1; those of length 0 stay zero."""
+    length = np.linalg.norm(vectors, axis=1)
+    return np.asarray(vectors / np.where(length > 0.0, length, 1.0)[:, None])
+
+
+def _arm_height(inside: FloatArray, middle: FloatArray, normal: FloatArray) -> float:
+    """Height of the thinner body beside a flat interface; infinite beside one that is not flat, or at an edge."""
+    mean = normal.mean(axis=0)
+    if not len(inside) or not np.linalg.norm(mean) > _FLAT:
+        return np.inf
+    heights, level = inside @ mean, float(np.mean(middle @ mean))
+    height = min(float(heights.max()) - level, level - float(heights.min()))
+    return height if height > 0.0 else np.inf
+
+
+def _zones(law: _Law, across: FloatArray, axial: FloatArray, height: float) -> FloatArray:
+    """Lengths of the process zones of modes I and II (2, m)."""
+    first, second = (energy / strength**2 for energy, strength in zip(law.energies, law.strengths, strict=True))
+    mode_1 = np.minimum(across * first, (axial * first) ** 0.25 * height**0.75)
+    mode_2 = np.minimum(np.sqrt(across * axial) * second, np.sqrt(axial * second * height))
+    return FACTOR * np.array([mode_1, mode_2])
