@@ -13,7 +13,7 @@ from collections.abc import Callable, Sequence
 from pathlib import Path
 
 from harness import isolation, sanitizer
-from harness.errors import FAILURES, MOST_REPEATED, UsageError, drop_output, tell, tell_failure
+from harness.errors import FAILURES, MOST_REPEATED, UelError, UsageError, drop_output, tell, tell_failure
 
 # options of the `abaqus` command and what they are here; None: accepted and without effect on one machine
 ABAQUS_OPTIONS = {
@@ -86,6 +86,9 @@ def open_standard_streams() -> None:
 def build_parser() -> argparse.ArgumentParser:
     """Subcommands and their options."""
     parser = argparse.ArgumentParser(prog="uel", description="Run Abaqus decks with user elements, without Abaqus.")
+    parser.add_argument(
+        "--version", action=_Version, nargs=0, default=argparse.SUPPRESS, help="print the version and exit"
+    )
     commands = parser.add_subparsers(required=True, metavar="COMMAND")
 
     run = commands.add_parser("run", help="run a deck")
@@ -145,7 +148,26 @@ def build_parser() -> argparse.ArgumentParser:
 
     solvers = commands.add_parser("solvers", help="list the linear solvers and say when each is used")
     solvers.set_defaults(function=list_solvers)
+
+    doctor = commands.add_parser("doctor", help="say what of this installation works, and what to do about the rest")
+    doctor.epilog = "Exit code: 0 all that is indispensable works; 1 something is broken."
+    doctor.set_defaults(function=examine_installation)
+
+    completion = commands.add_parser("completion", help="print the script with which a shell completes this command")
+    completion.epilog = "For bash: uel completion bash > ~/.local/share/bash-completion/completions/uel"
+    completion.add_argument("shell", choices=["bash", "zsh", "fish"])
+    completion.set_defaults(function=print_completion)
     return parser
+
+
+class _Version(argparse.Action):
+    """Looks the version up where it is asked for: reading the metadata of packages takes time."""
+
+    def __call__(self, parser: argparse.ArgumentParser, *_: object) -> None:
+        from harness.doctor import release  # noqa: PLC0415
+
+        print(f"{parser.prog} {release() or '(not installed as a package)'}")
+        parser.exit()
 
 
 def add_run_options(command: argparse.ArgumentParser) -> list[argparse.Action]:
@@ -548,6 +570,29 @@ def list_solvers(_: argparse.Namespace) -> int:
         "first: with the analysis; in part: after a change in the process zone of a crack; GMRES: iterations after it "
         "on the last factors. auto goes by these times; see harness/solver/linear/solvers.md"
     )
+    return 0
+
+
+def examine_installation(_: argparse.Namespace) -> int:
+    """`uel doctor`."""
+    from harness.doctor import report  # noqa: PLC0415
+
+    return 0 if report(tell) else 1
+
+
+def print_completion(options: argparse.Namespace) -> int:
+    """`uel completion`."""
+    try:
+        import shtab  # noqa: PLC0415
+    except ImportError:
+        raise UelError("completion needs the package shtab (pip install shtab)") from None
+    parser = build_parser()
+    commands = next(action for action in parser._actions if isinstance(action, argparse._SubParsersAction))
+    for command in commands.choices.values():
+        for action in command._actions:
+            if action.type is Path:
+                action.complete = shtab.DIRECTORY if action.metavar == "DIR" else shtab.FILE
+    print(shtab.complete(parser, options.shell))
     return 0
 
 
