@@ -25,6 +25,7 @@ class Problems:
     def __init__(self) -> None:
         self._errors: dict[tuple[Source, str], DeckError] = {}
         self._warnings: dict[str, None] = {}
+        self._differences: dict[str, None] = {}
 
     def add(self, source: Source, message: str) -> None:
         """Keep an error."""
@@ -33,6 +34,10 @@ class Problems:
     def warn(self, source: Source, message: str) -> None:
         """Keep a warning."""
         self._warnings.setdefault(f"{source}: {message}")
+
+    def differ(self, source: Source, message: str) -> None:
+        """Keep what Abaqus does otherwise with this deck, which does not change this run."""
+        self._differences.setdefault(f"{source}: {message}")
 
     @contextmanager
     def gather(self) -> Iterator[None]:
@@ -46,6 +51,11 @@ class Problems:
     def warnings(self) -> tuple[str, ...]:
         """Warnings in the order they came."""
         return tuple(self._warnings)
+
+    @property
+    def differences(self) -> tuple[str, ...]:
+        """What Abaqus does otherwise, in the order it came."""
+        return tuple(self._differences)
 
     def check(self) -> None:
         """Raise one DeckError that names every place so far, if there is any."""

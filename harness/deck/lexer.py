@@ -277,7 +277,7 @@ class _Lexer:
     def _include(self, name: str, source: Source, stack: tuple[Path, ...]) -> None:
         """Read another file in place; the open block stays open, since the file may begin with data lines."""
         try:
-            path = self._find(name, stack[-1])
+            path = self._find(name, stack[-1], source)
             resolved = path.resolve()
         except OSError as error:
             raise DeckError(source, f"cannot read {name}: {error.strerror or type(error).__name__}") from None
@@ -293,11 +293,25 @@ class _Lexer:
             raise DeckError(source, f"too many included files: {limit} read")
         self.read(_load(path, source), str(path), (*stack, resolved))
 
-    def _find(self, name: str, including: Path) -> Path:
-        beside_deck = self._folder / name
-        beside_including = including.parent / name
-        if not beside_deck.exists() and beside_including.exists():
-            return beside_including
+    def _find(self, name: str, including: Path, source: Source) -> Path:
+        """Where an included file is: Abaqus looks in the current folder alone."""
+        here, beside_deck, beside_including = Path(name), self._folder / name, including.parent / name
+        if not here.exists():
+            in_deck_folder = beside_deck.exists() or not beside_including.exists()
+            found = beside_deck if in_deck_folder else beside_including
+            if found.exists() and not self._problems.differences:
+                # where one file is not found, others are not either
+                there = "beside the deck" if in_deck_folder else "beside the including file"
+                advice = f"submit it in {self._folder}" if in_deck_folder else "name it as seen from the deck"
+                only = "only in the folder where the job is submitted"
+                self._problems.differ(source, f"Abaqus looks for {name} {only}, not {there}: {advice}")
+            return found
+        if not beside_deck.exists():
+            return here
+        if not beside_deck.samefile(here):
+            self._problems.warn(source, f"{name} is that of the current folder, as in Abaqus, not {beside_deck}")
+            return here
+        # messages name it like the deck
         return beside_deck
 
 
@@ -309,7 +323,8 @@ def _options(keyword: Keyword, fields: list[str], source: Source) -> Options:
 KEYWORDS = (
     Keyword(
         "INCLUDE",
-        "Read another file at this place; it is looked for beside the deck, then beside the including file.",
+        "Read another file at this place. Abaqus looks for it in the folder where the job is submitted; so does the "
+        "harness, and then beside the deck and beside the including file, with a warning in .dat.",
         Where.ANY,
         (Option("INPUT", Kind.FILE, "file", required=True), *refused("PASSWORD")),
     ),

@@ -37,7 +37,8 @@ def read_deck(path: Path, given: Mapping[str, float] | None = None) -> Model:
     Parameters
     ----------
     path
-        The deck. Included files are looked up in its folder, then in that of the including file.
+        The deck. Included files are looked up in the current folder, as Abaqus does where the job is submitted, then
+        in the folder of the deck, then in that of the including file.
     given
         Values of parameters in place of those in its *PARAMETER; what the deck computes from them follows.
 
@@ -104,6 +105,7 @@ def read_deck(path: Path, given: Mapping[str, float] | None = None) -> Model:
         given=dict(given or {}),
         ignored=tuple(structure.ignored),
         warnings=problems.warnings,
+        differences=problems.differences,
     )
 
 

@@ -36,6 +36,7 @@ class Model:
     given      values of parameters that replace those in the deck: listed in .dat
     ignored    keywords that cannot change the solution, with their places: listed once in .dat
     warnings   places where the deck is odd but understood
+    differences  what Abaqus does otherwise with the deck, without a change of this run: warnings of .dat alone
     """
 
     deck: Path
@@ -55,3 +56,4 @@ class Model:
     given: dict[str, float] = field(default_factory=dict)
     ignored: tuple[tuple[str, Source], ...] = ()
     warnings: tuple[str, ...] = ()
+    differences: tuple[str, ...] = ()

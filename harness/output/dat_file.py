@@ -176,7 +176,7 @@ class DataFile:
             for keyword, source in model.ignored:
                 places.setdefault(keyword, []).append(str(source))
             text += "".join(f"          {_places(keyword, found)}\n" for keyword, found in places.items())
-        for warning in model.warnings:
+        for warning in (*model.warnings, *model.differences):
             self._warnings += 1
             text += "\n" + remark("WARNING", warning)
         return text

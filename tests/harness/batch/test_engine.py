@@ -81,7 +81,7 @@ def test_sources_of_all_that_computes_results(tmp_path: Path, monkeypatch: pytes
         "contracts"
     ]
     names = [name for layer in layers[0]["layers"] for name in layer.split(" | ")]
-    above = ("cli", "delamination", "check", "project", "batch", "job", "output", "errors")
+    above = ("cli", "delamination", "check", "project", "doctor", "batch", "job", "output", "errors")
     expected = set(names) - {f"harness.{name}" for name in above}
     assert {package.__name__ for package in engine._PACKAGES} == expected
     before = engine.fingerprint(DECKS[0])

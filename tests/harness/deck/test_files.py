@@ -14,6 +14,7 @@ from numpy.testing import assert_array_equal
 from harness.deck import read_deck
 from harness.errors import DeckError
 from harness.model.model import Model
+from harness.output import JobOutput
 
 Read = Callable[[str], Model]
 FLAT = Path(__file__).with_name("flat.inp").read_text()
@@ -69,6 +70,53 @@ def test_include_of_an_include(read: Read) -> None:
     model = read(FLAT.replace("*NODE, NSET=ALL\n" + NODES, "*INCLUDE, INPUT=mesh/mesh.inc\n"))
     assert_array_equal(model.nsets["ALL"], range(8))
     assert_array_equal(model.nsets["X"], [0])
+
+
+def test_include_is_sought_where_the_job_is_submitted(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """As Abaqus does; what only the folder of the deck has is read too, with a warning in .dat."""
+    include = "*NODE, NSET=ALL\n*INCLUDE, INPUT=nodes.inc\n"
+    deck = tmp_path / "decks" / "deck.inp"
+    deck.parent.mkdir()
+    deck.write_text(FLAT.replace("*NODE, NSET=ALL\n" + NODES, include))
+    beside = deck.with_name("nodes.inc")
+    beside.write_text(NODES)
+    monkeypatch.chdir(deck.parent)
+    model = read_deck(deck)
+    assert (model.warnings, model.differences) == ((), ())
+
+    monkeypatch.chdir(tmp_path)
+    model = read_deck(deck)
+    assert model.warnings == ()
+    assert model.differences == (
+        f"{deck}:12: Abaqus looks for nodes.inc only in the folder where the job is submitted, not beside the "
+        f"deck: submit it in {deck.parent}",
+    )
+    JobOutput(model, "deck", tmp_path, quiet=True).close(None)
+    printed = " ".join((tmp_path / "deck.dat").read_text().split())
+    assert "***WARNING: " in printed
+    assert "Abaqus looks for nodes.inc only in the folder" in printed
+    assert "WITH 1 WARNING MESSAGES ON THE DAT FILE" in printed
+
+    Path("nodes.inc").write_text(NODES.replace("3, 1., 1.", "3, 1., 1.5"))
+    model = read_deck(deck)
+    assert model.mesh.coordinates[2, 1] == 1.5
+    assert model.differences == ()
+    assert model.warnings == (f"{deck}:12: nodes.inc is that of the current folder, as in Abaqus, not {beside}",)
+
+    beside.unlink()
+    model = read_deck(deck)
+    assert (model.warnings, model.differences) == ((), ())
+
+
+def test_include_beside_the_including_file_alone(read: Read) -> None:
+    Path("mesh").mkdir()
+    Path("mesh/mesh.inc").write_text("*NODE, NSET=ALL\n*INCLUDE, INPUT=nodes.inc\n")
+    Path("mesh/nodes.inc").write_text(NODES)
+    model = read(FLAT.replace("*NODE, NSET=ALL\n" + NODES, "*INCLUDE, INPUT=mesh/mesh.inc\n"))
+    assert model.differences == (
+        "mesh/mesh.inc:2: Abaqus looks for nodes.inc only in the folder where the job is submitted, not beside "
+        "the including file: name it as seen from the deck",
+    )
 
 
 def test_error_in_an_included_file(read: Read) -> None:
