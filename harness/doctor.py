@@ -23,6 +23,7 @@ from harness import sanitizer
 from harness.errors import UelError
 
 DISTRIBUTION: Final = "uel-harness"
+AGAIN: Final = "install it again: pip install . in the project's folder, or pip install with the wheel"
 _EXTRA: Final = re.compile(r"""extra\s*==\s*['"]([\w.-]+)['"]""")
 _NAME: Final = re.compile(r"[\w.-]+")
 _LINES: Final = {
@@ -76,7 +77,7 @@ def examine() -> Iterator[Finding]:
         import harness.solver.linear  # noqa: PLC0415
         import harness.usersub  # noqa: F401, PLC0415
     except ImportError as error:
-        yield Finding("compiled host", State.BROKEN, str(error), f"install again: pip install {DISTRIBUTION}")
+        yield Finding("compiled host", State.BROKEN, str(error), AGAIN)
         return
     yield _own_elements()
     yield from _compilers()
@@ -99,7 +100,7 @@ def _program() -> Finding:
     cores = f"{len(os.sched_getaffinity(0))} cores"
     if version := release():
         return Finding("uel", State.WORKS, f"{version}, {place}, {cores}")
-    return Finding("uel", State.BROKEN, f"not installed as a package; {place}", f"pip install {DISTRIBUTION}")
+    return Finding("uel", State.BROKEN, f"not installed as a package; {place}", AGAIN)
 
 
 def _required() -> list[tuple[str, str]]:
