@@ -13,7 +13,7 @@ from collections.abc import Callable, Sequence
 from pathlib import Path
 
 from harness import isolation, sanitizer
-from harness.errors import FAILURES, MOST_REPEATED, UelError, UsageError, drop_output, tell, tell_failure
+from harness.errors import FAILURES, UelError, UsageError, drop_output, tell, tell_failure
 
 # options of the `abaqus` command and what they are here; None: accepted and without effect on one machine
 ABAQUS_OPTIONS = {
@@ -431,7 +431,7 @@ def from_abaqus(parser: argparse.ArgumentParser, words: list[str]) -> list[str]:
 def run_job(options: argparse.Namespace) -> int:
     """`uel run`."""
     from harness.job import run  # noqa: PLC0415 (keeps the other commands quick)
-    from harness.model.perturbations import PERTURBATION_TIME  # noqa: PLC0415
+    from harness.output.ending import ending  # noqa: PLC0415
 
     result = run(
         options.deck,
@@ -450,13 +450,8 @@ def run_job(options: argparse.Namespace) -> int:
         quiet=options.quiet,
     )
     if not options.quiet:
-        for warning in result.warnings[:MOST_REPEATED]:
-            tell(f"warning: {warning}")
-        last = result.status[-1]
-        # a linear step takes no time, and may have a frequency in its place
-        ending = f", total time {last.total_time:g}" if last.time_increment > PERTURBATION_TIME else ""
-        warned = f", warnings in .dat and .msg: {len(result.warnings)}" if result.warnings else ""
-        tell(f"{result.job}: completed, {len(result.status)} lines in .sta{ending}{warned}")
+        for line in ending(result):
+            tell(line)
     return 0
 
 

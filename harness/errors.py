@@ -69,7 +69,7 @@ def drop_output() -> None:
     os.dup2(os.open(os.devnull, os.O_WRONLY), 1)
 
 
-MOST_REPEATED: Final = 3
+MOST_REPEATED: Final = 5
 """Warnings that the end of a command repeats."""
 
 

@@ -20,10 +20,11 @@ from harness.interrupts import complete, held
 from harness.model.model import Model
 from harness.model.records import IncrementDone
 from harness.output import JobOutput, Result
+from harness.output.ending import progress
 from harness.output.lock import job_stem, locked
 from harness.output.verdict import forget_verdict, write_verdict
 from harness.procedures import run_steps
-from harness.procedures.incrementation import FIXED_TOO_LARGE, TOO_MANY_INCREMENTS
+from harness.procedures.incrementation import FIXED_TOO_LARGE, TOO_MANY_ATTEMPTS, TOO_MANY_INCREMENTS
 from harness.solver.threads import one_blas_thread
 from harness.usersub import Library, guard_values
 
@@ -203,10 +204,21 @@ def _analyse(
             _pass_on(library, output)
             output.close(UelError(in_words(error)))
         note_warnings(error, output.warnings, f" in {output.job}.dat and .msg")
+        for text in output.unbalanced if isinstance(error, ConvergenceError) else ():
+            error.add_note(text)
+        if isinstance(error, UelError) and (far := _progress(output.stem)):
+            error.add_note(far)
         error.add_note(f"{output.job} ended {output.reached}; what was written is readable")
         if isinstance(error, ConvergenceError):
             error.add_note(_advice(str(error), fallback=fallback, energy_control=energy_control))
         raise
+
+
+def _progress(stem: Path) -> str:
+    """How far a run has come, from its files; '' if they cannot tell."""
+    with suppress(Exception):  # the error that counts is the one that ended the run
+        return progress(Result(stem))
+    return ""
 
 
 def _advice(error: str, *, fallback: bool, energy_control: bool) -> str:
@@ -217,6 +229,9 @@ def _advice(error: str, *, fallback: bool, energy_control: bool) -> str:
     ways += [] if energy_control else ["--control energy, where an interface snaps"]
     if error.startswith(FIXED_TOO_LARGE):
         ways.append("*STATIC without DIRECT, which cuts increments back")
+    elif error.startswith(TOO_MANY_ATTEMPTS):
+        ways.append("a smaller largest increment (fourth number below *STATIC), which needs fewer cutbacks")
+        ways.append("more attempts (I_A, eighth number below *CONTROLS, PARAMETERS=TIME INCREMENTATION)")
     else:
         ways.append("a smaller minimum increment (third number below *STATIC)")
     ways.append("VISCOSITY of the interface elements, or on *SECTION CONTROLS of cohesive elements")

@@ -14,7 +14,7 @@ from rich.console import Console
 from harness.batch.engine import complete
 from harness.batch.records import Entry, Records, measure
 from harness.batch.runs import BatchRun, Settings, list_runs
-from harness.errors import MOST_REPEATED, tell, tell_error
+from harness.errors import tell, tell_error
 from harness.interrupts import Interrupted, collected
 from harness.isolation import supervise
 from harness.output.lock import LockedError, locked
@@ -23,6 +23,9 @@ from harness.solver.threads import one_thread_each
 
 _STALE: Final = (".json", ".sta", ".msg")
 """Its entry, and files by which a run is judged: those of an earlier one are removed before it begins."""
+
+_MOST_TOLD: Final = 3
+"""Runs that have not completed, of which the reasons are told."""
 
 
 def batch(
@@ -152,7 +155,7 @@ class _Runner:
 
 def _tell_others(entries: dict[BatchRun, Entry | None], table: Path) -> None:
     """Say which runs have not completed, and why."""
-    for run, entry in list(entries.items())[:MOST_REPEATED]:
+    for run, entry in list(entries.items())[:_MOST_TOLD]:
         tell_error(f"{run.name}: {entry or 'not run, or another batch runs it now'}")
-    if len(entries) > MOST_REPEATED:
-        tell_error(f"and {len(entries) - MOST_REPEATED} more, see {table}")
+    if len(entries) > _MOST_TOLD:
+        tell_error(f"and {len(entries) - _MOST_TOLD} more, see {table}")

@@ -23,6 +23,7 @@ from harness.errors import SPEAKER, UelError
 from harness.output import Result
 from harness.output.history import FIXED
 from harness.output.lock import locked
+from harness.output.results import Counts
 from harness.sanitizer import NOT_USED
 
 COMPLETED: Final = "completed"
@@ -62,7 +63,7 @@ class Entry(StoredRow):
         return self.status == COMPLETED
 
     def __str__(self) -> str:
-        counts = ", ".join(f"{getattr(self, name)} {name}" for name in _COUNTS)
+        counts = Counts(self.increments, self.iterations, self.cutbacks)
         return f"{self.status}: {self.reason}" if self.reason else f"{self.status}, {counts}"
 
 
@@ -72,15 +73,15 @@ def measure(stem: Path, code: int, log: Path) -> Entry:
         result = Result(stem)
     except UelError:
         return Entry(FAILED, _reason(log, code))
-    done = [row for row in result.status if not row.cutback]
+    counts = result.counts
     return Entry(
-        status=COMPLETED if code == 0 else ENDED_EARLY if done else FAILED,
+        status=COMPLETED if code == 0 else ENDED_EARLY if counts.increments else FAILED,
         reason="" if code == 0 else _reason(log, code),
-        increments=len(done),
-        iterations=sum(row.total_iterations for row in result.status),
-        cutbacks=len(result.status) - len(done),
+        increments=counts.increments,
+        iterations=counts.iterations,
+        cutbacks=counts.cutbacks,
         processor_time=result.processor_time,
-        history=_history(result) if done else [],
+        history=_history(result) if counts.increments else [],
     )
 
 

@@ -34,12 +34,12 @@ _USER_ELEMENT_OUTPUT = (
 
 
 class DataFile:
-    """Writes NAME.dat."""
+    """Writes NAME.dat; `warnings` are those in it, without what Abaqus does otherwise."""
 
     def __init__(self, path: Path, model: Model) -> None:
         self._model = model
         self._file = TextFile(path)
-        self._warnings = 0
+        self.warnings = list(model.warnings)
         self._index: NodalIndex | None = None
         # step whose requests were compared with the available variables; the last increment of a step may come twice
         self._looked_at = 0
@@ -110,8 +110,8 @@ class DataFile:
         """Name requested variables that are not available, once per step."""
         output = self._model.steps[record.step - 1].output
         requests: list[tuple[str, NodeRequest | ElementRequest]] = []
-        requests += [(f"*NODE PRINT, NSET={request.nset}", request) for request in output.node_print]
-        requests += [(f"*EL PRINT, ELSET={request.elset}", request) for request in output.element_print]
+        requests += [(_request("*NODE PRINT", "NSET", request.nset), request) for request in output.node_print]
+        requests += [(_request("*EL PRINT", "ELSET", request.elset), request) for request in output.element_print]
         for place, request in requests:
             if isinstance(request, ElementRequest):
                 for element_type in not_extrapolated(request, self._model):
@@ -122,7 +122,8 @@ class DataFile:
 
     def remark(self, kind: str, text: str) -> None:
         """A note, warning or error."""
-        self._warnings += kind == "WARNING"
+        if kind == "WARNING":
+            self.warnings.append(text)
         self._file.write(f"\n{remark(kind, text)}")
 
     def text(self, text: str) -> None:
@@ -133,10 +134,11 @@ class DataFile:
         """Verdict of the job."""
         if error is not None:
             self.remark("ERROR", error)
+        count = len(self.warnings) + len(self._model.differences)
         verdict = "BEEN COMPLETED" if error is None else "NOT BEEN COMPLETED"
         self._file.write(
             f"\n\n          THE ANALYSIS HAS {verdict}\n\n\n"
-            f"                              WITH {self._warnings:6d} WARNING MESSAGES ON THE DAT FILE\n"
+            f"                              WITH {count:6d} WARNING MESSAGES ON THE DAT FILE\n"
         )
         self._file.close()
 
@@ -176,10 +178,8 @@ class DataFile:
             for keyword, source in model.ignored:
                 places.setdefault(keyword, []).append(str(source))
             text += "".join(f"          {_places(keyword, found)}\n" for keyword, found in places.items())
-        for warning in (*model.warnings, *model.differences):
-            self._warnings += 1
-            text += "\n" + remark("WARNING", warning)
-        return text
+        remarks = (*model.warnings, *model.differences)
+        return text + "".join(f"\n{remark('WARNING', warning)}" for warning in remarks)
 
 
 def _echo(deck: Path) -> str:
@@ -216,6 +216,11 @@ def _user_element(name: str, definition: UserElement) -> str:
         where = f"NODE {nodes[0]}" if len(nodes) == 1 else f"NODES {nodes[0]} TO {nodes[-1]}"
         text += f"          {where:<20} DEGREES OF FREEDOM {', '.join(names) or 'NONE'}\n"
     return text
+
+
+def _request(keyword: str, option: str, name: str) -> str:
+    """A keyword with its set, if it has one."""
+    return f"{keyword}, {option}={name}" if name else keyword
 
 
 def _places(keyword: str, found: list[str]) -> str:

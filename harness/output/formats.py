@@ -6,6 +6,7 @@ from __future__ import annotations
 
 import math
 import os
+import re
 import textwrap
 from importlib.metadata import PackageNotFoundError, version
 from pathlib import Path
@@ -83,6 +84,16 @@ class TextFile:
     def close(self) -> None:
         """Close the file; it is not written to again."""
         os.close(self._descriptor)
+
+
+def read_remarks(path: Path, kind: str) -> list[str]:
+    """Remarks of a kind in a file, each on one line; none if there is no such file."""
+    if not path.exists():
+        return []
+    found = re.findall(
+        rf"^ \*\*\*{kind}: (.*\n(?: {{{len(kind) + 6}}}\S.*\n)*)", path.read_text("utf-8", "replace"), re.M
+    )
+    return [" ".join(text.split()) for text in found]
 
 
 def remark(kind: str, text: str) -> str:

@@ -19,6 +19,8 @@ from harness.model.records import (
     AttemptAbandoned,
     AttemptEnded,
     AttemptStarted,
+    Convergence,
+    FieldCheck,
     HarmonicResponse,
     IncrementDone,
     IterationDone,
@@ -58,19 +60,17 @@ class JobOutput:
 
     Attributes
     ----------
-    job
-        Name of the files.
-    warnings
-        About the deck, then about the model and the user routines, and from the user routines.
+    job, stem
+        Name of the files, without and with their folder.
     """
 
     def __init__(self, model: Model, job: str, directory: Path, *, quiet: bool = False) -> None:
-        stem = Path(directory) / job
+        self.stem = stem = Path(directory) / job
         self.job = job
         self._model = model
-        self.warnings = list(model.warnings)
         self._pending: IncrementDone | None = None
         self._last: IncrementDone | None = None
+        self._checks: tuple[FieldCheck, ...] = ()
         self._closed = False
         self._status = StatusFile(stem.with_name(f"{job}.sta"))
         self._message = MessageFile(stem.with_name(f"{job}.msg"), model)
@@ -86,7 +86,7 @@ class JobOutput:
         Parameters
         ----------
         record
-            The next one of the run. A warning is added to `warnings` too.
+            The next one of the run.
 
         Raises
         ------
@@ -98,8 +98,10 @@ class JobOutput:
                 self._message.step_started(record)
                 self._data.step_started(record)
             case AttemptStarted():
+                self._checks = ()
                 self._message.attempt_started(record)
             case IterationDone():
+                self._checks = record.checks
                 self._message.iteration(record)
             case AttemptAbandoned():
                 self._abandoned(record)
@@ -115,7 +117,6 @@ class JobOutput:
                 self._finish_step()
                 self._message.step_done(record)
             case Warned():
-                self.warnings.append(record.message)
                 self._message.remark("WARNING", record.message)
             case Noted():
                 self._message.remark("NOTE", record.message)
@@ -129,8 +130,7 @@ class JobOutput:
         file
             '.dat' or '.msg'.
         kind
-            'print' for a text that is written as it is; else 'note', 'warning' or 'error', which heads it. A warning is
-            added to `warnings` too.
+            'print' for a text that is written as it is; else 'note', 'warning' or 'error', which heads it.
         text
             One or several lines.
 
@@ -140,12 +140,15 @@ class JobOutput:
             The file cannot be written.
         """
         target = self._data if file == ".dat" else self._message
-        if kind == "warning":
-            self.warnings.append(text)
         if kind == "print":
             target.text(text)
         else:
             target.remark(kind.upper(), text)
+
+    @property
+    def warnings(self) -> list[str]:
+        """Those in the .dat file: about the deck, about its output requests; then those in the .msg file."""
+        return [*self._data.warnings, *self._message.warnings]
 
     @property
     def reached(self) -> str:
@@ -156,6 +159,23 @@ class JobOutput:
         period = steps[last.step - 1].procedure.period
         place = f"increment {last.increment} of step {last.step} (of {len(steps)})"
         return f"after {place}, step time {last.step_time:g} of {period:g}"
+
+    @property
+    def unbalanced(self) -> list[str]:
+        """Where the last iteration was farthest from convergence, a sentence for each field that it did not accept."""
+        failed = [
+            (f"residual {check.field}", check.residual)
+            if check.verdict is Convergence.NOT_ACHIEVED
+            else ("correction", check.correction)
+            for check in self._checks
+            if not check.verdict.accepted
+        ]
+        return [
+            f"last iteration: largest {what} {largest.value:.4g} at node {self._model.mesh.name(largest.node)}, "
+            f"dof {largest.dof}"
+            for what, largest in failed
+            if largest.node >= 0
+        ]
 
     def close(self, error: UelError | None) -> None:
         """Write what the last converged increment still owes, and the verdict; the job ends here.

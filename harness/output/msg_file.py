@@ -34,16 +34,15 @@ from harness.output.step_header import completed, procedure, tolerances
 
 
 class MessageFile:
-    """Writes NAME.msg."""
+    """Writes NAME.msg; `warnings` are those in it."""
 
     def __init__(self, path: Path, model: Model) -> None:
         self._model = model
         self._file = TextFile(path)
         self._fields = fields_of(model)
         self._started = (time.perf_counter(), time.process_time())
-        self._counts = dict.fromkeys(
-            ("increments", "cutbacks", "iterations", "searches", "helped", "warnings", "errors"), 0
-        )
+        self.warnings: list[str] = []
+        self._counts = dict.fromkeys(("increments", "cutbacks", "iterations", "searches", "helped", "errors"), 0)
 
     def step_started(self, record: StepStarted) -> None:
         """Head of a step: tolerances and controls."""
@@ -112,7 +111,7 @@ class MessageFile:
     def remark(self, kind: str, text: str) -> None:
         """A note, warning or error."""
         if kind == "WARNING":
-            self._counts["warnings"] += 1
+            self.warnings.append(text)
         elif kind == "ERROR":
             self._counts["errors"] += 1
         self._file.write(f" \n\n{remark(kind, text)}")
@@ -171,7 +170,7 @@ class MessageFile:
             (counts["searches"], "ADDITIONAL RESIDUAL EVALUATIONS FOR LINE SEARCHES"),
             *([(counts["helped"], "INCREMENTS THAT NEEDED THE DESCENT SEARCH")] if counts["helped"] else []),
             (len(self._model.warnings), "WARNING MESSAGES DURING USER INPUT PROCESSING"),
-            (counts["warnings"], "WARNING MESSAGES DURING ANALYSIS"),
+            (len(self.warnings), "WARNING MESSAGES DURING ANALYSIS"),
             (counts["errors"], "ERROR MESSAGES"),
         )
         return (

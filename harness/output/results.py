@@ -5,6 +5,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
 
@@ -13,11 +14,27 @@ import numpy as np
 
 from harness.errors import UelError
 from harness.model.arrays import FloatArray
+from harness.model.perturbations import PERTURBATION_TIME
 from harness.output.field_output import Frame, read_field_mesh, read_frames
+from harness.output.formats import read_remarks
 from harness.output.history import read_history
 from harness.output.interface import read_interface, read_profiles
+from harness.output.load_curve import LoadCurve, load_curve
 from harness.output.msg_file import read_processor_time
 from harness.output.sta_file import StatusRow, has_completed, read_status
+
+
+@dataclass(frozen=True, slots=True)
+class Counts:
+    """Increments that converged, iterations including those of abandoned attempts, and cutbacks."""
+
+    increments: int
+    iterations: int
+    cutbacks: int
+
+    def __str__(self) -> str:
+        named = zip(self.__slots__, (self.increments, self.iterations, self.cutbacks), strict=True)
+        return ", ".join(f"{count} {name.removesuffix('s') if count == 1 else name}" for name, count in named)
 
 
 class Result:
@@ -30,7 +47,7 @@ class Result:
     seconds
         Wall-clock time of the run, if known.
     warnings
-        About the deck and the user routines, for a run just made.
+        Those in the .dat and .msg files, for a run just made; None: they are read when asked for.
 
     Raises
     ------
@@ -38,10 +55,12 @@ class Result:
         There is no stem.sta.
     """
 
-    def __init__(self, stem: Path | str, *, seconds: float | None = None, warnings: Sequence[str] = ()) -> None:
+    def __init__(
+        self, stem: Path | str, *, seconds: float | None = None, warnings: Sequence[str] | None = None
+    ) -> None:
         self._stem = Path(stem)
         self.seconds = seconds
-        self.warnings = tuple(warnings)
+        self._warnings = warnings
         if not self.file(".sta").exists():
             raise UelError(f"{self.file('.sta')}: no such job")
 
@@ -75,6 +94,20 @@ class Result:
         """True if the analysis has completed."""
         return has_completed(self.file(".sta"))
 
+    @cached_property
+    def counts(self) -> Counts:
+        """Increments, iterations and cutbacks so far."""
+        done = sum(not row.cutback for row in self.status)
+        iterations = sum(row.total_iterations for row in self.status)
+        return Counts(done, iterations, len(self.status) - done)
+
+    @cached_property
+    def warnings(self) -> tuple[str, ...]:
+        """Warnings in the .dat file, then those in the .msg file."""
+        if self._warnings is not None:
+            return tuple(self._warnings)
+        return tuple(text for ending in (".dat", ".msg") for text in read_remarks(self.file(ending), "WARNING"))
+
     @property
     def processor_time(self) -> float | None:
         """Processor time of the analysis in seconds; None if it did not close its files itself."""
@@ -84,6 +117,13 @@ class Result:
     def history(self) -> dict[str, FloatArray]:
         """History by column: 'step', 'increment', 'time', 'U2[LOAD]', ...; NaN where a step does not write it."""
         return read_history(self.file("_history.csv"))
+
+    @cached_property
+    def load_curve(self) -> LoadCurve | None:
+        """The load-displacement curve: see harness/output/load_curve.py. None if the history has none."""
+        linear = {row.step for row in self.status if row.time_increment <= PERTURBATION_TIME}
+        rows = ~np.isin(self.history["step"], list(linear))
+        return load_curve({name: values[rows] for name, values in self.history.items()})
 
     @property
     def frames(self) -> list[Frame]:

@@ -125,8 +125,9 @@ def test_warnings_are_told_at_the_end(tmp_path: Path, capsys: pytest.CaptureFixt
     words = ["run", str(deck), "--user", str(user), "--output-dir", str(tmp_path)]
     deck.write_text(HALF_SET_DECK.format(last=2))
     assert main(words) == 0
-    *warnings, last = capsys.readouterr().out.splitlines()
-    assert last.endswith("total time 1, warnings in .dat and .msg: 2")
+    *warnings, completed, counted, _ = capsys.readouterr().out.splitlines()
+    assert re.fullmatch(r"half: completed, total time 1: 1 increment, 1 iteration, 0 cutbacks in .*\d s", completed)
+    assert counted == "  warnings in .dat and .msg: 2, above"
     assert [line.startswith("warning: ") for line in warnings] == [True, True]
     deck.write_text(HALF_SET_DECK.format(last=1))
     assert main(words) == 1

@@ -102,7 +102,7 @@ def test_host_that_is_missing(examined, monkeypatch):
     code, rows, last = examined()
     assert code == 1
     assert last == "broken: compiled host"
-    assert rows["compiled host"][1].endswith("-> install it again: pip install . in the project's folder, or pip install with the wheel")
+    assert rows["compiled host"][1].endswith("-> " + doctor.AGAIN)
 
 
 def test_program_that_is_not_installed(examined, monkeypatch):

@@ -327,7 +327,7 @@ def test_progress_on_a_terminal(
     monkeypatch.setenv("COLUMNS", "120")
     assert batch(str(pulled), "--user", str(SPRING)) == 0
     said = re.sub(r"\x1b\[[0-9;?]*[a-zA-Z]", "", capsys.readouterr().err)
-    assert "pulled: completed, 1 increments, 1 iterations, 0 cutbacks" in said
+    assert "pulled: completed, 1 increment, 1 iteration, 0 cutbacks" in said
     assert "1/1" in said
     assert batch(str(pulled), "--user", str(SPRING), "--quiet") == 0
     assert capsys.readouterr().err == ""

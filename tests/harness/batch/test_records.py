@@ -35,7 +35,7 @@ def test_run_that_completed(tmp_path: Path) -> None:
     entry = measure(stem, 0, log)
     history = [("U1[END]", [0.3, 0.1, 0.2]), ("RF1[END]", [-1.0, -2.0, -1.0])]
     assert entry == Entry("completed", "", 2, 14, 1, 12.5, history)
-    assert str(entry) == "completed, 2 increments, 14 iterations, 1 cutbacks"
+    assert str(entry) == "completed, 2 increments, 14 iterations, 1 cutback"
 
 
 def test_run_that_ended_early(tmp_path: Path) -> None:

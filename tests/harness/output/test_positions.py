@@ -128,7 +128,7 @@ def test_elements_of_other_types_have_values_at_the_points_and_a_warning(tmp_pat
     harness.run(deck, spring, output_dir=tmp_path)
     text = " ".join((tmp_path / "user.dat").read_text().split())
     assert "TABLE IS PRINTED FOR ALL ELEMENTS WITH TYPE U1 AT THE INTEGRATION POINTS" in text
-    warning = "*EL PRINT, ELSET=, POSITION=NODES: ELEMENTS OF TYPE U1 HAVE VALUES AT THE INTEGRATION POINTS ONLY"
+    warning = "*EL PRINT, POSITION=NODES: ELEMENTS OF TYPE U1 HAVE VALUES AT THE INTEGRATION POINTS ONLY"
     assert warning in text
 
 
