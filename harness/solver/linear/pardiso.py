@@ -5,6 +5,7 @@
 from __future__ import annotations
 
 import ctypes
+import os
 import weakref
 from collections.abc import Callable
 from dataclasses import dataclass, field
@@ -33,7 +34,7 @@ SYMMETRIC: Final = Type(-2)
 """Symmetric, definite or not: 0.6 of the time and memory."""
 UNSYMMETRIC: Final = Type(1)
 """Symmetric pattern."""
-PIVOTED: Final = Type(11, {10: 1, 12: 1, 23: 0})
+PIVOTED: Final = Type(11, {10: 1, 12: 1})
 """Unsymmetric, scaled and permuted so that large entries come to the diagonal (IPARM(11) and (13)): where zeros stand
 there, as with Lagrange multipliers, the other types replace pivots and may return anything.
 """
@@ -48,10 +49,21 @@ PARAMETERS: Final = {
     9: 13,  # pivots below 1e-13 are replaced: with the 1e-8 of symmetric matrices a stiff interface would be changed
     17: -1,  # report the entries of the factors
     20: 1,  # pivots of symmetric matrices: Bunch and Kaufman
-    23: 10,  # the factorisation that can be renewed in part
+    23: 0,  # the factorisation that is right on any number of threads
     34: 1,  # indices start at 0
 }
 """Entries of IPARM, from 0, that are not 0."""
+
+RENEWABLE: Final = {23: 10}
+"""IPARM(24): the factorisation that can be renewed in part. On one thread alone, without OpenMP: on several it ends by
+a segmentation fault or returns wrong factors, as it does on one with OpenMP (oneMKL 2025.3 to 2026.2).
+"""
+
+THREADS: Final = "MKL_NUM_THREADS"
+"""Variable with the number of threads; one where it is not set."""
+
+_SEQUENTIAL: Final = 1
+"""MKL's number of the threading layer without OpenMP."""
 
 REPLACED: Final = 13
 """Entry of IPARM: number of pivots that were replaced because they were small."""
@@ -103,7 +115,7 @@ class PardisoSolver(LinearSolver):
     def _update(self, data: FloatArray, changed: IntArray) -> float | None:
         if (
             self._matrix is None
-            or self._type is PIVOTED
+            or not self._matrix.renewable
             or len(changed) > LARGEST_SHARE * len(data)
             or (self._type is SYMMETRIC and not self.pattern.is_symmetric(data, changed))
         ):
@@ -135,7 +147,9 @@ class _Matrix:
         from pypardiso import PyPardisoSolver  # noqa: PLC0415 (loads MKL, and need not be installed)
 
         self._handle = PyPardisoSolver(kind.number)
-        for place, value in (PARAMETERS | kind.parameters).items():
+        self.renewable = kind is not PIVOTED and _without_openmp(self._handle)
+        renewable = RENEWABLE if self.renewable else {}
+        for place, value in (PARAMETERS | renewable | kind.parameters).items():
             self._handle.iparm[place] = value
         self._upper: NDArray[np.int32] | None = None
         self._pattern = pattern
@@ -176,6 +190,13 @@ class _Matrix:
     def _call(self, phase: int, rhs: FloatArray | None = None) -> FloatArray:
         rhs = np.zeros(self._pattern.size) if rhs is None else rhs
         return _call(self._handle, phase, self._pattern, self._values, rhs)
+
+
+def _without_openmp(handle: Any) -> bool:
+    """Whether MKL runs on one thread without OpenMP; decided by the first call of MKL in a process."""
+    if os.environ.get(THREADS, "1") != "1":
+        return False
+    return bool(handle.libmkl.MKL_Set_Threading_Layer(_SEQUENTIAL) == _SEQUENTIAL)
 
 
 def _upper_triangle(pattern: Pattern) -> tuple[NDArray[np.int32], Pattern]:

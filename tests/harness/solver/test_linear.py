@@ -2,6 +2,10 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Every installed linear solver against dense algebra, singular matrices, and the automatic choice."""
 
+import os
+import subprocess
+import sys
+
 import numpy as np
 import pytest
 from scipy import sparse
@@ -578,6 +582,41 @@ def test_symmetric_solver_never_takes_an_unsymmetric_matrix() -> None:
         solver.factorise(matrix.data)
         assert solver._type is UNSYMMETRIC
         assert backward_error(matrix, matrix.data, solver.solve(rhs), rhs) < 1e-10
+
+
+CUBE = """\
+import numpy as np
+from scipy import sparse
+from harness.solver.linear import choose
+one = sparse.diags_array([-1.0, 2.0, -1.0], offsets=[-1, 0, 1], shape=(24, 24))
+eye = sparse.eye_array(24)
+cube = sum(sparse.kron(sparse.kron(a, b), c) for a, b, c in ((one, eye, eye), (eye, one, eye), (eye, eye, one)))
+matrix = sparse.csr_array(cube)
+matrix.sort_indices()
+rhs = np.random.default_rng(4).normal(size=matrix.shape[0])
+for unsymmetric in (0.0, 1e-3):
+    data = matrix.data * (1.0 + unsymmetric * np.random.default_rng(3).random(matrix.nnz))
+    solver = choose("pardiso", matrix.indptr.astype(np.int32), matrix.indices.astype(np.int32))
+    for scale in (1.0, 0.5, 1.0):
+        changed = data.copy()
+        changed[0] *= scale
+        solver.factorise(changed)
+        x = solver.solve(rhs)
+        found = sparse.csr_array((changed, matrix.indices, matrix.indptr)) @ x
+        assert np.abs(found - rhs).max() < 1e-10 * np.abs(rhs).max()
+    print(solver.effort.in_part)
+"""
+
+
+@pytest.mark.skipif("pardiso" not in INSTALLED, reason="pypardiso is not installed")
+@pytest.mark.parametrize(("threads", "in_part"), [("", 2), ("1", 2), ("2", 0)])
+def test_threads_of_mkl(threads: str, in_part: int) -> None:
+    """Beside the OpenMP of the host the renewable factorisation ends the process, or its factors are wrong."""
+    variables = {name: value for name, value in os.environ.items() if not name.endswith("_NUM_THREADS")}
+    variables |= {"MKL_NUM_THREADS": threads} if threads else {}
+    words = [sys.executable, "-c", CUBE]
+    result = subprocess.run(words, env=variables, capture_output=True, text=True, check=False)
+    assert (result.returncode, result.stdout.split()) == (0, [str(in_part)] * 2), result.stderr
 
 
 @pytest.mark.parametrize("name", INSTALLED)
