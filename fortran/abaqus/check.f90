@@ -6,9 +6,9 @@ module abaqus_check
   use core_status, only: status_type, sentence, too_brittle, zero_length, faces_apart, small_beta, &
     too_brittle_mixed, late_secant, no_root
   use abaqus_layout, only: elements, faces, reals, integers, every_continuum, with_solids, &
-    unknowns_of, variables_of, reals_of, integers_of, real_position, unpack, &
+    unknowns_of, variables_of_points, reals_of, integers_of, real_position, unpack, recommend, &
     positive, not_negative, below_one, up_to_one, exponent, estimated, above_one, any_integer, p_alphan, p_alphat, p_gic, p_giic, &
-    p_betan, p_betat, p_shapen, p_shapet, p_friction, j_law, j_closure
+    p_betan, p_betat, p_shapen, p_shapet, p_friction, j_law, j_closure, by_eigenvalues, by_equation_21, consistent_closure
   use cohesive_parameters, only: ppr_law
   use abaqus_report, only: fatal
   implicit none(type, external)
@@ -37,8 +37,8 @@ contains
       if (njprop /= element%integers) then
         if (.not. count_fits('I PROPERTIES = %I', njprop, element%integers, integers_of(jtype))) return
       end if
-      if (nsvars < variables_of(jtype)) then
-        call fatal(jtype, jelem, 'VARIABLES = %I: expected at least %I', [nsvars, variables_of(jtype)], [real(dp) ::])
+      if (nsvars < variables_of_points(jtype)) then
+        call fatal(jtype, jelem, 'VARIABLES = %I: expected at least %I', [nsvars, variables_of_points(jtype)], [real(dp) ::])
       else if (mcrd < element%dimension .or. mcrd > 3) then
         call fatal(jtype, jelem, 'COORDINATES = %I: expected %I', [mcrd, element%dimension], [real(dp) ::])
       else if (ndload /= 0) then
@@ -47,7 +47,9 @@ contains
         call unpack(jtype, nprops, props, njprop, jprops, values, options)
         good = reals_are_good(jtype, jelem, nprops, values)
         if (good) good = integers_are_good(jtype, jelem, njprop, options)
-        if (good .and. iand(element%family, every_continuum) == 0) good = options_fit(jtype, jelem, values, options)
+        if (.not. good) return
+        call recommend(jtype, values, options)
+        if (iand(element%family, every_continuum) == 0) good = options_fit(jtype, jelem, values, options)
       end if
     end associate
 
@@ -87,8 +89,8 @@ contains
       case (not_negative)
         good = values(i) >= 0.0_dp
       case (estimated)
-        good = values(i) >= 0.0_dp .or. (iand(elements(jtype)%family, with_solids) /= 0 &
-          .and. .not. abs(values(i) + 1.0_dp) > 0.0_dp)
+        good = values(i) >= 0.0_dp .or. is(values(i), by_equation_21) .or. (is(values(i), by_eigenvalues) &
+          .and. iand(elements(jtype)%family, with_solids) /= 0)
       case (below_one)
         good = values(i) >= 0.0_dp .and. values(i) < 1.0_dp
       case (up_to_one)
@@ -105,6 +107,13 @@ contains
       return
     end do
   end function reals_are_good
+
+  !> Whether a value is this one.
+  pure logical function is(value, this)
+    real(dp), intent(in) :: value, this
+
+    is = .not. abs(value - this) > 0.0_dp
+  end function is
 
   !> Sends the message 'PROPS(position) NAME = value' and a text.
   subroutine refuse_real(jtype, jelem, row, value, text)
@@ -129,7 +138,7 @@ contains
     case (up_to_one)
       text = 'a value from 0 to 1'
     case (estimated)
-      text = 'zero or a positive value, or -1 in a self-contained element'
+      text = 'zero, a positive value, -2, or -1 in a self-contained element'
     case (below_one)
       text = 'zero or a value between 0 and 1'
     case (exponent)
@@ -163,8 +172,8 @@ contains
     end do
   end function integers_are_good
 
-  !> True if the properties fit CLOSURE: only the consistent law allows an infinite initial stiffness (0), in both directions, and
-  !> friction, but not a PPR law that falls infinitely fast at its end.
+  !> True if the properties fit each other: both beta come from one estimate; only the consistent law allows an infinite initial
+  !> stiffness (0), in both directions, and friction, but not a PPR law that falls infinitely fast at its end.
   function options_fit(jtype, jelem, values, options) result(good)
     integer, intent(in) :: jtype, jelem
     real(dp), intent(in) :: values(:)
@@ -174,26 +183,42 @@ contains
     logical :: consistent, infinite
     integer :: i
 
-    consistent = options(j_closure) == 1
+    consistent = options(j_closure) == consistent_closure
     infinite = consistent .and. .not. maxval(values(alphas)) > 0.0_dp
-    good = .true.
+    good = .not. (any_is(by_eigenvalues) .and. any_is(by_equation_21))
+    if (.not. good) then
+      i = merge(p_betan, p_betat, is(values(p_betan), by_equation_21))
+      call refuse_real(jtype, jelem, i, values(i), ', equation (21), but the other beta is 0 or -1, local eigenvalues: ' // &
+        'expected one estimate for both')
+      return
+    end if
     do i = 1, 2
       good = infinite .or. values(alphas(i)) > 0.0_dp
       if (good) cycle
       call refuse_real(jtype, jelem, alphas(i), values(alphas(i)), ': expected a positive value; 0, an infinite ' // &
-        'stiffness, requires CLOSURE = 1 and 0 in both directions')
+        'stiffness, requires the consistent law (CLOSURE = 1) and 0 in both directions')
       return
     end do
     good = consistent .or. .not. values(p_friction) > 0.0_dp
-    if (.not. good) call refuse_real(jtype, jelem, p_friction, values(p_friction), ': without CLOSURE = 1, expected 0')
+    if (.not. good) call refuse_real(jtype, jelem, p_friction, values(p_friction), &
+      ': without the consistent law (CLOSURE = 1), expected 0')
     if (.not. good .or. .not. consistent .or. options(j_law) /= ppr_law) return
     do i = 1, 2
       good = values(shapes(i)) >= 2.0_dp .or. .not. values(shapes(i)) > 0.0_dp
       if (good) cycle
-      call refuse_real(jtype, jelem, shapes(i), values(shapes(i)), ': with CLOSURE = 1, expected zero or at least 2; ' // &
-        'below 2, the law falls infinitely fast at its end')
+      call refuse_real(jtype, jelem, shapes(i), values(shapes(i)), ': with the consistent law, expected zero or at ' // &
+        'least 2; below 2, the law falls infinitely fast at its end')
       return
     end do
+
+  contains
+
+    pure logical function any_is(estimate)
+      real(dp), intent(in) :: estimate
+
+      any_is = is(values(p_betan), estimate) .or. is(values(p_betat), estimate)
+    end function any_is
+
   end function options_fit
 
   !> Sends the message for the status of a kernel; self-contained elements count their quads or bricks in status%item.
@@ -220,7 +245,7 @@ contains
     case (small_beta)
       row = merge(p_betan, p_betat, status%item == 1)
       call fatal(jtype, jelem, 'PROPS(%I) ' // trim(reals(row)%name) // ': beta = %R, ' // &
-        trim(sentence(status%code)) // '; expected more than %R: set it, or leave it 0 and refine the mesh', &
+        trim(sentence(status%code)) // '; expected more than %R: refine the mesh, or set it', &
         [real_position(jtype, row)], [status%value, status%expected])
     case (no_root)
       call fatal(jtype, jelem, 'point or mode %I: ' // trim(sentence(status%code)), [status%item], [real(dp) ::])

@@ -11,12 +11,13 @@ module abaqus_interface_elements
   use elements_interface_faces, only: central_frame
   use elements_interface_kernel, only: integrate_interface
   use elements_interface_point, only: interface_options, interface_point
-  use abaqus_layout, only: elements, faces, reals, real_position, interface_variables, surface_variables, standard, standard_3d, &
+  use abaqus_layout, only: elements, faces, reals, real_position, own_variables, interface_variables, surface_variables, &
+    standard, standard_3d, variables_of_points, o_betan, o_betat, o_gamman, o_gammat, &
     next_to_quads, next_to_bricks, face_nodes, nodes_of_face, &
     p_thickness, p_alphan, p_alphat, p_sigmamax, p_taumax, p_gic, p_giic, p_viscosity, p_eta, p_power, &
     p_shapen, p_shapet, p_blend, p_betan, p_betat, p_gammabot, p_friction, p_bottom_e1, p_bottom_nu12, p_top_e1, p_top_nu12, &
     p_bottom_g13, p_bottom_g23, p_top_g13, p_top_g23, &
-    j_law, j_integration, j_tangent, j_sampling, j_plane, j_closure, &
+    j_law, j_integration, j_tangent, j_sampling, j_plane, j_closure, by_eigenvalues, consistent_closure, &
     v_x, v_y, v_sepn, v_sept, v_tn, v_tt, v_damage, v_dissi, v_dissii, v_sn, v_st, v_dmax, v_dissv, v_wn, v_wt, v_dissf, &
     v_maxn, v_maxt, w_x, w_y, w_z, w_sepn, w_seps, w_sept, w_tn, w_ts, w_tt, w_damage, w_dissi, w_dissii, w_sn, w_st, w_dmax, &
     w_dissv, w_wn, w_ws, w_wt, w_dissf, w_maxn, w_maxt
@@ -74,9 +75,10 @@ contains
       call report_status(jtype, jelem, status)
       return
     end if
-    choice = interface_options(options(j_integration), options(j_sampling), options(j_closure) == 1, &
+    choice = interface_options(options(j_integration), options(j_sampling), options(j_closure) == consistent_closure, &
       merge(1.0_dp, values(p_blend), options(j_tangent) == 1), finite)
-    stabilisation = stabilisation_type([values(p_betat), values(p_betan)], [values(p_gammabot), values(p_gammabot)])
+    stabilisation = stabilisation_type(max(0.0_dp, values([p_betat, p_betan])), values([p_gammabot, p_gammabot]), &
+      any(abs(values([p_betat, p_betan]) - by_eigenvalues) <= 0.0_dp))
     dim = elements(jtype)%dimension
     original = coords(1:dim, :)
     thickness = merge(values(p_thickness), 1.0_dp, dim == 2)
@@ -98,8 +100,13 @@ contains
         call elasticity_of_solids(jtype, jelem, values, options(j_plane), original(:, nodes(:, 1)), original(:, nodes(:, 2)), &
           stiffness, good)
         if (.not. good) return
-        call integrate_interface(dim, n, nodes, solid, law, choice, thickness, original, u, dtime, with_tangent, old, new, &
-          residual, tangent, energies, status, stabilisation, stiffness)
+        associate (own => svars(variables_of_points(jtype) + 1:variables_of_points(jtype) + size(own_variables)))
+          if (stabilisation%local) call recall(own, stabilisation)
+          call integrate_interface(dim, n, nodes, solid, law, choice, thickness, original, u, dtime, with_tangent, old, new, &
+            residual, tangent, energies, status, stabilisation, stiffness)
+          own([o_betat, o_betan]) = stabilisation%beta
+          own([o_gammat, o_gamman]) = stabilisation%gamma_bottom
+        end associate
       end select
     end associate
     good = status%code == ok
@@ -111,6 +118,18 @@ contains
       call report_status(jtype, jelem, status)
     end if
   end subroutine evaluate_interface
+
+  !> Takes beta and gamma that an earlier increment has left: the eigenvalue problem takes longer than all the rest, and they do not
+  !> change.
+  pure subroutine recall(own, stabilisation)
+    real(dp), intent(in) :: own(:)
+    type(stabilisation_type), intent(inout) :: stabilisation
+
+    stabilisation%known = minval(own) > 0.0_dp
+    if (.not. stabilisation%known) return
+    stabilisation%beta = own([o_betat, o_betan])
+    stabilisation%gamma_bottom = own([o_gammat, o_gamman])
+  end subroutine recall
 
   !> The cohesive law; an initial stiffness of 0 stands for an infinite one.
   pure subroutine prepare_law(values, options, law, status)

@@ -16,8 +16,8 @@ module abaqus_layout
   implicit none(type, external)
   private
   public :: real_item, integer_item, variable_item, element_item, faces_item
-  public :: unknowns_of, variables_of, nodes_of_face, face_nodes, reals_of, integers_of, real_position, integer_position, unpack
-  public :: delamination_layout_version
+  public :: unknowns_of, variables_of, variables_of_points, nodes_of_face, face_nodes, reals_of, integers_of
+  public :: real_position, integer_position, unpack, recommend, delamination_layout_version
 
   !> Permitted values of a real property. A property that may be zero is 0 if the deck leaves it out.
   integer, parameter, public :: positive = 1
@@ -26,9 +26,15 @@ module abaqus_layout
   integer, parameter, public :: up_to_one = 4       ! 0 <= value <= 1
   integer, parameter, public :: any_value = 5
   integer, parameter, public :: exponent = 6        ! 0 or at least 1/2
-  integer, parameter, public :: estimated = 7       ! 0 <= value, or -1 in a self-contained element
+  integer, parameter, public :: estimated = 7       ! 0 <= value, or one of the two estimates
   integer, parameter, public :: above_one = 8       ! 0 or above 1
   integer, parameter, public :: any_integer = huge(1)
+
+  ! values that choose among laws and estimates; 0 stands for what the element is made for, see `recommend`
+  real(dp), parameter, public :: by_eigenvalues = -1.0_dp   ! BETAN, BETAT: needs the elements on both sides
+  real(dp), parameter, public :: by_equation_21 = -2.0_dp
+  integer, parameter, public :: consistent_closure = 1      ! CLOSURE
+  integer, parameter, public :: paper_closure = 2
 
   ! families of elements, and sets of them, which are sums
   integer, parameter, public :: continuum = 1
@@ -65,7 +71,8 @@ module abaqus_layout
     integer :: lowest, highest
   end type integer_item
 
-  !> A variable of an integration point; variable i of point k is SVARS((k - 1)*(variables of a point) + i).
+  !> A variable of an integration point; variable i of point k is SVARS((k - 1)*(variables of a point) + i). Those of an element
+  !> as a whole come after its points.
   type :: variable_item
     integer :: position
     character(len=8) :: name
@@ -130,9 +137,9 @@ module abaqus_layout
   type(real_item), parameter, public :: reals(38) = [ &
     real_item(p_thickness, in_plane, 'THICKNESS', 'length', positive), & !< thickness out of the plane
     real_item(p_alphan, interfaces, 'ALPHAN', 'stress/length', not_negative), &
-      !< initial normal stiffness alpha_n; 0: infinite, with CLOSURE 1
+      !< initial normal stiffness alpha_n; 0: infinite, only with the consistent law
     real_item(p_alphat, interfaces, 'ALPHAT', 'stress/length', not_negative), &
-      !< initial tangential stiffness alpha_tau; 0: as ALPHAN
+      !< initial tangential stiffness alpha_tau; 0: infinite, if ALPHAN is 0 too
     real_item(p_sigmamax, interfaces, 'SIGMAMAX', 'stress', positive), & !< mode I strength
     real_item(p_taumax, interfaces, 'TAUMAX', 'stress', positive), & !< mode II strength
     real_item(p_gic, interfaces, 'GIC', 'energy/area', positive), & !< mode I fracture energy, above SIGMAMAX**2/(2 ALPHAN)
@@ -144,12 +151,12 @@ module abaqus_layout
     real_item(p_shapet, interfaces, 'SHAPET', '1', above_one), & !< exponent of the softening in sliding (LAW 4); 0: 2, about linear
     real_item(p_blend, interfaces, 'BLEND', '1', up_to_one), & !< share of the secant matrix in AMATRX, with TANGENT 0
     real_item(p_betan, stabilised, 'BETAN', 'stress/length', estimated), &
-      !< stabilisation beta_n; 0: equation (21), -1: local eigenvalues
+      !< stabilisation beta_n; -1: local eigenvalues, -2: equation (21); 0: -1, in U3 and U10 -2
     real_item(p_betat, stabilised, 'BETAT', 'stress/length', estimated), &
-      !< stabilisation beta_tau; 0: equation (21), -1: local eigenvalues
+      !< stabilisation beta_tau; -1: local eigenvalues, -2: equation (21); 0: -1, in U3 and U10 -2
     real_item(p_gammabot, stabilised, 'GAMMABOT', '1', below_one), &
-      !< weight of the bottom stress; 0: equation (22) with the same estimate
-    real_item(p_friction, stabilised, 'FRICTION', '1', not_negative), & !< coefficient of friction, with CLOSURE 1; 0: none
+      !< weight of the bottom stress; 0: equation (22), with the estimate of beta
+    real_item(p_friction, stabilised, 'FRICTION', '1', not_negative), & !< coefficient of friction, with the consistent law; 0: none
     real_item(p_bottom_e1, with_solids, 'E1 BOTTOM', 'stress', positive), & !< Young's modulus along material axis 1
     real_item(p_bottom_e2, with_solids, 'E2 BOTTOM', 'stress', positive), & !< Young's modulus along material axis 2
     real_item(p_bottom_e3, with_solids, 'E3 BOTTOM', 'stress', not_negative), &
@@ -194,8 +201,8 @@ module abaqus_layout
   integer, parameter, public :: j_brick_face = 11
 
   type(integer_item), parameter, public :: integers(11) = [ &
-    integer_item(j_law, interfaces, 'LAW', 1, 4), &
-      !< 1 bilinear (9) to (11), 2 bilinear by ETA or POWER, 3 exponential by ETA or POWER, 4 PPR
+    integer_item(j_law, interfaces, 'LAW', 0, 4), &
+      !< 0 or 1 bilinear (9) to (11), 2 bilinear by ETA or POWER, 3 exponential by ETA or POWER, 4 PPR
     integer_item(j_integration, interfaces, 'INTEGRATION', 0, 1), & !< 0 Gauss, 1 Newton-Cotes
     integer_item(j_tangent, interfaces, 'TANGENT', 0, 1), &
       !< 0 consistent (23), 1 secant (24), that is without the derivative of the damage; U3, U10: at constant bulk stress
@@ -207,7 +214,8 @@ module abaqus_layout
       !< element number of the quad or brick above minus its own
     integer_item(j_plane, continuum + self_contained, 'PLANE', 0, 1), & !< 0 plane stress, 1 plane strain
     integer_item(j_face, continuum, 'FACE', 0, 4), & !< face along a four-node stabilised interface (U3), as Abaqus counts; 0 none
-    integer_item(j_closure, stabilised, 'CLOSURE', 0, 1), & !< damage at 0 the displacement jump, 1 a separation of its own
+    integer_item(j_closure, stabilised, 'CLOSURE', 0, 2), &
+      !< damage from 1 a separation of the law's own (consistent), 2 the displacement jump (the paper's); 0: 1, in U3 and U10 2
     integer_item(j_formulation, continuum_3d, 'FORMULATION', 0, 2), &
       !< full integration with 0 the strain of the displacements, 1 incompatible modes (C3D8I), 2 the mean volume strain (C3D8)
     integer_item(j_brick_face, continuum_3d, 'FACE', 0, 6)] !< face along a stabilised interface (U10), as Abaqus counts; 0 none
@@ -287,15 +295,15 @@ module abaqus_layout
     variable_item(v_sept, 'SEPT', 'length'), & !< tangential displacement jump
     variable_item(v_tn, 'TN', 'stress'), & !< normal traction, tension positive
     variable_item(v_tt, 'TT', 'stress'), & !< tangential traction
-    variable_item(v_damage, 'DAMAGE', '1'), & !< acting damage, 0 to 1; with CLOSURE 1 (1 - K/ALPHAN) k/(K + k); LAW 4: see above
+    variable_item(v_damage, 'DAMAGE', '1'), & !< acting damage, 0 to 1; consistent: (1 - K/ALPHAN) k/(K + k); LAW 4: see above
     variable_item(v_dissi, 'DISSI', 'energy/area'), & !< energy dissipated by damage in mode I
     variable_item(v_dissii, 'DISSII', 'energy/area'), & !< energy dissipated by damage in mode II
     variable_item(v_sn, 'SN', '1'), & !< stabilised S, normal; 1 in the standard element
     variable_item(v_st, 'ST', '1'), & !< stabilised S, tangential; 1 in the standard element
     variable_item(v_dmax, 'DMAX', '1'), & !< largest damage of the law so far; DAMAGE lags behind it with VISCOSITY
     variable_item(v_dissv, 'DISSV', 'energy/area'), & !< energy dissipated by the viscous regularisation
-    variable_item(v_wn, 'WN', 'length'), & !< normal separation of the law: with CLOSURE 0 it is SEPN
-    variable_item(v_wt, 'WT', 'length'), & !< tangential separation of the law: with CLOSURE 0 it is SEPT
+    variable_item(v_wn, 'WN', 'length'), & !< normal separation of the law: with CLOSURE 2 it is SEPN
+    variable_item(v_wt, 'WT', 'length'), & !< tangential separation of the law: with CLOSURE 2 it is SEPT
     variable_item(v_dissf, 'DISSF', 'energy/area'), & !< energy dissipated by friction
     variable_item(v_maxn, 'MAXN', 'length'), & !< largest normal separation of the law so far, with LAW 4; else 0
     variable_item(v_maxt, 'MAXT', 'length')] !< largest tangential separation of the law so far, with LAW 4; else 0
@@ -334,19 +342,31 @@ module abaqus_layout
     variable_item(w_tn, 'TN', 'stress'), & !< normal traction, tension positive
     variable_item(w_ts, 'TS', 'stress'), & !< traction along s
     variable_item(w_tt, 'TT', 'stress'), & !< traction along t
-    variable_item(w_damage, 'DAMAGE', '1'), & !< acting damage, 0 to 1; with CLOSURE 1 (1 - K/ALPHAN) k/(K + k); LAW 4: see above
+    variable_item(w_damage, 'DAMAGE', '1'), & !< acting damage, 0 to 1; consistent: (1 - K/ALPHAN) k/(K + k); LAW 4: see above
     variable_item(w_dissi, 'DISSI', 'energy/area'), & !< energy dissipated by damage in mode I
     variable_item(w_dissii, 'DISSII', 'energy/area'), & !< energy dissipated by damage in shear
     variable_item(w_sn, 'SN', '1'), & !< stabilised S, normal; 1 in the standard element
     variable_item(w_st, 'ST', '1'), & !< stabilised S of both shears; 1 in the standard element
     variable_item(w_dmax, 'DMAX', '1'), & !< largest damage of the law so far; DAMAGE lags behind it with VISCOSITY
     variable_item(w_dissv, 'DISSV', 'energy/area'), & !< energy dissipated by the viscous regularisation
-    variable_item(w_wn, 'WN', 'length'), & !< normal separation of the law: with CLOSURE 0 it is SEPN
-    variable_item(w_ws, 'WS', 'length'), & !< separation of the law along s: with CLOSURE 0 it is SEPS
-    variable_item(w_wt, 'WT', 'length'), & !< separation of the law along t: with CLOSURE 0 it is SEPT
+    variable_item(w_wn, 'WN', 'length'), & !< normal separation of the law: with CLOSURE 2 it is SEPN
+    variable_item(w_ws, 'WS', 'length'), & !< separation of the law along s: with CLOSURE 2 it is SEPS
+    variable_item(w_wt, 'WT', 'length'), & !< separation of the law along t: with CLOSURE 2 it is SEPT
     variable_item(w_dissf, 'DISSF', 'energy/area'), & !< energy dissipated by friction
     variable_item(w_maxn, 'MAXN', 'length'), & !< largest normal separation of the law so far, with LAW 4; else 0
     variable_item(w_maxt, 'MAXT', 'length')] !< largest shear separation of the law so far, with LAW 4; else 0
+
+  ! variables of a self-contained interface element
+  integer, parameter, public :: o_betan = 1
+  integer, parameter, public :: o_betat = 2
+  integer, parameter, public :: o_gamman = 3
+  integer, parameter, public :: o_gammat = 4
+
+  type(variable_item), parameter, public :: own_variables(4) = [ &
+    variable_item(o_betan, 'BETAN', 'stress/length'), & !< beta_n that acts; the eigenvalue problem is solved where it is 0
+    variable_item(o_betat, 'BETAT', 'stress/length'), & !< beta_tau that acts
+    variable_item(o_gamman, 'GAMMAN', '1'), & !< weight of the bottom stress that acts, normal
+    variable_item(o_gammat, 'GAMMAT', '1')] !< weight of the bottom stress that acts, tangential
 
   type(element_item), parameter, public :: elements(12) = [ &
     element_item(1, continuum, 2, 4, 4, 1, 2), & !< continuum quad, stress from a material of the deck (UELMAT)
@@ -393,12 +413,21 @@ contains
 
     number = 0
     if (jtype < 1 .or. jtype > size(elements)) return
+    number = variables_of_points(jtype)
+    if (iand(elements(jtype)%family, with_solids) /= 0) number = number + size(own_variables)
+  end function variables_of
+
+  !> Number of SVARS of the points of Un, which it needs at least.
+  pure function variables_of_points(jtype) result(number)
+    integer, intent(in) :: jtype
+    integer :: number
+
     number = size(interface_variables)
     if (iand(elements(jtype)%family, in_space) /= 0) number = size(surface_variables)
     if (elements(jtype)%family == continuum) number = size(continuum_variables)
     if (elements(jtype)%family == continuum_3d) number = size(brick_variables)
     number = elements(jtype)%points*number
-  end function variables_of
+  end function variables_of_points
 
   !> Number of nodes of each face of the interface element Un.
   pure function nodes_of_face(jtype) result(number)
@@ -491,6 +520,22 @@ contains
       options(row) = jprops(position)
     end do
   end subroutine unpack
+
+  !> Puts what a zero stands for in its place: the bilinear law and, in a self-contained element, the consistent closure and beta
+  !> from the local eigenvalues, in U3 and U10, which follow the paper, its closure and (21).
+  pure subroutine recommend(jtype, values, options)
+    integer, intent(in) :: jtype
+    real(dp), intent(inout) :: values(size(reals))
+    integer, intent(inout) :: options(size(integers))
+    integer, parameter :: betas(2) = [p_betan, p_betat]
+    logical :: follows_paper
+
+    if (iand(elements(jtype)%family, interfaces) /= 0 .and. options(j_law) == 0) options(j_law) = 1
+    if (iand(elements(jtype)%family, stabilised) == 0) return
+    follows_paper = iand(elements(jtype)%family, next_to_solids) /= 0
+    if (options(j_closure) == 0) options(j_closure) = merge(paper_closure, consistent_closure, follows_paper)
+    where (.not. abs(values(betas)) > 0.0_dp) values(betas) = merge(by_equation_21, by_eigenvalues, follows_paper)
+  end subroutine recommend
 
   !> Marks a library as holding these elements, so that a host may name their SVARS.
   function delamination_layout_version() result(version) bind(c, name='delamination_layout_version')

@@ -40,10 +40,12 @@ subroutine uel(rhs, amatrx, svars, energy, ndofel, nrhs, nsvars, props, nprops, 
   if (.not. good) return
   if (asks_for_nothing(lflags)) return
 
-  n = size(state)
-  state = svars(1:n)
+  n = min(nsvars, size(state))
+  state = 0.0_dp
+  state(1:n) = svars(1:n)
   call evaluate_interface(jtype, jelem, values, options, coords, u, dtime, large_displacements(lflags), asks_for_tangent(lflags), &
     state, energies, residual, tangent, good)
   if (.not. good) return
-  call give_answer(lflags, du(1:ndofel, 1), residual, tangent, state, energies, rhs(1:ndofel, 1), amatrx, svars(1:n), energy)
+  call give_answer(lflags, du(1:ndofel, 1), residual, tangent, state(1:n), energies, rhs(1:ndofel, 1), amatrx, &
+    svars(1:n), energy)
 end subroutine uel

@@ -29,11 +29,13 @@ module elements_interface_bulk
   !> Last parent coordinate of the interface in the element below and in that above.
   real(dp), parameter :: face_of_side(2) = [1.0_dp, -1.0_dp]
 
-  !> Parameters of the stabilisation, (tau, n); a zero stands for (21) or (22), a negative beta for all from the local eigenvalue
-  !> problem.
+  !> Parameters of the stabilisation, (tau, n); a zero stands for what follows from (21) and (22), with the bounds of the local
+  !> eigenvalue problem or with those of the paper.
   type :: stabilisation_type
     real(dp) :: beta(2)           !< stress/length
     real(dp) :: gamma_bottom(2)   !< weight of the bottom stress; that of the top is 1 - gamma_bottom
+    logical :: local              !< bounds of the local eigenvalue problem
+    logical :: known = .false.    !< nothing is left to compute
   end type stabilisation_type
 
 contains
@@ -70,10 +72,8 @@ contains
     type(interface_place) :: places(points)
     real(dp) :: bounds(2, 2), parents(2, points), frames(3, 3, points), solid(dim, nodes), measure
     integer :: side, k
-    logical :: local
 
     used = given
-    local = minval(given%beta) < 0.0_dp
     call measure_interface(dim, size(faces, 1), points, coordinates(:, faces(:, 1)), coordinates(:, faces(:, 2)), gauss_rule, &
       places, status)
     if (status%code /= ok) return
@@ -83,7 +83,7 @@ contains
     end do
     do side = 1, 2
       solid = coordinates(:, (side - 1)*nodes + 1:side*nodes)
-      if (local) then
+      if (given%local) then
         call solid_face_eigenvalue(dim, nodes, solid, face_of_side(side), points, parents, frames, places%area, &
           stiffness(:, :, side), bounds(:, side), status)
       else

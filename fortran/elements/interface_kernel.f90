@@ -48,7 +48,8 @@ contains
     real(dp), intent(out) :: tangent(size(u), size(u))        !< -d(residual)/du, force/length; zero if not wanted
     real(dp), intent(out) :: energies(3)                      !< stored, dissipated by damage and friction, viscous
     type(status_type), intent(out) :: status                  !< its item is the point, the mode or the side
-    type(stabilisation_type), intent(in), optional :: stabilisation    !< beta and gamma, or what they follow from
+    type(stabilisation_type), intent(inout), optional :: stabilisation   !< beta and gamma, or what they follow from; on exit those
+                                                                         !< that act
     real(dp), intent(in), optional :: stiffness(:, :, :)         !< D of the bottom and the top element, global axes, stress
     real(dp), intent(in), optional :: neighbours(3, 3, points)   !< weighted nominal stress of each point: its product with the
                                                                  !< original normal is the traction per original area
@@ -79,11 +80,12 @@ contains
     call measure_interface(dim, nodes, points, bottom, top, options%rule, places, status)
     if (status%code /= ok) return
     if (present(stabilisation)) then
-      used = stabilisation
-      if (present(stiffness)) call stabilise(stabilisation, dim, solid, points, faces, coordinates, &
-        stiffness, used, status)
-      if (status%code /= ok) return
-      if (options%consistent_law) call check_beta(law, used%beta, status)
+      if (present(stiffness) .and. .not. stabilisation%known) then
+        call stabilise(stabilisation, dim, solid, points, faces, coordinates, stiffness, used, status)
+        if (status%code /= ok) return
+        stabilisation = used
+      end if
+      if (options%consistent_law) call check_beta(law, stabilisation%beta, status)
       if (status%code /= ok) return
     end if
 
@@ -99,14 +101,14 @@ contains
       separation = separation_at(dim, places(k), nodes, faces, moved)
       if (present(stabilisation)) then
         if (present(stiffness)) then
-          call bulk_operator(options%sampling, dim, places(k), used%gamma_bottom, solid, stiffness, coordinates, bulk, &
+          call bulk_operator(options%sampling, dim, places(k), stabilisation%gamma_bottom, solid, stiffness, coordinates, bulk, &
             status)
           if (status%code /= ok) return
           bulk_traction(1:dim) = matmul(bulk, moved)
         else
           bulk_traction = matmul(here%frame, matmul(neighbours(:, :, k), places(k)%frame(2, :)))
         end if
-        call stabilised_point(law, options, dtime, used%beta, separation, bulk_traction, old(k), new(k), response, status)
+        call stabilised_point(law, options, dtime, stabilisation%beta, separation, bulk_traction, old(k), new(k), response, status)
         if (status%code /= ok) then
           status%item = k
           return

@@ -11,6 +11,9 @@ from harness.delamination.keywords import keyword, number, table, wrapped
 from harness.delamination.materials import Cohesive, Ply
 from harness.delamination.mesh import TwoArmMesh
 
+BY_EQUATION_21 = -2.0
+"""BETAN and BETAT that ask for equation (21), with (22) for the weights, as the paper has them."""
+
 
 @dataclass(frozen=True, slots=True)
 class Interface:
@@ -19,12 +22,13 @@ class Interface:
     type       'U2' standard, 'U3' stabilised with four nodes, 'U4' stabilised with eight nodes, 'COH2D4' Abaqus' own;
                in space 'U7' standard, 'U8' stabilised, 'COH3D8' Abaqus' own
     cohesive   parameters of the law
-    beta       stabilisation parameter beta_n = beta_tau (N/mm^3); 0 computes it by equation (21), -1 by the local
-               eigenvalue problem
-    weight     of the bulk stress below; 0 computes it by equation (22)
+    beta       stabilisation parameter beta_n = beta_tau (N/mm^3); 0 computes it by the local eigenvalue problem, in U3
+               and U10 by equation (21), which BY_EQUATION_21 asks for
+    weight     of the bulk stress below; 0 computes it by equation (22), with the estimate of beta
     viscosity  relaxation time of the damage, in step time
     sampling   of the bulk stress: 0 middle of the face, 1 face, 2 Gauss point
-    consistent the law has a separation of its own (CLOSURE 1), in place of the damage at the displacement jump
+    consistent the law has a separation of its own (CLOSURE 1), in place of the paper's damage at the displacement jump
+               (CLOSURE 2)
     law        1 linear criterion (11), 2 criterion of Benzeggagh and Kenane with the exponent `eta`, or the power law
     power      exponent of the power law, where `eta` is 0; 0: 1, the linear criterion
     newton_cotes  integration points at the nodes, in place of Gauss points
@@ -41,7 +45,7 @@ class Interface:
     weight: float = 0.0
     viscosity: float = 0.0
     sampling: int = 0
-    consistent: bool = False
+    consistent: bool = True
     law: int = 1
     eta: float = 0.0
     power: float = 0.0
@@ -218,7 +222,7 @@ def law_values(interface: Interface) -> dict[str, float]:
         "INTEGRATION": int(interface.newton_cotes),
         "TANGENT": int(interface.secant),
         "SAMPLING": interface.sampling,
-        "CLOSURE": int(interface.consistent),
+        "CLOSURE": 1 if interface.consistent else 2,
     }
 
 

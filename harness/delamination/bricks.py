@@ -29,7 +29,7 @@ OPENING = 2.5
 ARM = isotropic("ARM", 70000.0, 0.3)
 LAW = Cohesive(1.0e4, 1.0e4, 30.0, 30.0, 0.5, 0.5)
 STANDARD = Interface("U7", LAW, law=2, eta=1.0, newton_cotes=True)
-CONSISTENT = Interface("U8", LAW, law=2, eta=1.0, beta=-1.0, consistent=True)
+CONSISTENT = Interface("U8", LAW, law=2, eta=1.0)
 
 
 def bricks_files() -> dict[str, str]:

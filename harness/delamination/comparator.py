@@ -12,7 +12,7 @@ from dataclasses import replace
 import numpy as np
 
 from harness.delamination import flexure, specimens
-from harness.delamination.blocks import Interface, Specimen, cohesive_section, interface_values
+from harness.delamination.blocks import BY_EQUATION_21, Interface, Specimen, cohesive_section, interface_values
 from harness.delamination.kernels import uel_property, user_element
 from harness.delamination.keywords import keyword, node_block, number, table, text
 from harness.delamination.materials import PLY_0, PLY_90, TABLE_2
@@ -29,7 +29,7 @@ PATH = 0.06
 ELEMENTS = ("COH2D4", "COH3D8", "U2")
 
 LAW = replace(MIXES["bk"], newton_cotes=True)
-INTERFACES = {"coh2d4": replace(LAW, type="COH2D4"), "u2": LAW, "u4": replace(LAW, type="U4", consistent=True)}
+INTERFACES = {"coh2d4": replace(LAW, type="COH2D4"), "u2": LAW, "u4": replace(LAW, type="U4", beta=BY_EQUATION_21)}
 """Interfaces of the specimen by the end of the deck's name."""
 NAMES = {
     "coh2d4": "cohesive elements of Abaqus",

@@ -12,7 +12,7 @@ from functools import partial
 from pathlib import Path
 
 from harness.delamination import specimens as build
-from harness.delamination.blocks import Interface
+from harness.delamination.blocks import BY_EQUATION_21, Interface
 from harness.delamination.bricks import bricks_files, stabilised_bricks_files
 from harness.delamination.comparator import comparator_files
 from harness.delamination.cook import cook_files
@@ -58,7 +58,7 @@ def patch_horizontal() -> dict[str, str]:
                 deck = build.patch_deck(f"{title}, free to contract", paper, -0.1, increments, slide=True)
                 files[f"free_{kind.lower()}.inp"] = deck
             elif kind != "U2":
-                estimate = build.patch_specimen(shape, mesh, kind, 0.0)
+                estimate = build.patch_specimen(shape, mesh, kind, BY_EQUATION_21)
                 deck = build.patch_deck(f"{title}, beta by equation (21)", estimate, -0.1, increments, slide=False)
                 files[f"{shape}_{kind.lower()}_beta21.inp"] = deck
     return files
@@ -80,7 +80,9 @@ def dcb() -> dict[str, str]:
 
 def _dcb_deck(kind: str, name: str, exponent: str, stiffness: float, quads: str, sampling: int = 0) -> str:
     cohesive = TABLE_2.with_stiffness(stiffness)
-    interface = Interface(kind, cohesive, viscosity=VISCOSITY / stiffness, sampling=sampling)
+    interface = Interface(
+        kind, cohesive, beta=BY_EQUATION_21, viscosity=VISCOSITY / stiffness, sampling=sampling, consistent=False
+    )
     specimen = build.dcb_specimen("dcb", build.dcb_mesh(), interface, quads)
     title = f"Double cantilever beam, [0/0], {name} ({kind}), stiffness {exponent} N/mm^3, quads {quads}"
     return build.dcb_deck(title, specimen, 3.0, DCB_INCREMENTS, field_every=10)

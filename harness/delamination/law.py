@@ -184,7 +184,7 @@ class LawElement:
 
     def variables(self) -> dict[str, float]:
         """Committed variables of the first point by name."""
-        return dict(zip(self._names, self._block.state(0).svars.reshape(self._points, -1)[0].tolist(), strict=True))
+        return dict(zip(self._names, self._block.state(0).svars[0].tolist(), strict=False))
 
     def _displacements(self, separation: FloatArray, gradient: FloatArray) -> FloatArray:
         u = np.where(self._top, 0.5, -0.5)[:, None] * separation + self._height[:, None] * gradient

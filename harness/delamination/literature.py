@@ -81,7 +81,7 @@ def literature_files() -> dict[str, Callable[[], dict[str, str]]]:
 
 def consistent(law: Cohesive, eta: float = 1.0) -> Interface:
     """U8 with the consistent law, BK and local eigenvalues for beta."""
-    return Interface("U8", law, law=2, eta=eta, beta=-1.0, consistent=True)
+    return Interface("U8", law, law=2, eta=eta)
 
 
 def dcb_benchmark(

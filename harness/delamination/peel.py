@@ -36,9 +36,7 @@ STANDARD = Interface(
 )
 """U2 with the properties of COH2D4: any mode mix has the same energy, points at the nodes."""
 
-CONSISTENT = replace(
-    STANDARD, type="U4", cohesive=STANDARD.cohesive.with_stiffness(0.0), beta=-1.0, consistent=True, newton_cotes=False
-)
+CONSISTENT = replace(STANDARD, type="U4", cohesive=STANDARD.cohesive.with_stiffness(0.0), newton_cotes=False)
 """U4 with the consistent law and an infinite stiffness."""
 
 BASE_MODULUS = 1.0e6 * MODULUS

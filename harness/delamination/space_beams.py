@@ -47,7 +47,7 @@ LAW = Cohesive(0.0, 0.0, 20.0, 60.0, 0.26, 1.002)
 ETA = 2.0
 """Exponent of BK."""
 
-INTERFACE = Interface("U8", LAW, law=2, eta=ETA, beta=-1.0, consistent=True)
+INTERFACE = Interface("U8", LAW, law=2, eta=ETA)
 
 LEVER = 35.0
 """Of mixed-mode bending (mm)."""

@@ -102,8 +102,8 @@ def patch_deck(title: str, specimen: Specimen, displacement: float, increments: 
 
 
 def patch_specimen(name: str, mesh: TwoArmMesh, kind: str, beta: float) -> Specimen:
-    """Patch of [0/0] with standard (U2) or stabilised (U3, U4) elements."""
-    return Specimen(name, mesh, Interface(kind, PATCH_LAW, beta=beta), 1.0, PLY_0, PLY_0)
+    """Patch of [0/0] with the standard element (U2) or the paper's (U3, U4)."""
+    return Specimen(name, mesh, Interface(kind, PATCH_LAW, beta=beta, consistent=False), 1.0, PLY_0, PLY_0)
 
 
 def dcb_specimen(name: str, mesh: TwoArmMesh, interface: Interface, quads: str = "U1") -> Specimen:

@@ -55,6 +55,7 @@ class ElementLayout:
     reals     PROPS
     integers  JPROPS
     variables SVARS of an integration point
+    own       SVARS of the element as a whole, after those of its points
     points    number of integration points
     faces     nodes, from 0, of the bottom and the top face of an interface element: left, right, middle; in space
               counter-clockwise seen from the top, corners and then middles
@@ -67,6 +68,7 @@ class ElementLayout:
     reals: tuple[Item, ...]
     integers: tuple[Item, ...]
     variables: tuple[Item, ...]
+    own: tuple[Item, ...]
     points: int
     faces: tuple[tuple[int, ...], tuple[int, ...]]
     meaning: str
@@ -74,7 +76,7 @@ class ElementLayout:
     @property
     def svars(self) -> int:
         """Number of SVARS, VARIABLES= of *USER ELEMENT."""
-        return self.points * len(self.variables)
+        return self.points * len(self.variables) + len(self.own)
 
 
 @cache
@@ -97,6 +99,7 @@ def read_layouts(text: str) -> dict[int, ElementLayout]:
             reals=_reals(_of_family(tables["reals"], family)),
             integers=_integers(_of_family(tables["integers"], family)),
             variables=_variables(tables[_variables_table(dimension, bool(any(faces)))]),
+            own=_variables(tables["own_variables"]) if 0 < sum(map(len, faces)) < nodes else (),
             points=points,
             faces=faces,
             meaning=meaning,
@@ -150,6 +153,9 @@ def _markdown_lines() -> Iterator[str]:
         yield from _table("JPROPS", "", [(i, "") for i in layout.integers])
         title = f"SVARS of each of {layout.points} points"
         yield from _table(title, "unit", [(i, i.unit) for i in layout.variables])
+        if layout.own:
+            title = f"SVARS from {layout.points * len(layout.variables) + 1}"
+            yield from _table(title, "unit", [(i, i.unit) for i in layout.own])
 
 
 def _table(title: str, unit: str, rows: list[tuple[Item, str]]) -> Iterator[str]:

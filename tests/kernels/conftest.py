@@ -49,9 +49,11 @@ PLIES_3D = {
     **PLIES,
     **{f"{name} {side}": value for name, value in (("G13", 5.52e3), ("G23", 3.48e3)) for side in ("BOTTOM", "TOP")},
 }
-DEFAULTS = {1: {"THICKNESS": 2.0}, 2: LAW, 3: LAW, 4: {**LAW, **PLIES}, 5: LAW, 6: {**LAW, **PLIES}}
-DEFAULTS |= {7: LAW_3D, 8: {**LAW_3D, **PLIES_3D}, 9: {}, 10: LAW_3D}
-DEFAULTS |= {11: LAW_3D, 12: {**LAW_3D, **PLIES_3D}}
+# the closure and the estimate of beta that `reference.py` has
+PAPER = {"CLOSURE": 2, "BETAN": -2.0, "BETAT": -2.0}
+DEFAULTS = {1: {"THICKNESS": 2.0}, 2: LAW, 3: LAW | PAPER, 4: LAW | PAPER | PLIES, 5: LAW, 6: LAW | PAPER | PLIES}
+DEFAULTS |= {7: LAW_3D, 8: LAW_3D | PAPER | PLIES_3D, 9: {}, 10: LAW_3D | PAPER}
+DEFAULTS |= {11: LAW_3D, 12: LAW_3D | PAPER | PLIES_3D}
 TENSORS = {(1, 0): "PSTRESS", (1, 1): "PSTRAIN", (9, 0): "THREED"}  # of continuum elements, by type and PLANE
 ENGINEERING = (1.2e5, 1.05e4, 1.05e4, 0.3, 0.3, 0.51, 5.52e3, 5.52e3, 3.48e3)
 PLY_MATERIAL = Material("PLY", SOURCE, Elastic(ElasticType.ENGINEERING_CONSTANTS, ENGINEERING, SOURCE))
@@ -88,6 +90,9 @@ class Element:
     ):
         layout = (layouts or element_layouts())[jtype]
         given = {**DEFAULTS.get(jtype, LAW), **values}
+        if -1 in (values.get("BETAN"), values.get("BETAT")):
+            # one estimate for both
+            given |= {name: values.get(name, 0.0) for name in ("BETAN", "BETAT")}
         self.names = [item.name for item in layout.variables]
         self.points = layout.points
         reals = [float(given.pop(item.name, 0.0)) for item in layout.reals]
@@ -164,7 +169,8 @@ class Element:
     @property
     def state(self):
         """Committed SVARS by name, one value per point."""
-        table = self.block.state(0).svars.reshape(-1, self.points, len(self.names))
+        svars = self.block.state(0).svars
+        table = svars[:, : self.points * len(self.names)].reshape(-1, self.points, len(self.names))
         return dict(zip(self.names, np.moveaxis(table if self.copies else table[0], -1, 0), strict=True))
 
     @property

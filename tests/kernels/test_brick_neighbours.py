@@ -219,9 +219,9 @@ def test_tangent_is_that_of_the_own_nodes(element, reference):
         ({"OFFSETBOTTOM": -388, "OFFSETTOP": -389}, r"U10 element 400: .*bulk element 12 is not a neighbour"),
         (
             {"BETAN": -1.0},
-            r"U10 element 400: PROPS\(13\) BETAN = -1.*zero or a positive value, or -1 in a self-contained element",
+            r"U10 element 400: PROPS\(13\) BETAN = -1.*zero, a positive value, -2, or -1 in a self-contained element",
         ),
-        ({"ALPHAN": 0.0}, r"U10 element 400: PROPS\(1\) ALPHAN = 0.*requires CLOSURE = 1"),
+        ({"ALPHAN": 0.0}, r"U10 element 400: PROPS\(1\) ALPHAN = 0.*requires the consistent law"),
         (
             {"CLOSURE": 1, "BETAN": 1.0e3},
             r"U10 element 400: PROPS\(13\) BETAN: beta = 1000.*, too small for the consist",

@@ -53,7 +53,7 @@ def test_quadratic_displacements(element, values, rule):
     linear, square = 1e-4 * rng.normal(size=(3, 3)), 1e-4 * rng.normal(size=(3, 3, 3))
     square += square.transpose(0, 2, 1)
     u = coordinates @ linear.T + np.einsum("ijk,aj,ak->ai", square, coordinates, coordinates) / 2
-    strong = STRONG if values.get("CLOSURE") else {"SIGMAMAX": 1e12, "TAUMAX": 1e12, "GIC": 1e22, "GIIC": 1e22}
+    strong = STRONG if values.get("CLOSURE") == 1 else {"SIGMAMAX": 1e12, "TAUMAX": 1e12, "GIC": 1e22, "GIIC": 1e22}
     item = element(12, coordinates, INTEGRATION=rule, **{**values, **strong})
     item.advance(u)
     axes = frames(coordinates, 12, [(0.0, 0.0)])[0]
@@ -99,7 +99,7 @@ def plies():
 
 @pytest.mark.parametrize("rule", [0, 1])
 @pytest.mark.parametrize("law", LAWS)
-@pytest.mark.parametrize(("plane", "space", "closure"), [(5, 11, 0), (6, 12, 0), (6, 12, 1)])
+@pytest.mark.parametrize(("plane", "space", "closure"), [(5, 11, 2), (6, 12, 2), (6, 12, 1)])
 def test_strip_is_the_plane_element(element, plane, space, closure, law, rule):
     """A strip of width 1 that does not move across it: U11 as U5, U12 as U6 in plane strain."""
     shared = {**LAWS[law], "INTEGRATION": rule, "VISCOSITY": 0.3}
@@ -126,7 +126,7 @@ def test_strip_is_the_plane_element(element, plane, space, closure, law, rule):
     assert thin.state["DAMAGE"].min() > 0.1
 
 
-@pytest.mark.parametrize(("jtype", "closure"), [(11, 0), (12, 0), (12, 1)])
+@pytest.mark.parametrize(("jtype", "closure"), [(11, 2), (12, 2), (12, 1)])
 def test_fracture_energy(element, law, jtype, closure):
     """Opened evenly to failure, an element dissipates G_Ic at every point: of its area, to the trapezoidal rule."""
     item = element(jtype, nodes_of(jtype, "flat", 0.0), **({"CLOSURE": closure} if jtype == 12 else {}))
@@ -218,9 +218,13 @@ def test_geometry(element, jtype, change, message, estimate):
         (11, {"TANGENT": 2}, r"U11 element 42: JPROPS\(3\) TANGENT = 2: expected 0 to 1"),
         (11, {"ALPHAN": 0.0, "ALPHAT": 0.0}, r"U11 element 42: .* ALPHAN = 0.*expected a positive"),
         (11, {"GIC": 0.0225}, r"U11 element 42: PROPS\(5\) GIC = .*too brittle"),
-        (12, {"BETAN": -2.0}, r"U12 element 42: .* BETAN = -2.*, or -1 in a self-contained element"),
-        (12, {"CLOSURE": 2}, r"U12 element 42: JPROPS\(5\) CLOSURE = 2: expected 0 to 1"),
-        (12, {"FRICTION": 0.1}, r"U12 element 42: .* FRICTION = 0.1.*: without CLOSURE = 1, expected 0"),
+        (12, {"BETAN": -3.0}, r"U12 element 42: .* BETAN = -3.*, or -1 in a self-contained element"),
+        (12, {"CLOSURE": 3}, r"U12 element 42: JPROPS\(5\) CLOSURE = 3: expected 0 to 2"),
+        (
+            12,
+            {"FRICTION": 0.1},
+            r"U12 element 42: .* FRICTION = 0.1.*: without the consistent law .CLOSURE = 1., expected 0",
+        ),
         (12, {"CLOSURE": 1, "BETAN": 1.0, "BETAT": 1.0}, r"U12 element 42: .*: beta = 1.0.*, too small"),
         (12, {"NU12 TOP": 4.0}, r"U12 element 42: PROPS\(28\) NU12 TOP = 4.*not positive definite"),
         (12, {"G23 TOP": 0.0}, r"U12 element 42: PROPS\(36\) G23 TOP = 0.*: expected a positive value"),

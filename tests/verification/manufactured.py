@@ -19,7 +19,7 @@ from pathlib import Path
 
 import numpy as np
 
-from harness.delamination.blocks import Interface, Specimen, element_blocks
+from harness.delamination.blocks import BY_EQUATION_21, Interface, Specimen, element_blocks
 from harness.delamination.keywords import integer_table, node_block, node_set, number, text
 from harness.delamination.materials import PLY_0, Cohesive, Ply
 from harness.delamination.mesh import TwoArmMesh, two_arms
@@ -100,7 +100,15 @@ def write_plate_deck(folder: Path, n: int, field: Field, *, quads: str = "U1", i
     `quads` is 'U1' or 'CPS4', `interface` None, 'U2' or 'U4'.
     """
     body = plate(n, interface=interface is not None)
-    specimen = Specimen("plate", body.mesh, Interface(interface or "U2", STIFF), 1.0, field.ply, field.ply, quads)
+    specimen = Specimen(
+        "plate",
+        body.mesh,
+        Interface(interface or "U2", STIFF, BY_EQUATION_21, consistent=False),
+        1.0,
+        field.ply,
+        field.ply,
+        quads,
+    )
     (folder / "plate_quads.inp").write_text(integer_table(body.quads), encoding="ascii")
     blocks = element_blocks(specimen)
     if interface is None:

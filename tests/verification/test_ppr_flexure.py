@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from harness.delamination import flexure, specimens
-from harness.delamination.blocks import Interface, Specimen
+from harness.delamination.blocks import BY_EQUATION_21, Interface, Specimen
 from harness.delamination.materials import PLY_0, TABLE_2
 from harness.delamination.measures import iterations
 from harness.delamination.steps import Increments
@@ -21,7 +21,7 @@ INCREMENTS = Increments(initial=0.02, smallest=1e-7, largest=0.02, limit=200)
 def test_end_notched_flexure(tmp_path: Path) -> None:
     # coarse: the process zone of mode II is long
     mesh = flexure.enf_mesh(0.5, 0.0)
-    interface = Interface("U4", TABLE_2.with_stiffness(0.0), consistent=True)
+    interface = Interface("U4", TABLE_2.with_stiffness(0.0), BY_EQUATION_21)
     deck = flexure.enf_deck(
         "ENF", Specimen("mesh", mesh, interface, specimens.WIDTH, PLY_0, PLY_0), 4.0, INCREMENTS, 100
     )

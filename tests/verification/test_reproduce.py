@@ -63,7 +63,7 @@ def test_deck_of_a_variation() -> None:
     values = text.split("*UEL PROPERTY, ELSET=INTERFACE\n")[1].split("*")[0].replace("\n", ",").split(",")
     given = dict(zip(names[start:], (value.strip() for value in values if value.strip()), strict=False))
     assert "*STATIC\n0.02, 1., 1e-07, 0.02\n" in text
-    assert (given["SAMPLING"], given["INTEGRATION"], given["CLOSURE"]) == ("1", "1", "0")
+    assert (given["SAMPLING"], given["INTEGRATION"], given["CLOSURE"]) == ("1", "1", "2")
     height = 1.55 / 4.0
     # (21) and (22) with |D| = E/(1 - nu) of the isotropic ply and, within 1 %, E11 of the other
     soft, stiff = height * (1.0 - PLY_90.nu12) / PLY_90.e1, height / PLY_0.e1

@@ -13,7 +13,11 @@ COLUMNS, TIP = 12, 4  # elements along the beam, and those along the crack
 LENGTH, HEIGHT, WIDTH = 6.0, 0.5, 0.3
 YOUNG, NU, OPENING = 7.0e4, 0.3, 0.3
 LAW = {"ALPHAN": 2e4, "ALPHAT": 2e4, "SIGMAMAX": 12.0, "TAUMAX": 16.0, "GIC": 0.3, "GIIC": 0.6, "LAW": 2, "ETA": 1.5}
-CLOSURES = {"paper": {}, "rigid": {"CLOSURE": 1, "ALPHAN": 0.0, "ALPHAT": 0.0}}
+EQUATION_21 = {"BETAN": -2.0, "BETAT": -2.0}
+CLOSURES = {
+    "paper": {"CLOSURE": 2, **EQUATION_21},
+    "rigid": {"CLOSURE": 1, "ALPHAN": 0.0, "ALPHAT": 0.0, **EQUATION_21},
+}
 BETA = {"BETAN": 2e5, "BETAT": 2e5}
 FIRST = 1 + 2 * COLUMNS  # number of the first interface element
 OFFSETS = {"OFFSETBOTTOM": TIP - 2 * COLUMNS, "OFFSETTOP": TIP - COLUMNS}

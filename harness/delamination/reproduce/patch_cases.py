@@ -7,7 +7,7 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 
 from harness.delamination import specimens
-from harness.delamination.blocks import Interface
+from harness.delamination.blocks import BY_EQUATION_21, Interface
 from harness.delamination.mesh import TwoArmMesh
 from harness.delamination.patches import BETAS, COLLINEAR, PLIES, inclined_mesh, inclined_specimen
 from harness.delamination.steps import Increments
@@ -35,7 +35,7 @@ class PatchCase:
     moved    the interface nodes are moved by 3 % of an element
     decimals  of the coordinates of an inclined interface's nodes
     normal, shear  stiffnesses of the interface (N/mm^3)
-    beta     stabilisation (N/mm^3): None takes the paper's, 0 that of equation (21)
+    beta     stabilisation (N/mm^3): None takes the paper's, BY_EQUATION_21 that of equation (21)
     slide    the bottom edge may contract sideways, so that the stress is uniform
     """
 
@@ -56,7 +56,7 @@ class PatchCase:
         if (self.normal, self.shear) != (LAW.stiffness_normal, LAW.stiffness_shear):
             words.append(f"{self.normal:.0e}_{self.shear:.0e}".replace("+", ""))
         if self.beta is not None:
-            words.append(f"beta{self.beta:.0e}".replace("+", "") if self.beta else "beta21")
+            words.append(f"beta{self.beta:.0e}".replace("+", "") if self.beta > 0 else "beta21")
         return "_".join(words + ["free"] * self.slide)
 
     @property
@@ -117,13 +117,15 @@ def inclined_cases() -> list[PatchCase]:
         for element in METHODS
         for moved, decimals in NODES
     ]
-    return cases + [PatchCase("inclined", layup, "stabilised", True, beta=0.0) for layup in PLIES]
+    return cases + [PatchCase("inclined", layup, "stabilised", True, beta=BY_EQUATION_21) for layup in PLIES]
 
 
 def patch_cases() -> list[PatchCase]:
     """All patch tests of the paper."""
     horizontal = [PatchCase("horizontal", "0/0", element, moved) for element in METHODS for moved in (False, True)]
-    horizontal += [PatchCase("horizontal", "0/0", "stabilised", True, beta=beta) for beta in (0.0, 3.0e8, 3.0e12)]
+    horizontal += [
+        PatchCase("horizontal", "0/0", "stabilised", True, beta=beta) for beta in (BY_EQUATION_21, 3.0e8, 3.0e12)
+    ]
     horizontal.append(PatchCase("horizontal", "0/0", "standard", True, shear=LAW.stiffness_normal))
     flat = [PatchCase("horizontal", "0/0", element, False, normal=a, shear=a) for element in METHODS for a in STIFF]
     return [*horizontal, *inclined_cases(), *flat, *uniform_cases()]

@@ -23,7 +23,7 @@ import numpy as np
 from rich.console import Console
 
 from harness.batch.engine import Store, StoredRow, complete
-from harness.delamination.blocks import Interface
+from harness.delamination.blocks import BY_EQUATION_21, Interface
 from harness.delamination.markdown import head, line
 from harness.delamination.materials import TABLE_2, SolidPly
 from harness.delamination.measures import cutbacks, iterations, load
@@ -39,7 +39,7 @@ from harness.output import Result
 
 BETAS = {
     "-1": -1.0,
-    "(21)": 0.0,
+    "(21)": BY_EQUATION_21,
     "2e3": 2.0e3,
     "2e4": 2.0e4,
     "2e5": 2.0e5,
@@ -51,7 +51,7 @@ BETAS = {
 UNSTABLE = "2e3"
 """Below the bound of the elements: in the first table alone, as it takes fifty times as many iterations."""
 
-CONSISTENT = Interface("U4", TABLE_2.with_stiffness(0.0), consistent=True)
+CONSISTENT = Interface("U4", TABLE_2.with_stiffness(0.0))
 """With an infinite stiffness."""
 
 SPECIMENS = ("dcb025", "enf")
@@ -154,7 +154,7 @@ class SpaceCase:
         if self.beta == "-1":
             return -1.0
         share = MULTIPLES[self.beta]
-        return 0.0 if share == 1.0 else share * spectral_norm(PLY_0) * self.layers / HEIGHT
+        return BY_EQUATION_21 if share == 1.0 else share * spectral_norm(PLY_0) * self.layers / HEIGHT
 
 
 def spectral_norm(ply: SolidPly) -> float:

@@ -10,7 +10,7 @@ from dataclasses import dataclass, fields, replace
 from typing import NamedTuple
 
 from harness.delamination import flexure, specimens
-from harness.delamination.blocks import Interface, Specimen
+from harness.delamination.blocks import BY_EQUATION_21, Interface, Specimen
 from harness.delamination.materials import PLY_0, PLY_90, TABLE_2
 from harness.delamination.mesh import TwoArmMesh, refined
 from harness.delamination.steps import Increments
@@ -132,7 +132,7 @@ class StudyCase:
 def interface_of(element: str, stiffness: str) -> Interface:
     """Interface elements with the law of the paper, by the names of the tables."""
     kind, consistent = ELEMENTS[element]
-    return Interface(kind, TABLE_2.with_stiffness(STIFFNESSES[stiffness]), consistent=consistent)
+    return Interface(kind, TABLE_2.with_stiffness(STIFFNESSES[stiffness]), BY_EQUATION_21, consistent=consistent)
 
 
 def mesh_of(kind: MeshedSpecimen, mesh: str, factor: int = 1) -> TwoArmMesh:

@@ -67,7 +67,7 @@ STRENGTH = LAW.strength_normal
 STIFFNESSES = {"1e6": 1.0e6, "1e8": 1.0e8, "inf": 0.0}
 ELEMENTS = {
     "standard": Interface("U7", LAW, law=2, eta=1.0),
-    "consistent": Interface("U8", LAW, law=2, eta=1.0, beta=-1.0, consistent=True),
+    "consistent": Interface("U8", LAW, law=2, eta=1.0),
 }
 ALLOWED = 1.1
 """Index over that of the same element on the aligned mesh at 1e6 N/mm^3."""

@@ -18,7 +18,7 @@ from harness.assembly import System
 from harness.assembly.linear import LinearElements
 from harness.cli import main
 from harness.deck import read_deck
-from harness.delamination.blocks import Interface
+from harness.delamination.blocks import BY_EQUATION_21, Interface
 from harness.delamination.keywords import element_block, node_block
 from harness.delamination.materials import TABLE_2
 from harness.delamination.mesh import two_arms
@@ -135,7 +135,9 @@ def test_built_in_elements_are_called_once_and_at_the_end_of_increments(
 @pytest.mark.parametrize(("kind", "stored"), [("U2", ()), ("U3", ("BOTTOM_FACE", "TOP_FACE"))])
 def test_own_quads_are_called_in_each_pass_only_where_u3_reads_their_stress(tmp_path, monkeypatch, calls, kind, stored):
     mesh = two_arms(np.linspace(0.0, 60.0, 31), ARM_HEIGHT, 2, 35.0)
-    specimen = dcb_specimen("beam", mesh, Interface(kind, TABLE_2.with_stiffness(1e4)))
+    specimen = dcb_specimen(
+        "beam", mesh, Interface(kind, TABLE_2.with_stiffness(1e4), BY_EQUATION_21, consistent=False)
+    )
     increments = Increments(0.05, 1e-6, 0.05)
     files = mesh_files("beam", mesh, (4,)) | {"dcb.inp": dcb_deck("DCB", specimen, 1.5, increments, 1)}
     for name, content in files.items():

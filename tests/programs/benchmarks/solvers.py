@@ -30,7 +30,7 @@ from harness import usersub
 from harness.assembly import Constraints, System, TolerantSystem
 from harness.deck import read_deck
 from harness.delamination import literature, specimens
-from harness.delamination.blocks import Interface
+from harness.delamination.blocks import BY_EQUATION_21, Interface
 from harness.delamination.decks import DCB_REF_INCREMENTS
 from harness.delamination.materials import TABLE_2
 from harness.delamination.mesh import refined
@@ -71,7 +71,9 @@ def in_plane(factor: int, kind: str, folder: Path) -> Path:
     """DCB-ref on quads cut into factor x factor ones."""
     mesh = specimens.dcb_ref_mesh()
     mesh = refined(mesh, factor) if factor > 1 else mesh
-    specimen = specimens.dcb_specimen("beam", mesh, Interface(kind, TABLE_2.with_stiffness(1e6)))
+    specimen = specimens.dcb_specimen(
+        "beam", mesh, Interface(kind, TABLE_2.with_stiffness(1e6), BY_EQUATION_21, consistent=False)
+    )
     for name, content in specimens.mesh_files("beam", mesh, (4, 8)).items():
         (folder / name).write_text(content, encoding="ascii")
     deck = folder / "beam.inp"
