@@ -14,6 +14,7 @@ from pathlib import Path
 from harness.delamination import specimens as build
 from harness.delamination.blocks import BY_EQUATION_21, Interface
 from harness.delamination.bricks import bricks_files, stabilised_bricks_files
+from harness.delamination.columns import column_files
 from harness.delamination.comparator import comparator_files
 from harness.delamination.cook import cook_files
 from harness.delamination.elastica import elastica_files
@@ -115,6 +116,7 @@ def all_files() -> dict[Path, str]:
     problems |= {
         "patch_inclined": patch_inclined,
         "cohesive": comparator_files,
+        "properties": column_files,
         "dcb_3d": bricks_files,
         "dcb_3d_stabilised": stabilised_bricks_files,
         "space_beams": space_beam_files,
