@@ -19,8 +19,8 @@ BY_EQUATION_21 = -2.0
 class Interface:
     """Interface elements of a deck.
 
-    type       'U2' standard, 'U3' stabilised with four nodes, 'U4' stabilised with eight nodes, 'COH2D4' Abaqus' own;
-               in space 'U7' standard, 'U8' stabilised, 'COH3D8' Abaqus' own
+    type       'U2' standard, 'U3' consistent or paper's with four nodes, 'U4' with eight, 'COH2D4' Abaqus' own; in
+               space 'U7' standard, 'U8' consistent or paper's, 'COH3D8' Abaqus' own
     cohesive   parameters of the law
     beta       stabilisation parameter beta_n = beta_tau (N/mm^3); 0 computes it by the local eigenvalue problem, in U3
                and U10 by equation (21), which BY_EQUATION_21 asks for
@@ -133,9 +133,9 @@ def _materials(specimen: Specimen) -> list[str]:
 
 
 _TITLES = {
-    2: "standard cohesive elements",
-    3: "stabilised cohesive elements with four nodes",
-    4: "stabilised cohesive elements with eight nodes: those of the quad below, then those of the quad above",
+    2: "standard elements",
+    3: "elements with four nodes",
+    4: "elements with eight nodes: those of the quad below, then those of the quad above",
 }
 
 
@@ -146,8 +146,9 @@ def _interface(specimen: Specimen) -> list[str]:
     if interface.built_in:
         return ["** interface: cohesive elements of Abaqus", elements, *cohesive_section(interface, specimen.width)]
     jtype = int(interface.type[1:])
+    variant = "" if jtype == 2 else "consistent " if interface.consistent else "paper's "
     return [
-        f"** interface: {_TITLES[jtype]}",
+        f"** interface: {variant}{_TITLES[jtype]}",
         *user_element(jtype, "UNSYMM"),
         elements,
         *uel_property(jtype, "INTERFACE", interface_values(specimen)),

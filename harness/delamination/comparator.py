@@ -34,7 +34,7 @@ INTERFACES = {"coh2d4": replace(LAW, type="COH2D4"), "u2": LAW, "u4": replace(LA
 NAMES = {
     "coh2d4": "cohesive elements of Abaqus",
     "u2": "standard interface elements",
-    "u4": "consistent stabilised elements",
+    "u4": "consistent interface elements",
 }
 
 

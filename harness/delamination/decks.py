@@ -27,7 +27,7 @@ from harness.delamination.space_beams import space_beam_files
 from harness.delamination.steps import LINEAR, Increments
 
 FOLDER = Path(__file__).parents[2] / "abaqus_inputs"
-KINDS = {"U2": "standard", "U3": "stabilised, four nodes", "U4": "stabilised, eight nodes"}
+KINDS = {"U2": "standard", "U3": "paper's, four nodes", "U4": "paper's, eight nodes"}
 SAMPLINGS = ("face", "gauss")
 STIFFNESSES = {"1e6": 1.0e6, "1e8": 1.0e8}
 # Relaxation time of the damage in step time, times the stiffness (N/mm^3). Where an element fails within one increment

@@ -33,7 +33,7 @@ from harness.output.plots import Curve, Panel, grid
 
 BEAMS = {
     "standard": "dcb_0_0_standard_1e8_perturbed.inp",
-    "paper's": "dcb_0_0_stabilised_1e8_perturbed.inp",
+    "paper's": "dcb_0_0_paper_1e8_perturbed.inp",
     "consistent": "dcb_0_0_consistent_1e8_perturbed.inp",
 }
 """Decks of abaqus_inputs/paper_dcb by element, stiffness 1e8 N/mm^3."""

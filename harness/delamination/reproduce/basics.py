@@ -36,12 +36,12 @@ def patch_swing(
 def patch_gain(
     evidence: Evidence, shape: str, layups: Sequence[str], *, moved: bool = True, decimals: int = COLLINEAR
 ) -> float:
-    """Standard deviation of the stabilised method's traction over the standard one's; the largest of the layups."""
+    """Standard deviation of the paper's method's traction over the standard one's; the largest of the layups."""
     found = []
     for layup in layups:
         spread = [
             float(np.std(evidence.runs.patch(PatchCase(shape, layup, element, moved, decimals)).traction))
-            for element in ("stabilised", "standard")
+            for element in ("paper", "standard")
         ]
         found.append(spread[0] / spread[1])
     return max(found)
@@ -49,7 +49,7 @@ def patch_gain(
 
 def patch_slip(evidence: Evidence) -> float:
     """Slip along the inclined interface over the length of its elements."""
-    profile = evidence.runs.patch(PatchCase("inclined", "0/0", "stabilised", moved=True)).profile
+    profile = evidence.runs.patch(PatchCase("inclined", "0/0", "paper", moved=True)).profile
     mesh = inclined_mesh()
     length = float(np.hypot(1.0, mesh.slope) * (mesh.x[1] - mesh.x[0]))
     return float(np.abs(profile["SEPT"]).mean()) / length
@@ -88,7 +88,7 @@ def _stiff(element: str, stiffness: float) -> PatchCase:
 def identity_with_standard(evidence: Evidence) -> float:
     """Largest difference of the tractions of the two methods on moved nodes, beta = 3e12, over the mean traction."""
     standard = evidence.runs.patch(PatchCase("horizontal", "0/0", "standard", moved=True)).traction
-    stiff = evidence.runs.patch(PatchCase("horizontal", "0/0", "stabilised", moved=True, beta=3.0e12)).traction
+    stiff = evidence.runs.patch(PatchCase("horizontal", "0/0", "paper", moved=True, beta=3.0e12)).traction
     return float(np.abs(stiff - standard).max() / abs(standard.mean()))
 
 

@@ -103,9 +103,10 @@ def _how(parts: Sequence[str], *, quick: bool) -> list[str]:
     mesh = "the coarser meshes and increments of --quick" if quick else "the full meshes"
     return [
         f"Made by uel reproduce ({', '.join(parts)}) on {mesh}. Every number below is computed from the runs.",
-        "Elements: standard is U2, stabilised the paper's method in U4 (damage at the displacement jump), consistent "
-        "is U4 with CLOSURE 1. Runs keep Abaqus' default tolerances; where Newton's method stops, the harness searches "
-        "downhill (uel run --fallback), where the paper raised the tolerances up to a hundredfold.",
+        "Elements: standard is U2, paper the paper's method in U4 (CLOSURE 2, damage at the displacement jump), "
+        "consistent is U4 with CLOSURE 1; both with beta by (21). Runs keep Abaqus' default tolerances; where Newton's "
+        "method stops, the harness searches downhill (uel run --fallback), "
+        "where the paper raised the tolerances up to a hundredfold.",
         "The paper's figures are not part of this page, and its text gives neither the moments of its profiles nor the "
         "ranges of its axes: ours show the whole softening branch, and profiles at a moment of steady growth.",
     ]
@@ -120,19 +121,19 @@ def _figures(parts: Sequence[str], runs: Runs, folder: Path, *, quick: bool) -> 
         drawn["6"] = figures.draw_inclined_patch(runs, folder)
         for figure, shape in (("3", "horizontal"), ("5", "inclined")):
             squares = [
-                (words, runs.deck(PatchCase(shape, "0/0", "stabilised", moved)))
+                (words, runs.deck(PatchCase(shape, "0/0", "paper", moved)))
                 for words, moved in (("straight interface", False), ("perturbed interface", True))
             ]
             zoom = (0.45, 0.5, 0.15) if shape == "horizontal" else None
             drawn[figure] = drawings.draw_square(squares, folder / f"figure_{int(figure):02d}.png", zoom)
     beams = {"dcb": ("7", (32.0, 44.0)), "enf": ("12", (30.0, 42.0)), "frmm": ("17", (32.0, 44.0))}
     for problem in (part for part in parts if part in PROBLEMS):
-        case = PaperCase(problem, "0/0", "stabilised", "1e8", coarse=quick)
+        case = PaperCase(problem, "0/0", "paper", "1e8", coarse=quick)
         figure, tip = beams[problem]
         drawn[figure] = drawings.draw_beam(runs.deck(case), folder / f"figure_{int(figure):02d}.png", tip)
         drawn |= figures.problem_figures(runs, problem, coarse=quick, folder=folder)
         if problem == "dcb":
-            cross = PaperCase(problem, "0/90", "stabilised", "1e8", coarse=quick)
+            cross = PaperCase(problem, "0/90", "paper", "1e8", coarse=quick)
             drawn["1"] = drawings.draw_domain(runs.deck(cross), folder / "figure_01.png")
     return drawn
 

@@ -58,9 +58,9 @@ def to_line(point: FloatArray, line: FloatArray) -> float:
 
 
 def methods_distance(evidence: Evidence, problem: str, layups: Sequence[str] = ("0/0", "0/90")) -> float:
-    """Largest distance of the load curves of the standard and the stabilised method at equal stiffness."""
+    """Largest distance of the load curves of the standard and the paper's method at equal stiffness."""
     return max(
-        curve_distance(evidence.run(problem, layup, "stabilised", s), evidence.run(problem, layup, "standard", s))
+        curve_distance(evidence.run(problem, layup, "paper", s), evidence.run(problem, layup, "standard", s))
         for layup in layups
         for s in SHOWN
     )
@@ -113,12 +113,12 @@ def smallest_increment(evidence: Evidence, *, secant: bool) -> float:
 
 
 def iterations_ratio(evidence: Evidence) -> float:
-    """Iterations of the stabilised method over those of the standard one, all specimens, layups and stiffnesses."""
-    totals = {"stabilised": 0, "standard": 0}
+    """Iterations of the paper's method over those of the standard one, all specimens, layups and stiffnesses."""
+    totals = {"paper": 0, "standard": 0}
     for problem, layup, stiffness in itertools.product(PROBLEMS, LAYUPS, SHOWN):
         for element in totals:
             totals[element] += evidence.run(problem, layup, element, stiffness).entry.iterations
-    return totals["stabilised"] / totals["standard"]
+    return totals["paper"] / totals["standard"]
 
 
 def energy_error(evidence: Evidence, problem: str, element: str, stiffnesses: Sequence[str] = SHOWN) -> float:

@@ -62,13 +62,13 @@ def _patch_panel(runs: Runs, case: PatchCase) -> Panel:
 
 
 def draw_loads(runs: Runs, base: PaperCase, path: Path) -> Path:
-    """Figures 8, 13, 18: load over displacement of the stabilised method, [0/0] with theory, [0/90] with COH2D4."""
+    """Figures 8, 13, 18: load over displacement of the paper's method, [0/0] with theory, [0/90] with COH2D4."""
     panels = []
     for layup in ("0/0", "0/90"):
         curves = [*_theory(base.problem)] if layup == "0/0" else []
         for stiffness in SHOWN:
             run = runs[replace(base, layup=layup, stiffness=stiffness)]
-            curves.append(Curve(f"stabilised {stiffness}", run.displacement, run.load))
+            curves.append(Curve(f"paper {stiffness}", run.displacement, run.load))
         built_in = replace(base, layup=layup, element="COH2D4", stiffness="1e6")
         if built_in in runs:
             run = runs[built_in]
@@ -136,7 +136,7 @@ def _profile_panel(
 
 def problem_figures(runs: Runs, problem: str, *, coarse: bool, folder: Path) -> dict[str, Path]:
     """All result figures of a specimen by the paper's numbers."""
-    base = PaperCase(problem, "0/0", "stabilised", "1e8", coarse=coarse)
+    base = PaperCase(problem, "0/0", "paper", "1e8", coarse=coarse)
     cross = replace(base, layup="0/90")
 
     def at(number: int) -> Path:

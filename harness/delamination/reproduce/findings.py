@@ -96,15 +96,15 @@ def smallest_variation(
 def variation_gain(
     evidence: Evidence, problem: str, layup: str, tractions: Sequence[str], *, ever: bool = False
 ) -> float:
-    """What the stabilised method adds to the smooth variation on the perturbed mesh, over what the standard one adds.
+    """What the paper's method adds to the smooth variation on the perturbed mesh, over what the standard one adds.
 
     At 1e8. Real variation, which bumps cause, is in both.
     """
-    stabilised, standard = (
+    paper, standard = (
         variation(evidence, problem, layup, element, tractions, perturbed=True, ever=ever) - 1.0
-        for element in ("stabilised", "standard")
+        for element in ("paper", "standard")
     )
-    return max(stabilised, 0.0) / standard if standard > 0.0 else np.inf
+    return max(paper, 0.0) / standard if standard > 0.0 else np.inf
 
 
 def damage_turns(
@@ -154,7 +154,7 @@ def moment(run: Run) -> Profile:
 def oscillation_place(evidence: Evidence, problem: str, layup: str, element: str) -> float:
     """Distance (mm) of the standard method's worst kink in the normal traction from the point where it changes sign.
 
-    The kink is the largest change between neighbouring points of the distance from the stabilised method's profile.
+    The kink is the largest change between neighbouring points of the distance from the paper's method's profile.
     """
     profile = moment(evidence.run(problem, layup, element, "1e8"))
     smooth = moment(evidence.run(problem, layup, "consistent", "1e8"))
@@ -228,10 +228,10 @@ def closed_error(evidence: Evidence, problem: str, element: str) -> float:
 
 
 def process_zone(evidence: Evidence) -> float:
-    """Interface elements in the process zone (0 < damage < 1), the fewest of the specimens, [0/0], 1e6, stabilised."""
+    """Interface elements in the process zone (0 < damage < 1), the fewest of the specimens, [0/0], 1e6, paper's."""
     counts = []
     for problem in PROBLEMS:
-        damage = moment(evidence.run(problem, "0/0", "stabilised", "1e6"))["DAMAGE"]
+        damage = moment(evidence.run(problem, "0/0", "paper", "1e6"))["DAMAGE"]
         counts.append(float(np.count_nonzero((damage > 0.0) & (damage < 1.0))) / 2.0)
     return min(counts)
 

@@ -115,13 +115,13 @@ def asymmetry(_: Evidence, element: str) -> float:
 
 
 def coercivity(_: Evidence, factor: float) -> float:
-    """Smallest eigenvalue of the symmetric part of the stabilised stiffness over the standard one's.
+    """Smallest eigenvalue of the symmetric part of the paper's stiffness over the standard one's.
 
     Positive definite where it is above 0. The interface is rigid; beta is that of (21) times a factor.
     """
     beta = factor * stabilisation(*PLIES["0/0"], (QUAD**2, QUAD**2), QUAD)
     lowest = []
-    for case in (_patch("stabilised", RIGID, beta), _patch("standard", RIGID)):
+    for case in (_patch("paper", RIGID, beta), _patch("standard", RIGID)):
         matrix = _stiffness(case)
         lowest.append(float(np.linalg.eigvalsh(0.5 * (matrix + matrix.T))[0]))
     return lowest[0] / lowest[1]

@@ -67,9 +67,9 @@ def kink_distance(evidence: Evidence, problem: str, traction: str) -> float:
 
 def large_beta(evidence: Evidence, beta: float) -> float:
     """Standard deviation of the normal traction on moved nodes over the standard method's, with a large beta."""
-    stabilised = evidence.runs.patch(PatchCase("horizontal", "0/0", "stabilised", moved=True, beta=beta))
+    paper = evidence.runs.patch(PatchCase("horizontal", "0/0", "paper", moved=True, beta=beta))
     standard = evidence.runs.patch(PatchCase("horizontal", "0/0", "standard", moved=True))
-    return swing(stabilised.traction) / swing(standard.traction)
+    return swing(paper.traction) / swing(standard.traction)
 
 
 def contrast(evidence: Evidence) -> float:
@@ -88,7 +88,7 @@ def soft_difference(evidence: Evidence) -> float:
             apart = []
             for stiffness in ("1e4", "1e8"):
                 one, other = (
-                    moment(evidence.run(problem, "0/0", element, stiffness)) for element in ("standard", "stabilised")
+                    moment(evidence.run(problem, "0/0", element, stiffness)) for element in ("standard", "paper")
                 )
                 apart.append(float(np.abs(one[name] - other[name]).max()))
             found.append(apart[0] / apart[1])
@@ -168,8 +168,8 @@ def newton_cotes_gain(evidence: Evidence) -> float:
 
 
 def stiff_load(evidence: Evidence, problems: Sequence[str]) -> float:
-    """Relative change of the stabilised method's peak load from 1e8 to 1e12, the largest, [0/0]."""
-    peaks = [[evidence.run(p, "0/0", "stabilised", s).peak[0] for s in ("1e8", "1e12")] for p in problems]
+    """Relative change of the paper's method's peak load from 1e8 to 1e12, the largest, [0/0]."""
+    peaks = [[evidence.run(p, "0/0", "paper", s).peak[0] for s in ("1e8", "1e12")] for p in problems]
     return max(abs(high / low - 1.0) for low, high in peaks)
 
 

@@ -17,7 +17,7 @@ from harness.delamination.study.rows import damage_variation
 from harness.output.plots import Curve, Panel, grid
 
 CONSISTENT = ("consistent", "inf")
-METHODS = (("standard", "1e6"), ("stabilised", "1e8"), CONSISTENT)
+METHODS = (("standard", "1e6"), ("paper", "1e8"), CONSISTENT)
 """Element and stiffness of the rows: the standard one at the stiffness that the paper would choose."""
 VARIATION = "variation of the traction (MPa)"
 """Total variation of the loading mode's traction, process zone and bonded part, the largest of all moments."""
@@ -57,7 +57,7 @@ def _bases(problem: str, methods: Sequence[tuple[str, str]], *, coarse: bool) ->
 
 def _possible(element: str, *, coarse: bool) -> set[str]:
     """Stiffnesses of an element; at 1e12 the standard one takes thousands of iterations."""
-    without = {"consistent": set[str](), "stabilised": {"inf"}, "standard": {"inf", "1e12"} if coarse else {"inf"}}
+    without = {"consistent": set[str](), "paper": {"inf"}, "standard": {"inf", "1e12"} if coarse else {"inf"}}
     return set(STIFFNESSES) - without[element]
 
 
@@ -99,7 +99,7 @@ def studies(*, coarse: bool) -> list[Study]:
                     if name in _possible(element, coarse=coarse)
                 ]
                 for problem in ("dcb", "enf")
-                for element in ("standard", "stabilised", "consistent")
+                for element in ("standard", "paper", "consistent")
             },
             number=False,
             advice=ADVICE["stiffness"],

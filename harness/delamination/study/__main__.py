@@ -23,7 +23,9 @@ from harness.errors import UelError
 
 def main(arguments: Sequence[str] | None = None) -> int:
     """Run the command; returns the exit code: 0 if all rows are complete, 1 if interrupted, 2 on wrong usage."""
-    description = "Run delamination specimens with the standard and the stabilised elements, and compare them."
+    description = (
+        "Run delamination specimens with the standard, the paper's and the consistent element, and compare them."
+    )
     parser = study_parser("harness.delamination.study", description, "study", resumes=True)
     parser.add_argument(
         "--only",
