@@ -11,9 +11,13 @@ import shutil
 import sys
 from collections.abc import Callable, Sequence
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 from harness import isolation, sanitizer
 from harness.errors import FAILURES, UelError, UsageError, drop_output, tell, tell_failure
+
+if TYPE_CHECKING:
+    from harness.batch.runs import Settings
 
 # options of the `abaqus` command and what they are here; None: accepted and without effect on one machine
 ABAQUS_OPTIONS = {
@@ -123,6 +127,8 @@ def build_parser() -> argparse.ArgumentParser:
     run.set_defaults(function=run_job)
 
     add_batch(commands.add_parser("batch", help="run many decks, or one deck with many values, several at a time"))
+
+    add_fit(commands.add_parser("fit", help="find parameters of a deck from a measured curve"))
 
     new = commands.add_parser("new", help="start a user element: kernel, deck, tests, CI")
     new.add_argument("name", type=Path, metavar="NAME", help="name of the element and of its new folder")
@@ -245,6 +251,44 @@ def add_batch(batch: argparse.ArgumentParser) -> None:
     batch.add_argument("--collect", action="store_true", help="run nothing: write the table of what has run")
     batch.add_argument("--quiet", action="store_true", help="neither progress nor a summary")
     batch.set_defaults(function=run_batch, of_runs=add_run_options(batch))
+
+
+def add_fit(fit: argparse.ArgumentParser) -> None:
+    """Options of `uel fit`."""
+    fit.description = (
+        "Runs the deck with other values until its curve is the measured one, in the sense of least squares. An "
+        "interrupted fit resumes where it stopped."
+    )
+    fit.epilog = (
+        "Written: DECK_fit.csv with values, confidence intervals and correlations, DECK_fit_curve.csv and DECK_fit.png "
+        "with the curves and their derivatives. "
+        "Exit code: 0 the search has converged; 1 it has not, or a run cannot be compared; 2 wrong usage."
+    )
+    fit.add_argument("deck", type=Path, metavar="DECK.inp")
+    fit.add_argument(
+        "curve",
+        type=Path,
+        metavar="CURVE.csv",
+        help="two columns, whose names are those of the history: x, which rises, y",
+    )
+    fit.add_argument(
+        "variables",
+        nargs="+",
+        metavar="NAME=LOW:HIGH",
+        help="parameters of the deck's *PARAMETER, or properties of the project's interface elements, with bounds "
+        "above 0; NAME=LOW:START:HIGH chooses the start",
+    )
+    for axis in "xy":
+        fit.add_argument(
+            f"--{axis}", metavar="COLUMN", help=f"column of the history that is {axis}, such as U2[TOP], 2*U2[TOP]"
+        )
+    fit.add_argument(
+        "-o", "--output-dir", type=Path, default=Path("fit"), metavar="DIR", help="folder of the output (fit)"
+    )
+    fit.add_argument("--runs", type=positive, default=40, metavar="N", help="largest number of runs (40)")
+    fit.add_argument("--cpus", type=positive, metavar="N", help="runs at a time (one for each core)")
+    fit.add_argument("--quiet", action="store_true", help="print errors only")
+    fit.set_defaults(function=fit_parameters, of_runs=add_run_options(fit))
 
 
 def add_law(law: argparse.ArgumentParser) -> None:
@@ -458,13 +502,11 @@ def run_job(options: argparse.Namespace) -> int:
 def run_batch(options: argparse.Namespace) -> int:
     """`uel batch`."""
     from harness.batch.command import batch  # noqa: PLC0415
-    from harness.batch.runs import Settings  # noqa: PLC0415
 
-    how = [action for action in options.of_runs if action.dest not in ("user", "call_limit")]
     completed = batch(
         options.decks,
         options.output_dir,
-        Settings(options.user, words_of(how, options), options.call_limit),
+        settings_of(options),
         table=options.table,
         part=options.part,
         workers=options.cpus,
@@ -473,6 +515,34 @@ def run_batch(options: argparse.Namespace) -> int:
         quiet=options.quiet,
     )
     return 0 if completed else 1
+
+
+def settings_of(options: argparse.Namespace) -> Settings:
+    """How the runs of a command are made."""
+    from harness.batch.runs import Settings  # noqa: PLC0415
+
+    how = [action for action in options.of_runs if action.dest not in ("user", "call_limit")]
+    return Settings(options.user, words_of(how, options), options.call_limit)
+
+
+def fit_parameters(options: argparse.Namespace) -> int:
+    """`uel fit`."""
+    from harness.fit.command import fit  # noqa: PLC0415
+    from harness.fit.estimate import CONVERGED  # noqa: PLC0415
+
+    found = fit(
+        options.deck,
+        options.curve,
+        options.variables,
+        options.output_dir,
+        settings_of(options),
+        x=options.x,
+        y=options.y,
+        limit=options.runs,
+        workers=options.cpus,
+        quiet=options.quiet,
+    )
+    return 0 if found.ended == CONVERGED else 1
 
 
 def begin_element(options: argparse.Namespace) -> int:

@@ -1,0 +1,148 @@
+# SPDX-FileCopyrightText: The uel-harness authors
+# SPDX-License-Identifier: BSD-3-Clause
+"""The measured curve, and the curve of a run at the same places."""
+
+from __future__ import annotations
+
+import csv
+import io
+import math
+import re
+from collections.abc import Mapping
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+
+from harness.errors import DeckError, Source, UelError, UsageError
+from harness.files import read_whole
+from harness.model.arrays import FloatArray
+
+_TERM = re.compile(r"\s*(?:([-+]?\d*\.?\d*(?:[eE][-+]?\d+)?)\s*\*\s*|([-+]))?([A-Za-z].*?)\s*")
+
+
+@dataclass(frozen=True, slots=True)
+class Column:
+    """A column of the history times a factor: `2*U2[LOAD_TOP]`, `-RF2[MIDSPAN]`."""
+
+    name: str
+    factor: float
+
+    def __str__(self) -> str:
+        signs = {1.0: "", -1.0: "-"}
+        return signs.get(self.factor, f"{self.factor:g}*") + self.name
+
+    def of(self, history: Mapping[str, FloatArray], job: str) -> FloatArray:
+        """Its values; raises UelError if the history of the job does not have the column."""
+        if self.name not in history:
+            known = ", ".join(name for name in history if name not in ("step", "increment"))
+            raise UelError(f"{job}: the history has no column '{self.name}'; expected one of {known}")
+        return self.factor * history[self.name]
+
+
+def read_column(text: str) -> Column:
+    """Column of a word such as `2*U2[LOAD_TOP]`; raises UsageError."""
+    match = _TERM.fullmatch(text)
+    try:
+        if match is None:
+            raise ValueError
+        factor = float(match[1]) if match[1] is not None else float(f"{match[2] or ''}1")
+        if not math.isfinite(factor) or factor == 0.0:
+            raise ValueError
+    except ValueError:
+        raise UsageError(
+            f"'{text}': expected a column of the history, with a factor or a sign before it, such as 2*U2[TOP]"
+        ) from None
+    return Column(match[3], factor)
+
+
+@dataclass(frozen=True, slots=True)
+class Measurement:
+    """A measured curve.
+
+    x, y     values (n,), x rising
+    columns  what they are in the history of a run
+    """
+
+    x: FloatArray
+    y: FloatArray
+    columns: tuple[Column, Column]
+
+    def of_run(self, history: Mapping[str, FloatArray], job: str) -> FloatArray:
+        """Values of a run (n,) at the places x, from a start at (0, 0) on.
+
+        Raises
+        ------
+        UelError
+            The run has not the columns, does not reach the last place, or its x does not rise.
+        """
+        x, y = (np.concatenate([[0.0], column.of(history, job)]) for column in self.columns)
+        # what comes after the last place does not count
+        stop = 1 + int(np.argmax(x >= self.x[-1])) if x.max() >= self.x[-1] else len(x)
+        x, y = x[:stop], y[:stop]
+        if not np.all(np.diff(x) > 0.0):
+            raise UelError(
+                f"{job}: {self.columns[0]} does not rise from increment to increment: expected a column that does, "
+                "such as time"
+            )
+        # the end of a step is rounded
+        if x[-1] < self.x[-1] - 1e-6 * abs(self.x[-1]):
+            raise UelError(
+                f"{job}: the run ends at {self.columns[0]} = {x[-1]:.6g}, the measured curve at {self.x[-1]:.6g}"
+            )
+        return np.asarray(np.interp(self.x, x, y))
+
+
+def read_measurement(path: Path, x: str | None, y: str | None) -> Measurement:
+    """Measured curve from a CSV file: a line of two names, then lines of two numbers.
+
+    Parameters
+    ----------
+    path
+        The file.
+    x, y
+        What its columns are in the history of a run; None: what their names in the file say.
+
+    Raises
+    ------
+    UsageError
+        The file cannot be read, or a column has no such name.
+    DeckError
+        With file:line where a line is not as expected, or x does not rise.
+    """
+    try:
+        text = read_whole(path).decode("utf-8-sig", errors="replace")
+    except OSError as error:
+        raise UsageError(f"{path}: {error.strerror or type(error).__name__}") from None
+    except ValueError as error:
+        raise UsageError(f"{path}: {error}") from None
+    rows: list[list[float]] = []
+    names: list[str] = []
+    reader = csv.reader(io.StringIO(text, newline=""), skipinitialspace=True)
+    for cells in reader:
+        source, words = Source(str(path), reader.line_num), [cell.strip() for cell in cells]
+        if not any(words):
+            continue
+        if len(words) != 2:
+            raise DeckError(source, f"expected two columns, found {len(words)}")
+        if not names:
+            names = words
+        else:
+            rows.append(_numbers(source, words))
+            if len(rows) > 1 and not rows[-1][0] > rows[-2][0]:
+                raise DeckError(source, f"{names[0]} has to rise: {rows[-1][0]:g} after {rows[-2][0]:g}")
+    if len(rows) < 3:
+        raise DeckError(Source(str(path), 1), f"expected a line of two names and at least 3 points, found {len(rows)}")
+    values = np.array(rows)
+    columns = read_column(x or names[0]), read_column(y or names[1])
+    return Measurement(values[:, 0], values[:, 1], columns)
+
+
+def _numbers(source: Source, words: list[str]) -> list[float]:
+    try:
+        found = [float(word) for word in words]
+    except ValueError:
+        raise DeckError(source, f"expected two numbers, found '{', '.join(words)}'") from None
+    if not all(map(math.isfinite, found)):
+        raise DeckError(source, f"expected finite numbers, found '{', '.join(words)}'")
+    return found
