@@ -54,7 +54,7 @@ def read_table(path: Path, deck: Path, parameters: Sequence[str]) -> list[Row]:
         The table cannot be read.
     """
     problems = Problems()
-    lines = _lines(path)
+    lines = read_cells(path, f"--table {path}")
     start, names = next(lines, (Source(str(path), 1), []))
     with problems.gather():
         _check_names(start, names, deck, parameters)
@@ -70,14 +70,17 @@ def read_table(path: Path, deck: Path, parameters: Sequence[str]) -> list[Row]:
     return rows
 
 
-def _lines(path: Path) -> Iterator[tuple[Source, list[str]]]:
-    """Cells of the lines that are not empty, with their places."""
+def read_cells(path: Path, name: str) -> Iterator[tuple[Source, list[str]]]:
+    """Cells of the lines of a CSV file that are not empty, with their places.
+
+    Raises UsageError, with the name for the file, if it cannot be read, and DeckError if it is no table.
+    """
     try:
         text = read_whole(path).decode("utf-8-sig", errors="replace")
     except OSError as error:
-        raise UsageError(f"--table {path}: {error.strerror or type(error).__name__}") from None
+        raise UsageError(f"{name}: {error.strerror or type(error).__name__}") from None
     except ValueError as error:
-        raise UsageError(f"--table {path}: {error}") from None
+        raise UsageError(f"{name}: {error}") from None
     reader = csv.reader(io.StringIO(text, newline=""), skipinitialspace=True)
     try:
         for cells in reader:

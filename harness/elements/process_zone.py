@@ -13,7 +13,8 @@ of Fracture 133 (2005) 107-137, and P. W. Harper and S. R. Hallett, "Cohesive zo
 composite delamination", Engineering Fracture Mechanics 75 (2008) 4774-4792, who give m and ask for three elements. E_n
 is the modulus of A. Turon and others, Engineering Fracture Mechanics 74 (2007) 1665-1682; that the moduli of the modes
 have the ratio sqrt(E_t/E_n) follows from G. C. Sih, P. C. Paris and G. R. Irwin, International Journal of Fracture
-Mechanics 1 (1965) 189-203.
+Mechanics 1 (1965) 189-203. In mixed mode, 1/l is the mean of 1/l_I and 1/l_II with the energies that the failing point
+has dissipated as weights, which has these limits; there is no formula of the literature for it.
 """
 
 from __future__ import annotations
@@ -22,6 +23,7 @@ from dataclasses import dataclass
 from typing import Final
 
 import numpy as np
+from numpy.typing import NDArray
 
 from harness.elements.build import TENSORS
 from harness.elements.materials import global_compliance
@@ -39,7 +41,7 @@ FACTOR: Final = 0.5
 ELEMENTS: Final = 3
 """That the zone has to hold."""
 FAILED: Final = 0.5
-"""Damage from which on an element counts as failing; a law may give a bonded point a little."""
+"""Part of the fracture energy from which on a point counts as failing: any law gives a bonded point less."""
 _FLAT: Final = 0.999
 """Length of the mean of unit normals above which an interface counts as flat: within 3 degrees or so."""
 
@@ -59,12 +61,20 @@ class _Law:
 
 @dataclass(frozen=True, slots=True)
 class _Long:
-    """Elements of a group that are too long: their rows, lengths (k,), zones (k,) and the modes (k,) of these."""
+    """Elements of a group that are too long in one mode at least.
+
+    rows, lengths, zones  (k,) in the group, (k,) and of both modes (2, k)
+    energies              fracture energies of both modes
+    """
 
     rows: IntArray
     lengths: FloatArray
     zones: FloatArray
-    modes: IntArray
+    energies: tuple[float, float]
+
+    def without(self, some: NDArray[np.bool_]) -> _Long:
+        """All but some (k,) of them."""
+        return _Long(self.rows[~some], self.lengths[~some], self.zones[:, ~some], self.energies)
 
 
 class LongElements:
@@ -97,19 +107,33 @@ class LongElements:
             state = record.solution.elements[index]
             assert state.variables is not None  # of elements that we know
             names, points = state.variables.names, state.variables.points
-            damage = state.svars.reshape(len(state.svars), points, -1)[long.rows, :, names.index("DAMAGE")]
-            failed = np.flatnonzero(damage.max(axis=1) > FAILED)
-            if len(failed):
+            values = state.svars.reshape(len(state.svars), points, -1)[long.rows]
+            worst = values[:, :, names.index("DAMAGE")].argmax(axis=1)
+            values = values[np.arange(len(worst)), worst]
+            first, *shear = (values[:, names.index(name)] for name in ("DISSI", "DISSII", "DISSIII") if name in names)
+            second = np.sum(shear, axis=0)
+            part = first / long.energies[0] + second / long.energies[1]
+            # a point that breaks within one increment may have dissipated nothing by the trapezoidal rule
+            failed = (part > FAILED) | (values[:, names.index("DAMAGE")] >= 1.0)
+            if not failed.any():
+                continue
+            mix = np.clip(second / np.where(first + second > 0.0, first + second, 1.0), 0.0, 1.0)
+            mix = np.where(first + second > 0.0, mix, long.zones.argmin(axis=0))
+            zones = 1.0 / ((1.0 - mix) / long.zones[0] + mix / long.zones[1])
+            short = np.flatnonzero(failed & (ELEMENTS * long.lengths > zones))
+            if len(short):
+                k = int(short[0])
                 del self._watched[index]
-                found.append(_message(self._model.groups[index], long, int(failed[0])))
+                found.append(_message(self._model.groups[index], long, k, float(zones[k]), float(mix[k])))
+            else:
+                self._watched[index] = long.without(failed)
         return found
 
 
-def _message(group: ElementGroup, long: _Long, row: int) -> str:
-    mode = ("I", "II")[long.modes[row]]
+def _message(group: ElementGroup, long: _Long, k: int, zone: float, mix: float) -> str:
     return (
-        f"{group.section.source}: element {group.labels[long.rows[row]]} (type {group.type}) fails and is "
-        f"{long.lengths[row]:.3g} long, the process zone of mode {mode} about {long.zones[row]:.2g}: expected at least "
+        f"{group.section.source}: element {group.labels[long.rows[k]]} (type {group.type}) fails and is "
+        f"{long.lengths[k]:.3g} long, the process zone about {zone:.2g} ({mix:.0%} mode II): expected at least "
         f"{ELEMENTS} elements in it; with fewer the load comes out too high"
     )
 
@@ -212,10 +236,9 @@ def _long_elements(
     across, axial = (np.minimum(*(plies.modulus(side, direction) for side in sides)) for direction in (normal, along))
     height = _arm_height(place[plies.nodes], middle.reshape(-1, 3), normal)
     zones = _zones(law, across, axial, height)
-    modes = zones.argmin(axis=0)
     zone = zones.min(axis=0)
     found = np.flatnonzero(np.isfinite(zone) & (ELEMENTS * length > zone))
-    return _Long(found, length[found], zone[found], modes[found])
+    return _Long(found, length[found], zones[:, found], law.energies)
 
 
 def _normals(middle: FloatArray) -> FloatArray:

@@ -4,8 +4,6 @@
 
 from __future__ import annotations
 
-import csv
-import io
 import math
 import re
 from collections.abc import Mapping
@@ -14,8 +12,8 @@ from pathlib import Path
 
 import numpy as np
 
+from harness.batch.table import read_cells
 from harness.errors import DeckError, Source, UelError, UsageError
-from harness.files import read_whole
 from harness.model.arrays import FloatArray
 
 _TERM = re.compile(r"\s*(?:([-+]?\d*\.?\d*(?:[eE][-+]?\d+)?)\s*\*\s*|([-+]))?([A-Za-z].*?)\s*")
@@ -110,19 +108,9 @@ def read_measurement(path: Path, x: str | None, y: str | None) -> Measurement:
     DeckError
         With file:line where a line is not as expected, or x does not rise.
     """
-    try:
-        text = read_whole(path).decode("utf-8-sig", errors="replace")
-    except OSError as error:
-        raise UsageError(f"{path}: {error.strerror or type(error).__name__}") from None
-    except ValueError as error:
-        raise UsageError(f"{path}: {error}") from None
     rows: list[list[float]] = []
     names: list[str] = []
-    reader = csv.reader(io.StringIO(text, newline=""), skipinitialspace=True)
-    for cells in reader:
-        source, words = Source(str(path), reader.line_num), [cell.strip() for cell in cells]
-        if not any(words):
-            continue
+    for source, words in read_cells(path, str(path)):
         if len(words) != 2:
             raise DeckError(source, f"expected two columns, found {len(words)}")
         if not names:

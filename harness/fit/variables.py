@@ -50,7 +50,7 @@ def read_variable(text: str) -> Variable:
 
 
 def prepare_deck(deck: Path, variables: Sequence[Variable], folder: Path) -> Path:
-    """The deck with all variables among its parameters: itself, or a copy in the folder.
+    """The deck with all variables among its parameters: itself, or a copy in the folder, NAME_fit.inp.
 
     A variable that *PARAMETER of the deck does not define is a property of our interface elements, such as GIC, on the
     data lines of *UEL PROPERTY in the deck itself. In the copy a parameter stands there, and included files are named
@@ -81,7 +81,7 @@ def prepare_deck(deck: Path, variables: Sequence[Variable], folder: Path) -> Pat
     lines = [_with_folder(line, deck.parent) if "=" in line and not line.startswith("**") else line for line in lines]
     head = ["*PARAMETER", *(f"{variable.name.upper()} = {variable.start!r}" for variable in missing)]
     folder.mkdir(parents=True, exist_ok=True)
-    copy = folder / deck.name
+    copy = folder / f"{deck.stem}_fit.inp"
     copy.write_text("\n".join([*head, *lines]) + "\n", encoding="utf-8")
     return copy
 

@@ -84,7 +84,7 @@ def zone_length(result: Result) -> float:
 
 def warned(result: Result) -> bool:
     """Whether the job says that an element that failed is too long."""
-    return any("the process zone of mode" in text for text in result.warnings)
+    return any("the process zone about" in text for text in result.warnings)
 
 
 def main(arguments: Sequence[str] | None = None) -> int:

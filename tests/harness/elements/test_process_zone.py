@@ -85,7 +85,9 @@ LARGE, SLENDER = 0.25, 0.5 * 2.0**0.25 * 0.1**0.75
 def test_long_element_that_fails(kind: str, tmp_path: Path) -> None:
     result = pulled(tmp_path, kind, 0.1, 1.0)
     (warning,) = result.warnings
-    message = f"element 3 (type {kind}) fails and is 0.1 long, the process zone of mode I about {LARGE:.2g}: expected"
+    message = (
+        f"element 3 (type {kind}) fails and is 0.1 long, the process zone about {LARGE:.2g} (0% mode II): expected"
+    )
     assert message in warning
     assert "deck.inp:" in warning
     assert "fails and is 0.1 long" in " ".join((tmp_path / "deck.dat").read_text().split())
@@ -99,14 +101,14 @@ def test_short_element_that_fails(kind: str, tmp_path: Path) -> None:
 
 def test_slender_arms_shorten_the_zone(tmp_path: Path) -> None:
     (warning,) = pulled(tmp_path, "COH2D4", 0.08, 0.1).warnings
-    assert f"mode I about {SLENDER:.2g}" in warning
+    assert f"zone about {SLENDER:.2g} (0% mode II)" in warning
     assert SLENDER < 3 * 0.08 < LARGE
 
 
 def test_modulus_across_the_interface_counts(tmp_path: Path) -> None:
     # four times as stiff across: 1.0 in a large body, and 0.42 between arms of 1 mm with E_t = 1000
     (warning,) = pulled(tmp_path, "U2", 0.3, 1.0, ply=TURNED).warnings
-    assert "mode I about 0.42" in warning
+    assert "zone about 0.42 (0% mode II)" in warning
 
 
 def test_long_element_that_stays_bonded(tmp_path: Path) -> None:
@@ -116,7 +118,17 @@ def test_long_element_that_stays_bonded(tmp_path: Path) -> None:
 
 def test_zone_of_mode_2(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     # half of sqrt(1000 * 4000) 0.05/30^2, by hand; mode I has 0.25
+    assert pulled(tmp_path, "U2", 2.0, 1.0, opening=0.015, across=True).warnings == ()
     monkeypatch.setitem(LAW, "TAUMAX", 30.0)
     monkeypatch.setitem(LAW, "GIIC", 0.05)
     (warning,) = pulled(tmp_path, "U2", 2.0, 1.0, opening=0.3, across=True).warnings
-    assert "mode II about 0.056" in warning
+    assert "zone about 0.056 (100% mode II)" in warning
+
+
+def test_mode_that_does_not_act_is_left_out(tmp_path: Path) -> None:
+    # in mode I the zone is 0.25; sheared, half of the smaller of sqrt(1000 * 4000) 0.2/3^2 and sqrt(4000 0.2/3^2 1)
+    zone = 0.5 * min(2000.0 * 0.2 / 9.0, (4000.0 * 0.2 / 9.0) ** 0.5)
+    assert 0.25 < 3.0 * 1.5 < zone
+    assert pulled(tmp_path, "U2", 1.5, 1.0, opening=0.3, across=True).warnings == ()
+    (warning,) = pulled(tmp_path, "U2", 1.7, 1.0, opening=0.3, across=True).warnings
+    assert f"zone about {zone:.2g} (100% mode II)" in warning

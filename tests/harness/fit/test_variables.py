@@ -39,7 +39,7 @@ def test_properties_of_a_deck_of_ours(tmp_path: Path, element: str) -> None:
         (tmp_path / "decks" / name).write_text(text)
     deck = tmp_path / "decks" / f"{case.name}.inp"
     copy = prepare_deck(deck, [GIC, SIGMAMAX], tmp_path / "fit")
-    assert copy == tmp_path / "fit" / deck.name
+    assert copy == tmp_path / "fit" / f"{case.name}_fit.inp"
     assert survey_deck(copy).parameters == ("GIC", "SIGMAMAX")
 
     def properties(path: Path, given: dict[str, float] | None = None) -> dict[str, float]:
