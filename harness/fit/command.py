@@ -19,7 +19,6 @@ from harness.fit.variables import Variable, prepare_deck, read_variable
 from harness.model.arrays import FloatArray
 from harness.output import Result
 
-MOST_RUNS = 40
 RUNS = "runs"
 """Folder of the runs in that of the fit, as `uel batch` fills it."""
 
@@ -31,9 +30,9 @@ def fit(
     folder: Path,
     settings: Settings,
     *,
+    limit: int,
     x: str | None = None,
     y: str | None = None,
-    limit: int = MOST_RUNS,
     workers: int | None = None,
     quiet: bool = False,
 ) -> Fit:
@@ -49,10 +48,10 @@ def fit(
         Gets the runs, NAME_fit.csv, NAME_fit_curve.csv and NAME_fit.png.
     settings
         How the runs are made.
-    x, y
-        Columns of the history that the curve's are, by default what the file says.
     limit
         Largest number of runs.
+    x, y
+        Columns of the history that the curve's are, by default what the file says.
     workers
         Runs at a time; one for each core by default.
     quiet
