@@ -150,6 +150,8 @@ def build_parser() -> argparse.ArgumentParser:
     front.add_argument("--damage", type=PART, default=0.5, metavar="D", help="damage at the front (0.5)")
     front.set_defaults(function=trace_front)
 
+    add_plot(commands.add_parser("plot", help="draw jobs that have run: load-displacement and more, over each other"))
+
     add_check(commands.add_parser("check", help="check the user elements of a deck with the calls of a run"))
 
     solvers = commands.add_parser("solvers", help="list the linear solvers and say when each is used")
@@ -331,6 +333,39 @@ def add_law(law: argparse.ArgumentParser) -> None:
     law.add_argument("--job", default="law", metavar="NAME", help="name of the output files (law)")
     law.add_argument("--output-dir", type=Path, default=Path(), metavar="DIR", help="folder of the files (current)")
     law.set_defaults(function=explore_law)
+
+
+def add_plot(plot: argparse.ArgumentParser) -> None:
+    """Options of `uel plot`."""
+    plot.epilog = (
+        "load: load over displacement, or the columns --y of NAME_history.csv over --x; energies: of the whole model; "
+        "iterations: of each increment, and its size; interface: tractions and damage along an interface in the plane; "
+        "mesh: the deformed mesh of one job, with a field."
+    )
+    plot.add_argument("jobs", nargs="+", type=Path, metavar="JOB", help="names of jobs that have run, with folders")
+    plot.add_argument(
+        "--kind", choices=("load", "energies", "iterations", "interface", "mesh"), default="load", help="what (load)"
+    )
+    plot.add_argument("--x", default="", metavar="COLUMN", help="of the history, such as U2[TIP] (time)")
+    plot.add_argument("--y", nargs="+", default=[], metavar="COLUMN", help="of the history, such as RF2[TIP] ALLSE")
+    plot.add_argument(
+        "--csv",
+        type=Path,
+        action="append",
+        default=[],
+        metavar="FILE",
+        help="draw a measured curve too: two columns, or those named --x and --y; repeat for each file",
+    )
+    plot.add_argument("--step", type=positive, metavar="N", help="of a profile or mesh (the last one)")
+    plot.add_argument("--increment", type=positive, default=-1, metavar="N", help="... (the last one written)")
+    plot.add_argument("--field", default="U", metavar="NAME", help="on the mesh: U, U1, S22, DAMAGE, ... (U)")
+    plot.add_argument(
+        "--scale", type=NOT_NEGATIVE, metavar="F", help="of its displacements (1, or more where they would not be seen)"
+    )
+    plot.add_argument(
+        *("-o", "--output"), type=Path, metavar="FILE", help="picture: .png, .svg or .pdf (JOB_KIND.png, of the first)"
+    )
+    plot.set_defaults(function=plot_jobs)
 
 
 def add_reproduce(reproduce: argparse.ArgumentParser) -> None:
@@ -592,6 +627,18 @@ def trace_front(options: argparse.Namespace) -> int:
     write_fronts(table, found)
     draw_fronts(picture, found)
     print(f"written: {table} {picture}")
+    return 0
+
+
+def plot_jobs(options: argparse.Namespace) -> int:
+    """`uel plot`."""
+    from harness.output.pictures import Asked, draw  # noqa: PLC0415
+    from harness.output.results import Result  # noqa: PLC0415
+
+    results = [Result(job) for job in options.jobs]
+    asked = Asked(options.x, options.y, options.csv, options.increment, options.step, options.field, options.scale)
+    path = options.output or results[0].file(f"_{options.kind}.png")
+    print(f"written: {draw(options.kind, results, path, asked)}")
     return 0
 
 

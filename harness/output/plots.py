@@ -82,7 +82,7 @@ def load_displacement(curves: Sequence[Curve], path: Path, *, x_label: str = "Di
     Path
         `path`.
     """
-    return _draw([curves], path, x_label, ["Load [N]"], from_zero=True)
+    return stacked([curves], path, x_label, ["Load [N]"], from_zero=True)
 
 
 def profiles(panels: Sequence[Sequence[Curve]], path: Path, *, y_labels: Sequence[str]) -> Path:
@@ -90,7 +90,48 @@ def profiles(panels: Sequence[Sequence[Curve]], path: Path, *, y_labels: Sequenc
 
     Curves of the same label look the same in every panel and appear once in the legend.
     """
-    return _draw(panels, path, "Position along the interface [mm]", y_labels)
+    return stacked(panels, path, "Position along the interface [mm]", y_labels)
+
+
+def stacked(
+    panels: Sequence[Sequence[Curve]],
+    path: Path,
+    x_label: str,
+    y_labels: Sequence[str],
+    *,
+    from_zero: bool = False,
+) -> Path:
+    """Panels above a common axis.
+
+    Parameters
+    ----------
+    panels
+        Curves of each, as in `profiles`.
+    path
+        .png (300 dots per inch), .pdf or .svg.
+    x_label, y_labels
+        With their units, if these are known; one for each panel.
+    from_zero
+        Both axes begin at zero if the data allow it.
+    """
+    with mpl.rc_context(STYLE):
+        # 140 mm, the text width of a one-column page: prints without scaling, so fonts keep their size
+        figure = Figure(figsize=(5.5, 3.4 + 1.9 * (len(panels) - 1)), layout="constrained")
+        FigureCanvasAgg(figure)
+        axes = figure.subplots(len(panels), 1, sharex=True, squeeze=False)[:, 0]
+        looks = _looks([curve for curves in panels for curve in curves])
+        for axis, curves, y_label in zip(axes, panels, y_labels, strict=True):
+            for curve in curves:
+                axis.plot(curve.x, curve.y, label=curve.label, **looks[curve.label])
+            axis.set_ylabel(y_label)
+            axis.margins(x=0.02)
+            if from_zero:
+                _start_at_zero(axis)
+        axes[-1].set_xlabel(x_label)
+        figure.align_ylabels(axes)
+        _legend(figure, axes, 84)
+        figure.savefig(path, dpi=300)
+    return path
 
 
 def grid(rows: Sequence[Sequence[Panel]], path: Path, *, share_y: bool = False, legend: bool = True) -> Path:
@@ -144,34 +185,6 @@ def _legend(figure: Figure, axes: Iterable[Any], letters: int) -> None:
             ncols=max(1, min(len(handles), letters // (longest + 8))),
             handlelength=2.8,
         )
-
-
-def _draw(
-    panels: Sequence[Sequence[Curve]],
-    path: Path,
-    x_label: str,
-    y_labels: Sequence[str],
-    *,
-    from_zero: bool = False,
-) -> Path:
-    with mpl.rc_context(STYLE):
-        # 140 mm, the text width of a one-column page: prints without scaling, so fonts keep their size
-        figure = Figure(figsize=(5.5, 3.4 + 1.9 * (len(panels) - 1)), layout="constrained")
-        FigureCanvasAgg(figure)
-        axes = figure.subplots(len(panels), 1, sharex=True, squeeze=False)[:, 0]
-        looks = _looks([curve for curves in panels for curve in curves])
-        for axis, curves, y_label in zip(axes, panels, y_labels, strict=True):
-            for curve in curves:
-                axis.plot(curve.x, curve.y, label=curve.label, **looks[curve.label])
-            axis.set_ylabel(y_label)
-            axis.margins(x=0.02)
-            if from_zero:
-                _start_at_zero(axis)
-        axes[-1].set_xlabel(x_label)
-        figure.align_ylabels(axes)
-        _legend(figure, axes, 84)
-        figure.savefig(path, dpi=300)
-    return path
 
 
 def _looks(curves: Sequence[Curve]) -> dict[str, dict[str, Any]]:
