@@ -83,12 +83,16 @@ PER_LINE: Final = 8
 
 @dataclass(slots=True)
 class Block:
-    """One keyword with its options and data lines, comments left out; line numbers are kept beside."""
+    """One keyword with its options and data lines; line numbers are kept beside.
+
+    comments  lines between them, where the keyword has names in comments, without the asterisks
+    """
 
     keyword: Keyword
     options: Options
     source: Source
     lines: list[str] = field(default_factory=list)
+    comments: list[tuple[str, Source]] = field(default_factory=list)
     _numbers: list[int] = field(default_factory=list)
     _files: list[str] = field(default_factory=list)
     _starts: list[int] = field(default_factory=list)

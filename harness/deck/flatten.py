@@ -176,4 +176,7 @@ class FlatMesh:
 
 def _definitions(blocks: list[Block], outer: Definitions, problems: Problems) -> dict[str, UserElement]:
     """User elements of these blocks, on top of those of the scope around them."""
-    return {**outer, **read_definitions(blocks, "USER ELEMENT", read_user_element, problems, "TYPE")}
+    return {
+        **outer,
+        **read_definitions(blocks, "USER ELEMENT", partial(read_user_element, problems=problems), problems, "TYPE"),
+    }

@@ -51,6 +51,7 @@ def markdown() -> str:
     for keyword in sorted(KEYWORDS.values(), key=lambda keyword: keyword.name):
         if keyword.support is Support.READ:
             lines += ["", f"## *{keyword.name}", "", f"{keyword.doc} ({keyword.where.value})", *_option_lines(keyword)]
+            lines += ["", f"Comments: {keyword.comments}."] if keyword.comments else []
     lines += ["", "## Accepted and listed: they cannot change the solution", "", "| keyword | |", "|---|---|"]
     passive = sorted((k for k in KEYWORDS.values() if k.support is Support.IGNORED), key=lambda keyword: keyword.name)
     lines += [f"| *{keyword.name} | {keyword.doc} |" for keyword in passive]

@@ -155,7 +155,10 @@ class _Lexer:
                 number = stop
                 continue
             number += 1
-            if not line.startswith("**"):
+            if line.startswith("**"):
+                if self._open is not None and self._open.keyword.comments:
+                    self._open.comments.append((line.lstrip("*").strip(), Source(file, number)))
+            else:
                 self.close()
                 header = _Header(line, Source(file, number))
                 number = self._join(header, lines, number)

@@ -73,6 +73,7 @@ class Keyword:
 
     doc      what it does, for `keywords.md`
     data     what its data lines hold, '' where it takes none
+    comments what comments between them may give, '' where they are not looked at
     support  IGNORED: it cannot change the solution, and no reader looks at it
     """
 
@@ -82,6 +83,7 @@ class Keyword:
     options: tuple[Option, ...] = ()
     data: str = ""
     support: Support = Support.READ
+    comments: str = ""
 
 
 INPUT = Option("INPUT", Kind.FILE, "file that holds the data lines")

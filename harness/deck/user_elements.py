@@ -7,12 +7,13 @@ from __future__ import annotations
 import math
 import re
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
 from harness.deck.abaqus_elements import is_abaqus_element
 from harness.deck.blocks import PER_LINE, Block
+from harness.deck.element_names import read_names
 from harness.deck.error_report import Problems, nearest
 from harness.deck.numbers import LARGEST_INTEGER
 from harness.deck.table import Keyword, Kind, Option, Where, one_of, refused
@@ -86,8 +87,8 @@ def find_type(name: str, definitions: Definitions, source: Source) -> ElementTyp
     raise DeckError(source, f"element type {name} is not supported {supported}{hint}")
 
 
-def read_user_element(block: Block) -> UserElement:
-    """The definition a *USER ELEMENT gives."""
+def read_user_element(block: Block, problems: Problems) -> UserElement:
+    """The definition a *USER ELEMENT gives; names in comments that do not fit are warned of and not used."""
     options = block.options
     name = options.text("TYPE")
     match = _USER_TYPE.fullmatch(name)
@@ -96,7 +97,7 @@ def read_user_element(block: Block) -> UserElement:
     if options.given("INTEGRATION") != options.given("TENSOR"):
         raise block.error("INTEGRATION and TENSOR are given together or not at all")
     nodes = read_count(block, "NODES", 0, 1, MOST_NODES)
-    return UserElement(
+    element = UserElement(
         number=int(match[1]),
         nodes=nodes,
         dofs=_read_dofs(block, nodes),
@@ -109,6 +110,7 @@ def read_user_element(block: Block) -> UserElement:
         integration=read_count(block, "INTEGRATION", 0, 0, MOST_VALUES),
         tensor=options.text("TENSOR"),
     )
+    return replace(element, names=read_names(block, element, problems))
 
 
 def read_count(block: Block, name: str, default: int, least: int, most: int) -> int:
@@ -208,6 +210,12 @@ KEYWORDS = (
             *refused("LINEAR", "FILE", "OLD ELEMENT", "STEP"),
         ),
         "dofs at the first node; then node position, dofs from that node on",
+        comments=(
+            "names for output, such as `** VARIABLES: S11 [MPa], S22 [MPa], DAMAGE`, in one line or several; so "
+            "`** PROPERTIES:` and `** I PROPERTIES:`. Names of VARIABLES are those of one integration point, and its "
+            "points follow each other in SVARS; `-` is a variable without a name. Field output then has the named "
+            "ones, as means over the points of an element, and *EL PRINT takes their names"
+        ),
     ),
     Keyword(
         "UEL PROPERTY",

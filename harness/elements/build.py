@@ -150,7 +150,7 @@ def _user_block(
         stores=forces is Linearity.KNOWN,
         free=free,
     )
-    variables = library.variables(definition.number)
+    variables = library.variables(definition.number) or definition.point_variables
     return ElementBlock(
         group,
         model.mesh.coordinates,

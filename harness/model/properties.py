@@ -12,6 +12,7 @@ import numpy as np
 
 from harness.errors import Source
 from harness.model.arrays import FloatArray, IntArray
+from harness.model.records import PointVariables
 
 
 class ElasticType(StrEnum):
@@ -221,6 +222,20 @@ class MassSection:
 
 
 @dataclass(frozen=True, slots=True)
+class ElementNames:
+    """Names that a deck gives in comments, all of a kind or none; a unit may follow a name: 'E [MPa]'.
+
+    properties  of the real properties
+    integers    of the integer properties
+    variables   of the SVARS of an integration point, '' for one without a name; points follow each other
+    """
+
+    properties: tuple[str, ...] = ()
+    integers: tuple[str, ...] = ()
+    variables: tuple[str, ...] = ()
+
+
+@dataclass(frozen=True, slots=True)
 class UserElement:
     """*USER ELEMENT, TYPE=Un.
 
@@ -234,6 +249,7 @@ class UserElement:
     integration        INTEGRATION=, number of material points for UELMAT; 0 if not given
     tensor             TENSOR=, '' if not given
     dofs               (local node from 0, dof) of each element unknown, in the order of U and RHS
+    names              of its properties and variables, as far as the deck gives them
     """
 
     number: int
@@ -247,6 +263,13 @@ class UserElement:
     unsymmetric: bool = False
     integration: int = 0
     tensor: str = ""
+    names: ElementNames = ElementNames()
+
+    @property
+    def point_variables(self) -> PointVariables | None:
+        """Meaning of the SVARS by the names that the deck gives; None without names."""
+        names = self.names.variables
+        return PointVariables("user", names, self.variables // len(names)) if names else None
 
 
 @dataclass(frozen=True, slots=True)

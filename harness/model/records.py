@@ -206,8 +206,8 @@ Record = (
 class PointVariables:
     """What the SVARS of an element type mean at its integration points.
 
-    kind    'continuum' or 'interface'
-    names   name of each variable of a point, in order ('S11', ..., 'DAMAGE')
+    kind    'continuum', 'interface' or, with names that the deck gives, 'user'
+    names   name of each variable of a point, in order ('S11', ..., 'DAMAGE'), '' for one without a name
     points  number of points; the variables of point k are SVARS[k*len(names) : (k+1)*len(names)]
     bottom, top  interface only: local nodes (from 0) of the two coincident faces; in the plane both along the tangent:
             left and right end, and the middle if the faces are quadratic

@@ -71,7 +71,7 @@ def is_solid(model: Model) -> bool:
 def cell_values(states: Sequence[ElementState], cells: tuple[Cells, ...]) -> dict[str, list[FloatArray]]:
     """Means over the integration points, by variable, an array for each group; NaN where a group lacks the variable.
 
-    Coordinates of the points are left out, because the cell shows them.
+    Coordinates of the points are left out, because the cell shows them, and variables without a name.
     """
     known: dict[str, dict[int, FloatArray]] = {}
     for state in states:
@@ -79,7 +79,7 @@ def cell_values(states: Sequence[ElementState], cells: tuple[Cells, ...]) -> dic
             continue
         means = point_values(state, state.variables).mean(axis=1)
         for k, name in enumerate(state.variables.names):
-            if name not in _COORDINATES:
+            if name and name not in _COORDINATES:
                 known.setdefault(name, {})[state.group] = means[cells[state.group].element, k]
     return {
         name: [values.get(k, np.full(len(group.nodes), np.nan)) for k, group in enumerate(cells)]
