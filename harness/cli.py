@@ -152,6 +152,11 @@ def build_parser() -> argparse.ArgumentParser:
 
     add_plot(commands.add_parser("plot", help="draw jobs that have run: load-displacement and more, over each other"))
 
+    report = commands.add_parser("report", help="write a page about a job: model, run, warnings, pictures")
+    report.add_argument("job", type=Path, metavar="JOB", help="name of a job that has run, with its folder")
+    report.add_argument("-o", "--output", type=Path, metavar="FILE.html", help="the page (JOB.html)")
+    report.set_defaults(function=write_report)
+
     add_check(commands.add_parser("check", help="check the user elements of a deck with the calls of a run"))
 
     solvers = commands.add_parser("solvers", help="list the linear solvers and say when each is used")
@@ -639,6 +644,14 @@ def plot_jobs(options: argparse.Namespace) -> int:
     asked = Asked(options.x, options.y, options.csv, options.increment, options.step, options.field, options.scale)
     path = options.output or results[0].file(f"_{options.kind}.png")
     print(f"written: {draw(options.kind, results, path, asked)}")
+    return 0
+
+
+def write_report(options: argparse.Namespace) -> int:
+    """`uel report`."""
+    from harness.report import report  # noqa: PLC0415
+
+    print(f"written: {report(options.job, options.output)}")
     return 0
 
 

@@ -6,7 +6,9 @@ from __future__ import annotations
 
 import math
 from datetime import datetime
+from itertools import islice
 from pathlib import Path
+from typing import Final
 
 import numpy as np
 
@@ -15,7 +17,7 @@ from harness.model.nodal import NodalIndex
 from harness.model.properties import UserElement
 from harness.model.records import IncrementDone, ModesFound, StepStarted
 from harness.model.steps import ElementRequest, NodeRequest
-from harness.output.formats import TextFile, program, remark
+from harness.output.formats import TextFile, program, read_remarks, remark
 from harness.output.schedule import Schedule
 from harness.output.step_header import completed, procedure
 from harness.output.tables import (
@@ -32,6 +34,11 @@ _USER_ELEMENT_OUTPUT = (
     "OWN ELEMENTS AND THOSE THAT COMMENTS BELOW *USER ELEMENT NAME, AND *EL PRINT "
     "OF SDV HAS THE SOLUTION-DEPENDENT VARIABLES OF ANY USER ELEMENT."
 )
+
+_PLACE: Final = "     INPUT FILE: "
+_GIVEN: Final = "PARAMETERS GIVEN IN PLACE OF THE VALUES IN THE DECK: "
+_HEAD_LINES: Final = 10
+"""In which the place of the deck is."""
 
 
 class DataFile:
@@ -52,7 +59,7 @@ class DataFile:
         now = datetime.now()
         self._file.write(
             f"1\n\n   {program()}                                  Date {now:%d-%b-%Y}   Time {now:%H:%M:%S}\n\n"
-            f"{_echo(model.deck)}{self._input()}"
+            f"{_PLACE}{model.deck.absolute()}\n\n{echo(model.deck)}{self._input()}"
         )
 
     def step_started(self, record: StepStarted) -> None:
@@ -172,7 +179,7 @@ class DataFile:
             text += "\n" + remark("NOTE", _USER_ELEMENT_OUTPUT)
         if model.given:
             given = ", ".join(f"{name} = {value}" for name, value in model.given.items())
-            text += "\n" + remark("NOTE", f"PARAMETERS GIVEN IN PLACE OF THE VALUES IN THE DECK: {given}")
+            text += "\n" + remark("NOTE", f"{_GIVEN}{given}")
         if model.ignored:
             text += "\n" + remark("NOTE", "THESE OPTIONS DO NOT CHANGE THE SOLUTION AND ARE IGNORED:")
             places: dict[str, list[str]] = {}
@@ -183,7 +190,23 @@ class DataFile:
         return text + "".join(f"\n{remark('WARNING', warning)}" for warning in remarks)
 
 
-def _echo(deck: Path) -> str:
+def read_deck_place(path: Path) -> Path | None:
+    """The deck of a job by its .dat file; None if that does not say."""
+    if not path.exists():
+        return None
+    with path.open(encoding="utf-8", errors="replace") as file:
+        found = next((line for line in islice(file, _HEAD_LINES) if line.startswith(_PLACE)), "")
+    return Path(found.removeprefix(_PLACE).rstrip("\n")) if found else None
+
+
+def read_given(path: Path) -> dict[str, float]:
+    """Parameters that replaced those of the deck, by the .dat file of a job."""
+    notes = [note.removeprefix(_GIVEN) for note in read_remarks(path, "NOTE") if note.startswith(_GIVEN)]
+    pairs = [pair.partition(" = ") for note in notes for pair in note.split(", ")]
+    return {name: float(value) for name, _, value in pairs}
+
+
+def echo(deck: Path) -> str:
     """The deck with line numbers; included files are not followed."""
     try:
         lines = deck.read_text("utf-8", errors="replace").splitlines()

@@ -182,17 +182,20 @@ class MessageFile:
         )
 
 
-def read_processor_time(path: Path) -> float | None:
-    """Processor time of a job in seconds, from its message file; None if that was not written to its end."""
+def read_times(path: Path) -> tuple[float, float] | None:
+    """Processor time and wall-clock time of a job in seconds, from its message file.
+
+    None if that was not written to its end.
+    """
     if not path.exists():
         return None
     with path.open("rb") as file:
         file.seek(max(file.seek(0, os.SEEK_END) - _LONGEST_END, 0))
-        found = _PROCESSOR_TIME.findall(file.read())
-    return float(found[-1]) if found else None
+        found = _TIMES.findall(file.read())
+    return (float(found[-1][0]), float(found[-1][1])) if found else None
 
 
-_PROCESSOR_TIME: Final = re.compile(rb"TOTAL CPU TIME \(SEC\) = *(\S+)")
+_TIMES: Final = re.compile(rb"TOTAL CPU TIME \(SEC\) = *(\S+)\s+WALLCLOCK TIME \(SEC\) = *(\S+)")
 _LONGEST_END: Final = 4096
 """Bytes that have the times of a job, which are last."""
 

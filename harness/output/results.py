@@ -20,7 +20,7 @@ from harness.output.formats import read_remarks
 from harness.output.history import read_history
 from harness.output.interface import read_interface, read_profiles
 from harness.output.load_curve import LoadCurve, load_curve
-from harness.output.msg_file import read_processor_time
+from harness.output.msg_file import read_times
 from harness.output.sta_file import StatusRow, has_completed, read_status
 
 
@@ -31,6 +31,12 @@ class Counts:
     increments: int
     iterations: int
     cutbacks: int
+
+    @classmethod
+    def of(cls, rows: Sequence[StatusRow]) -> Counts:
+        """Those of some lines of a status file."""
+        done = sum(not row.cutback for row in rows)
+        return cls(done, sum(row.total_iterations for row in rows), len(rows) - done)
 
     def __str__(self) -> str:
         named = zip(self.__slots__, (self.increments, self.iterations, self.cutbacks), strict=True)
@@ -97,9 +103,7 @@ class Result:
     @cached_property
     def counts(self) -> Counts:
         """Increments, iterations and cutbacks so far."""
-        done = sum(not row.cutback for row in self.status)
-        iterations = sum(row.total_iterations for row in self.status)
-        return Counts(done, iterations, len(self.status) - done)
+        return Counts.of(self.status)
 
     @cached_property
     def warnings(self) -> tuple[str, ...]:
@@ -111,7 +115,8 @@ class Result:
     @property
     def processor_time(self) -> float | None:
         """Processor time of the analysis in seconds; None if it did not close its files itself."""
-        return read_processor_time(self.file(".msg"))
+        times = read_times(self.file(".msg"))
+        return None if times is None else times[0]
 
     @cached_property
     def history(self) -> dict[str, FloatArray]:

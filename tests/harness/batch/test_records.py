@@ -24,7 +24,9 @@ def job(folder: Path, *rows: StatusRow, verdict: str, said: str = "") -> tuple[P
     """Files of a job, and what it printed."""
     stem = folder / "job"
     (folder / "job.sta").write_text(head() + "".join(f"{row}\n" for row in rows) + f"\n{verdict}\n")
-    (folder / "job.msg").write_text("     JOB TIME SUMMARY\n       TOTAL CPU TIME (SEC) =    12.500\n")
+    (folder / "job.msg").write_text(
+        "     JOB TIME SUMMARY\n       TOTAL CPU TIME (SEC) =    12.500\n       WALLCLOCK TIME (SEC) =    20.0\n"
+    )
     (folder / "job_history.csv").write_text(HISTORY)
     (folder / "job.log").write_text(said)
     return stem, folder / "job.log"

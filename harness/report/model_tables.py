@@ -1,0 +1,165 @@
+# SPDX-FileCopyrightText: The uel-harness authors
+# SPDX-License-Identifier: BSD-3-Clause
+"""Tables of a model: its elements, its steps, and the properties of its sections by name."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from typing import Final
+
+from harness.errors import Source
+from harness.model.mesh import ElementGroup
+from harness.model.model import Model
+from harness.model.properties import (
+    CohesiveSection,
+    ElasticType,
+    Material,
+    SolidSection,
+    UserElement,
+    UserProperty,
+)
+from harness.output.results import Counts
+from harness.output.sta_file import StatusRow
+from harness.usersub.layout import ElementLayout, Item, element_layouts
+
+_CONSTANTS: Final = {
+    ElasticType.ISOTROPIC: ("E", "nu"),
+    ElasticType.ENGINEERING_CONSTANTS: ("E1", "E2", "E3", "nu12", "nu13", "nu23", "G12", "G13", "G23"),
+    ElasticType.LAMINA: ("E1", "E2", "nu12", "G12", "G13", "G23"),
+    ElasticType.TRACTION: ("Knn", "Kss", "Ktt"),
+}
+"""Names of the constants of *ELASTIC in their order."""
+
+Row = tuple[str, ...]
+
+
+@dataclass(frozen=True, slots=True)
+class Table:
+    """A table: title, where it is in the deck, heads of the columns, rows."""
+
+    title: str
+    head: Row
+    rows: Sequence[Row]
+    source: Source | None = None
+
+
+def element_table(model: Model) -> Table:
+    """Numbers of elements by type, and what each type is."""
+    counts: dict[str, int] = {}
+    meanings: dict[str, str] = {}
+    for group in model.groups:
+        counts[group.type] = counts.get(group.type, 0) + len(group.labels)
+        layout = layout_of(group.definition)
+        meanings[group.type] = layout.meaning if layout else "user element" if group.definition else "built in"
+    rows = [(name, f"{count}", meanings[name]) for name, count in counts.items()]
+    return Table("Elements", ("type", "number", "what it is"), rows)
+
+
+def step_table(model: Model, status: Sequence[StatusRow]) -> Table:
+    """Steps with what they took."""
+    rows = []
+    for step in model.steps:
+        mine = [row for row in status if row.step == step.number]
+        counts = Counts.of(mine)
+        words = [step.procedure.full_title.lower(), *(["large displacements"] if step.nlgeom else [])]
+        period = f"{step.procedure.period:g}" if not step.procedure.linear else "-"
+        numbers = (f"{value}" for value in (counts.increments, counts.iterations, counts.cutbacks))
+        rows.append((f"{step.number} {step.name}".strip(), ", ".join(words), period, *numbers))
+    head = ("step", "procedure", "time", "increments", "iterations", "cutbacks")
+    return Table("Steps", head, rows)
+
+
+def property_tables(model: Model) -> Iterator[Table]:
+    """The properties of each section, once."""
+    seen: set[Source] = set()
+    for group in model.groups:
+        section = group.section
+        if section.source in seen:
+            continue
+        seen.add(section.source)
+        if isinstance(section, UserProperty):
+            yield _user_table(group, section)
+        elif isinstance(section, SolidSection | CohesiveSection):
+            yield Table(
+                f"{section.elset}: {group.type}", ("property", "value", ""), _section_rows(section), section.source
+            )
+
+
+def layout_of(definition: UserElement | None) -> ElementLayout | None:
+    """The project's element that a deck defines, by its number, nodes and variables; None for any other."""
+    layout = element_layouts().get(definition.number) if definition else None
+    if definition and layout and (layout.nodes, layout.svars) == (definition.nodes, definition.variables):
+        return layout
+    return None
+
+
+def _user_table(group: ElementGroup, section: UserProperty) -> Table:
+    definition = group.definition
+    title = f"{section.elset}: {group.type}"
+    layout = layout_of(definition)
+    if layout is not None:
+        given = [*zip(layout.reals, section.values.tolist(), strict=False)]
+        given += [*zip(layout.integers, section.integers.tolist(), strict=False)]
+        rows = [_item_row(item, value) for item, value in given if value]
+        if zero := ", ".join(item.name for item, value in given if not value):
+            rows.append(("the others", "0", zero))
+        return Table(title, ("property", "value", "meaning"), rows, section.source)
+    names = definition.names if definition else None
+    rows = [
+        *_named(section.values.tolist(), names.properties if names else (), "PROPS"),
+        *_named(section.integers.tolist(), names.integers if names else (), "JPROPS"),
+    ]
+    return Table(title, ("property", "value", ""), rows, section.source)
+
+
+def _item_row(item: Item, value: float) -> Row:
+    dimension = f" ({item.unit})" if item.unit not in ("", "1") else ""
+    return item.name, f"{value:g}", f"{item.meaning}{dimension}"
+
+
+def _named(values: Sequence[float], names: Sequence[str], array: str) -> list[Row]:
+    places = [f"{array}({k})" for k in range(1, len(values) + 1)]
+    if not names:
+        return [(place, f"{value:g}", "") for place, value in zip(places, values, strict=True)]
+    return [(name, f"{value:g}", place) for name, value, place in zip(names, values, places, strict=True)]
+
+
+def _section_rows(section: SolidSection | CohesiveSection) -> list[Row]:
+    rows: list[Row] = [("material", section.material.name, "")]
+    rows.append(("thickness", f"{section.thickness:g}", ""))
+    if isinstance(section, CohesiveSection):
+        rows.append(("width", f"{section.width:g}", ""))
+    elif section.orientation is not None:
+        rows.append(("orientation", section.orientation.name, ""))
+    return [*rows, *_material_rows(section.material)]
+
+
+def _material_rows(material: Material) -> Iterator[Row]:
+    if material.elastic is not None:
+        constants = material.elastic.constants
+        names = _CONSTANTS.get(material.elastic.type, tuple(f"constant {k + 1}" for k in range(len(constants))))
+        kind = f"*ELASTIC, TYPE={material.elastic.type}"
+        yield from ((name, f"{value:g}", kind) for name, value in zip(names, constants, strict=False))
+    if material.damage is not None:
+        words = f"*DAMAGE INITIATION, CRITERION={material.damage.criterion}"
+        for name, value in zip(
+            ("onset, normal", "onset, first shear", "onset, second shear"), material.damage.onset, strict=True
+        ):
+            yield name, f"{value:g}", words
+        if material.damage.evolution is not None:
+            evolution = material.damage.evolution
+            kind = f"*DAMAGE EVOLUTION, TYPE={evolution.type}"
+            yield "to failure", ", ".join(f"{value:g}" for value in evolution.values), kind
+    if material.user is not None:
+        yield from (
+            (f"constant {k}", f"{value:g}", "*USER MATERIAL")
+            for k, value in enumerate(material.user.constants.tolist(), 1)
+        )
+    for name, value in (
+        ("density", material.density),
+        ("expansion", material.expansion),
+        ("conductivity", material.conductivity),
+    ):
+        if value:
+            yield name, f"{value:g}", ""
