@@ -326,6 +326,9 @@ def add_law(law: argparse.ArgumentParser) -> None:
         help="... and then press together by this fraction of it",
     )
     law.add_argument("--path", metavar="'N,T N,T ...'", help="follow these separations instead")
+    law.add_argument(
+        "--units", nargs=2, metavar=("LENGTH", "STRESS"), help="for the axes (mm MPa; unknown with --deck)"
+    )
     law.add_argument("--surface", action="store_true", help="also draw both tractions over both separations")
     law.add_argument(
         "--increments",
@@ -615,6 +618,7 @@ def explore_law(options: argparse.Namespace) -> int:
     }
     path = None if options.path is None else path_points(options.path)
     element = None if options.element is None else int(options.element[1:])
+    asked["units"] = None if options.units is None else tuple(options.units)
     curves, files = explore(Exploration(**asked, path=path, element=element))
     Console().print(summary(curves))
     print("written:", *files)

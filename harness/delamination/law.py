@@ -89,6 +89,25 @@ def given_properties(words: Iterable[str]) -> dict[str, float]:
     return given
 
 
+def refuse_ignored(given: Iterable[str], jtype: int) -> None:
+    """Raise UsageError for a property that elements of a type do not have, and would ignore; names those that do."""
+    layouts = element_layouts()
+    has = {number: {item.name for item in (*layouts[number].reals, *layouts[number].integers)} for number in NODES}
+    for name in given:
+        if name not in has[jtype]:
+            others = [f"U{number}" for number in NODES if name in has[number]]
+            other = f"; --element {' or '.join(others)} has it" if others else ""
+            raise UsageError(f"{name}: U{jtype} has no such property and would ignore it{other}")
+
+
+def shown_properties(values: Properties, jtype: int) -> list[tuple[str, float]]:
+    """Properties of the law that are not zero, by name; those of the plies and the thickness do not change it."""
+    layout = element_layouts()[jtype]
+    names = [item.name for item in (*layout.reals, *layout.integers)]
+    names = [name for name in names if name != "THICKNESS" and not name.endswith((" BOTTOM", " TOP"))]
+    return [(name, values[name]) for name in names if values.get(name)]
+
+
 def deck_properties(path: Path, elset: str | None = None) -> tuple[int, dict[str, float]]:
     """Type and properties of the interface elements of a deck: of one element set, by default the first.
 

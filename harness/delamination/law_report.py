@@ -5,8 +5,10 @@
 from __future__ import annotations
 
 import csv
+import textwrap
 from collections.abc import Sequence
 from dataclasses import dataclass
+from itertools import pairwise
 from pathlib import Path
 from typing import Any
 
@@ -26,6 +28,12 @@ from harness.output.plots import COLOURS, STYLE
 
 SURFACE_ANGLES = 31
 SURFACE_SIZES = 60
+_LINE = 130
+"""Letters of a line below a picture."""
+_MOST_PRESSURE = 0.5
+"""Pressure that is drawn, over the largest tension."""
+_SHORTEST_ARROWED = 0.05
+"""Length of a part of a curve with an arrow, over the size of the axes."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -43,7 +51,7 @@ class Exploration:
     surface     also draw both tractions over both separations
     increments  of a curve, or of each straight line of a path
     duration    of a curve in step time, for VISCOSITY
-    units       of length and traction, for the axes; '' if they are not known
+    units       of length and traction, for the axes; None: those of the paper, or with a deck unknown
     """
 
     properties: Sequence[str] = ()
@@ -60,7 +68,7 @@ class Exploration:
     duration: float = 1.0
     job: str = "law"
     output_dir: Path = Path()
-    units: tuple[str, str] = ("", "")
+    units: tuple[str, str] | None = None
 
 
 def explore(asked: Exploration) -> tuple[list[LawCurve], list[Path]]:
@@ -76,8 +84,13 @@ def _explore(asked: Exploration) -> tuple[list[LawCurve], list[Path]]:
     if asked.deck is not None:
         jtype, from_deck = law.deck_properties(asked.deck, asked.elset)
         values |= from_deck
-    values |= law.given_properties(asked.properties)
+    given = law.given_properties(asked.properties)
+    values |= given
     jtype = asked.element or jtype
+    law.refuse_ignored(given, jtype)
+    what = f"U{jtype}: " + ", ".join(f"{name}={value:g}" for name, value in law.shown_properties(values, jtype))
+    # the paper's values are in mm and MPa
+    units = asked.units or (("mm", "MPa") if asked.deck is None else ("", ""))
     library = usersub.load(None, job=asked.job, output_dir=asked.output_dir)
     try:
 
@@ -98,13 +111,13 @@ def _explore(asked: Exploration) -> tuple[list[LawCurve], list[Path]]:
         else:
             curves = [curve("path", law.along(asked.path, asked.increments))]
         files = [asked.output_dir / f"{asked.job}.csv", asked.output_dir / f"{asked.job}.png"]
-        write_csv(curves, files[0])
-        draw_curves(curves, files[1], asked.units)
+        write_csv(curves, files[0], what)
+        draw_curves(curves, files[1], units, what)
         if asked.surface:
             angles = np.linspace(0.0, 90.0, SURFACE_ANGLES)
             sheets = [curve("", law.opening(angle, reach(angle), SURFACE_SIZES)) for angle in angles]
             files.append(asked.output_dir / f"{asked.job}_surface.png")
-            draw_surface(sheets, files[-1], asked.units)
+            draw_surface(sheets, files[-1], units, what)
     finally:
         library.close()
     return curves, files
@@ -121,9 +134,10 @@ def path_points(text: str) -> FloatArray:
     return points
 
 
-def write_csv(curves: Sequence[LawCurve], path: Path) -> None:
-    """One line per increment: the label of the curve, then its columns."""
+def write_csv(curves: Sequence[LawCurve], path: Path, what: str) -> None:
+    """A comment (#) with element and properties; one line per increment: the label of the curve, then its columns."""
     with path.open("w", newline="", encoding="utf-8") as file:
+        file.write(f"# {what}\r\n")
         writer = csv.writer(file)
         writer.writerow(["CURVE", *curves[0].columns])
         for curve in curves:
@@ -152,8 +166,11 @@ def _with_unit(words: str, unit: str) -> str:
     return f"{words} [{unit}]" if unit else words
 
 
-def draw_curves(curves: Sequence[LawCurve], path: Path, units: tuple[str, str]) -> None:
-    """Normal traction over opening and tangential traction over sliding."""
+def draw_curves(curves: Sequence[LawCurve], path: Path, units: tuple[str, str], what: str = "") -> None:
+    """Normal traction over opening and tangential traction over sliding; arrows where a path turns.
+
+    `what` it shows is below. A pressure much larger than the largest tension is cut off, and named.
+    """
     with mpl.rc_context(STYLE):
         figure = Figure(figsize=(7.0, 3.2), layout="constrained")
         FigureCanvasAgg(figure)
@@ -166,14 +183,45 @@ def draw_curves(curves: Sequence[LawCurve], path: Path, units: tuple[str, str]) 
             axis.set_ylabel(_with_unit(f"{words[1]} traction", units[1]))
             axis.ticklabel_format(axis="x", scilimits=(-2, 3), useMathText=True)
             axis.axhline(0.0, color="0.6", linewidth=0.6, zorder=1)
+            if name == "N":
+                _cut_pressure(axis, curves)
+            for number, curve in enumerate(curves):
+                _arrows(axis, curve.columns[f"SEP{name}"], curve.columns[f"T{name}"], COLOURS[number % len(COLOURS)])
         if len(curves) > 1:
             handles, labels = panels[0].get_legend_handles_labels()
             title = "angle of the separation, 0° opening, 90° sliding"
             figure.legend(handles, labels, title=title, loc="outside upper center", ncols=8)
+        figure.supxlabel(textwrap.fill(what, _LINE), fontsize=7, color="0.35")
         figure.savefig(path, dpi=200)
 
 
-def draw_surface(curves: Sequence[LawCurve], path: Path, units: tuple[str, str]) -> None:
+def _cut_pressure(axis: Any, curves: Sequence[LawCurve]) -> None:
+    """Let a pressure not flatten the tension."""
+    tractions = np.concatenate([curve.columns["TN"] for curve in curves])
+    lowest, highest = float(tractions.min()), float(tractions.max())
+    if highest > 0.0 and lowest < -_MOST_PRESSURE * highest:
+        axis.set_ylim(-_MOST_PRESSURE * highest, 1.05 * highest)
+        axis.text(0.97, 0.03, f"down to {lowest:.3g}", transform=axis.transAxes, ha="right", fontsize=7, color="0.35")
+
+
+def _arrows(axis: Any, x: FloatArray, y: FloatArray, colour: str) -> None:
+    """An arrow in the middle of each part of a curve between two turns; none on a curve without turns."""
+    scale = np.array([max(float(np.ptp(x)), 1e-300), max(float(np.ptp(y)), 1e-300)])
+    steps = np.diff(np.column_stack([x, y]), axis=0) / scale
+    moving = np.flatnonzero(np.abs(np.diff(x)) > 0.0)
+    turns = moving[1:][np.diff(np.sign(np.diff(x)[moving])) != 0]
+    if not len(turns):
+        return
+    bounds = [0, *turns.tolist(), len(x) - 1]
+    for first, last in pairwise(bounds):
+        lengths = np.cumsum(np.linalg.norm(steps[first:last], axis=1))
+        if len(lengths) and lengths[-1] > _SHORTEST_ARROWED:
+            k = first + int(np.searchsorted(lengths, 0.5 * lengths[-1]))
+            style = {"arrowstyle": "-|>", "color": colour, "shrinkA": 0, "shrinkB": 0}
+            axis.annotate("", (x[k + 1], y[k + 1]), (x[k], y[k]), arrowprops=style, annotation_clip=True)
+
+
+def draw_surface(curves: Sequence[LawCurve], path: Path, units: tuple[str, str], what: str = "") -> None:
     """Both tractions over opening and sliding, from curves of equally many increments, one per angle."""
     grids = {name: np.array([curve.columns[name] for curve in curves]) for name in ("SEPN", "SEPT", "TN", "TT")}
     with mpl.rc_context(STYLE | {"axes.grid": False}):
@@ -199,4 +247,5 @@ def draw_surface(curves: Sequence[LawCurve], path: Path, units: tuple[str, str])
             axis.set_box_aspect(None, zoom=0.9)
             axis.locator_params(nbins=4, axis="x")
             axis.locator_params(nbins=4, axis="y")
+        figure.supxlabel(textwrap.fill(what, _LINE), fontsize=7, color="0.35")
         figure.savefig(path, dpi=200)

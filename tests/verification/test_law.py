@@ -7,6 +7,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from matplotlib.figure import Figure
 
 from harness.cli import main
 from harness.delamination import law
@@ -140,6 +141,8 @@ def test_properties_of_a_deck(kind, jtype):
         ({"properties": ["GIC=much"]}, r"'GIC=much': 'MUCH' is not a finite number"),
         ({"deck": FOLDER / "dcb/dcb_u4_1e8.inp", "elset": "GLUE"}, r"ELSET=GLUE; expected one of INTERFACE"),
         ({"deck": FOLDER / "quad_cook/cook_u1.inp"}, r"cook_u1.inp: no interface elements"),
+        ({"properties": ["CLOSURE=1"]}, r"CLOSURE: U2 has no such property .* ignore it; --element U4 or U6 has it$"),
+        ({"properties": ["OFFSETTOP=1"], "element": 4}, r"OFFSETTOP: U4 has no such property and would ignore it$"),
         ({"properties": ["SIGMAMAX=30", "GIC=1e9"]}, r"traction at 0 degrees does not fall"),
     ],
 )
@@ -165,12 +168,53 @@ def test_message_of_the_element_comes_through(curves):
         curves(properties=["ALPHAN=-1"])
 
 
+@pytest.fixture
+def figures(monkeypatch):
+    """Figures that are drawn, in place of their files."""
+    kept = []
+    monkeypatch.setattr(Figure, "savefig", lambda figure, *_, **__: kept.append(figure))
+    return kept
+
+
+def test_picture_names_element_properties_and_units(curves, figures):
+    curves(properties=("LAW=2", "ETA=1.45", "CLOSURE=1"), element=4, angles=(0.0,), increments=20)
+    curves(deck=FOLDER / "dcb" / "dcb_u4_1e8.inp", angles=(0.0,), increments=20)
+    mine, of_deck = figures
+    expected = (
+        "U4: ALPHAN=1e+06, ALPHAT=1e+06, SIGMAMAX=30, TAUMAX=60, GIC=0.26, GIIC=1.002, ETA=1.45, LAW=2, CLOSURE=1"
+    )
+    assert mine.get_supxlabel().replace("\n", " ") == expected
+    assert mine.axes[0].get_ylabel() == "Normal traction [MPa]"
+    # a deck does not tell its units
+    assert of_deck.axes[0].get_ylabel() == "Normal traction"
+    assert not any(axis.texts for figure in figures for axis in figure.axes)
+
+
+def test_picture_of_unloading_has_arrows_and_shows_the_tension(curves, figures):
+    """A pressure of many times the strength is cut off, and named."""
+    column = curves(properties=COMPLIANT, angles=(0.0,), unload=(0.5,), close=1.0)["0°"]
+    normal, tangential = figures[0].axes
+    lowest, highest = normal.get_ylim()
+    assert column["TN"].min() < -10.0 * column["TN"].max()
+    assert -lowest == pytest.approx(0.5 * column["TN"].max())
+    assert highest == pytest.approx(1.05 * column["TN"].max())
+    (label,) = [text.get_text() for text in normal.texts if text.get_text()]
+    assert label == f"down to {column['TN'].min():.3g}"
+    # up, down to the pressure, up again
+    arrows = [text for text in normal.texts if not text.get_text()]
+    assert len(arrows) == 3
+    directions = [np.sign(arrow.xy[0] - arrow.xyann[0]) for arrow in arrows]
+    assert directions == [1.0, -1.0, 1.0]
+    assert not tangential.texts
+
+
 def test_command_writes_data_and_pictures(tmp_path, capsys):
     words = ["law", "TAUMAX=50", "--angles", "0", "90", "SIGMAMAX=20", "--increments", "50", "--surface", "GIC=0.3"]
     assert main([*words, "--job", "mine", "--output-dir", str(tmp_path / "new")]) == 0
     printed = capsys.readouterr().out
     assert "max TN" in printed and "mine_surface.png" in printed
     with (tmp_path / "new/mine.csv").open() as file:
+        assert file.readline().startswith("# U2: ALPHAN=")
         rows = list(csv.DictReader(file))
     assert len(rows) == 2 * 51
     assert {row["CURVE"] for row in rows} == {"0°", "90°"}
@@ -182,6 +226,6 @@ def test_command_writes_data_and_pictures(tmp_path, capsys):
 
 def test_command_takes_a_path_and_says_what_is_wrong(tmp_path: Path, capsys):
     assert main(["law", "--path", "0.01,0.01", "--element", "U6", "--output-dir", str(tmp_path)]) == 0
-    assert (tmp_path / "law.csv").read_text().startswith("CURVE,TIME,X,Y,SEPN,SEPT,TN,TT,")
+    assert (tmp_path / "law.csv").read_text().splitlines()[1].startswith("CURVE,TIME,X,Y,SEPN,SEPT,TN,TT,")
     assert main(["law", "--path", "nowhere", "--output-dir", str(tmp_path)]) == 2
     assert capsys.readouterr().err.startswith("uel: 'nowhere': expected points")
