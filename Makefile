@@ -29,7 +29,7 @@ PYTEST = $(RUN) OPENBLAS_NUM_THREADS=1 OMP_NUM_THREADS=1 MKL_NUM_THREADS=1 \
 	$(if $(SEED),-p randomly --randomly-seed=$(SEED) --hypothesis-profile=other --hypothesis-seed=$(SEED))
 
 .DEFAULT_GOAL := help
-.PHONY: help demo test test-all test-debug test-matrix bench lint decks clean
+.PHONY: help demo test test-all test-debug test-matrix bench lint docs decks clean
 
 help:
 	@sed -n 's/^# make/make/p' $(firstword $(MAKEFILE_LIST))
@@ -38,6 +38,7 @@ help:
 	@echo 'make test-matrix both, on clean clones, as on several machines: tests/programs/matrix.py'
 	@echo 'make bench       speed ratios, measured in one run'
 	@echo 'make lint        what CI checks before the tests'
+	@echo 'make docs        the manual, in build/site'
 	@echo 'make decks       write the decks of abaqus_inputs again'
 	@echo 'make clean       remove the environment, the build and the demo'
 
@@ -78,6 +79,12 @@ lint: $(INSTALLED)
 	$(RUN) $(BIN)/mypy
 	$(RUN) $(BIN)/fortitude check
 	$(RUN) $(BIN)/codespell
+
+# links that lead nowhere are errors, within the pages and to files of the repository
+docs: $(INSTALLED)
+	$(BIN)/pip install --quiet --group docs
+	$(RUN) $(BIN)/sphinx-build --fail-on-warning --keep-going --quiet -c docs . build/site
+	@echo 'build/site/docs/index.html'
 
 decks: $(INSTALLED)
 	$(RUN) $(BIN)/python -m harness.delamination.decks

@@ -165,7 +165,7 @@ def test_top_level_holds_only_these() -> None:
     allowed = {
         *("fortran", "harness", "tests", "abaqus_inputs", "meson.build", "README.md", "Makefile", "pyproject.toml"),
         *("fortitude.toml", "CHANGELOG.md", "CONTRIBUTING.md", "CITATION.cff", "LICENSE", ".ci", ".gitignore"),
-        *(".gitattributes", "meson.options"),
+        *(".gitattributes", "meson.options", "docs"),
     }
     assert {path.parts[0] for path in TRACKED} <= allowed
 

@@ -333,7 +333,7 @@ KEYWORDS = (
     ),
     Keyword(
         "PARAMETER",
-        "Define parameters; <name> on any later line stands for the value.",
+        "Define parameters; `<name>` on any later line stands for the value.",
         Where.ANY,
         (*ignored("INDEPENDENT"), *refused("DEPENDENT", "TABLE")),
         "name = arithmetic expression in Python's spelling",

@@ -18,27 +18,6 @@ def empty_folder(tmp_path, monkeypatch):
     monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path / "cache"))
 
 
-NUMBER = re.compile(r"-?\d+\.\d+(?:[eE][-+]\d+)?|-?\d+[eE][-+]\d+")
-
-DURATION = re.compile(r" in (?:less than )?[\d.]+ s$", re.MULTILINE)
-"""How long a run took, which no run repeats."""
-
-
-def assert_same(found, expected):
-    """The texts are the same but for what another processor or compiler may round otherwise.
-
-    How long a number is and where lines of a table break follow from that. Numbers agree to 1e-6, or to a unit of the
-    last digit printed; what is below 1e-9 is rounding.
-    """
-    found, expected = (DURATION.sub("", text) for text in (found, expected))
-    words, others = (re.sub(r"[\s\u2500-\u257f]+", " ", NUMBER.sub("NUMBER", text)) for text in (found, expected))
-    assert words == others
-    for one, other in zip(NUMBER.findall(found), NUMBER.findall(expected), strict=True):
-        digits, _, exponent = min(one, other, key=len).lower().partition("e")
-        unit = 10.0 ** (int(exponent or 0) - len(digits.partition(".")[2]))
-        assert float(one) == pytest.approx(float(other), rel=1e-6, abs=max(1.01 * unit, 1e-9)), f"{one}, {other}"
-
-
 @pytest.mark.parametrize(
     ("one", "other", "same"),
     [
@@ -56,7 +35,7 @@ def assert_same(found, expected):
         ("3 cutbacks in less than 0.1 s\n", "3 cutbacks in 12 s\n", True),
     ],
 )
-def test_texts_are_compared(one, other, same):
+def test_texts_are_compared(one, other, same, assert_same):
     if same:
         assert_same(one, other)
     else:
@@ -65,7 +44,7 @@ def test_texts_are_compared(one, other, same):
 
 
 @pytest.mark.nan
-def test_guide_is_as_its_commands_say():
+def test_guide_is_as_its_commands_say(assert_same):
     text = guide.GUIDE.read_text("utf-8")
     assert_same(guide.replay(text), text)
     assert text.count("│ FAILED") == 6 + 5 + 4 + 2 + 1

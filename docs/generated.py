@@ -1,0 +1,133 @@
+# SPDX-FileCopyrightText: The uel-harness authors
+# SPDX-License-Identifier: BSD-3-Clause
+"""What the manual takes from the program itself: the command, the gallery of verification, pictures of tutorials."""
+
+import argparse
+import contextlib
+import os
+import re
+import shutil
+import tempfile
+import tomllib
+from collections import Counter
+from pathlib import Path
+
+from guide import replay
+from pygments.lexer import RegexLexer
+from pygments.token import Comment, Keyword, Number, Text
+from sphinx.application import Sphinx
+
+from harness.cli import build_parser
+
+ROOT = Path(__file__).parents[1]
+PAGES = Path(__file__).with_name("generated")
+
+
+def commands() -> str:
+    """Every command with its arguments and options, from the parser."""
+    page = ["# The command", "`uel COMMAND --help` prints the same.", ""]
+    parser = build_parser()
+    within = next(action for action in parser._actions if isinstance(action, argparse._SubParsersAction))
+    for choice in within._choices_actions:
+        command = within.choices[choice.dest]
+        usage = " ".join(command.format_usage().removeprefix("usage: ").split())
+        page += [f"## uel {choice.dest}", _sentence(command.description or choice.help or ""), f"```text\n{usage}\n```"]
+        page += ["| argument | meaning |", "|---|---|"]
+        for action in command._actions:
+            if not isinstance(action, argparse._HelpAction):
+                page.append(f"| {_named(action)} | {_cell(command, action)} |")
+        page += ["", f"```text\n{command.epilog}\n```" if "\n" in (command.epilog or "") else command.epilog or "", ""]
+    return _page(page)
+
+
+def _named(action: argparse.Action) -> str:
+    names = ", ".join(f"`{name}`" for name in action.option_strings)
+    value = "" if action.nargs == 0 else action.metavar or "|".join(action.choices or [action.dest])
+    return f"{names} `{value}`".strip() if value else names
+
+
+def _cell(command: argparse.ArgumentParser, action: argparse.Action) -> str:
+    text = command._get_formatter()._expand_help(action) if action.help else ""
+    return text.replace("|", "\\|").replace("*", "\\*").replace("<", "&lt;")
+
+
+def _sentence(text: str) -> str:
+    return text[:1].upper() + text[1:] + ("" if text.endswith(".") else ".")
+
+
+def gallery() -> str:
+    """Every problem of abaqus_inputs: what it verifies, against what, and its decks."""
+    page = [
+        "# Verification",
+        "Each problem has a page in the form of a verification manual and decks that run in Abaqus unchanged. Its "
+        "values are compared by the tests, each with a tolerance and its reason: *analytic* from theory, *other code* "
+        "from a published result of another program, *paper figure* read from one, *regression* from this program "
+        "itself, which detects changes and verifies nothing.",
+        "",
+        "| problem | values compared | decks |",
+        "|---|---|---|",
+    ]
+    pages = sorted((ROOT / "abaqus_inputs").glob("*/README.md"))
+    for file in pages:
+        title = next(line[2:] for line in file.read_text("utf-8").splitlines() if line.startswith("# "))
+        values = tomllib.loads(file.with_name("reference.toml").read_text("utf-8")).get("value", [])
+        kinds = ", ".join(f"{count} {kind}" for kind, count in Counter(value["kind"] for value in values).items())
+        decks = len([deck for deck in file.parent.glob("*.inp") if "*STEP" in deck.read_text("utf-8").upper()])
+        folder = file.parent.name
+        page.append(f"| [{title}](../../abaqus_inputs/{folder}/README.md) | {kinds} | {decks} in `{folder}` |")
+    page += ["", "```{toctree}", ":hidden:", *(f"/{file.relative_to(ROOT).with_suffix('')}" for file in pages)]
+    return _page([*page, "/abaqus_inputs/benchmarks", "```"])
+
+
+def _page(lines: list[str]) -> str:
+    return "\n".join(lines) + "\n"
+
+
+def write(*_: object) -> None:
+    """Write the pages, where that changes them, and the pictures."""
+    PAGES.mkdir(exist_ok=True)
+    draw(ROOT / "docs" / "dcb.md")
+    for name, text in {"commands": commands(), "verification": gallery()}.items():
+        file = PAGES / f"{name}.md"
+        if not file.exists() or file.read_text("utf-8") != text:
+            file.write_text(text, encoding="utf-8")
+
+
+def draw(tutorial: Path) -> None:
+    """Follow a tutorial, unless it has been since it was changed, and keep the pictures that it makes."""
+    picture = PAGES / f"{tutorial.stem}.png"
+    if picture.exists() and picture.stat().st_mtime > tutorial.stat().st_mtime:
+        return
+    os.environ["MPLBACKEND"] = "Agg"
+    with tempfile.TemporaryDirectory() as folder, contextlib.chdir(folder):
+        replay(tutorial.read_text("utf-8"))
+        shutil.copyfile(picture.name, picture)
+
+
+class DeckLexer(RegexLexer):
+    """Colours of an input deck."""
+
+    name = "Abaqus"
+    aliases = ("abaqus",)
+    flags = re.MULTILINE
+    tokens = {  # noqa: RUF012 (pygments' interface)
+        "root": [
+            (r"^\*\*.*$", Comment),
+            (r"^\*[^,\n]+", Keyword),
+            (r"[-+]?(\d+\.?\d*|\.\d+)([eE][-+]?\d+)?\b", Number),
+            (r"\w+|[\s\S]", Text),
+        ]
+    }
+
+
+def escape(_app: Sphinx, _what: str, _name: str, _object: object, _options: object, lines: list[str]) -> None:
+    """A keyword in a docstring, such as *STEP, is not the begin of an emphasis."""
+    lines[:] = [re.sub(r"(?<![*\w])\*(?=[A-Z])", r"\\*", line) for line in lines]
+
+
+def setup(app: Sphinx) -> dict[str, bool]:
+    """Write the pages before they are read."""
+    app.connect("builder-inited", write)
+    app.connect("autodoc-process-docstring", escape)
+    app.add_lexer("abaqus", DeckLexer)
+    return {"parallel_read_safe": True, "parallel_write_safe": True}
