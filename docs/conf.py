@@ -15,8 +15,7 @@ extensions = ["myst_parser", "sphinx.ext.autodoc", "sphinx.ext.napoleon", "mathe
 root_doc = "docs/index"
 include_patterns = [
     "docs/**.md",
-    "CHANGELOG.md",
-    "CONTRIBUTING.md",
+    "*.md",
     "fortran/*.md",
     "harness/**.md",
     "abaqus_inputs/**.md",

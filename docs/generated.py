@@ -9,6 +9,7 @@ import re
 import shutil
 import tempfile
 import tomllib
+import zipfile
 from collections import Counter
 from pathlib import Path
 
@@ -30,8 +31,8 @@ def commands() -> str:
     within = next(action for action in parser._actions if isinstance(action, argparse._SubParsersAction))
     for choice in within._choices_actions:
         command = within.choices[choice.dest]
-        usage = " ".join(command.format_usage().removeprefix("usage: ").split())
-        page += [f"## uel {choice.dest}", _sentence(command.description or choice.help or ""), f"```text\n{usage}\n```"]
+        usage = re.sub(r"^ {7}", "", command.format_usage().removeprefix("usage: "), flags=re.MULTILINE)
+        page += [f"## uel {choice.dest}", _sentence(command.description or choice.help or ""), f"```text\n{usage}```"]
         page += ["| argument | meaning |", "|---|---|"]
         for action in command._actions:
             if not isinstance(action, argparse._HelpAction):
@@ -42,7 +43,7 @@ def commands() -> str:
 
 def _named(action: argparse.Action) -> str:
     names = ", ".join(f"`{name}`" for name in action.option_strings)
-    value = "" if action.nargs == 0 else action.metavar or "|".join(action.choices or [action.dest])
+    value = "" if action.nargs == 0 else action.metavar or ", ".join(action.choices or [action.dest])
     return f"{names} `{value}`".strip() if value else names
 
 
@@ -64,19 +65,36 @@ def gallery() -> str:
         "from a published result of another program, *paper figure* read from one, *regression* from this program "
         "itself, which detects changes and verifies nothing.",
         "",
-        "| problem | values compared | decks |",
-        "|---|---|---|",
+        "The decks of a problem, with the files that they include, are in one archive; the command runs one of them.",
+        "",
+        "| problem | values compared | decks | run |",
+        "|---|---|---|---|",
     ]
     pages = sorted((ROOT / "abaqus_inputs").glob("*/README.md"))
     for file in pages:
         title = next(line[2:] for line in file.read_text("utf-8").splitlines() if line.startswith("# "))
-        values = tomllib.loads(file.with_name("reference.toml").read_text("utf-8")).get("value", [])
+        reference = tomllib.loads(file.with_name("reference.toml").read_text("utf-8"))
+        values = reference.get("value", [])
         kinds = ", ".join(f"{count} {kind}" for kind, count in Counter(value["kind"] for value in values).items())
-        decks = len([deck for deck in file.parent.glob("*.inp") if "*STEP" in deck.read_text("utf-8").upper()])
-        folder = file.parent.name
-        page.append(f"| [{title}](../../abaqus_inputs/{folder}/README.md) | {kinds} | {decks} in `{folder}` |")
+        decks = sorted(deck for deck in file.parent.glob("*.inp") if "*STEP" in deck.read_text("utf-8").upper())
+        quick = [deck.name for deck in decks if deck.name not in reference.get("long", [])]
+        archive = _archive(file.parent)
+        page.append(
+            f"| [{title}](../../abaqus_inputs/{file.parent.name}/README.md) | {kinds} | [{len(decks)}]({archive}) "
+            f"| {f'`uel run {quick[0]}`' if quick else 'all take minutes'} |"
+        )
     page += ["", "```{toctree}", ":hidden:", *(f"/{file.relative_to(ROOT).with_suffix('')}" for file in pages)]
     return _page([*page, "/abaqus_inputs/benchmarks", "```"])
+
+
+def _archive(folder: Path) -> str:
+    """Name of an archive with the decks of a folder, which has the name of the folder."""
+    name = f"{folder.name}.zip"
+    with zipfile.ZipFile(PAGES / name, "w", zipfile.ZIP_DEFLATED) as archive:
+        for deck in sorted(folder.glob("*.inp")):
+            # the same bytes at each build
+            archive.writestr(zipfile.ZipInfo(f"{folder.name}/{deck.name}"), deck.read_bytes(), zipfile.ZIP_DEFLATED)
+    return name
 
 
 def _page(lines: list[str]) -> str:
