@@ -33,6 +33,9 @@ _LINES: Final = {
 }
 """Two lines in each language with an entry point of Abaqus, by the ending of the file."""
 
+_NO_LIBRARY: Final = "cannot open shared object file"
+_RUNTIME: Final = "apt install libgfortran5 libgomp1, dnf install libgfortran libgomp"
+"""What a wheel takes from the system: user routines share these libraries, and the units of files, with the host."""
 _BEFORE: Final = {"python-mumps": "apt install libmumps-seq-dev, and then "}
 """What to do before a package can be installed."""
 
@@ -76,8 +79,9 @@ def examine() -> Iterator[Finding]:
         # the parts below need these packages
         import harness.solver.linear  # noqa: PLC0415
         import harness.usersub  # noqa: F401, PLC0415
-    except ImportError as error:
-        yield Finding("compiled host", State.BROKEN, str(error), AGAIN)
+    except (ImportError, UelError) as error:
+        advice = _RUNTIME if _NO_LIBRARY in str(error) else AGAIN
+        yield Finding("compiled host", State.BROKEN, str(error), advice)
         return
     yield _own_elements()
     yield from _compilers()

@@ -4,7 +4,9 @@
 
 from __future__ import annotations
 
+import json
 import re
+from importlib import metadata
 from pathlib import Path
 from typing import Final
 
@@ -14,6 +16,8 @@ TEMPLATE: Final = Path(__file__).with_name("template")
 PLACEHOLDER: Final = "my_uel"
 """Name of the template's element, in texts and names of files."""
 
+_OURSELVES: Final = "THIS-PROGRAM"
+"""Stands in the template for what `pip install` takes to install this program."""
 _NAME = re.compile(r"[A-Za-z]\w{0,63}", re.ASCII)
 
 
@@ -48,6 +52,22 @@ def create(target: Path) -> list[Path]:
         file.parent.mkdir(parents=True, exist_ok=True)
         # what users make of the template belongs to them
         lines = [line for line in source.read_text("utf-8").splitlines(keepends=True) if "SPDX-" not in line]
-        file.write_text("".join(lines).replace(PLACEHOLDER, name), encoding="utf-8")
+        text = "".join(lines).replace(PLACEHOLDER, name).replace(_OURSELVES, requirement())
+        file.write_text(text, encoding="utf-8")
         written.append(file)
     return written
+
+
+def requirement() -> str:
+    """What installs this program again: from where it came, by the record that installers keep of it (PEP 610)."""
+    try:
+        installed = metadata.distribution("uel-harness")
+    except metadata.PackageNotFoundError:
+        return "uel-harness"
+    record = json.loads(installed.read_text("direct_url.json") or "{}")
+    if "url" not in record:
+        return f"uel-harness=={installed.version}"
+    versioned = record.get("vcs_info")
+    if versioned:
+        return f"uel-harness @ {versioned['vcs']}+{record['url']}@{versioned['commit_id']}"
+    return f"uel-harness @ {record['url']}"

@@ -15,6 +15,7 @@ from typing import Final, Literal, TypedDict
 import numpy as np
 from numpy.typing import NDArray
 
+from harness.errors import UelError
 from harness.model.arrays import FloatArray
 from harness.model.user_values import AskedAmplitude, UserValues
 from harness.usersub.exchange import BlockArrays, Int32Array, LoadArrays, Outcome, RawMessage
@@ -26,6 +27,8 @@ _flags = sys.getdlopenflags()
 sys.setdlopenflags(_flags | os.RTLD_GLOBAL)
 try:
     from harness.usersub import _host
+except ImportError as error:
+    raise UelError(f"the compiled host does not load: {error}; `uel doctor` says what to do") from None
 finally:
     sys.setdlopenflags(_flags)
 

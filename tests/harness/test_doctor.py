@@ -105,6 +105,37 @@ def test_host_that_is_missing(examined, monkeypatch):
     assert rows["compiled host"][1].endswith("-> " + doctor.AGAIN)
 
 
+NO_RUNTIME = """
+import sys
+from importlib.abc import MetaPathFinder
+
+class Finder(MetaPathFinder):
+    def find_spec(self, name, path, target=None):
+        if name == "harness.usersub._host":
+            raise ImportError("libgfortran.so.5: cannot open shared object file: No such file or directory")
+
+sys.meta_path.insert(0, Finder())
+from harness.cli import main
+sys.exit(main(sys.argv[1:]))
+"""
+
+
+def test_without_the_libraries_of_fortran(tmp_path):
+    """As on a system without any compiler: told what to install, also by what needs the host."""
+    missing = "the compiled host does not load: libgfortran.so.5: cannot open shared object file"
+    (tmp_path / "deck.inp").write_text("*HEADING\n")
+    for words, code, told in (
+        (["doctor"], 1, "-> apt install libgfortran5 libgomp1, dnf install libgfortran libgomp"),
+        (["run", "deck.inp"], 1, f"uel: {missing}"),
+        (["solvers"], 0, "superlu"),
+    ):
+        command = [sys.executable, "-c", NO_RUNTIME, *words]
+        done = subprocess.run(command, cwd=tmp_path, capture_output=True, text=True, check=False)
+        assert done.returncode == code, done
+        assert told in done.stdout + done.stderr
+        assert "Traceback" not in done.stderr
+
+
 def test_program_that_is_not_installed(examined, monkeypatch):
     monkeypatch.setattr(doctor, "DISTRIBUTION", "no-such-distribution")
     code, rows, last = examined()

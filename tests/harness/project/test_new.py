@@ -2,9 +2,11 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """`uel new`: what it makes runs, is tested, and says nothing of the template."""
 
+import json
 import re
 import subprocess
 import sys
+from importlib import metadata
 
 import pytest
 
@@ -49,6 +51,31 @@ def test_its_tests_pass_and_its_deck_runs(project):
     command = [sys.executable, "-m", "harness.cli", "run", "beam_x.inp", "--user", "beam_x.for"]
     result = subprocess.run(command, cwd=project, capture_output=True, text=True, check=False)
     assert "beam_x: completed" in result.stdout, result.stderr
+
+
+@pytest.mark.parametrize(
+    ("record", "expected"),
+    [
+        (None, f"uel-harness=={metadata.version('uel-harness')}"),
+        ({"url": "file:///a/clone", "dir_info": {"editable": True}}, "uel-harness @ file:///a/clone"),
+        ({"url": "file:///a/uel.whl", "archive_info": {}}, "uel-harness @ file:///a/uel.whl"),
+        (
+            {"url": "https://a.b/c.git", "vcs_info": {"vcs": "git", "commit_id": "0123abc"}},
+            "uel-harness @ git+https://a.b/c.git@0123abc",
+        ),
+    ],
+    ids=["index", "folder", "wheel", "git"],
+)
+def test_requirement_is_what_was_installed(tmp_path, monkeypatch, record, expected):
+    """No name that an index might not have: the records are those of PEP 610."""
+    installed = type(metadata.distribution("uel-harness"))
+    text = None if record is None else json.dumps(record)
+    read = installed.read_text
+    monkeypatch.setattr(
+        installed, "read_text", lambda self, name: text if name == "direct_url.json" else read(self, name)
+    )
+    assert main(["new", str(tmp_path / "beam_x")]) == 0
+    assert expected in (tmp_path / "beam_x" / "requirements.txt").read_text().splitlines()
 
 
 def test_its_tests_can_fail(project):

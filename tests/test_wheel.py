@@ -1,0 +1,93 @@
+# SPDX-FileCopyrightText: The uel-harness authors
+# SPDX-License-Identifier: BSD-3-Clause
+"""A wheel, in an environment of its own, outside the repository and without a compiler."""
+
+import os
+import subprocess
+import sys
+import sysconfig
+import venv
+from pathlib import Path
+
+import pytest
+
+ROOT = Path(__file__).parents[1]
+DECKS = ROOT / "abaqus_inputs"
+
+pytestmark = pytest.mark.long
+
+
+@pytest.fixture(scope="module")
+def environment(tmp_path_factory):
+    """Folder of the programs of an environment with the wheel; it takes dependencies from that of the tests."""
+    folder = tmp_path_factory.mktemp("wheel")
+    tools = os.environ | {"PATH": f"{Path(sys.executable).parent}{os.pathsep}{os.environ['PATH']}"}
+    pip = [sys.executable, "-m", "pip", "--quiet", "--disable-pip-version-check"]
+    wheel = [*pip, "wheel", "--no-deps", "--no-build-isolation", "--no-index", f"--wheel-dir={folder}", str(ROOT)]
+    subprocess.run(wheel, check=True, env=tools, cwd=folder)
+    venv.create(folder / "env", with_pip=False)
+    programs = folder / "env" / "bin"
+    install = [*pip, f"--python={programs / 'python'}", "install", "--no-deps", "--no-index"]
+    subprocess.run([*install, *map(str, folder.glob("*.whl"))], check=True, cwd=folder)
+    packages = subprocess.run(
+        [programs / "python", "-c", "import sysconfig; print(sysconfig.get_path('purelib'))"],
+        capture_output=True,
+        text=True,
+        check=True,
+    ).stdout.strip()
+    # a path in such a file is searched, but the files of this kind there, such as that of an editable install, are not
+    (Path(packages) / "dependencies.pth").write_text(f"{sysconfig.get_path('purelib')}\n")
+    return programs
+
+
+@pytest.fixture
+def uel(environment, tmp_path):
+    """Run the command of the wheel; no other program is on the path."""
+    variables = {"PATH": str(environment), "HOME": str(tmp_path), "MPLBACKEND": "Agg"}
+
+    def run(*words: str) -> subprocess.CompletedProcess[str]:
+        command = [str(environment / "uel"), *words]
+        return subprocess.run(command, cwd=tmp_path, env=variables, capture_output=True, text=True, check=False)
+
+    return run
+
+
+def test_it_is_the_wheel(environment, tmp_path):
+    command = [str(environment / "python"), "-c", "import harness.cli; print(harness.cli.__file__)"]
+    done = subprocess.run(command, cwd=tmp_path, capture_output=True, text=True, check=True)
+    assert Path(done.stdout.strip()).is_relative_to(environment.parent)
+
+
+def test_doctor(uel):
+    done = uel("doctor")
+    assert done.returncode == 0, done.stdout
+    assert "absent  gfortran: not found" in done.stdout
+
+
+@pytest.mark.parametrize(
+    ("words", "written"),
+    [
+        (["--version"], []),
+        (["run", f"{DECKS}/patch_horizontal/flat_u4.inp"], ["flat_u4.sta", "flat_u4_interface.csv"]),
+        (["batch", f"{DECKS}/patch_horizontal/flat_u2.inp"], ["batch/results.csv"]),
+        (["law", "CLOSURE=1", "--element", "U4", "--angles", "0"], ["law.csv", "law.png"]),
+        (["check", f"{DECKS}/patch_horizontal/flat_u4.inp", "--increments", "1"], []),
+        (["new", "my_uel"], ["my_uel/my_uel.for"]),
+        (["amalgamate", "-o", "delamination.for"], ["delamination.for"]),
+        (["reproduce", "law", "--quick"], ["reproduce/quick/index.html"]),
+        (["solvers"], []),
+        (["completion", "bash"], []),
+    ],
+    ids=lambda value: value[0] if value else "",
+)
+def test_command(uel, tmp_path, words, written):
+    done = uel(*words)
+    assert done.returncode == 0, done.stdout + done.stderr
+    assert [name for name in written if not (tmp_path / name).exists()] == []
+
+
+def test_user_routines_need_a_compiler(uel):
+    assert uel("new", "my_uel").returncode == 0
+    done = uel("run", "my_uel/my_uel.inp", "--user", "my_uel/my_uel.for")
+    assert done.returncode == 1
+    assert "compiling it needs gfortran, which is not installed (apt install gfortran" in done.stderr
