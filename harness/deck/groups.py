@@ -37,7 +37,7 @@ class _Elements:
         for owner in flat.owners:
             for run in (run for run in owner.mesh.runs if len(run.labels)):
                 with problems.gather():
-                    nodes = _node_indices(owner, run)
+                    nodes = node_indices(owner, run)
                     if run.type not in self.types:
                         self.types.append(run.type)
                         self._nodes.append([])
@@ -54,7 +54,8 @@ class _Elements:
         return [np.concatenate(parts) for parts in self._nodes]
 
 
-def _node_indices(owner: Owner, run: ElementRun) -> IntArray:
+def node_indices(owner: Owner, run: ElementRun) -> IntArray:
+    """Node indices in the whole model (m, nodes) of the elements of a run; DeckError for a node that is not defined."""
     found = np.where(run.nodes < 0, -1 - run.nodes, owner.find_nodes(run.nodes.ravel()).reshape(run.nodes.shape))
     missing = np.argwhere(found < 0)
     if len(missing):

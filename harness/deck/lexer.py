@@ -69,6 +69,34 @@ class Survey:
     depends: bool
 
 
+@dataclass(frozen=True, slots=True)
+class Passage:
+    """Lines of a deck as they are written, in the order of reading; those of an included file are where it is read.
+
+    block  whose keyword line or data lines they are; None for comments, into which *INCLUDE turns
+    first  place of the first one among the data lines of the block; -1 for its keyword line
+    """
+
+    block: Block | None
+    first: int
+    lines: Sequence[str]
+
+
+def read_passages(
+    files: Sequence[Path], keywords: Mapping[str, Keyword], problems: Problems, made: Mapping[Path, list[str]]
+) -> tuple[list[Block], list[Passage]]:
+    """Keyword blocks of decks that follow each other, and their whole text, for a program that writes it with changes.
+
+    made: lines of those of the files that are not on the disk. What is wrong goes to `problems`; DeckError if a deck
+    cannot be read.
+    """
+    lexer = _Lexer(files[-1], keywords, problems, {})
+    for file in files:
+        lexer.read(made[file] if file in made else _load(file, Source(str(file), 1)), str(file), (file.resolve(),))
+    lexer.close()
+    return lexer.blocks, lexer.passages
+
+
 def survey_blocks(deck: Path, keywords: Mapping[str, Keyword], given: Mapping[str, Value] | None = None) -> Survey:
     """What a deck consists of, as far as it can be read: what is wrong with it is for `read_blocks`.
 
@@ -122,6 +150,7 @@ class _Header:
 
     text: str
     source: Source
+    lines: list[str]
 
 
 class _Lexer:
@@ -131,6 +160,7 @@ class _Lexer:
         self, deck: Path, keywords: Mapping[str, Keyword], problems: Problems, given: Mapping[str, Value]
     ) -> None:
         self.blocks: list[Block] = []
+        self.passages: list[Passage] = []
         self.parameters: dict[str, Value] = {}
         self.given = given
         self.included: list[Path] = []
@@ -151,6 +181,8 @@ class _Lexer:
             line = lines[number]
             if not line.startswith("*"):
                 stop = stars[bisect.bisect_left(stars, number)]
+                place = len(self._open.lines) if self._open is not None else 0
+                self.passages.append(Passage(self._open, place, lines[number:stop]))
                 self._data(lines[number:stop], file, number + 1)
                 number = stop
                 continue
@@ -158,9 +190,10 @@ class _Lexer:
             if line.startswith("**"):
                 if self._open is not None and self._open.keyword.comments:
                     self._open.comments.append((line.lstrip("*").strip(), Source(file, number)))
+                self.passages.append(Passage(None, 0, [line]))
             else:
                 self.close()
-                header = _Header(line, Source(file, number))
+                header = _Header(line, Source(file, number), [line])
                 number = self._join(header, lines, number)
                 with self._problems.gather():
                     self._keyword(header, stack)
@@ -242,6 +275,7 @@ class _Lexer:
             if not self._continues(header.text, line):
                 break
             header.text += line
+            header.lines += lines[number : ahead + 1]
             number = ahead + 1
         return number
 
@@ -268,10 +302,12 @@ class _Lexer:
         keyword = find_keyword(self._keywords, fields[0], source)
         if keyword.name == "INCLUDE":
             self._open = previous
+            self.passages.append(Passage(None, 0, [f"** {line}" for line in header.lines]))
             self._include(read_options(keyword, fields[1:], source).text("INPUT"), source, stack)
             return
         self._open = Block(keyword, Options(keyword), source)
         self.blocks.append(self._open)
+        self.passages.append(Passage(self._open, -1, header.lines))
         # a block with a wrong option stays, so that one wrong *STEP does not condemn all that follows
         self._open.options = options = _options(keyword, fields[1:], source)
         if options.known("INPUT") and options.given("INPUT"):

@@ -147,7 +147,7 @@ class LocalMesh:
         name = block.options.text("ELSET")
         self.add_to_set(self.elsets, name, [])
         kind = find_type(block.options.text("TYPE"), self.definitions, block.source)
-        labels, nodes, lines = self._connectivity(block, kind)
+        labels, nodes, lines = self.connectivity(block, kind)
         self.add_elements(ElementRun(kind, labels, nodes, lambda index: block.source_of(lines[index])))
         self.add_to_set(self.elsets, name, [Members("", labels, block.source)])
 
@@ -260,7 +260,7 @@ class LocalMesh:
             return [Members(owner, np.array([_label(label, source)]), source)]
         return self.find_set(kind, f"{instance}.{token}" if instance else token, source)
 
-    def _connectivity(self, block: Block, kind: ElementType) -> tuple[IntArray, IntArray, IntArray]:
+    def connectivity(self, block: Block, kind: ElementType) -> tuple[IntArray, IntArray, IntArray]:
         """Labels, node labels and data line of each element."""
         table = integer_table(block.lines)
         if table is not None and table.shape[1] == kind.nodes + 1 and 0 < table.min() <= table.max() <= LARGEST_LABEL:
