@@ -156,30 +156,34 @@ def _interface(specimen: Specimen) -> list[str]:
 
 
 def cohesive_section(interface: Interface, width: float | None = None) -> list[str]:
-    """*COHESIVE SECTION of the set INTERFACE with its material: the law of the user elements in Abaqus' words.
+    """*COHESIVE SECTION of the set INTERFACE with its material; width: out of the plane (mm), None in space."""
+    return [*traction_section("INTERFACE", "INTERFACE", width), *traction_material("INTERFACE", interface)]
 
-    *SECTION CONTROLS let failed elements still resist compression, like the user elements.
 
-    Parameters
-    ----------
-    interface
-        Elements and law.
-    width
-        Out of the plane (mm); None in space.
-    """
-    law = interface.cohesive
-    mixed = ("BK", interface.eta) if interface.eta else ("POWER LAW", interface.power or 1.0)
-    evolution = {"TYPE": "ENERGY", "SOFTENING": "LINEAR", "MIXED_MODE_BEHAVIOR": mixed[0], "POWER": number(mixed[1])}
-    section = {"CONTROLS": "INTERFACE", "ELSET": "INTERFACE", "MATERIAL": "INTERFACE"}
-    settings = {"NAME": "INTERFACE", "ELEMENT_DELETION": "NO", "MAX_DEGRADATION": "1."}
-    if interface.viscosity:
-        settings["VISCOSITY"] = number(interface.viscosity)
+def traction_section(elset: str, material: str, width: float | None = None) -> list[str]:
+    """*COHESIVE SECTION of an element set; its *SECTION CONTROLS have the name of its material."""
+    section = {"CONTROLS": material, "ELSET": elset, "MATERIAL": material}
     return [
         "** constitutive thickness" + (", width" if width else ""),
         keyword("COHESIVE SECTION", **section, RESPONSE="TRACTION SEPARATION"),
         *wrapped([1.0, width] if width else [1.0]),
+    ]
+
+
+def traction_material(name: str, interface: Interface) -> list[str]:
+    """*SECTION CONTROLS and *MATERIAL of a name: the law of the user elements in Abaqus' words.
+
+    The controls let failed elements still resist compression, like the user elements.
+    """
+    law = interface.cohesive
+    mixed = ("BK", interface.eta) if interface.eta else ("POWER LAW", interface.power or 1.0)
+    evolution = {"TYPE": "ENERGY", "SOFTENING": "LINEAR", "MIXED_MODE_BEHAVIOR": mixed[0], "POWER": number(mixed[1])}
+    settings = {"NAME": name, "ELEMENT_DELETION": "NO", "MAX_DEGRADATION": "1."}
+    if interface.viscosity:
+        settings["VISCOSITY"] = number(interface.viscosity)
+    return [
         keyword("SECTION CONTROLS", **settings),
-        keyword("MATERIAL", NAME="INTERFACE"),
+        keyword("MATERIAL", NAME=name),
         "** normal, first and second shear direction: stiffness, strength, fracture energy",
         keyword("ELASTIC", TYPE="TRACTION"),
         *wrapped([law.stiffness_normal, law.stiffness_shear, law.stiffness_shear]),
