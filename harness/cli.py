@@ -7,6 +7,7 @@ from __future__ import annotations
 import argparse
 import math
 import os
+import re
 import shutil
 import sys
 from collections.abc import Callable, Sequence
@@ -51,6 +52,9 @@ def main(arguments: Sequence[str] | None = None) -> int:
         elif words[:1] == ["law"]:
             # properties may stand anywhere between the options
             words[1:] = sorted(words[1:], key=lambda word: word.startswith("-") or "=" not in word)
+        elif words[:1] == ["insert"]:
+            # here, too, also where an option takes any number of names
+            words[1:] = [f"--property={word}" if re.match(r"\w[\w ]*=", word) else word for word in words[1:]]
         for word in words:
             if word.startswith("-") and word.endswith("=--"):
                 # argparse drops two dashes
@@ -129,6 +133,7 @@ def build_parser() -> argparse.ArgumentParser:
     add_batch(commands.add_parser("batch", help="run many decks, or one deck with many values, several at a time"))
 
     add_fit(commands.add_parser("fit", help="find parameters of a deck from a measured curve"))
+    add_insert(commands.add_parser("insert", help="put interface elements into a deck or a mesh"))
 
     new = commands.add_parser("new", help="start a user element: kernel, deck, tests, CI")
     new.add_argument("name", type=Path, metavar="NAME", help="name of the element and of its new folder")
@@ -376,6 +381,59 @@ def add_plot(plot: argparse.ArgumentParser) -> None:
     plot.set_defaults(function=plot_jobs)
 
 
+def add_insert(insert: argparse.ArgumentParser) -> None:
+    """Options of `uel insert`."""
+    insert.description = (
+        "The mesh is cut where the options say, and the nodes there are doubled; loads, sets, surfaces and constraints "
+        "of the deck follow. See harness/insertion/README.md."
+    )
+    insert.epilog = "Properties of the elements, NAME=VALUE, may stand anywhere: SIGMAMAX=30 TAUMAX=60 GIC=0.26 GIIC=1."
+    insert.add_argument(
+        "files", nargs="+", type=Path, metavar="FILE", help="a deck (.inp); or a mesh (.msh, ...), and its deck"
+    )
+    insert.add_argument("-o", "--output", type=Path, required=True, metavar="OUT.inp", help="the deck that is written")
+    where = insert.add_argument_group("where; repeat what takes names of one place")
+    where.add_argument(
+        *("--between", "-b"),
+        nargs=2,
+        action="append",
+        default=[],
+        metavar=("BELOW", "ABOVE"),
+        help="between two element sets",
+    )
+    where.add_argument("--surface", action="append", default=[], metavar="NAME", help="along a surface of elements")
+    where.add_argument(
+        "--nodes", action="append", default=[], metavar="NSET", help="along the faces whose nodes are in a node set"
+    )
+    where.add_argument(
+        "--plies",
+        nargs="*",
+        metavar="ELSET",
+        help="between all plies: element sets from the lowest to the highest (those of the sections)",
+    )
+    where.add_argument("--all", action="append", default=[], metavar="ELSET", help="between all elements of a set")
+    where.add_argument(
+        "--crack",
+        action="append",
+        default=[],
+        metavar="SET",
+        help="initial crack: no elements where these faces are in a node set, at an element set or in a surface",
+    )
+    insert.add_argument(
+        "--element", default="", metavar="TYPE", help="COH2D4, COH3D8, U2, U4, ... (the recommended one that fits)"
+    )
+    insert.add_argument("--elset", default="INTERFACE", metavar="NAME", help="set that takes them (INTERFACE)")
+    insert.add_argument(
+        "--solids",
+        action="append",
+        default=[],
+        metavar="TYPE",
+        help="continuum element for cells of a mesh; repeat for each shape (CPS4, C3D8, ...)",
+    )
+    insert.add_argument("--property", action="append", default=[], help=argparse.SUPPRESS)
+    insert.set_defaults(function=insert_elements)
+
+
 def add_reproduce(reproduce: argparse.ArgumentParser) -> None:
     """Options of `uel reproduce`."""
     reproduce.epilog = "An interrupted run resumes where it stopped."
@@ -586,6 +644,30 @@ def fit_parameters(options: argparse.Namespace) -> int:
         quiet=options.quiet,
     )
     return 0 if found.ended == CONVERGED else 1
+
+
+def insert_elements(options: argparse.Namespace) -> int:
+    """`uel insert`."""
+    from harness.insertion.command import insert  # noqa: PLC0415
+    from harness.insertion.selection import Wanted  # noqa: PLC0415
+
+    if any(options.output.resolve() == file.resolve() for file in options.files):
+        raise UsageError(f"-o {options.output}: is what is read; write to another file")
+    pairs = [(below, above) for below, above in options.between]
+    wanted = Wanted(pairs, options.surface, options.nodes, options.plies, options.all, options.crack)
+    text, done = insert(
+        options.files,
+        wanted,
+        element=options.element,
+        elset=options.elset,
+        solids=options.solids,
+        values=options.property,
+    )
+    options.output.write_text(text, encoding="utf-8")
+    for line in done.lines(options.elset):
+        tell(line)
+    tell(f"written: {options.output}")
+    return 0
 
 
 def begin_element(options: argparse.Namespace) -> int:

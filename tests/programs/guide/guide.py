@@ -16,6 +16,7 @@ import io
 import os
 import re
 import shlex
+import shutil
 import subprocess
 import sys
 import tempfile
@@ -23,9 +24,16 @@ from pathlib import Path
 
 from harness.cli import main as uel
 
+INSERTION = Path(__file__).parents[3] / "harness" / "insertion" / "README.md"
 GUIDE = Path(__file__).parents[3] / "harness" / "project" / "ten-minutes.md"
 COLUMNS = "110"
 _BLOCK = re.compile(r"^```(?P<language>\w+)(?: (?P<file>\S+))?\n(?P<body>.*?)^```$", re.MULTILINE | re.DOTALL)
+
+
+def copy_meshes(guide: Path) -> None:
+    """Copy the meshes beside a guide into the current folder."""
+    for mesh in guide.parent.glob("*.msh"):
+        shutil.copy(mesh, mesh.name)
 
 
 def replay(text: str) -> str:
@@ -87,6 +95,7 @@ def main() -> int:
     os.environ["COLUMNS"] = COLUMNS
     guide = options.guide.resolve()
     with tempfile.TemporaryDirectory() as folder, contextlib.chdir(folder):
+        copy_meshes(guide)
         text = replay(guide.read_text("utf-8"))
     if options.write:
         guide.write_text(text, encoding="utf-8")
