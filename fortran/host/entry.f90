@@ -260,6 +260,17 @@ subroutine host_set_prestressed(number)
   material%prestressed = .true.
 end subroutine host_set_prestressed
 
+!> Let a material take strains and give stresses in the directions of each point.
+subroutine host_set_local(number)
+  use host_kinds, only: i4
+  use host_materials, only: find_material, material_t
+  implicit none (type, external)
+  integer(i4), intent(in) :: number
+  type(material_t), pointer :: material
+  material => find_material(number)
+  material%local = .true.
+end subroutine host_set_local
+
 !> Let the elastic constants of a material depend on temperature and field variables.
 subroutine host_set_dependence(number, constants, turn, table, rows, columns)
   use host_kinds, only: dp, i4
@@ -323,7 +334,7 @@ end subroutine host_define_user_material
 
 !> Call UVARM at all material points of a block of built-in elements.
 subroutine host_uvarm_pass(address, names, axes, counts, place, clock, labels, coords, svars, history, uvar, left, element, &
-                           point, mcrd, nnode, variables, points, values, nuvarm, m)
+                           point, mcrd, nnode, variables, points, values, nuvarm, m, each, every)
   use, intrinsic :: iso_c_binding, only: c_intptr_t
   use host_context, only: current
   use host_kinds, only: dp, i4, i8
@@ -331,8 +342,9 @@ subroutine host_uvarm_pass(address, names, axes, counts, place, clock, labels, c
   implicit none (type, external)
   integer(i8), intent(in) :: address
   character(len=80), intent(in) :: names(2)   !< of the material and its orientation
-  real(dp), intent(in) :: axes(3, 3)          !< rows: material directions
-  integer(i4), intent(in) :: counts(3)        !< stress components, STATEV, family of the elements
+  integer(i4), intent(in) :: each, every      !< points and m, or 1 if all have the same directions
+  real(dp), intent(in), target :: axes(3, 3, each, every)   !< rows: material directions
+  integer(i4), intent(in) :: counts(4)        !< stress components, STATEV, family of the elements, 1: material in the directions
   integer(i4), intent(in) :: place(2)         !< step, increment
   real(dp), intent(in) :: clock(3)            !< step time, total time at the start of the increment, time increment
   integer(i4), intent(in) :: mcrd, nnode, variables, points, values, nuvarm, m
@@ -345,7 +357,8 @@ subroutine host_uvarm_pass(address, names, axes, counts, place, clock, labels, c
   pass%address = transfer(int(address, c_intptr_t), pass%address)
   pass%material = names(1)
   pass%orientation = names(2)
-  pass%axes = axes
+  pass%axes => axes
+  pass%local = counts(4) /= 0
   pass%tensor = counts(1)
   pass%statev = counts(2)
   pass%family = counts(3)
@@ -388,6 +401,35 @@ subroutine host_sdvini_pass(address, family, labels, coords, statev, left, eleme
   element = current%element
   point = current%point
 end subroutine host_sdvini_pass
+
+!> Call ORIENT at all points of a block.
+subroutine host_orient_pass(address, name, family, labels, nodes, coords, t, left, element, point, mcrd, nnode, points, m)
+  use, intrinsic :: iso_c_binding, only: c_intptr_t
+  use host_context, only: current
+  use host_kinds, only: dp, i4, i8
+  use host_orient, only: orient_pass_t, run_orient
+  implicit none (type, external)
+  integer(i8), intent(in) :: address
+  character(len=80), intent(in) :: name       !< of the orientation
+  integer(i4), intent(in) :: family
+  integer(i4), intent(in) :: mcrd, nnode, points, m
+  integer(i4), intent(in), target :: labels(m), nodes(nnode, m)
+  real(dp), intent(in), target :: coords(mcrd, nnode, m)
+  real(dp), intent(inout), target :: t(3, 3, points, m)
+  integer(i4), intent(out) :: left            !< 1 if the routine ended the analysis
+  integer(i4), intent(out) :: element, point  !< of the last call
+  type(orient_pass_t) :: pass
+  pass%address = transfer(int(address, c_intptr_t), pass%address)
+  pass%name = name
+  pass%family = family
+  pass%labels => labels
+  pass%nodes => nodes
+  pass%coords => coords
+  pass%t => t
+  call run_orient(pass, left)
+  element = current%element
+  point = current%point
+end subroutine host_orient_pass
 
 !> Call DISP (2 rows of places) or DLOAD (3) at all places.
 subroutine host_value_pass(address, place, time, places, coords, values, left, last, rows, n)

@@ -33,6 +33,7 @@ module host_materials
     real(dp) :: thickness(3) = 0                   !< plane stress: elastic strain 33 = thickness . stress
     real(dp) :: axes(3, 3) = 0                     !< rows: directions of *ORIENTATION
     logical :: turned = .false.                    !< axes are not the global ones
+    logical :: local = .false.                     !< all is in the directions of each point (host_axes), axes not used
     real(dp), allocatable :: yield(:, :)           !< (k, 2) yield stress, plastic strain; absent: elastic
     real(dp) :: young = 0, poisson = 0             !< of a plastic material, which is isotropic
     logical :: prestressed = .false.               !< it has a history for initial stresses

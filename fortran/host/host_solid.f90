@@ -18,12 +18,14 @@
 !>
 !> SVARS hold, for each point, E11 E22 E33 E12 S11 S22 S33 S12, in space with 13 and 23 after 12, in the directions of
 !> *ORIENTATION where the section has one, as Abaqus prints them; in dynamic analyses then the forces of the last two
-!> increments; last the incompatible modes.
+!> increments; then the directions of each point, if the material is in them (host_axes); last the incompatible modes.
 module host_solid
+  use, intrinsic :: iso_c_binding, only: c_f_pointer, c_loc
   use core_mode_search, only: find_modes, mode_search, most_passes
   use core_small_matrix, only: cofactors, determinant
   use core_solid_rotation, only: find_turn, solid_turn, turn_forces, turn_stiffness
   use core_strains, only: condense, mean_volume_strain, set_volume_strain, strain_matrix
+  use host_axes, only: carry_axes, turn_heat, turn_matrix, values_of_axes
   use host_context, only: current, initial_stresses
   use host_coupling, only: add_heat_source, coupling_t, set_temperature
   use host_forces, only: add_axisymmetric_point, add_geometric, add_plane_point, add_space_point
@@ -61,12 +63,14 @@ contains
   subroutine solid_element(rhs, amatrx, svars, energy, ndofel, nrhs, nsvars, props, coords, mcrd, nnode, u, du, v, a, params, &
                            dtime, predef, npredf, lflags, jprops, materiallib, coupling)
     integer(i4) :: ndofel, nrhs, nsvars, mcrd, nnode, npredf, lflags(*), jprops(*), materiallib
-    real(dp) :: rhs(*), amatrx(*), svars(*), energy(*), props(*), coords(*), u(*), du(*), v(*), a(*), params(*), dtime, predef(*)
+    real(dp) :: rhs(*), amatrx(*), energy(*), props(*), coords(*), u(*), du(*), v(*), a(*), params(*), dtime, predef(*)
+    real(dp), target :: svars(*)
     type(coupling_t), intent(inout), optional :: coupling
     type(material_t), pointer :: material
     type(rule_t), pointer :: rule
+    real(dp), pointer, contiguous :: axes(:, :, :, :)   !< of the points (host_axes), if the material is in them
     real(dp) :: mass(ndofel, ndofel), old(ndofel, 2)
-    integer :: dim, direct, first, last, modes, n
+    integer :: dim, direct, first, last, modes, n, behind
     rule => rule_of(int(jprops(1)), int(jprops(2)))
     dim = rule%dim
     direct = jprops(3)
@@ -75,8 +79,14 @@ contains
     material => find_material(materiallib)
     first = rule%points*values_of_point(dim) + 1
     last = first + 2*n - 1
+    behind = nsvars - modes + 1
+    axes => null()
+    if (material%local) then
+      behind = behind - values_of_axes*rule%points
+      call c_f_pointer(c_loc(svars(behind)), axes, [3, 3, 2, rule%points])
+    end if
     old = 0
-    if (nsvars >= last) old = reshape(svars(first:last), [n, 2])
+    if (behind > last) old = reshape(svars(first:last), [n, 2])
     if (any(lflags(3) == [4, 6]) .or. is_dynamic(lflags(1))) then
       call mass_matrix(rule_of(int(jprops(1)), int(jprops(5))), direct > dim, props(2)*merge(props(1), 1.0_dp, dim == 2), &
                        coords, mass)
@@ -87,15 +97,15 @@ contains
       if (modes > 0) then
         call integrate_with_modes(rule, direct + 2*dim - 3, modes, lflags(3) == initial_stresses, lflags(2) /= 0, material, &
                                   props(1), coords, int(npredf), predef, u, du, rhs, amatrx, svars, &
-                                  svars(nsvars - modes + 1:nsvars), energy)
+                                  svars(nsvars - modes + 1:nsvars), energy, axes)
       else
         call integrate(rule, direct, direct + 2*dim - 3, modes, lflags(3) == initial_stresses, lflags(2) /= 0, material, &
                        props(1), props(3), jprops(4) /= 0, coords, int(npredf), predef, u, du, rhs, amatrx, svars, energy, &
-                       coupling)
+                       coupling, axes=axes)
       end if
     end if
     call respond(n, lflags, params, dtime, v, a, mass, old, rhs, amatrx, energy(1))
-    if (nsvars >= last) svars(first:last) = reshape(old, [2*n])
+    if (behind > last) svars(first:last) = reshape(old, [2*n])
   end subroutine solid_element
 
   !> Strains and stresses that SVARS hold for a point.
@@ -107,7 +117,7 @@ contains
   !> The same with incompatible modes: they are sought at the displacements of the nodes. With large displacements (finite)
   !> strains are small in axes that turn with the middle of the element (core_solid_rotation).
   subroutine integrate_with_modes(rule, strains, modes, begins, finite, material, thickness, x, fields, predef, u, du, force, &
-                                  stiffness, svars, alpha, energy)
+                                  stiffness, svars, alpha, energy, axes)
     type(rule_t), intent(in) :: rule
     integer, intent(in) :: strains, modes, fields
     logical, intent(in) :: begins, finite
@@ -116,6 +126,7 @@ contains
     real(dp), dimension(rule%dim*rule%nodes), intent(in) :: x, u, du
     real(dp), intent(inout) :: force(rule%dim*rule%nodes), stiffness(rule%dim*rule%nodes, rule%dim*rule%nodes)
     real(dp), intent(inout) :: svars(values_of_point(rule%dim)*rule%points), alpha(modes), energy(8)
+    real(dp), intent(inout), optional :: axes(3, 3, 2, rule%points)
     real(dp), dimension(rule%dim*rule%nodes + modes) :: all_force
     real(dp), dimension(rule%dim*rule%nodes + modes, rule%dim*rule%nodes + modes) :: all_stiffness
     real(dp) :: b(modes, strains, rule%points), inverse(modes, modes), svars_start(size(svars)), energy_start(8)
@@ -123,14 +134,14 @@ contains
     real(dp) :: all_work
     type(solid_turn) :: turn
     type(mode_search) :: search
-    integer :: pass, n
+    integer :: pass, n, p
     logical :: settled, good
     call mode_strains(rule, x, modes, strains, b)
     n = size(force)
     moved = u
     if (finite) then
       call turn_of(rule, x, u - du, turn, moved)
-      if (.not. material%turned) call turn_states(rule, transpose(turn%rotation), svars)
+      if (.not. (material%turned .or. material%local)) call turn_states(rule, transpose(turn%rotation), svars)
       call turn_of(rule, x, u, turn, moved)
     end if
     svars_start = svars
@@ -141,7 +152,7 @@ contains
       all_force = 0
       all_stiffness = 0
       call integrate(rule, rule%dim, strains, modes, begins, .false., material, thickness, 0.0_dp, .false., x, fields, predef, &
-                     moved, du, all_force, all_stiffness, svars, energy, alpha=alpha, by_modes=b)
+                     moved, du, all_force, all_stiffness, svars, energy, alpha=alpha, by_modes=b, axes=axes)
       if (begins) then
         force = all_force(:size(force))
         return
@@ -155,7 +166,13 @@ contains
     if (.not. finite) return
     stiffness = turn_stiffness(rule%dim, rule%nodes, turn, force, stiffness)
     force = turn_forces(rule%dim, rule%nodes, turn, force)
-    if (.not. material%turned) call turn_states(rule, turn%rotation, svars)
+    if (present(axes)) then
+      do p = 1, rule%points
+        axes(:, :, 2, p) = matmul(axes(:, :, 1, p), transpose(turn%rotation))
+      end do
+    else if (.not. material%turned) then
+      call turn_states(rule, turn%rotation, svars)
+    end if
   end subroutine integrate_with_modes
 
   !> The rotation of an element, and its displacements less it. Leaves the pass if its middle is inside out.
@@ -192,7 +209,7 @@ contains
   !> Force, tangent, state and energies; begins: of the initial stresses, without a tangent. The unknowns are those of the
   !> nodes, then the incompatible modes.
   subroutine integrate(rule, direct, strains, modes, begins, finite, material, thickness, hourglass, enhanced, x, fields, &
-                       predef, u, du, force, stiffness, svars, energy, coupling, alpha, by_modes)
+                       predef, u, du, force, stiffness, svars, energy, coupling, alpha, by_modes, axes)
     type(rule_t), intent(in) :: rule
     integer, intent(in) :: direct, strains, modes, fields
     logical, intent(in) :: begins, finite, enhanced
@@ -204,12 +221,14 @@ contains
     real(dp), intent(inout) :: svars(values_of_point(rule%dim), rule%points), energy(8)
     type(coupling_t), intent(inout), optional :: coupling
     real(dp), intent(in), optional :: alpha(modes), by_modes(modes, strains, rule%points)   !< modes, and strains by them
+    real(dp), intent(inout), optional :: axes(3, 3, 2, rule%points)   !< of the points (host_axes), if the material is in them
     real(dp), dimension(rule%nodes, direct, rule%points) :: g, g_mid
     real(dp), dimension(rule%dim*rule%nodes, strains, rule%points) :: b, b_mid
     real(dp), dimension(rule%points) :: volume, volume_mid
     real(dp) :: by_unknowns(rule%dim*rule%nodes + modes, strains)
     real(dp) :: now(rule%dim, rule%nodes), g_start(rule%nodes, direct), volume_start, deformation(3, 3, 2, rule%points)
     real(dp) :: strain(strains), stress(strains), modulus(strains, strains), thermal(2), weight, elastic, work
+    real(dp) :: now_axes(3, 3), middle(3, 3)
     logical :: averaged
     integer :: dim, nodes, p
     dim = rule%dim
@@ -235,7 +254,9 @@ contains
     work = energy(2) + energy(4)
     if (has_fields(material)) current%length = size_of(rule, direct, now, volume)
     current%finite = finite
-    if (finite .and. allocated(material%user)) call find_deformation(rule, direct, averaged, x, u, du, deformation)
+    if (finite .and. (allocated(material%user) .or. material%local)) then
+      call find_deformation(rule, direct, averaged, x, u, du, deformation)
+    end if
     thermal = 0
     do p = 1, rule%points
       if (has_fields(material)) then
@@ -244,26 +265,39 @@ contains
         if (present(coupling)) call set_temperature(coupling, direct, rule%points, p, now)
       end if
       if (allocated(material%user_field) .and. .not. begins) then
-        call call_usdfld(material%user_field, material%ntens, int(p, i4), material%axes, svars(:, p))
+        now_axes = material%axes
+        if (present(axes)) now_axes = axes(:, :, 2, p)
+        call call_usdfld(material%user_field, material%ntens, int(p, i4), now_axes, material%local, svars(:, p))
       end if
       if (allocated(material%dependence)) call set_constants(material, p)
       if (abs(material%expansion) > 0) thermal = thermal_strain(rule, p, fields, material%expansion, predef)
       if (finite) then
         current%rotation = rotation_of(gradient_of(dim, direct, nodes, du, g_mid(:, :, p)))
         call find_strain(dim*nodes, strains, b_mid(:, :, p), du, strain)
-        if (allocated(material%user)) current%deformation = deformation(:, :, :, p)
+        if (present(axes)) then
+          call carry_axes(p, deformation(:, :, :, p), axes(:, :, 2, p), middle)
+        else if (allocated(material%user)) then
+          current%deformation = deformation(:, :, :, p)
+        end if
       else
+        if (present(axes)) then
+          middle = axes(:, :, 1, p)
+          axes(:, :, 2, p) = middle
+        end if
         call find_strain(dim*nodes, strains, b(:, :, p), u, strain)
         if (modes > 0) strain = strain + matmul(alpha, by_modes(:, :, p))
       end if
       weight = volume(p)*merge(thickness, 1.0_dp, dim == 2)
       if (begins) then
         call begin_point(material, int(p, i4), weight, svars(:, p), stress, elastic)
+        if (present(axes)) stress = rotated(strains, stress, transpose(axes(:, :, 2, p)), 1.0_dp)
         modulus = 0
         work = elastic
       else
+        if (present(axes)) call turn_strain(dim, strains, middle, strain)
         call point_update(dim, strains, material, int(p, i4), weight, finite, strain, thermal, svars(:, p), stress, modulus, &
                           elastic, work)
+        if (present(axes)) call turn_response(material, strains, axes(:, :, 2, p), stress, modulus)
       end if
       if (finite .and. material%ntens == 3) weight = weight*exp(svars(3, p))
       if (present(coupling) .and. allocated(material%user) .and. .not. begins) then
@@ -447,8 +481,36 @@ contains
     end do
   end subroutine find_deformation
 
+  !> Strain of a point, from global directions to those of axes (rows).
+  pure subroutine turn_strain(dim, m, axes, strain)
+    integer, intent(in) :: dim, m
+    real(dp), intent(in) :: axes(3, 3)
+    real(dp), intent(inout) :: strain(m)
+    real(dp) :: all(values_of_point(dim)/2)
+    integer :: place(m)
+    place = components(m, size(all))
+    all = 0
+    all(place) = strain
+    all = rotated(size(all), all, axes, 2.0_dp)
+    strain = all(place)
+  end subroutine turn_strain
+
+  !> Stress and tangent of a point, and the heat terms of UMAT, from the directions of axes (rows) to global ones.
+  subroutine turn_response(material, m, axes, stress, modulus)
+    type(material_t), intent(in) :: material
+    integer, intent(in) :: m
+    real(dp), intent(in) :: axes(3, 3)
+    real(dp), intent(inout) :: stress(m), modulus(m, m)
+    real(dp) :: turn(m, m)
+    turn = turn_matrix(m, axes)
+    stress = matmul(transpose(turn), stress)
+    modulus = matmul(transpose(turn), matmul(modulus, turn))
+    if (allocated(material%user)) call turn_heat(material%ntens, axes)
+  end subroutine turn_response
+
   !> Stress and tangent of a point (11, 22, 12 in the plane); its state and its part of the energies. strain is the total
-  !> one in small displacements, that of the increment in large ones; thermal: at the start and end of the increment.
+  !> one in small displacements, that of the increment in large ones; thermal: at the start and end of the increment. All is in
+  !> global directions, or in those of the point if the material is (local).
   subroutine point_update(dim, m, material, point, volume, finite, strain, thermal, state, stress, modulus, elastic, work)
     integer, intent(in) :: dim, m     !< m: number of strains
     type(material_t), intent(in) :: material

@@ -32,11 +32,12 @@ module host_usdfld
 contains
 
   !> Set the fields of current%fields, and STATEV of the point in current%history_trial.
-  subroutine call_usdfld(user, ntens, point, axes, values)
+  subroutine call_usdfld(user, ntens, point, axes, local, values)
     type(user_field_t), intent(in) :: user
     integer, intent(in) :: ntens
     integer(i4), intent(in) :: point                  !< from 1
     real(dp), intent(in) :: axes(3, 3)                !< rows: directions of the material
+    logical, intent(in) :: local                      !< the history is in them
     real(dp), intent(in), target :: values(:)         !< strain and stress at the start of the increment
     procedure(usdfld_procedure), pointer :: usdfld
     real(dp) :: field(size(current%fields, 1) - 1), statev(max(user%statev, 1)), direct(3, 3), t(3, 3), time(2), dtime, pnewdt, &
@@ -82,6 +83,7 @@ contains
     current%statev = user%statev
     current%values => values
     current%axes = axes
+    if (local) current%axes = reshape([1, 0, 0, 0, 1, 0, 0, 0, 1], [3, 3])
     call usdfld(field, statev, pnewdt, direct, t, celent, time, dtime, cmname, orname, nfield, nstatv, noel, npt, layer, kspt, &
                 kstep, kinc, ndi, nshr, coord, jmac, jmatyp, matlayo, laccfla)
     nullify (current%values)

@@ -27,12 +27,13 @@ module host_uvarm
   type :: uvarm_pass_t
     type(c_funptr) :: address
     character(len=80) :: material = ' ', orientation = ' '
-    real(dp) :: axes(3, 3) = 0            !< rows: directions of the material
     integer(i4) :: tensor = 0, statev = 0, kstep = 0, kinc = 0
     integer :: family = 0                 !< of the elements (host_shape)
     real(dp) :: time(2) = 0, dtime = 0    !< start of the increment
     integer(i4), pointer, contiguous :: labels(:) => null()
     real(dp), pointer, contiguous :: coords(:, :, :) => null()     !< (mcrd, nnode, m)
+    logical :: local = .false.            !< the history is in the directions of the points
+    real(dp), pointer, contiguous :: axes(:, :, :, :) => null()    !< (3, 3, points or 1, m or 1) rows: directions of the material
     real(dp), pointer, contiguous :: svars(:, :, :) => null()      !< (variables, points, m)
     real(dp), pointer, contiguous :: history(:, :, :) => null()    !< (values, points, m)
     real(dp), pointer, contiguous :: uvar(:, :, :) => null()       !< (NUVARM, points, m)
@@ -50,7 +51,6 @@ contains
     current%time = pass%time
     current%dtime = pass%dtime
     current%statev = pass%statev
-    current%axes = pass%axes
     left = int(protect(c_funloc(all_points), c_loc(pass)), i4)
     nullify (current%values, current%history)
     if (left == 0) current%element = 0
@@ -68,22 +68,26 @@ contains
         current%point = point
         call begin_call(0_i4, current%element)
         current%values => pass%svars(:, point, e)
-        call call_uvarm(pass, point, pass%coords(:, :, e), pass%uvar(:, point, e))
+        call call_uvarm(pass, point, pass%coords(:, :, e), &
+                        pass%axes(:, :, min(int(point), size(pass%axes, 3)), min(int(e), size(pass%axes, 4))), &
+                        pass%uvar(:, point, e))
       end do
     end do
   end subroutine all_points
 
-  subroutine call_uvarm(pass, point, x, uvar)
+  subroutine call_uvarm(pass, point, x, axes, uvar)
     type(uvarm_pass_t), intent(in) :: pass
     integer(i4), intent(in) :: point
-    real(dp), intent(in) :: x(:, :)
+    real(dp), intent(in) :: x(:, :), axes(3, 3)
     real(dp), intent(inout) :: uvar(:)
     procedure(uvarm_procedure), pointer :: uvarm
     real(dp) :: direct(3, 3), t(3, 3), time(2), dtime, coord(3)
     integer(i4) :: nuvarm, noel, npt, layer, kspt, kstep, kinc, ndi, nshr, jmac(1), jmatyp(1), matlayo, laccfla
     character(len=80) :: cmname, orname
     call c_f_procpointer(pass%address, uvarm)
-    direct = transpose(pass%axes)
+    direct = transpose(axes)
+    current%axes = axes
+    if (pass%local) current%axes = reshape([1, 0, 0, 0, 1, 0, 0, 0, 1], [3, 3])
     t = direct
     time = pass%time
     dtime = pass%dtime

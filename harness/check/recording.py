@@ -258,7 +258,8 @@ class _RecordedRoutines:
     """Keeps the calls of user routines that a procedure makes."""
 
     def __init__(self, library: Library, events: list[Event]) -> None:
-        self.sdvini, self.disp, self.dload, self.uamp = library.sdvini, library.disp, library.dload, library.uamp
+        self.sdvini, self.orient = library.sdvini, library.orient
+        self.disp, self.dload, self.uamp = library.disp, library.dload, library.uamp
         self.user_values, self.user_amplitude = library.user_values, library.user_amplitude
         self._library = library
         self._events = events

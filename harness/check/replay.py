@@ -111,7 +111,7 @@ def replay(
                     library.external_database(lop, lrestart, time, dtime, step, increment)
                     if lop == 0:
                         blocks = [single.block for single in elements.singles]
-                        set_initial_states(blocks, recording.model, library.sdvini)
+                        set_initial_states(blocks, recording.model, library)
                 case Pass():
                     results = _replay_pass(elements, event, order(len(elements)), refused)
                     # the next error gets its own message

@@ -13,7 +13,7 @@ from harness.deck.blocks import Block
 from harness.deck.error_report import Problems
 from harness.deck.flatten import FlatMesh, Owner
 from harness.deck.local_mesh import ElementRun
-from harness.deck.placement import read_orientations
+from harness.deck.orientations import read_orientations
 from harness.deck.sections import SECTION_KEYWORDS, make_section
 from harness.deck.table import Keyword, Where
 from harness.deck.user_elements import ElementType
@@ -21,7 +21,7 @@ from harness.errors import DeckError, Source
 from harness.model.arrays import IntArray
 from harness.model.element_types import HOURGLASS_CONTROLLED
 from harness.model.mesh import ElementGroup, full_name
-from harness.model.properties import Material, Orientation, Section, SectionControls, SolidSection
+from harness.model.properties import Material, Section, SectionControls, SolidSection
 
 
 class _Elements:
@@ -139,7 +139,7 @@ def _make_sections(
 ) -> dict[tuple[int, int], Section]:
     """Section of each pair of section keyword and element type that occurs."""
     pairs = np.unique(np.stack([elements.section_of, elements.type_of], axis=1), axis=0)
-    orientations = {owner.name: _orientations(elements.flat, owner, problems) for owner in elements.flat.owners}
+    orientations = read_orientations(elements.flat, problems)
     problems.check()
     made = {}
     for section, kind in pairs.tolist():
@@ -148,13 +148,6 @@ def _make_sections(
             found = orientations[owner.name]
             made[section, kind] = make_section(block, elements.types[kind], materials, found, controls, problems)
     return made
-
-
-def _orientations(flat: FlatMesh, owner: Owner, problems: Problems) -> dict[str, Orientation]:
-    """Orientations an owner sees: the root's, and its own, which turn with the instance."""
-    own = read_orientations(owner.blocks, problems)
-    turned = {name: replace(found, axes=owner.placement.turn(found.axes)) for name, found in own.items()}
-    return {**read_orientations(flat.owners[-1].blocks, problems), **turned}
 
 
 def _cut(elements: _Elements, made: dict[tuple[int, int], Section]) -> tuple[ElementGroup, ...]:

@@ -19,6 +19,7 @@ from harness.deck import (
     lexer,
     local_mesh,
     materials,
+    orientations,
     placement,
     prescribed,
     procedures,
@@ -33,9 +34,9 @@ from harness.deck import (
 from harness.deck.table import Keyword, Kind, Option, Support, compact
 
 _FILES = (
-    *(structure, lexer, placement, local_mesh, generation, user_elements, surfaces, constraints, materials, damage),
-    *(section_controls, sections, groups, amplitudes, initial, steps, procedures, controls, prescribed, distributed),
-    *(requests, ignored),
+    *(structure, lexer, placement, orientations, local_mesh, generation, user_elements, surfaces, constraints),
+    *(materials, damage, section_controls, sections, groups, amplitudes, initial, steps, procedures, controls),
+    *(prescribed, distributed, requests, ignored),
 )
 KEYWORDS: dict[str, Keyword] = {compact(keyword.name): keyword for file in _FILES for keyword in file.KEYWORDS}
 MARKDOWN = Path(__file__).with_name("keywords.md")

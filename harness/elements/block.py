@@ -11,13 +11,15 @@ import numpy as np
 from numpy.typing import NDArray
 
 from harness.elements.call import BlockReport, Call, Distributed, Motion, Predefined
+from harness.elements.directions import is_user, undefined
 from harness.elements.faults import ERRORS, at_point, distortion, material_point, write_outside, wrong_entry
 from harness.elements.fields import FIELD_NAMES, field_of
 from harness.elements.lflags import Flags, Request
-from harness.elements.routine import Linearity, Routine
+from harness.elements.routine import Linearity, PointAxes, Routine
 from harness.elements.watch import Watch
 from harness.errors import ElementError, KernelError
 from harness.model.arrays import FloatArray, IntArray
+from harness.model.local_systems import UndefinedDirectionsError, orthonormal
 from harness.model.mesh import ElementGroup
 from harness.model.records import ElementState, PointVariables
 from harness.usersub import Library, _binding
@@ -518,6 +520,59 @@ class ElementBlock:
             raise KernelError(element, self.group.type, at + self._library.stop_reason())
         self._begin(state)
 
+    def begin_axes(self, axes: FloatArray) -> None:
+        """Set the directions of *ORIENTATION at the start.
+
+        Parameters
+        ----------
+        axes
+            (m, points, 3, 3), in rows.
+
+        Raises
+        ------
+        DeckError
+            Direction 3 is not normal to the plane of plane elements.
+        """
+        given = self._routine.axes
+        assert given is not None
+        try:
+            given.begin(self._arrays.svars, axes)
+        except UndefinedDirectionsError as error:
+            raise undefined(self.group, given.orientation, error) from None
+        self._arrays.svars_trial[:] = self._arrays.svars
+
+    def call_orient(self, address: int, labels: IntArray) -> None:
+        """Let ORIENT set the directions of points whose *ORIENTATION says so.
+
+        Parameters
+        ----------
+        address
+            Of ORIENT, as `Library.orient`.
+        labels
+            Numbers of all nodes of the model.
+
+        Raises
+        ------
+        KernelError
+            It ends the analysis.
+        DeckError
+            It does not give two directions, or not in the plane of plane elements.
+        """
+        given = self._routine.axes
+        if given is None or not is_user(given.orientation):
+            return
+        nodes = labels[self.group.nodes].astype(np.int32)
+        name, family = given.orientation.name, self._routine.family
+        found, element, point = _binding.orient(address, name, self._arrays, nodes, family, given.points)
+        if element:
+            why = at_point("ORIENT", point) + self._library.stop_reason()
+            raise KernelError(element, self.group.type, why)
+        try:
+            axes = orthonormal(found)
+        except UndefinedDirectionsError as error:
+            raise undefined(self.group, given.orientation, error) from None
+        self.begin_axes(axes)
+
     def _initial_state(self) -> FloatArray:
         """What *INITIAL CONDITIONS, TYPE=SOLUTION sets (m, points, values), a view of the committed state."""
         if self.group.definition is not None:
@@ -591,17 +646,22 @@ class ElementBlock:
         element, point = _binding.uvarm(
             given.address,
             given.names,
-            given.axes,
+            given.axes[None, None] if self._routine.axes is None else self._axes_now(self._routine.axes),
             (self._routine.tensor, self._routine.statev, self._routine.family),
             place,
             start,
             self._arrays,
             self._routine.hidden,
             uvar,
+            local=self._routine.axes is not None,
         )
         if element:
             why = f"{at_point('UVARM', point)}{self._library.stop_reason()}"
             raise KernelError(element, self.group.type, f"{why} (step {call.step}, increment {call.increment})")
+
+    def _axes_now(self, given: PointAxes) -> FloatArray:
+        """(m, points, 3, 3) directions of the points, in rows."""
+        return given.view(self._arrays.svars)[:, :, 1].swapaxes(-1, -2)
 
     def _error(self, outcome: Outcome, nrhs: int, call: Call) -> ElementError:
         element = int(self.group.labels[outcome.position]) if outcome.position >= 0 else 0

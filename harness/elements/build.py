@@ -12,6 +12,7 @@ from typing import Final
 from harness.elements.block import ElementBlock
 from harness.elements.cohesive import cohesive_routine, cohesive_variables
 from harness.elements.coupled import coupled_routine
+from harness.elements.directions import start_axes
 from harness.elements.discrete import discrete_routine, discrete_unknowns, discrete_variables
 from harness.elements.materials import define_material, linearity, refuse_fields
 from harness.elements.pressure import pressure_blocks
@@ -131,6 +132,9 @@ def _user_block(
     free: tuple[int, ...] = ()
     if section.material is not None:
         refuse_fields(section.material, "user elements")
+        if section.orientation is not None and section.orientation.system is not None:
+            message = f"*ORIENTATION, NAME={section.orientation.name}: directions that differ from point to point"
+            raise DeckError(section.source, f"{message} are not supported for user elements")
         tensor = _tensor(definition, section)
         material = define_material(section.material, section.orientation, tensor, section.source, library)
         history = history_of(section.material, definition.integration or MOST_POINTS)
@@ -180,7 +184,7 @@ def _solid_block(model: Model, group: ElementGroup, kind: ContinuumType, library
     # displacements of all nodes, then temperatures of the corners
     unknowns = tuple((node, dof) for node in range(kind.nodes) for dof in range(1, kind.dimension + 1))
     unknowns += tuple((node, 11) for node in range(kind.corners) if coupled)
-    return ElementBlock(
+    block = ElementBlock(
         group,
         model.mesh.coordinates,
         unknowns,
@@ -191,6 +195,9 @@ def _solid_block(model: Model, group: ElementGroup, kind: ContinuumType, library
         unsymmetric=section.material.user is not None and (coupled or section.material.user.unsymmetric),
         variables=solid_variables(group, routine),
     )
+    if routine.axes is not None:
+        block.begin_axes(start_axes(model, group, kind, routine.axes.orientation, library))
+    return block
 
 
 def _cohesive_block(model: Model, group: ElementGroup, kind: CohesiveType, library: Library) -> ElementBlock:

@@ -12,7 +12,7 @@ from typing import Final
 
 import numpy as np
 
-from harness.elements.routine import Linearity
+from harness.elements.routine import PARALLEL, Linearity
 from harness.errors import DeckError, Source
 from harness.model.arrays import FloatArray
 from harness.model.element_types import Tensor
@@ -23,9 +23,6 @@ HISTORY_VALUES: Final = 7
 """Number of values of the history of a point of a plastic or prestressed material (fortran/host/host_materials.f90)."""
 USER_HISTORY_VALUES: Final = 15
 """The same for a user material, besides STATEV (fortran/host/host_umat.f90)."""
-
-PARALLEL: Final = 1e-9
-"""Largest component of the difference of unit vectors that are parallel."""
 
 _PAIRS: Final = ((0, 0), (1, 1), (2, 2), (0, 1), (0, 2), (1, 2))
 _COMPONENTS: Final = {Tensor.PLANE_STRESS: [0, 1, 3], Tensor.PLANE_STRAIN: [0, 1, 2, 3], Tensor.SOLID: list(range(6))}

@@ -10,6 +10,14 @@ from enum import Enum, auto
 import numpy as np
 
 from harness.model.arrays import FloatArray, IntArray
+from harness.model.local_systems import UndefinedDirectionsError
+from harness.model.properties import Orientation
+
+VALUES_OF_AXES = 18
+"""Values of SVARS for the directions of a point (fortran/host/host_axes.f90)."""
+
+PARALLEL = 1e-9
+"""Largest component of the difference of unit vectors that are parallel."""
 
 
 class Linearity(Enum):
@@ -43,6 +51,7 @@ class Routine:
     forces    whether the forces are
     stores    whether linear elements have no ENERGY but ENERGY(2), which is what AMATRX stores
     free      dofs along which a translation of an element causes no force, as far as that is known
+    axes      the directions of the points, if the material is in them, None if it is not
     stress    places of the stress components of a point among its SVARS, in Abaqus' order; the last one is S12 or
               S23; none: the elements take no initial stress
     """
@@ -66,6 +75,7 @@ class Routine:
     forces: Linearity = Linearity.UNKNOWN
     stores: bool = False
     free: tuple[int, ...] = ()
+    axes: PointAxes | None = None
     stress: tuple[int, ...] = ()
 
     def set_stress(self, svars: FloatArray, rows: IntArray, values: FloatArray) -> None:
@@ -86,10 +96,45 @@ class Routine:
 
 
 @dataclass(frozen=True, slots=True)
+class PointAxes:
+    """Where SVARS hold the directions of *ORIENTATION of each point, those at the start and now.
+
+    place   of the first value, from 0
+    points  of an element
+    plane   direction 3 must be normal to the plane
+    """
+
+    place: int
+    points: int
+    plane: bool
+    orientation: Orientation
+
+    def view(self, svars: FloatArray) -> FloatArray:
+        """(m, points, 2, 3, 3) of them, a view of SVARS (m, svars): the directions are columns."""
+        count = VALUES_OF_AXES * self.points
+        found: FloatArray = svars[:, self.place : self.place + count].reshape(len(svars), self.points, 2, 3, 3)
+        return found
+
+    def begin(self, svars: FloatArray, axes: FloatArray) -> None:
+        """Write the directions (m, points, 3, 3), in rows, at the start into SVARS (m, svars).
+
+        Raises UndefinedDirectionsError if direction 3 is not normal to the plane of plane elements.
+        """
+        if self.plane:
+            tilted = np.argwhere(~(np.abs(axes[..., 2, 2]) >= 1 - PARALLEL))
+            if len(tilted):
+                element, point = tilted[0].tolist()
+                raise UndefinedDirectionsError((element, point), "direction 3 must be normal to the plane")
+        count = VALUES_OF_AXES * self.points
+        both = np.repeat(axes.swapaxes(-1, -2)[:, :, None], 2, axis=2)
+        svars[:, self.place : self.place + count] = both.reshape(len(svars), count)
+
+
+@dataclass(frozen=True, slots=True)
 class OutputVariables:
     """*USER OUTPUT VARIABLES of a material: the address of UVARM, points and variables of each.
 
-    names  of the material and its orientation; axes (3, 3), rows are its directions
+    names  of the material and its orientation; axes (3, 3), rows are its directions, if they are the same everywhere
     """
 
     address: int

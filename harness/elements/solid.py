@@ -4,21 +4,22 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import Final
 
 import numpy as np
 
+from harness.elements.directions import first_element
 from harness.elements.materials import (
     define_fields,
     define_material,
     directions,
     history_values,
-    is_global,
     linearity,
     shear_modulus,
     state_variables,
 )
-from harness.elements.routine import OutputVariables, Routine
+from harness.elements.routine import VALUES_OF_AXES, OutputVariables, PointAxes, Routine
 from harness.errors import DeckError
 from harness.model.element_types import ContinuumType, Tensor
 from harness.model.mesh import ElementGroup
@@ -59,30 +60,32 @@ def solid_routine(model: Model, group: ElementGroup, section: SolidSection, libr
     if kind.incompatible and nonlinear is not None and (material.user or material.user_field):
         message = f"NLGEOM is not supported for elements of type {group.type} with UMAT or USDFLD"
         raise DeckError(nonlinear.source, message)
-    orientation = _orientation(model, group, section, library)
+    orientation, local = section.orientation, _local_orientation(model, section, kind)
+    if local is not None:
+        # the material is in the directions of the points
+        orientation = replace(local, axes=np.eye(3), system=None)
     hourglass = _hourglass_stiffness(group, kind, section)
     _warn_of_enhanced(model, group, kind, library)
     number = define_material(material, orientation, kind.tensor, section.source, library)
     prestressed = _is_prestressed(model, group, material)
     if prestressed:
-        given = section.orientation
-        if orientation is None and given is not None and not is_global(given):
-            message = (
-                "*ORIENTATION with NLGEOM is not supported for elements with initial stresses, which it would rotate"
-            )
-            raise DeckError(section.source, message)
         _binding.set_prestressed(number)
     define_fields(number, material, orientation, kind.tensor, library)
+    if local is not None:
+        _binding.set_local(number)
     if material.expansion:
         _binding.set_expansion(number, material.expansion)
     enhanced = kind.hourglass_control and section.controls.enhanced
     unknowns = kind.dimension * kind.nodes
-    hidden = (2 * unknowns if dynamic is not None else 0) + kind.modes
+    forces = 2 * unknowns if dynamic is not None else 0
+    of_points = kind.points * 2 * len(kind.components)
+    axes = PointAxes(of_points + forces, kind.points, kind.dimension == 2, local) if local is not None else None
+    hidden = forces + (VALUES_OF_AXES * kind.points if axes else 0) + kind.modes
     return Routine(
         address=_binding.address_of("solid"),
         jtype=kind.nodes,
         mcrd=kind.dimension,
-        svars=kind.points * 2 * len(kind.components) + hidden,
+        svars=of_points + hidden,
         hidden=hidden,
         density=1,
         props=np.array([section_depth(group, section), material.density, hourglass]),
@@ -100,6 +103,7 @@ def solid_routine(model: Model, group: ElementGroup, section: SolidSection, libr
         # along the radius it strains the circumference
         free=(2,) if kind.axisymmetric else tuple(range(1, kind.dimension + 1)),
         stress=_places_of_stress(kind),
+        axes=axes,
     )
 
 
@@ -113,11 +117,7 @@ def _places_of_stress(kind: ContinuumType) -> tuple[int, ...]:
 
 def _is_prestressed(model: Model, group: ElementGroup, material: Material) -> bool:
     """Whether elements of the group have an initial stress that a built-in material must store. Raises DeckError."""
-    first = 0
-    for other in model.groups:
-        if other is group:
-            break
-        first += len(other.labels)
+    first = first_element(model, group)
     last = first + len(group.labels)
     entries = model.initial_stresses
     found = next((e for e in entries if ((e.elements >= first) & (e.elements < last)).any()), None)
@@ -129,25 +129,17 @@ def _is_prestressed(model: Model, group: ElementGroup, material: Material) -> bo
     return True
 
 
-def _orientation(model: Model, group: ElementGroup, section: SolidSection, library: Library) -> Orientation | None:
-    """Directions of the material; with NLGEOM only those that do not change the solution are accepted, and ignored.
+def _local_orientation(model: Model, section: SolidSection, kind: ContinuumType) -> Orientation | None:
+    """The orientation if the material is in the directions of each point, which turn with it under NLGEOM.
 
-    These are global ones, and any of an isotropic material. UMAT would get stresses in rotating directions. Elements
-    with incompatible modes accept all, as their strains are in axes that turn with them.
+    Otherwise its constants are turned to global axes once. Elements with incompatible modes have their strains in axes
+    that turn with them.
     """
-    nonlinear = next((step for step in model.steps if step.nlgeom), None)
-    orientation, material = section.orientation, section.material
-    if nonlinear is None or orientation is None or solid_of(group).incompatible:
-        return orientation
-    isotropic = material.elastic is not None and material.elastic.type is ElasticType.ISOTROPIC
-    if material.user is not None or material.user_field is not None or not (isotropic or is_global(orientation)):
-        message = f"*ORIENTATION is not supported for elements of type {group.type} with NLGEOM ({nonlinear.source})"
-        raise DeckError(section.source, message)
-    library.warn(
-        f"{section.source}: *ORIENTATION, NAME={orientation.name} with NLGEOM: the directions of the material and of "
-        f"stresses and strains in the output are the global ones, which do not rotate with the elements"
-    )
-    return None
+    orientation = section.orientation
+    if orientation is None:
+        return None
+    turns = any(step.nlgeom for step in model.steps) and not kind.incompatible
+    return orientation if turns or orientation.system is not None or section.material.user is not None else None
 
 
 def solid_variables(group: ElementGroup, routine: Routine) -> PointVariables:

@@ -12,6 +12,7 @@ import numpy as np
 
 from harness.errors import Source
 from harness.model.arrays import FloatArray, IntArray
+from harness.model.local_systems import LocalSystem
 from harness.model.records import PointVariables
 
 
@@ -141,11 +142,15 @@ class Material:
 
 @dataclass(frozen=True, slots=True)
 class Orientation:
-    """*ORIENTATION: rows of `axes` (3, 3) are the local 1, 2 and 3 directions in global components."""
+    """*ORIENTATION: rows of `axes` (3, 3) are the local 1, 2 and 3 directions in global components.
+
+    system  gives them where they are not the same everywhere, with the global ones in `axes`
+    """
 
     name: str
     axes: FloatArray
     source: Source
+    system: LocalSystem | None = None
 
 
 @dataclass(frozen=True, slots=True)

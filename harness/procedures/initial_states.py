@@ -5,6 +5,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
+from typing import Protocol
 
 import numpy as np
 
@@ -17,8 +18,15 @@ from harness.model.records import Warned
 from harness.procedures.state import ConvergedState
 
 
-def set_initial_states(blocks: Iterable[ElementBlock], model: Model, sdvini: int | None) -> None:
-    """Set the state variables that the deck gives, directly or by SDVINI.
+class InitialRoutines(Protocol):
+    """Addresses of user routines that are called before the first step; None without the routine."""
+
+    sdvini: int | None
+    orient: int | None
+
+
+def set_initial_states(blocks: Iterable[ElementBlock], model: Model, user: InitialRoutines) -> None:
+    """Set the directions that ORIENT gives, then the state variables that the deck gives, directly or by SDVINI.
 
     Parameters
     ----------
@@ -26,16 +34,21 @@ def set_initial_states(blocks: Iterable[ElementBlock], model: Model, sdvini: int
         Of all elements; their committed state is changed.
     model
         Its initial solutions, in their order.
-    sdvini
-        Address of SDVINI, None without it.
+    user
+        Has the routines.
 
     Raises
     ------
     DeckError
-        An entry needs SDVINI, which the job does not have, or gives more values than an element has variables.
+        An entry needs SDVINI, which the job does not have, or gives more values than an element has variables; or
+        ORIENT gives no directions.
     KernelError
-        SDVINI ends the analysis.
+        SDVINI or ORIENT ends the analysis.
     """
+    if user.orient is not None:
+        for block in blocks:
+            block.call_orient(user.orient, model.mesh.labels)
+    sdvini = user.sdvini
     for entry in model.initial_solutions:
         if entry.elements is None and sdvini is None:
             raise DeckError(entry.source, "*INITIAL CONDITIONS, USER needs SDVINI, which the job does not have")

@@ -18,9 +18,13 @@ from harness.solver.linear import Effort, LinearSolver, choose
 
 
 class UserRoutines(GivesValues, Protocol):
-    """The part of a loaded library that a procedure calls; sdvini: its address, None without the routine."""
+    """The part of a loaded library that a procedure calls.
+
+    sdvini, orient  addresses, None without the routine
+    """
 
     sdvini: int | None
+    orient: int | None
 
     def external_database(
         self, lop: int, lrestart: int, time: tuple[float, float], dtime: float, step: int, increment: int

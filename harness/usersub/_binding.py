@@ -288,6 +288,11 @@ def set_dependence(number: int, constants: int, turn: FloatArray, table: FloatAr
     _host.host_set_dependence(number, constants, turn, table.T)
 
 
+def set_local(number: int) -> None:
+    """Let a material of the host's library take strains and give stresses in the directions of each point."""
+    _host.host_set_local(number)
+
+
 def set_user_field(number: int, address: int, names: tuple[str, str], statev: int, axes: FloatArray) -> None:
     """Let USDFLD give the field variables of a material; names: of the material and its orientation."""
     _host.host_set_user_field(number, address, _padded(names), statev, axes)
@@ -308,18 +313,31 @@ def uvarm(
     arrays: BlockArrays,
     hidden: int,
     uvar: FloatArray,
+    *,
+    local: bool,
 ) -> tuple[int, int]:
     """Call UVARM at the points of a block; returns element and point at which it ended the analysis, 0 if it did not.
 
-    names are of the material and its orientation, axes its directions in rows, counts the stress components, NSTATV
-    and the number of the family, place step and increment, clock the times at the start and the time increment; the
-    last `hidden` SVARS belong to no point; uvar (m, points, NUVARM).
+    names are of the material and its orientation, axes (m or 1, points or 1, 3, 3) its directions in rows, counts the
+    stress components, NSTATV and the number of the family, place step and increment, clock the times at the start and
+    the time increment; the last `hidden` SVARS belong to no point; uvar (m, points, NUVARM); local: the history is in
+    these directions.
     """
     m, points, _ = uvar.shape
     svars = np.ascontiguousarray(arrays.svars[:, : arrays.svars.shape[1] - hidden]).reshape(m, points, -1)
     history = arrays.history if arrays.history.shape[1] == points else np.zeros((m, points, 1))
     left, element, point = _host.host_uvarm_pass(
-        address, _padded(names), axes, counts, place, clock, arrays.labels, arrays.coords.T, svars.T, history.T, uvar.T
+        address,
+        _padded(names),
+        axes.transpose(2, 3, 1, 0),
+        (*counts, int(local)),
+        place,
+        clock,
+        arrays.labels,
+        arrays.coords.T,
+        svars.T,
+        history.T,
+        uvar.T,
     )
     return (element, point) if left else (0, 0)
 
@@ -331,6 +349,20 @@ def sdvini(address: int, arrays: BlockArrays, statev: FloatArray, family: int) -
     """
     left, element, point = _host.host_sdvini_pass(address, family, arrays.labels, arrays.coords.T, statev.T)
     return (element, point) if left else (0, 0)
+
+
+def orient(
+    address: int, name: str, arrays: BlockArrays, nodes: Int32Array, family: int, points: int
+) -> tuple[FloatArray, int, int]:
+    """Call ORIENT at the points of a block of built-in elements.
+
+    name is of the orientation, nodes (m, nnode) their numbers. Returns the directions (m, points, 3, 3), in rows, as
+    ORIENT leaves them, then element and point at which it ended the analysis, 0 if it did not.
+    """
+    found = np.zeros((len(nodes), points, 3, 3))
+    given = arrays.labels, nodes.T, arrays.coords.T
+    left, element, point = _host.host_orient_pass(address, name, family, *given, found.T)
+    return (found, element, point) if left else (found, 0, 0)
 
 
 def user_values(address: int, asked: UserValues, values: FloatArray) -> int:

@@ -41,7 +41,7 @@ _STOP_ANALYSIS, _CONCLUDE_STEP = 4, 5
 class Library:
     """User routines of a job, and the job's messages from them.
 
-    uel, uelmat, umat, uvarm, sdvini, disp, dload, uamp, usdfld, uexternaldb  addresses, None without the routine
+    uel, uelmat, umat, uvarm, sdvini, orient, disp, dload, uamp, usdfld, uexternaldb: addresses, None without it
     name                      the file as the user named it, for messages
     file                      the shared library
     entry_points              names of all user routines found
@@ -62,6 +62,7 @@ class Library:
         self.umat = addresses["UMAT"]
         self.uvarm = addresses["UVARM"]
         self.sdvini = addresses["SDVINI"]
+        self.orient = addresses["ORIENT"]
         self.disp = addresses["DISP"]
         self.dload = addresses["DLOAD"]
         self.uamp = addresses["UAMP"]

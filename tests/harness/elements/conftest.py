@@ -83,10 +83,10 @@ def solid_group():
 def bound():
     """Block of one group, bound to node-major unknowns, and a zero CSR matrix with its pattern."""
 
-    def bound(group, coordinates, library):
+    def bound(group, coordinates, library, steps=()):
         labels = np.arange(1, len(coordinates) + 1)
         mesh = Mesh(labels, coordinates, ("",) * len(labels))
-        (block,) = build_blocks(Model(Path("test.inp"), "", mesh, (group,), ()), library)
+        (block,) = build_blocks(Model(Path("test.inp"), "", mesh, (group,), steps), library)
         local, dof = np.array(block.unknowns).T
         per_node = dof.max()
         equations = (group.nodes[:, local] * per_node + dof - 1).astype(np.int32)

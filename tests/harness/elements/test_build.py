@@ -13,7 +13,7 @@ from harness.errors import DeckError, Source
 from harness.model.mesh import Mesh
 from harness.model.model import Model
 from harness.model.procedures import Dynamic, Static
-from harness.model.properties import Elastic, ElasticType, Material, Orientation, UserMaterial
+from harness.model.properties import Elastic, ElasticType, Material, UserMaterial
 from harness.model.steps import Step
 
 SPRING = ((0, 1), (1, 1))
@@ -85,28 +85,6 @@ def test_unsupported_element_type(build, solid_group, element_type, hint):
 def test_number_of_nodes_of_a_built_in_element(build, solid_group):
     with pytest.raises(DeckError, match="elements of type CPS4 have 4 nodes, found 3"):
         build(solid_group("CPS4", np.array([[0, 1, 2]]), 1.0))
-
-
-FIBRES = Elastic(ElasticType.LAMINA, (1000.0, 500.0, 0.3, 200.0, 200.0, 200.0), Source("test.inp", 4))
-TURNED = Orientation("TURNED", np.array([[0.0, 1.0, 0.0], [-1.0, 0.0, 0.0], [0.0, 0.0, 1.0]]), Source("test.inp", 5))
-
-
-def test_large_displacements_of_turned_materials(build, solid_group):
-    message = r"\*ORIENTATION is not supported for elements of type CPS3 with NLGEOM \(test.inp:40\)"
-    with pytest.raises(DeckError, match=message):
-        group = solid_group("CPS3", np.array([[0, 1, 2]]), 1.0, orientation=TURNED, elastic=FIBRES)
-        build(group, steps=(STEP, replace(STEP, nlgeom=True)))
-
-
-@pytest.mark.parametrize(("axes", "elastic"), [(np.eye(3), FIBRES), (TURNED.axes, None)], ids=["global", "isotropic"])
-def test_directions_that_do_not_matter_in_large_displacements(solid_group, load, axes, elastic):
-    library = load(None)
-    orientation = replace(TURNED, axes=axes)
-    group = solid_group("CPS3", np.array([[0, 1, 2]]), 1.0, orientation=orientation, elastic=elastic)
-    mesh = Mesh(np.arange(1, 5), np.eye(4, 3), ("",) * 4)
-    build_blocks(Model(Path("test.inp"), "", mesh, (group,), (replace(STEP, nlgeom=True),)), library)
-    (warning,) = [message.text for message in library.messages() if message.kind == "warning"]
-    assert warning.startswith(f"{group.section.source}: *ORIENTATION, NAME=TURNED with NLGEOM: the directions of")
 
 
 def test_dynamic_steps_need_a_density(build, solid_group):

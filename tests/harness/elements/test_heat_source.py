@@ -7,6 +7,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from moving_element import turn
 from small_decks import body_lines
 
 import harness
@@ -14,7 +15,7 @@ from harness.elements import Flags
 from harness.errors import Source
 from harness.model.element_types import CONTINUUM, COUPLED
 from harness.model.mesh import ElementGroup
-from harness.model.properties import Material, SolidSection, UserMaterial
+from harness.model.properties import Material, Orientation, SolidSection, UserMaterial
 
 HERE = Path(__file__).parent
 SOURCE = Source("test.inp", 1)
@@ -170,8 +171,8 @@ TANGENTS = ["CPE3T", "CPE4T", "CPE4RT", "CPE8T", "CPS4T", "CPS8RT", "CAX4T", "CA
 
 
 @pytest.mark.parametrize("element_type", TANGENTS)
-@pytest.mark.parametrize("lflag", [71, 72])
-def test_tangent_is_the_derivative_of_the_residual(load, bound, call, element_type, lflag):
+@pytest.mark.parametrize(("lflag", "angle"), [(71, None), (72, None), (72, 30.0)])
+def test_tangent_is_the_derivative_of_the_residual(load, bound, call, element_type, lflag, angle):
     """Of a distorted element that is strained and warm: central differences of what is quadratic are exact."""
     kind = COUPLED[element_type]
     if kind.nodes == kind.dimension + 1:
@@ -184,7 +185,9 @@ def test_tangent_is_the_derivative_of_the_residual(load, bound, call, element_ty
     constants = np.array([1000.0, 0.3, 7.0, 2.0, 11.0, 3.0, 1.0, 1.0, 1.0])
     given = UserMaterial(constants, False, SOURCE)
     material = Material("M", SOURCE, user=given, state_variables=2, conductivity=3.0, specific_heat=0.7, density=2.0)
-    section = SolidSection("ALL", material, None, THICKNESS, SOURCE, hourglass=1.0)
+    # UMAT in global directions, or in turned ones
+    orientation = None if angle is None else Orientation("O", turn(np.radians(angle)).T, SOURCE)
+    section = SolidSection("ALL", material, orientation, THICKNESS, SOURCE, hourglass=1.0)
     group = ElementGroup(element_type, np.array([101]), np.arange(kind.nodes)[None], "", section, None, SOURCE)
     block, matrix = bound(group, nodes, load("heat.f"))
     call = replace(call, flags=Flags(lflag), unsymmetric=True)

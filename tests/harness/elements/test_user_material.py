@@ -108,12 +108,9 @@ def test_xit_in_umat_and_uvarm(run):
         run(USER.format(0), last=99)
 
 
-def test_a_job_without_umat_or_with_an_orientation_is_refused(run):
+def test_a_job_without_umat_is_refused(run):
     with pytest.raises(DeckError, match=r"strip.inp:13: \*USER MATERIAL: material FLEXIBLE needs UMAT; .* has UEL"):
         run(USER.format(0), user=HERE / "spring.f")
-    material = USER.format(0) + "\n*ORIENTATION, NAME=TURNED\n0., 1., 0., -1., 0., 0."
-    with pytest.raises(DeckError, match=r"\*ORIENTATION is not supported for \*USER MATERIAL \(FLEXIBLE\)"):
-        run(material, orientation=", ORIENTATION=TURNED")
 
 
 def test_global_directions_are_no_orientation(run):
