@@ -216,7 +216,12 @@ def test_arguments_of_orient(run, tmp_path):
         ("T(1,1) = 1", DeckError, r"element 1 \(type CPE8R\), integration point 1: ORIENT does not set two directions"),
         ("T(1,1) = 1\nT(3,2) = 1", DeckError, r"element 1 \(type CPE8R\), integration point 1: direction 3 must be"),
         ("IF (NOEL.EQ.7.AND.NPT.EQ.3) CALL XIT", KernelError, r"element 7 .*: ORIENT at integration point 3 stopped"),
-        ("T = 0\nT(1,1) = SQRT(-T(1,1))\nT(1,1) = T(1,1)/T(1,1)", DeckError, r"ORIENT does not set two directions"),
+        pytest.param(
+            "T(1,1) = SQRT(-1 - T(1,1))",
+            DeckError,
+            "ORIENT does not set two directions",
+            marks=pytest.mark.nan,
+        ),
     ],
     ids=["one direction", "out of the plane", "xit", "no numbers"],
 )
