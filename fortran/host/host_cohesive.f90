@@ -16,15 +16,15 @@
 !>
 !> PROPS, JPROPS: harness/elements/cohesive.py. SVARS hold for each point, with a component for each dimension:
 !> position, separation, traction, damage, energies dissipated by damage, by viscosity, damage without viscosity, strain,
-!> initiation criterion, status.
+!> initiation criterion, status; in dynamic analyses then the forces of the last two increments.
 module host_cohesive
   use core_rotation, only: line_frame, surface_frame, turned_frame
+  use host_inertia, only: respond
   use host_kinds, only: dp, i4
   use host_messages, only: add_message
   use host_protect, only: escape
   use host_shape, only: line2, quad4
-  use host_traction_separation, only: cohesive_law, cohesive_point, fine, n_law_integers, n_law_reals, read_law, &
-                                      update_point
+  use host_traction_separation, only: cohesive_law, cohesive_point, fine, n_law_integers, read_law, update_point
   implicit none (type, external)
   private
   public :: cohesive_uel
@@ -44,17 +44,33 @@ contains
                    lflags(*), mlvarx, mdload, jprops(*), njprop
     real(dp) :: rhs(*), amatrx(*), svars(*), energy(*), props(*), coords(*), u(*), du(*), v(*), a(*), time(*), dtime, &
                 params(*), adlmag(*), predef(*), ddlmag(*), pnewdt, period
-    integer, parameter :: stiffness_wanted(3) = [1, 2, 5]
-    integer :: points
+    integer, parameter :: forces_wanted(4) = [1, 2, 5, 6]
+    real(dp) :: mass(ndofel, ndofel), old(ndofel, 2)
+    integer :: points, n, states
     type(cohesive_law) :: law
     rhs(1:ndofel*nrhs) = 0
     amatrx(1:ndofel*ndofel) = 0
-    if (.not. any(lflags(3) == stiffness_wanted)) return
     points = nnode/2
-    law = read_law(props(p_law:p_law + n_law_reals - 1), jprops(j_law:j_law + n_law_integers - 1))
-    call integrate(int(jprops(j_family)), int(mcrd), points, int(nsvars)/points, law, props(p_thickness), props(p_width), &
-                   jprops(j_deletion) /= 0, lflags(2) /= 0, dtime, coords, u, rhs, amatrx, svars, energy)
+    n = ndofel
+    states = points*values_of_point(int(mcrd))
+    mass = 0
+    old = 0
+    if (nsvars > states) old = reshape(svars(states + 1:states + 2*n), [n, 2])
+    if (any(lflags(3) == forces_wanted)) then
+      law = read_law(props(p_law:nprops), jprops(j_law:j_law + n_law_integers - 1))
+      call integrate(int(jprops(j_family)), int(mcrd), points, values_of_point(int(mcrd)), law, props(p_thickness), &
+                     props(p_width), jprops(j_deletion) /= 0, lflags(2) /= 0, dtime, coords, u, rhs, amatrx, svars, energy)
+    end if
+    rhs(1:n) = -rhs(1:n)
+    call respond(n, lflags, params, dtime, v, a, mass, old, rhs, amatrx, energy(1))
+    if (nsvars > states) svars(states + 1:states + 2*n) = reshape(old, [2*n])
   end subroutine cohesive_uel
+
+  !> SVARS of a point.
+  pure integer function values_of_point(dim)
+    integer, intent(in) :: dim
+    values_of_point = 5*dim + 5
+  end function values_of_point
 
   !> Residual, tangent, state and energies.
   subroutine integrate(family, n, points, per_point, law, thickness, width, deletion, finite, dtime, x, u, rhs, stiffness, &

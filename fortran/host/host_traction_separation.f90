@@ -21,7 +21,7 @@ module host_traction_separation
 
   integer(i4), parameter :: maxs = 1, quads = 2, maxe = 3, quade = 4       !< CRITERION=
   integer(i4), parameter :: by_displacement = 1, by_energy = 2             !< TYPE= of *DAMAGE EVOLUTION
-  integer(i4), parameter :: exponential = 2                                !< SOFTENING=; else linear
+  integer(i4), parameter :: exponential = 2, tabular = 3                   !< SOFTENING=; else linear
   integer(i4), parameter :: mode_independent = 0, benzeggagh_kenane = 1    !< MIXED MODE BEHAVIOR=; else the power law
 
   integer, parameter :: fine = 0
@@ -40,6 +40,7 @@ module host_traction_separation
     integer(i4) :: type = 0          !< likewise; 0: the onset is reported and nothing follows
     integer(i4) :: softening = 0
     integer(i4) :: mixed = 0
+    real(dp), allocatable :: table(:, :)   !< (2, k) displacement after the onset, damage
   end type cohesive_law
 
   !> State of a point at the end of an increment; components in the order (n, s, t).
@@ -63,11 +64,14 @@ contains
 
   !> The law of the properties of a block, in the order of `cohesive_properties` in harness/elements/cohesive.py.
   pure function read_law(reals, integers) result(law)
-    real(dp), intent(in) :: reals(n_law_reals)
+    real(dp), intent(in) :: reals(:)            !< a table of damage goes on behind n_law_reals
     integer(i4), intent(in) :: integers(n_law_integers)
     type(cohesive_law) :: law
     law = cohesive_law(reals(1:3), reals(4:6), reals(7:9), reals(10), reals(11), reals(12), &
                        integers(1), integers(2), integers(3), integers(4))
+    if (law%softening == tabular) then
+      law%table = reshape(reals(n_law_reals + 1:), [2, (size(reals) - n_law_reals)/2])
+    end if
   end function read_law
 
   !> State of a point at the end of an increment and the derivative of the traction by the separation.
@@ -174,7 +178,9 @@ contains
       end if
       failure = ratio(varying(2*energy%value, 2*energy%by), traction)
     end if
-    if (law%softening /= exponential) then
+    if (law%softening == tabular) then
+      damage = in_table(law%table, delta, at_onset)
+    else if (law%softening /= exponential) then
       damage = linear(delta, at_onset, failure)
     else if (law%type == by_displacement) then
       damage = exponential_in_displacement(law%evolution(2), law%evolution(1), delta, at_onset)
@@ -228,6 +234,24 @@ contains
     damage%by = (above/below*(delta%by*(failure%value - at_onset%value) + delta%value*(failure%by - at_onset%by)) &
                  - at_onset%by*(failure%value - delta%value) - at_onset%value*(failure%by - delta%by))/below
   end function linear
+
+  !> SOFTENING=TABULAR, TYPE=DISPLACEMENT: linear between the entries, constant beyond the last.
+  pure function in_table(table, delta, at_onset) result(damage)
+    real(dp), intent(in) :: table(:, :)
+    type(varying), intent(in) :: delta, at_onset
+    type(varying) :: damage
+    real(dp) :: x, slope
+    integer :: k
+    x = delta%value - at_onset%value
+    k = count(table(1, :) <= x)
+    if (k == size(table, 2)) then
+      damage%value = table(2, k)
+      return
+    end if
+    slope = (table(2, k + 1) - table(2, k))/(table(1, k + 1) - table(1, k))
+    damage%value = table(2, k) + slope*(x - table(1, k))
+    damage%by = slope*(delta%by - at_onset%by)
+  end function in_table
 
   !> SOFTENING=EXPONENTIAL, TYPE=DISPLACEMENT; a law parameter of zero is the linear law.
   pure function exponential_in_displacement(alpha, range, delta, at_onset) result(damage)

@@ -39,6 +39,8 @@ def _read_evolution(block: Block) -> DamageEvolution:
     kind, softening, mixed = (options.text(name) for name in ("TYPE", "SOFTENING", "MIXED MODE BEHAVIOR"))
     power = options.real("POWER", 1.0)
     if mixed:
+        if softening == "TABULAR":
+            raise block.error(f"MIXED MODE BEHAVIOR={mixed} goes with SOFTENING=LINEAR or EXPONENTIAL")
         if kind == "DISPLACEMENT":
             raise block.error(f"MIXED MODE BEHAVIOR={mixed} goes with TYPE=ENERGY")
         if not options.given("POWER"):
@@ -52,6 +54,10 @@ def _read_evolution(block: Block) -> DamageEvolution:
         return DamageEvolution(kind, softening, mixed, values, power, block.source)
     if options.given("POWER"):
         raise block.error("POWER goes with MIXED MODE BEHAVIOR")
+    if softening == "TABULAR":
+        if kind != "DISPLACEMENT":
+            raise block.error("SOFTENING=TABULAR goes with TYPE=DISPLACEMENT")
+        return DamageEvolution(kind, softening, mixed, _read_table(block), power, block.source)
     if kind == "DISPLACEMENT" and softening == "EXPONENTIAL":
         values = _values(block, 2, 2, "displacement or exponential law parameter")
     else:
@@ -60,6 +66,25 @@ def _read_evolution(block: Block) -> DamageEvolution:
         what = "displacement at failure" if kind == "DISPLACEMENT" else "fracture energy"
         raise _only_row(block).error(f"{what} {values[0]:g} must be positive")
     return DamageEvolution(kind, softening, mixed, values, power, block.source)
+
+
+def _read_table(block: Block) -> tuple[float, ...]:
+    """Displacements after the onset and damages in turn, of lines with the damage first."""
+    table: list[float] = []
+    for row in block.rows():
+        if len(row) > 2:
+            raise row.error("expected damage and displacement; dependence on mode mix or temperature is not supported")
+        damage, displacement = row.real(0, "damage", 0.0), row.real(1, "displacement", 0.0)
+        if not table and displacement:
+            raise row.error(f"the first displacement, from the onset on, is 0, found {displacement:g}")
+        if table and displacement <= table[-2]:
+            raise row.error(f"displacement {displacement:g} must exceed that of the line before, {table[-2]:g}")
+        if not (table[-1] if table else 0.0) <= damage <= 1:
+            raise row.error(f"damage {damage:g} must be from that of the line before, or 0, to 1")
+        table += displacement, damage
+    if len(table) < 4:
+        raise block.error("SOFTENING=TABULAR needs two or more lines of damage and displacement")
+    return tuple(table)
 
 
 def _only_row(block: Block) -> Row:
@@ -106,7 +131,7 @@ KEYWORDS = (
         Where.MODEL,
         (
             one_of("TYPE", "what is given", ("DISPLACEMENT", "ENERGY"), required=True, refused=("HYSTERESIS ENERGY",)),
-            one_of("SOFTENING", "softening", ("LINEAR", "EXPONENTIAL"), default="LINEAR", refused=("TABULAR",)),
+            one_of("SOFTENING", "softening", ("LINEAR", "EXPONENTIAL", "TABULAR"), default="LINEAR"),
             one_of("MIXED MODE BEHAVIOR", "fracture energy in mixed mode", ("BK", "POWER LAW"), refused=("TABULAR",)),
             one_of(
                 "MODE MIX RATIO",
@@ -119,8 +144,8 @@ KEYWORDS = (
             *ignored("DEGRADATION"),
             *refused("DEPENDENCIES", "FAILURE INDEX"),
         ),
-        "displacement from onset to failure, exponential law parameter; or fracture energy; or those of the normal, "
-        "first shear and second shear mode",
+        "displacement from onset to failure, exponential law parameter; or lines of damage and displacement after the "
+        "onset (TABULAR); or fracture energy; or those of the normal, first shear and second shear mode",
     ),
     Keyword(
         "DAMAGE STABILIZATION",

@@ -163,7 +163,7 @@ KEYWORDS = (
     ),
     Keyword(
         "COHESIVE SECTION",
-        "Section of cohesive elements.",
+        "Section of cohesive elements; in *DYNAMIC they have no mass.",
         Where.MODEL,
         (
             _ELSET,

@@ -21,7 +21,7 @@ from harness.usersub import _binding
 # in the order of the cases of fortran/host/host_traction_separation.f90
 _CRITERIA: Final = ("", "MAXS", "QUADS", "MAXE", "QUADE")
 _EVOLUTIONS: Final = ("", "DISPLACEMENT", "ENERGY")
-_SOFTENINGS: Final = ("", "LINEAR", "EXPONENTIAL")
+_SOFTENINGS: Final = ("", "LINEAR", "EXPONENTIAL", "TABULAR")
 _MIXED_MODES: Final = ("", "BK", "POWER LAW")
 
 Triple = tuple[float, float, float]
@@ -30,16 +30,20 @@ Triple = tuple[float, float, float]
 def cohesive_routine(model: Model, group: ElementGroup, section: CohesiveSection) -> Routine:
     """What the driver calls for a group of cohesive elements. Raises DeckError."""
     kind = COHESIVE[group.type]
-    for step in model.steps:
-        if step.procedure.inertia:
-            message = f"*{step.procedure.keyword} is not supported with elements of type {group.type}"
-            raise DeckError(step.source, message)
+    dynamic = next((step for step in model.steps if step.procedure.inertia), None)
+    if dynamic is not None and section.material.density:
+        message = f"*{dynamic.procedure.keyword}: the mass of elements of type {group.type}, by *DENSITY of material"
+        raise DeckError(
+            dynamic.source, f"{message} {section.material.name}, is not supported; without it they have none"
+        )
+    hidden = 2 * kind.dimension * kind.nodes if dynamic is not None else 0
     reals, integers = cohesive_properties(section, kind.dimension)
     return Routine(
         address=_binding.address_of("cohesive"),
         jtype=kind.nodes,
         mcrd=kind.dimension,
-        svars=kind.face.nodes * (5 * kind.dimension + 5),
+        svars=kind.face.nodes * (5 * kind.dimension + 5) + hidden,
+        hidden=hidden,
         props=np.array(reals),
         jprops=np.array([kind.face.number, *integers]),
         damages=True,
@@ -71,8 +75,8 @@ def cohesive_properties(section: CohesiveSection, dimension: int) -> tuple[list[
     """PROPS, and JPROPS after the family of the faces.
 
     PROPS: constitutive thickness (0: from the nodes), width, Enn, Ess, Ett, onset (3), evolution (3), exponent,
-    viscosity, largest damage. JPROPS: deletion, then criterion, evolution, softening and mixed mode behaviour, each as
-    its place in a table.
+    viscosity, largest damage; with SOFTENING=TABULAR then pairs of displacement and damage. JPROPS: deletion, then
+    criterion, evolution, softening and mixed mode behaviour, each as its place in a table.
     """
     material, controls = section.material, section.controls
     elastic, damage = material.elastic, material.damage
@@ -101,6 +105,8 @@ def cohesive_properties(section: CohesiveSection, dimension: int) -> tuple[list[
     # the width has a meaning only in the plane
     width = section.width if dimension == 2 else 1.0
     reals = [section.thickness, width, *moduli, *onset, *values, power, viscosity, controls.degradation]
+    if damage is not None and damage.evolution is not None and damage.evolution.softening == "TABULAR":
+        reals += damage.evolution.values
     return reals, [int(controls.deletion), *codes]
 
 

@@ -87,10 +87,10 @@ class DamageEvolution:
     """*DAMAGE EVOLUTION of a traction-separation response.
 
     type       'DISPLACEMENT' or 'ENERGY'
-    softening  'LINEAR' or 'EXPONENTIAL'
+    softening  'LINEAR', 'EXPONENTIAL' or 'TABULAR'
     mixed_mode '' mode independent, 'BK' or 'POWER LAW'
     values     displacement from onset to failure and exponential law parameter; or the fracture energy; or those of the
-               normal and both shear modes
+               normal and both shear modes; or displacement after the onset and damage in turn
     power      POWER=
     """
 

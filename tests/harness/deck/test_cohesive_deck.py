@@ -16,6 +16,7 @@ from harness.model.properties import CohesiveSection, SectionControls
 Read = Callable[[str], Model]
 Refuse = Callable[[str, tuple[str, str, str]], None]
 DECK = Path(__file__).with_name("cohesive.inp").read_text()
+TABULAR = "TYPE=DISPLACEMENT, SOFTENING=TABULAR"
 EVOLUTION = "TYPE=ENERGY, MIXED MODE BEHAVIOR=POWER LAW, POWER=1.5\n0.26, 1.002, 1.5"
 
 
@@ -52,6 +53,7 @@ def test_defaults(read: Read) -> None:
     [
         ("TYPE=DISPLACEMENT\n0.02", (0.02,)),
         ("TYPE=DISPLACEMENT, SOFTENING=EXPONENTIAL\n0.02, 5.", (0.02, 5.0)),
+        ("TYPE=DISPLACEMENT, SOFTENING=TABULAR\n0.\n0.5, 0.01\n1., 0.04", (0.0, 0.0, 0.01, 0.5, 0.04, 1.0)),
         ("TYPE=ENERGY, SOFTENING=EXPONENTIAL\n0.3", (0.3,)),
         ("TYPE=ENERGY, MIXED MODE BEHAVIOR=BK, MODE MIX RATIO=ENERGY, POWER=2\n0.3, 1.", (0.3, 1.0, 0.0)),
     ],
@@ -157,6 +159,34 @@ MISTAKES = {
     "two shear energies": ("POWER LAW", "BK", r"32: .*shear fracture energies 1.002 and 1.5: BK has one for both"),
     "displacement": (EVOLUTION, "TYPE=DISPLACEMENT\n0.", r"32: .*displacement at failure 0 must be positive"),
     "energy": (EVOLUTION, "TYPE=ENERGY\n-1.", r"32: .*fracture energy -1 must be positive"),
+    "table of energy": (EVOLUTION, "TYPE=ENERGY, SOFTENING=TABULAR\n0.", "31: .*TABULAR goes with TYPE=DISPLACEMENT"),
+    "table with mixed mode": (
+        "POWER=1.5",
+        "POWER=1.5, SOFTENING=TABULAR",
+        "31: .*POWER LAW goes with SOFTENING=LINEAR or",
+    ),
+    "short table": (EVOLUTION, f"{TABULAR}\n0.", "31: .*SOFTENING=TABULAR needs two or more lines of damage"),
+    "mode mix in a table": (EVOLUTION, f"{TABULAR}\n0., 0., 0.5", "32: .*dependence on mode mix or temperature is not"),
+    "late table": (
+        EVOLUTION,
+        f"{TABULAR}\n0., 0.1",
+        "32: .*the first displacement, from the onset on, is 0, found 0.1",
+    ),
+    "table twice": (
+        EVOLUTION,
+        f"{TABULAR}\n0.\n0.5, 0.",
+        "33: .*displacement 0 must exceed that of the line before, 0",
+    ),
+    "falling table": (
+        EVOLUTION,
+        f"{TABULAR}\n0.1\n0., 1.",
+        "33: .*damage 0 must be from that of the line before, or 0",
+    ),
+    "too much": (
+        EVOLUTION,
+        f"{TABULAR}\n0.\n1.1, 1.",
+        "33: .*damage 1.1 must be from that of the line before, or 0, to 1",
+    ),
     "energies": (EVOLUTION, "TYPE=ENERGY\n1., 2.", r"32: .*2 values, expected 1"),
 }
 
@@ -199,9 +229,15 @@ def test_property(read: Read, tmp_path: Path, name: str) -> None:
         build_blocks(model, library)
 
 
-def test_dynamics(read: Read, tmp_path: Path) -> None:
-    model = read(
-        DECK.replace("210000., 0.3\n", "210000., 0.3\n*DENSITY\n7.8e-9\n").replace("*STATIC\n", "*DYNAMIC\n1., 1.\n")
+def test_mass_in_dynamics(read: Read, tmp_path: Path) -> None:
+    steel = DECK.replace("210000., 0.3\n", "210000., 0.3\n*DENSITY\n7.8e-9\n").replace(
+        "*STATIC\n", "*DYNAMIC\n1., 1.\n"
     )
-    with pytest.raises(DeckError, match=r"^deck\.inp:37: \*DYNAMIC is not supported with elements of type COH2D4"):
-        build_blocks(model, usersub.load(None, job="job", output_dir=tmp_path))
+    library = usersub.load(None, job="job", output_dir=tmp_path)
+    build_blocks(read(steel), library)
+    glue = steel.replace("3e4\n", "3e4\n*DENSITY\n1e-9\n")
+    message = (
+        r"^deck\.inp:39: \*DYNAMIC: the mass of elements of type COH2D4, by \*DENSITY of material GLUE, is not supp"
+    )
+    with pytest.raises(DeckError, match=message):
+        build_blocks(read(glue), library)

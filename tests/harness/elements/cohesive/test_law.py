@@ -25,6 +25,7 @@ EVOLUTIONS = {
     "exponential power": (ENERGY, "EXPONENTIAL", "POWER LAW", TOUGHNESS, 1.3),
     "exponential displacement": (DISPLACEMENT, "EXPONENTIAL", "", (0.02, 4.0), 1.0),
     "exponential of zero": (DISPLACEMENT, "EXPONENTIAL", "", (0.02, 0.0), 1.0),
+    "tabular": (DISPLACEMENT, "TABULAR", "", (0.0, 0.0, 0.004, 0.7, 0.015, 0.9), 1.0),
 }
 TYPES = ("COH2D4", "COH3D8")
 CRITERIA = ("MAXS", "QUADS", "MAXE", "QUADE")
@@ -65,7 +66,9 @@ def expected_damage(evolution, stiffness, c, distance):
         failure = 2 * energy / traction
     else:
         failure = onset + evolution.values[0]
-    if evolution.softening == "LINEAR":
+    if evolution.softening == "TABULAR":
+        damage = np.interp(distance - onset, evolution.values[::2], evolution.values[1::2])
+    elif evolution.softening == "LINEAR":
         damage = failure * (distance - onset) / (distance * (failure - onset))
     elif evolution.type == DISPLACEMENT:
         alpha = evolution.values[1]
