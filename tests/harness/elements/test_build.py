@@ -10,12 +10,14 @@ import pytest
 
 from harness.elements import FIELD_NAMES, build_blocks, field_of
 from harness.errors import DeckError, Source
+from harness.model.local_systems import LocalSystem, SystemKind
 from harness.model.mesh import Mesh
 from harness.model.model import Model
 from harness.model.procedures import Dynamic, Static
-from harness.model.properties import Elastic, ElasticType, Material, UserMaterial
+from harness.model.properties import Elastic, ElasticType, Material, Orientation, UserMaterial
 from harness.model.steps import Step
 
+HERE = Path(__file__).parent
 SPRING = ((0, 1), (1, 1))
 NODES = np.array([[0, 1]])
 STEP = Step(1, "Step-1", Static(), Source("test.inp", 40))
@@ -73,6 +75,24 @@ def test_missing_uelmat(build, user_group):
     message = r"need UELMAT, because \*UEL PROPERTY for ALL names a material; .*spring.f has UEL"
     with pytest.raises(DeckError, match=message):
         build(group)
+
+
+TURNED = Orientation("TURNED", np.array([[0.0, 1.0, 0.0], [-1.0, 0.0, 0.0], [0.0, 0.0, 1.0]]), Source("test.inp", 5))
+
+
+def test_user_elements_have_one_orientation_of_built_in_materials(build, user_group):
+    """Directions that are the same everywhere, and of UMAT the global ones."""
+    elastic = Material("M", Source("test.inp", 3), Elastic(ElasticType.ISOTROPIC, (1.0, 0.3), Source("test.inp", 4)))
+    around = replace(TURNED, system=LocalSystem(SystemKind.CYLINDRICAL, np.eye(3)))
+    group = user_group(NODES, SPRING, material=elastic, orientation=around, tensor="PSTRESS", integration=1)
+    message = r"test.inp:7: \*ORIENTATION, NAME=TURNED: directions that differ from point to point are not supported"
+    with pytest.raises(DeckError, match=message):
+        build(group, "point.f")
+    umat = Material("M", Source("test.inp", 3), user=UserMaterial(np.zeros(1), False, Source("test.inp", 4)))
+    group = user_group(NODES, SPRING, material=umat, orientation=TURNED, tensor="PSTRESS", integration=1)
+    components = (HERE / "components.f").read_text().replace("../", f"{HERE.parent}/")
+    with pytest.raises(DeckError, match=r"test.inp:5: \*ORIENTATION is not supported for \*USER MATERIAL \(M\)"):
+        build(group, (HERE / "point.f").read_text() + components)
 
 
 @pytest.mark.parametrize("element_type, hint", [("CPS5", "did you mean CPS8"), ("S4R", "")])
