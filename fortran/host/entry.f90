@@ -332,6 +332,63 @@ subroutine host_define_user_material(umat, name, ntens, constants, count, number
   number = define(material)
 end subroutine host_define_user_material
 
+!> Make a material known that has nothing yet; returns the number that stands for it.
+subroutine host_define_empty_material(number)
+  use host_kinds, only: i4
+  use host_materials, only: define, material_t
+  implicit none (type, external)
+  integer(i4), intent(out) :: number
+  type(material_t) :: material
+  number = define(material)
+end subroutine host_define_empty_material
+
+!> Give a material the constants of conduction and storage of heat.
+subroutine host_set_thermal(number, density, counts, conductivity, specific_heat, latent_heat, n, m, k)
+  use host_kinds, only: dp, i4
+  use host_materials, only: find_material, material_t
+  implicit none (type, external)
+  integer(i4), intent(in) :: number, n, m, k
+  real(dp), intent(in) :: density
+  integer(i4), intent(in) :: counts(3)        !< rows of the tables: f2py passes no empty arrays
+  real(dp), intent(in) :: conductivity(2, n), specific_heat(2, m), latent_heat(3, k)   !< as thermal_t has them
+  type(material_t), pointer :: material
+  material => find_material(number)
+  allocate (material%thermal)
+  material%thermal%density = density
+  material%thermal%conductivity = conductivity(:, :counts(1))
+  material%thermal%specific_heat = specific_heat(:, :counts(2))
+  material%thermal%latent_heat = latent_heat(:, :counts(3))
+end subroutine host_set_thermal
+
+!> Let HETVAL (flows = 0) generate heat in a material with thermal constants, or UMATHT (1) conduct and store it.
+subroutine host_set_user_thermal(number, flows, address, name, statev, constants, count, n)
+  use, intrinsic :: iso_c_binding, only: c_intptr_t
+  use host_kinds, only: dp, i4, i8
+  use host_materials, only: find_material, material_t
+  use host_thermal, only: flow_outputs, heat_outputs, user_thermal_t
+  implicit none (type, external)
+  integer(i4), intent(in) :: number, flows, statev, n
+  integer(i8), intent(in) :: address
+  character(len=80), intent(in) :: name       !< of the material
+  real(dp), intent(in) :: constants(n)
+  integer(i4), intent(in) :: count            !< of the constants: f2py passes no empty arrays
+  type(material_t), pointer :: material
+  type(user_thermal_t) :: user
+  integer :: outputs
+  material => find_material(number)
+  outputs = merge(heat_outputs, flow_outputs, flows == 0)
+  user%address = transfer(int(address, c_intptr_t), user%address)
+  user%material = name
+  user%statev = statev
+  user%constants = constants(:count)
+  allocate (user%reported(outputs), user%spoilt(outputs), source=.false.)
+  if (flows == 0) then
+    material%thermal%source = user
+  else
+    material%thermal%flow = user
+  end if
+end subroutine host_set_user_thermal
+
 !> Call UVARM at all material points of a block of built-in elements.
 subroutine host_uvarm_pass(address, names, axes, counts, place, clock, labels, coords, svars, history, uvar, left, element, &
                            point, mcrd, nnode, variables, points, values, nuvarm, m, each, every)
@@ -498,10 +555,12 @@ subroutine host_uamp_call(address, name, clock, props, svars, info, sensors, nam
   define = arguments%define
 end subroutine host_uamp_call
 
-!> Address of built-in elements: 1 continuum, 2 coupled temperature-displacement, 3 cohesive, 4 trusses, springs and masses.
+!> Address of built-in elements: 1 continuum, 2 coupled temperature-displacement, 3 cohesive, 4 trusses, springs and masses,
+!> 5 heat transfer.
 subroutine host_element_address(elements, address)
   use, intrinsic :: iso_c_binding, only: c_funloc, c_funptr, c_intptr_t
   use host_cohesive, only: cohesive_uel
+  use host_conduction, only: heat_uelmat
   use host_coupled, only: coupled_uelmat
   use host_discrete, only: discrete_uel
   use host_kinds, only: i4, i8
@@ -509,7 +568,7 @@ subroutine host_element_address(elements, address)
   implicit none (type, external)
   integer(i4), intent(in) :: elements
   integer(i8), intent(out) :: address
-  type(c_funptr) :: all(4)
-  all = [c_funloc(solid_uelmat), c_funloc(coupled_uelmat), c_funloc(cohesive_uel), c_funloc(discrete_uel)]
+  type(c_funptr) :: all(5)
+  all = [c_funloc(solid_uelmat), c_funloc(coupled_uelmat), c_funloc(cohesive_uel), c_funloc(discrete_uel), c_funloc(heat_uelmat)]
   address = int(transfer(all(elements), 1_c_intptr_t), i8)
 end subroutine host_element_address

@@ -1,7 +1,7 @@
 ! SPDX-FileCopyrightText: The uel-harness authors
 ! SPDX-License-Identifier: BSD-3-Clause
-!> What UMAT adds to a coupled temperature-displacement element: the heat RPL that it generates at the points, and the
-!> derivatives DRPLDT, DRPLDE and DDSDDT for the tangent (User Subroutines Guide, UMAT).
+!> What UMAT and HETVAL add to a coupled temperature-displacement element: the heat (RPL, FLUX) that they generate at the points,
+!> and the derivatives DRPLDT, DRPLDE, DDSDDT and FLUX(2) for the tangent (User Subroutines Guide, UMAT, HETVAL).
 !>
 !> The temperature of a point is that between the corners, in elements with middle nodes too (Analysis User's Guide,
 !> Coupled temperature-displacement elements). The manual leaves open whether elements with straight edges take the mean of
@@ -13,7 +13,7 @@ module host_coupling
   use host_shape, only: rule_t
   implicit none (type, external)
   private
-  public :: coupling_t, set_temperature, add_heat_source
+  public :: coupling_t, interpolate_fields, set_temperature, add_heat_source
 
   !> Corners of an element: their temperatures, and their part of its equations. The arrays belong to the caller.
   type :: coupling_t
@@ -28,6 +28,20 @@ module host_coupling
   end type coupling_t
 
 contains
+
+  !> Temperature and field variables of a point; of the latter as many as the material has, at least.
+  subroutine interpolate_fields(rule, point, fields, predef, least)
+    type(rule_t), intent(in) :: rule
+    integer, intent(in) :: point, fields, least
+    real(dp), intent(in) :: predef(2, fields, rule%nodes)
+    integer :: k
+    if (allocated(current%fields)) deallocate (current%fields)
+    allocate (current%fields(max(fields - 1, least + 1), 2), source=0.0_dp)
+    do k = 1, fields - 1
+      current%fields(k, 2) = dot_product(predef(2, k, :), rule%n(:, point))
+      current%fields(k, 1) = dot_product(predef(1, k, :), rule%n(:, point)) - current%fields(k, 2)
+    end do
+  end subroutine interpolate_fields
 
   !> Give UMAT the temperature of a point, at the start of the increment and its change. The only point of an element stands
   !> for all of it, and has the mean.
@@ -54,7 +68,7 @@ contains
     current%fields(1, 1) = dot_product(coupling%temperature, coupling%shape(:corners)) - current%fields(1, 2)
   end subroutine set_temperature
 
-  !> Add the heat source of a point, as the last call of UMAT left it.
+  !> Add the heat source of a point, as UMAT and HETVAL left it.
   subroutine add_heat_source(coupling, volume, b, component)
     type(coupling_t), intent(inout) :: coupling
     real(dp), intent(in) :: volume

@@ -17,6 +17,9 @@ module host_driver
   private
   public :: run_block, set_guard_values, set_guard_room
 
+  !> Routines of points, in the order of POINT_ROUTINES in harness/usersub/_binding.py.
+  character(len=6), parameter :: point_routines(6) = [character(len=6) :: 'UMAT', 'USDFLD', 'UMATHT', 'HETVAL', 'DFLUX', 'FILM']
+
 contains
 
   !> Run a pass. On a fault, fault, position, array and index say what happened and the sums are invalid, except in a block that
@@ -38,8 +41,8 @@ contains
     case default
       block%fault = merge(fault_distorted, fault_left, current%distorted /= 0)
       block%index = current%distorted
-      if (current%routine == 'UMAT') block%index = current%point
-      if (current%routine == 'USDFLD') block%index = -current%point
+      block%array = findloc(point_routines, current%routine(:6), dim=1)
+      if (block%array > 0) block%index = current%point
     end select
     call find_damage(work, array, index)
     if (array > 0 .and. block%guards == guards_stop) call diagnose(block, array, index)

@@ -77,7 +77,7 @@ module host_element
     integer(i4) :: fault = fault_none     !< one of fault_*
     integer(i4) :: position = 0           !< element of the fault, from 1; 0 if unknown
     integer(i4) :: culprit(3) = 0         !< first element that wrote outside an array, array and entry, with guards_search
-    integer(i4) :: array = 0, index = 0   !< array (number in host_workspace) and entry of the fault, or material point
+    integer(i4) :: array = 0, index = 0   !< array (number in host_workspace) and entry of the fault, or routine and point
     integer(i4) :: unset(3) = 0           !< element, array and entry after which entries_notice became entries_zero
     procedure(uel_procedure), pointer, nopass :: uel => null()
     procedure(uelmat_procedure), pointer, nopass :: uelmat => null()

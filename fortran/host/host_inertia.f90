@@ -11,7 +11,7 @@ module host_inertia
   use host_shape, only: is_quadratic, radius_of, rule_t
   implicit none (type, external)
   private
-  public :: is_dynamic, mass_matrix, respond, scalar_mass
+  public :: is_dynamic, mass_matrix, respond
 
 contains
 
@@ -30,7 +30,7 @@ contains
     real(dp), intent(out) :: mass(rule%dim*rule%nodes, rule%dim*rule%nodes)
     real(dp) :: at_nodes(rule%nodes, rule%nodes)
     integer :: i
-    call scalar_mass(rule, rule, axisymmetric, density, x, at_nodes)
+    call scalar_mass(rule, axisymmetric, density, x, at_nodes)
     mass = 0
     do i = 1, rule%dim
       mass(i::rule%dim, i::rule%dim) = at_nodes
@@ -38,22 +38,22 @@ contains
   end subroutine mass_matrix
 
   !> The same for one unknown per node: lumped in elements with straight edges, consistent in those with middle nodes, as in Abaqus.
-  pure subroutine scalar_mass(geometry, field, axisymmetric, density, x, mass)
-    type(rule_t), intent(in) :: geometry, field   !< of the shape, and of the unknowns
+  pure subroutine scalar_mass(rule, axisymmetric, density, x, mass)
+    type(rule_t), intent(in) :: rule
     logical, intent(in) :: axisymmetric
     real(dp), intent(in) :: density               !< as in mass_matrix
-    real(dp), intent(in) :: x(geometry%dim, geometry%nodes)
-    real(dp), intent(out) :: mass(field%nodes, field%nodes)
+    real(dp), intent(in) :: x(rule%dim, rule%nodes)
+    real(dp), intent(out) :: mass(rule%nodes, rule%nodes)
     real(dp) :: weight
     integer :: k, p
     mass = 0
-    do p = 1, field%points
-      weight = density*field%weight(p)*determinant(matmul(x, geometry%dn(:, :, p)))*radius_of(geometry, p, axisymmetric, x)
-      do k = 1, field%nodes
-        if (is_quadratic(geometry)) then
-          mass(:, k) = mass(:, k) + weight*field%n(k, p)*field%n(:, p)
+    do p = 1, rule%points
+      weight = density*rule%weight(p)*determinant(matmul(x, rule%dn(:, :, p)))*radius_of(rule, p, axisymmetric, x)
+      do k = 1, rule%nodes
+        if (is_quadratic(rule)) then
+          mass(:, k) = mass(:, k) + weight*rule%n(k, p)*rule%n(:, p)
         else
-          mass(k, k) = mass(k, k) + weight*field%n(k, p)
+          mass(k, k) = mass(k, k) + weight*rule%n(k, p)
         end if
       end do
     end do

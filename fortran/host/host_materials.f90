@@ -12,12 +12,13 @@ module host_materials
   use host_messages, only: add_message
   use host_mises, only: mises_plane_stress, mises_solid
   use host_protect, only: escape
+  use host_thermal, only: thermal_t
   use host_umat, only: call_umat, strain_energy, user_material_t
   use host_usdfld, only: user_field_t
   implicit none (type, external)
   private
   public :: material_t, define, find_material, stress_update, not_solved, elastic_energy, thickness_strain, history_values, &
-            has_fields, set_constants
+            has_fields, generates_heat, set_constants
 
   !> Values of the history of a point of a plastic or prestressed material: stress-free strain (6), which is the plastic strain
   !> minus the elastic strain of the initial stress, and equivalent plastic strain.
@@ -42,6 +43,7 @@ module host_materials
     integer :: variables = 0                       !< field variables, at least
     type(dependence_t), allocatable :: dependence  !< constants above are those of the point that set_constants was called for
     type(user_field_t), allocatable :: user_field  !< of USDFLD
+    type(thermal_t), allocatable :: thermal        !< in elements with temperatures
   end type material_t
 
   type :: shelf_t
@@ -81,8 +83,16 @@ contains
   !> Whether it depends on temperature and field variables.
   pure logical function has_fields(material)
     type(material_t), intent(in) :: material
-    has_fields = allocated(material%user) .or. allocated(material%dependence) .or. allocated(material%user_field)
+    has_fields = allocated(material%user) .or. allocated(material%dependence) .or. allocated(material%user_field) .or. &
+                 generates_heat(material)
   end function has_fields
+
+  !> Whether UMAT or HETVAL generate heat in elements with temperatures.
+  pure logical function generates_heat(material)
+    type(material_t), intent(in) :: material
+    generates_heat = allocated(material%user)
+    if (allocated(material%thermal)) generates_heat = generates_heat .or. allocated(material%thermal%source)
+  end function generates_heat
 
   !> Elastic constants for the temperature and field variables in current%fields at the end of the increment. Leaves the pass if
   !> they are not positive definite.

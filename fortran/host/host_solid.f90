@@ -26,8 +26,8 @@ module host_solid
   use core_solid_rotation, only: find_turn, solid_turn, turn_forces, turn_stiffness
   use core_strains, only: condense, mean_volume_strain, set_volume_strain, strain_matrix
   use host_axes, only: carry_axes, turn_heat, turn_matrix, values_of_axes
-  use host_context, only: current, initial_stresses
-  use host_coupling, only: add_heat_source, coupling_t, set_temperature
+  use host_context, only: current, heat_t, initial_stresses
+  use host_coupling, only: add_heat_source, coupling_t, interpolate_fields, set_temperature
   use host_forces, only: add_axisymmetric_point, add_geometric, add_plane_point, add_space_point
   use host_hourglass, only: has_hourglass_modes, resist_hourglass
   use host_incompatible, only: mode_strains
@@ -36,9 +36,10 @@ module host_solid
   use host_kinds, only: dp, i4
   use host_kinematics, only: components, gradients, mean_gradients, point_position, rotated, rotation_of
   use host_protect, only: escape
-  use host_materials, only: elastic_energy, find_material, has_fields, material_t, not_solved, set_constants, &
+  use host_materials, only: elastic_energy, find_material, generates_heat, has_fields, material_t, not_solved, set_constants, &
                             stress_update, thickness_strain
   use host_shape, only: is_multilinear, is_quadratic, radius_of, rule_of, rule_t
+  use host_thermal, only: call_hetval
   use host_usdfld, only: call_usdfld
   implicit none (type, external)
   private
@@ -261,7 +262,7 @@ contains
     do p = 1, rule%points
       if (has_fields(material)) then
         current%place = point_position(rule, p, now)
-        call interpolate(rule, p, fields, predef, material%variables)
+        call interpolate_fields(rule, p, fields, predef, material%variables)
         if (present(coupling)) call set_temperature(coupling, direct, rule%points, p, now)
       end if
       if (allocated(material%user_field) .and. .not. begins) then
@@ -300,7 +301,9 @@ contains
         if (present(axes)) call turn_response(material, strains, axes(:, :, 2, p), stress, modulus)
       end if
       if (finite .and. material%ntens == 3) weight = weight*exp(svars(3, p))
-      if (present(coupling) .and. allocated(material%user) .and. .not. begins) then
+      if (present(coupling) .and. generates_heat(material) .and. .not. begins) then
+        if (.not. allocated(material%user)) current%heat = heat_t()
+        if (allocated(material%thermal%source)) call call_hetval(material%thermal%source, int(p, i4))
         call add_heat_source(coupling, weight, b(:, :, p), components(strains, material%ntens))
       end if
       if (finite) call add_geometric(dim, direct, strains, nodes, g(:, :, p), stress, weight, modulus, stiffness)
@@ -349,20 +352,6 @@ contains
     length = sum([(volume(p)/radius_of(rule, p, direct > rule%dim, x), p=1, rule%points)])**(1.0_dp/rule%dim)
     if (is_quadratic(rule)) length = length/2
   end function size_of
-
-  !> Temperature and field variables of a point; of the latter as many as the material has, at least.
-  subroutine interpolate(rule, point, fields, predef, least)
-    type(rule_t), intent(in) :: rule
-    integer, intent(in) :: point, fields, least
-    real(dp), intent(in) :: predef(2, fields, rule%nodes)
-    integer :: k
-    if (allocated(current%fields)) deallocate (current%fields)
-    allocate (current%fields(max(fields - 1, least + 1), 2), source=0.0_dp)
-    do k = 1, fields - 1
-      current%fields(k, 2) = dot_product(predef(2, k, :), rule%n(:, point))
-      current%fields(k, 1) = dot_product(predef(1, k, :), rule%n(:, point)) - current%fields(k, 2)
-    end do
-  end subroutine interpolate
 
   !> Thermal strain at the start and at the end of the increment.
   pure function thermal_strain(rule, point, fields, expansion, predef) result(strain)

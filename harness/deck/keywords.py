@@ -14,6 +14,7 @@ from harness.deck import (
     distributed,
     generation,
     groups,
+    heat,
     ignored,
     initial,
     lexer,
@@ -35,7 +36,7 @@ from harness.deck.table import Keyword, Kind, Option, Support, compact
 
 _FILES = (
     *(structure, lexer, placement, orientations, local_mesh, generation, user_elements, surfaces, constraints),
-    *(materials, damage, section_controls, sections, groups, amplitudes, initial, steps, procedures, controls),
+    *(materials, damage, heat, section_controls, sections, groups, amplitudes, initial, steps, procedures, controls),
     *(prescribed, distributed, requests, ignored),
 )
 KEYWORDS: dict[str, Keyword] = {compact(keyword.name): keyword for file in _FILES for keyword in file.KEYWORDS}

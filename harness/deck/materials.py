@@ -13,6 +13,8 @@ from harness.deck.blocks import PER_LINE, Block, Row
 from harness.deck.damage import KEYWORDS as DAMAGE_OPTIONS
 from harness.deck.damage import extend_damage
 from harness.deck.error_report import Problems
+from harness.deck.heat import ISOTROPIC, extend_heat
+from harness.deck.heat import KEYWORDS as HEAT_OPTIONS
 from harness.deck.table import NAME, Keyword, Kind, Option, Where, ignored, one_of, refused
 from harness.deck.user_elements import read_count
 from harness.model.arrays import FloatArray
@@ -51,7 +53,8 @@ def _extend(material: Material, block: Block, problems: Problems) -> Material:
         case "PLASTIC":
             extended = replace(material, plastic=_read_plastic(block))
         case "USER MATERIAL":
-            extended = replace(material, user=_read_user_material(block, problems))
+            given, thermal = _read_user_material(block, problems), block.options.text("TYPE") == "THERMAL"
+            extended = replace(material, user_thermal=given) if thermal else replace(material, user=given)
         case "USER DEFINED FIELD":
             extended = replace(material, user_field=block.source)
         case "DEPVAR":
@@ -60,12 +63,10 @@ def _extend(material: Material, block: Block, problems: Problems) -> Material:
             extended = replace(material, output_variables=_read_count(block))
         case "DENSITY":
             extended = replace(material, density=_read_constant(block, "density"))
-        case "CONDUCTIVITY":
-            extended = replace(material, conductivity=_read_constant(block, "conductivity"))
+        case "CONDUCTIVITY" | "HEAT GENERATION" | "LATENT HEAT" | "SPECIFIC HEAT":
+            extended = extend_heat(material, block)
         case "EXPANSION":
             extended = replace(material, expansion=_read_constant(block, "expansion coefficient", positive=False))
-        case "SPECIFIC HEAT":
-            extended = replace(material, specific_heat=_read_constant(block, "specific heat"))
         case _:
             extended = replace(material, damage=extend_damage(material.damage, block))
     return extended
@@ -173,8 +174,6 @@ def _read_plastic(block: Block) -> Plastic:
     return Plastic(np.array(table), block.source)
 
 
-_ISOTROPIC = one_of("TYPE", "symmetry", ("ISO",), refused=("ORTHO", "ANISO"))
-
 _OPTIONS = (
     Keyword(
         "ELASTIC",
@@ -213,12 +212,13 @@ _OPTIONS = (
     ),
     Keyword(
         "USER MATERIAL",
-        "Material of UMAT. RPL, DRPLDT, DRPLDE and DDSDDT count in coupled temperature-displacement elements.",
+        "Material of UMAT, or of UMATHT, which conducts and stores heat; one material may have both. RPL, DRPLDT, "
+        "DRPLDE and DDSDDT of UMAT count in coupled temperature-displacement elements.",
         Where.MODEL,
         (
             Option("CONSTANTS", Kind.INTEGER, "number of constants", required=True),
-            Option("UNSYMM", doc="DDSDDE is unsymmetric"),
-            one_of("TYPE", "what the user routine gives", ("MECHANICAL",), refused=("THERMAL",)),
+            Option("UNSYMM", doc="DDSDDE, or the matrix of UMATHT, is unsymmetric"),
+            one_of("TYPE", "what the user routine gives", ("MECHANICAL", "THERMAL"), default="MECHANICAL"),
             *refused("HYBRID FORMULATION"),
         ),
         "constants, eight per line; missing values are zero",
@@ -239,23 +239,15 @@ _OPTIONS = (
     ),
     Keyword("DENSITY", "Mass density.", Where.MODEL, refused("DEPENDENCIES", "PORE FLUID"), "density"),
     Keyword(
-        "CONDUCTIVITY",
-        "Thermal conductivity.",
-        Where.MODEL,
-        (_ISOTROPIC, *refused("DEPENDENCIES", "PORE FLUID")),
-        "conductivity",
-    ),
-    Keyword(
         "EXPANSION",
         "Thermal expansion from the initial temperature on (*INITIAL CONDITIONS, *TEMPERATURE), of continuum elements "
         "without temperatures of their own.",
         Where.MODEL,
-        (_ISOTROPIC, *refused("DEPENDENCIES", "FIELD", "PORE FLUID", "USER", "ZERO")),
+        (ISOTROPIC, *refused("DEPENDENCIES", "FIELD", "PORE FLUID", "USER", "ZERO")),
         "expansion coefficient",
     ),
-    Keyword("SPECIFIC HEAT", "Specific heat.", Where.MODEL, refused("DEPENDENCIES", "PORE FLUID"), "specific heat"),
 )
-MATERIAL_OPTIONS = {keyword.name for keyword in (*_OPTIONS, *DAMAGE_OPTIONS)}
+MATERIAL_OPTIONS = {keyword.name for keyword in (*_OPTIONS, *DAMAGE_OPTIONS, *HEAT_OPTIONS)}
 
 KEYWORDS = (
     Keyword(

@@ -16,7 +16,7 @@ from harness.deck.blocks import Block, Row
 from harness.deck.error_report import Problems, look_up
 from harness.deck.table import Keyword, Kind, Option, Where, one_of, refused
 from harness.deck.user_elements import LARGEST_DOF, ElementType, read_user_property
-from harness.model.element_types import DISCRETE, DiscreteKind
+from harness.model.element_types import DISCRETE, HEAT, DiscreteKind
 from harness.model.properties import (
     CohesiveSection,
     ElasticType,
@@ -49,7 +49,7 @@ def make_section(
         return _spring(block, kind)
     name = options.text("MATERIAL")
     material = look_up(materials, name, "material", block.source) if name else None
-    if material is not None:
+    if material is not None and kind.name not in HEAT:
         _check_material(block, material)
     if block.name == "COHESIVE SECTION":
         assert material is not None
@@ -149,8 +149,8 @@ _CONTROLS = Option("CONTROLS", Kind.NAME, "section controls")
 KEYWORDS = (
     Keyword(
         "SOLID SECTION",
-        "Section of built-in continuum elements. Axisymmetric ones (CAX) ignore the thickness: forces, "
-        "masses and energies are those of the whole circumference.",
+        "Section of built-in continuum and heat transfer elements. Axisymmetric ones (CAX, DCAX) ignore the thickness: "
+        "forces, masses and energies are those of the whole circumference.",
         Where.MODEL,
         (
             _ELSET,

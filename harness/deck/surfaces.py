@@ -14,7 +14,7 @@ from harness.deck.flatten import FlatMesh
 from harness.deck.table import NAME, Keyword, Where, ignored, one_of
 from harness.errors import DeckError, Source
 from harness.model.arrays import IntArray
-from harness.model.element_types import ContinuumType
+from harness.model.element_types import SolidType
 from harness.model.mesh import ElementGroup
 
 
@@ -95,7 +95,7 @@ def face_nodes(group: ElementGroup, face: str, source: Source, keyword: str) -> 
     """Local nodes of a face of the elements of a group: corners, then middles of edges. Raises DeckError."""
     kind = group.built_in
     faces = {}
-    if isinstance(kind, ContinuumType):
+    if isinstance(kind, SolidType):
         faces = {f"S{number}": nodes for number, nodes in enumerate(kind.family.faces, start=1)}
     if face not in faces:
         known = ", ".join(faces) or "none"

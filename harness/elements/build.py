@@ -11,7 +11,7 @@ from typing import Final
 
 from harness.elements.block import ElementBlock
 from harness.elements.cohesive import cohesive_routine, cohesive_variables
-from harness.elements.coupled import coupled_routine
+from harness.elements.coupled import coupled_routine, heat_routine, heat_variables, is_unsymmetric
 from harness.elements.directions import start_axes
 from harness.elements.discrete import discrete_routine, discrete_unknowns, discrete_variables
 from harness.elements.materials import define_material, linearity, refuse_fields
@@ -19,7 +19,7 @@ from harness.elements.pressure import pressure_blocks
 from harness.elements.routine import Linearity, Routine
 from harness.elements.solid import history_of, solid_routine, solid_variables
 from harness.errors import DeckError, all_of
-from harness.model.element_types import BUILT_IN, CohesiveType, ContinuumType, DiscreteType, Tensor
+from harness.model.element_types import BUILT_IN, CohesiveType, ContinuumType, DiscreteType, HeatType, Tensor
 from harness.model.mesh import ElementGroup
 from harness.model.model import Model
 from harness.model.properties import CohesiveSection, SolidSection, UserElement, UserProperty
@@ -91,13 +91,16 @@ def _block_of(
 ) -> ElementBlock:
     material = getattr(group.section, "material", None)
     kind = group.built_in
-    if material is not None and material.expansion and not (isinstance(kind, ContinuumType) and not kind.coupled):
+    expands = isinstance(kind, HeatType) or (isinstance(kind, ContinuumType) and not kind.coupled)
+    if material is not None and material.expansion and not expands:
         message = f"*EXPANSION (material {material.name}) is not supported for elements of type {group.type}"
         raise DeckError(group.section.source, message)
     if group.definition is not None:
         assumed = group.type.upper() in linear
         return _user_block(model, group, group.definition, library, strict=strict, zeros=zeros, assumed=assumed)
     match kind:
+        case HeatType():
+            return _heat_block(model, group, kind, library)
         case ContinuumType():
             return _solid_block(model, group, kind, library)
         case CohesiveType():
@@ -173,9 +176,7 @@ MOST_POINTS: Final = 64
 
 
 def _solid_block(model: Model, group: ElementGroup, kind: ContinuumType, library: Library) -> ElementBlock:
-    section, coupled = group.section, kind.coupled
-    if not isinstance(section, SolidSection):
-        raise DeckError(section.source, f"elements of type {group.type} need *SOLID SECTION")
+    section, coupled = _solid_section(group), kind.coupled
     _check_nodes(group, kind.nodes)
     if coupled:
         routine = coupled_routine(model, group, section, library)
@@ -192,12 +193,34 @@ def _solid_block(model: Model, group: ElementGroup, kind: ContinuumType, library
         library,
         # the elastic and the plastic tangent are symmetric; Abaqus stores the matrix of coupled steps as unsymmetric,
         # UNSYMM or not (Analysis User's Guide, Fully coupled thermal-stress analysis), as the heat terms of UMAT need
-        unsymmetric=section.material.user is not None and (coupled or section.material.user.unsymmetric),
+        unsymmetric=(section.material.user is not None and (coupled or section.material.user.unsymmetric))
+        or (coupled and is_unsymmetric(section.material)),
         variables=solid_variables(group, routine),
     )
     if routine.axes is not None:
         block.begin_axes(start_axes(model, group, kind, routine.axes.orientation, library))
     return block
+
+
+def _heat_block(model: Model, group: ElementGroup, kind: HeatType, library: Library) -> ElementBlock:
+    section = _solid_section(group)
+    _check_nodes(group, kind.nodes)
+    routine = heat_routine(model, group, kind, section, library)
+    return ElementBlock(
+        group,
+        model.mesh.coordinates,
+        tuple((node, 11) for node in range(kind.nodes)),
+        routine,
+        library,
+        unsymmetric=is_unsymmetric(section.material),
+        variables=heat_variables(kind, routine),
+    )
+
+
+def _solid_section(group: ElementGroup) -> SolidSection:
+    if not isinstance(group.section, SolidSection):
+        raise DeckError(group.section.source, f"elements of type {group.type} need *SOLID SECTION")
+    return group.section
 
 
 def _cohesive_block(model: Model, group: ElementGroup, kind: CohesiveType, library: Library) -> ElementBlock:

@@ -1,6 +1,9 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""Built-in coupled temperature-displacement elements for the driver (fortran/host/host_coupled.f90)."""
+"""Built-in elements with temperatures for the driver: coupled temperature-displacement and heat transfer elements.
+
+They are in fortran/host/host_coupled.f90 and host_conduction.f90.
+"""
 
 from __future__ import annotations
 
@@ -8,13 +11,15 @@ from dataclasses import replace
 
 import numpy as np
 
-from harness.elements.materials import refuse_fields
+from harness.elements.materials import define_thermal, refuse_fields, state_variables
 from harness.elements.routine import Routine
-from harness.elements.solid import solid_of, solid_routine
+from harness.elements.solid import check_radii, history_of, numbered, section_depth, solid_of, solid_routine
 from harness.errors import DeckError
+from harness.model.element_types import HeatType
 from harness.model.mesh import ElementGroup
 from harness.model.model import Model
-from harness.model.properties import SolidSection
+from harness.model.properties import Material, SolidSection
+from harness.model.records import PointVariables
 from harness.usersub import Library, _binding
 
 
@@ -22,27 +27,80 @@ def coupled_routine(model: Model, group: ElementGroup, section: SolidSection, li
     """What the driver calls for a group of solids with temperatures. Raises DeckError."""
     material = section.material
     refuse_fields(material, f"elements of type {group.type}")
-    transient = False
     for step in model.steps:
-        procedure = step.procedure
-        if not (procedure.temperatures and procedure.displacements):
+        if not (step.procedure.temperatures and step.procedure.displacements):
             message = f"elements of type {group.type} are supported in *COUPLED TEMPERATURE-DISPLACEMENT steps only"
             raise DeckError(step.source, message)
-        transient = transient or procedure.stores_heat
-    needed = [("*CONDUCTIVITY", material.conductivity)]
-    if transient:
-        needed += [("*DENSITY", material.density), ("*SPECIFIC HEAT", material.specific_heat)]
-    for keyword, value in needed:
-        if not value:
-            message = f"material {material.name} has no {keyword}, which elements of type {group.type} need"
-            raise DeckError(material.source, message)
-    solid = solid_routine(model, group, section, library)
-    thermal = [material.conductivity, material.specific_heat]
+    _check_thermal(model, group, material)
     kind = solid_of(group)
-    points = np.array([kind.thermal_points, kind.family.linear.number])
+    if material.user_thermal is not None and kind.points != kind.thermal_points:
+        # Abaqus User Subroutines Guide, UMATHT: not with reduced integration
+        message = f"*USER MATERIAL, TYPE=THERMAL is not supported for elements of type {group.type}: UMATHT needs full"
+        raise DeckError(section.source, f"{message} integration, with the same points for stresses and heat")
+    solid = solid_routine(model, group, section, library)
+    define_thermal(solid.material, material, library)
+    hidden = (kind.dimension + 1) * kind.thermal_points
     return replace(
         solid,
         address=_binding.address_of("coupled"),
-        props=np.concatenate([solid.props, thermal]),
-        jprops=np.concatenate([solid.jprops, points]),
+        svars=solid.svars + hidden,
+        hidden=solid.hidden + hidden,
+        jprops=np.concatenate([solid.jprops, [kind.thermal_points, kind.family.linear.number]]),
     )
+
+
+def heat_routine(model: Model, group: ElementGroup, kind: HeatType, section: SolidSection, library: Library) -> Routine:
+    """What the driver calls for a group of heat transfer elements. Raises DeckError."""
+    material = section.material
+    refuse_fields(material, f"elements of type {group.type}")
+    for step in model.steps:
+        if not step.procedure.temperatures:
+            message = "are supported in *HEAT TRANSFER and *COUPLED TEMPERATURE-DISPLACEMENT steps only"
+            raise DeckError(step.source, f"elements of type {group.type} {message}")
+    if kind.axisymmetric:
+        check_radii(model, group)
+    _check_thermal(model, group, material)
+    number = _binding.define_empty_material()
+    define_thermal(number, material, library)
+    return Routine(
+        address=_binding.address_of("heat"),
+        jtype=kind.nodes,
+        mcrd=kind.dimension,
+        svars=(kind.dimension + 1) * kind.points,
+        hidden=kind.points,
+        props=np.array([section_depth(kind, section)]),
+        jprops=np.array([kind.family.number, kind.points, kind.direct]),
+        family=kind.family.number,
+        material=number,
+        history=history_of(material, kind.points),
+        statev=state_variables(material),
+    )
+
+
+def heat_variables(kind: HeatType, routine: Routine) -> PointVariables:
+    """Meaning of the state variables of a group of heat transfer elements."""
+    names = tuple(f"HFL{component}" for component in kind.components)
+    return PointVariables("continuum", (*names, *numbered("SDV", routine.statev)), kind.points)
+
+
+def is_unsymmetric(material: Material) -> bool:
+    """Whether heat conduction has an unsymmetric matrix, which depends on the temperature."""
+    if material.user_thermal is not None:
+        return material.user_thermal.unsymmetric
+    return len(material.conductivity) > 1
+
+
+def _check_thermal(model: Model, group: ElementGroup, material: Material) -> None:
+    """Raise DeckError if the material lacks what elements with temperatures need, or has too much."""
+    if material.user_thermal is not None and material.heat_generation is not None:
+        message = f"*HEAT GENERATION cannot be used with *USER MATERIAL, TYPE=THERMAL ({material.user_thermal.source})"
+        raise DeckError(material.heat_generation, message)
+    transient = any(step.procedure.stores_heat for step in model.steps)
+    needed: list[tuple[str, bool]] = [("*DENSITY", bool(material.density))] if transient else []
+    if material.user_thermal is None:
+        needed.insert(0, ("*CONDUCTIVITY", bool(len(material.conductivity))))
+        needed += [("*SPECIFIC HEAT", bool(len(material.specific_heat)))] if transient else []
+    for keyword, given in needed:
+        if not given:
+            message = f"material {material.name} has no {keyword}, which elements of type {group.type} need"
+            raise DeckError(material.source, message)

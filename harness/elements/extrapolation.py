@@ -14,14 +14,14 @@ from itertools import product
 import numpy as np
 
 from harness.model.arrays import FloatArray, IntArray
-from harness.model.element_types import BUILT_IN, ContinuumType, Family
+from harness.model.element_types import BUILT_IN, Family, SolidType
 from harness.usersub import _binding
 
 
 def at_nodes(type: str) -> FloatArray | None:
     """(nodes, points) matrix from values at the points of a type to those at the nodes; None for other elements."""
     kind = BUILT_IN.get(type)
-    if not isinstance(kind, ContinuumType):
+    if not isinstance(kind, SolidType):
         return None
     return _interpolation(kind, _places(kind.family))
 
@@ -29,12 +29,12 @@ def at_nodes(type: str) -> FloatArray | None:
 def at_centroid(type: str) -> FloatArray | None:
     """(1, points) matrix from values at the points of a type to that at the centroid; None for other elements."""
     kind = BUILT_IN.get(type)
-    if not isinstance(kind, ContinuumType):
+    if not isinstance(kind, SolidType):
         return None
     return _interpolation(kind, _places(kind.family)[: kind.corners].mean(axis=0, keepdims=True))
 
 
-def _interpolation(kind: ContinuumType, places: FloatArray) -> FloatArray:
+def _interpolation(kind: SolidType, places: FloatArray) -> FloatArray:
     """(places, points) values at places of the polynomials that are one at a point and zero at the others."""
     family = kind.family
     _, shapes, _ = _binding.integration_rule(family.number, kind.points, family.nodes, family.dimension)

@@ -35,10 +35,8 @@ def wrong_entry(outcome: Outcome, n: int) -> str:
 
 
 def material_point(outcome: Outcome) -> str:
-    """The beginning of a sentence if UMAT, or USDFLD (-index), has ended the call, else ''."""
-    if not outcome.index:
-        return ""
-    return at_point("UMAT" if outcome.index > 0 else "USDFLD", abs(outcome.index))
+    """The beginning of a sentence if a user routine of a point has ended the call, else ''."""
+    return at_point(outcome.routine, outcome.index) if outcome.routine else ""
 
 
 def at_point(routine: str, point: int) -> str:

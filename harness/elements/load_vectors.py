@@ -42,7 +42,7 @@ def unit_forces(
         weights, shapes, derivatives = _rule(kind.family, kind.body_points)
     # (elements, points, dimension, along) derivatives of the position
     tangents = np.einsum("mkd,pka->mpda", x, derivatives)
-    scale = section_depth(group, section) if dimension == 2 else 1.0
+    scale = section_depth(kind, section) if dimension == 2 else 1.0
     if load.type.kind is LoadKind.GRAVITY:
         if not section.material.density:
             raise DeckError(load.source, f"GRAV needs *DENSITY, which material {section.material.name} does not have")

@@ -45,7 +45,8 @@ def linearity(material: Material, *, prestressed: bool = False) -> Linearity:
 
 def state_variables(material: Material) -> int:
     """Number of STATEV of a point; 0 without a routine that uses them."""
-    return material.state_variables if material.user or material.user_field else 0
+    uses = (material.user, material.user_field, material.user_thermal, material.heat_generation)
+    return material.state_variables if any(use is not None for use in uses) else 0
 
 
 def refuse_fields(material: Material, elements: str) -> None:
@@ -84,10 +85,8 @@ def define_fields(
         table = np.hstack([np.array(rows), elastic.table[:, count:]])
         _binding.set_dependence(number, len(rows[0]), _turn(axes), table)
     if material.user_field is not None:
-        if library.usdfld is None:
-            message = f"material {material.name} needs USDFLD; {library.name} has {library.contents}"
-            raise DeckError(material.user_field, f"*USER DEFINED FIELD: {message}")
-        _binding.set_user_field(number, library.usdfld, (material.name, name), state_variables(material), axes)
+        address = _needed(library.usdfld, "USDFLD", material, "*USER DEFINED FIELD", material.user_field, library)
+        _binding.set_user_field(number, address, (material.name, name), state_variables(material), axes)
 
 
 def define_material(
@@ -129,21 +128,44 @@ def global_compliance(material: Material, orientation: Orientation | None, tenso
     return _rotated(_compliance(elastic, tensor), directions(orientation)[0])
 
 
+def define_thermal(number: int, material: Material, library: Library) -> None:
+    """Tell the host how a material conducts, stores and generates heat. Raises DeckError."""
+    tables = material.conductivity, material.specific_heat, material.latent_heat
+    _binding.set_thermal(number, material.density, *tables)
+    statev = state_variables(material)
+    if material.user_thermal is not None:
+        source = material.user_thermal.source
+        address = _needed(library.umatht, "UMATHT", material, "*USER MATERIAL, TYPE=THERMAL", source, library)
+        _binding.set_umatht(number, address, material.name, statev, material.user_thermal.constants)
+    if material.heat_generation is not None:
+        source = material.heat_generation
+        address = _needed(library.hetval, "HETVAL", material, "*HEAT GENERATION", source, library)
+        _binding.set_hetval(number, address, material.name, statev)
+
+
 def shear_modulus(elastic: Elastic, tensor: Tensor) -> float:
     """Mean of the shear moduli; in the plane that of the plane."""
     moduli = 1.0 / np.diag(_compliance(elastic, tensor))[3:]
     return float(moduli.mean() if tensor is Tensor.SOLID else moduli[0])
 
 
+def _needed(
+    address: int | None, routine: str, material: Material, keyword: str, source: Source, library: Library
+) -> int:
+    """Address of a user routine; DeckError at the place of the keyword that needs it if there is none."""
+    if address is None:
+        message = f"material {material.name} needs {routine}; {library.name} has {library.contents}"
+        raise DeckError(source, f"{keyword}: {message}")
+    return address
+
+
 def _define_user_material(
     material: Material, given: UserMaterial, orientation: Orientation | None, tensor: Tensor, library: Library
 ) -> int:
-    if library.umat is None:
-        message = f"material {material.name} needs UMAT; {library.name} has {library.contents}"
-        raise DeckError(given.source, f"*USER MATERIAL: {message}")
+    address = _needed(library.umat, "UMAT", material, "*USER MATERIAL", given.source, library)
     if orientation is not None and not is_global(orientation):
         raise DeckError(orientation.source, f"*ORIENTATION is not supported for *USER MATERIAL ({material.name})")
-    return _binding.define_user_material(library.umat, material.name, int(tensor), given.constants)
+    return _binding.define_user_material(address, material.name, int(tensor), given.constants)
 
 
 MOST_STIFF: Final = 1e13

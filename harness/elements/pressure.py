@@ -53,7 +53,7 @@ class PressureBlock(ElementBlock):
             jtype=DiscreteKind.FACE,
             mcrd=kind.dimension,
             svars=2 * len(unknowns),
-            props=np.array([section_depth(parent, section) if kind.dimension == 2 else 1.0]),
+            props=np.array([section_depth(kind, section) if kind.dimension == 2 else 1.0]),
             jprops=np.array([face.number, face.full_points, kind.axisymmetric, outward]),
         )
         group = replace(parent, labels=parent.labels[rows], nodes=nodes)

@@ -21,7 +21,7 @@ from harness.elements.materials import (
 )
 from harness.elements.routine import VALUES_OF_AXES, OutputVariables, PointAxes, Routine
 from harness.errors import DeckError
-from harness.model.element_types import ContinuumType, Tensor
+from harness.model.element_types import ContinuumType, SolidType, Tensor
 from harness.model.mesh import ElementGroup
 from harness.model.model import Model
 from harness.model.properties import ElasticType, Material, Orientation, SolidSection
@@ -42,16 +42,16 @@ def solid_of(group: ElementGroup) -> ContinuumType:
     return kind
 
 
-def section_depth(group: ElementGroup, section: SolidSection) -> float:
+def section_depth(kind: SolidType, section: SolidSection) -> float:
     """Factor from area to volume: the thickness; in axisymmetric elements 2 pi, to be multiplied by the radius."""
-    return 2 * np.pi if solid_of(group).axisymmetric else section.thickness
+    return 2 * np.pi if kind.axisymmetric else section.thickness
 
 
 def solid_routine(model: Model, group: ElementGroup, section: SolidSection, library: Library) -> Routine:
     """What the driver calls for a group of solids. Raises DeckError."""
     kind, material = solid_of(group), section.material
     if kind.axisymmetric:
-        _check_radii(model, group)
+        check_radii(model, group)
     dynamic = next((step for step in model.steps if step.procedure.inertia), None)
     if dynamic is not None and not material.density:
         message = f"material {material.name} has no *DENSITY, which elements of type {group.type} need in *DYNAMIC"
@@ -88,7 +88,7 @@ def solid_routine(model: Model, group: ElementGroup, section: SolidSection, libr
         svars=of_points + hidden,
         hidden=hidden,
         density=1,
-        props=np.array([section_depth(group, section), material.density, hourglass]),
+        props=np.array([section_depth(kind, section), material.density, hourglass]),
         jprops=np.array([kind.family.number, kind.points, kind.direct, enhanced, kind.mass_points, kind.modes]),
         family=kind.family.number,
         material=number,
@@ -146,13 +146,13 @@ def solid_variables(group: ElementGroup, routine: Routine) -> PointVariables:
     """Meaning of the state variables of a group of solids."""
     kind = solid_of(group)
     names = tuple(f"{letter}{component}" for letter in "ES" for component in kind.components)
-    names = *names, *_numbered("SDV", routine.statev)
+    names = *names, *numbered("SDV", routine.statev)
     if routine.uvarm is not None:
-        names = *names, *_numbered("UVARM", routine.uvarm.count)
+        names = *names, *numbered("UVARM", routine.uvarm.count)
     return PointVariables("continuum", names, kind.points)
 
 
-def _check_radii(model: Model, group: ElementGroup) -> None:
+def check_radii(model: Model, group: ElementGroup) -> None:
     """Check that nodes of axisymmetric elements are on one side of the axis or, within rounding, on it."""
     radii = model.mesh.coordinates[group.nodes, 0]
     wrong = np.argwhere(radii < -SMALLEST_RADIUS * abs(radii).max(initial=0.0))
@@ -224,5 +224,6 @@ def _output_variables(section: SolidSection, points: int, library: Library) -> O
     return OutputVariables(library.uvarm, (material.name, name), axes, points, material.output_variables)
 
 
-def _numbered(name: str, count: int) -> tuple[str, ...]:
+def numbered(name: str, count: int) -> tuple[str, ...]:
+    """Names of so many variables, numbered from 1."""
     return tuple(f"{name}{number}" for number in range(1, count + 1))

@@ -17,12 +17,9 @@ from harness.usersub import Library
 MOST_THREADS: Final = 64
 """As in fortran/host/protect.c."""
 
-USER_MATERIAL: Final = "UMAT"
-USER_FIELD: Final = "USDFLD"
-
 
 def known_routines(model: Model) -> list[str]:
-    """What the user can call safe in a model: its user element types, UMAT and USDFLD if it has them."""
+    """What the user can call safe in a model: its user element types, and routines of its materials."""
     names = {group.type.upper() for group in model.groups if group.definition is not None}
     for group in model.groups:
         names |= _called(group)
@@ -41,7 +38,7 @@ def use_threads(blocks: Iterable[ElementBlock], library: Library, number: int, s
     number
         Threads, for the messages.
     safe
-        User element types, UMAT and USDFLD in capitals, that the user says several threads may call.
+        User element types, UMAT, USDFLD, UMATHT and HETVAL in capitals, that the user says several threads may call.
 
     Raises
     ------
@@ -87,7 +84,8 @@ def _called(group: ElementGroup) -> set[str]:
     material = getattr(group.section, "material", None)
     if material is None:
         return set()
-    routines = {USER_MATERIAL: material.user, USER_FIELD: material.user_field}
+    routines = {"UMAT": material.user, "USDFLD": material.user_field}
+    routines |= {"UMATHT": material.user_thermal, "HETVAL": material.heat_generation}
     return {name for name, given in routines.items() if given is not None}
 
 

@@ -9,7 +9,7 @@ points in fortran/host/host_shape.f90, which knows families by their numbers.
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from enum import IntEnum
 from typing import Final
 
@@ -115,22 +115,17 @@ BODY_FORCES: Final = ("BX", "BY", "BZ", "BR")
 
 
 @dataclass(frozen=True, slots=True)
-class ContinuumType:
-    """A continuum element.
+class SolidType:
+    """An element that fills an area or a volume, with *SOLID SECTION.
 
-    points        integration points of the stiffness
-    axisymmetric  the stresses of plane strain, with 33 around the axis; direction 1 is the radius, 2 the axis
-    coupled       with temperatures at the corners
-    incompatible  with incompatible modes
+    points        integration points
+    axisymmetric  direction 1 is the radius, 2 the axis
     """
 
     name: str
     family: Family
     points: int
-    tensor: Tensor
-    axisymmetric: bool = False
-    coupled: bool = False
-    incompatible: bool = False
+    axisymmetric: bool = field(default=False, kw_only=True)
 
     @property
     def section(self) -> str:
@@ -156,6 +151,44 @@ class ContinuumType:
     def direct(self) -> int:
         """Direct strains by the displacements: 2 in the plane, 3 in space and where there is one around the axis."""
         return 3 if self.axisymmetric else self.dimension
+
+    @property
+    def body_points(self) -> int:
+        """Integration points of loads on the volume."""
+        return self._over_radius(self.family.body_points)
+
+    def _over_radius(self, points: int) -> int:
+        # one point would not tell the corners of a triangle about an axis apart, which have different radii
+        return 3 if self.axisymmetric and self.family is TRI3 else points
+
+
+@dataclass(frozen=True, slots=True)
+class HeatType(SolidType):
+    """A heat transfer element: temperatures at all nodes, and no displacements."""
+
+    @property
+    def components(self) -> tuple[str, ...]:
+        """Components of the heat flux in the output."""
+        return ("1", "2", "3")[: self.dimension]
+
+    def dofs(self, node: int) -> tuple[int, ...]:
+        """Dofs of a local node, from 0."""
+        del node
+        return (11,)
+
+
+@dataclass(frozen=True, slots=True)
+class ContinuumType(SolidType):
+    """A continuum element; axisymmetric ones have the stresses of plane strain, with 33 around the axis.
+
+    points        integration points of the stiffness
+    coupled       with temperatures at the corners
+    incompatible  with incompatible modes
+    """
+
+    tensor: Tensor
+    coupled: bool = False
+    incompatible: bool = False
 
     @property
     def components(self) -> tuple[str, ...]:
@@ -188,18 +221,9 @@ class ContinuumType:
         return self._over_radius(self.family.full_points)
 
     @property
-    def body_points(self) -> int:
-        """Integration points of loads on the volume."""
-        return self._over_radius(self.family.body_points)
-
-    @property
     def thermal_points(self) -> int:
         """Integration points of conduction and heat capacity: those of the stiffness, or enough for the corners."""
         return max(self.points, self._over_radius(self.family.linear.full_points))
-
-    def _over_radius(self, points: int) -> int:
-        # one point would not tell the corners of a triangle about an axis apart, which have different radii
-        return 3 if self.axisymmetric and self.family is TRI3 else points
 
     def dofs(self, node: int) -> tuple[int, ...]:
         """Dofs of a local node, from 0."""
@@ -269,7 +293,7 @@ class DiscreteType:
         return tuple(range(1, self.dimension + 1))
 
 
-BuiltInType = ContinuumType | CohesiveType | DiscreteType
+BuiltInType = ContinuumType | HeatType | CohesiveType | DiscreteType
 
 _PLANE: Final = {"3": (TRI3, 1), "4": (QUAD4, 4), "4R": (QUAD4, 1), "6": (TRI6, 3), "8": (QUAD8, 9), "8R": (QUAD8, 4)}
 _SPACE: Final = {
@@ -300,6 +324,15 @@ COUPLED: Final = {
 }
 """The same with temperatures at their corners."""
 
+_HEAT: Final = {"2D": ("3", "4", "6", "8"), "AX": ("3", "4", "6", "8"), "3D": ("4", "6", "8", "10", "15", "20")}
+HEAT: Final = {
+    f"DC{place}{nodes}": HeatType(f"DC{place}{nodes}", kind.family, kind.thermal_points, axisymmetric=kind.axisymmetric)
+    for place, names in _HEAT.items()
+    for nodes in names
+    for kind in (CONTINUUM[f"C{place.replace('2D', 'PE')}{nodes}"],)
+}
+"""Heat transfer elements by their names."""
+
 COHESIVE: Final = {
     "COH2D4": CohesiveType("COH2D4", LINE2, (0, 1), (3, 2)),
     "COH3D8": CohesiveType("COH3D8", QUAD4, (0, 1, 2, 3), (4, 5, 6, 7)),
@@ -319,7 +352,7 @@ DISCRETE: Final = {
 }
 """Trusses, springs and masses by their names."""
 
-BUILT_IN: Final[dict[str, BuiltInType]] = {**CONTINUUM, **COUPLED, **COHESIVE, **DISCRETE}
+BUILT_IN: Final[dict[str, BuiltInType]] = {**CONTINUUM, **COUPLED, **HEAT, **COHESIVE, **DISCRETE}
 """All built-in elements by their names."""
 
 HOURGLASS_CONTROLLED: Final = tuple(name for name, kind in CONTINUUM.items() if kind.hourglass_control)

@@ -75,7 +75,7 @@ class Plastic:
 
 @dataclass(frozen=True, slots=True)
 class UserMaterial:
-    """*USER MATERIAL: constants are the PROPS of UMAT."""
+    """*USER MATERIAL: constants are the PROPS of UMAT or UMATHT."""
 
     constants: FloatArray
     unsymmetric: bool
@@ -120,9 +120,13 @@ class Damage:
 
 @dataclass(frozen=True, slots=True)
 class Material:
-    """*MATERIAL; state_variables is *DEPVAR, output_variables *USER OUTPUT VARIABLES; conductivity 0: not given.
+    """*MATERIAL; state_variables is *DEPVAR, output_variables *USER OUTPUT VARIABLES.
 
-    user_field  place of *USER DEFINED FIELD, None without it
+    conductivity, specific_heat  (k, 2) value and temperature, ascending; k = 0: not given
+    latent_heat  (k, 3) heat per mass, solidus and liquidus temperature
+    heat_generation  place of *HEAT GENERATION, None without it
+    user, user_thermal  *USER MATERIAL, TYPE=MECHANICAL and TYPE=THERMAL
+    user_field   place of *USER DEFINED FIELD, None without it
     """
 
     name: str
@@ -131,10 +135,13 @@ class Material:
     plastic: Plastic | None = None
     damage: Damage | None = None
     density: float = 0.0
-    conductivity: float = 0.0
-    specific_heat: float = 0.0
+    conductivity: FloatArray = field(default_factory=lambda: np.zeros((0, 2)))
+    specific_heat: FloatArray = field(default_factory=lambda: np.zeros((0, 2)))
+    latent_heat: FloatArray = field(default_factory=lambda: np.zeros((0, 3)))
+    heat_generation: Source | None = None
     expansion: float = 0.0
     user: UserMaterial | None = None
+    user_thermal: UserMaterial | None = None
     user_field: Source | None = None
     state_variables: int = 0
     output_variables: int = 0
@@ -176,7 +183,10 @@ class SectionControls:
 
 @dataclass(frozen=True, slots=True)
 class SolidSection:
-    """*SOLID SECTION of built-in continuum elements; thickness 1, default hourglass stiffness (0) unless given."""
+    """*SOLID SECTION of built-in continuum and heat transfer elements.
+
+    Thickness 1, default hourglass stiffness (0) unless given.
+    """
 
     elset: str
     material: Material

@@ -20,7 +20,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from harness.model.arrays import FloatArray, IntArray
-from harness.model.element_types import FAMILIES, CohesiveType, ContinuumType, Family
+from harness.model.element_types import FAMILIES, CohesiveType, Family, SolidType
 from harness.model.mesh import ElementGroup
 from harness.model.model import Model
 from harness.model.records import ElementState, PointVariables
@@ -41,7 +41,7 @@ class Cells:
 def cells_of(group: ElementGroup, variables: PointVariables | None, *, solid: bool) -> Cells:
     """Cells of a group; `solid`: the model is three-dimensional."""
     nodes, kind = group.nodes, group.built_in
-    if isinstance(kind, ContinuumType):
+    if isinstance(kind, SolidType):
         family: Family | None = kind.family
     elif variables is not None and variables.kind == "interface":
         nodes = nodes[:, list(variables.bottom)]

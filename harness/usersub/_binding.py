@@ -36,6 +36,9 @@ ARRAYS: Final = ("RHS", "AMATRX", "SVARS", "ENERGY", "PROPS", "COORDS", "U", "DU
 """Guarded arrays, in the order of fortran/host/host_workspace.f90."""
 
 
+POINT_ROUTINES: Final = ("", "UMAT", "USDFLD", "UMATHT", "HETVAL", "DFLUX", "FILM")
+"""Routines of points, in the order of fortran/host/host_driver.f90."""
+
 _STRAIN_ENERGY: Final = 1
 """Index of ENERGY(2)."""
 
@@ -119,10 +122,12 @@ def evaluate(
         residual=residual.T,
         matrix=matrix,
     )
+    left = Fault(fault) is Fault.LEFT
     return Outcome(
         fault=Fault(fault),
         position=position - 1,
-        array=ARRAYS[array - 1],
+        array="" if left else ARRAYS[array - 1],
+        routine=POINT_ROUTINES[array] if left else "",
         index=index,
         flux=flux[:, 0],
         largest=flux[:, 1],
@@ -226,7 +231,7 @@ def linear_pass(
     flux, terms, stored = _host.host_linear_pass(matrices.T, equations.T, first, u, floor, residual)
     energy = np.zeros(8)
     energy[_STRAIN_ENERGY] = stored
-    return Outcome(Fault.NONE, -1, ARRAYS[0], 0, flux[:, 0], flux[:, 1], terms, np.inf, energy, 0)
+    return Outcome(Fault.NONE, -1, ARRAYS[0], "", 0, flux[:, 0], flux[:, 1], terms, np.inf, energy, 0)
 
 
 def scatter_map(equations: Int32Array, indptr: Int32Array, indices: Int32Array) -> Int32Array:
@@ -301,6 +306,30 @@ def set_user_field(number: int, address: int, names: tuple[str, str], statev: in
 def define_user_material(umat: int, name: str, ntens: int, constants: FloatArray) -> int:
     """Add a material of UMAT, whose address is given, to the host's library."""
     return int(_host.host_define_user_material(umat, name, ntens, np.append(constants, 0.0), len(constants)))
+
+
+def define_empty_material() -> int:
+    """Add a material to the host's library that has nothing yet."""
+    return int(_host.host_define_empty_material())
+
+
+def set_thermal(
+    number: int, density: float, conductivity: FloatArray, specific_heat: FloatArray, latent_heat: FloatArray
+) -> None:
+    """Give a material conductivity (k, 2) and specific heat (k, 2) with temperatures, latent heat (k, 3)."""
+    tables = [np.vstack([table, np.zeros((1, table.shape[1]))]) for table in (conductivity, specific_heat, latent_heat)]
+    counts = len(conductivity), len(specific_heat), len(latent_heat)
+    _host.host_set_thermal(number, density, counts, *(table.T for table in tables))
+
+
+def set_hetval(number: int, address: int, name: str, statev: int) -> None:
+    """Let HETVAL generate heat in a material with `set_thermal`; its name and number of STATEV."""
+    _host.host_set_user_thermal(number, 0, address, name, statev, np.zeros(1), 0)
+
+
+def set_umatht(number: int, address: int, name: str, statev: int, constants: FloatArray) -> None:
+    """Let UMATHT conduct and store heat in a material with `set_thermal`; its name, number of STATEV and PROPS."""
+    _host.host_set_user_thermal(number, 1, address, name, statev, np.append(constants, 0.0), len(constants))
 
 
 def uvarm(
@@ -405,12 +434,12 @@ def integration_rule(family: int, points: int, nodes: int, dimension: int) -> tu
     return weights, shapes, slopes.transpose(0, 2, 1)
 
 
-_ELEMENTS: Final = ("solid", "coupled", "cohesive", "discrete")
+_ELEMENTS: Final = ("solid", "coupled", "cohesive", "discrete", "heat")
 """In the order of host_element_address."""
 
 
-def address_of(elements: Literal["solid", "coupled", "cohesive", "discrete"]) -> int:
-    """Address of built-in elements: solid and coupled ones are called like UELMAT, the others like UEL."""
+def address_of(elements: Literal["solid", "coupled", "cohesive", "discrete", "heat"]) -> int:
+    """Address of built-in elements: solid, coupled and heat ones are called like UELMAT, the others like UEL."""
     return int(_host.host_element_address(1 + _ELEMENTS.index(elements)))
 
 

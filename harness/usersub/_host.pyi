@@ -84,6 +84,18 @@ def host_set_user_field(
 def host_define_user_material(
     umat: int, name: str | bytes, ntens: int, constants: NDArray[np.float64], count: int
 ) -> int: ...
+def host_define_empty_material() -> int: ...
+def host_set_thermal(
+    number: int,
+    density: float,
+    counts: Sequence[int] | NDArray[np.int32],
+    conductivity: NDArray[np.float64],
+    specific_heat: NDArray[np.float64],
+    latent_heat: NDArray[np.float64],
+) -> None: ...
+def host_set_user_thermal(
+    number: int, flows: int, address: int, name: str | bytes, statev: int, constants: NDArray[np.float64], count: int
+) -> None: ...
 def host_uvarm_pass(
     address: int,
     names: Sequence[str] | NDArray[np.bytes_],

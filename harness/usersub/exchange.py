@@ -20,7 +20,8 @@ class Outcome:
     """End of a pass over a block.
 
     position  element of the fault (from 0; -1 unknown)
-    array, index  array of the fault and entry, from 1 (beyond its ends for a write outside); or the point
+    array, index  array of the fault and entry, from 1 (beyond its ends for a write outside); or
+    routine, index  user routine of points that has ended the call, and the point, from 1; '' for another one
     alone     elements that one thread has called again, because several could not go on
     flux, largest, terms  (ndofel,) sum over the elements of |RHS|, the largest one, number of those above the floor
     """
@@ -28,6 +29,7 @@ class Outcome:
     fault: Fault
     position: int
     array: str
+    routine: str
     index: int
     flux: FloatArray
     largest: FloatArray

@@ -41,7 +41,8 @@ _STOP_ANALYSIS, _CONCLUDE_STEP = 4, 5
 class Library:
     """User routines of a job, and the job's messages from them.
 
-    uel, uelmat, umat, uvarm, sdvini, orient, disp, dload, uamp, usdfld, uexternaldb: addresses, None without it
+    uel, uelmat, umat, umatht, hetval, uvarm, sdvini, orient, disp, dload, uamp, usdfld, uexternaldb: addresses, None
+                              without the routine
     name                      the file as the user named it, for messages
     file                      the shared library
     entry_points              names of all user routines found
@@ -60,6 +61,8 @@ class Library:
         self.uelmat = addresses["UELMAT"]
         self.uexternaldb = addresses["UEXTERNALDB"]
         self.umat = addresses["UMAT"]
+        self.umatht = addresses["UMATHT"]
+        self.hetval = addresses["HETVAL"]
         self.uvarm = addresses["UVARM"]
         self.sdvini = addresses["SDVINI"]
         self.orient = addresses["ORIENT"]

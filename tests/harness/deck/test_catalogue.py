@@ -63,20 +63,23 @@ def test_plastic(read: Read) -> None:
         ("*PLASTIC\n10.\n11., 0.", r"deck.inp:32: \*PLASTIC: plastic strains must begin at zero and increase"),
         ("*PLASTIC\n0.", r"deck.inp:31: \*PLASTIC: yield stress 0 must be positive"),
         ("*PLASTIC\n10., 0., 20.", r"deck.inp:31: \*PLASTIC: expected only yield stress and plastic strain"),
-        ("*CONDUCTIVITY\n1., 20.", r"deck.inp:30: \*CONDUCTIVITY: needs one data line with the conductivity; a temp"),
+        ("*CONDUCTIVITY", r"deck.inp:30: \*CONDUCTIVITY: needs a data line with the conductivity"),
+        (
+            "*CONDUCTIVITY\n1., 20.\n2., 20.",
+            r"deck.inp:32: \*CONDUCTIVITY: temperature 20 is not above that of the line",
+        ),
         ("*CONDUCTIVITY\n0.", r"deck.inp:31: \*CONDUCTIVITY: conductivity 0 must be positive"),
         ("*CONDUCTIVITY, TYPE=ORTHO\n1., 2., 3.", r"deck.inp:30: \*CONDUCTIVITY, TYPE=ORTHO is not supported"),
-        ("*SPECIFIC HEAT", r"deck.inp:30: \*SPECIFIC HEAT: needs one data line with the specific heat"),
+        ("*SPECIFIC HEAT", r"deck.inp:30: \*SPECIFIC HEAT: needs a data line with the specific heat"),
         ("*SPECIFIC HEAT\n-2.", r"deck.inp:31: \*SPECIFIC HEAT: specific heat -2 must be positive"),
         ("*PLASTIC, HARDENING=KINEMATIC\n10.", r"deck.inp:30: \*PLASTIC, HARDENING=KINEMATIC is not supported"),
         (
             "*USER MATERIAL, CONSTANTS=2\n1, 2, 3, 4",
             r"deck.inp:30: \*USER MATERIAL: 4 values, but CONSTANTS=2",
         ),
-        (
-            "*USER MATERIAL, CONSTANTS=1, TYPE=THERMAL\n1",
-            r"deck.inp:30: \*USER MATERIAL, TYPE=THERMAL is not supported",
-        ),
+        ("*LATENT HEAT", r"deck.inp:30: \*LATENT HEAT: needs a data line with the latent heat, the solidus and the"),
+        ("*LATENT HEAT\n0., 1., 2.", r"deck.inp:31: \*LATENT HEAT: latent heat 0 must be positive"),
+        ("*LATENT HEAT\n5., 2., 2.", r"deck.inp:31: \*LATENT HEAT: liquidus 2 is not above the solidus, 2"),
         ("*USER MATERIAL, CONSTANTS=999999999\n1", r"deck.inp:30: .* CONSTANTS=999999999: expected a number from 0"),
         ("*DEPVAR\n-1", r"deck.inp:31: \*DEPVAR: -1 variables: expected a number from 0"),
         ("*USER OUTPUT VARIABLES", r"deck.inp:30: \*USER OUTPUT VARIABLES: needs a data line"),
@@ -101,6 +104,21 @@ def test_user_material(read: Read) -> None:
     assert found.user is not None
     assert (found.user.unsymmetric, found.state_variables, found.output_variables) == (True, 4, 6)
     assert_array_equal(found.user.constants, [1, 2, 0])
+
+
+def test_thermal_material(read: Read) -> None:
+    """Beside the mechanical one, with tables by temperature."""
+    lines = "*USER MATERIAL, CONSTANTS=1\n1.\n*USER MATERIAL, TYPE=THERMAL, CONSTANTS=2\n2., 3.\n*HEAT GENERATION\n"
+    lines += "*CONDUCTIVITY\n1., 20.\n2., 30.\n*SPECIFIC HEAT\n4.\n*LATENT HEAT\n5., 1., 2."
+    found = material(read, lines)
+    assert found.user is not None
+    assert found.user_thermal is not None
+    assert_array_equal(found.user.constants, [1])
+    assert_array_equal(found.user_thermal.constants, [2, 3])
+    assert found.heat_generation is not None
+    assert_array_equal(found.conductivity, [[1, 20], [2, 30]])
+    assert_array_equal(found.specific_heat, [[4, 0]])
+    assert_array_equal(found.latent_heat, [[5, 1, 2]])
 
 
 def test_constants_stand_eight_to_a_line(read: Read) -> None:

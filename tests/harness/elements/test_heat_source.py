@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""RPL, DRPLDT, DRPLDE and DDSDDT of UMAT in coupled temperature-displacement elements, by theory."""
+"""RPL, DRPLDT, DRPLDE and DDSDDT of UMAT, and HETVAL after it, in coupled temperature-displacement elements."""
 
 from dataclasses import replace
 from pathlib import Path
@@ -59,6 +59,7 @@ def deck(element_type, mesh, material, step, *, procedure, options=""):
 
 
 STEADY = "*COUPLED TEMPERATURE-DISPLACEMENT, STEADY STATE\n1., 1."
+THERMAL = {"conductivity": np.array([[CONDUCTIVITY, 0.0]]), "specific_heat": np.array([[0.7, 0.0]])}
 HEAT = f"*CONDUCTIVITY\n{CONDUCTIVITY}\n*DENSITY\n2.\n*SPECIFIC HEAT\n0.7\n"
 
 
@@ -184,7 +185,7 @@ def test_tangent_is_the_derivative_of_the_residual(load, bound, call, element_ty
     nodes = nodes + 0.05 * random.uniform(-1, 1, nodes.shape) + 0.1
     constants = np.array([1000.0, 0.3, 7.0, 2.0, 11.0, 3.0, 1.0, 1.0, 1.0])
     given = UserMaterial(constants, False, SOURCE)
-    material = Material("M", SOURCE, user=given, state_variables=2, conductivity=3.0, specific_heat=0.7, density=2.0)
+    material = Material("M", SOURCE, user=given, state_variables=2, density=2.0, **THERMAL)
     # UMAT in global directions, or in turned ones
     orientation = None if angle is None else Orientation("O", turn(np.radians(angle)).T, SOURCE)
     section = SolidSection("ALL", material, orientation, THICKNESS, SOURCE, hourglass=1.0)
@@ -211,6 +212,7 @@ def test_tangent_is_the_derivative_of_the_residual(load, bound, call, element_ty
     assert abs(found[np.ix_(~thermal, thermal)]).max() > 0.1
 
 
+EXACT = "*CONTROLS, PARAMETERS=FIELD, FIELD=GLOBAL\n1e-11"
 YOUNG, LENGTH, TOUGHNESS = 200.0, 0.2, 0.5
 
 
@@ -242,10 +244,15 @@ def pulled(element_type, *, couplings=1, options=""):
 
 
 @pytest.mark.parametrize("element_type", ["CPE4T", "CPE8T", "CPS4T", "CPS8RT", "CAX4T", "C3D8T", "C3D20RT"])
-def test_phase_field_of_a_uniform_bar(run, element_type):
+@pytest.mark.parametrize("user", ["phase.f", "phase_hetval.f"])
+def test_phase_field_of_a_uniform_bar(run, element_type, user):
     """phi = 2 H l/(Gc + 2 H l), H = E e^2/2 at the largest strain so far, and the stress (1 - phi)^2 E e."""
     nodes, along, text = pulled(element_type)
-    history = run(text, "phase.f").history
+    if user == "phase_hetval.f":
+        text = text.replace("*DEPVAR\n1", "*HEAT GENERATION\n*DEPVAR\n3")
+        # without DRPLDE and DDSDDT Newton's method comes to its end slowly
+        text = text.replace("*OUTPUT, HISTORY", f"{EXACT}\n*OUTPUT, HISTORY")
+    history = run(text, user).history
     strain = 0.1 * np.concatenate([np.linspace(0.2, 1.0, 5), np.linspace(0.8, 0.0, 5)])
     energy = np.maximum.accumulate(0.5 * YOUNG * strain**2)
     phase = 2 * energy * LENGTH / (TOUGHNESS + 2 * energy * LENGTH)

@@ -1,0 +1,379 @@
+# SPDX-FileCopyrightText: The uel-harness authors
+# SPDX-License-Identifier: BSD-3-Clause
+"""Heat transfer elements, with heat by tables, UMATHT and HETVAL, there and in coupled elements, by theory."""
+
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+import pytest
+from reference_cells import patch_of
+from small_decks import body_lines
+
+import harness
+from harness.elements import Flags
+from harness.errors import ConvergenceError, DeckError, KernelError, Source
+from harness.model.element_types import BUILT_IN, COUPLED, HEAT
+from harness.model.mesh import ElementGroup
+from harness.model.properties import Material, SolidSection, UserMaterial
+
+HERE = Path(__file__).parent
+SOURCE = Source("test.inp", 1)
+K, DENSITY, CAPACITY, THICKNESS = 3.0, 2.0, 0.7, 0.5
+CONDUCTIVITY, STORES = f"*CONDUCTIVITY\n{K}\n", f"*DENSITY\n{DENSITY}\n*SPECIFIC HEAT\n{CAPACITY}\n"
+STEADY, TRANSIENT = "*HEAT TRANSFER, STEADY STATE\n1., 1.", "*HEAT TRANSFER\n0.1, 1., 0.1, 0.1"
+CONTROLS = "*CONTROLS, PARAMETERS=FIELD, FIELD=GLOBAL\n1e-9"
+FLOWS = "*USER MATERIAL, TYPE=THERMAL, UNSYMM, CONSTANTS=4\n"
+
+
+def deck(element_type, mesh, material, step, *, procedure=STEADY, before=""):
+    lines = [*body_lines(element_type, *mesh), "*SOLID SECTION, ELSET=BODY, MATERIAL=M", f"{THICKNESS}"]
+    lines += ["*MATERIAL, NAME=M", material.strip()]
+    if element_type in COUPLED:
+        lines += ["*ELASTIC\n1000., 0.3"]
+        step = f"*BOUNDARY\nALL, 1, {mesh[0].shape[1]}\n{step}"
+    lines += [before.strip() or "**", "*STEP, INC=1000", procedure, CONTROLS, step.strip() or "**"]
+    lines += ["*OUTPUT, HISTORY", "*NODE OUTPUT, NSET=ALL", "NT, RFL", "*OUTPUT, FIELD", "*END STEP", ""]
+    return "\n".join(lines)
+
+
+@pytest.fixture
+def run(tmp_path):
+    def run(text, user=None):
+        (tmp_path / "heat.inp").write_text(text)
+        return harness.run(tmp_path / "heat.inp", user and HERE / user, output_dir=tmp_path)
+
+    return run
+
+
+def held(nodes, values, dof=11):
+    return "*BOUNDARY\n" + "".join(f"{k + 1}, {dof}, {dof}, {float(v)!r}\n" for k, v in zip(nodes, values, strict=True))
+
+
+def column(history, name, count):
+    """(rows, nodes) of a nodal variable."""
+    return np.array([history[f"{name}[ALL:{k}]"] for k in range(1, count + 1)]).T
+
+
+def bar(element_type, count):
+    """Nodes and elements of a bar of length 1 and sides 0.4 in cells of four or eight nodes, and places along it."""
+    kind = BUILT_IN[element_type]
+    x = np.linspace(0.0, 1.0, count + 1)
+    section = np.array([[0, 0.0], [0, 0.4]])
+    if kind.dimension == 3:
+        section = np.array([[0, 0, 0], [0, 0.4, 0], [0, 0.4, 0.4], [0, 0, 0.4]])
+    n = len(section)
+    nodes = np.vstack([section + place * np.eye(kind.dimension)[0] for place in x])
+    cell = [0, n, n + 1, 1] if n == 2 else [0, n, n + 1, 1, 3, n + 3, n + 2, 2]
+    elements = np.array([np.array(cell) + n * k for k in range(count)])
+    if kind.axisymmetric:
+        nodes = np.stack([0.4 - nodes[:, 1], nodes[:, 0]], axis=1)
+    return nodes, elements, np.repeat(x, n)
+
+
+@pytest.mark.parametrize("element_type", HEAT)
+@pytest.mark.parametrize("user", [None, "flows.f"])
+def test_patch_of_a_linear_temperature(run, element_type, user):
+    """Any temperature that varies linearly is steady, about an axis one that varies along it; the first moment of the
+    heat at the nodes is conductivity x gradient x volume."""
+    kind = HEAT[element_type]
+    nodes, elements = patch_of(kind.family.cell)
+    nodes = nodes[:, : kind.dimension]
+    gradient = np.array([0.0 if kind.axisymmetric else 2.0, -1.0, 0.5])[: kind.dimension]
+    outside = np.flatnonzero(((abs(nodes) < 1e-9) | (abs(nodes - 1) < 1e-9)).any(axis=1))
+    material = f"{FLOWS}{K}, 0., {CAPACITY}, 0." if user else CONDUCTIVITY
+    result = run(deck(element_type, (nodes, elements), material, held(outside, 5.0 + nodes[outside] @ gradient)), user)
+    count = len(nodes)
+    np.testing.assert_allclose(column(result.history, "NT11", count)[-1], 5.0 + nodes @ gradient, rtol=1e-10)
+    volume = np.pi if kind.axisymmetric else THICKNESS if kind.dimension == 2 else 1.0
+    heat = column(result.history, "RFL11", count)[-1]
+    np.testing.assert_allclose(nodes.T @ heat, K * gradient * volume, rtol=1e-9, atol=1e-9)
+    for k, slope in enumerate(gradient, start=1):
+        np.testing.assert_allclose(result.field(f"HFL{k}"), -K * slope, rtol=1e-9, atol=1e-9)
+
+
+TYPES = ["DC2D4", "DCAX4", "DC3D8", "CPE4T", "CAX4T", "C3D8T"]
+
+
+def procedure_of(element_type, given):
+    return given.replace("HEAT TRANSFER", "COUPLED TEMPERATURE-DISPLACEMENT") if element_type in COUPLED else given
+
+
+@pytest.mark.parametrize("element_type", TYPES)
+@pytest.mark.parametrize("user", [None, "flows.f"])
+def test_conductivity_that_grows_with_the_temperature(run, element_type, user):
+    """k (1 + b T): T + b T^2/2 is linear along a bar (Kirchhoff), at the nodes of linear elements exactly."""
+    b, hot = 0.8, 2.0
+    nodes, elements, along = bar(element_type, 4)
+    material = f"{FLOWS}{K}, {b}, 0., 0." if user else f"*CONDUCTIVITY\n{K}, 0.\n{K * (1 + b * hot)}, {hot}"
+    ends = np.flatnonzero((along == 0) | (along == 1))
+    text = deck(
+        *(element_type, (nodes, elements), material, held(ends, hot * along[ends])),
+        procedure=procedure_of(element_type, STEADY),
+    )
+    result = run(text, user)
+    found = column(result.history, "NT11", len(nodes))[-1]
+    np.testing.assert_allclose(found + 0.5 * b * found**2, (hot + 0.5 * b * hot**2) * along, rtol=1e-6, atol=1e-9)
+    # the whole derivative is in the matrix
+    assert sum(line.total_iterations for line in result.status) <= 6
+
+
+@pytest.mark.parametrize("element_type", TYPES)
+@pytest.mark.parametrize("user", [None, "flows.f"])
+def test_a_wave_of_heat_decays(run, element_type, user):
+    """sin(pi x) decays in increments h by 1/(1 + rate h); the rate is that of nodes at distances of d, with the heat
+    stored at the nodes, or, by UMATHT, as linear temperatures do."""
+    count, h = 8, 0.1
+    nodes, elements, along = bar(element_type, count)
+    material = f"{FLOWS}{K}, 0., {CAPACITY}, 0.\n*DENSITY\n{DENSITY}" if user else CONDUCTIVITY + STORES
+    ends = np.flatnonzero((along == 0) | (along == 1))
+    start = "*INITIAL CONDITIONS, TYPE=TEMPERATURE\n"
+    start += "".join(f"{k + 1}, {float(np.sin(np.pi * x))!r}\n" for k, x in enumerate(along.tolist()))
+    text = deck(
+        *(element_type, (nodes, elements), material, held(ends, 0 * ends)),
+        procedure=procedure_of(element_type, TRANSIENT),
+        before=start,
+    )
+    found = column(run(text, user).history, "NT11", len(nodes))[-1]
+    cosine = np.cos(np.pi / count)
+    rate = 2 * K / (DENSITY * CAPACITY) * count**2 * (1 - cosine) * (3 / (2 + cosine) if user else 1)
+    np.testing.assert_allclose(found, np.sin(np.pi * along) / (1 + rate * h) ** 10, rtol=1e-7, atol=1e-9)
+
+
+@pytest.mark.parametrize("element_type", ["DC2D4", "DC2D8", "DCAX4", "CPE4T"])
+def test_heat_that_melts(run, element_type):
+    """All of it warms alike: the heat a t per volume is density x (integral of the specific heat + molten part x latent
+    heat), increment by increment."""
+    mesh = patch_of("quad8") if element_type == "DC2D8" else bar(element_type, 1)[:2]
+    material = f"{CONDUCTIVITY}*DENSITY\n{DENSITY}\n*SPECIFIC HEAT\n0.5, 1.\n1.5, 3.\n*LATENT HEAT\n4., 2., 2.5\n"
+    material += "*HEAT GENERATION\n*DEPVAR\n8"
+    text = deck(
+        *(element_type, mesh, material, "*FIELD, VARIABLE=1, AMPLITUDE=FULL\nALL, 20.\n*FIELD, VARIABLE=2\nALL, 0."),
+        procedure=procedure_of(element_type, "*HEAT TRANSFER, DELTMX=100.\n0.1, 1., 1e-4, 0.1"),
+        before="*AMPLITUDE, NAME=FULL\n0., 1., 1., 1.",
+    )
+    history = run(text, "generates.f").history
+    found = column(history, "NT11", len(mesh[0]))[1:]
+    middle = np.clip(found, 1.0, 3.0)
+    # 0.5 below 1, 1.5 above 3, linear in between
+    energy = (
+        0.5 * np.minimum(found, 1.0) + 0.5 * (middle - 1) + 0.25 * (middle - 1) ** 2 + 1.5 * np.maximum(found - 3, 0)
+    )
+    energy += 4.0 * np.clip((found - 2.0) / 0.5, 0, 1)
+    times = np.array(history["time"][1:])
+    np.testing.assert_allclose(DENSITY * energy, 20.0 * times[:, None] + 0 * found, rtol=1e-6)
+    assert found.max() > 3.0
+
+
+@pytest.mark.parametrize("element_type", TYPES)
+def test_a_source_that_falls_with_temperature_makes_a_hyperbolic_cosine(run, element_type):
+    """a - b T by HETVAL, one end at 0, insulated at the other: a/b (1 - cosh(m (1 - s))/cosh(m)), m^2 = b/k; four times
+    as exact with half the element length."""
+    errors = []
+    a, b = 6.0, 12.0
+    for count in (8, 16):
+        nodes, elements, along = bar(element_type, count)
+        ends = np.flatnonzero(along == 0)
+        fields = f"*FIELD, VARIABLE=1\nALL, {a}\n*FIELD, VARIABLE=2\nALL, {b}\n"
+        text = deck(
+            *(
+                element_type,
+                (nodes, elements),
+                f"{CONDUCTIVITY}*HEAT GENERATION\n*DEPVAR\n8",
+                fields + held(ends, 0 * ends),
+            ),
+            procedure=procedure_of(element_type, STEADY),
+        )
+        result = run(text, "generates.f")
+        # linear, and FLUX(2) is in the matrix
+        assert [line.total_iterations for line in result.status] == [1]
+        m = np.sqrt(b / K)
+        expected = a / b * (1 - np.cosh(m * (1 - along)) / np.cosh(m))
+        errors.append(abs(column(result.history, "NT11", len(nodes))[-1] - expected).max())
+    assert errors[0] < 5e-3
+    assert errors[0] / errors[1] == pytest.approx(4.0, rel=0.05)
+
+
+PROCEDURES = [
+    ("DC2D4", "*HEAT TRANSFER, STEADY STATE"),
+    ("DC2D4", "*HEAT TRANSFER"),
+    ("CPE4T", "*COUPLED TEMPERATURE-DISPLACEMENT, STEADY STATE"),
+    ("CPE4T", "*COUPLED TEMPERATURE-DISPLACEMENT"),
+    ("DC2D4", "*COUPLED TEMPERATURE-DISPLACEMENT"),
+]
+FIELDS = "*AMPLITUDE, NAME=RISES\n0., 1., 1., 5."
+
+
+def given_to(run, element_type, procedure, material, user):
+    """A run of four increments of a square whose temperature is 2 + 3 x + t (1 + 5 x), its field 3 + 12 t."""
+    nodes, elements, along = bar(element_type, 1)
+    start = "*INITIAL CONDITIONS, TYPE=TEMPERATURE\n"
+    start += "".join(f"{k + 1}, {2 + 3 * x}\n" for k, x in enumerate(along))
+    start += "*INITIAL CONDITIONS, TYPE=FIELD, VARIABLE=1\nALL, 3.\n"
+    field = "*FIELD, VARIABLE=1, AMPLITUDE=RISES\nALL, 3.\n"
+    # from the initial temperature to the one at the end
+    ramp = "*AMPLITUDE, NAME=LEFT\n0., 2., 1., 3.\n*AMPLITUDE, NAME=RIGHT\n0., 5., 1., 11.\n"
+    warm = "".join(
+        f"*BOUNDARY, AMPLITUDE={'RIGHT' if x else 'LEFT'}\n{k + 1}, 11, 11, 1.\n" for k, x in enumerate(along)
+    )
+    text = deck(
+        *(element_type, (nodes, elements), material, field + warm),
+        procedure=f"{procedure}\n0.25, 1., 0.25, 0.25",
+        before=ramp + FIELDS + "\n" + start,
+    )
+    return run(text, user)
+
+
+@pytest.mark.parametrize(("element_type", "procedure"), PROCEDURES)
+def test_what_umatht_is_given(run, element_type, procedure):
+    """In the last of four increments; means over the points of what is linear."""
+    material = f"*DENSITY\n1.\n*DEPVAR\n20\n{FLOWS}{K}, 0., {CAPACITY}, 0."
+    result = given_to(run, element_type, procedure, material, "flows.f")
+    expected = {
+        **{"SDV1": 2 + 1.5 + 0.75 * 3.5, "SDV2": 0.25 * 3.5},  # TEMP of the start, DTEMP
+        **{"SDV3": 8.0, "SDV4": 0.0},  # DTEMDX of the end
+        **{"SDV5": 1.0, "SDV6": 1.0, "SDV7": 0.25},  # TIME of the end, DTIME
+        **{"SDV8": 12.0, "SDV9": 3.0},  # PREDEF of the start, DPRED
+        **{"SDV10": 2, "SDV11": 20, "SDV12": 4},  # NTGRD, NSTATV, NPROPS
+        **{"SDV13": 0.5, "SDV14": 0.2},  # COORDS
+        **{"SDV15": 102.5, "SDV16": 11, "SDV17": 14},  # NOEL and NPT, LAYER and KSPT, KSTEP and KINC
+        **{"SDV18": CAPACITY * 0.75 * 3.5, "SDV19": -K * 6.75},  # U and FLUX of the start
+        "SDV20": 4,  # increments, not iterations
+    }
+    for name, value in expected.items():
+        np.testing.assert_allclose(result.field(name), value, rtol=1e-9, atol=1e-9, err_msg=name)
+
+
+@pytest.mark.parametrize(("element_type", "procedure"), PROCEDURES)
+def test_what_hetval_is_given(run, element_type, procedure):
+    material = f"{CONDUCTIVITY}{STORES}*DEPVAR\n8\n*HEAT GENERATION"
+    result = given_to(run, element_type, procedure, material, "generates.f")
+    expected = {
+        **{"SDV1": 3.5 + 3.5, "SDV2": 0.25 * 3.5},  # TEMP of the end, its increment
+        **{"SDV3": 1.0, "SDV4": 1.0, "SDV5": 0.25},  # TIME of the end, DTIME
+        **{"SDV6": 15.0, "SDV7": 3.0},  # PREDEF of the end, DPRED
+        "SDV8": 4,
+    }
+    for name, value in expected.items():
+        np.testing.assert_allclose(result.field(name), value, rtol=1e-9, atol=1e-9, err_msg=name)
+
+
+TANGENTS = ["DC2D3", "DC2D4", "DC2D8", "DCAX3", "DCAX6", "DC3D4", "DC3D6", "DC3D8", "DC3D20"]
+
+
+@pytest.mark.parametrize("element_type", [*TANGENTS, "CPE4T", "CPE8T", "CAX4T", "C3D8T"])
+@pytest.mark.parametrize(("lflag", "user"), [(33, "flows.f"), (31, "flows.f"), (33, None)])
+def test_tangent_is_the_derivative_of_the_residual(load, bound, call, element_type, lflag, user):
+    """Of an element that is warm: central differences of what is quadratic are exact."""
+    kind = BUILT_IN[element_type]
+    nodes, elements = patch_of(kind.family.cell)
+    nodes = nodes[elements[0]] + 0.1
+    tables = {"conductivity": np.array([[3.0, -9.0], [5.0, 9.0]]), "specific_heat": np.array([[0.7, -9.0], [2.0, 9.0]])}
+    given = UserMaterial(np.array([3.0, 0.2, 0.7, 0.4]), True, SOURCE)
+    material = Material("M", SOURCE, density=2.0, **tables, user_thermal=given if user else None)
+    if element_type in COUPLED:
+        elastic = harness.model.properties.Elastic(
+            harness.model.properties.ElasticType.ISOTROPIC, (1000.0, 0.3), SOURCE
+        )
+        material = replace(material, elastic=elastic)
+    section = SolidSection("ALL", material, None, THICKNESS, SOURCE)
+    group = ElementGroup(element_type, np.array([101]), np.arange(kind.nodes)[None], "", section, None, SOURCE)
+    block, matrix = bound(group, nodes, load(user))
+    code = lflag + 40 if element_type in COUPLED else lflag
+    call = replace(call, flags=Flags(code), unsymmetric=True)
+    used = np.array([11 * node + dof - 1 for node, dof in block.unknowns if dof == 11])
+    random, n = np.random.default_rng(5), matrix.shape[0]
+    u = np.zeros(n)
+    u[used] = random.uniform(1.0, 2.0, len(used))
+    du = 0.3 * u
+    block.evaluate(call, u, du, np.zeros(n), matrix.data)
+    step, difference = 1e-3, np.zeros((len(used), len(used)))
+    for k, unknown in enumerate(used):
+        for sign in (1, -1):
+            moved, residual = np.zeros(n), np.zeros(n)
+            moved[unknown] = sign * step
+            block.evaluate(call, u + moved, du + moved, residual, None)
+            difference[:, k] -= sign * residual[used] / (2 * step)
+    found = matrix.toarray()[np.ix_(used, used)]
+    np.testing.assert_allclose(found, difference, rtol=1e-7, atol=1e-8 * abs(found).max())
+    assert abs(found - found.T).max() > 1e-3 * abs(found).max()
+
+
+def one(element_type="DC2D4", material=CONDUCTIVITY, **options):
+    nodes, elements, along = bar(element_type, 1)
+    return deck(element_type, (nodes, elements), material, held(np.arange(len(nodes)), along), **options)
+
+
+@pytest.mark.parametrize(
+    ("text", "user", "message"),
+    [
+        (
+            one(material=f"{FLOWS}1., 0., 0., 0."),
+            None,
+            r"heat.inp:\d+: \*USER MATERIAL, TYPE=THERMAL: material M needs UMATHT; .* has UEL",
+        ),
+        (
+            one(material=f"{CONDUCTIVITY}*HEAT GENERATION"),
+            "flows.f",
+            r"heat.inp:\d+: \*HEAT GENERATION: material M needs HETVAL; .* has UMATHT",
+        ),
+        (
+            one(material=f"{FLOWS}1., 0., 0., 0.\n*HEAT GENERATION"),
+            "flows.f",
+            r"\*HEAT GENERATION cannot be used with \*USER MATERIAL, TYPE=THERMAL \(.*heat.inp:\d+\)",
+        ),
+        (one(material="*DENSITY\n1."), None, r"material M has no \*CONDUCTIVITY, which elements of type DC2D4 need"),
+        (one(procedure=TRANSIENT), None, r"material M has no \*DENSITY, which elements of type DC2D4 need"),
+        (
+            one(procedure="*STATIC\n1., 1."),
+            None,
+            r"type DC2D4 are supported in \*HEAT TRANSFER and \*COUPLED TEMPERATURE-DISPLACEMENT steps only",
+        ),
+        (
+            one("CPE4RT", f"{FLOWS}1., 0., 0., 0.", procedure=procedure_of("CPE4T", STEADY)),
+            "flows.f",
+            r"not supported for elements of type CPE4RT: UMATHT needs full integration",
+        ),
+    ],
+)
+def test_what_is_missing_is_named(run, text, user, message):
+    with pytest.raises(DeckError, match=message):
+        run(text, user)
+
+
+def test_nodes_across_the_axis(run):
+    text = one("DCAX4").replace("\n1, 0.4, 0.0\n", "\n1, -0.4, 0.0\n")
+    with pytest.raises(DeckError, match=r"element 1 \(type DCAX4\): node 1 is at the radius -0.4"):
+        run(text)
+
+
+@pytest.mark.parametrize(
+    ("material", "user", "message"),
+    [
+        (f"{FLOWS}1., 0., 0., -1.", "flows.f", r"element 1 \(type DC2D4\): UMATHT at integration point 1 stopped"),
+        (
+            f"{CONDUCTIVITY}*HEAT GENERATION",
+            "generates.f",
+            r"element 1 \(type DC2D4\): HETVAL at integration point 1 stopped the analysis \(XIT\)",
+        ),
+    ],
+)
+def test_xit(run, material, user, message):
+    text = one(material=material)
+    if user == "generates.f":
+        text = text.replace("=M\n", "=STOPS\n")
+    with pytest.raises(KernelError, match=message):
+        run(text, user)
+
+
+def test_a_write_outside_flux_is_reported(run):
+    text = one(material=f"{CONDUCTIVITY}*HEAT GENERATION").replace("=M\n", "=BEYOND\n")
+    messages = " ".join(run(text, "generates.f").file(".msg").read_text().split())
+    assert "element 1: HETVAL writes outside FLUX: entry 3 of 2 (2) at integration point 1" in messages
+
+
+def test_umatht_cuts_the_increment_back(run):
+    """PNEWDT = 0.5 in every call, until the increment would be smaller than the step allows."""
+    text = one(material=f"{FLOWS}1., 0., 0., 2000.", procedure="*HEAT TRANSFER, STEADY STATE\n1., 1., 0.25, 1.")
+    with pytest.raises(ConvergenceError, match="TIME INCREMENT REQUIRED IS LESS THAN THE MINIMUM"):
+        run(text, "flows.f")
