@@ -389,6 +389,26 @@ subroutine host_set_user_thermal(number, flows, address, name, statev, constants
   end if
 end subroutine host_set_user_thermal
 
+!> Make a flux (film = 0) or a film known; returns the number that stands for it.
+subroutine host_define_heat_load(film, address, surface, jltyp, number)
+  use, intrinsic :: iso_c_binding, only: c_intptr_t
+  use host_heat_loads, only: define_heat_load, heat_load_t
+  use host_kinds, only: i4, i8
+  implicit none (type, external)
+  integer(i4), intent(in) :: film, jltyp
+  integer(i8), intent(in) :: address          !< of DFLUX or FILM; 0: the deck gives the magnitudes
+  character(len=80), intent(in) :: surface
+  integer(i4), intent(out) :: number
+  type(heat_load_t) :: load
+  load%film = film /= 0
+  load%by_user = address /= 0
+  load%address = transfer(int(address, c_intptr_t), load%address)
+  load%surface = surface
+  load%jltyp = jltyp
+  allocate (load%reported(1), load%spoilt(1), source=.false.)
+  number = define_heat_load(load)
+end subroutine host_define_heat_load
+
 !> Call UVARM at all material points of a block of built-in elements.
 subroutine host_uvarm_pass(address, names, axes, counts, place, clock, labels, coords, svars, history, uvar, left, element, &
                            point, mcrd, nnode, variables, points, values, nuvarm, m, each, every)
@@ -556,19 +576,21 @@ subroutine host_uamp_call(address, name, clock, props, svars, info, sensors, nam
 end subroutine host_uamp_call
 
 !> Address of built-in elements: 1 continuum, 2 coupled temperature-displacement, 3 cohesive, 4 trusses, springs and masses,
-!> 5 heat transfer.
+!> 5 heat transfer, 6 heat that enters.
 subroutine host_element_address(elements, address)
   use, intrinsic :: iso_c_binding, only: c_funloc, c_funptr, c_intptr_t
   use host_cohesive, only: cohesive_uel
   use host_conduction, only: heat_uelmat
   use host_coupled, only: coupled_uelmat
   use host_discrete, only: discrete_uel
+  use host_heat_loads, only: heat_load_uel
   use host_kinds, only: i4, i8
   use host_solid, only: solid_uelmat
   implicit none (type, external)
   integer(i4), intent(in) :: elements
   integer(i8), intent(out) :: address
-  type(c_funptr) :: all(5)
-  all = [c_funloc(solid_uelmat), c_funloc(coupled_uelmat), c_funloc(cohesive_uel), c_funloc(discrete_uel), c_funloc(heat_uelmat)]
+  type(c_funptr) :: all(6)
+  all = [c_funloc(solid_uelmat), c_funloc(coupled_uelmat), c_funloc(cohesive_uel), c_funloc(discrete_uel), c_funloc(heat_uelmat), &
+         c_funloc(heat_load_uel)]
   address = int(transfer(all(elements), 1_c_intptr_t), i8)
 end subroutine host_element_address

@@ -6,6 +6,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, field
+from typing import Final
 
 import numpy as np
 from numpy.typing import NDArray
@@ -14,7 +15,7 @@ from scipy import sparse
 from harness.assembly.dofs import DofMap
 from harness.assembly.linear import LinearElements
 from harness.assembly.states import States
-from harness.elements import FIELD_NAMES, Call, ElementBlock, Motion, PressureBlock
+from harness.elements import FIELD_NAMES, Call, ElementBlock, HeatLoadBlock, Motion, PressureBlock
 from harness.model.arrays import ComplexArray, FloatArray, IntArray
 from harness.model.mesh import Mesh
 from harness.model.model import Equation
@@ -50,11 +51,15 @@ class Evaluation:
     entries: IntArray = field(default_factory=lambda: np.zeros(len(FIELD_NAMES), dtype=np.int64))
 
 
+LOADED: Final = (PressureBlock, HeatLoadBlock)
+"""Blocks of loads."""
+
+
 class System:
     """All blocks of a model on one numbering of unknowns.
 
     blocks   of its elements
-    pressures  faces under pressure, which are called if there are distributed loads, but do not count as elements
+    loaded   faces under pressure, and what heat enters: called where loads act, but they do not count as elements
     dofs     what each unknown is
     indptr   (n + 1,) row starts of the matrix, int32
     indices  (nnz,) columns, ascending in each row, int32; every diagonal entry is there and the pattern is symmetric
@@ -69,8 +74,8 @@ class System:
         spare_linear: bool = False,
     ) -> None:
         """Blocks of a model with this mesh and these constraints; spare_linear: do not call linear elements again."""
-        self.blocks = tuple(block for block in blocks if not isinstance(block, PressureBlock))
-        self.pressures = tuple(block for block in blocks if isinstance(block, PressureBlock))
+        self.blocks = tuple(block for block in blocks if not isinstance(block, LOADED))
+        self.loaded = tuple(block for block in blocks if isinstance(block, LOADED))
         self.dofs = DofMap.build(mesh, self.blocks, equations)
         numbers = [self.dofs.equations_of(block) for block in blocks]
         self.indptr, self.indices, scatter = build_pattern(len(self.dofs), numbers)
@@ -152,8 +157,8 @@ class System:
             energy += report.energy
             damage += report.damage
             pnewdt = min(pnewdt, report.pnewdt)
-        for face in self.pressures if call.distributed is not None else ():
-            energy += face.evaluate(call, u, du, columns[0], data, motion).energy
+        for entered in self.loaded if call.distributed is not None else ():
+            energy += entered.evaluate(call, u, du, columns[0], data, motion).energy
         load = columns[1] if nrhs > 1 else None
         linear.passed(call, u, du, energy, spared=spared)
         return Evaluation(columns[0], data, flux, count, pnewdt, energy, load, damage, largest, entries)
@@ -188,7 +193,7 @@ class System:
         """
         self._linear.catch_up()
         self._committed += 1
-        for block in (*self.blocks, *self.pressures):
+        for block in (*self.blocks, *self.loaded):
             if not self._linear.waits(block):
                 block.commit()
 

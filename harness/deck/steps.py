@@ -13,6 +13,7 @@ from harness.deck.blocks import Block
 from harness.deck.controls import ControlState
 from harness.deck.distributed import read_distributed, read_fields, read_surface_loads
 from harness.deck.error_report import Problems
+from harness.deck.heat_loads import HEAT_LOADS, read_heat_loads
 from harness.deck.prescribed import Prescription, contradictions
 from harness.deck.procedures import read_procedure
 from harness.deck.requests import RequestReader
@@ -33,6 +34,7 @@ def read_steps(
     steps: list[Step] = []
     controls = ControlState()
     nlgeom = unsymmetric = False
+    read_heat = partial(read_heat_loads, prescription=prescription)
     for number, scope in enumerate(scopes, start=1):
         for block in scope.blocks:
             if block.name == "CONTROLS":
@@ -57,6 +59,7 @@ def read_steps(
         surface_loads, new_surface_loads = _read_entries(
             scope, ("DSLOAD",), partial(read_surface_loads, prescription=prescription), problems
         )
+        heat = {name: _read_entries(scope, (name,), read_heat, problems) for name in HEAT_LOADS}
         fields, new_fields = _read_entries(
             scope, ("TEMPERATURE", "FIELD"), partial(read_fields, prescription=prescription), problems
         )
@@ -90,6 +93,8 @@ def read_steps(
                     element_loads=tuple(load for load in distributed if isinstance(load, ElementLoad)),
                     surface_loads=surface_loads,
                     new_surface_loads=new_surface_loads,
+                    heat_loads=tuple(load for loads, _ in heat.values() for load in loads),
+                    new_heat_loads=frozenset(name for name, (_, new) in heat.items() if new),
                     fields=fields,
                     new_fields=new_fields,
                     output=output,

@@ -6,6 +6,7 @@ from harness.elements.block import ElementBlock
 from harness.elements.build import build_blocks
 from harness.elements.call import BlockReport, Call, Distributed, Motion, Predefined
 from harness.elements.fields import FIELD_NAMES, field_of
+from harness.elements.heat_loads import HeatLoadBlock
 from harness.elements.lflags import Damping, Flags, Request
 from harness.elements.pressure import PressureBlock
 
@@ -17,6 +18,7 @@ __all__ = [
     "Distributed",
     "ElementBlock",
     "Flags",
+    "HeatLoadBlock",
     "Motion",
     "Predefined",
     "PressureBlock",

@@ -14,6 +14,7 @@ from harness.elements.cohesive import cohesive_routine, cohesive_variables
 from harness.elements.coupled import coupled_routine, heat_routine, heat_variables, is_unsymmetric
 from harness.elements.directions import start_axes
 from harness.elements.discrete import discrete_routine, discrete_unknowns, discrete_variables
+from harness.elements.heat_loads import heat_load_blocks
 from harness.elements.materials import define_material, linearity, refuse_fields
 from harness.elements.pressure import pressure_blocks
 from harness.elements.routine import Linearity, Routine
@@ -74,7 +75,7 @@ def build_blocks(
             raise _too_large(group) from None
     if errors:
         raise all_of(list(errors.values()))
-    blocks += pressure_blocks(model, library)
+    blocks += [*pressure_blocks(model, library), *heat_load_blocks(model, library)]
     for block, following in pairwise(blocks):
         following.first = block.first + len(block.group.labels)
     return blocks

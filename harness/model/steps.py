@@ -173,6 +173,45 @@ class ElementLoad:
 
 
 @dataclass(frozen=True, slots=True)
+class HeatLoadType:
+    """Type of a heat load.
+
+    keyword  'DFLUX', 'DSFLUX', 'FILM', 'SFILM' or 'CFILM'
+    film     heat is exchanged with a sink, else it is a flux
+    face     local nodes of the face; none: the volume, or nodes
+    jltyp    JLTYP of DFLUX or FILM, 0 on surfaces and at nodes
+    surface  its name, '' for none
+    by_user  DFLUX or FILM gives the magnitudes
+    area     of nodes, 0 for others
+    """
+
+    keyword: str
+    film: bool
+    face: tuple[int, ...] = ()
+    jltyp: int = 0
+    surface: str = ""
+    by_user: bool = False
+    area: float = 0.0
+
+
+@dataclass(frozen=True, slots=True)
+class HeatLoad:
+    """One entry of a heat load: positions of elements of one type in the model, or nodes.
+
+    magnitude, amplitude         flux, or sink temperature
+    coefficient, film_amplitude  film coefficient, which is constant without an amplitude
+    """
+
+    places: IntArray
+    type: HeatLoadType
+    magnitude: float
+    amplitude: Amplitude | None
+    source: Source
+    coefficient: float = 0.0
+    film_amplitude: Amplitude | None = None
+
+
+@dataclass(frozen=True, slots=True)
 class InitialValue:
     """One *INITIAL CONDITIONS entry: nodes (indices), one dof, value."""
 
@@ -265,6 +304,8 @@ class OutputRequests:
 class Step:
     """*STEP. `amplitude` RAMP or STEP; `new_boundary`/`new_loads`: OP=NEW removes what earlier steps prescribed.
 
+    Of heat loads OP=NEW removes those of the keywords in `new_heat_loads`.
+
     `notes` say where the run of the step differs from the deck.
     """
 
@@ -288,6 +329,8 @@ class Step:
     element_loads: tuple[ElementLoad, ...] = ()
     surface_loads: tuple[ElementLoad, ...] = ()
     new_surface_loads: bool = False
+    heat_loads: tuple[HeatLoad, ...] = ()
+    new_heat_loads: frozenset[str] = frozenset()
     fields: tuple[Load, ...] = ()
     new_fields: bool = False
     output: OutputRequests = field(default_factory=OutputRequests)
@@ -296,7 +339,9 @@ class Step:
     @property
     def amplitudes(self) -> tuple[Amplitude, ...]:
         """Amplitudes that its values, loads and fields name."""
-        return tuple(entry.amplitude for entry in self._entries if entry.amplitude is not None)
+        given = [entry.amplitude for entry in self._entries]
+        given += [entry.film_amplitude for entry in self.heat_loads]
+        return tuple(amplitude for amplitude in given if amplitude is not None)
 
     @property
     def varying(self) -> tuple[Source, ...]:
@@ -304,7 +349,8 @@ class Step:
         return tuple(entry.source for entry in self._entries if entry.amplitude is not None)
 
     @property
-    def _entries(self) -> tuple[Boundary | Load | DistributedLoad | ElementLoad, ...]:
-        found: list[Boundary | Load | DistributedLoad | ElementLoad] = [*self.boundaries, *self.loads, *self.fields]
-        found += [*self.distributed, *self.element_loads, *self.surface_loads]
+    def _entries(self) -> tuple[Boundary | Load | DistributedLoad | ElementLoad | HeatLoad, ...]:
+        found: list[Boundary | Load | DistributedLoad | ElementLoad | HeatLoad]
+        found = [*self.boundaries, *self.loads, *self.fields]
+        found += [*self.distributed, *self.element_loads, *self.surface_loads, *self.heat_loads]
         return tuple(found)

@@ -114,7 +114,7 @@ class StepContext:
             period=step.procedure.period,
             params=step.procedure.params,
             unsymmetric=step.procedure.unsymmetric,
-            distributed=self.load.with_pressures(distributed, self.times, end),
+            distributed=self.load.with_faces(distributed, self.times, end),
             predefined=predefined,
             flux_floor=self.checker.flux_floor,
         )

@@ -18,13 +18,14 @@ from numpy.typing import NDArray
 from scipy import sparse
 
 from harness.assembly import System
-from harness.elements import Distributed
+from harness.elements import Distributed, PressureBlock
 from harness.elements.load_vectors import unit_forces
 from harness.errors import DeckError
 from harness.model.arrays import FloatArray, IntArray
 from harness.model.model import Model
 from harness.model.steps import ElementLoad, Load, Step
 from harness.model.user_values import GivesValues, UserValues
+from harness.procedures.heat_loads import HeatLoads, StepHeat
 from harness.procedures.loads import Loads, ScaledUnknowns, Slots, Variation
 
 
@@ -36,6 +37,7 @@ class StepLoads:
     concentrated: Variation
     distributed: tuple[_StepElementLoads, ...]
     user: GivesValues
+    heat: StepHeat
     increment: int = 0
 
     @property
@@ -66,25 +68,28 @@ class StepLoads:
             values = values + load.points.forces @ magnitudes
         return values
 
-    def with_pressures(
+    def with_faces(
         self, others: Distributed | None, start: tuple[float, float], end: tuple[float, float]
     ) -> Distributed | None:
-        """The pressures on faces in an increment between these step and total times, after loads on elements."""
+        """What acts in an increment between these step and total times: loads on elements, pressures, heat."""
+        parts = [part for part in (others, self._pressures(start, end), self.heat.between(start, end)) if part]
+        if len(parts) < 2:
+            return parts[0] if parts else None
+        return Distributed(
+            np.concatenate([part.elements for part in parts]),
+            np.concatenate([part.kinds for part in parts]),
+            np.concatenate([part.end for part in parts]),
+            np.concatenate([part.increment for part in parts]),
+        )
+
+    def _pressures(self, start: tuple[float, float], end: tuple[float, float]) -> Distributed | None:
         if not self.turning:
-            return others
+            return None
         places = np.concatenate([load.faces for load in self.distributed])
         after = np.concatenate([load.magnitudes.at(*end)[load.slots] for load in self.distributed])
         before = np.concatenate([load.magnitudes.at(*start)[load.slots] for load in self.distributed])
         order = np.argsort(places)
-        found = Distributed(places[order], np.ones_like(places), after[order], (after - before)[order])
-        if others is None:
-            return found
-        return Distributed(
-            np.concatenate([others.elements, found.elements]),
-            np.concatenate([others.kinds, found.kinds]),
-            np.concatenate([others.end, found.end]),
-            np.concatenate([others.increment, found.increment]),
-        )
+        return Distributed(places[order], np.ones_like(places), after[order], (after - before)[order])
 
 
 @dataclass(frozen=True, slots=True)
@@ -112,6 +117,7 @@ class AllLoads:
         on_surfaces = [load for step in model.steps for load in step.surface_loads]
         self._elements = _ElementLoads(system, on_elements, surface=False)
         self._surfaces = _ElementLoads(system, on_surfaces, surface=True)
+        self._heat = HeatLoads(system, model)
 
     def start_step(self, step: Step, total_time: float, user: GivesValues) -> StepLoads:
         """Take over a step's loads; total_time is that at the end of the previous step. Raises DeckError."""
@@ -123,7 +129,8 @@ class AllLoads:
             self._surfaces.start_step(step.surface_loads, step.new_surface_loads, step, total_time),
         )
         found = tuple(load for load in distributed if load is not None)
-        return StepLoads(step.number, self._concentrated.start_step(step, total_time), found, user)
+        heat = self._heat.start_step(step, total_time)
+        return StepLoads(step.number, self._concentrated.start_step(step, total_time), found, user, heat)
 
     def in_perturbation(self, step: Step) -> FloatArray:
         """Forces (n,) of a perturbation step, which do not outlast it."""
@@ -134,6 +141,7 @@ class AllLoads:
         """The step ends before its period."""
         for loads in (self._concentrated, self._elements.loads, self._surfaces.loads):
             loads.conclude(step_time)
+        self._heat.conclude(step_time)
 
 
 @dataclass(slots=True)
@@ -163,7 +171,7 @@ class _ElementLoads:
         self.loads = Loads(self._slots)
         self._active = np.zeros(len(self._slots), dtype=bool)
         parts: list[_Points] = []
-        faces = [block for block in system.pressures if block.surface == surface]
+        faces = [block for block in system.loaded if isinstance(block, PressureBlock) and block.surface == surface]
         turning = {block.load for block in faces}
         for entry in {entry.type: entry for entry in entries}.values():
             if entry.type not in turning:

@@ -332,6 +332,11 @@ def set_umatht(number: int, address: int, name: str, statev: int, constants: Flo
     _host.host_set_user_thermal(number, 1, address, name, statev, np.append(constants, 0.0), len(constants))
 
 
+def define_heat_load(*, film: bool, address: int | None, surface: str, jltyp: int) -> int:
+    """Add a flux or a film to those the host knows; address: of DFLUX or FILM, None where the deck gives magnitudes."""
+    return int(_host.host_define_heat_load(int(film), address or 0, surface, jltyp))
+
+
 def uvarm(
     address: int,
     names: tuple[str, str],
@@ -434,11 +439,11 @@ def integration_rule(family: int, points: int, nodes: int, dimension: int) -> tu
     return weights, shapes, slopes.transpose(0, 2, 1)
 
 
-_ELEMENTS: Final = ("solid", "coupled", "cohesive", "discrete", "heat")
+_ELEMENTS: Final = ("solid", "coupled", "cohesive", "discrete", "heat", "heat load")
 """In the order of host_element_address."""
 
 
-def address_of(elements: Literal["solid", "coupled", "cohesive", "discrete", "heat"]) -> int:
+def address_of(elements: Literal["solid", "coupled", "cohesive", "discrete", "heat", "heat load"]) -> int:
     """Address of built-in elements: solid, coupled and heat ones are called like UELMAT, the others like UEL."""
     return int(_host.host_element_address(1 + _ELEMENTS.index(elements)))
 

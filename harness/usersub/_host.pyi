@@ -96,6 +96,7 @@ def host_set_thermal(
 def host_set_user_thermal(
     number: int, flows: int, address: int, name: str | bytes, statev: int, constants: NDArray[np.float64], count: int
 ) -> None: ...
+def host_define_heat_load(film: int, address: int, surface: str | bytes, jltyp: int) -> int: ...
 def host_uvarm_pass(
     address: int,
     names: Sequence[str] | NDArray[np.bytes_],

@@ -41,8 +41,8 @@ _STOP_ANALYSIS, _CONCLUDE_STEP = 4, 5
 class Library:
     """User routines of a job, and the job's messages from them.
 
-    uel, uelmat, umat, umatht, hetval, uvarm, sdvini, orient, disp, dload, uamp, usdfld, uexternaldb: addresses, None
-                              without the routine
+    uel, uelmat, umat, umatht, hetval, uvarm, sdvini, orient, disp, dload, dflux, film, uamp, usdfld, uexternaldb:
+                              addresses, None without the routine
     name                      the file as the user named it, for messages
     file                      the shared library
     entry_points              names of all user routines found
@@ -68,6 +68,8 @@ class Library:
         self.orient = addresses["ORIENT"]
         self.disp = addresses["DISP"]
         self.dload = addresses["DLOAD"]
+        self.dflux = addresses["DFLUX"]
+        self.film = addresses["FILM"]
         self.uamp = addresses["UAMP"]
         self.usdfld = addresses["USDFLD"]
 

@@ -80,7 +80,7 @@ def test_stiffness_of_pressures(tmp_path, element_type):
     model = read_deck(tmp_path / "press.inp")
     library = usersub.load(None, job="job", output_dir=tmp_path)
     system = System(model.mesh, build_blocks(model, library), model.equations)
-    faces = np.array([block.first for block in system.pressures])
+    faces = np.array([block.first for block in system.loaded])
     pressures = np.linspace(3, 5, len(faces))
     call = Call(
         Flags(1, nlgeom=True), step=1, increment=1, step_time=1.0, total_time=1.0, time_increment=1.0, period=1.0

@@ -1,0 +1,208 @@
+! SPDX-FileCopyrightText: The uel-harness authors
+! SPDX-License-Identifier: BSD-3-Clause
+!> Heat that enters through faces, into volumes and at nodes, as a procedure with the arguments of UEL: fluxes, by the deck or by
+!> DFLUX, and films, by the deck or by FILM (User Subroutines Guide, DFLUX, FILM).
+!>
+!> JTYPE: 1 a face, 2 a volume, 3 a node. JPROPS: family and integration points of the shape, family of the temperatures, 1 about an
+!> axis, number of the load (define_heat_load). PROPS(1): thickness or 2 pi, at a node its area. Loads of the call: of kind 1 the
+!> flux or the sink temperature, of kind 2 the film coefficient. The unknowns are the temperatures, in quadratic coupled elements
+!> those of the corners.
+!>
+!> Faces of linear elements have their points at the corners, as in Abaqus (Analysis User's Guide, Solid elements), each with the
+!> integral of its function as weight, so that a uniform flux makes a linear temperature on any mesh; the others, and volumes,
+!> have Gauss points. All is in the shape before any displacement.
+module host_heat_loads
+  use, intrinsic :: iso_c_binding, only: c_f_procpointer, c_funptr
+  use core_rotation, only: cross
+  use core_small_matrix, only: determinant
+  use host_context, only: current
+  use host_guarded, only: guarded_t, lay_out_guarded, warn_of_no_numbers, warn_of_writes
+  use host_kinds, only: dp, i4
+  use host_shape, only: radius_of, rule_of, rule_t
+  implicit none (type, external)
+  private
+  public :: define_heat_load, heat_load_uel, heat_load_t
+
+  integer(i4), parameter :: volume = 2, node = 3   !< JTYPE
+
+  !> A load of one type on one surface.
+  type :: heat_load_t
+    logical :: film = .false.
+    logical :: by_user = .false.                !< DFLUX or FILM is called
+    type(c_funptr) :: address
+    character(len=80) :: surface = ' '          !< SNAME
+    integer(i4) :: jltyp = 0
+    logical, pointer :: reported(:) => null()   !< a write outside FLUX or H is
+    logical, pointer :: spoilt(:) => null()
+  end type heat_load_t
+
+  type(heat_load_t), allocatable, save :: loads(:)
+  type(guarded_t), save, target :: work   ! each thread has its own
+  !$omp threadprivate(work)
+
+  abstract interface
+    subroutine dflux_procedure(flux, sol, kstep, kinc, time, noel, npt, coords, jltyp, temp, press, sname)
+      import :: dp, i4
+      real(dp) :: flux(*), sol, time(*), coords(*), temp, press
+      integer(i4) :: kstep, kinc, noel, npt, jltyp
+      character(len=80) :: sname
+    end subroutine dflux_procedure
+
+    subroutine film_procedure(h, sink, temp, kstep, kinc, time, noel, npt, coords, jltyp, field, nfield, sname, node, area)
+      import :: dp, i4
+      real(dp) :: h(*), sink, temp, time(*), coords(*), field(*), area
+      integer(i4) :: kstep, kinc, noel, npt, jltyp, nfield, node
+      character(len=80) :: sname
+    end subroutine film_procedure
+  end interface
+
+contains
+
+  !> Add a load; returns its number.
+  function define_heat_load(load) result(number)
+    type(heat_load_t), intent(in) :: load
+    integer(i4) :: number
+    if (.not. allocated(loads)) allocate (loads(0))
+    loads = [loads, load]
+    number = size(loads, kind=i4)
+  end function define_heat_load
+
+  subroutine heat_load_uel(rhs, amatrx, svars, energy, ndofel, nrhs, nsvars, props, nprops, coords, mcrd, nnode, u, du, &
+                           v, a, jtype, time, dtime, kstep, kinc, jelem, params, ndload, jdltyp, adlmag, predef, npredf, &
+                           lflags, mlvarx, ddlmag, mdload, pnewdt, jprops, njprop, period)
+    integer(i4) :: ndofel, nrhs, nsvars, nprops, mcrd, nnode, jtype, kstep, kinc, jelem, ndload, jdltyp(*), npredf, &
+                   lflags(*), mlvarx, mdload, jprops(*), njprop
+    real(dp) :: rhs(ndofel, nrhs), amatrx(ndofel, ndofel), svars(*), energy(*), props(*), coords(mcrd, nnode), u(ndofel), du(*), &
+                v(*), a(*), time(2), dtime, params(*), adlmag(*), predef(2, npredf, nnode), ddlmag(*), pnewdt, period
+    type(rule_t), pointer :: shape, field
+    logical :: corners
+    integer :: p, points
+    real(dp) :: n(nnode), of_field(ndofel), weight, given(2), heat, slope
+    rhs = 0
+    amatrx = 0
+    if (ndload == 0 .or. any(lflags(3) == [3_i4, 4_i4])) return
+    given = 0
+    do p = 1, ndload
+      given(jdltyp(p)) = adlmag(p)
+    end do
+    points = 1
+    corners = .false.
+    if (jtype /= node) then
+      shape => rule_of(int(jprops(1)), int(jprops(2)))
+      field => rule_of(int(jprops(3)), int(jprops(2)))
+      corners = jtype /= volume .and. shape%nodes == shape%corners
+      points = merge(shape%nodes, shape%points, corners)
+    end if
+    do p = 1, points
+      if (jtype == node .or. corners) then
+        n = 0
+        n(p) = 1
+        of_field = n(:ndofel)
+        weight = props(1)
+        if (corners) weight = weight*corner_area(shape, p, jprops(4) /= 0, coords)
+      else
+        n = shape%n(:, p)
+        of_field = field%n(:, p)
+        weight = props(1)*shape%weight(p)*area(matmul(coords, shape%dn(:, :, p)))*radius_of(shape, p, jprops(4) /= 0, coords)
+      end if
+      call heat_at(loads(jprops(5)), int(p, i4), merge(jelem, 0_i4, jtype == node), matmul(coords, n), dot_product(u, of_field), &
+                   time, weight, given, matmul(predef(1, 2:npredf - 1, :), n), heat, slope)
+      rhs(:, 1) = rhs(:, 1) + weight*heat*of_field
+      amatrx = amatrx - weight*slope*spread(of_field, 2, int(ndofel))*spread(of_field, 1, int(ndofel))
+    end do
+  end subroutine heat_load_uel
+
+  !> Area, length or volume per parent one.
+  pure real(dp) function area(along)
+    real(dp), intent(in) :: along(:, :)
+    if (size(along, 2) == size(along, 1)) then
+      area = determinant(along)
+    else if (size(along, 2) == 1) then
+      area = norm2(along(:, 1))
+    else
+      area = norm2(cross(along(:, 1), along(:, 2)))
+    end if
+  end function area
+
+  !> Part of the area, or about an axis of the area times the radius, that belongs to a corner: the integral of its function.
+  pure real(dp) function corner_area(shape, corner, axisymmetric, x)
+    type(rule_t), intent(in) :: shape
+    integer, intent(in) :: corner
+    logical, intent(in) :: axisymmetric
+    real(dp), intent(in) :: x(:, :)
+    integer :: p
+    corner_area = 0
+    do p = 1, shape%points
+      corner_area = corner_area + &
+                    shape%weight(p)*shape%n(corner, p)*area(matmul(x, shape%dn(:, :, p)))*radius_of(shape, p, axisymmetric, x)
+    end do
+  end function corner_area
+
+  !> Heat that enters at a point per area, or volume, and its derivative by the temperature there.
+  subroutine heat_at(load, point, label, place, temperature, time, area, given, fields, heat, slope)
+    type(heat_load_t), intent(in) :: load
+    integer(i4), intent(in) :: point, label         !< label: of the node of a film at a node, else 0
+    real(dp), intent(in) :: place(:), temperature, time(2), area, given(2), fields(:)
+    real(dp), intent(out) :: heat, slope
+    real(dp) :: values(2), sink
+    sink = given(1)
+    values = [merge(given(2), given(1), load%film), 0.0_dp]
+    if (load%by_user) call call_user(load, point, label, place, temperature, time, area, fields, values, sink)
+    heat = values(1)
+    slope = values(2)
+    if (.not. load%film) return
+    heat = values(1)*(sink - temperature)
+    slope = values(2)*(sink - temperature) - values(1)
+  end subroutine heat_at
+
+  !> DFLUX or FILM at a point: FLUX or H, and SINK. Their TIME is that at the end of the increment.
+  subroutine call_user(load, point, label, place, temperature, time, area, fields, values, sink)
+    type(heat_load_t), intent(in) :: load
+    integer(i4), intent(in) :: point, label
+    real(dp), intent(in) :: place(:), temperature, time(2), area, fields(:)
+    real(dp), intent(inout) :: values(2), sink
+    procedure(dflux_procedure), pointer :: dflux
+    procedure(film_procedure), pointer :: film
+    integer(i4) :: kstep, kinc, noel, npt, jltyp, nfield, node_label
+    real(dp) :: sol, now(2), coords(3), temp, press, field(max(size(fields), 1)), own_area
+    character(len=80) :: sname
+    character(len=4) :: name(1)
+    character(len=len(current%routine)) :: routine
+    call lay_out_guarded(work, [2])
+    routine = current%routine
+    current%routine = merge('FILM ', 'DFLUX', load%film)
+    current%point = point
+    sol = temperature
+    kstep = current%step
+    kinc = current%increment
+    now = time
+    noel = merge(0_i4, current%element, label > 0)
+    npt = merge(0_i4, point, label > 0)
+    coords = 0
+    coords(:size(place)) = place
+    jltyp = load%jltyp
+    temp = 0
+    press = 0
+    field = 0
+    field(:size(fields)) = fields
+    nfield = size(fields, kind=i4)
+    sname = load%surface
+    node_label = label
+    own_area = area
+    name = merge('H   ', 'FLUX', load%film)
+    associate (x => work%memory, s => work%start)
+      x(s(1):s(1) + 1) = values
+      if (load%film) then
+        call c_f_procpointer(load%address, film)
+        call film(x(s(1)), sink, sol, kstep, kinc, now, noel, npt, coords, jltyp, field, nfield, sname, node_label, own_area)
+      else
+        call c_f_procpointer(load%address, dflux)
+        call dflux(x(s(1)), sol, kstep, kinc, now, noel, npt, coords, jltyp, temp, press, sname)
+      end if
+      call warn_of_writes(work, name, [character(len=1) :: '2'], point, load%reported)
+      call warn_of_no_numbers(work, name, point, load%spoilt)
+      values = x(s(1):s(1) + 1)
+    end associate
+    current%routine = routine
+  end subroutine call_user
+end module host_heat_loads

@@ -1,0 +1,146 @@
+# SPDX-FileCopyrightText: The uel-harness authors
+# SPDX-License-Identifier: BSD-3-Clause
+"""*DFLUX, *DSFLUX, *FILM, *SFILM and *CFILM: heat that enters elements with temperatures."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator
+from typing import Final
+
+from harness.deck.blocks import Block, Row
+from harness.deck.error_report import look_up
+from harness.deck.prescribed import LOAD, Prescription
+from harness.deck.surfaces import face_nodes
+from harness.deck.table import Keyword, Kind, Option, Where, ignored, refused
+from harness.model.amplitude import Amplitude
+from harness.model.arrays import IntArray
+from harness.model.element_types import SolidType
+from harness.model.mesh import ElementGroup
+from harness.model.steps import HeatLoad, HeatLoadType
+
+HEAT_LOADS: Final = ("DFLUX", "DSFLUX", "FILM", "SFILM", "CFILM")
+_LABEL: Final = re.compile(r"(BF|[SF]\d?)(NU)?")
+_BODY, _FIRST_FACE = 1, 11
+"""JLTYP of BFNU, and of the first face, S1NU or F1NU (User Subroutines Guide, DFLUX and FILM)."""
+
+
+def read_heat_loads(block: Block, prescription: Prescription) -> list[HeatLoad]:
+    """Entries of one of these keywords. Raises DeckError."""
+    amplitude, film_amplitude = prescription.amplitude(block), None
+    film = block.name.endswith("FILM")
+    if film and (name := block.options.text("FILM AMPLITUDE")):
+        film_amplitude = look_up(prescription.amplitudes, name, "amplitude", block.source)
+    found = []
+    for row in block.rows():
+        row.at_most(4 if film else 3)
+        for places, kind in _places(block, row, prescription):
+            found.append(_load(row, places, kind, (amplitude, film_amplitude)))
+    return found
+
+
+def _load(
+    row: Row, places: IntArray, kind: HeatLoadType, amplitudes: tuple[Amplitude | None, Amplitude | None]
+) -> HeatLoad:
+    amplitude, film_amplitude = amplitudes
+    if not kind.film:
+        return HeatLoad(places, kind, row.real(2, "flux", 0.0), amplitude, row.source)
+    sink, coefficient = row.real(2, "sink temperature", 0.0), row.real(3, "film coefficient", 0.0)
+    return HeatLoad(places, kind, sink, amplitude, row.source, coefficient, film_amplitude)
+
+
+def _places(block: Block, row: Row, prescription: Prescription) -> Iterator[tuple[IntArray, HeatLoadType]]:
+    """Elements or nodes of a line, group by group, with the type of the load there."""
+    name = block.name
+    if name == "CFILM":
+        nodes = prescription.flat.nodes(row.name(0, "node or node set"), row.source)
+        area = row.real(1, "area", 1.0)
+        if area <= 0:
+            raise row.error(f"area {area:g} must be positive")
+        yield nodes, HeatLoadType(name, film=True, area=area, by_user=block.options.flag("USER"))
+        return
+    film = name.endswith("FILM")
+    on_surface = name in ("DSFLUX", "SFILM")
+    label, by_user = _label(row, film=film, on_surface=on_surface)
+    if on_surface:
+        surface = row.name(0, "surface")
+        for elements, face, source in prescription.surfaces.faces(surface, row.source):
+            for group, positions in prescription.surfaces.by_group(elements):
+                _check_temperatures(row, label, group)
+                local = face_nodes(group, face, source, "SURFACE")
+                yield positions, HeatLoadType(name, film, local, 0, surface, by_user)
+        return
+    elements = prescription.flat.elements(row.name(0, "element or element set"), row.source)
+    for group, positions in prescription.surfaces.by_group(elements):
+        _check_temperatures(row, label, group)
+        if label == "BF":
+            yield positions, HeatLoadType(name, film, (), _BODY, "", by_user)
+        else:
+            local = face_nodes(group, f"S{label[1:]}", row.source, name)
+            yield positions, HeatLoadType(name, film, local, _FIRST_FACE + int(label[1:]) - 1, "", by_user)
+
+
+def _label(row: Row, *, film: bool, on_surface: bool) -> tuple[str, bool]:
+    """The label of a load without NU, and whether it has it."""
+    given = row.name(1, "load type")
+    match = _LABEL.fullmatch(given)
+    letter = "F" if film else "S"
+    known = (letter,) if on_surface else (f"{letter}n",) if film else ("BF", f"{letter}n")
+    fits = match is not None and (match[1] == letter if on_surface else match[1] != letter)
+    if match is None or not fits or (match[1][0] != letter and (film or match[1] != "BF")):
+        raise row.error(
+            f"load type {given} is not supported (supported: {', '.join(known)}; with NU, as in {letter}NU)"
+        )
+    return match[1], match[2] is not None
+
+
+def _check_temperatures(row: Row, label: str, group: ElementGroup) -> None:
+    kind = group.built_in
+    if not isinstance(kind, SolidType) or 11 not in kind.dofs(0):
+        raise row.error(
+            f"load type {label} on elements of type {group.type}, which are not built-in elements with heat"
+        )
+
+
+_FILM: Final = (
+    Option("FILM AMPLITUDE", Kind.NAME, "amplitude of the film coefficient, which is constant without it"),
+    *ignored("REGION TYPE"),
+)
+
+KEYWORDS = (
+    Keyword(
+        "DFLUX",
+        "Heat flux into elements with temperatures, in their initial shape.",
+        Where.STEP,
+        (*LOAD, *refused("BLADE", "REGION TYPE")),
+        "element or set, BF or Sn (with NU, as in S2NU, by DFLUX), flux per volume or area",
+    ),
+    Keyword(
+        "DSFLUX",
+        "Heat flux into surfaces of elements with temperatures.",
+        Where.STEP,
+        LOAD,
+        "surface, S (SNU: by DFLUX), flux per area",
+    ),
+    Keyword(
+        "FILM",
+        "Heat that faces of elements exchange with a sink.",
+        Where.STEP,
+        (*LOAD, *_FILM),
+        "element or set, Fn (FnNU: by FILM), sink temperature, film coefficient",
+    ),
+    Keyword(
+        "SFILM",
+        "Heat that surfaces exchange with a sink.",
+        Where.STEP,
+        (*LOAD, *_FILM),
+        "surface, F (FNU: by FILM), sink temperature, film coefficient",
+    ),
+    Keyword(
+        "CFILM",
+        "Heat that nodes exchange with a sink.",
+        Where.STEP,
+        (*LOAD, *_FILM, Option("USER", doc="by FILM")),
+        "node or set, area (1), sink temperature, film coefficient",
+    ),
+)

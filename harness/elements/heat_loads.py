@@ -1,0 +1,151 @@
+# SPDX-FileCopyrightText: The uel-harness authors
+# SPDX-License-Identifier: BSD-3-Clause
+"""Heat that enters through faces, into volumes and at nodes: blocks that are called as elements are.
+
+They are in fortran/host/host_heat_loads.f90. Their loads are of kind 1, the flux or the sink temperature, and 2, the
+film coefficient.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import replace
+from typing import Final
+
+import numpy as np
+
+from harness.elements.block import ElementBlock
+from harness.elements.routine import Routine
+from harness.elements.solid import section_depth
+from harness.errors import DeckError
+from harness.model.arrays import IntArray
+from harness.model.element_types import Family, HeatType, SolidType
+from harness.model.mesh import ElementGroup
+from harness.model.model import Model
+from harness.model.properties import SolidSection
+from harness.model.steps import HeatLoad, HeatLoadType
+from harness.usersub import Library, _binding
+
+FACE, VOLUME, NODE = 1, 2, 3
+"""JTYPE in fortran/host/host_heat_loads.f90."""
+TEMPERATURE: Final = 11
+
+
+class HeatLoadBlock(ElementBlock):
+    """Faces, volumes or nodes that heat of one type may enter.
+
+    places  (m,) positions of the elements in the model, or nodes, ascending
+    load    the type of the load
+    """
+
+    places: IntArray
+    load: HeatLoadType
+
+
+def heat_load_blocks(model: Model, library: Library) -> Iterator[HeatLoadBlock]:
+    """Blocks of all faces, volumes and nodes that heat enters. Raises DeckError."""
+    under: dict[HeatLoadType, list[HeatLoad]] = {}
+    for step in model.steps:
+        for entry in step.heat_loads:
+            under.setdefault(entry.type, []).append(entry)
+    starts = np.cumsum([0, *(len(group.labels) for group in model.groups)])
+    for load, entries in under.items():
+        number = _define(load, entries[0], library)
+        places = np.unique(np.concatenate([entry.places for entry in entries]))
+        if load.area:
+            _check_nodes(model, entries)
+            yield _at_nodes(model, places, load, number, library)
+            continue
+        for parent, start, end in zip(model.groups, starts, starts[1:], strict=False):
+            mine = places[(places >= start) & (places < end)]
+            if len(mine):
+                yield _on_elements(model, parent, mine - start, mine, load, number, library)
+
+
+def _define(load: HeatLoadType, entry: HeatLoad, library: Library) -> int:
+    """Make a load known to the host; returns its number there. Raises DeckError without the user routine."""
+    routine, address = ("FILM", library.film) if load.film else ("DFLUX", library.dflux)
+    if load.by_user and address is None:
+        message = (
+            f"*{load.keyword}: nonuniform loads need {routine}; {library.name or 'the job'} has {library.contents}"
+        )
+        raise DeckError(entry.source, message)
+    return _binding.define_heat_load(
+        film=load.film, address=address if load.by_user else None, surface=load.surface, jltyp=load.jltyp
+    )
+
+
+def _on_elements(
+    model: Model,
+    parent: ElementGroup,
+    rows: IntArray,
+    places: IntArray,
+    load: HeatLoadType,
+    number: int,
+    library: Library,
+) -> HeatLoadBlock:
+    kind, section = parent.built_in, parent.section
+    assert isinstance(kind, SolidType)
+    assert isinstance(section, SolidSection)
+    family, points, nodes = kind.family, kind.body_points, parent.nodes[rows]
+    if load.face:
+        family = kind.family.face_family(load.face)
+        points, nodes = family.full_points, nodes[:, list(load.face)]
+    # coupled elements have temperatures at their corners
+    field = family if isinstance(kind, HeatType) else family.linear
+    depth = section_depth(kind, section) if kind.dimension == 2 else 1.0
+    integers = [family.number, points, field.number, kind.axisymmetric, number]
+    group = replace(parent, labels=parent.labels[rows], nodes=nodes)
+    jtype = FACE if load.face else VOLUME
+    routine = _routine(jtype, kind.dimension, depth, integers)
+    return _block(model, group, routine, library, field, places, load)
+
+
+def _check_nodes(model: Model, entries: list[HeatLoad]) -> None:
+    """Raise DeckError where a node has no temperature."""
+    warm = np.zeros(len(model.mesh.labels), dtype=bool)
+    for group in model.groups:
+        kind = group.built_in
+        for local in range(group.nodes.shape[1]):
+            definition = group.definition
+            dofs = [dof for node, dof in definition.dofs if node == local] if definition else kind and kind.dofs(local)
+            if TEMPERATURE in (dofs or ()):
+                warm[group.nodes[:, local]] = True
+    for entry in entries:
+        if not warm[entry.places].all():
+            label = model.mesh.name(int(entry.places[~warm[entry.places]][0]))
+            raise DeckError(entry.source, f"*{entry.type.keyword}: node {label} has no temperature")
+
+
+def _at_nodes(model: Model, nodes: IntArray, load: HeatLoadType, number: int, library: Library) -> HeatLoadBlock:
+    labels = model.mesh.labels[nodes]
+    group = replace(model.groups[0], type=load.keyword, labels=labels, nodes=nodes[:, None])
+    routine = _routine(NODE, 3, load.area, [0, 0, 0, 0, number])
+    return _block(model, group, routine, library, None, nodes, load)
+
+
+def _routine(jtype: int, dimension: int, factor: float, integers: list[int]) -> Routine:
+    return Routine(
+        address=_binding.address_of("heat load"),
+        jtype=jtype,
+        mcrd=dimension,
+        svars=1,
+        props=np.array([factor]),
+        jprops=np.array(integers),
+    )
+
+
+def _block(
+    model: Model,
+    group: ElementGroup,
+    routine: Routine,
+    library: Library,
+    field: Family | None,
+    places: IntArray,
+    load: HeatLoadType,
+) -> HeatLoadBlock:
+    count = 1 if field is None else field.nodes
+    unknowns = tuple((node, TEMPERATURE) for node in range(count))
+    block = HeatLoadBlock(group, model.mesh.coordinates, unknowns, routine, library, unsymmetric=False, variables=None)
+    block.places, block.load = places, load
+    return block
