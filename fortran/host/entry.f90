@@ -508,28 +508,31 @@ subroutine host_orient_pass(address, name, family, labels, nodes, coords, t, lef
   point = current%point
 end subroutine host_orient_pass
 
-!> Call DISP (2 rows of places) or DLOAD (3) at all places.
-subroutine host_value_pass(address, place, time, places, coords, values, left, last, rows, n)
+!> Call DISP (1), DLOAD (2), UTEMP (3) or UFIELD (4) at all places.
+subroutine host_value_pass(routine, address, place, time, places, coords, temperatures, values, left, last, rows, n)
   use, intrinsic :: iso_c_binding, only: c_intptr_t
   use host_kinds, only: dp, i4, i8
   use host_values, only: run_values, value_pass_t
   implicit none (type, external)
+  integer(i4), intent(in) :: routine
   integer(i8), intent(in) :: address
   integer(i4), intent(in) :: place(2)         !< step, increment
   real(dp), intent(in) :: time(2)             !< step and total time at the end of the increment
   integer(i4), intent(in) :: rows, n
-  integer(i4), intent(in), target :: places(rows, n)   !< node number, dof; or element number, point, JLTYP
-  real(dp), intent(in), target :: coords(3, n)
+  integer(i4), intent(in), target :: places(rows, n)   !< as value_pass_t has them
+  real(dp), intent(in), target :: coords(3, n), temperatures(2, n)
   real(dp), intent(inout), target :: values(n)
   integer(i4), intent(out) :: left            !< 1 if the routine ended the analysis
   integer(i4), intent(out) :: last            !< place of the last call
   type(value_pass_t) :: pass
+  pass%routine = routine
   pass%address = transfer(int(address, c_intptr_t), pass%address)
   pass%kstep = place(1)
   pass%kinc = place(2)
   pass%time = time
   pass%places => places
   pass%coords => coords
+  pass%temperatures => temperatures
   pass%values => values
   call run_values(pass, left)
   last = pass%last

@@ -1,7 +1,7 @@
 ! SPDX-FileCopyrightText: The uel-harness authors
 ! SPDX-License-Identifier: BSD-3-Clause
 !> Values that user routines define at given points (User Subroutines Guide): DISP for what *BOUNDARY, USER prescribes, DLOAD for
-!> nonuniform distributed loads on built-in elements.
+!> nonuniform distributed loads on built-in elements, UTEMP and UFIELD for *TEMPERATURE, USER and *FIELD, USER.
 module host_values
   use, intrinsic :: iso_c_binding, only: c_f_pointer, c_f_procpointer, c_funloc, c_funptr, c_loc, c_ptr
   use host_context, only: current
@@ -24,18 +24,34 @@ module host_values
       integer(i4) :: kstep, kinc, noel, npt, layer, kspt, jltyp
       character(len=80) :: sname
     end subroutine dload_procedure
+
+    subroutine utemp_procedure(temp, nsecpt, kstep, kinc, time, node, coords)
+      import :: dp, i4
+      real(dp) :: temp(*), time(*), coords(*)
+      integer(i4) :: nsecpt, kstep, kinc, node
+    end subroutine utemp_procedure
+
+    subroutine ufield_procedure(field, kfield, nsecpt, kstep, kinc, time, node, coords, temp, dtemp, nfield)
+      import :: dp, i4
+      real(dp) :: field(*), time(*), coords(*), temp(*), dtemp(*)
+      integer(i4) :: kfield, nsecpt, kstep, kinc, node, nfield
+    end subroutine ufield_procedure
   end interface
 
-  !> Rows of the places of DISP; DLOAD has one more.
-  integer, parameter :: rows_of_disp = 2
+  !> Numbers of the routines, in the order of VALUE_ROUTINES in harness/usersub/_binding.py.
+  integer(i4), parameter :: of_disp = 1, of_dload = 2, of_utemp = 3, of_ufield = 4
+  character(len=6), parameter :: names(4) = [character(len=6) :: 'DISP', 'DLOAD', 'UTEMP', 'UFIELD']
 
   !> One pass over all places. Arrays belong to the caller.
   type :: value_pass_t
     type(c_funptr) :: address
+    integer(i4) :: routine = of_disp
     integer(i4) :: kstep = 0, kinc = 0
     integer(i4) :: last = 0                                      !< place that was asked for last
     real(dp) :: time(2) = 0                                      !< step and total time at the end of the increment
-    integer(i4), pointer, contiguous :: places(:, :) => null()   !< DISP: node number, dof; DLOAD: element number, point, JLTYP
+    !> DISP: node number, dof; DLOAD: element number, point, JLTYP; UTEMP, UFIELD: node number, number of the field
+    integer(i4), pointer, contiguous :: places(:, :) => null()
+    real(dp), pointer, contiguous :: temperatures(:, :) => null()   !< (2, n) for UFIELD: at the end, and the increment
     real(dp), pointer, contiguous :: coords(:, :) => null()      !< (3, n)
     real(dp), pointer, contiguous :: values(:) => null()         !< (n) by magnitude and amplitude, then those of the routine
   end type value_pass_t
@@ -46,7 +62,7 @@ contains
   subroutine run_values(pass, left)
     type(value_pass_t), intent(inout), target :: pass
     integer(i4), intent(out) :: left
-    current%routine = merge('DISP ', 'DLOAD', size(pass%places, 1) == rows_of_disp)
+    current%routine = names(pass%routine)
     current%element = 0
     current%step = pass%kstep
     current%increment = pass%kinc
@@ -61,14 +77,16 @@ contains
     call c_f_pointer(context, pass)
     do k = 1, size(pass%values, kind=i4)
       pass%last = k
-      if (size(pass%places, 1) == rows_of_disp) then
-        call begin_call(0_i4, 0_i4)
+      if (pass%routine == of_dload) current%element = pass%places(1, k)
+      call begin_call(0_i4, current%element)
+      select case (pass%routine)
+      case (of_disp)
         call prescribe(pass, pass%places(:, k), pass%coords(:, k), pass%values(k))
-      else
-        current%element = pass%places(1, k)
-        call begin_call(0_i4, current%element)
+      case (of_dload)
         call load(pass, pass%places(:, k), pass%coords(:, k), pass%values(k))
-      end if
+      case default
+        call predefine(pass, pass%places(:, k), pass%coords(:, k), pass%temperatures(:, k), pass%values(k))
+      end select
     end do
   end subroutine all_places
 
@@ -94,6 +112,36 @@ contains
     call disp(u, kstep, kinc, time, node, noel, jdof, coords)
     value = u(1)
   end subroutine prescribe
+
+  subroutine predefine(pass, place, x, temperature, value)
+    type(value_pass_t), intent(in) :: pass
+    integer(i4), intent(in) :: place(:)
+    real(dp), intent(in) :: x(3), temperature(2)
+    real(dp), intent(inout) :: value
+    procedure(utemp_procedure), pointer :: utemp
+    procedure(ufield_procedure), pointer :: ufield
+    integer(i4) :: kstep, kinc, node, nsecpt, kfield, nfield
+    real(dp) :: field(1), time(2), coords(3), temp(1), dtemp(1)
+    field = value
+    nsecpt = 1
+    kstep = pass%kstep
+    kinc = pass%kinc
+    time = pass%time
+    node = place(1)
+    coords = x
+    if (pass%routine == of_utemp) then
+      call c_f_procpointer(pass%address, utemp)
+      call utemp(field, nsecpt, kstep, kinc, time, node, coords)
+    else
+      call c_f_procpointer(pass%address, ufield)
+      kfield = place(2)
+      temp = temperature(1)
+      dtemp = temperature(2)
+      nfield = 1
+      call ufield(field, kfield, nsecpt, kstep, kinc, time, node, coords, temp, dtemp, nfield)
+    end if
+    value = field(1)
+  end subroutine predefine
 
   subroutine load(pass, place, x, value)
     type(value_pass_t), intent(in) :: pass

@@ -260,6 +260,7 @@ class _RecordedRoutines:
     def __init__(self, library: Library, events: list[Event]) -> None:
         self.sdvini, self.orient = library.sdvini, library.orient
         self.disp, self.dload, self.uamp = library.disp, library.dload, library.uamp
+        self.utemp, self.ufield = library.utemp, library.ufield
         self.user_values, self.user_amplitude = library.user_values, library.user_amplitude
         self._library = library
         self._events = events

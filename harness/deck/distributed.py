@@ -131,7 +131,8 @@ def read_fields(block: Block, prescription: Prescription) -> list[Load]:
     for row in block.rows():
         row.at_most(2)
         nodes = prescription.flat.nodes(row.name(0, "node or node set"), row.source)
-        found.append(Load(nodes, number, row.real(1, "value", 0.0), amplitude, row.source))
+        given = nodes, number, row.real(1, "value", 0.0), amplitude, row.source
+        found.append(Load(*given, user=block.options.flag("USER")))
     return found
 
 
@@ -169,14 +170,18 @@ KEYWORDS = (
         "TEMPERATURE",
         "Temperature as a predefined field.",
         Where.STEP,
-        (*LOAD, *refused("ABSOLUTE EXTERIOR TOLERANCE", "BSTEP", "DRIVING ELSETS", "ESTEP", "FILE", "USER")),
+        (
+            *LOAD,
+            Option("USER", doc="UTEMP gives the values"),
+            *refused("ABSOLUTE EXTERIOR TOLERANCE", "BSTEP", "DRIVING ELSETS", "ESTEP", "FILE"),
+        ),
         "node or set, temperature",
     ),
     Keyword(
         "FIELD",
         "Predefined field variable.",
         Where.STEP,
-        (FIELD_NUMBER, *LOAD, *refused("FILE", "USER")),
+        (FIELD_NUMBER, *LOAD, Option("USER", doc="UFIELD gives the values"), *refused("FILE")),
         "node or set, value",
     ),
 )

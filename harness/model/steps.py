@@ -109,6 +109,7 @@ class Load:
     """One *CLOAD entry: nodes (indices), one dof, reference magnitude, amplitude (None: the step's default).
 
     imaginary  it is the imaginary part of a harmonic load
+    user       UTEMP or UFIELD has the last word, of a field
     """
 
     nodes: IntArray
@@ -117,6 +118,7 @@ class Load:
     amplitude: Amplitude | None
     source: Source
     imaginary: bool = False
+    user: bool = False
 
 
 @dataclass(frozen=True, slots=True)

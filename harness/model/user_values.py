@@ -19,18 +19,21 @@ class UserValues:
 
     routine  its name
     time     step and total time
-    places   (n, 2) node number and dof for DISP; (n, 3) element number, point and JLTYP for DLOAD
+    places   (n, 2) node number and dof for DISP, or number of the field for UTEMP and UFIELD, 0 for temperature;
+             (n, 3) element number, point and JLTYP for DLOAD
     coords   (n, 3) of the places
     given    (n,) values by magnitude and amplitude
+    temperatures  (n, 2) for UFIELD: at the end of the increment, and their change
     """
 
-    routine: Literal["DISP", "DLOAD"]
+    routine: Literal["DISP", "DLOAD", "UTEMP", "UFIELD"]
     step: int
     increment: int
     time: tuple[float, float]
     places: NDArray[np.int32]
     coords: FloatArray
     given: FloatArray
+    temperatures: FloatArray | None = None
 
 
 @dataclass(frozen=True, slots=True)
@@ -67,10 +70,12 @@ class GivenAmplitude:
 
 
 class GivesValues(Protocol):
-    """The part of a loaded library that gives values; disp, dload, uamp: addresses, None without the routine."""
+    """The part of a loaded library that gives values; disp, dload, ...: addresses, None without the routine."""
 
     disp: int | None
     dload: int | None
+    utemp: int | None
+    ufield: int | None
     uamp: int | None
 
     def user_values(self, asked: UserValues) -> FloatArray:

@@ -2,22 +2,29 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Distributed loads on user elements and predefined fields through the steps, as elements get them.
 
-Both vary as *CLOAD does. A field that a step removes (OP=NEW) goes back to its initial value.
+Both vary as *CLOAD does. A field that a step removes (OP=NEW) goes back to its initial value. With USER, UTEMP and
+UFIELD give the values at the end of each attempt at an increment, UTEMP first.
 """
 
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
+from operator import itemgetter
+from typing import Literal
 
 import numpy as np
 from numpy.typing import NDArray
 
 from harness.elements import Distributed, Predefined
 from harness.model.arrays import FloatArray, IntArray
+from harness.model.mesh import Mesh
 from harness.model.model import Model
 from harness.model.steps import Load, Step
+from harness.model.user_values import GivesValues, UserValues
 from harness.procedures.loads import Loads, Slots, Variation
 
+Times = tuple[float, float]
+"""Step and total time."""
 FIRST_TEMPERATURE = 11
 """The dof whose initial value is also that of the predefined field."""
 
@@ -41,6 +48,9 @@ class Conditions:
         for start in starts:
             self._initial[self._nodes.find(start.nodes, start.dof)] = start.value
         self._fields = Loads(self._nodes, self._initial)
+        self._by_user = np.zeros(len(self._nodes), dtype=bool)
+        self._mesh = model.mesh
+        self._reached: list[tuple[float, FloatArray]] = [(0.0, self._initial)]
 
     def start_step(self, step: Step, total_time: float) -> StepConditions:
         """Take over a step's entries; total_time is that at the end of the previous step."""
@@ -48,6 +58,10 @@ class Conditions:
             self._active[:] = False
         for entry in step.distributed:
             self._active[self._slots.find(entry.elements, entry.kind)] = True
+        if step.new_fields:
+            self._by_user[:] = False
+        for field in step.fields:
+            self._by_user[self._nodes.find(field.nodes, field.dof)] = field.user
         return StepConditions(
             self._slots.places[self._active],
             self._slots.kinds[self._active],
@@ -57,6 +71,7 @@ class Conditions:
             self._nodes,
             # temperature is the first field
             self._initial[: self._nodes.nodes],
+            UserFields(step.number, self._mesh, self._nodes, np.flatnonzero(self._by_user), self._reached),
         )
 
     def in_perturbation(self, step: Step, total_time: float) -> Distributed | None:
@@ -95,6 +110,45 @@ class _Grid:
 
 
 @dataclass(frozen=True, slots=True)
+class UserFields:
+    """Fields that UTEMP and UFIELD give in one step.
+
+    slots    (k,) numbers of (node, field)
+    reached  total times and all fields at the ends of increments, ascending; the last ones may be of attempts
+    """
+
+    step: int
+    mesh: Mesh
+    grid: _Grid
+    slots: IntArray
+    reached: list[tuple[float, FloatArray]]
+
+    def replace(self, values: FloatArray, before: FloatArray, increment: int, end: Times, user: GivesValues) -> None:
+        """Put what the routines give into values (n,); before: those at the start of the increment."""
+        nodes, numbers = self.slots % self.grid.nodes, self.slots // self.grid.nodes
+        routines: tuple[Literal["UTEMP", "UFIELD"], ...] = ("UTEMP", "UFIELD")
+        for routine, chosen in zip(routines, (numbers == 0, numbers > 0), strict=True):
+            if not chosen.any():
+                continue
+            slots, at = self.slots[chosen], nodes[chosen]
+            places = np.stack([self.mesh.labels[at], numbers[chosen]], axis=1).astype(np.int32)
+            temperatures = np.stack([values[at], values[at] - before[at]], axis=1)
+            moment = self.step, increment, end
+            asked = UserValues(routine, *moment, places, self.mesh.coordinates[at], values[slots], temperatures)
+            values[slots] = user.user_values(asked)
+
+    def at(self, total_time: float) -> FloatArray | None:
+        """All fields at the end of an increment, None if they are not known."""
+        return next((values for time, values in reversed(self.reached) if time == total_time), None)
+
+    def keep(self, start: float, end: float, values: FloatArray) -> None:
+        """Keep the fields of an attempt, which may end in the middle of an increment, with those of its start."""
+        earlier = [known for known in self.reached if known[0] <= start][-1:]
+        others = [known for known in self.reached if known[0] > start and known[0] != end]
+        self.reached[:] = sorted([*earlier, *others, (end, values)], key=itemgetter(0))
+
+
+@dataclass(frozen=True, slots=True)
 class StepConditions:
     """Conditions of one step: the active loads, and how loads and fields vary."""
 
@@ -105,8 +159,11 @@ class StepConditions:
     fields: Variation
     grid: _Grid
     initial: FloatArray
+    by_user: UserFields
 
-    def at(self, start: tuple[float, float], end: tuple[float, float]) -> tuple[Distributed | None, Predefined | None]:
+    def at(
+        self, start: Times, end: Times, increment: int, user: GivesValues
+    ) -> tuple[Distributed | None, Predefined | None]:
         """Loads and fields of an increment between these step and total times."""
         predefined = None
         values, before = self.loads.at(*end)[self.slots], self.loads.at(*start)[self.slots]
@@ -114,8 +171,23 @@ class StepConditions:
         if len(self.grid):
             shape = self.grid.fields, self.grid.nodes
             values, before = self.fields.at(*end), self.fields.at(*start)
+            if len(self.by_user.slots):
+                values, before = self._with_user(values, before, (start, end), increment, user)
             predefined = Predefined(values.reshape(shape), (values - before).reshape(shape), self.initial)
         return distributed, predefined
+
+    def _with_user(
+        self, values: FloatArray, before: FloatArray, times: tuple[Times, Times], increment: int, user: GivesValues
+    ) -> tuple[FloatArray, FloatArray]:
+        """Fields at the end and at the start of an increment, those of the routines among them."""
+        (_, start), (_, end) = times
+        known = self.by_user.at(start)
+        before = before if known is None else known
+        if start == end:
+            return before, before
+        self.by_user.replace(values, before, increment, times[1], user)
+        self.by_user.keep(start, end, values)
+        return values, before
 
 
 def _as_loads(step: Step) -> list[Load]:

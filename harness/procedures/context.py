@@ -47,6 +47,11 @@ class StepContext:
         if len(state.boundaries.by_user) and user.disp is None:
             source = state.boundaries.sources[int(state.boundaries.by_user[0])]
             raise DeckError(source, "*BOUNDARY, USER needs DISP, which the job does not have")
+        for field in step.fields:
+            routine, address = ("UFIELD", user.ufield) if field.dof else ("UTEMP", user.utemp)
+            if field.user and address is None:
+                keyword = "FIELD" if field.dof else "TEMPERATURE"
+                raise DeckError(field.source, f"*{keyword}, USER needs {routine}, which the job does not have")
         self.released = fading_forces(state.reaction, self.unknowns, step, state.unbalanced)
         state.unbalanced = np.zeros_like(state.unbalanced)
         self.choice = ""
@@ -102,7 +107,7 @@ class StepContext:
     def call(self, size: float, step_time: float, total_time: float) -> Call:
         """Arguments of the passes of an increment that ends at these times."""
         step, end = self.step, (step_time, total_time)
-        distributed, predefined = self.conditions.at(self.times, end)
+        distributed, predefined = self.conditions.at(self.times, end, max(self.increment, 1), self.user)
         return Call(
             flags=Flags.of(step),
             step=step.number,

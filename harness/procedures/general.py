@@ -191,7 +191,7 @@ class GeneralStep:
         self._control.converged(last.iteration, last.evaluation.pnewdt, searched=self._helped, accuracy=accuracy)
         self._state.total_time = reached.total_time
         times = reached.step_time, reached.total_time
-        self._state.predefined = context.conditions.at(times, times)[1]
+        self._state.predefined = context.conditions.at(times, times, context.increment, self._user)[1]
         self._user.external_database(2, 0, times, size, number, context.increment)
         yield IncrementDone(
             number,

@@ -39,6 +39,9 @@ ARRAYS: Final = ("RHS", "AMATRX", "SVARS", "ENERGY", "PROPS", "COORDS", "U", "DU
 POINT_ROUTINES: Final = ("", "UMAT", "USDFLD", "UMATHT", "HETVAL", "DFLUX", "FILM")
 """Routines of points, in the order of fortran/host/host_driver.f90."""
 
+VALUE_ROUTINES: Final = ("DISP", "DLOAD", "UTEMP", "UFIELD")
+"""Routines that give values, in the order of fortran/host/host_values.f90."""
+
 _STRAIN_ENERGY: Final = 1
 """Index of ENERGY(2)."""
 
@@ -400,13 +403,15 @@ def orient(
 
 
 def user_values(address: int, asked: UserValues, values: FloatArray) -> int:
-    """Call DISP or DLOAD at all places; returns the number of the place, from 1, where it ended the analysis, else 0.
+    """Call a routine at all places; returns the number of the place, from 1, where it ended the analysis, else 0.
 
     values (n,) are those given, and become those of the routine.
     """
     moment = (asked.step, asked.increment), asked.time
     coords = np.ascontiguousarray(asked.coords)
-    left, last = _host.host_value_pass(address, *moment, asked.places.T, coords.T, values)
+    temperatures = np.zeros((len(values), 2)) if asked.temperatures is None else asked.temperatures
+    routine = 1 + VALUE_ROUTINES.index(asked.routine)
+    left, last = _host.host_value_pass(routine, address, *moment, asked.places.T, coords.T, temperatures.T, values)
     return last if left else 0
 
 

@@ -123,11 +123,13 @@ def host_orient_pass(
     t: NDArray[np.float64],
 ) -> tuple[int, int, int]: ...
 def host_value_pass(
+    routine: int,
     address: int,
     place: Sequence[int] | NDArray[np.int32],
     time: Sequence[float] | NDArray[np.float64],
     places: NDArray[np.int32],
     coords: NDArray[np.float64],
+    temperatures: NDArray[np.float64],
     values: NDArray[np.float64],
 ) -> tuple[int, int]: ...
 def host_uamp_call(

@@ -41,7 +41,8 @@ _STOP_ANALYSIS, _CONCLUDE_STEP = 4, 5
 class Library:
     """User routines of a job, and the job's messages from them.
 
-    uel, uelmat, umat, umatht, hetval, uvarm, sdvini, orient, disp, dload, dflux, film, uamp, usdfld, uexternaldb:
+    uel, uelmat, umat, umatht, hetval, uvarm, sdvini, orient, disp, dload, dflux, film, utemp, ufield, uamp, usdfld,
+    uexternaldb:
                               addresses, None without the routine
     name                      the file as the user named it, for messages
     file                      the shared library
@@ -70,6 +71,8 @@ class Library:
         self.dload = addresses["DLOAD"]
         self.dflux = addresses["DFLUX"]
         self.film = addresses["FILM"]
+        self.utemp = addresses["UTEMP"]
+        self.ufield = addresses["UFIELD"]
         self.uamp = addresses["UAMP"]
         self.usdfld = addresses["USDFLD"]
 
@@ -147,7 +150,7 @@ class Library:
         return "no user routine"
 
     def user_values(self, asked: UserValues) -> FloatArray:
-        """Values that DISP or DLOAD makes of those given.
+        """Values that DISP, DLOAD, UTEMP or UFIELD makes of those given.
 
         Parameters
         ----------
@@ -164,13 +167,15 @@ class Library:
         UelError
             The routine ends the analysis, or does not return within the limit of a call.
         """
-        address = self.disp if asked.routine == "DISP" else self.dload
+        routines = {"DISP": self.disp, "DLOAD": self.dload, "UTEMP": self.utemp, "UFIELD": self.ufield}
+        address = routines[asked.routine]
         assert address is not None
         made = np.array(asked.given)
         failed = _binding.user_values(address, asked, made)
         if failed:
             first, second = asked.places[failed - 1, :2].tolist()
-            place = f"node {first}, dof {second}" if asked.routine == "DISP" else f"element {first}"
+            place = f"element {first}" if asked.routine == "DLOAD" else f"node {first}"
+            place += f", dof {second}" if asked.routine == "DISP" else ""
             raise UelError(f"{self.name}: {asked.routine} {self.stop_reason()} ({place}, step {asked.step})")
         return made
 
