@@ -11,8 +11,9 @@ from dataclasses import dataclass
 import numpy as np
 
 from harness.deck.error_report import Problems, nearest
+from harness.deck.flatten import FlatMesh
 from harness.deck.materials import read_materials
-from harness.deck.placement import read_orientations
+from harness.deck.orientations import read_orientations
 from harness.delamination.blocks import Interface, traction_material, traction_section
 from harness.delamination.kernels import uel_property, user_element
 from harness.delamination.materials import Cohesive
@@ -24,8 +25,6 @@ from harness.model.element_types import BUILT_IN, ContinuumType, Tensor
 from harness.model.properties import ElasticType, Material
 from harness.usersub.layout import element_layouts
 
-RECOMMENDED: dict[str, float] = {"CLOSURE": 1.0, "BETAN": -1.0, "BETAT": -1.0}
-"""What a stabilised element gets unless it is given: the consistent law, beta from the local eigenvalue problem."""
 _LAW = ("SIGMAMAX", "TAUMAX", "GIC", "GIIC")
 _OF_ABAQUS = ("THICKNESS", "ALPHAN", "ALPHAT", *_LAW, "VISCOSITY", "ETA", "POWER")
 _PARALLEL = 1e-4
@@ -96,10 +95,7 @@ class Sections:
         problems = Problems()
         self._deck = deck
         self._materials = read_materials(deck.structure.root, problems)
-        common = read_orientations(deck.structure.root, problems)
-        self._orientations = {
-            owner.name: {**common, **read_orientations(owner.blocks, problems)} for owner in deck.first.values()
-        }
+        self._orientations = read_orientations(FlatMesh(deck.structure, problems), problems)
         problems.check()
 
     def side(self, section: int, solid: int, normals: FloatArray) -> Side:
@@ -127,7 +123,9 @@ class Sections:
         orientation = self._orientations[owner.name].get(name)
         if name and orientation is None:
             return Side(thickness, plane, {}, f"unknown orientation {name} {why}")
-        axes = np.eye(3) if orientation is None else owner.placement.turn(orientation.axes)
+        if orientation is not None and orientation.system is not None:
+            return Side(thickness, plane, {}, f"orientation {name} differs from point to point {why}")
+        axes = np.eye(3) if orientation is None else orientation.axes
         try:
             material = self._materials.get(block.options.text("MATERIAL"))
             return Side(thickness, plane, _constants(material, kind.dimension, axes, normals), "")
@@ -206,11 +204,11 @@ def _renamed(order: list[int], moduli: Three, ratios: Three, shear: Three) -> tu
 
 
 def element_values(kind: InterfaceType, given: Mapping[str, float], below: Side, above: Side) -> dict[str, float]:
-    """Properties of an element: given ones, then those of its solids, then what is recommended. Raises UsageError."""
+    """Properties of an element: given ones, then those of its solids. Raises UsageError."""
     known = names_of(kind)
     # a mixed mode criterion with an exponent needs the law that has one
     law = 2.0 if given.get("ETA") or given.get("POWER") else 1.0
-    values = {name: value for name, value in {"LAW": law, **RECOMMENDED}.items() if name in known} | dict(given)
+    values = {name: value for name, value in {"LAW": law}.items() if name in known} | dict(given)
     if given.get("ALPHAN") and not given.get("ALPHAT"):
         values["ALPHAT"] = given["ALPHAN"]
     if "THICKNESS" in known and "THICKNESS" not in values:

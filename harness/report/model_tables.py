@@ -156,10 +156,9 @@ def _material_rows(material: Material) -> Iterator[Row]:
             (f"constant {k}", f"{value:g}", "*USER MATERIAL")
             for k, value in enumerate(material.user.constants.tolist(), 1)
         )
-    for name, value in (
-        ("density", material.density),
-        ("expansion", material.expansion),
-        ("conductivity", material.conductivity),
-    ):
+    for name, value in (("density", material.density), ("expansion", material.expansion)):
         if value:
             yield name, f"{value:g}", ""
+    for name, table in (("conductivity", material.conductivity), ("specific heat", material.specific_heat)):
+        for value, temperature in table.tolist():
+            yield name, f"{value:g}", f"at temperature {temperature:g}" if len(table) > 1 else ""

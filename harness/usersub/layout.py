@@ -27,7 +27,7 @@ RULES: Final = {
     "not_negative": ">= 0, default 0",
     "below_one": ">= 0 and < 1, default 0",
     "up_to_one": "0 to 1, default 0",
-    "estimated": ">= 0 or, in a self-contained element, -1, default 0",
+    "estimated": ">= 0 or -2 or, in a self-contained element, -1, default 0",
     "exponent": "0 or >= 0.5, default 0",
     "above_one": "0 or > 1, default 0",
     "any_value": "any, default 0",

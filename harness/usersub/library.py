@@ -42,8 +42,7 @@ class Library:
     """User routines of a job, and the job's messages from them.
 
     uel, uelmat, umat, umatht, hetval, uvarm, sdvini, orient, disp, dload, dflux, film, utemp, ufield, uamp, usdfld,
-    uexternaldb:
-                              addresses, None without the routine
+    uexternaldb               addresses, None without the routine
     name                      the file as the user named it, for messages
     file                      the shared library
     entry_points              names of all user routines found

@@ -50,7 +50,7 @@ def test_guide_is_as_its_commands_say(assert_same):
     assert text.count("│ FAILED") == 6 + 5 + 4 + 2 + 1
 
 
-def test_page_of_the_insertion_is_as_its_commands_say():
+def test_page_of_the_insertion_is_as_its_commands_say(assert_same):
     text = guide.INSERTION.read_text("utf-8")
     guide.copy_meshes(guide.INSERTION)
     assert_same(guide.replay(text), text)

@@ -293,7 +293,7 @@ def test_thickness_and_state_of_stress_come_from_the_solids(tmp_path):
     section = next(g for g in read_deck(insert_between(path)).groups if g.type == "U4").section
     assert section.values[0] == 2.5
     # LAW, INTEGRATION, TANGENT, SAMPLING, PLANE, CLOSURE
-    assert section.integers.tolist() == [1, 0, 0, 0, 1, 1]
+    assert section.integers.tolist() == [1, 0, 0, 0, 1, 0]
     assert section.values[13:15].tolist() == [-1.0, -1.0]
 
 
