@@ -8,6 +8,7 @@ Examples of hypothesis are the same in every run, whatever the machine; others w
 import os
 import signal
 
+import pytest
 from hypothesis import settings
 
 # they come ignored in the background of a shell and behind nohup, and runs that tests interrupt would not end
@@ -15,13 +16,15 @@ for each, handler in {signal.SIGINT: signal.default_int_handler, signal.SIGHUP: 
     if signal.getsignal(each) == signal.SIG_IGN:
         signal.signal(each, handler)
 
-# make test CORES=each: a worker sees one core, as on a machine that has no other
-worker = os.environ.get("PYTEST_XDIST_WORKER", "")
-if worker and "UEL_TESTS_OWN_CORE" in os.environ:
-    cores = sorted(os.sched_getaffinity(0))
-    os.sched_setaffinity(0, {cores[int(worker.removeprefix("gw")) % len(cores)]})
-
 # no deadline: another program may take the processor for a while
 settings.register_profile("same", deadline=None, derandomize=True)
 settings.register_profile("other", deadline=None, print_blob=True)
 settings.load_profile("same")
+
+
+def pytest_configure(config: pytest.Config) -> None:
+    """make test CORES=each: a worker sees one core, as on a machine that has no other."""
+    worker = getattr(config, "workerinput", None)
+    if worker is not None and "UEL_TESTS_OWN_CORE" in os.environ:
+        cores = sorted(os.sched_getaffinity(0))
+        os.sched_setaffinity(0, {cores[int(worker["workerid"].removeprefix("gw")) % len(cores)]})
