@@ -26,7 +26,8 @@ myst_enable_extensions = ["dollarmath"]
 myst_heading_anchors = 4
 # pages also serve readers of the repository, whose links are paths
 myst_all_links_external = False
-suppress_warnings = ["myst.header"]
+# a page that no list has is found by its links
+suppress_warnings = ["myst.header", "toc.not_included"]
 
 autodoc_typehints = "description"
 autodoc_member_order = "bysource"
