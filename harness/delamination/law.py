@@ -49,6 +49,8 @@ SIZE: Final = 0.125
 """Edge of the quads of a stabilised element, on which beta depends: that of the double cantilever beam (mm)."""
 
 MOST_ITERATIONS: Final = 50
+PATIENCE: Final = 10
+"""Iterations after which a step of the search for equilibrium may no longer increase what is missed."""
 BISECTIONS: Final = 30
 RIGID: Final = 1e6
 """Stiffness in place of an infinite one, over that of the softening, when only the end of a curve is sought."""
@@ -240,7 +242,7 @@ class LawElement:
             return self._traction(self._displacements(separation, at), dtime) - self._operator @ at
 
         negligible = 1e-10 * self._strength
-        for _ in range(MOST_ITERATIONS):
+        for passes in range(MOST_ITERATIONS):
             residual = miss(gradient)
             if np.abs(residual).max() <= negligible:
                 return gradient
@@ -252,8 +254,16 @@ class LawElement:
             # rigid up to the onset: only the stress at the onset allows a separation
             rigid = right[~free & (np.abs(missed) > negligible)]
             stress = stress + rigid.T @ (rigid @ (self._operator @ gradient + residual))
-            gradient = gradient + np.linalg.solve(self._operator, stress)
+            change, share = np.linalg.solve(self._operator, stress), 1.0
+            # back and forth across the onset of a rigid interface
+            while passes >= PATIENCE and share > negligible and _larger(miss(gradient + share * change), residual):
+                share /= 2.0
+            gradient = gradient + share * change
         raise UelError(f"no equilibrium of the quads with the interface at a separation of {separation}")
+
+
+def _larger(one: FloatArray, other: FloatArray) -> bool:
+    return bool(np.abs(one).max() > np.abs(other).max())
 
 
 def along(points: FloatArray, increments: int) -> FloatArray:

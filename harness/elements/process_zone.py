@@ -107,7 +107,8 @@ class LongElements:
             state = record.solution.elements[index]
             assert state.variables is not None  # of elements that we know
             names, points = state.variables.names, state.variables.points
-            values = state.svars.reshape(len(state.svars), points, -1)[long.rows]
+            # those of the element as a whole come after those of its points
+            values = state.svars[:, : points * len(names)].reshape(-1, points, len(names))[long.rows]
             worst = values[:, :, names.index("DAMAGE")].argmax(axis=1)
             values = values[np.arange(len(worst)), worst]
             first, *shear = (values[:, names.index(name)] for name in ("DISSI", "DISSII", "DISSIII") if name in names)

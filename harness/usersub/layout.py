@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cache
 from typing import Final
 
@@ -27,7 +27,7 @@ RULES: Final = {
     "not_negative": ">= 0, default 0",
     "below_one": ">= 0 and < 1, default 0",
     "up_to_one": "0 to 1, default 0",
-    "estimated": ">= 0 or -2 or, in a self-contained element, -1, default 0",
+    "estimated": ">= 0, -2 or, in a self-contained element, -1, default 0",
     "exponent": "0 or >= 0.5, default 0",
     "above_one": "0 or > 1, default 0",
     "any_value": "any, default 0",
@@ -154,8 +154,9 @@ def _markdown_lines() -> Iterator[str]:
         title = f"SVARS of each of {layout.points} points"
         yield from _table(title, "unit", [(i, i.unit) for i in layout.variables])
         if layout.own:
-            title = f"SVARS from {layout.points * len(layout.variables) + 1}"
-            yield from _table(title, "unit", [(i, i.unit) for i in layout.own])
+            before = layout.points * len(layout.variables)
+            own = [replace(item, position=before + item.position) for item in layout.own]
+            yield from _table("SVARS of the element", "unit", [(i, i.unit) for i in own])
 
 
 def _table(title: str, unit: str, rows: list[tuple[Item, str]]) -> Iterator[str]:

@@ -58,7 +58,7 @@ def test_bricks_in_space_have_beta_of_21_times_a_factor() -> None:
     start = lines[0].index("*UEL PROPERTY, ELSET=INTERFACE")
     found = [float(deck[start + 2].split(",")[4]) for deck in lines]
     # |D|/h with bricks of 1 mm
-    assert found == pytest.approx([-1.0, 0.0, 10.0 * spectral_norm(PLY_0), 100.0 * spectral_norm(PLY_0)])
+    assert found == pytest.approx([-1.0, -2.0, 10.0 * spectral_norm(PLY_0), 100.0 * spectral_norm(PLY_0)])
 
 
 def test_tables() -> None:
