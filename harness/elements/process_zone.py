@@ -31,7 +31,7 @@ from harness.model.arrays import FloatArray, IntArray
 from harness.model.element_types import CohesiveType, ContinuumType, Tensor
 from harness.model.mesh import ElementGroup
 from harness.model.model import Model
-from harness.model.properties import CohesiveSection, Material, Orientation, SolidSection, UserProperty
+from harness.model.properties import CohesiveSection, ElasticType, SolidSection, UserProperty
 from harness.model.records import IncrementDone
 from harness.usersub import Library
 from harness.usersub.layout import element_layouts
@@ -207,18 +207,26 @@ class _Plies:
 
 
 def _compliance(group: ElementGroup) -> FloatArray | None:
+    """Compliance (6, 6) of continuum elements; None where it is not known, or differs from point to point."""
     section, kind = group.section, group.built_in
-    material: Material | None
-    orientation: Orientation | None
+    turns = False
     tensor: Tensor | None
     if isinstance(section, SolidSection) and isinstance(kind, ContinuumType):
-        material, orientation, tensor = section.material, section.orientation, kind.tensor
+        tensor = kind.tensor
     elif isinstance(section, UserProperty) and group.definition is not None:
-        material, orientation = section.material, section.orientation
         tensor = TENSORS.get(group.definition.tensor.upper())
+        # in space UELMAT may have directions of its own, as the project's brick has in each element
+        turns = tensor is Tensor.SOLID
     else:
         return None
-    return None if material is None or tensor is None else global_compliance(material, orientation, tensor)
+    material, orientation = section.material, section.orientation
+    if material is None or tensor is None:
+        return None
+    if turns or (orientation is not None and orientation.system is not None):
+        if material.elastic is None or material.elastic.type is not ElasticType.ISOTROPIC:
+            return None
+        orientation = None
+    return global_compliance(material, orientation, tensor)
 
 
 def _long_elements(

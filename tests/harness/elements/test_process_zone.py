@@ -37,7 +37,14 @@ def square(x: float, y: float, dimension: int, length: float) -> list[tuple[floa
 
 
 def pulled(
-    folder: Path, kind: str, length: float, height: float, opening: float = 0.05, ply: str = "", across: bool = False
+    folder: Path,
+    kind: str,
+    length: float,
+    height: float,
+    opening: float = 0.05,
+    ply: str = "",
+    axes: str = "",
+    across: bool = False,
 ) -> Result:
     """Two solids with an interface element between them, pulled apart by `opening`, or sheared."""
     space = kind in ("COH3D8", "U7")
@@ -60,7 +67,8 @@ def pulled(
         lines += user_element(int(kind[1:]), "UNSYMM")
     nodes = numbers(1, reverse=False) + numbers(2, reverse=not space)
     lines += [f"*ELEMENT, TYPE={kind}, ELSET=INTERFACE", ", ".join(map(str, [3, *nodes]))]
-    lines += ["*SOLID SECTION, ELSET=SOLID, MATERIAL=PLY", "1."]
+    named = ", ORIENTATION=AXES" if axes else ""
+    lines += [*axes.splitlines(), f"*SOLID SECTION, ELSET=SOLID, MATERIAL=PLY{named}", "1."]
     if own:
         lines += uel_property(int(kind[1:]), "INTERFACE", LAW | {"THICKNESS": 1.0})
     else:
@@ -109,6 +117,15 @@ def test_modulus_across_the_interface_counts(tmp_path: Path) -> None:
     # four times as stiff across: 1.0 in a large body, and 0.42 between arms of 1 mm with E_t = 1000
     (warning,) = pulled(tmp_path, "U2", 0.3, 1.0, ply=TURNED).warnings
     assert "zone about 0.42 (0% mode II)" in warning
+
+
+def test_directions_of_the_material(tmp_path: Path) -> None:
+    axes = "*ORIENTATION, NAME=AXES\n0., 1., 0., -1., 0., 0."
+    (warning,) = pulled(tmp_path, "U2", 0.3, 1.0, axes=axes).warnings
+    assert "zone about 0.42 (0% mode II)" in warning
+    # directions that differ from point to point have no modulus for all
+    axes = "*ORIENTATION, NAME=AXES, SYSTEM=CYLINDRICAL\n-5., 0., 0., -5., 0., 1."
+    assert pulled(tmp_path, "U2", 0.3, 1.0, axes=axes).warnings == ()
 
 
 def test_long_element_that_stays_bonded(tmp_path: Path) -> None:
