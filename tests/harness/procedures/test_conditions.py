@@ -120,7 +120,7 @@ def test_without_either_there_is_one_field_of_zeros(run):
         ("*DLOAD\nNOWHERE, U2, 3.", r"deck.inp:24: unknown element set NOWHERE"),
         ("*DLOAD\nFIRST", r"deck.inp:24: \*DLOAD: load type is missing"),
         ("*FIELD, VARIABLE=0\n1, 3.", r"deck.inp:23: \*FIELD: VARIABLE=0: expected a number from 1"),
-        ("*TEMPERATURE, USER\n1, 3.", r"deck.inp:23: \*TEMPERATURE: option USER is not supported"),
+        ("*TEMPERATURE, FILE=x", r"deck.inp:23: \*TEMPERATURE: option FILE is not supported"),
     ],
 )
 def test_messages(run, first, message):
