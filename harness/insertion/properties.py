@@ -11,7 +11,6 @@ from dataclasses import dataclass
 import numpy as np
 
 from harness.deck.error_report import Problems, nearest
-from harness.deck.flatten import FlatMesh
 from harness.deck.materials import read_materials
 from harness.deck.orientations import read_orientations
 from harness.delamination.blocks import Interface, traction_material, traction_section
@@ -95,7 +94,7 @@ class Sections:
         problems = Problems()
         self._deck = deck
         self._materials = read_materials(deck.structure.root, problems)
-        self._orientations = read_orientations(FlatMesh(deck.structure, problems), problems)
+        self._orientations = read_orientations(deck.flat, problems)
         problems.check()
 
     def side(self, section: int, solid: int, normals: FloatArray) -> Side:
@@ -208,7 +207,7 @@ def element_values(kind: InterfaceType, given: Mapping[str, float], below: Side,
     known = names_of(kind)
     # a mixed mode criterion with an exponent needs the law that has one
     law = 2.0 if given.get("ETA") or given.get("POWER") else 1.0
-    values = {name: value for name, value in {"LAW": law}.items() if name in known} | dict(given)
+    values = ({"LAW": law} if "LAW" in known else {}) | dict(given)
     if given.get("ALPHAN") and not given.get("ALPHAT"):
         values["ALPHAT"] = given["ALPHAN"]
     if "THICKNESS" in known and "THICKNESS" not in values:

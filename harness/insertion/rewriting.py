@@ -6,7 +6,8 @@ What happens where a node is doubled:
 
 - elements: the solids on the other side of the cut get the new number, and so do interface elements next to them;
 - node sets, and surfaces made of nodes: they get the new nodes too, so boundary conditions and constraints hold both;
-- concentrated loads and fluxes: they stay on the old node alone, for the load must not be doubled;
+- concentrated loads, fluxes and films: they stay on the old node alone, for the load must not be doubled; those on the
+  nodes of an element set stay on one node of these elements;
 - *EQUATION and *MPC: one for each double of the first node, which is eliminated; of another node that is doubled too
   they take the double on the same side;
 - springs, masses and trusses stay on the old node.
@@ -35,7 +36,7 @@ from harness.model.mesh import full_name
 
 _NODAL = ("BOUNDARY", "INITIAL CONDITIONS", "TEMPERATURE", "FIELD", "KINEMATIC COUPLING")
 """Keywords whose data lines begin with a node or node set, and hold for its doubles."""
-_LOADS = ("CLOAD", "CFLUX")
+_LOADS = ("CLOAD", "CFLUX", "CFILM")
 _NODE_BLOCKS = ("NODE", *(entry.name for entry in GENERATING if entry.name != "ELGEN"))
 _LOADED = "-OLD"
 """Ends the name of a set of the old nodes alone."""
@@ -65,6 +66,7 @@ class Rewriting:
     def __init__(self, deck: Deck, cut: Cut) -> None:
         self._deck, self._cut = deck, cut
         self.edits = Edits()
+        self._changed: dict[int, IntArray] = {}
         self._count = len(deck.flat.mesh.labels)
         self._copies = cut.copies(self._count)
         self._doubled = np.zeros(self._count, dtype=bool)
@@ -105,6 +107,7 @@ class Rewriting:
 
     def write_elements(self, new: dict[int, IntArray]) -> None:
         """Connectivity of elements that changes; new: nodes of some elements by their place in the whole model."""
+        self._changed = new
         for owner in self._deck.first.values():
             rows = {
                 int(owner.elements[position - owner.element_offset]): nodes
@@ -153,15 +156,16 @@ class Rewriting:
         """Doubles in the node sets, and sets of the old nodes for loads."""
         loaded = self._rename_loads()
         flat = self._deck.flat
-        for owner in [*self._deck.first.values()]:
+        for owner in self._deck.first.values():
             for name in owner.mesh.nsets:
                 key = f"{owner.name}.{name}" if owner.name else name
                 members = flat.nsets[key]
                 lines: list[str] = []
-                if key in loaded:
-                    lines += self._set_lines(owner, f"{name}{_LOADED}", [(int(node), int(node)) for node in members])
                 blocks = [block for block in owner.blocks if _defines(block, name)]
                 follows = all(block.name == "NSET" and block.options.given("ELSET") for block in blocks)
+                if key in loaded:
+                    present = self._nodes_after(owner, blocks) if follows else None
+                    lines += self._set_lines(owner, f"{name}{_LOADED}", self._one_each(members, present))
                 doubles = [
                     (int(node), copy)
                     for node in members[self._doubled[members]].tolist()
@@ -172,6 +176,26 @@ class Rewriting:
                 if lines:
                     last = [*blocks, *(block for block in owner.blocks if block.name in _NODE_BLOCKS)]
                     self.edits.append(max(last, key=lambda block: self._order[id(block)]), lines)
+
+    def _one_each(self, members: IntArray, present: set[int] | None) -> list[tuple[int, int]]:
+        """Each node with itself or, where a set has only doubles of it, with one of these."""
+        found = []
+        for node in members.tolist():
+            own = int(self._deck.node_of[node])
+            nodes = (own, *self._copies.get(own, []))
+            found.append((node, next((each for each in nodes if present is None or each in present), own)))
+        return found
+
+    def _nodes_after(self, owner: Owner, blocks: Sequence[Block]) -> set[int]:
+        """Nodes that the elements of *NSET, ELSET= have after the cut."""
+        elements = [self._deck.flat.elements(b.options.text("ELSET"), b.source, owner.name) for b in blocks]
+        positions = self._deck.element_of[np.concatenate(elements)]
+        found: set[int] = set()
+        for run in self._deck.runs:
+            for row in np.flatnonzero(np.isin(run.positions, positions)).tolist():
+                nodes = self._changed.get(int(run.positions[row]), run.nodes[row])
+                found |= set(nodes.tolist())
+        return found
 
     def _set_lines(self, owner: Owner, name: str, members: Sequence[tuple[int, int]]) -> list[str]:
         """*NSET of nodes: each with the old node of whose instance it is."""

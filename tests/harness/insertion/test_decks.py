@@ -66,8 +66,15 @@ def test_sets_and_boundary_conditions_hold_the_doubles_and_loads_do_not(tmp_path
 
 def test_sets_of_the_nodes_of_elements_follow_their_elements(tmp_path):
     path = deck(tmp_path, strip(), ["*NSET, NSET=ABOVE, ELSET=HIGH"])
+    path.write_text(path.read_text().replace("*END STEP", "*CLOAD\nABOVE, 2, 1.\n*END STEP"))
     after = read_deck(insert_between(path))
     assert labels(after, after.nsets["ABOVE"]) == [9, 10, 11, 12, 13, 14, 15, 16]
+    assert labels(after, after.steps[0].loads[0].nodes) == [9, 10, 11, 12, 13, 14, 15, 16]
+    # where these elements are separated, too, the load is still that of eight nodes
+    inserted(path, path.with_name("all.inp"), inside=["BODY"])
+    after = read_deck(path.with_name("all.inp"))
+    assert len(after.nsets["ABOVE"]) == 12
+    assert len(after.steps[0].loads[0].nodes) == 8
 
 
 def test_surfaces_of_nodes_get_the_doubles(tmp_path):
@@ -294,7 +301,8 @@ def test_thickness_and_state_of_stress_come_from_the_solids(tmp_path):
     assert section.values[0] == 2.5
     # LAW, INTEGRATION, TANGENT, SAMPLING, PLANE, CLOSURE
     assert section.integers.tolist() == [1, 0, 0, 0, 1, 0]
-    assert section.values[13:15].tolist() == [-1.0, -1.0]
+    # BETAN, BETAT: zeros are the recommendation
+    assert section.values[13:15].tolist() == [0.0, 0.0]
 
 
 def test_each_pair_of_sections_has_its_set(tmp_path):
@@ -362,6 +370,12 @@ def test_what_has_no_interface_element_is_refused_with_its_number(tmp_path):
     message = r"deck.inp:\d+: element \d+ \(C3D10\): no interface element fits between its faces of 6 nodes"
     with pytest.raises(DeckError, match=message):
         insert_between(deck(tmp_path, mesh))
+    path = deck(tmp_path, strip())
+    path.write_text(path.read_text().replace("TYPE=CPS4", "TYPE=DC2D4"))
+    with pytest.raises(
+        DeckError, match=r"deck.inp:1: the mesh has no solids, between which elements could be inserted"
+    ):
+        insert_between(path)
     axisymmetric = deck(tmp_path, strip("CAX4"))
     with pytest.raises(DeckError, match=r"element 1 \(CAX4\): is axisymmetric, and no interface element here is"):
         insert_between(axisymmetric)
@@ -375,6 +389,15 @@ def test_an_element_that_owns_its_solids_needs_their_nodes_and_constants(tmp_pat
         path.read_text().replace("*ELASTIC\n1e4, 0.3", "*ELASTIC, TYPE=ORTHOTROPIC\n" + "1., " * 8 + "\n1.")
     )
     with pytest.raises(UsageError, match=r"U4 owns .*material M has \*ELASTIC, TYPE=ORTHOTROPIC .*E1_BOTTOM=VALUE"):
+        insert_between(path)
+
+
+def test_directions_that_differ_from_point_to_point_are_not_known(tmp_path):
+    path = deck(tmp_path, strip(), ["*ORIENTATION, NAME=AROUND, SYSTEM=CYLINDRICAL", "0., 0., 0., 0., 0., 1."])
+    lamina = "*ELASTIC, TYPE=LAMINA\n1e4, 1e3, 0.3, 1e3, 1e3, 1e3"
+    text = path.read_text().replace("*ELASTIC\n1e4, 0.3", lamina)
+    path.write_text(text.replace("ELSET=BODY, MATERIAL=M", "ELSET=BODY, MATERIAL=M, ORIENTATION=AROUND"))
+    with pytest.raises(UsageError, match=r"orientation AROUND differs from point to point .*deck.inp:\d+"):
         insert_between(path)
 
 
