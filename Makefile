@@ -20,6 +20,7 @@ SEED ?=
 
 BIN := $(VENV)/bin
 INSTALLED := $(VENV)/.installed
+RANKS := $(VENV)/.ranks/.installed
 # the build backend and the tools it calls are found through PATH
 RUN := PATH="$(CURDIR)/$(BIN):$$PATH"
 # the processes share the cores: one thread of linear algebra each
@@ -54,12 +55,19 @@ $(INSTALLED): pyproject.toml meson.build .ci/toolchain
 demo: $(INSTALLED)
 	$(RUN) $(BIN)/python -m harness.delamination.demo --output-dir demo
 
+# MPI for the tests, in a folder of its own: oneMKL in the environment would change what other tests see
+$(RANKS): $(INSTALLED)
+	@$(BIN)/python -c 'import tomllib; print(*tomllib.load(open("pyproject.toml", "rb"))["project"]\
+	["optional-dependencies"]["mpi"], sep="\n")' > $(VENV)/ranks.txt
+	@$(BIN)/pip install --quiet --prefix $(VENV)/.ranks --requirement $(VENV)/ranks.txt && touch $@ || \
+		echo 'MPI is not installed: its tests are skipped'
+
 # the first import builds what has changed; several test processes at once would get in each other's way
-test: $(INSTALLED)
+test: $(INSTALLED) $(RANKS)
 	$(RUN) $(BIN)/python -c 'import harness'
 	$(PYTEST) -m '$(SELECT)' $(PYTEST_ARGS)
 
-test-all: $(INSTALLED)
+test-all: $(INSTALLED) $(RANKS)
 	$(RUN) $(BIN)/python -c 'import harness'
 	$(PYTEST) $(PYTEST_ARGS)
 

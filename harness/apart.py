@@ -19,7 +19,7 @@ from importlib import import_module
 from harness import sanitizer
 from harness.errors import tell_error
 from harness.interrupts import held, raise_interrupts
-from harness.shared_progress import open_slate
+from harness.shared_progress import keep_slate, open_slate
 
 _PRCTL = getattr(ctypes.CDLL(None), "prctl", None)
 _PR_SET_PDEATHSIG = 1
@@ -38,6 +38,7 @@ def end_with(parent: int) -> None:
 def work(descriptor: int, module: str, words: Sequence[str]) -> int:
     """Call the function, and show on the slate where user code is; returns the exit code."""
     slate = open_slate(descriptor)
+    keep_slate(slate)
     sanitizer.forget()
     try:
         raise_interrupts()

@@ -5,17 +5,20 @@
 from __future__ import annotations
 
 import argparse
+import io
 import math
 import os
 import re
 import shutil
 import sys
 from collections.abc import Callable, Sequence
+from contextlib import redirect_stderr
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 from harness import isolation, sanitizer
-from harness.errors import FAILURES, UelError, UsageError, drop_output, tell, tell_failure
+from harness.errors import FAILURES, SilentError, UelError, UsageError, drop_output, tell, tell_failure
+from harness.parallel import launched
 
 if TYPE_CHECKING:
     from harness.batch.runs import Settings
@@ -45,8 +48,40 @@ def main(arguments: Sequence[str] | None = None) -> int:
     """
     try:
         open_standard_streams()
+        words, options = parse(sys.argv[1:] if arguments is None else arguments)
+        # a program that calls this function, or a debugger, gets the work in its own process
+        options.apart = arguments is None and not getattr(options, "same_process", True)
+        if options.apart and options.function is run_job:
+            stem = (options.output_dir or Path()) / (options.deck.stem if options.job is None else options.job)
+            sanitized = options.debug and sanitizer.applies_to(options.user or ())
+            return isolation.supervise(words, stem, options.call_limit, sanitized=sanitized, launch=launched())
+        code = int(options.function(options))
+        if sys.stdout is not None:
+            sys.stdout.flush()
+        return code
+    except BrokenPipeError:
+        # the reader of a pipe has closed it
+        drop_output()
+    except SilentError as silent:
+        return silent.code
+    except FAILURES as error:
+        if isinstance(error, OSError) and error.filename is None:
+            error.filename = "standard output"
+            drop_output()
+        tell_failure(error)
+        return 2 if isinstance(error, UsageError) else 1
+    return 1
+
+
+def parse(arguments: Sequence[str]) -> tuple[list[str], argparse.Namespace]:
+    """Words of a command line in this command's spelling, and its options; ends the process if they are wrong.
+
+    Of several ranks of `uel run` only the first one says what is wrong.
+    """
+    words = list(arguments)
+    speaks = not launched().rank or words[:1] != ["run"]
+    with redirect_stderr(sys.stderr if speaks else io.StringIO()):
         parser = build_parser()
-        words = list(sys.argv[1:] if arguments is None else arguments)
         if words[:1] == ["run"]:
             words[1:] = from_abaqus(parser, words[1:])
         elif words[:1] == ["law"]:
@@ -59,27 +94,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
             if word.startswith("-") and word.endswith("=--"):
                 # argparse drops two dashes
                 parser.error(f"argument {word.removesuffix('=--')}: expected one argument, found '--'")
-        options = parser.parse_args(words)
-        # a program that calls this function, or a debugger, gets the work in its own process
-        options.apart = arguments is None and not getattr(options, "same_process", True)
-        if options.apart and options.function is run_job:
-            stem = (options.output_dir or Path()) / (options.deck.stem if options.job is None else options.job)
-            sanitized = options.debug and sanitizer.applies_to(options.user or ())
-            return isolation.supervise(words, stem, options.call_limit, sanitized=sanitized)
-        code = int(options.function(options))
-        if sys.stdout is not None:
-            sys.stdout.flush()
-        return code
-    except BrokenPipeError:
-        # the reader of a pipe has closed it
-        drop_output()
-    except FAILURES as error:
-        if isinstance(error, OSError) and error.filename is None:
-            error.filename = "standard output"
-            drop_output()
-        tell_failure(error)
-        return 2 if isinstance(error, UsageError) else 1
-    return 1
+        return words, parser.parse_args(words)
 
 
 def open_standard_streams() -> None:
@@ -577,6 +592,9 @@ def run_job(options: argparse.Namespace) -> int:
     """`uel run`."""
     from harness.job import run  # noqa: PLC0415 (keeps the other commands quick)
     from harness.output.ending import ending  # noqa: PLC0415
+    from harness.parallel.ranks import begin  # noqa: PLC0415
+
+    ranks = begin(launched())
 
     result = run(
         options.deck,
@@ -593,8 +611,9 @@ def run_job(options: argparse.Namespace) -> int:
         call_limit=options.call_limit,
         debug=options.debug,
         quiet=options.quiet,
+        ranks=ranks,
     )
-    if not options.quiet:
+    if not (options.quiet or ranks.rank):
         for line in ending(result):
             tell(line)
     return 0
@@ -765,11 +784,11 @@ def list_solvers(_: argparse.Namespace) -> int:
     from rich.console import Console  # noqa: PLC0415
     from rich.table import Table  # noqa: PLC0415
 
-    from harness.solver.linear import available, measured  # noqa: PLC0415
+    from harness.solver.linear import available, measured, with_ranks  # noqa: PLC0415
 
     console = Console()
     table = Table("solver", "installed", "version", "when it is used")
-    for row in available():
+    for row in (*available(), with_ranks()):
         table.add_row(row.name, "yes" if row.installed else "no", row.version, row.note)
     console.print(table)
     machine, rows = measured.read()

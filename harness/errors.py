@@ -32,6 +32,14 @@ class UsageError(UelError):
     """A word of the command line, or an argument of a function, is not valid."""
 
 
+class SilentError(UelError):
+    """A process ends with others of its job, one of which says why."""
+
+    def __init__(self, code: int) -> None:
+        super().__init__("another process of the job says why it has ended")
+        self.code = code
+
+
 def in_words(error: BaseException) -> str:
     """What went wrong, for a user: an error of ours, a system error, lack of memory, or an interrupt."""
     if isinstance(error, UelError):

@@ -9,15 +9,17 @@ import resource
 import signal
 import subprocess
 import sys
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from contextlib import nullcontext
 from dataclasses import dataclass
+from functools import partial
 from pathlib import Path
 from typing import IO, Final
 
 from harness import sanitizer
 from harness.errors import tell_error
 from harness.interrupts import ENDS, collected, describe_interrupt
+from harness.parallel import Launch, await_end, forget_word, leave_word, read_word, without_launch
 from harness.shared_progress import Slate, Within, new_slate
 
 SAME_PROCESS: Final = "--same-process"
@@ -51,6 +53,7 @@ class End:
     reason       if it did not: why, as the end of a sentence
     place        where in user code that was; '' if it was elsewhere
     interrupted  whether a signal asked for it
+    token        by which the ranks of a job know it, '' without ranks
     """
 
     code: int
@@ -58,6 +61,7 @@ class End:
     reason: str
     place: str
     interrupted: bool = False
+    token: str = ""
 
 
 def supervise(
@@ -68,21 +72,41 @@ def supervise(
     sanitized: bool = False,
     log: IO[str] | None = None,
     signals: Sequence[int] | None = None,
+    launch: Launch | None = None,
 ) -> int:
     """Run `uel` with these words, a subcommand first, in a separate process; returns the exit code.
 
-    stem is the folder and name of the job; sanitized, signals: see `run_apart`. log: gets all that the run prints. A
-    run that ends without closing its files gets them closed here.
+    stem is the folder and name of the job; sanitized, signals, launch: see `run_apart`. log: gets all that the run
+    prints. A run that ends without closing its files gets them closed here; of several ranks, rank 0 does so.
     """
     words = [words[0], SAME_PROCESS, *words[1:]]
-    end = run_apart("harness.cli", words, call_limit, sanitized=sanitized, output=log, errors=log, signals=signals)
+    end = run_apart(
+        "harness.cli",
+        words,
+        call_limit,
+        sanitized=sanitized,
+        output=log,
+        errors=log,
+        signals=signals,
+        launch=launch,
+        told=partial(read_word, stem),
+    )
+    if launch and launch.rank and end.token:
+        if not end.finished:
+            place = f", {end.place}" if end.place else ""
+            leave_word(stem, end.token, f"ended with {launch.name}, {end.reason}{place}")
+        await_end(stem, end.token)
+        return end.code if end.finished else 1
     if end.finished:
+        forget_word(stem, end.token)
         return end.code
     from harness.output.verdict import close_ended_run  # noqa: PLC0415 (numpy, after the process has begun)
 
     reason = f"the run was {end.reason}" + (f", {end.place}" if end.place else "")
     close_ended_run(stem, reason)
     tell_error(f"{reason}; the output written so far is readable", log)
+    # the others wait for this before they end, and `mpiexec` with them
+    forget_word(stem, end.token)
     return 1
 
 
@@ -96,6 +120,8 @@ def run_apart(
     errors: IO[str] | None = None,
     meanwhile: Callable[[], None] | None = None,
     signals: Sequence[int] | None = None,
+    launch: Launch | None = None,
+    told: Callable[[str], str] = str,
 ) -> End:
     """Call `main` of a module with words in a process that user code may end, and that is ended if it hangs.
 
@@ -103,9 +129,11 @@ def run_apart(
     sanitized: debug builds have AddressSanitizer in it; where that is not possible, a message says why.
     output, errors: where stdout and stderr go, by default to those of this process. meanwhile: is called now and then.
     signals: those that the main thread collects for this one, which cannot do so itself; the process gets them too.
+    launch: which rank the process is; None: it is none, whoever has started this one. told: says by the token of the
+    run why another rank has ended, '' if none has.
     """
     _take_all_stack()
-    variables = None
+    variables: Mapping[str, str] | None = None if launch else without_launch()
     if sanitized:
         try:
             variables = sanitizer.environment()
@@ -121,13 +149,13 @@ def run_apart(
                 env=variables,
                 stdout=output,
                 stderr=errors,
-                pass_fds=[descriptor],
+                pass_fds=[descriptor, *(launch.descriptors if launch else ())],
             )
         finally:
             signal.pthread_sigmask(signal.SIG_SETMASK, before)
             os.close(descriptor)
         watch = _Watch(process, slate, call_limit)
-        code, why = None, ""
+        code, why, other = None, "", ""
         while code is None:
             try:
                 code = process.wait(_GLANCE)
@@ -135,12 +163,15 @@ def run_apart(
                 if meanwhile:
                     meanwhile()
                 why = why or watch.glance(arrived)
+                if launch and not (launch.rank or why or arrived or slate.finished):
+                    why = other = told(slate.token.decode())
                 if why:
                     process.kill()
+    token = slate.token.decode()
     if slate.finished:
-        return End(slate.finished - 1, True, "", "", bool(arrived))
-    inside = bool(slate.within) or why == HANGS
-    return End(code, False, why or describe_end(code), slate.where() if inside else "", bool(arrived))
+        return End(slate.finished - 1, True, "", "", bool(arrived), token)
+    inside = (bool(slate.within) and not other) or why == HANGS
+    return End(code, False, why or describe_end(code), slate.where() if inside else "", bool(arrived), token)
 
 
 ENDLESS: Final = "ended because {what} took longer than {limit:g} s (--call-limit)"

@@ -8,25 +8,27 @@ import time
 from collections.abc import Callable, Collection, Mapping, Sequence
 from contextlib import suppress
 from functools import partial
+from operator import methodcaller
 from pathlib import Path
 
 from harness import usersub
 from harness.assembly import System, TolerantSystem
 from harness.deck import read_deck
 from harness.elements.process_zone import LongElements
-from harness.elements.threads import MOST_THREADS, known_routines, use_threads
+from harness.elements.threads import MOST_THREADS, known_routines, refuse_shared_stress, use_threads
 from harness.errors import ConvergenceError, ElementError, UelError, UsageError, in_words, note_warnings
 from harness.interrupts import complete, held
+from harness.job_on_ranks import files_of_job, messages_of, refuse_linear_steps
 from harness.model.model import Model
-from harness.model.records import IncrementDone
+from harness.model.records import AttemptEnded, IncrementDone, ModeShape, Record, StepDone
 from harness.output import JobOutput, Result
 from harness.output.ending import progress
-from harness.output.lock import job_stem, locked
-from harness.output.verdict import forget_verdict, write_verdict
+from harness.output.lock import job_stem
+from harness.parallel.ranks import ALONE, Ranks
 from harness.procedures import run_steps
 from harness.procedures.incrementation import FIXED_TOO_LARGE, TOO_MANY_ATTEMPTS, TOO_MANY_INCREMENTS
 from harness.solver.threads import one_blas_thread
-from harness.usersub import Library, guard_values
+from harness.usersub import Library, Message, guard_values
 
 
 def run(
@@ -45,6 +47,7 @@ def run(
     call_limit: float = 0.0,
     debug: bool = False,
     quiet: bool = True,
+    ranks: Ranks = ALONE,
 ) -> Result:
     """Run an Abaqus deck.
 
@@ -87,6 +90,9 @@ def run(
         runtime was loaded before all else, as the command `uel` does (harness/sanitizer.py).
     quiet
         No progress display.
+    ranks
+        Processes that run the job together, see harness/parallel/README.md: each calls this function with the same
+        arguments, and rank 0 writes the files.
 
     Returns
     -------
@@ -98,9 +104,9 @@ def run(
     UelError
         UsageError for a wrong `job`, `parameters`, `solver`, `linear`, `cpus` or `thread_safe`, DeckError,
         CompileError, KernelError, CallLimitError, SingularMatrixError or ConvergenceError; LockedError if another
-        process runs a job of this name; UelError itself if a user routine other than an element ends the analysis. What
-        was written until then stays readable. The notes of the error are the first warnings before it, how far the run
-        got, and what may help.
+        process runs a job of this name; UelError itself if a user routine other than an element ends the analysis;
+        SilentError on all ranks but 0, whatever the error. What was written until then stays readable. The notes of
+        the error are the first warnings before it, how far the run got, and what may help.
     OSError
         A file cannot be written.
     """
@@ -111,43 +117,46 @@ def run(
     deck = Path(deck)
     stem = job_stem(deck.stem if job is None else job, output_dir)
     files = [user] if isinstance(user, str | Path) else user or ()
-    stem.parent.mkdir(parents=True, exist_ok=True)
     started = time.perf_counter()
-    with locked(stem):
-        forget_verdict(stem)
+    with files_of_job(stem, ranks):
+        model = ranks.agree(lambda: read_deck(deck, parameters))
+        if ranks.size > 1:
+            refuse_linear_steps(model, ranks)
+        types = _linear_types(model, linear)
+        safe = _safe_routines(model, thread_safe)
+        usersub.limit_calls(call_limit)
+        sources = [Path(file) for file in files]
+        job, folder = stem.name, stem.parent
+        load = partial(usersub.load, sources, job=job, output_dir=folder, deck=deck, zero_locals=not debug, debug=debug)
+        # the others find in the cache what rank 0 has compiled
+        library = ranks.in_turn(partial(load, rank=ranks.rank))
+        usersub.set_rank(ranks.rank, ranks.size)
+        trapping = usersub.trap(True) if debug else None
+        usersub.set_threads(cpus)
         try:
-            model = read_deck(deck, parameters)
-            types = _linear_types(model, linear)
-            safe = _safe_routines(model, thread_safe)
-            usersub.limit_calls(call_limit)
-            sources = [Path(file) for file in files]
-            job, folder = stem.name, stem.parent
-            library = usersub.load(sources, job=job, output_dir=folder, deck=deck, zero_locals=not debug, debug=debug)
-            trapping = usersub.trap(True) if debug else None
-            usersub.set_threads(cpus)
-            try:
-                output = JobOutput(model, job, folder, quiet=quiet)
-                assemble = partial(_assemble, model, library, types, cpus, safe)
-                _analyse(assemble, model, library, output, solver, fallback=fallback, energy_control=energy_control)
-            except ElementError as error:
-                if not debug and _debug_helps(sources, str(error)):
-                    error.add_note("run again with --debug to see file and line")
-                raise
-            finally:
-                usersub.set_threads(1)
-                if trapping is not None:
-                    usersub.trap(trapping)
-                library.close()
-        except BaseException as error:
-            # if the files of the run do not exist yet, or cannot be closed
-            with suppress(OSError):  # the error that counts is the first
-                write_verdict(stem, in_words(error))
+            output = ranks.agree(lambda: None if ranks.rank else JobOutput(model, job, folder, quiet=quiet))
+            assemble = partial(_assemble, model, library, types, cpus, safe, ranks)
+            how = {"fallback": fallback, "energy_control": energy_control}
+            _analyse(assemble, model, library, output, solver, ranks, **how)
+        except ElementError as error:
+            if not debug and _debug_helps(sources, str(error)):
+                error.add_note("run again with --debug to see file and line")
             raise
-    return Result(stem, seconds=time.perf_counter() - started, warnings=output.warnings)
+        finally:
+            usersub.set_threads(1)
+            usersub.set_rank(0, 1)
+            if trapping is not None:
+                usersub.trap(trapping)
+            library.close()
+    return Result(stem, seconds=time.perf_counter() - started, warnings=[] if output is None else output.warnings)
 
 
-def _assemble(model: Model, library: Library, linear: Collection[str], cpus: int, safe: Collection[str]) -> System:
-    system = TolerantSystem(model, library, linear)
+def _assemble(
+    model: Model, library: Library, linear: Collection[str], cpus: int, safe: Collection[str], ranks: Ranks
+) -> System:
+    if ranks.size > 1:
+        refuse_shared_stress(model, library, ranks.size)
+    system = TolerantSystem(model, library, linear, ranks)
     if cpus > 1:
         use_threads(system.blocks, library, cpus, safe)
     return system
@@ -177,32 +186,54 @@ def _analyse(
     assemble: Callable[[], System],
     model: Model,
     library: Library,
-    output: JobOutput,
+    output: JobOutput | None,
     solver: str,
+    ranks: Ranks,
     *,
     fallback: bool,
     energy_control: bool,
 ) -> None:
-    """Run all steps and write their records to the files, which are closed however the run ends."""
+    """Run all steps and write their records to the files, which are closed however the run ends.
+
+    On ranks other than 0, which have no output, the same steps: they help where a record is written.
+    """
+    system: System | None = None
+
+    def write(act: Callable[[JobOutput], None]) -> None:
+        messages = messages_of(library, ranks)
+        if output is not None:
+            _pass_on(messages, output)
+        ranks.lead(lambda: None if output is None else act(output), lambda: system and system.share_states())
+
     try:
-        system = assemble()
+        system = ranks.agree(assemble)
         long_elements = LongElements(model, library)
+
+        def put(record: Record, output: JobOutput) -> None:
+            output.write(record)
+            if isinstance(record, IncrementDone):
+                for warning in long_elements.warnings(record):
+                    output.user_text(".dat", "warning", warning)
+
         with one_blas_thread(), guard_values({}):
             for record in run_steps(system, model, library, solver, fallback=fallback, energy_control=energy_control):
                 with held():
-                    _pass_on(library, output)
-                    output.write(record)
-                    if isinstance(record, IncrementDone):
-                        for warning in long_elements.warnings(record):
-                            output.user_text(".dat", "warning", warning)
+                    if isinstance(record, AttemptEnded | StepDone | ModeShape):
+                        write(partial(put, record))
+                    elif output is not None:
+                        # nothing of the other ranks is in it
+                        _pass_on(library.messages(), output)
+                        output.write(record)
         with held():
-            _pass_on(library, output)
-            output.close(None)
+            write(methodcaller("close", None))
+            ranks.ended(None)
             complete()
     except BaseException as error:
+        ranks.ended(error)
         with held(), suppress(OSError):
-            _pass_on(library, output)
-            output.close(UelError(in_words(error)))
+            write(methodcaller("close", UelError(in_words(error))))
+        if output is None:
+            raise
         note_warnings(error, output.warnings, f" in {output.job}.dat and .msg")
         for text in output.unbalanced if isinstance(error, ConvergenceError) else ():
             error.add_note(text)
@@ -244,7 +275,7 @@ def _debug_helps(sources: Sequence[Path], message: str) -> bool:
     return compiled and not usersub.names_line(message)
 
 
-def _pass_on(library: Library, output: JobOutput) -> None:
+def _pass_on(messages: Sequence[Message], output: JobOutput) -> None:
     """Write texts of user routines where Abaqus puts them."""
-    for message in library.messages():
+    for message in messages:
         output.user_text(message.file, message.kind, message.text)

@@ -32,6 +32,7 @@ class Slate(ctypes.Structure):
     routine   its name
     reason    why it was left, or why the process ends
     finished  1 + exit code of a process that ended by itself
+    token     what all ranks of a job know it by, '' without ranks
     """
 
     _fields_ = (
@@ -42,12 +43,14 @@ class Slate(ctypes.Structure):
         ("routine", ctypes.c_char * 16),
         ("reason", ctypes.c_char * 256),
         ("finished", ctypes.c_int32),
+        ("token", ctypes.c_char * 16),
     )
 
     calls: int
     within: int
     left: int
     finished: int
+    token: bytes
 
     def where(self) -> str:
         """Place of the current call, or of the last one that was left, with the reason; '' without either."""
@@ -74,3 +77,16 @@ def new_slate() -> tuple[int, Slate]:
 def open_slate(descriptor: int) -> Slate:
     """The memory that a descriptor stands for."""
     return Slate.from_buffer(mmap.mmap(descriptor, ctypes.sizeof(Slate)))
+
+
+def own_slate() -> Slate | None:
+    """That of this process, None if nobody watches it."""
+    return _own[0] if _own else None
+
+
+def keep_slate(slate: Slate) -> None:
+    """Say that it is that of this process."""
+    _own[:] = [slate]
+
+
+_own: list[Slate] = []

@@ -149,6 +149,16 @@ subroutine host_set_threads(number)
   threads = number
 end subroutine host_set_threads
 
+!> Number of this process, from 0, among those that run the job.
+subroutine host_set_rank(number, of)
+  use host_context, only: rank, ranks
+  use host_kinds, only: i4
+  implicit none (type, external)
+  integer(i4), intent(in) :: number, of
+  rank = number
+  ranks = of
+end subroutine host_set_rank
+
 !> Time in seconds that one call of a user routine may take; 0: any.
 subroutine host_limit_calls(seconds)
   use host_kinds, only: dp

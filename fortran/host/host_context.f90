@@ -5,7 +5,7 @@ module host_context
   use host_kinds, only: dp, i4
   implicit none (type, external)
   private
-  public :: call_context, current, heat_t, initial_stresses, job_name, names_cut, output_directory, threads
+  public :: call_context, current, heat_t, initial_stresses, job_name, names_cut, output_directory, rank, ranks, threads
 
   !> LFLAGS(3) of the host's own pass before an analysis, in which built-in elements take their stresses from SVARS.
   integer(i4), parameter :: initial_stresses = -1
@@ -50,6 +50,8 @@ module host_context
   type(call_context), target, save :: current
   !$omp threadprivate(current)
   integer(i4), save :: threads = 1         !< that call the elements of the job
+  integer(i4), save :: ranks = 1           !< processes that run the job
+  integer(i4), save :: rank = 0            !< number of this one, from 0
   character(len=4096), save :: job_name = ' '
   character(len=4096), save :: output_directory = ' '
   logical, save :: names_cut(2) = .false.   !< job name, output directory: a user routine took a part of it

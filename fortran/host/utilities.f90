@@ -54,20 +54,22 @@ subroutine getoutdir(outdir, lenoutdir)
   call pass_name(2, 'GETOUTDIR: the name of the output directory', output_directory, outdir, lenoutdir)
 end subroutine getoutdir
 
-!> Number of MPI processes: always one here.
+!> Number of MPI processes.
 subroutine getnumcpus(numprocesses)
+  use host_context, only: ranks
   use host_kinds, only: i4
   implicit none (type, external)
   integer(i4), intent(out) :: numprocesses
-  numprocesses = 1
+  numprocesses = ranks
 end subroutine getnumcpus
 
 !> Rank of this MPI process, from 0.
 subroutine getrank(kprocessnum)
+  use host_context, only: rank
   use host_kinds, only: i4
   implicit none (type, external)
   integer(i4), intent(out) :: kprocessnum
-  kprocessnum = 0
+  kprocessnum = rank
 end subroutine getrank
 
 !> Number of threads that call the elements.

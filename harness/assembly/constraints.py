@@ -15,6 +15,7 @@ from harness.assembly.system import System
 from harness.errors import Source
 from harness.model.arrays import FloatArray, IntArray
 from harness.model.model import Equation
+from harness.parallel.ranks import Ranks
 
 
 class Constraints:
@@ -87,6 +88,11 @@ class Constraints:
             Compared in this order, with their places in the deck.
         """
         return np.array_equal(self.prescribed, prescribed) and self._equations == tuple(equations)
+
+    @property
+    def ranks(self) -> Ranks:
+        """Those of the system: each has the part of T^T K T of its elements."""
+        return self._system.ranks
 
     @property
     def coordinates(self) -> FloatArray:
@@ -196,7 +202,7 @@ class Constraints:
         if not np.any(dprescribed):
             return np.zeros(len(self._system))
         du = self.expand(np.zeros(len(self.free)), dprescribed)
-        return np.asarray(self._system.matrix(data) @ du)
+        return self._system.product(data, du)
 
 
 def _columns(n: int, chosen: IntArray, dependent: IntArray, coefficients: sparse.csr_array) -> sparse.csr_array:

@@ -26,15 +26,11 @@ MOST_ENTRIES: Final = 2**31 - 1
 
 @dataclass(frozen=True, slots=True)
 class Behind:
-    """The last pass that keeps a state, of which the linear elements know nothing yet.
-
-    energy  (8,) sum of ENERGY; that of elements that are called at the end of the increment is added then
-    """
+    """The last pass that keeps a state, of which the linear elements know nothing yet."""
 
     call: Call
     u: FloatArray
     du: FloatArray
-    energy: FloatArray
 
 
 class LinearElements:
@@ -99,13 +95,13 @@ class LinearElements:
         """Set the CSR values (nnz,) to the matrices of all linear elements."""
         np.copyto(data, self._data)
 
-    def passed(self, call: Call, u: FloatArray, du: FloatArray, energy: FloatArray, *, spared: bool) -> None:
-        """End of a pass over all elements; spared: the linear ones were not called. Energy (8,) is completed later."""
+    def passed(self, call: Call, u: FloatArray, du: FloatArray, *, spared: bool) -> None:
+        """End of a pass over all elements; spared: the linear ones were not called."""
         if call.flags.request is Request.NORMAL:
-            self._behind = Behind(call, u.copy(), du.copy(), energy) if spared else None
+            self._behind = Behind(call, u.copy(), du.copy()) if spared else None
 
-    def catch_up(self) -> None:
-        """End of an increment: call the elements that cannot wait, and add their ENERGY to that of the pass.
+    def catch_up(self) -> FloatArray:
+        """End of an increment: call the elements that cannot wait; returns their ENERGY (8,), which the pass lacks.
 
         Raises
         ------
@@ -115,17 +111,18 @@ class LinearElements:
             An element fails.
         """
         behind, self._behind = self._behind, None
-        self._unread = behind
+        self._unread, energy = behind, np.zeros(8)
         if behind is None:
-            return
+            return energy
         for block in self._blocks:
             if block.can_wait:
                 continue
             called = np.zeros_like(behind.u)
             report = block.evaluate(behind.call, behind.u, behind.du, called, None)
-            behind.energy[:] += report.energy
+            energy += report.energy
             if block.assumed_linear:
                 self._verify(block, behind, called)
+        return energy
 
     def waits(self, block: ElementBlock) -> bool:
         """Whether the state of a block is older than the end of the last increment."""

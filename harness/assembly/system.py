@@ -4,8 +4,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from dataclasses import dataclass, field
+import math
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, field, replace
+from functools import partial
 from typing import Final
 
 import numpy as np
@@ -15,11 +17,14 @@ from scipy import sparse
 from harness.assembly.dofs import DofMap
 from harness.assembly.linear import LinearElements
 from harness.assembly.states import States
-from harness.elements import FIELD_NAMES, Call, ElementBlock, HeatLoadBlock, Motion, PressureBlock
+from harness.elements import FIELD_NAMES, Call, ElementBlock, HeatLoadBlock, Motion, PressureBlock, Request
+from harness.errors import ElementError
 from harness.model.arrays import ComplexArray, FloatArray, IntArray
 from harness.model.mesh import Mesh
 from harness.model.model import Equation
 from harness.model.records import ElementState
+from harness.parallel.partition import owners_of
+from harness.parallel.ranks import ALONE, FAILURES, Ranks
 from harness.usersub import _binding
 
 
@@ -33,6 +38,7 @@ class Evaluation:
     flux_count  (fields,) number of terms in it, those above the call's floor
     pnewdt      smallest PNEWDT an element returned
     energy      (8,) sum of ENERGY; that of linear elements that were not called is added by `System.commit`
+                The residual and all sums are those of all ranks, the matrix is the part of this rank's elements.
     load        (n,) sum of column 2 of RHS, increments of the loads that elements apply; None unless NRHS = 2
     damage      dissipated by the damage of built-in elements
     largest     (fields,) largest |element nodal force|
@@ -72,18 +78,35 @@ class System:
         equations: Sequence[Equation] = (),
         *,
         spare_linear: bool = False,
+        ranks: Ranks = ALONE,
     ) -> None:
-        """Blocks of a model with this mesh and these constraints; spare_linear: do not call linear elements again."""
+        """Blocks of a model with this mesh and these constraints, of which this rank keeps a part.
+
+        spare_linear: do not call linear elements again. Raises UsageError if several ranks cannot share the elements.
+        """
+        self.ranks = ranks
         self.blocks = tuple(block for block in blocks if not isinstance(block, LOADED))
         self.loaded = tuple(block for block in blocks if isinstance(block, LOADED))
         self.dofs = DofMap.build(mesh, self.blocks, equations)
+        if ranks.size > 1:
+            self._keep_own()
         numbers = [self.dofs.equations_of(block) for block in blocks]
         self.indptr, self.indices, scatter = build_pattern(len(self.dofs), numbers)
         for block, equation_numbers, positions in zip(blocks, numbers, scatter, strict=True):
             block.bind(equation_numbers, positions)
         self._data = np.zeros(len(self.indices))
         self._committed = 0
+        self._last: Evaluation | None = None
         self._linear = LinearElements(self.blocks if spare_linear else (), len(self.indices))
+
+    def _keep_own(self) -> None:
+        """Keep the elements of this rank, and faces on them."""
+        owners = self.ranks.tell(lambda: owners_of([block.group.nodes for block in self.blocks], self.ranks.size))
+        for block in (*self.blocks, *self.loaded):
+            elements = block.elements if isinstance(block, LOADED) else block.first + block.rows
+            # what enters nodes is that of rank 0
+            found = np.zeros(len(block.rows), dtype=np.int64) if elements is None else owners[elements]
+            block.keep(np.flatnonzero(found == self.ranks.rank))
 
     def __len__(self) -> int:
         return len(self.dofs)
@@ -127,6 +150,16 @@ class System:
         CallLimitError
             A call does not return within its limit.
         """
+        own = partial(self._evaluate_own, call, u, du, matrix=matrix, nrhs=nrhs, motion=motion)
+        evaluation = self._evaluate_all(own, nrhs)
+        if call.flags.request is Request.NORMAL:
+            self._last = evaluation
+        return evaluation
+
+    def _evaluate_own(
+        self, call: Call, u: FloatArray, du: FloatArray, *, matrix: bool, nrhs: int, motion: Motion | None
+    ) -> Evaluation:
+        """Sums over the elements of this rank; arguments and errors as those of `evaluate`."""
         columns = np.zeros((nrhs, len(self.dofs)))
         data = self._data if matrix else None
         linear = self._linear
@@ -160,8 +193,61 @@ class System:
         for entered in self.loaded if call.distributed is not None else ():
             energy += entered.evaluate(call, u, du, columns[0], data, motion).energy
         load = columns[1] if nrhs > 1 else None
-        linear.passed(call, u, du, energy, spared=spared)
+        linear.passed(call, u, du, spared=spared)
         return Evaluation(columns[0], data, flux, count, pnewdt, energy, load, damage, largest, entries)
+
+    def _evaluate_all(self, act: Callable[[], Evaluation], nrhs: int) -> Evaluation:
+        """Sums over the elements of all ranks; act: gives those of this one. The matrix stays a part.
+
+        The ranks exchange one array, that of the sums, in which each has a place for what is not a sum.
+        """
+        if self.ranks.size == 1:
+            return act()
+        failure: Exception | None = None
+        fields = len(FIELD_NAMES)
+        own = Evaluation(np.zeros(len(self)), None, np.zeros(fields), np.zeros(fields, np.int64), np.inf, np.zeros(8))
+        own = replace(own, load=np.zeros(len(self)) if nrhs > 1 else None)
+        try:
+            own = act()
+        except FAILURES as error:
+            failure = error
+        extremes = np.array([failure is not None, -own.pnewdt, *own.largest], dtype=np.float64)
+        loads = [] if own.load is None else [own.load]
+        counts = own.flux_count.astype(np.float64), own.entries.astype(np.float64)
+        parts = [own.residual, *loads, own.flux, counts[0], own.energy, np.array([own.damage]), counts[1]]
+        total = self.ranks.sum(np.concatenate([*parts, self.ranks.apart(extremes)]))
+        residual, *loads, flux, count, energy, damage, entries, found = np.split(
+            total, np.cumsum([len(part) for part in parts])
+        )
+        failed, refused, *largest = found.reshape(self.ranks.size, -1).max(axis=0)
+
+        def raise_it() -> None:
+            if failure is not None:
+                raise failure
+
+        if failed:
+            self.ranks.agree(raise_it, self._calling_order)
+        return Evaluation(
+            residual,
+            own.data,
+            flux,
+            count.astype(np.int64),
+            -float(refused),
+            energy,
+            loads[0] if loads else None,
+            float(damage[0]),
+            np.array(largest),
+            entries.astype(np.int64),
+        )
+
+    def _calling_order(self, error: Exception) -> float:
+        """Position in the model of the element that an error names; infinite if it names none."""
+        if isinstance(error, ElementError):
+            for block in self.blocks:
+                found = np.flatnonzero(block.group.labels == error.element)
+                if block.group.type == error.element_type and len(found):
+                    return float(block.first + block.rows[found[0]])
+        return math.inf
 
     def artificial_mass(self, call: Call) -> FloatArray:
         """Mass of the built-in elements that have one, for unit density.
@@ -191,11 +277,18 @@ class System:
         KernelError
             UVARM ends the analysis.
         """
-        self._linear.catch_up()
         self._committed += 1
+        energy = self.ranks.sum(self.ranks.agree(self._commit_own, self._calling_order))
+        if self._last is not None:
+            self._last.energy[:] += energy
+
+    def _commit_own(self) -> FloatArray:
+        """Commit the elements of this rank; returns ENERGY (8,) of those that the last pass spared."""
+        energy = self._linear.catch_up()
         for block in (*self.blocks, *self.loaded):
             if not self._linear.waits(block):
                 block.commit()
+        return energy
 
     def states(self) -> States:
         """Committed states of all elements.
@@ -209,11 +302,36 @@ class System:
         return States(self._read_states, lambda: self._committed == increment)
 
     def _read_states(self) -> tuple[ElementState, ...]:
-        self._linear.bring_up()
-        return tuple(block.state(k) for k, block in enumerate(self.blocks))
+        self.ranks.ask()
+        return self.share_states()
+
+    def share_states(self) -> tuple[ElementState, ...]:
+        """What rank 0 asks of all ranks when it reads the states: gives it those of this one. Raises KernelError."""
+        self.ranks.agree(self._linear.bring_up, self._calling_order)
+        own = [(block.rows, block.state(k)) for k, block in enumerate(self.blocks)]
+        if self.ranks.size == 1:
+            return tuple(state for _, state in own)
+        return tuple(map(_joined, zip(*self.ranks.collect(own), strict=True)))
+
+    def product(self, data: FloatArray, vector: FloatArray) -> FloatArray:
+        """K x, with the parts of K of all ranks.
+
+        Parameters
+        ----------
+        data
+            (nnz,) CSR values of K.
+        vector
+            x: (n,).
+
+        Returns
+        -------
+        FloatArray
+            (n,).
+        """
+        return self.ranks.sum(np.asarray(self.matrix(data) @ vector))
 
     def matrix(self, data: FloatArray | ComplexArray) -> sparse.csr_array:
-        """The matrix with the given CSR values.
+        """The matrix with the given CSR values, on several ranks the part of this one's elements.
 
         Parameters
         ----------
@@ -226,6 +344,14 @@ class System:
             (n, n); it shares the values.
         """
         return sparse.csr_array((data, self.indices, self.indptr), shape=(len(self), len(self)))
+
+
+def _joined(parts: tuple[tuple[IntArray, ElementState], ...]) -> ElementState:
+    """State of a group from those of its elements on each rank, with their rows in the group."""
+    rows = np.argsort(np.concatenate([rows for rows, _ in parts]))
+    state = parts[0][1]
+    svars, energy = (np.concatenate(one)[rows] for one in zip(*((s.svars, s.energy) for _, s in parts), strict=True))
+    return replace(state, svars=svars, energy=energy)
 
 
 def build_pattern(

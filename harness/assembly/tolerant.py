@@ -13,16 +13,17 @@ from harness.elements import Call, build_blocks
 from harness.errors import NotFiniteError
 from harness.model.arrays import FloatArray
 from harness.model.model import Model
+from harness.parallel.ranks import ALONE, Ranks
 from harness.usersub import ARRAYS, AS_GOOD_AS_ZERO, Library, guard_values, set_guard_values
 
 
 class TolerantSystem(System):
     """A system whose elements may read outside their arrays: if that makes NaN, they read zeros from then on."""
 
-    def __init__(self, model: Model, library: Library, linear: Collection[str] = ()) -> None:
+    def __init__(self, model: Model, library: Library, linear: Collection[str] = (), ranks: Ranks = ALONE) -> None:
         """Blocks of all elements of a model; linear: types of user elements that the user says are linear."""
         blocks = build_blocks(model, library, strict=False, zeros=True, linear=linear)
-        super().__init__(model.mesh, blocks, model.equations, spare_linear=True)
+        super().__init__(model.mesh, blocks, model.equations, spare_linear=True, ranks=ranks)
         self._library = library
         self._tolerated = False
 

@@ -29,6 +29,7 @@ import harness.assembly
 import harness.deck
 import harness.elements
 import harness.model
+import harness.parallel
 import harness.procedures
 import harness.solver
 import harness.usersub
@@ -123,7 +124,7 @@ def fingerprint(deck: Deck) -> str:
 
 _PACKAGES: Final = (
     *(harness.assembly, harness.deck, harness.elements, harness.model, harness.procedures, harness.solver),
-    harness.usersub,
+    *(harness.parallel, harness.usersub),
 )
 """From the deck to the records of a run."""
 

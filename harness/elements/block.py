@@ -34,6 +34,7 @@ MOST_INTERRUPTED: Final = 5
 
 _NO_MATRIX = np.zeros(1)
 _AT_REST = Motion(np.zeros(1), np.zeros(1))
+_NOTHING = BlockReport(np.zeros(1), np.zeros(1, dtype=np.int64), np.inf, np.zeros(8))
 _NO_LOADS = LoadArrays(np.zeros(1, np.int32), np.zeros((1, 1), np.int32), np.zeros((1, 1, 2)))
 
 
@@ -42,7 +43,8 @@ class ElementBlock:
 
     unknowns     (local node, dof) of each element unknown, in the order of U and RHS
     unsymmetric  False: (A + A^T)/2 is assembled
-    first        position of the first element in the model
+    first        position of the first element of the group in the model
+    rows         (m,) elements of the group that are here, ascending: all of them, or those of this rank
     parallel     several threads may call its elements at the same time
     strict       a write outside an array is an error, otherwise a warning
     zeros        an entry of RHS or AMATRX that is not set gives a warning and is zero from then on, otherwise an error
@@ -71,6 +73,8 @@ class ElementBlock:
         self._routine = routine
         self._library = library
         self.first = 0
+        self.rows = np.arange(len(group.labels))
+        self._size = len(group.labels)
         self.parallel = False
         self._interrupted = 0
         self._guards = Guards.STOP if strict else Guards.NOTICE
@@ -134,12 +138,37 @@ class ElementBlock:
 
     def is_loaded(self, distributed: Distributed | None) -> bool:
         """Whether one of its elements has a distributed load."""
-        return distributed is not None and bool(self._is_mine(distributed).any())
+        return distributed is not None and bool(self.holds(distributed.elements).any())
 
-    def _is_mine(self, distributed: Distributed) -> NDArray[np.bool_]:
-        """Which loads are on its elements."""
-        last = self.first + len(self.group.labels)
-        return (distributed.elements >= self.first) & (distributed.elements < last)
+    def holds(self, elements: IntArray) -> NDArray[np.bool_]:
+        """Which elements, positions in the model, are here."""
+        found = self.are_of_group(elements)
+        return found if len(self.rows) == self._size else found & np.isin(elements - self.first, self.rows)
+
+    def are_of_group(self, elements: IntArray) -> NDArray[np.bool_]:
+        """Which elements, positions in the model, are of its group, here or on another rank."""
+        found: NDArray[np.bool_] = (elements >= self.first) & (elements < self.first + self._size)
+        return found
+
+    def places_of(self, elements: IntArray) -> IntArray:
+        """Places, from 0, of elements (positions in the model) that are here."""
+        rows: IntArray = elements - self.first
+        return rows if len(self.rows) == self._size else np.searchsorted(self.rows, rows)
+
+    def keep(self, rows: IntArray) -> None:
+        """Keep only some elements, before `bind`: the others are those of other ranks.
+
+        Parameters
+        ----------
+        rows
+            Of the group, from 0, ascending.
+        """
+        group = self.group
+        self.group = replace(group, labels=group.labels[rows], nodes=group.nodes[rows])
+        self.rows, self._arrays = rows, self._arrays.of(rows)
+        self._watch = Watch(self.group, self._library)
+        if self._uvar is not None:
+            self._uvar = self._uvar[rows]
 
     def bind(self, equations: NDArray[np.int32], scatter: NDArray[np.int32]) -> None:
         """Say where the unknowns are.
@@ -184,7 +213,7 @@ class ElementBlock:
             for k in range(len(group.labels))
         ]
         for k, part in enumerate(parts):
-            part.first = self.first + k
+            part.first = self.first + int(self.rows[k])
             part._arrays.svars[0] = self._arrays.svars[k]
             part._arrays.energy[0] = self._arrays.energy[k]
             part._arrays.history[0] = self._arrays.history[k]
@@ -230,6 +259,8 @@ class ElementBlock:
         CallLimitError
             A call does not return within its limit.
         """
+        if not len(self.group.labels):
+            return _NOTHING
         motion = motion or _AT_REST
         outcome = _binding.evaluate(
             self._scalars(call),
@@ -287,7 +318,8 @@ class ElementBlock:
 
     def add_matrices(self, matrices: FloatArray, data: FloatArray) -> None:
         """Add matrices of the elements, as `evaluate_apart` returns them, to the CSR values (nnz,) of the system."""
-        _binding.add_matrices(matrices, self._arrays.map, data)
+        if len(matrices):
+            _binding.add_matrices(matrices, self._arrays.map, data)
 
     def linear_pass(self, matrices: FloatArray, call: Call, u: FloatArray, residual: FloatArray) -> BlockReport:
         """A pass in which matrices stand for the elements, which are not called.
@@ -308,6 +340,8 @@ class ElementBlock:
         BlockReport
             As of `evaluate`, without PNEWDT; ENERGY(2) if the elements have no other, and none if they have.
         """
+        if not len(self.group.labels):
+            return _NOTHING
         outcome = _binding.linear_pass(matrices, self._arrays.equations, self._first, u, self._floor(call), residual)
         energy = outcome.energy if self.can_wait else np.zeros(8)
         return BlockReport.of(outcome, self._by_field, len(self.group.labels), energy, 0.0)
@@ -349,8 +383,8 @@ class ElementBlock:
         if distributed is None:
             return _NO_LOADS
         m = len(self.group.labels)
-        mine = self._is_mine(distributed)
-        row = distributed.elements[mine] - self.first
+        mine = self.holds(distributed.elements)
+        row = self.places_of(distributed.elements[mine])
         counts = np.bincount(row, minlength=m)
         # number of a load among those of its element
         column = np.arange(len(row)) - (np.cumsum(counts) - counts)[row]
@@ -559,7 +593,7 @@ class ElementBlock:
             It does not give two directions, or not in the plane of plane elements.
         """
         given = self._routine.axes
-        if given is None or not is_user(given.orientation):
+        if given is None or not is_user(given.orientation) or not len(self.group.labels):
             return
         nodes = labels[self.group.nodes].astype(np.int32)
         name, family = given.orientation.name, self._routine.family
@@ -636,7 +670,8 @@ class ElementBlock:
             points = self._uvar.shape[1]
         if not parts:
             return svars.copy()
-        return np.concatenate([svars.reshape(len(svars), points, -1), *parts], axis=2).reshape(len(svars), -1)
+        of_points = np.concatenate([svars.reshape(len(svars), points, svars.shape[1] // points), *parts], axis=2)
+        return of_points.reshape(len(svars), points * of_points.shape[2])
 
     def _call_uvarm(self, call: Call, uvar: FloatArray) -> None:
         given = self._routine.uvarm

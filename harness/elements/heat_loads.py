@@ -41,6 +41,16 @@ class HeatLoadBlock(ElementBlock):
     places: IntArray
     load: HeatLoadType
 
+    @property
+    def elements(self) -> IntArray | None:
+        """(m,) positions of the elements in the model; None if heat enters nodes."""
+        return None if self.load.area else self.places
+
+    def keep(self, rows: IntArray) -> None:
+        """As that of other blocks."""
+        super().keep(rows)
+        self.places = self.places[rows]
+
 
 def heat_load_blocks(model: Model, library: Library) -> Iterator[HeatLoadBlock]:
     """Blocks of all faces, volumes and nodes that heat enters. Raises DeckError."""

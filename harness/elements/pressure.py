@@ -60,6 +60,11 @@ class PressureBlock(ElementBlock):
         super().__init__(group, coordinates, unknowns, routine, library, unsymmetric=True, variables=None)
         self.elements, self.load, self.surface = elements, load, surface
 
+    def keep(self, rows: IntArray) -> None:
+        """As that of other blocks."""
+        super().keep(rows)
+        self.elements = self.elements[rows]
+
 
 def pressure_blocks(model: Model, library: Library) -> list[PressureBlock]:
     """Blocks of all faces under pressure; none in a model without NLGEOM."""

@@ -17,6 +17,8 @@ from harness.usersub import Library
 MOST_THREADS: Final = 64
 """As in fortran/host/protect.c."""
 
+WITHOUT_SHARING: Final = "or take an interface element that has the stress itself (U4, U6, U8, U12) and FACE = 0"
+
 
 def known_routines(model: Model) -> list[str]:
     """What the user can call safe in a model: its user element types, and routines of its materials."""
@@ -54,6 +56,18 @@ def use_threads(blocks: Iterable[ElementBlock], library: Library, number: int, s
             library.warn(reason)
 
 
+def refuse_shared_stress(model: Model, library: Library, ranks: int) -> None:
+    """Raise UsageError where elements read what others have stored, who may be on another rank."""
+    for group in model.groups:
+        if group.definition is None or not isinstance(group.section, UserProperty):
+            continue
+        if library.shares_stress(group.definition.number, group.section.integers):
+            raise UsageError(
+                f"mpiexec -n {ranks}: elements of type {group.type.upper()} ({group.source}) store or take the stress "
+                "of their neighbours in memory that ranks do not share; run in one process, " + WITHOUT_SHARING
+            )
+
+
 def _reason_for_one(group: ElementGroup, library: Library, number: int, safe: Collection[str]) -> str:
     """Why one thread has to call the elements, '' if it has not to."""
     kind = group.type.upper()
@@ -62,8 +76,7 @@ def _reason_for_one(group: ElementGroup, library: Library, number: int, safe: Co
         if library.shares_stress(group.definition.number, group.section.integers):
             raise UsageError(
                 f"--cpus {number}: elements of type {kind} ({group.source}) store or take the stress of their "
-                "neighbours in memory that all threads share; run with --cpus 1, or take an interface element that "
-                "has the stress itself (U4, U6, U8, U12) and FACE = 0"
+                f"neighbours in memory that all threads share; run with --cpus 1, {WITHOUT_SHARING}"
             )
         if not library.is_own and kind not in safe:
             return _undeclared(f"elements of type {kind}", [kind], number)

@@ -15,8 +15,9 @@ from harness.model.arrays import FloatArray, IntArray
 from harness.model.user_values import UserValues
 from harness.procedures.convergence_checks import Checker, length_of_moments
 from harness.procedures.loads import fading_forces
-from harness.procedures.step_setting import Setting, SolverTimes, choose_solver
-from harness.procedures.unconstrained import UnconstrainedSolver
+from harness.procedures.step_setting import Setting, SolverTimes, choose_rank_solver, choose_solver
+from harness.procedures.unconstrained import tolerate
+from harness.solver.linear import RankSolver
 from harness.solver.newton import Factoriser
 
 
@@ -67,10 +68,13 @@ class StepContext:
         constraints, solver = state.constraints, state.solver
         if constraints is None or solver is None or not constraints.matches(self.unknowns, equations):
             constraints = Constraints(self.system, self.unknowns, equations, state.boundaries.sources)
-            choose = partial(choose_solver, setting.solver, constraints, state.effort)
+            find = choose_solver if self.system.ranks.size == 1 else choose_rank_solver
+            choose = partial(find, setting.solver, constraints, state.effort)
+            if isinstance(solver, RankSolver):
+                solver.release()
             chosen = choose()
             # the search handles a singular matrix itself
-            solver = chosen if fallback else UnconstrainedSolver(chosen)
+            solver = chosen if fallback else tolerate(chosen)
             self.choice = f"LINEAR SOLVER {chosen.name.upper()}: {chosen.reason}"
             state.majoriser.use(self.system, constraints, choose)
         state.constraints = self.constraints = constraints

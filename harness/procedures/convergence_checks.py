@@ -241,12 +241,13 @@ def length_of_moments(system: System, mesh: Mesh) -> float:
     Abaqus prints a CHARACTERISTIC ELEMENT LENGTH but does not define it: 1 for squares of edge 1, 9.764E-04 for
     hexahedra whose mean edge is 9.771E-04.
     """
-    total, count = 0.0, 0
+    total, count = 0.0, 0.0
     for block in system.blocks:
         if any(dof in ROTATIONS for _, dof in block.unknowns):
             places = mesh.coordinates[block.group.nodes]
             distances = np.linalg.norm(places - np.roll(places, 1, axis=1), axis=2)
             total, count = total + float(distances.sum()), count + distances.size
+    total, count = system.ranks.sum(np.array([total, count])).tolist()
     return total / count if count else 0.0
 
 

@@ -65,7 +65,7 @@ class ImplicitIntegration(Part):
         reduced = constraints.reduce_vector(evaluation.residual + load)
         indptr, indices = constraints.reduced_indptr, constraints.reduced_indices
         row = np.repeat(np.arange(len(reduced)), np.diff(indptr))
-        weightless = np.bincount(row, np.abs(mass), minlength=len(reduced)) == 0.0
+        weightless = constraints.ranks.sum(np.bincount(row, np.abs(mass), len(reduced)).astype(np.float64)) == 0.0
         mass[(row == indices) & weightless[row]] = 1.0
         reduced[weightless] = 0.0
         context.solver.factorise(mass)

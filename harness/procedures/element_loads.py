@@ -25,6 +25,7 @@ from harness.model.arrays import FloatArray, IntArray
 from harness.model.model import Model
 from harness.model.steps import ElementLoad, Load, Step
 from harness.model.user_values import GivesValues, UserValues
+from harness.parallel.ranks import Ranks
 from harness.procedures.heat_loads import HeatLoads, StepHeat
 from harness.procedures.loads import Loads, ScaledUnknowns, Slots, Variation
 
@@ -38,6 +39,7 @@ class StepLoads:
     distributed: tuple[_StepElementLoads, ...]
     user: GivesValues
     heat: StepHeat
+    ranks: Ranks
     increment: int = 0
 
     @property
@@ -57,7 +59,14 @@ class StepLoads:
 
     def at(self, step_time: float, total_time: float) -> FloatArray:
         """Loads (n,) at a time."""
-        values = self.concentrated.at(step_time, total_time)
+        concentrated = self.concentrated.at(step_time, total_time)
+        if not self.distributed:
+            return concentrated
+        return concentrated + self.ranks.sum(self.ranks.agree(lambda: self._on_elements(step_time, total_time)))
+
+    def _on_elements(self, step_time: float, total_time: float) -> FloatArray:
+        """Nodal forces (n,) of the loads on the elements of this rank."""
+        values = np.zeros(self.distributed[0].points.forces.shape[0])
         for load in self.distributed:
             magnitudes = load.magnitudes.at(step_time, total_time)[load.points.slot]
             if len(load.by_user):
@@ -65,7 +74,7 @@ class StepLoads:
                 time, given = (step_time, total_time), magnitudes[load.by_user]
                 asked = UserValues("DLOAD", self.step, self.increment, time, places, coords, given)
                 magnitudes[load.by_user] = self.user.user_values(asked)
-            values = values + load.points.forces @ magnitudes
+            values += load.points.forces @ magnitudes
         return values
 
     def with_faces(
@@ -113,6 +122,7 @@ class AllLoads:
     def __init__(self, system: System, model: Model) -> None:
         """Integrate the nodal forces of distributed loads once. Raises DeckError."""
         self._concentrated = Loads(system.dofs)
+        self._ranks = system.ranks
         on_elements = [load for step in model.steps for load in step.element_loads]
         on_surfaces = [load for step in model.steps for load in step.surface_loads]
         self._elements = _ElementLoads(system, on_elements, surface=False)
@@ -130,7 +140,8 @@ class AllLoads:
         )
         found = tuple(load for load in distributed if load is not None)
         heat = self._heat.start_step(step, total_time)
-        return StepLoads(step.number, self._concentrated.start_step(step, total_time), found, user, heat)
+        concentrated = self._concentrated.start_step(step, total_time)
+        return StepLoads(step.number, concentrated, found, user, heat, self._ranks)
 
     def in_perturbation(self, step: Step) -> FloatArray:
         """Forces (n,) of a perturbation step, which do not outlast it."""
@@ -177,7 +188,7 @@ class _ElementLoads:
             if entry.type not in turning:
                 parts += self._points_of(system, entry)
         none = np.zeros(0, dtype=np.int64)
-        self._faces = np.concatenate([none, *(block.first + np.arange(len(block.elements)) for block in faces)])
+        self._faces = np.concatenate([none, *(block.first + block.rows for block in faces)])
         slots = [self._slots.find(block.elements, self._types.index(block.load)) for block in faces]
         self._face_slots = np.concatenate([none, *slots])
         self._points = _Points(sparse.csr_array((len(system), 0)))
@@ -217,11 +228,10 @@ class _ElementLoads:
         chosen = np.flatnonzero(self._slots.kinds == self._types.index(entry.type))
         found = []
         for block in system.blocks:
-            mine = chosen[(self._slots.places[chosen] >= block.first)]
-            mine = mine[self._slots.places[mine] < block.first + len(block.group.labels)]
+            mine = chosen[block.holds(self._slots.places[chosen])]
             if not len(mine):
                 continue
-            rows = self._slots.places[mine] - block.first
+            rows = block.places_of(self._slots.places[mine])
             forces, coords = unit_forces(block.group, rows, entry, system.dofs.mesh.coordinates)
             elements, points, _, dimension = forces.shape
             local = list(entry.type.face) or list(range(block.group.nodes.shape[1]))

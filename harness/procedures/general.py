@@ -28,6 +28,7 @@ from harness.procedures.path import Path
 from harness.procedures.step_parts import Part
 from harness.procedures.unconstrained import UNLOADED, UnconstrainedSolver
 from harness.solver.descent import ITERATIONS, SINGULAR
+from harness.solver.linear import RankSolver
 from harness.solver.newton import Iterate
 
 SEARCH_TOO_LONG = f"THE DESCENT SEARCH HAS NOT CONVERGED IN {ITERATIONS} ITERATIONS."
@@ -130,7 +131,7 @@ class GeneralStep:
     def _warn_unconstrained(self) -> Iterator[Warned]:
         """Warn once in the step that a part of the model moves freely."""
         solver = self._context.solver
-        if isinstance(solver, UnconstrainedSolver) and solver.free is not None and not self._warned:
+        if isinstance(solver, UnconstrainedSolver | RankSolver) and solver.free is not None and not self._warned:
             self._warned = True
             yield Warned(UNLOADED.format(solver.free))
 

@@ -73,7 +73,7 @@ class HeatLoads:
             k = self._keywords.index(block.load.keyword)
             slots, active = self._all[k].find(block.places, block.load, 0)
             films = self._all[k].find(block.places, block.load, 1)[0] if block.load.film else np.full(len(slots), -1)
-            elements.append((block.first + np.arange(len(slots)))[active])
+            elements.append((block.first + block.rows)[active])
             values.append(first[k] + slots[active])
             coefficients.append(np.where(films < 0, -1, first[k] + films)[active])
         none = np.zeros(0, dtype=np.int64)

@@ -12,7 +12,6 @@ import numpy as np
 from harness.assembly import System
 from harness.elements import Call, ElementBlock, Flags
 from harness.errors import DeckError
-from harness.model.arrays import IntArray
 from harness.model.model import Model
 from harness.model.records import Warned
 from harness.procedures.state import ConvergedState
@@ -57,9 +56,9 @@ def set_initial_states(blocks: Iterable[ElementBlock], model: Model, user: Initi
                 assert sdvini is not None
                 block.call_sdvini(sdvini)
                 continue
-            rows = _rows(block, entry.elements)
+            rows = block.places_of(entry.elements[block.holds(entry.elements)])
             try:
-                if len(rows):
+                if block.are_of_group(entry.elements).any():
                     block.initialise(rows, entry.values)
             except ValueError as error:
                 raise DeckError(entry.source, f"*INITIAL CONDITIONS, TYPE=SOLUTION: {error}") from None
@@ -73,13 +72,13 @@ def set_initial_stresses(system: System, model: Model, state: ConvergedState) ->
     stressed: dict[int, ElementBlock] = {}
     for entry in model.initial_stresses:
         for block in system.blocks:
-            rows = _rows(block, entry.elements)
-            if not len(rows):
+            if not block.are_of_group(entry.elements).any():
                 continue
             if block.group.definition is not None:
                 message = f"user elements ({block.group.type}) do not get initial stresses, nor do they in Abaqus"
                 yield Warned(f"{entry.source}: *INITIAL CONDITIONS, TYPE=STRESS has no effect: {message}")
                 continue
+            rows = block.places_of(entry.elements[block.holds(entry.elements)])
             try:
                 block.set_stress(rows, entry.values)
             except ValueError as error:
@@ -89,16 +88,14 @@ def set_initial_stresses(system: System, model: Model, state: ConvergedState) ->
         return
     call = Call(Flags(1), 1, 0, 0.0, 0.0, 0.0, 0.0, predefined=state.predefined)
     residual = np.zeros(len(system))
-    for block in stressed.values():
-        block.begin_stressed(call, state.displacement, residual)
+
+    def begin() -> None:
+        for block in stressed.values():
+            block.begin_stressed(call, state.displacement, residual)
+
+    system.ranks.agree(begin)
+    residual = system.ranks.sum(residual)
     if model.initial_stresses[0].ramped:
         # Analysis User's Guide, Initial conditions: stresses of opposite sign are added at first, and ramped off in the
         # first step. Here they are nodal forces, whose work is external work, so that ETOTAL is constant
         state.unbalanced = state.external = -residual
-
-
-def _rows(block: ElementBlock, elements: IntArray) -> IntArray:
-    """Those of elements (positions in the model) that are of a block, as its rows."""
-    rows = elements - block.first
-    found: IntArray = rows[(rows >= 0) & (rows < len(block.group.labels))]
-    return found

@@ -63,7 +63,7 @@ def run_steps(
     """
     state = ConvergedState.start(system, model)
     user.external_database(0, 0, (0.0, 0.0), 0.0, 1, 0)
-    set_initial_states(system.blocks, model, user)
+    system.ranks.agree(lambda: set_initial_states(system.blocks, model, user))
     yield from set_initial_stresses(system, model, state)
     yield from _unused(system.dofs, "*BOUNDARY", model.boundaries)
     running: StepRun | None = None

@@ -36,7 +36,7 @@ class ViscousForces(Part):
 
     def start(self) -> Iterator[Record]:
         """The damping factor if it is given, or a warning if nothing is damped."""
-        if not self._mass.any():
+        if not self._context.system.ranks.largest(np.array([self._mass.any()], dtype=np.float64))[0]:
             yield Warned(NOTHING_DAMPED)
         elif self._factor:
             yield Noted(f"STABILIZE: THE DAMPING FACTOR IS {self._factor:.4g}")
@@ -50,7 +50,7 @@ class ViscousForces(Part):
     def converged(self, last: Iterate, size: float) -> Iterator[Record]:
         """Add up the dissipated energy; yields the factor if it is chosen or reduced."""
         state = self._context.state
-        flow = self._context.system.matrix(self._mass) @ last.increment / size
+        flow = self._context.system.product(self._mass, last.increment) / size
         force = self._factor * flow
         # the trapezoidal rule of the external work
         state.stabilization += 0.5 * float((self._force + force) @ last.increment)

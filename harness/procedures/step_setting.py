@@ -14,7 +14,7 @@ from harness.model.records import Noted, Record
 from harness.model.steps import Step
 from harness.model.user_values import GivesValues
 from harness.procedures.state import ConvergedState
-from harness.solver.linear import Effort, LinearSolver, choose
+from harness.solver.linear import Effort, LinearSolver, Pattern, RankSolver, choose
 
 
 class UserRoutines(GivesValues, Protocol):
@@ -77,6 +77,12 @@ def choose_solver(name: str, constraints: Constraints, effort: Effort) -> Linear
     )
     solver.effort = effort
     return solver
+
+
+def choose_rank_solver(name: str, constraints: Constraints, effort: Effort) -> RankSolver:
+    """As `choose_solver`, on several ranks."""
+    pattern = Pattern(constraints.reduced_indptr, constraints.reduced_indices, constraints.coordinates)
+    return RankSolver(constraints.ranks, name, pattern, constraints.name_of, effort)
 
 
 class SolverTimes:

@@ -16,7 +16,7 @@ from scipy import sparse
 
 from harness.errors import SingularMatrixError
 from harness.model.arrays import FloatArray
-from harness.solver.linear import LinearSolver
+from harness.solver.linear import LinearSolver, RankSolver
 
 SHIFT = 1e-10
 """Stiffness that replaces the missing one, as a fraction of the largest entry of each row."""
@@ -28,6 +28,14 @@ REFINEMENTS = 3
 """Number of corrections of a solution for the added stiffness, which affects a soft, constrained part more."""
 
 UNLOADED = "{}. NO FORCE ACTS ON THE FREE PART, WHICH GETS SMALL DISPLACEMENTS"
+
+
+def tolerate(solver: LinearSolver | RankSolver) -> UnconstrainedSolver | RankSolver:
+    """Let a linear solver accept singular matrices where the right-hand side has a solution all the same."""
+    if isinstance(solver, RankSolver):
+        solver.wrap = UnconstrainedSolver
+        return solver
+    return UnconstrainedSolver(solver)
 
 
 class UnconstrainedSolver:

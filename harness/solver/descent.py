@@ -99,7 +99,7 @@ class Majoriser:
     def norm(self, vector: FloatArray) -> float:
         """Square root of |v . K_0 v|."""
         assert self._data is not None
-        return float(np.sqrt(abs(vector @ (self._system.matrix(self._data) @ vector))))
+        return float(np.sqrt(abs(vector @ self._system.product(self._data, vector))))
 
 
 class Descent(Newton):

@@ -166,7 +166,7 @@ class Newton:
             call, given.displacement + increment, increment, matrix=matrix, motion=motion
         )
         if given.damping is not None:
-            evaluation.residual[:] -= self._system.matrix(given.damping) @ increment
+            evaluation.residual[:] -= self._system.product(given.damping, increment)
             if evaluation.data is not None:
                 evaluation.data[:] += given.damping
         return evaluation

@@ -145,10 +145,9 @@ class PathFollower:
     def _reaction(self, given: PathIncrement, state: PathIterate) -> Reaction:
         data = state.evaluation.data
         assert data is not None
-        # the next pass overwrites the values, but this is used only before it
-        matrix = self._system.matrix(data)
 
+        # the next pass overwrites the values, but this is used only before it
         def change(correction: FloatArray, factor: float) -> FloatArray:
-            return self._constraints.reactions(factor * given.load_rate - matrix @ correction)
+            return self._constraints.reactions(factor * given.load_rate - self._system.product(data, correction))
 
         return change

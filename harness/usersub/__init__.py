@@ -8,7 +8,7 @@ and the caller gets an error with the reason. What still ends the whole process:
 slate (harness/shared_progress.py) tells another process where that was.
 """
 
-from harness.usersub._binding import allocated, limit_calls, set_threads, share_slate, trap
+from harness.usersub._binding import allocated, limit_calls, set_rank, set_threads, share_slate, trap
 from harness.usersub.guards import ARRAYS, AS_GOOD_AS_ZERO, UNSET, guard_values, room, set_guard_values
 from harness.usersub.inputs import Change, around, local_variables, watched_inputs, writes_outside
 from harness.usersub.languages import is_source
@@ -36,6 +36,7 @@ __all__ = [
     "names_line",
     "room",
     "set_guard_values",
+    "set_rank",
     "set_threads",
     "share_slate",
     "suspicions",

@@ -244,7 +244,8 @@ def scatter_map(equations: Int32Array, indptr: Int32Array, indices: Int32Array) 
     """
     m, n = equations.shape
     places = np.zeros((m, n, n), dtype=np.int32)
-    _host.host_scatter_map(equations.T, indptr, indices, places.T)
+    if m:
+        _host.host_scatter_map(equations.T, indptr, indices, places.T)
     # the driver walks matrices by columns, so that this is a view
     return places.transpose(0, 2, 1)
 
@@ -475,6 +476,11 @@ def open_job(name: str, directory: str, file6: str, file7: str) -> int:
 def set_threads(number: int) -> None:
     """Let so many threads call the elements of the jobs of this process from now on, where that is possible."""
     _host.host_set_threads(number)
+
+
+def set_rank(rank: int, ranks: int) -> None:
+    """Tell user routines the number of this process, from 0, among those that run its jobs (GETRANK, GETNUMCPUS)."""
+    _host.host_set_rank(rank, ranks)
 
 
 def limit_calls(seconds: float) -> None:

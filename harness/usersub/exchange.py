@@ -4,12 +4,12 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, fields, replace
 
 import numpy as np
 from numpy.typing import NDArray
 
-from harness.model.arrays import FloatArray
+from harness.model.arrays import FloatArray, IntArray
 from harness.usersub.faults import Fault
 
 Int32Array = NDArray[np.int32]
@@ -55,6 +55,12 @@ class BlockArrays:
     energy_trial: FloatArray
     history: FloatArray
     history_trial: FloatArray
+
+    def of(self, rows: IntArray) -> BlockArrays:
+        """Those of some of the elements, copied."""
+        shared = ("jprops", "props")
+        own = {one.name: getattr(self, one.name)[rows] for one in fields(self) if one.name not in shared}
+        return replace(self, **own)
 
 
 @dataclass(frozen=True, slots=True)

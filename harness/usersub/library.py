@@ -248,6 +248,7 @@ def load(
     deck: Path | None = None,
     zero_locals: bool = False,
     debug: bool = False,
+    rank: int = 0,
 ) -> Library:
     """Load user routines: files in Fortran, C or C++ (compiled, or taken from the cache) or a shared library.
 
@@ -267,6 +268,8 @@ def load(
     debug
         Compile with run-time checks, which end a call with file and line, and, unless `zero_locals`, with NaN or other
         conspicuous values in uninitialised variables; with AddressSanitizer, if its runtime is in this process.
+    rank
+        Number of this process among those that run the job, from 0: each has files of units 6 and 7 of its own.
 
     Returns
     -------
@@ -284,7 +287,9 @@ def load(
     sanitized = debug and _binding.sanitizing()
     built = _shared_library(files, _include(deck), zero_locals=zero_locals, debug=debug, sanitized=sanitized)
     name = _name_of(files)
-    library = Library(name, built.library, _open(built.library, name), Inbox(job, output_dir), sanitized=sanitized)
+    library = Library(
+        name, built.library, _open(built.library, name), Inbox(job, output_dir, rank), sanitized=sanitized
+    )
     for note in built.notes:
         library.warn(note)
     return library

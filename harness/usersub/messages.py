@@ -41,14 +41,18 @@ class Message:
 
 
 class Inbox:
-    """Collects the messages of a job. Units 6 and 7 are JOB.unit6 and JOB.unit7, removed once all has been read."""
+    """Collects the messages of a job. Units 6 and 7 are JOB.unit6 and JOB.unit7, removed once all has been read.
+
+    With the rank after these names in all processes of a job but the first.
+    """
 
     _current: ClassVar[Inbox | None] = None
     """The job that owns the units, of which the process has one set."""
 
-    def __init__(self, job: str, directory: Path) -> None:
+    def __init__(self, job: str, directory: Path, rank: int = 0) -> None:
         directory.mkdir(parents=True, exist_ok=True)
-        self._files = {".dat": directory / f"{job}.unit6", ".msg": directory / f"{job}.unit7"}
+        own = f".{rank}" if rank else ""
+        self._files = {".dat": directory / f"{job}.unit6{own}", ".msg": directory / f"{job}.unit7{own}"}
         self._read = dict.fromkeys(self._files, 0)
         self._sent: list[Message] = []
         folder = str(directory.resolve())

@@ -32,8 +32,8 @@ class Landscape:
         residual = -np.array(self._gradient(*u), dtype=float)
         return Evaluation(residual, data, np.abs(residual), np.ones(1, dtype=np.int64), np.inf, np.zeros(8))
 
-    def matrix(self, data):
-        return data.reshape(len(self.free), -1)
+    def product(self, data, vector):
+        return data.reshape(len(self.free), -1) @ vector
 
     def expand(self, dq, dprescribed):
         return dq

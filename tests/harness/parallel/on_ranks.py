@@ -1,0 +1,38 @@
+# SPDX-FileCopyrightText: The uel-harness authors
+# SPDX-License-Identifier: BSD-3-Clause
+"""Runs several decks on the ranks of one `mpiexec`, which saves the start of Python for each.
+
+python on_ranks.py JOBS.json: a list of arguments of `harness.run` by name. Rank 0 prints what each run ends with.
+"""
+
+from __future__ import annotations
+
+import json
+import sys
+from pathlib import Path
+
+import harness
+from harness.errors import SilentError, UelError
+from harness.parallel import launched
+from harness.parallel.mpi import MpiRanks
+
+
+class SeveralJobs(MpiRanks):
+    """Ranks that go on after a job."""
+
+    def close(self) -> None:
+        self._together = None
+
+
+ranks = SeveralJobs(launched())
+for job in json.loads(Path(sys.argv[1]).read_text()):
+    try:
+        harness.run(**job, ranks=ranks)
+        end = "completed"
+    except SilentError:
+        continue
+    except UelError as error:
+        end = str(error)
+    if not ranks.rank:
+        print(json.dumps(end), flush=True)
+MpiRanks.close(ranks)
