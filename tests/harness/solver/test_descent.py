@@ -48,7 +48,7 @@ class Landscape:
         return data
 
     def factorise(self, data):
-        self._factorised = self.matrix(data.copy())
+        self._factorised = data.copy().reshape(len(self.free), -1)
         if np.linalg.det(self._factorised) == 0.0:
             raise SingularMatrixError("node", 1)
 
