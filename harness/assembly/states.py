@@ -12,12 +12,14 @@ from harness.model.records import ElementState
 
 
 class States(Sequence[ElementState]):
-    """The states of all blocks at the end of an increment, copied when one of them is first read.
+    """The states of all blocks at the end of an increment, copied when they are first read.
 
     Parameters
     ----------
     read
         Brings the blocks up to date and copies their states.
+    read_one
+        Copies the state of one block if it is up to date; None if it is not.
     current
         Whether the system is still at the end of that increment.
 
@@ -27,8 +29,13 @@ class States(Sequence[ElementState]):
         They are first read when the next increment has begun.
     """
 
-    def __init__(self, read: Callable[[], tuple[ElementState, ...]], current: Callable[[], bool]) -> None:
-        self._read, self._current = read, current
+    def __init__(
+        self,
+        read: Callable[[], tuple[ElementState, ...]],
+        read_one: Callable[[int], ElementState | None],
+        current: Callable[[], bool],
+    ) -> None:
+        self._read, self._read_one, self._current = read, read_one, current
         self._states: tuple[ElementState, ...] | None = None
 
     def _all(self) -> tuple[ElementState, ...]:
@@ -48,4 +55,8 @@ class States(Sequence[ElementState]):
     def __getitem__(self, index: slice) -> tuple[ElementState, ...]: ...
 
     def __getitem__(self, index: int | slice) -> ElementState | tuple[ElementState, ...]:
+        if self._states is None and isinstance(index, int) and self._current():
+            found = self._read_one(index)
+            if found is not None:
+                return found
         return self._all()[index]

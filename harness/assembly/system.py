@@ -299,11 +299,16 @@ class System:
             A state for each block. They have to be read, if at all, before the next increment ends.
         """
         increment = self._committed
-        return States(self._read_states, lambda: self._committed == increment)
+        return States(self._read_states, self._read_state, lambda: self._committed == increment)
 
     def _read_states(self) -> tuple[ElementState, ...]:
         self.ranks.ask()
         return self.share_states()
+
+    def _read_state(self, index: int) -> ElementState | None:
+        """Of one block, without a call of its elements; None if that does not do."""
+        block = self.blocks[index]
+        return None if self.ranks.size > 1 or self._linear.waits(block) else block.state(index)
 
     def share_states(self) -> tuple[ElementState, ...]:
         """What rank 0 asks of all ranks when it reads the states: gives it those of this one. Raises KernelError."""
