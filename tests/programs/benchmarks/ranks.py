@@ -16,14 +16,12 @@ import tempfile
 import time
 from pathlib import Path
 
+from mpiexec import MPIEXEC, variables
 from rich.console import Console
 from rich.table import Table
 
 from harness.delamination.bricks import STANDARD, dcb_of_bricks
 from harness.output import Result
-
-sys.path.insert(0, str(Path(__file__).parents[2] / "harness" / "parallel"))
-from mpiexec import MPIEXEC, variables
 
 BRICKS = (240, 16, 3)
 RANKS = 2
