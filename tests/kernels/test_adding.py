@@ -54,7 +54,7 @@ LAW = {
         ),
     ],
     "abaqus/layout.f90": [
-        ("'LAW', 1, 4)", "'LAW', 1, 5)"),
+        ("'LAW', 0, 4)", "'LAW', 0, 5)"),
         (
             "public :: p_angle = 38\n",
             "public :: p_angle = 38\n  integer, parameter, public :: p_plateau = 39\n",
