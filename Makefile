@@ -30,11 +30,12 @@ PYTEST = $(RUN) OPENBLAS_NUM_THREADS=1 OMP_NUM_THREADS=1 MKL_NUM_THREADS=1 \
 	$(if $(SEED),-p randomly --randomly-seed=$(SEED) --hypothesis-profile=other --hypothesis-seed=$(SEED))
 
 .DEFAULT_GOAL := help
-.PHONY: help demo test test-all test-debug test-matrix bench lint docs decks clean
+.PHONY: help demo ranks test test-all test-debug test-matrix bench lint docs decks clean
 
 help:
 	@sed -n 's/^# make/make/p' $(firstword $(MAKEFILE_LIST))
 	@echo 'make test-all    the quick tests and the long ones'
+	@echo 'make ranks       what the tests of several processes need, 1 GB; without it they are skipped'
 	@echo 'make test-debug  the quick tests on kernels with run-time checks'
 	@echo 'make test-matrix both, on clean clones, as on several machines: tests/programs/matrix.py'
 	@echo 'make bench       speed ratios, measured in one run'
@@ -55,6 +56,8 @@ $(INSTALLED): pyproject.toml meson.build .ci/toolchain
 demo: $(INSTALLED)
 	$(RUN) $(BIN)/python -m harness.delamination.demo --output-dir demo
 
+ranks: $(RANKS)
+
 # MPI for the tests, in a folder of its own: oneMKL in the environment would change what other tests see
 $(RANKS): $(INSTALLED)
 	@$(BIN)/python -c 'import tomllib; print(*tomllib.load(open("pyproject.toml", "rb"))["project"]\
@@ -63,11 +66,11 @@ $(RANKS): $(INSTALLED)
 		echo 'MPI is not installed: its tests are skipped'
 
 # the first import builds what has changed; several test processes at once would get in each other's way
-test: $(INSTALLED) $(RANKS)
+test: $(INSTALLED)
 	$(RUN) $(BIN)/python -c 'import harness'
 	$(PYTEST) -m '$(SELECT)' $(PYTEST_ARGS)
 
-test-all: $(INSTALLED) $(RANKS)
+test-all: $(INSTALLED)
 	$(RUN) $(BIN)/python -c 'import harness'
 	$(PYTEST) $(PYTEST_ARGS)
 

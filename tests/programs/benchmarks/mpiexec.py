@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""Where the tests find MPI: in the environment, or in `.ranks` of it, which `make test` fills.
+"""Where the tests find MPI: in the environment, or in `.ranks` of it, which `make ranks` fills.
 
 The packages of the extra `mpi` are not in the environment itself: oneMKL among them would change what other tests see.
 """
