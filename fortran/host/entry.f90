@@ -342,6 +342,27 @@ subroutine host_define_user_material(umat, name, ntens, constants, count, number
   number = define(material)
 end subroutine host_define_user_material
 
+!> Make a hyperelastic material known; returns the number that stands for it.
+subroutine host_define_hyperelastic(ntens, polynomial, ogden, volumetric, logarithmic, number)
+  use host_kinds, only: dp, i4
+  use host_materials, only: define, material_t
+  implicit none (type, external)
+  integer(i4), intent(in) :: ntens            !< 4 or 6
+  real(dp), intent(in) :: polynomial(7, 7)    !< of the powers 0 to 6 of I1 - 3 and I2 - 3
+  real(dp), intent(in) :: ogden(2, 6)         !< mu and alpha; mu = 0: no term
+  real(dp), intent(in) :: volumetric(6)       !< 1/D
+  integer(i4), intent(in) :: logarithmic      !< 1: the volumetric energy of Arruda and Boyce
+  integer(i4), intent(out) :: number
+  type(material_t) :: material
+  material%ntens = ntens
+  allocate (material%hyperelastic)
+  material%hyperelastic%polynomial = polynomial
+  material%hyperelastic%ogden = ogden
+  material%hyperelastic%volumetric = volumetric
+  material%hyperelastic%logarithmic = logarithmic == 1
+  number = define(material)
+end subroutine host_define_hyperelastic
+
 !> Make a material known that has nothing yet; returns the number that stands for it.
 subroutine host_define_empty_material(number)
   use host_kinds, only: i4

@@ -1,12 +1,14 @@
 ! SPDX-FileCopyrightText: The uel-harness authors
 ! SPDX-License-Identifier: BSD-3-Clause
-!> The material library behind MATERIAL_LIB_MECH and the built-in elements: linear elasticity, Mises plasticity, UMAT.
+!> The material library behind MATERIAL_LIB_MECH and the built-in elements: linear elasticity, Mises plasticity, hyperelasticity,
+!> UMAT.
 !>
 !> Stress components: plane stress (11, 22, 12), plane strain (11, 22, 33, 12), three-dimensional
 !> (11, 22, 33, 12, 13, 23); shear strains are engineering strains.
 module host_materials
   use host_context, only: current
   use host_dependence, only: dependence_t, elastic_matrices
+  use host_hyperelastic, only: hyperelastic_energy, hyperelastic_stress, hyperelastic_t
   use host_kinds, only: dp, i4
   use host_kinematics, only: components, rotated
   use host_messages, only: add_message
@@ -18,7 +20,7 @@ module host_materials
   implicit none (type, external)
   private
   public :: material_t, define, find_material, stress_update, not_solved, elastic_energy, thickness_strain, history_values, &
-            has_fields, generates_heat, set_constants
+            has_fields, generates_heat, needs_deformation, set_constants
 
   !> Values of the history of a point of a plastic or prestressed material: stress-free strain (6), which is the plastic strain
   !> minus the elastic strain of the initial stress, and equivalent plastic strain.
@@ -39,6 +41,7 @@ module host_materials
     real(dp) :: young = 0, poisson = 0             !< of a plastic material, which is isotropic
     logical :: prestressed = .false.               !< it has a history for initial stresses
     real(dp) :: expansion = 0                      !< thermal strain per change of temperature
+    type(hyperelastic_t), allocatable :: hyperelastic   !< then nothing above counts but ntens, axes and local
     type(user_material_t), allocatable :: user     !< of UMAT; then nothing above counts but ntens
     integer :: variables = 0                       !< field variables, at least
     type(dependence_t), allocatable :: dependence  !< constants above are those of the point that set_constants was called for
@@ -94,6 +97,12 @@ contains
     if (allocated(material%thermal)) generates_heat = generates_heat .or. allocated(material%thermal%source)
   end function generates_heat
 
+  !> Whether stresses take the deformation gradients in current%deformation.
+  pure logical function needs_deformation(material)
+    type(material_t), intent(in) :: material
+    needs_deformation = allocated(material%user) .or. allocated(material%hyperelastic)
+  end function needs_deformation
+
   !> Elastic constants for the temperature and field variables in current%fields at the end of the increment. Leaves the pass if
   !> they are not positive definite.
   subroutine set_constants(material, point)
@@ -130,6 +139,14 @@ contains
     character(len=120) :: text
     valid = .true.
     n = material%ntens
+    if (allocated(material%hyperelastic)) then
+      call hyperelastic_stress(material%hyperelastic, n, current%deformation(:, :, 2), stress, tangent, solved)
+      if (.not. solved) then
+        write (text, '(a,i0)') '*HYPERELASTIC: the stretches are too large for numbers at integration point ', point
+        call not_solved(text)
+      end if
+      return
+    end if
     if (.not. (allocated(material%yield) .or. allocated(material%user) .or. material%prestressed)) then
       call linear(material, strain, stress, tangent)
       return
@@ -190,6 +207,10 @@ contains
     real(dp), intent(in) :: stress(material%ntens)
     integer :: i, j
     elastic_energy = 0
+    if (allocated(material%hyperelastic)) then
+      elastic_energy = hyperelastic_energy(material%hyperelastic, current%deformation(:, :, 2))
+      return
+    end if
     if (allocated(material%user)) then
       elastic_energy = current%history_trial(strain_energy, point)
       return

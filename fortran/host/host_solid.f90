@@ -14,6 +14,9 @@
 !> increment. Elements with incompatible modes have small strains in axes that turn with their middle (core_solid_rotation), to the
 !> order of the strain the same; their tangent is exact.
 !>
+!> Hyperelastic materials take their stress from the deformation gradient; the tangent leaves out little: the
+!> change of the mean volume strain under stresses that change the shape.
+!>
 !> The last of the predefined fields is the initial temperature; thermal strain is that of *EXPANSION since then.
 !>
 !> SVARS hold, for each point, E11 E22 E33 E12 S11 S22 S33 S12, in space with 13 and 23 after 12, in the directions of
@@ -35,9 +38,10 @@ module host_solid
   use host_initial_stress, only: begin_point
   use host_kinds, only: dp, i4
   use host_kinematics, only: components, gradients, mean_gradients, point_position, rotated, rotation_of
+  use host_mean_volume, only: add_mean_volume, add_uniform_volume
   use host_protect, only: escape
-  use host_materials, only: elastic_energy, find_material, generates_heat, has_fields, material_t, not_solved, set_constants, &
-                            stress_update, thickness_strain
+  use host_materials, only: elastic_energy, find_material, generates_heat, has_fields, material_t, needs_deformation, &
+                            not_solved, set_constants, stress_update, thickness_strain
   use host_shape, only: is_multilinear, is_quadratic, radius_of, rule_of, rule_t
   use host_thermal, only: call_hetval
   use host_usdfld, only: call_usdfld
@@ -255,7 +259,7 @@ contains
     work = energy(2) + energy(4)
     if (has_fields(material)) current%length = size_of(rule, direct, now, volume)
     current%finite = finite
-    if (finite .and. (allocated(material%user) .or. material%local)) then
+    if (finite .and. (needs_deformation(material) .or. material%local)) then
       call find_deformation(rule, direct, averaged, x, u, du, deformation)
     end if
     thermal = 0
@@ -277,7 +281,7 @@ contains
         call find_strain(dim*nodes, strains, b_mid(:, :, p), du, strain)
         if (present(axes)) then
           call carry_axes(p, deformation(:, :, :, p), axes(:, :, 2, p), middle)
-        else if (allocated(material%user)) then
+        else if (needs_deformation(material)) then
           current%deformation = deformation(:, :, :, p)
         end if
       else
@@ -307,6 +311,11 @@ contains
         call add_heat_source(coupling, weight, b(:, :, p), components(strains, material%ntens))
       end if
       if (finite) call add_geometric(dim, direct, strains, nodes, g(:, :, p), stress, weight, modulus, stiffness)
+      if (finite .and. allocated(material%hyperelastic)) then
+        if (averaged) call add_mean_volume(dim, direct, strains, nodes, g(:, :, p), b(:, :, p), stress, weight, stiffness)
+        if (has_hourglass_modes(rule)) call add_uniform_volume(rule%family, direct, strains, now, g(:, :, p), b(:, :, p), stress, &
+                                                               weight, merge(thickness, 1.0_dp, dim == 2), stiffness)
+      end if
       by_unknowns(:dim*nodes, :) = b(:, :, p)
       if (modes > 0) by_unknowns(dim*nodes + 1:, :) = by_modes(:, :, p)
       select case (strains)
@@ -319,6 +328,8 @@ contains
       end select
     end do
     if (allocated(current%fields)) deallocate (current%fields)
+    ! it dissipates nothing, and the trapezoidal rule is not exact
+    if (allocated(material%hyperelastic)) work = elastic
     energy(2) = elastic
     energy(4) = work - elastic
     if (has_hourglass_modes(rule)) then
@@ -441,7 +452,7 @@ contains
     if (direct > dim) gradient(3, 3) = dot_product(u(1, :), g(:, 3))
   end function gradient_of
 
-  !> Deformation gradients of all points at both ends of the increment, for UMAT; with the mean change of volume where it
+  !> Deformation gradients of all points at both ends of the increment; with the mean change of volume where it
   !> is averaged.
   subroutine find_deformation(rule, direct, averaged, x, u, du, f)
     type(rule_t), intent(in) :: rule

@@ -16,6 +16,7 @@ from harness.deck import (
     groups,
     heat,
     heat_loads,
+    hyperelastic,
     ignored,
     initial,
     lexer,
@@ -37,8 +38,20 @@ from harness.deck.table import Keyword, Kind, Option, Support, compact
 
 _FILES = (
     *(structure, lexer, placement, orientations, local_mesh, generation, user_elements, surfaces, constraints),
-    *(materials, damage, heat, section_controls, sections, groups, amplitudes, initial, steps, procedures, controls),
-    *(prescribed, distributed, heat_loads, requests, ignored),
+    *(
+        materials,
+        hyperelastic,
+        damage,
+        heat,
+        section_controls,
+        sections,
+        groups,
+        amplitudes,
+        initial,
+        steps,
+        procedures,
+    ),
+    *(controls, prescribed, distributed, heat_loads, requests, ignored),
 )
 KEYWORDS: dict[str, Keyword] = {compact(keyword.name): keyword for file in _FILES for keyword in file.KEYWORDS}
 MARKDOWN = Path(__file__).with_name("keywords.md")

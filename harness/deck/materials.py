@@ -15,6 +15,8 @@ from harness.deck.damage import extend_damage
 from harness.deck.error_report import Problems
 from harness.deck.heat import ISOTROPIC, extend_heat
 from harness.deck.heat import KEYWORDS as HEAT_OPTIONS
+from harness.deck.hyperelastic import KEYWORDS as HYPERELASTIC_OPTIONS
+from harness.deck.hyperelastic import read_hyperelastic
 from harness.deck.table import NAME, Keyword, Kind, Option, Where, ignored, one_of, refused
 from harness.deck.user_elements import read_count
 from harness.model.arrays import FloatArray
@@ -50,6 +52,8 @@ def _extend(material: Material, block: Block, problems: Problems) -> Material:
     match block.name:
         case "ELASTIC":
             extended = replace(material, elastic=_read_elastic(block))
+        case "HYPERELASTIC":
+            extended = replace(material, hyperelastic=read_hyperelastic(block, problems))
         case "PLASTIC":
             extended = replace(material, plastic=_read_plastic(block))
         case "USER MATERIAL":
@@ -247,7 +251,7 @@ _OPTIONS = (
         "expansion coefficient",
     ),
 )
-MATERIAL_OPTIONS = {keyword.name for keyword in (*_OPTIONS, *DAMAGE_OPTIONS, *HEAT_OPTIONS)}
+MATERIAL_OPTIONS = {keyword.name for keyword in (*_OPTIONS, *HYPERELASTIC_OPTIONS, *DAMAGE_OPTIONS, *HEAT_OPTIONS)}
 
 KEYWORDS = (
     Keyword(

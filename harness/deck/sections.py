@@ -95,9 +95,12 @@ def _spring(block: Block, kind: ElementType) -> SpringSection:
 def _check_material(block: Block, material: Material) -> None:
     """A material has elasticity of the kind that the section is for, and nothing else that it has no use for."""
     cohesive = block.name == "COHESIVE SECTION"
+    if material.hyperelastic is not None:
+        _check_hyperelastic(block, material)
+        return
     if material.elastic is None:
         if block.name == "SOLID SECTION" and material.user is None:
-            raise block.error(f"material {material.name} has no *ELASTIC and no *USER MATERIAL")
+            raise block.error(f"material {material.name} has no *ELASTIC, *HYPERELASTIC or *USER MATERIAL")
         if cohesive:
             raise block.error(f"material {material.name} has no *ELASTIC, TYPE=TRACTION")
         return
@@ -110,6 +113,23 @@ def _check_material(block: Block, material: Material) -> None:
     if not cohesive and material.damage is not None:
         place = material.damage.source
         raise block.error(f"material {material.name} has *DAMAGE INITIATION, at {place}, which needs *COHESIVE SECTION")
+
+
+def _check_hyperelastic(block: Block, material: Material) -> None:
+    """A hyperelastic material has nothing else that gives stresses or strains."""
+    if block.name == "COHESIVE SECTION":
+        raise block.error(f"material {material.name} has *HYPERELASTIC; expected *ELASTIC, TYPE=TRACTION")
+    for keyword, other in (
+        ("ELASTIC", material.elastic),
+        ("PLASTIC", material.plastic),
+        ("USER MATERIAL", material.user),
+        ("DAMAGE INITIATION", material.damage),
+    ):
+        if other is not None:
+            message = f"material {material.name} has *HYPERELASTIC and *{keyword}, at {other.source}"
+            raise block.error(f"{message}; expected only one of them")
+    if material.expansion:
+        raise block.error(f"material {material.name} has *HYPERELASTIC and *EXPANSION, which is not supported")
 
 
 def _thickness(rows: list[Row], index: int, what: str) -> float:

@@ -15,7 +15,7 @@ from harness.elements.coupled import coupled_routine, heat_routine, heat_variabl
 from harness.elements.directions import start_axes
 from harness.elements.discrete import discrete_routine, discrete_unknowns, discrete_variables
 from harness.elements.heat_loads import heat_load_blocks
-from harness.elements.materials import define_material, linearity, refuse_fields
+from harness.elements.materials import define_material, linearity, refuse_fields, refuse_hyperelastic
 from harness.elements.pressure import pressure_blocks
 from harness.elements.routine import Linearity, Routine
 from harness.elements.solid import history_of, solid_routine, solid_variables
@@ -136,6 +136,7 @@ def _user_block(
     free: tuple[int, ...] = ()
     if section.material is not None:
         refuse_fields(section.material, "user elements")
+        refuse_hyperelastic(section.material, "user elements")
         if section.orientation is not None and section.orientation.system is not None:
             message = f"*ORIENTATION, NAME={section.orientation.name}: directions that differ from point to point"
             raise DeckError(section.source, f"{message} are not supported for user elements")

@@ -11,7 +11,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from harness.elements.materials import define_thermal, refuse_fields, state_variables
+from harness.elements.materials import define_thermal, refuse_fields, refuse_hyperelastic, state_variables
 from harness.elements.routine import Routine
 from harness.elements.solid import check_radii, history_of, numbered, section_depth, solid_of, solid_routine
 from harness.errors import DeckError
@@ -27,6 +27,7 @@ def coupled_routine(model: Model, group: ElementGroup, section: SolidSection, li
     """What the driver calls for a group of solids with temperatures. Raises DeckError."""
     material = section.material
     refuse_fields(material, f"elements of type {group.type}")
+    refuse_hyperelastic(material, f"elements of type {group.type}")
     for step in model.steps:
         if not (step.procedure.temperatures and step.procedure.displacements):
             message = f"elements of type {group.type} are supported in *COUPLED TEMPERATURE-DISPLACEMENT steps only"

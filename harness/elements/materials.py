@@ -12,6 +12,7 @@ from typing import Final
 
 import numpy as np
 
+from harness.elements.hyperelastic import define_hyperelastic
 from harness.elements.routine import PARALLEL, Linearity
 from harness.errors import DeckError, Source
 from harness.model.arrays import FloatArray
@@ -58,6 +59,12 @@ def refuse_fields(material: Material, elements: str) -> None:
         raise DeckError(material.elastic.source, message)
 
 
+def refuse_hyperelastic(material: Material, elements: str) -> None:
+    """Raise DeckError if the material of these elements is hyperelastic."""
+    if material.hyperelastic is not None:
+        raise DeckError(material.hyperelastic.source, f"*HYPERELASTIC is not supported for {elements}")
+
+
 def is_global(orientation: Orientation) -> bool:
     """Whether the directions are the global ones, within rounding."""
     return bool(np.abs(orientation.axes - np.eye(3)).max() < PARALLEL)
@@ -95,6 +102,8 @@ def define_material(
     """Define a material in the host; returns its number there. `user` is the place that uses it. Raises DeckError."""
     if material.user is not None:
         return _define_user_material(material, material.user, orientation, tensor, library)
+    if material.hyperelastic is not None:
+        return define_hyperelastic(material.hyperelastic, int(tensor), library)
     elastic = material.elastic
     if elastic is None:
         raise DeckError(user, f"material {material.name} ({material.source}) has no *ELASTIC")

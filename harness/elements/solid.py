@@ -10,12 +10,14 @@ from typing import Final
 import numpy as np
 
 from harness.elements.directions import first_element
+from harness.elements.hyperelastic import initial_moduli
 from harness.elements.materials import (
     define_fields,
     define_material,
     directions,
     history_values,
     linearity,
+    refuse_hyperelastic,
     shear_modulus,
     state_variables,
 )
@@ -60,6 +62,7 @@ def solid_routine(model: Model, group: ElementGroup, section: SolidSection, libr
     if kind.incompatible and nonlinear is not None and (material.user or material.user_field):
         message = f"NLGEOM is not supported for elements of type {group.type} with UMAT or USDFLD"
         raise DeckError(nonlinear.source, message)
+    _check_hyperelastic(model, group, kind, material)
     orientation, local = section.orientation, _local_orientation(model, section, kind)
     if local is not None:
         # the material is in the directions of the points
@@ -96,7 +99,7 @@ def solid_routine(model: Model, group: ElementGroup, section: SolidSection, libr
         history=history_of(material, kind.points, prestressed=prestressed),
         statev=state_variables(material),
         uvarm=_output_variables(section, kind.points, library),
-        linear=history_values(material) == 1,
+        linear=history_values(material) == 1 and material.hyperelastic is None,
         forces=linearity(material, prestressed=prestressed),
         # the energy of hourglass control is another one
         stores=not kind.hourglass_control,
@@ -105,6 +108,18 @@ def solid_routine(model: Model, group: ElementGroup, section: SolidSection, libr
         stress=_places_of_stress(kind),
         axes=axes,
     )
+
+
+def _check_hyperelastic(model: Model, group: ElementGroup, kind: ContinuumType, material: Material) -> None:
+    """Raise DeckError if the material is hyperelastic, and the elements or the steps are not for it."""
+    if material.hyperelastic is None:
+        return
+    if kind.tensor is Tensor.PLANE_STRESS or kind.incompatible:
+        refuse_hyperelastic(material, f"elements of type {group.type}")
+    small = next((step for step in model.steps if not step.nlgeom), None)
+    if small is not None:
+        message = f"*HYPERELASTIC (material {material.name}, {material.hyperelastic.source}) needs NLGEOM"
+        raise DeckError(small.source, f"*STEP: {message}; small displacements are not supported")
 
 
 def _places_of_stress(kind: ContinuumType) -> tuple[int, ...]:
@@ -123,6 +138,9 @@ def _is_prestressed(model: Model, group: ElementGroup, material: Material) -> bo
     found = next((e for e in entries if ((e.elements >= first) & (e.elements < last)).any()), None)
     if found is None or material.user is not None:
         return False
+    if material.hyperelastic is not None:
+        message = f"is not supported with *HYPERELASTIC (material {material.name})"
+        raise DeckError(found.source, f"*INITIAL CONDITIONS, TYPE=STRESS {message}")
     if material.user_field is not None and material.elastic is not None and material.elastic.table is not None:
         message = "is not supported if the constants of *ELASTIC depend on fields that USDFLD gives"
         raise DeckError(found.source, f"*INITIAL CONDITIONS, TYPE=STRESS {message} (material {material.name})")
@@ -186,6 +204,8 @@ def _hourglass_stiffness(group: ElementGroup, kind: ContinuumType, section: Soli
         return 0.0
     if section.hourglass:
         return section.hourglass
+    if section.material.hyperelastic is not None:
+        return controls.hourglass * HOURGLASS_FRACTION * initial_moduli(section.material.hyperelastic)[0]
     if elastic is None:
         message = f"elements of type {group.type} with *USER MATERIAL need *HOURGLASS STIFFNESS after *SOLID SECTION"
         raise DeckError(section.source, message)

@@ -73,6 +73,38 @@ class Plastic:
     source: Source
 
 
+class Potential(StrEnum):
+    """Strain energy potential of *HYPERELASTIC."""
+
+    ARRUDA_BOYCE = "ARRUDA-BOYCE"
+    MOONEY_RIVLIN = "MOONEY-RIVLIN"
+    NEO_HOOKE = "NEO HOOKE"
+    OGDEN = "OGDEN"
+    POLYNOMIAL = "POLYNOMIAL"
+    REDUCED_POLYNOMIAL = "REDUCED POLYNOMIAL"
+    YEOH = "YEOH"
+
+
+HIGHEST_ORDER: Final = 6
+"""Of N of *HYPERELASTIC, coefficients given directly (Abaqus Keywords Guide; fortran/host/host_hyperelastic.f90)."""
+
+
+@dataclass(frozen=True, slots=True)
+class Hyperelastic:
+    """*HYPERELASTIC by coefficients.
+
+    order         N; 1, 1 and 3 of Mooney-Rivlin, neo-Hooke and Yeoh
+    coefficients  of the change of shape, in the order of the data line; mu and lambda_m of Arruda-Boyce
+    compliances   D, one per order, but one of Arruda-Boyce
+    """
+
+    potential: Potential
+    order: int
+    coefficients: tuple[float, ...]
+    compliances: tuple[float, ...]
+    source: Source
+
+
 @dataclass(frozen=True, slots=True)
 class UserMaterial:
     """*USER MATERIAL: constants are the PROPS of UMAT or UMATHT."""
@@ -133,6 +165,7 @@ class Material:
     source: Source
     elastic: Elastic | None = None
     plastic: Plastic | None = None
+    hyperelastic: Hyperelastic | None = None
     damage: Damage | None = None
     density: float = 0.0
     conductivity: FloatArray = field(default_factory=lambda: np.zeros((0, 2)))

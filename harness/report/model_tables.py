@@ -141,6 +141,11 @@ def _material_rows(material: Material) -> Iterator[Row]:
         names = _CONSTANTS.get(material.elastic.type, tuple(f"constant {k + 1}" for k in range(len(constants))))
         kind = f"*ELASTIC, TYPE={material.elastic.type}"
         yield from ((name, f"{value:g}", kind) for name, value in zip(names, constants, strict=False))
+    if material.hyperelastic is not None:
+        law = material.hyperelastic
+        kind = f"*HYPERELASTIC, {law.potential}, N={law.order}"
+        yield from ((f"coefficient {k}", f"{value:g}", kind) for k, value in enumerate(law.coefficients, 1))
+        yield from ((f"D{k}", f"{value:g}", kind) for k, value in enumerate(law.compliances, 1))
     if material.damage is not None:
         words = f"*DAMAGE INITIATION, CRITERION={material.damage.criterion}"
         for name, value in zip(

@@ -274,6 +274,17 @@ def define_material(
     return int(_host.host_define_material(stiffness.T, compliance.T, thickness, axes, constants, table.T))
 
 
+def define_hyperelastic(
+    ntens: int, polynomial: FloatArray, ogden: FloatArray, volumetric: FloatArray, *, logarithmic: bool
+) -> int:
+    """Add a hyperelastic material to the host's library.
+
+    polynomial (7, 7) coefficients of powers of I1 - 3 and I2 - 3; ogden (6, 2) mu and alpha; volumetric (6) 1/D;
+    logarithmic: the volumetric energy is that of Arruda and Boyce.
+    """
+    return int(_host.host_define_hyperelastic(ntens, polynomial, ogden.T, volumetric, logarithmic))
+
+
 def set_expansion(number: int, expansion: float) -> None:
     """Give a material of the host's library thermal expansion, strain per change of temperature."""
     _host.host_set_expansion(number, expansion)

@@ -1,0 +1,186 @@
+! SPDX-FileCopyrightText: The uel-harness authors
+! SPDX-License-Identifier: BSD-3-Clause
+!> Isotropic hyperelasticity: stress and tangent from the deformation gradient F.
+!>
+!> The strain energy per initial volume is that of Abaqus (Theory Guide, Hyperelastic material behavior): W of the stretches
+!> less the change of volume J = det F, and U(J). With e the logarithms of the principal stretches, h and H the derivatives of W
+!> by e, and P the projector on changes of shape, the principal Kirchhoff stresses are P h + J U' and their derivatives by e
+!> P H P + J U' + J^2 U''. Tangents are those of the Jaumann rate of the Kirchhoff stress over J, as DDSDDE of UMAT (R.W. Ogden,
+!> Non-linear elastic deformations, 1984, section 6.1).
+module host_hyperelastic
+  use core_small_matrix, only: determinant
+  use core_symmetric, only: eigenvalues
+  use host_kinds, only: dp
+  implicit none (type, external)
+  private
+  public :: hyperelastic_t, hyperelastic_stress, hyperelastic_energy, highest_order
+
+  integer, parameter :: highest_order = 6
+
+  type :: hyperelastic_t
+    real(dp) :: polynomial(0:highest_order, 0:highest_order) = 0   !< of (I1 - 3)^i (I2 - 3)^j, without 0, 0
+    real(dp) :: ogden(2, highest_order) = 0                        !< mu and alpha; mu = 0: no term
+    real(dp) :: volumetric(highest_order) = 0                      !< 1/D of (J - 1)^2i
+    logical :: logarithmic = .false.                               !< U = volumetric(1) ((J^2 - 1)/2 - ln J)
+  end type hyperelastic_t
+
+  !> Difference of logarithmic stretches below which the shear modulus is its limit, with an error of the square.
+  real(dp), parameter :: equal = 1e-5_dp
+
+  !> Largest exponent: its exponential still has a square.
+  real(dp), parameter :: largest = 300
+
+contains
+
+  !> Cauchy stress and tangent: 11, 22, 33, 12, 13, 23 or the first four of them. good is false if the stretches have no stress.
+  pure subroutine hyperelastic_stress(law, n, f, stress, tangent, good)
+    type(hyperelastic_t), intent(in) :: law
+    integer, intent(in) :: n                      !< 4 or 6
+    real(dp), intent(in) :: f(3, 3)
+    real(dp), intent(out) :: stress(n), tangent(n, n)
+    logical, intent(out) :: good
+    real(dp) :: e(3), directions(3, 3), j, energy, h(3), hh(3, 3), kirchhoff(3), slope(3, 3), u(0:2), modulus
+    real(dp) :: dyad(6, 3), between(6)
+    integer :: a, b
+    stress = 0
+    tangent = 0
+    call principal(law, f, e, directions, j, good)
+    if (.not. good) return
+    call shape_energy(law, e - sum(e)/3, energy, h, hh)
+    u = volume_energy(law, j)
+    kirchhoff = h - sum(h)/3 + j*u(1)
+    ! P H P, of the symmetric H
+    slope = hh - spread(sum(hh, 1), 1, 3)/3 - spread(sum(hh, 2), 2, 3)/3 + sum(hh)/9 + j*u(1) + j**2*u(2)
+    do a = 1, 3
+      dyad(:, a) = symmetric_dyad(directions(a, :), directions(a, :))
+      stress = stress + kirchhoff(a)/j*dyad(:n, a)
+    end do
+    do b = 1, 3
+      do a = 1, 3
+        tangent = tangent + slope(a, b)/j*outer(dyad(:n, a), dyad(:n, b))
+      end do
+      do a = 1, b - 1
+        between = 2*symmetric_dyad(directions(a, :), directions(b, :))
+        if (abs(e(a) - e(b)) > equal) then
+          modulus = (kirchhoff(a) - kirchhoff(b))/(2*tanh(e(a) - e(b)))
+        else
+          modulus = (0.5_dp*(slope(a, a) + slope(b, b)) - slope(a, b))/2
+        end if
+        tangent = tangent + modulus/j*outer(between(:n), between(:n))
+      end do
+    end do
+  end subroutine hyperelastic_stress
+
+  !> Strain energy per volume now; zero for stretches that have no stress.
+  pure real(dp) function hyperelastic_energy(law, f)
+    type(hyperelastic_t), intent(in) :: law
+    real(dp), intent(in) :: f(3, 3)
+    real(dp) :: e(3), directions(3, 3), j, energy, h(3), hh(3, 3), u(0:2)
+    logical :: good
+    hyperelastic_energy = 0
+    call principal(law, f, e, directions, j, good)
+    if (.not. good) return
+    call shape_energy(law, e - sum(e)/3, energy, h, hh)
+    u = volume_energy(law, j)
+    hyperelastic_energy = (energy + u(0))/j
+  end function hyperelastic_energy
+
+  !> Logarithms of the principal stretches, their directions (rows) now, and the change of volume; good: the energy has a value.
+  pure subroutine principal(law, f, e, directions, j, good)
+    type(hyperelastic_t), intent(in) :: law
+    real(dp), intent(in) :: f(3, 3)
+    real(dp), intent(out) :: e(3), directions(3, 3), j
+    logical, intent(out) :: good
+    real(dp) :: squares(3)
+    e = 0
+    j = determinant(f)
+    call eigenvalues(matmul(f, transpose(f)), squares, good, directions)
+    good = good .and. j > 0 .and. all(squares > 0)
+    if (.not. good) return
+    e = 0.5_dp*log(squares)
+    ! I1 and I2 to the highest power, and the powers of Ogden
+    good = maxval(abs(e))*max(2.0_dp*highest_order, maxval(abs(law%ogden(2, :)))) < largest
+  end subroutine principal
+
+  !> W, and its derivatives by the logarithmic stretches e, whose sum is zero.
+  pure subroutine shape_energy(law, e, w, h, hh)
+    type(hyperelastic_t), intent(in) :: law
+    real(dp), intent(in) :: e(3)
+    real(dp), intent(out) :: w, h(3), hh(3, 3)
+    real(dp) :: x(3), i1(3), i2(3), first, second, by(0:2, 0:2)
+    real(dp) :: term(3)
+    integer :: i, j, k
+    x = exp(2*e)
+    first = sum(x) - 3
+    second = sum(1/x) - 3
+    i1 = 2*x
+    i2 = -2/x
+    ! derivatives of the polynomial by its invariants
+    by = 0
+    do j = 0, highest_order
+      do i = 0, highest_order - j
+        associate (c => law%polynomial(i, j), p => powers(first, i), q => powers(second, j))
+          by = by + c*outer(p, q)
+        end associate
+      end do
+    end do
+    w = by(0, 0)
+    h = by(1, 0)*i1 + by(0, 1)*i2
+    hh = by(2, 0)*outer(i1, i1) + by(1, 1)*(outer(i1, i2) + outer(i2, i1)) + by(0, 2)*outer(i2, i2)
+    do k = 1, 3
+      hh(k, k) = hh(k, k) + 4*(by(1, 0)*x(k) + by(0, 1)/x(k))
+    end do
+    do i = 1, highest_order
+      associate (mu => law%ogden(1, i), alpha => law%ogden(2, i))
+        if (.not. abs(mu) > 0) cycle
+        term = 2*mu*exp(alpha*e)
+        w = w + (sum(term) - 6*mu)/alpha**2
+        h = h + term/alpha
+        do k = 1, 3
+          hh(k, k) = hh(k, k) + term(k)
+        end do
+      end associate
+    end do
+  end subroutine shape_energy
+
+  !> x**n and its first two derivatives.
+  pure function powers(x, n) result(values)
+    real(dp), intent(in) :: x
+    integer, intent(in) :: n
+    real(dp) :: values(3)
+    values = 0
+    values(1) = x**n
+    if (n > 0) values(2) = n*x**(n - 1)
+    if (n > 1) values(3) = n*(n - 1)*x**(n - 2)
+  end function powers
+
+  !> U and its first two derivatives by J.
+  pure function volume_energy(law, j) result(u)
+    type(hyperelastic_t), intent(in) :: law
+    real(dp), intent(in) :: j
+    real(dp) :: u(0:2)
+    integer :: i
+    if (law%logarithmic) then
+      u = law%volumetric(1)*[(j**2 - 1)/2 - log(j), j - 1/j, 1 + 1/j**2]
+      return
+    end if
+    u = 0
+    do i = 1, highest_order
+      u = u + law%volumetric(i)*powers(j - 1, 2*i)
+    end do
+  end function volume_energy
+
+  !> Components 11, 22, 33, 12, 13, 23 of the symmetric part of the dyad of two vectors.
+  pure function symmetric_dyad(a, b) result(dyad)
+    real(dp), intent(in) :: a(3), b(3)
+    real(dp) :: dyad(6)
+    dyad(:3) = a*b
+    dyad(4:) = 0.5_dp*[a(1)*b(2) + a(2)*b(1), a(1)*b(3) + a(3)*b(1), a(2)*b(3) + a(3)*b(2)]
+  end function symmetric_dyad
+
+  pure function outer(a, b) result(matrix)
+    real(dp), intent(in) :: a(:), b(:)
+    real(dp) :: matrix(size(a), size(b))
+    matrix = spread(a, 2, size(b))*spread(b, 1, size(a))
+  end function outer
+end module host_hyperelastic

@@ -1,0 +1,78 @@
+! SPDX-FileCopyrightText: The uel-harness authors
+! SPDX-License-Identifier: BSD-3-Clause
+!> The part of the tangent that the change of the mean volume strain adds in elements that take it for the strain of their points.
+!>
+!> The forces of a uniform pressure are the pressure times the derivatives of the volume by the displacements, so that its tangent
+!> has their second derivatives, which are those of the points' own volume strains.
+module host_mean_volume
+  use core_strains, only: strain_matrix
+  use host_forces, only: add_axisymmetric_point, add_geometric, add_plane_point, add_space_point
+  use host_kinds, only: dp
+  use host_kinematics, only: gradients
+  use host_shape, only: rule_of, rule_t
+  implicit none (type, external)
+  private
+  public :: add_mean_volume, add_uniform_volume
+
+contains
+
+  !> Of a point with its gradients g, whose strain matrix b has the mean volume strain.
+  subroutine add_mean_volume(dim, direct, m, nodes, g, b, stress, volume, stiffness)
+    integer, intent(in) :: dim, direct, m, nodes      !< m: number of strains
+    real(dp), intent(in) :: g(nodes, direct), b(dim*nodes, m), stress(m), volume
+    real(dp), intent(inout) :: stiffness(dim*nodes, dim*nodes)
+    real(dp) :: own(dim*nodes, m), pressure
+    ! the mean strain is in equal parts in the direct ones
+    pressure = volume*sum(stress(:direct))/direct
+    call strain_matrix(dim, direct, nodes, g, own)
+    call add_curvature(dim, direct, m, nodes, g, own, pressure, stiffness)
+    call add_curvature(dim, direct, m, nodes, g, b, -pressure, stiffness)
+  end subroutine add_mean_volume
+
+  !> Of the only point of an element, whose strain matrix b has the change of the volume of the whole.
+  subroutine add_uniform_volume(family, direct, m, x, g, b, stress, volume, depth, stiffness)
+    integer, intent(in) :: family, direct, m
+    real(dp), intent(in) :: x(:, :)                   !< (dimension, nodes), now
+    real(dp), intent(in) :: g(:, :), b(:, :), stress(m), volume
+    real(dp), intent(in) :: depth                     !< factor of the volumes of points: the angle of axisymmetric elements
+    real(dp), intent(inout) :: stiffness(:, :)
+    real(dp) :: own(size(b, 1), m), part(size(x, 2), direct), weight, pressure
+    type(rule_t), pointer :: rule
+    integer :: point, dim, nodes
+    dim = size(x, 1)
+    nodes = size(x, 2)
+    ! in equal parts in the directions of the displacements
+    pressure = sum(stress(:dim))/dim
+    call add_curvature(dim, direct, m, nodes, g, b, -pressure*volume, stiffness)
+    ! as many points as nodes: two in each direction
+    rule => rule_of(family, nodes)
+    do point = 1, rule%points
+      call gradients(rule, direct, point, x, part, weight)
+      call strain_matrix(dim, direct, nodes, part, own)
+      call add_curvature(dim, direct, m, nodes, part, own, pressure*depth*weight, stiffness)
+    end do
+  end subroutine add_uniform_volume
+
+  !> Tangent of a pressure, volume included, with these gradients and strains.
+  subroutine add_curvature(dim, direct, m, nodes, g, b, pressure, stiffness)
+    integer, intent(in) :: dim, direct, m, nodes
+    real(dp), intent(in) :: g(nodes, direct), b(dim*nodes, m), pressure
+    real(dp), intent(inout) :: stiffness(dim*nodes, dim*nodes)
+    real(dp) :: modulus(m, m), unit(m), none(m), no_force(dim*nodes)
+    modulus = 0
+    modulus(:direct, :direct) = 1
+    unit = 0
+    unit(:direct) = 1
+    none = 0
+    no_force = 0
+    call add_geometric(dim, direct, m, nodes, g, unit, pressure, modulus, stiffness)
+    select case (m)
+    case (3)
+      call add_plane_point(2*nodes, b, none, pressure*modulus, no_force, stiffness)
+    case (4)
+      call add_axisymmetric_point(2*nodes, b, none, pressure*modulus, no_force, stiffness)
+    case default
+      call add_space_point(3*nodes, b, none, pressure*modulus, no_force, stiffness)
+    end select
+  end subroutine add_curvature
+end module host_mean_volume

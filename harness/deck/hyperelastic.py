@@ -1,0 +1,73 @@
+# SPDX-FileCopyrightText: The uel-harness authors
+# SPDX-License-Identifier: BSD-3-Clause
+"""*HYPERELASTIC by coefficients."""
+
+from __future__ import annotations
+
+from harness.deck.blocks import Block
+from harness.deck.error_report import Problems
+from harness.deck.table import Keyword, Kind, Option, Where, ignored, refused
+from harness.model.properties import HIGHEST_ORDER, Hyperelastic, Potential
+
+FIXED_ORDER = {Potential.ARRUDA_BOYCE: 1, Potential.MOONEY_RIVLIN: 1, Potential.NEO_HOOKE: 1, Potential.YEOH: 3}
+
+
+def read_hyperelastic(block: Block, problems: Problems) -> Hyperelastic:
+    """The potential and its coefficients, in the order of the data line. Raises DeckError."""
+    given = [potential for potential in Potential if block.options.flag(potential.value)]
+    if len(given) > 1:
+        raise block.error(f"{' and '.join(given)}: expected one strain energy potential")
+    potential = given[0] if given else Potential.POLYNOMIAL
+    order = block.options.integer("N", FIXED_ORDER.get(potential, 1))
+    if order != FIXED_ORDER.get(potential, order):
+        raise block.error(f"N={order}: {potential} has N={FIXED_ORDER[potential]}")
+    if not 1 <= order <= HIGHEST_ORDER:
+        raise block.error(f"N={order}: expected a number from 1 to {HIGHEST_ORDER}")
+    count = _coefficients(potential, order)
+    values = [row.real(index, "coefficient", 0.0) for row, index in block.entries(problems.warn)]
+    if not values:
+        raise block.error("needs a data line with the coefficients")
+    if len(values) > count + order + 1:
+        message = f"{len(values)} values, but {potential}, N={order} has {count + order}"
+        raise block.error(f"{message}; dependence on temperature is not supported")
+    # entries that are not given are zero; a temperature after the only set of coefficients is not a dependence
+    values += [0.0] * (count + order - len(values))
+    return Hyperelastic(potential, order, tuple(values[:count]), tuple(values[count : count + order]), block.source)
+
+
+def _coefficients(potential: Potential, order: int) -> int:
+    """Number of coefficients of the change of shape."""
+    match potential:
+        case Potential.POLYNOMIAL:
+            return order * (order + 3) // 2
+        case Potential.OGDEN:
+            return 2 * order
+        case Potential.ARRUDA_BOYCE | Potential.MOONEY_RIVLIN:
+            return 2
+        case _:
+            return order
+
+
+KEYWORDS = (
+    Keyword(
+        "HYPERELASTIC",
+        "Isotropic hyperelasticity by coefficients, of plane strain, axisymmetric and solid elements without "
+        "incompatible modes or temperatures in steps with NLGEOM. Elements are not hybrid: D1 must be positive; a term "
+        "with a later D of zero is left out.",
+        Where.MODEL,
+        (
+            Option("ARRUDA-BOYCE", doc="strain energy potential of Arruda and Boyce"),
+            Option("MOONEY-RIVLIN", doc="polynomial with N=1"),
+            Option("NEO HOOKE", doc="reduced polynomial with N=1"),
+            Option("OGDEN", doc="strain energy potential of Ogden"),
+            Option("POLYNOMIAL", doc="polynomial of both invariants, which is the default"),
+            Option("REDUCED POLYNOMIAL", doc="polynomial of the first invariant"),
+            Option("YEOH", doc="reduced polynomial with N=3"),
+            Option("N", Kind.INTEGER, "order, 1 to 6 (1)"),
+            *ignored("MODULI"),
+            *refused("BETA", "MARLOW", "POISSON", "PROPERTIES", "TEST DATA INPUT", "TYPE", "USER", "VAN DER WAALS"),
+        ),
+        "coefficients, then D, eight per line: mu, lambda_m, D (ARRUDA-BOYCE); mu1, alpha1, ... D1, ... (OGDEN); "
+        "C10, C01, C20, C11, C02, ... D1, ... (POLYNOMIAL, MOONEY-RIVLIN); C10, C20, ... D1, ... (the others)",
+    ),
+)
