@@ -343,7 +343,7 @@ subroutine host_define_user_material(umat, name, ntens, constants, count, number
 end subroutine host_define_user_material
 
 !> Make a hyperelastic material known; returns the number that stands for it.
-subroutine host_define_hyperelastic(ntens, polynomial, ogden, volumetric, logarithmic, number)
+subroutine host_define_hyperelastic(ntens, polynomial, ogden, volumetric, logarithmic, moduli, number)
   use host_kinds, only: dp, i4
   use host_materials, only: define, material_t
   implicit none (type, external)
@@ -352,6 +352,7 @@ subroutine host_define_hyperelastic(ntens, polynomial, ogden, volumetric, logari
   real(dp), intent(in) :: ogden(2, 6)         !< mu and alpha; mu = 0: no term
   real(dp), intent(in) :: volumetric(6)       !< 1/D
   integer(i4), intent(in) :: logarithmic      !< 1: the volumetric energy of Arruda and Boyce
+  real(dp), intent(in) :: moduli(2)           !< initial Young's modulus and Poisson's ratio, for hourglass control
   integer(i4), intent(out) :: number
   type(material_t) :: material
   material%ntens = ntens
@@ -360,6 +361,8 @@ subroutine host_define_hyperelastic(ntens, polynomial, ogden, volumetric, logari
   material%hyperelastic%ogden = ogden
   material%hyperelastic%volumetric = volumetric
   material%hyperelastic%logarithmic = logarithmic == 1
+  material%compliance(1, 1) = 1/moduli(1)
+  material%compliance(1, 2) = -moduli(2)/moduli(1)
   number = define(material)
 end subroutine host_define_hyperelastic
 

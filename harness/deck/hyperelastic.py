@@ -53,7 +53,8 @@ KEYWORDS = (
         "HYPERELASTIC",
         "Isotropic hyperelasticity by coefficients, of plane strain, axisymmetric and solid elements without "
         "incompatible modes or temperatures in steps with NLGEOM. Elements are not hybrid: D1 must be positive; a term "
-        "with a later D of zero is left out.",
+        "with a later D of zero is left out. One-point elements need *SECTION CONTROLS, HOURGLASS=ENHANCED or "
+        "*HOURGLASS STIFFNESS.",
         Where.MODEL,
         (
             Option("ARRUDA-BOYCE", doc="strain energy potential of Arruda and Boyce"),

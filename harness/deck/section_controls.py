@@ -42,8 +42,8 @@ KEYWORDS = (
         f"{', '.join(HOURGLASS_CONTROLLED)} and those with temperatures. STIFFNESS is that of *HOURGLASS STIFFNESS. "
         "ENHANCED is the assumed strain stabilization of Belytschko and Bindeman (1991, 1993), with which rectangles "
         "and bricks bend exactly; that Abaqus has the same numbers is inferred from its manual, which names the "
-        "method, and a warning says so. It needs *ELASTIC, TYPE=ISOTROPIC with constant values, and is not available "
-        "for axisymmetric elements.",
+        "method, and a warning says so. It needs *ELASTIC, TYPE=ISOTROPIC with constant values, or *HYPERELASTIC, "
+        "whose initial moduli it takes, and is not available for axisymmetric elements.",
         Where.MODEL,
         (
             NAME,

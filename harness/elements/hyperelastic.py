@@ -38,8 +38,9 @@ def define_hyperelastic(law: Hyperelastic, ntens: int, library: Library) -> int:
         library.warn(f"{law.source}: *HYPERELASTIC: {message} with elements that are not hybrid")
     volumetric = np.zeros(HIGHEST_ORDER)
     volumetric[: len(law.compliances)] = [1 / d if d else 0.0 for d in law.compliances]
+    moduli = 9 * bulk * shear / (3 * bulk + shear), (3 * bulk - 2 * shear) / (6 * bulk + 2 * shear)
     logarithmic = law.potential is Potential.ARRUDA_BOYCE
-    return _binding.define_hyperelastic(ntens, polynomial, ogden, volumetric, logarithmic=logarithmic)
+    return _binding.define_hyperelastic(ntens, polynomial, ogden, volumetric, logarithmic=logarithmic, moduli=moduli)
 
 
 def initial_moduli(law: Hyperelastic) -> tuple[float, float]:

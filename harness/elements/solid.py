@@ -10,7 +10,6 @@ from typing import Final
 import numpy as np
 
 from harness.elements.directions import first_element
-from harness.elements.hyperelastic import initial_moduli
 from harness.elements.materials import (
     define_fields,
     define_material,
@@ -205,7 +204,9 @@ def _hourglass_stiffness(group: ElementGroup, kind: ContinuumType, section: Soli
     if section.hourglass:
         return section.hourglass
     if section.material.hyperelastic is not None:
-        return controls.hourglass * HOURGLASS_FRACTION * initial_moduli(section.material.hyperelastic)[0]
+        message = f"elements of type {group.type} with *HYPERELASTIC need *SECTION CONTROLS, HOURGLASS=ENHANCED or"
+        small = "the stiffness of small strains is too soft for large ones"
+        raise DeckError(section.source, f"{message} *HOURGLASS STIFFNESS after *SOLID SECTION; {small}")
     if elastic is None:
         message = f"elements of type {group.type} with *USER MATERIAL need *HOURGLASS STIFFNESS after *SOLID SECTION"
         raise DeckError(section.source, message)
@@ -217,6 +218,8 @@ def _check_enhanced(group: ElementGroup, kind: ContinuumType, section: SolidSect
     elastic = section.material.elastic
     if kind.axisymmetric:
         what, expected = f"elements of type {group.type}", "plane elements or C3D8R"
+    elif section.material.hyperelastic is not None:
+        return
     elif elastic is None or elastic.type is not ElasticType.ISOTROPIC or elastic.table is not None:
         what, expected = f"material {section.material.name}", "*ELASTIC, TYPE=ISOTROPIC with constant values"
     else:

@@ -275,14 +275,21 @@ def define_material(
 
 
 def define_hyperelastic(
-    ntens: int, polynomial: FloatArray, ogden: FloatArray, volumetric: FloatArray, *, logarithmic: bool
+    ntens: int,
+    polynomial: FloatArray,
+    ogden: FloatArray,
+    volumetric: FloatArray,
+    *,
+    logarithmic: bool,
+    moduli: tuple[float, float],
 ) -> int:
     """Add a hyperelastic material to the host's library.
 
     polynomial (7, 7) coefficients of powers of I1 - 3 and I2 - 3; ogden (6, 2) mu and alpha; volumetric (6) 1/D;
-    logarithmic: the volumetric energy is that of Arruda and Boyce.
+    logarithmic: the volumetric energy is that of Arruda and Boyce; moduli: initial Young's modulus and Poisson's ratio,
+    for the enhanced hourglass control.
     """
-    return int(_host.host_define_hyperelastic(ntens, polynomial, ogden.T, volumetric, logarithmic))
+    return int(_host.host_define_hyperelastic(ntens, polynomial, ogden.T, volumetric, logarithmic, moduli))
 
 
 def set_expansion(number: int, expansion: float) -> None:

@@ -72,6 +72,8 @@ def element(bound, load, call):
     def element(one, element_type="C3D8", nodes=None, *, material=None, **options):
         nodes = NODES.get(element_type, SQUARE) if nodes is None else nodes
         material = material or Material("M", SOURCE, hyperelastic=one)
+        if element_type in ("C3D8R", "CAX4R", "CPE4R"):
+            options.setdefault("hourglass", 0.01)
         section = SolidSection("ALL", material, None, 1.0, SOURCE, **options)
         group = ElementGroup(element_type, np.array([1]), np.arange(len(nodes))[None], "", section, None, SOURCE)
         return MovingElement(*bound(group, nodes, load(None)), nodes, call)
@@ -258,19 +260,20 @@ def test_energy_is_that_of_the_initial_volume(element):
     assert report.energy[3] == 0
 
 
-def test_hourglass_stiffness_is_that_of_the_shear_modulus(element):
-    """Of an elastic element with the same moduli, for a small hourglass mode."""
+@pytest.mark.parametrize("element_type", ["C3D8R", "CPE4R"])
+def test_enhanced_hourglass_control_has_the_initial_moduli(element, element_type):
+    """It is that of an elastic element with the same moduli, for a small hourglass mode."""
     shear, bulk = initial_moduli(MOONEY)
     young, nu = 9 * bulk * shear / (3 * bulk + shear), (3 * bulk - 2 * shear) / (6 * bulk + 2 * shear)
     elastic = Material("M", SOURCE, Elastic(ElasticType.ISOTROPIC, (young, nu), SOURCE))
-    mode = np.zeros((8, 3))
-    mode[:, 0] = 1e-7 * np.array([1, -1, 1, -1, -1, 1, -1, 1])
-    for factor in (1.0, 3.0):
-        controls = SectionControls(hourglass=factor)
-        found, _ = element(MOONEY, "C3D8R", controls=controls).evaluate(mode.ravel())
-        expected, _ = element(None, "C3D8R", material=elastic, controls=controls).evaluate(mode.ravel())
-        assert abs(expected).max() > 0
-        np.testing.assert_allclose(found, expected, rtol=1e-5, atol=1e-5 * abs(expected).max())
+    nodes, controls = NODES.get(element_type, SQUARE), SectionControls(enhanced=True)
+    mode = np.zeros((len(nodes), 2 if element_type == "CPE4R" else 3))
+    mode[:, 0] = 1e-7 * np.array([1, -1, 1, -1, -1, 1, -1, 1])[: len(nodes)]
+    found, _ = element(MOONEY, element_type, controls=controls, hourglass=0.0).evaluate(mode.ravel())
+    options = {"material": elastic, "controls": controls, "hourglass": 0.0}
+    expected, _ = element(None, element_type, **options).evaluate(mode.ravel())
+    assert abs(expected).max() > 0
+    np.testing.assert_allclose(found, expected, rtol=1e-5, atol=1e-5 * abs(expected).max())
 
 
 def test_initial_moduli_of_arruda_and_boyce():
@@ -280,11 +283,19 @@ def test_initial_moduli_of_arruda_and_boyce():
     assert initial_moduli(CHAINS) == pytest.approx((shear, 2 / D), rel=1e-12)
 
 
-def test_too_large_stretches_ask_for_a_smaller_increment(element):
-    solid = element(law(Potential.OGDEN, 1.0, 200.0))
+def test_too_large_stretches_ask_for_a_smaller_increment(bound, load, call):
+    library = load(None)
+    material = Material("M", SOURCE, hyperelastic=law(Potential.OGDEN, 1.0, 200.0))
+    section = SolidSection("ALL", material, None, 1.0, SOURCE)
+    group = ElementGroup("C3D8", np.array([1]), np.arange(8)[None], "", section, None, SOURCE)
+    solid = MovingElement(*bound(group, CUBE, library), CUBE, call)
     u = (CUBE @ (np.diag([5.0, 1, 1]) - np.eye(3))).ravel()
     _, report = solid.evaluate(u)
     assert report.pnewdt == 0.25
+    texts = [message.text for message in library.messages()]
+    assert any(
+        "*HYPERELASTIC: the stretches are too large for numbers at integration point 1" in text for text in texts
+    )
 
 
 RUBBER = "*HYPERELASTIC, NEO HOOKE\n0.7, 0.05"
@@ -314,7 +325,9 @@ def run(tmp_path):
 def test_a_pulled_cube(run, element_type):
     """neo-Hooke with free sides: the side stretch t makes S22 = 0; the force is S11 t^2 and ALLSE is W."""
     more, section = "", ""
-    if element_type == "oriented":
+    if element_type == "C3D8R":
+        section, more = ", CONTROLS=C", "*SECTION CONTROLS, NAME=C, HOURGLASS=ENHANCED"
+    elif element_type == "oriented":
         element_type, section = "C3D8", ", ORIENTATION=O"
         more = "*ORIENTATION, NAME=O\n0.6, 0.8, 0., -0.8, 0.6, 0."
     history = run(deck(RUBBER, element_type=element_type, more=more, section=section)).history
@@ -379,6 +392,12 @@ ERRORS = [
     ("*HYPERELASTIC, USER", {}, r"option USER is not supported"),
     (RUBBER, {"step": "*STEP"}, r"\*STEP: \*HYPERELASTIC \(material M, .*\) needs NLGEOM"),
     (RUBBER, {"element_type": "CPS4"}, r"\*HYPERELASTIC is not supported for elements of type CPS4"),
+    (
+        RUBBER,
+        {"more": "*CONDUCTIVITY\n1.", "element_type": "C3D8T", "step": "*STEP, NLGEOM"},
+        r"\*HYPERELASTIC is not supported for elements of type C3D8T",
+    ),
+    (RUBBER, {"element_type": "C3D8R"}, r"C3D8R with \*HYPERELASTIC need \*SECTION CONTROLS, HOURGLASS=ENHANCED or"),
     (RUBBER, {"element_type": "CPE4I"}, r"\*HYPERELASTIC is not supported for elements of type CPE4I"),
     (
         RUBBER,
@@ -394,6 +413,15 @@ ERRORS = [
 def test_errors_of_decks(run, keyword, options, message):
     with pytest.raises(DeckError, match=r"rubber\.inp:\d+: .*" + message):
         run(deck(keyword, **options))
+
+
+def test_user_elements_do_not_have_it(user_group, bound, load):
+    """They need the deformation gradient, which MATERIAL_LIB_MECH does not take."""
+    material = Material("M", SOURCE, hyperelastic=NEO_HOOKE)
+    dofs = tuple((node, dof) for node in range(4) for dof in (1, 2))
+    group = user_group(np.arange(4)[None], dofs, material=material, tensor="PSTRAIN", integration=4)
+    with pytest.raises(DeckError, match=r"test\.inp:1: \*HYPERELASTIC is not supported for user elements"):
+        bound(group, SQUARE, load("point.f"))
 
 
 @pytest.mark.parametrize(("one", "count"), [(law(Potential.NEO_HOOKE, 0.5, compliances=(0.01,)), 1), (NEO_HOOKE, 0)])
