@@ -1,9 +1,9 @@
 ! SPDX-FileCopyrightText: The uel-harness authors
 ! SPDX-License-Identifier: BSD-3-Clause
-!> The part of the tangent that the change of the mean volume strain adds in elements that take it for the strain of their points.
+!> The part of the tangent that the change of the mean volume strain adds in elements that take it for that of their points.
 !>
-!> The forces of a uniform pressure are the pressure times the derivatives of the volume by the displacements, so that its tangent
-!> has their second derivatives, which are those of the points' own volume strains.
+!> The forces of a pressure that is the same in an element are the pressure times the derivatives of the volume by the
+!> displacements, so that its tangent has the second derivatives: they are those of the points' own volume strains.
 module host_mean_volume
   use core_strains, only: strain_matrix
   use host_forces, only: add_axisymmetric_point, add_geometric, add_plane_point, add_space_point
@@ -16,17 +16,28 @@ module host_mean_volume
 
 contains
 
-  !> Of a point with its gradients g, whose strain matrix b has the mean volume strain.
-  subroutine add_mean_volume(dim, direct, m, nodes, g, b, stress, volume, stiffness)
-    integer, intent(in) :: dim, direct, m, nodes      !< m: number of strains
-    real(dp), intent(in) :: g(nodes, direct), b(dim*nodes, m), stress(m), volume
+  !> Of all points, with their gradients g and strain matrices b, which have the mean volume strain. w are the volumes that make up
+  !> the forces: those before any displacement times the change of the whole volume.
+  subroutine add_mean_volume(dim, direct, m, nodes, points, g, b, stress, w, volume, stiffness)
+    integer, intent(in) :: dim, direct, m, nodes, points    !< m: number of strains
+    real(dp), intent(in) :: g(nodes, direct, points), b(dim*nodes, m, points), stress(m, points), w(points)
+    real(dp), intent(in) :: volume(points)                  !< of the points now
     real(dp), intent(inout) :: stiffness(dim*nodes, dim*nodes)
-    real(dp) :: own(dim*nodes, m), pressure
+    real(dp) :: own(dim*nodes, m), pressure(points), none(m, m)
+    integer :: p
+    none = 0
     ! the mean strain is in equal parts in the direct ones
-    pressure = volume*sum(stress(:direct))/direct
-    call strain_matrix(dim, direct, nodes, g, own)
-    call add_curvature(dim, direct, m, nodes, g, own, pressure, stiffness)
-    call add_curvature(dim, direct, m, nodes, g, b, -pressure, stiffness)
+    pressure = w*sum(stress(:direct, :), 1)/direct
+    do p = 1, points
+      call strain_matrix(dim, direct, nodes, g(:, :, p), own)
+      ! what turns the stress is the strain of the point
+      call add_tangent(dim, direct, m, nodes, g(:, :, p), own, stress(:, p), w(p), none, stiffness)
+      call add_tangent(dim, direct, m, nodes, g(:, :, p), b(:, :, p), stress(:, p), -w(p), none, stiffness)
+      ! the mean volume strain changes by that of all points, and the point's own goes
+      call add_curvature(dim, direct, m, nodes, g(:, :, p), own, sum(pressure)*volume(p)/sum(volume) - pressure(p), stiffness)
+      call add_square(sum(own(:, :direct), 2), pressure(p), stiffness)
+    end do
+    call add_square(sum(b(:, :direct, 1), 2), -sum(pressure), stiffness)
   end subroutine add_mean_volume
 
   !> Of the only point of an element, whose strain matrix b has the change of the volume of the whole.
@@ -58,21 +69,40 @@ contains
     integer, intent(in) :: dim, direct, m, nodes
     real(dp), intent(in) :: g(nodes, direct), b(dim*nodes, m), pressure
     real(dp), intent(inout) :: stiffness(dim*nodes, dim*nodes)
-    real(dp) :: modulus(m, m), unit(m), none(m), no_force(dim*nodes)
+    real(dp) :: modulus(m, m), unit(m)
     modulus = 0
     modulus(:direct, :direct) = 1
     unit = 0
     unit(:direct) = 1
+    call add_tangent(dim, direct, m, nodes, g, b, unit, pressure, modulus, stiffness)
+  end subroutine add_curvature
+
+  !> Tangent of a stress with these gradients and strains; modulus is that of the Jaumann rate of the Kirchhoff stress.
+  subroutine add_tangent(dim, direct, m, nodes, g, b, stress, volume, modulus, stiffness)
+    integer, intent(in) :: dim, direct, m, nodes
+    real(dp), intent(in) :: g(nodes, direct), b(dim*nodes, m), stress(m), volume, modulus(m, m)
+    real(dp), intent(inout) :: stiffness(dim*nodes, dim*nodes)
+    real(dp) :: turning(m, m), none(m), no_force(dim*nodes)
+    turning = modulus
     none = 0
     no_force = 0
-    call add_geometric(dim, direct, m, nodes, g, unit, pressure, modulus, stiffness)
+    call add_geometric(dim, direct, m, nodes, g, stress, volume, turning, stiffness)
     select case (m)
     case (3)
-      call add_plane_point(2*nodes, b, none, pressure*modulus, no_force, stiffness)
+      call add_plane_point(2*nodes, b, none, volume*turning, no_force, stiffness)
     case (4)
-      call add_axisymmetric_point(2*nodes, b, none, pressure*modulus, no_force, stiffness)
+      call add_axisymmetric_point(2*nodes, b, none, volume*turning, no_force, stiffness)
     case default
-      call add_space_point(3*nodes, b, none, pressure*modulus, no_force, stiffness)
+      call add_space_point(3*nodes, b, none, volume*turning, no_force, stiffness)
     end select
-  end subroutine add_curvature
+  end subroutine add_tangent
+
+  pure subroutine add_square(vector, factor, stiffness)
+    real(dp), intent(in) :: vector(:), factor
+    real(dp), intent(inout) :: stiffness(:, :)
+    integer :: k
+    do k = 1, size(vector)
+      stiffness(:, k) = stiffness(:, k) + factor*vector(k)*vector
+    end do
+  end subroutine add_square
 end module host_mean_volume

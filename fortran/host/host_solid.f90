@@ -14,8 +14,8 @@
 !> increment. Elements with incompatible modes have small strains in axes that turn with their middle (core_solid_rotation), to the
 !> order of the strain the same; their tangent is exact.
 !>
-!> Hyperelastic materials take their stress from the deformation gradient; the tangent leaves out little: the
-!> change of the mean volume strain under stresses that change the shape.
+!> Hyperelastic materials take their stress from the deformation gradient. Their forces are derivatives of the strain energy, the
+!> tangent those of the forces (host_mean_volume); where the volume strain is the mean, the points share the change of the volume.
 !>
 !> The last of the predefined fields is the initial temperature; thermal strain is that of *EXPANSION since then.
 !>
@@ -229,7 +229,8 @@ contains
     real(dp), intent(inout), optional :: axes(3, 3, 2, rule%points)   !< of the points (host_axes), if the material is in them
     real(dp), dimension(rule%nodes, direct, rule%points) :: g, g_mid
     real(dp), dimension(rule%dim*rule%nodes, strains, rule%points) :: b, b_mid
-    real(dp), dimension(rule%points) :: volume, volume_mid
+    real(dp), dimension(rule%points) :: volume, volume_mid, volume_now, volume_before
+    real(dp) :: stresses(strains, rule%points)
     real(dp) :: by_unknowns(rule%dim*rule%nodes + modes, strains)
     real(dp) :: now(rule%dim, rule%nodes), g_start(rule%nodes, direct), volume_start, deformation(3, 3, 2, rule%points)
     real(dp) :: strain(strains), stress(strains), modulus(strains, strains), thermal(2), weight, elastic, work
@@ -260,7 +261,12 @@ contains
     if (has_fields(material)) current%length = size_of(rule, direct, now, volume)
     current%finite = finite
     if (finite .and. (needs_deformation(material) .or. material%local)) then
-      call find_deformation(rule, direct, averaged, x, u, du, deformation)
+      call find_deformation(rule, direct, averaged, x, u, du, deformation, volume_before)
+    end if
+    volume_now = volume
+    ! the points share the change of the whole volume, so that forces are derivatives of the strain energy
+    if (finite .and. averaged .and. allocated(material%hyperelastic)) then
+      volume = volume_before*sum(volume)/sum(volume_before)
     end if
     thermal = 0
     do p = 1, rule%points
@@ -312,7 +318,7 @@ contains
       end if
       if (finite) call add_geometric(dim, direct, strains, nodes, g(:, :, p), stress, weight, modulus, stiffness)
       if (finite .and. allocated(material%hyperelastic)) then
-        if (averaged) call add_mean_volume(dim, direct, strains, nodes, g(:, :, p), b(:, :, p), stress, weight, stiffness)
+        if (averaged) stresses(:, p) = stress
         if (has_hourglass_modes(rule)) call add_uniform_volume(rule%family, direct, strains, now, g(:, :, p), b(:, :, p), stress, &
                                                                weight, merge(thickness, 1.0_dp, dim == 2), stiffness)
       end if
@@ -327,6 +333,10 @@ contains
         call add_space_point(3*nodes + modes, by_unknowns, weight*stress, weight*modulus, force, stiffness)
       end select
     end do
+    if (finite .and. averaged .and. allocated(material%hyperelastic)) then
+      call add_mean_volume(dim, direct, strains, nodes, rule%points, g, b, stresses, &
+                           volume*merge(thickness, 1.0_dp, dim == 2), volume_now, stiffness)
+    end if
     if (allocated(current%fields)) deallocate (current%fields)
     ! it dissipates nothing, and the trapezoidal rule is not exact
     if (allocated(material%hyperelastic)) work = elastic
@@ -454,12 +464,13 @@ contains
 
   !> Deformation gradients of all points at both ends of the increment; with the mean change of volume where it
   !> is averaged.
-  subroutine find_deformation(rule, direct, averaged, x, u, du, f)
+  subroutine find_deformation(rule, direct, averaged, x, u, du, f, initial)
     type(rule_t), intent(in) :: rule
     integer, intent(in) :: direct
     logical, intent(in) :: averaged
     real(dp), dimension(rule%dim, rule%nodes), intent(in) :: x, u, du
     real(dp), intent(out) :: f(3, 3, 2, rule%points)
+    real(dp), intent(out) :: initial(rule%points)   !< volumes of the points before any displacement
     real(dp) :: g(rule%nodes, direct), volume, total, swept(2)
     integer :: p, k
     total = 0
@@ -468,6 +479,7 @@ contains
       call point_gradients(rule, direct, p, x, g, volume)
       f(:, :, 1, p) = identity + gradient_of(rule%dim, direct, rule%nodes, u - du, g)
       f(:, :, 2, p) = identity + gradient_of(rule%dim, direct, rule%nodes, u, g)
+      initial(p) = volume
       total = total + volume
       do k = 1, 2
         swept(k) = swept(k) + volume*determinant(f(:, :, k, p))
