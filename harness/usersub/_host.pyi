@@ -74,14 +74,6 @@ def host_define_material(
     constants: Sequence[float] | NDArray[np.float64],
     hardening: NDArray[np.float64],
 ) -> int: ...
-def host_define_hyperelastic(
-    ntens: int,
-    polynomial: NDArray[np.float64],
-    ogden: NDArray[np.float64],
-    volumetric: NDArray[np.float64],
-    logarithmic: bool,
-    moduli: Sequence[float] | NDArray[np.float64],
-) -> int: ...
 def host_set_expansion(number: int, expansion: float) -> None: ...
 def host_compliance(constants: Sequence[float] | NDArray[np.float64]) -> NDArray[np.float64]: ...
 def host_set_prestressed(number: int) -> None: ...
@@ -92,6 +84,14 @@ def host_set_user_field(
 ) -> None: ...
 def host_define_user_material(
     umat: int, name: str | bytes, ntens: int, constants: NDArray[np.float64], count: int
+) -> int: ...
+def host_define_hyperelastic(
+    ntens: int,
+    polynomial: NDArray[np.float64],
+    ogden: NDArray[np.float64],
+    volumetric: Sequence[float] | NDArray[np.float64],
+    logarithmic: int,
+    moduli: Sequence[float] | NDArray[np.float64],
 ) -> int: ...
 def host_define_empty_material() -> int: ...
 def host_set_thermal(
