@@ -73,7 +73,8 @@ def test_user_element_that_stops_the_analysis(fails, tmp_path, element):
 @pytest.mark.parametrize("element", [1, pytest.param(SPRINGS, marks=pytest.mark.long)], ids=["one end", "other end"])
 def test_rank_that_is_killed(fails, tmp_path, element):
     code, errors = fails(KILL, element)
-    assert code == 1
+    # 9 where mpiexec has killed the other rank first
+    assert code != 0
     assert len(re.findall("killed, by a user or by the system", errors)) == 1
     assert f"in UEL for element {element}, step 1, increment 2" in errors
     assert (tmp_path / "chain.sta").read_text().splitlines()[-1] == NOT_COMPLETED
