@@ -53,7 +53,7 @@ def take_interrupts() -> None:
 class _State:
     held = False
     waiting = 0
-    complete = False
+    settled = False
 
 
 def raise_interrupts() -> None:
@@ -64,7 +64,7 @@ def raise_interrupts() -> None:
             signal.signal(each, signal.SIG_IGN)
         if _State.held:
             _State.waiting = signum
-        elif not _State.complete:
+        elif not _State.settled:
             raise Interrupted(signum)
 
     _handle(end)
@@ -85,9 +85,14 @@ def held() -> Iterator[None]:
         raise Interrupted(signum)
 
 
-def complete() -> None:
-    """Forget such a signal, and let later ones have no effect: the files of the run say that it has completed."""
-    _State.complete = True
+def hold() -> None:
+    """Put off such a signal until the next `held` block has ended: what has changed is recorded there first."""
+    _State.held = True
+
+
+def settle() -> None:
+    """Forget such a signal, and let later ones have no effect: how the run ends is decided."""
+    _State.settled = True
     _State.waiting = 0
 
 

@@ -17,7 +17,7 @@ from harness.deck import read_deck
 from harness.elements.process_zone import LongElements
 from harness.elements.threads import MOST_THREADS, known_routines, refuse_shared_stress, use_threads
 from harness.errors import ConvergenceError, ElementError, UelError, UsageError, in_words, note_warnings
-from harness.interrupts import complete, held
+from harness.interrupts import held, settle
 from harness.job_on_ranks import files_of_job, messages_of, refuse_linear_steps
 from harness.model.model import Model
 from harness.model.records import AttemptEnded, IncrementDone, ModeShape, Record, StepDone
@@ -227,10 +227,11 @@ def _analyse(
         with held():
             write(methodcaller("close", None))
             ranks.ended(None)
-            complete()
+            settle()
     except BaseException as error:
+        settle()
         ranks.ended(error)
-        with held(), suppress(OSError):
+        with suppress(OSError):
             write(methodcaller("close", UelError(in_words(error))))
         if output is None:
             raise

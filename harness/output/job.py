@@ -191,20 +191,32 @@ class JobOutput:
         ------
         OSError
             Of the first file that cannot be written; the others are closed all the same.
+        UelError
+            Of an element that the last increment's output calls.
         """
         if self._closed:
             return
         self._closed = True
+        failed: list[Exception] = []
+        owed = self._pending
+        try:
+            self._finish_step()
+        except OSError as trouble:
+            failed.append(trouble)
+        except UelError as trouble:
+            # after another error the states may be those of an increment that was never recorded
+            if error is None:
+                error = trouble
+                failed.append(trouble)
+        lost = owed if self._pending else None
         text = None if error is None else str(error)
         closing: list[Callable[[], None]] = [
-            self._finish_step,
             self._progress.close,
-            lambda: self._message.close(text),
+            lambda: self._message.close(text, lost),
             lambda: self._data.close(text),
             self._history.close,
             self._interface.close,
         ]
-        failed: list[OSError] = []
         for act in closing:
             try:
                 act()

@@ -32,6 +32,9 @@ from harness.output.field_terms import FIELDS, FieldTerms, fields_of
 from harness.output.formats import TextFile, general, program, remark
 from harness.output.step_header import completed, procedure, tolerances
 
+WRITTEN: Final = "ALL OUTPUT REQUESTS HAVE BEEN WRITTEN FOR THE LAST CONVERGED INCREMENT."
+LOST: Final = "THE OUTPUT REQUESTED FOR INCREMENT {0.increment} OF STEP {0.step} COULD NOT BE WRITTEN."
+
 
 class MessageFile:
     """Writes NAME.msg; `warnings` are those in it."""
@@ -120,17 +123,14 @@ class MessageFile:
         """Text of a user routine, unchanged."""
         self._file.write_lines(text)
 
-    def close(self, error: str | None) -> None:
-        """Verdict, summary and times of the job."""
+    def close(self, error: str | None, lost: IncrementDone | None = None) -> None:
+        """Verdict, summary and times of the job; lost: converged, but its output could not be written."""
         if error is None:
             self._file.write("\n\n          THE ANALYSIS HAS BEEN COMPLETED\n")
         else:
             self.remark("ERROR", error)
-            self.remark(
-                "ERROR",
-                "THE ANALYSIS HAS BEEN TERMINATED DUE TO PREVIOUS ERRORS. "
-                "ALL OUTPUT REQUESTS HAVE BEEN WRITTEN FOR THE LAST CONVERGED INCREMENT.",
-            )
+            output = LOST.format(lost) if lost else WRITTEN
+            self.remark("ERROR", f"THE ANALYSIS HAS BEEN TERMINATED DUE TO PREVIOUS ERRORS. {output}")
         self._file.write(self._summary())
         self._file.close()
 

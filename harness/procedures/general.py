@@ -9,6 +9,7 @@ from __future__ import annotations
 from collections.abc import Generator, Iterator, Sequence
 
 from harness.errors import ConvergenceError, DistortionError, IncrementsUsedUpError, SingularMatrixError
+from harness.interrupts import hold
 from harness.model.records import (
     AttemptAbandoned,
     AttemptStarted,
@@ -182,6 +183,8 @@ class GeneralStep:
     ) -> Iterator[Record]:
         """Commit the state of the last pass, and choose the next increment."""
         context, number, attempt = self._context, self._step.number, self._control.attempts
+        # the states of the increment before are gone now, and those of this one are not recorded
+        hold()
         self._system.commit()
         remarks = [remark for part in self._parts for remark in part.converged(last, size)]
         reached = self._path.reach(last, size, checks)
@@ -193,7 +196,6 @@ class GeneralStep:
         self._state.total_time = reached.total_time
         times = reached.step_time, reached.total_time
         self._state.predefined = context.conditions.at(times, times, context.increment, self._user)[1]
-        self._user.external_database(2, 0, times, size, number, context.increment)
         yield IncrementDone(
             number,
             context.increment,
@@ -206,6 +208,8 @@ class GeneralStep:
             reached.load_factor,
         )
         yield from remarks
+        # may end the analysis, whose last increment this is then
+        self._user.external_database(2, 0, times, size, number, context.increment)
 
     def _cut_back(self, cutback: Cutback, increment: int, iterations: int, size: float) -> Iterator[Record]:
         """Report the attempt; raise ConvergenceError if no other is left."""

@@ -75,9 +75,8 @@ class PerturbationStep:
         step, total, size = self._step, self._state.total_time, self._step.procedure.period
         yield AttemptStarted(step.number, self._increment, 1, 0.0, total, size)
         self._user.external_database(1, 0, (0.0, total), size, step.number, self._increment)
-        records = solve()
+        yield from solve()
         self._user.external_database(2, 0, (0.0, total), size, step.number, self._increment)
-        yield from records
 
     def _solve(self) -> list[Record]:
         """What the step finds: the response to its loads and prescribed values."""
