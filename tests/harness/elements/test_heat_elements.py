@@ -7,6 +7,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from differences import differences
 from reference_cells import patch_of
 from small_decks import body_lines
 
@@ -291,13 +292,7 @@ def test_tangent_is_the_derivative_of_the_residual(load, bound, call, element_ty
     u[used] = random.uniform(1.0, 2.0, len(used))
     du = 0.3 * u
     block.evaluate(call, u, du, np.zeros(n), matrix.data)
-    step, difference = 1e-3, np.zeros((len(used), len(used)))
-    for k, unknown in enumerate(used):
-        for sign in (1, -1):
-            moved, residual = np.zeros(n), np.zeros(n)
-            moved[unknown] = sign * step
-            block.evaluate(call, u + moved, du + moved, residual, None)
-            difference[:, k] -= sign * residual[used] / (2 * step)
+    difference = differences(block, call, u, du, used)
     found = matrix.toarray()[np.ix_(used, used)]
     np.testing.assert_allclose(found, difference, rtol=1e-7, atol=1e-8 * abs(found).max())
     assert abs(found - found.T).max() > 1e-3 * abs(found).max()
