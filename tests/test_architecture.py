@@ -180,6 +180,15 @@ def test_documents_name_files_that_exist() -> None:
     assert missing == {"fortran/cohesive/LAW.f90"}
 
 
+def test_documents_name_tests_that_exist() -> None:
+    tests = [ROOT / path for path in TRACKED if path.parts[0] == "tests" and path.suffix == ".py"]
+    known = {name for path in tests for name in re.findall(r"def (test_\w+)", path.read_text())}
+    documents = [ROOT / path for path in TRACKED if path.parts[0] in ("fortran", "harness") and path.suffix == ".md"]
+    named = {name for path in documents for name in re.findall(r"`(test_\w+)`", path.read_text())}
+    assert len(named) > 5
+    assert named <= known
+
+
 def test_equations_are_where_contributing_says() -> None:
     text = (ROOT / "CONTRIBUTING.md").read_text()
     rows = re.findall(r"^\| .* \| `(\w+/\w+\.f90)` \| (.*) \|$", text, re.MULTILINE)
