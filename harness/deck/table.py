@@ -231,7 +231,9 @@ def _find_option(keyword: Keyword, name: str, source: Source) -> Option:
     if begins:
         names = " or ".join(option.name for option in begins)
         raise DeckError(source, f"*{keyword.name}: option {name.strip()} is ambiguous ({names}); write it out")
-    hint = nearest(name.strip().upper(), [option.name for option in keyword.options])
+    known = [option.name for option in keyword.options if option.support is not Support.REFUSED]
+    takes = f"; it takes {', '.join(known)}" if known else "; it takes none"
+    hint = nearest(name.strip().upper(), [option.name for option in keyword.options]) or takes
     raise DeckError(source, f"*{keyword.name}: unknown option {name.strip()}{hint}")
 
 

@@ -23,6 +23,16 @@ MISTAKES = {
         "TYPEX=U1, NODES",
         r"7: \*USER ELEMENT: unknown option TYPEX; did you mean TYPE\?",
     ),
+    "option that nothing is like": (
+        "*END STEP",
+        "*INCLUDE, FILE=more.inp\n*END STEP",
+        r"\d+: \*INCLUDE: unknown option FILE; it takes INPUT",
+    ),
+    "option of a keyword without any": (
+        "*END STEP",
+        "*END STEP, FAST",
+        r"\d+: \*END STEP: unknown option FAST; it takes none",
+    ),
     "missing option": ("*MATERIAL, NAME=PLY", "*MATERIAL", r"29: \*MATERIAL needs the option NAME"),
     "ambiguous option": ("INC=500", "N=500", r"41: \*STEP: option N is ambiguous .NAME or NLGEOM.; write it out"),
     "option without value": ("NAME=PLY", "NAME=", r"29: \*MATERIAL, NAME needs a value"),
