@@ -366,6 +366,34 @@ subroutine host_define_hyperelastic(ntens, polynomial, ogden, volumetric, logari
   number = define(material)
 end subroutine host_define_hyperelastic
 
+!> Make a hyperelastic material of UHYPER known; returns the number that stands for it.
+subroutine host_define_user_potential(uhyper, name, ntens, statev, constants, count, number, n)
+  use, intrinsic :: iso_c_binding, only: c_intptr_t
+  use host_kinds, only: dp, i4, i8
+  use host_materials, only: define, material_t
+  use host_uhyper, only: outputs
+  implicit none (type, external)
+  integer(i8), intent(in) :: uhyper           !< address
+  character(len=80), intent(in) :: name
+  integer(i4), intent(in) :: n, ntens         !< ntens: 4 or 6
+  integer(i4), intent(in) :: statev
+  real(dp), intent(in) :: constants(n)
+  integer(i4), intent(in) :: count            !< of the constants: f2py passes no empty arrays
+  integer(i4), intent(out) :: number
+  type(material_t) :: material
+  material%ntens = ntens
+  allocate (material%hyperelastic)
+  allocate (material%hyperelastic%user)
+  associate (user => material%hyperelastic%user)
+    user%uhyper = transfer(int(uhyper, c_intptr_t), user%uhyper)
+    user%name = name
+    user%statev = statev
+    user%constants = constants(:count)
+    allocate (user%reported(outputs), user%spoilt(outputs), source=.false.)
+  end associate
+  number = define(material)
+end subroutine host_define_user_potential
+
 !> Make a material known that has nothing yet; returns the number that stands for it.
 subroutine host_define_empty_material(number)
   use host_kinds, only: i4

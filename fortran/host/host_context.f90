@@ -39,6 +39,7 @@ module host_context
     logical :: finite = .false.   !< large displacements: the next two are those of the point
     real(dp) :: rotation(3, 3) = 0         !< of the increment
     real(dp) :: deformation(3, 3, 2) = 0   !< deformation gradients at its start and end
+    real(dp) :: energy = 0        !< strain energy per volume now of a hyperelastic point
     real(dp), pointer, contiguous :: history(:, :) => null()        !< (values, npt) committed material history
     real(dp), pointer, contiguous :: history_trial(:, :) => null()  !< (values, npt) of this call
     real(dp), pointer, contiguous :: values(:) => null()            !< strain, then stress of the point, for GETVRM

@@ -18,7 +18,8 @@ module host_driver
   public :: run_block, set_guard_values, set_guard_room
 
   !> Routines of points, in the order of POINT_ROUTINES in harness/usersub/_binding.py.
-  character(len=6), parameter :: point_routines(6) = [character(len=6) :: 'UMAT', 'USDFLD', 'UMATHT', 'HETVAL', 'DFLUX', 'FILM']
+  character(len=6), parameter :: point_routines(7) = &
+    [character(len=6) :: 'UMAT', 'USDFLD', 'UMATHT', 'HETVAL', 'DFLUX', 'FILM', 'UHYPER']
 
 contains
 

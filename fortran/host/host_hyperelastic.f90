@@ -5,15 +5,16 @@
 !> The strain energy per initial volume is that of Abaqus (Theory Guide, Hyperelastic material behavior): W of the stretches
 !> less the change of volume J = det F, and U(J). With e the logarithms of the principal stretches, h and H the derivatives of W
 !> by e, and P the projector on changes of shape, the principal Kirchhoff stresses are P h + J U' and their derivatives by e
-!> P H P + J U' + J^2 U''. Tangents are those of the Jaumann rate of the Kirchhoff stress over J, as DDSDDE of UMAT (R.W. Ogden,
-!> Non-linear elastic deformations, 1984, section 6.1).
+!> P H P + J U' + J^2 U''. UHYPER gives an energy of both, with mixed derivatives. Tangents are those of the Jaumann rate of the
+!> Kirchhoff stress over J, as DDSDDE of UMAT (R.W. Ogden, Non-linear elastic deformations, 1984, section 6.1).
 module host_hyperelastic
   use core_small_matrix, only: determinant
   use core_symmetric, only: eigenvalues
-  use host_kinds, only: dp
+  use host_kinds, only: dp, i4
+  use host_uhyper, only: call_uhyper, user_potential_t
   implicit none (type, external)
   private
-  public :: hyperelastic_t, hyperelastic_stress, hyperelastic_energy, highest_order
+  public :: hyperelastic_t, hyperelastic_stress, highest_order, state_variables
 
   integer, parameter :: highest_order = 6
 
@@ -22,6 +23,7 @@ module host_hyperelastic
     real(dp) :: ogden(2, highest_order) = 0                        !< mu and alpha; mu = 0: no term
     real(dp) :: volumetric(highest_order) = 0                      !< 1/D of (J - 1)^2i
     logical :: logarithmic = .false.                               !< U = volumetric(1) ((J^2 - 1)/2 - ln J)
+    type(user_potential_t), allocatable :: user                    !< of UHYPER; then nothing above counts
   end type hyperelastic_t
 
   !> Difference of logarithmic stretches below which the shear modulus is its limit, with an error of the square.
@@ -32,25 +34,44 @@ module host_hyperelastic
 
 contains
 
-  !> Cauchy stress and tangent: 11, 22, 33, 12, 13, 23 or the first four of them. good is false if the stretches have no stress.
-  pure subroutine hyperelastic_stress(law, n, f, stress, tangent, good)
+  !> Number of STATEV.
+  pure integer function state_variables(law)
+    type(hyperelastic_t), intent(in) :: law
+    state_variables = 0
+    if (allocated(law%user)) state_variables = law%user%statev
+  end function state_variables
+
+  !> Cauchy stress, tangent, and strain energy per volume now. good is false if the stretches have no stress.
+  subroutine hyperelastic_stress(law, n, point, f, statev, stress, tangent, energy, good)
     type(hyperelastic_t), intent(in) :: law
     integer, intent(in) :: n                      !< 4 or 6
+    integer(i4), intent(in) :: point              !< from 1
     real(dp), intent(in) :: f(3, 3)
-    real(dp), intent(out) :: stress(n), tangent(n, n)
+    real(dp), intent(inout) :: statev(:)          !< of UHYPER
+    real(dp), intent(out) :: stress(n)            !< 11, 22, 33, 12, 13, 23 or the first four of them
+    real(dp), intent(out) :: tangent(n, n), energy
     logical, intent(out) :: good
-    real(dp) :: e(3), directions(3, 3), j, energy, h(3), hh(3, 3), kirchhoff(3), slope(3, 3), u(0:2), modulus
+    real(dp) :: e(3), directions(3, 3), j, w, h(3), hh(3, 3), kirchhoff(3), slope(3, 3), u(0:2), mixed(3), modulus
     real(dp) :: dyad(6, 3), between(6)
     integer :: a, b
     stress = 0
     tangent = 0
+    energy = 0
     call principal(law, f, e, directions, j, good)
     if (.not. good) return
-    call shape_energy(law, e - sum(e)/3, energy, h, hh)
-    u = volume_energy(law, j)
+    mixed = 0
+    if (allocated(law%user)) then
+      call user_energy(law%user, point, e - sum(e)/3, j, statev, w, h, hh, u, mixed)
+    else
+      call shape_energy(law, e - sum(e)/3, w, h, hh)
+      u = volume_energy(law, j)
+    end if
+    energy = (w + u(0))/j
     kirchhoff = h - sum(h)/3 + j*u(1)
+    mixed = j*(mixed - sum(mixed)/3)
     ! P H P, of the symmetric H
-    slope = hh - spread(sum(hh, 1), 1, 3)/3 - spread(sum(hh, 2), 2, 3)/3 + sum(hh)/9 + j*u(1) + j**2*u(2)
+    slope = hh - spread(sum(hh, 1), 1, 3)/3 - spread(sum(hh, 2), 2, 3)/3 + sum(hh)/9 + j*u(1) + j**2*u(2) &
+            + spread(mixed, 1, 3) + spread(mixed, 2, 3)
     do a = 1, 3
       dyad(:, a) = symmetric_dyad(directions(a, :), directions(a, :))
       stress = stress + kirchhoff(a)/j*dyad(:n, a)
@@ -70,20 +91,6 @@ contains
       end do
     end do
   end subroutine hyperelastic_stress
-
-  !> Strain energy per volume now; zero for stretches that have no stress.
-  pure real(dp) function hyperelastic_energy(law, f)
-    type(hyperelastic_t), intent(in) :: law
-    real(dp), intent(in) :: f(3, 3)
-    real(dp) :: e(3), directions(3, 3), j, energy, h(3), hh(3, 3), u(0:2)
-    logical :: good
-    hyperelastic_energy = 0
-    call principal(law, f, e, directions, j, good)
-    if (.not. good) return
-    call shape_energy(law, e - sum(e)/3, energy, h, hh)
-    u = volume_energy(law, j)
-    hyperelastic_energy = (energy + u(0))/j
-  end function hyperelastic_energy
 
   !> Logarithms of the principal stretches, their directions (rows) now, and the change of volume; good: the energy has a value.
   pure subroutine principal(law, f, e, directions, j, good)
@@ -107,14 +114,12 @@ contains
     type(hyperelastic_t), intent(in) :: law
     real(dp), intent(in) :: e(3)
     real(dp), intent(out) :: w, h(3), hh(3, 3)
-    real(dp) :: x(3), i1(3), i2(3), first, second, by(0:2, 0:2)
+    real(dp) :: x(3), first, second, by(0:2, 0:2)
     real(dp) :: term(3)
     integer :: i, j, k
     x = exp(2*e)
     first = sum(x) - 3
     second = sum(1/x) - 3
-    i1 = 2*x
-    i2 = -2/x
     ! derivatives of the polynomial by its invariants
     by = 0
     do j = 0, highest_order
@@ -125,11 +130,7 @@ contains
       end do
     end do
     w = by(0, 0)
-    h = by(1, 0)*i1 + by(0, 1)*i2
-    hh = by(2, 0)*outer(i1, i1) + by(1, 1)*(outer(i1, i2) + outer(i2, i1)) + by(0, 2)*outer(i2, i2)
-    do k = 1, 3
-      hh(k, k) = hh(k, k) + 4*(by(1, 0)*x(k) + by(0, 1)/x(k))
-    end do
+    call by_stretches(x, [by(1, 0), by(0, 1)], [by(2, 0), by(1, 1), by(0, 2)], h, hh)
     do i = 1, highest_order
       associate (mu => law%ogden(1, i), alpha => law%ogden(2, i))
         if (.not. abs(mu) > 0) cycle
@@ -142,6 +143,38 @@ contains
       end associate
     end do
   end subroutine shape_energy
+
+  !> The energy of UHYPER, all of it in w, with its derivatives by the logarithmic stretches e, whose sum is zero, and by J.
+  subroutine user_energy(potential, point, e, j, statev, w, h, hh, u, mixed)
+    type(user_potential_t), intent(in) :: potential
+    integer(i4), intent(in) :: point
+    real(dp), intent(in) :: e(3), j
+    real(dp), intent(inout) :: statev(:)
+    real(dp), intent(out) :: w, h(3), hh(3, 3), u(0:2)
+    real(dp), intent(out) :: mixed(3)             !< derivatives of h by J
+    real(dp) :: x(3), first(3), second(3, 3)
+    x = exp(2*e)
+    call call_uhyper(potential, point, sum(x), sum(1/x), j, statev, w, first, second)
+    call by_stretches(x, first(:2), [second(1, 1), second(1, 2), second(2, 2)], h, hh)
+    u = [0.0_dp, first(3), second(3, 3)]
+    mixed = second(1, 3)*2*x - second(2, 3)*2/x
+  end subroutine user_energy
+
+  !> Derivatives by the logarithmic stretches from those by I1 and I2 (the second ones by I1 twice, by both, by I2 twice).
+  pure subroutine by_stretches(x, first, second, h, hh)
+    real(dp), intent(in) :: x(3)                  !< squares of the stretches
+    real(dp), intent(in) :: first(2), second(3)
+    real(dp), intent(out) :: h(3), hh(3, 3)
+    real(dp) :: i1(3), i2(3)
+    integer :: k
+    i1 = 2*x
+    i2 = -2/x
+    h = first(1)*i1 + first(2)*i2
+    hh = second(1)*outer(i1, i1) + second(2)*(outer(i1, i2) + outer(i2, i1)) + second(3)*outer(i2, i2)
+    do k = 1, 3
+      hh(k, k) = hh(k, k) + 4*(first(1)*x(k) + first(2)/x(k))
+    end do
+  end subroutine by_stretches
 
   !> x**n and its first two derivatives.
   pure function powers(x, n) result(values)

@@ -8,7 +8,7 @@
 module host_materials
   use host_context, only: current
   use host_dependence, only: dependence_t, elastic_matrices
-  use host_hyperelastic, only: hyperelastic_energy, hyperelastic_stress, hyperelastic_t
+  use host_hyperelastic, only: hyperelastic_stress, hyperelastic_t, state_variables
   use host_kinds, only: dp, i4
   use host_kinematics, only: components, rotated
   use host_messages, only: add_message
@@ -88,6 +88,7 @@ contains
     type(material_t), intent(in) :: material
     has_fields = allocated(material%user) .or. allocated(material%dependence) .or. allocated(material%user_field) .or. &
                  generates_heat(material)
+    if (allocated(material%hyperelastic)) has_fields = has_fields .or. allocated(material%hyperelastic%user)
   end function has_fields
 
   !> Whether UMAT or HETVAL generate heat in elements with temperatures.
@@ -140,11 +141,7 @@ contains
     valid = .true.
     n = material%ntens
     if (allocated(material%hyperelastic)) then
-      call hyperelastic_stress(material%hyperelastic, n, current%deformation(:, :, 2), stress, tangent, solved)
-      if (.not. solved) then
-        write (text, '(a,i0)') '*HYPERELASTIC: the stretches are too large for numbers at integration point ', point
-        call not_solved(text)
-      end if
+      call hyperelastic(material%hyperelastic, allocated(material%user_field), n, point, stress, tangent)
       return
     end if
     if (.not. (allocated(material%yield) .or. allocated(material%user) .or. material%prestressed)) then
@@ -178,6 +175,29 @@ contains
     end associate
   end subroutine stress_update
 
+  !> Hyperelasticity; the STATEV of UHYPER go from committed to trial, unless USDFLD had them before.
+  subroutine hyperelastic(law, had_them, n, point, stress, tangent)
+    type(hyperelastic_t), intent(in) :: law
+    logical, intent(in) :: had_them
+    integer, intent(in) :: n
+    integer(i4), intent(in) :: point
+    real(dp), intent(out) :: stress(n), tangent(n, n)
+    real(dp) :: statev(state_variables(law))
+    logical :: solved
+    integer :: first
+    character(len=120) :: text
+    if (size(statev) > 0) then
+      first = size(current%history, 1) - size(statev) + 1
+      if (.not. had_them) current%history_trial(:, point) = current%history(:, point)
+      statev = current%history_trial(first:, point)
+    end if
+    call hyperelastic_stress(law, n, point, current%deformation(:, :, 2), statev, stress, tangent, current%energy, solved)
+    if (size(statev) > 0) current%history_trial(first:, point) = statev
+    if (solved) return
+    write (text, '(a,i0)') '*HYPERELASTIC: the stretches are too large for numbers at integration point ', point
+    call not_solved(text)
+  end subroutine hyperelastic
+
   !> Warn that a local solve has not come to its end, and ask for a smaller increment.
   subroutine not_solved(text)
     character(len=*), intent(in) :: text
@@ -208,7 +228,7 @@ contains
     integer :: i, j
     elastic_energy = 0
     if (allocated(material%hyperelastic)) then
-      elastic_energy = hyperelastic_energy(material%hyperelastic, current%deformation(:, :, 2))
+      elastic_energy = current%energy
       return
     end if
     if (allocated(material%user)) then

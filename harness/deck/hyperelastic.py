@@ -1,22 +1,28 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""*HYPERELASTIC by coefficients."""
+"""*HYPERELASTIC, by coefficients or by UHYPER."""
 
 from __future__ import annotations
 
 from harness.deck.blocks import Block
 from harness.deck.error_report import Problems
 from harness.deck.table import Keyword, Kind, Option, Where, ignored, refused
-from harness.model.properties import HIGHEST_ORDER, Hyperelastic, Potential
+from harness.deck.user_constants import read_constants
+from harness.model.properties import HIGHEST_ORDER, Hyperelastic, Potential, UserPotential
 
 FIXED_ORDER = {Potential.ARRUDA_BOYCE: 1, Potential.MOONEY_RIVLIN: 1, Potential.NEO_HOOKE: 1, Potential.YEOH: 3}
 
 
-def read_hyperelastic(block: Block, problems: Problems) -> Hyperelastic:
-    """The potential and its coefficients, in the order of the data line. Raises DeckError."""
+def read_hyperelastic(block: Block, problems: Problems) -> Hyperelastic | UserPotential:
+    """The potential and its coefficients, in the order of the data line; or what UHYPER gets. Raises DeckError."""
     given = [potential for potential in Potential if block.options.flag(potential.value)]
-    if len(given) > 1:
-        raise block.error(f"{' and '.join(given)}: expected one strain energy potential")
+    named = [*given, *(["USER"] if block.options.flag("USER") else [])]
+    if len(named) > 1:
+        raise block.error(f"{' and '.join(named)}: expected one strain energy potential")
+    if named == ["USER"]:
+        return _read_user(block, problems)
+    if other := next((name for name in ("TYPE", "PROPERTIES") if block.options.given(name)), ""):
+        raise block.error(f"{other}: expected with USER only")
     potential = given[0] if given else Potential.POLYNOMIAL
     order = block.options.integer("N", FIXED_ORDER.get(potential, 1))
     if order != FIXED_ORDER.get(potential, order):
@@ -35,6 +41,13 @@ def read_hyperelastic(block: Block, problems: Problems) -> Hyperelastic:
     return Hyperelastic(potential, order, tuple(values[:count]), tuple(values[count : count + order]), block.source)
 
 
+def _read_user(block: Block, problems: Problems) -> UserPotential:
+    if block.options.text("TYPE") != "COMPRESSIBLE":
+        message = "is an incompressible material, which needs hybrid elements; they are not supported"
+        raise block.error(f"USER without TYPE=COMPRESSIBLE {message}")
+    return UserPotential(read_constants(block, "PROPERTIES", problems), block.source)
+
+
 def _coefficients(potential: Potential, order: int) -> int:
     """Number of coefficients of the change of shape."""
     match potential:
@@ -51,7 +64,7 @@ def _coefficients(potential: Potential, order: int) -> int:
 KEYWORDS = (
     Keyword(
         "HYPERELASTIC",
-        "Isotropic hyperelasticity by coefficients, of plane strain, axisymmetric and solid elements without "
+        "Isotropic hyperelasticity by coefficients or UHYPER, of plane strain, axisymmetric and solid elements without "
         "incompatible modes or temperatures in steps with NLGEOM. Elements are not hybrid: D1 must be positive; a term "
         "with a later D of zero is left out. One-point elements need *SECTION CONTROLS, HOURGLASS=ENHANCED or "
         "*HOURGLASS STIFFNESS.",
@@ -65,10 +78,14 @@ KEYWORDS = (
             Option("REDUCED POLYNOMIAL", doc="polynomial of the first invariant"),
             Option("YEOH", doc="reduced polynomial with N=3"),
             Option("N", Kind.INTEGER, "order, 1 to 6 (1)"),
+            Option("USER", doc="strain energy potential of UHYPER"),
+            Option("TYPE", Kind.CHOICE, "of USER", choices=("COMPRESSIBLE", "INCOMPRESSIBLE")),
+            Option("PROPERTIES", Kind.INTEGER, "number of constants of USER"),
             *ignored("MODULI"),
-            *refused("BETA", "MARLOW", "POISSON", "PROPERTIES", "TEST DATA INPUT", "TYPE", "USER", "VAN DER WAALS"),
+            *refused("BETA", "MARLOW", "POISSON", "TEST DATA INPUT", "VAN DER WAALS"),
         ),
         "coefficients, then D, eight per line: mu, lambda_m, D (ARRUDA-BOYCE); mu1, alpha1, ... D1, ... (OGDEN); "
-        "C10, C01, C20, C11, C02, ... D1, ... (POLYNOMIAL, MOONEY-RIVLIN); C10, C20, ... D1, ... (the others)",
+        "C10, C01, C20, C11, C02, ... D1, ... (POLYNOMIAL, MOONEY-RIVLIN); C10, C20, ... D1, ... (the others); "
+        "constants (USER)",
     ),
 )

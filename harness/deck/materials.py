@@ -18,6 +18,7 @@ from harness.deck.heat import KEYWORDS as HEAT_OPTIONS
 from harness.deck.hyperelastic import KEYWORDS as HYPERELASTIC_OPTIONS
 from harness.deck.hyperelastic import read_hyperelastic
 from harness.deck.table import NAME, Keyword, Kind, Option, Where, ignored, one_of, refused
+from harness.deck.user_constants import MOST_VARIABLES, read_constants
 from harness.deck.user_elements import read_count
 from harness.model.arrays import FloatArray
 from harness.model.properties import Elastic, ElasticType, Material, Plastic, UserMaterial, isotropic_fault
@@ -25,7 +26,6 @@ from harness.model.properties import Elastic, ElasticType, Material, Plastic, Us
 DEPENDENT = (ElasticType.ISOTROPIC, ElasticType.LAMINA, ElasticType.ENGINEERING_CONSTANTS)
 """Those whose constants may depend on temperature and fields."""
 MOST_FIELDS = 1000
-MOST_VARIABLES = 1_000_000
 
 
 def read_materials(blocks: list[Block], problems: Problems) -> dict[str, Material]:
@@ -139,18 +139,8 @@ def _read_dependence(block: Block, kind: ElasticType, count: int, fields: int) -
 
 
 def _read_user_material(block: Block, problems: Problems) -> UserMaterial:
-    count = block.options.integer("CONSTANTS", 0)
-    if not 0 <= count <= MOST_VARIABLES:
-        raise block.error(f"CONSTANTS={count}: expected a number from 0 to {MOST_VARIABLES}")
-    values = [row.real(index, "constant", 0.0) for row, index in block.entries(problems.warn)]
-    if len(values) == count + 1:
-        # a temperature after the only set of constants is not a dependence
-        values.pop()
-    if len(values) > count:
-        message = f"{len(values)} values, but CONSTANTS={count}; dependence on temperature is not "
-        raise block.error(message + "supported")
-    # entries that are not given are zero, as everywhere
-    return UserMaterial(np.array(values + [0.0] * (count - len(values))), block.options.flag("UNSYMM"), block.source)
+    constants = read_constants(block, "CONSTANTS", problems)
+    return UserMaterial(constants, block.options.flag("UNSYMM"), block.source)
 
 
 def _read_count(block: Block) -> int:

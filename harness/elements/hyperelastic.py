@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""Potentials of *HYPERELASTIC as polynomials and sums of powers of stretches, as the host has them.
+"""Potentials of *HYPERELASTIC by coefficients as polynomials and sums of powers of stretches, as the host has them.
 
 Formulas: Abaqus Analysis User's Guide, Hyperelastic behavior of rubberlike materials.
 """

@@ -17,7 +17,15 @@ from harness.elements.routine import PARALLEL, Linearity
 from harness.errors import DeckError, Source
 from harness.model.arrays import FloatArray
 from harness.model.element_types import Tensor
-from harness.model.properties import Elastic, ElasticType, Material, Orientation, UserMaterial, isotropic_fault
+from harness.model.properties import (
+    Elastic,
+    ElasticType,
+    Material,
+    Orientation,
+    UserMaterial,
+    UserPotential,
+    isotropic_fault,
+)
 from harness.usersub import Library, _binding
 
 HISTORY_VALUES: Final = 7
@@ -47,7 +55,8 @@ def linearity(material: Material, *, prestressed: bool = False) -> Linearity:
 def state_variables(material: Material) -> int:
     """Number of STATEV of a point; 0 without a routine that uses them."""
     uses = (material.user, material.user_field, material.user_thermal, material.heat_generation)
-    return material.state_variables if any(use is not None for use in uses) else 0
+    used = isinstance(material.hyperelastic, UserPotential) or any(use is not None for use in uses)
+    return material.state_variables if used else 0
 
 
 def refuse_fields(material: Material, elements: str) -> None:
@@ -102,6 +111,11 @@ def define_material(
     """Define a material in the host; returns its number there. `user` is the place that uses it. Raises DeckError."""
     if material.user is not None:
         return _define_user_material(material, material.user, orientation, tensor, library)
+    if isinstance(material.hyperelastic, UserPotential):
+        potential = material.hyperelastic
+        address = _needed(library.uhyper, "UHYPER", material, "*HYPERELASTIC, USER", potential.source, library)
+        statev = state_variables(material)
+        return _binding.define_user_potential(address, material.name, int(tensor), statev, potential.constants)
     if material.hyperelastic is not None:
         return define_hyperelastic(material.hyperelastic, int(tensor), library)
     elastic = material.elastic

@@ -25,7 +25,7 @@ from harness.errors import DeckError
 from harness.model.element_types import ContinuumType, SolidType, Tensor
 from harness.model.mesh import ElementGroup
 from harness.model.model import Model
-from harness.model.properties import ElasticType, Material, Orientation, SolidSection
+from harness.model.properties import ElasticType, Hyperelastic, Material, Orientation, SolidSection
 from harness.model.records import PointVariables
 from harness.usersub import Library, _binding
 
@@ -218,7 +218,7 @@ def _check_enhanced(group: ElementGroup, kind: ContinuumType, section: SolidSect
     elastic = section.material.elastic
     if kind.axisymmetric:
         what, expected = f"elements of type {group.type}", "plane elements or C3D8R"
-    elif section.material.hyperelastic is not None:
+    elif isinstance(section.material.hyperelastic, Hyperelastic):
         return
     elif elastic is None or elastic.type is not ElasticType.ISOTROPIC or elastic.table is not None:
         what, expected = f"material {section.material.name}", "*ELASTIC, TYPE=ISOTROPIC with constant values"

@@ -11,7 +11,7 @@ from harness.elements.block import ElementBlock
 from harness.errors import UsageError
 from harness.model.mesh import ElementGroup
 from harness.model.model import Model
-from harness.model.properties import UserProperty
+from harness.model.properties import UserPotential, UserProperty
 from harness.usersub import Library
 
 MOST_THREADS: Final = 64
@@ -40,7 +40,8 @@ def use_threads(blocks: Iterable[ElementBlock], library: Library, number: int, s
     number
         Threads, for the messages.
     safe
-        User element types, UMAT, USDFLD, UMATHT and HETVAL in capitals, that the user says several threads may call.
+        User element types, UMAT, USDFLD, UMATHT, HETVAL and UHYPER in capitals, that the user says several threads may
+        call.
 
     Raises
     ------
@@ -99,6 +100,7 @@ def _called(group: ElementGroup) -> set[str]:
         return set()
     routines = {"UMAT": material.user, "USDFLD": material.user_field}
     routines |= {"UMATHT": material.user_thermal, "HETVAL": material.heat_generation}
+    routines |= {"UHYPER": material.hyperelastic if isinstance(material.hyperelastic, UserPotential) else None}
     return {name for name, given in routines.items() if given is not None}
 
 

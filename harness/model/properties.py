@@ -106,6 +106,14 @@ class Hyperelastic:
 
 
 @dataclass(frozen=True, slots=True)
+class UserPotential:
+    """*HYPERELASTIC, USER: constants are the PROPS of UHYPER."""
+
+    constants: FloatArray
+    source: Source
+
+
+@dataclass(frozen=True, slots=True)
 class UserMaterial:
     """*USER MATERIAL: constants are the PROPS of UMAT or UMATHT."""
 
@@ -165,7 +173,7 @@ class Material:
     source: Source
     elastic: Elastic | None = None
     plastic: Plastic | None = None
-    hyperelastic: Hyperelastic | None = None
+    hyperelastic: Hyperelastic | UserPotential | None = None
     damage: Damage | None = None
     density: float = 0.0
     conductivity: FloatArray = field(default_factory=lambda: np.zeros((0, 2)))

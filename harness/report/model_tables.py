@@ -17,6 +17,7 @@ from harness.model.properties import (
     Material,
     SolidSection,
     UserElement,
+    UserPotential,
     UserProperty,
 )
 from harness.output.results import Counts
@@ -141,8 +142,10 @@ def _material_rows(material: Material) -> Iterator[Row]:
         names = _CONSTANTS.get(material.elastic.type, tuple(f"constant {k + 1}" for k in range(len(constants))))
         kind = f"*ELASTIC, TYPE={material.elastic.type}"
         yield from ((name, f"{value:g}", kind) for name, value in zip(names, constants, strict=False))
-    if material.hyperelastic is not None:
-        law = material.hyperelastic
+    law = material.hyperelastic
+    if isinstance(law, UserPotential):
+        yield from ((f"constant {k}", f"{value:g}", "*HYPERELASTIC, USER") for k, value in enumerate(law.constants, 1))
+    elif law is not None:
         kind = f"*HYPERELASTIC, {law.potential}, N={law.order}"
         yield from ((f"coefficient {k}", f"{value:g}", kind) for k, value in enumerate(law.coefficients, 1))
         yield from ((f"D{k}", f"{value:g}", kind) for k, value in enumerate(law.compliances, 1))

@@ -36,7 +36,7 @@ ARRAYS: Final = ("RHS", "AMATRX", "SVARS", "ENERGY", "PROPS", "COORDS", "U", "DU
 """Guarded arrays, in the order of fortran/host/host_workspace.f90."""
 
 
-POINT_ROUTINES: Final = ("", "UMAT", "USDFLD", "UMATHT", "HETVAL", "DFLUX", "FILM")
+POINT_ROUTINES: Final = ("", "UMAT", "USDFLD", "UMATHT", "HETVAL", "DFLUX", "FILM", "UHYPER")
 """Routines of points, in the order of fortran/host/host_driver.f90."""
 
 VALUE_ROUTINES: Final = ("DISP", "DLOAD", "UTEMP", "UFIELD")
@@ -290,6 +290,12 @@ def define_hyperelastic(
     for the enhanced hourglass control.
     """
     return int(_host.host_define_hyperelastic(ntens, polynomial, ogden.T, volumetric, logarithmic, moduli))
+
+
+def define_user_potential(uhyper: int, name: str, ntens: int, statev: int, constants: FloatArray) -> int:
+    """Add a hyperelastic material of UHYPER, whose address is given, to the host's library."""
+    given = np.append(constants, 0.0)
+    return int(_host.host_define_user_potential(uhyper, name, ntens, statev, given, len(constants)))
 
 
 def set_expansion(number: int, expansion: float) -> None:

@@ -93,6 +93,9 @@ def host_define_hyperelastic(
     logarithmic: int,
     moduli: Sequence[float] | NDArray[np.float64],
 ) -> int: ...
+def host_define_user_potential(
+    uhyper: int, name: str | bytes, ntens: int, statev: int, constants: NDArray[np.float64], count: int
+) -> int: ...
 def host_define_empty_material() -> int: ...
 def host_set_thermal(
     number: int,

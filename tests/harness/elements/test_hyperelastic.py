@@ -392,7 +392,7 @@ ERRORS = [
     ("*HYPERELASTIC, NEO HOOKE\n-1., 1.", {}, r"the initial shear modulus -2 must be positive"),
     ("*HYPERELASTIC, OGDEN\n1., 0., 1.", {}, r"alpha = 0: expected another number"),
     ("*HYPERELASTIC, ARRUDA-BOYCE\n1., 0., 1.", {}, r"lambda_m = 0 must be positive"),
-    ("*HYPERELASTIC, USER", {}, r"option USER is not supported"),
+    ("*HYPERELASTIC, MARLOW", {}, r"option MARLOW is not supported"),
     (RUBBER, {"step": "*STEP"}, r"\*STEP: \*HYPERELASTIC \(material M, .*\) needs NLGEOM"),
     (RUBBER, {"element_type": "CPS4"}, r"\*HYPERELASTIC is not supported for elements of type CPS4"),
     (
