@@ -225,6 +225,9 @@ def _analyse(
                         _pass_on(library.messages(), output)
                         output.write(record)
         with held():
+            if output is not None:
+                for warning in long_elements.unsaid:
+                    output.user_text(".dat", "warning", warning)
             write(methodcaller("close", None))
             ranks.ended(None)
             settle()

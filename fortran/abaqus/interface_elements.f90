@@ -22,6 +22,7 @@ module abaqus_interface_elements
     v_maxn, v_maxt, w_x, w_y, w_z, w_sepn, w_seps, w_sept, w_tn, w_ts, w_tt, w_damage, w_dissi, w_dissii, w_sn, w_st, w_dmax, &
     w_dissv, w_wn, w_ws, w_wt, w_dissf, w_maxn, w_maxt
   use abaqus_check, only: report_status
+  use abaqus_long_elements, only: warn_if_long
   use abaqus_report, only: fatal
   use abaqus_neighbours, only: stress_of_neighbours
   implicit none(type, external)
@@ -63,6 +64,7 @@ contains
     type(interface_options) :: choice
     type(stabilisation_type) :: stabilisation
     type(interface_point), dimension(elements(jtype)%points) :: old, new
+    type(engineering_constants) :: materials(2)
     type(status_type) :: status
     real(dp) :: energies(3), stress(3, 3, elements(jtype)%points), original(elements(jtype)%dimension, size(coords, 2))
     real(dp), dimension(3*(elements(jtype)%dimension - 1), 3*(elements(jtype)%dimension - 1), 2) :: stiffness
@@ -97,9 +99,11 @@ contains
         call integrate_interface(dim, n, nodes, solid, law, choice, thickness, original, u, dtime, with_tangent, old, new, &
           residual, tangent, energies, status, stabilisation, neighbours=stress)
       case default
-        call elasticity_of_solids(jtype, jelem, values, options(j_plane), original(:, nodes(:, 1)), original(:, nodes(:, 2)), &
+        materials = materials_of_solids(values)
+        call elasticity_of_solids(jtype, jelem, materials, options(j_plane), original(:, nodes(:, 1)), original(:, nodes(:, 2)), &
           stiffness, good)
         if (.not. good) return
+        call warn_if_long(jtype, jelem, nodes, original, materials, law, old)
         associate (own => svars(variables_of_points(jtype) + 1:variables_of_points(jtype) + size(own_variables)))
           if (stabilisation%local) call recall(own, stabilisation)
           call integrate_interface(dim, n, nodes, solid, law, choice, thickness, original, u, dtime, with_tangent, old, new, &
@@ -161,36 +165,46 @@ contains
     if (values(p_power) > 0.0_dp) law%power = values(p_power)
   end subroutine prepare_law
 
-  !> Stiffness of the bottom and the top element of a self-contained interface.
-  subroutine elasticity_of_solids(jtype, jelem, values, plane, bottom, top, stiffness, good)
-    integer, intent(in) :: jtype, jelem
+  !> Materials of the bottom and the top element of a self-contained interface.
+  pure function materials_of_solids(values) result(materials)
     real(dp), intent(in) :: values(:)
-    integer, intent(in) :: plane
-    real(dp), intent(in) :: bottom(:, :), top(:, :)     !< original coordinates of the faces
-    real(dp), intent(out) :: stiffness(:, :, :)
-    logical, intent(out) :: good
+    type(engineering_constants) :: materials(2)
     integer, parameter :: first(2) = [p_bottom_e1, p_top_e1]
-    integer, parameter :: ratio(2) = [p_bottom_nu12, p_top_nu12]
     integer, parameter :: g13(2) = [p_bottom_g13, p_top_g13]
     integer, parameter :: g23(2) = [p_bottom_g23, p_top_g23]
-    type(engineering_constants) :: material
-    type(status_type) :: status
     integer :: side
 
     do side = 1, 2
       associate (c => values(first(side):first(side) + 7))
-        material = engineering_constants(c(1), c(2), c(3), c(4), c(5), c(6), c(7), c(8), values(g13(side)), values(g23(side)))
+        materials(side) = engineering_constants(c(1), c(2), c(3), c(4), c(5), c(6), c(7), c(8), values(g13(side)), &
+          values(g23(side)))
       end associate
+    end do
+  end function materials_of_solids
+
+  !> Their stiffness; `good` is false after a message.
+  subroutine elasticity_of_solids(jtype, jelem, materials, plane, bottom, top, stiffness, good)
+    integer, intent(in) :: jtype, jelem
+    type(engineering_constants), intent(in) :: materials(2)
+    integer, intent(in) :: plane
+    real(dp), intent(in) :: bottom(:, :), top(:, :)     !< original coordinates of the faces
+    real(dp), intent(out) :: stiffness(:, :, :)
+    logical, intent(out) :: good
+    integer, parameter :: ratio(2) = [p_bottom_nu12, p_top_nu12]
+    type(status_type) :: status
+    integer :: side
+
+    do side = 1, 2
       if (size(bottom, 1) == 2) then
-        call plane_stiffness(material, plane, stiffness(:, :, side), status)
+        call plane_stiffness(materials(side), plane, stiffness(:, :, side), status)
       else
-        call solid_stiffness(material, central_frame(size(bottom, 2), bottom, top), stiffness(:, :, side), status)
+        call solid_stiffness(materials(side), central_frame(size(bottom, 2), bottom, top), stiffness(:, :, side), status)
       end if
       good = status%code == ok
       if (.not. good) then
         call fatal(jtype, jelem, 'PROPS(%I) ' // trim(reals(ratio(side))%name) // ' = %R and its neighbours: ' // &
           trim(sentence(status%code)) // '; %R must be positive', &
-          [real_position(jtype, ratio(side))], [values(ratio(side)), status%value])
+          [real_position(jtype, ratio(side))], [materials(side)%nu12, status%value])
         return
       end if
     end do

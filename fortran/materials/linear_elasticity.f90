@@ -9,7 +9,7 @@ module materials_linear_elasticity
   use core_symmetric, only: eigenvalues
   implicit none(type, external)
   private
-  public :: engineering_constants, plane_stiffness, solid_stiffness
+  public :: engineering_constants, plane_stiffness, solid_stiffness, young_modulus
   public :: plane_stress, plane_strain
 
   integer, parameter :: plane_stress = 0
@@ -109,6 +109,21 @@ contains
     to_local = strain_rotation(ply_axes(frame, material%angle))
     stiffness = matmul(transpose(to_local), matmul(stiffness, to_local))
   end subroutine solid_stiffness
+
+  !> Young's modulus along a direction in the plane of axes 1 and 2.
+  pure function young_modulus(material, direction) result(modulus)
+    type(engineering_constants), intent(in) :: material
+    real(dp), intent(in) :: direction(2)   !< along the axis from which the angle counts, and across it; not zero
+    real(dp) :: modulus
+    real(dp) :: c, s, along, across
+
+    c = cos(material%angle*degree)
+    s = sin(material%angle*degree)
+    along = (c*direction(1) + s*direction(2))**2/sum(direction**2)
+    across = 1.0_dp - along
+    modulus = 1.0_dp/(along**2/material%e1 + across**2/material%e2 &
+      + along*across*(1.0_dp/material%g12 - 2.0_dp*material%nu12/material%e1))
+  end function young_modulus
 
   !> A symmetric matrix with its rows and columns scaled so that its diagonal is 1.
   pure function unit_diagonal(matrix) result(scaled)

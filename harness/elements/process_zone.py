@@ -15,6 +15,9 @@ is the modulus of A. Turon and others, Engineering Fracture Mechanics 74 (2007) 
 have the ratio sqrt(E_t/E_n) follows from G. C. Sih, P. C. Paris and G. R. Irwin, International Journal of Fracture
 Mechanics 1 (1965) 189-203. In mixed mode, 1/l is the mean of 1/l_I and 1/l_II with the energies that the failing point
 has dissipated as weights, which has these limits; there is no formula of the literature for it.
+
+The project's elements with solids of their own know the moduli, and send the message themselves where the zone in a
+large body is too short (fortran/elements/process_zone.f90); the arms are left to the warning from here.
 """
 
 from __future__ import annotations
@@ -48,10 +51,11 @@ _FLAT: Final = 0.999
 
 @dataclass(frozen=True, slots=True)
 class _Law:
-    """Strengths and fracture energies of modes I and II."""
+    """Strengths and fracture energies of modes I and II; whether the elements say themselves that they are too long."""
 
     strengths: tuple[float, float]
     energies: tuple[float, float]
+    tells: bool = False
 
     @property
     def valid(self) -> bool:
@@ -64,17 +68,20 @@ class _Long:
     """Elements of a group that are too long in one mode at least.
 
     rows, lengths, zones  (k,) in the group, (k,) and of both modes (2, k)
-    energies              fracture energies of both modes
+    large                 zones in a large body (2, k)
+    law                   of the group
     """
 
     rows: IntArray
     lengths: FloatArray
     zones: FloatArray
-    energies: tuple[float, float]
+    large: FloatArray
+    law: _Law
 
     def without(self, some: NDArray[np.bool_]) -> _Long:
         """All but some (k,) of them."""
-        return _Long(self.rows[~some], self.lengths[~some], self.zones[:, ~some], self.energies)
+        kept = ~some
+        return _Long(self.rows[kept], self.lengths[kept], self.zones[:, kept], self.large[:, kept], self.law)
 
 
 class LongElements:
@@ -85,11 +92,17 @@ class LongElements:
     model, library
         The deck and the user routines; without the project's own interface elements, and cohesive ones, and without an
         elastic material beside them, nothing is watched.
+
+    Attributes
+    ----------
+    unsaid
+        What elements begin to say themselves in the next increment: if the job ends before it, nobody has said it.
     """
 
     def __init__(self, model: Model, library: Library) -> None:
         self._model = model
         self._watched: dict[int, _Long] = {}
+        self.unsaid: list[str] = []
         plies: _Plies | None = None
         for index, group in enumerate(model.groups):
             law, faces = _law(group, library), _faces(group, library)
@@ -101,8 +114,12 @@ class LongElements:
                 self._watched[index] = long
 
     def warnings(self, record: IncrementDone) -> list[str]:
-        """What has to be said after an increment: once for each group, when the first of its long elements fails."""
-        found = []
+        """What has to be said after an increment: once for each group, when the first of its long elements fails.
+
+        Nothing of a group whose elements say it themselves.
+        """
+        found: list[str] = []
+        self.unsaid = []
         for index, long in list(self._watched.items()):
             state = record.solution.elements[index]
             assert state.variables is not None  # of elements that we know
@@ -113,19 +130,21 @@ class LongElements:
             values = values[np.arange(len(worst)), worst]
             first, *shear = (values[:, names.index(name)] for name in ("DISSI", "DISSII", "DISSIII") if name in names)
             second = np.sum(shear, axis=0)
-            part = first / long.energies[0] + second / long.energies[1]
+            part = first / long.law.energies[0] + second / long.law.energies[1]
             # a point that breaks within one increment may have dissipated nothing by the trapezoidal rule
             failed = (part > FAILED) | (values[:, names.index("DAMAGE")] >= 1.0)
             if not failed.any():
                 continue
             mix = np.clip(second / np.where(first + second > 0.0, first + second, 1.0), 0.0, 1.0)
             mix = np.where(first + second > 0.0, mix, long.zones.argmin(axis=0))
-            zones = 1.0 / ((1.0 - mix) / long.zones[0] + mix / long.zones[1])
+            zones, large = (1.0 / ((1.0 - mix) / modes[0] + mix / modes[1]) for modes in (long.zones, long.large))
             short = np.flatnonzero(failed & (ELEMENTS * long.lengths > zones))
             if len(short):
                 k = int(short[0])
                 del self._watched[index]
-                found.append(_message(self._model.groups[index], long, k, float(zones[k]), float(mix[k])))
+                told = long.law.tells and (failed & (ELEMENTS * long.lengths > large)).any()
+                texts = self.unsaid if told else found
+                texts.append(_message(self._model.groups[index], long, k, float(zones[k]), float(mix[k])))
             else:
                 self._watched[index] = long.without(failed)
         return found
@@ -150,7 +169,7 @@ def _law(group: ElementGroup, library: Library) -> _Law | None:
     if layout is None or not layout.faces[0]:
         return None
     values = {item.name: float(section.values[item.position - 1]) for item in layout.reals}
-    return _Law((values["SIGMAMAX"], values["TAUMAX"]), (values["GIC"], values["GIIC"]))
+    return _Law((values["SIGMAMAX"], values["TAUMAX"]), (values["GIC"], values["GIIC"]), tells=bool(layout.own))
 
 
 def _built_in_law(section: CohesiveSection) -> _Law | None:
@@ -244,10 +263,10 @@ def _long_elements(
     sides = [side[:, 0] for side in nodes]
     across, axial = (np.minimum(*(plies.modulus(side, direction) for side in sides)) for direction in (normal, along))
     height = _arm_height(place[plies.nodes], middle.reshape(-1, 3), normal)
-    zones = _zones(law, across, axial, height)
+    zones, large = _zones(law, across, axial, height), _zones(law, across, axial, np.inf)
     zone = zones.min(axis=0)
     found = np.flatnonzero(np.isfinite(zone) & (ELEMENTS * length > zone))
-    return _Long(found, length[found], zones[:, found], law.energies)
+    return _Long(found, length[found], zones[:, found], large[:, found], law)
 
 
 def _normals(middle: FloatArray) -> FloatArray:

@@ -2,6 +2,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Interface elements that fail and are too long for the process zone are told."""
 
+import math
+import re
 from pathlib import Path
 
 import pytest
@@ -12,6 +14,13 @@ from harness.output import Result
 
 E1, E3, STRENGTH, TOUGHNESS = 4000.0, 1000.0, 10.0, 0.05
 LAW = {"ALPHAN": 1e5, "ALPHAT": 1e5, "SIGMAMAX": STRENGTH, "TAUMAX": 3.0, "GIC": TOUGHNESS, "GIIC": 0.2, "LAW": 1}
+# that of solids of 1 mm is below the softening slope of the law
+LAW |= {"BETAN": 1e5, "BETAT": 1e5}
+# those of PLIES: in the plane axis 2 is across, in space axis 3
+MODULI = {
+    2: {"E1": E1, "E2": E3, "NU12": 0.0, "G12": 500.0},
+    3: {"E1": E1, "E2": E1, "E3": E3, "NU12": 0.0, "G12": 500.0, "G13": 500.0, "G23": 500.0},
+}
 PLIES = {
     2: "*MATERIAL, NAME=PLY\n*ELASTIC, TYPE=LAMINA\n4000., 1000., 0., 500., 500., 500.\n",
     3: "*MATERIAL, NAME=PLY\n*ELASTIC, TYPE=ENGINEERING CONSTANTS\n4000., 4000., 1000., 0., 0., 0., 500., 500.\n500.\n",
@@ -45,44 +54,60 @@ def pulled(
     ply: str = "",
     axes: str = "",
     across: bool = False,
+    columns: int = 1,
+    first: float = 0.1,
+    cpus: int = 1,
+    **values: float,
 ) -> Result:
-    """Two solids with an interface element between them, pulled apart by `opening`, or sheared."""
-    space = kind in ("COH3D8", "U7")
+    """Columns of two solids with an interface element between them, pulled apart by `opening`, or sheared.
+
+    The interface elements have the labels 3, 6, 9 and so on; `first` is the size of the increments, `values` are
+    properties of the elements.
+    """
+    space = kind in ("COH3D8", "U7", "U8")
     dimension = 3 if space else 2
     levels = [square(length, y, dimension, length) for y in (0.0, height, height, 2.0 * height)]
     count = len(levels[0])
+    nodes = [(x + 2.0 * k * length, *rest) for k in range(columns) for level in levels for x, *rest in level]
     lines = ["*NODE"]
-    lines += [f"{k}, " + ", ".join(map(repr, x)) for k, x in enumerate((x for level in levels for x in level), 1)]
+    lines += [f"{k}, " + ", ".join(map(repr, x)) for k, x in enumerate(nodes, 1)]
     solid = "C3D8" if space else "CPS4"
 
-    def numbers(level: int, *, reverse: bool) -> list[int]:
-        found = list(range(level * count + 1, (level + 1) * count + 1))
-        return found[::-1] if reverse else found
+    def numbers(column: int, *wanted: int) -> list[int]:
+        """Nodes of two or four levels, from one to the next as quads or bricks have them."""
+        found = []
+        for k, level in enumerate(wanted):
+            low = (4 * column + level) * count + 1
+            found += list(range(low, low + count))[:: -1 if k % 2 and not space else 1]
+        return found
 
-    for label, low in ((1, 0), (2, 2)):
-        nodes = numbers(low, reverse=False) + numbers(low + 1, reverse=not space)
-        lines += [f"*ELEMENT, TYPE={solid}, ELSET=SOLID", ", ".join(map(str, [label, *nodes]))]
+    def elements(kind: str, elset: str, *wanted: tuple[int, ...]) -> list[str]:
+        start = 1 if elset == "SOLID" else 3
+        rows = [[3 * k + i, *numbers(k, *levels)] for k in range(columns) for i, levels in enumerate(wanted, start)]
+        return [f"*ELEMENT, TYPE={kind}, ELSET={elset}", *(", ".join(map(str, row)) for row in rows)]
+
+    lines += elements(solid, "SOLID", (0, 1), (2, 3))
     own = kind.startswith("U")
     if own:
         lines += user_element(int(kind[1:]), "UNSYMM")
-    nodes = numbers(1, reverse=False) + numbers(2, reverse=not space)
-    lines += [f"*ELEMENT, TYPE={kind}, ELSET=INTERFACE", ", ".join(map(str, [3, *nodes]))]
+    lines += elements(kind, "INTERFACE", (0, 1, 2, 3) if kind in ("U4", "U8") else (1, 2))
     named = ", ORIENTATION=AXES" if axes else ""
     lines += [*axes.splitlines(), f"*SOLID SECTION, ELSET=SOLID, MATERIAL=PLY{named}", "1."]
     if own:
-        lines += uel_property(int(kind[1:]), "INTERFACE", LAW | {"THICKNESS": 1.0})
+        moduli = {f"{name} {side}": value for name, value in MODULI[dimension].items() for side in ("BOTTOM", "TOP")}
+        lines += uel_property(int(kind[1:]), "INTERFACE", LAW | {"THICKNESS": 1.0} | moduli | values)
     else:
         lines += COHESIVE.splitlines()
     lines += (ply or PLIES[dimension]).splitlines()
-    last = ", ".join(map(str, numbers(3, reverse=False)))
-    first = ", ".join(map(str, numbers(0, reverse=False)))
-    lines += [f"*NSET, NSET=BASE\n{first}\n*NSET, NSET=CROWN\n{last}", "*BOUNDARY", f"BASE, 1, {dimension}"]
+    for name, level in (("BASE", 0), ("CROWN", 3)):
+        lines += [f"*NSET, NSET={name}", *(", ".join(map(str, numbers(k, level))) for k in range(columns))]
+    lines += ["*BOUNDARY", f"BASE, 1, {dimension}"]
     moved = 1 if across else dimension
-    lines += ["*STEP, UNSYMM=YES", "*STATIC", "0.1, 1., 1e-6, 0.1", "*BOUNDARY"]
+    lines += ["*STEP, UNSYMM=YES", "*STATIC", f"{first}, 1., 1e-6, {first}", "*BOUNDARY"]
     lines += [f"CROWN, {k}, {k}, {opening if k == moved else 0.0}" for k in range(1, dimension + 1)]
     lines.append("*END STEP")
     (folder / "deck.inp").write_text("\n".join(lines) + "\n")
-    return run(folder / "deck.inp", output_dir=folder, fallback=True)
+    return run(folder / "deck.inp", output_dir=folder, fallback=True, cpus=cpus)
 
 
 # half of E_n G/s^2 with E_n = 1000 across, and half of (E_t G/s^2)^(1/4) h^(3/4) with E_t = 4000 along, by hand
@@ -149,3 +174,84 @@ def test_mode_that_does_not_act_is_left_out(tmp_path: Path) -> None:
     assert pulled(tmp_path, "U2", 1.5, 1.0, opening=0.3, across=True).warnings == ()
     (warning,) = pulled(tmp_path, "U2", 1.7, 1.0, opening=0.3, across=True).warnings
     assert f"zone about {zone:.2g} (100% mode II)" in warning
+
+
+OWN = pytest.mark.parametrize("kind", ["U4", "U8"])
+
+
+def told(warning: str, kind: str) -> tuple[float, ...]:
+    """Label, length, zone and share of mode II (%) of the message that an element sends."""
+    number = r"([\d.E+-]+)"
+    message = (
+        rf"{kind} element {number}: fails and is {number} long, the process zone at most {number} \({number} per cent "
+        r"mode II\): expected at least 3 elements in it; with fewer the load comes out too high\. Told once in a job"
+    )
+    found = re.search(message, warning)
+    assert found, warning
+    return tuple(float(text) for text in found.groups())
+
+
+@OWN
+def test_elements_with_solids_tell_it_themselves(kind: str, tmp_path: Path) -> None:
+    """In .msg, and again in the next job of the process; the harness has nothing to add, even for slender arms."""
+    for height in (1.0, 0.1):
+        (warning,) = pulled(tmp_path, kind, 0.1, height).warnings
+        assert told(warning, kind) == pytest.approx((3, 0.1, LARGE, 0), rel=1e-5)
+        assert "fails and is 0.1" in " ".join((tmp_path / "deck.msg").read_text().split())
+    assert pulled(tmp_path, kind, 0.08, 1.0).warnings == ()
+
+
+@OWN
+def test_elements_do_not_know_the_arms(kind: str, tmp_path: Path) -> None:
+    (warning,) = pulled(tmp_path, kind, 0.08, 0.1).warnings
+    assert f"element 3 (type {kind}) fails and is 0.08 long, the process zone about {SLENDER:.2g} (0%" in warning
+    assert "fails and is 0.08 long" in " ".join((tmp_path / "deck.dat").read_text().split())
+
+
+def test_element_that_fails_in_the_last_increment(tmp_path: Path) -> None:
+    """It would tell in the next one."""
+    (warning,) = pulled(tmp_path, "U4", 0.1, 1.0, opening=0.05, first=1.0).warnings
+    assert f"element 3 (type U4) fails and is 0.1 long, the process zone about {LARGE:.2g} (0%" in warning
+
+
+@OWN
+def test_one_message_of_many_elements(kind: str, tmp_path: Path) -> None:
+    (warning,) = pulled(tmp_path, kind, 0.1, 1.0, columns=4).warnings
+    assert told(warning, kind)[0] == 3
+
+
+def test_one_message_of_several_threads(tmp_path: Path) -> None:
+    """So many elements that each thread has some: where one sends the message, all of them are called again."""
+    (warning,) = pulled(tmp_path, "U4", 0.1, 1.0, columns=150, cpus=2).warnings
+    assert told(warning, "U4")[0] == 3
+
+
+@OWN
+def test_elements_that_stay_bonded_tell_nothing(kind: str, tmp_path: Path) -> None:
+    assert pulled(tmp_path, kind, 1.0, 1.0, opening=0.015).warnings == ()
+
+
+@pytest.mark.parametrize("angle", [30.0, 90.0])
+def test_element_takes_the_modulus_across(angle: float, tmp_path: Path) -> None:
+    """Of axis 1 at 90 degrees less the angle from the normal; no contraction."""
+    c, s = math.sin(math.radians(angle)), math.cos(math.radians(angle))
+    across = 1.0 / (c**4 / E1 + s**4 / E3 + c**2 * s**2 / 500.0)
+    angles = {"ANGLE BOTTOM": angle, "ANGLE TOP": angle}
+    (warning,) = pulled(tmp_path, "U4", 0.5, 1.0, **angles).warnings
+    assert told(warning, "U4")[2] == pytest.approx(0.5 * across * TOUGHNESS / STRENGTH**2, rel=1e-5)
+
+
+@pytest.mark.parametrize(("kind", "angle"), [("U4", 0.0), ("U8", 45.0)])
+def test_element_takes_the_modulus_along(kind: str, angle: float, tmp_path: Path) -> None:
+    """In mode II; at 45 degrees that of two axes with E1 each, without contraction."""
+    along = E1 if angle == 0.0 else 1.0 / (0.5 / E1 + 0.25 / 500.0)
+    values = {"TAUMAX": 30.0, "GIIC": 0.05, "ANGLE BOTTOM": angle, "ANGLE TOP": angle}
+    (warning,) = pulled(tmp_path, kind, 2.0, 1.0, opening=0.3, across=True, **values).warnings
+    _, length, zone, share = told(warning, kind)
+    assert (length, share) == (2.0, 100.0)
+    assert zone == pytest.approx(0.5 * math.sqrt(E3 * along) * 0.05 / 30.0**2, rel=1e-5)
+
+
+def test_softer_of_two_solids_counts(tmp_path: Path) -> None:
+    (warning,) = pulled(tmp_path, "U4", 0.1, 1.0, **{"E2 TOP": 0.5 * E3}).warnings
+    assert told(warning, "U4")[2] == pytest.approx(0.5 * LARGE, rel=1e-5)
