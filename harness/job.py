@@ -14,6 +14,7 @@ from pathlib import Path
 from harness import usersub
 from harness.assembly import System, TolerantSystem
 from harness.deck import read_deck
+from harness.elements.earlier_zeros import warn_of_earlier_zeros
 from harness.elements.process_zone import LongElements
 from harness.elements.threads import MOST_THREADS, known_routines, refuse_shared_stress, use_threads
 from harness.errors import ConvergenceError, ElementError, UelError, UsageError, in_words, note_warnings
@@ -206,6 +207,7 @@ def _analyse(
         ranks.lead(lambda: None if output is None else act(output), lambda: system and system.share_states())
 
     try:
+        warn_of_earlier_zeros(model, library)
         system = ranks.agree(assemble)
         long_elements = LongElements(model, library)
 
