@@ -121,7 +121,8 @@ class _Runs:
         try:
             return self._measured.of_run(Result(self._folder / job / job).history, f"{job} ({named})")
         except UelError as error:
-            error.add_note(f"what it printed is in {self._folder / job / job}.log; narrower bounds may help")
+            helps = "narrower bounds" if "--fallback" in self._settings.options else "narrower bounds or --fallback"
+            error.add_note(f"what it printed is in {self._folder / job / job}.log; {helps} may help")
             raise
 
 

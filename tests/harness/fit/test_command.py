@@ -119,3 +119,6 @@ def test_run_that_cannot_be_compared(bar: Path, capsys: pytest.CaptureFixture[st
     assert main([*words, "--y=RF3[END]"]) == 1
     told = capsys.readouterr().err
     assert "fit-001 (modulus = 173.205): the history has no column 'RF3[END]'" in told
+    assert re.search(r"what it printed is in fit/runs/.*fit-001\.log; narrower bounds or --fallback may help", told)
+    assert main([*words, "--y=RF3[END]", "--fallback"]) == 1
+    assert "fit-001.log; narrower bounds may help" in capsys.readouterr().err
