@@ -168,6 +168,9 @@ def _law(group: ElementGroup, library: Library) -> _Law | None:
     layout = element_layouts().get(group.definition.number)
     if layout is None or not layout.faces[0]:
         return None
+    if len(section.values) < len(layout.reals) or group.definition.nodes < layout.nodes:
+        # the elements themselves say what is missing
+        return None
     values = {item.name: float(section.values[item.position - 1]) for item in layout.reals}
     return _Law((values["SIGMAMAX"], values["TAUMAX"]), (values["GIC"], values["GIIC"]), tells=bool(layout.own))
 

@@ -9,6 +9,7 @@ from pathlib import Path
 import pytest
 
 from harness.delamination.kernels import uel_property, user_element
+from harness.errors import UelError
 from harness.job import run
 from harness.output import Result
 
@@ -255,3 +256,20 @@ def test_element_takes_the_modulus_along(kind: str, angle: float, tmp_path: Path
 def test_softer_of_two_solids_counts(tmp_path: Path) -> None:
     (warning,) = pulled(tmp_path, "U4", 0.1, 1.0, **{"E2 TOP": 0.5 * E3}).warnings
     assert told(warning, "U4")[2] == pytest.approx(0.5 * LARGE, rel=1e-5)
+
+
+@pytest.mark.parametrize(
+    ("damage", "message"),
+    [
+        ((r"(TYPE=U2, .*)\bPROPERTIES=(\d+), I", r"\1PROPERTIES=4, I"), "PROPERTIES"),
+        ((r"TYPE=U2, NODES=4(.*)", r"TYPE=U2, NODES=3\1"), "nodes|NODES"),
+    ],
+)
+def test_elements_say_themselves_what_is_missing(tmp_path: Path, damage: tuple[str, str], message: str) -> None:
+    pulled(tmp_path, "U2", 0.3, 1.0)
+    deck = tmp_path / "deck.inp"
+    text, count = re.subn(*damage, deck.read_text())
+    assert count == 1
+    deck.write_text(text)
+    with pytest.raises(UelError, match=message):
+        run(deck, output_dir=tmp_path)
