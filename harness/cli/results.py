@@ -15,7 +15,7 @@ def add_plot(plot: argparse.ArgumentParser) -> None:
     plot.epilog = (
         "load: load over displacement, or the columns --y of NAME_history.csv over --x; energies: of the whole model; "
         "iterations: of each increment, and its size; interface: tractions and damage along an interface in the plane; "
-        "mesh: the deformed mesh of one job, with a field."
+        "mesh: the deformed mesh of one job, with a field; in space PyVista draws it where it is installed, as .png."
     )
     plot.add_argument("jobs", nargs="+", type=Path, metavar="JOB", help="names of jobs that have run, with folders")
     plot.add_argument(
@@ -49,7 +49,8 @@ def plot_jobs(options: argparse.Namespace) -> int:
     from harness.output.results import Result  # noqa: PLC0415
 
     results = [Result(job) for job in options.jobs]
-    asked = Asked(options.x, options.y, options.csv, options.increment, options.step, options.field, options.scale)
+    shown = options.increment, options.step, options.field, options.scale
+    asked = Asked(options.x, options.y, options.csv, *shown, tell=print)
     path = options.output or results[0].file(f"_{options.kind}.png")
     print(f"written: {draw(options.kind, results, path, asked)}")
     return 0

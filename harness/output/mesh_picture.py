@@ -4,12 +4,12 @@
 
 A cell has one colour: the mean over its integration points, or over its corners for a field of the nodes. What lacks
 the field is grey, or left out in space, where it would hide what has it. In the plane a thin outline shows the
-undeformed model.
+undeformed model; in space, where PyVista draws, that of the deformed one.
 """
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from pathlib import Path
 from typing import Any, Final
 
@@ -27,6 +27,7 @@ from harness.errors import UsageError
 from harness.model.arrays import FloatArray, IntArray
 from harness.model.element_types import FAMILIES, Family
 from harness.output.plots import STYLE
+from harness.output.space_picture import SCREEN, Faces, render_faces
 
 _FAMILIES: Final = {family.cell: family for family in FAMILIES.values()}
 _WIDTH: Final = 7.0
@@ -37,7 +38,9 @@ _LARGE: Final = 0.02
 """Displacement over the size of the model from which on it is drawn as it is."""
 
 
-def draw_mesh(mesh: meshio.Mesh, path: Path, *, field: str = "U", scale: float | None = None) -> Path:
+def draw_mesh(
+    mesh: meshio.Mesh, path: Path, *, field: str = "U", scale: float | None = None, by_pyvista: bool = False
+) -> Path:
     """Draw the deformed mesh.
 
     Parameters
@@ -50,11 +53,15 @@ def draw_mesh(mesh: meshio.Mesh, path: Path, *, field: str = "U", scale: float |
         Cell or point data; of a vector its magnitude, or a component such as 'U2'.
     scale
         Of the displacements; None: 1, or what makes small ones visible.
+    by_pyvista
+        Let PyVista draw a mesh in space, as .png.
 
     Raises
     ------
     UsageError
         There is no such field.
+    RenderError
+        PyVista is missing, or cannot draw on this machine.
     """
     u = np.asarray(mesh.point_data["U"])
     factor = visible_scale(mesh.points, u) if scale is None else scale
@@ -64,19 +71,26 @@ def draw_mesh(mesh: meshio.Mesh, path: Path, *, field: str = "U", scale: float |
         for block, of_block in zip(mesh.cells, values, strict=True)
         if block.type in _FAMILIES
     ]
-    draw = _draw_space if np.ptp(mesh.points[:, 2]) > 0.0 else _draw_plane
+    times = "" if factor == 1.0 else f", displacements × {factor:g}"
+    what = f"{field}{times}"
+    after = mesh.points + factor * u
+    spatial = _render_space if by_pyvista else _draw_space
+    draw = spatial if in_space(mesh) else _draw_plane
     with mpl.rc_context(STYLE | {"axes.grid": False}):
         figure = Figure(figsize=(_WIDTH, 4.0), layout="constrained")
         FigureCanvasAgg(figure)
-        axis = draw(figure, blocks, mesh.points, mesh.points + factor * u)
-        times = "" if factor == 1.0 else f", displacements × {factor:g}"
-        what = f"{field}{times}"
+        axis = draw(figure, blocks, mesh.points, after)
         if any(np.isfinite(of_block).any() for *_, of_block in blocks):
             figure.colorbar(_colours(blocks), ax=axis, label=what, location="bottom", shrink=0.6, aspect=40, pad=0.02)
         else:
             axis.set_title(what, fontsize=9)
         figure.savefig(path, dpi=200, bbox_inches="tight")
     return path
+
+
+def in_space(mesh: meshio.Mesh) -> bool:
+    """Whether a mesh is not all in the plane of x and y."""
+    return bool(np.ptp(mesh.points[:, 2]) > 0.0)
 
 
 def visible_scale(points: FloatArray, u: FloatArray) -> float:
@@ -163,13 +177,9 @@ def _draw_space(figure: Figure, blocks: Sequence[_Block], _: FloatArray, after: 
     colours = _colours(blocks)
     faces: list[FloatArray] = []
     rgba: list[FloatArray] = []
-    for family, cells, values in blocks:
-        if not np.isfinite(values).any():
-            continue
-        outer = [(cells[:, outline(family)], values)] if family.dimension == 2 else outer_faces(family, cells, values)
-        for nodes, of_faces in outer:
-            faces += list(after[nodes])
-            rgba.append(colours.to_rgba(of_faces))
+    for nodes, of_faces in _faces_with_values(blocks):
+        faces += list(after[nodes])
+        rgba.append(colours.to_rgba(of_faces))
     if faces:
         edge = 0.1 if len(faces) < _MOST_EDGED else 0.0
         axis.add_collection(Poly3DCollection(faces, facecolors=np.concatenate(rgba), edgecolors="0.3", linewidths=edge))
@@ -183,6 +193,37 @@ def _draw_space(figure: Figure, blocks: Sequence[_Block], _: FloatArray, after: 
         axis.locator_params(axis=name, nbins=4 if length > 0.3 * size.max() else 1)
     figure.set_figheight(5.0)
     return axis
+
+
+def _render_space(figure: Figure, blocks: Sequence[_Block], _: FloatArray, after: FloatArray) -> Any:
+    """The same by PyVista, with the outline of all solids."""
+    faces = [Faces(after[nodes], of_faces) for nodes, of_faces in _faces_with_values(blocks)]
+    solids = [after[nodes] for block in blocks if block[0].dimension == 3 for nodes, _ in outer_faces(*block)]
+    edges = sum(len(group.values) for group in faces) < _MOST_EDGED
+    picture = render_faces(faces, solids, _colours(blocks).get_clim(), edges=edges)
+    axis = figure.add_subplot()
+    axis.imshow(picture)
+    axis.set_axis_off()
+    height, width = picture.shape[:2]
+    figure.set_figheight(float(np.clip(_WIDTH * height / width, 0.7, 6.0)) + 1.0)
+    corner = figure.add_axes((0.0, 0.0, 0.8 / _WIDTH, 0.8 / figure.get_figheight()))
+    corner.set(xlim=(-1.3, 1.3), ylim=(-1.3, 1.3), aspect="equal")
+    corner.set_axis_off()
+    for name, way in zip("XYZ", SCREEN.T, strict=True):
+        corner.annotate("", way, (0.0, 0.0), arrowprops={"arrowstyle": "->", "shrinkA": 0.0, "shrinkB": 0.0})
+        corner.text(1.2 * way[0], 1.2 * way[1], name, fontsize=7, ha="center", va="center")
+    return axis
+
+
+def _faces_with_values(blocks: Sequence[_Block]) -> Iterator[tuple[IntArray, FloatArray]]:
+    """Nodes and values of the outer faces of solids, and of interfaces, of the blocks that have the field."""
+    for family, cells, values in blocks:
+        if not np.isfinite(values).any():
+            continue
+        if family.dimension == 2:
+            yield cells[:, outline(family)], values
+        else:
+            yield from outer_faces(family, cells, values)
 
 
 def outline(family: Family) -> list[int]:

@@ -6,6 +6,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
+from functools import partial
 from pathlib import Path
 from typing import Final
 
@@ -16,9 +17,10 @@ from harness.model.arrays import FloatArray
 from harness.model.records import ENERGIES
 from harness.output.load_curve import LoadCurve
 from harness.output.measured_curve import read_curve
-from harness.output.mesh_picture import draw_mesh
+from harness.output.mesh_picture import draw_mesh, in_space
 from harness.output.plots import Curve, stacked
 from harness.output.results import Result
+from harness.output.space_picture import INSTALL, RenderError, has_pyvista
 from harness.output.sta_file import StatusRow
 
 ENDINGS: Final = (".png", ".svg", ".pdf")
@@ -52,6 +54,7 @@ class Asked:
     measured        CSV files of measured curves
     increment, step of a profile or a mesh: -1 and None the last one written
     field, scale    of a mesh: see `draw_mesh`
+    tell            gets a sentence where a picture is not drawn as it could be
     """
 
     x: str = ""
@@ -61,6 +64,7 @@ class Asked:
     step: int | None = None
     field: str = "U"
     scale: float | None = None
+    tell: Callable[[str], None] = lambda _: None
 
 
 def draw(kind: str, results: Sequence[Result], path: Path, asked: Asked) -> Path:
@@ -243,7 +247,17 @@ def _mesh(results: Sequence[Result], path: Path, asked: Asked) -> Path:
     """The deformed mesh."""
     if len(results) > 1:
         raise UsageError("--kind mesh: expected one job")
-    return draw_mesh(results[0].mesh(asked.increment, asked.step), path, field=asked.field, scale=asked.scale)
+    mesh = results[0].mesh(asked.increment, asked.step)
+    drawn = partial(draw_mesh, mesh, path, field=asked.field, scale=asked.scale)
+    if in_space(mesh) and path.suffix.lower() == ".png":
+        if has_pyvista():
+            try:
+                return drawn(by_pyvista=True)
+            except RenderError as error:
+                asked.tell(f"{error}; drawn by matplotlib")
+        else:
+            asked.tell(f"drawn by matplotlib, which may take a face behind for one in front; PyVista: {INSTALL}")
+    return drawn()
 
 
 KINDS: Final[dict[str, Callable[[Sequence[Result], Path, Asked], Path]]] = {
