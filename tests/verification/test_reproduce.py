@@ -99,7 +99,7 @@ def test_pairs_have_one_mesh(coarse: bool) -> None:
 def test_kink_ahead_of_the_front() -> None:
     place = np.arange(30.0, 50.0, 0.5)
     damage = np.where(place < 40.0, 1.0, 0.0)
-    smooth = {"X": place, "TT": np.exp(40.0 - place) * (place >= 40.0), "DAMAGE": damage}
+    smooth = {"X": place, "TT": np.exp(40.0 - place) * (place >= 40.0), "LOST": damage}
     rough = smooth | {"TT": smooth["TT"] + np.where(place == 42.0, 0.5, 0.0)}
     # a kink within the failed part does not count
     rough["TT"][3] += 5.0
@@ -145,7 +145,7 @@ def test_damage_counts_near_the_tip() -> None:
     place = np.arange(35.0, 100.0, 1.0)
     damage = np.where(place < 45.0, 1.0, 0.0)
     damage[-3] = 0.4
-    profile = {"X": place, "DAMAGE": damage}
+    profile = {"X": place, "DAMAGE": damage, "LOST": damage}
     assert findings.damage_near_tip(profile, "enf").max() == 1.0
     assert findings.damage_near_tip(profile, "enf").size == np.count_nonzero(place <= 45.0 + 14.0)
 

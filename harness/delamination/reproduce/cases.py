@@ -158,6 +158,12 @@ class PaperCase:
         return self.kind.displacement[self.layup]
 
     @property
+    def own_separation(self) -> bool:
+        """The law has a separation of its own, so that the element writes D for its damage (damage.py)."""
+        interface = (ELEMENTS | COMPARATORS)[self.element]
+        return not interface.built_in and interface.type == "U4" and interface.consistent
+
+    @property
     def law(self) -> Cohesive:
         """The law's parameters."""
         stiffness, factor = STIFFNESSES[self.stiffness], self.strength

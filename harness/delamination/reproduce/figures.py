@@ -13,20 +13,20 @@ import numpy as np
 from harness.delamination.beams import RIGID_ROOT, growth
 from harness.delamination.law_report import Exploration, explore
 from harness.delamination.patches import COLLINEAR, PLIES
-from harness.delamination.reproduce.cases import AROUND, ELEMENTS, MOMENTS, SHOWN, PaperCase
+from harness.delamination.reproduce.cases import AROUND, ELEMENTS, LAYUPS, MOMENTS, SHOWN, PaperCase
 from harness.delamination.reproduce.patch_cases import METHODS, NODES, PatchCase
-from harness.delamination.reproduce.runs import Profile, Runs
+from harness.delamination.reproduce.runs import Profile, Run, Runs
 from harness.output.plots import Curve, Panel, grid
 
 X = "$X_1$ [mm]"
-TRACTIONS = {"TN": "Normal traction [MPa]", "TT": "Tangential traction [MPa]", "DAMAGE": "Damage"}
+TRACTIONS = {"TN": "Normal traction [MPa]", "TT": "Tangential traction [MPa]", "LOST": "Damage $d$ of (9)"}
 CLOSE = {"dcb": (0.0, 4.0), "enf": (-4.0, 4.0), "frmm": (-3.0, 3.0)}
 """... and the zooms."""
 
 
 def front(profile: Profile) -> float:
     """Place of the front: the last point whose damage is at least one half, or the first point (mm)."""
-    damaged = profile["DAMAGE"] >= 0.5
+    damaged = profile["LOST"] >= 0.5
     return float(profile["X"][damaged].max()) if damaged.any() else float(profile["X"].min())
 
 
@@ -62,20 +62,32 @@ def _patch_panel(runs: Runs, case: PatchCase) -> Panel:
 
 
 def draw_loads(runs: Runs, base: PaperCase, path: Path) -> Path:
-    """Figures 8, 13, 18: load over displacement of the paper's method, [0/0] with theory, [0/90] with COH2D4."""
-    panels = []
-    for layup in ("0/0", "0/90"):
-        curves = [*_theory(base.problem)] if layup == "0/0" else []
-        for stiffness in SHOWN:
-            run = runs[replace(base, layup=layup, stiffness=stiffness)]
-            curves.append(Curve(f"paper {stiffness}", run.displacement, run.load))
+    """Figures 8, 13, 18: load over displacement; a row for each layup, a column for each element.
+
+    Theory stands below [0/0], COH2D4 with its own criterion and, where it has been run, beside all elements.
+    """
+    rows = []
+    for layup in LAYUPS:
+        compared = [*_theory(base.problem)] if layup == "0/0" else []
         built_in = replace(base, layup=layup, element="COH2D4", stiffness="1e6")
         if built_in in runs:
-            run = runs[built_in]
-            every = max(1, len(run.load) // 25)
-            curves.append(Curve("COH2D4 1e6", run.displacement[::every], run.load[::every], "points"))
-        panels.append(Panel(f"[{layup}]", curves, "Displacement [mm]", "Load [N]"))
-    return grid([panels], path)
+            compared.append(_sparse("COH2D4 1e6, its own criterion", runs[built_in]))
+        row = []
+        for element in ELEMENTS:
+            chosen = [
+                (stiffness, runs[replace(base, layup=layup, element=element, stiffness=stiffness)])
+                for stiffness in SHOWN
+            ]
+            curves = [Curve(f"{stiffness} N/mm³", run.displacement, run.load) for stiffness, run in chosen]
+            row.append(Panel(f"[{layup}], {element}", [*curves, *compared], "Displacement [mm]", "Load [N]"))
+        rows.append(row)
+    return grid(rows, path, share_y=True)
+
+
+def _sparse(label: str, run: Run) -> Curve:
+    """A load curve as some 25 points, the peak among them."""
+    chosen = np.union1d(np.arange(0, len(run.load), max(1, len(run.load) // 25)), run.peak_index)
+    return Curve(label, run.displacement[chosen], run.load[chosen], "points")
 
 
 def _theory(problem: str) -> list[Curve]:
@@ -145,15 +157,15 @@ def problem_figures(runs: Runs, problem: str, *, coarse: bool, folder: Path) -> 
     drawn: dict[str, dict[int, Callable[[], Path]]] = {
         "dcb": {
             8: lambda: draw_loads(runs, base, at(8)),
-            9: lambda: draw_profiles(runs, base, ("TN", "DAMAGE"), at(9)),
+            9: lambda: draw_profiles(runs, base, ("TN", "LOST"), at(9)),
             10: lambda: draw_perturbed(runs, base, "TN", at(10)),
-            11: lambda: draw_profiles(runs, cross, ("TN", "DAMAGE"), at(11)),
+            11: lambda: draw_profiles(runs, cross, ("TN", "LOST"), at(11)),
         },
         "enf": {
             13: lambda: draw_loads(runs, base, at(13)),
-            14: lambda: draw_profiles(runs, base, ("TT", "DAMAGE"), at(14)),
+            14: lambda: draw_profiles(runs, base, ("TT", "LOST"), at(14)),
             15: lambda: draw_perturbed(runs, base, "TT", at(15)),
-            16: lambda: draw_profiles(runs, cross, ("TT", "DAMAGE"), at(16)),
+            16: lambda: draw_profiles(runs, cross, ("TT", "LOST"), at(16)),
         },
         "frmm": {
             18: lambda: draw_loads(runs, base, at(18)),

@@ -117,21 +117,21 @@ def damage_turns(
     ever: bool = False,
     whole: bool = False,
 ) -> float:
-    """Largest departure of the damage from a steady fall to 0: total variation over its largest value, less 1.
+    """Largest departure of the damage (9) from a steady fall to 0: total variation over its largest value, less 1.
 
     Without the sign: damage that turns back varies more, damage that nowhere falls to 0 varies less. Up to as far ahead
     of the failed part as the figures show, or along the `whole` interface. `ever` as above.
     """
     run = evidence.run(problem, layup, element, stiffness)
     profiles = run.profiles if ever else [moment(run)]
-    damages = [profile["DAMAGE"] if whole else damage_near_tip(profile, problem) for profile in profiles]
+    damages = [profile["LOST"] if whole else damage_near_tip(profile, problem) for profile in profiles]
     return max(abs(damage_variation(damage) - 1.0) for damage in damages)
 
 
 def damage_near_tip(profile: Profile, problem: str) -> FloatArray:
-    """Damage up to the end of the figures' stretch, counted from the first point that has not failed."""
+    """Damage (9) up to the end of the figures' stretch, counted from the first point that has not failed."""
     tip = float(bonded_part(profile)["X"][0])
-    return profile["DAMAGE"][profile["X"] <= tip + AROUND[problem][1]]
+    return profile["LOST"][profile["X"] <= tip + AROUND[problem][1]]
 
 
 def profile_distance(
@@ -190,8 +190,8 @@ def local_error(evidence: Evidence, problem: str, element: str, traction: str, *
     found = []
     pairs = (evidence.run(problem, "0/0", name, "1e8", perturbed=True) for name in (element, "consistent"))
     for rough, smooth in zip(*(run.profiles if ever else [moment(run)] for run in pairs), strict=False):
-        start = float(smooth["X"][smooth["DAMAGE"] > 0.0].max(initial=0.0))
-        bonded = (rough["DAMAGE"] < 0.5) & (rough["X"] > start)
+        start = float(smooth["X"][smooth["LOST"] > 0.0].max(initial=0.0))
+        bonded = (rough["LOST"] < 0.5) & (rough["X"] > start)
         rest = rough[traction] - np.interp(rough["X"], smooth["X"], smooth[traction])
         found.append(float(np.abs(rest[bonded]).max(initial=0.0)) / STRENGTHS[traction])
     return max(found)
@@ -231,7 +231,7 @@ def process_zone(evidence: Evidence) -> float:
     """Interface elements in the process zone (0 < damage < 1), the fewest of the specimens, [0/0], 1e6, paper's."""
     counts = []
     for problem in PROBLEMS:
-        damage = moment(evidence.run(problem, "0/0", "paper", "1e6"))["DAMAGE"]
+        damage = moment(evidence.run(problem, "0/0", "paper", "1e6"))["LOST"]
         counts.append(float(np.count_nonzero((damage > 0.0) & (damage < 1.0))) / 2.0)
     return min(counts)
 

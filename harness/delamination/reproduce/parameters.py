@@ -58,7 +58,7 @@ def kink_distance(evidence: Evidence, problem: str, traction: str) -> float:
     distance from the consistent method's profile, process zones apart: ahead of both.
     """
     rough, smooth = (moment(evidence.run(problem, "0/0", element, "1e8")) for element in ("standard", "consistent"))
-    front = max(float(profile["X"][profile["DAMAGE"] >= 0.5].max()) for profile in (rough, smooth))
+    front = max(float(profile["X"][profile["LOST"] >= 0.5].max()) for profile in (rough, smooth))
     ahead = rough["X"] > front
     place = rough["X"][ahead]
     rest = rough[traction][ahead] - np.interp(place, smooth["X"], smooth[traction])
@@ -153,7 +153,7 @@ def zone_share(evidence: Evidence, strength: float) -> float:
     """Points in the process zone of the DCB with both strengths multiplied, over those without; infinite stiffness."""
     counts = []
     for factor in (strength, 1.0):
-        damage = moment(evidence.case(PaperCase("dcb", "0/0", "consistent", "inf", strength=factor)))["DAMAGE"]
+        damage = moment(evidence.case(PaperCase("dcb", "0/0", "consistent", "inf", strength=factor)))["SPENT"]
         counts.append(np.count_nonzero((damage > 0.0) & (damage < 1.0)))
     return counts[0] / counts[1]
 

@@ -14,6 +14,7 @@ from rich.console import Console
 
 from harness.batch.engine import Store, StoredRow, complete
 from harness.delamination.reproduce.cases import PaperCase
+from harness.delamination.reproduce.damage import stiffness_lost, toughness_spent
 from harness.delamination.reproduce.patch_cases import PatchCase
 from harness.delamination.run_deck import run_deck
 from harness.delamination.study.rows import bonded_part
@@ -97,8 +98,20 @@ class Run:
 
     @cached_property
     def profiles(self) -> list[Profile]:
-        """Profiles along the interface, in time."""
-        return self._result.interfaces()
+        """Profiles along the interface, in time.
+
+        DAMAGE is what the element writes. LOST and SPENT mean the same for every element: the share of its stiffness
+        that a point has lost, the paper's damage (9), and the share of its toughness that it has dissipated in mode I.
+        """
+        law = self.case.law
+        profiles = self._result.interfaces()
+        for profile in profiles:
+            written = profile["DAMAGE"]
+            if self.case.own_separation:
+                profile |= {"LOST": stiffness_lost(written, law), "SPENT": written}
+            else:
+                profile |= {"LOST": written, "SPENT": toughness_spent(written, law)}
+        return profiles
 
     def at(self, displacement: float) -> Profile:
         """The profile nearest to a displacement (mm)."""

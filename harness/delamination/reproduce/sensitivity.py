@@ -178,7 +178,7 @@ def row(run: Run) -> dict[str, float]:
     """Numbers of a run: those of HEAD but the last."""
     kind = run.case.kind
     varies = max(total_variation(profile[name]) for profile in run.bonded for name in kind.modes)
-    turns = max(damage_variation(profile["DAMAGE"]) for profile in run.profiles) - 1.0
+    turns = max(damage_variation(profile["SPENT"]) for profile in run.profiles) - 1.0
     values = (run.peak[0], float(run.load[-1]), varies, turns, run.entry.iterations, run.entry.cutbacks)
     return dict(zip(HEAD, values, strict=False))
 
