@@ -16,14 +16,6 @@ from pathlib import Path
 from typing import Final, Generic, Protocol, Self, TypeVar
 
 from rich.console import Console
-from rich.progress import (
-    BarColumn,
-    MofNCompleteColumn,
-    Progress,
-    TextColumn,
-    TimeElapsedColumn,
-    TimeRemainingColumn,
-)
 
 import harness.assembly
 import harness.deck
@@ -33,6 +25,7 @@ import harness.parallel
 import harness.procedures
 import harness.solver
 import harness.usersub
+from harness.batch.progress import BatchProgress
 from harness.usersub.built import path_of_amalgam
 
 
@@ -173,6 +166,7 @@ def complete(
     workers: int,
     console: Console,
     describe: Callable[[EntryT], str],
+    work: Callable[[DeckT], float] = lambda _: 1.0,
     threads: bool = False,
 ) -> dict[DeckT, EntryT]:
     """Entries of all decks, in their order; those not in the store are computed and kept.
@@ -187,26 +181,16 @@ def complete(
         As in `run_all`.
     console, describe
         Gets a progress bar, and a line for each deck that ends: its name and what `describe` says about the entry.
+    work
+        How much there is to do for a deck, in any unit: the time left follows from it.
     """
     known = {deck: entry for deck in decks if (entry := store.get(deck)) is not None}
     missing = [deck for deck in decks if deck not in known]
-    columns = (
-        *(
-            TextColumn("{task.description}"),
-            BarColumn(),
-            MofNCompleteColumn(),
-            TextColumn("{task.fields[running]} running"),
-        ),
-        *(TimeElapsedColumn(), TextColumn("left"), TimeRemainingColumn()),
-    )
-    with Progress(*columns, console=console) as progress:
-        running = min(workers, len(missing))
-        task = progress.add_task("runs", total=len(decks), completed=len(known), running=running)
+    with BatchProgress(console, len(decks), len(known), sum(map(work, missing)), workers) as progress:
         runs = run_all(function, missing, folder, workers, threads=threads)
-        for ended, (deck, entry) in enumerate(runs, 1):
+        for deck, entry in runs:
             if entry is not None:
                 store.put(deck, entry)
                 known[deck] = entry
-                progress.print(f"{deck.name}: {describe(entry)}", highlight=False, markup=False)
-            progress.update(task, advance=1, running=min(workers, len(missing) - ended))
+            progress.ended(work(deck), f"{deck.name}: {describe(entry)}" if entry is not None else "")
     return {deck: known[deck] for deck in decks if deck in known}

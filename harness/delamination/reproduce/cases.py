@@ -22,6 +22,8 @@ from harness.delamination.study.cases import BUMP, KINDS, STIFFNESSES, MeshedSpe
 PARTS = 25
 """Profiles are written at the end of so many equal parts of the displacement: the same moments for all runs."""
 PRINT_EVERY = 10
+START = 60.0
+"""The start of a run takes as long as so many quads of a delamination test."""
 ROWS = 4
 """Rows of quads over the height of an arm in the paper's cases."""
 
@@ -173,6 +175,12 @@ class PaperCase:
     def increment_count(self) -> int:
         """Number of increments, if none is cut."""
         return INCREMENTS[self.coarse] if self.increments is None else self.increments
+
+    @property
+    def work(self) -> float:
+        """What the run takes, in quads; increments hardly count, since more of them take fewer iterations each."""
+        mesh = self.mesh()
+        return START + mesh.columns * sum(mesh.rows)
 
     def mesh(self) -> TwoArmMesh:
         """The mesh."""

@@ -7,6 +7,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
+from operator import attrgetter
 from pathlib import Path
 
 import numpy as np
@@ -205,5 +206,7 @@ def run_cases(cases: Sequence[AnyCase], folder: Path, workers: int, console: Con
     """Run the cases that are not in `folder`, on several processes, and keep each as it ends."""
     store = Store(folder / "runs.json", Entry.from_json)
     place = folder / "runs"
-    entries = complete(cases, store, run_case, place, workers=workers, console=console, describe=str)
+    entries = complete(
+        cases, store, run_case, place, workers=workers, console=console, describe=str, work=attrgetter("work")
+    )
     return Runs(entries, place)

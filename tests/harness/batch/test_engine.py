@@ -13,6 +13,7 @@ from rich.console import Console
 
 from harness.batch import engine
 from harness.batch.engine import Store, StoredRow, complete
+from harness.batch.progress import BatchProgress, clock, time_left
 
 
 @dataclass(frozen=True)
@@ -73,6 +74,37 @@ def test_decks_are_run_once_and_kept(tmp_path: Path) -> None:
     found, said = batch(changed)
     assert found[changed[1]] == Length(5)
     assert sorted(ran) == ["b", "none"]
+
+
+def test_progress_of_runs_that_take_long() -> None:
+    """Minutes between two ends, small runs first: the time left goes by the work, on a terminal and in a log."""
+    now = [1000.0]
+    said = []
+    for terminal in (True, False):
+        console = Console(
+            file=io.StringIO(), force_terminal=terminal, width=120, color_system=None, get_time=lambda: now[0]
+        )
+        with BatchProgress(console, total=5, known=1, work=1.0 + 1.0 + 8.0 + 2.0, workers=2) as shown:
+            for minutes, work, line in ((5.0, 1.0, "a"), (5.0, 1.0, ""), (40.0, 8.0, "c"), (10.0, 2.0, "d")):
+                now[0] += 60.0 * minutes
+                shown.ended(work, line)
+                shown._progress.refresh()
+        assert isinstance(console.file, io.StringIO)
+        said.append(console.file.getvalue())
+    for text in said:
+        assert "2 of 5, 0:55:00 left: a" in text
+        assert "4 of 5, 0:10:00 left: c" in text
+        assert "5 of 5, 0:00:00 left: d" in text
+    # the bar: two of what is left, then one, then none
+    assert "2/5 2 running 0:05:00 left 0:55:00" in said[0]
+    assert "5/5 0 running 1:00:00 left 0:00:00" in said[0]
+
+
+def test_time_left() -> None:
+    assert time_left(60.0, 0.0, 5.0) is None
+    assert time_left(60.0, 2.0, 5.0) == 150.0
+    assert time_left(60.0, 0.0, 0.0) == 0.0
+    assert [clock(None), clock(3725.4), clock(-1.0)] == ["-:--:--", "1:02:05", "0:00:00"]
 
 
 def test_sources_of_all_that_computes_results(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
