@@ -68,7 +68,12 @@ class BatchProgress:
         times = (TextColumn("{task.fields[running]} running"), TimeElapsedColumn(), TextColumn("left"), TimeLeft())
         self._progress = Progress(*columns, *times, console=console)
         self._task = self._progress.add_task(
-            "runs", total=total, completed=known, running=min(workers, total - known), left=None, at=0.0
+            "runs",
+            total=total,
+            completed=known,
+            running=min(workers, total - known),
+            left=time_left(0.0, 0.0, work),
+            at=0.0,
         )
 
     def __enter__(self) -> BatchProgress:

@@ -100,6 +100,14 @@ def test_progress_of_runs_that_take_long() -> None:
     assert "5/5 0 running 1:00:00 left 0:00:00" in said[0]
 
 
+def test_progress_with_nothing_to_run() -> None:
+    console = Console(file=io.StringIO(), force_terminal=True, width=120, color_system=None)
+    with BatchProgress(console, total=4, known=4, work=0.0, workers=2):
+        pass
+    assert isinstance(console.file, io.StringIO)
+    assert "4/4 0 running 0:00:00 left 0:00:00" in console.file.getvalue()
+
+
 def test_time_left() -> None:
     assert time_left(60.0, 0.0, 5.0) is None
     assert time_left(60.0, 2.0, 5.0) == 150.0
