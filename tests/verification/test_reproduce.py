@@ -25,7 +25,7 @@ from harness.delamination.reproduce.convergence import Steady
 from harness.delamination.reproduce.curves import to_line
 from harness.delamination.reproduce.findings import Evidence
 from harness.delamination.reproduce.page import Content, Table, write_page
-from harness.delamination.reproduce.runs import Runs
+from harness.delamination.reproduce.runs import AnyCase, Runs
 from harness.delamination.reproduce.statements import JudgedStatement, Number, Statement, judge, read_statements
 from harness.delamination.specimens import ARMS, CRACK
 from harness.errors import UelError
@@ -41,7 +41,7 @@ def test_cases_are_there_once() -> None:
     assert len(cases) == len({case.name for case in cases}) == 3 * 2 * 3 * 3 * 2
     # the paper shows the perturbed mesh of [0/0] at the stiffest
     assert len([case for problem in PROBLEMS for case in paper_cases(problem, coarse=True)]) == 3 * (2 * 3 * 3 + 3)
-    everything = [*cases, *patch_cases.patch_cases()]
+    everything: list[AnyCase] = [*cases, *patch_cases.patch_cases()]
     everything += [case for study in sensitivity.studies(coarse=False) for case in study.cases()]
     different = set(everything)
     assert len({case.name for case in different}) == len(different)

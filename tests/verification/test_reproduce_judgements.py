@@ -4,22 +4,34 @@
 
 from __future__ import annotations
 
+import io
 import tempfile
 from collections.abc import Mapping, Sequence
 from contextlib import closing
+from dataclasses import replace
 from pathlib import Path
 from types import SimpleNamespace
 from typing import cast
 
 import numpy as np
 import pytest
+from rich.console import Console
 
 from harness import usersub
 from harness.delamination import law
 from harness.delamination.materials import TABLE_2, Cohesive
-from harness.delamination.reproduce import figures, runs
+from harness.delamination.reproduce import (
+    advice,
+    convergence,
+    figures,
+    parameters,
+    runs,
+    tables,
+)
+from harness.delamination.reproduce.advice import Point, settled
 from harness.delamination.reproduce.cases import ELEMENTS, SHOWN, PaperCase
 from harness.delamination.reproduce.damage import stiffness_lost, toughness_spent
+from harness.delamination.reproduce.findings import Evidence
 from harness.delamination.reproduce.runs import AnyCase, Entry, Run, Runs
 from harness.model.arrays import FloatArray
 from harness.output import Result
@@ -138,3 +150,128 @@ def test_load_figures_show_all_elements(problem: str, monkeypatch: pytest.Monkey
         assert (shown["1e4 N/mm³"] == loads[element]).all()
         assert ("corrected beam theory" in shown) == panel.title.startswith("[0/0]")
         assert shown["COH2D4 1e6, its own criterion"].max() == loads["COH2D4"].max()
+
+
+def points(*values: tuple[str, float, float], sampled: float = 1.0) -> list[Point]:
+    """Values with peak load and variation; the run's own increments see a share of the peak."""
+    return [Point(value, peak, sampled * peak, variation) for value, peak, variation in values]
+
+
+def test_advice_on_lengths() -> None:
+    fine = points(("0.5", 53.0, 90.0), ("0.25", 50.2, 90.0), ("0.125", 50.1, 90.0), ("0.0625", 50.0, 90.0))
+    coarse = points(("0.5", 53.0, 90.0), ("0.25", 51.0, 90.0))
+    text = advice.on_lengths({"DCB, standard": fine, "ENF, paper": coarse})
+    assert "from these lengths on: DCB, standard: 0.25 mm." in text
+    assert "ENF, paper: still -3.8% by the last refinement; take shorter elements" in text
+    # that one length agrees by chance settles nothing
+    assert settled(points(("1", 50.0, 1.0), ("0.5", 60.0, 1.0), ("0.25", 50.0, 1.0))) is None
+
+
+def test_advice_on_increments() -> None:
+    text = advice.on_increments({"DCB": [Point("25", 50.0, 48.0, 1.0), Point("50", 50.1, 49.9, 1.0)]})
+    assert "these numbers change by 0.2% at most" in text
+    assert "DCB: as their own load curves have it, 25 increments give -4.0%, 50 -0.4%; within 1% from 50 on." in text
+    assert "none within 1%" in advice.on_increments({"DCB": [Point("25", 50.0, 48.0, 1.0)]})
+
+
+def test_advice_on_stiffness() -> None:
+    rough = points(("1e4", 50.0, 70.0), ("1e6", 50.1, 90.0), ("1e8", 50.1, 110.0))
+    smooth = points(("1e4", 52.0, 70.0), ("1e6", 50.1, 80.0), ("inf", 50.1, 82.0))
+    text = advice.on_stiffness(
+        {"standard": rough, "consistent": smooth, "paper": points(("1", 5.0, 1.0), ("2", 6.0, 1.0))}
+    )
+    assert "standard: the peak load is settled from 1e4 on; up to 1e8 the traction varies more, 70 to 110 MPa" in text
+    assert "consistent: the peak load is settled from 1e6 on; up to inf the traction varies no more than by 2%" in text
+    assert "paper: the peak load is not settled, +20.0% up to 2." in text
+
+
+def test_advice_on_strength() -> None:
+    assert "changes by 6.0% (DCB). Measure" in advice.on_strength(
+        {"DCB": points(("0.5", 50.0, 1.0), ("1.5", 53.0, 1.0))}
+    )
+    assert "need not be known" in advice.on_strength({"DCB": points(("0.5", 50.0, 1.0), ("1.5", 50.1, 1.0))})
+
+
+def test_advice_on_a_choice() -> None:
+    alike = points(("Gauss", 50.0, 90.0), ("Newton-Cotes", 50.0, 89.0))
+    better = points(("Gauss", 50.0, 110.0), ("Newton-Cotes", 51.0, 70.0))
+    assert advice.on_choice({"paper": alike}, "Gauss").startswith("Keep the default, Gauss:")
+    text = advice.on_choice({"paper": alike, "standard": better}, "Gauss")
+    assert "Keep" not in text
+    assert "standard: with Newton-Cotes the traction varies less than with the default, 110 to 70 MPa" in text
+    assert "changes by +2.0%" in text
+    assert "has not finished" in advice.on_choice({"paper": alike[1:]}, "Gauss")
+
+
+def test_trends_follow_from_the_numbers() -> None:
+    text = convergence.trend(-0.02, {"8 rows an arm": 0.01, "elements of 0.25 mm": -0.021})
+    assert text.endswith("with 8 rows an arm, but not with elements of 0.25 mm.")
+    assert "not" not in convergence.trend(-0.02, {"8 rows an arm": 0.01})
+    assert convergence.trend(-0.02, {}) == ""
+    assert tables.nearer_to_beams([0.07, 0.03, 0.01]).startswith("the longer the crack, the less")
+    assert "does not count for less" in tables.nearer_to_beams([0.03, 0.07])
+
+
+def test_changes_of_the_usual_case_have_names() -> None:
+    for _, case in (pairs := convergence.pairs(coarse=False)):
+        assert case.element == "consistent_bk"
+    usual = replace(PaperCase("dcb", "0/90", "COH2D4", "1e6"), element="consistent_bk")
+    names = [convergence.difference_of(case, usual) for _, case in pairs]
+    assert names == ["elements of 0.25 mm", "", "8 rows an arm", "16 rows an arm", "10 times beta", "equal weights"]
+
+
+def loaded(case: PaperCase, displacement: Sequence[float], load: Sequence[float]) -> Run:
+    """A run with a load curve."""
+    run = Run(case, ENDED, Path())
+    run.displacement, run.load = np.array(displacement), np.array(load)
+    return run
+
+
+def test_a_peak_is_passed_in_small_increments() -> None:
+    case = PaperCase("dcb", "0/0", "consistent", "inf", coarse=True)
+    run = loaded(case, [0.0, 0.6, 1.2, 1.26, 1.32, 1.38], [0.0, 25.0, 48.6, 50.5, 50.8, 47.0])
+    passing = run.around_peak
+    assert passing is not None
+    assert passing.window == pytest.approx((1.26, 1.38, 0.002 * 1.32))
+    assert passing.name == f"{case.name}_peak"
+    # a curve that still rises has no peak yet
+    assert loaded(case, [0.0, 0.6, 1.2, 1.26], [0.0, 25.0, 48.6, 50.5]).around_peak is None
+    deck = passing.files()[f"{passing.name}.inp"]
+    assert deck.count("*STEP") == deck.count("*END STEP") == 2
+    starts = [
+        line for line, before in zip(deck.splitlines()[1:], deck.splitlines(), strict=False) if before == "*STATIC"
+    ]
+    first, second = ([float(word) for word in line.split(",")] for line in starts)
+    # 3 mm in 50 increments up to 1.26 mm; then 0.00264 mm at a time
+    assert (first[0], first[3]) == pytest.approx((0.06 / 1.26, 0.06 / 1.26), rel=1e-4)
+    assert (second[0], second[3]) == pytest.approx((0.00264 / 0.12, 0.00264 / 0.12), rel=1e-4)
+    moved = [float(line.split(",")[3]) for line in deck.splitlines() if line.startswith("LOAD_TOP, 2, 2,")]
+    assert moved == pytest.approx([1.26, 1.38])
+
+
+def test_compared_peaks_are_those_in_small_increments(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
+    """Two stiffnesses whose increments sample one peak differently."""
+    one, other = (PaperCase("dcb", "0/0", "paper", stiffness, coarse=True) for stiffness in ("1e8", "1e12"))
+    curves = {
+        one: ([0.0, 0.6, 1.2, 1.26, 1.32], [0.0, 25.0, 48.6, 50.5, 48.0]),
+        other: ([0.0, 0.6, 1.2, 1.29, 1.32], [0.0, 25.0, 48.6, 51.1, 48.0]),
+    }
+    ran: list[AnyCase] = []
+
+    def complete(cases: Sequence[AnyCase], *_: object, **__: object) -> dict[AnyCase, Entry]:
+        ran.extend(cases)
+        return dict.fromkeys(cases, ENDED)
+
+    class Read(Run):
+        def __init__(self, case: PaperCase, entry: Entry, folder: Path) -> None:
+            super().__init__(case, entry, folder)
+            curve = curves.get(case, ([0.0, 1.26, 1.3, 1.32], [0.0, 50.5, 51.2, 50.0]))
+            self.displacement, self.load = map(np.array, curve)
+
+    monkeypatch.setattr(runs, "complete", complete)
+    monkeypatch.setattr(runs, "Run", Read)
+    found = runs.run_cases([one, other], tmp_path, 1, Console(file=io.StringIO()), peaks=[one, other])
+    assert [case.name for case in ran[2:]] == [f"{one.name}_peak", f"{other.name}_peak"]
+    assert (found[one].peak[0], found[other].peak[0]) == (50.5, 51.1)
+    assert found.peak(one) == found.peak(other) == 51.2
+    assert parameters.stiff_load(Evidence(found, coarse=True), ["dcb"]) == 0.0

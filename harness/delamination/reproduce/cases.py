@@ -75,6 +75,8 @@ ELEMENTS = {
 """The paper's two methods, and the one whose law has a separation of its own; beta by (21)."""
 BK = 2.0
 """Exponent of Benzeggagh and Kenane's criterion; the paper gives none."""
+PEAK_STEP = 0.002
+"""Increments in which a run passes its peak, over the displacement there: the load then misses less of the peak."""
 COMPARATORS = {
     "COH2D4": Interface("COH2D4", TABLE_2, law=2, eta=BK),
     "standard_bk": Interface("U2", TABLE_2, law=2, eta=BK, newton_cotes=True),
@@ -99,6 +101,7 @@ class PaperCase:
     sampling      of the bulk stress: 0 middle of the face, 1 face, 2 Gauss point
     newton_cotes  integration points at the nodes
     secant, tolerance  AMATRX by equation (24), and the residual R_n that is let pass
+    window        part of the load curve (mm) that is run in small increments: start, end, increment; the run ends there
     """
 
     problem: str
@@ -117,6 +120,7 @@ class PaperCase:
     newton_cotes: bool = False
     secant: bool = False
     tolerance: float | None = None
+    window: tuple[float, float, float] | None = None
 
     @property
     def name(self) -> str:
@@ -131,6 +135,7 @@ class PaperCase:
         words += [f"sampling{self.sampling}"] if self.sampling else []
         words += ["newtoncotes"] * self.newton_cotes + ["secant"] * self.secant
         words += [f"tol{self.tolerance:g}"] if self.tolerance is not None else []
+        words += ["peak"] if self.window is not None else []
         return "_".join(words).replace(".", "p")
 
     @property
@@ -217,14 +222,22 @@ class PaperCase:
     def _deck(self, mesh_name: str, mesh: TwoArmMesh, interface: Interface) -> str:
         top, bottom = PLIES[self.layup]
         specimen = Specimen(mesh_name, mesh, interface, specimens.WIDTH, bottom, top)
-        step = 1.0 / self.increment_count
-        increments = Increments(
-            step, 1e-7, step, limit=20 * self.increment_count, residual=self.tolerance, field_parts=PARTS
-        )
         title = f"{self.kind.title.capitalize()}, [{self.layup}], {self.element} element, {self.stiffness} N/mm^3"
-        return self.kind.deck(
-            title + ", perturbed mesh" * self.perturbed, specimen, self.displacement, increments, PRINT_EVERY
-        )
+        title += ", perturbed mesh" * self.perturbed
+
+        def deck(displacement: float, step: float) -> str:
+            increments = Increments(
+                step, 1e-7, step, limit=20 * self.increment_count, residual=self.tolerance, field_parts=PARTS
+            )
+            return self.kind.deck(title, specimen, displacement, increments, PRINT_EVERY)
+
+        if self.window is None:
+            return deck(self.displacement, 1.0 / self.increment_count)
+        start, end, increment = self.window
+        approach = deck(start, self.displacement / (self.increment_count * start))
+        # a second step goes on from the displacement of the first
+        passage = deck(end, increment / (end - start))
+        return approach + passage[passage.index("*STEP") :]
 
 
 def paper_cases(problem: str, *, coarse: bool = False) -> list[PaperCase]:

@@ -65,7 +65,13 @@ def reproduce(
             raise UsageError(f"no case '{part}'; expected one of {', '.join(PARTS)}")
     chosen = [part for part in PARTS if not parts or part in parts]
     place = folder / ("quick" if quick else "full")
-    runs = run_cases(_cases(chosen, quick=quick), place, workers or os.cpu_count() or 1, console)
+    runs = run_cases(
+        _cases(chosen, quick=quick),
+        place,
+        workers or os.cpu_count() or 1,
+        console,
+        peaks=sensitivity.cases(coarse=quick) if "sensitivity" in chosen else (),
+    )
     evidence = Evidence(runs, quick)
     verdicts = [judge(statement, evidence) for statement in read_statements() if set(statement.cases) <= set(chosen)]
     content = Content(
@@ -95,7 +101,7 @@ def _cases(parts: Sequence[str], *, quick: bool) -> list[AnyCase]:
         if part == "frmm":
             cases += longer_cases(coarse=quick)
         if part == "sensitivity":
-            cases += [case for study in sensitivity.studies(coarse=quick) for case in study.cases()]
+            cases += sensitivity.cases(coarse=quick)
     return list({case.name: case for case in cases}.values())
 
 

@@ -12,6 +12,7 @@ sides do not cancel as between like plies. The gap shrinks as 1/beta, which by (
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -41,10 +42,11 @@ TEXT = (
     "<sigma>)/beta between the separation that the law sees and the displacement jump. Between unlike plies the "
     "weights (22) take <sigma> from the first quads of the softer side, half a quad away from the interface; over "
     "a process zone of a few quads it lags behind the traction T. The gap goes with 1/beta, and by (21) beta with "
-    "1 over the height of the quads: the difference falls with rows of quads, not with columns, with a larger "
-    "beta, and with equal weights. Last column: load ~ (energy release rate)^(3/4) at equal displacement, from "
+    "1 over the height of the quads. Last column: load ~ (energy release rate)^(3/4) at equal displacement, from "
     "the energies alone."
 )
+FALLS = 0.2
+"""A difference of the loads that is smaller by this share of it counts as smaller."""
 HEAD = (
     *("elements (mm)", "rows an arm", "factor of beta", "weights"),
     *("COH2D4: mean load (N)", "ours: mean load (N)", "difference"),
@@ -136,6 +138,38 @@ def expected(ours: Steady, built_in: Steady) -> float:
 def load_difference(ours: Steady, built_in: Steady) -> float:
     """Relative difference of the mean loads in steady growth."""
     return ours.load / built_in.load - 1.0
+
+
+def text(runs: Runs, *, coarse: bool) -> str:
+    """What the table is, and what makes the difference of the loads smaller."""
+    base = PaperCase("dcb", "0/90", "consistent_bk", "1e6", coarse=coarse)
+    apart = {
+        difference_of(case, base): load_difference(steady(runs[case]), steady(runs[one]))
+        for one, case in pairs(coarse=coarse)
+    }
+    usual = apart.pop("")
+    return f"{TEXT} {trend(usual, apart)}".rstrip()
+
+
+def difference_of(case: PaperCase, base: PaperCase) -> str:
+    """How a case differs from the usual one; empty for that."""
+    if case.element_size != base.element_size:
+        return f"elements of {case.element_size:.3g} mm"
+    if case.rows != base.rows:
+        return f"{case.rows} rows an arm"
+    if case.weight:
+        return "equal weights"
+    return f"{case.beta:g} times beta" if case.beta != base.beta else ""
+
+
+def trend(usual: float, others: Mapping[str, float]) -> str:
+    """What makes a difference smaller by more than FALLS of it, and what does not; nothing without others."""
+    if not others:
+        return ""
+    smaller = [what for what, value in others.items() if abs(value) < (1.0 - FALLS) * abs(usual)]
+    rest = [what for what in others if what not in smaller]
+    parts = [f"{word}with {', '.join(found)}" for word, found in (("", smaller), ("not ", rest)) if found]
+    return f"The difference of {usual:+.2%} falls by more than {FALLS:.0%} of it {', but '.join(parts)}."
 
 
 def rows(runs: Runs, *, coarse: bool) -> list[list[str]]:

@@ -35,6 +35,10 @@ class Evidence:
         """Run of a delamination test."""
         return self.runs[PaperCase(problem, layup, element, stiffness, perturbed, self.coarse)]
 
+    def peak(self, case: PaperCase) -> float:
+        """Peak load (N) of a case on these meshes, in small increments where the command has run these."""
+        return self.runs.peak(replace(case, coarse=self.coarse))
+
     def case(self, case: PaperCase) -> Run:
         """Run of a case on these meshes."""
         return self.runs[replace(case, coarse=self.coarse)]

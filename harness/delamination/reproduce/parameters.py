@@ -21,8 +21,7 @@ from harness.delamination.study.rows import STRENGTHS, bonded_part
 def strength_effect(evidence: Evidence, problem: str, strength: float) -> float:
     """Relative change of the peak load when both strengths are multiplied by a factor; infinite stiffness, [0/0]."""
     peaks = [
-        evidence.case(PaperCase(problem, "0/0", "consistent", "inf", strength=factor)).peak[0]
-        for factor in (strength, 1.0)
+        evidence.peak(PaperCase(problem, "0/0", "consistent", "inf", strength=factor)) for factor in (strength, 1.0)
     ]
     return abs(peaks[0] / peaks[1] - 1.0)
 
@@ -169,7 +168,7 @@ def newton_cotes_gain(evidence: Evidence) -> float:
 
 def stiff_load(evidence: Evidence, problems: Sequence[str]) -> float:
     """Relative change of the paper's method's peak load from 1e8 to 1e12, the largest, [0/0]."""
-    peaks = [[evidence.run(p, "0/0", "paper", s).peak[0] for s in ("1e8", "1e12")] for p in problems]
+    peaks = [[evidence.peak(PaperCase(p, "0/0", "paper", s)) for s in ("1e8", "1e12")] for p in problems]
     return max(abs(high / low - 1.0) for low, high in peaks)
 
 

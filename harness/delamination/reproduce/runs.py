@@ -5,7 +5,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 from operator import attrgetter
 from pathlib import Path
@@ -14,7 +14,7 @@ import numpy as np
 from rich.console import Console
 
 from harness.batch.engine import Store, StoredRow, complete
-from harness.delamination.reproduce.cases import PaperCase
+from harness.delamination.reproduce.cases import PEAK_STEP, PaperCase
 from harness.delamination.reproduce.damage import stiffness_lost, toughness_spent
 from harness.delamination.reproduce.patch_cases import PatchCase
 from harness.delamination.run_deck import run_deck
@@ -97,6 +97,18 @@ class Run:
         fallen = np.flatnonzero(self.load < 0.95 * highest)
         return int(self.load[: fallen[0] if fallen.size else None].argmax())
 
+    @property
+    def around_peak(self) -> PaperCase | None:
+        """The case that passes the peak in small increments, from the increment before to that after; None at an end.
+
+        The increments of a run miss up to what the load rises in one of them, which differs from run to run.
+        """
+        k = self.peak_index
+        if k < 2 or k + 1 == len(self.load):
+            return None
+        start, peak, end = (float(self.displacement[j]) for j in (k - 1, k, k + 1))
+        return replace(self.case, window=(start, end, min(PEAK_STEP * peak, end - start)))
+
     @cached_property
     def profiles(self) -> list[Profile]:
         """Profiles along the interface, in time.
@@ -149,10 +161,21 @@ class PatchRun:
 
 
 class Runs:
-    """All runs by their cases."""
+    """All runs by their cases.
 
-    def __init__(self, entries: Mapping[AnyCase, Entry], folder: Path) -> None:
+    Parameters
+    ----------
+    entries, folder
+        How the runs ended, and the folder that has them.
+    around_peaks
+        Cases of the runs that pass the peaks of others in small increments, by these.
+    """
+
+    def __init__(
+        self, entries: Mapping[AnyCase, Entry], folder: Path, around_peaks: Mapping[PaperCase, PaperCase] | None = None
+    ) -> None:
         self._entries = entries
+        self._around_peaks = around_peaks or {}
         self._folder = folder
         self._read: dict[AnyCase, Run | PatchRun] = {}
 
@@ -174,6 +197,10 @@ class Runs:
             run = self._read[case] = Run(case, self._entry(case), self._folder)
         assert isinstance(run, Run)
         return run
+
+    def peak(self, case: PaperCase) -> float:
+        """Peak load (N), found in small increments if that has been run."""
+        return self[self._around_peaks.get(case, case)].peak[0]
 
     def patch(self, case: PatchCase) -> PatchRun:
         """Run of a patch test."""
@@ -202,11 +229,25 @@ def run_case(case: AnyCase, folder: Path) -> Entry:
     )
 
 
-def run_cases(cases: Sequence[AnyCase], folder: Path, workers: int, console: Console) -> Runs:
-    """Run the cases that are not in `folder`, on several processes, and keep each as it ends."""
+def run_cases(
+    cases: Sequence[AnyCase], folder: Path, workers: int, console: Console, *, peaks: Sequence[PaperCase] = ()
+) -> Runs:
+    """Run the cases that are not in `folder`, on several processes, and keep each as it ends.
+
+    peaks: of the cases, those whose peak loads are compared and so are run once more, in small increments about them.
+    """
+    entries, place = _run_missing(cases, folder, workers, console), folder / "runs"
+    if not peaks:
+        return Runs(entries, place)
+    runs = Runs(entries, place)
+    around = {case: passing for case in peaks if (passing := runs[case].around_peak) is not None}
+    console.print("peak loads that are compared, in small increments:", highlight=False)
+    return Runs(entries | _run_missing(list(around.values()), folder, workers, console), place, around)
+
+
+def _run_missing(cases: Sequence[AnyCase], folder: Path, workers: int, console: Console) -> dict[AnyCase, Entry]:
     store = Store(folder / "runs.json", Entry.from_json)
     place = folder / "runs"
-    entries = complete(
+    return complete(
         cases, store, run_case, place, workers=workers, console=console, describe=str, work=attrgetter("work")
     )
-    return Runs(entries, place)

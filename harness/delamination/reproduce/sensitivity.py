@@ -4,16 +4,29 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
-from functools import cache
+from functools import cache, partial
 from pathlib import Path
 
+import numpy as np
+
 from harness.delamination.oscillation import total_variation
+from harness.delamination.reproduce.advice import (
+    SETTLED,
+    Curves,
+    Point,
+    on_choice,
+    on_increments,
+    on_lengths,
+    on_stiffness,
+    on_strength,
+)
 from harness.delamination.reproduce.cases import QUICK_SIZES, PaperCase
-from harness.delamination.reproduce.runs import Run, Runs
+from harness.delamination.reproduce.runs import Runs
 from harness.delamination.study.cases import STIFFNESSES
 from harness.delamination.study.rows import damage_variation
+from harness.model.arrays import FloatArray
 from harness.output.plots import Curve, Panel, grid
 
 CONSISTENT = ("consistent", "inf")
@@ -22,7 +35,7 @@ METHODS = (("standard", "1e6"), ("paper", "1e8"), CONSISTENT)
 VARIATION = "variation of the traction (MPa)"
 """Total variation of the loading mode's traction, process zone and bonded part, the largest of all moments."""
 HEAD = (
-    *("peak load (N)", "load at the end (N)", VARIATION, "damage that turns back"),
+    *("peak load (N), in small increments", "load at the end (N)", VARIATION, "toughness spent that turns back"),
     *("iterations", "cutbacks", "end"),
 )
 
@@ -34,18 +47,23 @@ class Study:
     title, parameter  heading, and the parameter with its unit
     variants  value as shown and case, by label of the curve
     number    values as numbers for the plot; None where they are names
-    advice    what follows for a user
+    advise    what follows for a user, from the numbers of the curves
     """
 
     title: str
     parameter: str
     variants: dict[str, list[tuple[str, PaperCase]]]
     number: bool
-    advice: str
+    advise: Callable[[Curves], str]
 
     def cases(self) -> list[PaperCase]:
         """All its cases."""
         return [case for pairs in self.variants.values() for _, case in pairs]
+
+
+def cases(*, coarse: bool) -> list[PaperCase]:
+    """The cases of all parameters, whose peak loads are compared."""
+    return list(dict.fromkeys(case for study in studies(coarse=coarse) for case in study.cases()))
 
 
 def _bases(problem: str, methods: Sequence[tuple[str, str]], *, coarse: bool) -> dict[str, PaperCase]:
@@ -80,14 +98,14 @@ def studies(*, coarse: bool) -> list[Study]:
             "length of the elements (mm)",
             {label: [(f"{s:.3g}", case.sized(s)) for s in kept[case.problem]] for label, case in shown.items()},
             number=True,
-            advice=ADVICE["mesh"],
+            advise=on_lengths,
         ),
         Study(
             "Increments",
             "number of increments",
             {label: [(str(n), _divided(case, n)) for n in divisions] for label, case in dcb.items()},
             number=True,
-            advice=ADVICE["increments"],
+            advise=on_increments,
         ),
         Study(
             "Stiffness",
@@ -102,7 +120,7 @@ def studies(*, coarse: bool) -> list[Study]:
                 for element in ("standard", "paper", "consistent")
             },
             number=False,
-            advice=ADVICE["stiffness"],
+            advise=on_stiffness,
         ),
         Study(
             "Strength",
@@ -113,7 +131,7 @@ def studies(*, coarse: bool) -> list[Study]:
                 if "consistent" in label
             },
             number=True,
-            advice=ADVICE["strength"],
+            advise=on_strength,
         ),
         Study(
             "Place where the bulk stress is taken",
@@ -124,7 +142,7 @@ def studies(*, coarse: bool) -> list[Study]:
                 if "standard" not in label
             },
             number=False,
-            advice=ADVICE["sampling"],
+            advise=partial(on_choice, default="middle"),
         ),
         Study(
             "Integration rule",
@@ -134,7 +152,7 @@ def studies(*, coarse: bool) -> list[Study]:
                 for label, case in (shown | _bases("dcb", [("standard", "1e8")], coarse=coarse)).items()
             },
             number=False,
-            advice=ADVICE["integration"],
+            advise=partial(on_choice, default="Gauss"),
         ),
         Study(
             "Stabilisation",
@@ -145,47 +163,45 @@ def studies(*, coarse: bool) -> list[Study]:
                 if "standard" not in label
             },
             number=True,
-            advice=ADVICE["beta"],
+            advise=partial(on_choice, default="1"),
         ),
     ]
 
 
-ADVICE = {
-    "mesh": "Take the largest elements whose peak load agrees with that of elements of half their length.",
-    "increments": "Take 100 increments, and more where the load falls in jumps of several points.",
-    "stiffness": "Consistent method: leave the stiffness out (inf). Standard method: the lowest at which the peak load "
-    "has settled; more only adds oscillation.",
-    "strength": "Measure the strengths, or give their effect on the peak load with the result.",
-    "sampling": "Take the middle of the face, which is the default.",
-    "integration": "Standard method: Newton-Cotes points leave out the kinks where a point fails. Stabilised methods: "
-    "either; Gauss points are the default.",
-    "beta": "Leave beta out: equation (21).",
-}
-
-
-def spread(study: Study, runs: Runs) -> str:
-    """How far the peak loads of a parameter's values lie apart, by curve."""
-    parts = []
-    for label, pairs in study.variants.items():
-        peaks = [row(runs[case])[HEAD[0]] for _, case in pairs if not runs[case].entry.stopped]
-        if len(peaks) > 1:
-            parts.append(f"{label} {max(peaks) / min(peaks) - 1.0:.1%}")
-    return f"Peak loads differ by {'; '.join(parts)}." if parts else ""
+def text(study: Study, runs: Runs) -> str:
+    """What the numbers say: advice, and how far the peak loads of a parameter's values lie apart, by curve."""
+    curves = {
+        label: [
+            Point(value, row(runs, case)[HEAD[0]], runs[case].peak[0], row(runs, case)[VARIATION])
+            for value, case in pairs
+            if not runs[case].entry.stopped
+        ]
+        for label, pairs in study.variants.items()
+    }
+    curves = {label: points for label, points in curves.items() if len(points) > 1}
+    if not curves:
+        return "Too few of these runs have finished for an advice."
+    spread = "; ".join(
+        f"{label} {max(point.peak for point in points) / min(point.peak for point in points) - 1.0:.1%}"
+        for label, points in curves.items()
+    )
+    return f"{study.advise(curves)} Peak loads differ by {spread}."
 
 
 @cache
-def row(run: Run) -> dict[str, float]:
+def row(runs: Runs, case: PaperCase) -> dict[str, float]:
     """Numbers of a run: those of HEAD but the last."""
-    kind = run.case.kind
-    varies = max(total_variation(profile[name]) for profile in run.bonded for name in kind.modes)
+    run = runs[case]
+    varies = max(total_variation(profile[name]) for profile in run.bonded for name in case.kind.modes)
     turns = max(damage_variation(profile["SPENT"]) for profile in run.profiles) - 1.0
-    values = (run.peak[0], float(run.load[-1]), varies, turns, run.entry.iterations, run.entry.cutbacks)
+    values = (runs.peak(case), float(run.load[-1]), varies, turns, run.entry.iterations, run.entry.cutbacks)
     return dict(zip(HEAD, values, strict=False))
 
 
-def cells(run: Run) -> list[str]:
+def cells(runs: Runs, case: PaperCase) -> list[str]:
     """A line of the table."""
-    peak, last, varies, turns, iterations, cutbacks = row(run).values()
+    run = runs[case]
+    peak, last, varies, turns, iterations, cutbacks = row(runs, case).values()
     reached = run.displacement[-1] / run.case.displacement
     end = "finished" if not run.entry.stopped else f"stopped at {reached:.0%}"
     counts = f"{iterations:.0f}", f"{cutbacks:.0f}"
@@ -197,17 +213,26 @@ def draw(study: Study, runs: Runs, path: Path) -> Path:
     rows = []
     for problem in dict.fromkeys(case.problem for case in study.cases()):
         panels = []
-        for name in ("peak load (N)", VARIATION):
+        for name in (HEAD[0], VARIATION):
             curves = [
                 Curve(
                     label.split(", ")[1],
                     [float(value) if study.number else value for value, _ in pairs],
-                    [row(runs[case])[name] for _, case in pairs],
+                    [row(runs, case)[name] for _, case in pairs],
                     "marked",
                 )
                 for label, pairs in study.variants.items()
                 if pairs[0][1].problem == problem
             ]
-            panels.append(Panel(f"{problem.upper()} [0/0]", curves, study.parameter, name[0].upper() + name[1:]))
+            heights = _wide([np.asarray(curve.y) for curve in curves]) if name == HEAD[0] else None
+            title, words = f"{problem.upper()} [0/0]", name[0].upper() + name[1:]
+            panels.append(Panel(title, curves, study.parameter, words, y_range=heights))
         rows.append(panels)
     return grid(rows, path)
+
+
+def _wide(values: Sequence[FloatArray]) -> tuple[float, float]:
+    """Range of the ordinate, wide enough that what counts as equal looks equal."""
+    low, high = min(map(np.min, values)), max(map(np.max, values))
+    half = max(0.55 * (high - low), 2.5 * SETTLED * high)
+    return 0.5 * (low + high) - half, 0.5 * (low + high) + half

@@ -1,0 +1,132 @@
+# SPDX-FileCopyrightText: The uel-harness authors
+# SPDX-License-Identifier: BSD-3-Clause
+"""What the sensitivities advise, from their numbers alone."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass
+
+SETTLED = 0.01
+"""Peak loads closer than this count as equal."""
+SMOOTHER = 0.05
+"""A variation of the traction that is lower by this counts as lower."""
+
+
+@dataclass(frozen=True, slots=True)
+class Point:
+    """One value of a parameter: the value as shown; peak load in small increments, and as the run's own increments
+    sample it (N); variation of the traction (MPa)."""
+
+    value: str
+    peak: float
+    sampled: float
+    variation: float
+
+
+Curves = Mapping[str, Sequence[Point]]
+"""Values in the order of the table, by label of the curve."""
+
+
+def settled(points: Sequence[Point]) -> Point | None:
+    """The first value from which on the peak load is that of the last; None if that is the last alone."""
+    last = points[-1].peak
+    for k, point in enumerate(points[:-1]):
+        if all(abs(other.peak / last - 1.0) <= SETTLED for other in points[k:]):
+            return point
+    return None
+
+
+def on_lengths(curves: Curves) -> str:
+    """Lengths of elements, from the largest."""
+    starts = {label: settled(points) for label, points in curves.items()}
+    enough = [f"{label}: {start.value} mm" for label, start in starts.items() if start is not None]
+    close = f"The peak load is within {SETTLED:.0%} of that of the shortest elements from these lengths on"
+    texts = [f"{close}: {_list(enough)}."] if enough else []
+    for label, start in starts.items():
+        if start is None:
+            change = curves[label][-1].peak / curves[label][-2].peak - 1.0
+            texts.append(f"{label}: still {change:+.1%} by the last refinement; take shorter elements and compare.")
+    return " ".join(texts)
+
+
+def on_increments(curves: Curves) -> str:
+    """Numbers of increments, from the least."""
+    texts = [f"Peak loads of the table are those in small increments, which these numbers change by {_most(curves)}."]
+    for label, points in curves.items():
+        missed = [point.sampled / point.peak - 1.0 for point in points]
+        close = [k for k in range(len(points)) if all(abs(miss) <= SETTLED for miss in missed[k:])]
+        ends = f"{points[0].value} increments give {missed[0]:+.1%}, {points[-1].value} {missed[-1]:+.1%}"
+        start = f"within {SETTLED:.0%} from {points[close[0]].value} on" if close else f"none within {SETTLED:.0%}"
+        texts.append(f"{label}: as their own load curves have it, {ends}; {start}.")
+    return " ".join(texts)
+
+
+def on_stiffness(curves: Curves) -> str:
+    """Stiffnesses, from the lowest."""
+    texts = []
+    for label, points in curves.items():
+        start, last = settled(points), points[-1]
+        if start is None:
+            change = last.peak / points[-2].peak - 1.0
+            texts.append(f"{label}: the peak load is not settled, {change:+.1%} up to {last.value}.")
+            continue
+        words = f"{label}: the peak load is settled from {start.value} on"
+        grown = last.variation / start.variation - 1.0
+        if grown > SMOOTHER:
+            words += (
+                f"; up to {last.value} the traction varies more, {_from_to(start, last)}: take no more than needed."
+            )
+        else:
+            words += f"; up to {last.value} the traction varies no more than by {max(grown, 0.0):.0%}: take any."
+        texts.append(words)
+    return " ".join(texts)
+
+
+def on_strength(curves: Curves) -> str:
+    """Strengths."""
+    changes = {
+        label: max(point.peak for point in points) / min(point.peak for point in points) - 1.0
+        for label, points in curves.items()
+    }
+    first, last = (next(iter(curves.values()))[k].value for k in (0, -1))
+    shares = _list(f"{change:.1%} ({label})" for label, change in changes.items())
+    text = f"From {first} to {last} times the strengths the peak load changes by {shares}."
+    if max(changes.values()) > SETTLED:
+        return f"{text} Measure the strengths, or give their effect on the peak load with the result."
+    return f"{text} The strengths need not be known well."
+
+
+def on_choice(curves: Curves, default: str) -> str:
+    """Values in no order, of which one is the default."""
+    texts = []
+    for label, points in curves.items():
+        usual = next((point for point in points if point.value == default), None)
+        if usual is None:
+            texts.append(f"{label}: the run with the default has not finished.")
+            continue
+        best = min(points, key=lambda point: point.variation)
+        if best.variation < (1.0 - SMOOTHER) * usual.variation:
+            change = best.peak / usual.peak - 1.0
+            texts.append(
+                f"{label}: with {best.value} the traction varies less than with the default, {_from_to(usual, best)}; "
+                f"the peak load changes by {change:+.1%}."
+            )
+    if texts:
+        return " ".join([f"The default is {default}.", *texts])
+    return f"Keep the default, {default}: with no other value does the traction vary less by more than {SMOOTHER:.0%}."
+
+
+def _most(curves: Curves) -> str:
+    spans = [
+        max(point.peak for point in points) / min(point.peak for point in points) - 1.0 for points in curves.values()
+    ]
+    return f"{max(spans):.1%} at most"
+
+
+def _from_to(one: Point, other: Point) -> str:
+    return f"{one.variation:.0f} to {other.variation:.0f} MPa"
+
+
+def _list(words: Iterable[str]) -> str:
+    return ", ".join(words)
