@@ -218,7 +218,11 @@ def test_statements_are_well_formed() -> None:
         ("at_most = 1\n", "", "bad: expected .* and at_least or at_most"),
         ('measure = "isotropy"', 'measure = "beauty"', "bad: no measure 'beauty'; expected one of asymmetry"),
         ('quote = "a"', 'quote = "a"\nmood = 1', "bad: expected"),
-        ("cases = []", "cases = []\nalso = [{ ful = true }]", "bad: also: expected arguments, full, measure, number"),
+        (
+            "cases = []",
+            "cases = []\nalso = [{ ful = true }]",
+            "bad: also: expected arguments, full, measure, name, number",
+        ),
     ],
 )
 def test_bad_statements_are_refused(tmp_path: Path, old: str, new: str, message: str) -> None:
@@ -236,7 +240,7 @@ def test_bad_statements_are_refused(tmp_path: Path, old: str, new: str, message:
 
 def statement(low: float | None, high: float | None, figure: str = "") -> Statement:
     number = Number("a ratio", "modulus_contrast", {})
-    return Statement("x", "1", figure, "<quote>", number, low, high, (), (number,), "because")
+    return Statement("x", "1", figure, "<quote>", number, low, high, (), (number,), ())
 
 
 def test_limits_decide() -> None:
@@ -248,7 +252,7 @@ def test_limits_decide() -> None:
     verdict = judge(statement(11.0, 12.0), Evidence(Runs({}, Path()), coarse=False))
     assert verdict.reproduced
     assert verdict.value == pytest.approx(1.2e5 / 1.05e4)
-    assert [text for text, _ in verdict.also] == ["a ratio"]
+    assert [other.text for other, _ in verdict.also] == ["a ratio"]
 
 
 def test_numbers_of_the_full_meshes() -> None:
@@ -265,7 +269,7 @@ def test_page_is_one_file(tmp_path: Path) -> None:
     picture = tmp_path / "a.png"
     picture.write_bytes(b"\x89PNG")
     verdicts = [
-        JudgedStatement(statement(1.0, 2.0, "9"), 3.0, (("more", 4.0),)),
+        JudgedStatement(statement(1.0, 2.0, "9"), 3.0, ((Number("more", "isotropy", {}), 4.0),)),
         JudgedStatement(statement(1.0, None), 3.0, ()),
     ]
     table = Table("Loads & ends", "text", ("a", "b"), [["1", "<2"]], picture)

@@ -5,6 +5,7 @@
 from __future__ import annotations
 
 import io
+import math
 import tempfile
 from collections.abc import Mapping, Sequence
 from contextlib import closing
@@ -23,9 +24,12 @@ from harness.delamination.materials import TABLE_2, Cohesive
 from harness.delamination.reproduce import (
     advice,
     convergence,
+    curves,
     figures,
+    findings,
     parameters,
     runs,
+    sensitivity,
     tables,
 )
 from harness.delamination.reproduce.advice import Point, settled
@@ -33,6 +37,7 @@ from harness.delamination.reproduce.cases import ELEMENTS, SHOWN, PaperCase
 from harness.delamination.reproduce.damage import stiffness_lost, toughness_spent
 from harness.delamination.reproduce.findings import Evidence
 from harness.delamination.reproduce.runs import AnyCase, Entry, Run, Runs
+from harness.delamination.reproduce.statements import JudgedStatement, read_statements
 from harness.model.arrays import FloatArray
 from harness.output import Result
 from harness.output.plots import Panel
@@ -152,6 +157,88 @@ def test_load_figures_show_all_elements(problem: str, monkeypatch: pytest.Monkey
         assert shown["COH2D4 1e6, its own criterion"].max() == loads["COH2D4"].max()
 
 
+def judged(name: str, value: float, **also: float) -> JudgedStatement:
+    """A statement of the file with these numbers; those that are not given are NaN, in no range."""
+    found = next(statement for statement in read_statements() if statement.id == name)
+    assert set(also) <= {number.name for number in found.also}
+    return JudgedStatement(found, value, tuple((number, also.get(number.name, math.nan)) for number in found.also))
+
+
+@pytest.mark.parametrize("name", ["dcb-damage-standard", "dcb-cross-damage", "enf-damage-standard", "enf-cross-damage"])
+def test_nothing_is_damaged_where_the_damage_falls_steadily(name: str) -> None:
+    assert "damages nothing" in judged(name, 0.0, moment=0.0).why
+    # the number of the quick double cantilever beam of [0/90], below which that stood
+    damaged = judged(name, 0.25188, moment=0.0)
+    assert damaged.reproduced
+    assert damaged.why == "The damage turns back at other moments than that of the figure."
+    assert judged(name, 0.3, moment=0.2).why == "The damage turns back at the moment of the figure too."
+
+
+def test_remarks_have_their_numbers() -> None:
+    soft = judged("dcb-standard-soft", 1.0515, soft=1.0515, middle=1.0, ever=1.85)
+    assert "1.052 of the consistent method's at 1e4" in soft.why
+    assert "it is 1.850" in soft.why
+    assert judged("dcb-standard-soft", 1.01, ever=1.01).why == ""
+    share = judged("dcb-coh2d4", 0.03, share=0.25, criteria=-0.041, alike=0.019).why
+    assert "25% of the energy in mode II" in share
+    assert "-4% off" in share
+    assert "With the same criterion the elements agree." in share
+    assert "the elements agree" not in judged("dcb-coh2d4", 0.03, share=0.2, criteria=0.1, alike=0.021).why
+    early = judged("enf-methods", 0.03, flat=0.014, paper=-0.023, consistent=0.006).why
+    assert "snaps earlier, its peak load differing by -2.3%" in early
+    assert (
+        judged("enf-methods", 0.01, flat=0.01, paper=0.0).why == "2 % of the peak load is a line's width in the figure."
+    )
+    assert "comes to its end" not in judged("secant-tolerance", 0.4, mild=0.44, relaxed=0.54).why
+    assert "comes to its end" in judged("secant-tolerance", 0.4, mild=1.0, relaxed=1.0).why
+
+
+def test_remarks_hold_for_some_numbers() -> None:
+    """Every remark of the file appears for some numbers, and one with a condition not for all."""
+    for statement in read_statements():
+        for remark in statement.remarks:
+            lowest = {
+                name: low if low > -math.inf else min(high, 0.0) - 1.0 for name, (low, high) in remark.limits.items()
+            }
+            values = dict.fromkeys(remark.names(), 0.0) | lowest
+            verdict = remark.reproduced is not False
+            assert remark.holds(values, reproduced=verdict), (statement.id, remark.text)
+            if remark.limits:
+                assert not remark.holds(dict.fromkeys(values, math.nan), reproduced=verdict)
+            if remark.names():
+                assert not remark.holds({}, reproduced=verdict)
+
+
+@pytest.mark.parametrize(
+    ("why", "message"),
+    [
+        ("[{ when = { value = { below = 1 } } }]", "bad: why: expected text, and when with reproduced or numbers"),
+        ('[{ text = "a", when = { value = { at_most = 1 } } }]', "bad: why: expected text, .* 'below'"),
+        ('[{ text = "a", then = 1 }]', "bad: why: expected text"),
+        ('"{share:.0%}"', r"bad: why: no number is named \['share'\]; there are \['value'\]"),
+        ('[{ text = "a", when = { peak = { below = 1 } } }]', r"bad: why: no number is named \['peak'\]"),
+    ],
+)
+def test_bad_remarks_are_refused(tmp_path: Path, why: str, message: str) -> None:
+    file = tmp_path / "statements.toml"
+    file.write_text(
+        '[[statement]]\nid = "bad"\nsection = "1"\nfigure = ""\nquote = "a"\nnumber = "b"\n'
+        f'measure = "isotropy"\nat_most = 1\ncases = []\nwhy = {why}\n'
+    )
+    with pytest.raises(ValueError, match=message):
+        read_statements(file)
+
+
+def test_criteria_of_benzeggagh_and_kenane_and_11() -> None:
+    # a quarter of the energy in mode II: 0.26 + 0.742/16 over 1/(0.75/0.26 + 0.25/1.002)
+    profile = {"DAMAGE": [1.0, 1.0, 0.5], "DISSI": [0.2, 0.1, 9.0], "DISSII": [0.04, 0.06, 9.0]}
+    case = PaperCase("dcb", "0/90", "paper", "1e6")
+    evidence = cast("Evidence", SimpleNamespace(run=lambda *_: run_of(case, **profile)))
+    assert findings.mode_two_share(evidence, "dcb", "0/90", "paper") == pytest.approx(0.25)
+    expected = (0.26 + 0.742 / 16.0) * (0.75 / 0.26 + 0.25 / 1.002) - 1.0
+    assert findings.criteria_apart(evidence, "dcb", "0/90", "paper") == pytest.approx(expected)
+
+
 def points(*values: tuple[str, float, float], sampled: float = 1.0) -> list[Point]:
     """Values with peak load and variation; the run's own increments see a share of the peak."""
     return [Point(value, peak, sampled * peak, variation) for value, peak, variation in values]
@@ -180,8 +267,10 @@ def test_advice_on_stiffness() -> None:
     text = advice.on_stiffness(
         {"standard": rough, "consistent": smooth, "paper": points(("1", 5.0, 1.0), ("2", 6.0, 1.0))}
     )
-    assert "standard: the peak load is settled from 1e4 on; up to 1e8 the traction varies more, 70 to 110 MPa" in text
-    assert "consistent: the peak load is settled from 1e6 on; up to inf the traction varies no more than by 2%" in text
+    assert (
+        "standard: the peak load is settled from 1e4 on, while the traction varies more and more, 90 to 110 MPa" in text
+    )
+    assert "consistent: the peak load is settled from 1e6 on, and up to inf the traction's variation settles" in text
     assert "paper: the peak load is not settled, +20.0% up to 2." in text
 
 
@@ -275,3 +364,24 @@ def test_compared_peaks_are_those_in_small_increments(monkeypatch: pytest.Monkey
     assert (found[one].peak[0], found[other].peak[0]) == (50.5, 51.1)
     assert found.peak(one) == found.peak(other) == 51.2
     assert parameters.stiff_load(Evidence(found, coarse=True), ["dcb"]) == 0.0
+
+
+@pytest.mark.parametrize("coarse", [True, False])
+def test_no_statement_compares_peaks_of_coarse_increments(coarse: bool) -> None:
+    studied = set(sensitivity.cases(coarse=coarse))
+    others = {"methods_peak_difference": "standard", "peak_difference": "COH2D4"}
+    for number in (number for statement in read_statements() for number in (statement.number, *statement.also)):
+        words = number.arguments
+        if number.measure in others:
+            problem, layup = str(words["problem"]), str(words["layup"])
+            pair = {
+                PaperCase(problem, layup, element, "1e6", coarse=coarse)
+                for element in (str(words["element"]), others[number.measure])
+            }
+            assert pair <= set(curves.compared(problem, coarse=coarse)), number.text
+        elif number.measure == "strength_effect":
+            case = PaperCase(str(words["problem"]), "0/0", "consistent", "inf", coarse=coarse)
+            assert {case, replace(case, strength=cast("float", words["strength"]))} <= studied, number.text
+        elif number.measure == "stiff_load":
+            for problem in cast("Sequence[str]", words["problems"]):
+                assert {PaperCase(problem, "0/0", "paper", s, coarse=coarse) for s in ("1e8", "1e12")} <= studied

@@ -4,7 +4,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
 SETTLED = 0.01
@@ -42,7 +42,7 @@ def on_lengths(curves: Curves) -> str:
     starts = {label: settled(points) for label, points in curves.items()}
     enough = [f"{label}: {start.value} mm" for label, start in starts.items() if start is not None]
     close = f"The peak load is within {SETTLED:.0%} of that of the shortest elements from these lengths on"
-    texts = [f"{close}: {_list(enough)}."] if enough else []
+    texts = [f"{close}: {'; '.join(enough)}."] if enough else []
     for label, start in starts.items():
         if start is None:
             change = curves[label][-1].peak / curves[label][-2].peak - 1.0
@@ -71,14 +71,17 @@ def on_stiffness(curves: Curves) -> str:
             change = last.peak / points[-2].peak - 1.0
             texts.append(f"{label}: the peak load is not settled, {change:+.1%} up to {last.value}.")
             continue
+        before = points[-2]
         words = f"{label}: the peak load is settled from {start.value} on"
-        grown = last.variation / start.variation - 1.0
-        if grown > SMOOTHER:
+        if last.variation > (1.0 + SMOOTHER) * before.variation:
             words += (
-                f"; up to {last.value} the traction varies more, {_from_to(start, last)}: take no more than needed."
+                f", while the traction varies more and more, {_from_to(before, last)} from {before.value} to "
+                f"{last.value}: take no more than that."
             )
         else:
-            words += f"; up to {last.value} the traction varies no more than by {max(grown, 0.0):.0%}: take any."
+            words += (
+                f", and up to {last.value} the traction's variation settles, at {last.variation:.0f} MPa: take any."
+            )
         texts.append(words)
     return " ".join(texts)
 
@@ -90,7 +93,7 @@ def on_strength(curves: Curves) -> str:
         for label, points in curves.items()
     }
     first, last = (next(iter(curves.values()))[k].value for k in (0, -1))
-    shares = _list(f"{change:.1%} ({label})" for label, change in changes.items())
+    shares = ", ".join(f"{change:.1%} ({label})" for label, change in changes.items())
     text = f"From {first} to {last} times the strengths the peak load changes by {shares}."
     if max(changes.values()) > SETTLED:
         return f"{text} Measure the strengths, or give their effect on the peak load with the result."
@@ -113,7 +116,7 @@ def on_choice(curves: Curves, default: str) -> str:
                 f"the peak load changes by {change:+.1%}."
             )
     if texts:
-        return " ".join([f"The default is {default}.", *texts])
+        return " ".join([f"Default: {default}.", *texts])
     return f"Keep the default, {default}: with no other value does the traction vary less by more than {SMOOTHER:.0%}."
 
 
@@ -126,7 +129,3 @@ def _most(curves: Curves) -> str:
 
 def _from_to(one: Point, other: Point) -> str:
     return f"{one.variation:.0f} to {other.variation:.0f} MPa"
-
-
-def _list(words: Iterable[str]) -> str:
-    return ", ".join(words)

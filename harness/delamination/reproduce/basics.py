@@ -9,6 +9,7 @@ from dataclasses import replace
 
 import numpy as np
 
+from harness.delamination.blocks import BY_EQUATION_21
 from harness.delamination.materials import PLY_0, PLY_90
 from harness.delamination.patches import BETAS, COLLINEAR, PLIES, inclined_mesh, stabilisation
 from harness.delamination.reproduce.findings import Evidence
@@ -45,6 +46,13 @@ def patch_gain(
         ]
         found.append(spread[0] / spread[1])
     return max(found)
+
+
+def patch_beta_gain(evidence: Evidence) -> float:
+    """Standard deviation of the paper's traction on the moved nodes with beta by (21), over that with the paper's."""
+    case = PatchCase("horizontal", "0/0", "paper", moved=True)
+    spread = [float(np.std(evidence.runs.patch(replace(case, beta=beta)).traction)) for beta in (BY_EQUATION_21, None)]
+    return spread[0] / spread[1]
 
 
 def patch_slip(evidence: Evidence) -> float:
@@ -125,7 +133,7 @@ def isotropy(_: Evidence) -> float:
 MEASURES: dict[str, Callable[..., float]] = {
     function.__name__: function
     for function in (
-        *(patch_swing, patch_gain, patch_slip, flat_swing, flat_onset, flat_onset_single, identity_with_standard),
-        *(horizontal_beta, inclined_beta, turon_stiffness, modulus_contrast, isotropy),
+        *(patch_swing, patch_gain, patch_beta_gain, patch_slip, flat_swing, flat_onset, flat_onset_single),
+        *(identity_with_standard, horizontal_beta, inclined_beta, turon_stiffness, modulus_contrast, isotropy),
     )
 }

@@ -12,7 +12,7 @@ from pathlib import Path
 from rich.console import Console
 from rich.table import Table as TerminalTable
 
-from harness.delamination.reproduce import convergence, drawings, figures, sensitivity
+from harness.delamination.reproduce import convergence, curves, drawings, figures, sensitivity
 from harness.delamination.reproduce.cases import (
     PROBLEMS,
     PaperCase,
@@ -70,7 +70,7 @@ def reproduce(
         place,
         workers or os.cpu_count() or 1,
         console,
-        peaks=sensitivity.cases(coarse=quick) if "sensitivity" in chosen else (),
+        peaks=_peaks(chosen, quick=quick),
     )
     evidence = Evidence(runs, quick)
     verdicts = [judge(statement, evidence) for statement in read_statements() if set(statement.cases) <= set(chosen)]
@@ -103,6 +103,12 @@ def _cases(parts: Sequence[str], *, quick: bool) -> list[AnyCase]:
         if part == "sensitivity":
             cases += sensitivity.cases(coarse=quick)
     return list({case.name: case for case in cases}.values())
+
+
+def _peaks(parts: Sequence[str], *, quick: bool) -> list[PaperCase]:
+    """Cases whose peak loads are compared."""
+    cases = [case for part in parts for case in curves.compared(part, coarse=quick)]
+    return cases + (sensitivity.cases(coarse=quick) if "sensitivity" in parts else [])
 
 
 def _how(parts: Sequence[str], *, quick: bool) -> list[str]:

@@ -11,10 +11,18 @@ from dataclasses import replace
 import numpy as np
 
 from harness.delamination.beams import branch_deviation
-from harness.delamination.reproduce.cases import LAYUPS, PROBLEMS, SHOWN, secant_cases
+from harness.delamination.reproduce.cases import LAYUPS, PROBLEMS, SHOWN, PaperCase, secant_cases
 from harness.delamination.reproduce.findings import Evidence
 from harness.delamination.reproduce.runs import Run
 from harness.model.arrays import FloatArray
+
+COMPARED = {"enf": ("standard", "paper", "consistent", "COH2D4"), "frmm": ("paper", "COH2D4")}
+"""Elements whose peak loads of [0/90] at 1e6 are compared, by specimen."""
+
+
+def compared(problem: str, *, coarse: bool) -> list[PaperCase]:
+    """Cases of a specimen whose peak loads are compared."""
+    return [PaperCase(problem, "0/90", element, "1e6", coarse=coarse) for element in COMPARED.get(problem, ())]
 
 
 def theory_distance(evidence: Evidence, problem: str, element: str, stiffnesses: Sequence[str] = SHOWN) -> float:
@@ -68,7 +76,7 @@ def methods_distance(evidence: Evidence, problem: str, layups: Sequence[str] = (
 
 def methods_peak_difference(evidence: Evidence, problem: str, layup: str, element: str) -> float:
     """Relative difference of an element's peak load at 1e6 from the standard method's, with its sign."""
-    peaks = [evidence.run(problem, layup, name, "1e6").peak[0] for name in (element, "standard")]
+    peaks = [evidence.peak(PaperCase(problem, layup, name, "1e6")) for name in (element, "standard")]
     return peaks[0] / peaks[1] - 1.0
 
 
@@ -82,8 +90,8 @@ def comparator_distance(
 
 def peak_difference(evidence: Evidence, problem: str, layup: str, element: str, stiffness: str = "1e6") -> float:
     """Relative difference of an element's peak load from COH2D4's, without its sign."""
-    built_in = evidence.run(problem, layup, "COH2D4", "1e6").peak[0]
-    return abs(evidence.run(problem, layup, element, stiffness).peak[0] / built_in - 1.0)
+    built_in = evidence.peak(PaperCase(problem, layup, "COH2D4", "1e6"))
+    return abs(evidence.peak(PaperCase(problem, layup, element, stiffness)) / built_in - 1.0)
 
 
 def single_iterations(evidence: Evidence) -> float:
@@ -93,13 +101,13 @@ def single_iterations(evidence: Evidence) -> float:
     return sum(line.total_iterations == 1 for line in lines) / len(lines)
 
 
-def secant_reach(evidence: Evidence, *, relaxed: bool) -> float:
-    """Smallest share of the displacement that the secant reaches in small increments, at 1e6 and 1e8.
+def secant_reach(evidence: Evidence, stiffnesses: Sequence[str] = ("1e6", "1e8"), *, relaxed: bool) -> float:
+    """Smallest share of the displacement that the secant reaches in small increments, at the stiffnesses.
 
     With `relaxed`, with a residual a hundred times the default.
     """
     cases = [case for case in secant_cases() if case.increments and (case.tolerance is not None) == relaxed]
-    runs = [evidence.case(case) for case in cases]
+    runs = [evidence.case(case) for case in cases if case.stiffness in stiffnesses]
     return min(float(run.displacement[-1]) / run.case.displacement for run in runs)
 
 

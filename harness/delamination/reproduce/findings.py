@@ -16,7 +16,7 @@ import numpy as np
 from harness.delamination.materials import TABLE_2
 from harness.delamination.measures import rice_ratio
 from harness.delamination.oscillation import total_variation
-from harness.delamination.reproduce.cases import AROUND, MOMENTS, PROBLEMS, PaperCase
+from harness.delamination.reproduce.cases import AROUND, BK, MOMENTS, PROBLEMS, PaperCase
 from harness.delamination.reproduce.runs import Profile, Run, Runs
 from harness.delamination.specimens import ARMS
 from harness.delamination.study.rows import STRENGTHS, bonded_part, damage_variation
@@ -118,15 +118,16 @@ def damage_turns(
     element: str,
     stiffness: str = "1e8",
     *,
+    perturbed: bool = False,
     ever: bool = False,
     whole: bool = False,
 ) -> float:
     """Largest departure of the damage (9) from a steady fall to 0: total variation over its largest value, less 1.
 
     Without the sign: damage that turns back varies more, damage that nowhere falls to 0 varies less. Up to as far ahead
-    of the failed part as the figures show, or along the `whole` interface. `ever` as above.
+    of the failed part as the figures show, or along the `whole` interface. `perturbed` and `ever` as above.
     """
-    run = evidence.run(problem, layup, element, stiffness)
+    run = evidence.run(problem, layup, element, stiffness, perturbed=perturbed)
     profiles = run.profiles if ever else [moment(run)]
     damages = [profile["LOST"] if whole else damage_near_tip(profile, problem) for profile in profiles]
     return max(abs(damage_variation(damage) - 1.0) for damage in damages)
@@ -255,6 +256,22 @@ def theory_mode_ratio(evidence: Evidence, element: str, stiffness: str = "1e6", 
     return frmm_mode_ratio(ARMS, crack_length(evidence, element, stiffness, problem))
 
 
+def mode_two_share(evidence: Evidence, problem: str, layup: str, element: str, stiffness: str = "1e6") -> float:
+    """Share of mode II in the energy that failed points have dissipated, at the end."""
+    profile = evidence.run(problem, layup, element, stiffness).profiles[-1]
+    failed = profile["DAMAGE"] >= 1.0
+    one, two = (float(profile[name][failed].sum()) for name in ("DISSI", "DISSII"))
+    return two / (one + two)
+
+
+def criteria_apart(evidence: Evidence, problem: str, layup: str, element: str) -> float:
+    """Toughness of Benzeggagh and Kenane with the exponent of the runs, over that of (11), less 1, at that share."""
+    share = mode_two_share(evidence, problem, layup, element)
+    one, two = TABLE_2.toughness_1, TABLE_2.toughness_2
+    by_power = one + (two - one) * float(share**BK)
+    return by_power * ((1.0 - share) / one + share / two) - 1.0
+
+
 def toughness(evidence: Evidence, problem: str, element: str, stiffness: str = "1e6") -> float:
     """Mean over failed points of the shares of both toughnesses that damage has dissipated, (11): 1."""
     profile = evidence.run(problem, "0/0", element, stiffness).profiles[-1]
@@ -268,5 +285,6 @@ MEASURES: dict[str, Callable[..., float]] = {
     for function in (
         *(variation, smallest_variation, variation_gain, damage_turns, profile_distance, oscillation_place),
         *(peak_traction_ratio, local_error, closed_variation, closed_error, process_zone, mode_ratio, toughness),
+        *(mode_two_share, criteria_apart),
     )
 }

@@ -149,8 +149,8 @@ def _verdict_table(verdicts: Iterable[JudgedStatement]) -> list[str]:
         statement = verdict.statement
         place = f"(section {escape(statement.section)}" + (f", figure {statement.figure})" if statement.figure else ")")
         style, word = ("yes", "✓ reproduced") if verdict.reproduced else ("no", "✗ not reproduced")
-        also = "".join(f"<br>{escape(text)}: {number(value)}" for text, value in verdict.also)
-        why = f'<tr><td colspan="5" class="why">{escape(statement.why)}</td></tr>' if statement.why else ""
+        also = "".join(f"<br>{escape(other.text)}: {number(value)}" for other, value in verdict.also)
+        why = f'<tr><td colspan="5" class="why">{escape(verdict.why)}</td></tr>' if verdict.why else ""
         lines.append(
             f'<tr id="{escape(statement.id)}"><td><q>{escape(statement.quote)}</q> {place}</td>'
             f"<td>{escape(statement.number.text)}{also}</td><td class='number'>{number(verdict.value)}</td>"
