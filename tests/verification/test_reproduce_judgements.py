@@ -241,7 +241,7 @@ def test_criteria_of_benzeggagh_and_kenane_and_11() -> None:
 
 def points(*values: tuple[str, float, float], sampled: float = 1.0) -> list[Point]:
     """Values with peak load and variation; the run's own increments see a share of the peak."""
-    return [Point(value, peak, sampled * peak, variation) for value, peak, variation in values]
+    return [Point(value, peak, sampled * peak, variation, 40.0) for value, peak, variation in values]
 
 
 def test_advice_on_lengths() -> None:
@@ -249,16 +249,16 @@ def test_advice_on_lengths() -> None:
     coarse = points(("0.5", 53.0, 90.0), ("0.25", 51.0, 90.0))
     text = advice.on_lengths({"DCB, standard": fine, "ENF, paper": coarse})
     assert "from these lengths on: DCB, standard: 0.25 mm." in text
-    assert "ENF, paper: still -3.8% by the last refinement; take shorter elements" in text
+    assert "ENF, paper: by the last refinement still -3.8% of the peak load and +0.0% of the slope; take" in text
     # that one length agrees by chance settles nothing
     assert settled(points(("1", 50.0, 1.0), ("0.5", 60.0, 1.0), ("0.25", 50.0, 1.0))) is None
 
 
 def test_advice_on_increments() -> None:
-    text = advice.on_increments({"DCB": [Point("25", 50.0, 48.0, 1.0), Point("50", 50.1, 49.9, 1.0)]})
+    text = advice.on_increments({"DCB": [Point("25", 50.0, 48.0, 1.0, 40.0), Point("50", 50.1, 49.9, 1.0, 40.0)]})
     assert "these numbers change by 0.2% at most" in text
     assert "DCB: as their own load curves have it, 25 increments give -4.0%, 50 -0.4%; within 1% from 50 on." in text
-    assert "none within 1%" in advice.on_increments({"DCB": [Point("25", 50.0, 48.0, 1.0)]})
+    assert "none within 1%" in advice.on_increments({"DCB": [Point("25", 50.0, 48.0, 1.0, 40.0)]})
 
 
 def test_advice_on_stiffness() -> None:
@@ -268,10 +268,21 @@ def test_advice_on_stiffness() -> None:
         {"standard": rough, "consistent": smooth, "paper": points(("1", 5.0, 1.0), ("2", 6.0, 1.0))}
     )
     assert (
-        "standard: the peak load is settled from 1e4 on, while the traction varies more and more, 90 to 110 MPa" in text
+        "standard: peak load and slope are settled from 1e4 on, while the traction varies more and more, 90 to 110 MPa"
+        in text
     )
-    assert "consistent: the peak load is settled from 1e6 on, and up to inf the traction's variation settles" in text
-    assert "paper: the peak load is not settled, +20.0% up to 2." in text
+    assert (
+        "consistent: peak load and slope are settled from 1e6 on, and up to inf the traction's variation settles"
+        in text
+    )
+    assert "paper: not settled; up to 2 the peak load changes by +20.0%, the slope by +0.0%." in text
+
+
+def test_a_compliant_interface_is_not_stiff_enough() -> None:
+    """Same peak loads, but the softest interface bends the rise."""
+    soft, *stiff = points(("1e4", 50.0, 70.0), ("1e6", 50.0, 70.0), ("1e8", 50.0, 70.0))
+    assert settled([replace(soft, slope=38.0), *stiff]) == stiff[0]
+    assert settled([soft, *stiff]) == soft
 
 
 def test_advice_on_strength() -> None:

@@ -8,7 +8,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
 SETTLED = 0.01
-"""Peak loads closer than this count as equal."""
+"""Peak loads, and slopes, closer than this count as equal."""
 SMOOTHER = 0.05
 """A variation of the traction that is lower by this counts as lower."""
 
@@ -16,12 +16,13 @@ SMOOTHER = 0.05
 @dataclass(frozen=True, slots=True)
 class Point:
     """One value of a parameter: the value as shown; peak load in small increments, and as the run's own increments
-    sample it (N); variation of the traction (MPa)."""
+    sample it (N); variation of the traction (MPa); slope of the load curve in the first increment (N/mm)."""
 
     value: str
     peak: float
     sampled: float
     variation: float
+    slope: float
 
 
 Curves = Mapping[str, Sequence[Point]]
@@ -29,24 +30,33 @@ Curves = Mapping[str, Sequence[Point]]
 
 
 def settled(points: Sequence[Point]) -> Point | None:
-    """The first value from which on the peak load is that of the last; None if that is the last alone."""
-    last = points[-1].peak
+    """The first value from which on peak load and slope are those of the last; None if that is the last alone."""
+    last = points[-1]
     for k, point in enumerate(points[:-1]):
-        if all(abs(other.peak / last - 1.0) <= SETTLED for other in points[k:]):
+        changes = [change for other in points[k:] for change in _changes(other, last)]
+        if max(map(abs, changes)) <= SETTLED:
             return point
     return None
+
+
+def _changes(one: Point, other: Point) -> tuple[float, float]:
+    """Of peak load and slope, relative."""
+    return other.peak / one.peak - 1.0, other.slope / one.slope - 1.0
 
 
 def on_lengths(curves: Curves) -> str:
     """Lengths of elements, from the largest."""
     starts = {label: settled(points) for label, points in curves.items()}
     enough = [f"{label}: {start.value} mm" for label, start in starts.items() if start is not None]
-    close = f"The peak load is within {SETTLED:.0%} of that of the shortest elements from these lengths on"
+    close = f"Peak load and slope are within {SETTLED:.0%} of those of the shortest elements from these lengths on"
     texts = [f"{close}: {'; '.join(enough)}."] if enough else []
     for label, start in starts.items():
         if start is None:
-            change = curves[label][-1].peak / curves[label][-2].peak - 1.0
-            texts.append(f"{label}: still {change:+.1%} by the last refinement; take shorter elements and compare.")
+            peak, slope = _changes(*curves[label][-2:])
+            texts.append(
+                f"{label}: by the last refinement still {peak:+.1%} of the peak load and {slope:+.1%} of the slope; "
+                "take shorter elements and compare."
+            )
     return " ".join(texts)
 
 
@@ -68,15 +78,18 @@ def on_stiffness(curves: Curves) -> str:
     for label, points in curves.items():
         start, last = settled(points), points[-1]
         if start is None:
-            change = last.peak / points[-2].peak - 1.0
-            texts.append(f"{label}: the peak load is not settled, {change:+.1%} up to {last.value}.")
+            peak, slope = _changes(points[-2], last)
+            texts.append(
+                f"{label}: not settled; up to {last.value} the peak load changes by {peak:+.1%}, "
+                f"the slope by {slope:+.1%}."
+            )
             continue
         before = points[-2]
-        words = f"{label}: the peak load is settled from {start.value} on"
+        words = f"{label}: peak load and slope are settled from {start.value} on"
         if last.variation > (1.0 + SMOOTHER) * before.variation:
             words += (
                 f", while the traction varies more and more, {_from_to(before, last)} from {before.value} to "
-                f"{last.value}: take no more than that."
+                f"{last.value}: take no more than {start.value}."
             )
         else:
             words += (

@@ -172,7 +172,13 @@ def text(study: Study, runs: Runs) -> str:
     """What the numbers say: advice, and how far the peak loads of a parameter's values lie apart, by curve."""
     curves = {
         label: [
-            Point(value, row(runs, case)[HEAD[0]], runs[case].peak[0], row(runs, case)[VARIATION])
+            Point(
+                value,
+                row(runs, case)[HEAD[0]],
+                runs[case].peak[0],
+                row(runs, case)[VARIATION],
+                float(runs[case].load[1] / runs[case].displacement[1]),
+            )
             for value, case in pairs
             if not runs[case].entry.stopped
         ]
