@@ -303,7 +303,12 @@ class _Lexer:
         if keyword.name == "INCLUDE":
             self._open = previous
             self.passages.append(Passage(None, 0, [f"** {line}" for line in header.lines]))
-            self._include(read_options(keyword, fields[1:], source).text("INPUT"), source, stack)
+            options = read_options(keyword, fields[1:], source)
+            given = [option.name for option in keyword.options if option.name in options.values]
+            if len(given) != 1:
+                problem = "takes one of INPUT and FILE" if given else "needs the option INPUT"
+                raise DeckError(source, f"*INCLUDE {problem}")
+            self._include(options.text(given[0]), source, stack)
             return
         self._open = Block(keyword, Options(keyword), source)
         self.blocks.append(self._open)
@@ -365,7 +370,11 @@ KEYWORDS = (
         "Read another file at this place. Abaqus looks for it in the folder where the job is submitted; so does the "
         "harness, and then beside the deck and beside the including file, with a warning in .dat.",
         Where.ANY,
-        (Option("INPUT", Kind.FILE, "file", required=True), *refused("PASSWORD")),
+        (
+            Option("INPUT", Kind.FILE, "file"),
+            Option("FILE", Kind.FILE, "the same, for decks that Abaqus runs although no manual has it"),
+            *refused("PASSWORD"),
+        ),
     ),
     Keyword(
         "PARAMETER",

@@ -52,7 +52,12 @@ def test_text_before_the_first_keyword(read: Read) -> None:
 
 
 @pytest.mark.parametrize(
-    "include", ["*NODE, NSET=ALL\n*INCLUDE, INPUT=mesh/nodes.inc\n", "*NODE, NSET=ALL, INPUT=mesh/nodes.inc\n"]
+    "include",
+    [
+        "*NODE, NSET=ALL\n*INCLUDE, INPUT=mesh/nodes.inc\n",
+        "*NODE, NSET=ALL\n*INCLUDE, file=mesh/nodes.inc\n",
+        "*NODE, NSET=ALL, INPUT=mesh/nodes.inc\n",
+    ],
 )
 def test_data_lines_in_another_file(read: Read, include: str) -> None:
     Path("mesh").mkdir()
