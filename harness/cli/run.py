@@ -5,6 +5,7 @@
 from __future__ import annotations
 
 import argparse
+import os
 from pathlib import Path
 
 from harness.cli.run_options import add_run_options, add_same_process
@@ -65,7 +66,9 @@ def from_abaqus(parser: argparse.ArgumentParser, words: list[str]) -> list[str]:
     rest: list[str] = []
     for before, word in zip(["", *words], words, strict=False):
         key, equals, value = word.partition("=")
-        if word.startswith("-") or before == "--parameter" or not (equals or key.lower() in ABAQUS_OPTIONS):
+        # folders may have = in their names
+        plain = not (equals or key.lower() in ABAQUS_OPTIONS) or os.sep in key
+        if word.startswith("-") or before == "--parameter" or plain:
             rest.append(word)
         elif key.lower() in ABAQUS_OPTIONS:
             given.append((key.lower(), value))
