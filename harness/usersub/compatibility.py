@@ -45,7 +45,6 @@ _CONSTANT: Final = re.compile(
     r"[-+]?(?:(?P<whole>\d+)|(?P<single>\d*\.?\d*(?:e[-+]?\d+)?)|(?P<double>\d*\.?\d*d[-+]?\d+))", re.IGNORECASE
 )
 _TYPES: Final = {"whole": "integer", "single": "real", "double": "double precision"}
-_NAMED: Final = re.compile(r"^[^!\n]*\bparameter\b(?P<list>[^!\n]*)", re.IGNORECASE | re.MULTILINE)
 _NAME: Final = re.compile(r"(?<![\w.])[a-z]\w*", re.IGNORECASE)
 _REAL_NUMBER: Final = re.compile(r"(?<!\w)\d+\.\d*(?:[de][-+]?\d+)?|(?<!\w)\d+[de][-+]?\d+", re.IGNORECASE)
 _DECLARED: Final = re.compile(r"\w\s*(?=\()")
@@ -139,14 +138,10 @@ def name_result(text: str, line: int, name: str) -> str | None:
 
 
 def whole_bound(text: str, line: int) -> str | None:
-    """The text in which real constants as array bounds of a declaration become integers; None without one.
-
-    Only bounds made of numbers and of names in PARAMETER are changed.
-    """
+    """The text in which array bounds of a declaration, which may be real, become integers; None without one."""
     lines = text.splitlines(keepends=True)
     if not 1 <= line <= len(lines):
         return None
-    names = {name.lower() for found in _NAMED.finditer(text) for name in re.findall(r"(\w+)\s*=", found["list"])}
     row, end = lines[line - 1], 0
     pieces: list[str] = []
     for found in _DECLARED.finditer(row):
@@ -154,7 +149,7 @@ def whole_bound(text: str, line: int) -> str | None:
         if found.end() < end or last is None:
             continue
         bounds = row[found.end() + 1 : last]
-        pieces += [row[end : found.end() + 1], *(_whole(bound, names) for bound in re.split("([,:])", bounds))]
+        pieces += [row[end : found.end() + 1], *map(_whole, _bounds(bounds))]
         end = last
     changed = "".join(pieces) + row[end:]
     if changed == row:
@@ -163,11 +158,21 @@ def whole_bound(text: str, line: int) -> str | None:
     return "".join(lines)
 
 
-def _whole(bound: str, names: set[str]) -> str:
-    """int() of a bound made of numbers and named constants, one of which may be real."""
-    used = {name.lower() for name in _NAME.findall(_REAL_NUMBER.sub("", bound))}
-    constant = used <= names and (used or _REAL_NUMBER.search(bound))
-    return f"int({bound.strip()})" if constant and "=" not in bound else bound
+def _bounds(text: str) -> Iterator[str]:
+    """Bounds between parentheses, and the commas and colons that separate them."""
+    start = 0
+    for place, character in enumerate(text):
+        if character in ",:" and _balanced(text[start:place]):
+            yield from (text[start:place], character)
+            start = place + 1
+    yield text[start:]
+
+
+def _whole(bound: str) -> str:
+    """int() of a bound that names or numbers may make real, unless it has one."""
+    bare = bound.strip()
+    real = _NAME.search(bare) or _REAL_NUMBER.search(bare)
+    return f"int({bare})" if real and "=" not in bare and not bare.startswith("int(") else bound
 
 
 TYPED: Final = "PARAMETER without parentheses, whose names have the types of their constants; the copy declares them"

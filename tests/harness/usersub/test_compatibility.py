@@ -35,11 +35,14 @@ def test_real_array_bound_compiles_in_a_copy(load):
     assert said(library) == ["bound"]
 
 
-def test_real_array_bound_that_is_no_constant_is_shown(load):
-    body = "      real*8 x\n      call work(x)\n      end\n"
-    body += "      subroutine work(x)\n      real*8 x\n      real*8 a(x)\n"
-    with pytest.raises(CompileError, match=r"must be of INTEGER type, found REAL \(user.f, line 10"):
-        load(database(body + "      a(1) = 0"))
+def test_real_array_bound_of_an_argument_compiles_in_a_copy(load):
+    """int(2.9 + 1) and int(max(2.9, 1) x 2) entries: user materials take sizes from PROPS."""
+    body = "      real*8 props(2)\n      props(1) = 2.9d0\n      call work(props)\n      end\n"
+    body += "      subroutine work(props)\n      real*8 props(2)\n"
+    body += "      integer a(props(1)+1), b(max(props(1),1.d0)*2)\n      a = 0\n      b = 0\n"
+    library = load(database(f"{body}      n = 10*size(a) + size(b)\n{note('%I', 'n')}"))
+    assert any("a real number as an array bound" in m.text for m in library.messages())
+    assert said(library) == ["35"]
 
 
 @pytest.mark.parametrize(
