@@ -57,6 +57,13 @@ def test_rows_may_stand_behind_options(tmp_path, monkeypatch):
     assert f"not in the folder: {row['deck']}" in page
 
 
+def test_long_messages_are_shortened():
+    """A refused row is judged by the whole message."""
+    outcome = measure.Outcome(error="a | b " * 60 + "C3D8H")
+    shown = f"refused: {outcome.error[:297]}...".replace("|", "\\|")
+    assert table.verdict({"refused": "C3D8H"}, outcome) == (True, shown)
+
+
 def test_rows_that_are_checked():
     """One for each pair of sources and deck, with user elements; causes belong to them."""
     chosen = check_table.chosen()

@@ -8,6 +8,7 @@ Each row runs in a process of its own (see table.py), since user code may end it
 from __future__ import annotations
 
 import json
+import shutil
 import sys
 import tempfile
 import tomllib
@@ -56,7 +57,7 @@ def rows() -> dict[str, Row]:
 def missing(folder: Path, row: Row) -> list[str]:
     """Files of a row that are not in the folder."""
     root = folder / row["folder"]
-    wanted = [row["deck"], *row["sources"], *([row["status"]] if "status" in row else [])]
+    wanted = [row["deck"], *row["sources"], *row.get("files", ()), *([row["status"]] if "status" in row else [])]
     return [name for name in wanted if not (root / name).is_file()]
 
 
@@ -106,6 +107,8 @@ def _records(root: Path, row: Row) -> Iterator[tuple[Model, Any]]:
     with tempfile.TemporaryDirectory() as output:
         if "replace" in row:
             deck = _replaced(deck, row["replace"], Path(output))
+        for name in row.get("files", ()):
+            shutil.copy(root / name, output)
         model = read_deck(deck)
         sources = [root / name for name in row["sources"]] or None
         library = usersub.load(sources, job="job", output_dir=Path(output), deck=deck, zero_locals=True)

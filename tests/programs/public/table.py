@@ -61,11 +61,12 @@ def run(folder: Path, row: Row) -> Outcome:
 
 def verdict(row: Row, outcome: Outcome) -> tuple[bool, str]:
     """Whether the row is as expected, and the verdict."""
+    shown = outcome.error if len(outcome.error) < 300 else f"{outcome.error[:297]}..."
+    shown = shown.replace("|", "\\|")
     if "refused" in row:
-        return row["refused"] in outcome.error, f"refused: {outcome.error}" if outcome.error else "not refused"
+        return row["refused"] in outcome.error, f"refused: {shown}" if outcome.error else "not refused"
     if outcome.error:
-        shown = outcome.error if len(outcome.error) < 300 else f"{outcome.error[:297]}..."
-        return False, shown.replace("|", "\\|")
+        return False, shown
     if row.get("only") == "read":
         return True, "read"
     done = f"{outcome.increments} increments, {outcome.cutbacks} cutbacks"
