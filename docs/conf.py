@@ -20,7 +20,8 @@ include_patterns = [
     "harness/**.md",
     "abaqus_inputs/**.md",
 ]
-exclude_patterns = ["harness/project/template"]
+# the README says in short what the manual says
+exclude_patterns = ["harness/project/template", "README.md"]
 
 myst_enable_extensions = ["dollarmath"]
 myst_heading_anchors = 4

@@ -13,7 +13,7 @@ import zipfile
 from collections import Counter
 from pathlib import Path
 
-from guide import replay
+from guide import continued, prepare, replay
 from pygments.lexer import RegexLexer
 from pygments.token import Comment, Keyword, Number, Text
 from sphinx.application import Sphinx
@@ -104,22 +104,27 @@ def _page(lines: list[str]) -> str:
 def write(*_: object) -> None:
     """Write the pages, where that changes them, and the pictures."""
     PAGES.mkdir(exist_ok=True)
-    draw(ROOT / "docs" / "dcb.md")
+    for tutorial in sorted(ROOT.glob("docs/*.md")):
+        draw(tutorial)
     for name, text in {"commands": commands(), "verification": gallery()}.items():
         file = PAGES / f"{name}.md"
         if not file.exists() or file.read_text("utf-8") != text:
             file.write_text(text, encoding="utf-8")
 
 
-def draw(tutorial: Path) -> None:
-    """Follow a tutorial, unless it has been since it was changed, and keep the pictures that it makes."""
-    picture = PAGES / f"{tutorial.stem}.png"
-    if picture.exists() and picture.stat().st_mtime > tutorial.stat().st_mtime:
+def draw(page: Path) -> None:
+    """Follow a tutorial, unless it has been since it was changed, and keep those of its pictures that it shows."""
+    text = page.read_text("utf-8")
+    pictures = [PAGES / name for name in re.findall(r"!\[[^]]*\]\(generated/([\w.]+)\)", text)]
+    changed = max(file.stat().st_mtime for file in [page, *continued(page)])
+    if "```console" not in text or all(file.exists() and file.stat().st_mtime > changed for file in pictures):
         return
     os.environ["MPLBACKEND"] = "Agg"
     with tempfile.TemporaryDirectory() as folder, contextlib.chdir(folder):
-        replay(tutorial.read_text("utf-8"))
-        shutil.copyfile(picture.name, picture)
+        prepare(page)
+        replay(text)
+        for picture in pictures:
+            shutil.copyfile(next(Path().rglob(picture.name)), picture)
 
 
 class DeckLexer(RegexLexer):

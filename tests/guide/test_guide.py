@@ -50,13 +50,6 @@ def test_guide_is_as_its_commands_say(assert_same):
     assert text.count("│ FAILED") == 6 + 5 + 4 + 2 + 1
 
 
-def test_page_of_the_insertion_is_as_its_commands_say(assert_same):
-    text = guide.INSERTION.read_text("utf-8")
-    guide.copy_meshes(guide.INSERTION)
-    assert_same(guide.replay(text), text)
-    assert "THE ANALYSIS HAS COMPLETED SUCCESSFULLY" in text
-
-
 def test_result_of_the_guide_is_that_of_theory():
     """Two bars with N = E A e exp(-e/e0) that meet at (200 + u, 170): their horizontal forces are in balance."""
 

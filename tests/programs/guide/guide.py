@@ -5,7 +5,8 @@
 With `--write` it saves the guide with them.
 
 Code blocks that name a file after their language are that file; `diff` blocks change it, `console` blocks are commands
-after `$` with their output.
+after `$` with their output. A comment `continues PAGE` says that the files of another page are there, beside meshes of
+the page's folder.
 """
 
 from __future__ import annotations
@@ -24,16 +25,33 @@ from pathlib import Path
 
 from harness.cli import main as uel
 
-INSERTION = Path(__file__).parents[3] / "harness" / "insertion" / "README.md"
 GUIDE = Path(__file__).parents[3] / "harness" / "project" / "ten-minutes.md"
 COLUMNS = "110"
+_CONTINUES = re.compile(r"^<!-- continues (\S+) -->$", re.MULTILINE)
 _BLOCK = re.compile(r"^```(?P<language>\w+)(?: (?P<file>\S+))?\n(?P<body>.*?)^```$", re.MULTILINE | re.DOTALL)
 
 
-def copy_meshes(guide: Path) -> None:
-    """Copy the meshes beside a guide into the current folder."""
-    for mesh in guide.parent.glob("*.msh"):
-        shutil.copy(mesh, mesh.name)
+def continued(page: Path) -> list[Path]:
+    """Pages whose files a page takes for granted."""
+    return [page.parent / before for before in _CONTINUES.findall(page.read_text("utf-8"))]
+
+
+def prepare(page: Path) -> None:
+    """Put what a page takes for granted into the current folder: meshes that it names, and the files of other pages."""
+    text = page.read_text("utf-8")
+    for mesh in page.parent.glob("*.msh"):
+        if mesh.name in text:
+            shutil.copy(mesh, mesh.name)
+    for before in continued(page):
+        write_files(before)
+
+
+def write_files(page: Path) -> None:
+    """Write the files of a page, and what it takes for granted, into the current folder, without changes to them."""
+    prepare(page)
+    for block in _BLOCK.finditer(page.read_text("utf-8")):
+        if block["file"] and block["language"] != "diff":
+            Path(block["file"]).write_text(block["body"], encoding="utf-8")
 
 
 def replay(text: str) -> str:
@@ -95,7 +113,7 @@ def main() -> int:
     os.environ["COLUMNS"] = COLUMNS
     guide = options.guide.resolve()
     with tempfile.TemporaryDirectory() as folder, contextlib.chdir(folder):
-        copy_meshes(guide)
+        prepare(guide)
         text = replay(guide.read_text("utf-8"))
     if options.write:
         guide.write_text(text, encoding="utf-8")
