@@ -14,8 +14,8 @@ why        why the tolerance is what it is
 kind       'analytic', 'paper figure', 'other code', 'regression'
 source     where the value comes from
 
-and at its head `long`, the decks that take too long for the quick tests, and `fallback`, true where the decks are run
-with `uel run --fallback`.
+and at its head `long`, the decks that take too long for the quick tests, `fallback`, true where the decks are run
+with `uel run --fallback`, and `unsettled`, the decks of which rounding decides whether they come to their end.
 """
 
 from __future__ import annotations
@@ -76,11 +76,12 @@ class Reference:
 
 
 class References(NamedTuple):
-    """References of a folder of decks, deck by deck, its long decks, and whether they need the fall-back."""
+    """References of a folder of decks, deck by deck, its long decks, whether all need the fall-back, and the unsettled."""
 
     values: list[Reference]
     long: set[Path]
     fallback: bool
+    unsettled: set[Path]
 
 
 def read_references(folder: Path) -> References:
@@ -99,7 +100,8 @@ def read_references(folder: Path) -> References:
         for deck in entry["decks"]
     ]
     ordered = sorted(references, key=lambda reference: (reference.deck, str(reference.against or "")))
-    return References(ordered, {folder / deck for deck in content.get("long", ())}, content.get("fallback", False))
+    long, unsettled = ({folder / deck for deck in content.get(name, ())} for name in ("long", "unsettled"))
+    return References(ordered, long, content.get("fallback", False), unsettled)
 
 
 def _reference(folder: Path, entry: dict[str, object], deck: str, place: str) -> Reference:

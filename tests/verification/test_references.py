@@ -4,7 +4,7 @@
 
 import re
 import tempfile
-from collections.abc import Callable
+from collections.abc import Callable, Collection
 from functools import cache
 from itertools import groupby
 from pathlib import Path
@@ -16,6 +16,7 @@ from reference_values import Reference, read_references
 
 from harness.delamination import measures
 from harness.delamination.decks import FOLDER
+from harness.errors import ConvergenceError
 from harness.job import run
 from harness.output import Result
 
@@ -25,7 +26,7 @@ FOLDERS = sorted(path.parent for path in FOLDER.glob("*/reference.toml"))
 def by_deck() -> list:
     cases = []
     for folder in FOLDERS:
-        references, long, _ = read_references(folder)
+        references, long, *_ = read_references(folder)
         for (deck, against), group in groupby(references, key=lambda reference: (reference.deck, reference.against)):
             name = f"{folder.name}/{deck.name}" + (f" against {against.name}" if against else "")
             marks = [pytest.mark.long] if long & {deck, against} else []
@@ -37,18 +38,29 @@ def by_deck() -> list:
 def runner():
     """Runs a deck once."""
     searching = {folder for folder in FOLDERS if read_references(folder).fallback}
+    unsettled = {deck for folder in FOLDERS for deck in read_references(folder).unsettled}
     with tempfile.TemporaryDirectory() as folder:
 
         @cache
         def result(deck: Path) -> Result:
-            return run(deck, output_dir=folder, fallback=deck.parent in searching)
+            try:
+                return run(deck, output_dir=folder, fallback=deck.parent in searching)
+            except ConvergenceError:
+                if deck not in unsettled:
+                    raise
+                return Result(Path(folder) / deck.stem)
 
         yield result
 
 
 @pytest.mark.parametrize("references", by_deck())
 def test_reference_values(references: list[Reference], runner) -> None:
-    assert runner(references[0].deck).completed
+    deck = references[0].deck
+    if not runner(deck).completed:
+        assert deck in read_references(deck.parent).unsettled
+        # what is said of the end is not to be had, the peak is
+        assert differences(deck, runner(deck), ["peak (N) at (mm)"]) == []
+        return
     wrong = []
     for reference in references:
         measured = reference.measure(runner)
@@ -125,12 +137,12 @@ def tables(page: str) -> list[tuple[str, dict[str, str]]]:
     return found
 
 
-def differences(deck: Path, result: Result) -> list[str]:
+def differences(deck: Path, result: Result, columns: Collection[str] = tuple(COLUMNS)) -> list[str]:
     """What the page of a deck says otherwise than a run of it; '74 to 84' holds what several processors give."""
     wrong = []
     jumps = measures.cutbacks(result) > 0
     for name, cells in tables((deck.parent / "README.md").read_text(encoding="utf-8")):
-        for column in cells.keys() & COLUMNS.keys() if name == deck.name else ():
+        for column in cells.keys() & set(columns) if name == deck.name else ():
             share = 0.01 if "%" in cells[column] else 1.0
             parts = re.split(r", | at ", cells[column])
             for part, figure in zip(parts, COLUMNS[column], strict=True):
@@ -166,7 +178,7 @@ def test_columns_of_pages_are_known() -> None:
 @pytest.mark.parametrize("folder", sorted({path.parent for path in FOLDER.rglob("*.inp")}), ids=lambda path: path.name)
 def test_every_deck_has_a_page_and_a_value(folder: Path) -> None:
     assert (folder / "README.md").exists()
-    references, long, _ = read_references(folder)
+    references, long, *_ = read_references(folder)
     decks = {path for path in folder.glob("*.inp") if "*STEP" in path.read_text() and "ccx" not in path.name}
     assert {reference.deck for reference in references} == decks
     assert long <= decks
