@@ -20,8 +20,10 @@ from harness.elements.threads import MOST_THREADS, known_routines, refuse_shared
 from harness.errors import ConvergenceError, ElementError, UelError, UsageError, in_words, note_warnings
 from harness.interrupts import held, settle
 from harness.job_on_ranks import files_of_job, messages_of, refuse_linear_steps
+from harness.job_restart import decks_of, find_state, refuse_nothing_left, refuse_on_ranks
 from harness.model.model import Model
 from harness.model.records import AttemptEnded, IncrementDone, ModeShape, Record, StepDone
+from harness.model.restart import Resumption
 from harness.output import JobOutput, Result
 from harness.output.ending import progress
 from harness.output.lock import job_stem
@@ -37,6 +39,7 @@ def run(
     user: str | Path | Sequence[str | Path] | None = None,
     *,
     job: str | None = None,
+    oldjob: str | Path | None = None,
     output_dir: str | Path | None = None,
     parameters: Mapping[str, float] | None = None,
     solver: str = "auto",
@@ -61,6 +64,9 @@ def run(
         library; None takes the project's own elements.
     job
         Name of the output files; the deck's name without its ending by default.
+    oldjob
+        Job from which the deck goes on, with its folder: from the state that *RESTART, READ of the deck names, or, if
+        it is the deck of that job, from its last one. See harness/procedures/restart.md.
     output_dir
         Folder of the output files, created if missing; the current folder by default.
     parameters
@@ -117,10 +123,16 @@ def run(
         raise UsageError(f"--cpus {cpus}: run-time checks (--debug) need one thread")
     deck = Path(deck)
     stem = job_stem(deck.stem if job is None else job, output_dir)
+    refuse_on_ranks(oldjob, ranks)
     files = [user] if isinstance(user, str | Path) else user or ()
     started = time.perf_counter()
     with files_of_job(stem, ranks):
-        model = ranks.agree(lambda: read_deck(deck, parameters))
+        resumed, parts = (None, ()) if oldjob is None else find_state(deck, parameters, Path(oldjob), stem)
+        if parts:
+            parameters = parts[-1].given
+        model = ranks.agree(lambda: read_deck(deck, parameters, parts))
+        refuse_nothing_left(model, resumed, oldjob)
+        decks = ranks.agree(lambda: decks_of(model, parameters, parts))
         if ranks.size > 1:
             refuse_linear_steps(model, ranks)
         types = _linear_types(model, linear)
@@ -135,10 +147,12 @@ def run(
         trapping = usersub.trap(True) if debug else None
         usersub.set_threads(cpus)
         try:
-            output = ranks.agree(lambda: None if ranks.rank else JobOutput(model, job, folder, quiet=quiet))
+            output = ranks.agree(
+                lambda: None if ranks.rank else JobOutput(model, job, folder, decks=decks, quiet=quiet)
+            )
             assemble = partial(_assemble, model, library, types, cpus, safe, ranks)
             how = {"fallback": fallback, "energy_control": energy_control}
-            _analyse(assemble, model, library, output, solver, ranks, **how)
+            _analyse(assemble, model, library, output, solver, ranks, resumed, **how)
         except ElementError as error:
             if not debug and _debug_helps(sources, str(error)):
                 error.add_note("run again with --debug to see file and line")
@@ -190,6 +204,7 @@ def _analyse(
     output: JobOutput | None,
     solver: str,
     ranks: Ranks,
+    resumed: Resumption | None,
     *,
     fallback: bool,
     energy_control: bool,
@@ -218,7 +233,8 @@ def _analyse(
                     output.user_text(".dat", "warning", warning)
 
         with one_blas_thread(), guard_values({}):
-            for record in run_steps(system, model, library, solver, fallback=fallback, energy_control=energy_control):
+            how = {"fallback": fallback, "energy_control": energy_control}
+            for record in run_steps(system, model, library, solver, resumed=resumed, **how):
                 with held():
                     if isinstance(record, AttemptEnded | StepDone | ModeShape):
                         write(partial(put, record))

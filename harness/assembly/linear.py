@@ -87,6 +87,14 @@ class LinearElements:
         block.add_matrices(matrices, data)
         return report
 
+    def relearn(self, call: Call, u: FloatArray) -> None:
+        """Learn the matrices in the state at the end of an increment, if they apply to the call; states stay."""
+        if not self.applies(call, None, 1):
+            return
+        for block in self._blocks:
+            zero = np.zeros_like(u)
+            self.learn(block, call, u, zero, zero.copy(), np.zeros_like(self._data))
+
     def forces(self, block: ElementBlock, call: Call, u: FloatArray, residual: FloatArray) -> BlockReport:
         """Add -K U of a block to residual (n,); see `ElementBlock.linear_pass`."""
         return block.linear_pass(self._matrices[id(block)], call, u, residual)

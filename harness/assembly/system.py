@@ -23,6 +23,7 @@ from harness.model.arrays import ComplexArray, FloatArray, IntArray
 from harness.model.mesh import Mesh
 from harness.model.model import Equation
 from harness.model.records import ElementState
+from harness.model.restart import Saved
 from harness.parallel.partition import owners_of
 from harness.parallel.ranks import ALONE, FAILURES, Ranks
 from harness.usersub import _binding
@@ -317,6 +318,48 @@ class System:
         if self.ranks.size == 1:
             return tuple(state for _, state in own)
         return tuple(map(_joined, zip(*self.ranks.collect(own), strict=True)))
+
+    def kept(self) -> Saved:
+        """Committed states of all elements and of loads on their faces, not copied. Raises KernelError."""
+        self._linear.bring_up()
+        return {
+            "blocks": [block.kept() for block in self.blocks],
+            "faces": [[face.key, face.elements, face.kept()] for face in self._faces],
+            "linear": self._linear.known,
+        }
+
+    def resume(self, saved: Saved) -> None:
+        """Begin with what `kept` returned. Raises ValueError if it is not of these elements."""
+        if len(saved["blocks"]) != len(self.blocks):
+            raise ValueError("groups of elements")
+        for block, own in zip(self.blocks, saved["blocks"], strict=True):
+            block.resume(own)
+        for key, elements, own in saved["faces"]:
+            for face in self._faces:
+                if face.key == key:
+                    face.resume_some(elements, own)
+
+    def relearn(self, call: Call, u: FloatArray, saved: Saved) -> None:
+        """Learn the matrices of linear elements again, if the system had when `saved` was kept.
+
+        Parameters
+        ----------
+        call, u
+            Of the end of the increment.
+        saved
+            What `kept` returned.
+
+        Raises
+        ------
+        KernelError
+            An element fails.
+        """
+        if saved["linear"]:
+            self._linear.relearn(call, u)
+
+    @property
+    def _faces(self) -> list[PressureBlock]:
+        return [block for block in self.loaded if isinstance(block, PressureBlock)]
 
     def product(self, data: FloatArray, vector: FloatArray) -> FloatArray:
         """K x, with the parts of K of all ranks.

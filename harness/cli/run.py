@@ -17,6 +17,7 @@ from harness.parallel import launched
 ABAQUS_OPTIONS = {
     "job": "--job",
     "input": "deck",
+    "oldjob": "--oldjob",
     "user": "--user",
     "cpus": "--cpus",
     "interactive": None,
@@ -36,6 +37,12 @@ def add_run(run: argparse.ArgumentParser) -> None:
     run.add_argument("deck", type=Path, metavar="DECK.inp")
     add_run_options(run)
     run.add_argument("--job", metavar="NAME", help="name of the output files (the deck's name)")
+    run.add_argument(
+        "--oldjob",
+        type=Path,
+        metavar="JOB",
+        help="job to go on from, with its folder: *RESTART, READ says from which state, its own deck from the last one",
+    )
     run.add_argument("--output-dir", type=Path, metavar="DIR", help="folder of the output files (the current folder)")
     run.add_argument(
         "--parameter",
@@ -97,6 +104,7 @@ def run_job(options: argparse.Namespace) -> int:
         options.deck,
         options.user,
         job=options.job,
+        oldjob=options.oldjob,
         output_dir=options.output_dir,
         parameters=dict(options.parameter),
         solver=options.solver,

@@ -3,6 +3,6 @@
 """Abaqus input decks: keyword table, lexer and reader."""
 
 from harness.deck.lexer import Survey
-from harness.deck.reader import read_deck, survey_deck
+from harness.deck.reader import part_of, read_deck, survey_deck, survey_restart
 
-__all__ = ["Survey", "read_deck", "survey_deck"]
+__all__ = ["Survey", "part_of", "read_deck", "survey_deck", "survey_restart"]

@@ -9,7 +9,6 @@ from harness.deck.table import NAME, Keyword, Support, Where, ignored
 _IGNORED = {
     "SOLVER CONTROLS": "Controls of the iterative linear solver.",
     "TIME POINTS": "Points in time, for output.",
-    "RESTART": "Restart files, which are not written.",
     "PREPRINT": "What Abaqus echoes to .dat.",
     "PRINT": "What Abaqus writes to .msg.",
     "FILE FORMAT": "Format of the results file.",

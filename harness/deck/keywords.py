@@ -27,6 +27,7 @@ from harness.deck import (
     prescribed,
     procedures,
     requests,
+    restart,
     section_controls,
     sections,
     steps,
@@ -51,7 +52,7 @@ _FILES = (
         steps,
         procedures,
     ),
-    *(controls, prescribed, distributed, heat_loads, requests, ignored),
+    *(controls, prescribed, distributed, heat_loads, requests, restart, ignored),
 )
 KEYWORDS: dict[str, Keyword] = {compact(keyword.name): keyword for file in _FILES for keyword in file.KEYWORDS}
 MARKDOWN = Path(__file__).with_name("keywords.md")

@@ -4,7 +4,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -20,18 +21,20 @@ from harness.deck.lexer import Survey, read_blocks, survey_blocks
 from harness.deck.materials import read_materials
 from harness.deck.prescribed import Prescription
 from harness.deck.requests import RequestReader
+from harness.deck.restart import digest_of, find_restart, join_parts, refuse_reading
 from harness.deck.section_controls import read_section_controls
 from harness.deck.steps import check_parts, read_steps
-from harness.deck.structure import read_heading, sort_blocks
+from harness.deck.structure import read_heading
 from harness.deck.surfaces import Surfaces
 from harness.deck.user_elements import dofs_of
 from harness.errors import DeckError, Source
 from harness.model.mesh import ElementGroup
 from harness.model.model import Model
+from harness.model.restart import DeckPart, RestartRead
 from harness.model.steps import Boundary
 
 
-def read_deck(path: Path, given: Mapping[str, float] | None = None) -> Model:
+def read_deck(path: Path, given: Mapping[str, float] | None = None, parts: Sequence[DeckPart] = ()) -> Model:
     """Read an Abaqus input deck.
 
     Parameters
@@ -41,6 +44,8 @@ def read_deck(path: Path, given: Mapping[str, float] | None = None) -> Model:
         in the folder of the deck, then in that of the including file.
     given
         Values of parameters in place of those in its *PARAMETER; what the deck computes from them follows.
+    parts
+        Of a restart: the decks that the model comes from, the last of which is this one.
 
     Returns
     -------
@@ -57,7 +62,9 @@ def read_deck(path: Path, given: Mapping[str, float] | None = None) -> Model:
     """
     problems = Problems()
     blocks = read_blocks(path, KEYWORDS, problems, given)
-    structure = sort_blocks(blocks, problems)
+    structure, restarts = join_parts(parts, blocks, KEYWORDS, problems)
+    if not parts:
+        refuse_reading(structure, problems)
     problems.check()
     materials = read_materials(structure.root, problems)
     in_steps = [block for scope in structure.steps for block in scope.blocks]
@@ -85,6 +92,8 @@ def read_deck(path: Path, given: Mapping[str, float] | None = None) -> Model:
     equations = read_equations(flat, problems)
     constraints = ConstraintReader(flat, groups, problems)
     steps = read_steps(structure.steps, prescription, RequestReader(flat, problems), problems)
+    # a step with errors is missing
+    steps = tuple(replace(step, restart=restarts[step.number - 1]) for step in steps)
     related = constraints.read(steps)
     problems.check()
     return Model(
@@ -130,6 +139,16 @@ def survey_deck(path: Path, given: Mapping[str, float] | None = None) -> Survey:
         The deck itself cannot be read, or is empty.
     """
     return survey_blocks(path, KEYWORDS, given)
+
+
+def survey_restart(path: Path, given: Mapping[str, float] | None = None) -> RestartRead | None:
+    """*RESTART, READ of a deck, None if it has none. Raises DeckError and UsageError as `read_deck`."""
+    return find_restart(path, KEYWORDS, given)
+
+
+def part_of(path: Path, given: Mapping[str, float] | None = None, steps: int = 0) -> DeckPart:
+    """A deck as a part of a model; steps: those of earlier decks that stay. Raises DeckError if it cannot be read."""
+    return DeckPart(str(path.resolve()), digest_of(path, KEYWORDS, given), dict(given or {}), steps)
 
 
 def _active_dofs(groups: tuple[ElementGroup, ...]) -> frozenset[int]:

@@ -22,6 +22,7 @@ from harness.model.arrays import FloatArray, IntArray
 from harness.model.local_systems import UndefinedDirectionsError, orthonormal
 from harness.model.mesh import ElementGroup
 from harness.model.records import ElementState, PointVariables
+from harness.model.restart import Saved
 from harness.usersub import Library, _binding
 from harness.usersub.exchange import BlockArrays, LoadArrays, Outcome
 from harness.usersub.faults import Entries, Fault, Guards
@@ -636,6 +637,27 @@ class ElementBlock:
         arrays.svars[:] = arrays.svars_trial
         arrays.energy[:] = arrays.energy_trial
         arrays.history[:] = arrays.history_trial
+
+    def kept(self) -> Saved:
+        """Committed state, not copied: all of it, in the order of the elements here."""
+        arrays = self._arrays
+        uvar = {} if self._uvar is None else {"uvar": self._uvar}
+        return {"svars": arrays.svars, "energy": arrays.energy, "history": arrays.history, **uvar}
+
+    def resume(self, saved: Saved) -> None:
+        """Begin with what `kept` returned, of all elements or of some rows. Raises ValueError if shapes differ."""
+        own = self.kept()
+        if {name: np.shape(array) for name, array in own.items()} != {name: np.shape(a) for name, a in saved.items()}:
+            raise ValueError(f"elements of type {self.group.type}")
+        for name, array in own.items():
+            array[:] = saved[name]
+        self._keep_committed()
+
+    def _keep_committed(self) -> None:
+        """Make the committed state the trial state too."""
+        arrays = self._arrays
+        arrays.svars_trial[:], arrays.energy_trial[:] = arrays.svars, arrays.energy
+        arrays.history_trial[:] = arrays.history
 
     def state(self, index: int) -> ElementState:
         """Committed state, copied.

@@ -20,6 +20,7 @@ from harness.model.element_types import DiscreteKind
 from harness.model.mesh import ElementGroup
 from harness.model.model import Model
 from harness.model.properties import SolidSection
+from harness.model.restart import Saved
 from harness.model.steps import LoadType
 from harness.usersub import Library, _binding
 
@@ -59,6 +60,26 @@ class PressureBlock(ElementBlock):
         group = replace(parent, labels=parent.labels[rows], nodes=nodes)
         super().__init__(group, coordinates, unknowns, routine, library, unsymmetric=True, variables=None)
         self.elements, self.load, self.surface = elements, load, surface
+
+    @property
+    def key(self) -> str:
+        """Tells blocks of faces of one model apart, but for the groups of their elements."""
+        return f"{'*DSLOAD' if self.surface else '*DLOAD'} {self.load}"
+
+    def resume_some(self, elements: IntArray, saved: Saved) -> None:
+        """`resume` of those faces that are among those kept; the others had no load so far.
+
+        Parameters
+        ----------
+        elements
+            Of the faces kept.
+        saved
+            What `kept` returned for them.
+        """
+        _, here, there = np.intersect1d(self.elements, elements, return_indices=True)
+        for name, array in self.kept().items():
+            array[here] = saved[name][there]
+        self._keep_committed()
 
     def keep(self, rows: IntArray) -> None:
         """As that of other blocks."""

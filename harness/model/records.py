@@ -12,6 +12,7 @@ from typing import Final
 import numpy as np
 
 from harness.model.arrays import FloatArray, IntArray
+from harness.model.restart import Saved
 
 
 class Convergence(StrEnum):
@@ -188,6 +189,20 @@ class Noted:
     message: str
 
 
+@dataclass(frozen=True, slots=True)
+class StateKept:
+    """The state at the end of an increment, of which all else is written: an analysis can resume from it.
+
+    overlay   it takes the place of the last one of the step
+    analysis  arrays are those of the run: they are written before it goes on
+    """
+
+    step: int
+    increment: int
+    overlay: bool
+    analysis: Saved
+
+
 Record = (
     StepStarted
     | AttemptStarted
@@ -197,6 +212,7 @@ Record = (
     | IncrementDone
     | ModesFound
     | StepDone
+    | StateKept
     | Warned
     | Noted
 )

@@ -11,6 +11,7 @@ from harness.errors import Source
 from harness.model.amplitude import Amplitude
 from harness.model.arrays import FloatArray, IntArray
 from harness.model.procedures import Procedure
+from harness.model.restart import RestartWrite
 
 
 @dataclass(frozen=True, slots=True)
@@ -308,7 +309,7 @@ class Step:
 
     Of heat loads OP=NEW removes those of the keywords in `new_heat_loads`.
 
-    `notes` say where the run of the step differs from the deck.
+    `notes` say where the run of the step differs from the deck. `restart`: *RESTART, WRITE, None without.
     """
 
     number: int
@@ -337,6 +338,7 @@ class Step:
     new_fields: bool = False
     output: OutputRequests = field(default_factory=OutputRequests)
     notes: tuple[str, ...] = ()
+    restart: RestartWrite | None = None
 
     @property
     def amplitudes(self) -> tuple[Amplitude, ...]:

@@ -8,7 +8,7 @@ it is written: a run that is killed leaves the files readable and complete up to
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from pathlib import Path
 
 import numpy as np
@@ -29,10 +29,12 @@ from harness.model.records import (
     Noted,
     Record,
     SearchHelped,
+    StateKept,
     StepDone,
     StepStarted,
     Warned,
 )
+from harness.model.restart import DeckPart
 from harness.output.dat_file import DataFile
 from harness.output.field_output import FieldFiles
 from harness.output.history import HistoryFile
@@ -40,10 +42,11 @@ from harness.output.interface import InterfaceFile
 from harness.output.msg_file import MessageFile
 from harness.output.progress import ProgressDisplay
 from harness.output.sta_file import StatusFile, StatusRow
+from harness.output.state_files import StateFiles
 
 
 class JobOutput:
-    """Writes NAME.sta, .msg, .dat, _history.csv, _interface.csv, .pvd with its .vtu files, and shows progress.
+    """Writes NAME.sta, .msg, .dat, _history.csv, _interface.csv, .pvd with its .vtu files, _restart; shows progress.
 
     Files of an earlier job of the same name are replaced.
 
@@ -55,6 +58,8 @@ class JobOutput:
         Name of the files.
     directory
         Their folder, which exists.
+    decks
+        Where the model comes from, which kept states name.
     quiet
         No progress display.
 
@@ -64,7 +69,9 @@ class JobOutput:
         Name of the files, without and with their folder.
     """
 
-    def __init__(self, model: Model, job: str, directory: Path, *, quiet: bool = False) -> None:
+    def __init__(
+        self, model: Model, job: str, directory: Path, *, decks: Sequence[DeckPart] = (), quiet: bool = False
+    ) -> None:
         self.stem = stem = Path(directory) / job
         self.job = job
         self._model = model
@@ -78,6 +85,7 @@ class JobOutput:
         self._history = HistoryFile(stem.with_name(f"{job}_history.csv"), model)
         self._interface = InterfaceFile(stem.with_name(f"{job}_interface.csv"), model)
         self._fields = FieldFiles(stem.with_name(f"{job}.pvd"), model)
+        self._states = StateFiles(stem, decks)
         self._progress = ProgressDisplay(model, quiet=quiet)
 
     def write(self, record: Record) -> None:
@@ -116,6 +124,8 @@ class JobOutput:
             case StepDone():
                 self._finish_step()
                 self._message.step_done(record)
+            case StateKept():
+                self._states.write(record)
             case Warned():
                 self._message.remark("WARNING", record.message)
             case Noted():

@@ -19,6 +19,7 @@ from harness.elements import Distributed, Predefined
 from harness.model.arrays import FloatArray, IntArray
 from harness.model.mesh import Mesh
 from harness.model.model import Model
+from harness.model.restart import Saved
 from harness.model.steps import Load, Step
 from harness.model.user_values import GivesValues, UserValues
 from harness.procedures.loads import Loads, Slots, Variation
@@ -88,6 +89,19 @@ class Conditions:
             return None
         values = self._initial.reshape(self._nodes.fields, self._nodes.nodes)
         return Predefined(values, np.zeros_like(values), self._initial[: self._nodes.nodes])
+
+    def kept(self) -> Saved:
+        """Fields that UTEMP and UFIELD have given."""
+        given = self._reached if self._by_user.any() else []
+        return {"reached": [list(one) for one in given]}
+
+    def resume(self, saved: Saved) -> None:
+        """Go on from what `kept` returned. Raises ValueError if the model has other fields now."""
+        reached = [(time, values) for time, values in saved["reached"]]
+        if any(len(values) != len(self._initial) for _, values in reached):
+            raise ValueError("predefined fields")
+        if reached:
+            self._reached[:] = reached
 
     def conclude(self, step_time: float) -> None:
         """The step ends before its period."""

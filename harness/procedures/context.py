@@ -15,6 +15,7 @@ from harness.model.arrays import FloatArray, IntArray
 from harness.model.user_values import UserValues
 from harness.procedures.convergence_checks import Checker, length_of_moments
 from harness.procedures.loads import fading_forces
+from harness.procedures.state import BegunStep
 from harness.procedures.step_setting import Setting, SolverTimes, choose_rank_solver, choose_solver
 from harness.procedures.unconstrained import tolerate
 from harness.solver.linear import RankSolver
@@ -28,6 +29,7 @@ class StepContext:
     step_time   at the start of the increment; the total time is that of the state
     increment   number of the current increment
     times_of_solver  of the linear solver in this step
+    beginning   arrays of the state from which the step's prescribed values and loads follow
     choice      which linear solver was chosen and why; '' if that of the last step is kept
     """
 
@@ -41,6 +43,8 @@ class StepContext:
         """
         self.system, self.step, self.state, self.user = setting.system, setting.step, setting.state, setting.user
         system, step, state, user = self.system, self.step, self.state, self.user
+        self.beginning = {name: getattr(state, name) for name in ("displacement", "reaction", "unbalanced")}
+        state.begun.append(BegunStep(step.number, state.total_time))
         self.prescribed = state.boundaries.start_step(step, state.displacement, state.total_time)
         self.load = state.loads.start_step(step, state.total_time, user)
         self.conditions = state.conditions.start_step(step, state.total_time)

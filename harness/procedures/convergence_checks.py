@@ -6,7 +6,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import astuple, dataclass, field
 
 import numpy as np
 from numpy.typing import NDArray
@@ -16,6 +16,7 @@ from harness.elements import FIELD_NAMES
 from harness.model.arrays import FloatArray, IntArray, first_largest
 from harness.model.mesh import Mesh
 from harness.model.records import Convergence, FieldCheck, Largest
+from harness.model.restart import Saved
 from harness.model.steps import Controls, FieldControls
 from harness.procedures.convergence import FieldMeasures, FluxHistory, estimated_correction, judge
 from harness.procedures.incrementation import Cutback, judge_rate, out_of_iterations
@@ -160,6 +161,15 @@ class Checker:
         for checked in self.fields:
             if not checked.converted:
                 checked.history = checked.history.converged(checked.flux, checked.controls, checked.peak)
+
+    def kept(self) -> Saved:
+        """Flux histories of the step by field."""
+        return {checked.name: list(astuple(checked.history)) for checked in self.fields}
+
+    def resume(self, saved: Saved) -> None:
+        """Go on from what `kept` returned."""
+        for checked in self.fields:
+            checked.history = FluxHistory(*saved[checked.name])
 
     def histories(self, before: Sequence[FluxHistory]) -> list[FluxHistory]:
         """Flux histories by field number, at the end of the step."""

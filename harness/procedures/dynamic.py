@@ -19,6 +19,7 @@ from harness.elements import Motion, Request
 from harness.model.arrays import FloatArray
 from harness.model.procedures import Dynamic, Integrator
 from harness.model.records import Record
+from harness.model.restart import Saved
 from harness.procedures.context import StepContext
 from harness.procedures.incrementation import Accuracy
 from harness.procedures.step_parts import Part
@@ -119,6 +120,14 @@ class ImplicitIntegration(Part):
         call = context.call(size, context.step_time + half, context.start + context.step_time + half)
         motion, at = Motion(velocity, acceleration), state.displacement + increment
         return context.system.evaluate(call.asking(Request.RESIDUAL), at, increment, matrix=False, motion=motion)
+
+    def kept(self) -> Saved:
+        """The load at the start of the last increment."""
+        return {"load": self._previous_load}
+
+    def resume(self, saved: Saved) -> None:
+        """Go on from what `kept` returned."""
+        self._previous_load = saved["load"]
 
     def converged(self, last: Iterate, size: float) -> Iterable[Record]:
         """Take over velocities and accelerations at the end."""

@@ -5,6 +5,7 @@
 from __future__ import annotations
 
 from harness.model.arrays import FloatArray
+from harness.model.restart import Saved
 
 
 class Extrapolation:
@@ -30,6 +31,15 @@ class Extrapolation:
         b = (last / h1 - (last + before) / (h1 + h2)) / h2
         a = last / h1 + b * h1
         return a * size + b * size**2
+
+    def kept(self) -> Saved:
+        """The increments that it needs."""
+        needed = {"LINEAR": 1, "PARABOLIC": 2}.get(self._mode, 0)
+        return {"increments": [list(one) for one in (self._last, self._before)[:needed] if one is not None]}
+
+    def resume(self, saved: Saved) -> None:
+        """Go on from what `kept` returned."""
+        self._last, self._before = ([(one[0], one[1]) for one in saved["increments"]] + [None, None])[:2]
 
     def converged(self, increment: FloatArray, size: float) -> None:
         """Keep a converged increment."""

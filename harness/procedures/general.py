@@ -19,9 +19,11 @@ from harness.model.records import (
     Noted,
     Record,
     SearchHelped,
+    StateKept,
     StepDone,
     Warned,
 )
+from harness.model.restart import Saved
 from harness.procedures.context import StepContext
 from harness.procedures.incrementation import DISTORTED, TOO_MANY_INCREMENTS, Accuracy, Cutback, refused
 from harness.procedures.limit import PASSED, LimitLoad
@@ -51,6 +53,7 @@ class GeneralStep:
         self._system, self._step, self._state = context.system, context.step, context.state
         self._user, self._checker, self._control = context.user, context.checker, path.control
         self._limit = LimitLoad()
+        self._resumed = False
         self._warned = False
         self._small: set[str] = set()
 
@@ -63,11 +66,13 @@ class GeneralStep:
         """Records of the step. Raises ConvergenceError, KernelError, SingularMatrixError."""
         context, cutbacks, iterations = self._context, 0, 0
         beginning: tuple[Part | Path, ...] = (*self._parts, self._path)
-        for part in beginning:
+        for part in () if self._resumed else beginning:
             yield from part.start()
+        if self._keeps and self._obstacle:
+            yield Warned(f"*RESTART, WRITE HAS NO EFFECT IN STEP {self._step.number}: {self._obstacle}")
         if context.choice:
             yield Noted(context.choice)
-        while not (self._path.finished or any(p.finished for p in self._parts)):
+        while not self.finished:
             if context.increment == self._step.increments:
                 limit = f"step {self._step.number}, INC={self._step.increments}"
                 raise IncrementsUsedUpError(f"{TOO_MANY_INCREMENTS} ({limit})")
@@ -77,12 +82,73 @@ class GeneralStep:
                 converged, spent = yield from self._attempt(context.increment)
                 cutbacks += not converged
                 iterations += spent
-        if context.amplitudes.concluded:
-            for given in (self._state.boundaries, self._state.loads, self._state.conditions):
-                given.conclude(context.step_time)
-        self._state.flux = self._checker.histories(self._state.flux)
+        self.end(early=context.amplitudes.concluded)
         yield context.times_of_solver.note()
         yield StepDone(self._step.number, context.increment, cutbacks, iterations)
+
+    @property
+    def finished(self) -> bool:
+        """Whether no increment is left."""
+        return self._path.finished or any(part.finished for part in self._parts)
+
+    def end(self, *, early: bool = False) -> None:
+        """Let the state go on to the next step; early: before the period of this one."""
+        if early:
+            self._state.conclude(self._context.step_time)
+        self._state.flux = self._checker.histories(self._state.flux)
+
+    @property
+    def _keeps(self) -> bool:
+        """Whether *RESTART, WRITE asks for any state."""
+        restart = self._step.restart
+        return restart is not None and bool(restart.frequency or restart.intervals)
+
+    @property
+    def _obstacle(self) -> str:
+        """Why states cannot be kept; '' if they can."""
+        if self._system.ranks.size > 1:
+            return "several processes run the job"
+        if self._state.amplitudes.exist:
+            return "UAMP gives amplitudes"
+        return self._path.obstacle
+
+    def _is_due(self, size: float) -> bool:
+        """Whether *RESTART, WRITE keeps the state of the increment of this size that has converged."""
+        restart, period = self._step.restart, self._step.procedure.period
+        if restart is None or self._obstacle:
+            return False
+        after = self._context.step_time / period
+        return restart.due(self._context.increment, after - size / period, after, last=self.finished)
+
+    def _kept(self) -> Saved:
+        """The state between two increments."""
+        context = self._context
+        return {
+            "step": self._step.number,
+            "increment": context.increment,
+            "step_time": context.step_time,
+            "finished": self.finished,
+            "beginning": context.beginning,
+            "state": self._state.kept(),
+            "system": self._system.kept(),
+            "checks": self._checker.kept(),
+            "path": self._path.kept(),
+            "parts": [part.kept() for part in self._parts],
+        }
+
+    def resume(self, saved: Saved) -> None:
+        """Go on from what `_kept` returned, in place of the start of the step. Raises ValueError, KernelError."""
+        context, state = self._context, self._state
+        context.increment, context.step_time = saved["increment"], saved["step_time"]
+        state.resume(saved["state"])
+        call = context.call(0.0, context.step_time, state.total_time)
+        self._system.relearn(call, state.displacement, saved["system"])
+        state.predefined = call.predefined
+        self._checker.resume(saved["checks"])
+        self._path.resume(saved["path"])
+        for part, own in zip(self._parts, saved["parts"], strict=True):
+            part.resume(own)
+        self._resumed = True
 
     def _attempt(self, increment: int) -> Generator[Record, None, tuple[bool, int]]:
         """One attempt at an increment; returns whether it converged, and its iterations."""
@@ -208,8 +274,13 @@ class GeneralStep:
             reached.load_factor,
         )
         yield from remarks
+        restart = self._step.restart if self._is_due(reached.size) else None
+        lrestart = restart.lrestart if restart else 0
         # may end the analysis, whose last increment this is then
-        self._user.external_database(2, 0, times, size, number, context.increment)
+        self._user.external_database(2, lrestart, times, size, number, context.increment)
+        if restart:
+            # what user routines write for a restart is there before the state
+            yield StateKept(number, context.increment, restart.overlay, self._kept())
 
     def _cut_back(self, cutback: Cutback, increment: int, iterations: int, size: float) -> Iterator[Record]:
         """Report the attempt; raise ConvergenceError if no other is left."""

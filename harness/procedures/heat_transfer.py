@@ -15,6 +15,7 @@ import numpy as np
 from harness.elements import FIELD_NAMES
 from harness.model.procedures import HeatTransfer
 from harness.model.records import Record
+from harness.model.restart import Saved
 from harness.procedures.context import StepContext
 from harness.procedures.incrementation import Accuracy
 from harness.procedures.step_parts import Part
@@ -48,6 +49,14 @@ class TemperatureChange(Part):
         """The rate that END=SS looks at."""
         self._rate = self._warming(last) / size
         return ()
+
+    def kept(self) -> Saved:
+        """The rate."""
+        return {"rate": self._rate}
+
+    def resume(self, saved: Saved) -> None:
+        """Go on from what `kept` returned."""
+        self._rate = saved["rate"]
 
     @property
     def finished(self) -> bool:

@@ -12,6 +12,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 from harness.model.procedures import Procedure
+from harness.model.restart import Saved
 from harness.model.steps import TimeControls
 
 DIVERGING = "THE SOLUTION APPEARS TO BE DIVERGING. CONVERGENCE IS JUDGED UNLIKELY."
@@ -123,6 +124,14 @@ class IncrementControl:
         self._whole: tuple[float, float] | None = None
         self.in_parts = False
         self.attempts = 0
+
+    def kept(self) -> Saved:
+        """Sizes between two increments, neither of which is in parts."""
+        return {"size": self._size, "easy": self._easy, "measures": list(self._measures)}
+
+    def resume(self, saved: Saved) -> None:
+        """Go on from what `kept` returned."""
+        self._size, self._easy, self._measures = saved["size"], saved["easy"], list(saved["measures"])
 
     def part(self, end: float) -> bool:
         """Whether the current increment, to the step time `end`, may be taken in parts; `cut_back` gives their size.

@@ -10,6 +10,7 @@ from dataclasses import dataclass
 
 from harness.model.arrays import FloatArray
 from harness.model.records import Convergence, FieldCheck, Record
+from harness.model.restart import Saved
 from harness.procedures.context import StepContext
 from harness.procedures.extrapolation import Extrapolation
 from harness.procedures.incrementation import IncrementControl
@@ -69,6 +70,19 @@ class Path(ABC):
         """
         return self._context.step_time + size
 
+    @property
+    def obstacle(self) -> str:
+        """Why its state cannot be kept, as the end of a sentence; '' if it can."""
+        return "the load factor is part of the solution"
+
+    def kept(self) -> Saved:
+        """What an increment has from those before it in the step."""
+        return {}
+
+    def resume(self, saved: Saved) -> None:
+        """Go on from what `kept` returned."""
+        assert not saved, self.obstacle
+
     @abstractmethod
     def begin(self, size: float) -> tuple[Iterator[Iterate], bool]:
         """Begin an attempt at an increment.
@@ -122,6 +136,29 @@ class TimePath(Path):
     def search(self) -> Descent | None:
         """The fall-back; none in a part of an increment, where only the nearby equilibrium is wanted."""
         return None if self.control.in_parts else self._descent
+
+    @property
+    def obstacle(self) -> str:
+        """With the fall-back it cannot: the search compares with the start of the analysis."""
+        return "" if self._descent is None else "the search of --fallback compares with the start of the analysis"
+
+    def kept(self) -> Saved:
+        """Sizes, extrapolation, and the matrix where the next increment may reuse it."""
+        factorised = None if self._linear is None else self._newton.kept()
+        self._newton.resume(factorised)
+        return {
+            "control": self.control.kept(),
+            "extrapolation": self._extrapolation.kept(),
+            "linear": self._linear,
+            "factorised": factorised,
+        }
+
+    def resume(self, saved: Saved) -> None:
+        """Go on from what `kept` returned."""
+        self.control.resume(saved["control"])
+        self._extrapolation.resume(saved["extrapolation"])
+        self._linear = saved["linear"]
+        self._newton.resume(saved["factorised"])
 
     @property
     def finished(self) -> bool:

@@ -14,10 +14,12 @@ from harness.elements import Call, Flags, Request
 from harness.errors import ConvergenceError, SingularMatrixError
 from harness.model.model import Model
 from harness.model.records import Noted, Record, StepStarted, Warned
+from harness.model.restart import Resumption
 from harness.model.steps import Boundary, Load, Step
 from harness.procedures.initial_states import set_initial_states, set_initial_stresses
 from harness.procedures.loads import find_unknowns
 from harness.procedures.registry import run_of
+from harness.procedures.resuming import resume
 from harness.procedures.state import ConvergedState
 from harness.procedures.step_setting import Setting, StepRun, UserRoutines
 
@@ -30,8 +32,9 @@ def run_steps(
     *,
     fallback: bool = False,
     energy_control: bool = False,
+    resumed: Resumption | None = None,
 ) -> Iterator[Record]:
-    """Run all steps of a model.
+    """Run all steps of a model, or those that follow a kept state.
 
     Parameters
     ----------
@@ -48,6 +51,8 @@ def run_steps(
         Search downhill where Newton's method fails.
     energy_control
         Trace snap-backs: the load factor of each step is unknown too, see `harness.solver.energy_control`.
+    resumed
+        The state to go on from, in place of the initial one.
 
     Yields
     ------
@@ -60,15 +65,28 @@ def run_steps(
         The attempts, the increments, or the smallest increment are exhausted.
     KernelError, SingularMatrixError, DeckError
         From the elements, the linear solver, and over-constrained models.
+    UelError
+        The state is not one of the model.
     """
     state = ConvergedState.start(system, model)
-    user.external_database(0, 0, (0.0, 0.0), 0.0, 1, 0)
-    system.ranks.agree(lambda: set_initial_states(system.blocks, model, user))
-    yield from set_initial_stresses(system, model, state)
-    yield from _unused(system.dofs, "*BOUNDARY", model.boundaries)
     running: StepRun | None = None
+    following = model.steps
+    if resumed is None:
+        user.external_database(0, 0, (0.0, 0.0), 0.0, 1, 0)
+        system.ranks.agree(lambda: set_initial_states(system.blocks, model, user))
+        yield from set_initial_stresses(system, model, state)
+        yield from _unused(system.dofs, "*BOUNDARY", model.boundaries)
     try:
-        for step in model.steps:
+        if resumed is not None:
+            running = general = resume(resumed, system, model, state, user, solver)
+            following = model.steps[general.reached[2] :]
+            if resumed.end_step or general.finished:
+                general.end(early=not general.finished)
+            else:
+                yield StepStarted(general.reached[2])
+                yield from general.run()
+                user.external_database(6, 0, *general.reached)
+        for step in following:
             yield StepStarted(step.number)
             yield from _unused(system.dofs, "*BOUNDARY", step.boundaries)
             yield from _unused(system.dofs, "*CLOAD", step.loads)

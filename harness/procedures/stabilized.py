@@ -17,6 +17,7 @@ import numpy as np
 
 from harness.model.procedures import Stabilize
 from harness.model.records import Noted, Record, Warned
+from harness.model.restart import Saved
 from harness.procedures.context import StepContext
 from harness.procedures.step_parts import Part
 from harness.solver.newton import Increment, Iterate
@@ -61,6 +62,14 @@ class ViscousForces(Part):
             yield from self._choose(float(abs(change[1:7].sum())), float(flow @ last.increment))
         elif limit and state.stabilization > limit * elastic > 0.0:
             yield self._change(self._factor * limit * float(elastic) / state.stabilization)
+
+    def kept(self) -> Saved:
+        """The factor, and the forces at the end of the increment."""
+        return {"factor": self._factor, "force": self._force}
+
+    def resume(self, saved: Saved) -> None:
+        """Go on from what `kept` returned."""
+        self._factor, self._force = saved["factor"], saved["force"]
 
     def _choose(self, energy: float, dissipated: float) -> Iterator[Record]:
         """Factor from the first increment: its internal energy, and what it would dissipate with a factor of one."""

@@ -4,7 +4,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import astuple, dataclass, field
 from typing import Self
 
 import numpy as np
@@ -14,6 +14,9 @@ from harness.elements import FIELD_NAMES, Predefined
 from harness.model.arrays import FloatArray
 from harness.model.model import Model
 from harness.model.records import Solution
+from harness.model.restart import Saved
+from harness.model.steps import Step
+from harness.model.user_values import GivesValues
 from harness.procedures.conditions import Conditions
 from harness.procedures.convergence import FluxHistory
 from harness.procedures.element_loads import AllLoads
@@ -22,6 +25,18 @@ from harness.procedures.user_amplitudes import UserAmplitudes
 from harness.solver.descent import Majoriser
 from harness.solver.linear import Effort
 from harness.solver.newton import Factoriser, Iterate
+
+_ARRAYS = ("displacement", "reaction", "load", "external", "velocity", "acceleration", "unbalanced", "energy")
+_NUMBERS = ("total_time", "work", "damage", "stabilization")
+
+
+@dataclass(slots=True)
+class BegunStep:
+    """A general step that has begun: the total time then; concluded: its step time if it ended before its period."""
+
+    number: int
+    total_time: float
+    concluded: float | None = None
 
 
 @dataclass(slots=True)
@@ -40,6 +55,7 @@ class ConvergedState:
     predefined predefined fields, which are constant
     effort     what all linear solvers have done
     majoriser  matrix of the start of the analysis, for the fall-back
+    begun      general steps so far
     """
 
     displacement: FloatArray
@@ -64,6 +80,7 @@ class ConvergedState:
     predefined: Predefined | None = None
     stabilization: float = 0.0
     flux: list[FluxHistory] = field(default_factory=lambda: [FluxHistory() for _ in FIELD_NAMES])
+    begun: list[BegunStep] = field(default_factory=list)
 
     @classmethod
     def start(cls, system: System, model: Model) -> Self:
@@ -80,6 +97,43 @@ class ConvergedState:
     def come_to_rest(self) -> None:
         """Set velocities and accelerations to zero: the step that begins has none."""
         self.velocity = self.acceleration = np.zeros_like(self.displacement)
+
+    def kept(self) -> Saved:
+        """Its arrays and numbers; prescribed values and loads follow from the steps that have begun."""
+        saved = {name: getattr(self, name) for name in (*_ARRAYS, *_NUMBERS)}
+        return {
+            **saved,
+            "flux": [list(astuple(history)) for history in self.flux],
+            "begun": [list(astuple(step)) for step in self.begun],
+            "conditions": self.conditions.kept(),
+        }
+
+    def resume(self, saved: Saved) -> None:
+        """Take over what `kept` returned. Raises ValueError if it is not of this model."""
+        for name in _ARRAYS:
+            if np.shape(saved[name]) != np.shape(getattr(self, name)):
+                raise ValueError("degrees of freedom")
+        for name in (*_ARRAYS, *_NUMBERS):
+            setattr(self, name, saved[name])
+        self.flux = [FluxHistory(*history) for history in saved["flux"]]
+        self.begun = [BegunStep(*step) for step in saved["begun"]]
+        self.conditions.resume(saved["conditions"])
+
+    def repeat(self, step: Step, begun: BegunStep, user: GivesValues) -> None:
+        """Take over prescribed values and loads of a step that is over. Raises DeckError."""
+        # displacements at the start matter only in the step itself
+        self.boundaries.start_step(step, self.displacement, begun.total_time)
+        self.loads.start_step(step, begun.total_time, user)
+        self.conditions.start_step(step, begun.total_time)
+        if begun.concluded is not None:
+            self.conclude(begun.concluded)
+
+    def conclude(self, step_time: float) -> None:
+        """The step ends before its period."""
+        for given in (self.boundaries, self.loads, self.conditions):
+            given.conclude(step_time)
+        if self.begun:
+            self.begun[-1].concluded = step_time
 
     def accept(self, converged: Iterate, load: FloatArray, released: FloatArray) -> None:
         """Take over a converged increment; load and released (fading forces) are those of its end."""

@@ -7,6 +7,7 @@ from __future__ import annotations
 from collections.abc import Iterable
 
 from harness.model.records import Record
+from harness.model.restart import Saved
 from harness.procedures.incrementation import Accuracy
 from harness.solver.newton import Increment, Iterate
 
@@ -65,6 +66,13 @@ class Part:
             Written after that of the increment.
         """
         return ()
+
+    def kept(self) -> Saved:
+        """What an increment has from those before it in the step."""
+        return {}
+
+    def resume(self, saved: Saved) -> None:
+        """Go on from what `kept` returned; `start` is not called then."""
 
     @property
     def finished(self) -> bool:

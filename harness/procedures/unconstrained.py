@@ -61,6 +61,10 @@ class UnconstrainedSolver:
         except SingularMatrixError as error:
             self._shift(error)
 
+    def forget(self) -> None:
+        """As that of the solver."""
+        self._solver.forget()
+
     def solve(self, rhs: FloatArray) -> FloatArray:
         """Solution for one right-hand side. Raises SingularMatrixError if it has none."""
         while True:

@@ -59,6 +59,11 @@ class UserAmplitudes:
             amplitude.table.clear()
         self._active: set[str] = set()
 
+    @property
+    def exist(self) -> bool:
+        """Whether UAMP gives any amplitude of the model."""
+        return bool(self._courses)
+
     def start_step(self, step: Step, dofs: DofMap, nodal: NodalState, user: GivesValues) -> StepAmplitudes:
         """Take over a step's amplitudes: those it names, and those of earlier steps that continue in total time.
 

@@ -29,6 +29,9 @@ class Factoriser(Protocol):
     def solve(self, rhs: FloatArray) -> FloatArray:
         """Solution for one right-hand side."""
 
+    def forget(self) -> None:
+        """Let later solutions not depend on earlier matrices, to the bit."""
+
 
 @dataclass(frozen=True, slots=True)
 class Increment:
@@ -84,7 +87,16 @@ class Newton:
         self._line_search = line_search
         # values of the matrix that the solver has factorised, and whether the next solve reuses it
         self._factorised: FloatArray | None = None
-        self._again = False
+        self._again = self._anew = False
+
+    def kept(self) -> FloatArray | None:
+        """CSR values of the matrix of the last solve, which the next one may reuse: to it a restart comes back."""
+        return self._factorised
+
+    def resume(self, factorised: FloatArray | None) -> None:
+        """Go on like a new object that has solved with this matrix: so do a run that was kept and its restart."""
+        self._factorised, self._anew = factorised, True
+        self._solver.forget()
 
     def iterates(self, given: Increment, *, same_matrix: bool = False) -> Iterator[Iterate]:
         """Iterate without end; the caller stops when it accepts or abandons the attempt.
@@ -141,14 +153,14 @@ class Newton:
         return Iterate(iteration, increment, correction, residual, reduced, evaluation)
 
     def _correction(self, state: Iterate, missing: FloatArray) -> FloatArray:
-        if self._again:
-            self._again = False
-        else:
+        if not self._again:
             assert state.evaluation.data is not None
             # a pass overwrites the values of the one before
             self._factorised = state.evaluation.data.copy()
-            self._solver.factorise(self._constraints.reduce(self._factorised))
         assert self._factorised is not None
+        if self._anew or not self._again:
+            self._solver.factorise(self._constraints.reduce(self._factorised))
+        self._again = self._anew = False
         rhs = state.reduced
         if missing.any():
             rhs = rhs - self._constraints.reduce_vector(

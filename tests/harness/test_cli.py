@@ -210,9 +210,9 @@ def test_parameter_without_a_number(wrong: str, capsys: pytest.CaptureFixture[st
 
 def test_unknown_option_of_abaqus(capsys: pytest.CaptureFixture[str]) -> None:
     with pytest.raises(SystemExit) as stop:
-        main(["run", "job=a", "oldjob=b"])
+        main(["run", "job=a", "globalmodel=b"])
     assert stop.value.code == 2
-    assert "unknown option 'oldjob='" in capsys.readouterr().err
+    assert "unknown option 'globalmodel='" in capsys.readouterr().err
 
 
 def test_folder_with_an_equals_sign_is_no_option(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:

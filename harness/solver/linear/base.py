@@ -239,6 +239,11 @@ class LinearSolver(ABC):
             self._examine(float(np.abs(rhs).max()) / largest if largest else np.inf)
         return solution
 
+    def forget(self) -> None:
+        """Be as at first, but for the symbolic work: later solutions do not depend on earlier matrices, to the bit."""
+        self._regular = self._unverified = self._probed = False
+        self._trusted, self._passed = True, SUSPICIOUS
+
     def _is_accurate(self, solution: FloatArray, rhs: FloatArray) -> bool:
         """Whether the backward error is that of a good factorisation, `ACCURATE`; a solution with NaN passes."""
         matrix = self.pattern.matrix(self._data)

@@ -29,6 +29,11 @@ class MumpsSolver(LinearSolver):
         self._context = mumps.Context()
         self._analysed = False
 
+    def forget(self) -> None:
+        """As that of other solvers; the analysis is made anew."""
+        super().forget()
+        self._analysed = False
+
     def _factorise(self, data: FloatArray) -> float | None:
         try:
             if not self._analysed:

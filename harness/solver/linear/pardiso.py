@@ -95,6 +95,11 @@ class PardisoSolver(LinearSolver):
         self._type = SYMMETRIC
         self._matrix: _Matrix | None = None
 
+    def forget(self) -> None:
+        """As that of other solvers; the kind of matrix is found anew."""
+        super().forget()
+        self._type, self._matrix = SYMMETRIC, None
+
     def _factorise(self, data: FloatArray) -> float | None:
         if self._type is SYMMETRIC and not self.pattern.is_symmetric(data):
             self._type, self._matrix = UNSYMMETRIC, None

@@ -154,6 +154,9 @@ class RankSolver:
             self.effort.factorising += time.process_time() - start
             self.effort.factorisations += 1
 
+    def forget(self) -> None:
+        """Without effect: on several ranks no states are kept."""
+
     def solve(self, rhs: FloatArray) -> FloatArray:
         """Solution (n,) for one right-hand side (n,), the same on all ranks. Raises SingularMatrixError."""
         start = time.process_time()

@@ -58,6 +58,11 @@ class SuperLUSolver(LinearSolver):
         # the factors are those of an earlier matrix; iterations that may take the place of a factorisation
         self._behind, self._most = False, 0
 
+    def forget(self) -> None:
+        """As that of other solvers; the order is found anew."""
+        super().forget()
+        self._order = np.zeros(0, dtype=np.int64)
+
     def _factorise(self, data: FloatArray) -> float | None:
         try:
             if not len(self._order):

@@ -11,6 +11,7 @@ from numpy.testing import assert_allclose, assert_array_equal
 
 from harness.model.model import Model
 from harness.model.properties import SolidSection
+from harness.model.restart import RestartWrite
 from harness.model.steps import Boundary
 
 Read = Callable[[str], Model]
@@ -75,4 +76,5 @@ def test_step_and_ignored(model: Model) -> None:
     assert model.steps[0].nlgeom
     assert model.steps[0].output.field_frequency == 1
     assert "ALLIE" in model.steps[0].output.history_energies
-    assert [name for name, _ in model.ignored] == ["PREPRINT", "RESTART"]
+    assert [name for name, _ in model.ignored] == ["PREPRINT"]
+    assert model.steps[0].restart == RestartWrite(frequency=0)

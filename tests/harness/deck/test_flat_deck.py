@@ -98,7 +98,7 @@ def test_output_requests(model: Model) -> None:
 
 
 def test_what_is_ignored_is_listed(model: Model) -> None:
-    assert [(name, str(place)) for name, place in model.ignored] == [("RESTART", "deck.inp:63")]
+    assert [(name, str(place)) for name, place in model.ignored] == [("PREPRINT", "deck.inp:63")]
 
 
 CONTACT = "*SURFACE INTERACTION, NAME=TOUCH\n1.\n*FRICTION\n0.3,\n*SURFACE BEHAVIOR, PRESSURE-OVERCLOSURE=HARD\n"
