@@ -76,7 +76,7 @@ class Reference:
 
 
 class References(NamedTuple):
-    """References of a folder of decks, deck by deck, its long decks, whether all need the fall-back, and the unsettled."""
+    """References of a folder of decks, deck by deck; its long decks, whether all need the fall-back, unsettled ones."""
 
     values: list[Reference]
     long: set[Path]
