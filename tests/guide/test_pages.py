@@ -70,6 +70,7 @@ def test_tutorial_is_as_its_commands_say(page, replayed, assert_same):
     assert_same(replayed(page), text)
 
 
+@pytest.mark.long
 def test_tutorial_of_the_fit(replayed, assert_same):
     """It finds what its curve was made with, which is compared, and the values of the page.
 

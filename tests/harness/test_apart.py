@@ -41,6 +41,7 @@ def test_process_that_does_not_come_to_its_end(module, way: str) -> None:
     assert (end.finished, end.code, end.reason) == (False, 0, "ended (exit code 0)")
 
 
+@pytest.mark.long
 def test_end_that_hangs_behind_the_result(module) -> None:
     """The exit code is known by then."""
     end, _ = module("import atexit, time\natexit.register(time.sleep, 600)\ndef main(words):\n    return 0\n")

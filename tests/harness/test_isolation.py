@@ -121,6 +121,7 @@ def test_ends_of_the_process_in_c(tmp_path: Path, way: int, message: str) -> Non
     assert re.search(r"\*\*\*ERROR: .*element 7", (tmp_path / "crash.msg").read_text(), re.DOTALL)
 
 
+@pytest.mark.long
 def test_library_whose_loading_does_not_end(tmp_path: Path) -> None:
     user = tmp_path / "endless.cpp"
     user.write_text("#define ENDLESS\n" + CRASHES.read_text())

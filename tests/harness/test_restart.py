@@ -148,7 +148,9 @@ def assert_goes_on(job, new, place):
         np.testing.assert_allclose(values, whole[len(whole) - len(values) :], rtol=0, atol=EQUAL * size, err_msg=name)
 
 
-@pytest.mark.parametrize(("name", "solver"), [*((name, "auto") for name in DECKS), ("umat", "superlu")])
+@pytest.mark.parametrize(
+    ("name", "solver"), [*((name, "auto") for name in DECKS), pytest.param("umat", "superlu", marks=pytest.mark.long)]
+)
 def test_restart_is_the_run_that_was_not_interrupted(folder, name, solver):
     """From any of its states, with the deck of the job itself."""
     deck, user = written(name, DECKS[name]), USER if name == "umat" else None

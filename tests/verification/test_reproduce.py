@@ -283,6 +283,7 @@ def test_page_is_one_file(tmp_path: Path) -> None:
     assert set(re.findall(r'(?:src|href)="([^"]{5})', page)) == {"data:"}
 
 
+@pytest.mark.long
 def test_command_runs_once_and_decides(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(patch_cases, "STIFF", (1.0e6,))
     monkeypatch.setattr("harness.delamination.reproduce.basics.STIFF", (1.0e6,))

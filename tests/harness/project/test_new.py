@@ -78,6 +78,7 @@ def test_requirement_is_what_was_installed(tmp_path, monkeypatch, record, expect
     assert expected in (tmp_path / "beam_x" / "requirements.txt").read_text().splitlines()
 
 
+@pytest.mark.long
 def test_its_tests_can_fail(project):
     """A wrong factor in forces and stiffness is seen by theory alone."""
     kernel = project / "beam_x.for"
