@@ -3,6 +3,7 @@
 """Tangents by central differences."""
 
 import numpy as np
+import pytest
 
 
 def differences(block, call, u, du, used, step=1e-3):
@@ -32,3 +33,18 @@ def check_uniform_tangent(solid, *, about):
         d = (now @ a.T).ravel()
         slope = (solid.evaluate(solid.u - step * d)[0] - solid.evaluate(solid.u + step * d)[0]) / (2 * step)
         np.testing.assert_allclose(slope, tangent @ d - forces * trace, atol=1e-6 * abs(tangent).max())
+
+
+def check_energy(solid):
+    """In random displacements the forces are derivatives of ENERGY(2), and the tangent theirs; returns the report."""
+    random = np.random.default_rng(3)
+    u = 0.06 * random.standard_normal(solid.u.size)
+    forces, report = solid.evaluate(u)
+    tangent, step = solid.matrix.toarray(), 1e-6
+    np.testing.assert_allclose(tangent, tangent.T, atol=1e-12 * abs(tangent).max())
+    for _ in range(3):
+        d = random.standard_normal(u.size)
+        (down, less), (up, more) = solid.evaluate(u - step * d), solid.evaluate(u + step * d)
+        assert (more.energy[1] - less.energy[1]) / (2 * step) == pytest.approx(-forces @ d, rel=1e-6, abs=1e-8)
+        np.testing.assert_allclose((down - up) / (2 * step), tangent @ d, atol=1e-7 * abs(tangent).max())
+    return report
