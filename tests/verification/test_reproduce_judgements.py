@@ -20,6 +20,7 @@ from rich.console import Console
 
 from harness import usersub
 from harness.delamination import law
+from harness.delamination.damage import stiffness_lost, toughness_spent
 from harness.delamination.materials import TABLE_2, Cohesive
 from harness.delamination.reproduce import (
     advice,
@@ -34,7 +35,6 @@ from harness.delamination.reproduce import (
 )
 from harness.delamination.reproduce.advice import Point, settled
 from harness.delamination.reproduce.cases import ELEMENTS, SHOWN, PaperCase
-from harness.delamination.reproduce.damage import stiffness_lost, toughness_spent
 from harness.delamination.reproduce.findings import Evidence
 from harness.delamination.reproduce.runs import AnyCase, Entry, Run, Runs
 from harness.delamination.reproduce.statements import JudgedStatement, read_statements

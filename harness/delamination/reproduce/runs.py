@@ -14,8 +14,8 @@ import numpy as np
 from rich.console import Console
 
 from harness.batch.engine import Store, StoredRow, complete
+from harness.delamination.damage import stiffness_lost, toughness_spent
 from harness.delamination.reproduce.cases import PEAK_STEP, PaperCase
-from harness.delamination.reproduce.damage import stiffness_lost, toughness_spent
 from harness.delamination.reproduce.patch_cases import PatchCase
 from harness.delamination.run_deck import run_deck
 from harness.delamination.study.rows import bonded_part

@@ -44,8 +44,9 @@ cutbacks. Perturbed: the interface nodes are moved alternately up and down by 3 
   of 1e4 or 1e6 yields to the bumps, and has an index below 1 without an error. A dash: the run ended at none of these
   moments. If a structure snaps, a run may have snapped at a moment when its reference has not: then the index does not
   measure oscillation.
-- **index of d**: total variation of the damage over its largest value; 1 if it falls steadily to 0, less if all of
-  the interface is damaged.
+- **damage**: index of the damage, its total variation over its largest value; 1 if it falls steadily to 0, less if all
+  of the interface is damaged. The consistent element writes its D, the others d of (9). Each rises with the other
+  (`harness/delamination/damage.py`), so that 1 means the same for all; above 1, compare elements of one kind.
 """
 
 BUMPS = """
@@ -77,7 +78,7 @@ is linear softening with the paper's criterion (LAW 1) or with that of Benzeggag
 HEAD = (
     *("stiffness", "element", "mesh", "solution", "increments", "iterations", "per increment", "cutbacks"),
     *("peak load (N)", "dissipated", "balance", "index t_n", "index t_tau", "error index t_n", "error index t_tau"),
-    *("raw t_n", "raw t_tau", "index d", "max t_n", "max t_tau (MPa)", "end"),
+    *("raw t_n", "raw t_tau", "damage", "max t_n", "max t_tau (MPa)", "end"),
 )
 
 
