@@ -10,6 +10,7 @@ from collections.abc import Sequence
 from pathlib import Path
 
 from rich.console import Console
+from rich.progress import track
 from rich.table import Table as TerminalTable
 
 from harness.delamination.reproduce import convergence, curves, drawings, figures, sensitivity
@@ -73,7 +74,9 @@ def reproduce(
         peaks=_peaks(chosen, quick=quick),
     )
     evidence = Evidence(runs, quick)
-    verdicts = [judge(statement, evidence) for statement in read_statements() if set(statement.cases) <= set(chosen)]
+    decided = [statement for statement in read_statements() if set(statement.cases) <= set(chosen)]
+    shown = track(decided, "statements", console=console, disable=not console.is_terminal)
+    verdicts = [judge(statement, evidence) for statement in shown]
     content = Content(
         _how(chosen, quick=quick),
         _figures(chosen, runs, place, quick=quick),
