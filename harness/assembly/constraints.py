@@ -44,15 +44,16 @@ class Constraints:
         prescribed
             (n_p,) unknowns with a given value.
         equations
-            The first term of each is eliminated.
+            The first term of each is eliminated, or another one if that is prescribed.
         places
             Where the deck prescribes an unknown, for messages.
 
         Raises
         ------
         DeckError
-            The model is over-constrained: a first term is prescribed, is that of two equations or depends on itself. Or
-            its coefficient is zero, or the system does not have an unknown of an equation.
+            The model is over-constrained: an equation has prescribed terms alone, its first term is also that of
+            another equation or depends on itself. Or its coefficient is zero, or the system does not have an unknown
+            of an equation.
         ValueError
             Prescribed unknowns are repeated or negative.
         """

@@ -13,14 +13,16 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from harness.deck.blocks import Block, Row
+from harness.deck.distributing import METHODS, average_motion
 from harness.deck.error_report import Problems
 from harness.deck.flatten import FlatMesh, Owner
 from harness.deck.prescribed import read_dof
 from harness.deck.surfaces import Surfaces
-from harness.deck.table import INPUT, NAME, Keyword, Kind, Option, Where, ignored, refused
+from harness.deck.table import INPUT, NAME, Keyword, Kind, Option, Where, ignored, one_of, refused
 from harness.deck.user_elements import dofs_by_node
 from harness.errors import DeckError, Source
-from harness.model.arrays import IntArray
+from harness.model.arrays import FloatArray, IntArray
+from harness.model.element_types import ContinuumType
 from harness.model.mesh import ElementGroup
 from harness.model.model import Equation
 from harness.model.steps import Step
@@ -48,6 +50,10 @@ class ConstraintReader:
         self._points = flat.mesh.coordinates
         self._solid = bool(np.ptp(self._points[:, 2]) > 0.0)
         self._active = dofs_by_node(len(self._points), groups)
+        self._axisymmetric = np.zeros(len(self._points), dtype=np.bool_)
+        for group in groups:
+            if isinstance(group.built_in, ContinuumType) and group.built_in.axisymmetric:
+                self._axisymmetric[group.nodes] = True
         self._turning: list[Source] = []
 
     def read(self, steps: Sequence[Step]) -> tuple[Equation, ...]:
@@ -56,6 +62,7 @@ class ConstraintReader:
         readers = {
             "MPC": self._mpc,
             "KINEMATIC": self._kinematic,
+            "DISTRIBUTING": self._distributing,
             "KINEMATIC COUPLING": self._kinematic_coupling,
             "RIGID BODY": self._rigid_body,
             "TIE": self._tie,
@@ -66,7 +73,7 @@ class ConstraintReader:
                 with self._problems.gather():
                     if block.name == "COUPLING":
                         coupling = block
-                    elif block.name == "KINEMATIC" and coupling is None:
+                    elif block.name in ("KINEMATIC", "DISTRIBUTING") and coupling is None:
                         raise block.error("does not follow *COUPLING")
                     elif block.name in readers:
                         self._coupling = coupling
@@ -148,11 +155,47 @@ class ConstraintReader:
     def _kinematic(self, block: Block, owner: Owner) -> Iterator[Equation]:
         coupling = self._coupling
         assert coupling is not None
-        nodes = self._surfaces.nodes(coupling.options.text("SURFACE"), coupling.source, owner.name)
-        chosen = set()
-        for row in block.rows():
-            chosen |= _dofs(row, 0)
-        yield from self._follow_all(nodes, self._reference(coupling, owner), chosen, block.source)
+        nodes, _ = self._coupled(coupling, owner)
+        yield from self._follow_all(nodes, self._reference(coupling, owner), _chosen(block), block.source)
+
+    def _coupled(self, coupling: Block, owner: Owner) -> tuple[IntArray, FloatArray]:
+        """Nodes of *COUPLING, and their tributary areas."""
+        nodes, areas = self._surfaces.shares(coupling.options.text("SURFACE"), coupling.source, owner.name)
+        reference = self._reference(coupling, owner)
+        near = nodes != reference
+        if coupling.options.given("INFLUENCE RADIUS"):
+            radius = coupling.options.real("INFLUENCE RADIUS", 0.0)
+            near &= np.linalg.norm(self._points[nodes] - self._points[reference], axis=1) <= radius
+        if not near.any():
+            raise coupling.error("couples no node")
+        return nodes[near], areas[near]
+
+    def _distributing(self, block: Block, owner: Owner) -> Iterator[Equation]:
+        coupling = self._coupling
+        assert coupling is not None
+        nodes, weights = self._coupled(coupling, owner)
+        if self._axisymmetric[nodes].any():
+            raise block.error("is not supported for axisymmetric elements")
+        reference, chosen = self._reference(coupling, owner), _chosen(block)
+        distance = np.linalg.norm(self._points[nodes] - self._points[reference], axis=1)
+        method = block.options.text("WEIGHTING METHOD")
+        if distance.max() > 0.0:
+            weights = weights * METHODS[method](distance / distance.max())
+        if not weights.sum() > 0.0:
+            raise block.error(f"WEIGHTING METHOD={method} gives all nodes the weight 0")
+        motion = average_motion(self._points[nodes], weights, self._points[reference])
+        dofs = (1, 2, 3) if self._solid else (1, 2)
+        turning = [dof for dof in (ROTATIONS if self._solid else (6,)) if not chosen or dof in chosen]
+        if turning and motion.axes < (3 if self._solid else 1):
+            place = "its nodes lie on a line" if motion.axes else "all its nodes are in one place"
+            self._problems.warn(block.source, f"*DISTRIBUTING: {place}, about which no moment is passed on")
+        if (turning or distance.max() > 0.0) and block.source not in self._turning:
+            self._turning.append(block.source)
+        for dof in (*dofs, *turning):
+            factors = motion.displacement[dof - 1] if dof <= 3 else motion.rotation[dof - 4]
+            terms = [(node, k, -factors[n, k - 1]) for n, node in enumerate(nodes.tolist()) for k in dofs]
+            others = tuple((node, k, float(factor)) for node, k, factor in terms if factor != 0.0)
+            yield Equation(((reference, dof, 1.0), *others), block.source)
 
     def _kinematic_coupling(self, block: Block, owner: Owner) -> Iterator[Equation]:
         reference = self._reference(block, owner)
@@ -203,6 +246,11 @@ class ConstraintReader:
                 dofs = [dof for dof in sorted(self._active[node]) if rotations or dof not in ROTATIONS]
                 if node != other:
                     yield from self._equal(node, other, dofs, row.source)
+
+
+def _chosen(block: Block) -> set[int]:
+    """Dofs of all data lines; none: all."""
+    return set().union(*(_dofs(row, 0) for row in block.rows()))
 
 
 def _dofs(row: Row, start: int) -> set[int]:
@@ -294,7 +342,8 @@ _REF_NODE = Option("REF NODE", Kind.NAME, "reference node, or set of one node", 
 KEYWORDS = (
     Keyword(
         "EQUATION",
-        "Linear constraint between dofs; the first term is eliminated. A set stands for its nodes in order.",
+        "Linear constraint between dofs; the first term is eliminated, or another one if its dof is prescribed. A set "
+        "stands for its nodes in order.",
         Where.MODEL,
         (INPUT,),
         "number of terms; then node or set, dof, coefficient of each term",
@@ -308,16 +357,35 @@ KEYWORDS = (
     ),
     Keyword(
         "COUPLING",
-        "Couple the nodes of a surface to a reference node, as the *KINEMATIC after it says.",
+        "Couple the nodes of a surface to a reference node, as the *KINEMATIC or *DISTRIBUTING after it says.",
         Where.MODEL,
         (
             Option("CONSTRAINT NAME", Kind.NAME, "name", required=True),
             _REF_NODE,
             Option("SURFACE", Kind.NAME, "surface", required=True),
-            *refused("ALPHA", "INFLUENCE RADIUS", "ORIENTATION"),
+            Option("INFLUENCE RADIUS", Kind.REAL, "largest distance of a node from the reference node"),
+            *refused("ALPHA", "ORIENTATION"),
         ),
     ),
     Keyword("KINEMATIC", "Dofs that *COUPLING couples.", Where.MODEL, data="first dof, last dof; none: all"),
+    Keyword(
+        "DISTRIBUTING",
+        "The reference node of *COUPLING moves as the nodes of the surface do on average; its forces are spread over "
+        "them. Weights are tributary areas. Abaqus does not document those of quadratic faces, which are cut at the "
+        "middles of edges here.",
+        Where.MODEL,
+        (
+            one_of(
+                "COUPLING",
+                "what the motion of the nodes is; rotations of the nodes do not count",
+                ("CONTINUUM",),
+                refused=("STRUCTURAL",),
+                default="CONTINUUM",
+            ),
+            one_of("WEIGHTING METHOD", "how weights fall with the distance", tuple(METHODS), default="UNIFORM"),
+        ),
+        "first dof, last dof of the reference node; none: all. Displacements are always coupled",
+    ),
     Keyword(
         "KINEMATIC COUPLING",
         "Couple nodes to a reference node.",

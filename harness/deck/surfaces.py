@@ -13,9 +13,18 @@ from harness.deck.error_report import nearest
 from harness.deck.flatten import FlatMesh
 from harness.deck.table import NAME, Keyword, Where, ignored, one_of
 from harness.errors import DeckError, Source
-from harness.model.arrays import IntArray
-from harness.model.element_types import SolidType
+from harness.model.arrays import FloatArray, IntArray
+from harness.model.element_types import LINE3, QUAD8, TRI6, Family, SolidType
 from harness.model.mesh import ElementGroup
+
+_CORNERS = np.array([[-1.0, 1.0, 1.0, -1.0], [-1.0, -1.0, 1.0, 1.0]])
+_GAUSS = _CORNERS.T / np.sqrt(3.0)
+_QUADRATIC = {
+    LINE3.number: [1 / 4] * 2 + [1 / 2],
+    TRI6.number: [1 / 12] * 3 + [1 / 4] * 3,
+    QUAD8.number: [1 / 16] * 4 + [3 / 16] * 4,
+}
+"""Shares of the nodes in the area of a quadratic face."""
 
 
 class Surfaces:
@@ -55,8 +64,22 @@ class Surfaces:
                 parts.append(self._flat.nodes(what, row.source, place))
             else:
                 elements = self._flat.elements(what, row.source, place)
-                parts += [self._face(element, row.name(1, "face"), row.source) for element in elements.tolist()]
+                parts += [self._face(element, row.name(1, "face"), row.source)[1] for element in elements.tolist()]
         return np.unique(np.concatenate(parts))
+
+    def shares(self, name: str, source: Source, owner: str = "") -> tuple[IntArray, FloatArray]:
+        """Nodes of a surface, ascending, and their tributary areas or lengths, which are 1 on a surface of nodes."""
+        nodes = self.nodes(name, source, owner)
+        place, block = self._find(name, source, owner)
+        if block.options.text("TYPE") == "NODE":
+            return nodes, np.ones(len(nodes))
+        areas = np.zeros(len(nodes))
+        for row in block.rows():
+            for element in self._flat.elements(row.name(0, "set"), row.source, place).tolist():
+                family, face = self._face(element, row.name(1, "face"), row.source)
+                places = self._flat.mesh.coordinates[face]
+                np.add.at(areas, np.searchsorted(nodes, face), tributary_areas(family, places))
+        return nodes, areas
 
     def faces(self, name: str, source: Source) -> list[tuple[IntArray, str, Source]]:
         """Elements (positions) and their face (S1, ...) of each line of a surface of elements. Raises DeckError."""
@@ -83,12 +106,47 @@ class Surfaces:
             found |= set(self._groups[k].nodes[element - self._starts[k]].tolist())
         return found
 
-    def _face(self, element: int, face: str, source: Source) -> IntArray:
-        """Nodes of a face of an element, by its position in the model."""
+    def _face(self, element: int, face: str, source: Source) -> tuple[Family, IntArray]:
+        """A face of an element, by its position in the model, and its nodes."""
         k = int(np.searchsorted(self._starts, element, side="right")) - 1
         group = self._groups[k]
-        chosen: IntArray = group.nodes[element - self._starts[k]][list(face_nodes(group, face, source, "SURFACE"))]
-        return chosen
+        local = face_nodes(group, face, source, "SURFACE")
+        assert isinstance(group.built_in, SolidType)
+        nodes: IntArray = group.nodes[element - self._starts[k]][list(local)]
+        return group.built_in.family.face_family(local), nodes
+
+
+def tributary_areas(family: Family, places: FloatArray) -> FloatArray:
+    """Area or length that belongs to each node of a face.
+
+    On linear faces that is the integral of its shape function. Those of quadratic faces are negative at corners, or
+    zero; such a face is cut at the middles of its edges instead, and the area between its corners is shared.
+
+    Parameters
+    ----------
+    family
+        Of the face.
+    places
+        (n, 3) coordinates: corners, then middles of edges.
+
+    Returns
+    -------
+    FloatArray
+        One for each node.
+    """
+    corners = places[: family.corners]
+    if family.dimension == 1:
+        areas = np.full(2, 0.5 * np.linalg.norm(corners[1] - corners[0]))
+    elif family.corners == 3:
+        areas = np.full(3, np.linalg.norm(np.cross(corners[1] - corners[0], corners[2] - corners[0])) / 6.0)
+    else:
+        areas = np.zeros(4)
+        for xi, eta in _GAUSS:
+            along, across = 1.0 + xi * _CORNERS[0], 1.0 + eta * _CORNERS[1]
+            tangents = 0.25 * (_CORNERS[0] * across) @ corners, 0.25 * (_CORNERS[1] * along) @ corners
+            areas += 0.25 * along * across * np.linalg.norm(np.cross(*tangents))
+    shares = _QUADRATIC.get(family.number)
+    return areas if shares is None else areas.sum() * np.array(shares)
 
 
 def face_nodes(group: ElementGroup, face: str, source: Source, keyword: str) -> tuple[int, ...]:

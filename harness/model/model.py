@@ -15,7 +15,7 @@ from harness.model.steps import Boundary, InitialSolution, InitialStress, Initia
 
 @dataclass(frozen=True, slots=True)
 class Equation:
-    """*EQUATION: sum of coefficient x u(node, dof) = 0; the first term is eliminated."""
+    """*EQUATION: sum of coefficient x u(node, dof) = 0; the first term is eliminated unless it is prescribed."""
 
     terms: tuple[tuple[int, int, float], ...]
     source: Source

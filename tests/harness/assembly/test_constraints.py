@@ -71,6 +71,31 @@ def test_equations_with_a_chain_and_a_prescribed_term(two_blocks, call) -> None:
     check_reduction(system, constraints, call)
 
 
+@pytest.mark.parametrize("seed", range(3))
+def test_first_terms_that_are_prescribed(two_blocks, call, seed) -> None:
+    """Equations of several unknowns each, all of whose first ones are given: others are eliminated, and all hold."""
+    mesh, blocks = two_blocks
+    rng = np.random.default_rng(seed)
+    others = [(1, 1), (1, 2), (7, 1), (2, 1)]
+    factors = rng.normal(size=(3, 4))
+    factors[1] = 2.0 * factors[0] + [0.0, 1e-3, 1e-3, 0.0]  # the first pivot of one equation is hardly one of the next
+    equations = [
+        equation(k + 1, (first, 1, 1.0), *((node, dof, f) for (node, dof), f in zip(others, row, strict=True)))
+        for k, (first, row) in enumerate(zip((5, 4, 0), factors.tolist(), strict=True))
+    ]
+    system = System(mesh, blocks, equations)
+    prescribed = system.dofs.find(np.array([5, 4, 0]), 1)
+    constraints = Constraints(system, prescribed, equations)
+    assert len(constraints.free) == len(system) - 6
+    values = rng.normal(size=3)
+    u = constraints.expand(rng.normal(size=len(constraints.free)), values)
+    assert u[prescribed].tolist() == values.tolist()
+    for own in equations:
+        terms = [f * u[system.dofs.find(node, dof)] for node, dof, f in own.terms]
+        assert sum(terms) == pytest.approx(0.0, abs=1e-9 * np.abs(terms).max())
+    check_reduction(system, constraints, call)
+
+
 def test_periodic_chain_pulled_by_a_reference_node(springs, call) -> None:
     """Springs 1, 2, 3 in a row, u_last - u_first = u_reference = 1.1: force 1.1/(1 + 1/2 + 1/3) = 0.6."""
     mesh, blocks = springs(5)
@@ -126,8 +151,12 @@ def test_prescribed_twice_is_the_callers_mistake(springs) -> None:
     ("equations", "message"),
     [
         (
-            [equation(7, (0, 1, 1.0), (1, 1, -1.0))],
-            r"job.inp:7: over-constrained: node 10, dof 1 is the first term .* is also prescribed at job.inp:3",
+            [equation(7, (0, 1, 1.0), (0, 1, 1.0))],
+            r"job.inp:7: over-constrained: node 10, dof 1, .* is prescribed at job.inp:3, and .* no other unknown",
+        ),
+        (
+            [equation(7, (0, 1, 1.0), (1, 1, -1.0)), equation(8, (0, 1, 2.0), (1, 1, -2.0))],
+            r"job.inp:8: over-constrained: node 10, dof 1, .* is prescribed at job.inp:3, and .* no other unknown",
         ),
         (
             [equation(7, (1, 1, 1.0), (2, 1, -1.0)), equation(8, (1, 1, 1.0), (3, 1, -1.0))],
@@ -143,7 +172,7 @@ def test_prescribed_twice_is_the_callers_mistake(springs) -> None:
         ),
         ([equation(7, (1, 1, 1.0), (2, 2, -1.0))], r"job.inp:7: no element uses dof 2 of node 30"),
     ],
-    ids=["prescribed", "twice", "cycle", "zero", "unused"],
+    ids=["prescribed", "all prescribed", "twice", "cycle", "zero", "unused"],
 )
 def test_over_constrained_models_are_refused(springs, equations, message) -> None:
     system = System(*springs(4))

@@ -168,6 +168,8 @@ U
     [
         "*COUPLING, CONSTRAINT NAME=C, REF NODE=9, SURFACE=FACE\n*KINEMATIC\n1, 6",
         "*COUPLING, CONSTRAINT NAME=C, REF NODE=9, SURFACE=FACE\n*KINEMATIC",
+        "*COUPLING, CONSTRAINT NAME=C, REF NODE=9, SURFACE=FACE\n*DISTRIBUTING",
+        "*SURFACE, NAME=S, TYPE=NODE\nEND\n*COUPLING, CONSTRAINT NAME=C, REF NODE=9, SURFACE=S\n*DISTRIBUTING",
         "*KINEMATIC COUPLING, REF NODE=9\nEND, 1, 2",
         "*RIGID BODY, REF NODE=9, PIN NSET=END",
         "*MPC\nBEAM, END, 9",
@@ -228,9 +230,15 @@ def test_a_rigid_cube_turns_about_its_reference_node(run):
         ),
         ("*SURFACE, NAME=SC\nLEFT, S7\n*TIE, NAME=T\nSC, SB", r":28: \*SURFACE: elements of type CPS4 have no face S7"),
         ("*SURFACE, NAME=SC, TYPE=USER\n*TIE, NAME=T\nSC, SB", "TYPE=USER, which constraints cannot use"),
+        ("*DISTRIBUTING", r":27: \*DISTRIBUTING: does not follow \*COUPLING"),
         (
-            "*COUPLING, CONSTRAINT NAME=C, REF NODE=1, SURFACE=SA\n*DISTRIBUTING",
-            r":28: \*DISTRIBUTING is not supported",
+            "*COUPLING, CONSTRAINT NAME=C, REF NODE=1, SURFACE=SA, INFLUENCE RADIUS=0.5\n*DISTRIBUTING",
+            r":27: \*COUPLING: couples no node",
+        ),
+        (
+            "*SURFACE, NAME=S, TYPE=NODE\n2\n*COUPLING, CONSTRAINT NAME=C, REF NODE=1, SURFACE=S\n"
+            "*DISTRIBUTING, WEIGHTING METHOD=LINEAR",
+            r":30: \*DISTRIBUTING: WEIGHTING METHOD=LINEAR gives all nodes the weight 0",
         ),
     ],
 )
