@@ -79,25 +79,21 @@ class MpiRanks(Ranks):
     def sum(self, values: FloatArray) -> FloatArray:
         """As that of `Ranks`."""
         total = np.empty_like(values)
-        if self.rank:
-            sent = self.comm.Ireduce(values, None, self._mpi.SUM, 0)
-            self._wait(self.comm.Ibcast(total, 0))
-            self._wait(sent)
-        else:
-            self._wait(self.comm.Ireduce(values, total, self._mpi.SUM, 0))
-            self._wait(self.comm.Ibcast(total, 0))
+        self._meet()
+        self.comm.Reduce(values, None if self.rank else total, self._mpi.SUM, 0)
+        self.comm.Bcast(total, 0)
         return total
 
     def everyones(self, mine: _T) -> list[_T]:
         """As that of `Ranks`."""
-        self._wait(self.comm.Ibarrier())
+        self._meet()
         return list(self.comm.allgather(mine))
 
     def collect(self, mine: _T) -> list[_T]:
         """As that of `Ranks`; only what this rank gives where the others have ended."""
         if self._together is False:
             return [mine]
-        self._wait(self.comm.Ibarrier())
+        self._meet()
         return self.comm.gather(mine, 0) or []
 
     def from_first(self, mine: _T) -> _T:
@@ -124,7 +120,8 @@ class MpiRanks(Ranks):
         sent = np.concatenate(parts)
         received = np.empty(incoming.sum(), dtype=sent.dtype)
         counts = np.array([len(part) for part in parts])
-        self._wait(self.comm.Ialltoallv((sent, counts), (received, incoming)))
+        self._meet()
+        self.comm.Alltoallv((sent, counts), (received, incoming))
         return np.split(received, np.cumsum(incoming)[:-1])
 
     def agree(self, act: Callable[[], _T], order: Callable[[Exception], float] = lambda _: math.inf) -> _T:
@@ -225,6 +222,10 @@ class MpiRanks(Ranks):
                 return False
             time.sleep(_NAP)
         return True
+
+    def _meet(self) -> None:
+        """Wait until all ranks are here: what they then tell each other moves on only while they ask for it."""
+        self._wait(self.comm.Ibarrier())
 
     def _wait(self, request: Any) -> None:
         """Wait in sleep rather than by asking without end: the work of the ranks differs in length."""
