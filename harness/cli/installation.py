@@ -24,7 +24,7 @@ def list_solvers(_: argparse.Namespace) -> int:
 
     console = Console()
     table = Table("solver", "installed", "version", "when it is used")
-    for row in (*available(), with_ranks()):
+    for row in (*available(), *with_ranks()):
         table.add_row(row.name, "yes" if row.installed else "no", row.version, row.note)
     console.print(table)
     machine, rows = measured.read()

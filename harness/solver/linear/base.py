@@ -138,6 +138,23 @@ class Effort:
         return Effort(*(getattr(self, one.name) - getattr(earlier, one.name) for one in fields(self)))
 
 
+def is_accurate(residual: FloatArray, rhs: FloatArray, terms: Callable[[], FloatArray]) -> bool:
+    """Whether the backward error of a solution is that of a good factorisation, `ACCURATE`; one with NaN passes.
+
+    Parameters
+    ----------
+    residual, rhs
+        (n,) what the solution leaves of the right-hand side, and this.
+    terms
+        Gives the sum (n,) of the magnitudes of the terms of each row.
+    """
+    error = np.abs(residual)
+    if not error.max() > ACCURATE * np.abs(rhs).max():
+        return True
+    # the residual of a stiff part is as large as the rounding of its terms
+    return not (error > ACCURATE * (terms() + np.abs(rhs))).any()
+
+
 class LinearSolver(ABC):
     """Factorises matrices of one pattern.
 
@@ -247,11 +264,7 @@ class LinearSolver(ABC):
     def _is_accurate(self, solution: FloatArray, rhs: FloatArray) -> bool:
         """Whether the backward error is that of a good factorisation, `ACCURATE`; a solution with NaN passes."""
         matrix = self.pattern.matrix(self._data)
-        error = np.abs(rhs - matrix @ solution)
-        if not error.max() > ACCURATE * np.abs(rhs).max():
-            return True
-        # the residual of a stiff part is as large as the rounding of its terms
-        return not (error > ACCURATE * (abs(matrix) @ np.abs(solution) + np.abs(rhs))).any()
+        return is_accurate(rhs - matrix @ solution, rhs, lambda: abs(matrix) @ np.abs(solution))
 
     def _repeat_in_full(self) -> None:
         """Factorise the whole matrix, as the factors that were kept do not serve. Raises SingularMatrixError."""

@@ -60,7 +60,7 @@ class ClusterError(Exception):
 def obstacle() -> str:
     """Why this process cannot use it, '' if it can."""
     try:
-        _loaded()
+        loaded()
     except PackageNotFoundError:
         return f"{_DISTRIBUTION} is not installed; pip install .[mpi]"
     except (OSError, AttributeError) as error:
@@ -77,7 +77,7 @@ def version() -> str:
 
 
 @cache
-def _loaded() -> ctypes.CDLL:
+def loaded() -> ctypes.CDLL:
     """The library that has the solver."""
     files = {path.name.partition(".")[0]: path for path in distribution(_DISTRIBUTION).files or ()}
     found = [Path(str(files[name].locate())) for name in _LIBRARIES if name in files]
@@ -117,8 +117,8 @@ class Cluster:
         self._matrix: _Matrix | None = None
         self.largest_diagonal = 0.0
 
-    def factorise(self, data: FloatArray, *, symmetric: bool) -> None:
-        """Factorise the sum of the parts (nnz,) of the ranks. Raises ClusterError, on all of them."""
+    def factorise(self, data: FloatArray, *, symmetric: bool) -> bool:
+        """Factorise the sum of the parts (nnz,) of the ranks; False: all of it. Raises ClusterError, on all of them."""
         values = self._rows.assemble(data)
         own = np.array([np.abs(values[self._diagonal]).max(initial=0.0)])
         self.largest_diagonal = float(self._ranks.largest(own)[0])
@@ -128,6 +128,7 @@ class Cluster:
         if self._matrix is None:
             self._matrix = _Matrix(self._ranks, self._rows, self._row, kind)
         self._matrix.factorise(values)
+        return False
 
     def solve(self, rhs: FloatArray) -> FloatArray:
         """Solution (n,) for a right-hand side (n,) that all ranks have. Raises ClusterError, on all of them."""
@@ -194,7 +195,7 @@ class _Matrix:
         number, silent = ctypes.c_int(self._n), ctypes.c_int(0)
         kind, step = ctypes.c_int(self.kind), ctypes.c_int(phase)
         arrays = self._values, self._indptr, self._indices, permutation
-        _loaded().cluster_sparse_solver(
+        loaded().cluster_sparse_solver(
             self._handle.ctypes,
             *map(ctypes.byref, (one, one, kind, step, number)),
             *(array.ctypes for array in arrays),

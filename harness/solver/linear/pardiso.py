@@ -110,7 +110,7 @@ class PardisoSolver(LinearSolver):
                 self._matrix = None
                 self._matrix = _Matrix(self.pattern, data, self._type)
             self._matrix.factorise(data)
-        except _PardisoError:
+        except PardisoError:
             return 0.0
         if self._matrix.replaced and self._type is not PIVOTED:
             self._type, self._matrix = PIVOTED, None
@@ -127,7 +127,7 @@ class PardisoSolver(LinearSolver):
             return self._factorise(data)
         try:
             self._matrix.factorise(data, changed)
-        except _PardisoError:
+        except PardisoError:
             return self._factorise(data)
         if self._matrix.replaced:
             return self._factorise(data)
@@ -140,7 +140,7 @@ class PardisoSolver(LinearSolver):
         return self._matrix.solve(rhs)
 
 
-class _PardisoError(Exception):
+class PardisoError(Exception):
     """PARDISO returns an error code."""
 
 
@@ -148,7 +148,7 @@ class _Matrix:
     """Matrices of one pattern and type, as PARDISO holds them."""
 
     def __init__(self, pattern: Pattern, data: FloatArray, kind: Type) -> None:
-        """Analysis of the pattern, with the values (nnz,) of the first matrix. Raises _PardisoError."""
+        """Analysis of the pattern, with the values (nnz,) of the first matrix. Raises PardisoError."""
         from pypardiso import PyPardisoSolver  # noqa: PLC0415 (loads MKL, and need not be installed)
 
         self._handle = PyPardisoSolver(kind.number)
@@ -159,15 +159,15 @@ class _Matrix:
         self._upper: NDArray[np.int32] | None = None
         self._pattern = pattern
         if kind is SYMMETRIC:
-            self._upper, self._pattern = _upper_triangle(pattern)
+            self._upper, self._pattern = upper_triangle(pattern)
         self._values = self._taken(data)
         self._call(ANALYSE)
-        weakref.finalize(self, _call, self._handle, RELEASE, self._pattern, np.zeros(1), np.zeros(pattern.size))
+        weakref.finalize(self, call, self._handle, RELEASE, self._pattern, np.zeros(1), np.zeros(pattern.size))
 
     def factorise(self, data: FloatArray, changed: IntArray | None = None) -> None:
         """Factorise the matrix with these values (nnz,); changed: positions where they differ from the last ones.
 
-        Raises _PardisoError.
+        Raises PardisoError.
         """
         self._values = self._taken(data)
         self._handle.iparm[IN_PART] = changed is not None
@@ -186,7 +186,7 @@ class _Matrix:
         return bool(self._handle.iparm[REPLACED])
 
     def solve(self, rhs: FloatArray) -> FloatArray:
-        """Solution for one right-hand side (n,). Raises _PardisoError."""
+        """Solution for one right-hand side (n,). Raises PardisoError."""
         return self._call(SOLVE, np.ascontiguousarray(rhs))
 
     def _taken(self, data: FloatArray) -> FloatArray:
@@ -194,7 +194,7 @@ class _Matrix:
 
     def _call(self, phase: int, rhs: FloatArray | None = None) -> FloatArray:
         rhs = np.zeros(self._pattern.size) if rhs is None else rhs
-        return _call(self._handle, phase, self._pattern, self._values, rhs)
+        return call(self._handle, phase, self._pattern, self._values, rhs)
 
 
 def _without_openmp(handle: Any) -> bool:
@@ -204,16 +204,19 @@ def _without_openmp(handle: Any) -> bool:
     return bool(handle.libmkl.MKL_Set_Threading_Layer(_SEQUENTIAL) == _SEQUENTIAL)
 
 
-def _upper_triangle(pattern: Pattern) -> tuple[NDArray[np.int32], Pattern]:
+def upper_triangle(pattern: Pattern) -> tuple[NDArray[np.int32], Pattern]:
     """Positions of the entries on and above the diagonal, and their pattern."""
     upper = np.flatnonzero(pattern.indices >= pattern.rows).astype(np.int32)
     indptr = np.searchsorted(upper, pattern.indptr).astype(np.int32)
     return upper, Pattern(indptr, pattern.indices[upper])
 
 
-def _call(handle: Any, phase: int, pattern: Pattern, values: FloatArray, rhs: FloatArray) -> FloatArray:
+def call(
+    handle: Any, phase: int, pattern: Pattern, values: FloatArray, rhs: FloatArray, solution: FloatArray | None = None
+) -> FloatArray:
     """Run one phase. Not by pypardiso's own call, which copies all indices each time to count them from 1."""
-    solution, error = np.zeros(pattern.size), ctypes.c_int32(0)
+    solution = np.zeros(pattern.size) if solution is None else solution
+    error = ctypes.c_int32(0)
     integers, reals = ctypes.POINTER(ctypes.c_int32), ctypes.POINTER(ctypes.c_double)
     one, n = ctypes.c_int32(1), ctypes.c_int32(pattern.size)
     handle._mkl_pardiso(
@@ -235,5 +238,5 @@ def _call(handle: Any, phase: int, pattern: Pattern, values: FloatArray, rhs: Fl
         error,
     )
     if error.value:
-        raise _PardisoError(error.value)
+        raise PardisoError(error.value)
     return solution

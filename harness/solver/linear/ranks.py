@@ -2,8 +2,9 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """The linear solver of a job on several ranks, each of which has a part of the matrix: that of its elements.
 
-Either the rows of the matrix are shared out and all ranks factorise it together (cluster.py), or rank 0 gathers it and
-factorises it as in a job without ranks: small and slender models lose more by talking than two processes gain.
+All ranks factorise it together, each its own substructure (substructures.py) or, where they share too many unknowns,
+each some rows of the whole (cluster.py). Or rank 0 gathers it and factorises it as in a job without ranks: small models
+lose more by talking than two processes gain.
 """
 
 from __future__ import annotations
@@ -19,25 +20,32 @@ from numpy.typing import NDArray
 from harness.errors import SingularMatrixError, UsageError
 from harness.model.arrays import FloatArray, IntArray
 from harness.parallel.ranks import Ranks
-from harness.solver.linear.base import SUSPICIOUS, Effort, LinearSolver, Pattern
+from harness.solver.linear import cluster, substructures
+from harness.solver.linear.base import SUSPICIOUS, Effort, LinearSolver, Pattern, is_accurate
 from harness.solver.linear.choice import Availability, choose
-from harness.solver.linear.cluster import NAME, Cluster, ClusterError, obstacle, version
+from harness.solver.linear.cluster import Cluster, ClusterError, obstacle, version
 from harness.solver.linear.singular import refuse_singular
+from harness.solver.linear.substructures import MOST_SHARED, Substructures
 
 SMALLEST: Final = 30_000
-"""Unknowns from which on `auto` shares the matrix out."""
+"""Unknowns from which on `auto` lets all ranks factorise."""
 
 
-def with_ranks() -> Availability:
-    """Row of the table of solvers: that of a job on several ranks, without starting MPI."""
+def with_ranks() -> list[Availability]:
+    """Rows of the table of solvers: those of a job on several ranks, without starting MPI."""
     missing = [name for name, release in (("mpi4py", find_spec("mpi4py")), ("mkl", version())) if not release]
-    note = f"auto, with mpiexec from {SMALLEST} unknowns on; else rank 0 takes one of the others"
-    return Availability(
-        NAME, not missing, version(), note + (f" ({' and '.join(missing)} not installed)" if missing else "")
-    )
+    lack = f" ({' and '.join(missing)} not installed)" if missing else ""
+    notes = {
+        substructures.NAME: f"auto, with mpiexec from {SMALLEST} unknowns on, of which ranks share up to {MOST_SHARED}",
+        cluster.NAME: "auto, with mpiexec where they share more; for less unknowns rank 0 takes one of the others",
+    }
+    return [Availability(name, not missing, version(), note + lack) for name, note in notes.items()]
 
 
 NameOf = Callable[[int], tuple[str, int]]
+
+_TOGETHER: Final = (substructures.NAME, cluster.NAME)
+"""Solvers of all ranks."""
 
 
 class _Factoriser(Protocol):
@@ -64,8 +72,8 @@ class Rows:
         owned = np.bincount(owners, minlength=ranks.size)
         self.first = int(owned[: ranks.rank].sum())
         rows = pattern.rows
-        # an unknown without an element here has its diagonal entry only, which is zero
-        used = (np.diff(pattern.indptr) > 1)[rows] | (owners[rows] == ranks.rank)
+        # an unknown without an element here has its diagonal entry only, as has one with a spring to the ground
+        used = (np.diff(pattern.indptr) > 1)[rows] | (rows == pattern.indices)
         entries = np.flatnonzero(used)
         target = owners[rows[entries]]
         by_target = np.argsort(target, kind="stable")
@@ -106,7 +114,7 @@ class RankSolver:
         ranks
             Which all call the functions of this class together.
         name
-            'auto', 'cluster', or the solver with which rank 0 works.
+            'auto', 'substructures', 'cluster', or the solver with which rank 0 works.
         pattern
             Of the part of this rank, with unknowns numbered as on all others.
         name_of
@@ -120,7 +128,7 @@ class RankSolver:
             The name is unknown, or what the solver needs is not installed.
         """
         self._ranks, self._pattern, self._name_of = ranks, pattern, name_of
-        self._wanted = name if name != NAME else "auto"
+        self._wanted = "auto" if name in _TOGETHER else name
         self.effort = effort
         self.wrap: Callable[[LinearSolver], _Factoriser] | None = None
         self.free: str | None = None
@@ -128,31 +136,41 @@ class RankSolver:
         self._chosen: LinearSolver | None = None
         self._inner: _Factoriser | None = None
         self._singular: SingularMatrixError | None = None
-        self._cluster: Cluster | None = None
         self._data: FloatArray | None = None
+        self._symmetric, self._probed, self._unverified = True, False, False
         self._passed = SUSPICIOUS
         self._scale = 0.0
-        owners = _owners(ranks, pattern)
-        if self._is_shared_out(name, owners):
-            self._cluster = Cluster(ranks, Rows(ranks, pattern, owners))
-            self.name, self.reason = NAME, f"{pattern.size} unknowns on {ranks.size} ranks"
-        else:
+        self._together = self._shared_out(name)
+        if self._together is None:
             self._gather()
 
     def factorise(self, data: FloatArray) -> None:
         """Factorise the sum of the parts (nnz,) of all ranks."""
         start = time.process_time()
-        if self._cluster is not None:
-            changed = self._data is None or not np.array_equal(self._data, data)
-            if not self._ranks.largest(np.array([float(changed)]))[0]:
+        if self._together is not None:
+            if not self._is_new(data):
                 return
-            self._data = data.copy()
-            self._share_out(self._cluster, data)
-        if self._cluster is None:
+            self._unverified = True
+            self._factorise_together(self._together, data)
+        if self._together is None:
             self._factorise_whole(data)
         else:
             self.effort.factorising += time.process_time() - start
             self.effort.factorisations += 1
+
+    def _is_new(self, data: FloatArray) -> bool:
+        """Whether a part of some rank differs from the last one, which this one replaces."""
+        different = None if self._data is None else np.flatnonzero(data != self._data)
+        new = different is None or len(different) > 0
+        # once a part is not symmetric, later ones hardly are
+        symmetric = self._symmetric and (not new or self._pattern.is_symmetric(data, different))
+        any_new, any_unsymmetric = self._ranks.largest(np.array([float(new), float(not symmetric)]))
+        self._symmetric = not any_unsymmetric
+        if self._data is None:
+            self._data = data.copy()
+        elif new:
+            self._data[:] = data
+        return bool(any_new)
 
     def forget(self) -> None:
         """Without effect: on several ranks no states are kept."""
@@ -160,9 +178,9 @@ class RankSolver:
     def solve(self, rhs: FloatArray) -> FloatArray:
         """Solution (n,) for one right-hand side (n,), the same on all ranks. Raises SingularMatrixError."""
         start = time.process_time()
-        if self._cluster is not None:
-            solution = self._cluster.solve(rhs)
-            if self._is_sound(solution, rhs):
+        if self._together is not None:
+            solution = self._together.solve(rhs)
+            if self._is_sound(solution, rhs) and self._is_accurate(solution, rhs):
                 self.effort.solving += time.process_time() - start
                 self.effort.solutions += 1
                 return solution
@@ -173,33 +191,45 @@ class RankSolver:
 
     def release(self) -> None:
         """Give back the memory of the factors."""
-        if self._cluster is not None:
-            self._cluster.release()
-        self._cluster = self._inner = self._chosen = None
+        if self._together is not None:
+            self._together.release()
+        self._together = self._inner = self._chosen = None
 
-    def _is_shared_out(self, name: str, owners: IntArray) -> bool:
-        """Whether all ranks factorise together; rows are shared out as their owners say. Raises UsageError."""
-        if name not in ("auto", NAME) or (name == "auto" and self._pattern.size < SMALLEST):
-            return False
-        found = self._ranks.everyones(obstacle())
-        reason = next(filter(None, found), "")
-        if reason and name == NAME:
-            raise UsageError(f"linear solver '{NAME}' cannot be used: {reason}")
+    def _shared_out(self, name: str) -> Cluster | Substructures | None:
+        """Solver of all ranks, with its name and reason; None: rank 0 alone. Raises UsageError."""
+        ranks, pattern = self._ranks, self._pattern
+        if name not in ("auto", *_TOGETHER) or (name == "auto" and pattern.size < SMALLEST):
+            return None
+        reason = next(filter(None, ranks.everyones(obstacle())), "")
+        if reason and name in _TOGETHER:
+            raise UsageError(f"linear solver '{name}' cannot be used: {reason}")
+        owners = _owners(ranks, pattern)
         # on tiny models a rank may have no row
-        return not reason and len(np.unique(owners)) == self._ranks.size
+        if reason or len(np.unique(owners)) < ranks.size:
+            return None
+        if name != cluster.NAME:
+            parts = Substructures(ranks, pattern, owners)
+            shared = len(parts.shared)
+            if parts.usable and (name == substructures.NAME or shared <= MOST_SHARED):
+                self.name = substructures.NAME
+                self.reason = f"{pattern.size} unknowns on {ranks.size} ranks, which share {shared} of them"
+                return parts
+        self.name, self.reason = cluster.NAME, f"{pattern.size} unknowns on {ranks.size} ranks"
+        return Cluster(ranks, Rows(ranks, pattern, owners))
 
-    def _share_out(self, cluster: Cluster, data: FloatArray) -> None:
+    def _factorise_together(self, solver: Cluster | Substructures, data: FloatArray) -> None:
         """Factorise on all ranks, or give that up where it does not serve."""
-        symmetric = not self._ranks.largest(np.array([float(not self._pattern.is_symmetric(data))]))[0]
         try:
-            cluster.factorise(data, symmetric=symmetric)
+            self.effort.in_part += solver.factorise(data, symmetric=self._symmetric)
         except ClusterError:
             return self._give_up()
-        self._scale = cluster.largest_diagonal
+        self._scale = solver.largest_diagonal
         # a right-hand side without equilibrium reveals an unconstrained body even if no load moves it
-        probe = np.where(np.random.default_rng(0).random(self._pattern.size) < 0.5, -1.0, 1.0)
-        if self._passed == SUSPICIOUS and not self._is_sound(cluster.solve(probe), probe):
-            self._give_up()
+        if not self._probed:
+            self._probed = True
+            probe = np.where(np.random.default_rng(0).random(self._pattern.size) < 0.5, -1.0, 1.0)
+            if not self._is_sound(solver.solve(probe), probe):
+                self._give_up()
         return None
 
     def _is_sound(self, solution: FloatArray, rhs: FloatArray) -> bool:
@@ -223,11 +253,21 @@ class RankSolver:
         self._passed = 1e-2 * ratio
         return True
 
+    def _is_accurate(self, solution: FloatArray, rhs: FloatArray) -> bool:
+        """Whether the first solution of a matrix has the backward error of a good factorisation."""
+        if not self._unverified:
+            return True
+        self._unverified = False
+        assert self._data is not None
+        part = self._pattern.matrix(self._data)
+        residual = rhs - self._ranks.sum(np.asarray(part @ solution))
+        return is_accurate(residual, rhs, lambda: self._ranks.sum(np.asarray(abs(part) @ np.abs(solution))))
+
     def _give_up(self) -> None:
         """Rank 0 does it from now on: it permutes, and deals with singular matrices."""
-        assert self._cluster is not None
-        self._cluster.release()
-        self._cluster = None
+        assert self._together is not None
+        self._together.release()
+        self._together = None
         self.effort.refused += 1
         self._gather()
 

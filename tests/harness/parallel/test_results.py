@@ -113,6 +113,10 @@ CASES = {
         {},
     ),
     "U1 and U2": (INPUTS / "patch_horizontal" / "perturbed_u2.inp", {}),
+    "substructures": (
+        block("CPE4", ELASTIC, "*STEP\n*STATIC\n0.5, 1.\n*BOUNDARY\nRIGHT, 2, 2, 0.1\n", TIE),
+        {"solver": "substructures"},
+    ),
     "all ranks factorise": (
         block("CPE4", ELASTIC, "*STEP\n*STATIC\n0.5, 1.\n*BOUNDARY\nRIGHT, 2, 2, 0.1\n"),
         {"solver": "cluster"},
@@ -199,13 +203,19 @@ def test_messages_of_all_ranks_are_in_the_files(pairs):
 
 
 def test_who_factorises(pairs):
-    for name, words in (("all ranks factorise", "SOLVER CLUSTER: "), ("COH3D8", ": on rank 0, half bandwidth ")):
+    solvers = {
+        "substructures": "SOLVER SUBSTRUCTURES: ",
+        "all ranks factorise": "SOLVER CLUSTER: ",
+        "COH3D8": ": on rank 0, half bandwidth ",
+    }
+    for name, words in solvers.items():
         assert words in pairs[name][1].file(".msg").read_text()
 
 
 # at a stiffness of 1e8 the damage of a point at its onset, alpha g/strength, multiplies the rounding of g by 1e7
 LONG = {
     "U4": (INPUTS / "dcb" / "dcb_u4_1e6.inp", []),
+    "U4, substructures": (INPUTS / "dcb" / "dcb_u4_1e6.inp", ["--solver", "substructures"]),
     "U4, all ranks factorise": (INPUTS / "dcb" / "dcb_u4_1e6.inp", ["--solver", "cluster"]),
     "BK": (INPUTS / "cohesive" / "coh3d8_bk.inp", []),
 }
