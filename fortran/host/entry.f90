@@ -237,6 +237,23 @@ subroutine host_define_material(stiffness, compliance, thickness, axes, constant
   number = define(material)
 end subroutine host_define_material
 
+!> Let the yield surface of a plastic material move, and grow exponentially beside its table.
+subroutine host_set_backstresses(number, backstresses, growth, count)
+  use host_kinds, only: dp, i4
+  use host_materials, only: find_material, material_t
+  implicit none (type, external)
+  integer(i4), intent(in) :: number, count
+  real(dp), intent(in) :: backstresses(2, count)   !< C and gamma of each
+  real(dp), intent(in) :: growth(2)                !< Q and b
+  type(material_t), pointer :: material
+  material => find_material(number)
+  allocate (material%backstress)
+  material%backstress%moduli = backstresses(1, :)
+  material%backstress%recovery = backstresses(2, :)
+  material%backstress%growth = growth(1)
+  material%backstress%rate = growth(2)
+end subroutine host_set_backstresses
+
 !> Give a material thermal expansion.
 subroutine host_set_expansion(number, expansion)
   use host_kinds, only: dp, i4

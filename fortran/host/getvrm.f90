@@ -34,7 +34,8 @@ subroutine getvrm(var, array, jarray, flgray, jrcd, jmac, jmatyp, matlayo, laccf
   case ('SINV')
     array(:4) = invariants(n, current%values(n + 1:))
   case ('PE')
-    if (head == history_values) then
+    ! backstresses may follow
+    if (head >= history_values .and. mod(head - history_values, 6) == 0) then
       array(:6) = rotated(6, current%history(:6, current%point), current%axes, 2.0_dp)
       array(7) = current%history(7, current%point)
     else

@@ -1,11 +1,13 @@
 ! SPDX-FileCopyrightText: The uel-harness authors
 ! SPDX-License-Identifier: BSD-3-Clause
-!> The material library behind MATERIAL_LIB_MECH and the built-in elements: linear elasticity, Mises plasticity, hyperelasticity,
-!> UMAT.
+!> The material library behind MATERIAL_LIB_MECH and the built-in elements: linear elasticity, Mises plasticity with isotropic,
+!> kinematic and combined hardening, hyperelasticity, UMAT.
 !>
 !> Stress components: plane stress (11, 22, 12), plane strain (11, 22, 33, 12), three-dimensional
 !> (11, 22, 33, 12, 13, 23); shear strains are engineering strains.
 module host_materials
+  use core_root, only: advance, searching
+  use host_backstress, only: backstress_t, combined_solid
   use host_context, only: current
   use host_dependence, only: dependence_t, elastic_matrices
   use host_hyperelastic, only: hyperelastic_stress, hyperelastic_t, state_variables
@@ -15,6 +17,7 @@ module host_materials
   use host_mises, only: mises_plane_stress, mises_solid
   use host_protect, only: escape
   use host_thermal, only: thermal_t
+  use host_thickness, only: free_thickness, reduced_stress, reduced_tangent, solid_strain, thickness_search
   use host_umat, only: call_umat, strain_energy, user_material_t
   use host_usdfld, only: user_field_t
   implicit none (type, external)
@@ -23,8 +26,9 @@ module host_materials
             has_fields, generates_heat, needs_deformation, set_constants
 
   !> Values of the history of a point of a plastic or prestressed material: stress-free strain (6), which is the plastic strain
-  !> minus the elastic strain of the initial stress, and equivalent plastic strain.
+  !> minus the elastic strain of the initial stress, and equivalent plastic strain. Backstresses follow (host_backstress).
   integer, parameter :: history_values = 7
+  integer, parameter :: most_backstresses = 10
 
   !> PNEWDT if the equations of a point are not solved: Abaqus cuts back a diverging increment by the same factor.
   real(dp), parameter :: smaller = 0.25_dp
@@ -38,6 +42,7 @@ module host_materials
     logical :: turned = .false.                    !< axes are not the global ones
     logical :: local = .false.                     !< all is in the directions of each point (host_axes), axes not used
     real(dp), allocatable :: yield(:, :)           !< (k, 2) yield stress, plastic strain; absent: elastic
+    type(backstress_t), allocatable :: backstress  !< kinematic or combined hardening, beside yield
     real(dp) :: young = 0, poisson = 0             !< of a plastic material, which is isotropic
     logical :: prestressed = .false.               !< it has a history for initial stresses
     real(dp) :: expansion = 0                      !< thermal strain per change of temperature
@@ -134,8 +139,8 @@ contains
     real(dp), intent(out) :: stress(material%ntens)
     real(dp), intent(out) :: tangent(material%ntens, material%ntens)
     logical, intent(out) :: valid
-    real(dp) :: old(history_values)
-    integer :: n
+    real(dp) :: old(history_values + 6*most_backstresses)
+    integer :: n, k, last
     logical :: solved
     character(len=120) :: text
     valid = .true.
@@ -156,24 +161,68 @@ contains
       call call_umat(material%user, n, point, strain, current%history(:, point), stress, tangent, current%history_trial(:, point))
       return
     end if
-    old = current%history(:history_values, point)
-    ! plastic strains rotate with the material
-    if (current%finite) old(:6) = rotated(6, old(:6), current%rotation, 2.0_dp)
+    last = history_values + 6*backstresses(material)
+    old(:last) = current%history(:last, point)
+    if (current%finite) then
+      ! plastic strains and backstresses rotate with the material
+      old(:6) = rotated(6, old(:6), current%rotation, 2.0_dp)
+      do k = history_values + 1, last, 6
+        old(k:k + 5) = rotated(6, old(k:k + 5), current%rotation, 1.0_dp)
+      end do
+    end if
+    solved = .true.
     associate (new => current%history_trial(:, point))
       if (.not. allocated(material%yield)) then
-        new(:history_values) = old
+        new(:history_values) = old(:history_values)
         call linear(material, strain - old(components(n, 6)), stress, tangent)
+      else if (allocated(material%backstress)) then
+        call combined(material, n, strain, old(:last), stress, tangent, new(:last), solved)
       else if (n == 3) then
-        call mises_plane_stress(material%young, material%poisson, material%yield, old, strain, stress, tangent, new, solved)
-        if (.not. solved) then
-          write (text, '(a,i0)') '*PLASTIC: the return to the yield surface does not converge at integration point ', point
-          call not_solved(text)
-        end if
+        call mises_plane_stress(material%young, material%poisson, material%yield, old(:last), strain, stress, tangent, new, solved)
       else
-        call mises_solid(material%young, material%poisson, material%yield, n, old, strain, stress, tangent, new)
+        call mises_solid(material%young, material%poisson, material%yield, n, old(:last), strain, stress, tangent, new)
       end if
     end associate
+    if (solved) return
+    write (text, '(a,i0)') '*PLASTIC: the return to the yield surface does not converge at integration point ', point
+    call not_solved(text)
   end subroutine stress_update
+
+  !> Number of backstresses.
+  pure integer function backstresses(material)
+    type(material_t), intent(in) :: material
+    backstresses = 0
+    if (allocated(material%backstress)) backstresses = size(material%backstress%moduli)
+  end function backstresses
+
+  !> Kinematic and combined hardening; in plane stress the strain 33 is sought that needs no stress 33.
+  subroutine combined(material, n, strain, old, stress, tangent, new, solved)
+    type(material_t), intent(in) :: material
+    integer, intent(in) :: n
+    real(dp), intent(in) :: strain(n), old(:)
+    real(dp), intent(out) :: stress(n), tangent(n, n)
+    real(dp), intent(out) :: new(:)
+    logical, intent(out) :: solved
+    type(thickness_search) :: search
+    real(dp) :: solid(4), modulus(4, 4), elastic(2), scale
+    associate (law => material%backstress, young => material%young, poisson => material%poisson)
+      if (n > 3) then
+        call combined_solid(law, young, poisson, material%yield, n, old, strain, stress, tangent, new, solved)
+        return
+      end if
+      elastic = strain(:2) - old(:2)
+      scale = 4*(sum(abs(strain)) + sum(abs(old(:6))) + sum(abs(old(history_values + 1:)))*2*(1 + poisson)/young)
+      search = free_thickness(old(3) - poisson/(1 - poisson)*sum(elastic), max(scale, epsilon(scale)))
+      do while (searching(search%root))
+        call combined_solid(law, young, poisson, material%yield, 4, old, solid_strain(search, strain), solid, modulus, new, solved)
+        if (.not. solved) exit
+        call advance(search%root, solid(3), modulus(3, 3))
+      end do
+      solved = solved .and. search%root%found
+      stress = reduced_stress(solid)
+      tangent = reduced_tangent(modulus)
+    end associate
+  end subroutine combined
 
   !> Hyperelasticity; the STATEV of UHYPER go from committed to trial, unless USDFLD had them before.
   subroutine hyperelastic(law, had_them, n, point, stress, tangent)

@@ -24,6 +24,7 @@ from harness.deck import (
     materials,
     orientations,
     placement,
+    plastic,
     prescribed,
     procedures,
     requests,
@@ -41,6 +42,7 @@ _FILES = (
     *(structure, lexer, placement, orientations, local_mesh, generation, user_elements, surfaces, constraints),
     *(
         materials,
+        plastic,
         hyperelastic,
         damage,
         heat,

@@ -17,11 +17,13 @@ from harness.deck.heat import ISOTROPIC, extend_heat
 from harness.deck.heat import KEYWORDS as HEAT_OPTIONS
 from harness.deck.hyperelastic import KEYWORDS as HYPERELASTIC_OPTIONS
 from harness.deck.hyperelastic import read_hyperelastic
+from harness.deck.plastic import KEYWORDS as PLASTIC_OPTIONS
+from harness.deck.plastic import extend_plastic
 from harness.deck.table import NAME, Keyword, Kind, Option, Where, ignored, one_of, refused
 from harness.deck.user_constants import MOST_VARIABLES, read_constants
 from harness.deck.user_elements import read_count
 from harness.model.arrays import FloatArray
-from harness.model.properties import Elastic, ElasticType, Material, Plastic, UserMaterial, isotropic_fault
+from harness.model.properties import Elastic, ElasticType, Material, UserMaterial, isotropic_fault
 
 DEPENDENT = (ElasticType.ISOTROPIC, ElasticType.LAMINA, ElasticType.ENGINEERING_CONSTANTS)
 """Those whose constants may depend on temperature and fields."""
@@ -54,8 +56,8 @@ def _extend(material: Material, block: Block, problems: Problems) -> Material:
             extended = replace(material, elastic=_read_elastic(block))
         case "HYPERELASTIC":
             extended = replace(material, hyperelastic=read_hyperelastic(block, problems))
-        case "PLASTIC":
-            extended = replace(material, plastic=_read_plastic(block))
+        case "PLASTIC" | "CYCLIC HARDENING":
+            extended = replace(material, plastic=extend_plastic(material.plastic, block, problems))
         case "USER MATERIAL":
             given, thermal = _read_user_material(block, problems), block.options.text("TYPE") == "THERMAL"
             extended = replace(material, user_thermal=given) if thermal else replace(material, user=given)
@@ -153,21 +155,6 @@ def _read_count(block: Block) -> int:
     return count
 
 
-def _read_plastic(block: Block) -> Plastic:
-    table = []
-    for row in block.rows():
-        if len(row) > 2:
-            raise row.error("expected only yield stress and plastic strain; dependence on temperature is not supported")
-        table.append((row.real(0, "yield stress"), row.real(1, "plastic strain", 0.0)))
-        if table[-1][0] <= 0:
-            raise row.error(f"yield stress {table[-1][0]:g} must be positive")
-        if (table[-1][1] != 0) if len(table) == 1 else (table[-1][1] <= table[-2][1]):
-            raise row.error("plastic strains must begin at zero and increase")
-    if not table:
-        raise block.error("needs a data line")
-    return Plastic(np.array(table), block.source)
-
-
 _OPTIONS = (
     Keyword(
         "ELASTIC",
@@ -187,22 +174,6 @@ _OPTIONS = (
         ),
         "constants in the order of the type; those of continuum elements may depend on temperature and fields, "
         "which follow, eight values per line",
-    ),
-    Keyword(
-        "PLASTIC",
-        "Mises plasticity with isotropic hardening.",
-        Where.MODEL,
-        (
-            one_of(
-                "HARDENING",
-                "hardening",
-                ("ISOTROPIC",),
-                default="ISOTROPIC",
-                refused=("KINEMATIC", "COMBINED", "JOHNSON COOK", "USER"),
-            ),
-            *refused("DATA TYPE", "DEPENDENCIES", "NUMBER BACKSTRESSES", "PROPERTIES", "RATE", "SCALESTRESS"),
-        ),
-        "yield stress, plastic strain",
     ),
     Keyword(
         "USER MATERIAL",
@@ -241,7 +212,8 @@ _OPTIONS = (
         "expansion coefficient",
     ),
 )
-MATERIAL_OPTIONS = {keyword.name for keyword in (*_OPTIONS, *HYPERELASTIC_OPTIONS, *DAMAGE_OPTIONS, *HEAT_OPTIONS)}
+_OTHERS = (*PLASTIC_OPTIONS, *HYPERELASTIC_OPTIONS, *DAMAGE_OPTIONS, *HEAT_OPTIONS)
+MATERIAL_OPTIONS = {keyword.name for keyword in (*_OPTIONS, *_OTHERS)}
 
 KEYWORDS = (
     Keyword(

@@ -15,7 +15,13 @@ from harness.elements.coupled import coupled_routine, heat_routine, heat_variabl
 from harness.elements.directions import start_axes
 from harness.elements.discrete import discrete_routine, discrete_unknowns, discrete_variables
 from harness.elements.heat_loads import heat_load_blocks
-from harness.elements.materials import define_material, linearity, refuse_fields, refuse_hyperelastic
+from harness.elements.materials import (
+    define_material,
+    has_unsymmetric_tangent,
+    linearity,
+    refuse_fields,
+    refuse_hyperelastic,
+)
 from harness.elements.pressure import pressure_blocks
 from harness.elements.routine import Linearity, Routine
 from harness.elements.solid import history_of, solid_routine, solid_variables
@@ -193,10 +199,10 @@ def _solid_block(model: Model, group: ElementGroup, kind: ContinuumType, library
         unknowns,
         routine,
         library,
-        # the elastic and the plastic tangent are symmetric; Abaqus stores the matrix of coupled steps as unsymmetric,
-        # UNSYMM or not (Analysis User's Guide, Fully coupled thermal-stress analysis), as the heat terms of UMAT need
-        unsymmetric=(section.material.user is not None and (coupled or section.material.user.unsymmetric))
-        or (coupled and is_unsymmetric(section.material)),
+        # Abaqus stores the matrix of coupled steps as unsymmetric, UNSYMM or not (Analysis User's Guide, Fully coupled
+        # thermal-stress analysis), as the heat terms of UMAT need
+        unsymmetric=has_unsymmetric_tangent(section.material)
+        or (coupled and (section.material.user is not None or is_unsymmetric(section.material))),
         variables=solid_variables(group, routine),
     )
     if routine.axes is not None:

@@ -74,5 +74,8 @@ def _properties(group: ElementGroup, *, dynamic: bool) -> np.ndarray:
     if dynamic and not material.density:
         message = f"material {material.name} has no *DENSITY, which elements of type {group.type} need in *DYNAMIC"
         raise DeckError(material.source, message)
+    if material.plastic is not None and len(material.plastic.backstresses):
+        message = f"elements of type {group.type} support isotropic hardening only (material {material.name})"
+        raise DeckError(material.plastic.source, f"*PLASTIC: {message}")
     table = np.zeros(0) if material.plastic is None else material.plastic.table.ravel()
     return np.array([section.thickness, material.elastic.constants[0], material.density, *table])

@@ -29,7 +29,8 @@ from harness.model.properties import (
 from harness.usersub import Library, _binding
 
 HISTORY_VALUES: Final = 7
-"""Number of values of the history of a point of a plastic or prestressed material (fortran/host/host_materials.f90)."""
+"""Values of the history of a point of a plastic or prestressed material, before backstresses of six values each
+(fortran/host/host_materials.f90)."""
 USER_HISTORY_VALUES: Final = 15
 """The same for a user material, besides STATEV (fortran/host/host_umat.f90)."""
 
@@ -42,7 +43,8 @@ def history_values(material: Material, *, prestressed: bool = False) -> int:
     if material.user is not None:
         return USER_HISTORY_VALUES + state_variables(material)
     kept = material.plastic is not None or prestressed
-    return (HISTORY_VALUES if kept else 1) + state_variables(material)
+    backstresses = 0 if material.plastic is None else len(material.plastic.backstresses)
+    return (HISTORY_VALUES + 6 * backstresses if kept else 1) + state_variables(material)
 
 
 def linearity(material: Material, *, prestressed: bool = False) -> Linearity:
@@ -66,6 +68,13 @@ def refuse_fields(material: Material, elements: str) -> None:
     if material.elastic is not None and material.elastic.table is not None:
         message = f"*ELASTIC: dependence on temperature and fields is not supported for {elements}"
         raise DeckError(material.elastic.source, message)
+
+
+def has_unsymmetric_tangent(material: Material) -> bool:
+    """Whether the derivatives of the stresses by the strains are unsymmetric."""
+    if material.user is not None:
+        return material.user.unsymmetric
+    return material.plastic is not None and bool(material.plastic.backstresses[:, 1].any())
 
 
 def refuse_hyperelastic(material: Material, elements: str) -> None:
@@ -140,7 +149,10 @@ def define_material(
         if elastic.type is not ElasticType.ISOTROPIC:
             raise DeckError(material.plastic.source, "*PLASTIC is supported with *ELASTIC, TYPE=ISOTROPIC only")
         constants, table = _isotropic_constants(elastic), material.plastic.table
-    return _binding.define_material(stiffness, reduced, compliance[2, components[:3]], axes, constants, table)
+    number = _binding.define_material(stiffness, reduced, compliance[2, components[:3]], axes, constants, table)
+    if material.plastic is not None and len(material.plastic.backstresses):
+        _binding.set_backstresses(number, material.plastic.backstresses, material.plastic.growth)
+    return number
 
 
 def global_compliance(material: Material, orientation: Orientation | None, tensor: Tensor) -> FloatArray | None:

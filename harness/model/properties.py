@@ -67,10 +67,19 @@ class Elastic:
 
 @dataclass(frozen=True, slots=True)
 class Plastic:
-    """*PLASTIC, isotropic Mises hardening: table (k, 2) of yield stress and plastic strain."""
+    """*PLASTIC with the Mises yield surface.
+
+    table         (k, 2) yield stress, the size of the yield surface, and plastic strain
+    backstresses  (n, 2) C and gamma of each backstress of kinematic and combined hardening; n = 0: isotropic hardening
+    growth        Q and b of *CYCLIC HARDENING, PARAMETERS: the size grows by Q (1 - exp(-b plastic strain))
+    combined      HARDENING=COMBINED
+    """
 
     table: FloatArray
     source: Source
+    backstresses: FloatArray = field(default_factory=lambda: np.zeros((0, 2)))
+    growth: tuple[float, float] = (0.0, 0.0)
+    combined: bool = False
 
 
 class Potential(StrEnum):

@@ -313,6 +313,14 @@ def set_prestressed(number: int) -> None:
     _host.host_set_prestressed(number)
 
 
+def set_backstresses(number: int, backstresses: FloatArray, growth: tuple[float, float]) -> None:
+    """Let the yield surface of a plastic material move, and grow exponentially beside its table.
+
+    backstresses (k, 2) C and gamma; growth: Q and b.
+    """
+    _host.host_set_backstresses(number, backstresses.T, growth)
+
+
 def set_dependence(number: int, constants: int, turn: FloatArray, table: FloatArray) -> None:
     """Let the elastic constants of a material depend on temperature and field variables.
 

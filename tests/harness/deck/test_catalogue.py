@@ -46,10 +46,56 @@ def test_elastic(read: Read, kind: str, data: str, expected: tuple[float, ...]) 
     assert elastic.constants == expected
 
 
+COMBINED = "*PLASTIC, HARDENING=COMBINED, DATA TYPE=PARAMETERS"
+CYCLIC = f"{COMBINED}\n5., 1., 2.\n*CYCLIC HARDENING"
+
+
 def test_plastic(read: Read) -> None:
     plastic = material(read, "*ELASTIC\n1000.\n*PLASTIC\n10., 0.\n12., 0.1").plastic
     assert plastic is not None
     assert_array_equal(plastic.table, [[10, 0], [12, 0.1]])
+
+
+def test_kinematic_hardening(read: Read) -> None:
+    """The modulus is the slope of the two lines over the plastic strain."""
+    plastic = material(read, "*ELASTIC\n1000.\n*PLASTIC, HARDENING=KINEMATIC\n10., 0.\n12., 0.1").plastic
+    assert plastic is not None
+    assert_array_equal(plastic.table, [[10, 0]])
+    assert_allclose(plastic.backstresses, [[20, 0]])
+
+
+@pytest.mark.parametrize(
+    ("cyclic", "table", "growth"),
+    [
+        ("", [[5, 0]], (0, 0)),
+        ("\n*CYCLIC HARDENING, PARAMETERS\n5., -1., 7.", [[5, 0]], (-1, 7)),
+        ("\n*CYCLIC HARDENING\n5., 0.\n6., .2", [[5, 0], [6, 0.2]], (0, 0)),
+    ],
+)
+def test_combined_hardening(read: Read, cyclic: str, table: list[list[float]], growth: tuple[float, float]) -> None:
+    """The last gamma is not given."""
+    lines = f"{COMBINED}, NUMBER BACKSTRESSES=4\n5., 1., 2., 3., 4., 5., 6., 7.{cyclic}"
+    plastic = material(read, f"*ELASTIC\n1000.\n{lines}").plastic
+    assert plastic is not None
+    assert_array_equal(plastic.backstresses, [[1, 2], [3, 4], [5, 6], [7, 0]])
+    assert_array_equal(plastic.table, table)
+    assert plastic.growth == growth
+
+
+def test_backstresses_on_two_lines(read: Read) -> None:
+    plastic = material(read, f"{COMBINED}, NUMBER BACKSTRESSES=4\n5., 1., 2., 3., 4., 5., 6., 7.\n8.").plastic
+    assert plastic is not None
+    assert_array_equal(plastic.backstresses[-1], [7, 8])
+
+
+def test_other_size_in_cyclic_hardening(read: Read) -> None:
+    """The size of *CYCLIC HARDENING counts."""
+    text = f"{CYCLIC}, PARAMETERS\n6., 1., 7."
+    model = read(FLAT.replace("*ELASTIC\n70000., 0.3\n", f"*ELASTIC\n1.\n{text}\n"))
+    warnings = [warning for warning in model.warnings if "CYCLIC" in str(warning)]
+    assert "deck.inp:34: *CYCLIC HARDENING: the yield surface begins with 6, not with the 5 of *PLASTIC" in str(
+        warnings[0]
+    )
 
 
 @pytest.mark.parametrize(
@@ -72,7 +118,42 @@ def test_plastic(read: Read) -> None:
         ("*CONDUCTIVITY, TYPE=ORTHO\n1., 2., 3.", r"deck.inp:30: \*CONDUCTIVITY, TYPE=ORTHO is not supported"),
         ("*SPECIFIC HEAT", r"deck.inp:30: \*SPECIFIC HEAT: needs a data line with the specific heat"),
         ("*SPECIFIC HEAT\n-2.", r"deck.inp:31: \*SPECIFIC HEAT: specific heat -2 must be positive"),
-        ("*PLASTIC, HARDENING=KINEMATIC\n10.", r"deck.inp:30: \*PLASTIC, HARDENING=KINEMATIC is not supported"),
+        ("*PLASTIC, HARDENING=KINEMATIC\n10.", r"deck.inp:30: \*PLASTIC: HARDENING=KINEMATIC needs two data lines, f"),
+        (
+            "*PLASTIC, HARDENING=KINEMATIC\n10.\n9., .1",
+            r"30: .* HARDENING=KINEMATIC: the yield stress must not decrease",
+        ),
+        ("*PLASTIC, NUMBER BACKSTRESSES=2\n10.", r"30: \*PLASTIC: NUMBER BACKSTRESSES goes with HARDENING=COMBINED"),
+        (
+            "*PLASTIC, HARDENING=COMBINED\n10.",
+            r"30: \*PLASTIC: HARDENING=COMBINED is supported with DATA TYPE=PARAMETERS:",
+        ),
+        ("*PLASTIC, HARDENING=USER\n10.", r"deck.inp:30: \*PLASTIC, HARDENING=USER is not supported"),
+        (f"{COMBINED}, NUMBER BACKSTRESSES=11\n10.", r"30: .* NUMBER BACKSTRESSES=11: expected a number from 1 to 10"),
+        (
+            f"{COMBINED}\n10., 1., 2., 3.",
+            r"30: \*PLASTIC: 4 values, but yield stress and C, gamma of 1 backstresses are 3",
+        ),
+        (f"{COMBINED}, NUMBER BACKSTRESSES=2\n10., 1., 2.", r"30: .*: 2 values after the yield stress, expected C and"),
+        (f"{COMBINED}\n0., 1., 2.", r"31: \*PLASTIC: yield stress 0 must be positive"),
+        (f"{COMBINED}\n1., -1., 2.", r"30: \*PLASTIC: C and gamma must not be negative, found -1"),
+        (COMBINED, r"30: \*PLASTIC: needs a data line"),
+        ("*CYCLIC HARDENING\n1.", r"30: \*CYCLIC HARDENING: does not follow \*PLASTIC, HARDENING=COMBINED"),
+        (
+            "*PLASTIC\n1.\n*CYCLIC HARDENING\n1.",
+            r"32: \*CYCLIC HARDENING: does not follow \*PLASTIC, HARDENING=COMBINED",
+        ),
+        (f"{CYCLIC}", r"32: \*CYCLIC HARDENING: needs a data line"),
+        (f"{CYCLIC}\n0.", r"33: \*CYCLIC HARDENING: size of the yield surface 0 must be positive"),
+        (
+            f"{CYCLIC}, PARAMETERS",
+            r"32: \*CYCLIC HARDENING: needs a data line with the size of the yield surface, Q and b",
+        ),
+        (f"{CYCLIC}, PARAMETERS\n5., 1.", r"33: \*CYCLIC HARDENING: b is missing"),
+        (
+            f"{CYCLIC}, PARAMETERS\n5., -6., 1.",
+            r"33: .*: size 5, Q = -6, b = 1: expected size > 0, size \+ Q > 0 and b >=",
+        ),
         (
             "*USER MATERIAL, CONSTANTS=2\n1, 2, 3, 4",
             r"deck.inp:30: \*USER MATERIAL: 4 values, but CONSTANTS=2",

@@ -8,6 +8,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 import scipy.sparse as sp
+from material_point import COMPONENTS, MaterialPoint
 
 from harness import usersub
 from harness.elements import Call, Flags, build_blocks
@@ -101,6 +102,26 @@ def bound():
         return block, matrix
 
     return bound
+
+
+@pytest.fixture
+def material_point(load, user_group, bound, call):
+    """A point of a material, in a user element of its own."""
+
+    def material_point(material, tensor, *, orientation=None, integers=(1, 0), **definition):
+        group = user_group(
+            np.array([[0]]),
+            tuple((0, dof + 1) for dof in range(len(COMPONENTS.get(tensor, range(3))))),
+            integers=integers,
+            material=material,
+            orientation=orientation,
+            tensor=tensor,
+            **definition,
+        )
+        library = load("point.f")
+        return MaterialPoint(library, *bound(group, np.zeros((1, 3)), library), call)
+
+    return material_point
 
 
 @pytest.fixture

@@ -6,13 +6,13 @@ import math
 
 import numpy as np
 import pytest
+from material_point import COMPONENTS
 
 from harness.errors import DeckError, KernelError, Source
 from harness.model.properties import Elastic, ElasticType, Material, Orientation, Plastic
 
 ELASTIC_LINE = Source("deck.inp", 12)
 SECTION_LINE = Source("test.inp", 7)
-COMPONENTS = {"PSTRESS": [0, 1, 3], "PSTRAIN": [0, 1, 2, 3], "TWOD": [0, 1, 2, 3], "THREED": [0, 1, 2, 3, 4, 5]}
 PAIRS = [(0, 0), (1, 1), (2, 2), (0, 1), (0, 2), (1, 2)]
 E, NU, G = 200e3, 0.3, 200e3 / 2.6
 ISOTROPIC = Elastic(ElasticType.ISOTROPIC, (E, NU), ELASTIC_LINE)
@@ -23,39 +23,13 @@ TABLE = np.array([[250.0, 0.0], [300.0, 0.01], [330.0, 0.05]])
 RNG = np.random.default_rng(3)
 
 
-class Point:
-    """One material point of a UELMAT whose unknowns are its strains."""
-
-    def __init__(self, library, block, matrix, call):
-        self.library, self.block, self.matrix, self.call = library, block, matrix, call
-        self.n = matrix.shape[0]
-
-    def __call__(self, strain, increment=None):
-        """Stress and tangent at a strain; the increment is the whole strain unless given."""
-        strain = np.array(strain, dtype=float)
-        minus_stress = np.zeros(self.n)
-        self.matrix.data[:] = 0
-        du = strain if increment is None else np.array(increment, dtype=float)
-        self.report = self.block.evaluate(self.call, strain, du, minus_stress, self.matrix.data)
-        return -minus_stress, self.matrix.toarray()
-
-
 @pytest.fixture
-def point(load, user_group, bound, call):
-    def point(elastic, tensor, *, table=None, axes=None, integers=(1, 0), **definition):
+def point(material_point):
+    def point(elastic, tensor, *, table=None, axes=None, **options):
         plastic = None if table is None else Plastic(table, Source("deck.inp", 15))
         orientation = None if axes is None else Orientation("TURNED", axes, SECTION_LINE)
-        group = user_group(
-            np.array([[0]]),
-            tuple((0, dof + 1) for dof in range(len(COMPONENTS[tensor]) if tensor else 3)),
-            integers=integers,
-            material=Material("M", Source("deck.inp", 10), elastic, plastic),
-            orientation=orientation,
-            tensor=tensor,
-            **definition,
-        )
-        library = load("point.f")
-        return Point(library, *bound(group, np.zeros((1, 3)), library), call)
+        material = Material("M", Source("deck.inp", 10), elastic, plastic)
+        return material_point(material, tensor, orientation=orientation, **options)
 
     return point
 
@@ -224,7 +198,6 @@ def test_plasticity_needs_isotropic_elasticity(point):
 
 @pytest.mark.parametrize("tensor", ["", "SHELL"])
 def test_tensor_is_needed(point, tensor):
-    COMPONENTS.setdefault("SHELL", [0, 1, 2])
     with pytest.raises(
         DeckError, match=r"test\.inp:7: \*USER ELEMENT, TYPE=U1 needs TENSOR=PSTRESS\|PSTRAIN\|TWOD\|THREED"
     ):
