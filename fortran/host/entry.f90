@@ -254,6 +254,46 @@ subroutine host_set_backstresses(number, backstresses, growth, count)
   material%backstress%rate = growth(2)
 end subroutine host_set_backstresses
 
+!> Let stresses of an isotropic material relax.
+subroutine host_set_prony(number, constants, moduli, terms, count)
+  use host_kinds, only: dp, i4
+  use host_materials, only: find_material, material_t
+  implicit none (type, external)
+  integer(i4), intent(in) :: number, count
+  real(dp), intent(in) :: constants(2)       !< long-term Young's modulus and Poisson's ratio
+  real(dp), intent(in) :: moduli(2)          !< instantaneous shear and bulk modulus
+  real(dp), intent(in) :: terms(3, count)    !< g, k, tau
+  type(material_t), pointer :: material
+  material => find_material(number)
+  material%young = constants(1)
+  material%poisson = constants(2)
+  allocate (material%prony)
+  material%prony%shear = terms(1, :)
+  material%prony%bulk = terms(2, :)
+  material%prony%times = terms(3, :)
+  material%prony%moduli = moduli
+end subroutine host_set_prony
+
+!> Let an isotropic material creep.
+subroutine host_set_creep(number, constants, by_time, power_law)
+  use host_kinds, only: dp, i4
+  use host_materials, only: find_material, material_t
+  implicit none (type, external)
+  integer(i4), intent(in) :: number
+  real(dp), intent(in) :: constants(2)       !< Young's modulus and Poisson's ratio
+  integer(i4), intent(in) :: by_time         !< 1: time hardening, 0: strain hardening
+  real(dp), intent(in) :: power_law(3)       !< A, n, m
+  type(material_t), pointer :: material
+  material => find_material(number)
+  material%young = constants(1)
+  material%poisson = constants(2)
+  allocate (material%creep)
+  material%creep%by_time = by_time /= 0
+  material%creep%factor = power_law(1)
+  material%creep%stress_power = power_law(2)
+  material%creep%time_power = power_law(3)
+end subroutine host_set_creep
+
 !> Give a material thermal expansion.
 subroutine host_set_expansion(number, expansion)
   use host_kinds, only: dp, i4

@@ -121,6 +121,7 @@ contains
     current%routine = merge('UELMAT', 'UEL   ', block%with_material)
     current%time = block%time - block%dtime
     current%dtime = block%dtime
+    current%procedure = merge(0_i4, block%lflags(1), block%lflags(3) == 6)
   end subroutine prepare
 
   !> Set the fault if an entry of RHS or AMATRX of the current element is not a number, as far as they are checked.

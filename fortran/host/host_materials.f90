@@ -1,7 +1,7 @@
 ! SPDX-FileCopyrightText: The uel-harness authors
 ! SPDX-License-Identifier: BSD-3-Clause
 !> The material library behind MATERIAL_LIB_MECH and the built-in elements: linear elasticity, Mises plasticity with isotropic,
-!> kinematic and combined hardening, hyperelasticity, UMAT.
+!> kinematic and combined hardening, viscoelasticity, creep, hyperelasticity, UMAT.
 !>
 !> Stress components: plane stress (11, 22, 12), plane strain (11, 22, 33, 12), three-dimensional
 !> (11, 22, 33, 12, 13, 23); shear strains are engineering strains.
@@ -9,12 +9,15 @@ module host_materials
   use core_root, only: advance, searching
   use host_backstress, only: backstress_t, combined_solid
   use host_context, only: current
+  use host_creep, only: creep_solid, creep_t, creep_values
   use host_dependence, only: dependence_t, elastic_matrices
   use host_hyperelastic, only: hyperelastic_stress, hyperelastic_t, state_variables
+  use host_inertia, only: is_dynamic
   use host_kinds, only: dp, i4
   use host_kinematics, only: components, rotated
   use host_messages, only: add_message
   use host_mises, only: mises_plane_stress, mises_solid
+  use host_prony, only: prony_solid, prony_t, prony_values
   use host_protect, only: escape
   use host_thermal, only: thermal_t
   use host_thickness, only: free_thickness, reduced_stress, reduced_tangent, solid_strain, thickness_search
@@ -23,12 +26,15 @@ module host_materials
   implicit none (type, external)
   private
   public :: material_t, define, find_material, stress_update, not_solved, elastic_energy, thickness_strain, history_values, &
-            has_fields, generates_heat, needs_deformation, set_constants
+            has_fields, generates_heat, is_viscous, needs_deformation, set_constants
 
   !> Values of the history of a point of a plastic or prestressed material: stress-free strain (6), which is the plastic strain
   !> minus the elastic strain of the initial stress, and equivalent plastic strain. Backstresses follow (host_backstress).
   integer, parameter :: history_values = 7
-  integer, parameter :: most_backstresses = 10
+  !> Room for the history of a point: of 20 terms of a Prony series, or 10 backstresses.
+  integer, parameter :: most_values = prony_values + 6*20
+
+  integer, parameter :: visco = 21    !< LFLAGS(1) of *VISCO
 
   !> PNEWDT if the equations of a point are not solved: Abaqus cuts back a diverging increment by the same factor.
   real(dp), parameter :: smaller = 0.25_dp
@@ -43,7 +49,9 @@ module host_materials
     logical :: local = .false.                     !< all is in the directions of each point (host_axes), axes not used
     real(dp), allocatable :: yield(:, :)           !< (k, 2) yield stress, plastic strain; absent: elastic
     type(backstress_t), allocatable :: backstress  !< kinematic or combined hardening, beside yield
-    real(dp) :: young = 0, poisson = 0             !< of a plastic material, which is isotropic
+    type(prony_t), allocatable :: prony            !< viscoelasticity
+    type(creep_t), allocatable :: creep
+    real(dp) :: young = 0, poisson = 0             !< of a material with plasticity, viscoelasticity or creep, which is isotropic
     logical :: prestressed = .false.               !< it has a history for initial stresses
     real(dp) :: expansion = 0                      !< thermal strain per change of temperature
     type(hyperelastic_t), allocatable :: hyperelastic   !< then nothing above counts but ntens, axes and local
@@ -103,6 +111,12 @@ contains
     if (allocated(material%thermal)) generates_heat = generates_heat .or. allocated(material%thermal%source)
   end function generates_heat
 
+  !> Whether stresses depend on time: what they dissipate is ENERGY(3).
+  pure logical function is_viscous(material)
+    type(material_t), intent(in) :: material
+    is_viscous = allocated(material%prony) .or. allocated(material%creep)
+  end function is_viscous
+
   !> Whether stresses take the deformation gradients in current%deformation.
   pure logical function needs_deformation(material)
     type(material_t), intent(in) :: material
@@ -139,8 +153,8 @@ contains
     real(dp), intent(out) :: stress(material%ntens)
     real(dp), intent(out) :: tangent(material%ntens, material%ntens)
     logical, intent(out) :: valid
-    real(dp) :: old(history_values + 6*most_backstresses)
-    integer :: n, k, last
+    real(dp) :: old(most_values)
+    integer :: n, k, first, last
     logical :: solved
     character(len=120) :: text
     valid = .true.
@@ -149,7 +163,7 @@ contains
       call hyperelastic(material%hyperelastic, allocated(material%user_field), n, point, stress, tangent)
       return
     end if
-    if (.not. (allocated(material%yield) .or. allocated(material%user) .or. material%prestressed)) then
+    if (.not. (allocated(material%yield) .or. allocated(material%user) .or. material%prestressed .or. is_viscous(material))) then
       call linear(material, strain, stress, tangent)
       return
     end if
@@ -161,22 +175,22 @@ contains
       call call_umat(material%user, n, point, strain, current%history(:, point), stress, tangent, current%history_trial(:, point))
       return
     end if
-    last = history_values + 6*backstresses(material)
+    call places_of_tensors(material, first, last)
     old(:last) = current%history(:last, point)
     if (current%finite) then
-      ! plastic strains and backstresses rotate with the material
+      ! strains and stresses of the history rotate with the material
       old(:6) = rotated(6, old(:6), current%rotation, 2.0_dp)
-      do k = history_values + 1, last, 6
+      do k = first, last, 6
         old(k:k + 5) = rotated(6, old(k:k + 5), current%rotation, 1.0_dp)
       end do
     end if
     solved = .true.
     associate (new => current%history_trial(:, point))
-      if (.not. allocated(material%yield)) then
+      if (is_viscous(material) .or. allocated(material%backstress)) then
+        call inelastic(material, n, strain, old(:last), stress, tangent, new(:last), solved)
+      else if (.not. allocated(material%yield)) then
         new(:history_values) = old(:history_values)
         call linear(material, strain - old(components(n, 6)), stress, tangent)
-      else if (allocated(material%backstress)) then
-        call combined(material, n, strain, old(:last), stress, tangent, new(:last), solved)
       else if (n == 3) then
         call mises_plane_stress(material%young, material%poisson, material%yield, old(:last), strain, stress, tangent, new, solved)
       else
@@ -184,45 +198,82 @@ contains
       end if
     end associate
     if (solved) return
-    write (text, '(a,i0)') '*PLASTIC: the return to the yield surface does not converge at integration point ', point
+    if (is_viscous(material)) then
+      write (text, '(a,i0)') '*CREEP or *VISCOELASTIC: the stress is not found at integration point ', point
+    else
+      write (text, '(a,i0)') '*PLASTIC: the return to the yield surface does not converge at integration point ', point
+    end if
     call not_solved(text)
   end subroutine stress_update
 
-  !> Number of backstresses.
-  pure integer function backstresses(material)
+  !> Where the history of a point has stress tensors, six values each, and its last value without STATEV.
+  pure subroutine places_of_tensors(material, first, last)
     type(material_t), intent(in) :: material
-    backstresses = 0
-    if (allocated(material%backstress)) backstresses = size(material%backstress%moduli)
-  end function backstresses
+    integer, intent(out) :: first, last
+    first = history_values + 1
+    last = history_values
+    if (allocated(material%backstress)) then
+      last = last + 6*size(material%backstress%moduli)
+    else if (allocated(material%prony)) then
+      first = prony_values + 1
+      last = prony_values + 6*size(material%prony%times)
+    else if (allocated(material%creep)) then
+      first = creep_values + 1
+      last = creep_values
+    end if
+  end subroutine places_of_tensors
 
-  !> Kinematic and combined hardening; in plane stress the strain 33 is sought that needs no stress 33.
-  subroutine combined(material, n, strain, old, stress, tangent, new, solved)
+  !> Laws that are written for plane strain and three dimensions; in plane stress the strain 33 is sought that needs no stress 33.
+  subroutine inelastic(material, n, strain, old, stress, tangent, new, solved)
     type(material_t), intent(in) :: material
     integer, intent(in) :: n
     real(dp), intent(in) :: strain(n), old(:)
-    real(dp), intent(out) :: stress(n), tangent(n, n)
-    real(dp), intent(out) :: new(:)
+    real(dp), intent(out) :: stress(n), tangent(n, n), new(:)
     logical, intent(out) :: solved
     type(thickness_search) :: search
-    real(dp) :: solid(4), modulus(4, 4), elastic(2), scale
-    associate (law => material%backstress, young => material%young, poisson => material%poisson)
-      if (n > 3) then
-        call combined_solid(law, young, poisson, material%yield, n, old, strain, stress, tangent, new, solved)
-        return
-      end if
-      elastic = strain(:2) - old(:2)
-      scale = 4*(sum(abs(strain)) + sum(abs(old(:6))) + sum(abs(old(history_values + 1:)))*2*(1 + poisson)/young)
-      search = free_thickness(old(3) - poisson/(1 - poisson)*sum(elastic), max(scale, epsilon(scale)))
-      do while (searching(search%root))
-        call combined_solid(law, young, poisson, material%yield, 4, old, solid_strain(search, strain), solid, modulus, new, solved)
-        if (.not. solved) exit
-        call advance(search%root, solid(3), modulus(3, 3))
-      end do
-      solved = solved .and. search%root%found
-      stress = reduced_stress(solid)
-      tangent = reduced_tangent(modulus)
+    real(dp) :: solid(4), modulus(4, 4), scale
+    integer :: first, last
+    if (n > 3) then
+      call solid_law(material, n, strain, old, stress, tangent, new, solved)
+      return
+    end if
+    call places_of_tensors(material, first, last)
+    associate (poisson => material%poisson)
+      scale = 4*(sum(abs(strain)) + sum(abs(old(:6))) + sum(abs(old(first:last)))*2*(1 + poisson)/material%young)
+      search = free_thickness(old(3) - poisson/(1 - poisson)*sum(strain(:2) - old(:2)), max(scale, epsilon(scale)))
     end associate
-  end subroutine combined
+    do while (searching(search%root))
+      call solid_law(material, 4, solid_strain(search, strain), old, solid, modulus, new, solved)
+      if (.not. solved) exit
+      call advance(search%root, solid(3), modulus(3, 3))
+    end do
+    solved = solved .and. search%root%found
+    stress = reduced_stress(solid)
+    tangent = reduced_tangent(modulus)
+  end subroutine inelastic
+
+  !> Plane strain (n = 4) and three dimensions (n = 6).
+  subroutine solid_law(material, n, strain, old, stress, tangent, new, solved)
+    type(material_t), intent(in) :: material
+    integer, intent(in) :: n
+    real(dp), intent(in) :: strain(n), old(:)
+    real(dp), intent(out) :: stress(n), tangent(n, n), new(:)
+    logical, intent(out) :: solved
+    real(dp) :: start, elapsed
+    solved = .true.
+    if (allocated(material%prony)) then
+      elapsed = merge(current%dtime, 0.0_dp, current%procedure == visco .or. is_dynamic(current%procedure))
+      call prony_solid(material%prony, elapsed, n, old, strain, stress, tangent, new)
+    else if (allocated(material%creep)) then
+      start = max(current%time(2), 0.0_dp)
+      elapsed = merge(current%dtime, 0.0_dp, current%procedure == visco)
+      call creep_solid(material%creep, material%young, material%poisson, [start, start + elapsed], n, old, strain, stress, &
+                       tangent, new, solved)
+    else
+      call combined_solid(material%backstress, material%young, material%poisson, material%yield, n, old, strain, stress, &
+                          tangent, new, solved)
+    end if
+  end subroutine solid_law
 
   !> Hyperelasticity; the STATEV of UHYPER go from committed to trial, unless USDFLD had them before.
   subroutine hyperelastic(law, had_them, n, point, stress, tangent)
@@ -284,6 +335,10 @@ contains
       elastic_energy = current%history_trial(strain_energy, point)
       return
     end if
+    if (allocated(material%prony)) then
+      elastic_energy = current%history_trial(7, point)
+      return
+    end if
     do j = 1, material%ntens
       do i = 1, material%ntens
         elastic_energy = elastic_energy + 0.5_dp*stress(i)*material%compliance(i, j)*stress(j)
@@ -296,7 +351,11 @@ contains
     type(material_t), intent(in) :: material
     integer(i4), intent(in) :: point
     real(dp), intent(in) :: stress(3)
-    thickness_strain = dot_product(material%thickness, stress)
-    if (allocated(material%yield) .or. material%prestressed) thickness_strain = thickness_strain + current%history_trial(3, point)
+    thickness_strain = 0
+    ! with viscoelasticity the history has the whole strain
+    if (.not. allocated(material%prony)) thickness_strain = dot_product(material%thickness, stress)
+    if (allocated(material%yield) .or. material%prestressed .or. is_viscous(material)) then
+      thickness_strain = thickness_strain + current%history_trial(3, point)
+    end if
   end function thickness_strain
 end module host_materials

@@ -40,8 +40,8 @@ module host_solid
   use host_kinematics, only: components, gradients, mean_gradients, point_position, rotated, rotation_of
   use host_mean_volume, only: add_mean_volume, add_uniform_volume
   use host_protect, only: escape
-  use host_materials, only: elastic_energy, find_material, generates_heat, has_fields, material_t, needs_deformation, &
-                            not_solved, set_constants, stress_update, thickness_strain
+  use host_materials, only: elastic_energy, find_material, generates_heat, has_fields, is_viscous, material_t, &
+                            needs_deformation, not_solved, set_constants, stress_update, thickness_strain
   use host_shape, only: is_multilinear, is_quadratic, radius_of, rule_of, rule_t
   use host_thermal, only: call_hetval
   use host_usdfld, only: call_usdfld
@@ -236,7 +236,7 @@ contains
     real(dp) :: strain(strains), stress(strains), modulus(strains, strains), thermal(2), weight, elastic, work
     real(dp) :: now_axes(3, 3), middle(3, 3)
     logical :: averaged
-    integer :: dim, nodes, p
+    integer :: dim, nodes, p, dissipated
     dim = rule%dim
     nodes = rule%nodes
     ! full integration of elements with straight edges locks if the volume is preserved, but not in plane stress; modes see to it
@@ -257,7 +257,8 @@ contains
       end if
     end if
     elastic = 0
-    work = energy(2) + energy(4)
+    dissipated = merge(3, 4, is_viscous(material))
+    work = energy(2) + energy(dissipated)
     if (has_fields(material)) current%length = size_of(rule, direct, now, volume)
     current%finite = finite
     if (finite .and. (needs_deformation(material) .or. material%local)) then
@@ -341,7 +342,7 @@ contains
     ! it dissipates nothing, and the trapezoidal rule is not exact
     if (allocated(material%hyperelastic)) work = elastic
     energy(2) = elastic
-    energy(4) = work - elastic
+    energy(dissipated) = work - elastic
     if (has_hourglass_modes(rule)) then
       call resist_hourglass(rule, g_start(:, :dim), volume_start*merge(thickness, 1.0_dp, dim == 2), hourglass, &
                             enhanced_constants(material, enhanced), finite, x, u, force, stiffness, energy(6))

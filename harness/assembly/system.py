@@ -291,6 +291,12 @@ class System:
                 block.commit()
         return energy
 
+    def viscous_change(self) -> float:
+        """Largest change of a viscous strain rate in the increment times its length, by the last pass."""
+        return float(
+            self.ranks.largest(np.array([max((block.viscous_change for block in self.blocks), default=0.0)]))[0]
+        )
+
     def states(self) -> States:
         """Committed states of all elements.
 

@@ -35,6 +35,7 @@ from harness.deck import (
     structure,
     surfaces,
     user_elements,
+    viscous,
 )
 from harness.deck.table import Keyword, Kind, Option, Support, compact
 
@@ -43,6 +44,7 @@ _FILES = (
     *(
         materials,
         plastic,
+        viscous,
         hyperelastic,
         damage,
         heat,

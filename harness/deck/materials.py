@@ -22,6 +22,8 @@ from harness.deck.plastic import extend_plastic
 from harness.deck.table import NAME, Keyword, Kind, Option, Where, ignored, one_of, refused
 from harness.deck.user_constants import MOST_VARIABLES, read_constants
 from harness.deck.user_elements import read_count
+from harness.deck.viscous import KEYWORDS as VISCOUS_OPTIONS
+from harness.deck.viscous import extend_viscous
 from harness.model.arrays import FloatArray
 from harness.model.properties import Elastic, ElasticType, Material, UserMaterial, isotropic_fault
 
@@ -58,6 +60,8 @@ def _extend(material: Material, block: Block, problems: Problems) -> Material:
             extended = replace(material, hyperelastic=read_hyperelastic(block, problems))
         case "PLASTIC" | "CYCLIC HARDENING":
             extended = replace(material, plastic=extend_plastic(material.plastic, block, problems))
+        case "VISCOELASTIC" | "CREEP":
+            extended = extend_viscous(material, block)
         case "USER MATERIAL":
             given, thermal = _read_user_material(block, problems), block.options.text("TYPE") == "THERMAL"
             extended = replace(material, user_thermal=given) if thermal else replace(material, user=given)
@@ -92,6 +96,7 @@ def _read_constant(block: Block, what: str, *, positive: bool = True) -> float:
 def _read_elastic(block: Block) -> Elastic:
     kind = ElasticType(block.options.text("TYPE"))
     count = kind.constants
+    instantaneous = block.options.text("MODULI") == "INSTANTANEOUS"
     rows = list(block.rows())
     if not rows:
         raise block.error("needs a data line")
@@ -100,7 +105,9 @@ def _read_elastic(block: Block) -> Elastic:
     if fields or len(values) > count:
         table = _read_dependence(block, kind, count, fields)
         # one row is no dependence
-        return Elastic(kind, tuple(table[0, :count].tolist()), block.source, table if len(table) > 1 else None)
+        return Elastic(
+            kind, tuple(table[0, :count].tolist()), block.source, table if len(table) > 1 else None, instantaneous
+        )
     # trailing constants may be left out: Poisson's ratio, the transverse shear moduli of a lamina, Ett in the plane
     needed = {ElasticType.ISOTROPIC: 1, ElasticType.LAMINA: 4, ElasticType.TRACTION: 2}.get(kind, count)
     if len(values) < needed:
@@ -108,7 +115,7 @@ def _read_elastic(block: Block) -> Elastic:
     values += [0.0] * (count - len(values))
     if kind is ElasticType.ISOTROPIC:
         _check_isotropic(rows[0], *values)
-    return Elastic(kind, tuple(values), block.source)
+    return Elastic(kind, tuple(values), block.source, instantaneous=instantaneous)
 
 
 def _check_isotropic(row: Row, young: float, poisson: float) -> None:
@@ -169,7 +176,12 @@ _OPTIONS = (
                 refused=("COUPLED TRACTION", "SHEAR", "SHORT FIBER", "BILAMINA"),
             ),
             Option("DEPENDENCIES", Kind.INTEGER, "number of field variables"),
-            *ignored("MODULI"),
+            one_of(
+                "MODULI",
+                "which ones the constants give, with *VISCOELASTIC",
+                ("LONG TERM", "INSTANTANEOUS"),
+                default="LONG TERM",
+            ),
             *refused("COMPRESSION FACTOR"),
         ),
         "constants in the order of the type; those of continuum elements may depend on temperature and fields, "
@@ -212,7 +224,7 @@ _OPTIONS = (
         "expansion coefficient",
     ),
 )
-_OTHERS = (*PLASTIC_OPTIONS, *HYPERELASTIC_OPTIONS, *DAMAGE_OPTIONS, *HEAT_OPTIONS)
+_OTHERS = (*PLASTIC_OPTIONS, *VISCOUS_OPTIONS, *HYPERELASTIC_OPTIONS, *DAMAGE_OPTIONS, *HEAT_OPTIONS)
 MATERIAL_OPTIONS = {keyword.name for keyword in (*_OPTIONS, *_OTHERS)}
 
 KEYWORDS = (

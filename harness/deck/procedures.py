@@ -125,7 +125,12 @@ def _read_riks(row: Row | None, prescription: Prescription) -> Riks:
 
 
 def _read_visco(block: Block, _: Prescription) -> Visco:
-    return Visco(*_read_times(block, direct=block.options.flag("DIRECT")))
+    tolerance = block.options.real("CETOL", 0.0)
+    if tolerance < 0:
+        raise block.error(f"CETOL={tolerance:g} must not be negative")
+    # without a tolerance increments are fixed
+    times = _read_times(block, direct=block.options.flag("DIRECT") or not tolerance)
+    return Visco(*times, tolerance=tolerance or math.inf)
 
 
 def _read_dynamic(block: Block, _: Prescription) -> Dynamic:
@@ -217,9 +222,18 @@ PROCEDURES: tuple[tuple[Keyword, Callable[[Block, Prescription], Procedure]], ..
     (
         Keyword(
             "VISCO",
-            "Static stress analysis on a real time scale.",
+            "Static stress analysis on a real time scale: *CREEP and *VISCOELASTIC are active.",
             Where.STEP,
-            (_DIRECT, *ignored("CETOL"), *refused("CREEP", "FACTOR", "STABILIZE", "ALLSDTOL", "CONTINUE")),
+            (
+                Option(
+                    "CETOL",
+                    Kind.REAL,
+                    "largest change of a creep or viscous strain rate in an increment times its length; without it "
+                    "increments are fixed",
+                ),
+                _DIRECT,
+                *refused("CREEP", "FACTOR", "STABILIZE", "ALLSDTOL", "CONTINUE"),
+            ),
             _TIMES,
         ),
         _read_visco,

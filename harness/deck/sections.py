@@ -95,6 +95,7 @@ def _spring(block: Block, kind: ElementType) -> SpringSection:
 def _check_material(block: Block, material: Material) -> None:
     """A material has elasticity of the kind that the section is for, and nothing else that it has no use for."""
     cohesive = block.name == "COHESIVE SECTION"
+    _check_viscous(block, material, cohesive=cohesive)
     if material.hyperelastic is not None:
         _check_hyperelastic(block, material)
         return
@@ -113,6 +114,26 @@ def _check_material(block: Block, material: Material) -> None:
     if not cohesive and material.damage is not None:
         place = material.damage.source
         raise block.error(f"material {material.name} has *DAMAGE INITIATION, at {place}, which needs *COHESIVE SECTION")
+
+
+def _check_viscous(block: Block, material: Material, *, cohesive: bool) -> None:
+    """A material whose stresses depend on time has, of what gives stresses, *ELASTIC alone."""
+    for keyword, viscous in (("VISCOELASTIC", material.viscoelastic), ("CREEP", material.creep)):
+        if viscous is None:
+            continue
+        if cohesive:
+            raise block.error(f"material {material.name} has *{keyword}, at {viscous.source}, which is not supported")
+        for name, other in (
+            ("CREEP", material.creep if viscous is material.viscoelastic else None),
+            ("PLASTIC", material.plastic),
+            ("HYPERELASTIC", material.hyperelastic),
+            ("USER MATERIAL", material.user),
+        ):
+            if other is not None:
+                message = f"material {material.name} has *{keyword} and *{name}, at {other.source}"
+                raise block.error(f"{message}, which are not supported together")
+        if material.elastic is None:
+            raise block.error(f"material {material.name} has *{keyword}, at {viscous.source}, but no *ELASTIC")
 
 
 def _check_hyperelastic(block: Block, material: Material) -> None:

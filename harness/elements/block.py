@@ -117,6 +117,12 @@ class ElementBlock:
         return self._routine.linear
 
     @property
+    def viscous_change(self) -> float:
+        """Largest change of a viscous strain rate in the increment times its length, by the last pass, or 0."""
+        place = self._routine.viscous
+        return 0.0 if place < 0 else float(self._arrays.history_trial[..., place].max(initial=0.0))
+
+    @property
     def linear(self) -> bool:
         """Whether its elements, at rest and in small displacements, have forces that are AMATRX times U."""
         return self._routine.forces is not Linearity.UNKNOWN

@@ -24,6 +24,7 @@ from harness.model.properties import (
     Orientation,
     UserMaterial,
     UserPotential,
+    Viscoelastic,
     isotropic_fault,
 )
 from harness.usersub import Library, _binding
@@ -31,6 +32,12 @@ from harness.usersub import Library, _binding
 HISTORY_VALUES: Final = 7
 """Values of the history of a point of a plastic or prestressed material, before backstresses of six values each
 (fortran/host/host_materials.f90)."""
+PRONY_VALUES: Final = 8
+"""Of a viscoelastic material, before stresses of six values for each term (fortran/host/host_prony.f90)."""
+CREEP_VALUES: Final = 9
+"""Of a material that creeps (fortran/host/host_creep.f90)."""
+VISCOUS_CHANGE: Final = 7
+"""Of both, the place of the change of the viscous strain rate in the increment, times its length."""
 USER_HISTORY_VALUES: Final = 15
 """The same for a user material, besides STATEV (fortran/host/host_umat.f90)."""
 
@@ -43,6 +50,10 @@ def history_values(material: Material, *, prestressed: bool = False) -> int:
     if material.user is not None:
         return USER_HISTORY_VALUES + state_variables(material)
     kept = material.plastic is not None or prestressed
+    if material.viscoelastic is not None:
+        return PRONY_VALUES + 6 * len(material.viscoelastic.terms) + state_variables(material)
+    if material.creep is not None:
+        return CREEP_VALUES + state_variables(material)
     backstresses = 0 if material.plastic is None else len(material.plastic.backstresses)
     return (HISTORY_VALUES + 6 * backstresses if kept else 1) + state_variables(material)
 
@@ -75,6 +86,12 @@ def has_unsymmetric_tangent(material: Material) -> bool:
     if material.user is not None:
         return material.user.unsymmetric
     return material.plastic is not None and bool(material.plastic.backstresses[:, 1].any())
+
+
+def refuse_viscous(material: Material, elements: str) -> None:
+    """Raise DeckError if stresses of the material of these elements depend on time."""
+    if material.viscous is not None:
+        raise DeckError(material.viscous.source, f"{_viscous_keyword(material)} is not supported for {elements}")
 
 
 def refuse_hyperelastic(material: Material, elements: str) -> None:
@@ -144,15 +161,44 @@ def define_material(
     else:
         stiffness = _inverse(compliance, elastic)[np.ix_(components, components)]
         reduced = _inverse(stiffness, elastic)
+    _check_laws(elastic, material)
     constants, table = (0.0, 0.0), np.zeros((1, 2))
     if material.plastic is not None:
-        if elastic.type is not ElasticType.ISOTROPIC:
-            raise DeckError(material.plastic.source, "*PLASTIC is supported with *ELASTIC, TYPE=ISOTROPIC only")
         constants, table = _isotropic_constants(elastic), material.plastic.table
     number = _binding.define_material(stiffness, reduced, compliance[2, components[:3]], axes, constants, table)
     if material.plastic is not None and len(material.plastic.backstresses):
         _binding.set_backstresses(number, material.plastic.backstresses, material.plastic.growth)
+    if material.viscoelastic is not None:
+        _binding.set_prony(number, *_moduli(elastic, material.viscoelastic), material.viscoelastic.terms)
+    if (creep := material.creep) is not None:
+        law = creep.factor, creep.stress_power, creep.time_power
+        _binding.set_creep(number, _isotropic_constants(elastic), law, by_time=creep.by_time)
     return number
+
+
+def _check_laws(elastic: Elastic, material: Material) -> None:
+    """Raise DeckError if what is beside *ELASTIC needs it otherwise."""
+    isotropic = elastic.type is ElasticType.ISOTROPIC
+    if material.plastic is not None and not isotropic:
+        raise DeckError(material.plastic.source, "*PLASTIC is supported with *ELASTIC, TYPE=ISOTROPIC only")
+    if material.viscous is not None and not (isotropic and elastic.table is None):
+        message = "is supported with *ELASTIC, TYPE=ISOTROPIC with constant values only"
+        raise DeckError(material.viscous.source, f"{_viscous_keyword(material)} {message}")
+
+
+def _viscous_keyword(material: Material) -> str:
+    return "*VISCOELASTIC" if material.viscoelastic is not None else "*CREEP"
+
+
+def _moduli(elastic: Elastic, viscoelastic: Viscoelastic) -> tuple[tuple[float, float], tuple[float, float]]:
+    """Long-term Young's modulus and Poisson's ratio; instantaneous shear and bulk modulus."""
+    young, nu = _isotropic_constants(elastic)
+    given = np.array([young / (2 * (1 + nu)), young / (3 * (1 - 2 * nu))])
+    left = 1 - viscoelastic.terms[:, :2].sum(axis=0)
+    instantaneous = given if elastic.instantaneous else given / left
+    shear, bulk = instantaneous * left
+    young = 9 * bulk * shear / (3 * bulk + shear)
+    return (young, young / (2 * shear) - 1), (float(instantaneous[0]), float(instantaneous[1]))
 
 
 def global_compliance(material: Material, orientation: Orientation | None, tensor: Tensor) -> FloatArray | None:

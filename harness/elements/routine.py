@@ -46,6 +46,8 @@ class Routine:
     tensor    stress components of the material: 3 plane stress, 4 plane strain, 6 three-dimensional; 0 without one
     mcrd      coordinates per node
     family    number of the family of continuum elements (harness/model/element_types.py), 0 for others
+    viscous   place in the material history of the change of a viscous strain rate in the increment, times its length;
+              -1 without one
     damages   ENERGY(4) is dissipated by damage, not by plasticity
     linear    the state of built-in elements is linear in small displacements
     forces    whether the forces are
@@ -66,6 +68,7 @@ class Routine:
     tensor: int = 0
     history: tuple[int, int] = (1, 1)
     statev: int = 0
+    viscous: int = -1
     hidden: int = 0
     density: int = -1
     uvarm: OutputVariables | None = None

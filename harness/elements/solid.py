@@ -11,12 +11,14 @@ import numpy as np
 
 from harness.elements.directions import first_element
 from harness.elements.materials import (
+    VISCOUS_CHANGE,
     define_fields,
     define_material,
     directions,
     history_values,
     linearity,
     refuse_hyperelastic,
+    refuse_viscous,
     shear_modulus,
     state_variables,
 )
@@ -62,6 +64,7 @@ def solid_routine(model: Model, group: ElementGroup, section: SolidSection, libr
         message = f"NLGEOM is not supported for elements of type {group.type} with UMAT or USDFLD"
         raise DeckError(nonlinear.source, message)
     _check_hyperelastic(model, group, kind, material)
+    _check_viscous(model, group, kind, material)
     orientation, local = section.orientation, _local_orientation(model, section, kind)
     if local is not None:
         # the material is in the directions of the points
@@ -97,6 +100,7 @@ def solid_routine(model: Model, group: ElementGroup, section: SolidSection, libr
         tensor=int(kind.tensor),
         history=history_of(material, kind.points, prestressed=prestressed),
         statev=state_variables(material),
+        viscous=-1 if material.viscous is None else VISCOUS_CHANGE,
         uvarm=_output_variables(section, kind.points, library),
         linear=history_values(material) == 1 and material.hyperelastic is None,
         forces=linearity(material, prestressed=prestressed),
@@ -121,6 +125,18 @@ def _check_hyperelastic(model: Model, group: ElementGroup, kind: ContinuumType, 
         raise DeckError(small.source, f"*STEP: {message}; small displacements are not supported")
 
 
+def _check_viscous(model: Model, group: ElementGroup, kind: ContinuumType, material: Material) -> None:
+    """Raise DeckError if stresses depend on time, and the elements or the steps are not for that."""
+    if material.viscous is None:
+        return
+    if kind.coupled:
+        refuse_viscous(material, f"elements of type {group.type}")
+    perturbation = next((step for step in model.steps if step.procedure.linear), None)
+    if perturbation is not None:
+        message = f"a linear perturbation is not supported with material {material.name}, whose stresses depend on time"
+        raise DeckError(perturbation.source, f"*STEP: {message} ({material.viscous.source})")
+
+
 def _places_of_stress(kind: ContinuumType) -> tuple[int, ...]:
     """The components that the element library of Abaqus lists: 11, 22, 12 in plane stress, which has no 33."""
     names = kind.components
@@ -139,6 +155,9 @@ def _is_prestressed(model: Model, group: ElementGroup, material: Material) -> bo
         return False
     if material.hyperelastic is not None:
         message = f"is not supported with *HYPERELASTIC (material {material.name})"
+        raise DeckError(found.source, f"*INITIAL CONDITIONS, TYPE=STRESS {message}")
+    if material.viscoelastic is not None:
+        message = f"is not supported with *VISCOELASTIC (material {material.name})"
         raise DeckError(found.source, f"*INITIAL CONDITIONS, TYPE=STRESS {message}")
     if material.user_field is not None and material.elastic is not None and material.elastic.table is not None:
         message = "is not supported if the constants of *ELASTIC depend on fields that USDFLD gives"

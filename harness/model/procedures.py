@@ -156,10 +156,15 @@ class Static(Procedure):
 
 @dataclass(frozen=True, slots=True)
 class Visco(Procedure):
-    """*VISCO: a static step on a real time scale."""
+    """*VISCO: a static step on a real time scale.
+
+    tolerance  CETOL: largest change of a viscous strain rate in an increment times its length; inf without a limit
+    """
 
     keyword: ClassVar = "VISCO"
     title: ClassVar = "VISCO ANALYSIS"
+
+    tolerance: float = field(default=math.inf, kw_only=True)
 
     @property
     def lflag(self) -> int:

@@ -57,12 +57,14 @@ class Elastic:
     """*ELASTIC: constants in the order of the Abaqus data line of its type (E, nu; E1, E2, E3, nu12, ...).
 
     table  (k, constants, temperature and fields) where they depend on these; `constants` are those of the first row
+    instantaneous  MODULI=INSTANTANEOUS, of a viscoelastic material
     """
 
     type: ElasticType
     constants: tuple[float, ...]
     source: Source
     table: FloatArray | None = None
+    instantaneous: bool = False
 
 
 @dataclass(frozen=True, slots=True)
@@ -80,6 +82,25 @@ class Plastic:
     backstresses: FloatArray = field(default_factory=lambda: np.zeros((0, 2)))
     growth: tuple[float, float] = (0.0, 0.0)
     combined: bool = False
+
+
+@dataclass(frozen=True, slots=True)
+class Viscoelastic:
+    """*VISCOELASTIC, TIME=PRONY: terms (n, 3) g, k and tau."""
+
+    terms: FloatArray
+    source: Source
+
+
+@dataclass(frozen=True, slots=True)
+class Creep:
+    """*CREEP: A, n and m of a power law; by_time: time hardening, else strain hardening."""
+
+    by_time: bool
+    factor: float
+    stress_power: float
+    time_power: float
+    source: Source
 
 
 class Potential(StrEnum):
@@ -183,6 +204,8 @@ class Material:
     elastic: Elastic | None = None
     plastic: Plastic | None = None
     hyperelastic: Hyperelastic | UserPotential | None = None
+    viscoelastic: Viscoelastic | None = None
+    creep: Creep | None = None
     damage: Damage | None = None
     density: float = 0.0
     conductivity: FloatArray = field(default_factory=lambda: np.zeros((0, 2)))
@@ -195,6 +218,11 @@ class Material:
     user_field: Source | None = None
     state_variables: int = 0
     output_variables: int = 0
+
+    @property
+    def viscous(self) -> Viscoelastic | Creep | None:
+        """What lets stresses depend on time."""
+        return self.viscoelastic or self.creep
 
 
 @dataclass(frozen=True, slots=True)

@@ -23,6 +23,7 @@ from harness.procedures.stabilized import ViscousForces
 from harness.procedures.steady_state import SteadyStateStep
 from harness.procedures.step_parts import Part
 from harness.procedures.step_setting import Setting, StepRun
+from harness.procedures.visco import ViscousStrain
 
 
 @singledispatch
@@ -59,7 +60,9 @@ def _(procedure: Static | Visco, setting: Setting) -> StepRun:
     if setting.energy_control:
         context = StepContext(setting)
         return GeneralStep(context, EnergyPath(context))
-    return _in_time(StepContext(setting, fallback=setting.fallback), fallback=setting.fallback)
+    context = StepContext(setting, fallback=setting.fallback)
+    parts = (ViscousStrain(context, procedure.tolerance),) if isinstance(procedure, Visco) else ()
+    return _in_time(context, *parts, fallback=setting.fallback)
 
 
 @run_of.register

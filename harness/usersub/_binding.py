@@ -321,6 +321,20 @@ def set_backstresses(number: int, backstresses: FloatArray, growth: tuple[float,
     _host.host_set_backstresses(number, backstresses.T, growth)
 
 
+def set_prony(number: int, constants: tuple[float, float], moduli: tuple[float, float], terms: FloatArray) -> None:
+    """Let stresses of an isotropic material relax.
+
+    constants: long-term Young's modulus and Poisson's ratio; moduli: instantaneous shear and bulk modulus; terms (n, 3)
+    g, k, tau.
+    """
+    _host.host_set_prony(number, constants, moduli, terms.T)
+
+
+def set_creep(number: int, constants: tuple[float, float], law: tuple[float, float, float], *, by_time: bool) -> None:
+    """Let an isotropic material creep: Young's modulus and Poisson's ratio; A, n and m of time or strain hardening."""
+    _host.host_set_creep(number, constants, by_time, law)
+
+
 def set_dependence(number: int, constants: int, turn: FloatArray, table: FloatArray) -> None:
     """Let the elastic constants of a material depend on temperature and field variables.
 

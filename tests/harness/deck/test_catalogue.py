@@ -82,6 +82,20 @@ def test_combined_hardening(read: Read, cyclic: str, table: list[list[float]], g
     assert plastic.growth == growth
 
 
+def test_viscoelastic(read: Read) -> None:
+    found = material(read, "*ELASTIC, MODULI=INSTANTANEOUS\n9., .3\n*VISCOELASTIC, TIME=PRONY\n.2, , 3.\n.1, .5, 7.")
+    assert found.elastic is not None
+    assert found.elastic.instantaneous
+    assert found.viscoelastic is not None
+    assert_array_equal(found.viscoelastic.terms, [[0.2, 0, 3], [0.1, 0.5, 7]])
+
+
+def test_creep(read: Read) -> None:
+    creep = material(read, "*ELASTIC\n9., .3\n*CREEP, LAW=TIME\n1e-5, 4., -.5").creep
+    assert creep is not None
+    assert (creep.by_time, creep.factor, creep.stress_power, creep.time_power) == (True, 1e-5, 4.0, -0.5)
+
+
 def test_backstresses_on_two_lines(read: Read) -> None:
     plastic = material(read, f"{COMBINED}, NUMBER BACKSTRESSES=4\n5., 1., 2., 3., 4., 5., 6., 7.\n8.").plastic
     assert plastic is not None
@@ -158,6 +172,20 @@ def test_other_size_in_cyclic_hardening(read: Read) -> None:
             "*USER MATERIAL, CONSTANTS=2\n1, 2, 3, 4",
             r"deck.inp:30: \*USER MATERIAL: 4 values, but CONSTANTS=2",
         ),
+        ("*VISCOELASTIC, TIME=PRONY", r"30: \*VISCOELASTIC: needs a data line with g, k and tau"),
+        (
+            "*VISCOELASTIC, TIME=PRONY\n.2, , 0.",
+            r"31: .*: g = 0.2, k = 0, tau = 0: expected g >= 0, k >= 0 and tau > 0",
+        ),
+        ("*VISCOELASTIC, TIME=PRONY\n.2, .5, 1.\n.3, .5, 2.", r"30: .*: the sum of k is 1, expected less than 1"),
+        ("*VISCOELASTIC, TIME=PRONY\n" + ".01, 0., 1.\n" * 21, r"30: .*: 21 terms, expected at most 20"),
+        ("*CREEP", r"30: \*CREEP: needs a data line with A, n and m"),
+        (
+            "*CREEP\n1., 2., 0., 20.",
+            r"31: \*CREEP: expected only A, n and m; dependence on temperature is not supported",
+        ),
+        ("*CREEP\n1., 2., -1.", r"31: \*CREEP: A = 1, n = 2, m = -1: expected A > 0, n > 0 and -1 < m <= 0"),
+        ("*CREEP, LAW=HYPERB\n1., 2.", r"30: \*CREEP, LAW=HYPERB is not supported"),
         ("*LATENT HEAT", r"deck.inp:30: \*LATENT HEAT: needs a data line with the latent heat, the solidus and the"),
         ("*LATENT HEAT\n0., 1., 2.", r"deck.inp:31: \*LATENT HEAT: latent heat 0 must be positive"),
         ("*LATENT HEAT\n5., 2., 2.", r"deck.inp:31: \*LATENT HEAT: liquidus 2 is not above the solidus, 2"),
