@@ -9,16 +9,17 @@ import os
 import signal
 
 import pytest
-from hypothesis import settings
+from hypothesis import HealthCheck, settings
 
 # they come ignored in the background of a shell and behind nohup, and runs that tests interrupt would not end
 for each, handler in {signal.SIGINT: signal.default_int_handler, signal.SIGHUP: signal.SIG_DFL}.items():
     if signal.getsignal(each) == signal.SIG_IGN:
         signal.signal(each, handler)
 
-# no deadline: another program may take the processor for a while
-settings.register_profile("same", deadline=None, derandomize=True)
-settings.register_profile("other", deadline=None, print_blob=True)
+# no deadline, and examples may be slow: another program may take the processor for a while
+PATIENT = {"deadline": None, "suppress_health_check": [HealthCheck.too_slow]}
+settings.register_profile("same", derandomize=True, **PATIENT)
+settings.register_profile("other", print_blob=True, **PATIENT)
 settings.load_profile("same")
 
 

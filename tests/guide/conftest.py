@@ -9,7 +9,7 @@ import pytest
 
 NUMBER = re.compile(r"-?\d+\.\d+(?:[eE][-+]\d+)?|-?\d+[eE][-+]\d+")
 
-DURATION = re.compile(r" in (?:less than )?[\d.]+ s$", re.MULTILINE)
+DURATION = re.compile(r" in (?:less than |\d+ min )?[\d.]+ s$", re.MULTILINE)
 """How long a run took, which no run repeats."""
 
 
