@@ -21,7 +21,7 @@ def add_plot(plot: argparse.ArgumentParser) -> None:
     plot.add_argument(
         "--kind", choices=("load", "energies", "iterations", "interface", "mesh"), default="load", help="what (load)"
     )
-    plot.add_argument("--x", default="", metavar="COLUMN", help="of the history, such as U2[TIP] (time)")
+    plot.add_argument("--x", default="", metavar="COLUMN", help="of the history, such as U2[TIP], 2*U2[TIP] (time)")
     plot.add_argument("--y", nargs="+", default=[], metavar="COLUMN", help="of the history, such as RF2[TIP] ALLSE")
     plot.add_argument(
         "--csv",
@@ -29,7 +29,8 @@ def add_plot(plot: argparse.ArgumentParser) -> None:
         action="append",
         default=[],
         metavar="FILE",
-        help="draw a measured curve too: two columns, or those named --x and --y; repeat for each file",
+        help="draw a measured curve too: two columns, or those named as the axes, whose factors (2*U2[TIP]) are "
+        "taken out; repeat for each file",
     )
     plot.add_argument("--step", type=positive, metavar="N", help="of a profile or mesh (the last one)")
     plot.add_argument("--increment", type=positive, default=-1, metavar="N", help="... (the last one written)")

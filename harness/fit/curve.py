@@ -5,7 +5,6 @@
 from __future__ import annotations
 
 import math
-import re
 from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
@@ -13,45 +12,9 @@ from pathlib import Path
 import numpy as np
 
 from harness.batch.table import read_cells
-from harness.errors import DeckError, Source, UelError, UsageError
+from harness.errors import DeckError, Source, UelError
 from harness.model.arrays import FloatArray
-
-_TERM = re.compile(r"\s*(?:([-+]?\d*\.?\d*(?:[eE][-+]?\d+)?)\s*\*\s*|([-+]))?([A-Za-z].*?)\s*")
-
-
-@dataclass(frozen=True, slots=True)
-class Column:
-    """A column of the history times a factor: `2*U2[LOAD_TOP]`, `-RF2[MIDSPAN]`."""
-
-    name: str
-    factor: float
-
-    def __str__(self) -> str:
-        signs = {1.0: "", -1.0: "-"}
-        return signs.get(self.factor, f"{self.factor:g}*") + self.name
-
-    def of(self, history: Mapping[str, FloatArray], job: str) -> FloatArray:
-        """Its values; raises UelError if the history of the job does not have the column."""
-        if self.name not in history:
-            known = ", ".join(name for name in history if name not in ("step", "increment"))
-            raise UelError(f"{job}: the history has no column '{self.name}'; expected one of {known}")
-        return self.factor * history[self.name]
-
-
-def read_column(text: str) -> Column:
-    """Column of a word such as `2*U2[LOAD_TOP]`; raises UsageError."""
-    match = _TERM.fullmatch(text)
-    try:
-        if match is None:
-            raise ValueError
-        factor = float(match[1]) if match[1] is not None else float(f"{match[2] or ''}1")
-        if not math.isfinite(factor) or factor == 0.0:
-            raise ValueError
-    except ValueError:
-        raise UsageError(
-            f"'{text}': expected a column of the history, with a factor or a sign before it, such as 2*U2[TOP]"
-        ) from None
-    return Column(match[3], factor)
+from harness.output.column import Column, read_column
 
 
 @dataclass(frozen=True, slots=True)
@@ -74,7 +37,7 @@ class Measurement:
         UelError
             The run has not the columns, does not reach the last place, or its x does not rise.
         """
-        x, y = (np.concatenate([[0.0], column.of(history, job)]) for column in self.columns)
+        x, y = (np.concatenate([[0.0], _values(column, history, job)]) for column in self.columns)
         # what comes after the last place does not count
         stop = 1 + int(np.argmax(x >= self.x[-1])) if x.max() >= self.x[-1] else len(x)
         x, y = x[:stop], y[:stop]
@@ -89,6 +52,14 @@ class Measurement:
                 f"{job}: the run ends at {self.columns[0]} = {x[-1]:.6g}, the measured curve at {self.x[-1]:.6g}"
             )
         return np.asarray(np.interp(self.x, x, y))
+
+
+def _values(column: Column, history: Mapping[str, FloatArray], job: str) -> FloatArray:
+    found = column.find(history)
+    if found is None:
+        known = ", ".join(name for name in history if name not in ("step", "increment"))
+        raise UelError(f"{job}: the history has no column '{column.name}'; expected one of {known}")
+    return found
 
 
 def read_measurement(path: Path, x: str | None, y: str | None) -> Measurement:

@@ -9,11 +9,12 @@ from pathlib import Path
 
 import numpy as np
 
-from harness.errors import UelError
+from harness.errors import UelError, UsageError
 from harness.model.arrays import FloatArray
+from harness.output.column import Column, read_column
 
 
-def read_curve(path: Path, names: Sequence[str] = ()) -> tuple[FloatArray, FloatArray]:
+def read_curve(path: Path, axes: Sequence[Column] = ()) -> tuple[FloatArray, FloatArray]:
     """Abscissae and ordinates of a measured curve.
 
     Parameters
@@ -21,8 +22,9 @@ def read_curve(path: Path, names: Sequence[str] = ()) -> tuple[FloatArray, Float
     path
         Lines of numbers with commas, semicolons, tabs or blanks between them. Lines before the first one that has two
         numbers are a head; a point is the decimal mark, or a comma where semicolons or tabs separate the numbers.
-    names
-        Of the two columns; the first two columns if the head does not have both names.
+    axes
+        What the abscissae and ordinates are. The columns of these names; the first two if the head does not have both.
+        Where the head gives a name a factor, such as 2*U2[TIP], the values have it, and get that of the axis instead.
 
     Returns
     -------
@@ -35,7 +37,7 @@ def read_curve(path: Path, names: Sequence[str] = ()) -> tuple[FloatArray, Float
         A line has no two numbers, with file and line; or there are none at all.
     """
     rows: list[tuple[float, float]] = []
-    columns = (0, 1)
+    columns, scales = [0, 1], [1.0, 1.0]
     for number, line in enumerate(path.read_text("utf-8-sig", errors="replace").splitlines(), 1):
         cells = _cells(line)
         if not any(cells):
@@ -45,12 +47,29 @@ def read_curve(path: Path, names: Sequence[str] = ()) -> tuple[FloatArray, Float
             rows.append((values[0], values[1]))
         elif rows:
             raise UelError(f"{path}:{number}: expected numbers in columns {columns[0] + 1} and {columns[1] + 1}")
-        elif len(names) == 2 and all(name in cells for name in names):
-            columns = (cells.index(names[0]), cells.index(names[1]))
+        else:
+            named = [_place(cells, axis) for axis in axes]
+            if axes and all(named):
+                columns = [place[0] for place in named if place]
+            for k, place in enumerate(named):
+                if place and place[0] == columns[k]:
+                    scales[k] = place[1]
     if not rows:
         raise UelError(f"{path}: no line with two numbers; expected a displacement and a load in each line")
-    table = np.array(rows)
-    return table[:, 0].copy(), table[:, 1].copy()
+    x, y = (scale * values for scale, values in zip(scales, np.array(rows).T, strict=True))
+    return x, y
+
+
+def _place(cells: Sequence[str], axis: Column) -> tuple[int, float] | None:
+    """The cell of a head that names an axis, and what takes its values to the axis."""
+    for k, cell in enumerate(cells):
+        try:
+            column = read_column(cell)
+        except UsageError:
+            continue
+        if axis.names(column.name):
+            return k, axis.factor / column.factor
+    return None
 
 
 def _cells(line: str) -> list[str]:

@@ -15,6 +15,7 @@ import numpy as np
 from harness.errors import UelError, UsageError
 from harness.model.arrays import FloatArray
 from harness.model.records import ENERGIES
+from harness.output.column import Column, read_column
 from harness.output.load_curve import LoadCurve
 from harness.output.measured_curve import read_curve
 from harness.output.mesh_picture import draw_mesh, in_space
@@ -50,7 +51,7 @@ _APART: Final = 1e-4
 class Asked:
     """What to draw.
 
-    x, y            columns of the history; '' and none: load over displacement
+    x, y            columns of the history, with a factor if wanted; '' and none: load over displacement
     measured        CSV files of measured curves
     increment, step of a profile or a mesh: -1 and None the last one written
     field, scale    of a mesh: see `draw_mesh`
@@ -99,8 +100,9 @@ def _load(results: Sequence[Result], path: Path, asked: Asked) -> Path:
         return _columns(results, path, asked)
     found = [_load_curve(result) for result in results]
     curves = [_curve(_name(result, results), curve.x, curve.y) for result, curve in zip(results, found, strict=True)]
-    curves += [Curve(file.stem, *read_curve(file), "points") for file in asked.measured]
     x_names, y_names = {curve.x_name for curve in found}, {curve.y_name for curve in found}
+    axes = [Column(next(iter(names)) if len(names) == 1 else "") for names in (x_names, y_names)]
+    curves += [Curve(file.stem, *read_curve(file, axes), "points") for file in asked.measured]
     x_label = f"Displacement {next(iter(x_names))}" if len(x_names) == 1 else "Displacement"
     y_label = f"Load {next(iter(y_names))}" if len(y_names) == 1 else "Load"
     return stacked([curves], path, x_label, [y_label], from_zero=True)
@@ -117,25 +119,26 @@ def _load_curve(result: Result) -> LoadCurve:
 
 
 def _columns(results: Sequence[Result], path: Path, asked: Asked) -> Path:
-    x_name, y_names = asked.x or "time", asked.y
-    if not y_names:
+    if not asked.y:
         raise UsageError(f"--x {asked.x}: expected with --y, the columns to draw over it")
+    x_column, y_columns = read_column(asked.x or "time"), [read_column(text) for text in asked.y]
     curves = []
     for result in results:
-        for y_name in y_names:
-            x, y = (_column(result, name) for name in (x_name, y_name))
+        for y_column in y_columns:
+            x, y = (_values(result, column) for column in (x_column, y_column))
             rows = np.isfinite(x) & np.isfinite(y)
-            words = [_name(result, results)] * (len(results) > 1) + [y_name] * (len(y_names) > 1)
-            curves.append(_curve(", ".join(words) or y_name, x[rows], y[rows]))
-    curves += [Curve(file.stem, *read_curve(file, (x_name, y_names[0])), "points") for file in asked.measured]
-    return stacked([curves], path, x_name, [y_names[0] if len(y_names) == 1 else "Value"])
+            words = [_name(result, results)] * (len(results) > 1) + [str(y_column)] * (len(y_columns) > 1)
+            curves.append(_curve(", ".join(words) or str(y_column), x[rows], y[rows]))
+    curves += [Curve(file.stem, *read_curve(file, (x_column, y_columns[0])), "points") for file in asked.measured]
+    return stacked([curves], path, str(x_column), [str(y_columns[0]) if len(y_columns) == 1 else "Value"])
 
 
-def _column(result: Result, name: str) -> FloatArray:
-    for known, values in result.history.items():
-        if known.upper() == name.upper():
-            return values
-    raise UsageError(f"{result.file('_history.csv')}: no column '{name}'; expected one of {_known(result.history)}")
+def _values(result: Result, column: Column) -> FloatArray:
+    found = column.find(result.history)
+    if found is None:
+        known = _known(result.history)
+        raise UsageError(f"{result.file('_history.csv')}: no column '{column.name}'; expected one of {known}")
+    return found
 
 
 def _energies(results: Sequence[Result], path: Path, _: Asked) -> Path:

@@ -8,28 +8,8 @@ import numpy as np
 import pytest
 
 from harness.errors import DeckError, UelError, UsageError
-from harness.fit.curve import Column, Measurement, read_column, read_measurement
-
-
-@pytest.mark.parametrize(
-    "text, name, factor",
-    [
-        ("U2[TOP]", "U2[TOP]", 1.0),
-        ("-RF2[MIDSPAN]", "RF2[MIDSPAN]", -1.0),
-        (" 2*U2[TOP] ", "U2[TOP]", 2.0),
-        ("-1.5e-3 * ALLWK", "ALLWK", -1.5e-3),
-        ("+time", "time", 1.0),
-    ],
-)
-def test_columns(text: str, name: str, factor: float) -> None:
-    assert read_column(text) == Column(name, factor)
-    assert read_column(str(read_column(text))) == read_column(text)
-
-
-@pytest.mark.parametrize("text", ["", "  ", "2*", "0*U2[TOP]", "1e999*U2[TOP]", "-"])
-def test_words_that_are_no_columns(text: str) -> None:
-    with pytest.raises(UsageError, match="expected a column of the history"):
-        read_column(text)
+from harness.fit.curve import Measurement, read_measurement
+from harness.output.column import Column
 
 
 def test_curve_of_a_file(tmp_path: Path) -> None:

@@ -80,6 +80,17 @@ def test_any_column_over_any_other(job: Job, drawn) -> None:
     assert (x, y) == ("time", ["Value"])
 
 
+def test_columns_and_curves_with_a_factor(job: Job, drawn, tmp_path: Path) -> None:
+    """The opening of a beam is twice the displacement of an end, in the file of a test and on an axis."""
+    measured = tmp_path / "test_7.csv"
+    measured.write_text("2*U2[TIP], RF2[TIP]\n0.2,1.9\n0.4,4.1\n")
+    ((_, points),), *_ = drawn("load", job(), measured=[measured])
+    assert (list(points.x), list(points.y)) == ([0.1, 0.2], [1.9, 4.1])
+    ((curve, points),), x, y = drawn("load", job(), x="2*U2[TIP]", y=["-RF2[TIP]"], measured=[measured])
+    assert (x, y, list(curve.x), list(curve.y)) == ("2*U2[TIP]", ["-RF2[TIP]"], [0.2, 0.3], [-2.0, -3.0])
+    assert (list(points.x), list(points.y)) == ([0.2, 0.4], [-1.9, -4.1])
+
+
 def test_energies_that_matter(job: Job, drawn) -> None:
     """Viscous dissipation of a billionth is not drawn; several jobs have a panel for each energy."""
     (curves,), _, y = drawn("energies", job())
@@ -125,6 +136,7 @@ def test_interfaces_above_each_other_are_not_joined(job: Job, drawn) -> None:
     ("kind", "asked", "error", "message"),
     [
         ("load", {"y": ["RF"]}, UsageError, r"no column 'RF'; expected one of step, increment, time, U2\[TIP\]"),
+        ("load", {"y": ["0*U2[TIP]"]}, UsageError, r"'0\*U2\[TIP\]': expected a column of the history, with a factor"),
         ("load", {"x": "time"}, UsageError, "--x time: expected with --y"),
         ("energies", {"x": "time"}, UsageError, "--kind energies: expected without --x, --y and --csv"),
         ("interface", {}, UelError, "no such file; it is written only if the model has interface elements"),
