@@ -21,6 +21,7 @@ from matplotlib.cm import ScalarMappable
 from matplotlib.collections import LineCollection, PolyCollection
 from matplotlib.colors import Normalize
 from matplotlib.figure import Figure
+from matplotlib.ticker import MaxNLocator
 from mpl_toolkits.mplot3d.art3d import Poly3DCollection
 
 from harness.errors import UsageError
@@ -81,7 +82,10 @@ def draw_mesh(
         FigureCanvasAgg(figure)
         axis = draw(figure, blocks, mesh.points, after)
         if any(np.isfinite(of_block).any() for *_, of_block in blocks):
-            figure.colorbar(_colours(blocks), ax=axis, label=what, location="bottom", shrink=0.6, aspect=40, pad=0.02)
+            bar = figure.colorbar(
+                _colours(blocks), ax=axis, label=what, location="bottom", shrink=0.6, aspect=40, pad=0.02
+            )
+            bar.locator = MaxNLocator(5)
         else:
             axis.set_title(what, fontsize=9)
         figure.savefig(path, dpi=200, bbox_inches="tight")
