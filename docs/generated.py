@@ -22,6 +22,8 @@ from harness.cli import build_parser
 
 ROOT = Path(__file__).parents[1]
 PAGES = Path(__file__).with_name("generated")
+FILE = re.compile(r"^```(?P<language>\w+) (?P<file>[\w.]+)\n(?P<body>.*?)^```$", re.MULTILINE | re.DOTALL)
+"""A block of code that is a file: see tests/programs/guide/guide.py."""
 
 
 def commands() -> str:
@@ -127,6 +129,25 @@ def draw(page: Path) -> None:
             shutil.copyfile(next(Path().rglob(picture.name)), picture)
 
 
+def name_files(_app: Sphinx, name: str, source: list[str]) -> None:
+    """Blocks of code that are a file get its name above them, where it is linked to the file itself.
+
+    Readers of the repository see the name in the source of the page alone; those of the site would not see it at all.
+    """
+
+    def named(block: re.Match[str]) -> str:
+        language, file = block["language"], block["file"]
+        caption = f"{file}, changed"
+        if language != "diff":
+            kept = PAGES / Path(name).name / file
+            kept.parent.mkdir(exist_ok=True)
+            kept.write_text(block["body"], encoding="utf-8")
+            caption = f"{{download}}`{file} </{kept.relative_to(ROOT)}>`"
+        return f"```{{code-block}} {language}\n:caption: {caption}\n\n{block['body']}```"
+
+    source[0] = FILE.sub(named, source[0])
+
+
 class DeckLexer(RegexLexer):
     """Colours of an input deck."""
 
@@ -151,6 +172,7 @@ def escape(_app: Sphinx, _what: str, _name: str, _object: object, _options: obje
 def setup(app: Sphinx) -> dict[str, bool]:
     """Write the pages before they are read."""
     app.connect("builder-inited", write)
+    app.connect("source-read", name_files)
     app.connect("autodoc-process-docstring", escape)
     app.add_lexer("abaqus", DeckLexer)
     return {"parallel_read_safe": True, "parallel_write_safe": True}

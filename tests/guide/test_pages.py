@@ -241,5 +241,11 @@ def test_site(tmp_path):
     ) > 30
     for picture in ("dcb.png", "dcb_fit.png", "model_load.png", "model_mesh.png"):
         assert list(tmp_path.rglob(picture)) != []
+    # a block of code that is a file has its name above it, which is a link to it
+    plate = (tmp_path / "docs" / "plate.html").read_text()
+    (deck,) = re.findall(r'href="\.\./(_downloads/\w+/laminate\.inp)"', plate)
+    assert (tmp_path / deck).read_text() == re.search(
+        r"^```abaqus laminate\.inp\n(.*?)^```$", text_of(Path("docs/plate.md")), re.MULTILINE | re.DOTALL
+    )[1]
     loaded = [re.findall(r'<(?:script|link|img)[^>]*(?:src|href)="(https?:[^"]*)"', page.read_text()) for page in pages]
     assert [address for addresses in loaded for address in addresses] == []
