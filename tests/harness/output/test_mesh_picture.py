@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """The picture of the deformed mesh."""
 
+import itertools
 from pathlib import Path
 
 import matplotlib as mpl
@@ -9,6 +10,7 @@ import matplotlib.image
 import meshio
 import numpy as np
 import pytest
+from matplotlib.figure import Figure
 from reference_cells import CORNERS, FACES, SHARES, nodes_of, shape_of
 
 from harness.errors import UsageError
@@ -105,6 +107,26 @@ def test_small_displacements_are_made_visible(largest: float, scale: float) -> N
     u = np.zeros((4, 3))
     u[2, 1] = largest
     assert visible_scale(SQUARE, u) == scale
+
+
+def test_numbers_below_the_colours_stay_apart(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Below a tall model, where the bar is short."""
+    kept: list[Figure] = []
+    monkeypatch.setattr(Figure, "savefig", lambda figure, *_, **__: kept.append(figure))
+    points = stacked(3, (0.0, 1.0, 0.0))
+    data = {"S11": [np.array([0.0012, 0.02, 0.0443])]}
+    draw_mesh(
+        meshio.Mesh(points, [("quad", np.arange(12).reshape(3, 4))], {"U": 0.0 * points}, data),
+        tmp_path / "m.png",
+        field="S11",
+    )
+    (figure,) = kept
+    figure.canvas.draw()
+    low, high = figure.axes[-1].get_xlim()
+    labels = [label for label in figure.axes[-1].get_xticklabels() if low <= label.get_position()[0] <= high]
+    boxes = [label.get_window_extent() for label in labels]
+    assert 2 < len(boxes) <= 6
+    assert all(left.x1 < right.x0 for left, right in itertools.pairwise(boxes))
 
 
 def test_components_and_unknown_fields(tmp_path: Path) -> None:
