@@ -19,6 +19,7 @@ from pygments.token import Comment, Keyword, Number, Text
 from sphinx.application import Sphinx
 
 from harness.cli import build_parser
+from harness.delamination.gallery import EXAMPLES, PICTURE
 
 ROOT = Path(__file__).parents[1]
 PAGES = Path(__file__).with_name("generated")
@@ -59,7 +60,7 @@ def _sentence(text: str) -> str:
 
 
 def gallery() -> str:
-    """Every problem of abaqus_inputs: what it verifies, against what, and its decks."""
+    """Every problem of abaqus_inputs: its picture, against what it verifies, its decks and a command."""
     page = [
         "# Verification",
         "Each problem has a page in the form of a verification manual and decks that run in Abaqus unchanged. Its "
@@ -67,25 +68,37 @@ def gallery() -> str:
         "from a published result of another program, *paper figure* read from one, *regression* from this program "
         "itself, which detects changes and verifies nothing.",
         "",
-        "The decks of a problem, with the files that they include, are in one archive; the command runs one of them.",
+        "The decks of a problem, with the files that they include, are in one archive; the command runs the one of the "
+        "picture, or the first of several.",
         "",
-        "| problem | values compared | decks | run |",
-        "|---|---|---|---|",
+        "````{container} gallery",
     ]
     pages = sorted((ROOT / "abaqus_inputs").glob("*/README.md"))
     for file in pages:
-        title = next(line[2:] for line in file.read_text("utf-8").splitlines() if line.startswith("# "))
+        text = file.read_text("utf-8")
+        title, alt = (re.search(pattern, text, re.MULTILINE)[1] for pattern in (r"^# (.*)$", rf"^!\[(.*)\]\({PICTURE}"))
         reference = tomllib.loads(file.with_name("reference.toml").read_text("utf-8"))
-        values = reference.get("value", [])
+        values = reference["value"]
         kinds = ", ".join(f"{count} {kind}" for kind, count in Counter(value["kind"] for value in values).items())
-        decks = sorted(deck for deck in file.parent.glob("*.inp") if "*STEP" in deck.read_text("utf-8").upper())
-        quick = [deck.name for deck in decks if deck.name not in reference.get("long", [])]
-        archive = _archive(file.parent)
-        page.append(
-            f"| [{title}](../../abaqus_inputs/{file.parent.name}/README.md) | {kinds} | [{len(decks)}]({archive}) "
-            f"| {f'`uel run {quick[0]}`' if quick else 'all take minutes'} |"
-        )
-    page += ["", "```{toctree}", ":hidden:", *(f"/{file.relative_to(ROOT).with_suffix('')}" for file in pages)]
+        decks = {deck for value in values for deck in value["decks"]}
+        place = f"../../abaqus_inputs/{file.parent.name}"
+        deck = f"{EXAMPLES[file.parent.name].decks[0]}.inp"
+        options = " --fallback" if reference.get("fallback") else ""
+        minutes = ", some minutes" if deck in reference.get("long", []) else ""
+        counted = "1 deck" if len(decks) == 1 else f"{len(decks)} decks"
+        page += [
+            "```{container} problem",
+            f"![{alt}]({place}/{PICTURE})",
+            "",
+            f"**[{title}]({place}/README.md)**",
+            "",
+            f"{kinds}; [{counted}]({_archive(file.parent)})",
+            "",
+            f"`uel run {deck}{options}`{minutes}",
+            "```",
+        ]
+    page += ["````", "", "```{toctree}", ":hidden:"]
+    page += [f"/{file.relative_to(ROOT).with_suffix('')}" for file in pages]
     return _page([*page, "/abaqus_inputs/benchmarks", "```"])
 
 

@@ -247,5 +247,8 @@ def test_site(tmp_path):
     assert (tmp_path / deck).read_text() == re.search(
         r"^```abaqus laminate\.inp\n(.*?)^```$", text_of(Path("docs/plate.md")), re.MULTILINE | re.DOTALL
     )[1]
+    verification = (tmp_path / "docs" / "generated" / "verification.html").read_text()
+    pictures = re.findall(r'<img alt="([^"]+)"[^>]* src="\.\./\.\./_images/picture\w*\.png"', verification)
+    assert len(pictures) == len(list((ROOT / "abaqus_inputs").glob("*/picture.png")))
     loaded = [re.findall(r'<(?:script|link|img)[^>]*(?:src|href)="(https?:[^"]*)"', page.read_text()) for page in pages]
     assert [address for addresses in loaded for address in addresses] == []
