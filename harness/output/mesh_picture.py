@@ -135,10 +135,12 @@ def _cell_values(mesh: meshio.Mesh, field: str, path: Path) -> list[FloatArray]:
 
 
 def _colours(blocks: Sequence[_Block]) -> ScalarMappable:
-    """From values to colours, one range for all blocks."""
+    """From values to colours, one range for all blocks; that of one value, such as a damage of 1, has zero too."""
     values = np.concatenate([of_block for *_, of_block in blocks])
     values = values[np.isfinite(values)]
     low, high = (float(values.min()), float(values.max())) if len(values) else (0.0, 1.0)
+    if low == high:
+        low, high = min(low, 0.0), max(high, 0.0)
     colours = mpl.colormaps["viridis"].with_extremes(bad="0.85")
     return ScalarMappable(Normalize(low, high if high > low else low + 1.0), colours)
 

@@ -84,7 +84,7 @@ def test_in_space_what_lacks_the_field_does_not_hide_what_has_it(tmp_path: Path)
     """The interface between two bricks."""
     points = stacked(3, (0.0, 0.0, 1.0))
     cells = [("hexahedron", np.array([[*range(8)], [*range(4, 12)]])), ("quad", np.arange(4, 8)[None])]
-    data = {"DAMAGE": [np.full(2, np.nan), np.ones(1)]}
+    data = {"DAMAGE": [np.full(2, np.nan), np.zeros(1)]}
     mesh = meshio.Mesh(points, cells, {"U": 0.0 * points}, data)
     lowest = mpl.colormaps["viridis"](0.0)
     # the only value is the lowest; displacements are zero too, and hide the interface
@@ -109,10 +109,24 @@ def test_small_displacements_are_made_visible(largest: float, scale: float) -> N
     assert visible_scale(SQUARE, u) == scale
 
 
-def test_numbers_below_the_colours_stay_apart(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+@pytest.fixture
+def kept(monkeypatch: pytest.MonkeyPatch) -> list[Figure]:
+    """Gets the figures, which are not written."""
+    figures: list[Figure] = []
+    monkeypatch.setattr(Figure, "savefig", lambda figure, *_, **__: figures.append(figure))
+    return figures
+
+
+@pytest.mark.parametrize(("value", "limits"), [(1.0, (0.0, 1.0)), (0.0, (0.0, 1.0)), (-5.0, (-5.0, 0.0))])
+def test_range_of_one_value(tmp_path: Path, kept: list[Figure], value: float, limits: tuple[float, float]) -> None:
+    """A damage of 1 everywhere is the upper end of a range that does not go beyond it."""
+    mesh = meshio.Mesh(SQUARE, [("quad", np.arange(4)[None])], {"U": 0.0 * SQUARE}, {"DAMAGE": [np.array([value])]})
+    draw_mesh(mesh, tmp_path / "m.png", field="DAMAGE")
+    assert kept[0].axes[-1].get_xlim() == limits
+
+
+def test_numbers_below_the_colours_stay_apart(tmp_path: Path, kept: list[Figure]) -> None:
     """Below a tall model, where the bar is short."""
-    kept: list[Figure] = []
-    monkeypatch.setattr(Figure, "savefig", lambda figure, *_, **__: kept.append(figure))
     points = stacked(3, (0.0, 1.0, 0.0))
     data = {"S11": [np.array([0.0012, 0.02, 0.0443])]}
     draw_mesh(
