@@ -84,7 +84,7 @@ def gallery() -> str:
         place = f"../../abaqus_inputs/{file.parent.name}"
         deck = f"{EXAMPLES[file.parent.name].decks[0]}.inp"
         options = " --fallback" if reference.get("fallback") else ""
-        minutes = ", some minutes" if deck in reference.get("long", []) else ""
+        minutes = ", up to some minutes" if deck in reference.get("long", []) else ""
         counted = "1 deck" if len(decks) == 1 else f"{len(decks)} decks"
         page += [
             "```{container} problem",
