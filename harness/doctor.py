@@ -19,7 +19,7 @@ from importlib import import_module, metadata
 from pathlib import Path
 from typing import Final
 
-from harness import sanitizer
+from harness import sanitizer, share
 from harness.errors import UelError
 
 DISTRIBUTION: Final = "uel-harness"
@@ -84,6 +84,7 @@ def examine() -> Iterator[Finding]:
         yield Finding("compiled host", State.BROKEN, str(error), advice)
         return
     yield _own_elements()
+    yield _decks()
     yield from _compilers()
     yield _run_time_checks()
     yield _cache()
@@ -137,6 +138,13 @@ def _own_elements() -> Finding:
         advice = "set TMPDIR to a folder that can be written and from which libraries are loaded (not mounted noexec)"
         return Finding(part, State.BROKEN, str(error), advice)
     return Finding(part, State.WORKS, f"{', '.join(entries)}; they need no compiler")
+
+
+def _decks() -> Finding:
+    part = "decks and manual"
+    if (share.FOLDER / "abaqus_inputs").is_dir():
+        return Finding(part, State.WORKS, str(share.FOLDER))
+    return Finding(part, State.ABSENT, f"not in {share.FOLDER}", AGAIN)
 
 
 def _entry_points(lines: list[tuple[str, str]]) -> tuple[str, ...]:

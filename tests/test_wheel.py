@@ -3,6 +3,7 @@
 """A wheel, in an environment of its own, outside the repository and without a compiler."""
 
 import os
+import re
 import subprocess
 import sys
 import sysconfig
@@ -13,6 +14,8 @@ import pytest
 
 ROOT = Path(__file__).parents[1]
 DECKS = ROOT / "abaqus_inputs"
+LINK = re.compile(r"\]\(([^)#:]+\.(?:md|png|inp))[)#]")
+"""To a page, a picture or a deck."""
 
 pytestmark = pytest.mark.long
 
@@ -62,6 +65,21 @@ def test_doctor(uel):
     done = uel("doctor")
     assert done.returncode == 0, done.stdout
     assert "absent  gfortran: not found" in done.stdout
+
+
+def test_decks_and_manual(uel, tmp_path):
+    """`uel doctor` names their folder; links between pages hold there, and a deck runs."""
+    place = re.search(r"^ok +decks and manual: (.+)$", uel("doctor").stdout, re.MULTILINE)
+    folder = Path(place[1])
+    assert not folder.is_relative_to(ROOT)
+    pages = [page for page in folder.rglob("*.md") if page.name != "CHANGELOG.md"]
+    links = [
+        (page, target) for page in pages for target in LINK.findall(page.read_text()) if "generated/" not in target
+    ]
+    assert len(links) > 100
+    assert [link for link in links if not (link[0].parent / link[1]).exists()] == []
+    done = uel("run", str(folder / "abaqus_inputs" / "patch_horizontal" / "flat_u4.inp"))
+    assert done.returncode == 0, done.stdout + done.stderr
 
 
 @pytest.mark.parametrize(

@@ -11,6 +11,7 @@ from dataclasses import replace
 from functools import partial
 from pathlib import Path
 
+from harness import share
 from harness.delamination import specimens as build
 from harness.delamination.blocks import BY_EQUATION_21, Interface
 from harness.delamination.bricks import bricks_files, stabilised_bricks_files
@@ -26,7 +27,7 @@ from harness.delamination.reproduce.patch_cases import inclined_cases
 from harness.delamination.space_beams import space_beam_files
 from harness.delamination.steps import LINEAR, Increments
 
-FOLDER = Path(__file__).parents[2] / "abaqus_inputs"
+FOLDER = share.FOLDER / "abaqus_inputs"
 KINDS = {"U2": "standard", "U3": "paper's, four nodes", "U4": "paper's, eight nodes"}
 SAMPLINGS = ("face", "gauss")
 STIFFNESSES = {"1e6": 1.0e6, "1e8": 1.0e8}

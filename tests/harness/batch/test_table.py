@@ -70,7 +70,7 @@ def test_all_mistakes_at_once(table: Path) -> None:
 def test_table_that_cannot_be_read(table: Path) -> None:
     with pytest.raises(UsageError, match=r"--table values\.csv: No such file or directory"):
         read_table(table, Path("beam.inp"), NAMES)
-    with pytest.raises(UsageError, match=r"--table a\0b: embedded null byte"):
+    with pytest.raises(UsageError, match=r"--table a\0b: .*embedded null"):
         read_table(Path("a\0b"), Path("beam.inp"), NAMES)
     table.mkdir()
     with pytest.raises(UsageError, match=r"--table values\.csv: Is a directory"):

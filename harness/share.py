@@ -1,0 +1,13 @@
+# SPDX-FileCopyrightText: The uel-harness authors
+# SPDX-License-Identifier: BSD-3-Clause
+"""Where the decks and the pages of the manual are: in the repository, or where a wheel puts them."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Final
+
+_PACKAGE: Final = Path(__file__).parent
+
+FOLDER: Final = _PACKAGE.parent if (_PACKAGE.parent / "abaqus_inputs").is_dir() else _PACKAGE / "manual"
+"""Has `README.md`, `docs` and `abaqus_inputs`."""
