@@ -25,6 +25,9 @@ module host_context
     integer(i4) :: increment = 0
     integer(i4) :: iteration = 0  !< 0 before the first solution, and outside an element loop
     integer(i4) :: point = 0      !< material point, from 1
+    integer(i4) :: npt = 0        !< of shells: integration point, 0 elsewhere; the material point is a section point
+    integer(i4) :: layer = 1      !< and
+    integer(i4) :: kspt = 1       !< section point of the layer
     integer(i4) :: thread = 0     !< of the call, from 0
     real(dp) :: time(2) = 0       !< step and total time at the start of the increment
     real(dp) :: dtime = 0

@@ -146,6 +146,9 @@ contains
     nprops = int(work%length(i_props), i4)
     now%element = block%labels(e)
     call begin_call(now%thread, now%element)
+    now%npt = 0
+    now%layer = 1
+    now%kspt = 1
     if (associated(block%history)) then
       now%history => block%history(:, :, e)
       if (keeps_state(block%lflags(3))) then

@@ -117,15 +117,15 @@ contains
     nstatv = size(new, kind=i4) - head
     nprops = size(constants, kind=i4)
     noel = current%element
-    npt = point
-    layer = 1
-    kspt = 1
+    npt = merge(current%npt, point, current%npt > 0)
+    layer = current%layer
+    kspt = current%kspt
     jstep = [current%step, 1_i4, 0_i4, 0_i4]
     kinc = current%increment
     cmname = material%name
     routine = current%routine
     current%routine = 'UMAT'
-    current%point = point
+    current%point = npt
     associate (x => work%memory, s => work%start)
       x(s(1):s(1) + ntens - 1) = stress
       x(s(2):s(2) + ntens**2 - 1) = 0
@@ -135,8 +135,8 @@ contains
       call umat(x(s(1)), x(s(5)), x(s(2)), new(13), new(14), new(15), rpl, x(s(3)), x(s(4)), drpldt, stran, dstran, time, dtime, &
                 temp, dtemp, predef, dpred, cmname, ndi, nshr, components, nstatv, constants, nprops, coords, drot, pnewdt, &
                 celent, dfgrd0, dfgrd1, noel, npt, layer, kspt, jstep, kinc)
-      call warn_of_writes(work, names, sizes, point, material%reported)
-      call warn_of_no_numbers(work, names, point, material%spoilt)
+      call warn_of_writes(work, names, sizes, current%point, material%reported)
+      call warn_of_no_numbers(work, names, current%point, material%spoilt)
       stress = x(s(1):s(1) + ntens - 1)
       tangent = reshape(x(s(2):s(2) + ntens**2 - 1), [ntens, ntens])
       current%heat = heat_t(source=rpl, source_by_temperature=drpldt)

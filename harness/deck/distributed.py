@@ -13,7 +13,7 @@ from harness.deck.initial import FIELD_NUMBER, field_number
 from harness.deck.prescribed import HARMONIC, LOAD, Prescription
 from harness.deck.surfaces import face_nodes
 from harness.deck.table import Keyword, Kind, Option, Where, refused
-from harness.model.element_types import BODY_FORCES, ContinuumType, Direction
+from harness.model.element_types import BODY_FORCES, ContinuumType, Direction, ShellType
 from harness.model.mesh import ElementGroup
 from harness.model.steps import DistributedLoad, ElementLoad, Load, LoadKind, LoadType
 
@@ -37,7 +37,10 @@ def read_distributed(block: Block, prescription: Prescription) -> list[Distribut
             given = label.removesuffix("NU") if by_user else label
             kind, face, direction = _volume_load(row, given)
             for group, positions in prescription.surfaces.by_group(elements):
-                solid = _solid(row, label, group)
+                solid = _loaded(row, label, group)
+                if given == "P" and not isinstance(solid, ShellType):
+                    message = f"load type P on elements of type {group.type}"
+                    raise row.error(f"{message}; expected Pn with the number of a face")
                 if kind is LoadKind.BODY:
                     direction = _body_direction(row, given, solid)
                 jltyp = _jltyp(face, direction) if by_user else 0
@@ -62,9 +65,15 @@ def _jltyp(face: str, direction: Direction) -> int:
 def _volume_load(row: Row, label: str) -> tuple[LoadKind, str, Direction]:
     """Kind, face ('' for a volume) and direction of a load type of *DLOAD; body forces have it by element."""
     match = re.fullmatch(r"P(\d)", label)
+    if label == "P":
+        # along the normal of a shell, as on its other side
+        row.at_most(3)
+        return LoadKind.PRESSURE, "SNEG", _NO_DIRECTION
     if match is None and label != "GRAV" and label not in BODY_FORCES:
         forces = ", ".join(BODY_FORCES)
-        supported = f"Un and UnNU on user elements; Pn, {forces}, those with NU, and GRAV on built-in solids"
+        supported = (
+            f"Un and UnNU on user elements; Pn (P on shells), {forces}, those with NU, and GRAV on built-in elements"
+        )
         raise row.error(f"load type {label} is not supported (supported: {supported})")
     row.at_most(6 if label == "GRAV" else 3)
     if label == "GRAV":
@@ -74,7 +83,7 @@ def _volume_load(row: Row, label: str) -> tuple[LoadKind, str, Direction]:
     return LoadKind.PRESSURE, f"S{match[1]}", _NO_DIRECTION
 
 
-def _body_direction(row: Row, label: str, solid: ContinuumType) -> Direction:
+def _body_direction(row: Row, label: str, solid: ContinuumType | ShellType) -> Direction:
     known = solid.body_forces
     if label not in known:
         raise row.error(f"load type {label} on elements of type {solid.name}, whose body forces are {', '.join(known)}")
@@ -96,7 +105,9 @@ def read_surface_loads(block: Block, prescription: Prescription) -> list[Element
         magnitude = row.real(2, "magnitude", 0.0)
         for elements, face, place in prescription.surfaces.faces(row.name(0, "surface"), row.source):
             for group, positions in prescription.surfaces.by_group(elements):
-                _solid(row, label, group)
+                shell = _loaded(row, label, group)
+                if isinstance(shell, ShellType) and face not in shell.sides:
+                    raise row.error(f"load type {label} on edge {face} of shells; loads on edges are not supported")
                 nodes = face_nodes(group, face, place, "SURFACE")
                 kept = LoadType(kind, nodes, direction, follows=follower or kind is LoadKind.PRESSURE)
                 found.append(ElementLoad(positions, kept, magnitude, amplitude, row.source, imaginary))
@@ -113,13 +124,14 @@ def _direction(row: Row, label: str) -> Direction:
     return x, y, z
 
 
-def _solid(row: Row, label: str, group: ElementGroup) -> ContinuumType:
-    """The type of a group of continuum elements. Raises DeckError for others."""
+def _loaded(row: Row, label: str, group: ElementGroup) -> ContinuumType | ShellType:
+    """The type of a group of continuum elements or shells. Raises DeckError for others."""
     kind = group.built_in
-    if not isinstance(kind, ContinuumType):
-        raise row.error(
-            f"load type {label} on elements of type {group.type}, which are not built-in continuum elements"
-        )
+    if isinstance(kind, ShellType) and label.endswith("NU"):
+        raise row.error(f"load type {label} on elements of type {group.type}; loads by DLOAD are not supported there")
+    if not isinstance(kind, ContinuumType | ShellType):
+        message = f"load type {label} on elements of type {group.type}"
+        raise row.error(f"{message}, which are not built-in continuum elements or shells")
     return kind
 
 
@@ -150,13 +162,14 @@ KEYWORDS = (
             ),
         ),
         "element or set, Un or UnNU (user elements), Pn, BX, BY, BZ, BR (CAX) or GRAV (built-in continuum elements; "
-        "with NU, as in P2NU, by DLOAD), magnitude; GRAV: direction",
+        "with NU, as in P2NU, by DLOAD), P (shells: along their normal), BX, BY, BZ or GRAV (shells), magnitude; GRAV: "
+        "direction",
     ),
     Keyword(
         "DSLOAD",
-        "Distributed loads on surfaces of built-in continuum elements; with NLGEOM, tractions that follow them are "
-        "refused. Like those of *DLOAD they are nodal forces, which CF in the output includes, except pressures with "
-        "NLGEOM, which act on the current surface.",
+        "Distributed loads on surfaces of built-in continuum elements and shells; with NLGEOM, tractions that follow "
+        "them are refused. Like those of *DLOAD they are nodal forces, which CF in the output includes, except "
+        "pressures with NLGEOM, which act on the current surface.",
         Where.STEP,
         (
             *LOAD,

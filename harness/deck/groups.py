@@ -15,13 +15,14 @@ from harness.deck.flatten import FlatMesh, Owner
 from harness.deck.local_mesh import ElementRun
 from harness.deck.orientations import read_orientations
 from harness.deck.sections import SECTION_KEYWORDS, make_section
+from harness.deck.shells import read_shear_stiffness
 from harness.deck.table import Keyword, Where
 from harness.deck.user_elements import ElementType
 from harness.errors import DeckError, Source
 from harness.model.arrays import IntArray
 from harness.model.element_types import HOURGLASS_CONTROLLED
 from harness.model.mesh import ElementGroup, full_name
-from harness.model.properties import Material, Section, SectionControls, SolidSection
+from harness.model.properties import Material, Section, SectionControls, ShellSection, SolidSection
 
 
 class _Elements:
@@ -75,27 +76,35 @@ def make_groups(
     problems.check()
     sections: list[tuple[Block, Owner]] = []
     hourglass: dict[int, float] = {}
+    shear: dict[int, tuple[tuple[float, float, float], float | None]] = {}
     for owner in flat.owners:
         for block in owner.blocks:
             with problems.gather():
                 if block.name in SECTION_KEYWORDS:
                     _assign(elements, sections, block, owner)
                 elif block.name == "HOURGLASS STIFFNESS":
-                    hourglass[_last_solid(block, sections)] = _hourglass_stiffness(block)
+                    place = _last_section(block, sections, "SOLID SECTION", "SHELL SECTION")
+                    hourglass[place] = _hourglass_stiffness(block)
+                elif block.name == "TRANSVERSE SHEAR STIFFNESS":
+                    shear[_last_section(block, sections, "SHELL SECTION")] = read_shear_stiffness(block)
     problems.check()
     _check_assigned(elements, problems)
     problems.check()
     made = _make_sections(elements, sections, materials, controls, problems)
     problems.check()
     for (section, kind), found in made.items():
-        if section in hourglass and isinstance(found, SolidSection):
+        if section in hourglass and isinstance(found, SolidSection | ShellSection):
             made[section, kind] = replace(found, hourglass=hourglass[section])
+    for (section, kind), found in made.items():
+        if section in shear and isinstance(found, ShellSection):
+            stiffness, slenderness = shear[section]
+            made[section, kind] = replace(found, shear=stiffness, slenderness=slenderness)
     return _cut(elements, made)
 
 
-def _last_solid(block: Block, sections: list[tuple[Block, Owner]]) -> int:
-    if not sections or sections[-1][0].name != "SOLID SECTION":
-        raise block.error("does not follow *SOLID SECTION")
+def _last_section(block: Block, sections: list[tuple[Block, Owner]], *names: str) -> int:
+    if not sections or sections[-1][0].name not in names:
+        raise block.error(f"does not follow *{' or *'.join(names)}")
     return len(sections) - 1
 
 
@@ -197,7 +206,8 @@ KEYWORDS = (
         "squared hourglass displacement q is r V sum(B^2)/16 in the plane, in direction i of space 0.2357 r V "
         "sum(B_i^2); with NLGEOM F^T q takes the place of q, F the mean deformation gradient. Results of Abaqus R2018x "
         "and 2024 show it for square CPS4R, skewed CAX4RT and skewed C3D8RT; for CPE4R and skewed CPS4R it is inferred "
-        "from CAX4RT.",
+        "from CAX4RT. After *SHELL SECTION, the hourglass modes of S4R have the stiffness of an elastic shell with the "
+        "shear modulus r/0.005 and a Poisson's ratio of zero.",
         Where.MODEL,
         data="stiffness parameter in place of 0.005 times the shear modulus; further entries are not read",
     ),

@@ -27,6 +27,8 @@ _IGNORED = {
     "SURFACE OUTPUT": "Surface variables.",
     "SECTION FILE": "Section forces in the results file.",
     "SECTION PRINT": "Section forces in .dat.",
+    "FAIL STRESS": "Limits of the failure measures CFAILURE, which are output.",
+    "FAIL STRAIN": "Limits of the failure measures CFAILURE, which are output.",
     "PHYSICAL CONSTANTS": "Absolute zero and the like: nothing that uses them is supported.",
     **dict.fromkeys(
         ("FRICTION", "SURFACE BEHAVIOR", "CONTACT DAMPING", "GAP CONDUCTANCE", "GAP HEAT GENERATION"),

@@ -102,12 +102,12 @@ def _read_orientation(
     if polar and (points[..., 0, :] == points[..., 1, :]).all(axis=-1).any():
         raise rows[0].error("the points a and b, which give the polar axis, are the same")
     if not system.uniform:
-        return Orientation(name, np.eye(3), block.source, _placed(system, owner, block))
+        return Orientation(name, np.eye(3), block.source, _placed(system, owner, block), axis)
     try:
         ((axes,),) = system.axes(np.zeros(1, dtype=np.int64), np.zeros((1, 1, 3)), np.zeros((1, 1, 3)))
     except UndefinedDirectionsError as error:
         raise rows[0].error(str(error)) from None
-    return Orientation(name, axes if _in_model(block) else owner.placement.turn(axes), block.source)
+    return Orientation(name, axes if _in_model(block) else owner.placement.turn(axes), block.source, normal=axis)
 
 
 def _in_model(block: Block) -> bool:

@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """*SOLID SECTION, *COHESIVE SECTION, *SPRING and *MASS, made for the element type they are used with.
 
-*UEL PROPERTY is in user_elements.py.
+*UEL PROPERTY is in user_elements.py, *SHELL SECTION in shells.py.
 """
 
 from __future__ import annotations
@@ -14,6 +14,7 @@ import numpy as np
 
 from harness.deck.blocks import Block, Row
 from harness.deck.error_report import Problems, look_up
+from harness.deck.shells import read_shell_section
 from harness.deck.table import Keyword, Kind, Option, Where, one_of, refused
 from harness.deck.user_elements import LARGEST_DOF, ElementType, read_user_property
 from harness.model.element_types import DISCRETE, HEAT, DiscreteKind
@@ -47,6 +48,8 @@ def make_section(
         return MassSection(elset, _mass(block), block.source)
     if block.name == "SPRING":
         return _spring(block, kind)
+    if block.name == "SHELL SECTION":
+        return read_shell_section(block, materials, orientations, _controls(block, controls))
     name = options.text("MATERIAL")
     material = look_up(materials, name, "material", block.source) if name else None
     if material is not None and kind.name not in HEAT:
@@ -234,4 +237,4 @@ KEYWORDS = (
     ),
     Keyword("MASS", "Point masses.", Where.MODEL, (_ELSET, *refused("ALPHA", "ORIENTATION", "TYPE")), "mass"),
 )
-SECTION_KEYWORDS = {"UEL PROPERTY", *(keyword.name for keyword in KEYWORDS)}
+SECTION_KEYWORDS = {"UEL PROPERTY", "SHELL SECTION", *(keyword.name for keyword in KEYWORDS)}

@@ -14,7 +14,7 @@ from harness.deck.flatten import FlatMesh
 from harness.deck.table import NAME, Keyword, Where, ignored, one_of
 from harness.errors import DeckError, Source
 from harness.model.arrays import FloatArray, IntArray
-from harness.model.element_types import LINE3, QUAD8, TRI6, Family, SolidType
+from harness.model.element_types import LINE3, QUAD8, TRI6, Family, ShellType, SolidType
 from harness.model.mesh import ElementGroup
 
 _CORNERS = np.array([[-1.0, 1.0, 1.0, -1.0], [-1.0, -1.0, 1.0, 1.0]])
@@ -111,9 +111,11 @@ class Surfaces:
         k = int(np.searchsorted(self._starts, element, side="right")) - 1
         group = self._groups[k]
         local = face_nodes(group, face, source, "SURFACE")
-        assert isinstance(group.built_in, SolidType)
+        kind = group.built_in
+        assert isinstance(kind, SolidType | ShellType)
         nodes: IntArray = group.nodes[element - self._starts[k]][list(local)]
-        return group.built_in.family.face_family(local), nodes
+        whole = isinstance(kind, ShellType) and len(local) == kind.nodes
+        return kind.family if whole else kind.family.face_family(local), nodes
 
 
 def tributary_areas(family: Family, places: FloatArray) -> FloatArray:
@@ -155,6 +157,8 @@ def face_nodes(group: ElementGroup, face: str, source: Source, keyword: str) -> 
     faces = {}
     if isinstance(kind, SolidType):
         faces = {f"S{number}": nodes for number, nodes in enumerate(kind.family.faces, start=1)}
+    elif isinstance(kind, ShellType):
+        faces = kind.sides | kind.edges
     if face not in faces:
         known = ", ".join(faces) or "none"
         raise DeckError(source, f"*{keyword}: elements of type {group.type} have no face {face} (faces: {known})")
@@ -179,6 +183,6 @@ KEYWORDS = (
             ),
             *ignored("INTERNAL", "DEFINITION", "TRIM", "FILLET RADIUS", "COMBINE", "CROP", "NO OFFSET", "NO THICK"),
         ),
-        "set or element, face (S1, S2, ...); or node set or node",
+        "set or element, face (S1, S2, ...; SPOS, SNEG, E1, E2, ... of shells); or node set or node",
     ),
 )

@@ -582,6 +582,10 @@ class ElementBlock:
             raise undefined(self.group, given.orientation, error) from None
         self._arrays.svars_trial[:] = self._arrays.svars
 
+    def set_last(self, values: FloatArray) -> None:
+        """Set the last SVARS of all elements (m, count), which stay as they are."""
+        self._arrays.svars[:, -values.shape[1] :] = self._arrays.svars_trial[:, -values.shape[1] :] = values
+
     def call_orient(self, address: int, labels: IntArray) -> None:
         """Let ORIENT set the directions of points whose *ORIENTATION says so.
 

@@ -9,6 +9,8 @@ from difflib import get_close_matches
 from itertools import pairwise
 from typing import Final
 
+import numpy as np
+
 from harness.elements.block import ElementBlock
 from harness.elements.cohesive import cohesive_routine, cohesive_variables
 from harness.elements.coupled import coupled_routine, heat_routine, heat_variables, is_unsymmetric
@@ -24,12 +26,20 @@ from harness.elements.materials import (
 )
 from harness.elements.pressure import pressure_blocks
 from harness.elements.routine import Linearity, Routine
+from harness.elements.shell import directors, shell_routine, shell_variables
 from harness.elements.solid import history_of, solid_routine, solid_variables
 from harness.errors import DeckError, all_of
-from harness.model.element_types import BUILT_IN, CohesiveType, ContinuumType, DiscreteType, HeatType, Tensor
+from harness.model.element_types import BUILT_IN, CohesiveType, ContinuumType, DiscreteType, HeatType, ShellType, Tensor
 from harness.model.mesh import ElementGroup
 from harness.model.model import Model
-from harness.model.properties import CohesiveSection, SolidSection, UserElement, UserProperty
+from harness.model.properties import (
+    CohesiveSection,
+    ShellSection,
+    SolidSection,
+    UserElement,
+    UserProperty,
+    materials_of,
+)
 from harness.usersub import Library
 
 TENSORS: Final = {
@@ -96,10 +106,10 @@ def _too_large(group: ElementGroup) -> DeckError:
 def _block_of(
     model: Model, group: ElementGroup, library: Library, *, strict: bool, zeros: bool, linear: Collection[str]
 ) -> ElementBlock:
-    material = getattr(group.section, "material", None)
     kind = group.built_in
     expands = isinstance(kind, HeatType) or (isinstance(kind, ContinuumType) and not kind.coupled)
-    if material is not None and material.expansion and not expands:
+    material = next((material for material in materials_of(group.section) if material.expansion), None)
+    if material is not None and not expands:
         message = f"*EXPANSION (material {material.name}) is not supported for elements of type {group.type}"
         raise DeckError(group.section.source, message)
     if group.definition is not None:
@@ -112,6 +122,8 @@ def _block_of(
             return _solid_block(model, group, kind, library)
         case CohesiveType():
             return _cohesive_block(model, group, kind, library)
+        case ShellType():
+            return _shell_block(model, group, kind, library)
         case DiscreteType():
             return _discrete_block(model, group, library)
     near = get_close_matches(group.type.upper(), BUILT_IN, n=1)
@@ -246,6 +258,29 @@ def _cohesive_block(model: Model, group: ElementGroup, kind: CohesiveType, libra
         unsymmetric=True,
         variables=cohesive_variables(section, kind),
     )
+
+
+def _shell_block(model: Model, group: ElementGroup, kind: ShellType, library: Library) -> ElementBlock:
+    section = group.section
+    if not isinstance(section, ShellSection):
+        raise DeckError(section.source, f"elements of type {group.type} need *SHELL SECTION")
+    _check_nodes(group, kind.nodes)
+    routine = shell_routine(model, group, kind, section, library)
+    block = ElementBlock(
+        group,
+        model.mesh.coordinates,
+        tuple((node, dof) for node in range(kind.nodes) for dof in kind.dofs(node)),
+        routine,
+        library,
+        unsymmetric=any(layer.material.user and layer.material.user.unsymmetric for layer in section.layers),
+        variables=shell_variables(section, kind, routine),
+    )
+    block.set_last(directors(model, group).reshape(len(group.labels), -1))
+    if routine.axes is not None:
+        axes = start_axes(model, group, kind, routine.axes.orientation, library)
+        # the direction that is projected, the next one, and that closest to the normal
+        block.begin_axes(np.roll(axes, -routine.axes.orientation.normal, axis=-2))
+    return block
 
 
 def _discrete_block(model: Model, group: ElementGroup, library: Library) -> ElementBlock:

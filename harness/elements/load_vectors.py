@@ -1,19 +1,20 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""Consistent nodal forces of loads on faces and volumes of built-in continuum elements, in their initial shape."""
+"""Consistent nodal forces of loads on faces and volumes of built-in elements, in their initial shape."""
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from typing import Final
 
 import numpy as np
 
 from harness.elements.solid import section_depth, solid_of
-from harness.errors import DeckError
+from harness.errors import DeckError, Source
 from harness.model.arrays import FloatArray, IntArray
-from harness.model.element_types import ContinuumType, Face, Family
+from harness.model.element_types import ContinuumType, Face, Family, ShellType
 from harness.model.mesh import ElementGroup
-from harness.model.properties import SolidSection
+from harness.model.properties import ShellLayer, ShellSection, SolidSection
 from harness.model.steps import ElementLoad, LoadKind
 from harness.usersub import _binding
 
@@ -29,7 +30,9 @@ def unit_forces(
     rows are elements of the group. Also returns the coordinates of the points (elements, points, 3). Raises DeckError
     if the load makes no sense there.
     """
-    section = group.section
+    section, shell = group.section, group.built_in
+    if isinstance(shell, ShellType):
+        return _forces_on_shells(group, shell, rows, load, coordinates)
     assert isinstance(section, SolidSection)
     kind = solid_of(group)
     dimension = kind.dimension
@@ -56,6 +59,33 @@ def unit_forces(
     if kind.axisymmetric:
         force = places[:, :, :1] * force
     return scale * np.einsum("p,pk,mpd->mpkd", weights, shapes, force), places
+
+
+def _forces_on_shells(
+    group: ElementGroup, kind: ShellType, rows: IntArray, load: ElementLoad, coordinates: FloatArray
+) -> tuple[FloatArray, FloatArray]:
+    section = group.section
+    assert isinstance(section, ShellSection)
+    local = list(load.type.face) or list(range(kind.nodes))
+    x = coordinates[group.nodes[rows][:, local]]
+    weights, shapes, derivatives = _rule(kind.family, kind.nodes)
+    area = _normal(np.einsum("mkd,pka->mpda", x, derivatives))
+    if load.type.face:
+        force = _traction(load, area)
+    else:
+        per_area = section.thickness
+        if load.type.kind is LoadKind.GRAVITY:
+            check_density(section.layers, load.source, "GRAV")
+            per_area = section.mass
+        force = per_area * np.linalg.norm(area, axis=-1, keepdims=True) * np.array(load.type.direction)
+    return np.einsum("p,pk,mpd->mpkd", weights, shapes, force), np.einsum("pk,mkd->mpd", shapes, x)
+
+
+def check_density(layers: Iterable[ShellLayer], source: Source, what: str) -> None:
+    """Raise DeckError if a layer of a shell has no density."""
+    for layer in layers:
+        if not layer.material.density:
+            raise DeckError(source, f"{what} needs *DENSITY, which material {layer.material.name} does not have")
 
 
 def outward_sign(group: ElementGroup, row: int, face: tuple[int, ...], coordinates: FloatArray) -> int:

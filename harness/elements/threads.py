@@ -11,7 +11,7 @@ from harness.elements.block import ElementBlock
 from harness.errors import UsageError
 from harness.model.mesh import ElementGroup
 from harness.model.model import Model
-from harness.model.properties import UserPotential, UserProperty
+from harness.model.properties import UserPotential, UserProperty, materials_of
 from harness.usersub import Library
 
 MOST_THREADS: Final = 64
@@ -84,24 +84,24 @@ def _reason_for_one(group: ElementGroup, library: Library, number: int, safe: Co
     missing = sorted(_called(group).difference(safe))
     if missing:
         return _undeclared(f"elements of type {kind}", missing, number)
-    material = getattr(group.section, "material", None)
-    if material is not None and material.elastic is not None and material.elastic.table is not None:
-        return (
-            f"elements of type {kind} are called by one thread: *ELASTIC of material {material.name} depends on "
-            "temperature or field variables"
-        )
+    for material in materials_of(group.section):
+        if material.elastic is not None and material.elastic.table is not None:
+            return (
+                f"elements of type {kind} are called by one thread: *ELASTIC of material {material.name} depends on "
+                "temperature or field variables"
+            )
     return ""
 
 
 def _called(group: ElementGroup) -> set[str]:
     """User routines that elements call at their points."""
-    material = getattr(group.section, "material", None)
-    if material is None:
-        return set()
-    routines = {"UMAT": material.user, "USDFLD": material.user_field}
-    routines |= {"UMATHT": material.user_thermal, "HETVAL": material.heat_generation}
-    routines |= {"UHYPER": material.hyperelastic if isinstance(material.hyperelastic, UserPotential) else None}
-    return {name for name, given in routines.items() if given is not None}
+    found: set[str] = set()
+    for material in materials_of(group.section):
+        routines: dict[str, object] = {"UMAT": material.user, "USDFLD": material.user_field}
+        routines |= {"UMATHT": material.user_thermal, "HETVAL": material.heat_generation}
+        routines |= {"UHYPER": material.hyperelastic if isinstance(material.hyperelastic, UserPotential) else None}
+        found |= {name for name, given in routines.items() if given is not None}
+    return found
 
 
 def _undeclared(what: str, missing: list[str], number: int) -> str:

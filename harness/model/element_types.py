@@ -264,6 +264,60 @@ class CohesiveType:
         return tuple(range(1, self.dimension + 1))
 
 
+@dataclass(frozen=True, slots=True)
+class ShellType:
+    """A conventional shell: displacements and rotations at each node.
+
+    family  of its surface
+    points  integration points of the surface
+    """
+
+    name: str
+    family: Family
+    points: int
+
+    @property
+    def section(self) -> str:
+        """Keyword that gives its properties."""
+        return "SHELL SECTION"
+
+    @property
+    def nodes(self) -> int:
+        """Nodes per element."""
+        return self.family.nodes
+
+    @property
+    def dimension(self) -> int:
+        """3."""
+        return 3
+
+    @property
+    def body_forces(self) -> dict[str, Direction]:
+        """Directions of the body forces of *DLOAD."""
+        return _SPACE_FORCES
+
+    @property
+    def sides(self) -> dict[str, Face]:
+        """Local nodes of its sides, from 0: the normal by their order points outward."""
+        nodes = tuple(range(self.nodes))
+        return {"SPOS": nodes, "SNEG": nodes[::-1]}
+
+    @property
+    def edges(self) -> dict[str, Face]:
+        """Local nodes of its edges, from 0."""
+        return {f"E{k + 1}": (k, (k + 1) % self.nodes) for k in range(self.nodes)}
+
+    @property
+    def hourglass_control(self) -> bool:
+        """True where displacements other than rigid ones leave its only point without strain."""
+        return self.points == 1 and self.family is QUAD4
+
+    def dofs(self, node: int) -> tuple[int, ...]:
+        """Dofs of a local node, from 0."""
+        del node
+        return (1, 2, 3, 4, 5, 6)
+
+
 class DiscreteKind(IntEnum):
     """What a discrete element is; values are JTYPE of fortran/host/host_discrete.f90."""
 
@@ -293,7 +347,7 @@ class DiscreteType:
         return tuple(range(1, self.dimension + 1))
 
 
-BuiltInType = ContinuumType | HeatType | CohesiveType | DiscreteType
+BuiltInType = ContinuumType | HeatType | CohesiveType | ShellType | DiscreteType
 
 _PLANE: Final = {"3": (TRI3, 1), "4": (QUAD4, 4), "4R": (QUAD4, 1), "6": (TRI6, 3), "8": (QUAD8, 9), "8R": (QUAD8, 4)}
 _SPACE: Final = {
@@ -339,6 +393,17 @@ COHESIVE: Final = {
 }
 """Cohesive elements by their names."""
 
+SHELL: Final = {
+    kind.name: kind
+    for kind in (
+        ShellType("S3", TRI3, 1),
+        ShellType("S3R", TRI3, 1),
+        ShellType("S4", QUAD4, 4),
+        ShellType("S4R", QUAD4, 1),
+    )
+}
+"""Conventional shells by their names."""
+
 DISCRETE: Final = {
     kind.name: kind
     for kind in (
@@ -352,7 +417,7 @@ DISCRETE: Final = {
 }
 """Trusses, springs and masses by their names."""
 
-BUILT_IN: Final[dict[str, BuiltInType]] = {**CONTINUUM, **COUPLED, **HEAT, **COHESIVE, **DISCRETE}
+BUILT_IN: Final[dict[str, BuiltInType]] = {**CONTINUUM, **COUPLED, **HEAT, **COHESIVE, **SHELL, **DISCRETE}
 """All built-in elements by their names."""
 
 HOURGLASS_CONTROLLED: Final = tuple(name for name, kind in CONTINUUM.items() if kind.hourglass_control)

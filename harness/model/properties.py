@@ -230,12 +230,14 @@ class Orientation:
     """*ORIENTATION: rows of `axes` (3, 3) are the local 1, 2 and 3 directions in global components.
 
     system  gives them where they are not the same everywhere, with the global ones in `axes`
+    normal  1, 2 or 3, the direction closest to the normal of a shell; the next one is projected onto it
     """
 
     name: str
     axes: FloatArray
     source: Source
     system: LocalSystem | None = None
+    normal: int = 1
 
 
 @dataclass(frozen=True, slots=True)
@@ -289,6 +291,50 @@ class CohesiveSection:
     width: float
     controls: SectionControls
     source: Source
+
+
+@dataclass(frozen=True, slots=True)
+class ShellLayer:
+    """A layer of a shell: points through its thickness; angle of its direction 1 from the section's, degrees."""
+
+    thickness: float
+    points: int
+    material: Material
+    angle: float = 0.0
+
+
+@dataclass(frozen=True, slots=True)
+class ShellSection:
+    """*SHELL SECTION.
+
+    layers       from the side SNEG to SPOS
+    offset       from the middle surface to the nodes, along the normal, over the thickness
+    gauss        whether section points are those of Gauss, else of Simpson
+    shear        K11, K22 and K12 of *TRANSVERSE SHEAR STIFFNESS; none: those of the elastic layers
+    slenderness  its factor; None: the default
+    hourglass    *HOURGLASS STIFFNESS; 0: not given
+    """
+
+    elset: str
+    layers: tuple[ShellLayer, ...]
+    orientation: Orientation | None
+    offset: float
+    gauss: bool
+    source: Source
+    controls: SectionControls = SectionControls()
+    shear: tuple[float, ...] = ()
+    slenderness: float | None = None
+    hourglass: float = 0.0
+
+    @property
+    def thickness(self) -> float:
+        """Of all layers."""
+        return sum(layer.thickness for layer in self.layers)
+
+    @property
+    def mass(self) -> float:
+        """Mass per area."""
+        return sum(layer.thickness * layer.material.density for layer in self.layers)
 
 
 @dataclass(frozen=True, slots=True)
@@ -377,4 +423,12 @@ class UserProperty:
     orientation: Orientation | None = None
 
 
-Section = SolidSection | CohesiveSection | SpringSection | MassSection | UserProperty
+Section = SolidSection | CohesiveSection | ShellSection | SpringSection | MassSection | UserProperty
+
+
+def materials_of(section: Section) -> tuple[Material, ...]:
+    """Materials of a section: one of each layer of a shell."""
+    if isinstance(section, ShellSection):
+        return tuple(layer.material for layer in section.layers)
+    material: Material | None = getattr(section, "material", None)
+    return () if material is None else (material,)

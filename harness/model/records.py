@@ -229,6 +229,8 @@ class PointVariables:
             left and right end, and the middle if the faces are quadratic
     outline continuum only: local nodes (from 0) of the cell, where the element is not one of the built-in ones
     aliases pairs of a name in Abaqus' output and the name here, where they differ ('S22', 'TN')
+    sections points of a shell through its thickness, which follow each other; `points` counts all of them
+    whole   shells only: names of what is the same at all points of a section
     """
 
     kind: str
@@ -238,6 +240,8 @@ class PointVariables:
     top: tuple[int, ...] = (3, 2)
     outline: tuple[int, ...] = ()
     aliases: tuple[tuple[str, str], ...] = ()
+    sections: int = 1
+    whole: tuple[str, ...] = ()
 
 
 @dataclass(frozen=True, slots=True)

@@ -71,16 +71,25 @@ def is_solid(model: Model) -> bool:
 def cell_values(states: Sequence[ElementState], cells: tuple[Cells, ...]) -> dict[str, list[FloatArray]]:
     """Means over the integration points, by variable, an array for each group; NaN where a group lacks the variable.
 
-    Coordinates of the points are left out, because the cell shows them, and variables without a name.
+    Coordinates of the points are left out, because the cell shows them, and variables without a name. Of shells, those
+    that change through the thickness are at the first and the last section point, with _SNEG and _SPOS in their names.
     """
     known: dict[str, dict[int, FloatArray]] = {}
     for state in states:
         if state.variables is None:
             continue
-        means = point_values(state, state.variables).mean(axis=1)
+        elements, sections = cells[state.group].element, state.variables.sections
+        values = point_values(state, state.variables)
+        # (elements, section points, variables)
+        means = values.reshape(len(values), values.shape[1] // sections, sections, values.shape[2]).mean(axis=1)
         for k, name in enumerate(state.variables.names):
-            if name and name not in _COORDINATES:
-                known.setdefault(name, {})[state.group] = means[cells[state.group].element, k]
+            if not name or name in _COORDINATES:
+                continue
+            sides = {name: 0}
+            if sections > 1 and name not in state.variables.whole:
+                sides = {f"{name}_SNEG": 0, f"{name}_SPOS": sections - 1}
+            for side, section in sides.items():
+                known.setdefault(side, {})[state.group] = means[elements, section, k]
     return {
         name: [values.get(k, np.full(len(group.nodes), np.nan)) for k, group in enumerate(cells)]
         for name, values in known.items()

@@ -28,6 +28,7 @@ from harness.output.points import point_values
 
 COLUMNS = 9  # of a table of Abaqus
 _SUFFIXES = ("11", "22", "33", "12", "13", "23")
+_NUMBERED = ("SDV", "UVARM", "SF")
 _COORDINATES = ("COOR1", "COOR2", "COOR3")
 
 
@@ -140,8 +141,8 @@ def element_tables(request: ElementRequest, model: Model, solution: Solution) ->
     """Tables of one *EL PRINT request, one for each element type that keeps any of the variables."""
     text = ""
     for group, inside, state in _chosen(request, model, solution):
-        for names, values in _element_values(group, state, inside, request.variables):
-            text += _element_table(request, model.mesh, group, inside, names, values)
+        for names, values, sections in _element_values(group, state, inside, request.variables):
+            text += _element_table(request, model.mesh, group, inside, names, values, sections)
     return text
 
 
@@ -220,6 +221,10 @@ def _chosen(
     return chosen
 
 
+Sections = tuple[int, ...]
+"""Numbers of the section points of each integration point; none for values that belong to the integration point."""
+
+
 @dataclass(frozen=True, slots=True)
 class _Layout:
     """Table of one position as Abaqus prints it: end of its title, head of the lines, note below it, and widths."""
@@ -238,13 +243,21 @@ _LAYOUTS = {
     Position.AVERAGED: _Layout("AVERAGED AT THE NODES", "       NODE  FOOT-   ", 13, 16, "  NODE      "),
 }
 
+_SECTION_POINTS = _Layout("AT THE INTEGRATION POINTS", "    ELEMENT  PT SEC FOOT-   ", 20, 22, " ELEMENT          ")
+
 
 def _element_table(
-    request: ElementRequest, mesh: Mesh, group: ElementGroup, inside: IntArray, names: list[str], values: FloatArray
+    request: ElementRequest,
+    mesh: Mesh,
+    group: ElementGroup,
+    inside: IntArray,
+    names: list[str],
+    values: FloatArray,
+    sections: Sections,
 ) -> str:
     """Tables of values (elements, points, names), at the points or at the position that the request asks for."""
-    position, lines, labels, values = _at_position(request.position, mesh, group, inside, values)
-    layout = _LAYOUTS[position]
+    position, lines, labels, values = _at_position(request.position, mesh, group, inside, values, sections)
+    layout = _SECTION_POINTS if sections else _LAYOUTS[position]
     which = f"ELEMENTS WITH TYPE {group.type} {layout.title}"
     title = "   THE FOLLOWING TABLE IS PRINTED FOR " + (
         f"{which} AND BELONGING TO ELEMENT SET {request.elset}" if request.elset else f"ALL {which}"
@@ -267,7 +280,7 @@ def _element_table(
 
 
 def _at_position(
-    position: Position, mesh: Mesh, group: ElementGroup, inside: IntArray, values: FloatArray
+    position: Position, mesh: Mesh, group: ElementGroup, inside: IntArray, values: FloatArray, sections: Sections
 ) -> tuple[Position, list[str], list[str], FloatArray]:
     """Position, heads of lines, labels for extremes, and values (lines, names), from those (elements, points, names).
 
@@ -276,8 +289,10 @@ def _at_position(
     elements, nodes = group.labels[inside].tolist(), group.nodes[inside]
     matrix = at_centroid(group.type) if position is Position.CENTROID else at_nodes(group.type)
     if position is Position.POINTS or matrix is None:
-        points = range(1, values.shape[1] + 1)
-        lines = [f"{label:12d}{point:4d}       " for label in elements for point in points]
+        points = [f"{point:4d}       " for point in range(1, values.shape[1] + 1)]
+        if sections:
+            points = [f"{k // len(sections) + 1:4d}{sections[k % len(sections)]:4d}   " for k in range(values.shape[1])]
+        lines = [f"{label:12d}{point}" for label in elements for point in points]
         labels = [str(label) for label in elements for _ in points]
         return Position.POINTS, lines, labels, values.reshape(-1, values.shape[2])
     found = np.einsum("np,epv->env", matrix, values)
@@ -299,35 +314,46 @@ def _at_position(
 
 def _element_values(
     group: ElementGroup, state: ElementState, inside: IntArray, variables: tuple[str, ...]
-) -> list[tuple[list[str], FloatArray]]:
-    """Names and values (elements, points, names) of the variables that the elements keep.
+) -> list[tuple[list[str], FloatArray, Sections]]:
+    """Names and values (elements, points, names) of the variables that the elements keep, and the section points.
 
+    Of the points through the thickness of a shell the first and the last have a line, as Abaqus prints by default.
     SDV are the SVARS of a user element, one line per element, and STATEV at the points of a built-in one; other names
     (S, S11, DAMAGE, ...) are values at the points and need elements whose SVARS are known.
     """
     svars = state.svars[inside]
-    found: list[tuple[list[str], FloatArray]] = []
+    found: list[tuple[list[str], FloatArray, Sections]] = []
     if state.variables is not None:
         known = {name: k for k, name in enumerate(state.variables.names)}
         known |= {name: known[own] for name, own in state.variables.aliases}
         names = [name for variable in variables for name in known if _asked(variable, name)]
         if names:
-            values = point_values(state, state.variables)[inside]
-            found.append((names, values[:, :, [known[name] for name in names]]))
+            values, count = point_values(state, state.variables)[inside], state.variables.sections
+            of_section = values.reshape(len(values), values.shape[1] // count, count, values.shape[2])
+            sides = (1, count) if count > 1 else ()
+            for some, places in (
+                ([name for name in names if name not in state.variables.whole], sides),
+                ([name for name in names if name in state.variables.whole], ()),
+            ):
+                chosen = of_section[:, :, [place - 1 for place in places] or [0]][..., [known[name] for name in some]]
+                if some:
+                    found.append((some, chosen.reshape(len(values), -1, len(some)), places))
     if group.definition is None:
         return found
     names = [f"SDV{k}" for k in range(1, svars.shape[1] + 1)]
     names = [name for variable in variables for name in names if variable in ("SDV", name)]
     if names:
-        found.append((names, svars[:, None, [int(name[3:]) - 1 for name in names]]))
+        found.append((names, svars[:, None, [int(name[3:]) - 1 for name in names]], ()))
     return found
 
 
 def _asked(variable: str, name: str) -> bool:
-    """True if a requested variable (S, E, S11, SDV) includes a component (S11, SDV1)."""
+    """True if a requested variable (S, E, S11, SDV, SF) includes a component (S11, SDV1, SF1, SM1)."""
+    if variable == "SF" and name.startswith("SM"):
+        return True
     suffix = name.removeprefix(variable)
     return name == variable or (
-        name.startswith(variable) and (suffix in _SUFFIXES or (variable in ("SDV", "UVARM") and suffix.isdecimal()))
+        name.startswith(variable) and (suffix in _SUFFIXES or (variable in _NUMBERED and suffix.isdecimal()))
     )
 
 

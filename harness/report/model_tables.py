@@ -15,6 +15,7 @@ from harness.model.properties import (
     CohesiveSection,
     ElasticType,
     Material,
+    ShellSection,
     SolidSection,
     UserElement,
     UserPotential,
@@ -81,7 +82,7 @@ def property_tables(model: Model) -> Iterator[Table]:
         seen.add(section.source)
         if isinstance(section, UserProperty):
             yield _user_table(group, section)
-        elif isinstance(section, SolidSection | CohesiveSection):
+        elif isinstance(section, SolidSection | CohesiveSection | ShellSection):
             yield Table(
                 f"{section.elset}: {group.type}", ("property", "value", ""), _section_rows(section), section.source
             )
@@ -126,7 +127,9 @@ def _named(values: Sequence[float], names: Sequence[str], array: str) -> list[Ro
     return [(name, f"{value:g}", place) for name, value, place in zip(names, values, places, strict=True)]
 
 
-def _section_rows(section: SolidSection | CohesiveSection) -> list[Row]:
+def _section_rows(section: SolidSection | CohesiveSection | ShellSection) -> list[Row]:
+    if isinstance(section, ShellSection):
+        return [*_layer_rows(section), *(row for material in _materials(section) for row in _material_rows(material))]
     rows: list[Row] = [("material", section.material.name, "")]
     rows.append(("thickness", f"{section.thickness:g}", ""))
     if isinstance(section, CohesiveSection):
@@ -134,6 +137,21 @@ def _section_rows(section: SolidSection | CohesiveSection) -> list[Row]:
     elif section.orientation is not None:
         rows.append(("orientation", section.orientation.name, ""))
     return [*rows, *_material_rows(section.material)]
+
+
+def _layer_rows(section: ShellSection) -> Iterator[Row]:
+    for number, layer in enumerate(section.layers, 1):
+        place = f"layer {number}, {layer.angle:g} degrees, {layer.points} section points"
+        yield f"thickness of {layer.material.name}", f"{layer.thickness:g}", place
+    if section.offset:
+        yield "offset", f"{section.offset:g}", "of the thickness"
+    if section.orientation is not None:
+        yield "orientation", section.orientation.name, ""
+
+
+def _materials(section: ShellSection) -> list[Material]:
+    """Each material of the layers once."""
+    return list({layer.material.name: layer.material for layer in section.layers}.values())
 
 
 def _material_rows(material: Material) -> Iterator[Row]:

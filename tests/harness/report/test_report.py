@@ -11,8 +11,10 @@ from small_decks import pulled, snapping
 
 from harness import run
 from harness.cli import main
+from harness.deck import read_deck
 from harness.errors import UelError
 from harness.report import report
+from harness.report.model_tables import property_tables
 from harness.usersub.layout import element_layouts
 
 FOLDER = Path(__file__).parents[1]
@@ -133,3 +135,22 @@ def test_deck_that_has_changed_or_is_gone(tmp_path: Path) -> None:
 def test_job_that_is_not_there(tmp_path: Path) -> None:
     with pytest.raises(UelError, match=r"nothing\.sta: no such job"):
         report(tmp_path / "nothing")
+
+
+def test_layers_of_a_shell(tmp_path: Path) -> None:
+    deck = tmp_path / "shell.inp"
+    deck.write_text(
+        "*NODE\n1, 0., 0.\n2, 1., 0.\n3, 0., 1.\n*ELEMENT, TYPE=S3, ELSET=ALL\n1, 1, 2, 3\n"
+        "*MATERIAL, NAME=PLY\n*ELASTIC\n100., 0.3\n*ORIENTATION, NAME=O\n1., 0., 0., 0., 1., 0.\n3, 0.\n"
+        "*SHELL SECTION, ELSET=ALL, COMPOSITE, OFFSET=SPOS, ORIENTATION=O\n0.25, 3, PLY, 45.\n0.5, 5, PLY\n"
+        "*STEP\n*STATIC\n*END STEP\n"
+    )
+    (table,) = property_tables(read_deck(deck))
+    assert table.rows == [
+        ("thickness of PLY", "0.25", "layer 1, 45 degrees, 3 section points"),
+        ("thickness of PLY", "0.5", "layer 2, 0 degrees, 5 section points"),
+        ("offset", "0.5", "of the thickness"),
+        ("orientation", "O", ""),
+        ("E", "100", "*ELASTIC, TYPE=ISOTROPIC"),
+        ("nu", "0.3", "*ELASTIC, TYPE=ISOTROPIC"),
+    ]

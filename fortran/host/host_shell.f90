@@ -1,0 +1,311 @@
+! SPDX-FileCopyrightText: The uel-harness authors
+! SPDX-License-Identifier: BSD-3-Clause
+!> Built-in conventional shells (S3, S3R, S4, S4R) as a procedure with the arguments of UELMAT. harness/elements/shell.py gives
+!> what they need.
+!>
+!> JPROPS: family of the surface (host_shape), its integration points, section points, 1 with *ORIENTATION; then material, layer and
+!> section point of the layer (KSPT) of each section point. PROPS: thickness, density, stiffness against drilling, K11, K22 and K12
+!> of the transverse shear, slenderness factor, place of the middle surface; elastic section stiffness (6, 6), of membrane strains
+!> and curvatures; then place, weight and angle (radians) of each section point.
+!>
+!> Transverse shear is elastic, and not that of the section points (Analysis User's Guide, Shell section behavior): its
+!> stiffness comes with the factor 1/(1 + slenderness area/thickness^2). It and the drilling are integrated fully. S4R has one
+!> point; its hourglass modes have the stiffness that the elastic section has in S4.
+!>
+!> SVARS hold, for each section point of each integration point, E11 E22 E12 S11 S22 S12 in the directions of its layer, and SF1 to
+!> SF5, SM1 to SM3 of the section; in dynamic analyses then the forces of the last two increments; then the directions of each
+!> integration point, with *ORIENTATION (host_axes); last the director of each node.
+module host_shell
+  use, intrinsic :: iso_c_binding, only: c_f_pointer, c_loc
+  use host_axes, only: values_of_axes
+  use host_context, only: current
+  use host_coupling, only: interpolate_fields
+  use host_inertia, only: respond
+  use host_kinds, only: dp, i4
+  use host_materials, only: elastic_energy, find_material, has_fields, material_t, stress_update
+  use host_messages, only: add_message
+  use host_protect, only: escape
+  use host_shape, only: is_multilinear, parent_place, rule_of, rule_t
+  use host_shell_strains, only: drilling_strain, enhance, shell_point, shell_strains, tensor_turn
+  implicit none (type, external)
+  private
+  public :: shell_uelmat
+
+  integer, parameter :: values = 14       !< of SVARS for a section point
+  integer, parameter :: head = 44         !< values of PROPS before those of the section points
+
+  !> Sine below which the direction of an orientation is normal to the surface.
+  real(dp), parameter :: smallest_sine = 1.745328e-3_dp
+
+  !> The strain operators of an element, and the angle of the section's direction 1 at each point from the first axis.
+  type :: operators_t
+    type(shell_point), allocatable :: point(:)
+    real(dp), allocatable :: b(:, :, :)     !< (8, unknowns, points)
+    real(dp), allocatable :: angle(:)
+    real(dp), allocatable :: turn(:, :, :)  !< (3, 3, points) strains to the directions of the section
+  end type operators_t
+
+contains
+
+  subroutine shell_uelmat(rhs, amatrx, svars, energy, ndofel, nrhs, nsvars, props, nprops, coords, mcrd, nnode, u, du, &
+                          v, a, jtype, time, dtime, kstep, kinc, jelem, params, ndload, jdltyp, adlmag, predef, npredf, &
+                          lflags, mlvarx, ddlmag, mdload, pnewdt, jprops, njprop, period, materiallib)
+    integer(i4) :: ndofel, nrhs, nsvars, nprops, mcrd, nnode, jtype, kstep, kinc, jelem, ndload, jdltyp(*), npredf, &
+                   lflags(*), mlvarx, mdload, jprops(*), njprop, materiallib
+    real(dp), target :: svars(*)
+    real(dp) :: rhs(*), amatrx(*), energy(*), props(*), coords(*), u(*), du(*), v(*), a(*), time(*), dtime, &
+                params(*), adlmag(*), predef(*), ddlmag(*), pnewdt, period
+    real(dp), pointer, contiguous :: axes(:, :, :, :)
+    real(dp) :: mass(ndofel, ndofel), old(ndofel, 2), shear(2, 2), stored(2)
+    integer :: n, first, behind
+    type(operators_t) :: at_points, full
+    n = ndofel
+    first = jprops(2)*jprops(3)*values + 1
+    behind = nsvars + 1 - 3*nnode
+    axes => null()
+    if (jprops(4) /= 0) then
+      behind = behind - values_of_axes*jprops(2)
+      call c_f_pointer(c_loc(svars(behind)), axes, [3, 3, 2, int(jprops(2))])
+    end if
+    old = 0
+    if (behind > first) old = reshape(svars(first:behind - 1), [n, 2])
+    call prepare(int(jprops(:4)), int(nnode), n, coords, svars(nsvars - 3*nnode + 1), props, axes, at_points, full)
+    mass = 0
+    call add_mass(int(nnode), props(1), props(2), props(8), full%point, mass)
+    rhs(1:n*nrhs) = 0
+    amatrx(1:n*n) = 0
+    if (lflags(3) /= 3 .and. lflags(3) /= 4) then
+      shear = shear_stiffness(props, sum(full%point%weight))
+      call add_elastic(int(nnode), n, props, shear, at_points, full, u, du, rhs, amatrx, stored, energy(6))
+      energy(2) = energy(2) - stored(1)
+      call integrate(rule_of(int(jprops(1)), int(jprops(2))), n, int(jprops(3)), jprops(5), props(head + 1), shear, at_points, &
+                     int(npredf), predef, u, rhs, amatrx, svars, energy, sum(full%point%weight))
+      energy(2) = energy(2) + stored(2)
+    end if
+    call respond(n, lflags, params, dtime, v, a, mass, old, rhs, amatrx, energy(1))
+    if (behind > first) svars(first:behind - 1) = reshape(old, [2*n])
+  end subroutine shell_uelmat
+
+  !> Operators at the integration points, and at as many points as nodes. Leaves the pass if the surface is folded.
+  subroutine prepare(kind, nodes, n, x, v, props, axes, at_points, full)
+    integer, intent(in) :: kind(4), nodes, n
+    real(dp), intent(in) :: x(3, nodes), v(3, nodes), props(head)
+    real(dp), intent(in), pointer, contiguous :: axes(:, :, :, :)
+    type(operators_t), intent(out) :: at_points, full
+    call find_operators(rule_of(kind(1), kind(2)), n, x, v, props, axes, at_points)
+    if (kind(2) == nodes) then
+      full = at_points
+    else
+      call find_operators(rule_of(kind(1), nodes), n, x, v, props, axes, full)
+    end if
+  end subroutine prepare
+
+  !> axes: of the integration points; the first ones count where there are more points.
+  subroutine find_operators(rule, n, x, v, props, axes, found)
+    type(rule_t), intent(in) :: rule
+    integer, intent(in) :: n
+    real(dp), intent(in) :: x(3, rule%nodes), v(3, rule%nodes), props(head)
+    real(dp), intent(in), pointer, contiguous :: axes(:, :, :, :)
+    type(operators_t), intent(out) :: found
+    real(dp) :: membrane(3, 3, rule%points), elastic(6, 6), angle
+    real(dp) :: b(8, 6, rule%nodes)
+    integer :: p
+    elastic = reshape(props(9:44), [6, 6])
+    allocate (found%point(rule%points), found%b(8, n, rule%points), found%angle(rule%points), found%turn(3, 3, rule%points))
+    do p = 1, rule%points
+      if (is_multilinear(rule)) then
+        call shell_strains(rule%nodes, x, v, parent_place(rule, p), rule%weight(p), found%point(p), b)
+      else
+        call shell_strains(rule%nodes, x, v, rule%n(2:3, p), rule%weight(p), found%point(p), b)
+      end if
+      if (.not. found%point(p)%good) call report_shape(p)
+      found%b(:, :, p) = reshape(b, [8, n])
+      if (associated(axes)) then
+        angle = angle_of(p, found%point(p)%frame, axes(1, :, 1, min(p, size(axes, 4))))
+      else
+        angle = angle_of(p, found%point(p)%frame, default_direction(found%point(p)%frame(3, :)))
+      end if
+      found%angle(p) = angle
+      found%turn(:, :, p) = tensor_turn(angle)
+      membrane(:, :, p) = matmul(transpose(found%turn(:, :, p)), matmul(elastic(:3, :3), found%turn(:, :, p)))
+    end do
+    if (rule%nodes == 4 .and. rule%points > 1) call enhance(found%point, membrane, found%b)
+  end subroutine find_operators
+
+  !> The global direction whose projection is direction 1 by default: x, or z where x is within 0.1 degrees of the normal.
+  pure function default_direction(normal) result(direction)
+    real(dp), intent(in) :: normal(3)
+    real(dp) :: direction(3)
+    direction = [1, 0, 0]
+    if (hypot(normal(2), normal(3)) < smallest_sine) direction = [0, 0, 1]
+  end function default_direction
+
+  !> Angle of the projection of a direction from the first axis of a point. Leaves the pass if it is normal to the surface.
+  real(dp) function angle_of(point, frame, direction)
+    integer, intent(in) :: point
+    real(dp), intent(in) :: frame(3, 3), direction(3)
+    real(dp) :: along(2)
+    character(len=160) :: text
+    along = matmul(frame(:2, :), direction)
+    if (.not. norm2(along) > 1.0e-6_dp) then
+      write (text, '(a,i0)') '*ORIENTATION: the axis that is projected is normal to the shell at integration point ', point
+      call add_message(-3_i4, trim(text))
+      call escape()
+    end if
+    angle_of = atan2(along(2), along(1))
+  end function angle_of
+
+  subroutine report_shape(point)
+    integer, intent(in) :: point
+    character(len=160) :: text
+    write (text, '(a,i0,a)') 'the shell has no area or is folded at its integration point ', point, &
+      '; its nodes must run around it'
+    call add_message(-3_i4, trim(text))
+    call escape()
+  end subroutine report_shape
+
+  !> Lumped mass, with the rotary inertia of the thickness for all rotations.
+  pure subroutine add_mass(nodes, thickness, density, middle, points, mass)
+    integer, intent(in) :: nodes
+    real(dp), intent(in) :: thickness, density, middle
+    type(shell_point), intent(in) :: points(:)
+    real(dp), intent(inout) :: mass(6, nodes, 6, nodes)
+    real(dp) :: area
+    integer :: i, k, p
+    do k = 1, nodes
+      area = sum([(points(p)%weight*points(p)%n(k), p=1, size(points))])
+      do i = 1, 6
+        mass(i, k, i, k) = density*area*thickness*merge(1.0_dp, thickness**2/12 + middle**2, i <= 3)
+      end do
+    end do
+  end subroutine add_mass
+
+  !> Transverse shear stiffness of the section.
+  pure function shear_stiffness(props, area) result(k)
+    real(dp), intent(in) :: props(head), area
+    real(dp) :: k(2, 2)
+    k = reshape([props(4), props(6), props(6), props(5)], [2, 2])/(1 + props(7)*area/props(1)**2)
+  end function shear_stiffness
+
+  !> Transverse shear strains by the unknowns, in the directions of the section.
+  pure function section_shear(operators, p, n) result(b)
+    type(operators_t), intent(in) :: operators
+    integer, intent(in) :: p, n
+    real(dp) :: b(2, n), c, s
+    c = cos(operators%angle(p))
+    s = sin(operators%angle(p))
+    b = matmul(reshape([c, -s, s, c], [2, 2]), operators%b(7:, :, p))
+  end function section_shear
+
+  !> What is linear: transverse shear, drilling, and hourglass modes of four nodes with one point.
+  subroutine add_elastic(nodes, n, props, k, at_points, full, u, du, force, stiffness, stored, spurious)
+    integer, intent(in) :: nodes, n
+    real(dp), intent(in) :: props(head), k(2, 2)
+    type(operators_t), intent(in) :: at_points, full
+    real(dp), intent(in) :: u(n), du(n)
+    real(dp), intent(inout) :: force(n), stiffness(n, n)
+    real(dp), intent(out) :: stored(2)     !< energy of the shear, before and now
+    real(dp), intent(out) :: spurious      !< energy of drilling and hourglass modes
+    real(dp) :: shear(n, n), artificial(n, n), drill(n), part(n, n), b(2, n)
+    integer :: p
+    shear = 0
+    artificial = 0
+    do p = 1, size(full%point)
+      b = section_shear(full, p, n)
+      shear = shear + full%point(p)%weight*matmul(transpose(b), matmul(k, b))
+      drill = reshape(drilling_strain(nodes, full%point(p)), [n])
+      artificial = artificial + full%point(p)%weight*props(3)*spread(drill, 2, n)*spread(drill, 1, n)
+    end do
+    if (size(at_points%point) == 1 .and. nodes == 4) then
+      do p = 1, 4
+        call add_section(n, props, full, p, artificial)
+      end do
+      part = 0
+      call add_section(n, props, at_points, 1, part)
+      artificial = artificial - part
+    end if
+    stiffness = stiffness + shear + artificial
+    force = force + matmul(shear + artificial, u)
+    stored = 0.5_dp*[dot_product(u - du, matmul(shear, u - du)), dot_product(u, matmul(shear, u))]
+    spurious = 0.5_dp*dot_product(u, matmul(artificial, u))
+  end subroutine add_elastic
+
+  !> Stiffness of the elastic section at a point.
+  pure subroutine add_section(n, props, operators, p, stiffness)
+    integer, intent(in) :: n, p
+    real(dp), intent(in) :: props(head)
+    type(operators_t), intent(in) :: operators
+    real(dp), intent(inout) :: stiffness(n, n)
+    real(dp) :: b(6, n)
+    b(:3, :) = matmul(operators%turn(:, :, p), operators%b(:3, :, p))
+    b(4:, :) = matmul(operators%turn(:, :, p), operators%b(4:6, :, p))
+    stiffness = stiffness + operators%point(p)%weight*matmul(transpose(b), matmul(reshape(props(9:44), [6, 6]), b))
+  end subroutine add_section
+
+  !> Forces, tangent and state of all section points.
+  subroutine integrate(rule, n, sections, of_section, section, k_shear, at, fields, predef, u, force, stiffness, svars, energy, &
+                       area)
+    type(rule_t), intent(in) :: rule
+    integer, intent(in) :: n, sections, fields
+    integer(i4), intent(in) :: of_section(3, sections)
+    real(dp), intent(in) :: section(3, sections), k_shear(2, 2), predef(2, fields, rule%nodes), u(n), area
+    type(operators_t), intent(in) :: at
+    real(dp), intent(inout) :: force(n), stiffness(n, n), svars(values, sections, rule%points), energy(8)
+    type(material_t), pointer :: material
+    real(dp) :: b(6, n), strain(6), resultant(6), tangent(6, 6), turn(3, 3), layer(3), stress(3), modulus(3, 3), shear(2)
+    real(dp) :: elastic, work, volume, z
+    integer(i4) :: column
+    integer :: k, p
+    logical :: valid
+    current%finite = .false.
+    current%deformed = .false.
+    elastic = 0
+    work = energy(2) + energy(4)
+    do p = 1, rule%points
+      b(:3, :) = matmul(at%turn(:, :, p), at%b(:3, :, p))
+      b(4:, :) = matmul(at%turn(:, :, p), at%b(4:6, :, p))
+      strain = matmul(b, u)
+      resultant = 0
+      tangent = 0
+      do k = 1, sections
+        material => find_material(of_section(1, k))
+        z = section(1, k)
+        if (has_fields(material)) then
+          current%length = sqrt(area)
+          current%place = at%point(p)%place + z*at%point(p)%frame(3, :)
+          call interpolate_fields(rule, p, fields, predef, material%variables)
+        end if
+        current%npt = int(p, i4)
+        current%layer = of_section(2, k)
+        current%kspt = of_section(3, k)
+        turn = tensor_turn(section(3, k))
+        layer = matmul(turn, strain(:3) + z*strain(4:))
+        column = int((p - 1)*sections + k, i4)
+        call stress_update(material, column, layer, stress, modulus, valid)
+        volume = at%point(p)%weight*section(2, k)
+        elastic = elastic + volume*elastic_energy(material, column, stress)
+        associate (state => svars(:6, k, p))
+          ! trapezoidal rule, exact where the response is linear
+          work = work + volume*0.5_dp*dot_product(stress + state(4:), layer - state(:3))
+          state = [layer, stress]
+        end associate
+        stress = matmul(transpose(turn), stress)
+        modulus = section(2, k)*matmul(transpose(turn), matmul(modulus, turn))
+        resultant = resultant + section(2, k)*[stress, z*stress]
+        tangent(:3, :3) = tangent(:3, :3) + modulus
+        tangent(4:, :3) = tangent(4:, :3) + z*modulus
+        tangent(:3, 4:) = tangent(:3, 4:) + z*modulus
+        tangent(4:, 4:) = tangent(4:, 4:) + z**2*modulus
+      end do
+      shear = matmul(k_shear, matmul(section_shear(at, p, n), u))
+      do k = 1, sections
+        svars(7:, k, p) = [resultant(:3), shear, resultant(4:)]
+      end do
+      force = force + at%point(p)%weight*matmul(resultant, b)
+      stiffness = stiffness + at%point(p)%weight*matmul(transpose(b), matmul(tangent, b))
+    end do
+    if (allocated(current%fields)) deallocate (current%fields)
+    energy(2) = elastic
+    energy(4) = work - elastic
+  end subroutine integrate
+end module host_shell

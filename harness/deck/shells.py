@@ -1,0 +1,146 @@
+# SPDX-FileCopyrightText: The uel-harness authors
+# SPDX-License-Identifier: BSD-3-Clause
+"""*SHELL SECTION and *TRANSVERSE SHEAR STIFFNESS."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Final
+
+from harness.deck.blocks import Block, Row
+from harness.deck.error_report import look_up
+from harness.deck.numbers import read_real
+from harness.deck.table import Keyword, Kind, Option, Where, ignored, one_of, refused
+from harness.model.properties import ElasticType, Material, Orientation, SectionControls, ShellLayer, ShellSection
+
+MOST_POINTS: Final = 250
+"""Section points of a layer."""
+_SIDES: Final = {"SPOS": 0.5, "SNEG": -0.5}
+_DEFAULT_POINTS: Final = {("SIMPSON", False): 5, ("SIMPSON", True): 3, ("GAUSS", False): 3, ("GAUSS", True): 2}
+"""By the rule, and whether the section is composite (Abaqus Keywords Guide, *SHELL SECTION)."""
+
+
+def read_shell_section(
+    block: Block,
+    materials: Mapping[str, Material],
+    orientations: Mapping[str, Orientation],
+    controls: SectionControls,
+) -> ShellSection:
+    """The section of shells. Raises DeckError."""
+    options, rows = block.options, list(block.rows())
+    composite = options.flag("COMPOSITE")
+    name = options.text("ORIENTATION")
+    orientation = look_up(orientations, name, "orientation", block.source) if name else None
+    if orientation is not None and orientation.system is not None and orientation.system.kind == "USER":
+        raise block.error(f"*ORIENTATION, NAME={orientation.name}: SYSTEM=USER is not supported for shells")
+    if composite == options.given("MATERIAL"):
+        raise block.error("expected either MATERIAL= or COMPOSITE, with the material of each layer on its line")
+    if not rows or (len(rows) > 1 and not composite):
+        raise block.error(
+            "needs a data line with the thickness" + (" for each layer" if composite else ", and only one")
+        )
+    default = _DEFAULT_POINTS[options.text("SECTION INTEGRATION"), composite]
+    layers = [_read_layer(block, row, materials, default) for row in rows]
+    if options.flag("SYMMETRIC"):
+        layers += layers[::-1]
+    return ShellSection(
+        options.text("ELSET"),
+        tuple(layers),
+        orientation,
+        _offset(block),
+        options.text("SECTION INTEGRATION") == "GAUSS",
+        block.source,
+        controls,
+    )
+
+
+def _offset(block: Block) -> float:
+    text = block.options.text("OFFSET") or "0"
+    try:
+        return _SIDES[text] if text in _SIDES else read_real(text)
+    except ValueError:
+        raise block.error(f"OFFSET={text}: expected a number, SPOS or SNEG") from None
+
+
+def _read_layer(block: Block, row: Row, materials: Mapping[str, Material], default: int) -> ShellLayer:
+    thickness = row.real(0, "thickness")
+    if thickness <= 0:
+        raise row.error(f"thickness {thickness:g} must be positive")
+    points = row.integer(1, "number of section points", default)
+    simpson = block.options.text("SECTION INTEGRATION") == "SIMPSON"
+    if not 1 <= points <= MOST_POINTS or (simpson and (points < 3 or points % 2 == 0)):
+        expected = f"an odd number from 3 to {MOST_POINTS - 1}" if simpson else f"a number from 1 to {MOST_POINTS}"
+        raise row.error(f"{points} section points: expected {expected}")
+    if not block.options.flag("COMPOSITE"):
+        row.at_most(2)
+        return ShellLayer(thickness, points, _material(block, block.options.text("MATERIAL"), materials))
+    # the fifth is the name of the layer
+    row.at_most(5)
+    return ShellLayer(
+        thickness, points, _material(block, row.name(2, "material"), materials), row.real(3, "orientation angle", 0.0)
+    )
+
+
+def _material(block: Block, name: str, materials: Mapping[str, Material]) -> Material:
+    """A material with elasticity or of UMAT. Raises DeckError."""
+    material = look_up(materials, name, "material", block.source)
+    if material.user is not None:
+        return material
+    if material.elastic is None:
+        raise block.error(f"material {material.name} has no *ELASTIC or *USER MATERIAL")
+    if material.elastic.type is ElasticType.TRACTION:
+        place = material.elastic.source
+        raise block.error(f"material {material.name} ({place}) has *ELASTIC, TYPE=TRACTION, which is not for shells")
+    return material
+
+
+def read_shear_stiffness(block: Block) -> tuple[tuple[float, float, float], float | None]:
+    """K11, K22 and K12, and the slenderness factor, None for the default. Raises DeckError."""
+    row = next(block.rows(), None)
+    if row is None:
+        raise block.error("needs a data line with K11, K22, K12")
+    row.at_most(4)
+    first, second = row.real(0, "K11"), row.real(1, "K22")
+    coupling = row.real(2, "K12", 0.0)
+    if not (first > 0 and second > 0 and first * second > coupling**2):
+        message = f"K11 = {first:g}, K22 = {second:g}, K12 = {coupling:g}: expected a positive definite stiffness"
+        raise row.error(message)
+    slenderness = None if row.blank(3) else row.real(3, "slenderness factor")
+    if slenderness is not None and slenderness < 0:
+        raise row.error(f"slenderness factor {slenderness:g} must not be negative")
+    return (first, second, coupling), slenderness
+
+
+KEYWORDS = (
+    Keyword(
+        "SHELL SECTION",
+        "Section of conventional shells, integrated in the analysis. Without ORIENTATION direction 1 is the projection "
+        "of the global x axis, or of z where x is within 0.1 degrees of the normal. With it, the axis of its "
+        "additional rotation is the one closest to the normal, and the next one of 1, 2, 3, 1 is projected. POISSON "
+        "changes the thickness only with NLGEOM, which shells do not support.",
+        Where.MODEL,
+        (
+            Option("ELSET", Kind.NAME, "element set", required=True),
+            Option("MATERIAL", Kind.NAME, "material"),
+            Option("COMPOSITE", doc="a data line for each layer, the first on the side SNEG"),
+            Option("CONTROLS", Kind.NAME, "section controls"),
+            Option("OFFSET", Kind.NAME, "from the middle surface to the nodes over the thickness, or SPOS or SNEG (0)"),
+            Option("ORIENTATION", Kind.NAME, "orientation of the section"),
+            one_of("SECTION INTEGRATION", "rule through the thickness", ("SIMPSON", "GAUSS"), default="SIMPSON"),
+            Option("SYMMETRIC", doc="the layers again, in reverse"),
+            *ignored("LAYUP", "POISSON", "THICKNESS MODULUS"),
+            *refused("DENSITY", "NODAL THICKNESS", "SHELL THICKNESS", "STACK DIRECTION", "TEMPERATURE"),
+        ),
+        "thickness, section points (5; Gauss 3); COMPOSITE: thickness, section points (3; Gauss 2), material, angle of "
+        "the layer in degrees, name",
+    ),
+    Keyword(
+        "TRANSVERSE SHEAR STIFFNESS",
+        "Transverse shear stiffness of the *SHELL SECTION before, in its directions; shells of UMAT need it. By "
+        "default it is that of the elastic layers in bending about one direction without a moment about the other "
+        "(Theory Guide, Transverse shear stiffness in composite shells), 5/6 of the shear modulus times the thickness "
+        "where they are alike.",
+        Where.MODEL,
+        data="K11, K22, K12 (0), slenderness factor q (0.25E-4): the stiffness used is K/(1 + q area/thickness^2)",
+    ),
+)

@@ -1,0 +1,278 @@
+# SPDX-FileCopyrightText: The uel-harness authors
+# SPDX-License-Identifier: BSD-3-Clause
+"""Built-in conventional shells: what the driver calls for them (fortran/host/host_shell.f90), and their sections."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Final
+
+import numpy as np
+
+from harness.elements.load_vectors import check_density
+from harness.elements.materials import (
+    define_material,
+    global_compliance,
+    history_values,
+    linearity,
+    refuse_fields,
+    refuse_hyperelastic,
+    state_variables,
+)
+from harness.elements.routine import VALUES_OF_AXES, Linearity, PointAxes, Routine
+from harness.elements.solid import HOURGLASS_FRACTION, numbered
+from harness.errors import DeckError
+from harness.model.arrays import FloatArray
+from harness.model.element_types import ShellType, Tensor
+from harness.model.mesh import ElementGroup
+from harness.model.model import Model
+from harness.model.properties import ShellLayer, ShellSection
+from harness.model.records import PointVariables
+from harness.usersub import Library, _binding
+
+WHOLE: Final = ("SF1", "SF2", "SF3", "SF4", "SF5", "SM1", "SM2", "SM3")
+"""Forces and moments of the section, per length: 11, 22, 12, 13, 23; 11, 22, 12."""
+
+NAMES: Final = (*("E11", "E22", "E12", "S11", "S22", "S12"), *WHOLE)
+"""Variables of a section point, in the directions of its layer, and those of its section."""
+
+SLENDERNESS: Final = 0.25e-4
+"""Default slenderness factor of the transverse shear stiffness (Analysis User's Guide, Shell section behavior)."""
+
+LARGEST_ANGLE: Final = 20.0
+"""Degrees between normals at a node whose mean is taken."""
+
+DRILLING: Final = 1e-3
+"""Stiffness against drilling over that of transverse shear; with more, coarse meshes of thin warped shells lock."""
+
+
+@dataclass(frozen=True, slots=True)
+class SectionPoints:
+    """Section points from SNEG to SPOS: place and weight (length), layer from 0, number in the layer from 1."""
+
+    place: FloatArray
+    weight: FloatArray
+    layer: np.ndarray
+    number: np.ndarray
+
+
+def shell_routine(
+    model: Model, group: ElementGroup, kind: ShellType, section: ShellSection, library: Library
+) -> Routine:
+    """What the driver calls for a group of shells. Raises DeckError."""
+    _check(model, group, section)
+    dynamic = any(step.procedure.inertia for step in model.steps)
+    points, materials = section_points(section), {layer.material.name: layer.material for layer in section.layers}
+    numbers = {
+        name: define_material(material, None, Tensor.PLANE_STRESS, section.source, library)
+        for name, material in materials.items()
+    }
+    layers = [section.layers[k] for k in points.layer.tolist()]
+    forces = 12 * kind.nodes if dynamic else 0
+    of_points = kind.points * len(points.place) * len(NAMES)
+    axes = PointAxes(of_points + forces, kind.points, False, section.orientation) if section.orientation else None
+    hidden = forces + (VALUES_OF_AXES * kind.points if axes else 0) + 3 * kind.nodes
+    user = any(material.user is not None for material in materials.values())
+    stiffness = section_stiffness(section, points)
+    shear = section.shear or shear_stiffness(section, stiffness)
+    values = max(map(history_values, materials.values()))
+    of_layers = zip(layers, points.layer.tolist(), points.number.tolist(), strict=True)
+    known = all(linearity(material) is Linearity.KNOWN for material in materials.values())
+    return Routine(
+        address=_binding.address_of("shell"),
+        jtype=kind.nodes,
+        mcrd=3,
+        svars=of_points + hidden,
+        hidden=hidden,
+        density=1,
+        props=np.array(
+            [
+                section.thickness,
+                section.mass / section.thickness,
+                DRILLING * (shear[0] + shear[1]) / 2,
+                *shear,
+                SLENDERNESS if section.slenderness is None else section.slenderness,
+                -section.offset * section.thickness,
+                *(hourglass_modulus(kind, section, stiffness, user=user)).ravel(),
+                *np.column_stack([points.place, points.weight, np.radians([layer.angle for layer in layers])]).ravel(),
+            ]
+        ),
+        jprops=np.array(
+            [
+                *(kind.family.number, kind.points, len(points.place), axes is not None),
+                *(value for layer, k, n in of_layers for value in (numbers[layer.material.name], k + 1, n)),
+            ]
+        ),
+        material=next(iter(numbers.values())),
+        tensor=int(Tensor.PLANE_STRESS),
+        history=(values, kind.points * len(points.place) if values > 1 else 1),
+        statev=max(map(state_variables, materials.values())),
+        linear=values == 1,
+        forces=Linearity.KNOWN if known else Linearity.UNKNOWN,
+        free=(1, 2, 3),
+        axes=axes,
+    )
+
+
+def shell_variables(section: ShellSection, kind: ShellType, routine: Routine) -> PointVariables:
+    """Meaning of the state variables of a group of shells."""
+    sections = sum(layer.points for layer in section.layers)
+    names = *NAMES, *numbered("SDV", routine.statev)
+    return PointVariables("continuum", names, kind.points * sections, sections=sections, whole=WHOLE)
+
+
+def directors(model: Model, group: ElementGroup) -> FloatArray:
+    """(m, nodes, 3) directors of a group of shells at its nodes: unit normals.
+
+    At a node it is the mean of the normals there of all shells whose normal is within 20 degrees of that of the element
+    (Analysis User's Guide, Defining the initial geometry of conventional shell elements). The normal of an element
+    without area is zero.
+    """
+    x, nodes, normals, first = model.mesh.coordinates, [], [], 0
+    mine = slice(0, 0)
+    for other in model.groups:
+        if not isinstance(other.built_in, ShellType):
+            continue
+        corners = x[other.nodes]
+        area = np.cross(np.roll(corners, -1, axis=1) - corners, np.roll(corners, 1, axis=1) - corners)
+        size = np.linalg.norm(area, axis=-1, keepdims=True)
+        normals.append((area / np.where(size > 0, size, 1.0)).reshape(-1, 3))
+        nodes.append(other.nodes.ravel())
+        if other is group:
+            mine = slice(first, first + other.nodes.size)
+        first += other.nodes.size
+    of_node, normal = np.concatenate(nodes), np.concatenate(normals)
+    order = np.argsort(of_node, kind="stable")
+    sorted_nodes = of_node[order]
+    begin, count = np.unique(sorted_nodes, return_index=True, return_counts=True)[1:]
+    found = np.zeros_like(normal)
+    # nodes with as many corners together
+    for k in np.unique(count).tolist():
+        rows = order[begin[count == k][:, None] + np.arange(k)]
+        here = normal[rows]
+        alike = np.einsum("nad,nbd->nab", here, here) > np.cos(np.radians(LARGEST_ANGLE))
+        found[rows] = np.einsum("nab,nbd->nad", alike, here)
+    size = np.linalg.norm(found, axis=-1, keepdims=True)
+    return np.asarray((found / np.where(size > 0, size, 1.0))[mine].reshape(*group.nodes.shape, 3))
+
+
+def section_points(section: ShellSection) -> SectionPoints:
+    """Section points; those of Simpson's rule are on both sides of where layers meet."""
+    bottom = -(0.5 + section.offset) * section.thickness
+    places, weights = [], []
+    for layer in section.layers:
+        if section.gauss:
+            at, weight = np.polynomial.legendre.leggauss(layer.points)
+            at, weight = (1 + at) / 2, weight / 2
+        else:
+            at = np.linspace(0, 1, layer.points)
+            weight = np.where(np.arange(layer.points) % 2, 4.0, 2.0) / (3 * (layer.points - 1))
+            weight[[0, -1]] /= 2
+        places.append(bottom + layer.thickness * at)
+        weights.append(layer.thickness * weight)
+        bottom += layer.thickness
+    counts = [layer.points for layer in section.layers]
+    layers = np.repeat(np.arange(len(counts)), counts)
+    numbers = np.concatenate([np.arange(1, count + 1) for count in counts])
+    return SectionPoints(np.concatenate(places), np.concatenate(weights), layers, numbers)
+
+
+def section_stiffness(section: ShellSection, points: SectionPoints) -> FloatArray:
+    """(6, 6) forces and moments of the elastic section by membrane strains and curvatures; zero of layers of UMAT."""
+    found = np.zeros((6, 6))
+    moduli = [_layer_modulus(layer) for layer in section.layers]
+    for place, weight, layer in zip(points.place, points.weight, points.layer.tolist(), strict=True):
+        found += weight * np.kron([[1, place], [place, place**2]], moduli[layer])
+    return found
+
+
+def shear_stiffness(section: ShellSection, stiffness: FloatArray) -> tuple[float, float, float]:
+    """K11, K22 and K12 of elastic layers.
+
+    The shear stress is in equilibrium with the bending stress that a moment alone has, whose slope is the shear force:
+    no other moment and no force changes along the direction. Its energy is that of the forces by 1/K.
+    """
+    by_force = np.asarray(np.linalg.inv(stiffness)[:, [3, 4]], dtype=np.float64)
+    bottom = -(0.5 + section.offset) * section.thickness
+    flexibility, below = np.zeros((2, 2)), np.zeros((2, 2))
+    # the energy is of the fourth order in the place
+    at, weights = np.polynomial.legendre.leggauss(3)
+    for layer in section.layers:
+        modulus, compliance = _layer_modulus(layer), _shear_compliance(layer)
+        for place, weight in zip((1 + at) / 2 * layer.thickness, weights / 2 * layer.thickness, strict=True):
+            stress = below - _bending_force(modulus, by_force, bottom, bottom + place)
+            flexibility += weight * stress.T @ compliance @ stress
+        below = below - _bending_force(modulus, by_force, bottom, bottom + layer.thickness)
+        bottom += layer.thickness
+    found = np.linalg.inv(flexibility)
+    return float(found[0, 0]), float(found[1, 1]), float(found[0, 1])
+
+
+def _bending_force(modulus: FloatArray, strains: FloatArray, start: float, end: float) -> FloatArray:
+    """(13 or 23, force) change of the in-plane force of a part of a layer along directions 1 and 2."""
+    forces = modulus @ (strains[:3] * (end - start) + strains[3:] * (end**2 - start**2) / 2)
+    return np.array([[forces[0, 0], forces[2, 1]], [forces[2, 0], forces[1, 1]]])
+
+
+def hourglass_modulus(kind: ShellType, section: ShellSection, stiffness: FloatArray, *, user: bool) -> FloatArray:
+    """(6, 6) elastic stiffness of the section that hourglass modes and enhanced modes have. Raises DeckError."""
+    if kind.hourglass_control and user and not section.hourglass:
+        message = f"elements of type {kind.name} with *USER MATERIAL need *HOURGLASS STIFFNESS after *SHELL SECTION"
+        raise DeckError(section.source, message)
+    if not user and not (kind.hourglass_control and section.hourglass):
+        return stiffness * (section.controls.hourglass if kind.hourglass_control else 1.0)
+    # that of a Poisson's ratio of zero; of the shear modulus, S4 needs no more than that it is there
+    shear, middle = (section.hourglass or 1.0) / HOURGLASS_FRACTION, -section.offset * section.thickness
+    second = section.thickness**3 / 12 + section.thickness * middle**2
+    parts = [[section.thickness, section.thickness * middle], [section.thickness * middle, second]]
+    return np.asarray(np.kron(parts, shear * np.diag([2.0, 2.0, 1.0])), dtype=np.float64)
+
+
+def _layer_modulus(layer: ShellLayer) -> FloatArray:
+    """(3, 3) stiffness in plane stress, along the directions of the section; zero of UMAT."""
+    compliance = global_compliance(layer.material, None, Tensor.PLANE_STRESS)
+    if compliance is None:
+        return np.zeros((3, 3))
+    places = [0, 1, 3]
+    turn = _strain_turn(layer.angle)
+    return np.asarray(turn.T @ np.linalg.inv(compliance[np.ix_(places, places)]) @ turn, dtype=np.float64)
+
+
+def _shear_compliance(layer: ShellLayer) -> FloatArray:
+    """(2, 2) strains 13, 23 by stresses, along the directions of the section."""
+    compliance = global_compliance(layer.material, None, Tensor.PLANE_STRESS)
+    assert compliance is not None
+    c, s = np.cos(np.radians(layer.angle)), np.sin(np.radians(layer.angle))
+    turn = np.array([[c, s], [-s, c]])
+    return np.asarray(turn.T @ compliance[4:, 4:] @ turn)
+
+
+def _strain_turn(degrees: float) -> FloatArray:
+    """(3, 3) strains 11, 22, 12 (engineering) to axes at an angle."""
+    c, s = np.cos(np.radians(degrees)), np.sin(np.radians(degrees))
+    return np.array([[c * c, s * s, c * s], [s * s, c * c, -c * s], [-2 * c * s, 2 * c * s, c * c - s * s]])
+
+
+def _check(model: Model, group: ElementGroup, section: ShellSection) -> None:
+    """Raise DeckError for what shells do not support."""
+    nonlinear = next((step for step in model.steps if step.nlgeom), None)
+    if nonlinear is not None:
+        message = f"NLGEOM is not supported for elements of type {group.type}, whose rotations are small"
+        raise DeckError(nonlinear.source, message)
+    if any(step.procedure.inertia for step in model.steps):
+        check_density(section.layers, section.source, f"*DYNAMIC with elements of type {group.type}")
+    initial = next((entry for entry in model.initial_solutions if entry.elements is None), None)
+    if initial is not None and any(state_variables(layer.material) for layer in section.layers):
+        raise DeckError(initial.source, f"SDVINI is not supported for elements of type {group.type}")
+    elements = f"elements of type {group.type}"
+    user = [layer.material.user is not None for layer in section.layers]
+    if any(user) and not section.shear:
+        message = f"{elements} with *USER MATERIAL need *TRANSVERSE SHEAR STIFFNESS after *SHELL SECTION"
+        raise DeckError(section.source, message)
+    for layer in section.layers:
+        material = layer.material
+        refuse_fields(material, elements)
+        refuse_hyperelastic(material, elements)
+        if material.output_variables:
+            message = f"*USER OUTPUT VARIABLES (material {material.name}) is not supported for {elements}"
+            raise DeckError(section.source, message)
