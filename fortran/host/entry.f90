@@ -377,7 +377,7 @@ subroutine host_set_user_field(number, address, names, statev, axes)
 end subroutine host_set_user_field
 
 !> Make a material of UMAT known; returns the number that stands for it.
-subroutine host_define_user_material(umat, name, ntens, constants, count, number, n)
+subroutine host_define_user_material(umat, name, ntens, hybrid, constants, count, number, n)
   use, intrinsic :: iso_c_binding, only: c_intptr_t
   use host_kinds, only: dp, i4, i8
   use host_materials, only: define, material_t
@@ -386,6 +386,7 @@ subroutine host_define_user_material(umat, name, ntens, constants, count, number
   integer(i8), intent(in) :: umat             !< address
   character(len=80), intent(in) :: name
   integer(i4), intent(in) :: n, ntens
+  integer(i4), intent(in) :: hybrid           !< formulation in hybrid elements (host_umat)
   real(dp), intent(in) :: constants(n)
   integer(i4), intent(in) :: count            !< of the constants: f2py passes no empty arrays
   integer(i4), intent(out) :: number
@@ -394,6 +395,7 @@ subroutine host_define_user_material(umat, name, ntens, constants, count, number
   allocate (material%user)
   material%user%umat = transfer(int(umat, c_intptr_t), material%user%umat)
   material%user%name = name
+  material%user%hybrid = hybrid
   material%user%constants = constants(:count)
   allocate (material%user%reported(outputs), material%user%spoilt(outputs), source=.false.)
   number = define(material)

@@ -44,6 +44,8 @@ module host_context
     real(dp) :: rotation(3, 3) = 0         !< of the increment
     real(dp) :: deformation(3, 3, 2) = 0   !< deformation gradients at its start and end
     real(dp) :: energy = 0        !< strain energy per volume now of a hyperelastic point
+    logical :: hybrid = .false.   !< the mean stress of the point is given: the next one
+    real(dp) :: mean_stress = 0
     real(dp), pointer, contiguous :: history(:, :) => null()        !< (values, npt) committed material history
     real(dp), pointer, contiguous :: history_trial(:, :) => null()  !< (values, npt) of this call
     real(dp), pointer, contiguous :: values(:) => null()            !< strain, then stress of the point, for GETVRM

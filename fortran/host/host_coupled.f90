@@ -36,8 +36,8 @@ contains
     n = mcrd*nnode
     rhs = 0
     amatrx = 0
-    coupling%geometry => rule_of(int(jprops(1)), int(jprops(7)))
-    coupling%field => rule_of(int(jprops(8)), int(jprops(7)))
+    coupling%geometry => rule_of(int(jprops(1)), int(jprops(8)))
+    coupling%field => rule_of(int(jprops(9)), int(jprops(8)))
     coupling%temperature => u(n + 1:)
     coupling%increment => du(n + 1:)
     coupling%heat => rhs(n + 1:)

@@ -116,6 +116,7 @@ contains
     current%iteration = block%iteration
     current%tensor = block%tensor
     current%finite = .false.
+    current%hybrid = .false.
     current%deformed = .false.
     current%distorted = 0
     current%routine = merge('UELMAT', 'UEL   ', block%with_material)

@@ -14,7 +14,7 @@ module host_hyperelastic
   use host_uhyper, only: call_uhyper, user_potential_t
   implicit none (type, external)
   private
-  public :: hyperelastic_t, hyperelastic_stress, highest_order, state_variables
+  public :: hyperelastic_t, hyperelastic_stress, highest_order, state_variables, volume_of
 
   integer, parameter :: highest_order = 6
 
@@ -29,6 +29,9 @@ module host_hyperelastic
   !> Difference of logarithmic stretches below which the shear modulus is its limit, with an error of the square.
   real(dp), parameter :: equal = 1e-5_dp
 
+  !> Passes of a search that ends before.
+  integer, parameter :: most_passes = 100
+
   !> Largest exponent: its exponential still has a square.
   real(dp), parameter :: largest = 300
 
@@ -41,8 +44,9 @@ contains
     if (allocated(law%user)) state_variables = law%user%statev
   end function state_variables
 
-  !> Cauchy stress, tangent, and strain energy per volume now. good is false if the stretches have no stress.
-  subroutine hyperelastic_stress(law, n, point, f, statev, stress, tangent, energy, good)
+  !> Cauchy stress, tangent, and strain energy per volume now. good is false if the stretches have no stress. Hybrid elements give
+  !> the mean stress, and take the tangent at that mean stress.
+  subroutine hyperelastic_stress(law, n, point, f, statev, stress, tangent, energy, good, mean_stress)
     type(hyperelastic_t), intent(in) :: law
     integer, intent(in) :: n                      !< 4 or 6
     integer(i4), intent(in) :: point              !< from 1
@@ -51,6 +55,7 @@ contains
     real(dp), intent(out) :: stress(n)            !< 11, 22, 33, 12, 13, 23 or the first four of them
     real(dp), intent(out) :: tangent(n, n), energy
     logical, intent(out) :: good
+    real(dp), intent(in), optional :: mean_stress
     real(dp) :: e(3), directions(3, 3), j, w, h(3), hh(3, 3), kirchhoff(3), slope(3, 3), u(0:2), mixed(3), modulus
     real(dp) :: dyad(6, 3), between(6)
     integer :: a, b
@@ -65,6 +70,10 @@ contains
     else
       call shape_energy(law, e - sum(e)/3, w, h, hh)
       u = volume_energy(law, j)
+    end if
+    if (present(mean_stress)) then
+      u = [energy_at(law, mean_stress), mean_stress, 0.0_dp]
+      mixed = 0
     end if
     energy = (w + u(0))/j
     kirchhoff = h - sum(h)/3 + j*u(1)
@@ -202,6 +211,43 @@ contains
       u = u + law%volumetric(i)*powers(j - 1, 2*i)
     end do
   end function volume_energy
+
+  !> The change of volume J at which U' is a mean stress, and its derivative by that.
+  pure function volume_of(law, mean_stress) result(volume)
+    type(hyperelastic_t), intent(in) :: law
+    real(dp), intent(in) :: mean_stress
+    real(dp) :: volume(2), u(0:2), change
+    integer :: pass
+    volume = [1, 0]
+    if (.not. law%volumetric(1) > 0) return
+    if (law%logarithmic) then
+      change = mean_stress/law%volumetric(1)
+      volume(1) = (change + sqrt(change**2 + 4))/2
+    else
+      ! U' is odd about J = 1, and steeper than its line there: from that line Newton's method has no way to overshoot
+      volume(1) = 1 + mean_stress/(2*law%volumetric(1))
+      do pass = 1, most_passes
+        u = volume_energy(law, volume(1))
+        change = (mean_stress - u(1))/u(2)
+        volume(1) = volume(1) + change
+        if (abs(change) <= spacing(max(abs(volume(1)), 1.0_dp))) exit
+      end do
+    end if
+    u = volume_energy(law, volume(1))
+    volume(2) = 1/u(2)
+  end function volume_of
+
+  !> U at a mean stress.
+  pure real(dp) function energy_at(law, mean_stress)
+    type(hyperelastic_t), intent(in) :: law
+    real(dp), intent(in) :: mean_stress
+    real(dp) :: volume(2), u(0:2)
+    energy_at = 0
+    if (.not. law%volumetric(1) > 0) return
+    volume = volume_of(law, mean_stress)
+    u = volume_energy(law, volume(1))
+    energy_at = u(0)
+  end function energy_at
 
   !> Components 11, 22, 33, 12, 13, 23 of the symmetric part of the dyad of two vectors.
   pure function symmetric_dyad(a, b) result(dyad)

@@ -21,12 +21,12 @@ module host_materials
   use host_protect, only: escape
   use host_thermal, only: thermal_t
   use host_thickness, only: free_thickness, reduced_stress, reduced_tangent, solid_strain, thickness_search
-  use host_umat, only: call_umat, strain_energy, user_material_t
+  use host_umat, only: call_umat, incompressible, strain_energy, total, user_material_t
   use host_usdfld, only: user_field_t
   implicit none (type, external)
   private
-  public :: material_t, define, find_material, stress_update, not_solved, elastic_energy, thickness_strain, history_values, &
-            has_fields, generates_heat, is_viscous, needs_deformation, set_constants
+  public :: material_t, define, find_material, stress_update, not_solved, elastic_energy, elastic_volume, thickness_strain, &
+            history_values, has_fields, generates_heat, is_viscous, needs_deformation, set_constants
 
   !> Values of the history of a point of a plastic or prestressed material: stress-free strain (6), which is the plastic strain
   !> minus the elastic strain of the initial stress, and equivalent plastic strain. Backstresses follow (host_backstress).
@@ -165,6 +165,7 @@ contains
     end if
     if (.not. (allocated(material%yield) .or. allocated(material%user) .or. material%prestressed .or. is_viscous(material))) then
       call linear(material, strain, stress, tangent)
+      if (current%hybrid) call add_mean_stress(n, stress, tangent)
       return
     end if
     valid = associated(current%history)
@@ -173,6 +174,7 @@ contains
     if (allocated(material%user)) then
       if (.not. allocated(material%user_field)) current%history_trial(:, point) = current%history(:, point)
       call call_umat(material%user, n, point, strain, current%history(:, point), stress, tangent, current%history_trial(:, point))
+      call hybrid_response(material%user, n, stress, tangent)
       return
     end if
     call places_of_tensors(material, first, last)
@@ -291,12 +293,40 @@ contains
       if (.not. had_them) current%history_trial(:, point) = current%history(:, point)
       statev = current%history_trial(first:, point)
     end if
-    call hyperelastic_stress(law, n, point, current%deformation(:, :, 2), statev, stress, tangent, current%energy, solved)
+    if (current%hybrid) then
+      call hyperelastic_stress(law, n, point, current%deformation(:, :, 2), statev, stress, tangent, current%energy, solved, &
+                               current%mean_stress)
+    else
+      call hyperelastic_stress(law, n, point, current%deformation(:, :, 2), statev, stress, tangent, current%energy, solved)
+    end if
     if (size(statev) > 0) current%history_trial(first:, point) = statev
     if (solved) return
     write (text, '(a,i0)') '*HYPERELASTIC: the stretches are too large for numbers at integration point ', point
     call not_solved(text)
   end subroutine hyperelastic
+
+  !> What hybrid elements make of the stress and the tangent of UMAT, by its formulation.
+  pure subroutine hybrid_response(user, n, stress, tangent)
+    type(user_material_t), intent(in) :: user
+    integer, intent(in) :: n
+    real(dp), intent(inout) :: stress(n), tangent(n, n)
+    if (user%hybrid == total) then
+      ! what the rate of the stress times the volume has of the mean stress
+      if (current%finite) tangent(:3, :3) = tangent(:3, :3) + sum(stress(:3))/3
+    else if (user%hybrid == incompressible) then
+      stress(:3) = stress(:3) - sum(stress(:3))/3
+      call add_mean_stress(n, stress, tangent)
+    end if
+  end subroutine hybrid_response
+
+  !> Add the mean stress that the element gives to the stress of an incompressible elastic point, and what its forces change by as
+  !> the volume changes.
+  pure subroutine add_mean_stress(n, stress, tangent)
+    integer, intent(in) :: n
+    real(dp), intent(inout) :: stress(n), tangent(n, n)
+    stress(:3) = stress(:3) + current%mean_stress
+    if (current%finite) tangent(:3, :3) = tangent(:3, :3) + current%mean_stress
+  end subroutine add_mean_stress
 
   !> Warn that a local solve has not come to its end, and ask for a smaller increment.
   subroutine not_solved(text)
@@ -345,6 +375,15 @@ contains
       end do
     end do
   end function elastic_energy
+
+  !> Elastic volume strain of a stress; zero of materials whose elastic energy does not follow from the stress.
+  pure real(dp) function elastic_volume(material, stress)
+    type(material_t), intent(in) :: material
+    real(dp), intent(in) :: stress(material%ntens)
+    elastic_volume = 0
+    if (allocated(material%hyperelastic) .or. allocated(material%user) .or. material%ntens == 3) return
+    elastic_volume = dot_product(sum(material%compliance(:3, :material%ntens), 1), stress)
+  end function elastic_volume
 
   !> Strain 33 in plane stress, after stress_update of the point; zero with UMAT, which does not give it.
   real(dp) function thickness_strain(material, point, stress)

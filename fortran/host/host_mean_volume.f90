@@ -12,7 +12,7 @@ module host_mean_volume
   use host_shape, only: rule_of, rule_t
   implicit none (type, external)
   private
-  public :: add_mean_volume, add_uniform_volume
+  public :: add_curvature, add_mean_volume, add_uniform_volume
 
 contains
 

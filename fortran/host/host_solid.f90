@@ -7,7 +7,9 @@
 !> control, integration points of the mass. CPE4, CAX4 and C3D8 replace the volume strain of the points by its mean over the
 !> element, as Abaqus does. CPS4R, CPE4R, CAX4R and C3D8R have the uniform strain and hourglass control (host_hourglass):
 !> enhanced where JPROPS(4) is not zero, else with the stiffness parameter PROPS(3). JPROPS(6) is the number of incompatible
-!> modes (host_incompatible). PROPS(1) is the thickness, of axisymmetric elements the angle 2 pi; PROPS(2) is the density.
+!> modes (host_incompatible), JPROPS(7) that of the functions of the pressure of hybrid elements (host_hybrid): if the element
+!> has more unknowns than its nodes have displacements, the others are its pressure. PROPS(1) is the thickness, of axisymmetric
+!> elements the angle 2 pi; PROPS(2) is the density.
 !>
 !> Large displacements: Cauchy stress, rotated and updated increment by increment with the strain and the rotation at the middle of
 !> the increment (Jaumann rate; Hughes and Winget). The tangent leaves out the change of the volume and of the middle of the
@@ -32,15 +34,18 @@ module host_solid
   use host_context, only: current, heat_t, initial_stresses
   use host_coupling, only: add_heat_source, coupling_t, interpolate_fields, set_temperature
   use host_forces, only: add_axisymmetric_point, add_geometric, add_plane_point, add_space_point
+  use host_hybrid, only: add_compatibility, begin_pressure, begin_smoothing, keep_point, mean_stress, pressure_t, smooth, &
+                         smoothing_t
   use host_hourglass, only: has_hourglass_modes, resist_hourglass
+  use host_hyperelastic, only: volume_of
   use host_incompatible, only: mode_strains
   use host_inertia, only: is_dynamic, mass_matrix, respond
   use host_initial_stress, only: begin_point
   use host_kinds, only: dp, i4
   use host_kinematics, only: components, gradients, mean_gradients, point_position, rotated, rotation_of
-  use host_mean_volume, only: add_mean_volume, add_uniform_volume
+  use host_mean_volume, only: add_curvature, add_mean_volume, add_uniform_volume
   use host_protect, only: escape
-  use host_materials, only: elastic_energy, find_material, generates_heat, has_fields, is_viscous, material_t, &
+  use host_materials, only: elastic_energy, elastic_volume, find_material, generates_heat, has_fields, is_viscous, material_t, &
                             needs_deformation, not_solved, set_constants, stress_update, thickness_strain
   use host_shape, only: is_multilinear, is_quadratic, radius_of, rule_of, rule_t
   use host_thermal, only: call_hetval
@@ -74,13 +79,14 @@ contains
     type(material_t), pointer :: material
     type(rule_t), pointer :: rule
     real(dp), pointer, contiguous :: axes(:, :, :, :)   !< of the points (host_axes), if the material is in them
-    real(dp) :: mass(ndofel, ndofel), old(ndofel, 2)
-    integer :: dim, direct, first, last, modes, n, behind
+    real(dp) :: mass(ndofel, ndofel), old(ndofel, 2), at_nodes(mcrd*nnode, mcrd*nnode)
+    integer :: dim, direct, first, last, modes, n, behind, of_nodes
     rule => rule_of(int(jprops(1)), int(jprops(2)))
     dim = rule%dim
     direct = jprops(3)
     modes = jprops(6)
     n = ndofel
+    of_nodes = dim*rule%nodes
     material => find_material(materiallib)
     first = rule%points*values_of_point(dim) + 1
     last = first + 2*n - 1
@@ -94,7 +100,9 @@ contains
     if (behind > last) old = reshape(svars(first:last), [n, 2])
     if (any(lflags(3) == [4, 6]) .or. is_dynamic(lflags(1))) then
       call mass_matrix(rule_of(int(jprops(1)), int(jprops(5))), direct > dim, props(2)*merge(props(1), 1.0_dp, dim == 2), &
-                       coords, mass)
+                       coords, at_nodes)
+      mass = 0
+      mass(:of_nodes, :of_nodes) = at_nodes
     end if
     rhs(1:n*nrhs) = 0
     amatrx(1:n*n) = 0
@@ -103,10 +111,13 @@ contains
         call integrate_with_modes(rule, direct + 2*dim - 3, modes, lflags(3) == initial_stresses, lflags(2) /= 0, material, &
                                   props(1), coords, int(npredf), predef, u, du, rhs, amatrx, svars, &
                                   svars(nsvars - modes + 1:nsvars), energy, axes)
+      else if (n > of_nodes .and. .not. present(coupling)) then
+        call integrate_with_pressure(rule, direct, n, lflags(2) /= 0, material, props(1), props(3), jprops(4) /= 0, coords, &
+                                     int(npredf), predef, u, du, rhs, amatrx, svars, energy, axes)
       else
         call integrate(rule, direct, direct + 2*dim - 3, modes, lflags(3) == initial_stresses, lflags(2) /= 0, material, &
                        props(1), props(3), jprops(4) /= 0, coords, int(npredf), predef, u, du, rhs, amatrx, svars, energy, &
-                       coupling, axes=axes)
+                       coupling, axes=axes, functions=int(jprops(7)))
       end if
     end if
     call respond(n, lflags, params, dtime, v, a, mass, old, rhs, amatrx, energy(1))
@@ -180,6 +191,33 @@ contains
     end if
   end subroutine integrate_with_modes
 
+  !> The same with a pressure (host_hybrid), whose unknowns come after those of the nodes.
+  subroutine integrate_with_pressure(rule, direct, n, finite, material, thickness, hourglass, enhanced, x, fields, predef, u, &
+                                     du, force, stiffness, svars, energy, axes)
+    type(rule_t), intent(in) :: rule
+    integer, intent(in) :: direct, n, fields
+    logical, intent(in) :: finite, enhanced
+    type(material_t), intent(inout) :: material
+    real(dp), intent(in) :: thickness, hourglass, predef(2, fields, rule%nodes)
+    real(dp), intent(in) :: x(rule%dim*rule%nodes), u(n), du(n)
+    real(dp), intent(inout) :: force(n), stiffness(n, n)
+    real(dp), intent(inout) :: svars(values_of_point(rule%dim)*rule%points), energy(8)
+    real(dp), intent(inout), optional :: axes(3, 3, 2, rule%points)
+    real(dp) :: by_nodes(rule%dim*rule%nodes, rule%dim*rule%nodes)
+    type(pressure_t) :: pressure
+    integer :: m
+    m = rule%dim*rule%nodes
+    by_nodes = 0
+    pressure%factors = u(m + 1:)
+    call integrate(rule, direct, direct + 2*rule%dim - 3, 0, .false., finite, material, thickness, hourglass, enhanced, x, &
+                   fields, predef, u(:m), du(:m), force(:m), by_nodes, svars, energy, axes=axes, pressure=pressure)
+    force(m + 1:) = pressure%residual
+    stiffness(:m, :m) = by_nodes
+    stiffness(:m, m + 1:) = pressure%by_displacements
+    stiffness(m + 1:, :m) = transpose(pressure%by_displacements)
+    stiffness(m + 1:, m + 1:) = pressure%by_factors
+  end subroutine integrate_with_pressure
+
   !> The rotation of an element, and its displacements less it. Leaves the pass if its middle is inside out.
   subroutine turn_of(rule, x, u, turn, moved)
     type(rule_t), intent(in) :: rule
@@ -214,7 +252,7 @@ contains
   !> Force, tangent, state and energies; begins: of the initial stresses, without a tangent. The unknowns are those of the
   !> nodes, then the incompatible modes.
   subroutine integrate(rule, direct, strains, modes, begins, finite, material, thickness, hourglass, enhanced, x, fields, &
-                       predef, u, du, force, stiffness, svars, energy, coupling, alpha, by_modes, axes)
+                       predef, u, du, force, stiffness, svars, energy, coupling, alpha, by_modes, axes, functions, pressure)
     type(rule_t), intent(in) :: rule
     integer, intent(in) :: direct, strains, modes, fields
     logical, intent(in) :: begins, finite, enhanced
@@ -227,20 +265,31 @@ contains
     type(coupling_t), intent(inout), optional :: coupling
     real(dp), intent(in), optional :: alpha(modes), by_modes(modes, strains, rule%points)   !< modes, and strains by them
     real(dp), intent(inout), optional :: axes(3, 3, 2, rule%points)   !< of the points (host_axes), if the material is in them
+    integer, intent(in), optional :: functions                 !< of the pressure, on which the mean stress is projected
+    type(pressure_t), intent(inout), optional :: pressure      !< with the unknowns; then there is no initial stress
     real(dp), dimension(rule%nodes, direct, rule%points) :: g, g_mid
     real(dp), dimension(rule%dim*rule%nodes, strains, rule%points) :: b, b_mid
-    real(dp), dimension(rule%points) :: volume, volume_mid, volume_now, volume_before
+    real(dp), dimension(rule%points) :: volume, volume_mid, volume_now, volume_before, volume_strain
     real(dp) :: stresses(strains, rule%points)
     real(dp) :: by_unknowns(rule%dim*rule%nodes + modes, strains)
     real(dp) :: now(rule%dim, rule%nodes), g_start(rule%nodes, direct), volume_start, deformation(3, 3, 2, rule%points)
     real(dp) :: strain(strains), stress(strains), modulus(strains, strains), thermal(2), weight, elastic, work
     real(dp) :: now_axes(3, 3), middle(3, 3)
-    logical :: averaged
+    logical :: averaged, smoothed
+    real(dp) :: unit(material%ntens)    !< stress
+    type(smoothing_t) :: smoothing
+    real(dp) :: of_point(strains + 2)   !< mean stress, its volume strain, and derivatives
     integer :: dim, nodes, p, dissipated
     dim = rule%dim
     nodes = rule%nodes
     ! full integration of elements with straight edges locks if the volume is preserved, but not in plane stress; modes see to it
     averaged = rule%points > 1 .and. is_multilinear(rule) .and. material%ntens /= 3 .and. modes == 0
+    averaged = averaged .and. .not. present(pressure)
+    smoothed = .false.
+    if (present(functions)) then
+      smoothed = functions > 0 .and. rule%points > 1 .and. .not. begins
+      averaged = averaged .and. functions == 0
+    end if
     now = x
     if (finite) now = x + u
     ! the first pass of an analysis, without displacements, sees the initial shape
@@ -259,12 +308,19 @@ contains
     elastic = 0
     dissipated = merge(3, 4, is_viscous(material))
     work = energy(2) + energy(dissipated)
+    volume_strain = sum(svars(:3, :), 1)
     if (has_fields(material)) current%length = size_of(rule, direct, now, volume)
     current%finite = finite
-    if (finite .and. (needs_deformation(material) .or. material%local)) then
+    if (finite .and. (needs_deformation(material) .or. material%local .or. smoothed .or. present(pressure))) then
       call find_deformation(rule, direct, averaged, x, u, du, deformation, volume_before)
     end if
     volume_now = volume
+    if ((smoothed .or. present(pressure)) .and. .not. finite) volume_before = volume
+    if (smoothed) call begin_smoothing(smoothing, rule, functions, x, volume_before)
+    if (present(pressure)) then
+      call begin_pressure(pressure, rule, x, volume_before*merge(thickness, 1.0_dp, dim == 2))
+      current%hybrid = .true.
+    end if
     ! the points share the change of the whole volume, so that forces are derivatives of the strain energy
     if (finite .and. averaged .and. allocated(material%hyperelastic)) then
       volume = volume_before*sum(volume)/sum(volume_before)
@@ -300,6 +356,11 @@ contains
         if (modes > 0) strain = strain + matmul(alpha, by_modes(:, :, p))
       end if
       weight = volume(p)*merge(thickness, 1.0_dp, dim == 2)
+      if (present(pressure)) then
+        current%mean_stress = mean_stress(pressure, p)
+        call compare_volumes(pressure, p, direct, strains, material, finite, weight, &
+                             volume_before(p)*merge(thickness, 1.0_dp, dim == 2), strain, b(:, :, p))
+      end if
       if (begins) then
         call begin_point(material, int(p, i4), weight, svars(:, p), stress, elastic)
         if (present(axes)) stress = rotated(strains, stress, transpose(axes(:, :, 2, p)), 1.0_dp)
@@ -308,7 +369,8 @@ contains
       else
         if (present(axes)) call turn_strain(dim, strains, middle, strain)
         call point_update(dim, strains, material, int(p, i4), weight, finite, strain, thermal, svars(:, p), stress, modulus, &
-                          elastic, work)
+                          elastic, work, of_point)
+        if (present(axes)) of_point(3:) = matmul(of_point(3:), turn_matrix(strains, axes(:, :, 2, p)))
         if (present(axes)) call turn_response(material, strains, axes(:, :, 2, p), stress, modulus)
       end if
       if (finite .and. material%ntens == 3) weight = weight*exp(svars(3, p))
@@ -317,8 +379,9 @@ contains
         if (allocated(material%thermal%source)) call call_hetval(material%thermal%source, int(p, i4))
         call add_heat_source(coupling, weight, b(:, :, p), components(strains, material%ntens))
       end if
+      if (smoothed) call keep_point(smoothing, p, weight, direct, finite, of_point, b(:, :, p))
       if (finite) call add_geometric(dim, direct, strains, nodes, g(:, :, p), stress, weight, modulus, stiffness)
-      if (finite .and. allocated(material%hyperelastic)) then
+      if (finite .and. (allocated(material%hyperelastic) .or. present(pressure))) then
         if (averaged) stresses(:, p) = stress
         if (has_hourglass_modes(rule)) call add_uniform_volume(rule%family, direct, strains, now, g(:, :, p), b(:, :, p), stress, &
                                                                weight, merge(thickness, 1.0_dp, dim == 2), stiffness)
@@ -338,7 +401,23 @@ contains
       call add_mean_volume(dim, direct, strains, nodes, rule%points, g, b, stresses, &
                            volume*merge(thickness, 1.0_dp, dim == 2), volume_now, stiffness)
     end if
+    if (smoothed) then
+      unit = 0
+      unit(:3) = 1
+      call smooth(smoothing, force, stiffness)
+      do p = 1, rule%points
+        associate (change => smoothing%change(p))
+          if (finite) call add_curvature(dim, direct, strains, nodes, g(:, :, p), b(:, :, p), smoothing%weight(p)*change, &
+                                         stiffness)
+          elastic = elastic + smoothing%weight(p)*change*(smoothing%strain(p) + 0.5_dp*change*elastic_volume(material, unit))
+          work = work + smoothing%weight(p)*0.5_dp*change*(sum(svars(:3, p)) - volume_strain(p))
+          svars(values_of_point(dim)/2 + 1:values_of_point(dim)/2 + 3, p) = &
+            svars(values_of_point(dim)/2 + 1:values_of_point(dim)/2 + 3, p) + change
+        end associate
+      end do
+    end if
     if (allocated(current%fields)) deallocate (current%fields)
+    current%hybrid = .false.
     ! it dissipates nothing, and the trapezoidal rule is not exact
     if (allocated(material%hyperelastic)) work = elastic
     energy(2) = elastic
@@ -348,6 +427,21 @@ contains
                             enhanced_constants(material, enhanced), finite, x, u, force, stiffness, energy(6))
     end if
   end subroutine integrate
+
+  !> Adds a point to the residual of the pressure: the change of its volume now, by the displacements less that of the material.
+  subroutine compare_volumes(pressure, point, direct, m, material, finite, now, before, strain, b)
+    type(pressure_t), intent(inout) :: pressure
+    integer, intent(in) :: point, direct, m
+    type(material_t), intent(in) :: material
+    logical, intent(in) :: finite
+    real(dp), intent(in) :: now, before, strain(m), b(:, :)   !< volumes, strain if it is small
+    real(dp) :: of_material(2), difference
+    of_material = [1, 0]
+    if (allocated(material%hyperelastic)) of_material = volume_of(material%hyperelastic, current%mean_stress)
+    difference = before*sum(strain(:direct))
+    if (finite) difference = now - before*of_material(1)
+    call add_compatibility(pressure, point, difference, now*sum(b(:, :direct), 2), before*of_material(2))
+  end subroutine compare_volumes
 
   !> Young's modulus and Poisson's ratio of an isotropic material for the enhanced hourglass control, the modulus in plane
   !> strain over 1 - nu^2; none without that control.
@@ -524,7 +618,8 @@ contains
   !> Stress and tangent of a point (11, 22, 12 in the plane); its state and its part of the energies. strain is the total
   !> one in small displacements, that of the increment in large ones; thermal: at the start and end of the increment. All is in
   !> global directions, or in those of the point if the material is (local).
-  subroutine point_update(dim, m, material, point, volume, finite, strain, thermal, state, stress, modulus, elastic, work)
+  subroutine point_update(dim, m, material, point, volume, finite, strain, thermal, state, stress, modulus, elastic, work, &
+                          of_point)
     integer, intent(in) :: dim, m     !< m: number of strains
     type(material_t), intent(in) :: material
     integer(i4), intent(in) :: point
@@ -532,6 +627,8 @@ contains
     real(dp), intent(in) :: volume, strain(m), thermal(2)
     real(dp), intent(inout) :: state(values_of_point(dim)), elastic, work
     real(dp), intent(out) :: stress(m), modulus(m, m)
+    !> Mean stress, its elastic volume strain, and derivatives of the mean stress by the strains.
+    real(dp), intent(out) :: of_point(m + 2)
     integer :: j, k, n, of_material(m), of_state(m), direct
     real(dp) :: total(material%ntens), t(material%ntens), tangent(material%ntens, material%ntens)
     real(dp) :: e_old(values_of_point(dim)/2), t_old(values_of_point(dim)/2), e_new(values_of_point(dim)/2), &
@@ -565,6 +662,7 @@ contains
         modulus(j, k) = tangent(of_material(j), of_material(k))
       end do
     end do
+    of_point = [sum(t(:direct))/3, elastic_volume(material, t), sum(tangent(:direct, of_material), 1)/3]
     elastic = elastic + volume*elastic_energy(material, point, t)
     if (material%ntens == 3) e_new(3) = thickness_strain(material, point, t) + thermal(2)
     if (material%ntens == 4) t_new(3) = t(3)

@@ -69,7 +69,8 @@ contains
     numprops = size(constants, kind=i4)
     noel = current%element
     cmname = potential%name
-    incmpflag = 0
+    ! then a hybrid element gives the mean stress
+    incmpflag = merge(1_i4, 0_i4, current%hybrid)
     routine = current%routine
     current%routine = 'UHYPER'
     current%point = point

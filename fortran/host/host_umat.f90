@@ -4,18 +4,26 @@
 !>
 !> The history of a point holds strain and stress (six places each), the energies SSE, SPD, SCD, then STATEV. In small
 !> displacements DFGRD0, DFGRD1 and DROT are the identity; in large ones STRAN and STRESS come turned by DROT.
+!>
+!> HYBRID FORMULATION of *USER MATERIAL, in hybrid elements: TOTAL extends STRESS by the change of volume, which is that of
+!> DFGRD1, and two derivatives of the volumetric energy, which are in DDSDDE too; there DDSDDE has no share of the mean stress.
+!> Of INCOMPRESSIBLE materials only the deviatoric part of STRESS counts, and the element adds its mean stress.
 module host_umat
   use, intrinsic :: iso_c_binding, only: c_f_procpointer, c_funptr
+  use core_small_matrix, only: determinant
   use host_context, only: current, heat_t
   use host_guarded, only: guarded_t, lay_out_guarded, warn_of_no_numbers, warn_of_writes
   use host_kinds, only: dp, i4
   use host_kinematics, only: rotated
   implicit none (type, external)
   private
-  public :: user_material_t, call_umat, direct_components, head, outputs, strain_energy, stress_place
+  public :: user_material_t, total, incompressible, call_umat, direct_components, head, outputs, strain_energy, stress_place
 
   !> Values of the history before STATEV, and among them the places of STRESS and SSE.
   integer, parameter :: head = 15, stress_place = 7, strain_energy = 13
+
+  !> Formulations in hybrid elements; incremental is 0.
+  integer, parameter :: total = 1, incompressible = 2
 
   !> Arrays that UMAT writes to.
   integer, parameter :: outputs = 5
@@ -28,6 +36,7 @@ module host_umat
   type :: user_material_t
     type(c_funptr) :: umat
     character(len=80) :: name = ' '
+    integer :: hybrid = 0                       !< its formulation, of an element that is
     real(dp), allocatable :: constants(:)
     logical, pointer :: reported(:) => null()   !< (outputs) a write outside the array is
     logical, pointer :: spoilt(:) => null()     !< (outputs) NaN in the array is
@@ -78,10 +87,12 @@ contains
     integer(i4) :: ndi, nshr, components, nstatv, nprops, noel, npt, layer, kspt, jstep(4), kinc
     character(len=80) :: cmname
     character(len=len(current%routine)) :: routine
+    integer :: extra
     call c_f_procpointer(material%umat, umat)
     stran = old(:ntens)
     stress = old(stress_place:stress_place + ntens - 1)
-    call lay_out_guarded(work, [ntens, ntens**2, ntens, ntens, size(new) - head])
+    extra = merge(3, 0, material%hybrid == total)
+    call lay_out_guarded(work, [ntens + extra, ntens**2, ntens, ntens, size(new) - head])
     drot = identity
     dfgrd0 = identity
     dfgrd1 = identity
@@ -128,6 +139,7 @@ contains
     current%point = npt
     associate (x => work%memory, s => work%start)
       x(s(1):s(1) + ntens - 1) = stress
+      if (extra > 0) x(s(1) + ntens:s(1) + ntens + 2) = [determinant(dfgrd1), 0.0_dp, 0.0_dp]
       x(s(2):s(2) + ntens**2 - 1) = 0
       x(s(3):s(3) + ntens - 1) = 0
       x(s(4):s(4) + ntens - 1) = 0

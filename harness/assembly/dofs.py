@@ -11,38 +11,50 @@ from typing import Self
 import numpy as np
 from numpy.typing import NDArray
 
-from harness.elements import ElementBlock, field_of
+from harness.elements import FIELD_NAMES, PRESSURE, VOLUME, ElementBlock, field_of
 from harness.model.arrays import FloatArray, IntArray
-from harness.model.mesh import Mesh
+from harness.model.mesh import Mesh, full_name
 from harness.model.model import Equation
+
+_VOLUME = FIELD_NAMES.index(VOLUME)
 
 
 @dataclass(frozen=True, slots=True)
 class DofMap:
-    """Unknowns of a model, ordered by node, then by dof.
+    """Unknowns of a model, ordered by node, then by dof; those of elements, which are of no node, come last.
 
-    node  (n,) node index of each unknown
+    node  (n,) node index of each unknown; the elements of the model follow the nodes
     dof   (n,) its dof, as Abaqus numbers them (1-3 displacements, ...)
     field (n,) its field, index into FIELD_NAMES
+    coordinates  (n, 3) original coordinates of its node, or of the middle of its element
     """
 
     mesh: Mesh
     node: IntArray
     dof: IntArray
     field: IntArray
+    coordinates: FloatArray
     _keys: IntArray
     _base: int
+    _elements: dict[int, str]
 
     @classmethod
     def build(cls, mesh: Mesh, blocks: Sequence[ElementBlock], equations: Sequence[Equation] = ()) -> Self:
         """Collect the unknowns of elements, and of *EQUATION, whose reference nodes need not belong to an element."""
         nodes = [np.zeros(0, dtype=np.int64)]
         dofs = [np.zeros(0, dtype=np.int64)]
+        elements: dict[int, str] = {}
+        middles: dict[int, FloatArray] = {}
         for block in blocks:
             for local, dof in block.unknowns:
-                used = np.unique(block.group.nodes[:, local])
+                used = np.unique(_positions(mesh, block, local))
                 nodes.append(used)
                 dofs.append(np.full(len(used), dof))
+            if any(field_of(dof) == _VOLUME for _, dof in block.unknowns):
+                own = _positions(mesh, block, block.group.nodes.shape[1]).tolist()
+                names = [full_name(block.group.instance, label) for label in block.group.labels.tolist()]
+                elements |= dict(zip(own, names, strict=True))
+                middles |= dict(zip(own, mesh.coordinates[block.group.nodes].mean(axis=1), strict=True))
         terms = np.array([(node, dof) for equation in equations for node, dof, _ in equation.terms], dtype=np.int64)
         nodes.append(terms.reshape(-1, 2)[:, 0])
         dofs.append(terms.reshape(-1, 2)[:, 1])
@@ -50,7 +62,12 @@ class DofMap:
         base = int(all_dofs.max(initial=0)) + 1
         keys = np.unique(np.concatenate(nodes) * base + all_dofs)
         fields = np.array([field_of(dof) for dof in range(base)])
-        return cls(mesh, keys // base, keys % base, fields[keys % base], keys, base)
+        owners, numbers = keys // base, keys % base
+        # unknowns of elements come last
+        last = np.searchsorted(owners, len(mesh.labels))
+        others = [middles[owner] for owner in owners[last:].tolist()]
+        places = np.vstack([mesh.coordinates[owners[:last]], *others])
+        return cls(mesh, owners, numbers, fields[numbers], places, keys, base, elements)
 
     def __len__(self) -> int:
         return len(self.node)
@@ -88,14 +105,23 @@ class DofMap:
         NDArray[np.int32]
             (m, element unknowns) numbers from 0; a row has the order of `block.unknowns`.
         """
-        columns = [self.find(block.group.nodes[:, local], dof) for local, dof in block.unknowns]
+        columns = [self.find(_positions(self.mesh, block, local), dof) for local, dof in block.unknowns]
         return np.stack(columns, axis=1).astype(np.int32)
 
-    @property
-    def coordinates(self) -> FloatArray:
-        """(n, 3) original coordinates of the node of each unknown."""
-        return self.mesh.coordinates[self.node]
+    def element(self, unknown: int) -> str:
+        """Name of the element that has an unknown, '' for one of a node."""
+        return self._elements.get(int(self.node[unknown]), "")
 
     def name(self, unknown: int) -> tuple[str, int]:
-        """Node name and dof of an unknown, for messages."""
+        """Node name and dof of an unknown, for messages; a pressure is one of its element."""
+        if element := self.element(unknown):
+            return f"of element {element}, pressure", int(self.dof[unknown]) - PRESSURE + 1
         return self.mesh.name(int(self.node[unknown])), int(self.dof[unknown])
+
+
+def _positions(mesh: Mesh, block: ElementBlock, local: int) -> IntArray:
+    """(m,) nodes with this local number; behind those of an element it is the element, which follows all nodes."""
+    if local < block.group.nodes.shape[1]:
+        return block.group.nodes[:, local]
+    positions: IntArray = len(mesh.labels) + block.first + block.rows
+    return positions

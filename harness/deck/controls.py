@@ -58,7 +58,8 @@ class ControlState:
 
 def _apply(controls: Controls, parameters: str, block: Block) -> Controls:
     if parameters == "CONSTRAINTS":
-        return controls
+        row = next(iter(block.all_rows()), None)
+        return controls if row is None or row.blank(0) else replace(controls, volume=_entry(row, 0, "T_VOL", False))
     if parameters == "TIME INCREMENTATION":
         return replace(controls, time=_update(controls.time, TIME_LINES, block))
     if parameters == "LINE SEARCH":
@@ -99,8 +100,9 @@ def _entry(row: Row, index: int, name: str, whole: bool) -> float:
 KEYWORDS = (
     Keyword(
         "CONTROLS",
-        "Solution controls; blank entries keep their value, later steps keep the controls. CONSTRAINTS is about hybrid "
-        "elements, couplings and contact, which are not used here.",
+        "Solution controls; blank entries keep their value, later steps keep the controls. Of CONSTRAINTS the first "
+        "entry counts, the volumetric strain compatibility tolerance of hybrid solids; the others are about elements "
+        "and contact that are not here.",
         Where.STEP,
         (
             one_of("ANALYSIS", "I_0 = 8, I_R = 10", ("DISCONTINUOUS",)),

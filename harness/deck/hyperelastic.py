@@ -42,10 +42,8 @@ def read_hyperelastic(block: Block, problems: Problems) -> Hyperelastic | UserPo
 
 
 def _read_user(block: Block, problems: Problems) -> UserPotential:
-    if block.options.text("TYPE") != "COMPRESSIBLE":
-        message = "is an incompressible material, which needs hybrid elements; they are not supported"
-        raise block.error(f"USER without TYPE=COMPRESSIBLE {message}")
-    return UserPotential(read_constants(block, "PROPERTIES", problems), block.source)
+    incompressible = block.options.text("TYPE") != "COMPRESSIBLE"
+    return UserPotential(read_constants(block, "PROPERTIES", problems), block.source, incompressible)
 
 
 def _coefficients(potential: Potential, order: int) -> int:
@@ -65,9 +63,9 @@ KEYWORDS = (
     Keyword(
         "HYPERELASTIC",
         "Isotropic hyperelasticity by coefficients or UHYPER, of plane strain, axisymmetric and solid elements without "
-        "incompatible modes or temperatures in steps with NLGEOM. Elements are not hybrid: D1 must be positive; a term "
-        "with a later D of zero is left out. One-point elements need *SECTION CONTROLS, HOURGLASS=ENHANCED or "
-        "*HOURGLASS STIFFNESS.",
+        "incompatible modes or temperatures in steps with NLGEOM. Incompressible materials, with D = 0 or USER without "
+        "TYPE=COMPRESSIBLE, need hybrid elements; a term with a later D of zero is left out. One-point elements need "
+        "*SECTION CONTROLS, HOURGLASS=ENHANCED or *HOURGLASS STIFFNESS.",
         Where.MODEL,
         (
             Option("ARRUDA-BOYCE", doc="strain energy potential of Arruda and Boyce"),

@@ -25,7 +25,7 @@ from harness.deck.user_elements import read_count
 from harness.deck.viscous import KEYWORDS as VISCOUS_OPTIONS
 from harness.deck.viscous import extend_viscous
 from harness.model.arrays import FloatArray
-from harness.model.properties import Elastic, ElasticType, Material, UserMaterial, isotropic_fault
+from harness.model.properties import Elastic, ElasticType, HybridFormulation, Material, UserMaterial, isotropic_fault
 
 DEPENDENT = (ElasticType.ISOTROPIC, ElasticType.LAMINA, ElasticType.ENGINEERING_CONSTANTS)
 """Those whose constants may depend on temperature and fields."""
@@ -149,7 +149,8 @@ def _read_dependence(block: Block, kind: ElasticType, count: int, fields: int) -
 
 def _read_user_material(block: Block, problems: Problems) -> UserMaterial:
     constants = read_constants(block, "CONSTANTS", problems)
-    return UserMaterial(constants, block.options.flag("UNSYMM"), block.source)
+    hybrid = HybridFormulation[block.options.text("HYBRID FORMULATION")]
+    return UserMaterial(constants, block.options.flag("UNSYMM"), block.source, hybrid)
 
 
 def _read_count(block: Block) -> int:
@@ -165,7 +166,7 @@ def _read_count(block: Block) -> int:
 _OPTIONS = (
     Keyword(
         "ELASTIC",
-        "Linear elasticity.",
+        "Linear elasticity; a Poisson's ratio of 0.5 needs hybrid elements.",
         Where.MODEL,
         (
             one_of(
@@ -196,7 +197,12 @@ _OPTIONS = (
             Option("CONSTANTS", Kind.INTEGER, "number of constants", required=True),
             Option("UNSYMM", doc="DDSDDE, or the matrix of UMATHT, is unsymmetric"),
             one_of("TYPE", "what the user routine gives", ("MECHANICAL", "THERMAL"), default="MECHANICAL"),
-            *refused("HYBRID FORMULATION"),
+            one_of(
+                "HYBRID FORMULATION",
+                "what hybrid elements take from UMAT",
+                tuple(HybridFormulation.__members__),
+                default="INCREMENTAL",
+            ),
         ),
         "constants, eight per line; missing values are zero",
     ),

@@ -5,13 +5,15 @@
 from harness.elements.block import ElementBlock
 from harness.elements.build import build_blocks
 from harness.elements.call import BlockReport, Call, Distributed, Motion, Predefined
-from harness.elements.fields import FIELD_NAMES, field_of
+from harness.elements.fields import FIELD_NAMES, PRESSURE, VOLUME, field_of
 from harness.elements.heat_loads import HeatLoadBlock
 from harness.elements.lflags import Damping, Flags, Request
 from harness.elements.pressure import PressureBlock
 
 __all__ = [
     "FIELD_NAMES",
+    "PRESSURE",
+    "VOLUME",
     "BlockReport",
     "Call",
     "Damping",

@@ -16,7 +16,9 @@ from harness.elements.cohesive import cohesive_routine, cohesive_variables
 from harness.elements.coupled import coupled_routine, heat_routine, heat_variables, is_unsymmetric
 from harness.elements.directions import start_axes
 from harness.elements.discrete import discrete_routine, discrete_unknowns, discrete_variables
+from harness.elements.fields import PRESSURE
 from harness.elements.heat_loads import heat_load_blocks
+from harness.elements.hybrid import pressure_unknowns
 from harness.elements.materials import (
     define_material,
     has_unsymmetric_tangent,
@@ -205,6 +207,7 @@ def _solid_block(model: Model, group: ElementGroup, kind: ContinuumType, library
     # displacements of all nodes, then temperatures of the corners
     unknowns = tuple((node, dof) for node in range(kind.nodes) for dof in range(1, kind.dimension + 1))
     unknowns += tuple((node, 11) for node in range(kind.corners) if coupled)
+    unknowns += tuple((kind.nodes, PRESSURE + k) for k in range(pressure_unknowns(kind, section.material)))
     block = ElementBlock(
         group,
         model.mesh.coordinates,

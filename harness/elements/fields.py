@@ -6,12 +6,16 @@ from __future__ import annotations
 
 from typing import Final
 
-FIELD_NAMES: Final = ("force", "moment", "pore", "electrical", "temperature")
+FIELD_NAMES: Final = ("force", "moment", "pore", "electrical", "temperature", VOLUME := "volume")
 """Names of the fields; their numbers index the arrays by field."""
+
+PRESSURE: Final = 101
+"""Number of the first pressure of hybrid elements among the unknowns of an element: more than any dof of Abaqus."""
 
 
 def field_of(dof: int) -> int:
-    """Field of a degree of freedom: 1-3 force, 4-7 moment, 8 pore pressure, 9 electrical, 11 and up temperature.
+    """Field of a degree of freedom: 1-3 force, 4-7 moment, 8 pore pressure, 9 electrical, 11 to 30 temperature;
+    those of the pressures of hybrid elements, which are of no node, volume.
 
     Parameters
     ----------
@@ -23,7 +27,7 @@ def field_of(dof: int) -> int:
     int
         Index into FIELD_NAMES.
     """
-    for last, field in ((3, 0), (7, 1), (8, 2), (9, 3)):
+    for last, field in ((3, 0), (7, 1), (8, 2), (9, 3), (PRESSURE - 1, 4)):
         if dof <= last:
             return field
-    return 4
+    return 5

@@ -7,7 +7,7 @@ Formulas: Abaqus Analysis User's Guide, Hyperelastic behavior of rubberlike mate
 
 from __future__ import annotations
 
-from math import comb
+from math import comb, inf
 from typing import Final
 
 import numpy as np
@@ -25,33 +25,42 @@ CHAIN: Final = (1 / 2, 1 / 20, 11 / 1050, 19 / 7000, 519 / 673750)
 Mechanics and Physics of Solids 41 (1993) 389), equation (13)."""
 
 
-def define_hyperelastic(law: Hyperelastic, ntens: int, library: Library) -> int:
-    """Define a hyperelastic material in the host; returns its number there. Raises DeckError."""
+def define_hyperelastic(law: Hyperelastic, ntens: int, library: Library, *, hybrid: bool = False) -> int:
+    """Define a hyperelastic material in the host; returns its number there. Raises DeckError.
+
+    hybrid: its elements are, so that it may be incompressible.
+    """
     polynomial, ogden = _polynomial(law), _ogden(law)
     shear, bulk = initial_moduli(law)
+    if bulk == inf and not hybrid:
+        raise _error(law, "D1 = 0 is an incompressible material, which needs hybrid elements, as C3D8H")
     if not shear > 0:
         raise _error(law, f"the initial shear modulus {shear:g} must be positive")
-    if bulk > MOST_BULK * shear:
+    if bulk > MOST_BULK * shear and not hybrid:
         message = (
             f"the initial bulk modulus is {bulk / shear:g} times the shear modulus; Abaqus stops above {MOST_BULK:g}"
         )
         library.warn(f"{law.source}: *HYPERELASTIC: {message} with elements that are not hybrid")
     volumetric = np.zeros(HIGHEST_ORDER)
     volumetric[: len(law.compliances)] = [1 / d if d else 0.0 for d in law.compliances]
-    moduli = 9 * bulk * shear / (3 * bulk + shear), (3 * bulk - 2 * shear) / (6 * bulk + 2 * shear)
+    ratio = shear / bulk
+    moduli = 9 * shear / (3 + ratio), (3 - 2 * ratio) / (6 + 2 * ratio)
     logarithmic = law.potential is Potential.ARRUDA_BOYCE
     return _binding.define_hyperelastic(ntens, polynomial, ogden, volumetric, logarithmic=logarithmic, moduli=moduli)
 
 
 def initial_moduli(law: Hyperelastic) -> tuple[float, float]:
-    """Shear and bulk modulus of the undeformed material. Raises DeckError if it is incompressible or D is negative."""
-    first, *_ = law.compliances
-    if first == 0:
-        raise _error(law, "D1 = 0 is an incompressible material, which needs hybrid elements; they are not supported")
+    """Shear and bulk modulus of the undeformed material, infinite if it is incompressible.
+
+    Raises DeckError if a D is negative, or only the first one is zero.
+    """
+    first, *others = law.compliances
     if min(law.compliances) < 0:
         raise _error(law, f"D = {min(law.compliances):g} must not be negative")
+    if first == 0 and any(others):
+        raise _error(law, "D1 = 0 is an incompressible material; expected that the other D are zero too")
     polynomial = _polynomial(law)
-    return float(2 * (polynomial[1, 0] + polynomial[0, 1]) + _ogden(law)[:, 0].sum()), 2 / first
+    return float(2 * (polynomial[1, 0] + polynomial[0, 1]) + _ogden(law)[:, 0].sum()), 2 / first if first else inf
 
 
 def _polynomial(law: Hyperelastic) -> FloatArray:

@@ -20,6 +20,8 @@ from harness.model.element_types import Tensor
 from harness.model.properties import (
     Elastic,
     ElasticType,
+    HybridFormulation,
+    Hyperelastic,
     Material,
     Orientation,
     UserMaterial,
@@ -132,27 +134,33 @@ def define_fields(
 
 
 def define_material(
-    material: Material, orientation: Orientation | None, tensor: Tensor, user: Source, library: Library
+    material: Material,
+    orientation: Orientation | None,
+    tensor: Tensor,
+    user: Source,
+    library: Library,
+    *,
+    hybrid: bool = False,
 ) -> int:
-    """Define a material in the host; returns its number there. `user` is the place that uses it. Raises DeckError."""
+    """Define a material in the host; returns its number there. `user` is the place that uses it. Raises DeckError.
+
+    hybrid: its elements are, so that it may be incompressible.
+    """
     if material.user is not None:
-        return _define_user_material(material, material.user, orientation, tensor, library)
+        return _define_user_material(material, material.user, orientation, tensor, library, hybrid=hybrid)
     if isinstance(material.hyperelastic, UserPotential):
         potential = material.hyperelastic
         address = _needed(library.uhyper, "UHYPER", material, "*HYPERELASTIC, USER", potential.source, library)
         statev = state_variables(material)
         return _binding.define_user_potential(address, material.name, int(tensor), statev, potential.constants)
     if material.hyperelastic is not None:
-        return define_hyperelastic(material.hyperelastic, int(tensor), library)
+        return define_hyperelastic(material.hyperelastic, int(tensor), library, hybrid=hybrid)
     elastic = material.elastic
     if elastic is None:
         raise DeckError(user, f"material {material.name} ({material.source}) has no *ELASTIC")
-    axes = np.eye(3)
-    if orientation is not None:
-        axes = orientation.axes
-        if tensor is not Tensor.SOLID and abs(axes[2, 2]) < 1 - 1e-9:
-            message = f"*ORIENTATION, NAME={orientation.name}: direction 3 must be normal to the plane of the elements"
-            raise DeckError(orientation.source, message)
+    if hybrid and is_incompressible(material):
+        return _define_incompressible(elastic, tensor)
+    axes = _axes(orientation, tensor)
     compliance = _rotated(_compliance(elastic, tensor), axes)
     components = _COMPONENTS[tensor]
     if tensor is Tensor.PLANE_STRESS:
@@ -174,6 +182,16 @@ def define_material(
         law = creep.factor, creep.stress_power, creep.time_power
         _binding.set_creep(number, _isotropic_constants(elastic), law, by_time=creep.by_time)
     return number
+
+
+def _axes(orientation: Orientation | None, tensor: Tensor) -> FloatArray:
+    """Directions of the material (3, 3), rows. Raises DeckError."""
+    if orientation is None:
+        return np.eye(3)
+    if tensor is not Tensor.SOLID and abs(orientation.axes[2, 2]) < 1 - 1e-9:
+        message = f"*ORIENTATION, NAME={orientation.name}: direction 3 must be normal to the plane of the elements"
+        raise DeckError(orientation.source, message)
+    return orientation.axes
 
 
 def _check_laws(elastic: Elastic, material: Material) -> None:
@@ -209,6 +227,35 @@ def global_compliance(material: Material, orientation: Orientation | None, tenso
     return _rotated(_compliance(elastic, tensor), directions(orientation)[0])
 
 
+def is_incompressible(material: Material) -> bool:
+    """Whether a material preserves its volume, so that its elements have to be hybrid."""
+    if material.user is not None:
+        return material.user.hybrid is HybridFormulation.INCOMPRESSIBLE
+    match material.hyperelastic:
+        case Hyperelastic() as law:
+            return not any(law.compliances)
+        case UserPotential() as potential:
+            return potential.incompressible
+    return material.elastic is not None and _preserves_volume(material.elastic)
+
+
+def _preserves_volume(elastic: Elastic) -> bool:
+    return elastic.type is ElasticType.ISOTROPIC and elastic.constants[1:2] == (INCOMPRESSIBLE,)
+
+
+def _define_incompressible(elastic: Elastic, tensor: Tensor) -> int:
+    """The response to changes of shape alone; elements add the mean stress."""
+    young = elastic.constants[0]
+    _check_isotropic(elastic, young, 0.0)
+    shear = young / 3
+    stiffness = np.diag([2 * shear] * 3 + [shear] * 3)
+    stiffness[:3, :3] -= 2 * shear / 3
+    compliance = _binding.compliance([*(young,) * 3, *(INCOMPRESSIBLE,) * 3, *(shear,) * 3])
+    chosen = np.ix_(_COMPONENTS[tensor], _COMPONENTS[tensor])
+    nothing = np.zeros(3), np.eye(3), (0.0, 0.0), np.zeros((1, 2))
+    return _binding.define_material(stiffness[chosen], compliance[chosen], *nothing)
+
+
 def define_thermal(number: int, material: Material, library: Library) -> None:
     """Tell the host how a material conducts, stores and generates heat. Raises DeckError."""
     tables = material.conductivity, material.specific_heat, material.latent_heat
@@ -226,6 +273,8 @@ def define_thermal(number: int, material: Material, library: Library) -> None:
 
 def shear_modulus(elastic: Elastic, tensor: Tensor) -> float:
     """Mean of the shear moduli; in the plane that of the plane."""
+    if _preserves_volume(elastic):
+        return elastic.constants[0] / 3
     moduli = 1.0 / np.diag(_compliance(elastic, tensor))[3:]
     return float(moduli.mean() if tensor is Tensor.SOLID else moduli[0])
 
@@ -241,13 +290,23 @@ def _needed(
 
 
 def _define_user_material(
-    material: Material, given: UserMaterial, orientation: Orientation | None, tensor: Tensor, library: Library
+    material: Material,
+    given: UserMaterial,
+    orientation: Orientation | None,
+    tensor: Tensor,
+    library: Library,
+    *,
+    hybrid: bool,
 ) -> int:
     address = _needed(library.umat, "UMAT", material, "*USER MATERIAL", given.source, library)
     if orientation is not None and not is_global(orientation):
         raise DeckError(orientation.source, f"*ORIENTATION is not supported for *USER MATERIAL ({material.name})")
-    return _binding.define_user_material(address, material.name, int(tensor), given.constants)
+    formulation = int(given.hybrid) if hybrid else 0
+    return _binding.define_user_material(address, material.name, int(tensor), given.constants, formulation)
 
+
+INCOMPRESSIBLE: Final = 0.5
+"""Poisson's ratio of an isotropic material that preserves its volume."""
 
 MOST_STIFF: Final = 1e13
 """Ratio of the stiffest to the softest response of a material that leaves three digits."""
@@ -309,7 +368,7 @@ def _engineering(elastic: Elastic, c: tuple[float, ...], tensor: Tensor) -> tupl
 def _check_isotropic(elastic: Elastic, young: float, nu: float) -> None:
     fault = isotropic_fault(young, nu)
     if nu == 0.5:
-        fault = "nu = 0.5 needs hybrid elements, which are not supported; expected nu < 0.5 for continuum elements"
+        fault = "nu = 0.5 needs hybrid elements, as C3D8H; expected nu < 0.5 for others"
     if fault:
         raise DeckError(elastic.source, f"*ELASTIC: {fault}")
 

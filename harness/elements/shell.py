@@ -17,6 +17,7 @@ from harness.elements.materials import (
     linearity,
     refuse_fields,
     refuse_hyperelastic,
+    refuse_viscous,
     state_variables,
 )
 from harness.elements.routine import VALUES_OF_AXES, Linearity, PointAxes, Routine
@@ -273,6 +274,7 @@ def _check(model: Model, group: ElementGroup, section: ShellSection) -> None:
         material = layer.material
         refuse_fields(material, elements)
         refuse_hyperelastic(material, elements)
+        refuse_viscous(material, elements)
         if material.output_variables:
             message = f"*USER OUTPUT VARIABLES (material {material.name}) is not supported for {elements}"
             raise DeckError(section.source, message)

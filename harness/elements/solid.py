@@ -10,12 +10,14 @@ from typing import Final
 import numpy as np
 
 from harness.elements.directions import first_element
+from harness.elements.hybrid import check_hybrid, pressure_unknowns
 from harness.elements.materials import (
     VISCOUS_CHANGE,
     define_fields,
     define_material,
     directions,
     history_values,
+    is_incompressible,
     linearity,
     refuse_hyperelastic,
     refuse_viscous,
@@ -65,13 +67,14 @@ def solid_routine(model: Model, group: ElementGroup, section: SolidSection, libr
         raise DeckError(nonlinear.source, message)
     _check_hyperelastic(model, group, kind, material)
     _check_viscous(model, group, kind, material)
+    check_hybrid(group.type, kind, material)
     orientation, local = section.orientation, _local_orientation(model, section, kind)
     if local is not None:
         # the material is in the directions of the points
         orientation = replace(local, axes=np.eye(3), system=None)
     hourglass = _hourglass_stiffness(group, kind, section)
     _warn_of_enhanced(model, group, kind, library)
-    number = define_material(material, orientation, kind.tensor, section.source, library)
+    number = define_material(material, orientation, kind.tensor, section.source, library, hybrid=kind.pressures > 0)
     prestressed = _is_prestressed(model, group, material)
     if prestressed:
         _binding.set_prestressed(number)
@@ -81,7 +84,8 @@ def solid_routine(model: Model, group: ElementGroup, section: SolidSection, libr
     if material.expansion:
         _binding.set_expansion(number, material.expansion)
     enhanced = kind.hourglass_control and section.controls.enhanced
-    unknowns = kind.dimension * kind.nodes
+    pressures = pressure_unknowns(kind, material)
+    unknowns = kind.dimension * kind.nodes + pressures
     forces = 2 * unknowns if dynamic is not None else 0
     of_points = kind.points * 2 * len(kind.components)
     axes = PointAxes(of_points + forces, kind.points, kind.dimension == 2, local) if local is not None else None
@@ -94,7 +98,9 @@ def solid_routine(model: Model, group: ElementGroup, section: SolidSection, libr
         hidden=hidden,
         density=1,
         props=np.array([section_depth(kind, section), material.density, hourglass]),
-        jprops=np.array([kind.family.number, kind.points, kind.direct, enhanced, kind.mass_points, kind.modes]),
+        jprops=np.array(
+            [kind.family.number, kind.points, kind.direct, enhanced, kind.mass_points, kind.modes, kind.pressures]
+        ),
         family=kind.family.number,
         material=number,
         tensor=int(kind.tensor),
@@ -104,8 +110,8 @@ def solid_routine(model: Model, group: ElementGroup, section: SolidSection, libr
         uvarm=_output_variables(section, kind.points, library),
         linear=history_values(material) == 1 and material.hyperelastic is None,
         forces=linearity(material, prestressed=prestressed),
-        # the energy of hourglass control is another one
-        stores=not kind.hourglass_control,
+        # the energy of hourglass control is another one, and that of a pressure is not in the matrix
+        stores=not kind.hourglass_control and not pressures,
         # along the radius it strains the circumference
         free=(2,) if kind.axisymmetric else tuple(range(1, kind.dimension + 1)),
         stress=_places_of_stress(kind),
@@ -129,7 +135,7 @@ def _check_viscous(model: Model, group: ElementGroup, kind: ContinuumType, mater
     """Raise DeckError if stresses depend on time, and the elements or the steps are not for that."""
     if material.viscous is None:
         return
-    if kind.coupled:
+    if kind.coupled or kind.pressures:
         refuse_viscous(material, f"elements of type {group.type}")
     perturbation = next((step for step in model.steps if step.procedure.linear), None)
     if perturbation is not None:
@@ -153,8 +159,9 @@ def _is_prestressed(model: Model, group: ElementGroup, material: Material) -> bo
     found = next((e for e in entries if ((e.elements >= first) & (e.elements < last)).any()), None)
     if found is None or material.user is not None:
         return False
-    if material.hyperelastic is not None:
-        message = f"is not supported with *HYPERELASTIC (material {material.name})"
+    if material.hyperelastic is not None or is_incompressible(material):
+        what = "*HYPERELASTIC" if material.hyperelastic is not None else "nu = 0.5"
+        message = f"is not supported with {what} (material {material.name})"
         raise DeckError(found.source, f"*INITIAL CONDITIONS, TYPE=STRESS {message}")
     if material.viscoelastic is not None:
         message = f"is not supported with *VISCOELASTIC (material {material.name})"

@@ -184,11 +184,13 @@ class ContinuumType(SolidType):
     points        integration points of the stiffness
     coupled       with temperatures at the corners
     incompatible  with incompatible modes
+    pressures     functions of the pressure of hybrid elements: 1 of a constant one, 1 + dimension of a linear one
     """
 
     tensor: Tensor
     coupled: bool = False
     incompatible: bool = False
+    pressures: int = 0
 
     @property
     def components(self) -> tuple[str, ...]:
@@ -354,10 +356,12 @@ _SPACE: Final = {
     **{"4": (TET4, 1), "6": (WEDGE6, 2), "8": (HEX8, 8), "8R": (HEX8, 1)},
     **{"10": (TET10, 4), "15": (WEDGE15, 9), "20": (HEX20, 27), "20R": (HEX20, 8)},
 }
+_CONSTANT: Final = ("CPE3", "CPE4", "CPE4R", "CAX3", "CAX4", "CAX4R", "C3D6", "C3D8", "C3D8R", "C3D10")
+_LINEAR: Final = ("CPE6", "CPE8", "CPE8R", "CAX6", "CAX8", "CAX8R", "C3D15", "C3D20", "C3D20R")
 _UNCOUPLED: Final = ("CPS4I", "CPE4I", "C3D8I", "CPS6", "CPE6", "CAX6", "C3D6", "C3D10", "C3D15")
 """Those without a counterpart with temperatures here."""
 
-CONTINUUM: Final = {
+_SOLIDS: Final = {
     kind.name: kind
     for kind in (
         *(ContinuumType(f"CPS{name}", *row, Tensor.PLANE_STRESS) for name, row in _PLANE.items()),
@@ -369,12 +373,18 @@ CONTINUUM: Final = {
         ContinuumType("C3D8I", HEX8, 8, Tensor.SOLID, incompatible=True),
     )
 }
+HYBRID: Final = {
+    f"{name}H": replace(kind, name=f"{name}H", pressures=1 if name in _CONSTANT else 1 + kind.dimension)
+    for name, kind in _SOLIDS.items()
+    if name in (*_CONSTANT, *_LINEAR)
+}
+"""Hybrid elements by their names, with the pressures of Abaqus' element library."""
+
+CONTINUUM: Final = _SOLIDS | HYBRID
 """Continuum elements by their names."""
 
 COUPLED: Final = {
-    f"{name}T": replace(kind, name=f"{name}T", coupled=True)
-    for name, kind in CONTINUUM.items()
-    if name not in _UNCOUPLED
+    f"{name}T": replace(kind, name=f"{name}T", coupled=True) for name, kind in _SOLIDS.items() if name not in _UNCOUPLED
 }
 """The same with temperatures at their corners."""
 

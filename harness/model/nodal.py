@@ -82,7 +82,9 @@ class NodalIndex:
 
     def __init__(self, nodes: int, solution: Solution) -> None:
         self._position = np.full((nodes, LARGEST_DOF + 1), -1, dtype=np.int64)
-        self._position[solution.node, solution.dof] = np.arange(len(solution.node))
+        # the unknowns of elements come last
+        of_nodes = np.flatnonzero(solution.node < nodes)
+        self._position[solution.node[of_nodes], solution.dof[of_nodes]] = of_nodes
 
     def find(self, nodes: IntArray, dof: int) -> IntArray:
         """Positions (len(nodes),), -1 where a node does not have the dof."""

@@ -5,7 +5,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field
-from enum import StrEnum
+from enum import IntEnum, StrEnum
 from typing import Final
 
 import numpy as np
@@ -137,19 +137,29 @@ class Hyperelastic:
 
 @dataclass(frozen=True, slots=True)
 class UserPotential:
-    """*HYPERELASTIC, USER: constants are the PROPS of UHYPER."""
+    """*HYPERELASTIC, USER: constants are the PROPS of UHYPER; incompressible unless TYPE=COMPRESSIBLE."""
 
     constants: FloatArray
     source: Source
+    incompressible: bool = False
+
+
+class HybridFormulation(IntEnum):
+    """What hybrid elements expect of UMAT; values are those of fortran/host/host_umat.f90."""
+
+    INCREMENTAL = 0
+    TOTAL = 1
+    INCOMPRESSIBLE = 2
 
 
 @dataclass(frozen=True, slots=True)
 class UserMaterial:
-    """*USER MATERIAL: constants are the PROPS of UMAT or UMATHT."""
+    """*USER MATERIAL: constants are the PROPS of UMAT or UMATHT; hybrid is HYBRID FORMULATION."""
 
     constants: FloatArray
     unsymmetric: bool
     source: Source
+    hybrid: HybridFormulation = HybridFormulation.INCREMENTAL
 
 
 @dataclass(frozen=True, slots=True)

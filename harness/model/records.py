@@ -33,16 +33,22 @@ class Convergence(StrEnum):
 
 @dataclass(frozen=True, slots=True)
 class Largest:
-    """Largest entry (signed) of a nodal array of a field, with its node (index; -1 for none) and dof."""
+    """Largest entry (signed) of a nodal array of a field, with its node (index; -1 for none) and dof.
+
+    element  name of the element, where it is no node that has it
+    """
 
     value: float
     node: int
     dof: int
+    element: str = ""
 
 
 @dataclass(frozen=True, slots=True)
 class FieldCheck:
-    """Convergence check of one field, as a block of the message file prints it.
+    """Convergence check of one field, as a block of the message file prints it; or of the volumes of hybrid elements.
+
+    These have no fluxes, and a residual alone: the largest difference of two changes of volume.
 
     converted  the time average flux comes from the other of the two fields, forces and moments
     """

@@ -78,12 +78,16 @@ class LineSearchControls:
 
 @dataclass(frozen=True, slots=True)
 class Controls:
-    """Solution controls: `default` for all fields, `fields` by name ('DISPLACEMENT', ...) where they differ."""
+    """Solution controls: `default` for all fields, `fields` by name ('DISPLACEMENT', ...) where they differ.
+
+    volume  largest difference of the changes of volume of hybrid elements, by displacements and by pressure
+    """
 
     default: FieldControls = field(default_factory=FieldControls)
     fields: dict[str, FieldControls] = field(default_factory=dict)
     time: TimeControls = field(default_factory=TimeControls)
     line_search: LineSearchControls = field(default_factory=LineSearchControls)
+    volume: float = 1e-5
 
 
 @dataclass(frozen=True, slots=True)

@@ -181,10 +181,14 @@ class JobOutput:
             if not check.verdict.accepted
         ]
         return [
-            f"last iteration: largest {what} {largest.value:.4g} at node {self._model.mesh.name(largest.node)}, "
-            f"dof {largest.dof}"
+            f"last iteration: largest {what} {largest.value:.4g} "
+            + (
+                f"in element {largest.element}"
+                if largest.element
+                else f"at node {self._model.mesh.name(largest.node)}, dof {largest.dof}"
+            )
             for what, largest in failed
-            if largest.node >= 0
+            if largest.element or largest.node >= 0
         ]
 
     def close(self, error: UelError | None) -> None:

@@ -3,7 +3,8 @@
 """The message file (.msg): tolerances of each step, then every iteration with its checks, as Abaqus prints them.
 
 Layout and words are those of the message files of Abaqus 6.14 to 2023. Left out are the figures of the solver
-(equations, operations) and the controls of what the harness does not have (contact, hybrid elements).
+(equations, operations) and the controls of what the harness does not have (contact). The words on hybrid elements in an
+iteration are ours.
 """
 
 from __future__ import annotations
@@ -15,6 +16,7 @@ from datetime import datetime
 from pathlib import Path
 from typing import Final
 
+from harness.model.element_types import HYBRID
 from harness.model.model import Model
 from harness.model.records import (
     AttemptAbandoned,
@@ -43,6 +45,7 @@ class MessageFile:
         self._model = model
         self._file = TextFile(path)
         self._fields = fields_of(model)
+        self._hybrid = any(group.type in HYBRID for group in model.groups)
         self._started = (time.perf_counter(), time.process_time())
         self.warnings: list[str] = []
         self._counts = dict.fromkeys(("increments", "cutbacks", "iterations", "searches", "helped", "errors"), 0)
@@ -56,7 +59,7 @@ class MessageFile:
             f" {self._model.heading}".rstrip()
             + "\n\n"
             f" STEP {step.number:4d}     INCREMENT     1     STEP TIME {general(0.0)}\n\n\n"
-            f"{procedure(step)}{tolerances(step, self._fields)}"
+            f"{procedure(step)}{tolerances(step, self._fields, hybrid=self._hybrid)}"
         )
 
     def attempt_started(self, record: AttemptStarted) -> None:
@@ -135,6 +138,12 @@ class MessageFile:
         self._file.close()
 
     def _check(self, check: FieldCheck) -> str:
+        if check.residual.element:
+            return (
+                f"\n{' LARGEST VOLUMETRIC STRAIN ERROR':<34}{general(check.residual.value)}   IN HYBRID ELEMENT "
+                f"{check.residual.element}\n          THE VOLUMETRIC STRAIN COMPATIBILITY EQUATIONS HAVE "
+                f"{'' if check.verdict.accepted else 'NOT '}CONVERGED\n"
+            )
         words = FIELDS.get(check.field) or FieldTerms(check.field.upper(), check.field.upper(), range(0))
         flux = words.flux
         text = (

@@ -69,11 +69,16 @@ def completed(record: IncrementDone, period: float) -> str:
     )
 
 
-def tolerances(step: Step, fields: Iterable[str]) -> str:
-    """Everything that the convergence checks and the time incrementation of the step depend on."""
+def tolerances(step: Step, fields: Iterable[str], *, hybrid: bool = False) -> str:
+    """Everything that the convergence checks and the time incrementation of the step depend on.
+
+    hybrid: the model has hybrid elements.
+    """
     if step.procedure.linear:
         return ""
     blocks = [_field(FIELDS[name], controls_of(name, step.controls)) for name in fields]
+    if hybrid:
+        blocks.append(_row("VOLUMETRIC STRAIN COMPATIBILITY TOLERANCE FOR HYBRID SOLIDS", step.controls.volume))
     blocks.append(_time(step.controls.time, step.procedure))
     search = step.controls.line_search
     if search.n_ls:

@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from harness.assembly import Constraints, DofMap, System
-from harness.elements import FIELD_NAMES
+from harness.elements import FIELD_NAMES, VOLUME
 from harness.model.arrays import FloatArray, IntArray, first_largest
 from harness.model.mesh import Mesh
 from harness.model.records import Convergence, FieldCheck, Largest
@@ -24,7 +24,7 @@ from harness.solver.newton import Iterate
 
 CONTROLLED_AS = dict(
     zip(
-        FIELD_NAMES,
+        (name for name in FIELD_NAMES if name != VOLUME),
         ("DISPLACEMENT", "ROTATION", "PORE FLUID PRESSURE", "ELECTRICAL POTENTIAL", "TEMPERATURE"),
         strict=True,
     )
@@ -85,7 +85,10 @@ class Checker:
         self._time = controls.time
         self._start: list[float] = []
         self.fields = []
-        for number in np.unique(dofs.field):
+        self._volume = controls.volume
+        volume = FIELD_NAMES.index(VOLUME)
+        self._pressures = np.flatnonzero(dofs.field[self._free] == volume)
+        for number in np.unique(dofs.field[dofs.field != volume]):
             chosen = controls.fields.get(CONTROLLED_AS[FIELD_NAMES[number]], controls.default)
             unknowns = _positions(dofs.field == number)
             free = _positions(dofs.field[self._free] == number)
@@ -120,11 +123,13 @@ class Checker:
         for checked in self.fields:
             self._take_flux(checked, state)
         self._convert()
-        return tuple(self._check(k, checked, state) for k, checked in enumerate(self.fields))
+        checks = tuple(self._check(k, checked, state) for k, checked in enumerate(self.fields))
+        return (*checks, self._check_volume(state)) if len(self._pressures) else checks
 
     def give_up(self, iteration: int, checks: Sequence[FieldCheck]) -> Cutback | None:
         """Cutback after these checks, none of which need have failed; None to go on iterating."""
-        for checked, check in zip(self.fields, checks, strict=True):
+        # that of the volume, which is no field, comes last
+        for checked, check in zip(self.fields, checks, strict=False):
             if check.verdict is Convergence.NOT_ACHIEVED:
                 tolerance = checked.controls.r_n * check.time_average_flux
                 cutback = judge_rate(iteration, checked.residuals, tolerance, self._time)
@@ -134,7 +139,7 @@ class Checker:
 
     def assumed_zero_flux(self, checks: Sequence[FieldCheck]) -> Iterator[FieldCheck]:
         """Checks that pass as zero flux only because of Abaqus' initial time average flux, not by the actual flux."""
-        for checked, check in zip(self.fields, checks, strict=True):
+        for checked, check in zip(self.fields, checks, strict=False):
             controls = checked.controls
             assumed = checked.history.unknown(controls) and not checked.converted
             left = abs(check.residual.value) > controls.r_n * check.average_flux > 0.0
@@ -233,6 +238,19 @@ class Checker:
             estimated_correction=estimated_correction(check),
             converted=checked.converted,
         )
+
+    def _check_volume(self, state: Iterate) -> FieldCheck:
+        """Whether the changes of volume of hybrid elements, by displacements and by pressure, differ by little.
+
+        Abaqus' volumetric strain compatibility tolerance for hybrid solids.
+        """
+        chosen = state.reduced[self._pressures]
+        k = int(first_largest(np.abs(chosen)))
+        nothing = Largest(0.0, -1, 0)
+        found = Largest(float(chosen[k]), -1, 0, self._dofs.element(int(self._free[self._pressures[k]])))
+        accepted = Convergence.LINEAR if state.iteration == 1 else Convergence.CONVERGED
+        verdict = accepted if abs(found.value) <= self._volume else Convergence.NOT_ACHIEVED
+        return FieldCheck(VOLUME, 0.0, 0.0, found, nothing, nothing, verdict)
 
     def _find(self, vector: FloatArray, positions: Positions, unknowns: IntArray | None = None) -> Largest:
         """Largest entry of a vector among positions; `unknowns` gives the unknown of each position."""

@@ -353,9 +353,12 @@ def set_user_field(number: int, address: int, names: tuple[str, str], statev: in
     _host.host_set_user_field(number, address, _padded(names), statev, axes)
 
 
-def define_user_material(umat: int, name: str, ntens: int, constants: FloatArray) -> int:
-    """Add a material of UMAT, whose address is given, to the host's library."""
-    return int(_host.host_define_user_material(umat, name, ntens, np.append(constants, 0.0), len(constants)))
+def define_user_material(umat: int, name: str, ntens: int, constants: FloatArray, hybrid: int = 0) -> int:
+    """Add a material of UMAT, whose address is given, to the host's library.
+
+    hybrid: 1 for the total formulation of hybrid elements, 2 for that of incompressible materials.
+    """
+    return int(_host.host_define_user_material(umat, name, ntens, hybrid, np.append(constants, 0.0), len(constants)))
 
 
 def define_empty_material() -> int:

@@ -98,7 +98,7 @@ def host_set_user_field(
     number: int, address: int, names: Sequence[str] | NDArray[np.bytes_], statev: int, axes: NDArray[np.float64]
 ) -> None: ...
 def host_define_user_material(
-    umat: int, name: str | bytes, ntens: int, constants: NDArray[np.float64], count: int
+    umat: int, name: str | bytes, ntens: int, hybrid: int, constants: NDArray[np.float64], count: int
 ) -> int: ...
 def host_define_hyperelastic(
     ntens: int,

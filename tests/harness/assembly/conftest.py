@@ -7,7 +7,7 @@ from collections.abc import Callable
 import numpy as np
 import pytest
 
-from harness.elements import BlockReport, Call, Flags
+from harness.elements import FIELD_NAMES, BlockReport, Call, Flags
 from harness.errors import Source
 from harness.model.mesh import ElementGroup, Mesh
 from harness.model.properties import UserProperty
@@ -37,8 +37,8 @@ class LinearBlock:
         np.add.at(residual, self.equations, forces)
         if matrix is not None:
             np.add.at(matrix, self.scatter, self.matrices)
-        flux = np.array([np.abs(forces).sum(), 0.0, 0.0, 0.0, 0.0])
-        count = np.array([forces.size, 0, 0, 0, 0])
+        flux, count = np.zeros(len(FIELD_NAMES)), np.zeros(len(FIELD_NAMES), dtype=np.int64)
+        flux[0], count[0] = np.abs(forces).sum(), forces.size
         return BlockReport(flux, count, 0.5 + 0.1 * len(self.equations), np.arange(8.0))
 
     def commit(self):

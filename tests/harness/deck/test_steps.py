@@ -177,7 +177,7 @@ TIME = "*CONTROLS, PARAMETERS=TIME INCREMENTATION"
             "*CONTROLS, PARAMETERS=LINE\n4, 2., .01, .3, .2\n",
             Controls(line_search=LineSearchControls(4, 2.0, 0.01, 0.3, 0.2)),
         ),
-        ("*CONTROLS, PARAMETERS=CONSTRAINTS\n1e-3\n", Controls()),
+        ("*CONTROLS, PARAMETERS=CONSTRAINTS\n1e-3\n", Controls(volume=1e-3)),
         (f"{TIME}\n8, 10\n*CONTROLS, RESET\n", Controls()),
     ],
 )

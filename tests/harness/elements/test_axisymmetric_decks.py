@@ -247,7 +247,7 @@ def test_heat_through_a_pipe(run):
             ("TYPE=CAX4", "TYPE=COHAX4"),
             r"element type COHAX4 of Abaqus is not supported here \(supported: .*CAX4, .*\)",
         ),
-        (("TYPE=CAX4", "TYPE=CAX4H"), r"element type CAX4H of Abaqus is not supported"),
+        (("TYPE=CAX4", "TYPE=CAX4I"), r"element type CAX4I of Abaqus is not supported"),
         (("TYPE=CAX4", "TYPE=CGAX4"), r"element type CGAX4 of Abaqus is not supported"),
         (("1, 1.0, 0.0", "1, -1.0, 0.0"), r"ring.inp:7: element 1 \(type CAX4\): node 1 is at the radius -1"),
         (("BODY, BZ", "BODY, BX"), r"load type BX on elements of type CAX4, whose body forces are BR, BZ"),

@@ -70,6 +70,9 @@ def test_modes_of_a_single_element(solid_group, bound, load, call, element_type)
 
     C3D20R has six: 8 points times 6 strains for 60 unknowns. C3D6 has one: its 2 points lie on the line through the
     middles of both triangles, and see no twist of these against each other. It needs a neighbour, which stops it.
+
+    Hybrid elements have five strains of shape at each point, and as many of volume as functions of the pressure:
+    8 x 5 + 4 of C3D20RH for 60 unknowns, 4 x 5 + 1 of C3D10H for 30, 2 x 5 + 1 of C3D6H for 18.
     """
     kind = CONTINUUM[element_type]
     nodes, _ = affine(kind.family.cell)
@@ -77,7 +80,7 @@ def test_modes_of_a_single_element(solid_group, bound, load, call, element_type)
     n = nodes.size
     block.evaluate(call, np.zeros(n), np.zeros(n), np.zeros(n), matrix.data)
     k = matrix.toarray()
-    free = {"C3D20R": 12, "C3D6": 7}.get(element_type, 6)
+    free = {"C3D20R": 12, "C3D6": 7, "C3D20RH": 16, "C3D10H": 9, "C3D6H": 7}.get(element_type, 6)
     assert np.linalg.matrix_rank(k, tol=1e-9 * abs(k).max()) == n - free
 
 

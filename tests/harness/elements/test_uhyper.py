@@ -104,7 +104,7 @@ def test_a_pulled_cube(run):
 @pytest.mark.parametrize(
     ("keyword", "options", "message"),
     [
-        ("*HYPERELASTIC, USER", {}, "USER without TYPE=COMPRESSIBLE is an incompressible material, which needs hybrid"),
+        ("*HYPERELASTIC, USER", {}, "USER without TYPE=COMPRESSIBLE is an incompressible material, which elements"),
         ("*HYPERELASTIC, USER, YEOH", {}, "YEOH and USER: expected one strain energy potential"),
         ("*HYPERELASTIC, YEOH, PROPERTIES=2\n1.", {}, "PROPERTIES: expected with USER only"),
         ("*HYPERELASTIC, YEOH, TYPE=COMPRESSIBLE\n1.", {}, "TYPE: expected with USER only"),

@@ -111,6 +111,12 @@ def test_errors_of_decks(run, material, options, message):
         run(deck(material, "*VISCO\n1., 1.", **options))
 
 
+def test_hybrid_elements_are_refused(run):
+    text = deck(PRONY, "*VISCO\n1., 1.", element_type="C3D8H")
+    with pytest.raises(DeckError, match=r"creep\.inp:\d+: \*VISCOELASTIC is not supported for elements of type C3D8H"):
+        run(text)
+
+
 def test_coupled_elements_are_refused(run):
     step = "*COUPLED TEMPERATURE-DISPLACEMENT, STEADY STATE\n1., 1."
     text = deck(PRONY, step, element_type="C3D8T", more="*CONDUCTIVITY\n1.").replace("*STATIC\n1., 1.", step)

@@ -1,0 +1,42 @@
+# SPDX-FileCopyrightText: The uel-harness authors
+# SPDX-License-Identifier: BSD-3-Clause
+"""Hybrid elements: which of their materials make the pressure an unknown of the system, and which are refused.
+
+The pressure of hyperelastic and of incompressible materials is an unknown (fortran/host/host_hybrid.f90). That of
+others, which have a finite bulk modulus, follows from the mean stresses of the points of the element: it is eliminated.
+"""
+
+from __future__ import annotations
+
+from harness.elements.materials import is_incompressible
+from harness.errors import DeckError
+from harness.model.element_types import HYBRID, ContinuumType
+from harness.model.properties import Material, UserPotential
+
+
+def pressure_unknowns(kind: ContinuumType, material: Material) -> int:
+    """Pressures of an element that are unknowns of the system."""
+    compressible_user = isinstance(material.hyperelastic, UserPotential) and not material.hyperelastic.incompressible
+    with_energy = material.hyperelastic is not None and not compressible_user
+    return kind.pressures if with_energy or is_incompressible(material) else 0
+
+
+def check_hybrid(name: str, kind: ContinuumType, material: Material) -> None:
+    """Raise DeckError if the material needs hybrid elements and these are none, or if it has what they cannot have."""
+    user = material.user or (material.hyperelastic if isinstance(material.hyperelastic, UserPotential) else None)
+    if user is not None and not kind.pressures and is_incompressible(material):
+        umat = "*USER MATERIAL, HYBRID FORMULATION=INCOMPRESSIBLE"
+        what = umat if material.user else "*HYPERELASTIC: USER without TYPE=COMPRESSIBLE"
+        message = f"is an incompressible material, which elements of type {name} cannot have; expected hybrid ones"
+        raise DeckError(user.source, f"{what} {message}: {', '.join(HYBRID)}")
+    if material.elastic is None or not (kind.pressures and is_incompressible(material)):
+        return
+    unsupported = {
+        "*PLASTIC": material.plastic is not None,
+        "*EXPANSION": bool(material.expansion),
+        "dependence on temperature and fields": material.elastic.table is not None,
+    }
+    for what, given in unsupported.items():
+        if given:
+            message = f"nu = 0.5 is not supported with {what}; expected nu < 0.5"
+            raise DeckError(material.elastic.source, f"*ELASTIC: {message}")
