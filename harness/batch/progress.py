@@ -24,10 +24,13 @@ from rich.text import Text
 
 
 def time_left(elapsed: float, done: float, left: float) -> float | None:
-    """Seconds until the work that is left is done, if it goes on as in the seconds that have elapsed; None: unknown."""
+    """Seconds until the work that is left is done, if it goes on as in the seconds that have elapsed; None: unknown.
+
+    Until a hundredth is done it is: the seconds are those of starting, more than of working.
+    """
     if left == 0.0:
         return 0.0
-    return elapsed * left / done if done > 0.0 else None
+    return elapsed * left / done if done >= 0.01 * (done + left) else None
 
 
 def clock(seconds: float | None) -> str:

@@ -270,14 +270,15 @@ def test_page_is_one_file(tmp_path: Path) -> None:
     picture.write_bytes(b"\x89PNG")
     verdicts = [
         JudgedStatement(statement(1.0, 2.0, "9"), 3.0, ((Number("more", "isotropy", {}), 4.0),)),
-        JudgedStatement(statement(1.0, None), 3.0, ()),
+        JudgedStatement(statement(1.0, None), float("inf"), ()),
     ]
     table = Table("Loads & ends", "text", ("a", "b"), [["1", "<2"]], picture)
     page = write_page(Content(["how"], {"9": picture}, verdicts, [table]), tmp_path / "index.html").read_text()
     assert "1 of 2 statements reproduced (50%)" in page
-    # the one that is not stands at the head and beside its figure
+    # the one that is not stands at the head and below its figure
     assert page.count("✗ not reproduced") == 2
     assert page.count("✓ reproduced") == 1
+    assert "<td class='number'>none</td>" in page
     assert "&lt;quote&gt;" in page
     assert "Loads &amp; ends" in page
     assert set(re.findall(r'(?:src|href)="([^"]{5})', page)) == {"data:"}

@@ -69,11 +69,11 @@ def flat_swing(evidence: Evidence, element: str, stiffness: float) -> float:
 
 
 def flat_onset(evidence: Evidence, element: str) -> float:
-    """Exponent of the first stiffness at which the straight interface's traction oscillates; 99 for none."""
+    """Exponent of the first stiffness at which the straight interface's traction oscillates; infinity for none."""
     for stiffness in STIFF:
         if flat_swing(evidence, element, stiffness) > SWING:
             return float(np.log10(stiffness))
-    return 99.0
+    return float("inf")
 
 
 def flat_onset_single(evidence: Evidence) -> float:
@@ -86,7 +86,7 @@ def flat_onset_single(evidence: Evidence) -> float:
         low, high = on_line[: len(on_line) // 2], on_line[len(on_line) // 2 :]
         if swing(stiffness * (rounded[high, 1] - rounded[low, 1])) > SWING:
             return float(np.log10(stiffness))
-    return 99.0
+    return float("inf")
 
 
 def _stiff(element: str, stiffness: float) -> PatchCase:

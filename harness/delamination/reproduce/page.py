@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""The page: the paper's statements, our figures, our numbers and the verdict, side by side in one HTML file."""
+"""The page: the paper's statements, our figures, our numbers and the verdict, in one HTML file."""
 
 from __future__ import annotations
 
@@ -8,6 +8,7 @@ import base64
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from html import escape
+from math import isinf
 from pathlib import Path
 
 from harness.delamination.reproduce.statements import JudgedStatement
@@ -43,25 +44,23 @@ SECTIONS = {
 }
 STYLE = """
 :root { color-scheme: light; }
-body { font: 15px/1.45 sans-serif; color: #222; max-width: 1500px; margin: 1.5em auto; padding: 0 1.5em; }
+body { font: 15px/1.45 sans-serif; color: #222; max-width: 1100px; margin: 1.5em auto; padding: 0 1.5em; }
 h1 { font-size: 1.6em; } h2 { border-bottom: 2px solid #ccc; margin-top: 2em; } h3 { margin: 1.2em 0 0.3em; }
-figure { margin: 0; } figure img { max-width: 100%; } figcaption { color: #555; font-size: 0.9em; }
-.side { display: grid; grid-template-columns: minmax(0, 1fr) minmax(0, 1fr); gap: 1.5em; margin: 1em 0 2em; }
-.side.alone { grid-template-columns: minmax(0, 1fr); } .side.alone img { max-width: 760px; }
-@media (max-width: 900px) { .side { grid-template-columns: minmax(0, 1fr); } }
+figcaption { color: #555; font-size: 0.9em; }
+figure { margin: 1em 0; } figure img { max-width: min(100%, 760px); }
 .scroll { overflow-x: auto; }
 table { border-collapse: collapse; font-size: 0.88em; width: 100%; }
 th, td { border-bottom: 1px solid #ddd; padding: 0.35em 0.5em; text-align: left; vertical-align: top; }
 td.number { text-align: right; font-variant-numeric: tabular-nums; white-space: nowrap; }
-.yes { color: #0072B2; font-weight: bold; } .no { color: #B24500; font-weight: bold; }
+.yes, .no { font-weight: bold; white-space: nowrap; } .yes { color: #0072B2; } .no { color: #B24500; }
 .why { color: #555; font-size: 0.95em; } q { quotes: "\\201C" "\\201D"; }
-@media print { .side { break-inside: avoid; } body { font-size: 11px; } }
+@media print { figure { break-inside: avoid; } body { font-size: 11px; } }
 """
 
 
 @dataclass(frozen=True, slots=True)
 class Table:
-    """A table with text about it and a picture beside it, if there is one."""
+    """A table with text about it and a picture above it, if there is one."""
 
     title: str
     text: str
@@ -129,9 +128,7 @@ def _summary(verdicts: Sequence[JudgedStatement]) -> list[str]:
 def _figure(number: str, content: Content) -> list[str]:
     verdicts = [verdict for verdict in content.verdicts if verdict.statement.figure == number]
     picture = _picture(content.figures[number], f"Figure {number}. {CAPTIONS[number]}")
-    if not verdicts:
-        return ['<div class="side alone">', picture, "</div>"]
-    return ['<div class="side">', picture, "<div>", *_verdict_table(verdicts), "</div></div>"]
+    return [picture, *_verdict_table(verdicts)] if verdicts else [picture]
 
 
 def _picture(path: Path, caption: str) -> str:
@@ -160,8 +157,8 @@ def _verdict_table(verdicts: Iterable[JudgedStatement]) -> list[str]:
 
 
 def number(value: float) -> str:
-    """A number to four digits."""
-    return f"{value:.4g}"
+    """A number to four digits, or `none` for infinity: what was looked for did not occur."""
+    return "none" if isinf(value) else f"{value:.4g}"
 
 
 def _table(table: Table) -> list[str]:
@@ -170,6 +167,5 @@ def _table(table: Table) -> list[str]:
     for row in table.rows:
         body.append("<tr>" + "".join(f"<td>{escape(word)}</td>" for word in row) + "</tr>")
     body.append("</table></div>")
-    if table.picture is None:
-        return [*lines, *body]
-    return [*lines, '<div class="side">', _picture(table.picture, table.title), *body, "</div>"]
+    picture = [] if table.picture is None else [_picture(table.picture, table.title)]
+    return [*lines, *picture, *body]

@@ -111,6 +111,8 @@ def test_progress_with_nothing_to_run() -> None:
 def test_time_left() -> None:
     assert time_left(60.0, 0.0, 5.0) is None
     assert time_left(60.0, 2.0, 5.0) == 150.0
+    assert time_left(60.0, 1.0, 100.0) is None
+    assert time_left(60.0, 1.0, 99.0) == 5940.0
     assert time_left(60.0, 0.0, 0.0) == 0.0
     assert [clock(None), clock(3725.4), clock(-1.0)] == ["-:--:--", "1:02:05", "0:00:00"]
 
