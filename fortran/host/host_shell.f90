@@ -12,6 +12,8 @@
 !> stiffness comes with the factor 1/(1 + slenderness area/thickness^2). It and the drilling are integrated fully. S4R has one
 !> point; its hourglass modes have the stiffness that the elastic section has in S4.
 !>
+!> With NLGEOM all of it is in axes that turn with the element (host_corotation).
+!>
 !> SVARS hold, for each section point of each integration point, E11 E22 E12 S11 S22 S12 in the directions of its layer, and SF1 to
 !> SF5, SM1 to SM3 of the section; in dynamic analyses then the forces of the last two increments; then the directions of each
 !> integration point, with *ORIENTATION (host_axes); last the director of each node.
@@ -19,6 +21,7 @@ module host_shell
   use, intrinsic :: iso_c_binding, only: c_f_pointer, c_loc
   use host_axes, only: values_of_axes
   use host_context, only: current
+  use host_corotation, only: corotation_t, local_motion, turn_back
   use host_coupling, only: interpolate_fields
   use host_inertia, only: respond
   use host_kinds, only: dp, i4
@@ -26,7 +29,7 @@ module host_shell
   use host_messages, only: add_message
   use host_protect, only: escape
   use host_shape, only: is_multilinear, parent_place, rule_of, rule_t
-  use host_shell_strains, only: drilling_strain, enhance, shell_point, shell_strains, tensor_turn
+  use host_shell_strains, only: drilling_strain, enhance, shell_middle, shell_point, shell_strains, tensor_turn
   implicit none (type, external)
   private
   public :: shell_uelmat
@@ -45,6 +48,14 @@ module host_shell
     real(dp), allocatable :: turn(:, :, :)  !< (3, 3, points) strains to the directions of the section
   end type operators_t
 
+  !> Motion of an element.
+  type :: motion_t
+    type(shell_point) :: middle             !< at the start
+    real(dp), allocatable :: u(:), old(:)   !< displacements and rotations, now and before the increment
+    real(dp), allocatable :: x(:, :)        !< where the nodes are, as COORDS of user routines
+    real(dp) :: turn(3, 3) = 0              !< of the normal
+  end type motion_t
+
 contains
 
   subroutine shell_uelmat(rhs, amatrx, svars, energy, ndofel, nrhs, nsvars, props, nprops, coords, mcrd, nnode, u, du, &
@@ -59,6 +70,7 @@ contains
     real(dp) :: mass(ndofel, ndofel), old(ndofel, 2), shear(2, 2), stored(2)
     integer :: n, first, behind
     type(operators_t) :: at_points, full
+    type(motion_t) :: motion
     n = ndofel
     first = jprops(2)*jprops(3)*values + 1
     behind = nsvars + 1 - 3*nnode
@@ -76,15 +88,43 @@ contains
     amatrx(1:n*n) = 0
     if (lflags(3) /= 3 .and. lflags(3) /= 4) then
       shear = shear_stiffness(props, sum(full%point%weight))
-      call add_elastic(int(nnode), n, props, shear, at_points, full, u, du, rhs, amatrx, stored, energy(6))
+      motion = motion_of(int(nnode), n, coords, u, du, lflags(2) /= 0)
+      call add_elastic(int(nnode), n, props, shear, at_points, full, motion, rhs, amatrx, stored, energy(6))
       energy(2) = energy(2) - stored(1)
       call integrate(rule_of(int(jprops(1)), int(jprops(2))), n, int(jprops(3)), jprops(5), props(head + 1), shear, at_points, &
-                     int(npredf), predef, u, rhs, amatrx, svars, energy, sum(full%point%weight))
+                     int(npredf), predef, motion, rhs, amatrx, svars, energy, sum(full%point%weight))
       energy(2) = energy(2) + stored(2)
+      if (lflags(2) /= 0) then
+        call turn_back(int(nnode), coords, motion%middle%frame, motion%middle%gradient(:nnode, :), u, rhs, amatrx)
+      end if
     end if
     call respond(n, lflags, params, dtime, v, a, mass, old, rhs, amatrx, energy(1))
     if (behind > first) svars(first:behind - 1) = reshape(old, [2*n])
   end subroutine shell_uelmat
+
+  !> Displacements and rotations, with NLGEOM without the rotation of the element.
+  pure function motion_of(nodes, n, x, u, du, large) result(found)
+    integer, intent(in) :: nodes, n
+    real(dp), intent(in) :: x(3, nodes), u(n), du(n)
+    logical, intent(in) :: large
+    type(motion_t) :: found
+    type(corotation_t) :: before, now
+    real(dp) :: moved(6, nodes), gradient(nodes, 2)
+    moved = reshape(u, [6, nodes])
+    found%middle = shell_middle(nodes, x)
+    found%u = u
+    found%old = u - du
+    found%turn = reshape([1, 0, 0, 0, 1, 0, 0, 0, 1], [3, 3])
+    found%x = x
+    if (.not. large) return
+    gradient = found%middle%gradient(:nodes, :)
+    before = local_motion(nodes, x, found%middle%frame, gradient, cmplx(reshape(found%old, [6, nodes]), kind=dp))
+    now = local_motion(nodes, x, found%middle%frame, gradient, cmplx(moved, kind=dp))
+    found%u = reshape(real(now%local, dp), [n])
+    found%old = reshape(real(before%local, dp), [n])
+    found%turn = real(now%rotation, dp)
+    found%x = x + moved(:3, :)
+  end function motion_of
 
   !> Operators at the integration points, and at as many points as nodes. Leaves the pass if the surface is folded.
   subroutine prepare(kind, nodes, n, x, v, props, axes, at_points, full)
@@ -198,11 +238,11 @@ contains
   end function section_shear
 
   !> What is linear: transverse shear, drilling, and hourglass modes of four nodes with one point.
-  subroutine add_elastic(nodes, n, props, k, at_points, full, u, du, force, stiffness, stored, spurious)
+  subroutine add_elastic(nodes, n, props, k, at_points, full, motion, force, stiffness, stored, spurious)
     integer, intent(in) :: nodes, n
     real(dp), intent(in) :: props(head), k(2, 2)
     type(operators_t), intent(in) :: at_points, full
-    real(dp), intent(in) :: u(n), du(n)
+    type(motion_t), intent(in) :: motion
     real(dp), intent(inout) :: force(n), stiffness(n, n)
     real(dp), intent(out) :: stored(2)     !< energy of the shear, before and now
     real(dp), intent(out) :: spurious      !< energy of drilling and hourglass modes
@@ -225,9 +265,11 @@ contains
       artificial = artificial - part
     end if
     stiffness = stiffness + shear + artificial
-    force = force + matmul(shear + artificial, u)
-    stored = 0.5_dp*[dot_product(u - du, matmul(shear, u - du)), dot_product(u, matmul(shear, u))]
-    spurious = 0.5_dp*dot_product(u, matmul(artificial, u))
+    associate (u => motion%u, old => motion%old)
+      force = force + matmul(shear + artificial, u)
+      stored = 0.5_dp*[dot_product(old, matmul(shear, old)), dot_product(u, matmul(shear, u))]
+      spurious = 0.5_dp*dot_product(u, matmul(artificial, u))
+    end associate
   end subroutine add_elastic
 
   !> Stiffness of the elastic section at a point.
@@ -243,13 +285,14 @@ contains
   end subroutine add_section
 
   !> Forces, tangent and state of all section points.
-  subroutine integrate(rule, n, sections, of_section, section, k_shear, at, fields, predef, u, force, stiffness, svars, energy, &
-                       area)
+  subroutine integrate(rule, n, sections, of_section, section, k_shear, at, fields, predef, motion, force, stiffness, svars, &
+                       energy, area)
     type(rule_t), intent(in) :: rule
     integer, intent(in) :: n, sections, fields
     integer(i4), intent(in) :: of_section(3, sections)
-    real(dp), intent(in) :: section(3, sections), k_shear(2, 2), predef(2, fields, rule%nodes), u(n), area
+    real(dp), intent(in) :: section(3, sections), k_shear(2, 2), predef(2, fields, rule%nodes), area
     type(operators_t), intent(in) :: at
+    type(motion_t), intent(in) :: motion
     real(dp), intent(inout) :: force(n), stiffness(n, n), svars(values, sections, rule%points), energy(8)
     type(material_t), pointer :: material
     real(dp) :: b(6, n), strain(6), resultant(6), tangent(6, 6), turn(3, 3), layer(3), stress(3), modulus(3, 3), shear(2)
@@ -264,7 +307,7 @@ contains
     do p = 1, rule%points
       b(:3, :) = matmul(at%turn(:, :, p), at%b(:3, :, p))
       b(4:, :) = matmul(at%turn(:, :, p), at%b(4:6, :, p))
-      strain = matmul(b, u)
+      strain = matmul(b, motion%u)
       resultant = 0
       tangent = 0
       do k = 1, sections
@@ -272,7 +315,7 @@ contains
         z = section(1, k)
         if (has_fields(material)) then
           current%length = sqrt(area)
-          current%place = at%point(p)%place + z*at%point(p)%frame(3, :)
+          current%place = matmul(motion%x, at%point(p)%n(:rule%nodes)) + z*matmul(motion%turn, at%point(p)%frame(3, :))
           call interpolate_fields(rule, p, fields, predef, material%variables)
         end if
         current%npt = int(p, i4)
@@ -297,7 +340,7 @@ contains
         tangent(:3, 4:) = tangent(:3, 4:) + z*modulus
         tangent(4:, 4:) = tangent(4:, 4:) + z**2*modulus
       end do
-      shear = matmul(k_shear, matmul(section_shear(at, p, n), u))
+      shear = matmul(k_shear, matmul(section_shear(at, p, n), motion%u))
       do k = 1, sections
         svars(7:, k, p) = [resultant(:3), shear, resultant(4:)]
       end do

@@ -20,7 +20,7 @@ module host_shell_strains
   use host_kinds, only: dp
   implicit none (type, external)
   private
-  public :: shell_point, shell_strains, drilling_strain, enhance, tensor_turn
+  public :: shell_point, shell_middle, shell_strains, drilling_strain, enhance, tensor_turn
 
   !> A point of the surface.
   type :: shell_point
@@ -53,6 +53,21 @@ contains
     end if
   end subroutine interpolate
 
+  !> The middle of the surface.
+  pure function shell_middle(nodes, x) result(point)
+    integer, intent(in) :: nodes
+    real(dp), intent(in) :: x(3, nodes)
+    type(shell_point) :: point
+    point = shell_place(nodes, x, middle_of(nodes), 0.0_dp)
+  end function shell_middle
+
+  !> Its parent coordinates.
+  pure function middle_of(nodes) result(parent)
+    integer, intent(in) :: nodes
+    real(dp) :: parent(2)
+    parent = merge([0.0_dp, 0.0_dp], [1.0_dp, 1.0_dp]/3, nodes == 4)
+  end function middle_of
+
   !> A point by its parent coordinates; weight: of the parent area. Its e1 is the closest to that of the middle, which is along the
   !> first parent coordinate: so the response does not depend on the global axes.
   pure function shell_place(nodes, x, parent, weight) result(point)
@@ -60,7 +75,7 @@ contains
     real(dp), intent(in) :: x(3, nodes), parent(2), weight
     type(shell_point) :: point
     real(dp) :: n(nodes), dn(nodes, 2), along(3, 2), middle(3), normal(3), first(3), area, inverse(2, 2), determinant
-    call interpolate(nodes, merge([0.0_dp, 0.0_dp], [1.0_dp, 1.0_dp]/3, nodes == 4), n, dn)
+    call interpolate(nodes, middle_of(nodes), n, dn)
     along = matmul(x, dn)
     middle = along(:, 1)
     normal = cross(along(:, 1), along(:, 2))

@@ -116,8 +116,8 @@ KEYWORDS = (
         "SHELL SECTION",
         "Section of conventional shells, integrated in the analysis. Without ORIENTATION direction 1 is the projection "
         "of the global x axis, or of z where x is within 0.1 degrees of the normal. With it, the axis of its "
-        "additional rotation is the one closest to the normal, and the next one of 1, 2, 3, 1 is projected. POISSON "
-        "changes the thickness only with NLGEOM, which shells do not support.",
+        "additional rotation is the one closest to the normal, and the next one of 1, 2, 3, 1 is projected. "
+        "The thickness stays with NLGEOM, where POISSON changes that of Abaqus.",
         Where.MODEL,
         (
             Option("ELSET", Kind.NAME, "element set", required=True),

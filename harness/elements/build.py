@@ -269,13 +269,16 @@ def _shell_block(model: Model, group: ElementGroup, kind: ShellType, library: Li
         raise DeckError(section.source, f"elements of type {group.type} need *SHELL SECTION")
     _check_nodes(group, kind.nodes)
     routine = shell_routine(model, group, kind, section, library)
+    user = (layer.material.user for layer in section.layers)
+    # moments are no derivatives by rotation vectors
+    turns = any(step.nlgeom for step in model.steps)
     block = ElementBlock(
         group,
         model.mesh.coordinates,
         tuple((node, dof) for node in range(kind.nodes) for dof in kind.dofs(node)),
         routine,
         library,
-        unsymmetric=any(layer.material.user and layer.material.user.unsymmetric for layer in section.layers),
+        unsymmetric=turns or any(constants and constants.unsymmetric for constants in user),
         variables=shell_variables(section, kind, routine),
     )
     block.set_last(directors(model, group).reshape(len(group.labels), -1))

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""Pressures on faces of built-in continuum elements with NLGEOM: they act on the current face, in each iteration.
+"""Pressures on faces of continuum elements and shells with NLGEOM: they act on the current face, in each iteration.
 
 A block of faces is called as elements are, with its pressures as distributed loads (fortran/host/host_pressure.f90).
 """
@@ -16,7 +16,7 @@ from harness.elements.load_vectors import outward_sign
 from harness.elements.routine import Routine
 from harness.elements.solid import section_depth, solid_of
 from harness.model.arrays import FloatArray, IntArray
-from harness.model.element_types import DiscreteKind
+from harness.model.element_types import DiscreteKind, Family, ShellType
 from harness.model.mesh import ElementGroup
 from harness.model.model import Model
 from harness.model.properties import SolidSection
@@ -44,18 +44,16 @@ class PressureBlock(ElementBlock):
         elements: IntArray,
         surface: bool,
     ) -> None:
-        section = parent.section
-        assert isinstance(section, SolidSection)
-        kind, nodes = solid_of(parent), parent.nodes[rows][:, list(load.face)]
-        face, outward = kind.family.face_family(load.face), outward_sign(parent, int(rows[0]), load.face, coordinates)
-        unknowns = tuple((node, dof) for node in range(nodes.shape[1]) for dof in range(1, kind.dimension + 1))
+        nodes = parent.nodes[rows][:, list(load.face)]
+        dimension, depth, face, outward, axisymmetric = _face(parent, int(rows[0]), load, coordinates)
+        unknowns = tuple((node, dof) for node in range(nodes.shape[1]) for dof in range(1, dimension + 1))
         routine = Routine(
             address=_binding.address_of("discrete"),
             jtype=DiscreteKind.FACE,
-            mcrd=kind.dimension,
+            mcrd=dimension,
             svars=2 * len(unknowns),
-            props=np.array([section_depth(kind, section) if kind.dimension == 2 else 1.0]),
-            jprops=np.array([face.number, face.full_points, kind.axisymmetric, outward]),
+            props=np.array([depth]),
+            jprops=np.array([face.number, face.full_points, axisymmetric, outward]),
         )
         group = replace(parent, labels=parent.labels[rows], nodes=nodes)
         super().__init__(group, coordinates, unknowns, routine, library, unsymmetric=True, variables=None)
@@ -85,6 +83,21 @@ class PressureBlock(ElementBlock):
         """As that of other blocks."""
         super().keep(rows)
         self.elements = self.elements[rows]
+
+
+def _face(
+    parent: ElementGroup, row: int, load: LoadType, coordinates: FloatArray
+) -> tuple[int, float, Family, int, bool]:
+    """Dimension, depth, family of the face, sign of the outward normal, and whether it is axisymmetric."""
+    section, shell = parent.section, parent.built_in
+    if isinstance(shell, ShellType):
+        # the order of the nodes of a side gives the outward normal
+        return shell.dimension, 1.0, shell.family, 1, False
+    assert isinstance(section, SolidSection)
+    kind = solid_of(parent)
+    depth = section_depth(kind, section) if kind.dimension == 2 else 1.0
+    outward = outward_sign(parent, row, load.face, coordinates)
+    return kind.dimension, depth, kind.family.face_family(load.face), outward, kind.axisymmetric
 
 
 def pressure_blocks(model: Model, library: Library) -> list[PressureBlock]:

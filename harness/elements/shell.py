@@ -256,16 +256,16 @@ def _strain_turn(degrees: float) -> FloatArray:
 
 def _check(model: Model, group: ElementGroup, section: ShellSection) -> None:
     """Raise DeckError for what shells do not support."""
-    nonlinear = next((step for step in model.steps if step.nlgeom), None)
-    if nonlinear is not None:
-        message = f"NLGEOM is not supported for elements of type {group.type}, whose rotations are small"
-        raise DeckError(nonlinear.source, message)
+    elements = f"elements of type {group.type}"
     if any(step.procedure.inertia for step in model.steps):
-        check_density(section.layers, section.source, f"*DYNAMIC with elements of type {group.type}")
+        nonlinear = next((step for step in model.steps if step.nlgeom), None)
+        if nonlinear is not None:
+            message = f"*DYNAMIC with NLGEOM is not supported for {elements}, whose inertia is that of small rotations"
+            raise DeckError(nonlinear.source, message)
+        check_density(section.layers, section.source, f"*DYNAMIC with {elements}")
     initial = next((entry for entry in model.initial_solutions if entry.elements is None), None)
     if initial is not None and any(state_variables(layer.material) for layer in section.layers):
-        raise DeckError(initial.source, f"SDVINI is not supported for elements of type {group.type}")
-    elements = f"elements of type {group.type}"
+        raise DeckError(initial.source, f"SDVINI is not supported for {elements}")
     user = [layer.material.user is not None for layer in section.layers]
     if any(user) and not section.shear:
         message = f"{elements} with *USER MATERIAL need *TRANSVERSE SHEAR STIFFNESS after *SHELL SECTION"

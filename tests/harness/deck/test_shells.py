@@ -164,7 +164,10 @@ SHEAR = HOMOGENEOUS + "\n*TRANSVERSE SHEAR STIFFNESS\n1., 1."
 @pytest.mark.parametrize(
     ("options", "message"),
     [
-        ({"step": ", NLGEOM"}, r"shell\.inp:20: NLGEOM is not supported for elements of type S4R"),
+        (
+            {"step": ", NLGEOM", "procedure": "DYNAMIC", "material": "*ELASTIC\n1., 0.3\n*DENSITY\n1."},
+            r"shell\.inp:\d+: \*DYNAMIC with NLGEOM is not supported for elements of type S4R, whose inertia",
+        ),
         ({"material": USER}, r"S4R with \*USER MATERIAL need \*TRANSVERSE SHEAR STIFFNESS after \*SHELL SECTION"),
         (
             {"material": USER, "section": SHEAR},
