@@ -10,11 +10,11 @@
 !>
 !> with Q = exp(rotation vector), the unknowns of a node, and f(square of the sine) = angle/sine, a series. Their work gives the
 !> forces of the nodes, and their moments about the global axes, as Abaqus has them in *CLOAD and RM. The derivative by the unknowns
-!> is that by a complex step (W. Squire, G. Trapp, SIAM Review 40 (1998) 110), which has no error of truncation: it includes
-!> all that the turning adds to the stiffness. Since a moment is no derivative by the rotation vector, it is not symmetric where
-!> rotations are large.
+!> is that by a complex step: it includes all that the turning adds to the stiffness. Since a moment is no derivative by the
+!> rotation vector, it is not symmetric where rotations are large.
 module host_corotation
   use host_kinds, only: dp
+  use host_polar, only: cross, polar_axes, step
   implicit none (type, external)
   private
   public :: corotation_t, local_motion, turn_back
@@ -28,8 +28,6 @@ module host_corotation
     complex(dp) :: rotation(3, 3) = 0             !< R
     complex(dp) :: stretch(3) = 0                 !< 11, 22 and 12 of the mean deformation
   end type corotation_t
-
-  real(dp), parameter :: step = 1.0e-30_dp
 
   !> Of asin(s)/s by the square of s: to 1e-4 for 40 degrees between a node and its element.
   real(dp), parameter :: series(4) = [1.0_dp/6, 3.0_dp/40, 5.0_dp/112, 35.0_dp/1152]
@@ -48,10 +46,7 @@ contains
     allocate (found%local(6, nodes), found%arm(3, nodes), found%nodal(3, 3, nodes), found%sine(3, nodes))
     now = x + u(:3, :)
     along = matmul(now, gradient)
-    ! columns: the axes now; the first ones make the mean deformation symmetric
-    axes(:, 3) = unit(cross(along(:, 1), along(:, 2)))
-    axes(:, 1) = unit(along(:, 1) + cross(along(:, 2), axes(:, 3)))
-    axes(:, 2) = cross(axes(:, 3), axes(:, 1))
+    axes = polar_axes(along)
     found%stretch = [sum(along(:, 1)*axes(:, 1)), sum(along(:, 2)*axes(:, 2)), sum(along(:, 1)*axes(:, 2))]
     found%rotation = matmul(axes, frame)
     found%arm = matmul(transpose(found%rotation), now - spread(sum(now, 2)/nodes, 2, nodes))
@@ -162,18 +157,6 @@ contains
       rotation(i, i) = rotation(i, i) + 1
     end do
   end function rotation_of
-
-  pure function cross(a, b) result(c)
-    complex(dp), intent(in) :: a(3), b(3)
-    complex(dp) :: c(3)
-    c = [a(2)*b(3) - a(3)*b(2), a(3)*b(1) - a(1)*b(3), a(1)*b(2) - a(2)*b(1)]
-  end function cross
-
-  pure function unit(a) result(b)
-    complex(dp), intent(in) :: a(3)
-    complex(dp) :: b(3)
-    b = a/sqrt(sum(a*a))
-  end function unit
 
   pure complex(dp) function trace(a)
     complex(dp), intent(in) :: a(3, 3)

@@ -1,6 +1,6 @@
 ! SPDX-FileCopyrightText: The uel-harness authors
 ! SPDX-License-Identifier: BSD-3-Clause
-!> Built-in trusses, springs, masses and pressures, as a procedure with the arguments of UEL. JTYPE tells which:
+!> Built-in trusses, springs, masses and loads that follow their faces, as a procedure with the arguments of UEL. JTYPE tells which:
 !>
 !> 1  T2D2, T3D2: PROPS hold area, Young's modulus, density, then yield stress and plastic strain in turn; SVARS strain,
 !>    stress, plastic strain, equivalent plastic strain. With NLGEOM the strain is the logarithm of the stretch and the
@@ -8,17 +8,17 @@
 !> 2  SPRINGA: PROPS hold force and elongation in turn, ascending; SVARS elongation, force.
 !> 3  SPRING1, SPRING2: the same between the first unknown and the second, or the ground; SVARS as SPRINGA.
 !> 4  MASS: PROPS(1).
-!> 5  pressure on a face of a continuum element: PROPS(1) thickness or 2 pi; JPROPS family and integration points of the face
-!>    (host_shape), 1 about an axis, outward as in add_pressure. The loads of the call are pressures, with NLGEOM on the
-!>    present face; ENERGY(8) is their work.
+!> 5  load on a face of an element: PROPS thickness or 2 pi, direction of a traction; JPROPS family and integration points of
+!>    the face (host_shape), 1 about an axis, outward as in add_pressure, 0 pressure, 1 traction, 2 shear traction. The loads
+!>    of the call are their magnitudes, with NLGEOM on the present face; ENERGY(8) is their work.
 !>
-!> In dynamic analyses SVARS go on with the forces of the last two increments, those of pressures always.
+!> In dynamic analyses SVARS go on with the forces of the last two increments, those of loads on faces always.
 module host_discrete
   use host_inertia, only: respond
   use host_kinds, only: dp, i4
   use host_messages, only: add_message
   use host_mises, only: radial_return, yield_stress
-  use host_pressure, only: add_pressure
+  use host_followers, only: add_pressure, add_traction
   use host_protect, only: escape
   use host_shape, only: rule_of, rule_t
   implicit none (type, external)
@@ -57,8 +57,8 @@ contains
       case (spring)
         call dof_spring(n, int(nprops), props, u, svars, rhs, amatrx, energy)
       case (face)
-        call press(rule_of(int(jprops(1)), int(jprops(2))), n, lflags(2) /= 0, jprops(3) /= 0, int(jprops(4)), props(1), &
-                   sum(adlmag(1:ndload)), coords, u, rhs, amatrx)
+        call load_face(rule_of(int(jprops(1)), int(jprops(2))), n, lflags(2) /= 0, jprops(3) /= 0, int(jprops(4:5)), &
+                       props(1:1 + mcrd), sum(adlmag(1:ndload)), coords, u, rhs, amatrx)
         energy(8) = -0.5_dp*dot_product(rhs(1:n) + old(:, 1), du(1:n))
       case (mass_point)   ! has no force of its own
       case default
@@ -70,20 +70,23 @@ contains
     if (nsvars >= states + 2*n) svars(states + 1:states + 2*n) = reshape(old, [2*n])
   end subroutine discrete_uel
 
-  !> Force and stiffness of a pressure: in small displacements on the initial face.
-  pure subroutine press(rule, n, finite, axisymmetric, outward, depth, pressure, x, u, force, stiffness)
+  !> Force and stiffness of a load on a face: in small displacements on the initial one.
+  pure subroutine load_face(rule, n, finite, axisymmetric, kind, props, magnitude, start, u, force, stiffness)
     type(rule_t), intent(in) :: rule
-    integer, intent(in) :: n, outward     !< n: number of displacements
+    integer, intent(in) :: n, kind(2)     !< n: number of displacements
     logical, intent(in) :: finite, axisymmetric
-    real(dp), intent(in) :: depth, pressure, x(n), u(n)
+    real(dp), intent(in) :: props(:), magnitude, start(n), u(n)
     real(dp), intent(inout) :: force(n), stiffness(n, n)
-    if (finite) then
-      call add_pressure(rule, axisymmetric, outward, depth, pressure, x + u, force, stiffness)
+    real(dp) :: x(n)
+    x = start
+    if (finite) x = start + u
+    if (kind(2) == 0) then
+      call add_pressure(rule, axisymmetric, kind(1), props(1), magnitude, x, force, stiffness)
     else
-      call add_pressure(rule, axisymmetric, outward, depth, pressure, x, force, stiffness)
-      stiffness = 0
+      call add_traction(rule, axisymmetric, kind(2) == 2, props(1), magnitude, props(2:), start, x, force, stiffness)
     end if
-  end subroutine press
+    if (.not. finite) stiffness = 0
+  end subroutine load_face
 
   pure real(dp) function initial_length(dim, x)
     integer, intent(in) :: dim

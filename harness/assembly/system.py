@@ -17,7 +17,7 @@ from scipy import sparse
 from harness.assembly.dofs import DofMap
 from harness.assembly.linear import LinearElements
 from harness.assembly.states import States
-from harness.elements import FIELD_NAMES, Call, ElementBlock, HeatLoadBlock, Motion, PressureBlock, Request
+from harness.elements import FIELD_NAMES, Call, ElementBlock, FollowerBlock, HeatLoadBlock, Motion, Request
 from harness.errors import ElementError
 from harness.model.arrays import ComplexArray, FloatArray, IntArray
 from harness.model.mesh import Mesh
@@ -58,7 +58,7 @@ class Evaluation:
     entries: IntArray = field(default_factory=lambda: np.zeros(len(FIELD_NAMES), dtype=np.int64))
 
 
-LOADED: Final = (PressureBlock, HeatLoadBlock)
+LOADED: Final = (FollowerBlock, HeatLoadBlock)
 """Blocks of loads."""
 
 
@@ -66,7 +66,7 @@ class System:
     """All blocks of a model on one numbering of unknowns.
 
     blocks   of its elements
-    loaded   faces under pressure, and what heat enters: called where loads act, but they do not count as elements
+    loaded   faces under loads that follow them, and what heat enters: called where loads act, and no elements
     dofs     what each unknown is
     indptr   (n + 1,) row starts of the matrix, int32
     indices  (nnz,) columns, ascending in each row, int32; every diagonal entry is there and the pattern is symmetric
@@ -364,8 +364,8 @@ class System:
             self._linear.relearn(call, u)
 
     @property
-    def _faces(self) -> list[PressureBlock]:
-        return [block for block in self.loaded if isinstance(block, PressureBlock)]
+    def _faces(self) -> list[FollowerBlock]:
+        return [block for block in self.loaded if isinstance(block, FollowerBlock)]
 
     def product(self, data: FloatArray, vector: FloatArray) -> FloatArray:
         """K x, with the parts of K of all ranks.

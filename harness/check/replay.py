@@ -53,7 +53,7 @@ class Elements:
         self.singles: list[Single] = []
         self.equations: list[IntArray] = []
         self.library = library
-        # faces under pressure, which come last, are not elements
+        # faces under loads that follow them, which come last, are not elements
         blocks = build_blocks(recording.model, library, strict=strict)[: len(recording.equations)]
         for block, equations in zip(blocks, recording.equations, strict=True):
             self.singles += [Single(part) for part in block.split(strict=strict)]

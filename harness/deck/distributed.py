@@ -167,9 +167,10 @@ KEYWORDS = (
     ),
     Keyword(
         "DSLOAD",
-        "Distributed loads on surfaces of built-in continuum elements and shells; with NLGEOM, tractions that follow "
-        "them are refused. Like those of *DLOAD they are nodal forces, which CF in the output includes, except "
-        "pressures with NLGEOM, which act on the current surface.",
+        "Distributed loads on surfaces of built-in continuum elements and shells. Like those of *DLOAD they are nodal "
+        "forces, which CF in the output includes, except with NLGEOM pressures and tractions that follow the surface: "
+        "they act on the current area, and tractions turn by the rotation in the polar decomposition of its "
+        "deformation.",
         Where.STEP,
         (
             *LOAD,

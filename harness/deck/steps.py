@@ -21,7 +21,7 @@ from harness.deck.structure import Scope
 from harness.deck.table import Keyword, Kind, Option, Where, ignored, one_of, refused
 from harness.model.amplitude import UserAmplitude
 from harness.model.procedures import Procedure
-from harness.model.steps import DistributedLoad, ElementLoad, LoadKind, Step
+from harness.model.steps import DistributedLoad, ElementLoad, Step
 
 MOST_INCREMENTS = 100
 Entry = TypeVar("Entry")
@@ -140,16 +140,15 @@ def check_parts(blocks: list[Block], problems: Problems, *, harmonic: bool) -> N
 
 
 def _check_followers(steps: Sequence[Step], problems: Problems) -> None:
-    """Of loads that follow their faces in large displacements only pressures work, and only without perturbations."""
+    """Loads that follow their faces in large displacements have magnitudes in the deck, and no perturbations beside."""
     nonlinear = next((step for step in steps if step.nlgeom), None)
     if nonlinear is None:
         return
     linear = next((step for step in steps if step.procedure.linear), None)
     for load in (load for step in steps for load in (*step.element_loads, *step.surface_loads) if load.type.follows):
         message = f"load type {load.type.kind} follows the surface, which is not supported with NLGEOM"
-        if load.type.kind is not LoadKind.PRESSURE or load.type.jltyp:
-            hint = "TRVEC with FOLLOWER=NO does not follow it, and P with a magnitude in the deck is supported"
-            problems.add(load.source, f"{message} ({nonlinear.source}); {hint}")
+        if load.type.jltyp:
+            problems.add(load.source, f"{message} ({nonlinear.source}) where DLOAD gives it; P with a magnitude is")
         elif linear is not None:
             problems.add(load.source, f"{message} ({nonlinear.source}) beside a perturbation step ({linear.source})")
 

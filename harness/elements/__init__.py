@@ -6,9 +6,9 @@ from harness.elements.block import ElementBlock
 from harness.elements.build import build_blocks
 from harness.elements.call import BlockReport, Call, Distributed, Motion, Predefined
 from harness.elements.fields import FIELD_NAMES, PRESSURE, VOLUME, field_of
+from harness.elements.followers import FollowerBlock
 from harness.elements.heat_loads import HeatLoadBlock
 from harness.elements.lflags import Damping, Flags, Request
-from harness.elements.pressure import PressureBlock
 
 __all__ = [
     "FIELD_NAMES",
@@ -20,10 +20,10 @@ __all__ = [
     "Distributed",
     "ElementBlock",
     "Flags",
+    "FollowerBlock",
     "HeatLoadBlock",
     "Motion",
     "Predefined",
-    "PressureBlock",
     "Request",
     "build_blocks",
     "field_of",

@@ -17,6 +17,7 @@ from harness.elements.coupled import coupled_routine, heat_routine, heat_variabl
 from harness.elements.directions import start_axes
 from harness.elements.discrete import discrete_routine, discrete_unknowns, discrete_variables
 from harness.elements.fields import PRESSURE
+from harness.elements.followers import follower_blocks
 from harness.elements.heat_loads import heat_load_blocks
 from harness.elements.hybrid import pressure_unknowns
 from harness.elements.materials import (
@@ -26,7 +27,6 @@ from harness.elements.materials import (
     refuse_fields,
     refuse_hyperelastic,
 )
-from harness.elements.pressure import pressure_blocks
 from harness.elements.routine import Linearity, Routine
 from harness.elements.shell import directors, shell_routine, shell_variables
 from harness.elements.solid import history_of, solid_routine, solid_variables
@@ -75,7 +75,7 @@ def build_blocks(
     Returns
     -------
     list[ElementBlock]
-        One per group of the model, in the same order, then those of faces under pressure.
+        One per group of the model, in the same order, then those of faces under loads that follow them.
 
     Raises
     ------
@@ -93,7 +93,7 @@ def build_blocks(
             raise _too_large(group) from None
     if errors:
         raise all_of(list(errors.values()))
-    blocks += [*pressure_blocks(model, library), *heat_load_blocks(model, library)]
+    blocks += [*follower_blocks(model, library), *heat_load_blocks(model, library)]
     for block, following in pairwise(blocks):
         following.first = block.first + len(block.group.labels)
     return blocks

@@ -18,7 +18,7 @@ from numpy.typing import NDArray
 from scipy import sparse
 
 from harness.assembly import System
-from harness.elements import Distributed, PressureBlock
+from harness.elements import Distributed, FollowerBlock
 from harness.elements.load_vectors import unit_forces
 from harness.errors import DeckError
 from harness.model.arrays import FloatArray, IntArray
@@ -49,7 +49,7 @@ class StepLoads:
 
     @property
     def turning(self) -> bool:
-        """Whether there are faces under pressure."""
+        """Whether there are loads that follow faces."""
         return any(len(load.faces) for load in self.distributed)
 
     @property
@@ -80,8 +80,8 @@ class StepLoads:
     def with_faces(
         self, others: Distributed | None, start: tuple[float, float], end: tuple[float, float]
     ) -> Distributed | None:
-        """What acts in an increment between these step and total times: loads on elements, pressures, heat."""
-        parts = [part for part in (others, self._pressures(start, end), self.heat.between(start, end)) if part]
+        """What acts in an increment between these step and total times: on elements, on faces that it follows, heat."""
+        parts = [part for part in (others, self._on_faces(start, end), self.heat.between(start, end)) if part]
         if len(parts) < 2:
             return parts[0] if parts else None
         return Distributed(
@@ -91,7 +91,7 @@ class StepLoads:
             np.concatenate([part.increment for part in parts]),
         )
 
-    def _pressures(self, start: tuple[float, float], end: tuple[float, float]) -> Distributed | None:
+    def _on_faces(self, start: tuple[float, float], end: tuple[float, float]) -> Distributed | None:
         if not self.turning:
             return None
         places = np.concatenate([load.faces for load in self.distributed])
@@ -182,7 +182,7 @@ class _ElementLoads:
         self.loads = Loads(self._slots)
         self._active = np.zeros(len(self._slots), dtype=bool)
         parts: list[_Points] = []
-        faces = [block for block in system.loaded if isinstance(block, PressureBlock) and block.surface == surface]
+        faces = [block for block in system.loaded if isinstance(block, FollowerBlock) and block.surface == surface]
         turning = {block.load for block in faces}
         for entry in {entry.type: entry for entry in entries}.values():
             if entry.type not in turning:

@@ -112,7 +112,7 @@ def _check(context: StepContext) -> None:
     if context.prescribed.curves or context.load.curves or context.amplitudes.courses:
         raise DeckError(source, "an amplitude has no meaning in a step whose load factor is part of the solution")
     if context.load.turning:
-        message = "pressures that follow the surface (NLGEOM) are not supported in a step whose load factor is unknown"
+        message = "loads that follow the surface (NLGEOM) are not supported in a step whose load factor is unknown"
         raise DeckError(step.source, message)
     if len(context.state.boundaries.by_user) or context.load.by_user:
         raise DeckError(step.source, "DISP and DLOAD have no meaning in a step whose load factor is unknown")

@@ -324,11 +324,6 @@ def test_dload_may_end_the_analysis(forces):
         ("*DSLOAD\nSIDE, HP, 1.", "", r"\*DSLOAD: load type HP is not supported \(supported: P, TRVEC, TRSHR\)"),
         ("*DSLOAD\nSIDES, P, 1.", "", "unknown surface SIDES"),
         ("*DSLOAD\nSIDE, TRSHR, 1., 1.", "", r"load.inp:\d+: TRSHR: the direction is normal to the surface"),
-        (
-            "*DSLOAD\nSIDE, TRVEC, 1., 1.",
-            ", NLGEOM",
-            r"load type TRVEC follows the surface, which is not supported with NLGEOM \(.*load.inp:\d+\); TRVEC",
-        ),
         ("*DSLOAD, CONSTANT RESULTANT=YES\nSIDE, P, 1.", "", "option CONSTANT RESULTANT is not supported"),
     ],
 )

@@ -8,11 +8,12 @@ A block of faces is called as elements are, with its pressures as distributed lo
 from __future__ import annotations
 
 from dataclasses import replace
+from typing import Final
 
 import numpy as np
 
 from harness.elements.block import ElementBlock
-from harness.elements.load_vectors import outward_sign
+from harness.elements.load_vectors import outward_sign, unit_forces
 from harness.elements.routine import Routine
 from harness.elements.solid import section_depth, solid_of
 from harness.model.arrays import FloatArray, IntArray
@@ -21,12 +22,15 @@ from harness.model.mesh import ElementGroup
 from harness.model.model import Model
 from harness.model.properties import SolidSection
 from harness.model.restart import Saved
-from harness.model.steps import LoadType
+from harness.model.steps import ElementLoad, LoadKind, LoadType
 from harness.usersub import Library, _binding
 
+_TRACTIONS: Final = {LoadKind.TRACTION: 1, LoadKind.SHEAR: 2}
+"""JPROPS(5) of what is no pressure."""
 
-class PressureBlock(ElementBlock):
-    """Faces of elements of one group that pressures of one type may act on.
+
+class FollowerBlock(ElementBlock):
+    """Faces of elements of one group that loads of one type may act on.
 
     elements  (m,) their positions in the model
     load      the type of the load
@@ -46,14 +50,15 @@ class PressureBlock(ElementBlock):
     ) -> None:
         nodes = parent.nodes[rows][:, list(load.face)]
         dimension, depth, face, outward, axisymmetric = _face(parent, int(rows[0]), load, coordinates)
+        traction = _TRACTIONS.get(load.kind, 0)
         unknowns = tuple((node, dof) for node in range(nodes.shape[1]) for dof in range(1, dimension + 1))
         routine = Routine(
             address=_binding.address_of("discrete"),
             jtype=DiscreteKind.FACE,
             mcrd=dimension,
             svars=2 * len(unknowns),
-            props=np.array([depth]),
-            jprops=np.array([face.number, face.full_points, axisymmetric, outward]),
+            props=np.array([depth, *load.direction[:dimension]]),
+            jprops=np.array([face.number, face.full_points, axisymmetric, outward, traction]),
         )
         group = replace(parent, labels=parent.labels[rows], nodes=nodes)
         super().__init__(group, coordinates, unknowns, routine, library, unsymmetric=True, variables=None)
@@ -100,23 +105,28 @@ def _face(
     return kind.dimension, depth, kind.family.face_family(load.face), outward, kind.axisymmetric
 
 
-def pressure_blocks(model: Model, library: Library) -> list[PressureBlock]:
-    """Blocks of all faces under pressure; none in a model without NLGEOM."""
-    found: list[PressureBlock] = []
+def follower_blocks(model: Model, library: Library) -> list[FollowerBlock]:
+    """Blocks of all faces under loads that follow them; none in a model without NLGEOM.
+
+    Raises DeckError if a shear traction is normal to a face.
+    """
+    found: list[FollowerBlock] = []
     if not any(step.nlgeom for step in model.steps):
         return found
     starts = np.cumsum([0, *(len(group.labels) for group in model.groups)])
     for surface in (False, True):
-        under: dict[LoadType, list[IntArray]] = {}
+        under: dict[LoadType, list[ElementLoad]] = {}
         for step in model.steps:
             for entry in step.surface_loads if surface else step.element_loads:
                 if entry.type.follows:
-                    under.setdefault(entry.type, []).append(entry.elements)
-        for load, parts in under.items():
-            elements = np.unique(np.concatenate(parts))
+                    under.setdefault(entry.type, []).append(entry)
+        for load, entries in under.items():
+            elements = np.unique(np.concatenate([entry.elements for entry in entries]))
             for group, start, end in zip(model.groups, starts, starts[1:], strict=False):
                 mine = elements[(elements >= start) & (elements < end)]
                 if len(mine):
                     rows, given = mine - start, model.mesh.coordinates
-                    found.append(PressureBlock(group, rows, load, given, library, elements=mine, surface=surface))
+                    if load.kind is LoadKind.SHEAR:
+                        unit_forces(group, rows, entries[0], given)
+                    found.append(FollowerBlock(group, rows, load, given, library, elements=mine, surface=surface))
     return found

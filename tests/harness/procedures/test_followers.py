@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""Pressures with NLGEOM: they act on the present faces, with their stiffness, and do work."""
+"""Pressures and tractions with NLGEOM: they act on the present faces, with their stiffness, and do work."""
 
 from dataclasses import replace
 
@@ -73,19 +73,30 @@ def nodal(result, name, nodes):
     return np.array([[result.history[f"{name}{dof}[ALL:{label}]"][-1] for dof in dofs] for label in labels])
 
 
+TRACTIONS = {
+    "pressure": None,
+    "TRVEC": "*DSLOAD\nSIDE, TRVEC, 1., 0.6, 0.64, 0.48",
+    "TRSHR": "*DSLOAD\nSIDE, TRSHR, 1., 0.6, 0.64, 0.48",
+}
+
+
 @pytest.mark.parametrize("element_type", NODES)
-def test_stiffness_of_pressures(tmp_path, element_type):
-    """What pressures on all faces add to the matrix, against differences of what they add to the residual."""
-    (tmp_path / "press.inp").write_text(deck(element_type, [static(all_faces(element_type, 1.0))]))
+@pytest.mark.parametrize("load", TRACTIONS.values(), ids=TRACTIONS)
+def test_stiffness_of_loads(tmp_path, element_type, load):
+    """What pressures on all faces, or tractions, add to the matrix: differences of what they add to the residual."""
+    text = deck(element_type, [static(load or all_faces(element_type, 1.0))])
+    if CONTINUUM[element_type].dimension == 2:
+        text = text.replace(", 0.48", "")
+    (tmp_path / "press.inp").write_text(text)
     model = read_deck(tmp_path / "press.inp")
     library = usersub.load(None, job="job", output_dir=tmp_path)
     system = System(model.mesh, build_blocks(model, library), model.equations)
     faces = np.array([block.first for block in system.loaded])
-    pressures = np.linspace(3, 5, len(faces))
+    magnitudes = np.linspace(3, 5, len(faces))
     call = Call(
         Flags(1, nlgeom=True), step=1, increment=1, step_time=1.0, total_time=1.0, time_increment=1.0, period=1.0
     )
-    loaded = replace(call, distributed=Distributed(faces, np.ones_like(faces), pressures, pressures))
+    loaded = replace(call, distributed=Distributed(faces, np.ones_like(faces), magnitudes, magnitudes))
     rng = np.random.default_rng(1)
     u = 0.1 * rng.normal(size=len(system))
 
@@ -136,6 +147,34 @@ def test_pressure_turns_with_its_face(run):
     np.testing.assert_allclose(difference, 4 * THICKNESS / 2 * np.array([[0, 0], [0, 1], [0, 1], [0, 0]]), atol=1e-9)
 
 
+@pytest.mark.parametrize(
+    ("load", "force"),
+    [("TRVEC, 5., 0.6, 0.8", [-4, 3]), ("TRSHR, 5., 0.6, 0.8", [-5, 0]), ("TRSHR, 5., 0.6, -0.8", [5, 0])],
+)
+def test_traction_turns_with_its_face(run, load, force):
+    """The square of above turned and its side stretched to 1.5: per present length, along the side as it is now."""
+    held = "*BOUNDARY\n1, 1, 2\n2, 1, 1, -1.\n2, 2, 2, 1.\n3, 1, 1, -2.5\n4, 1, 1, -1.5\n4, 2, 2, -1.\n3, 2, 2, 0.\n"
+    turned = run(deck("CPE4", [static(held + "*DSLOAD\nSIDE, " + load)]))
+    free = run(deck("CPE4", [static(held)]))
+    difference = nodal(turned, "RF", SQUARE) - nodal(free, "RF", SQUARE)
+    expected = -np.outer([0, 1, 1, 0], force) * 1.5 * THICKNESS / 2
+    np.testing.assert_allclose(difference, expected, atol=1e-9)
+
+
+@pytest.mark.parametrize("load", ["TRVEC, 2., 1., 0., 0.", "TRSHR, 2., 1., 0., 1."])
+def test_traction_on_a_face_that_is_sheared(run, load):
+    """The rotation of the polar decomposition of [1 g; 0 1] is by atan(-g/2), and the area stays."""
+    nodes, shear = NODES["C3D8"], 0.8
+    up = [k for k, x in enumerate(nodes, start=1) if x[1] == 1]
+    held = f"*BOUNDARY\nALL, 1, 3\n{''.join(f'{k}, 1, 1, {shear}' + chr(10) for k in up)}"
+    texts = [deck("C3D8", [static(held + body)], nodes=nodes) for body in (f"*DSLOAD\nSIDE, {load}", "")]
+    face = nodes[list(CONTINUUM["C3D8"].family.faces[1])]
+    assert np.ptp(face[:, 2]) == 0
+    found = np.subtract(*(nodal(run(text), "RF", nodes).sum(axis=0) for text in texts))
+    angle = np.arctan(-shear / 2)
+    np.testing.assert_allclose(found, [-2 * np.cos(angle), -2 * np.sin(angle), 0], atol=1e-9)
+
+
 def test_pressure_on_a_ring_that_grows(run):
     """All nodes to 1.5 of the radius: p on the present circumference, as far as it is not held twice."""
     nodes = SQUARE + np.array([1.0, 0.0])
@@ -179,11 +218,11 @@ def test_dynamic_pressure_is_a_dead_traction_where_nothing_turns(run):
 @pytest.mark.parametrize(
     ("steps", "message"),
     [
-        ([static("*DLOAD\nBODY, P2NU")], "load type P follows the surface, which is not supported with NLGEOM"),
         (
-            [static("*DSLOAD\nSIDE, TRSHR, 1., 0., 1.")],
-            r"load type TRSHR follows.*NLGEOM \(.*press.inp:\d+\); TRVEC with",
+            [static("*DLOAD\nBODY, P2NU")],
+            r"load type P follows the surface.* NLGEOM \(.*\) where DLOAD gives it",
         ),
+        ([static("*DSLOAD\nSIDE, TRSHR, 1., 1.")], r"press.inp:\d+: TRSHR: the direction is normal to the surface"),
         (
             [static("*DLOAD\nBODY, P2, 1."), "*STEP\n*FREQUENCY\n1"],
             r"load type P follows .* beside a perturbation step \(.*press.inp:\d+\)",
@@ -194,7 +233,7 @@ def test_dynamic_pressure_is_a_dead_traction_where_nothing_turns(run):
                     "*BOUNDARY\nBODY, 1\n*DLOAD\nBODY, P2, 1.".replace("BODY, 1", "ALL, 1"), procedure="*STATIC, RIKS"
                 )
             ],
-            r"pressures that follow the surface \(NLGEOM\) are not supported in a step whose load factor is unknown",
+            r"loads that follow the surface \(NLGEOM\) are not supported in a step whose load factor is unknown",
         ),
     ],
 )
