@@ -453,6 +453,53 @@ subroutine host_define_user_potential(uhyper, name, ntens, statev, constants, co
   number = define(material)
 end subroutine host_define_user_potential
 
+!> Make a hyperelastic material with preferred directions known; returns the number that stands for it.
+subroutine host_define_anisotropic(ntens, directions, fibres, holzapfel, compliance, number, m)
+  use host_kinds, only: dp, i4
+  use host_materials, only: define, material_t
+  implicit none (type, external)
+  integer(i4), intent(in) :: m, ntens         !< ntens: 4 or 6
+  real(dp), intent(in) :: directions(3, m)    !< in the axes of the material at the start
+  integer(i4), intent(in) :: fibres           !< of the directions: f2py passes no empty arrays
+  real(dp), intent(in) :: holzapfel(4)        !< C10, k1, k2, kappa
+  real(dp), intent(in) :: compliance          !< D
+  integer(i4), intent(out) :: number
+  type(material_t) :: material
+  material%ntens = ntens
+  allocate (material%hyperelastic)
+  material%hyperelastic%logarithmic = .true.
+  if (compliance > 0) material%hyperelastic%volumetric(1) = 1/compliance
+  allocate (material%hyperelastic%anisotropic)
+  material%hyperelastic%anisotropic%directions = directions(:, :fibres)
+  material%hyperelastic%anisotropic%holzapfel = holzapfel
+  number = define(material)
+end subroutine host_define_anisotropic
+
+!> Let UANISOHYPER_INV give the energy of a hyperelastic material with preferred directions.
+subroutine host_set_user_invariants(number, uanisohyper, name, statev, constants, count, n)
+  use, intrinsic :: iso_c_binding, only: c_intptr_t
+  use host_kinds, only: dp, i4, i8
+  use host_materials, only: find_material, material_t
+  use host_uanisohyper, only: outputs
+  implicit none (type, external)
+  integer(i4), intent(in) :: n, number
+  integer(i8), intent(in) :: uanisohyper      !< address
+  character(len=80), intent(in) :: name
+  integer(i4), intent(in) :: statev
+  real(dp), intent(in) :: constants(n)
+  integer(i4), intent(in) :: count            !< of the constants: f2py passes no empty arrays
+  type(material_t), pointer :: material
+  material => find_material(number)
+  allocate (material%hyperelastic%anisotropic%user)
+  associate (user => material%hyperelastic%anisotropic%user)
+    user%uanisohyper = transfer(int(uanisohyper, c_intptr_t), user%uanisohyper)
+    user%name = name
+    user%statev = statev
+    user%constants = constants(:count)
+    allocate (user%reported(outputs), user%spoilt(outputs), source=.false.)
+  end associate
+end subroutine host_set_user_invariants
+
 !> Make a material known that has nothing yet; returns the number that stands for it.
 subroutine host_define_empty_material(number)
   use host_kinds, only: i4

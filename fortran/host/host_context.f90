@@ -43,6 +43,7 @@ module host_context
     logical :: finite = .false.   !< large displacements: the next two are those of the point
     real(dp) :: rotation(3, 3) = 0         !< of the increment
     real(dp) :: deformation(3, 3, 2) = 0   !< deformation gradients at its start and end
+    real(dp) :: turn(3, 3) = 0    !< from the directions of the material at the start of the job to those of these gradients
     real(dp) :: energy = 0        !< strain energy per volume now of a hyperelastic point
     logical :: hybrid = .false.   !< the mean stress of the point is given: the next one
     real(dp) :: mean_stress = 0

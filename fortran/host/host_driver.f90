@@ -18,8 +18,8 @@ module host_driver
   public :: run_block, set_guard_values, set_guard_room
 
   !> Routines of points, in the order of POINT_ROUTINES in harness/usersub/_binding.py.
-  character(len=6), parameter :: point_routines(7) = &
-    [character(len=6) :: 'UMAT', 'USDFLD', 'UMATHT', 'HETVAL', 'DFLUX', 'FILM', 'UHYPER']
+  character(len=16), parameter :: point_routines(8) = &
+    [character(len=16) :: 'UMAT', 'USDFLD', 'UMATHT', 'HETVAL', 'DFLUX', 'FILM', 'UHYPER', 'UANISOHYPER_INV']
 
 contains
 
@@ -42,7 +42,7 @@ contains
     case default
       block%fault = merge(fault_distorted, fault_left, current%distorted /= 0)
       block%index = current%distorted
-      block%array = findloc(point_routines, current%routine(:6), dim=1)
+      block%array = findloc(point_routines, current%routine, dim=1)
       if (block%array > 0) block%index = current%point
     end select
     call find_damage(work, array, index)

@@ -1,6 +1,6 @@
 ! SPDX-FileCopyrightText: The uel-harness authors
 ! SPDX-License-Identifier: BSD-3-Clause
-!> Isotropic hyperelasticity: stress and tangent from the deformation gradient F.
+!> Hyperelasticity: stress and tangent from the deformation gradient F. With preferred directions host_anisotropic gives them.
 !>
 !> The strain energy per initial volume is that of Abaqus (Theory Guide, Hyperelastic material behavior): W of the stretches
 !> less the change of volume J = det F, and U(J). With e the logarithms of the principal stretches, h and H the derivatives of W
@@ -10,11 +10,12 @@
 module host_hyperelastic
   use core_small_matrix, only: determinant
   use core_symmetric, only: eigenvalues
+  use host_anisotropic, only: anisotropic_stress, anisotropic_t
   use host_kinds, only: dp, i4
   use host_uhyper, only: call_uhyper, user_potential_t
   implicit none (type, external)
   private
-  public :: hyperelastic_t, hyperelastic_stress, highest_order, state_variables, volume_of
+  public :: hyperelastic_t, calls_user, hyperelastic_stress, highest_order, state_variables, volume_of
 
   integer, parameter :: highest_order = 6
 
@@ -24,6 +25,7 @@ module host_hyperelastic
     real(dp) :: volumetric(highest_order) = 0                      !< 1/D of (J - 1)^2i
     logical :: logarithmic = .false.                               !< U = volumetric(1) ((J^2 - 1)/2 - ln J)
     type(user_potential_t), allocatable :: user                    !< of UHYPER; then nothing above counts
+    type(anisotropic_t), allocatable :: anisotropic                !< then of the above the energy of the volume counts alone
   end type hyperelastic_t
 
   !> Difference of logarithmic stretches below which the shear modulus is its limit, with an error of the square.
@@ -37,21 +39,32 @@ module host_hyperelastic
 
 contains
 
+  !> Whether UHYPER or UANISOHYPER_INV give its energy.
+  pure logical function calls_user(law)
+    type(hyperelastic_t), intent(in) :: law
+    calls_user = allocated(law%user)
+    if (allocated(law%anisotropic)) calls_user = allocated(law%anisotropic%user)
+  end function calls_user
+
   !> Number of STATEV.
   pure integer function state_variables(law)
     type(hyperelastic_t), intent(in) :: law
     state_variables = 0
     if (allocated(law%user)) state_variables = law%user%statev
+    if (allocated(law%anisotropic)) then
+      if (allocated(law%anisotropic%user)) state_variables = law%anisotropic%user%statev
+    end if
   end function state_variables
 
   !> Cauchy stress, tangent, and strain energy per volume now. good is false if the stretches have no stress. Hybrid elements give
   !> the mean stress, and take the tangent at that mean stress.
-  subroutine hyperelastic_stress(law, n, point, f, statev, stress, tangent, energy, good, mean_stress)
+  subroutine hyperelastic_stress(law, n, point, f, turn, statev, stress, tangent, energy, good, mean_stress)
     type(hyperelastic_t), intent(in) :: law
     integer, intent(in) :: n                      !< 4 or 6
     integer(i4), intent(in) :: point              !< from 1
     real(dp), intent(in) :: f(3, 3)
-    real(dp), intent(inout) :: statev(:)          !< of UHYPER
+    real(dp), intent(in) :: turn(3, 3)            !< from the axes of the material at the start to those of F
+    real(dp), intent(inout) :: statev(:)          !< of UHYPER or UANISOHYPER_INV
     real(dp), intent(out) :: stress(n)            !< 11, 22, 33, 12, 13, 23 or the first four of them
     real(dp), intent(out) :: tangent(n, n), energy
     logical, intent(out) :: good
@@ -62,6 +75,19 @@ contains
     stress = 0
     tangent = 0
     energy = 0
+    if (allocated(law%anisotropic)) then
+      j = determinant(f)
+      good = j > 0
+      if (.not. good) return
+      if (present(mean_stress)) then
+        u = [energy_at(law, mean_stress), mean_stress, 0.0_dp]
+      else
+        u = volume_energy(law, j)
+      end if
+      call anisotropic_stress(law%anisotropic, n, point, f, j, turn, .not. present(mean_stress), statev, u, stress, tangent, &
+                              energy, good)
+      return
+    end if
     call principal(law, f, e, directions, j, good)
     if (.not. good) return
     mixed = 0

@@ -11,7 +11,7 @@ module host_materials
   use host_context, only: current
   use host_creep, only: creep_solid, creep_t, creep_values
   use host_dependence, only: dependence_t, elastic_matrices
-  use host_hyperelastic, only: hyperelastic_stress, hyperelastic_t, state_variables
+  use host_hyperelastic, only: calls_user, hyperelastic_stress, hyperelastic_t, state_variables
   use host_inertia, only: is_dynamic
   use host_kinds, only: dp, i4
   use host_kinematics, only: components, rotated
@@ -101,7 +101,7 @@ contains
     type(material_t), intent(in) :: material
     has_fields = allocated(material%user) .or. allocated(material%dependence) .or. allocated(material%user_field) .or. &
                  generates_heat(material)
-    if (allocated(material%hyperelastic)) has_fields = has_fields .or. allocated(material%hyperelastic%user)
+    if (allocated(material%hyperelastic)) has_fields = has_fields .or. calls_user(material%hyperelastic)
   end function has_fields
 
   !> Whether UMAT or HETVAL generate heat in elements with temperatures.
@@ -277,7 +277,7 @@ contains
     end if
   end subroutine solid_law
 
-  !> Hyperelasticity; the STATEV of UHYPER go from committed to trial, unless USDFLD had them before.
+  !> Hyperelasticity; the STATEV of UHYPER and UANISOHYPER_INV go from committed to trial, unless USDFLD had them before.
   subroutine hyperelastic(law, had_them, n, point, stress, tangent)
     type(hyperelastic_t), intent(in) :: law
     logical, intent(in) :: had_them
@@ -294,10 +294,11 @@ contains
       statev = current%history_trial(first:, point)
     end if
     if (current%hybrid) then
-      call hyperelastic_stress(law, n, point, current%deformation(:, :, 2), statev, stress, tangent, current%energy, solved, &
-                               current%mean_stress)
+      call hyperelastic_stress(law, n, point, current%deformation(:, :, 2), current%turn, statev, stress, tangent, current%energy, &
+                               solved, current%mean_stress)
     else
-      call hyperelastic_stress(law, n, point, current%deformation(:, :, 2), statev, stress, tangent, current%energy, solved)
+      call hyperelastic_stress(law, n, point, current%deformation(:, :, 2), current%turn, statev, stress, tangent, current%energy, &
+                               solved)
     end if
     if (size(statev) > 0) current%history_trial(first:, point) = statev
     if (solved) return

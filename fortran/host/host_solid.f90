@@ -344,8 +344,10 @@ contains
         call find_strain(dim*nodes, strains, b_mid(:, :, p), du, strain)
         if (present(axes)) then
           call carry_axes(p, deformation(:, :, :, p), axes(:, :, 2, p), middle)
+          current%turn = matmul(axes(:, :, 2, p), transpose(axes(:, :, 1, p)))
         else if (needs_deformation(material)) then
           current%deformation = deformation(:, :, :, p)
+          current%turn = reshape([1, 0, 0, 0, 1, 0, 0, 0, 1], [3, 3])
         end if
       else
         if (present(axes)) then

@@ -1,20 +1,33 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""*HYPERELASTIC, by coefficients or by UHYPER."""
+"""*HYPERELASTIC, by coefficients or by UHYPER, and *ANISOTROPIC HYPERELASTIC."""
 
 from __future__ import annotations
+
+from dataclasses import replace
 
 from harness.deck.blocks import Block
 from harness.deck.error_report import Problems
 from harness.deck.table import Keyword, Kind, Option, Where, ignored, refused
 from harness.deck.user_constants import read_constants
-from harness.model.properties import HIGHEST_ORDER, Hyperelastic, Potential, UserPotential
+from harness.deck.user_elements import read_count
+from harness.model.properties import HIGHEST_ORDER, Holzapfel, Hyperelastic, Potential, UserPotential
+
+MOST_FIBRES = 3
+"""Preferred directions of a material."""
 
 FIXED_ORDER = {Potential.ARRUDA_BOYCE: 1, Potential.MOONEY_RIVLIN: 1, Potential.NEO_HOOKE: 1, Potential.YEOH: 3}
 
 
-def read_hyperelastic(block: Block, problems: Problems) -> Hyperelastic | UserPotential:
-    """The potential and its coefficients, in the order of the data line; or what UHYPER gets. Raises DeckError."""
+def read_hyperelastic(block: Block, problems: Problems) -> Hyperelastic | Holzapfel | UserPotential:
+    """The potential and its coefficients, or what UHYPER or UANISOHYPER_INV gets. Raises DeckError."""
+    if block.name == "HYPERELASTIC":
+        return _read_isotropic(block, problems)
+    return _read_anisotropic(block, problems)
+
+
+def _read_isotropic(block: Block, problems: Problems) -> Hyperelastic | UserPotential:
+    """Coefficients are in the order of the data line."""
     given = [potential for potential in Potential if block.options.flag(potential.value)]
     named = [*given, *(["USER"] if block.options.flag("USER") else [])]
     if len(named) > 1:
@@ -39,6 +52,34 @@ def read_hyperelastic(block: Block, problems: Problems) -> Hyperelastic | UserPo
     # entries that are not given are zero; a temperature after the only set of coefficients is not a dependence
     values += [0.0] * (count + order - len(values))
     return Hyperelastic(potential, order, tuple(values[:count]), tuple(values[count : count + order]), block.source)
+
+
+def _read_anisotropic(block: Block, problems: Problems) -> Holzapfel | UserPotential:
+    directions = read_count(block, "LOCAL DIRECTIONS", 0, 0, MOST_FIBRES)
+    by_user = block.options.flag("USER")
+    if by_user == block.options.flag("HOLZAPFEL"):
+        raise block.error("expected either HOLZAPFEL or USER")
+    if by_user:
+        if not block.options.given("FORMULATION"):
+            raise block.error("USER needs FORMULATION=INVARIANT")
+        return replace(_read_user(block, problems), directions=directions)
+    if other := next((name for name in ("TYPE", "PROPERTIES", "FORMULATION") if block.options.given(name)), ""):
+        raise block.error(f"{other}: expected with USER only")
+    if not directions:
+        raise block.error("HOLZAPFEL needs LOCAL DIRECTIONS, the number of fiber families")
+    values = [row.real(index, "coefficient", 0.0) for row, index in block.entries(problems.warn)]
+    if not 1 <= len(values) <= 6:
+        message = f"{len(values)} values, expected C10, D, k1, k2, kappa"
+        raise block.error(f"{message}; dependence on temperature is not supported")
+    c10, d, k1, k2, kappa = (*values, 0.0, 0.0, 0.0, 0.0)[:5]
+    for name, value in (("D", d), ("k1", k1), ("k2", k2)):
+        if value < 0:
+            raise block.error(f"{name} = {value:g} must not be negative")
+    if c10 <= 0:
+        raise block.error(f"C10 = {c10:g} must be positive")
+    if not 0 <= kappa <= 1 / 3:
+        raise block.error(f"kappa = {kappa:g} must be from 0 to 1/3")
+    return Holzapfel((c10, d, k1, k2, kappa), directions, block.source)
 
 
 def _read_user(block: Block, problems: Problems) -> UserPotential:
@@ -85,5 +126,24 @@ KEYWORDS = (
         "coefficients, then D, eight per line: mu, lambda_m, D (ARRUDA-BOYCE); mu1, alpha1, ... D1, ... (OGDEN); "
         "C10, C01, C20, C11, C02, ... D1, ... (POLYNOMIAL, MOONEY-RIVLIN); C10, C20, ... D1, ... (the others); "
         "constants (USER)",
+    ),
+    Keyword(
+        "ANISOTROPIC HYPERELASTIC",
+        "Hyperelasticity with preferred directions, those of LOCAL DIRECTIONS of the *ORIENTATION of the section or, "
+        "without them, its axes; in the elements and steps of *HYPERELASTIC. UANISOHYPER_INV is called once in an "
+        "iteration. Incompressible materials, with D = 0 or USER without TYPE=COMPRESSIBLE, need hybrid elements; "
+        "one-point elements need *HOURGLASS STIFFNESS.",
+        Where.MODEL,
+        (
+            Option("HOLZAPFEL", doc="strain energy potential of Holzapfel, Gasser and Ogden"),
+            Option("USER", doc="strain energy potential of UANISOHYPER_INV"),
+            Option("FORMULATION", Kind.CHOICE, "of USER", choices=("INVARIANT",), refused=("STRAIN",)),
+            Option("LOCAL DIRECTIONS", Kind.INTEGER, "number of preferred directions, 0 to 3"),
+            Option("TYPE", Kind.CHOICE, "of USER", choices=("COMPRESSIBLE", "INCOMPRESSIBLE")),
+            Option("PROPERTIES", Kind.INTEGER, "number of constants of USER"),
+            *ignored("MODULI"),
+            *refused("DEPENDENCIES", "FUNG-ANISOTROPIC", "FUNG-ORTHOTROPIC"),
+        ),
+        "C10, D, k1, k2, kappa (HOLZAPFEL); constants (USER)",
     ),
 )

@@ -56,7 +56,7 @@ def _extend(material: Material, block: Block, problems: Problems) -> Material:
     match block.name:
         case "ELASTIC":
             extended = replace(material, elastic=_read_elastic(block))
-        case "HYPERELASTIC":
+        case "HYPERELASTIC" | "ANISOTROPIC HYPERELASTIC":
             extended = replace(material, hyperelastic=read_hyperelastic(block, problems))
         case "PLASTIC" | "CYCLIC HARDENING":
             extended = replace(material, plastic=extend_plastic(material.plastic, block, problems))

@@ -16,12 +16,14 @@ from harness.deck.error_report import Problems, look_up
 from harness.deck.flatten import FlatMesh, Owner
 from harness.deck.numbers import is_integer, read_real
 from harness.deck.table import INPUT, NAME, Keyword, Kind, Option, Where, one_of, refused
+from harness.deck.user_elements import read_count
 from harness.model.arrays import FloatArray
 from harness.model.local_systems import LocalSystem, SystemKind, UndefinedDirectionsError
 from harness.model.properties import Orientation
 
 _POINTS = ("COORD3D", "COORD3D")
 _ANGLE = ("ANGLE",)
+MOST_DIRECTIONS = 100
 _VALUES = {_POINTS: 6, _ANGLE: 1}
 """Values that each kind of *DISTRIBUTION TABLE gives to an element."""
 
@@ -93,6 +95,13 @@ def _read_orientation(
     if kind is SystemKind.USER:
         return Orientation(name, np.eye(3), block.source, LocalSystem(kind, np.zeros((3, 3))))
     rows = list(block.rows())
+    count = read_count(block, "LOCAL DIRECTIONS", 0, 0, MOST_DIRECTIONS)
+    local = np.zeros((0, 3))
+    if count:
+        if len(rows) != 2 + count:
+            message = f"{len(rows)} data lines; expected points, a rotation and {count} for LOCAL DIRECTIONS={count}"
+            raise block.error(message)
+        local, rows = np.array([_direction(row) for row in rows[2:]]), rows[:2]
     if not 1 <= len(rows) <= 2:
         raise block.error("needs a data line with the points a, b and c, and may have one with a rotation")
     points, nodes = _read_points(flat, owner, distributions, block, rows[0])
@@ -102,12 +111,23 @@ def _read_orientation(
     if polar and (points[..., 0, :] == points[..., 1, :]).all(axis=-1).any():
         raise rows[0].error("the points a and b, which give the polar axis, are the same")
     if not system.uniform:
-        return Orientation(name, np.eye(3), block.source, _placed(system, owner, block), axis)
+        return Orientation(name, np.eye(3), block.source, _placed(system, owner, block), axis, local)
     try:
         ((axes,),) = system.axes(np.zeros(1, dtype=np.int64), np.zeros((1, 1, 3)), np.zeros((1, 1, 3)))
     except UndefinedDirectionsError as error:
         raise rows[0].error(str(error)) from None
-    return Orientation(name, axes if _in_model(block) else owner.placement.turn(axes), block.source, normal=axis)
+    turned = axes if _in_model(block) else owner.placement.turn(axes)
+    return Orientation(name, turned, block.source, normal=axis, local=local)
+
+
+def _direction(row: Row) -> FloatArray:
+    """Unit vector of a local direction."""
+    row.at_most(3)
+    given = np.array([row.real(k, "component of a local direction", 0.0) for k in range(3)])
+    length = np.linalg.norm(given)
+    if length == 0:
+        raise row.error("a local direction of length zero")
+    return np.asarray(given / length)
 
 
 def _in_model(block: Block) -> bool:
@@ -195,11 +215,13 @@ KEYWORDS = (
                 default="COORDINATES",
             ),
             one_of("SYSTEM", "kind of axes; USER: by ORIENT", tuple(SystemKind), default=SystemKind.RECTANGULAR),
-            *refused("DISPERSION", "LOCAL DIRECTIONS"),
+            Option("LOCAL DIRECTIONS", Kind.INTEGER, "number of preferred directions, for *ANISOTROPIC HYPERELASTIC"),
+            *refused("DISPERSION"),
         ),
         "RECTANGULAR: a (on the 1-axis), b (in the 1-2 plane), c (origin); Z RECTANGULAR: a (on the 3-axis), b (in the "
         "1-3 plane), c; CYLINDRICAL, SPHERICAL: a, b on the polar axis, a the centre; or the name of a distribution of "
-        "a and b; then axis number and angle in degrees or the name of a distribution of angles",
+        "a and b; then axis number and angle in degrees or the name of a distribution of angles; then for each local "
+        "direction its components along these axes",
     ),
     Keyword(
         "DISTRIBUTION TABLE",

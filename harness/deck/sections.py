@@ -141,8 +141,10 @@ def _check_viscous(block: Block, material: Material, *, cohesive: bool) -> None:
 
 def _check_hyperelastic(block: Block, material: Material) -> None:
     """A hyperelastic material has nothing else that gives stresses or strains."""
+    law = material.hyperelastic
+    assert law is not None
     if block.name == "COHESIVE SECTION":
-        raise block.error(f"material {material.name} has *HYPERELASTIC; expected *ELASTIC, TYPE=TRACTION")
+        raise block.error(f"material {material.name} has *{law.keyword}; expected *ELASTIC, TYPE=TRACTION")
     for keyword, other in (
         ("ELASTIC", material.elastic),
         ("PLASTIC", material.plastic),
@@ -150,10 +152,10 @@ def _check_hyperelastic(block: Block, material: Material) -> None:
         ("DAMAGE INITIATION", material.damage),
     ):
         if other is not None:
-            message = f"material {material.name} has *HYPERELASTIC and *{keyword}, at {other.source}"
+            message = f"material {material.name} has *{law.keyword} and *{keyword}, at {other.source}"
             raise block.error(f"{message}; expected only one of them")
     if material.expansion:
-        raise block.error(f"material {material.name} has *HYPERELASTIC and *EXPANSION, which is not supported")
+        raise block.error(f"material {material.name} has *{law.keyword} and *EXPANSION, which is not supported")
 
 
 def _thickness(rows: list[Row], index: int, what: str) -> float:

@@ -26,7 +26,7 @@ def check_hybrid(name: str, kind: ContinuumType, material: Material) -> None:
     user = material.user or (material.hyperelastic if isinstance(material.hyperelastic, UserPotential) else None)
     if user is not None and not kind.pressures and is_incompressible(material):
         umat = "*USER MATERIAL, HYBRID FORMULATION=INCOMPRESSIBLE"
-        what = umat if material.user else "*HYPERELASTIC: USER without TYPE=COMPRESSIBLE"
+        what = f"*{user.keyword}: USER without TYPE=COMPRESSIBLE" if isinstance(user, UserPotential) else umat
         message = f"is an incompressible material, which elements of type {name} cannot have; expected hybrid ones"
         raise DeckError(user.source, f"{what} {message}: {', '.join(HYBRID)}")
     if material.elastic is None or not (kind.pressures and is_incompressible(material)):

@@ -12,6 +12,7 @@ from typing import Final
 
 import numpy as np
 
+from harness.elements.anisotropic import define_holzapfel, define_user_invariants
 from harness.elements.hyperelastic import define_hyperelastic
 from harness.elements.routine import PARALLEL, Linearity
 from harness.errors import DeckError, Source
@@ -20,6 +21,7 @@ from harness.model.element_types import Tensor
 from harness.model.properties import (
     Elastic,
     ElasticType,
+    Holzapfel,
     HybridFormulation,
     Hyperelastic,
     Material,
@@ -99,7 +101,8 @@ def refuse_viscous(material: Material, elements: str) -> None:
 def refuse_hyperelastic(material: Material, elements: str) -> None:
     """Raise DeckError if the material of these elements is hyperelastic."""
     if material.hyperelastic is not None:
-        raise DeckError(material.hyperelastic.source, f"*HYPERELASTIC is not supported for {elements}")
+        law = material.hyperelastic
+        raise DeckError(law.source, f"*{law.keyword} is not supported for {elements}")
 
 
 def is_global(orientation: Orientation) -> bool:
@@ -148,13 +151,8 @@ def define_material(
     """
     if material.user is not None:
         return _define_user_material(material, material.user, orientation, tensor, library, hybrid=hybrid)
-    if isinstance(material.hyperelastic, UserPotential):
-        potential = material.hyperelastic
-        address = _needed(library.uhyper, "UHYPER", material, "*HYPERELASTIC, USER", potential.source, library)
-        statev = state_variables(material)
-        return _binding.define_user_potential(address, material.name, int(tensor), statev, potential.constants)
     if material.hyperelastic is not None:
-        return define_hyperelastic(material.hyperelastic, int(tensor), library, hybrid=hybrid)
+        return _define_hyperelastic(material, orientation, tensor, library, hybrid=hybrid)
     elastic = material.elastic
     if elastic is None:
         raise DeckError(user, f"material {material.name} ({material.source}) has no *ELASTIC")
@@ -227,6 +225,25 @@ def global_compliance(material: Material, orientation: Orientation | None, tenso
     return _rotated(_compliance(elastic, tensor), directions(orientation)[0])
 
 
+def _define_hyperelastic(
+    material: Material, orientation: Orientation | None, tensor: Tensor, library: Library, *, hybrid: bool
+) -> int:
+    ntens = int(tensor)
+    match material.hyperelastic:
+        case Hyperelastic() as law:
+            return define_hyperelastic(law, ntens, library, hybrid=hybrid)
+        case Holzapfel() as law:
+            return define_holzapfel(law, orientation, ntens, hybrid=hybrid)
+        case UserPotential() as law:
+            known = library.uhyper if law.directions is None else library.uanisohyper_inv
+            address = _needed(known, law.routine, material, f"*{law.keyword}, USER", law.source, library)
+            statev = state_variables(material)
+            if law.directions is None:
+                return _binding.define_user_potential(address, material.name, ntens, statev, law.constants)
+            return define_user_invariants(law, orientation, material.name, ntens, statev, address)
+    raise AssertionError
+
+
 def is_incompressible(material: Material) -> bool:
     """Whether a material preserves its volume, so that its elements have to be hybrid."""
     if material.user is not None:
@@ -234,6 +251,8 @@ def is_incompressible(material: Material) -> bool:
     match material.hyperelastic:
         case Hyperelastic() as law:
             return not any(law.compliances)
+        case Holzapfel() as law:
+            return law.coefficients[1] == 0
         case UserPotential() as potential:
             return potential.incompressible
     return material.elastic is not None and _preserves_volume(material.elastic)

@@ -127,7 +127,8 @@ def _check_hyperelastic(model: Model, group: ElementGroup, kind: ContinuumType, 
         refuse_hyperelastic(material, f"elements of type {group.type}")
     small = next((step for step in model.steps if not step.nlgeom), None)
     if small is not None:
-        message = f"*HYPERELASTIC (material {material.name}, {material.hyperelastic.source}) needs NLGEOM"
+        law = material.hyperelastic
+        message = f"*{law.keyword} (material {material.name}, {law.source}) needs NLGEOM"
         raise DeckError(small.source, f"*STEP: {message}; small displacements are not supported")
 
 
@@ -160,7 +161,7 @@ def _is_prestressed(model: Model, group: ElementGroup, material: Material) -> bo
     if found is None or material.user is not None:
         return False
     if material.hyperelastic is not None or is_incompressible(material):
-        what = "*HYPERELASTIC" if material.hyperelastic is not None else "nu = 0.5"
+        what = "nu = 0.5" if material.hyperelastic is None else f"*{material.hyperelastic.keyword}"
         message = f"is not supported with {what} (material {material.name})"
         raise DeckError(found.source, f"*INITIAL CONDITIONS, TYPE=STRESS {message}")
     if material.viscoelastic is not None:

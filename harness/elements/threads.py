@@ -40,8 +40,8 @@ def use_threads(blocks: Iterable[ElementBlock], library: Library, number: int, s
     number
         Threads, for the messages.
     safe
-        User element types, UMAT, USDFLD, UMATHT, HETVAL and UHYPER in capitals, that the user says several threads may
-        call.
+        User element types and routines of points (UMAT, UHYPER, ...) in capitals, that the user says several threads
+        may call.
 
     Raises
     ------
@@ -99,7 +99,8 @@ def _called(group: ElementGroup) -> set[str]:
     for material in materials_of(group.section):
         routines: dict[str, object] = {"UMAT": material.user, "USDFLD": material.user_field}
         routines |= {"UMATHT": material.user_thermal, "HETVAL": material.heat_generation}
-        routines |= {"UHYPER": material.hyperelastic if isinstance(material.hyperelastic, UserPotential) else None}
+        if isinstance(material.hyperelastic, UserPotential):
+            routines[material.hyperelastic.routine] = material.hyperelastic
         found |= {name for name, given in routines.items() if given is not None}
     return found
 

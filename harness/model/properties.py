@@ -6,7 +6,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field
 from enum import IntEnum, StrEnum
-from typing import Final
+from typing import ClassVar, Final
 
 import numpy as np
 
@@ -133,15 +133,40 @@ class Hyperelastic:
     coefficients: tuple[float, ...]
     compliances: tuple[float, ...]
     source: Source
+    keyword: ClassVar[str] = "HYPERELASTIC"
 
 
 @dataclass(frozen=True, slots=True)
 class UserPotential:
-    """*HYPERELASTIC, USER: constants are the PROPS of UHYPER; incompressible unless TYPE=COMPRESSIBLE."""
+    """*HYPERELASTIC, USER: constants are the PROPS of UHYPER; incompressible unless TYPE=COMPRESSIBLE.
+
+    directions  of *ANISOTROPIC HYPERELASTIC, USER, which calls UANISOHYPER_INV; None of *HYPERELASTIC
+    """
 
     constants: FloatArray
     source: Source
     incompressible: bool = False
+    directions: int | None = None
+
+    @property
+    def routine(self) -> str:
+        """Which gives the energy."""
+        return "UHYPER" if self.directions is None else "UANISOHYPER_INV"
+
+    @property
+    def keyword(self) -> str:
+        """Of the deck."""
+        return "HYPERELASTIC" if self.directions is None else "ANISOTROPIC HYPERELASTIC"
+
+
+@dataclass(frozen=True, slots=True)
+class Holzapfel:
+    """*ANISOTROPIC HYPERELASTIC, HOLZAPFEL: coefficients C10, D, k1, k2, kappa; number of directions."""
+
+    coefficients: tuple[float, float, float, float, float]
+    directions: int
+    source: Source
+    keyword: ClassVar[str] = "ANISOTROPIC HYPERELASTIC"
 
 
 class HybridFormulation(IntEnum):
@@ -213,7 +238,7 @@ class Material:
     source: Source
     elastic: Elastic | None = None
     plastic: Plastic | None = None
-    hyperelastic: Hyperelastic | UserPotential | None = None
+    hyperelastic: Hyperelastic | Holzapfel | UserPotential | None = None
     viscoelastic: Viscoelastic | None = None
     creep: Creep | None = None
     damage: Damage | None = None
@@ -241,6 +266,7 @@ class Orientation:
 
     system  gives them where they are not the same everywhere, with the global ones in `axes`
     normal  1, 2 or 3, the direction closest to the normal of a shell; the next one is projected onto it
+    local   (m, 3) unit vectors of LOCAL DIRECTIONS in these directions
     """
 
     name: str
@@ -248,6 +274,7 @@ class Orientation:
     source: Source
     system: LocalSystem | None = None
     normal: int = 1
+    local: FloatArray = field(default_factory=lambda: np.zeros((0, 3)))
 
 
 @dataclass(frozen=True, slots=True)

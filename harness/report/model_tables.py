@@ -14,6 +14,7 @@ from harness.model.model import Model
 from harness.model.properties import (
     CohesiveSection,
     ElasticType,
+    Holzapfel,
     Material,
     ShellSection,
     SolidSection,
@@ -162,7 +163,12 @@ def _material_rows(material: Material) -> Iterator[Row]:
         yield from ((name, f"{value:g}", kind) for name, value in zip(names, constants, strict=False))
     law = material.hyperelastic
     if isinstance(law, UserPotential):
-        yield from ((f"constant {k}", f"{value:g}", "*HYPERELASTIC, USER") for k, value in enumerate(law.constants, 1))
+        yield from (
+            (f"constant {k}", f"{value:g}", f"*{law.keyword}, USER") for k, value in enumerate(law.constants, 1)
+        )
+    elif isinstance(law, Holzapfel):
+        names, kind = ("C10", "D", "k1", "k2", "kappa"), f"*{law.keyword}, HOLZAPFEL"
+        yield from ((name, f"{value:g}", kind) for name, value in zip(names, law.coefficients, strict=True))
     elif law is not None:
         kind = f"*HYPERELASTIC, {law.potential}, N={law.order}"
         yield from ((f"coefficient {k}", f"{value:g}", kind) for k, value in enumerate(law.coefficients, 1))

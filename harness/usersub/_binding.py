@@ -36,7 +36,7 @@ ARRAYS: Final = ("RHS", "AMATRX", "SVARS", "ENERGY", "PROPS", "COORDS", "U", "DU
 """Guarded arrays, in the order of fortran/host/host_workspace.f90."""
 
 
-POINT_ROUTINES: Final = ("", "UMAT", "USDFLD", "UMATHT", "HETVAL", "DFLUX", "FILM", "UHYPER")
+POINT_ROUTINES: Final = ("", "UMAT", "USDFLD", "UMATHT", "HETVAL", "DFLUX", "FILM", "UHYPER", "UANISOHYPER_INV")
 """Routines of points, in the order of fortran/host/host_driver.f90."""
 
 VALUE_ROUTINES: Final = ("DISP", "DLOAD", "UTEMP", "UFIELD")
@@ -296,6 +296,22 @@ def define_user_potential(uhyper: int, name: str, ntens: int, statev: int, const
     """Add a hyperelastic material of UHYPER, whose address is given, to the host's library."""
     given = np.append(constants, 0.0)
     return int(_host.host_define_user_potential(uhyper, name, ntens, statev, given, len(constants)))
+
+
+def define_anisotropic(ntens: int, directions: FloatArray, holzapfel: Sequence[float], compliance: float) -> int:
+    """Add a hyperelastic material with preferred directions to the host's library; returns its number there.
+
+    directions  (m, 3) unit vectors in the axes of the material; m may be 0
+    holzapfel   C10, k1, k2, kappa
+    compliance  D
+    """
+    given = np.vstack([directions, np.zeros((1, 3))]).T
+    return int(_host.host_define_anisotropic(ntens, given, len(directions), holzapfel, compliance))
+
+
+def set_user_invariants(number: int, uanisohyper: int, name: str, statev: int, constants: FloatArray) -> None:
+    """Let UANISOHYPER_INV, whose address is given, give the energy of a material of `define_anisotropic`."""
+    _host.host_set_user_invariants(number, uanisohyper, name, statev, np.append(constants, 0.0), len(constants))
 
 
 def set_expansion(number: int, expansion: float) -> None:

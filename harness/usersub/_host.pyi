@@ -111,6 +111,16 @@ def host_define_hyperelastic(
 def host_define_user_potential(
     uhyper: int, name: str | bytes, ntens: int, statev: int, constants: NDArray[np.float64], count: int
 ) -> int: ...
+def host_define_anisotropic(
+    ntens: int,
+    directions: NDArray[np.float64],
+    fibres: int,
+    holzapfel: Sequence[float] | NDArray[np.float64],
+    compliance: float,
+) -> int: ...
+def host_set_user_invariants(
+    number: int, uanisohyper: int, name: str | bytes, statev: int, constants: NDArray[np.float64], count: int
+) -> None: ...
 def host_define_empty_material() -> int: ...
 def host_set_thermal(
     number: int,

@@ -190,7 +190,7 @@ ORIENTATION = "*ORIENTATION, NAME=O"
         ),
         (f"{ORIENTATION}\n1., 0., 0., 0., 1., 0.\n4, 0.", r"13: \*ORIENTATION: axis 4 is not 1, 2 or 3"),
         (f"{ORIENTATION}\n1., 0., 0., 0., 1., 0.\n3, E", "13: unknown distribution E"),
-        (f"{ORIENTATION}, LOCAL DIRECTIONS=2\n1., 0., 0., 0., 1., 0.", "11: .*LOCAL DIRECTIONS is not supported"),
+        (f"{ORIENTATION}, DISPERSION=0.1\n1., 0., 0., 0., 1., 0.", "11: .*DISPERSION is not supported"),
     ],
 )
 def test_errors(read: Read, lines: str, message: str) -> None:
