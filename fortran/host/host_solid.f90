@@ -173,7 +173,9 @@ contains
         force = all_force(:size(force))
         return
       end if
-      all_work = dot_product(abs([moved, alpha]), matmul(abs(all_stiffness), abs([moved, alpha])))
+      ! stresses at rest, thermal or initial, do none: there it is that of the nodal forces where nothing holds the nodes
+      all_work = dot_product(abs([moved, alpha]), matmul(abs(all_stiffness), abs([moved, alpha]))) + &
+                 sum(all_force(:n)**2)/max(maxval(abs(all_stiffness)), tiny(1.0_dp))
       call find_modes(search, all_force(n + 1:), all_stiffness(n + 1:, n + 1:), all_work, alpha, inverse, settled, good)
       if (settled .or. .not. good) exit
     end do
