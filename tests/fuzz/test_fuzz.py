@@ -2,14 +2,27 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """A short run of the fuzzer, and that it sees what it is there for."""
 
+import re
 import subprocess
 import sys
 from pathlib import Path
 
 import pytest
 
+import harness
+from harness.deck.keywords import KEYWORDS
+from harness.deck.table import Support
+from harness.errors import DeckError
+
 HERE = Path(__file__).parent
 PROGRAMS = HERE.parent / "programs" / "fuzz"
+DECKS = sorted((PROGRAMS / "decks").glob("*.inp"))
+OWN_DECKS = (HERE.parents[1] / "abaqus_inputs", HERE.parent)
+REASONS = {
+    "resumed": r"resumed.inp:3: \*RESTART, READ: the model is that of an earlier job",
+    "user-routines": r"user-routines.inp:\d+: \*USER MATERIAL: material MECHANICAL needs UMAT",
+}
+"""Why a deck for the fuzzer does not run by itself."""
 DECK = HERE.parent / "harness" / "deck" / "flat.inp"
 BROKEN = """\
 import os, sys, time
@@ -40,6 +53,22 @@ sys.exit(fuzz.main())
 def fuzz(*arguments):
     command = [sys.executable, *map(str, arguments)]
     return subprocess.run(command, capture_output=True, text=True, check=False)
+
+
+def test_each_keyword_that_is_read_is_damaged():
+    texts = [path.read_text() for folder in OWN_DECKS for path in folder.rglob("*.inp")]
+    used = {"".join(name.split()).upper() for text in texts for name in re.findall(r"(?m)^\*([A-Za-z][^,\n]*)", text)}
+    assert {name for name, keyword in KEYWORDS.items() if keyword.support is Support.READ} <= used
+
+
+@pytest.mark.parametrize("deck", DECKS, ids=lambda deck: deck.stem)
+def test_decks_to_damage_are_sound(tmp_path, deck):
+    """Damage to a deck that is refused anyway would reach nothing behind the place of its error."""
+    if deck.stem in REASONS:
+        with pytest.raises(DeckError, match=REASONS[deck.stem]):
+            harness.run(deck, output_dir=tmp_path)
+    else:
+        assert harness.run(deck, output_dir=tmp_path).completed
 
 
 @pytest.mark.nan
