@@ -647,6 +647,35 @@ subroutine host_sdvini_pass(address, family, labels, coords, statev, left, eleme
   point = current%point
 end subroutine host_sdvini_pass
 
+!> Call SIGINI at all points of a block.
+subroutine host_sigini_pass(address, element_type, family, labels, coords, sigma, left, element, point, mcrd, nnode, ntens, &
+                            points, m)
+  use, intrinsic :: iso_c_binding, only: c_intptr_t
+  use host_context, only: current
+  use host_kinds, only: dp, i4, i8
+  use host_sigini, only: run_sigini, sigini_pass_t
+  implicit none (type, external)
+  integer(i8), intent(in) :: address
+  character(len=80), intent(in) :: element_type
+  integer(i4), intent(in) :: family           !< of the elements
+  integer(i4), intent(in) :: mcrd, nnode, ntens, points, m
+  integer(i4), intent(in), target :: labels(m)
+  real(dp), intent(in), target :: coords(mcrd, nnode, m)
+  real(dp), intent(inout), target :: sigma(ntens, points, m)
+  integer(i4), intent(out) :: left            !< 1 if the routine ended the analysis
+  integer(i4), intent(out) :: element, point  !< of the last call
+  type(sigini_pass_t) :: pass
+  pass%address = transfer(int(address, c_intptr_t), pass%address)
+  pass%element_type = element_type
+  pass%family = family
+  pass%labels => labels
+  pass%coords => coords
+  pass%sigma => sigma
+  call run_sigini(pass, left)
+  element = current%element
+  point = current%point
+end subroutine host_sigini_pass
+
 !> Call ORIENT at all points of a block.
 subroutine host_orient_pass(address, name, family, labels, nodes, coords, t, left, element, point, mcrd, nnode, points, m)
   use, intrinsic :: iso_c_binding, only: c_intptr_t

@@ -12,7 +12,8 @@ module host_tensors
   public :: to_matrix, to_components, eigen
 
   !> Routines that are called at integration points.
-  character(len=6), parameter :: of_a_point(5) = [character(len=6) :: 'ORIENT', 'SDVINI', 'UMAT', 'USDFLD', 'UVARM']
+  character(len=6), parameter :: of_a_point(6) = [character(len=6) :: 'ORIENT', 'SDVINI', 'SIGINI', 'UMAT', 'USDFLD', &
+                                                             'UVARM']
 
 contains
 

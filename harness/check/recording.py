@@ -258,7 +258,7 @@ class _RecordedRoutines:
     """Keeps the calls of user routines that a procedure makes."""
 
     def __init__(self, library: Library, events: list[Event]) -> None:
-        self.sdvini, self.orient = library.sdvini, library.orient
+        self.sdvini, self.sigini, self.orient = library.sdvini, library.sigini, library.orient
         self.disp, self.dload, self.uamp = library.disp, library.dload, library.uamp
         self.utemp, self.ufield = library.utemp, library.ufield
         self.user_values, self.user_amplitude = library.user_values, library.user_amplitude

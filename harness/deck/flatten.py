@@ -92,6 +92,11 @@ class FlatMesh:
         return list(self._owners.values())
 
     @property
+    def element_count(self) -> int:
+        """Number of elements, whose positions begin at 0."""
+        return sum(len(owner.elements) for owner in self.owners)
+
+    @property
     def root(self) -> LocalMesh:
         """What belongs to no instance."""
         return self._owners[ROOT].mesh

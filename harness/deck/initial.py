@@ -44,7 +44,7 @@ def read_initial_values(blocks: Iterable[Block], kind: str, flat: FlatMesh, prob
         if block.name != "INITIAL CONDITIONS" or block.options.text("TYPE") != kind:
             continue
         if block.options.flag("USER"):
-            problems.add(block.source, "*INITIAL CONDITIONS: USER is for TYPE=SOLUTION")
+            problems.add(block.source, "*INITIAL CONDITIONS: USER is for TYPE=SOLUTION and TYPE=STRESS")
         if block.options.given("UNBALANCED STRESS") or block.options.flag("GEOSTATIC"):
             problems.add(block.source, "*INITIAL CONDITIONS: GEOSTATIC and UNBALANCED STRESS are for TYPE=STRESS")
         for row in block.rows():
@@ -73,13 +73,15 @@ def read_initial_stresses(blocks: Iterable[Block], flat: FlatMesh, problems: Pro
         if block.name != "INITIAL CONDITIONS" or block.options.text("TYPE") != "STRESS":
             continue
         with problems.gather():
-            _check_stress(block)
+            by_user = _check_stress(block)
             # UNBALANCED STRESS=RAMP is the default (Keywords Guide, *INITIAL CONDITIONS)
             ramped = block.options.text("UNBALANCED STRESS") != "STEP"
             if found and found[0].ramped != ramped:
                 raise block.error(
                     f"UNBALANCED STRESS must be the same in the whole model, but differs at {found[0].source}"
                 )
+            if by_user:
+                found.append(InitialStress(np.arange(flat.element_count), None, ramped, block.source))
             for row in block.rows():
                 row.at_most(1 + MOST_COMPONENTS)
                 elements = flat.elements(row.name(0, "element or element set"), row.source)
@@ -88,15 +90,18 @@ def read_initial_stresses(blocks: Iterable[Block], flat: FlatMesh, problems: Pro
     return found
 
 
-def _check_stress(block: Block) -> None:
-    """Refuse what gives stresses in other ways. Raises DeckError."""
+def _check_stress(block: Block) -> bool:
+    """Whether SIGINI gives the stresses. Raises DeckError if neither it nor data lines do."""
     expected = "expected the components of the stress after each element or set"
     if block.options.flag("GEOSTATIC"):
         raise block.error(f"GEOSTATIC: stresses that vary with the elevation are not supported; {expected}")
     if block.options.flag("USER"):
-        raise block.error(f"USER: SIGINI is not called; {expected}")
+        if any(True for _ in block.rows()):
+            raise block.error("USER: SIGINI gives the stresses; expected no data lines")
+        return True
     if not any(True for _ in block.rows()):
-        raise block.error(f"TYPE=STRESS has no data lines; {expected}")
+        raise block.error(f"TYPE=STRESS has no data lines; {expected}, or USER for SIGINI")
+    return False
 
 
 def read_initial_solutions(blocks: Iterable[Block], flat: FlatMesh, problems: Problems) -> list[InitialSolution]:
@@ -154,7 +159,7 @@ KEYWORDS = (
             ),
             INPUT,
             FIELD_NUMBER,
-            Option("USER", doc="state variables by SDVINI, with TYPE=SOLUTION"),
+            Option("USER", doc="state variables by SDVINI, with TYPE=SOLUTION; stresses by SIGINI, with TYPE=STRESS"),
             Option("GEOSTATIC", doc="stresses by elevation: refused, with TYPE=STRESS"),
             one_of(
                 "UNBALANCED STRESS",

@@ -521,6 +521,32 @@ class ElementBlock:
         except ValueError as error:
             raise ValueError(f"elements of type {self.group.type} {error}") from None
 
+    def call_sigini(self, address: int) -> None:
+        """Let SIGINI set the initial stress at all points; `begin_stressed` passes it to the material.
+
+        Parameters
+        ----------
+        address
+            Of SIGINI, as `Library.sigini`.
+
+        Raises
+        ------
+        ValueError
+            The elements take no stress.
+        KernelError
+            It ends the analysis.
+        """
+        try:
+            states, places = self._routine.stress_of(self._arrays.svars)
+        except ValueError as error:
+            raise ValueError(f"elements of type {self.group.type} {error}") from None
+        sigma = np.zeros((*states.shape[:2], len(places)))
+        element, point = _binding.sigini(address, self.group.type, self._arrays, sigma, self._routine.family)
+        if element:
+            why = at_point("SIGINI", point) + self._library.stop_reason()
+            raise KernelError(element, self.group.type, why)
+        states[:, :, places] = sigma
+
     def begin_stressed(self, call: Call, u: FloatArray, residual: FloatArray) -> None:
         """Pass the stresses of `set_stress` to the material; the state that follows is committed.
 

@@ -81,21 +81,29 @@ class Routine:
     axes: PointAxes | None = None
     stress: tuple[int, ...] = ()
 
+    def stress_of(self, svars: FloatArray) -> tuple[FloatArray, IntArray]:
+        """SVARS of elements (m, svars) by their points (m, points, values), a view, and the places of the stress there.
+
+        Raises ValueError if the elements take no initial stress.
+        """
+        if not self.stress:
+            raise ValueError("do not take an initial stress")
+        states = svars[:, : svars.shape[1] - self.hidden].reshape(len(svars), -1, self.stress[-1] + 1)
+        return states, np.array(self.stress)
+
     def set_stress(self, svars: FloatArray, rows: IntArray, values: FloatArray) -> None:
         """Write the stress at all points of elements, rows of their SVARS (elements, svars).
 
         Raises ValueError if there is no such stress or component; zeros beyond those are ignored.
         """
-        if not self.stress:
-            raise ValueError("do not take an initial stress")
-        count = len(self.stress)
+        states, places = self.stress_of(svars)
+        count = len(places)
         if values[count:].any():
             names = {3: "S11, S22, S12", 4: "S11, S22, S33, S12"}[count]
             raise ValueError(f"have {names}: component {count + 1} is not zero")
         given = np.zeros(count)
         given[: len(values)] = values[:count]
-        states = svars[:, : svars.shape[1] - self.hidden].reshape(len(svars), -1, self.stress[-1] + 1)
-        states[np.ix_(rows, np.arange(states.shape[1]), np.array(self.stress))] = given
+        states[np.ix_(rows, np.arange(states.shape[1]), places)] = given
 
 
 @dataclass(frozen=True, slots=True)

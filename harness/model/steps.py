@@ -244,11 +244,12 @@ class InitialSolution:
 class InitialStress:
     """One *INITIAL CONDITIONS, TYPE=STRESS: elements (positions in the model) and components in Abaqus' order.
 
+    values  None: SIGINI gives them at each point (USER)
     ramped  the unbalanced part of the stresses takes effect gradually over the first step, else at once
     """
 
     elements: IntArray
-    values: FloatArray
+    values: FloatArray | None
     ramped: bool
     source: Source
 

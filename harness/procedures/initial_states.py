@@ -5,6 +5,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
+from functools import partial
 from typing import Protocol
 
 import numpy as np
@@ -12,8 +13,18 @@ import numpy as np
 from harness.assembly import System
 from harness.elements import Call, ElementBlock, Flags
 from harness.errors import DeckError
+from harness.model.element_types import (
+    BUILT_IN,
+    CohesiveType,
+    ContinuumType,
+    DiscreteKind,
+    DiscreteType,
+    ShellType,
+)
+from harness.model.mesh import ElementGroup
 from harness.model.model import Model
 from harness.model.records import Warned
+from harness.model.steps import InitialStress
 from harness.procedures.state import ConvergedState
 
 
@@ -21,6 +32,7 @@ class InitialRoutines(Protocol):
     """Addresses of user routines that are called before the first step; None without the routine."""
 
     sdvini: int | None
+    sigini: int | None
     orient: int | None
 
 
@@ -64,13 +76,18 @@ def set_initial_states(blocks: Iterable[ElementBlock], model: Model, user: Initi
                 raise DeckError(entry.source, f"*INITIAL CONDITIONS, TYPE=SOLUTION: {error}") from None
 
 
-def set_initial_stresses(system: System, model: Model, state: ConvergedState) -> Iterator[Warned]:
+def set_initial_stresses(
+    system: System, model: Model, state: ConvergedState, user: InitialRoutines
+) -> Iterator[Warned]:
     """Set the initial stresses, and in the state the nodal forces that keep them in equilibrium.
 
-    Raises DeckError, and KernelError from elements inside out.
+    Raises DeckError, and KernelError from elements inside out and where SIGINI ends the analysis.
     """
     stressed: dict[int, ElementBlock] = {}
     for entry in model.initial_stresses:
+        if entry.values is None:
+            stressed |= system.ranks.agree(partial(_stresses_by_user, system, entry, user))
+            continue
         for block in system.blocks:
             if not block.are_of_group(entry.elements).any():
                 continue
@@ -84,7 +101,7 @@ def set_initial_stresses(system: System, model: Model, state: ConvergedState) ->
             except ValueError as error:
                 raise DeckError(entry.source, f"*INITIAL CONDITIONS, TYPE=STRESS: {error}") from None
             stressed[block.first] = block
-    if not stressed:
+    if not model.initial_stresses:
         return
     call = Call(Flags(1), 1, 0, 0.0, 0.0, 0.0, 0.0, predefined=state.predefined)
     residual = np.zeros(len(system))
@@ -99,3 +116,28 @@ def set_initial_stresses(system: System, model: Model, state: ConvergedState) ->
         # Analysis User's Guide, Initial conditions: stresses of opposite sign are added at first, and ramped off in the
         # first step. Here they are nodal forces, whose work is external work, so that ETOTAL is constant
         state.unbalanced = state.external = -residual
+
+
+def _stresses_by_user(system: System, entry: InitialStress, user: InitialRoutines) -> dict[int, ElementBlock]:
+    """Let SIGINI set the stresses of all built-in elements that have any; returns their blocks by their first elements.
+
+    Raises DeckError and KernelError.
+    """
+    if user.sigini is None:
+        message = "*INITIAL CONDITIONS, TYPE=STRESS, USER needs SIGINI, which the job does not have"
+        raise DeckError(entry.source, message)
+    blocks = {block.first: block for block in system.blocks if _has_stress(block.group)}
+    for block in blocks.values():
+        try:
+            block.call_sigini(user.sigini)
+        except ValueError as error:
+            raise DeckError(entry.source, f"*INITIAL CONDITIONS, TYPE=STRESS, USER: {error}") from None
+    return blocks
+
+
+def _has_stress(group: ElementGroup) -> bool:
+    """Whether the elements are built-in ones with material points."""
+    kind = BUILT_IN.get(group.type)
+    if isinstance(kind, DiscreteType):
+        return kind.kind is DiscreteKind.TRUSS
+    return isinstance(kind, ContinuumType | CohesiveType | ShellType)

@@ -74,7 +74,7 @@ def run_steps(
     if resumed is None:
         user.external_database(0, 0, (0.0, 0.0), 0.0, 1, 0)
         system.ranks.agree(lambda: set_initial_states(system.blocks, model, user))
-        yield from set_initial_stresses(system, model, state)
+        yield from set_initial_stresses(system, model, state, user)
         yield from _unused(system.dofs, "*BOUNDARY", model.boundaries)
     try:
         if resumed is not None:

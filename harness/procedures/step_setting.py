@@ -20,10 +20,11 @@ from harness.solver.linear import Effort, LinearSolver, Pattern, RankSolver, cho
 class UserRoutines(GivesValues, Protocol):
     """The part of a loaded library that a procedure calls.
 
-    sdvini, orient  addresses, None without the routine
+    sdvini, sigini, orient  addresses, None without the routine
     """
 
     sdvini: int | None
+    sigini: int | None
     orient: int | None
 
     def external_database(

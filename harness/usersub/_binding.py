@@ -454,6 +454,17 @@ def sdvini(address: int, arrays: BlockArrays, statev: FloatArray, family: int) -
     return (element, point) if left else (0, 0)
 
 
+def sigini(address: int, element_type: str, arrays: BlockArrays, sigma: FloatArray, family: int) -> tuple[int, int]:
+    """Call SIGINI at the points of a block of built-in elements.
+
+    sigma (m, points, NTENS), contiguous, is what SIGINI leaves. Returns element and point at which it ended the
+    analysis, 0 if it did not.
+    """
+    given = arrays.labels, arrays.coords.T, sigma.T
+    left, element, point = _host.host_sigini_pass(address, element_type, family, *given)
+    return (element, point) if left else (0, 0)
+
+
 def orient(
     address: int, name: str, arrays: BlockArrays, nodes: Int32Array, family: int, points: int
 ) -> tuple[FloatArray, int, int]:

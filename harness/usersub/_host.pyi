@@ -150,6 +150,14 @@ def host_uvarm_pass(
 def host_sdvini_pass(
     address: int, family: int, labels: NDArray[np.int32], coords: NDArray[np.float64], statev: NDArray[np.float64]
 ) -> tuple[int, int, int]: ...
+def host_sigini_pass(
+    address: int,
+    element_type: str | bytes,
+    family: int,
+    labels: NDArray[np.int32],
+    coords: NDArray[np.float64],
+    sigma: NDArray[np.float64],
+) -> tuple[int, int, int]: ...
 def host_orient_pass(
     address: int,
     name: str | bytes,

@@ -53,8 +53,8 @@ _STOP_ANALYSIS, _CONCLUDE_STEP = 4, 5
 class Library:
     """User routines of a job, and the job's messages from them.
 
-    uel, uelmat, umat, umatht, uhyper, uanisohyper_inv, hetval, uvarm, sdvini, orient, disp, dload, dflux, film, utemp,
-    ufield, uamp, usdfld, uexternaldb   addresses, None without the routine
+    uel, uelmat, umat, umatht, uhyper, uanisohyper_inv, hetval, uvarm, sdvini, sigini, orient, disp, dload, dflux, film,
+    utemp, ufield, uamp, usdfld, uexternaldb   addresses, None without the routine
     name                      the file as the user named it, for messages
     file                      the shared library
     entry_points              names of all user routines found
@@ -79,6 +79,7 @@ class Library:
         self.hetval = addresses["HETVAL"]
         self.uvarm = addresses["UVARM"]
         self.sdvini = addresses["SDVINI"]
+        self.sigini = addresses["SIGINI"]
         self.orient = addresses["ORIENT"]
         self.disp = addresses["DISP"]
         self.dload = addresses["DLOAD"]

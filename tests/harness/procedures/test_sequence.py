@@ -22,7 +22,7 @@ def test_error_before_the_first_step_begins_stays_itself(bench):
 
     mesh = Mesh(np.array([1]), np.zeros((1, 3)), ("",))
     model = Model(Path("empty.inp"), "", mesh, (), (bench.step(),))
-    missing = dict.fromkeys(("sdvini", "orient", "disp", "dload", "utemp", "ufield", "uamp"))
+    missing = dict.fromkeys(("sdvini", "sigini", "orient", "disp", "dload", "utemp", "ufield", "uamp"))
     user = SimpleNamespace(external_database=external_database, **missing)
     with pytest.raises(ConvergenceError, match="no step has begun"):
         list(run_steps(System(mesh, (), ()), model, user))
