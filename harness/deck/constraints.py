@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Linear equations between dofs: *EQUATION, and what *MPC, *COUPLING, *RIGID BODY and *TIE stand for.
 
-Rotations are small: with NLGEOM, what couples displacements to rotations is refused.
+Rotations are small: with NLGEOM, what couples displacements to rotations is refused, unless these are held at zero.
 """
 
 from __future__ import annotations
@@ -25,7 +25,7 @@ from harness.model.arrays import FloatArray, IntArray
 from harness.model.element_types import ContinuumType
 from harness.model.mesh import ElementGroup
 from harness.model.model import Equation
-from harness.model.steps import Step
+from harness.model.steps import Boundary, Step
 
 if TYPE_CHECKING:
     from scipy.spatial import cKDTree
@@ -54,10 +54,11 @@ class ConstraintReader:
         for group in groups:
             if isinstance(group.built_in, ContinuumType) and group.built_in.axisymmetric:
                 self._axisymmetric[group.nodes] = True
-        self._turning: list[Source] = []
+        self._turning: dict[Source, dict[int, set[int]]] = {}
+        """Rotations of reference nodes that matter, by the place of a constraint; none for distributing couplings."""
 
-    def read(self, steps: Sequence[Step]) -> tuple[Equation, ...]:
-        """Equations of all constraints of the deck."""
+    def read(self, boundaries: Sequence[Boundary], steps: Sequence[Step]) -> tuple[Equation, ...]:
+        """Equations of all constraints of the deck; boundaries are those before the first step."""
         found: list[Equation] = []
         readers = {
             "MPC": self._mpc,
@@ -80,9 +81,17 @@ class ConstraintReader:
                         found += readers[block.name](block, owner)
         nonlinear = next((step for step in steps if step.nlgeom), None)
         if nonlinear is not None:
-            for source in self._turning:
+            held = _held_rotations(boundaries, steps)
+            for source, references in self._turning.items():
+                free = {node: dofs for node in references if (dofs := sorted(references[node] - held.get(node, set())))}
                 message = f"a constraint with rotations is not supported with NLGEOM ({nonlinear.source})"
-                self._problems.add(source, message)
+                for node, dofs in free.items():
+                    name, those = self._flat.mesh.name(node), ", ".join(map(str, dofs))
+                    message += (
+                        f"; expected *BOUNDARY to hold dofs {those} of the reference node {name} at zero in each step"
+                    )
+                if free or not references:
+                    self._problems.add(source, message)
         return tuple(found)
 
     def _mpc(self, block: Block, owner: Owner) -> Iterator[Equation]:
@@ -136,8 +145,11 @@ class ConstraintReader:
             2: ((reference, 6, -x), (reference, 4, z)),
             3: ((reference, 4, -y), (reference, 5, x)),
         }
-        if any((x, y, z)) and source not in self._turning:
-            self._turning.append(source)
+        moving = {dof for dof in dofs if dof <= 3}
+        if any((x, y, z)) and moving:
+            # a rotation about an axis leaves displacements along it as they are
+            axes = {axis for axis in ROTATIONS if moving - {axis - 3}} if self._solid else {6}
+            self._turning.setdefault(source, {}).setdefault(reference, set()).update(axes)
         for dof in dofs:
             if dof <= (3 if self._solid else 2):
                 terms = tuple(t for t in turning[dof] if t[2] != 0.0 and (self._solid or t[1] == 6))
@@ -189,8 +201,8 @@ class ConstraintReader:
         if turning and motion.axes < (3 if self._solid else 1):
             place = "its nodes lie on a line" if motion.axes else "all its nodes are in one place"
             self._problems.warn(block.source, f"*DISTRIBUTING: {place}, about which no moment is passed on")
-        if (turning or distance.max() > 0.0) and block.source not in self._turning:
-            self._turning.append(block.source)
+        if turning or distance.max() > 0.0:
+            self._turning[block.source] = {}
         for dof in (*dofs, *turning):
             factors = motion.displacement[dof - 1] if dof <= 3 else motion.rotation[dof - 4]
             terms = [(node, k, -factors[n, k - 1]) for n, node in enumerate(nodes.tolist()) for k in dofs]
@@ -246,6 +258,25 @@ class ConstraintReader:
                 dofs = [dof for dof in sorted(self._active[node]) if rotations or dof not in ROTATIONS]
                 if node != other:
                     yield from self._equal(node, other, dofs, row.source)
+
+
+def _held_rotations(boundaries: Sequence[Boundary], steps: Sequence[Step]) -> dict[int, set[int]]:
+    """Rotations of nodes that are prescribed as zero in each step."""
+    found: set[tuple[int, int]] | None = None
+    now: set[tuple[int, int]] = set()
+    for entries, new in ((boundaries, False), *((step.boundaries, step.new_boundary) for step in steps)):
+        if new:
+            now = set()
+        for entry in entries:
+            if entry.dof in ROTATIONS:
+                places = {(node, entry.dof) for node in entry.nodes.tolist()}
+                now = now - places if entry.magnitude or entry.user else now | places
+        if entries is not boundaries:
+            found = now if found is None else found & now
+    by_node: dict[int, set[int]] = {}
+    for node, dof in found or ():
+        by_node.setdefault(node, set()).add(dof)
+    return by_node
 
 
 def _chosen(block: Block) -> set[int]:

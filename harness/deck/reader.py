@@ -94,7 +94,7 @@ def read_deck(path: Path, given: Mapping[str, float] | None = None, parts: Seque
     steps = read_steps(structure.steps, prescription, RequestReader(flat, problems), problems)
     # a step with errors is missing
     steps = tuple(replace(step, restart=restarts[step.number - 1]) for step in steps)
-    related = constraints.read(steps)
+    related = constraints.read(boundaries, steps)
     problems.check()
     return Model(
         deck=path,

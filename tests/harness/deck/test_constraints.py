@@ -2,6 +2,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """*MPC, *COUPLING, *RIGID BODY and *TIE: runs whose results are known, and what is wrong with them."""
 
+import itertools
+
 import numpy as np
 import pytest
 
@@ -251,6 +253,66 @@ def test_rotations_are_small(run):
     message = r"deck.inp:\d+: a constraint with rotations is not supported with NLGEOM \(.*deck.inp:\d+\)"
     with pytest.raises(DeckError, match=message):
         run(BEAM % ("*RIGID BODY, REF NODE=9, PIN NSET=END", ", NLGEOM"))
+
+
+MOVED = "*CLOAD\n9, 6, 1.\n"
+FOLLOW = [
+    "*COUPLING, CONSTRAINT NAME=C, REF NODE=9, SURFACE=FACE\n*KINEMATIC\n1, 2",
+    "*KINEMATIC COUPLING, REF NODE=9\nEND, 1, 2",
+    "*RIGID BODY, REF NODE=9, PIN NSET=END",
+    "*MPC\nBEAM, END, 9",
+]
+
+
+@pytest.mark.parametrize("constraint", FOLLOW)
+def test_a_reference_node_that_does_not_turn_has_large_displacements(run, constraint):
+    """The end of the bar moves as it would if its nodes were prescribed themselves."""
+    given = "*BOUNDARY\n%s, 1, 1, 0.9\n%s, 2, 2, 0.4\n"
+    found = run((BEAM % (constraint, ", NLGEOM")).replace(MOVED, given % (9, 9) + "9, 6\n"))
+    expected = run((BEAM % ("", ", NLGEOM")).replace(MOVED, given % ("END", "END")))
+    for node, dof in itertools.product(range(1, 9), (1, 2)):
+        assert at(found, f"U{dof}", node) == pytest.approx(at(expected, f"U{dof}", node), abs=1e-9)
+
+
+SECOND = "*STEP, NLGEOM\n*STATIC\n1., 1.\n%s*END STEP\n"
+
+
+@pytest.mark.parametrize(
+    ("first", "second"),
+    [
+        ("9, 6\n", "*BOUNDARY, OP=NEW\n1, 1\n4, 1\n8, 1, 2\n9, 1, 2\n"),
+        ("9, 6\n", "*BOUNDARY\n9, 6, 6, 0.1\n"),
+        ("9, 6\n", "*BOUNDARY, USER\n9, 6\n"),
+        ("9, 1\n", "*BOUNDARY\n9, 6\n"),
+        ("9, 6, 6, 0.1\n", ""),
+    ],
+)
+def test_a_rotation_is_held_at_zero_in_each_step(run, first, second):
+    text = (BEAM % (FOLLOW[0], ", NLGEOM")).replace(MOVED, "*BOUNDARY\n" + first) + SECOND % second
+    message = r"expected \*BOUNDARY to hold dofs 6 of the reference node 9 at zero in each step"
+    with pytest.raises(DeckError, match=r"a constraint with rotations is not supported with NLGEOM .*; " + message):
+        run(text)
+
+
+@pytest.mark.parametrize(("dofs", "wanted"), [("1, 3", "4, 5, 6"), ("2, 2", "4, 6"), ("3, 3", "4, 5"), ("4, 6", "")])
+def test_rotations_that_matter_in_space(run, dofs, wanted):
+    """A rotation about an axis leaves displacements along it as they are."""
+    corners = (
+        "1, 0., 0., 0.\n2, 1., 0., 0.\n3, 1., 1., 0.\n4, 0., 1., 0.\n5, 0., 0., 1.\n6, 1., 0., 1.\n7, 1., 1., 1.\n"
+    )
+    text = f"*NODE, NSET=ALL\n{corners}8, 0., 1., 1.\n9, 0.5, 0.5, 2.\n*NSET, NSET=TOP\n5, 6, 7, 8\n"
+    text += "*ELEMENT, TYPE=C3D8, ELSET=E\n1, 1, 2, 3, 4, 5, 6, 7, 8\n*SOLID SECTION, ELSET=E, MATERIAL=M\n"
+    text += "*MATERIAL, NAME=M\n*ELASTIC\n1000., 0.\n*BOUNDARY\n1, 1, 3\n2, 1, 3\n3, 1, 3\n4, 1, 3\n"
+    text += f"*KINEMATIC COUPLING, REF NODE=9\nTOP, {dofs}\n*STEP, NLGEOM\n*STATIC\n1., 1.\n%s*OUTPUT, HISTORY\n"
+    text += "*NODE OUTPUT, NSET=ALL\nU\n*END STEP\n"
+    if wanted:
+        with pytest.raises(DeckError, match=rf"expected \*BOUNDARY to hold dofs {wanted} of the reference node 9"):
+            run(text % "")
+        held = "".join(f"9, {dof}\n" for dof in wanted.split(", "))
+        found = run(text % f"*BOUNDARY\n{held}9, {dofs[0]}, {dofs[0]}, 0.2\n")
+        assert at(found, f"U{dofs[0]}", 6) == pytest.approx(0.2)
+    else:
+        run(text % "")
 
 
 def test_hourglass_stiffness_of_a_section(read):
