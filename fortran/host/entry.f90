@@ -500,6 +500,34 @@ subroutine host_set_user_invariants(number, uanisohyper, name, statev, constants
   end associate
 end subroutine host_set_user_invariants
 
+!> Let UHARD give the yield stress of an isotropic material.
+subroutine host_set_user_hardening(number, uhard, name, young, poisson, statev, constants, count, n)
+  use, intrinsic :: iso_c_binding, only: c_intptr_t
+  use host_kinds, only: dp, i4, i8
+  use host_materials, only: find_material, material_t
+  use host_uhard, only: outputs
+  implicit none (type, external)
+  integer(i4), intent(in) :: number, n
+  integer(i8), intent(in) :: uhard            !< address
+  character(len=80), intent(in) :: name
+  real(dp), intent(in) :: young, poisson
+  integer(i4), intent(in) :: statev
+  real(dp), intent(in) :: constants(n)
+  integer(i4), intent(in) :: count            !< of the constants: f2py passes no empty arrays
+  type(material_t), pointer :: material
+  material => find_material(number)
+  material%young = young
+  material%poisson = poisson
+  allocate (material%hardening)
+  associate (law => material%hardening)
+    law%uhard = transfer(int(uhard, c_intptr_t), law%uhard)
+    law%name = name
+    law%statev = statev
+    law%constants = constants(:count)
+    allocate (law%reported(outputs), source=.false.)
+  end associate
+end subroutine host_set_user_hardening
+
 !> Make a material known that has nothing yet; returns the number that stands for it.
 subroutine host_define_empty_material(number)
   use host_kinds, only: i4

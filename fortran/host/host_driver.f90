@@ -18,8 +18,8 @@ module host_driver
   public :: run_block, set_guard_values, set_guard_room
 
   !> Routines of points, in the order of POINT_ROUTINES in harness/usersub/_binding.py.
-  character(len=16), parameter :: point_routines(8) = &
-    [character(len=16) :: 'UMAT', 'USDFLD', 'UMATHT', 'HETVAL', 'DFLUX', 'FILM', 'UHYPER', 'UANISOHYPER_INV']
+  character(len=16), parameter :: point_routines(9) = [character(len=16) :: 'UMAT', 'USDFLD', 'UMATHT', 'HETVAL', 'DFLUX', 'FILM', &
+                                                        'UHYPER', 'UANISOHYPER_INV', 'UHARD']
 
 contains
 

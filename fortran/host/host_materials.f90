@@ -21,6 +21,7 @@ module host_materials
   use host_protect, only: escape
   use host_thermal, only: thermal_t
   use host_thickness, only: free_thickness, reduced_stress, reduced_tangent, solid_strain, thickness_search
+  use host_uhard, only: user_hardening_t, user_solid
   use host_umat, only: call_umat, incompressible, strain_energy, total, user_material_t
   use host_usdfld, only: user_field_t
   implicit none (type, external)
@@ -51,6 +52,7 @@ module host_materials
     type(backstress_t), allocatable :: backstress  !< kinematic or combined hardening, beside yield
     type(prony_t), allocatable :: prony            !< viscoelasticity
     type(creep_t), allocatable :: creep
+    type(user_hardening_t), allocatable :: hardening   !< of UHARD
     real(dp) :: young = 0, poisson = 0             !< of a material with plasticity, viscoelasticity or creep, which is isotropic
     logical :: prestressed = .false.               !< it has a history for initial stresses
     real(dp) :: expansion = 0                      !< thermal strain per change of temperature
@@ -100,7 +102,7 @@ contains
   pure logical function has_fields(material)
     type(material_t), intent(in) :: material
     has_fields = allocated(material%user) .or. allocated(material%dependence) .or. allocated(material%user_field) .or. &
-                 generates_heat(material)
+                 generates_heat(material) .or. allocated(material%hardening)
     if (allocated(material%hyperelastic)) has_fields = has_fields .or. calls_user(material%hyperelastic)
   end function has_fields
 
@@ -116,6 +118,12 @@ contains
     type(material_t), intent(in) :: material
     is_viscous = allocated(material%prony) .or. allocated(material%creep)
   end function is_viscous
+
+  !> Whether the history has plastic strains.
+  pure logical function is_plastic(material)
+    type(material_t), intent(in) :: material
+    is_plastic = allocated(material%yield) .or. allocated(material%hardening)
+  end function is_plastic
 
   !> Whether stresses take the deformation gradients in current%deformation.
   pure logical function needs_deformation(material)
@@ -163,7 +171,7 @@ contains
       call hyperelastic(material%hyperelastic, allocated(material%user_field), n, point, stress, tangent)
       return
     end if
-    if (.not. (allocated(material%yield) .or. allocated(material%user) .or. material%prestressed .or. is_viscous(material))) then
+    if (.not. (is_plastic(material) .or. allocated(material%user) .or. material%prestressed .or. is_viscous(material))) then
       call linear(material, strain, stress, tangent)
       if (current%hybrid) call add_mean_stress(n, stress, tangent)
       return
@@ -188,8 +196,8 @@ contains
     end if
     solved = .true.
     associate (new => current%history_trial(:, point))
-      if (is_viscous(material) .or. allocated(material%backstress)) then
-        call inelastic(material, n, strain, old(:last), stress, tangent, new(:last), solved)
+      if (is_viscous(material) .or. allocated(material%backstress) .or. allocated(material%hardening)) then
+        call inelastic(material, point, n, strain, old(:last), stress, tangent, new(:last), solved)
       else if (.not. allocated(material%yield)) then
         new(:history_values) = old(:history_values)
         call linear(material, strain - old(components(n, 6)), stress, tangent)
@@ -226,17 +234,20 @@ contains
   end subroutine places_of_tensors
 
   !> Laws that are written for plane strain and three dimensions; in plane stress the strain 33 is sought that needs no stress 33.
-  subroutine inelastic(material, n, strain, old, stress, tangent, new, solved)
+  subroutine inelastic(material, point, n, strain, old, stress, tangent, new, solved)
     type(material_t), intent(in) :: material
+    integer(i4), intent(in) :: point
     integer, intent(in) :: n
     real(dp), intent(in) :: strain(n), old(:)
     real(dp), intent(out) :: stress(n), tangent(n, n), new(:)
     logical, intent(out) :: solved
     type(thickness_search) :: search
     real(dp) :: solid(4), modulus(4, 4), scale
+    real(dp), allocatable :: statev(:)
     integer :: first, last
+    statev = hardening_states(material, point)
     if (n > 3) then
-      call solid_law(material, n, strain, old, stress, tangent, new, solved)
+      call solid_law(material, point, statev, n, strain, old, stress, tangent, new, solved)
       return
     end if
     call places_of_tensors(material, first, last)
@@ -245,7 +256,7 @@ contains
       search = free_thickness(old(3) - poisson/(1 - poisson)*sum(strain(:2) - old(:2)), max(scale, epsilon(scale)))
     end associate
     do while (searching(search%root))
-      call solid_law(material, 4, solid_strain(search, strain), old, solid, modulus, new, solved)
+      call solid_law(material, point, statev, 4, solid_strain(search, strain), old, solid, modulus, new, solved)
       if (.not. solved) exit
       call advance(search%root, solid(3), modulus(3, 3))
     end do
@@ -254,9 +265,24 @@ contains
     tangent = reduced_tangent(modulus)
   end subroutine inelastic
 
-  !> Plane strain (n = 4) and three dimensions (n = 6).
-  subroutine solid_law(material, n, strain, old, stress, tangent, new, solved)
+  !> STATEV of UHARD at the start of the increment, or as USDFLD has left them.
+  function hardening_states(material, point) result(statev)
     type(material_t), intent(in) :: material
+    integer(i4), intent(in) :: point
+    real(dp), allocatable :: statev(:)
+    integer :: first
+    allocate (statev(0))
+    if (.not. allocated(material%hardening)) return
+    first = size(current%history, 1) - material%hardening%statev + 1
+    statev = current%history(first:, point)
+    if (allocated(material%user_field)) statev = current%history_trial(first:, point)
+  end function hardening_states
+
+  !> Plane strain (n = 4) and three dimensions (n = 6).
+  subroutine solid_law(material, point, statev, n, strain, old, stress, tangent, new, solved)
+    type(material_t), intent(in) :: material
+    integer(i4), intent(in) :: point
+    real(dp), intent(in) :: statev(:)      !< of UHARD
     integer, intent(in) :: n
     real(dp), intent(in) :: strain(n), old(:)
     real(dp), intent(out) :: stress(n), tangent(n, n), new(:)
@@ -271,6 +297,9 @@ contains
       elapsed = merge(current%dtime, 0.0_dp, current%procedure == visco)
       call creep_solid(material%creep, material%young, material%poisson, [start, start + elapsed], n, old, strain, stress, &
                        tangent, new, solved)
+    else if (allocated(material%hardening)) then
+      call user_solid(material%hardening, material%young, material%poisson, point, statev, n, old, strain, stress, tangent, &
+                      new, solved)
     else
       call combined_solid(material%backstress, material%young, material%poisson, material%yield, n, old, strain, stress, &
                           tangent, new, solved)
@@ -394,7 +423,7 @@ contains
     thickness_strain = 0
     ! with viscoelasticity the history has the whole strain
     if (.not. allocated(material%prony)) thickness_strain = dot_product(material%thickness, stress)
-    if (allocated(material%yield) .or. material%prestressed .or. is_viscous(material)) then
+    if (is_plastic(material) .or. material%prestressed .or. is_viscous(material)) then
       thickness_strain = thickness_strain + current%history_trial(3, point)
     end if
   end function thickness_strain

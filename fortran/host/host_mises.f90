@@ -9,7 +9,7 @@ module host_mises
   use host_kinds, only: dp
   implicit none (type, external)
   private
-  public :: mises_solid, mises_plane_stress, yield_stress, radial_return
+  public :: mises_solid, mises_plane_stress, yield_stress, radial_return, trial_mises, returned_solid
 
 contains
 
@@ -36,23 +36,53 @@ contains
     integer, intent(in) :: n
     real(dp), intent(in) :: strain(n)
     real(dp), intent(out) :: stress(n), tangent(n, n), new(7)
-    real(dp) :: shear, bulk, mean, q, flow, slope, multiplier, theta, theta_bar, elastic(n), normal(n)
+    real(dp) :: q, flow, slope, multiplier
+    q = trial_mises(young, poisson, n, old, strain)
+    call yield_stress(table, old(7), flow, slope)
+    multiplier = 0
+    if (q > flow) call radial_return(table, old(7), q, 3*young/(2*(1 + poisson)), multiplier, slope)
+    call returned_solid(young, poisson, n, old, strain, multiplier, slope, stress, tangent, new)
+  end subroutine mises_solid
+
+  !> Mises stress without any plastic strain in the increment.
+  pure function trial_mises(young, poisson, n, old, strain) result(q)
+    real(dp), intent(in) :: young, poisson, old(7)
+    integer, intent(in) :: n
+    real(dp), intent(in) :: strain(n)
+    real(dp) :: q, deviator(n)
+    deviator = trial_deviator(young, poisson, n, strain - old(1:n))
+    q = sqrt(1.5_dp*(sum(deviator(1:3)**2) + 2*sum(deviator(4:n)**2)))
+  end function trial_mises
+
+  pure function trial_deviator(young, poisson, n, elastic) result(deviator)
+    real(dp), intent(in) :: young, poisson
+    integer, intent(in) :: n
+    real(dp), intent(in) :: elastic(n)
+    real(dp) :: deviator(n), shear
+    shear = young/(2*(1 + poisson))
+    deviator(1:3) = 2*shear*(elastic(1:3) - sum(elastic(1:3))/3)
+    deviator(4:n) = shear*elastic(4:n)
+  end function trial_deviator
+
+  !> Stress and tangent in plane strain (n = 4) and three dimensions (n = 6) after an increment of the equivalent plastic strain
+  !> (zero: elastic), at the end of which the yield stress has this slope.
+  pure subroutine returned_solid(young, poisson, n, old, strain, multiplier, slope, stress, tangent, new)
+    real(dp), intent(in) :: young, poisson, old(7), multiplier, slope
+    integer, intent(in) :: n
+    real(dp), intent(in) :: strain(n)
+    real(dp), intent(out) :: stress(n), tangent(n, n), new(7)
+    real(dp) :: shear, bulk, mean, q, theta, theta_bar, normal(n)
     integer :: i, j
     shear = young/(2*(1 + poisson))
     bulk = young/(3*(1 - 2*poisson))
     new = old
-    elastic = strain - old(1:n)
-    mean = sum(elastic(1:3))/3
-    ! trial deviator
-    stress(1:3) = 2*shear*(elastic(1:3) - mean)
-    stress(4:n) = shear*elastic(4:n)
-    q = sqrt(1.5_dp*(sum(stress(1:3)**2) + 2*sum(stress(4:n)**2)))
-    call yield_stress(table, old(7), flow, slope)
+    mean = sum(strain(1:3) - old(1:3))/3
+    stress = trial_deviator(young, poisson, n, strain - old(1:n))
     theta = 1
     theta_bar = 0
     normal = 0
-    if (q > flow) then
-      call radial_return(table, old(7), q, 3*shear, multiplier, slope)
+    if (multiplier > 0) then
+      q = trial_mises(young, poisson, n, old, strain)
       normal = stress/(q*sqrt(2.0_dp/3.0_dp))      ! of unit length
       theta = 1 - 3*shear*multiplier/q
       theta_bar = 1/(1 + slope/(3*shear)) - (1 - theta)
@@ -69,7 +99,7 @@ contains
         if (i <= 3 .and. j <= 3) tangent(i, j) = tangent(i, j) + bulk - 2*shear*theta/3
       end do
     end do
-  end subroutine mises_solid
+  end subroutine returned_solid
 
   !> Increment x of equivalent plastic strain: q - stiffness x - yield(plastic + x) = 0, exact on each line of the table.
   pure subroutine radial_return(table, plastic, q, stiffness, x, slope)

@@ -52,6 +52,10 @@ def _read_plastic(block: Block, problems: Problems) -> Plastic:
         return _read_combined(block, problems)
     if other := next((name for name in ("DATA TYPE", "NUMBER BACKSTRESSES") if options.given(name)), ""):
         raise block.error(f"{other} goes with HARDENING=COMBINED")
+    if hardening == "USER":
+        return _read_user(block)
+    if options.given("PROPERTIES"):
+        raise block.error("PROPERTIES goes with HARDENING=USER")
     table = _read_table(block, "yield stress")
     if hardening == "ISOTROPIC":
         return Plastic(table, block.source)
@@ -62,6 +66,16 @@ def _read_plastic(block: Block, problems: Problems) -> Plastic:
     if modulus < 0:
         raise block.error("HARDENING=KINEMATIC: the yield stress must not decrease")
     return Plastic(table[:1], block.source, np.array([[modulus, 0.0]]))
+
+
+def _read_user(block: Block) -> Plastic:
+    count = block.options.integer("PROPERTIES", 0)
+    if count < 0:
+        raise block.error(f"PROPERTIES={count}: expected a number of 0 or more")
+    values = [value for row in block.rows() for value in row.reals("property")]
+    if len(values) != count:
+        raise block.error(f"PROPERTIES={count}, but the data lines have {len(values)}")
+    return Plastic(np.zeros((0, 2)), block.source, user=np.array(values))
 
 
 def _read_combined(block: Block, problems: Problems) -> Plastic:
@@ -112,15 +126,16 @@ KEYWORDS = (
         "PLASTIC",
         "Mises plasticity with isotropic hardening; or, in continuum elements and UELMAT, with linear kinematic or "
         "combined hardening: the rate of a backstress is 2/3 C times that of the plastic strain, less gamma times the "
-        "backstress and the rate of the equivalent plastic strain. With gamma the stiffness is unsymmetric.",
+        "backstress and the rate of the equivalent plastic strain. With gamma the stiffness is unsymmetric. With "
+        "HARDENING=USER UHARD gives the yield stress in continuum elements without temperatures, and UELMAT.",
         Where.MODEL,
         (
             one_of(
                 "HARDENING",
                 "hardening",
-                ("ISOTROPIC", "KINEMATIC", "COMBINED"),
+                ("ISOTROPIC", "KINEMATIC", "COMBINED", "USER"),
                 default="ISOTROPIC",
-                refused=("JOHNSON COOK", "USER"),
+                refused=("JOHNSON COOK",),
             ),
             one_of(
                 "DATA TYPE",
@@ -129,10 +144,11 @@ KEYWORDS = (
                 refused=("HALF CYCLE", "STABILIZED"),
             ),
             Option("NUMBER BACKSTRESSES", Kind.INTEGER, "of HARDENING=COMBINED, 1 to 10 (1)"),
-            *refused("DEPENDENCIES", "PROPERTIES", "RATE", "SCALESTRESS"),
+            Option("PROPERTIES", Kind.INTEGER, "number of constants of UHARD, with HARDENING=USER (0)"),
+            *refused("DEPENDENCIES", "RATE", "SCALESTRESS"),
         ),
         "yield stress, plastic strain, two lines with HARDENING=KINEMATIC; yield stress, C1, gamma1, C2, gamma2, ..., "
-        "eight per line (COMBINED)",
+        "eight per line (COMBINED); constants of UHARD, eight per line (USER)",
     ),
     Keyword(
         "CYCLIC HARDENING",

@@ -8,7 +8,7 @@ from typing import Final
 
 import numpy as np
 
-from harness.elements.materials import refuse_fields, refuse_viscous
+from harness.elements.materials import refuse_fields, refuse_user_hardening, refuse_viscous
 from harness.elements.routine import Routine
 from harness.errors import DeckError
 from harness.model.element_types import DISCRETE, DiscreteKind
@@ -69,6 +69,7 @@ def _properties(group: ElementGroup, *, dynamic: bool) -> np.ndarray:
     material = section.material
     refuse_fields(material, f"elements of type {group.type}")
     refuse_viscous(material, f"elements of type {group.type}")
+    refuse_user_hardening(material, f"elements of type {group.type}")
     if material.elastic is None or material.elastic.type is not ElasticType.ISOTROPIC:
         message = f"elements of type {group.type} need *ELASTIC, TYPE=ISOTROPIC (material {material.name})"
         raise DeckError(section.source, message)

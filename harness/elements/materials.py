@@ -71,7 +71,8 @@ def linearity(material: Material, *, prestressed: bool = False) -> Linearity:
 
 def state_variables(material: Material) -> int:
     """Number of STATEV of a point; 0 without a routine that uses them."""
-    uses = (material.user, material.user_field, material.user_thermal, material.heat_generation)
+    hardening = None if material.plastic is None else material.plastic.user
+    uses = (material.user, material.user_field, material.user_thermal, material.heat_generation, hardening)
     used = isinstance(material.hyperelastic, UserPotential) or any(use is not None for use in uses)
     return material.state_variables if used else 0
 
@@ -96,6 +97,12 @@ def refuse_viscous(material: Material, elements: str) -> None:
     """Raise DeckError if stresses of the material of these elements depend on time."""
     if material.viscous is not None:
         raise DeckError(material.viscous.source, f"{_viscous_keyword(material)} is not supported for {elements}")
+
+
+def refuse_user_hardening(material: Material, elements: str) -> None:
+    """Raise DeckError if UHARD gives the yield stress of the material of these elements."""
+    if material.plastic is not None and material.plastic.user is not None:
+        raise DeckError(material.plastic.source, f"*PLASTIC, HARDENING=USER is not supported for {elements}")
 
 
 def refuse_hyperelastic(material: Material, elements: str) -> None:
@@ -169,11 +176,16 @@ def define_material(
         reduced = _inverse(stiffness, elastic)
     _check_laws(elastic, material)
     constants, table = (0.0, 0.0), np.zeros((1, 2))
-    if material.plastic is not None:
-        constants, table = _isotropic_constants(elastic), material.plastic.table
+    plastic = material.plastic
+    if plastic is not None and plastic.user is None:
+        constants, table = _isotropic_constants(elastic), plastic.table
     number = _binding.define_material(stiffness, reduced, compliance[2, components[:3]], axes, constants, table)
-    if material.plastic is not None and len(material.plastic.backstresses):
-        _binding.set_backstresses(number, material.plastic.backstresses, material.plastic.growth)
+    if plastic is not None and plastic.user is not None:
+        address = _needed(library.uhard, "UHARD", material, "*PLASTIC, HARDENING=USER", plastic.source, library)
+        moduli, statev = _isotropic_constants(elastic), state_variables(material)
+        _binding.set_user_hardening(number, address, material.name, moduli, statev, plastic.user)
+    if plastic is not None and len(plastic.backstresses):
+        _binding.set_backstresses(number, plastic.backstresses, plastic.growth)
     if material.viscoelastic is not None:
         _binding.set_prony(number, *_moduli(elastic, material.viscoelastic), material.viscoelastic.terms)
     if (creep := material.creep) is not None:

@@ -17,6 +17,7 @@ from harness.elements.materials import (
     linearity,
     refuse_fields,
     refuse_hyperelastic,
+    refuse_user_hardening,
     refuse_viscous,
     state_variables,
 )
@@ -275,6 +276,7 @@ def _check(model: Model, group: ElementGroup, section: ShellSection) -> None:
         refuse_fields(material, elements)
         refuse_hyperelastic(material, elements)
         refuse_viscous(material, elements)
+        refuse_user_hardening(material, elements)
         if material.output_variables:
             message = f"*USER OUTPUT VARIABLES (material {material.name}) is not supported for {elements}"
             raise DeckError(section.source, message)

@@ -20,6 +20,7 @@ from harness.elements.materials import (
     is_incompressible,
     linearity,
     refuse_hyperelastic,
+    refuse_user_hardening,
     refuse_viscous,
     shear_modulus,
     state_variables,
@@ -67,6 +68,7 @@ def solid_routine(model: Model, group: ElementGroup, section: SolidSection, libr
         raise DeckError(nonlinear.source, message)
     _check_hyperelastic(model, group, kind, material)
     _check_viscous(model, group, kind, material)
+    _check_user_hardening(model, group, kind, material)
     check_hybrid(group.type, kind, material)
     orientation, local = section.orientation, _local_orientation(model, section, kind)
     if local is not None:
@@ -142,6 +144,19 @@ def _check_viscous(model: Model, group: ElementGroup, kind: ContinuumType, mater
     if perturbation is not None:
         message = f"a linear perturbation is not supported with material {material.name}, whose stresses depend on time"
         raise DeckError(perturbation.source, f"*STEP: {message} ({material.viscous.source})")
+
+
+def _check_user_hardening(model: Model, group: ElementGroup, kind: ContinuumType, material: Material) -> None:
+    """Raise DeckError if UHARD gives the yield stress, and the elements or the steps are not for that."""
+    if material.plastic is None or material.plastic.user is None:
+        return
+    if kind.coupled:
+        refuse_user_hardening(material, f"elements of type {group.type}")
+    perturbation = next((step for step in model.steps if step.procedure.linear), None)
+    if perturbation is not None:
+        # a yield stress that depends on the rate would let the stress of the base state relax
+        message = f"a linear perturbation is not supported with material {material.name}, which has UHARD"
+        raise DeckError(perturbation.source, f"*STEP: {message} ({material.plastic.source})")
 
 
 def _places_of_stress(kind: ContinuumType) -> tuple[int, ...]:

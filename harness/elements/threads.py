@@ -101,6 +101,8 @@ def _called(group: ElementGroup) -> set[str]:
         routines |= {"UMATHT": material.user_thermal, "HETVAL": material.heat_generation}
         if isinstance(material.hyperelastic, UserPotential):
             routines[material.hyperelastic.routine] = material.hyperelastic
+        if material.plastic is not None:
+            routines["UHARD"] = material.plastic.user
         found |= {name for name, given in routines.items() if given is not None}
     return found
 

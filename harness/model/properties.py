@@ -75,6 +75,7 @@ class Plastic:
     backstresses  (n, 2) C and gamma of each backstress of kinematic and combined hardening; n = 0: isotropic hardening
     growth        Q and b of *CYCLIC HARDENING, PARAMETERS: the size grows by Q (1 - exp(-b plastic strain))
     combined      HARDENING=COMBINED
+    user          HARDENING=USER: the constants of UHARD, which gives the yield stress; the table is empty
     """
 
     table: FloatArray
@@ -82,6 +83,7 @@ class Plastic:
     backstresses: FloatArray = field(default_factory=lambda: np.zeros((0, 2)))
     growth: tuple[float, float] = (0.0, 0.0)
     combined: bool = False
+    user: FloatArray | None = None
 
 
 @dataclass(frozen=True, slots=True)

@@ -36,7 +36,18 @@ ARRAYS: Final = ("RHS", "AMATRX", "SVARS", "ENERGY", "PROPS", "COORDS", "U", "DU
 """Guarded arrays, in the order of fortran/host/host_workspace.f90."""
 
 
-POINT_ROUTINES: Final = ("", "UMAT", "USDFLD", "UMATHT", "HETVAL", "DFLUX", "FILM", "UHYPER", "UANISOHYPER_INV")
+POINT_ROUTINES: Final = (
+    "",
+    "UMAT",
+    "USDFLD",
+    "UMATHT",
+    "HETVAL",
+    "DFLUX",
+    "FILM",
+    "UHYPER",
+    "UANISOHYPER_INV",
+    "UHARD",
+)
 """Routines of points, in the order of fortran/host/host_driver.f90."""
 
 VALUE_ROUTINES: Final = ("DISP", "DLOAD", "UTEMP", "UFIELD")
@@ -335,6 +346,16 @@ def set_backstresses(number: int, backstresses: FloatArray, growth: tuple[float,
     backstresses (k, 2) C and gamma; growth: Q and b.
     """
     _host.host_set_backstresses(number, backstresses.T, growth)
+
+
+def set_user_hardening(
+    number: int, uhard: int, name: str, constants: tuple[float, float], statev: int, properties: FloatArray
+) -> None:
+    """Let UHARD, whose address is given, give the yield stress of an isotropic material.
+
+    constants: Young's modulus and Poisson's ratio; properties: PROPS.
+    """
+    _host.host_set_user_hardening(number, uhard, name, *constants, statev, np.append(properties, 0.0), len(properties))
 
 
 def set_prony(number: int, constants: tuple[float, float], moduli: tuple[float, float], terms: FloatArray) -> None:

@@ -121,6 +121,16 @@ def host_define_anisotropic(
 def host_set_user_invariants(
     number: int, uanisohyper: int, name: str | bytes, statev: int, constants: NDArray[np.float64], count: int
 ) -> None: ...
+def host_set_user_hardening(
+    number: int,
+    uhard: int,
+    name: str | bytes,
+    young: float,
+    poisson: float,
+    statev: int,
+    constants: NDArray[np.float64],
+    count: int,
+) -> None: ...
 def host_define_empty_material() -> int: ...
 def host_set_thermal(
     number: int,

@@ -142,7 +142,7 @@ def test_other_size_in_cyclic_hardening(read: Read) -> None:
             "*PLASTIC, HARDENING=COMBINED\n10.",
             r"30: \*PLASTIC: HARDENING=COMBINED is supported with DATA TYPE=PARAMETERS:",
         ),
-        ("*PLASTIC, HARDENING=USER\n10.", r"deck.inp:30: \*PLASTIC, HARDENING=USER is not supported"),
+        ("*PLASTIC, HARDENING=JOHNSON COOK\n10.", r"deck.inp:30: \*PLASTIC, HARDENING=JOHNSON COOK is not supported"),
         (f"{COMBINED}, NUMBER BACKSTRESSES=11\n10.", r"30: .* NUMBER BACKSTRESSES=11: expected a number from 1 to 10"),
         (
             f"{COMBINED}\n10., 1., 2., 3.",
