@@ -72,6 +72,12 @@ class DofMap:
     def __len__(self) -> int:
         return len(self.node)
 
+    @property
+    def of_nodes(self) -> NDArray[np.bool_]:
+        """(n,) whether an unknown is of a node, which moves in space and time; the pressure of an element is not."""
+        found: NDArray[np.bool_] = self.field != _VOLUME
+        return found
+
     def find(self, nodes: IntArray | int, dof: IntArray | int) -> IntArray:
         """Unknowns of (node, dof) pairs.
 

@@ -173,12 +173,14 @@ def _is_prestressed(model: Model, group: ElementGroup, material: Material) -> bo
     last = first + len(group.labels)
     entries = model.initial_stresses
     found = next((e for e in entries if ((e.elements >= first) & (e.elements < last)).any()), None)
-    if found is None or material.user is not None:
+    if found is None:
         return False
     if material.hyperelastic is not None or is_incompressible(material):
-        what = "nu = 0.5" if material.hyperelastic is None else f"*{material.hyperelastic.keyword}"
+        what = "an incompressible material" if material.hyperelastic is None else f"*{material.hyperelastic.keyword}"
         message = f"is not supported with {what} (material {material.name})"
         raise DeckError(found.source, f"*INITIAL CONDITIONS, TYPE=STRESS {message}")
+    if material.user is not None:
+        return False
     if material.viscoelastic is not None:
         message = f"is not supported with *VISCOELASTIC (material {material.name})"
         raise DeckError(found.source, f"*INITIAL CONDITIONS, TYPE=STRESS {message}")

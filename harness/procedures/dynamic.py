@@ -9,10 +9,11 @@ Elements put M a and their I with these weights into RHS; the step weights its l
 from __future__ import annotations
 
 from collections.abc import Iterable
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from functools import partial
 
 import numpy as np
+from numpy.typing import NDArray
 
 from harness.assembly import Evaluation
 from harness.elements import Motion, Request
@@ -26,6 +27,24 @@ from harness.procedures.step_parts import Part
 from harness.solver.newton import Increment, Iterate
 
 HALF_INCREMENT = "THE HALF-INCREMENT RESIDUAL IS LARGER THAN ITS TOLERANCE."
+
+
+MOVED = 1e-6
+"""Of the size of the model: how far nodes move along their velocities, to see how volumes change."""
+
+
+@dataclass(frozen=True, slots=True)
+class KeptVolume:
+    """Equations of the initial accelerations of incompressible hybrid elements.
+
+    rows    (n,) whether an unknown is one of their pressures
+    data    (nnz,) CSR values of what couples them with accelerations
+    forces  (n,) right-hand side, for the pressures
+    """
+
+    rows: NDArray[np.bool_]
+    data: FloatArray
+    forces: FloatArray
 
 
 def advance(procedure: Dynamic, before: Motion, size: float, increment: FloatArray) -> Motion:
@@ -56,27 +75,69 @@ class ImplicitIntegration(Part):
     def _accelerate(self) -> None:
         """Solve M a = P - I for the initial accelerations; unknowns without mass have none."""
         context, state, constraints = self._context, self._context.state, self._context.constraints
-        call = context.call(0.0, 0.0, context.start).asking(Request.INITIAL_ACCELERATION)
-        motion = Motion(state.velocity, np.zeros_like(state.velocity))
-        still = np.zeros_like(state.displacement)
-        evaluation = context.system.evaluate(call, state.displacement, still, motion=motion)
-        assert evaluation.data is not None
+        of_nodes = context.system.dofs.of_nodes
+        incompressible = None if of_nodes.all() else self._incompressible()
+        evaluation = self._at_rest(Request.INITIAL_ACCELERATION)
         load = context.load_at(0.0)
-        mass = constraints.reduce(evaluation.data)
-        reduced = constraints.reduce_vector(evaluation.residual + load)
+        assert evaluation.data is not None
+        data, missing = evaluation.data, evaluation.residual + load
+        if incompressible is not None:
+            data, missing = data + incompressible.data, np.where(incompressible.rows, incompressible.forces, missing)
+        mass = constraints.reduce(data)
+        reduced = constraints.reduce_vector(missing)
         indptr, indices = constraints.reduced_indptr, constraints.reduced_indices
         row = np.repeat(np.arange(len(reduced)), np.diff(indptr))
         weightless = constraints.ranks.sum(np.bincount(row, np.abs(mass), len(reduced)).astype(np.float64)) == 0.0
         mass[(row == indices) & weightless[row]] = 1.0
         reduced[weightless] = 0.0
         context.solver.factorise(mass)
-        state.acceleration = constraints.expand(context.solver.solve(reduced), np.zeros(len(constraints.prescribed)))
+        found = constraints.expand(context.solver.solve(reduced), np.zeros(len(constraints.prescribed)))
+        state.acceleration = np.where(of_nodes, found, 0.0)
+        if incompressible is not None:
+            state.displacement = state.displacement + np.where(of_nodes, 0.0, found)
+            evaluation = self._at_rest(Request.INITIAL_ACCELERATION)
         context.system.commit()
         state.energy, state.external = evaluation.energy, load + state.reaction
 
+    def _at_rest(self, request: Request, moved: FloatArray | float = 0.0) -> Evaluation:
+        """A pass at the start of the step, without accelerations."""
+        context, state = self._context, self._context.state
+        call = context.call(0.0, 0.0, context.start).asking(request)
+        motion, still = Motion(state.velocity, np.zeros_like(state.velocity)), np.zeros_like(state.displacement)
+        return context.system.evaluate(call, state.displacement + moved, still, motion=motion)
+
+    def _incompressible(self) -> KeptVolume | None:
+        """What keeps the volume of incompressible hybrid elements, whose pressure changes at once; None without any.
+
+        The matrix B of their pressures keeps B v = 0, so that B a = - dB/dt v.
+        """
+        context, state = self._context, self._context.state
+        system, velocity = context.system, state.velocity
+        data = self._stiffness()
+        rows = ~system.dofs.of_nodes & (system.ranks.sum(system.matrix(data).diagonal()) == 0.0)
+        if not rows.any():
+            return None
+        row = np.repeat(np.arange(len(system)), np.diff(system.indptr))
+        coupling = np.where(rows[row] != rows[system.indices], data, 0.0)
+        forces = np.zeros(len(system))
+        if context.step.nlgeom and velocity.any():
+            # exact for any distance: volumes are cubic in displacements
+            distance = MOVED * np.ptp(system.dofs.coordinates, axis=0).max() / np.abs(velocity).max()
+            ahead, behind = (self._stiffness(sign * distance * velocity) for sign in (1.0, -1.0))
+            forces = -system.product((ahead - behind) / (2.0 * distance), velocity)
+        return KeptVolume(rows, coupling, forces)
+
+    def _stiffness(self, moved: FloatArray | float = 0.0) -> FloatArray:
+        """CSR values (nnz,) at the start of the step, of this rank."""
+        evaluation = self._at_rest(Request.STIFFNESS, moved)
+        assert evaluation.data is not None
+        return evaluation.data.copy()
+
     def _motion(self, size: float, increment: FloatArray) -> Motion:
+        """At the end of an increment; pressures of elements have no mass and no part in it."""
         before = Motion(self._context.state.velocity, self._context.state.acceleration)
-        return advance(self._procedure, before, size, increment)
+        after, of_nodes = advance(self._procedure, before, size, increment), self._context.system.dofs.of_nodes
+        return Motion(np.where(of_nodes, after.velocity, 0.0), np.where(of_nodes, after.acceleration, 0.0))
 
     def given(self, given: Increment, size: float) -> Increment:
         """Loads weighted over the increment, and the motion that follows from displacements."""
@@ -115,6 +176,7 @@ class ImplicitIntegration(Part):
         end = self._motion(size, last.increment)
         # the cubic from the state at the start to the displacements at the end
         increment = last.increment / 8 + 0.375 * size * state.velocity + size**2 / 16 * state.acceleration
+        increment = np.where(context.system.dofs.of_nodes, increment, 0.5 * last.increment)
         velocity = 0.75 / size * last.increment + 0.25 * state.velocity - size / 8 * state.acceleration
         acceleration = 0.5 * (state.acceleration + end.acceleration)
         call = context.call(size, context.step_time + half, context.start + context.step_time + half)

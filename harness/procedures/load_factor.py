@@ -126,7 +126,7 @@ class RiksPath(LoadFactorPath):
     def __init__(self, context: StepContext, riks: Riks) -> None:
         super().__init__(context)
         self._riks = riks
-        self._arc = ArcLength()
+        self._arc = ArcLength(context.system.dofs.of_nodes)
         self._monitored = -1
         if riks.node >= 0:
             dofs = context.system.dofs

@@ -68,14 +68,20 @@ def _shifts(pair: Pair) -> Iterator[float]:
     """Negative shifts, since K is singular if bodies are unconstrained; larger ones for unstable bodies."""
     stiffness, mass = (pair.matrix(data).diagonal() for data in (pair.stiffness, pair.mass))
     for power in range(4):
-        yield -SHIFT * 100**power * float(np.abs(stiffness).sum() / mass.sum())
+        yield -SHIFT * 100**power * float(np.abs(stiffness[mass > 0]).sum() / mass.sum())
 
 
 def _all(shifted: FloatArray, mass: FloatArray, shift: float, count: int) -> tuple[FloatArray, FloatArray]:
-    inverse, vectors = linalg.eigh(mass, shifted)
+    own, axes = linalg.eigh(mass)
+    # M = G G^T. Unknowns without mass, as the pressures of hybrid elements, may make K indefinite
+    factor = axes[:, own > RANK * own[-1]] * np.sqrt(own[own > RANK * own[-1]])
+    moved = np.linalg.solve(shifted, factor)
+    inverse, vectors = linalg.eigh(factor.T @ moved)
+    if inverse[0] < -RANK * inverse[-1]:
+        raise linalg.LinAlgError("an eigenvalue is below the shift")
     chosen = np.flatnonzero(inverse > RANK * inverse[-1])[::-1][:count]
-    # x^T (K - shift M) x = 1 becomes x^T M x = 1
-    return shift + 1.0 / inverse[chosen], vectors[:, chosen] / np.sqrt(inverse[chosen])
+    # z^T z = 1 of G^T (K - shift M)^-1 G z = z/(lambda - shift), and x = (K - shift M)^-1 G z (lambda - shift)
+    return shift + 1.0 / inverse[chosen], moved @ vectors[:, chosen] / inverse[chosen]
 
 
 def _nearest(pair: Pair, shift: float, count: int, solver: Factoriser) -> tuple[FloatArray, FloatArray]:

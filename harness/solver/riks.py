@@ -10,15 +10,23 @@ through that point normal to the tangent. The tangent continues in the direction
 from __future__ import annotations
 
 import numpy as np
+from numpy.typing import NDArray
 
 from harness.model.arrays import FloatArray
 from harness.solver.path import Directions, PathIterate, Reaction
 
 
 class ArcLength:
-    """Control by arc length. Set `length` before an increment, call `converged` after one."""
+    """Control by arc length. Set `length` before an increment, call `converged` after one.
 
-    def __init__(self) -> None:
+    Parameters
+    ----------
+    measured
+        (n,) the unknowns in which it is measured: those of nodes, and not the pressures of elements, in other units.
+    """
+
+    def __init__(self, measured: NDArray[np.bool_]) -> None:
+        self._measured = measured
         self.length = 0.0
         self._scale = 0.0
         self._unit = 0.0
@@ -32,7 +40,7 @@ class ArcLength:
         in the scaled space in that unit.
         """
         del reaction
-        v = directions.tangent
+        v = np.where(self._measured, directions.tangent, 0.0)
         if state.iteration == 0:
             if not self._scale:
                 self._scale = float(np.abs(v).max(initial=0.0)) or 1.0
@@ -45,7 +53,7 @@ class ArcLength:
 
     def converged(self, increment: FloatArray, factor: float) -> None:
         """Keep the direction of a converged increment."""
-        self._last = increment, factor
+        self._last = np.where(self._measured, increment, 0.0), factor
 
     def _sign(self, v: FloatArray) -> float:
         if self._last is None:

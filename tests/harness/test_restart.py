@@ -49,6 +49,15 @@ DYNAMIC = beam(
     ],
     model=SOLID + "*AMPLITUDE, NAME=WAVE, TIME=TOTAL TIME\n0., 0., 0.3, 1., 0.7, -1., 1., 0.\n",
 )
+RUBBER = beam(
+    "CPE4H",
+    "*HYPERELASTIC, NEO HOOKE\n100., 0.\n*DENSITY\n1.\n",
+    [
+        f"*STEP, NLGEOM\n*STATIC\n0.25, 1., 1e-5, 0.25\n*BOUNDARY\nLEFT, 1, 2\n*CLOAD\nRIGHT, 2, 1.\n{OUTPUT}",
+        f"*STEP, NLGEOM\n*DYNAMIC, DIRECT\n0.05, 0.2\n*CLOAD, OP=NEW\n{OUTPUT}",
+    ],
+    model=SOLID,
+)
 HEAT = beam(
     "DC2D4",
     "*CONDUCTIVITY\n1.\n*SPECIFIC HEAT\n1.\n*DENSITY\n1.\n",
@@ -81,7 +90,7 @@ STEPS = beam(
 )
 DELAMINATION = DCB.read_text().replace("*STEP", "*RESTART, WRITE\n*STEP", 1).replace("INPUT=", f"INPUT={DCB.parent}/")
 DELAMINATION = re.sub(r"(\*STATIC.*\n).*", r"\g<1>0.03, 0.15", DELAMINATION)
-DECKS = {"dynamic": DYNAMIC, "heat": HEAT, "umat": UMAT, "steps": STEPS, "delamination": DELAMINATION}
+DECKS = {"dynamic": DYNAMIC, "rubber": RUBBER, "heat": HEAT, "umat": UMAT, "steps": STEPS, "delamination": DELAMINATION}
 
 
 @pytest.fixture

@@ -42,6 +42,7 @@ UMAT = """\
       end
 """
 ELASTIC = "*MATERIAL, NAME=M\n*ELASTIC\n1000., 0.3\n*DENSITY\n2.\n"
+RUBBER = "*MATERIAL, NAME=M\n*HYPERELASTIC, NEO HOOKE\n100., 0.\n*DENSITY\n2.\n"
 USER = "*MATERIAL, NAME=M\n*USER MATERIAL, CONSTANTS=1\n300.\n*DEPVAR\n1\n"
 OUTPUT = (
     "*OUTPUT, FIELD, FREQUENCY=1\n*NODE OUTPUT\nU, RF\n*ELEMENT OUTPUT\nS, E\n"
@@ -101,6 +102,10 @@ CASES = {
     ),
     "dynamic": (
         block("CPE4I", ELASTIC, "*STEP, NLGEOM\n*DYNAMIC\n0.02, 0.1\n*BOUNDARY\nRIGHT, 2, 2, 0.1\n"),
+        {},
+    ),
+    "dynamic, pressures of elements": (
+        block("CPE4H", RUBBER, "*STEP, NLGEOM\n*DYNAMIC\n0.2, 1.\n*DSLOAD\nTOP, P, 1.\n", FACE),
         {},
     ),
     "arc length": (
