@@ -5,10 +5,14 @@ module host_context
   use host_kinds, only: dp, i4
   implicit none (type, external)
   private
-  public :: call_context, current, heat_t, initial_stresses, job_name, names_cut, output_directory, rank, ranks, threads
+  public :: added_stress, base_stress, call_context, current, heat_t, initial_stresses, job_name, names_cut, output_directory, &
+            rank, ranks, stress_matrix, threads
 
   !> LFLAGS(3) of the host's own pass before an analysis, in which built-in elements take their stresses from SVARS.
   integer(i4), parameter :: initial_stresses = -1
+
+  !> And of those for the matrix of a stress: that of U, and that which the displacements DU add to it.
+  integer(i4), parameter :: base_stress = -2, added_stress = -3
 
   !> The heat terms of UMAT at the end of the increment; directions of the stresses, engineering shear strains.
   type :: heat_t
@@ -63,4 +67,12 @@ module host_context
   character(len=4096), save :: job_name = ' '
   character(len=4096), save :: output_directory = ' '
   logical, save :: names_cut(2) = .false.   !< job name, output directory: a user routine took a part of it
+
+contains
+
+  !> Whether LFLAGS(3) asks for the matrix of a stress.
+  elemental logical function stress_matrix(request)
+    integer(i4), intent(in) :: request
+    stress_matrix = request == base_stress .or. request == added_stress
+  end function stress_matrix
 end module host_context

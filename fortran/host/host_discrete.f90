@@ -14,6 +14,7 @@
 !>
 !> In dynamic analyses SVARS go on with the forces of the last two increments, those of loads on faces always.
 module host_discrete
+  use host_context, only: added_stress, stress_matrix
   use host_inertia, only: respond
   use host_kinds, only: dp, i4
   use host_messages, only: add_message
@@ -53,7 +54,7 @@ contains
     if (lflags(3) /= 3 .and. lflags(3) /= 4) then
       select case (jtype)
       case (truss, axial_spring)
-        call bar(int(mcrd), jtype, lflags(2) /= 0, int(nprops), props, coords, u, svars, rhs, amatrx, energy)
+        call bar(int(mcrd), jtype, lflags(2) /= 0, lflags(3), int(nprops), props, coords, u, du, svars, rhs, amatrx, energy)
       case (spring)
         call dof_spring(n, int(nprops), props, u, svars, rhs, amatrx, energy)
       case (face)
@@ -94,12 +95,12 @@ contains
     initial_length = norm2(x(:, 2) - x(:, 1))
   end function initial_length
 
-  !> A force along the line between two nodes.
-  subroutine bar(dim, kind, finite, n, props, x, u, state, force, stiffness, energy)
+  !> A force along the line between two nodes; for the matrix of a stress (request, as LFLAGS(3)) its change as it turns, alone.
+  subroutine bar(dim, kind, finite, request, n, props, x, u, du, state, force, stiffness, energy)
     integer, intent(in) :: dim, n
-    integer(i4), intent(in) :: kind
+    integer(i4), intent(in) :: kind, request
     logical, intent(in) :: finite
-    real(dp), intent(in) :: props(n), x(dim, 2), u(dim, 2)
+    real(dp), intent(in) :: props(n), x(dim, 2), u(dim, 2), du(dim, 2)
     real(dp), intent(inout) :: state(4), force(dim, 2), stiffness(dim, 2, dim, 2), energy(8)
     real(dp) :: along(dim), length, now, elongation, pull, slope, block(dim, dim)
     integer :: i
@@ -122,8 +123,10 @@ contains
     else
       call spring_force(n, props, elongation, state, pull, slope, energy)
     end if
+    if (request == added_stress) pull = slope*dot_product(along, du(:, 2) - du(:, 1))
     block = slope*outer(dim, along)
-    if (finite) then
+    if (stress_matrix(request)) block = 0
+    if (finite .or. stress_matrix(request)) then
       ! the force turns with the line
       block = block - pull/now*outer(dim, along)
       do i = 1, dim

@@ -5,7 +5,7 @@ module host_forces
   use host_kinds, only: dp
   implicit none (type, external)
   private
-  public :: add_plane_point, add_axisymmetric_point, add_space_point, add_geometric
+  public :: add_plane_point, add_axisymmetric_point, add_space_point, add_geometric, add_stress_matrix
 
 contains
 
@@ -97,4 +97,15 @@ contains
       stiffness(1::2, 2*i - 1) = stiffness(1::2, 2*i - 1) + volume*full(3, 3)*g(i, 3)*g(:, 3)
     end do
   end subroutine add_geometric
+
+  !> Matrix of the stress alone of a point: the same terms.
+  pure subroutine add_stress_matrix(dim, direct, m, nodes, g, b, stress, volume, stiffness)
+    integer, intent(in) :: dim, direct, m, nodes
+    real(dp), intent(in) :: g(nodes, direct), b(dim*nodes, m), stress(m), volume
+    real(dp), intent(inout) :: stiffness(dim*nodes, dim*nodes)
+    real(dp) :: modulus(m, m)
+    modulus = 0
+    call add_geometric(dim, direct, m, nodes, g, stress, volume, modulus, stiffness)
+    stiffness = stiffness + volume*matmul(b, matmul(modulus, transpose(b)))
+  end subroutine add_stress_matrix
 end module host_forces

@@ -21,12 +21,14 @@ module host_hybrid
   use host_shape, only: rule_t
   implicit none (type, external)
   private
-  public :: pressure_t, begin_pressure, mean_stress, add_compatibility, smoothing_t, begin_smoothing, keep_point, smooth
+  public :: pressure_t, begin_pressure, mean_stress, add_compatibility, smoothing_t, begin_smoothing, keep_point, smooth, &
+            mean_stress_added, smoothing_change
 
   type :: pressure_t
     real(dp) :: volume = 0                         !< of the element before any displacement
     real(dp), allocatable :: functions(:, :)       !< (functions, points)
     real(dp), allocatable :: factors(:)            !< the unknowns
+    real(dp), allocatable :: added(:)              !< their changes by a perturbation, for the matrix of its stress
     real(dp), allocatable :: residual(:)           !< theirs: mean differences of the changes of volume
     real(dp), allocatable :: by_displacements(:, :)   !< (unknowns of the nodes, functions) its derivatives
     real(dp), allocatable :: by_factors(:, :)      !< (functions, functions)
@@ -71,6 +73,13 @@ contains
     integer, intent(in) :: point
     mean_stress = dot_product(this%functions(:, point), this%factors)/this%volume
   end function mean_stress
+
+  !> Its change by a perturbation.
+  pure real(dp) function mean_stress_added(this, point)
+    type(pressure_t), intent(in) :: this
+    integer, intent(in) :: point
+    mean_stress_added = dot_product(this%functions(:, point), this%added)/this%volume
+  end function mean_stress_added
 
   !> Add a point with the change of its volume by the displacements, its derivatives, and the derivative of the change of volume
   !> of the material by the mean stress, times the initial volume of the point.
@@ -122,13 +131,20 @@ contains
     if (finite) this%rate(:, point) = this%rate(:, point) - of_point(1)*this%by_displacements(:, point)
   end subroutine keep_point
 
+  !> What the projection changes of the mean stresses of all points.
+  pure function smoothing_change(this) result(change)
+    type(smoothing_t), intent(in) :: this
+    real(dp) :: change(size(this%mean))
+    change = matmul(this%projection, this%mean) - this%mean
+  end function smoothing_change
+
   !> Add what the projection changes of the mean stresses to the forces and, but for the change of the forces of a given
   !> pressure, to the tangent.
   pure subroutine smooth(this, force, stiffness)
     type(smoothing_t), intent(inout) :: this
     real(dp), intent(inout) :: force(:), stiffness(:, :)
     real(dp) :: weighted(size(this%rate, 1), size(this%rate, 2))
-    this%change = matmul(this%projection, this%mean) - this%mean
+    this%change = smoothing_change(this)
     weighted = this%by_displacements*spread(this%weight, 1, size(weighted, 1))
     force = force + matmul(weighted, this%change)
     stiffness = stiffness + matmul(weighted, matmul(this%projection, transpose(this%rate)) - transpose(this%rate))

@@ -19,6 +19,8 @@
 !> Hyperelastic materials take their stress from the deformation gradient. Their forces are derivatives of the strain energy, the
 !> tangent those of the forces (host_mean_volume); where the volume strain is the mean, the points share the change of the volume.
 !>
+!> The matrix of a stress (host_context) is what the tangent in large displacements has of it, also where displacements are small.
+!>
 !> The last of the predefined fields is the initial temperature; thermal strain is that of *EXPANSION since then.
 !>
 !> SVARS hold, for each point, E11 E22 E33 E12 S11 S22 S33 S12, in space with 13 and 23 after 12, in the directions of
@@ -31,11 +33,11 @@ module host_solid
   use core_solid_rotation, only: find_turn, solid_turn, turn_forces, turn_stiffness
   use core_strains, only: condense, mean_volume_strain, set_volume_strain, strain_matrix
   use host_axes, only: carry_axes, turn_heat, turn_matrix, values_of_axes
-  use host_context, only: current, heat_t, initial_stresses
+  use host_context, only: added_stress, current, heat_t, initial_stresses, stress_matrix
   use host_coupling, only: add_heat_source, coupling_t, interpolate_fields, set_temperature
-  use host_forces, only: add_axisymmetric_point, add_geometric, add_plane_point, add_space_point
-  use host_hybrid, only: add_compatibility, begin_pressure, begin_smoothing, keep_point, mean_stress, pressure_t, smooth, &
-                         smoothing_t
+  use host_forces, only: add_axisymmetric_point, add_geometric, add_plane_point, add_space_point, add_stress_matrix
+  use host_hybrid, only: add_compatibility, begin_pressure, begin_smoothing, keep_point, mean_stress, mean_stress_added, &
+                         pressure_t, smooth, smoothing_change, smoothing_t
   use host_hourglass, only: has_hourglass_modes, resist_hourglass
   use host_hyperelastic, only: volume_of
   use host_incompatible, only: mode_strains
@@ -79,7 +81,7 @@ contains
     type(material_t), pointer :: material
     type(rule_t), pointer :: rule
     real(dp), pointer, contiguous :: axes(:, :, :, :)   !< of the points (host_axes), if the material is in them
-    real(dp) :: mass(ndofel, ndofel), old(ndofel, 2), at_nodes(mcrd*nnode, mcrd*nnode)
+    real(dp) :: mass(ndofel, ndofel), old(ndofel, 2), at_nodes(mcrd*nnode, mcrd*nnode), change(ndofel)
     integer :: dim, direct, first, last, modes, n, behind, of_nodes
     rule => rule_of(int(jprops(1)), int(jprops(2)))
     dim = rule%dim
@@ -107,17 +109,20 @@ contains
     rhs(1:n*nrhs) = 0
     amatrx(1:n*n) = 0
     if (lflags(3) /= 3 .and. lflags(3) /= 4) then
+      ! no time passes where the matrix of a stress is asked for: DU is a perturbation
+      change = du(:n)
+      if (stress_matrix(lflags(3))) change = 0
       if (modes > 0) then
-        call integrate_with_modes(rule, direct + 2*dim - 3, modes, lflags(3) == initial_stresses, lflags(2) /= 0, material, &
-                                  props(1), coords, int(npredf), predef, u, du, rhs, amatrx, svars, &
+        call integrate_with_modes(rule, direct + 2*dim - 3, modes, lflags(3), lflags(2) /= 0, material, props(1), coords, &
+                                  int(npredf), predef, u, change, du, rhs, amatrx, svars, &
                                   svars(nsvars - modes + 1:nsvars), energy, axes)
       else if (n > of_nodes .and. .not. present(coupling)) then
-        call integrate_with_pressure(rule, direct, n, lflags(2) /= 0, material, props(1), props(3), jprops(4) /= 0, coords, &
-                                     int(npredf), predef, u, du, rhs, amatrx, svars, energy, axes)
+        call integrate_with_pressure(rule, direct, n, lflags(3), lflags(2) /= 0, material, props(1), props(3), jprops(4) /= 0, &
+                                     coords, int(npredf), predef, u, change, du, rhs, amatrx, svars, energy, axes)
       else
-        call integrate(rule, direct, direct + 2*dim - 3, modes, lflags(3) == initial_stresses, lflags(2) /= 0, material, &
-                       props(1), props(3), jprops(4) /= 0, coords, int(npredf), predef, u, du, rhs, amatrx, svars, energy, &
-                       coupling, axes=axes, functions=int(jprops(7)))
+        call integrate(rule, direct, direct + 2*dim - 3, modes, lflags(3), lflags(2) /= 0, material, &
+                       props(1), props(3), jprops(4) /= 0, coords, int(npredf), predef, u, change, rhs, amatrx, svars, energy, &
+                       coupling, axes=axes, functions=int(jprops(7)), added=du(:of_nodes))
       end if
     end if
     call respond(n, lflags, params, dtime, v, a, mass, old, rhs, amatrx, energy(1))
@@ -132,14 +137,15 @@ contains
 
   !> The same with incompatible modes: they are sought at the displacements of the nodes. With large displacements (finite)
   !> strains are small in axes that turn with the middle of the element (core_solid_rotation).
-  subroutine integrate_with_modes(rule, strains, modes, begins, finite, material, thickness, x, fields, predef, u, du, force, &
-                                  stiffness, svars, alpha, energy, axes)
+  subroutine integrate_with_modes(rule, strains, modes, request, finite, material, thickness, x, fields, predef, u, du, added, &
+                                  force, stiffness, svars, alpha, energy, axes)
     type(rule_t), intent(in) :: rule
     integer, intent(in) :: strains, modes, fields
-    logical, intent(in) :: begins, finite
+    integer(i4), intent(in) :: request   !< LFLAGS(3)
+    logical, intent(in) :: finite
     type(material_t), intent(inout) :: material
     real(dp), intent(in) :: thickness, predef(2, fields, rule%nodes)
-    real(dp), dimension(rule%dim*rule%nodes), intent(in) :: x, u, du
+    real(dp), dimension(rule%dim*rule%nodes), intent(in) :: x, u, du, added   !< added: the perturbation
     real(dp), intent(inout) :: force(rule%dim*rule%nodes), stiffness(rule%dim*rule%nodes, rule%dim*rule%nodes)
     real(dp), intent(inout) :: svars(values_of_point(rule%dim)*rule%points), alpha(modes), energy(8)
     real(dp), intent(inout), optional :: axes(3, 3, 2, rule%points)
@@ -167,9 +173,10 @@ contains
       energy = energy_start
       all_force = 0
       all_stiffness = 0
-      call integrate(rule, rule%dim, strains, modes, begins, .false., material, thickness, 0.0_dp, .false., x, fields, predef, &
-                     moved, du, all_force, all_stiffness, svars, energy, alpha=alpha, by_modes=b, axes=axes)
-      if (begins) then
+      call integrate(rule, rule%dim, strains, modes, merge(request, 1_i4, request == initial_stresses), .false., material, &
+                     thickness, 0.0_dp, .false., x, fields, predef, moved, du, all_force, all_stiffness, svars, energy, &
+                     alpha=alpha, by_modes=b, axes=axes)
+      if (request == initial_stresses) then
         force = all_force(:size(force))
         return
       end if
@@ -181,6 +188,13 @@ contains
     end do
     if (.not. (settled .and. good)) call not_solved('the incompatible modes are not in equilibrium')
     call condense(n, inverse, all_force, all_stiffness, force, stiffness)
+    if (stress_matrix(request)) then
+      ! strains are small: stresses act on the rotation of the middle alone
+      if (.not. finite) call turn_of(rule, x, 0*u, turn, moved)
+      if (request == added_stress) force = matmul(stiffness, turned_back(rule, turn, added))
+      stiffness = turn_stiffness(rule%dim, rule%nodes, turn, force, 0*stiffness)
+      return
+    end if
     if (.not. finite) return
     stiffness = turn_stiffness(rule%dim, rule%nodes, turn, force, stiffness)
     force = turn_forces(rule%dim, rule%nodes, turn, force)
@@ -194,14 +208,15 @@ contains
   end subroutine integrate_with_modes
 
   !> The same with a pressure (host_hybrid), whose unknowns come after those of the nodes.
-  subroutine integrate_with_pressure(rule, direct, n, finite, material, thickness, hourglass, enhanced, x, fields, predef, u, &
-                                     du, force, stiffness, svars, energy, axes)
+  subroutine integrate_with_pressure(rule, direct, n, request, finite, material, thickness, hourglass, enhanced, x, fields, &
+                                     predef, u, du, added, force, stiffness, svars, energy, axes)
     type(rule_t), intent(in) :: rule
     integer, intent(in) :: direct, n, fields
+    integer(i4), intent(in) :: request   !< LFLAGS(3)
     logical, intent(in) :: finite, enhanced
     type(material_t), intent(inout) :: material
     real(dp), intent(in) :: thickness, hourglass, predef(2, fields, rule%nodes)
-    real(dp), intent(in) :: x(rule%dim*rule%nodes), u(n), du(n)
+    real(dp), intent(in) :: x(rule%dim*rule%nodes), u(n), du(n), added(n)   !< added: the perturbation
     real(dp), intent(inout) :: force(n), stiffness(n, n)
     real(dp), intent(inout) :: svars(values_of_point(rule%dim)*rule%points), energy(8)
     real(dp), intent(inout), optional :: axes(3, 3, 2, rule%points)
@@ -211,10 +226,13 @@ contains
     m = rule%dim*rule%nodes
     by_nodes = 0
     pressure%factors = u(m + 1:)
-    call integrate(rule, direct, direct + 2*rule%dim - 3, 0, .false., finite, material, thickness, hourglass, enhanced, x, &
-                   fields, predef, u(:m), du(:m), force(:m), by_nodes, svars, energy, axes=axes, pressure=pressure)
+    pressure%added = added(m + 1:)
+    call integrate(rule, direct, direct + 2*rule%dim - 3, 0, request, finite, material, thickness, hourglass, enhanced, x, &
+                   fields, predef, u(:m), du(:m), force(:m), by_nodes, svars, energy, axes=axes, pressure=pressure, &
+                   added=added(:m))
     force(m + 1:) = pressure%residual
     stiffness(:m, :m) = by_nodes
+    if (stress_matrix(request)) return
     stiffness(:m, m + 1:) = pressure%by_displacements
     stiffness(m + 1:, :m) = transpose(pressure%by_displacements)
     stiffness(m + 1:, m + 1:) = pressure%by_factors
@@ -238,6 +256,15 @@ contains
     call escape()
   end subroutine turn_of
 
+  !> Displacements along the axes that turn with an element.
+  pure function turned_back(rule, turn, u) result(v)
+    type(rule_t), intent(in) :: rule
+    type(solid_turn), intent(in) :: turn
+    real(dp), intent(in) :: u(rule%dim, rule%nodes)
+    real(dp) :: v(rule%dim*rule%nodes)
+    v = reshape(matmul(transpose(turn%rotation(:rule%dim, :rule%dim)), u), [rule%dim*rule%nodes])
+  end function turned_back
+
   !> Strains and stresses of all points, turned by a rotation.
   pure subroutine turn_states(rule, rotation, states)
     type(rule_t), intent(in) :: rule
@@ -251,13 +278,14 @@ contains
     end do
   end subroutine turn_states
 
-  !> Force, tangent, state and energies; begins: of the initial stresses, without a tangent. The unknowns are those of the
-  !> nodes, then the incompatible modes.
-  subroutine integrate(rule, direct, strains, modes, begins, finite, material, thickness, hourglass, enhanced, x, fields, &
-                       predef, u, du, force, stiffness, svars, energy, coupling, alpha, by_modes, axes, functions, pressure)
+  !> Force, tangent, state and energies; of the initial stresses without a tangent; or the matrix of a stress. The unknowns are
+  !> those of the nodes, then the incompatible modes.
+  subroutine integrate(rule, direct, strains, modes, request, finite, material, thickness, hourglass, enhanced, x, fields, &
+                       predef, u, du, force, stiffness, svars, energy, coupling, alpha, by_modes, axes, functions, pressure, added)
     type(rule_t), intent(in) :: rule
     integer, intent(in) :: direct, strains, modes, fields
-    logical, intent(in) :: begins, finite, enhanced
+    integer(i4), intent(in) :: request   !< LFLAGS(3)
+    logical, intent(in) :: finite, enhanced
     type(material_t), intent(inout) :: material
     real(dp), intent(in) :: thickness, hourglass, predef(2, fields, rule%nodes)
     real(dp), dimension(rule%dim, rule%nodes), intent(in) :: x, u, du
@@ -269,6 +297,7 @@ contains
     real(dp), intent(inout), optional :: axes(3, 3, 2, rule%points)   !< of the points (host_axes), if the material is in them
     integer, intent(in), optional :: functions                 !< of the pressure, on which the mean stress is projected
     type(pressure_t), intent(inout), optional :: pressure      !< with the unknowns; then there is no initial stress
+    real(dp), intent(in), optional :: added(rule%dim*rule%nodes)    !< perturbation, whose stress may be asked for
     real(dp), dimension(rule%nodes, direct, rule%points) :: g, g_mid
     real(dp), dimension(rule%dim*rule%nodes, strains, rule%points) :: b, b_mid
     real(dp), dimension(rule%points) :: volume, volume_mid, volume_now, volume_before, volume_strain
@@ -277,13 +306,16 @@ contains
     real(dp) :: now(rule%dim, rule%nodes), g_start(rule%nodes, direct), volume_start, deformation(3, 3, 2, rule%points)
     real(dp) :: strain(strains), stress(strains), modulus(strains, strains), thermal(2), weight, elastic, work
     real(dp) :: now_axes(3, 3), middle(3, 3)
-    logical :: averaged, smoothed
+    real(dp) :: weights(rule%points)
+    logical :: averaged, begins, of_stress, smoothed
     real(dp) :: unit(material%ntens)    !< stress
     type(smoothing_t) :: smoothing
     real(dp) :: of_point(strains + 2)   !< mean stress, its volume strain, and derivatives
     integer :: dim, nodes, p, dissipated
     dim = rule%dim
     nodes = rule%nodes
+    begins = request == initial_stresses
+    of_stress = stress_matrix(request)
     ! full integration of elements with straight edges locks if the volume is preserved, but not in plane stress; modes see to it
     averaged = rule%points > 1 .and. is_multilinear(rule) .and. material%ntens /= 3 .and. modes == 0
     averaged = averaged .and. .not. present(pressure)
@@ -383,7 +415,18 @@ contains
         if (allocated(material%thermal%source)) call call_hetval(material%thermal%source, int(p, i4))
         call add_heat_source(coupling, weight, b(:, :, p), components(strains, material%ntens))
       end if
+      if (request == added_stress) then
+        call find_strain(dim*nodes, strains, b(:, :, p), added, strain)
+        stress = matmul(modulus, strain)
+        of_point(1) = dot_product(of_point(3:), strain)
+        if (present(pressure)) stress(:direct) = stress(:direct) + mean_stress_added(pressure, p)
+      end if
       if (smoothed) call keep_point(smoothing, p, weight, direct, finite, of_point, b(:, :, p))
+      if (of_stress) then
+        stresses(:, p) = stress
+        weights(p) = weight
+        cycle
+      end if
       if (finite) call add_geometric(dim, direct, strains, nodes, g(:, :, p), stress, weight, modulus, stiffness)
       if (finite .and. (allocated(material%hyperelastic) .or. present(pressure))) then
         if (averaged) stresses(:, p) = stress
@@ -401,6 +444,15 @@ contains
         call add_space_point(3*nodes + modes, by_unknowns, weight*stress, weight*modulus, force, stiffness)
       end select
     end do
+    if (of_stress) then
+      if (smoothed) stresses(:direct, :) = stresses(:direct, :) + spread(smoothing_change(smoothing), 1, direct)
+      do p = 1, rule%points
+        call add_stress_matrix(dim, direct, strains, nodes, g(:, :, p), b(:, :, p), stresses(:, p), weights(p), stiffness)
+      end do
+      if (allocated(current%fields)) deallocate (current%fields)
+      current%hybrid = .false.
+      return
+    end if
     if (finite .and. averaged .and. allocated(material%hyperelastic)) then
       call add_mean_volume(dim, direct, strains, nodes, rule%points, g, b, stresses, &
                            volume*merge(thickness, 1.0_dp, dim == 2), volume_now, stiffness)

@@ -268,6 +268,34 @@ class System:
             block.artificial_mass(call, len(self), data)
         return data
 
+    def stress_matrix(self, call: Call, u: FloatArray, added: FloatArray | None = None) -> FloatArray:
+        """Initial stress matrix: what stresses add to the stiffness as they turn with the material.
+
+        Parameters
+        ----------
+        call
+            Of the step; its request is replaced.
+        u
+            (n,) unknowns of the base state.
+        added
+            (n,) a perturbation, whose stresses count; None: those of the base state do.
+
+        Returns
+        -------
+        FloatArray
+            (nnz,) CSR values in a new array.
+
+        Raises
+        ------
+        KernelError
+            A user material fails.
+        """
+        data = np.zeros(len(self.indices))
+        request = Request.BASE_STRESS if added is None else Request.ADDED_STRESS
+        for block in self.blocks:
+            block.stress_matrix(call.asking(request), u, np.zeros_like(u) if added is None else added, data)
+        return data
+
     def commit(self) -> None:
         """End of a converged increment: the state of the last normal pass becomes the committed one.
 

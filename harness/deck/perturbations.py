@@ -1,6 +1,8 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""Linear perturbation procedures: *FREQUENCY, *STEADY STATE DYNAMICS, and *STATIC in a step with PERTURBATION."""
+"""Linear perturbation procedures: *FREQUENCY, *BUCKLE, *STEADY STATE DYNAMICS, and *STATIC in a step with
+PERTURBATION.
+"""
 
 from __future__ import annotations
 
@@ -11,7 +13,7 @@ import numpy as np
 from harness.deck.blocks import Block, Row
 from harness.deck.prescribed import Prescription
 from harness.deck.table import Keyword, Option, Where, ignored, one_of, refused
-from harness.model.perturbations import Frequency, StaticPerturbation, SteadyState
+from harness.model.perturbations import Buckle, Frequency, StaticPerturbation, SteadyState
 
 _POINTS, _MOST_POINTS = 20, 100_000
 """Frequencies of a range: where their number is not given, and how many there can be."""
@@ -21,7 +23,7 @@ def read_static_perturbation(block: Block) -> StaticPerturbation:
     """*STATIC of a step with PERTURBATION. Raises DeckError for another procedure."""
     if block.name != "STATIC":
         raise block.error(
-            "not supported in a step with PERTURBATION; expected *STATIC, *FREQUENCY or *STEADY STATE DYNAMICS"
+            "not supported in a step with PERTURBATION; expected *STATIC, *FREQUENCY, *BUCKLE or *STEADY STATE DYNAMICS"
         )
     if any(block.options.given(name) for name in ("DIRECT", "RIKS", "STABILIZE")):
         raise block.error("DIRECT, RIKS and STABILIZE have no meaning in a step with PERTURBATION")
@@ -43,6 +45,23 @@ def _read_frequency(block: Block, _: Prescription) -> Frequency:
         raise block.error(f"the lowest frequency {lowest:g} is not below the highest, {highest:g}")
     by_mass = block.options.text("NORMALIZATION") == "MASS"
     return Frequency(number=number, lowest=lowest, highest=highest, by_mass=by_mass)
+
+
+def _read_buckle(block: Block, _: Prescription) -> Buckle:
+    row = block.only_row()
+    if row is None:
+        raise block.error("needs a data line with the number of eigenvalues")
+    lanczos = block.options.text("EIGENSOLVER") == "LANCZOS"
+    row.at_most(5 if lanczos else 4)
+    number, lowest = row.integer(0, "number of eigenvalues"), -math.inf
+    if number < 1:
+        raise row.error(f"number of eigenvalues {number} must be positive")
+    if lanczos:
+        lowest = row.real(1, "lowest eigenvalue", lowest)
+    highest = row.real(2 if lanczos else 1, "highest eigenvalue", math.inf)
+    if lowest >= highest:
+        raise row.error(f"the lowest eigenvalue {lowest:g} is not below the highest, {highest:g}")
+    return Buckle(number=number, lowest=lowest, highest=highest)
 
 
 def _read_steady_state(block: Block, _: Prescription) -> SteadyState:
@@ -98,6 +117,27 @@ PERTURBATIONS = (
             "number of eigenvalues, lowest and highest frequency (cycles per time)",
         ),
         _read_frequency,
+    ),
+    (
+        Keyword(
+            "BUCKLE",
+            "Loads, as factors of those of the step, at which the state at the end of the last general step becomes "
+            "unstable, by the initial stress matrix of built-in solids, trusses and SPRINGA and the load stiffness of "
+            "pressures. The tractions of COH elements do not turn; elements with rotations or temperatures, and user "
+            "elements, are refused.",
+            Where.STEP,
+            (
+                one_of(
+                    "EIGENSOLVER",
+                    "what the data line has, not how the eigenvalues are found",
+                    ("SUBSPACE", "LANCZOS"),
+                    default="SUBSPACE",
+                ),
+            ),
+            "number of eigenvalues, highest eigenvalue, vectors, iterations; with LANCZOS number, lowest and highest "
+            "eigenvalue, block size, steps. Vectors, iterations, block size and steps do not count",
+        ),
+        _read_buckle,
     ),
     (
         Keyword(

@@ -118,6 +118,9 @@ def _check_perturbation(step: Step, problems: Problems) -> None:
     for load in (*step.element_loads, *step.surface_loads):
         if load.type.jltyp:
             problems.add(load.source, "loads by DLOAD are not supported in a linear perturbation")
+        if step.procedure.buckles and load.type.follows and load.type.kind is not LoadKind.PRESSURE:
+            message = f"load type {load.type.kind} follows the surface: its load stiffness is not supported in *BUCKLE"
+            problems.add(load.source, f"{message}; TRVEC with FOLLOWER=NO does not follow it")
     if step.procedure.harmonic:
         for given in step.distributed:
             problems.add(given.source, "harmonic loads on user elements are not supported")
@@ -212,7 +215,7 @@ KEYWORDS = (
             *ignored("CONVERT SDI", "SOLVER"),
             Option(
                 "PERTURBATION",
-                doc="a linear step about the last state: *STATIC, and *FREQUENCY and *STEADY STATE DYNAMICS always",
+                doc="a linear step about the last state, of *STATIC; other procedures say it themselves",
             ),
             *refused("DSA", "SUBDIVIDE"),
         ),

@@ -415,6 +415,26 @@ class ElementBlock:
         values = np.stack([end, increment], axis=-1)[:, self.group.nodes]
         return np.ascontiguousarray(values.transpose(1, 2, 0, 3))
 
+    def stress_matrix(self, call: Call, u: FloatArray, added: FloatArray, matrix: FloatArray) -> None:
+        """Add the initial stress matrix into matrix, if the elements have one.
+
+        Parameters
+        ----------
+        call
+            Its request is BASE_STRESS or ADDED_STRESS.
+        u, added
+            (n,) unknowns of the system, and the perturbation.
+        matrix
+            (nnz,) CSR values of the system, changed in place.
+
+        Raises
+        ------
+        KernelError
+            A user material fails.
+        """
+        if self._routine.turns:
+            self.evaluate(call, u, added, np.zeros_like(u), matrix)
+
     def artificial_mass(self, call: Call, unknowns: int, matrix: FloatArray) -> None:
         """Add the mass matrix for unit density into matrix, where the elements have a density.
 

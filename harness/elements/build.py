@@ -99,6 +99,24 @@ def build_blocks(
     return blocks
 
 
+def _check_buckling(model: Model, group: ElementGroup) -> None:
+    """Raise DeckError if *BUCKLE needs an initial stress matrix that the elements do not have."""
+    step = next((step for step in model.steps if step.procedure.buckles), None)
+    if step is None:
+        return
+    kind = group.built_in
+    reason = ""
+    if group.definition is not None:
+        reason = "no call asks user elements for it"
+    elif isinstance(kind, ShellType):
+        reason = "they are for small displacements"
+    elif isinstance(kind, HeatType) or (isinstance(kind, ContinuumType) and kind.coupled):
+        reason = "they have temperatures"
+    if reason:
+        message = f"elements of type {group.type} have no initial stress matrix for *BUCKLE ({step.source}): {reason}"
+        raise DeckError(group.source, message)
+
+
 def _too_large(group: ElementGroup) -> DeckError:
     given = group.definition
     source, cause = (given.source, f" (VARIABLES={given.variables})") if given else (group.source, "")
@@ -114,6 +132,7 @@ def _block_of(
     if material is not None and not expands:
         message = f"*EXPANSION (material {material.name}) is not supported for elements of type {group.type}"
         raise DeckError(group.section.source, message)
+    _check_buckling(model, group)
     if group.definition is not None:
         assumed = group.type.upper() in linear
         return _user_block(model, group, group.definition, library, strict=strict, zeros=zeros, assumed=assumed)

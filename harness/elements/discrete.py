@@ -47,6 +47,7 @@ def discrete_routine(model: Model, group: ElementGroup, unknowns: int) -> Routin
         hidden=hidden,
         density=2 if kind is DiscreteKind.TRUSS else -1,
         props=_properties(group, dynamic=dynamic),
+        turns=kind in (DiscreteKind.TRUSS, DiscreteKind.AXIAL_SPRING),
         jprops=np.zeros(0, dtype=np.int64),
     )
 

@@ -35,6 +35,7 @@ class FollowerBlock(ElementBlock):
     elements  (m,) their positions in the model
     load      the type of the load
     surface   whether the loads are those of *DSLOAD, else of *DLOAD
+    acts      the pressures are forces of the model; otherwise the block has the load stiffness for *BUCKLE only
     """
 
     def __init__(
@@ -47,6 +48,7 @@ class FollowerBlock(ElementBlock):
         *,
         elements: IntArray,
         surface: bool,
+        acts: bool,
     ) -> None:
         nodes = parent.nodes[rows][:, list(load.face)]
         dimension, depth, face, outward, axisymmetric = _face(parent, int(rows[0]), load, coordinates)
@@ -62,7 +64,7 @@ class FollowerBlock(ElementBlock):
         )
         group = replace(parent, labels=parent.labels[rows], nodes=nodes)
         super().__init__(group, coordinates, unknowns, routine, library, unsymmetric=True, variables=None)
-        self.elements, self.load, self.surface = elements, load, surface
+        self.elements, self.load, self.surface, self.acts = elements, load, surface, acts
 
     @property
     def key(self) -> str:
@@ -106,17 +108,16 @@ def _face(
 
 
 def follower_blocks(model: Model, library: Library) -> list[FollowerBlock]:
-    """Blocks of all faces under loads that follow them; none in a model without NLGEOM.
+    """Blocks of all faces under loads that follow them; in a model without NLGEOM those of *BUCKLE.
 
     Raises DeckError if a shear traction is normal to a face.
     """
     found: list[FollowerBlock] = []
-    if not any(step.nlgeom for step in model.steps):
-        return found
+    acts = any(step.nlgeom for step in model.steps)
     starts = np.cumsum([0, *(len(group.labels) for group in model.groups)])
     for surface in (False, True):
         under: dict[LoadType, list[ElementLoad]] = {}
-        for step in model.steps:
+        for step in (step for step in model.steps if acts or step.procedure.buckles):
             for entry in step.surface_loads if surface else step.element_loads:
                 if entry.type.follows:
                     under.setdefault(entry.type, []).append(entry)
@@ -128,5 +129,6 @@ def follower_blocks(model: Model, library: Library) -> list[FollowerBlock]:
                     rows, given = mine - start, model.mesh.coordinates
                     if load.kind is LoadKind.SHEAR:
                         unit_forces(group, rows, entries[0], given)
-                    found.append(FollowerBlock(group, rows, load, given, library, elements=mine, surface=surface))
+                    where = {"elements": mine, "surface": surface, "acts": acts}
+                    found.append(FollowerBlock(group, rows, load, given, library, **where))
     return found

@@ -20,6 +20,8 @@ class Request(IntEnum):
     INITIAL_ACCELERATION  RHS and the mass matrix, at the start of a dynamic step
     PERTURBATION          RHS of a linear step once DU, the perturbation, is known
     INITIAL_STRESSES      the host's own, for built-in elements only: RHS and the state for the given stresses
+    BASE_STRESS, ADDED_STRESS  the host's own: AMATRX only, the initial stress matrix of the stresses at U, or of those
+                          that a perturbation DU adds to them
     """
 
     NORMAL = 1
@@ -30,6 +32,8 @@ class Request(IntEnum):
     INITIAL_ACCELERATION = 6
     PERTURBATION = 100
     INITIAL_STRESSES = -1
+    BASE_STRESS = -2
+    ADDED_STRESS = -3
 
 
 class Damping(IntEnum):

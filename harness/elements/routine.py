@@ -54,6 +54,7 @@ class Routine:
     stores    whether linear elements have no ENERGY but ENERGY(2), which is what AMATRX stores
     free      dofs along which a translation of an element causes no force, as far as that is known
     axes      the directions of the points, if the material is in them, None if it is not
+    turns     whether the elements have an initial stress matrix; stresses of others do not turn with them
     stress    places of the stress components of a point among its SVARS, in Abaqus' order; the last one is S12 or
               S23; none: the elements take no initial stress
     """
@@ -80,6 +81,7 @@ class Routine:
     free: tuple[int, ...] = ()
     axes: PointAxes | None = None
     stress: tuple[int, ...] = ()
+    turns: bool = False
 
     def stress_of(self, svars: FloatArray) -> tuple[FloatArray, IntArray]:
         """SVARS of elements (m, svars) by their points (m, points, values), a view, and the places of the stress there.

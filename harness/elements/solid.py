@@ -110,6 +110,7 @@ def solid_routine(model: Model, group: ElementGroup, section: SolidSection, libr
         statev=state_variables(material),
         viscous=-1 if material.viscous is None else VISCOUS_CHANGE,
         uvarm=_output_variables(section, kind.points, library),
+        turns=True,
         linear=history_values(material) == 1 and material.hyperelastic is None,
         forces=linearity(material, prestressed=prestressed),
         # the energy of hourglass control is another one, and that of a pressure is not in the matrix

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""Linear perturbation procedures: what *STATIC with PERTURBATION, *FREQUENCY and *STEADY STATE DYNAMICS say."""
+"""Linear perturbation procedures: *STATIC with PERTURBATION, *FREQUENCY, *BUCKLE and *STEADY STATE DYNAMICS."""
 
 from __future__ import annotations
 
@@ -90,6 +90,43 @@ class Frequency(LinearPerturbation):
             yield "LOWEST FREQUENCY OF INTEREST (CYCLES/TIME)", self.lowest
         scale = "UNIT GENERALIZED MASS" if self.by_mass else "UNIT MAXIMUM DISPLACEMENT"
         yield f"EIGENVECTORS ARE NORMALIZED TO {scale}"
+
+
+@dataclass(frozen=True, slots=True)
+class Buckle(LinearPerturbation):
+    """*BUCKLE.
+
+    number           of eigenvalues
+    lowest, highest  eigenvalues of interest, factors of the loads of the step
+    """
+
+    keyword: ClassVar = "BUCKLE"
+    title: ClassVar = "BUCKLING ANALYSIS - EIGENVALUE BUCKLING PREDICTION"
+    buckles: ClassVar = True
+    energies: ClassVar = ("EIGVAL",)
+
+    number: int = 1
+    lowest: float = -math.inf
+    highest: float = math.inf
+
+    @property
+    def lflag(self) -> int:
+        """1, which no user element gets: they are refused."""
+        return 1
+
+    @property
+    def extent(self) -> tuple[str, float]:
+        """Modes."""
+        return "mode", self.number
+
+    def head(self) -> Iterator[HeadLine]:
+        """How many modes, and how they are scaled."""
+        yield "NUMBER OF EIGENVALUES", f"{self.number:>10}"
+        if math.isfinite(self.highest):
+            yield "HIGHEST EIGENVALUE OF INTEREST", self.highest
+        if math.isfinite(self.lowest):
+            yield "LOWEST EIGENVALUE OF INTEREST", self.lowest
+        yield "EIGENVECTORS ARE NORMALIZED TO UNIT MAXIMUM DISPLACEMENT"
 
 
 @dataclass(frozen=True, slots=True)

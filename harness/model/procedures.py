@@ -61,6 +61,7 @@ class Procedure(ABC):
     linear        a linear perturbation of the state at the end of the last general step, without passage of time
     harmonic      loads and results are complex amplitudes, over frequency
     loaded        loads and prescribed values of the step act
+    buckles       the initial stress matrix of the elements and the load stiffness are asked for
     unsymmetric   matrices are stored and solved as unsymmetric ones, UNSYMM or not
     growth        name of the control D_M that bounds the growth from one increment to the next
     energies      of the whole model in the history output; None: those that the step requests
@@ -74,6 +75,7 @@ class Procedure(ABC):
     linear: ClassVar[bool] = False
     harmonic: ClassVar[bool] = False
     loaded: ClassVar[bool] = True
+    buckles: ClassVar[bool] = False
     unsymmetric: ClassVar[bool] = False
     growth: ClassVar[str] = "d_m"
     energies: ClassVar[tuple[str, ...] | None] = None

@@ -136,6 +136,20 @@ class ModeShape(IncrementDone):
 
 
 @dataclass(frozen=True, slots=True)
+class BucklingFactors:
+    """Eigenvalues (k,) of *BUCKLE: factors of the loads of the step at which the structure buckles."""
+
+    step: int
+    total_time: float
+    eigenvalues: FloatArray
+
+
+@dataclass(frozen=True, slots=True)
+class BucklingMode(ModeShape):
+    """One buckling mode: its eigenvalue replaces the times."""
+
+
+@dataclass(frozen=True, slots=True)
 class HarmonicResponse(IncrementDone):
     """The response at one frequency, which replaces the times; the solution has an imaginary part."""
 
@@ -217,6 +231,7 @@ Record = (
     | SearchHelped
     | IncrementDone
     | ModesFound
+    | BucklingFactors
     | StepDone
     | StateKept
     | Warned

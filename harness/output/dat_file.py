@@ -15,7 +15,7 @@ import numpy as np
 from harness.model.model import Model
 from harness.model.nodal import NodalIndex
 from harness.model.properties import UserElement
-from harness.model.records import IncrementDone, ModesFound, StepStarted
+from harness.model.records import BucklingFactors, IncrementDone, ModesFound, StepStarted
 from harness.model.steps import ElementRequest, NodeRequest
 from harness.output.formats import TextFile, program, read_remarks, remark
 from harness.output.schedule import Schedule
@@ -101,18 +101,9 @@ class DataFile:
             text += f"\n\n                                N O D E   O U T P U T\n{nodes}"
         self._file.write(text)
 
-    def modes(self, record: ModesFound) -> None:
+    def modes(self, record: ModesFound | BucklingFactors) -> None:
         """Table of eigenvalues."""
-        text = (
-            "\n\n                              E I G E N V A L U E    O U T P U T\n\n"
-            " MODE NO      EIGENVALUE              FREQUENCY               GENERALIZED MASS\n"
-            "                             (RAD/TIME)   (CYCLES/TIME)\n\n"
-        )
-        for number, values in enumerate(zip(record.eigenvalues, record.frequencies, record.masses, strict=True), 1):
-            value, frequency, mass = (float(value) for value in values)
-            rate = 2 * math.pi * frequency
-            text += f"{number:8d}   {value:13.5g}   {rate:13.5g}   {frequency:13.5g}   {mass:13.5g}\n"
-        self._file.write(text)
+        self._file.write(_natural(record) if isinstance(record, ModesFound) else _buckling(record))
 
     def _missing(self, record: IncrementDone, index: NodalIndex) -> None:
         """Name requested variables that are not available, once per step."""
@@ -214,6 +205,34 @@ def echo(deck: Path) -> str:
         return ""
     text = "".join(f"{number:8d}  {line}".rstrip() + "\n" for number, line in enumerate(lines, 1))
     return f"                            I N P U T   E C H O\n\n{text}"
+
+
+def _natural(record: ModesFound) -> str:
+    """Table of natural frequencies."""
+    text = (
+        "\n\n                              E I G E N V A L U E    O U T P U T\n\n"
+        " MODE NO      EIGENVALUE              FREQUENCY               GENERALIZED MASS\n"
+        "                             (RAD/TIME)   (CYCLES/TIME)\n\n"
+    )
+    for number, values in enumerate(zip(record.eigenvalues, record.frequencies, record.masses, strict=True), 1):
+        value, frequency, mass = (float(value) for value in values)
+        rate = 2 * math.pi * frequency
+        text += f"{number:8d}   {value:13.5g}   {rate:13.5g}   {frequency:13.5g}   {mass:13.5g}\n"
+    return text
+
+
+def _buckling(record: BucklingFactors) -> str:
+    """Table of buckling loads."""
+    text = (
+        "\n\n                              E I G E N V A L U E    O U T P U T\n\n"
+        ' BUCKLING LOAD ESTIMATE = ("DEAD" LOADS) + EIGENVALUE * ("LIVE" LOADS).\n'
+        '          "DEAD" LOADS = TOTAL LOAD BEFORE *BUCKLE STEP.\n'
+        '          "LIVE" LOADS = INCREMENTAL LOAD IN *BUCKLE STEP\n\n'
+        " MODE NO      EIGENVALUE\n\n"
+    )
+    return text + "".join(
+        f"{number:8d}   {value:13.5g}\n" for number, value in enumerate(record.eigenvalues.tolist(), 1)
+    )
 
 
 def _user_element(name: str, definition: UserElement) -> str:

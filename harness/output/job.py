@@ -19,6 +19,7 @@ from harness.model.records import (
     AttemptAbandoned,
     AttemptEnded,
     AttemptStarted,
+    BucklingFactors,
     Convergence,
     FieldCheck,
     HarmonicResponse,
@@ -115,7 +116,7 @@ class JobOutput:
                 self._abandoned(record)
             case SearchHelped():
                 self._message.helped(record)
-            case ModesFound():
+            case ModesFound() | BucklingFactors():
                 self._modes(record)
             case ModeShape():
                 self._requested(record, last=True)
@@ -260,7 +261,7 @@ class JobOutput:
             )
         )
 
-    def _modes(self, record: ModesFound) -> None:
+    def _modes(self, record: ModesFound | BucklingFactors) -> None:
         self._data.modes(record)
         size = self._model.steps[record.step - 1].procedure.period
         self._status.write(StatusRow(record.step, 1, 1, False, 1, record.total_time, size, size))

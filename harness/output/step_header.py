@@ -7,7 +7,7 @@ from __future__ import annotations
 from collections.abc import Iterable
 
 from harness.model.procedures import HeadLine, Procedure
-from harness.model.records import HarmonicResponse, IncrementDone, ModeShape
+from harness.model.records import BucklingMode, HarmonicResponse, IncrementDone, ModeShape
 from harness.model.steps import Controls, FieldControls, Step, TimeControls
 from harness.output.field_terms import FIELDS, FieldTerms
 from harness.output.formats import general
@@ -51,6 +51,8 @@ def _head_line(line: HeadLine) -> str:
 
 def completed(record: IncrementDone, period: float) -> str:
     """How far an increment has come, in time or along a path."""
+    if isinstance(record, BucklingMode):
+        return f" MODE{record.increment:6d},  EIGENVALUE{general(record.step_time)}\n"
     if isinstance(record, ModeShape):
         return f" MODE{record.increment:6d},  FREQUENCY (CYCLES/TIME){general(record.step_time)}\n"
     if isinstance(record, HarmonicResponse):

@@ -182,7 +182,8 @@ class _ElementLoads:
         self.loads = Loads(self._slots)
         self._active = np.zeros(len(self._slots), dtype=bool)
         parts: list[_Points] = []
-        faces = [block for block in system.loaded if isinstance(block, FollowerBlock) and block.surface == surface]
+        loaded = (block for block in system.loaded if isinstance(block, FollowerBlock) and block.acts)
+        faces = [block for block in loaded if block.surface == surface]
         turning = {block.load for block in faces}
         for entry in {entry.type: entry for entry in entries}.values():
             if entry.type not in turning:

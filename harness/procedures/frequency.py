@@ -14,7 +14,7 @@ import numpy as np
 
 from harness.elements import Request
 from harness.errors import DeckError
-from harness.model.arrays import FloatArray, first_largest
+from harness.model.arrays import FloatArray
 from harness.model.perturbations import Frequency
 from harness.model.records import ModesFound, ModeShape, Record
 from harness.procedures.perturbation import PerturbationStep
@@ -23,8 +23,6 @@ from harness.solver.eigen import Pair, UnstableError, lowest_eigenvalues
 
 FIRST = 10
 """Number of eigenvalues that are computed first if the deck does not give it."""
-
-_LAST_DISPLACEMENT = 3
 
 
 class FrequencyStep(PerturbationStep):
@@ -65,24 +63,17 @@ class FrequencyStep(PerturbationStep):
                 raise DeckError(self._step.source, f"*FREQUENCY finds no eigenvalues: {message}") from None
             highest = (2 * math.pi * self._procedure.highest) ** 2
             if self._procedure.number or len(values) < count or values[-1] > highest or count == size:
-                none = np.zeros(len(self._constraints.prescribed))
-                return values, np.array([self._constraints.expand(vector, none) for vector in vectors.T]).T
+                return values, self._modes_of(vectors)
             count = min(2 * count, size)
 
     def _matrix(self, request: Request) -> FloatArray:
         """CSR values of the symmetric part of a matrix of the free unknowns."""
         evaluation = self._pass(request)
         assert evaluation.data is not None
-        data = self._constraints.reduce(evaluation.data)
-        symmetric: FloatArray = 0.5 * (data + data[self._solver.pattern.transposed])
-        return symmetric
+        return self._symmetric(evaluation.data)
 
     def _scaled(self, vectors: FloatArray) -> tuple[FloatArray, FloatArray]:
         """Shapes (k, n) with the requested normalization, and their generalized masses."""
-        displacements = self._system.dofs.dof <= _LAST_DISPLACEMENT
-        factors = np.ones(vectors.shape[1])
-        for mode, vector in enumerate(vectors.T):
-            measured = vector[displacements] if np.any(vector[displacements]) else vector
-            largest = measured[first_largest(np.abs(measured))]
-            factors[mode] = np.sign(largest) if self._procedure.by_mass else 1.0 / largest
+        largest = self._largest(vectors)
+        factors = np.sign(largest) if self._procedure.by_mass else 1.0 / largest
         return (vectors * factors).T, factors**2

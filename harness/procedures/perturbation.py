@@ -15,7 +15,7 @@ import numpy as np
 
 from harness.assembly import Constraints, Evaluation
 from harness.elements import Call, Flags, Request
-from harness.model.arrays import FloatArray
+from harness.model.arrays import FloatArray, first_largest
 from harness.model.records import (
     AttemptStarted,
     ElementState,
@@ -33,6 +33,9 @@ BASE_FORCES = (
     "USER ELEMENTS RETURN FORCES OF THE BASE STATE IN RHS OF A LINEAR STEP (LFLAGS(4) = 1), WHERE ABAQUS EXPECTS ONLY "
     "WHAT THE LOADS OF THE STEP ADD. THEY ACT AS LOADS OF THE STEP; SEE uel check."
 )
+
+LAST_DISPLACEMENT = 3
+"""Dof."""
 
 ROUNDING = 1e-8
 """Of the average force of the elements."""
@@ -84,12 +87,9 @@ class PerturbationStep:
         assert evaluation.data is not None
         constraints, step = self._constraints, self._step
         load = self._state.loads.in_perturbation(step)
-        prescribed = self._state.boundaries.perturbations(step)[constraints.prescribed]
         stiffness = self._system.matrix(evaluation.data)
         external = load + evaluation.residual
-        missing = external - constraints.prescribed_residual(evaluation.data, prescribed)
-        self._solver.factorise(constraints.reduce(evaluation.data))
-        change = constraints.expand(self._solver.solve(constraints.reduce_vector(missing)), prescribed)
+        change = self._response(evaluation.data, constraints.reduce(evaluation.data), external)
         internal = stiffness @ change
         self._pass(Request.PERTURBATION, change)
         work = 0.5 * float(change @ internal)
@@ -99,6 +99,37 @@ class PerturbationStep:
         period = step.procedure.period
         done = IncrementDone(step.number, 1, 1, 1, period, self._state.total_time, period, found)
         return [Warned(BASE_FORCES), done] if self._unloaded(evaluation) else [done]
+
+    def _response(self, data: FloatArray, reduced: FloatArray, external: FloatArray) -> FloatArray:
+        """Change (n,) by forces and the prescribed values of the step.
+
+        data, reduced: CSR values of the stiffness, of all unknowns and of the free ones, which is factorised.
+        """
+        constraints = self._constraints
+        prescribed = self._state.boundaries.perturbations(self._step)[constraints.prescribed]
+        missing = external - constraints.prescribed_residual(data, prescribed)
+        self._solver.factorise(reduced)
+        return constraints.expand(self._solver.solve(constraints.reduce_vector(missing)), prescribed)
+
+    def _symmetric(self, data: FloatArray) -> FloatArray:
+        """CSR values of the symmetric part of a matrix of the free unknowns."""
+        reduced = self._constraints.reduce(data)
+        symmetric: FloatArray = 0.5 * (reduced + reduced[self._solver.pattern.transposed])
+        return symmetric
+
+    def _modes_of(self, vectors: FloatArray) -> FloatArray:
+        """(n, k) all unknowns of modes from the free ones."""
+        none = np.zeros(len(self._constraints.prescribed))
+        return np.array([self._constraints.expand(vector, none) for vector in vectors.T]).T
+
+    def _largest(self, vectors: FloatArray) -> FloatArray:
+        """Displacement (k,) of modes (n, k) with the largest magnitude, or another unknown if nothing moves."""
+        displacements = self._system.dofs.dof <= LAST_DISPLACEMENT
+        largest = []
+        for vector in vectors.T:
+            measured = vector[displacements] if np.any(vector[displacements]) else vector
+            largest.append(measured[first_largest(np.abs(measured))])
+        return np.array(largest)
 
     def _unloaded(self, evaluation: Evaluation) -> bool:
         """Whether user elements return forces in a step without loads on them."""

@@ -9,8 +9,9 @@ from __future__ import annotations
 
 from functools import singledispatch
 
-from harness.model.perturbations import Frequency, StaticPerturbation, SteadyState
+from harness.model.perturbations import Buckle, Frequency, StaticPerturbation, SteadyState
 from harness.model.procedures import Dynamic, HeatTransfer, Procedure, Static, Visco
+from harness.procedures.buckle import BuckleStep
 from harness.procedures.context import StepContext
 from harness.procedures.dynamic import ImplicitIntegration
 from harness.procedures.frequency import FrequencyStep
@@ -85,6 +86,11 @@ def _(_: StaticPerturbation, setting: Setting) -> StepRun:
 @run_of.register
 def _(procedure: Frequency, setting: Setting) -> StepRun:
     return FrequencyStep(setting, procedure)
+
+
+@run_of.register
+def _(procedure: Buckle, setting: Setting) -> StepRun:
+    return BuckleStep(setting, procedure)
 
 
 @run_of.register

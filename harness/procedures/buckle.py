@@ -1,0 +1,87 @@
+# SPDX-FileCopyrightText: The uel-harness authors
+# SPDX-License-Identifier: BSD-3-Clause
+"""*BUCKLE: factors of the loads of the step at which the state at the end of the last general step becomes unstable.
+
+(K + lambda D) v = 0, where K is the stiffness of the base state with its stresses, and D the initial stress matrix of
+what the loads of the step add to the stresses, with their load stiffness (Abaqus Analysis User's Guide, "Eigenvalue
+buckling prediction"). Unsymmetric parts are left out.
+"""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+
+from harness.elements import Distributed, PressureBlock, Request
+from harness.errors import DeckError
+from harness.model.arrays import FloatArray
+from harness.model.perturbations import Buckle
+from harness.model.records import BucklingFactors, BucklingMode, Record
+from harness.procedures.perturbation import PerturbationStep
+from harness.procedures.step_setting import Setting
+from harness.solver.buckling import smallest_factors
+from harness.solver.eigen import Pair, UnstableError
+
+UNSTABLE = "the base state is not stable: its loads are above the buckling load, or its stiffness is not symmetric"
+
+
+class BuckleStep(PerturbationStep):
+    """One step of eigenvalue buckling prediction."""
+
+    def __init__(self, setting: Setting, procedure: Buckle) -> None:
+        super().__init__(setting)
+        self._procedure = procedure
+
+    def _solve(self) -> list[Record]:
+        """The modes, those of the smallest loads first."""
+        step, procedure = self._step, self._procedure
+        values, vectors = self._buckle()
+        inside = (values >= procedure.lowest) & (values <= procedure.highest)
+        values, vectors = values[inside], vectors[:, inside]
+        shapes = (vectors / self._largest(vectors)).T if len(values) else vectors.T
+        records: list[Record] = [BucklingFactors(step.number, self._state.total_time, values)]
+        for mode, (factor, shape) in enumerate(zip(values.tolist(), shapes, strict=True), start=1):
+            found = self._solution(shape, {"EIGVAL": factor})
+            records.append(BucklingMode(step.number, mode, 1, 0, factor, factor, procedure.period, found))
+        return records
+
+    def _buckle(self) -> tuple[FloatArray, FloatArray]:
+        """Eigenvalues, and vectors (n, k) of all unknowns."""
+        system, at = self._system, self._state.displacement
+        call = self._call(Request.NORMAL)
+        evaluation = self._pass(Request.NORMAL)
+        assert evaluation.data is not None
+        data = evaluation.data.copy()
+        stiffness = self._symmetric(data)
+        change = self._response(data, stiffness, self._state.loads.in_perturbation(self._step))
+        added = self._symmetric(system.stress_matrix(call, at, change) + self._load_stiffness())
+        if not np.any(added):
+            raise DeckError(self._step.source, "*BUCKLE: the loads of the step cause no stress")
+        if not self._step.nlgeom and np.any(stress := self._symmetric(system.stress_matrix(call, at))):
+            stiffness += stress
+            self._solver.factorise(stiffness)
+        pattern = self._constraints.reduced_indptr, self._constraints.reduced_indices
+        try:
+            values, vectors = smallest_factors(Pair(*pattern, stiffness, -added), self._procedure.number, self._solver)
+        except UnstableError:
+            raise DeckError(self._step.source, f"*BUCKLE finds no eigenvalues: {UNSTABLE}") from None
+        return values, self._modes_of(vectors)
+
+    def _load_stiffness(self) -> FloatArray:
+        """CSR values (nnz,) of the pressures of the step, which follow the faces of the base state."""
+        system, step = self._system, self._step
+        data, still = np.zeros(len(system.indices)), np.zeros(len(system))
+        call = self._call(Request.STIFFNESS)
+        flags = replace(call.flags, nlgeom=True)
+        for block in system.loaded:
+            if not isinstance(block, PressureBlock):
+                continue
+            pressure = np.zeros(len(block.elements))
+            for entry in step.surface_loads if block.surface else step.element_loads:
+                if entry.type == block.load:
+                    np.add.at(pressure, np.searchsorted(block.elements, entry.elements), entry.magnitude)
+            places = block.first + block.rows
+            given = Distributed(places, np.ones_like(places), pressure, pressure)
+            block.evaluate(replace(call, flags=flags, distributed=given), still, still, still.copy(), data)
+        return data
