@@ -27,6 +27,7 @@ from harness.model.restart import Resumption
 from harness.output import JobOutput, Result
 from harness.output.ending import progress
 from harness.output.lock import job_stem
+from harness.output.shapes import read_shape
 from harness.parallel.ranks import ALONE, Ranks
 from harness.procedures import run_steps
 from harness.procedures.incrementation import FIXED_TOO_LARGE, TOO_MANY_ATTEMPTS, TOO_MANY_INCREMENTS
@@ -123,6 +124,7 @@ def run(
         raise UsageError(f"--cpus {cpus}: run-time checks (--debug) need one thread")
     deck = Path(deck)
     stem = job_stem(deck.stem if job is None else job, output_dir)
+    job, folder = stem.name, stem.parent
     refuse_on_ranks(oldjob, ranks)
     files = [user] if isinstance(user, str | Path) else user or ()
     started = time.perf_counter()
@@ -130,7 +132,8 @@ def run(
         resumed, parts = (None, ()) if oldjob is None else find_state(deck, parameters, Path(oldjob), stem)
         if parts:
             parameters = parts[-1].given
-        model = ranks.agree(lambda: read_deck(deck, parameters, parts))
+        shapes = partial(read_shape, [Path(), folder, deck.parent])
+        model = ranks.agree(lambda: read_deck(deck, parameters, parts, shapes))
         refuse_nothing_left(model, resumed, oldjob)
         decks = ranks.agree(lambda: decks_of(model, parameters, parts))
         if ranks.size > 1:
@@ -139,7 +142,6 @@ def run(
         safe = _safe_routines(model, thread_safe)
         usersub.limit_calls(call_limit)
         sources = [Path(file) for file in files]
-        job, folder = stem.name, stem.parent
         load = partial(usersub.load, sources, job=job, output_dir=folder, deck=deck, zero_locals=not debug, debug=debug)
         # the others find in the cache what rank 0 has compiled
         library = ranks.in_turn(partial(load, rank=ranks.rank))

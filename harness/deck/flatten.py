@@ -5,7 +5,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from functools import partial
 
 import numpy as np
@@ -20,7 +20,7 @@ from harness.deck.placement import IDENTITY, Placement, read_placement
 from harness.deck.structure import Structure
 from harness.deck.user_elements import Definitions, read_user_element
 from harness.errors import DeckError, Source
-from harness.model.arrays import IntArray
+from harness.model.arrays import FloatArray, IntArray
 from harness.model.mesh import Mesh
 from harness.model.properties import UserElement
 
@@ -145,6 +145,10 @@ class FlatMesh:
     def _instance_node(self, instance: str, label: int) -> int | None:
         index = int(self._owners[instance].find_nodes(np.array([label]))[0])
         return index if index >= 0 else None
+
+    def displace(self, change: FloatArray) -> None:
+        """Move the nodes of the whole model by (n, 3)."""
+        self.mesh = replace(self.mesh, coordinates=self.mesh.coordinates + change)
 
     def _make_mesh(self) -> Mesh:
         points, names = [], []

@@ -15,6 +15,7 @@ from harness.deck.constraints import ConstraintReader, read_equations
 from harness.deck.error_report import Problems
 from harness.deck.flatten import FlatMesh
 from harness.deck.groups import make_groups
+from harness.deck.imperfection import ShapeReader, displace
 from harness.deck.initial import read_initial_solutions, read_initial_stresses, read_initial_values
 from harness.deck.keywords import KEYWORDS
 from harness.deck.lexer import Survey, read_blocks, survey_blocks
@@ -34,7 +35,12 @@ from harness.model.restart import DeckPart, RestartRead
 from harness.model.steps import Boundary
 
 
-def read_deck(path: Path, given: Mapping[str, float] | None = None, parts: Sequence[DeckPart] = ()) -> Model:
+def read_deck(
+    path: Path,
+    given: Mapping[str, float] | None = None,
+    parts: Sequence[DeckPart] = (),
+    shapes: ShapeReader | None = None,
+) -> Model:
     """Read an Abaqus input deck.
 
     Parameters
@@ -46,6 +52,8 @@ def read_deck(path: Path, given: Mapping[str, float] | None = None, parts: Seque
         Values of parameters in place of those in its *PARAMETER; what the deck computes from them follows.
     parts
         Of a restart: the decks that the model comes from, the last of which is this one.
+    shapes
+        Reads the shapes of *IMPERFECTION, FILE; None: nodes are where the deck puts them.
 
     Returns
     -------
@@ -70,6 +78,7 @@ def read_deck(path: Path, given: Mapping[str, float] | None = None, parts: Seque
     in_steps = [block for scope in structure.steps for block in scope.blocks]
     amplitudes = read_amplitudes([*structure.root, *in_steps], problems)
     flat = FlatMesh(structure, problems)
+    displace(structure.root, flat, problems, shapes)
     if not any(len(owner.elements) for owner in flat.owners):
         raise DeckError(Source(str(path), 1), "the deck has no elements")
     groups = make_groups(flat, materials, read_section_controls(structure.root, problems), problems)
