@@ -9,12 +9,12 @@ from dataclasses import replace
 
 import numpy as np
 
-from harness.deck.blocks import Block
+from harness.deck.blocks import Block, Row
 from harness.deck.error_report import Problems
 from harness.deck.flatten import FlatMesh
 from harness.deck.table import INPUT, Keyword, Kind, Option, Where, one_of, refused
 from harness.deck.user_elements import LARGEST_DOF
-from harness.model.steps import InitialSolution, InitialStress, InitialValue
+from harness.model.steps import InitialSolution, InitialStress, InitialValue, VerticalStress
 
 TEMPERATURE = 11
 """First of the dofs that are temperatures."""
@@ -85,16 +85,28 @@ def read_initial_stresses(blocks: Iterable[Block], flat: FlatMesh, problems: Pro
             for row in block.rows():
                 row.at_most(1 + MOST_COMPONENTS)
                 elements = flat.elements(row.name(0, "element or element set"), row.source)
+                if block.options.flag("GEOSTATIC"):
+                    profile = _read_profile(row)
+                    found.append(InitialStress(elements, np.zeros(0), ramped, row.source, profile))
+                    continue
                 values = np.array([row.real(k, "stress", 0.0) for k in range(1, len(row))])
                 found.append(InitialStress(elements, values, ramped, row.source))
     return found
 
 
+def _read_profile(row: Row) -> VerticalStress:
+    """A data line with GEOSTATIC."""
+    names = ("vertical stress", "elevation", "second vertical stress", "its elevation")
+    first, low, second, high = (row.real(k, name) for k, name in enumerate(names, start=1))
+    if low == high:
+        raise row.error(f"both elevations are {low:g}, expected two")
+    along = row.real(5, "coefficient of lateral stress")
+    return VerticalStress((first, second), (low, high), (along, row.real(6, "second coefficient", along)))
+
+
 def _check_stress(block: Block) -> bool:
     """Whether SIGINI gives the stresses. Raises DeckError if neither it nor data lines do."""
     expected = "expected the components of the stress after each element or set"
-    if block.options.flag("GEOSTATIC"):
-        raise block.error(f"GEOSTATIC: stresses that vary with the elevation are not supported; {expected}")
     if block.options.flag("USER"):
         if any(True for _ in block.rows()):
             raise block.error("USER: SIGINI gives the stresses; expected no data lines")
@@ -160,7 +172,7 @@ KEYWORDS = (
             INPUT,
             FIELD_NUMBER,
             Option("USER", doc="state variables by SDVINI, with TYPE=SOLUTION; stresses by SIGINI, with TYPE=STRESS"),
-            Option("GEOSTATIC", doc="stresses by elevation: refused, with TYPE=STRESS"),
+            Option("GEOSTATIC", doc="stresses by elevation, the last coordinate, with TYPE=STRESS"),
             one_of(
                 "UNBALANCED STRESS",
                 "unbalanced initial stresses take effect gradually over the first step (RAMP, the default) or at once",
@@ -170,6 +182,8 @@ KEYWORDS = (
         ),
         "node or set, dof, velocity; or node or set, temperatures of dofs 11, 12, ...; or node or set, value of field; "
         "or element or set, state variables; or element or set, stress components of a built-in continuum element (11, "
-        "22, 33, 12, 13, 23; 11, 22, 12 in plane stress), in the directions of *ORIENTATION",
+        "22, 33, 12, 13, 23; 11, 22, 12 in plane stress), in the directions of *ORIENTATION; with GEOSTATIC element or "
+        "set, vertical stress, elevation, vertical stress, elevation, coefficients of the lateral stresses along 1 and "
+        "2 (in the plane 3)",
     ),
 )

@@ -1,7 +1,7 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""The procedure of a step: *STATIC, *VISCO, *DYNAMIC, *HEAT TRANSFER, *COUPLED TEMPERATURE-DISPLACEMENT, and the table
-of all procedures, with the linear ones of `perturbations`.
+"""The procedure of a step: *STATIC, *VISCO, *GEOSTATIC, *DYNAMIC, *HEAT TRANSFER and *COUPLED
+TEMPERATURE-DISPLACEMENT, and the table of all procedures, with the linear ones of `perturbations`.
 
 Defaults are those of the Abaqus Keywords Guide; zero or blank stands for the default everywhere.
 """
@@ -20,6 +20,7 @@ from harness.deck.table import Keyword, Kind, Option, Where, ignored, one_of, re
 from harness.model.procedures import (
     CoupledTemperatureDisplacement,
     Dynamic,
+    Geostatic,
     HeatTransfer,
     Integrator,
     Procedure,
@@ -133,6 +134,10 @@ def _read_visco(block: Block, _: Prescription) -> Visco:
     return Visco(*times, tolerance=tolerance or math.inf)
 
 
+def _read_geostatic(_block: Block, _: Prescription) -> Geostatic:
+    return Geostatic(minimum=1.0, direct=True)
+
+
 def _read_dynamic(block: Block, _: Prescription) -> Dynamic:
     options = block.options
     application = options.text("APPLICATION")
@@ -237,6 +242,16 @@ PROCEDURES: tuple[tuple[Keyword, Callable[[Block, Prescription], Procedure]], ..
             _TIMES,
         ),
         _read_visco,
+    ),
+    (
+        Keyword(
+            "GEOSTATIC",
+            "Equilibrium of initial stresses with the loads of the step, in one increment. Displacements that are left "
+            "show how far the stresses were from it.",
+            Where.STEP,
+            refused("UTOL", "HEAT"),
+        ),
+        _read_geostatic,
     ),
     (
         Keyword(

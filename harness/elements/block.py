@@ -19,10 +19,13 @@ from harness.elements.routine import Linearity, PointAxes, Routine
 from harness.elements.watch import Watch
 from harness.errors import ElementError, KernelError
 from harness.model.arrays import FloatArray, IntArray
+from harness.model.element_types import ContinuumType
 from harness.model.local_systems import UndefinedDirectionsError, orthonormal
 from harness.model.mesh import ElementGroup
+from harness.model.properties import SolidSection
 from harness.model.records import ElementState, PointVariables
 from harness.model.restart import Saved
+from harness.model.steps import VerticalStress
 from harness.usersub import Library, _binding
 from harness.usersub.exchange import BlockArrays, LoadArrays, Outcome
 from harness.usersub.faults import Entries, Fault, Guards
@@ -521,7 +524,7 @@ class ElementBlock:
         state[rows, :, : len(values)] = values
         self._begin(state)
 
-    def set_stress(self, rows: IntArray, values: FloatArray) -> None:
+    def set_stress(self, rows: IntArray, values: FloatArray | VerticalStress) -> None:
         """Initial stress at all points of elements; `begin_stressed` passes it to the material.
 
         Parameters
@@ -530,13 +533,16 @@ class ElementBlock:
             (k,) elements, as rows of the block from 0.
         values
             Components in Abaqus' order (force/length^2), in the directions of *ORIENTATION; those left out are zero.
+            Or a stress over the elevation, in global directions.
 
         Raises
         ------
         ValueError
-            The elements take no stress, or lack a component that is not zero.
+            The elements take no stress, or lack a component that is not zero; or have an orientation.
         """
         try:
+            if isinstance(values, VerticalStress):
+                values = values.components(self._elevations(rows), len(self._routine.stress))
             self._routine.set_stress(self._arrays.svars, rows, values)
         except ValueError as error:
             raise ValueError(f"elements of type {self.group.type} {error}") from None
@@ -566,6 +572,18 @@ class ElementBlock:
             why = at_point("SIGINI", point) + self._library.stop_reason()
             raise KernelError(element, self.group.type, why)
         states[:, :, places] = sigma
+
+    def _elevations(self, rows: IntArray) -> FloatArray:
+        """Last coordinate (k, points) of the integration points of elements."""
+        kind, section = self.group.built_in, self.group.section
+        if not isinstance(kind, ContinuumType) or not isinstance(section, SolidSection):
+            raise ValueError("do not take an initial stress by elevation")
+        if section.orientation is not None:
+            raise ValueError("have directions of their own (*ORIENTATION), for which GEOSTATIC is not supported")
+        family = kind.family
+        _, shapes, _ = _binding.integration_rule(family.number, kind.points, family.nodes, family.dimension)
+        elevations: FloatArray = self._arrays.coords[rows, :, kind.dimension - 1] @ shapes.T
+        return elevations
 
     def begin_stressed(self, call: Call, u: FloatArray, residual: FloatArray) -> None:
         """Pass the stresses of `set_stress` to the material; the state that follows is committed.

@@ -94,17 +94,18 @@ class Routine:
         return states, np.array(self.stress)
 
     def set_stress(self, svars: FloatArray, rows: IntArray, values: FloatArray) -> None:
-        """Write the stress at all points of elements, rows of their SVARS (elements, svars).
+        """Write the stress at all points of elements, rows of their SVARS (elements, svars); values: for all points the
+        same, or (rows, points, components).
 
         Raises ValueError if there is no such stress or component; zeros beyond those are ignored.
         """
         states, places = self.stress_of(svars)
         count = len(places)
-        if values[count:].any():
+        if values[..., count:].any():
             names = {3: "S11, S22, S12", 4: "S11, S22, S33, S12"}[count]
             raise ValueError(f"have {names}: component {count + 1} is not zero")
-        given = np.zeros(count)
-        given[: len(values)] = values[:count]
+        given = np.zeros((*values.shape[:-1], count))
+        given[..., : values.shape[-1]] = values[..., :count]
         states[np.ix_(rows, np.arange(states.shape[1]), places)] = given
 
 

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""Procedures of a step: what *STATIC, *VISCO, *DYNAMIC and *HEAT TRANSFER say; `perturbations` has the linear ones.
+"""Procedures of a step: *STATIC, *VISCO, *GEOSTATIC, *DYNAMIC, *HEAT TRANSFER; `perturbations` has the linear ones.
 
 A procedure answers all that others ask of it, so that nobody asks which one it is: whether there is inertia, which
 fields have equations, whether it is linear or harmonic, LFLAGS(1), how its progress counts, and its head in .msg and
@@ -177,6 +177,19 @@ class Visco(Procedure):
     def default_amplitude(self) -> str:
         """Loads are there at once."""
         return "STEP"
+
+
+@dataclass(frozen=True, slots=True)
+class Geostatic(Procedure):
+    """*GEOSTATIC: equilibrium of initial stresses with the loads, in one increment."""
+
+    keyword: ClassVar = "GEOSTATIC"
+    title: ClassVar = "GEOSTATIC STRESS ANALYSIS"
+
+    @property
+    def lflag(self) -> int:
+        """61."""
+        return 61
 
 
 class Integrator(StrEnum):

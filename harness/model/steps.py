@@ -7,6 +7,8 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 from enum import StrEnum
 
+import numpy as np
+
 from harness.errors import Source
 from harness.model.amplitude import Amplitude
 from harness.model.arrays import FloatArray, IntArray
@@ -240,11 +242,41 @@ class InitialSolution:
     source: Source
 
 
+PLANE_STRESS, LARGEST_TENSOR = 3, 6
+"""Components of a stress."""
+
+
+@dataclass(frozen=True, slots=True)
+class VerticalStress:
+    """A vertical stress that is linear over the elevation, and lateral stresses in proportion to it.
+
+    stress, elevation  (first, second) of two points
+    lateral            ratios of the stress along 1, and along 2 in space, or normal to the plane or around the axis
+    """
+
+    stress: tuple[float, float]
+    elevation: tuple[float, float]
+    lateral: tuple[float, float]
+
+    def components(self, elevation: FloatArray, count: int) -> FloatArray:
+        """Stress (..., count) in Abaqus' order at elevations: 6 components in space, 4, or 3 in plane stress."""
+        (first, second), (low, high) = self.stress, self.elevation
+        vertical = first + (second - first) * (elevation - low) / (high - low)
+        found = np.zeros((*elevation.shape, count))
+        upwards, other = (2, 1) if count == LARGEST_TENSOR else (1, 2)
+        found[..., 0] = self.lateral[0] * vertical
+        if count > PLANE_STRESS:
+            found[..., other] = self.lateral[1] * vertical
+        found[..., upwards] = vertical
+        return found
+
+
 @dataclass(frozen=True, slots=True)
 class InitialStress:
     """One *INITIAL CONDITIONS, TYPE=STRESS: elements (positions in the model) and components in Abaqus' order.
 
-    values  None: SIGINI gives them at each point (USER)
+    values   None: SIGINI gives them at each point (USER)
+    profile  with GEOSTATIC, in place of the components
     ramped  the unbalanced part of the stresses takes effect gradually over the first step, else at once
     """
 
@@ -252,6 +284,7 @@ class InitialStress:
     values: FloatArray | None
     ramped: bool
     source: Source
+    profile: VerticalStress | None = None
 
 
 @dataclass(frozen=True, slots=True)

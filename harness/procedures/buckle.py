@@ -13,7 +13,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from harness.elements import Distributed, PressureBlock, Request
+from harness.elements import Distributed, FollowerBlock, Request
 from harness.errors import DeckError
 from harness.model.arrays import FloatArray
 from harness.model.perturbations import Buckle
@@ -75,7 +75,7 @@ class BuckleStep(PerturbationStep):
         call = self._call(Request.STIFFNESS)
         flags = replace(call.flags, nlgeom=True)
         for block in system.loaded:
-            if not isinstance(block, PressureBlock):
+            if not isinstance(block, FollowerBlock):
                 continue
             pressure = np.zeros(len(block.elements))
             for entry in step.surface_loads if block.surface else step.element_loads:

@@ -97,7 +97,7 @@ def set_initial_stresses(
                 continue
             rows = block.places_of(entry.elements[block.holds(entry.elements)])
             try:
-                block.set_stress(rows, entry.values)
+                block.set_stress(rows, entry.values if entry.profile is None else entry.profile)
             except ValueError as error:
                 raise DeckError(entry.source, f"*INITIAL CONDITIONS, TYPE=STRESS: {error}") from None
             stressed[block.first] = block

@@ -10,7 +10,7 @@ from __future__ import annotations
 from functools import singledispatch
 
 from harness.model.perturbations import Buckle, Frequency, StaticPerturbation, SteadyState
-from harness.model.procedures import Dynamic, HeatTransfer, Procedure, Static, Visco
+from harness.model.procedures import Dynamic, Geostatic, HeatTransfer, Procedure, Static, Visco
 from harness.procedures.buckle import BuckleStep
 from harness.procedures.context import StepContext
 from harness.procedures.dynamic import ImplicitIntegration
@@ -54,7 +54,7 @@ def run_of(procedure: Procedure, setting: Setting) -> StepRun:
 
 
 @run_of.register
-def _(procedure: Static | Visco, setting: Setting) -> StepRun:
+def _(procedure: Static | Visco | Geostatic, setting: Setting) -> StepRun:
     if procedure.riks is not None:
         context = StepContext(setting)
         return GeneralStep(context, RiksPath(context, procedure.riks))

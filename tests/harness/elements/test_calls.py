@@ -61,7 +61,7 @@ def test_calls_of_a_step(tmp_path, step, code, requests, linear):
         data="1"
         if step in ("`*FREQUENCY`", "`*STEADY STATE DYNAMICS, DIRECT`")
         else ""
-        if "PERTURBATION" in step
+        if "PERTURBATION" in step or "GEOSTATIC" in step
         else "1., 1.",
     )
     (tmp_path / "calls.inp").write_text(deck)

@@ -279,7 +279,17 @@ def test_elements_of_several_types_each_have_their_stress(run):
     [
         ({"stress": "1., 2., 3., 4."}, r"bar\.inp:16: .*type CPS4 have S11, S22, S12: component 4 is not zero"),
         ({"stress": "1., 2., 3., 4., 5., 6., 7."}, r"bar\.inp:16: \*INITIAL CONDITIONS: 8 entries, expected at most 7"),
-        ({"unbalanced": ", GEOSTATIC"}, r"bar\.inp:15: .*GEOSTATIC: stresses that vary with the elevation"),
+        ({"unbalanced": ", GEOSTATIC", "stress": "1., 2., 3., 2., 1."}, r"bar\.inp:16: .*both elevations are 2"),
+        ({"unbalanced": ", GEOSTATIC", "stress": "1., 2., 3., 4."}, r"bar\.inp:16: .*coefficient of lateral stress"),
+        (
+            {
+                "unbalanced": ", GEOSTATIC",
+                "stress": "1., 2., 3., 4., 1.",
+                "orientation": ", ORIENTATION=O",
+                "material": f"*ELASTIC\n{YOUNG}, 0.3\n*ORIENTATION, NAME=O\n0., 1., 0., -1., 0., 0.",
+            },
+            r"bar\.inp:18: .*type CPS4 have directions of their own \(\*ORIENTATION\), for which GEOSTATIC is not supp",
+        ),
         ({"unbalanced": ", SECTION POINTS"}, r"bar\.inp:15: .*SECTION POINTS is not supported"),
         ({"unbalanced": ", REBAR"}, r"bar\.inp:15: .*REBAR is not supported"),
         ({"unbalanced": ", UNBALANCED STRESS=NO"}, r"bar\.inp:15: .*UNBALANCED STRESS=NO.*RAMP, STEP"),
