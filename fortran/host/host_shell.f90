@@ -20,13 +20,14 @@
 module host_shell
   use, intrinsic :: iso_c_binding, only: c_f_pointer, c_loc
   use host_axes, only: values_of_axes
-  use host_context, only: current
+  use host_context, only: added_stress, current, stress_matrix
   use host_corotation, only: corotation_t, local_motion, turn_back
   use host_coupling, only: interpolate_fields
   use host_inertia, only: respond
   use host_kinds, only: dp, i4
   use host_materials, only: elastic_energy, find_material, has_fields, material_t, stress_update
   use host_messages, only: add_message
+  use host_polar, only: step
   use host_protect, only: escape
   use host_shape, only: is_multilinear, parent_place, rule_of, rule_t
   use host_shell_strains, only: drilling_strain, enhance, shell_middle, shell_point, shell_strains, tensor_turn
@@ -67,7 +68,7 @@ contains
     real(dp) :: rhs(*), amatrx(*), energy(*), props(*), coords(*), u(*), du(*), v(*), a(*), time(*), dtime, &
                 params(*), adlmag(*), predef(*), ddlmag(*), pnewdt, period
     real(dp), pointer, contiguous :: axes(:, :, :, :)
-    real(dp) :: mass(ndofel, ndofel), old(ndofel, 2), shear(2, 2), stored(2)
+    real(dp) :: mass(ndofel, ndofel), old(ndofel, 2), change(ndofel), shear(2, 2), stored(2)
     integer :: n, first, behind
     type(operators_t) :: at_points, full
     type(motion_t) :: motion
@@ -87,14 +88,19 @@ contains
     rhs(1:n*nrhs) = 0
     amatrx(1:n*n) = 0
     if (lflags(3) /= 3 .and. lflags(3) /= 4) then
+      ! no time passes where the matrix of a stress is asked for: DU is a perturbation
+      change = du(:n)
+      if (stress_matrix(lflags(3))) change = 0
       shear = shear_stiffness(props, sum(full%point%weight))
-      motion = motion_of(int(nnode), n, coords, u, du, lflags(2) /= 0)
+      motion = motion_of(int(nnode), n, coords, u, change, lflags(2) /= 0)
       call add_elastic(int(nnode), n, props, shear, at_points, full, motion, rhs, amatrx, stored, energy(6))
       energy(2) = energy(2) - stored(1)
       call integrate(rule_of(int(jprops(1)), int(jprops(2))), n, int(jprops(3)), jprops(5), props(head + 1), shear, at_points, &
                      int(npredf), predef, motion, rhs, amatrx, svars, energy, sum(full%point%weight))
       energy(2) = energy(2) + stored(2)
-      if (lflags(2) /= 0) then
+      if (stress_matrix(lflags(3))) then
+        call turn_stress(int(nnode), n, lflags, coords, motion%middle, u, du, rhs, amatrx)
+      else if (lflags(2) /= 0) then
         call turn_back(int(nnode), coords, motion%middle%frame, motion%middle%gradient(:nnode, :), u, rhs, amatrx)
       end if
     end if
@@ -125,6 +131,29 @@ contains
     found%turn = real(now%rotation, dp)
     found%x = x + moved(:3, :)
   end function motion_of
+
+  !> The matrix of a stress (host_context), from the forces and the stiffness by the motion of an element: what its forces change by
+  !> as it turns.
+  pure subroutine turn_stress(nodes, n, lflags, x, middle, u, du, force, stiffness)
+    integer, intent(in) :: nodes, n
+    integer(i4), intent(in) :: lflags(3)
+    real(dp), intent(in) :: x(3, nodes), u(n), du(n)
+    type(shell_point), intent(in) :: middle
+    real(dp), intent(inout) :: force(n), stiffness(n, n)
+    complex(dp) :: moved(n)
+    real(dp) :: at(n), gradient(nodes, 2)
+    type(corotation_t) :: now
+    gradient = middle%gradient(:nodes, :)
+    at = 0
+    if (lflags(2) /= 0) at = u
+    if (lflags(3) == added_stress) then
+      moved = cmplx(at, step*du, dp)
+      now = local_motion(nodes, x, middle%frame, gradient, reshape(moved, [6, nodes]))
+      force = matmul(stiffness, reshape(aimag(now%local), [n]))/step
+    end if
+    stiffness = 0
+    call turn_back(nodes, x, middle%frame, gradient, at, force, stiffness)
+  end subroutine turn_stress
 
   !> Operators at the integration points, and at as many points as nodes. Leaves the pass if the surface is folded.
   subroutine prepare(kind, nodes, n, x, v, props, axes, at_points, full)

@@ -21,7 +21,7 @@ from harness.deck.structure import Scope
 from harness.deck.table import Keyword, Kind, Option, Where, ignored, one_of, refused
 from harness.model.amplitude import UserAmplitude
 from harness.model.procedures import Procedure
-from harness.model.steps import DistributedLoad, ElementLoad, Step
+from harness.model.steps import DistributedLoad, ElementLoad, LoadKind, Step
 
 MOST_INCREMENTS = 100
 Entry = TypeVar("Entry")

@@ -108,8 +108,6 @@ def _check_buckling(model: Model, group: ElementGroup) -> None:
     reason = ""
     if group.definition is not None:
         reason = "no call asks user elements for it"
-    elif isinstance(kind, ShellType):
-        reason = "they are for small displacements"
     elif isinstance(kind, HeatType) or (isinstance(kind, ContinuumType) and kind.coupled):
         reason = "they have temperatures"
     if reason:

@@ -35,7 +35,7 @@ class FollowerBlock(ElementBlock):
     elements  (m,) their positions in the model
     load      the type of the load
     surface   whether the loads are those of *DSLOAD, else of *DLOAD
-    acts      the pressures are forces of the model; otherwise the block has the load stiffness for *BUCKLE only
+    acts      the loads are forces of the model; otherwise the block has the load stiffness for *BUCKLE only
     """
 
     def __init__(

@@ -113,6 +113,7 @@ def shell_routine(
         forces=Linearity.KNOWN if known else Linearity.UNKNOWN,
         free=(1, 2, 3),
         axes=axes,
+        turns=True,
     )
 
 

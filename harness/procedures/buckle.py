@@ -69,7 +69,7 @@ class BuckleStep(PerturbationStep):
         return values, self._modes_of(vectors)
 
     def _load_stiffness(self) -> FloatArray:
-        """CSR values (nnz,) of the pressures of the step, which follow the faces of the base state."""
+        """CSR values (nnz,) of the loads of the step that follow the faces of the base state."""
         system, step = self._system, self._step
         data, still = np.zeros(len(system.indices)), np.zeros(len(system))
         call = self._call(Request.STIFFNESS)
@@ -77,11 +77,11 @@ class BuckleStep(PerturbationStep):
         for block in system.loaded:
             if not isinstance(block, FollowerBlock):
                 continue
-            pressure = np.zeros(len(block.elements))
+            magnitudes = np.zeros(len(block.elements))
             for entry in step.surface_loads if block.surface else step.element_loads:
                 if entry.type == block.load:
-                    np.add.at(pressure, np.searchsorted(block.elements, entry.elements), entry.magnitude)
+                    np.add.at(magnitudes, np.searchsorted(block.elements, entry.elements), entry.magnitude)
             places = block.first + block.rows
-            given = Distributed(places, np.ones_like(places), pressure, pressure)
+            given = Distributed(places, np.ones_like(places), magnitudes, magnitudes)
             block.evaluate(replace(call, flags=flags, distributed=given), still, still, still.copy(), data)
         return data

@@ -197,3 +197,39 @@ def test_page(ends, problem, element_type, n, ratios):
     deck, data, sets, names, exact = PROBLEMS[problem](element_type, n)
     found = ends(deck, data, sets, first=0.05)
     np.testing.assert_allclose(np.array([found[name] for name in names]) / exact, ratios, atol=6e-4)
+
+
+PLATE = (
+    "*STEP\n*BUCKLE\n1\n*BOUNDARY\nALL, 6\nX, 3\nX, 5\nY, 3\nY, 4\nCORNER, 1, 2\nSIDE, 2\n*CLOAD\n{loads}\n*END STEP"
+)
+
+
+@pytest.mark.parametrize(("element_type", "error"), [("S4", 0.01), ("S4R", 0.01), ("S3", 0.06)])
+@pytest.mark.parametrize("base", [0.0, 0.6])
+def test_buckling_of_a_supported_plate(tmp_path, element_type, error, base):
+    """4 pi^2 D/b^2 along one side (S.P. Timoshenko, Theory of Elastic Stability, plates); a preload counts."""
+    n, side, thickness = 16, 10.0, 0.1
+    deck = ShellDeck(
+        element_type, n, n, lambda a, b: (side * a, side * b, 0.0), section(thickness), "*ELASTIC\n1000., 0.3"
+    )
+    critical = 4 * np.pi**2 * 1000 * thickness**3 / 12 / (1 - 0.3**2) / side**2
+
+    def loads(force):
+        rows = []
+        for i, sign in ((0, 1), (n, -1)):
+            nodes = deck.side(i=i)
+            shares = [0.5 if node in (nodes[0], nodes[-1]) else 1.0 for node in nodes]
+            rows += [f"{k}, 1, {sign * share * force * side / n!r}" for k, share in zip(nodes, shares, strict=True)]
+        return "\n".join(rows)
+
+    sets = {"X": deck.side(j=0) + deck.side(j=n), "Y": deck.side(i=0) + deck.side(i=n), "CORNER": [1]}
+    sets |= {"SIDE": [deck.node(n, 0)]}
+    first, _, given = PLATE.partition("*CLOAD")
+    step = first + "*CLOAD" + given.format(loads=loads(1.0))
+    if base:
+        held = first.replace("*BUCKLE\n1\n", "*STATIC\n1., 1.\n") + f"*CLOAD\n{loads(base * critical)}\n*END STEP\n"
+        step = held + f"*STEP\n*BUCKLE\n1\n*CLOAD\n{loads(1.0)}\n*END STEP"
+    file = tmp_path / "plate.inp"
+    file.write_text(deck.text(step, sets))
+    factor = harness.run(file, output_dir=tmp_path).history["EIGVAL"][-1]
+    assert factor == pytest.approx((1 - base) * critical, abs=error * critical)
