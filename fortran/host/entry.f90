@@ -804,9 +804,10 @@ subroutine host_uamp_call(address, name, clock, props, svars, info, sensors, nam
 end subroutine host_uamp_call
 
 !> Address of built-in elements: 1 continuum, 2 coupled temperature-displacement, 3 cohesive, 4 trusses, springs and masses,
-!> 5 heat transfer, 6 heat that enters, 7 shells.
+!> 5 heat transfer, 6 heat that enters, 7 shells, 8 beams.
 subroutine host_element_address(elements, address)
   use, intrinsic :: iso_c_binding, only: c_funloc, c_funptr, c_intptr_t
+  use host_beam, only: beam_uel
   use host_cohesive, only: cohesive_uel
   use host_conduction, only: heat_uelmat
   use host_coupled, only: coupled_uelmat
@@ -818,8 +819,8 @@ subroutine host_element_address(elements, address)
   implicit none (type, external)
   integer(i4), intent(in) :: elements
   integer(i8), intent(out) :: address
-  type(c_funptr) :: all(7)
+  type(c_funptr) :: all(8)
   all = [c_funloc(solid_uelmat), c_funloc(coupled_uelmat), c_funloc(cohesive_uel), c_funloc(discrete_uel), c_funloc(heat_uelmat), &
-         c_funloc(heat_load_uel), c_funloc(shell_uelmat)]
+         c_funloc(heat_load_uel), c_funloc(shell_uelmat), c_funloc(beam_uel)]
   address = int(transfer(all(elements), 1_c_intptr_t), i8)
 end subroutine host_element_address

@@ -23,7 +23,7 @@ from harness.deck.user_elements import dofs_by_node
 from harness.errors import DeckError, Source
 from harness.model.arrays import FloatArray, IntArray
 from harness.model.element_types import ContinuumType
-from harness.model.mesh import ElementGroup
+from harness.model.mesh import ElementGroup, is_in_space
 from harness.model.model import Equation
 from harness.model.steps import Boundary, Step
 
@@ -48,7 +48,7 @@ class ConstraintReader:
         self._surfaces = Surfaces(flat, groups)
         self._problems = problems
         self._points = flat.mesh.coordinates
-        self._solid = bool(np.ptp(self._points[:, 2]) > 0.0)
+        self._solid = is_in_space(self._points, groups)
         self._active = dofs_by_node(len(self._points), groups)
         self._axisymmetric = np.zeros(len(self._points), dtype=np.bool_)
         for group in groups:

@@ -13,7 +13,7 @@ from harness.deck.initial import FIELD_NUMBER, field_number
 from harness.deck.prescribed import HARMONIC, LOAD, Prescription
 from harness.deck.surfaces import face_nodes
 from harness.deck.table import Keyword, Kind, Option, Where, refused
-from harness.model.element_types import BODY_FORCES, ContinuumType, Direction, ShellType
+from harness.model.element_types import BODY_FORCES, BeamType, ContinuumType, Direction, ShellType
 from harness.model.mesh import ElementGroup
 from harness.model.steps import DistributedLoad, ElementLoad, Load, LoadKind, LoadType
 
@@ -35,9 +35,13 @@ def read_distributed(block: Block, prescription: Prescription) -> list[Distribut
         if match is None:
             by_user = _BY_DLOAD.fullmatch(label) is not None
             given = label.removesuffix("NU") if by_user else label
-            kind, face, direction = _volume_load(row, given)
             for group, positions in prescription.surfaces.by_group(elements):
                 solid = _loaded(row, label, group)
+                if isinstance(solid, BeamType):
+                    kept = _beam_load(row, label, solid)
+                    found.append(ElementLoad(positions, kept, magnitude, amplitude, row.source, imaginary))
+                    continue
+                kind, face, direction = _volume_load(row, given)
                 if given == "P" and not isinstance(solid, ShellType):
                     message = f"load type P on elements of type {group.type}"
                     raise row.error(f"{message}; expected Pn with the number of a face")
@@ -83,6 +87,21 @@ def _volume_load(row: Row, label: str) -> tuple[LoadKind, str, Direction]:
     return LoadKind.PRESSURE, f"S{match[1]}", _NO_DIRECTION
 
 
+def _beam_load(row: Row, label: str, beam: BeamType) -> LoadType:
+    """Load type of *DLOAD on beams."""
+    row.at_most(6 if label == "GRAV" else 3)
+    if label == "GRAV":
+        return LoadType(LoadKind.GRAVITY, direction=_direction(row, label))
+    if label in beam.body_forces:
+        return LoadType(LoadKind.BODY, direction=beam.body_forces[label])
+    if label in beam.line_forces:
+        return LoadType(LoadKind.LINE, direction=beam.line_forces[label])
+    if label in beam.local_forces:
+        return LoadType(LoadKind.LOCAL_LINE, direction=beam.local_forces[label])
+    supported = ", ".join([*beam.body_forces, *beam.line_forces, *beam.local_forces, "GRAV"])
+    raise row.error(f"load type {label} on elements of type {beam.name} is not supported (supported: {supported})")
+
+
 def _body_direction(row: Row, label: str, solid: ContinuumType | ShellType) -> Direction:
     known = solid.body_forces
     if label not in known:
@@ -124,14 +143,14 @@ def _direction(row: Row, label: str) -> Direction:
     return x, y, z
 
 
-def _loaded(row: Row, label: str, group: ElementGroup) -> ContinuumType | ShellType:
-    """The type of a group of continuum elements or shells. Raises DeckError for others."""
+def _loaded(row: Row, label: str, group: ElementGroup) -> ContinuumType | ShellType | BeamType:
+    """The type of a group of continuum elements, shells or beams. Raises DeckError for others."""
     kind = group.built_in
     if isinstance(kind, ShellType) and label.endswith("NU"):
         raise row.error(f"load type {label} on elements of type {group.type}; loads by DLOAD are not supported there")
-    if not isinstance(kind, ContinuumType | ShellType):
+    if not isinstance(kind, ContinuumType | ShellType | BeamType):
         message = f"load type {label} on elements of type {group.type}"
-        raise row.error(f"{message}, which are not built-in continuum elements or shells")
+        raise row.error(f"{message}, which are not built-in continuum elements, shells or beams")
     return kind
 
 
@@ -163,7 +182,7 @@ KEYWORDS = (
         ),
         "element or set, Un or UnNU (user elements), Pn, BX, BY, BZ, BR (CAX) or GRAV (built-in continuum elements; "
         "with NU, as in P2NU, by DLOAD), P (shells: along their normal), BX, BY, BZ or GRAV (shells), magnitude; GRAV: "
-        "direction",
+        "direction; beams: PX, PY, PZ (force per length), P1, P2 (along the local directions), BX, BY, BZ or GRAV",
     ),
     Keyword(
         "DSLOAD",

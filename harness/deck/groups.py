@@ -9,6 +9,7 @@ from dataclasses import replace
 
 import numpy as np
 
+from harness.deck.beams import BEAM_KEYWORDS, read_beam_shear
 from harness.deck.blocks import Block
 from harness.deck.error_report import Problems
 from harness.deck.flatten import FlatMesh, Owner
@@ -22,7 +23,7 @@ from harness.errors import DeckError, Source
 from harness.model.arrays import IntArray
 from harness.model.element_types import HOURGLASS_CONTROLLED
 from harness.model.mesh import ElementGroup, full_name
-from harness.model.properties import Material, Section, SectionControls, ShellSection, SolidSection
+from harness.model.properties import BeamSection, Material, Section, SectionControls, ShellSection, SolidSection
 
 
 class _Elements:
@@ -76,7 +77,7 @@ def make_groups(
     problems.check()
     sections: list[tuple[Block, Owner]] = []
     hourglass: dict[int, float] = {}
-    shear: dict[int, tuple[tuple[float, float, float], float | None]] = {}
+    shear: dict[int, tuple[tuple[float, ...], float | None]] = {}
     for owner in flat.owners:
         for block in owner.blocks:
             with problems.gather():
@@ -86,7 +87,9 @@ def make_groups(
                     place = _last_section(block, sections, "SOLID SECTION", "SHELL SECTION")
                     hourglass[place] = _hourglass_stiffness(block)
                 elif block.name == "TRANSVERSE SHEAR STIFFNESS":
-                    shear[_last_section(block, sections, "SHELL SECTION")] = read_shear_stiffness(block)
+                    place = _last_section(block, sections, "SHELL SECTION", *BEAM_KEYWORDS)
+                    of_beam = sections[place][0].name in BEAM_KEYWORDS
+                    shear[place] = read_beam_shear(block) if of_beam else read_shear_stiffness(block)
     problems.check()
     _check_assigned(elements, problems)
     problems.check()
@@ -96,7 +99,7 @@ def make_groups(
         if section in hourglass and isinstance(found, SolidSection | ShellSection):
             made[section, kind] = replace(found, hourglass=hourglass[section])
     for (section, kind), found in made.items():
-        if section in shear and isinstance(found, ShellSection):
+        if section in shear and isinstance(found, ShellSection | BeamSection):
             stiffness, slenderness = shear[section]
             made[section, kind] = replace(found, shear=stiffness, slenderness=slenderness)
     return _cut(elements, made)

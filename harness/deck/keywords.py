@@ -8,6 +8,7 @@ from pathlib import Path
 
 from harness.deck import (
     amplitudes,
+    beams,
     constraints,
     controls,
     damage,
@@ -53,6 +54,7 @@ _FILES = (
         section_controls,
         sections,
         shells,
+        beams,
         groups,
         amplitudes,
         initial,

@@ -17,7 +17,7 @@ from harness.deck.table import INPUT, Keyword, Kind, Option, Where, ignored, one
 from harness.deck.user_elements import Definitions, ElementType, find_type
 from harness.errors import DeckError, Source
 from harness.model.arrays import FloatArray, IntArray
-from harness.model.element_types import BUILT_IN
+from harness.model.element_types import BEAM, BUILT_IN
 
 LARGEST_LABEL = 999_999_999
 MOST_GENERATED = {"nodes": 1_000_000, "elements": 1_000_000, "numbers": 10_000_000}
@@ -306,7 +306,9 @@ class LocalMesh:
 
 
 def _wrong_count(element: int, kind: ElementType, nodes: int) -> str:
-    return f"element {element} has {nodes} nodes, but {kind.name} needs {kind.nodes}"
+    # Abaqus takes it for a point that gives the first direction of the section
+    hint = "; one that gives n1 is not supported: give n1 with the section" if kind.name in BEAM else ""
+    return f"element {element} has {nodes} nodes, but {kind.name} needs {kind.nodes}{hint * (nodes > kind.nodes)}"
 
 
 def _label(text: str, source: Source) -> int:

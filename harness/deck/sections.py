@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """*SOLID SECTION, *COHESIVE SECTION, *SPRING and *MASS, made for the element type they are used with.
 
-*UEL PROPERTY is in user_elements.py, *SHELL SECTION in shells.py.
+*UEL PROPERTY is in user_elements.py, *SHELL SECTION in shells.py, *BEAM SECTION in beams.py.
 """
 
 from __future__ import annotations
@@ -12,12 +12,13 @@ from itertools import pairwise
 
 import numpy as np
 
+from harness.deck.beams import BEAM_KEYWORDS, read_beam_section
 from harness.deck.blocks import Block, Row
 from harness.deck.error_report import Problems, look_up
 from harness.deck.shells import read_shell_section
 from harness.deck.table import Keyword, Kind, Option, Where, one_of, refused
 from harness.deck.user_elements import LARGEST_DOF, ElementType, read_user_property
-from harness.model.element_types import DISCRETE, HEAT, DiscreteKind
+from harness.model.element_types import BEAM, DISCRETE, HEAT, DiscreteKind
 from harness.model.properties import (
     CohesiveSection,
     ElasticType,
@@ -42,12 +43,12 @@ def make_section(
     """The section a keyword gives to elements of a type; DeckError where the two do not go together."""
     options = block.options
     elset = options.text("ELSET")
-    if block.name != kind.section:
+    if block.name != kind.section and not {block.name, kind.section}.issubset(BEAM_KEYWORDS):
         raise block.error(f"element set {elset} holds elements of type {kind.name}, which take *{kind.section}")
-    if block.name == "MASS":
-        return MassSection(elset, _mass(block), block.source)
-    if block.name == "SPRING":
-        return _spring(block, kind)
+    if block.name in ("MASS", "SPRING"):
+        return MassSection(elset, _mass(block), block.source) if block.name == "MASS" else _spring(block, kind)
+    if kind.name in BEAM:
+        return read_beam_section(block, materials, BEAM[kind.name].dimension)
     if block.name == "SHELL SECTION":
         return read_shell_section(block, materials, orientations, _controls(block, controls))
     name = options.text("MATERIAL")
@@ -239,4 +240,4 @@ KEYWORDS = (
     ),
     Keyword("MASS", "Point masses.", Where.MODEL, (_ELSET, *refused("ALPHA", "ORIENTATION", "TYPE")), "mass"),
 )
-SECTION_KEYWORDS = {"UEL PROPERTY", "SHELL SECTION", *(keyword.name for keyword in KEYWORDS)}
+SECTION_KEYWORDS = {"UEL PROPERTY", "SHELL SECTION", *BEAM_KEYWORDS, *(keyword.name for keyword in KEYWORDS)}

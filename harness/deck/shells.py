@@ -136,11 +136,15 @@ KEYWORDS = (
     ),
     Keyword(
         "TRANSVERSE SHEAR STIFFNESS",
-        "Transverse shear stiffness of the *SHELL SECTION before, in its directions; shells of UMAT need it. By "
+        "Transverse shear stiffness of the *SHELL SECTION before, in its directions; shells of UMAT need it. After "
+        "*BEAM SECTION and *BEAM GENERAL SECTION, that of beams: with the length l of the element it becomes "
+        "K/(1 + q l^2 A/(12 I)), with I of the bending that goes with the shear; q is 0.25, times 1E-4 in second-order "
+        "elements. By "
         "default it is that of the elastic layers in bending about one direction without a moment about the other "
         "(Theory Guide, Transverse shear stiffness in composite shells), 5/6 of the shear modulus times the thickness "
         "where they are alike.",
         Where.MODEL,
-        data="K11, K22, K12 (0), slenderness factor q (0.25E-4): the stiffness used is K/(1 + q area/thickness^2)",
+        data="K11, K22, K12 (0), slenderness factor q (0.25E-4): the stiffness used is K/(1 + q area/thickness^2); "
+        "beams: K23, K13 (one that is left out is the other; both: shear factor of the profile times G A), q",
     ),
 )

@@ -11,6 +11,7 @@ from typing import Final
 
 import numpy as np
 
+from harness.elements.beam import beam_routine, beam_variables, start_directions
 from harness.elements.block import ElementBlock
 from harness.elements.cohesive import cohesive_routine, cohesive_variables
 from harness.elements.coupled import coupled_routine, heat_routine, heat_variables, is_unsymmetric
@@ -31,10 +32,20 @@ from harness.elements.routine import Linearity, Routine
 from harness.elements.shell import directors, shell_routine, shell_variables
 from harness.elements.solid import history_of, solid_routine, solid_variables
 from harness.errors import DeckError, all_of
-from harness.model.element_types import BUILT_IN, CohesiveType, ContinuumType, DiscreteType, HeatType, ShellType, Tensor
+from harness.model.element_types import (
+    BUILT_IN,
+    BeamType,
+    CohesiveType,
+    ContinuumType,
+    DiscreteType,
+    HeatType,
+    ShellType,
+    Tensor,
+)
 from harness.model.mesh import ElementGroup
 from harness.model.model import Model
 from harness.model.properties import (
+    BeamSection,
     CohesiveSection,
     ShellSection,
     SolidSection,
@@ -141,8 +152,8 @@ def _block_of(
             return _solid_block(model, group, kind, library)
         case CohesiveType():
             return _cohesive_block(model, group, kind, library)
-        case ShellType():
-            return _shell_block(model, group, kind, library)
+        case ShellType() | BeamType():
+            return _structural_block(model, group, kind, library)
         case DiscreteType():
             return _discrete_block(model, group, library)
     near = get_close_matches(group.type.upper(), BUILT_IN, n=1)
@@ -280,6 +291,12 @@ def _cohesive_block(model: Model, group: ElementGroup, kind: CohesiveType, libra
     )
 
 
+def _structural_block(model: Model, group: ElementGroup, kind: ShellType | BeamType, library: Library) -> ElementBlock:
+    if isinstance(kind, BeamType):
+        return _beam_block(model, group, kind, library)
+    return _shell_block(model, group, kind, library)
+
+
 def _shell_block(model: Model, group: ElementGroup, kind: ShellType, library: Library) -> ElementBlock:
     section = group.section
     if not isinstance(section, ShellSection):
@@ -303,6 +320,24 @@ def _shell_block(model: Model, group: ElementGroup, kind: ShellType, library: Li
         axes = start_axes(model, group, kind, routine.axes.orientation, library)
         # the direction that is projected, the next one, and that closest to the normal
         block.begin_axes(np.roll(axes, -routine.axes.orientation.normal, axis=-2))
+    return block
+
+
+def _beam_block(model: Model, group: ElementGroup, kind: BeamType, library: Library) -> ElementBlock:
+    section = group.section
+    if not isinstance(section, BeamSection):
+        raise DeckError(section.source, f"elements of type {group.type} need *BEAM SECTION")
+    _check_nodes(group, kind.nodes)
+    block = ElementBlock(
+        group,
+        model.mesh.coordinates,
+        tuple((node, dof) for node in range(kind.nodes) for dof in kind.dofs(node)),
+        beam_routine(model, group, kind, section),
+        library,
+        unsymmetric=False,
+        variables=beam_variables(section, kind),
+    )
+    block.set_last(start_directions(model, group, kind, section))
     return block
 
 

@@ -12,7 +12,7 @@ from harness.elements.materials import refuse_fields, refuse_user_hardening, ref
 from harness.elements.routine import Routine
 from harness.errors import DeckError
 from harness.model.element_types import DISCRETE, DiscreteKind
-from harness.model.mesh import ElementGroup
+from harness.model.mesh import ElementGroup, is_in_space
 from harness.model.model import Model
 from harness.model.properties import ElasticType, MassSection, SolidSection, SpringSection
 from harness.model.records import PointVariables
@@ -29,7 +29,7 @@ def discrete_unknowns(model: Model, group: ElementGroup) -> tuple[tuple[int, int
         return tuple(enumerate(section.dofs))
     kind = DISCRETE[group.type]
     dimension = kind.dimension
-    if kind.kind is not DiscreteKind.TRUSS and not np.ptp(model.mesh.coordinates[:, 2]) > 0.0:
+    if kind.kind is not DiscreteKind.TRUSS and not is_in_space(model.mesh.coordinates, model.groups):
         dimension = 2
     return tuple((node, dof) for node in range(group.nodes.shape[1]) for dof in range(1, dimension + 1))
 

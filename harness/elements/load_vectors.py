@@ -9,10 +9,11 @@ from typing import Final
 
 import numpy as np
 
+from harness.elements.beam import beam_forces
 from harness.elements.solid import section_depth, solid_of
 from harness.errors import DeckError, Source
 from harness.model.arrays import FloatArray, IntArray
-from harness.model.element_types import ContinuumType, Face, Family, ShellType
+from harness.model.element_types import BeamType, ContinuumType, Face, Family, ShellType
 from harness.model.mesh import ElementGroup
 from harness.model.properties import ShellLayer, ShellSection, SolidSection
 from harness.model.steps import ElementLoad, LoadKind
@@ -30,9 +31,11 @@ def unit_forces(
     rows are elements of the group. Also returns the coordinates of the points (elements, points, 3). Raises DeckError
     if the load makes no sense there.
     """
-    section, shell = group.section, group.built_in
-    if isinstance(shell, ShellType):
-        return _forces_on_shells(group, shell, rows, load, coordinates)
+    section, structural = group.section, group.built_in
+    if isinstance(structural, ShellType):
+        return _forces_on_shells(group, structural, rows, load, coordinates)
+    if isinstance(structural, BeamType):
+        return beam_forces(group, structural, rows, load, coordinates)
     assert isinstance(section, SolidSection)
     kind = solid_of(group)
     dimension = kind.dimension

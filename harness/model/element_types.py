@@ -320,6 +320,57 @@ class ShellType:
         return (1, 2, 3, 4, 5, 6)
 
 
+@dataclass(frozen=True, slots=True)
+class BeamType:
+    """A Timoshenko beam: displacements and rotations at each node; its nodes follow each other along the axis.
+
+    family     of its axis
+    points     integration points along the axis
+    dimension  2 in a plane, 3 in space
+    """
+
+    name: str
+    family: Family
+    points: int
+    dimension: int
+
+    @property
+    def section(self) -> str:
+        """Keyword that gives its properties."""
+        return "BEAM SECTION"
+
+    @property
+    def nodes(self) -> int:
+        """Nodes per element."""
+        return self.family.nodes
+
+    @property
+    def order(self) -> tuple[int, ...]:
+        """Local nodes in the order of the family, whose middle comes last."""
+        return (0, 1) if self.nodes == 2 else (0, 2, 1)
+
+    @property
+    def body_forces(self) -> dict[str, Direction]:
+        """Directions of the body forces of *DLOAD."""
+        return _SPACE_FORCES if self.dimension == 3 else _PLANE_FORCES
+
+    @property
+    def line_forces(self) -> dict[str, Direction]:
+        """Directions of the forces per length of *DLOAD, in global components."""
+        return {label.replace("B", "P"): direction for label, direction in self.body_forces.items()}
+
+    @property
+    def local_forces(self) -> dict[str, Direction]:
+        """Directions of the forces per length of *DLOAD along the local directions, in components along t, 1, 2."""
+        along = {"P1": (0.0, 1.0, 0.0), "P2": (0.0, 0.0, 1.0)}
+        return along if self.dimension == 3 else {"P2": along["P2"]}
+
+    def dofs(self, node: int) -> tuple[int, ...]:
+        """Dofs of a local node, from 0."""
+        del node
+        return (1, 2, 3, 4, 5, 6) if self.dimension == 3 else (1, 2, 6)
+
+
 class DiscreteKind(IntEnum):
     """What a discrete element is; values are JTYPE of fortran/host/host_discrete.f90."""
 
@@ -349,7 +400,7 @@ class DiscreteType:
         return tuple(range(1, self.dimension + 1))
 
 
-BuiltInType = ContinuumType | HeatType | CohesiveType | ShellType | DiscreteType
+BuiltInType = ContinuumType | HeatType | CohesiveType | ShellType | BeamType | DiscreteType
 
 _PLANE: Final = {"3": (TRI3, 1), "4": (QUAD4, 4), "4R": (QUAD4, 1), "6": (TRI6, 3), "8": (QUAD8, 9), "8R": (QUAD8, 4)}
 _SPACE: Final = {
@@ -414,6 +465,17 @@ SHELL: Final = {
 }
 """Conventional shells by their names."""
 
+BEAM: Final = {
+    kind.name: kind
+    for kind in (
+        BeamType("B21", LINE2, 1, 2),
+        BeamType("B22", LINE3, 2, 2),
+        BeamType("B31", LINE2, 1, 3),
+        BeamType("B32", LINE3, 2, 3),
+    )
+}
+"""Beams by their names."""
+
 DISCRETE: Final = {
     kind.name: kind
     for kind in (
@@ -427,7 +489,7 @@ DISCRETE: Final = {
 }
 """Trusses, springs and masses by their names."""
 
-BUILT_IN: Final[dict[str, BuiltInType]] = {**CONTINUUM, **COUPLED, **HEAT, **COHESIVE, **SHELL, **DISCRETE}
+BUILT_IN: Final[dict[str, BuiltInType]] = {**CONTINUUM, **COUPLED, **HEAT, **COHESIVE, **SHELL, **BEAM, **DISCRETE}
 """All built-in elements by their names."""
 
 HOURGLASS_CONTROLLED: Final = tuple(name for name, kind in CONTINUUM.items() if kind.hourglass_control)

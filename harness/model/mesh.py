@@ -4,11 +4,14 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from dataclasses import dataclass
+
+import numpy as np
 
 from harness.errors import Source
 from harness.model.arrays import FloatArray, IntArray
-from harness.model.element_types import BUILT_IN, BuiltInType
+from harness.model.element_types import BUILT_IN, BeamType, BuiltInType, ShellType
 from harness.model.properties import Section, UserElement
 
 
@@ -60,3 +63,11 @@ class ElementGroup:
     def built_in(self) -> BuiltInType | None:
         """The type in the table of built-in elements; None for user elements, and for a name that is not in it."""
         return None if self.definition else BUILT_IN.get(self.type)
+
+
+def is_in_space(coordinates: FloatArray, groups: Iterable[ElementGroup]) -> bool:
+    """False where all nodes lie in one plane z = constant, and no shells, or beams in space, can leave it."""
+    if np.ptp(coordinates[:, 2]) > 0.0:
+        return True
+    kinds = (group.built_in for group in groups)
+    return any(isinstance(kind, ShellType | BeamType) and kind.dimension == 3 for kind in kinds)

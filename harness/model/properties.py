@@ -377,6 +377,36 @@ class ShellSection:
 
 
 @dataclass(frozen=True, slots=True)
+class BeamSection:
+    """*BEAM SECTION or *BEAM GENERAL SECTION, linear elastic.
+
+    profile        RECT, CIRC, PIPE, BOX, I or GENERAL
+    dimensions     of the profile, as on the data line; GENERAL: A, I11, I12, I22, J
+    young          Young's modulus
+    shear_modulus  for torsion, and by default for transverse shear
+    density        per volume; 0: not given
+    n1             approximate local direction 1
+    material       None where the section has the moduli itself
+    isotropic      ROTARY INERTIA=ISOTROPIC
+    shear          K23 and K13 of *TRANSVERSE SHEAR STIFFNESS; none: those of the profile
+    slenderness    its slenderness compensation factor; None: the default
+    """
+
+    elset: str
+    profile: str
+    dimensions: tuple[float, ...]
+    young: float
+    shear_modulus: float
+    density: float
+    source: Source
+    n1: tuple[float, float, float] = (0.0, 0.0, -1.0)
+    material: Material | None = None
+    isotropic: bool = False
+    shear: tuple[float, ...] = ()
+    slenderness: float | None = None
+
+
+@dataclass(frozen=True, slots=True)
 class SpringSection:
     """*SPRING.
 
@@ -462,7 +492,7 @@ class UserProperty:
     orientation: Orientation | None = None
 
 
-Section = SolidSection | CohesiveSection | ShellSection | SpringSection | MassSection | UserProperty
+Section = SolidSection | CohesiveSection | ShellSection | BeamSection | SpringSection | MassSection | UserProperty
 
 
 def materials_of(section: Section) -> tuple[Material, ...]:

@@ -250,8 +250,9 @@ class PointVariables:
             left and right end, and the middle if the faces are quadratic
     outline continuum only: local nodes (from 0) of the cell, where the element is not one of the built-in ones
     aliases pairs of a name in Abaqus' output and the name here, where they differ ('S22', 'TN')
-    sections points of a shell through its thickness, which follow each other; `points` counts all of them
-    whole   shells only: names of what is the same at all points of a section
+    sections section points of an integration point of a shell or beam, which follow each other; `points` counts all
+    whole   shells and beams only: names of what is the same at all points of a section
+    numbers beams only: of the section points
     """
 
     kind: str
@@ -263,6 +264,14 @@ class PointVariables:
     aliases: tuple[tuple[str, str], ...] = ()
     sections: int = 1
     whole: tuple[str, ...] = ()
+    numbers: tuple[int, ...] = ()
+
+    @property
+    def sides(self) -> tuple[tuple[str, int, int], ...]:
+        """Section points with a line in tables: suffix in field output, number, place among all, from 0."""
+        if self.numbers:
+            return tuple((f"_SP{number}", number, place) for place, number in enumerate(self.numbers))
+        return (("_SNEG", 1, 0), ("_SPOS", self.sections, self.sections - 1)) if self.sections > 1 else ()
 
 
 @dataclass(frozen=True, slots=True)

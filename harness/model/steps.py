@@ -140,13 +140,18 @@ class DistributedLoad:
 
 
 class LoadKind(StrEnum):
-    """What a distributed load on a built-in element is: a load on a face, or on a volume."""
+    """What a distributed load on a built-in element is: a load on a face, on a volume, or along a beam.
+
+    The direction of LOCAL_LINE has components along t, 1 and 2 of the beam.
+    """
 
     PRESSURE = "P"
     TRACTION = "TRVEC"
     SHEAR = "TRSHR"
     BODY = "B"
     GRAVITY = "GRAV"
+    LINE = "LINE"
+    LOCAL_LINE = "LOCAL LINE"
 
 
 @dataclass(frozen=True, slots=True)

@@ -6,7 +6,7 @@ Which cell an element becomes:
 
 - an interface of the project, or a cohesive element: a line of 2 or 3 nodes along its bottom edge, or its bottom face;
   a continuum element of the project: its outline;
-- a built-in continuum element: the cell of its family (harness/model/element_types.py);
+- a built-in continuum element or beam: the cell of its family (harness/model/element_types.py);
 - a user's own element, a truss or a spring: by its number of nodes, the cell of a family in the plane or in space, or
   else a line, with the node order of Abaqus' own elements. Abaqus does not know the shape of a user element either;
 - a user element with any other number of nodes: a vertex at each of its nodes, all with the values of the element.
@@ -20,7 +20,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from harness.model.arrays import FloatArray, IntArray
-from harness.model.element_types import FAMILIES, CohesiveType, Family, SolidType
+from harness.model.element_types import FAMILIES, BeamType, CohesiveType, Family, SolidType
 from harness.model.mesh import ElementGroup
 from harness.model.model import Model
 from harness.model.records import ElementState, PointVariables
@@ -43,6 +43,9 @@ def cells_of(group: ElementGroup, variables: PointVariables | None, *, solid: bo
     nodes, kind = group.nodes, group.built_in
     if isinstance(kind, SolidType):
         family: Family | None = kind.family
+    elif isinstance(kind, BeamType):
+        nodes = nodes[:, list(kind.order)]
+        family = kind.family
     elif variables is not None and variables.kind == "interface":
         nodes = nodes[:, list(variables.bottom)]
         family = kind.face if isinstance(kind, CohesiveType) else _family(nodes.shape[1], 1, 2)
@@ -71,8 +74,9 @@ def is_solid(model: Model) -> bool:
 def cell_values(states: Sequence[ElementState], cells: tuple[Cells, ...]) -> dict[str, list[FloatArray]]:
     """Means over the integration points, by variable, an array for each group; NaN where a group lacks the variable.
 
-    Coordinates of the points are left out, because the cell shows them, and variables without a name. Of shells, those
-    that change through the thickness are at the first and the last section point, with _SNEG and _SPOS in their names.
+    Coordinates of the points are left out, because the cell shows them, and variables without a name. What changes over
+    a section is at the first and the last section point of shells, with _SNEG and _SPOS in its name, and at those of
+    beams, with _SP and their number.
     """
     known: dict[str, dict[int, FloatArray]] = {}
     for state in states:
@@ -86,8 +90,8 @@ def cell_values(states: Sequence[ElementState], cells: tuple[Cells, ...]) -> dic
             if not name or name in _COORDINATES:
                 continue
             sides = {name: 0}
-            if sections > 1 and name not in state.variables.whole:
-                sides = {f"{name}_SNEG": 0, f"{name}_SPOS": sections - 1}
+            if state.variables.sides and name not in state.variables.whole:
+                sides = {name + suffix: place for suffix, _, place in state.variables.sides}
             for side, section in sides.items():
                 known.setdefault(side, {})[state.group] = means[elements, section, k]
     return {

@@ -28,7 +28,7 @@ from harness.output.points import point_values
 
 COLUMNS = 9  # of a table of Abaqus
 _SUFFIXES = ("11", "22", "33", "12", "13", "23")
-_NUMBERED = ("SDV", "UVARM", "SF")
+_NUMBERED = ("SDV", "UVARM", "SF", "SE")
 _COORDINATES = ("COOR1", "COOR2", "COOR3")
 
 
@@ -317,7 +317,7 @@ def _element_values(
 ) -> list[tuple[list[str], FloatArray, Sections]]:
     """Names and values (elements, points, names) of the variables that the elements keep, and the section points.
 
-    Of the points through the thickness of a shell the first and the last have a line, as Abaqus prints by default.
+    Section points have a line where Abaqus prints them by default: the first and the last one of shells, some of beams.
     SDV are the SVARS of a user element, one line per element, and STATEV at the points of a built-in one; other names
     (S, S11, DAMAGE, ...) are values at the points and need elements whose SVARS are known.
     """
@@ -330,14 +330,15 @@ def _element_values(
         if names:
             values, count = point_values(state, state.variables)[inside], state.variables.sections
             of_section = values.reshape(len(values), values.shape[1] // count, count, values.shape[2])
-            sides = (1, count) if count > 1 else ()
+            sides = state.variables.sides
             for some, places in (
                 ([name for name in names if name not in state.variables.whole], sides),
                 ([name for name in names if name in state.variables.whole], ()),
             ):
-                chosen = of_section[:, :, [place - 1 for place in places] or [0]][..., [known[name] for name in some]]
+                chosen = of_section[:, :, [place for *_, place in places] or [0]][..., [known[name] for name in some]]
                 if some:
-                    found.append((some, chosen.reshape(len(values), -1, len(some)), places))
+                    numbers = tuple(number for _, number, _ in places)
+                    found.append((some, chosen.reshape(len(values), -1, len(some)), numbers))
     if group.definition is None:
         return found
     names = [f"SDV{k}" for k in range(1, svars.shape[1] + 1)]
@@ -348,8 +349,8 @@ def _element_values(
 
 
 def _asked(variable: str, name: str) -> bool:
-    """True if a requested variable (S, E, S11, SDV, SF) includes a component (S11, SDV1, SF1, SM1)."""
-    if variable == "SF" and name.startswith("SM"):
+    """True if a requested variable (S, E, S11, SDV, SF, SE) includes a component (S11, SDV1, SF1, SM1, SK1)."""
+    if (variable, name[:2]) in (("SF", "SM"), ("SE", "SK")):
         return True
     suffix = name.removeprefix(variable)
     return name == variable or (

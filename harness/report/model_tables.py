@@ -12,6 +12,7 @@ from harness.errors import Source
 from harness.model.mesh import ElementGroup
 from harness.model.model import Model
 from harness.model.properties import (
+    BeamSection,
     CohesiveSection,
     ElasticType,
     Holzapfel,
@@ -83,7 +84,7 @@ def property_tables(model: Model) -> Iterator[Table]:
         seen.add(section.source)
         if isinstance(section, UserProperty):
             yield _user_table(group, section)
-        elif isinstance(section, SolidSection | CohesiveSection | ShellSection):
+        elif isinstance(section, SolidSection | CohesiveSection | ShellSection | BeamSection):
             yield Table(
                 f"{section.elset}: {group.type}", ("property", "value", ""), _section_rows(section), section.source
             )
@@ -128,7 +129,9 @@ def _named(values: Sequence[float], names: Sequence[str], array: str) -> list[Ro
     return [(name, f"{value:g}", place) for name, value, place in zip(names, values, places, strict=True)]
 
 
-def _section_rows(section: SolidSection | CohesiveSection | ShellSection) -> list[Row]:
+def _section_rows(section: SolidSection | CohesiveSection | ShellSection | BeamSection) -> list[Row]:
+    if isinstance(section, BeamSection):
+        return [*_beam_rows(section)]
     if isinstance(section, ShellSection):
         return [*_layer_rows(section), *(row for material in _materials(section) for row in _material_rows(material))]
     rows: list[Row] = [("material", section.material.name, "")]
@@ -148,6 +151,16 @@ def _layer_rows(section: ShellSection) -> Iterator[Row]:
         yield "offset", f"{section.offset:g}", "of the thickness"
     if section.orientation is not None:
         yield "orientation", section.orientation.name, ""
+
+
+def _beam_rows(section: BeamSection) -> Iterator[Row]:
+    yield "profile", section.profile, ", ".join(f"{value:g}" for value in section.dimensions)
+    yield "n1", ", ".join(f"{value:g}" for value in section.n1), "approximate"
+    if section.material is not None:
+        yield from _material_rows(section.material)
+    else:
+        yield "E", f"{section.young:g}", ""
+        yield "G", f"{section.shear_modulus:g}", ""
 
 
 def _materials(section: ShellSection) -> list[Material]:

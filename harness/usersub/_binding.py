@@ -542,11 +542,13 @@ def integration_rule(family: int, points: int, nodes: int, dimension: int) -> tu
     return weights, shapes, slopes.transpose(0, 2, 1)
 
 
-_ELEMENTS: Final = ("solid", "coupled", "cohesive", "discrete", "heat", "heat load", "shell")
+_ELEMENTS: Final = ("solid", "coupled", "cohesive", "discrete", "heat", "heat load", "shell", "beam")
 """In the order of host_element_address."""
 
 
-def address_of(elements: Literal["solid", "coupled", "cohesive", "discrete", "heat", "heat load", "shell"]) -> int:
+def address_of(
+    elements: Literal["solid", "coupled", "cohesive", "discrete", "heat", "heat load", "shell", "beam"],
+) -> int:
     """Address of built-in elements: solid, coupled, heat and shell ones are called like UELMAT, the others like UEL."""
     return int(_host.host_element_address(1 + _ELEMENTS.index(elements)))
 

@@ -140,7 +140,7 @@ def test_fields():
 
 def test_all_places_are_named_at_once(solid_group, load):
     """One error for each section, not one after the other."""
-    groups = [solid_group(kind, np.array([[0, 1, 2]]), 1.0) for kind in ("S8R", "CPS4", "B21")]
+    groups = [solid_group(kind, np.array([[0, 1, 2]]), 1.0) for kind in ("S8R", "CPS4", "PIPE21")]
     mesh = Mesh(np.arange(1, 5), np.eye(4, 3), ("",) * 4)
-    with pytest.raises(DeckError, match=r"(?s)type S8R is not.*\n.*type CPS4 have 4 nodes.*\n.*type B21 is not"):
+    with pytest.raises(DeckError, match=r"(?s)type S8R is not.*\n.*type CPS4 have 4 nodes.*\n.*type PIPE21 is not"):
         build_blocks(Model(Path("test.inp"), "", mesh, tuple(groups), ()), load(None))

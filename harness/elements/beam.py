@@ -1,0 +1,214 @@
+# SPDX-FileCopyrightText: The uel-harness authors
+# SPDX-License-Identifier: BSD-3-Clause
+"""Built-in beams: what the driver calls for them (fortran/host/host_beam.f90), their directions and loads."""
+
+from __future__ import annotations
+
+from typing import Final
+
+import numpy as np
+
+from harness.elements.beam_profiles import SHEAR_FACTORS, Profile, profile_of
+from harness.elements.routine import Linearity, Routine
+from harness.errors import DeckError, Source
+from harness.model.arrays import FloatArray
+from harness.model.element_types import LINE2, BeamType
+from harness.model.mesh import ElementGroup
+from harness.model.model import Model
+from harness.model.properties import BeamSection
+from harness.model.records import PointVariables
+from harness.model.steps import ElementLoad, LoadKind
+from harness.usersub import _binding
+
+SLENDERNESS: Final = 0.25
+"""Default slenderness compensation factor (Analysis User's Guide, Choosing a beam element)."""
+
+QUADRATIC_SLENDERNESS: Final = 1e-4
+"""What multiplies it in second-order elements."""
+
+SMALLEST_SINE: Final = 1.745328e-3
+"""Sine of 0.1 degrees, below which direction n1 is that of the axis."""
+
+_WHOLE: Final = {
+    2: ("SF1", "SF2", "SM1", "SE1", "SE2", "SK1"),
+    3: (*("SF1", "SF2", "SF3", "SM1", "SM2", "SM3"), *("SE1", "SE2", "SE3", "SK1", "SK2", "SK3")),
+}
+"""Forces and strains of the section by the dimension: axial, shear along 2 and 1; about 1 and 2, twist."""
+
+
+def beam_routine(model: Model, group: ElementGroup, kind: BeamType, section: BeamSection) -> Routine:
+    """What the driver calls for a group of beams. Raises DeckError."""
+    _check(model, group, kind, section)
+    profile = profile_of(section, kind.dimension)
+    dynamic = any(step.procedure.inertia for step in model.steps)
+    sections = len(profile.points)
+    states = kind.points * max(1, sections) * len(_names(profile, kind))
+    hidden = (2 * len(kind.dofs(0)) * kind.nodes if dynamic else 0) + 9 * (kind.points + _mass_points(kind))
+    shear = section.shear or (SHEAR_FACTORS[section.profile] * section.shear_modulus * profile.area,) * 2
+    return Routine(
+        address=_binding.address_of("beam"),
+        jtype=kind.nodes,
+        mcrd=kind.dimension,
+        svars=states + hidden,
+        hidden=hidden,
+        density=0,
+        props=np.array(
+            [
+                section.density,
+                *_compensation(section, profile, kind),
+                *profile.centroid,
+                *profile.shear_centre,
+                section.young,
+                *section_stiffness(section, profile, shear).ravel(),
+                *section_mass(profile, isotropic=section.isotropic, plane=kind.dimension == 2).ravel(),
+                *(value for point in profile.points for value in point[1:]),
+            ]
+        ),
+        jprops=np.array([kind.family.number, kind.points, sections, _mass_points(kind)]),
+        linear=True,
+        forces=Linearity.KNOWN,
+        stores=True,
+        free=tuple(range(1, kind.dimension + 1)),
+    )
+
+
+def beam_variables(section: BeamSection, kind: BeamType) -> PointVariables:
+    """Meaning of the state variables of a group of beams."""
+    profile = profile_of(section, kind.dimension)
+    sections, names = len(profile.points), _names(profile, kind)
+    numbers = tuple(number for number, *_ in profile.points)
+    points = kind.points * max(1, sections)
+    return PointVariables(
+        "continuum", names, points, sections=max(1, sections), whole=_WHOLE[kind.dimension], numbers=numbers
+    )
+
+
+def _names(profile: Profile, kind: BeamType) -> tuple[str, ...]:
+    return (*(("E11", "S11") if profile.points else ()), *_WHOLE[kind.dimension])
+
+
+def _mass_points(kind: BeamType) -> int:
+    return kind.family.full_points
+
+
+def _compensation(section: BeamSection, profile: Profile, kind: BeamType) -> tuple[float, float]:
+    """What slenderness takes from the shear stiffness along 2 and 1, over the squared length of the element."""
+    factor = SLENDERNESS if section.slenderness is None else section.slenderness
+    if kind.family is not LINE2:
+        factor *= QUADRATIC_SLENDERNESS
+    first, second, _ = profile.inertia
+    of_second = factor * profile.area / (12 * second) if kind.dimension == 3 else 0.0
+    return factor * profile.area / (12 * first), of_second
+
+
+def section_stiffness(section: BeamSection, profile: Profile, shear: tuple[float, ...]) -> FloatArray:
+    """(6, 6) SF1, SF2, SF3, SM1, SM2, SM3 by their strains."""
+    first, second, product = profile.inertia
+    stiffness = np.diag([section.young * profile.area, *shear, 0.0, 0.0, section.shear_modulus * profile.torsion])
+    stiffness[3:5, 3:5] = section.young * np.array([[first, -product], [-product, second]])
+    return stiffness
+
+
+def section_mass(profile: Profile, *, isotropic: bool, plane: bool) -> FloatArray:
+    """(6, 6) mass per length and density of translations and rotations of the nodes along and about t, 1, 2.
+
+    isotropic: the same rotary inertia about all directions, with the centre of mass at the nodes (ROTARY INERTIA).
+    """
+    first, second, product = profile.inertia
+    if isotropic:
+        return np.diag([profile.area] * 3 + [first if plane else first + second] * 3)
+    x, y = profile.centroid
+    # displacements of the centroid by rotations of the section
+    lever = np.array([[0.0, y, -x], [-y, 0.0, 0.0], [x, 0.0, 0.0]])
+    about = np.array([[first + second, 0.0, 0.0], [0.0, first, -product], [0.0, -product, second]])
+    to_centroid = np.hstack([np.eye(3), lever])
+    mass: FloatArray = profile.area * to_centroid.T @ to_centroid
+    mass[3:, 3:] += about
+    return mass
+
+
+def start_directions(model: Model, group: ElementGroup, kind: BeamType, section: BeamSection) -> FloatArray:
+    """(m, values) directions t, 1, 2 at the integration points, then at those of the mass. Raises DeckError."""
+    points = kind.points, _mass_points(kind)
+    parts = [local_axes(group, kind, section, model.mesh.coordinates, count)[0] for count in points]
+    return np.concatenate(parts, axis=1).reshape(len(group.labels), -1)
+
+
+def local_axes(
+    group: ElementGroup, kind: BeamType, section: BeamSection, coordinates: FloatArray, points: int
+) -> tuple[FloatArray, FloatArray, FloatArray]:
+    """Directions t, 1, 2 in rows (m, points, 3, 3), lengths (m, points) and places (m, points, 3) of points.
+
+    The approximate n1 gives n2 = t x n1, then n1 = n2 x t (Analysis User's Guide, Beam element cross-section
+    orientation). Raises DeckError where an element has no length, or n1 is along the axis.
+    """
+    weights, shapes, slopes = _binding.integration_rule(kind.family.number, points, kind.nodes, 1)
+    x = coordinates[group.nodes[:, list(kind.order)]]
+    if kind.dimension == 2:
+        x = x * [1.0, 1.0, 0.0]
+    tangents = np.einsum("mkd,pk->mpd", x, slopes[:, :, 0])
+    sizes = np.linalg.norm(tangents, axis=-1)
+    if (lost := np.argwhere(~(sizes > 0))).size:
+        raise _error(group, int(lost[0, 0]), group.source, "has no length; its nodes must follow each other")
+    t = tangents / sizes[:, :, None]
+    given = np.array(section.n1 if kind.dimension == 3 else (0.0, 0.0, -1.0))
+    n2 = np.cross(t, given / np.linalg.norm(given))
+    sines = np.linalg.norm(n2, axis=-1)
+    if (along := np.argwhere(~(sines > SMALLEST_SINE))).size:
+        n1 = "({:g}, {:g}, {:g})".format(*section.n1)
+        message = f"lies along n1 = {n1}; give another approximate n1 on the second data line"
+        raise _error(group, int(along[0, 0]), section.source, message)
+    n2 = n2 / sines[:, :, None]
+    axes = np.stack([t, np.cross(n2, t), n2], axis=2)
+    return axes, sizes * weights, np.einsum("mkd,pk->mpd", coordinates[group.nodes[:, list(kind.order)]], shapes)
+
+
+def beam_forces(
+    group: ElementGroup, kind: BeamType, rows: np.ndarray, load: ElementLoad, coordinates: FloatArray
+) -> tuple[FloatArray, FloatArray]:
+    """What `unit_forces` of load_vectors.py returns, for beams: the forces act on the line of the nodes."""
+    section = group.section
+    assert isinstance(section, BeamSection)
+    points = _mass_points(kind)
+    axes, lengths, places = (values[rows] for values in local_axes(group, kind, section, coordinates, points))
+    _, shapes, _ = _binding.integration_rule(kind.family.number, points, kind.nodes, 1)
+    in_order = np.argsort(kind.order)
+    direction = np.array(load.type.direction)
+    force = axes.swapaxes(-1, -2) @ direction if load.type.kind is LoadKind.LOCAL_LINE else direction
+    per_length = 1.0
+    if load.type.kind in (LoadKind.BODY, LoadKind.GRAVITY):
+        per_length = profile_of(section, kind.dimension).area
+    if load.type.kind is LoadKind.GRAVITY:
+        check_density(section, load.source, "GRAV")
+        per_length *= section.density
+    force = per_length * lengths[:, :, None] * np.broadcast_to(force, places.shape)
+    return np.einsum("pk,mpd->mpkd", shapes[:, in_order], force[..., : kind.dimension]), places
+
+
+def check_density(section: BeamSection, source: Source, what: str) -> None:
+    """Raise DeckError if beams have no density."""
+    if section.density:
+        return
+    if section.material is None:
+        needed, owner = "DENSITY=", f"*BEAM GENERAL SECTION ({section.source})"
+    else:
+        needed, owner = "*DENSITY", f"material {section.material.name}"
+    raise DeckError(source, f"{what} needs {needed}, which {owner} does not have")
+
+
+def _check(model: Model, group: ElementGroup, kind: BeamType, section: BeamSection) -> None:
+    """Raise DeckError for what beams do not support."""
+    nonlinear = next((step for step in model.steps if step.nlgeom), None)
+    if nonlinear is not None:
+        message = f"NLGEOM is not supported for elements of type {group.type}, whose rotations are small"
+        raise DeckError(nonlinear.source, message)
+    if any(step.procedure.inertia for step in model.steps):
+        check_density(section, section.source, f"*DYNAMIC with elements of type {group.type}")
+    first, second, product = profile_of(section, kind.dimension).inertia
+    if kind.dimension == 3 and not (first > 0 and second > 0 and first * second > product**2):
+        message = f"I11 = {first:g}, I12 = {product:g}, I22 = {second:g}: beams in space need I11 I22 > I12^2"
+        raise DeckError(section.source, message)
+
+
+def _error(group: ElementGroup, row: int, source: Source, message: str) -> DeckError:
+    return DeckError(source, f"element {group.labels[row]} (type {group.type}) {message}")
