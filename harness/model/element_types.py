@@ -465,16 +465,14 @@ SHELL: Final = {
 }
 """Conventional shells by their names."""
 
-BEAM: Final = {
-    kind.name: kind
-    for kind in (
-        BeamType("B21", LINE2, 1, 2),
-        BeamType("B22", LINE3, 2, 2),
-        BeamType("B31", LINE2, 1, 3),
-        BeamType("B32", LINE3, 2, 3),
-    )
-}
-"""Beams by their names."""
+_BEAMS: Final = (
+    BeamType("B21", LINE2, 1, 2),
+    BeamType("B22", LINE3, 2, 2),
+    BeamType("B31", LINE2, 1, 3),
+    BeamType("B32", LINE3, 2, 3),
+)
+BEAM: Final = {kind.name: kind for beam in _BEAMS for kind in (beam, replace(beam, name=f"{beam.name}H"))}
+"""Beams by their names; linear elastic hybrid ones are the same."""
 
 DISCRETE: Final = {
     kind.name: kind

@@ -409,6 +409,78 @@ def test_beam_at_a_shell(tmp_path):
     assert found[f"U3[ALL:{n + 1}]"][-1] == pytest.approx(-50 / bending, rel=1e-9)
 
 
+SHAFTS = {
+    # places along x, U2, U3
+    "shaft 1, B31": (
+        "B31",
+        "3, 3, -500.\n5, 2, 1198.5\n5, 3, 3292.86\n1, 4, -65.86\n5, 4, 65.86",
+        [
+            (0, -0.01480316, -0.034948468),
+            (10, 0, 0),
+            (60, 0.066647381, 0.158937976),
+            (92.5, 0.088532053, 0.215002924),
+            (100, 0.089543879, 0.218215913),
+            (107.5, 0.08834473, 0.21578677),
+            (183, 0.010701573, 0.02637369),
+            (190, 0, 0),
+            (197, -0.010537046, -0.02595979),
+            (200, -0.015052924, -0.037085414),
+        ],
+    ),
+    "shaft 2, B31": (
+        "B31",
+        "4, 2, -1198.5\n4, 3, 3292.86\n6, 3, -500.\n4, 4, -131.71\n10, 4, 131.71",
+        [
+            (0, 0.015133891, -0.037281401),
+            (10, 0, 0),
+            (92.5, -0.087929271, 0.214678019),
+            (100, -0.089189149, 0.217254162),
+            (107.5, -0.088238046, 0.214188159),
+            (140, -0.066616513, 0.158760175),
+            (183, -0.010470061, 0.024679625),
+            (190, 0, 0),
+            (197, 0.010305534, -0.024326736),
+            (200, 0.014722192, -0.034752481),
+        ],
+    ),
+    "shaft 1 without the radial force, B31H": (
+        "B31H",
+        "4, 2, 1198.5\n4, 3, 3292.86\n7, 1, 2000.\n1, 4, -65.86\n4, 4, 65.86",
+        [
+            (0, -0.014988233, -0.041179936),
+            (10, 0, 0),
+            (92.5, 0.086727574, 0.238282651),
+            (100, 0.087878212, 0.241444007),
+            (107.5, 0.086817861, 0.238530725),
+            (183, 0.010572021, 0.029046461),
+            (190, 0, 0),
+            (197, -0.010407495, -0.028594431),
+            (200, -0.01486785, -0.040849186),
+        ],
+    ),
+}
+
+
+@pytest.mark.parametrize("shaft", SHAFTS)
+def test_shafts_of_abaqus_2025(run, shaft):
+    """Displacements of Abaqus 2025 on coarse, uneven meshes, with its shear factor and slenderness compensation.
+
+    The decks and results are those of a public repository, JRaposo-m/AxisForge-Design-Studies: uniform shafts, cases
+    'radial single position' and 'axial and moment'. Abaqus goes on where nothing holds the rotation about the axis; it
+    is held here.
+    """
+    element_type, loads, expected = SHAFTS[shaft]
+    places = np.array([(x, 0.0, 0.0) for x, *_ in expected], dtype=float)
+    section = "*BEAM SECTION, ELSET=BEAM, MATERIAL=M, TEMPERATURE=GRADIENTS, SECTION=CIRC\n10.\n0., 0., -1."
+    line = Line(element_type, places, section, material="*ELASTIC\n207000., 0.3")
+    roller = [x for x, *_ in expected].index(190) + 1
+    history = run(line, f"*BOUNDARY\n2, PINNED\n2, 4\n{roller}, 2, 3\n*CLOAD\n{loads}").history
+    found = [[history[f"U{k}[ALL:{node}]"][-1] for k in (2, 3)] for node in range(1, line.last + 1)]
+    # the results come from an output database in single precision; a penalty eliminates the forces of hybrid elements
+    tolerance = 3e-7 if element_type.endswith("H") else 1.2e-7
+    np.testing.assert_allclose(found, np.array(expected)[:, 1:], rtol=tolerance, atol=1e-12)
+
+
 def test_mass_at_a_beam_in_the_plane_of_the_model(run):
     """A point mass at the end of a beam without weight along x swings out of the plane z = 0: w^2 = k/m."""
     line = Line.straight(
