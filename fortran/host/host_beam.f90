@@ -8,6 +8,9 @@
 !> of the shear centre along directions 1 and 2; Young's modulus; section stiffness (6, 6) by the strains below; mass per length and
 !> density (6, 6) of translations and rotations in the directions t, 1, 2; then the place of each section point.
 !>
+!> With NLGEOM beams in a plane have the strains of E. Reissner, Journal of Applied Mathematics and Physics 23 (1972) 795: those of
+!> the axis in directions that turn with the section.
+!>
 !> Strains of the section, in this order: axial strain of the centroid, transverse shear strains along 2 and 1 of the shear centre,
 !> curvature changes about 1 and 2, twist. Forces have the same order: SF1 SF2 SF3 SM1 SM2 SM3. Beams in a plane have the first two
 !> and the curvature about 1, which is -z.
@@ -53,9 +56,8 @@ contains
     rhs(1:n*nrhs) = 0
     amatrx(1:n*n) = 0
     if (lflags(3) /= 3 .and. lflags(3) /= 4) then
-      call integrate(rule_of(int(jprops(1)), points), int(mcrd), each, n, int(jprops(3)), values, props, &
-                     length_of(rule, int(mcrd), coords), coords, svars(axes), u, rhs, amatrx, svars)
-      energy(2) = 0.5_dp*dot_product(u(1:n), rhs(1:n))
+      call integrate(rule_of(int(jprops(1)), points), int(mcrd), each, n, lflags(2) /= 0, int(jprops(3)), values, props, &
+                     length_of(rule, int(mcrd), coords), coords, svars(axes), u, rhs, amatrx, svars, energy(2))
     end if
     call respond(n, lflags, params, dtime, v, a, mass, old, rhs, amatrx, energy(1))
     if (axes > states + 1) svars(states + 1:axes - 1) = reshape(old, [2*n])
@@ -116,33 +118,44 @@ contains
     end do
   end function operator
 
-  !> Forces, stiffness and state.
-  pure subroutine integrate(rule, dim, each, n, sections, values, props, length, x, axes, u, force, stiffness, svars)
+  !> Forces, stiffness, state and energy.
+  pure subroutine integrate(rule, dim, each, n, finite, sections, values, props, length, x, axes, u, force, stiffness, svars, &
+                            stored)
     type(rule_t), intent(in) :: rule
     integer, intent(in) :: dim, n, sections, values
-    integer, intent(in) :: each    !< strains, and unknowns of a node
+    integer, intent(in) :: each         !< strains, and unknowns of a node
+    logical, intent(in) :: finite       !< of beams in a plane
     real(dp), intent(in) :: props(head + 2*sections), length, x(dim, rule%nodes), u(n)
     real(dp), intent(in) :: axes(3, 3, rule%points)    !< columns t, 1, 2
     real(dp), intent(inout) :: force(n), stiffness(n, n), svars(values, max(1, sections), rule%points)
-    real(dp) :: section(6, 6), b(6, 6, rule%nodes), strain(6), along, size
-    real(dp) :: part(each, n), chosen(each, each), resultant(each)
+    real(dp), intent(out) :: stored
+    real(dp) :: section(6, 6), centre(2, 2), strain(6), along, size, weight
+    real(dp) :: part(each, n), chosen(each, each), found(each), resultant(each)
     integer :: rows(each), unknowns(each), k, p
     rows = kept_of(each, planar)
     unknowns = kept_of(each, planar_unknowns)
     section = reshape(props(9:44), [6, 6])
+    centre = reshape(props(4:7), [2, 2])
     do k = 1, 2
       section(k + 1, k + 1) = section(k + 1, k + 1)/(1 + props(k + 1)*length**2)
     end do
     chosen = section(rows, rows)
+    stored = 0
     do p = 1, rule%points
       size = stretch(rule, p, dim, x)
-      b = operator(rule, p, size, axes(:, :, p), reshape(props(4:7), [2, 2]))
-      part = reshape(b(rows, unknowns, :), [each, n])
+      weight = rule%weight(p)*size
+      if (finite) then
+        call plane_strains(rule, p, size, axes(:, :, p), centre, u, chosen, weight, found, part, stiffness)
+      else
+        part = reshape(along_unknowns(operator(rule, p, size, axes(:, :, p), centre), rows, unknowns), [each, n])
+        found = matmul(part, u)
+      end if
       strain = 0
-      strain(rows) = matmul(part, u)
-      resultant = matmul(chosen, strain(rows))
-      force = force + rule%weight(p)*size*matmul(resultant, part)
-      stiffness = stiffness + rule%weight(p)*size*matmul(transpose(part), matmul(chosen, part))
+      strain(rows) = found
+      resultant = matmul(chosen, found)
+      stored = stored + 0.5_dp*weight*dot_product(resultant, found)
+      force = force + weight*matmul(resultant, part)
+      stiffness = stiffness + weight*matmul(transpose(part), matmul(chosen, part))
       do k = 1, sections
         associate (place => props(head + 2*k - 1:head + 2*k) - props(4:5))
           along = strain(1) + place(2)*strain(4) - place(1)*strain(5)
@@ -150,10 +163,53 @@ contains
         svars(:2, k, p) = [along, props(8)*along]
       end do
       do k = 1, max(1, sections)
-        svars(values - 2*each + 1:, k, p) = [resultant, strain(rows)]
+        svars(values - 2*each + 1:, k, p) = [resultant, found]
       end do
     end do
   end subroutine integrate
+
+  !> Strains of a beam in a plane in large displacements, how they vary with the unknowns, and the stiffness of forces that turn.
+  pure subroutine plane_strains(rule, p, size, axes, centre, u, section, weight, strain, part, stiffness)
+    type(rule_t), intent(in) :: rule
+    integer, intent(in) :: p
+    real(dp), intent(in) :: size, axes(3, 3), centre(2, 2), u(3, rule%nodes), section(3, 3), weight
+    real(dp), intent(out) :: strain(3), part(3, 3, rule%nodes)
+    real(dp), intent(inout) :: stiffness(3, rule%nodes, 3, rule%nodes)
+    real(dp) :: n(rule%nodes), slope(rule%nodes), turned(3, 3), forces(3), tangent(2), line(2), across(2), angle
+    integer :: i, j
+    n = along_axis(rule, rule%n(:, p))
+    slope = along_axis(rule, rule%dn(:, 1, p))/size
+    angle = dot_product(n, u(3, :))
+    turned = axes
+    do i = 1, 3, 2
+      turned(:2, i) = [cos(angle)*axes(1, i) - sin(angle)*axes(2, i), sin(angle)*axes(1, i) + cos(angle)*axes(2, i)]
+    end do
+    tangent = axes(:2, 1) + matmul(u(:2, :), slope)
+    ! stretch and shear of the line of the nodes
+    line = [dot_product(tangent, turned(:2, 1)) - 1, dot_product(tangent, turned(:2, 3))]
+    strain = [line, -dot_product(slope, u(3, :))]
+    strain(1) = strain(1) + centre(2, 1)*strain(3)
+    part = along_unknowns(operator(rule, p, size, turned, centre), planar, planar_unknowns)
+    part(1, 3, :) = part(1, 3, :) + line(2)*n
+    part(2, 3, :) = part(2, 3, :) - line(1)*n
+    forces = matmul(section, strain)
+    across = forces(1)*turned(:2, 3) - forces(2)*turned(:2, 1)
+    do j = 1, rule%nodes
+      do i = 1, rule%nodes
+        stiffness(:2, i, 3, j) = stiffness(:2, i, 3, j) + weight*slope(i)*n(j)*across
+        stiffness(3, i, :2, j) = stiffness(3, i, :2, j) + weight*n(i)*slope(j)*across
+        stiffness(3, i, 3, j) = stiffness(3, i, 3, j) - weight*n(i)*n(j)*(forces(1)*(1 + line(1)) + forces(2)*line(2))
+      end do
+    end do
+  end subroutine plane_strains
+
+  !> Some strains by some unknowns of each node.
+  pure function along_unknowns(b, rows, unknowns) result(part)
+    real(dp), intent(in) :: b(:, :, :)
+    integer, intent(in) :: rows(:), unknowns(:)
+    real(dp) :: part(ubound(rows, 1), ubound(unknowns, 1), ubound(b, 3))
+    part = b(rows, unknowns, :)
+  end function along_unknowns
 
   !> All six, or those of a beam in a plane.
   pure function kept_of(each, in_plane) result(kept)

@@ -72,6 +72,7 @@ def read_beam_section(block: Block, materials: Mapping[str, Material], dimension
         _read_n1(rows[1]) if len(rows) > 1 else (0.0, 0.0, -1.0),
         material,
         isotropic=options.text("ROTARY INERTIA") == "ISOTROPIC",
+        poisson=options.real("POISSON", 0.0),
     )
 
 
@@ -169,6 +170,7 @@ _COMMON: Final = (
         ("EXACT", "ISOTROPIC"),
         default="EXACT",
     ),
+    Option("POISSON", Kind.REAL, "Poisson's ratio of the area, which does not change here: a warning with NLGEOM (0)"),
 )
 _SECTIONS: Final = ("RECT", "CIRC", "PIPE", "BOX", "I")
 _MORE: Final = ("ARBITRARY", "HEX", "L", "TRAPEZOID", "THICK PIPE")
@@ -180,21 +182,20 @@ _DATA: Final = (
 KEYWORDS = (
     Keyword(
         "BEAM SECTION",
-        "Section of beams of isotropic, linear elastic material. POISSON changes the area only with NLGEOM, which "
-        "beams do not support; nothing depends on TEMPERATURE.",
+        "Section of beams of isotropic, linear elastic material; nothing depends on TEMPERATURE.",
         Where.MODEL,
         (
             *_COMMON,
             Option("MATERIAL", Kind.NAME, "material", required=True),
             one_of("SECTION", "profile", _SECTIONS, required=True, refused=(*_MORE, "ELBOW")),
-            *ignored("POISSON", "TEMPERATURE"),
+            *ignored("TEMPERATURE"),
         ),
         f"{_DATA}; then approximate n1, blank for 0, 0, -1 (beams in a plane always have this one); then numbers of "
         "section points, which must be the default ones",
     ),
     Keyword(
         "BEAM GENERAL SECTION",
-        "Section of beams with its moduli. POISSON as in *BEAM SECTION; nothing depends on the temperature ZERO.",
+        "Section of beams with its moduli; nothing depends on the temperature ZERO.",
         Where.MODEL,
         (
             *_COMMON,
@@ -206,7 +207,7 @@ KEYWORDS = (
                 default="GENERAL",
                 refused=(*_MORE, "MESHED", "NONLINEAR GENERAL"),
             ),
-            *ignored("POISSON", "ZERO"),
+            *ignored("ZERO"),
             *refused("DEPENDENCIES", "MATERIAL", "TAPER"),
         ),
         f"GENERAL: A, I11, I12, I22, J; {_DATA}; then approximate n1, blank for 0, 0, -1; then Young's modulus, shear "

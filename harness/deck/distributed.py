@@ -97,7 +97,7 @@ def _beam_load(row: Row, label: str, beam: BeamType) -> LoadType:
     if label in beam.line_forces:
         return LoadType(LoadKind.LINE, direction=beam.line_forces[label])
     if label in beam.local_forces:
-        return LoadType(LoadKind.LOCAL_LINE, direction=beam.local_forces[label])
+        return LoadType(LoadKind.LOCAL_LINE, direction=beam.local_forces[label], follows=True)
     supported = ", ".join([*beam.body_forces, *beam.line_forces, *beam.local_forces, "GRAV"])
     raise row.error(f"load type {label} on elements of type {beam.name} is not supported (supported: {supported})")
 

@@ -150,7 +150,10 @@ def _check_followers(steps: Sequence[Step], problems: Problems) -> None:
     linear = next((step for step in steps if step.procedure.linear), None)
     for load in (load for step in steps for load in (*step.element_loads, *step.surface_loads) if load.type.follows):
         message = f"load type {load.type.kind} follows the surface, which is not supported with NLGEOM"
-        if load.type.jltyp:
+        if load.type.kind is LoadKind.LOCAL_LINE:
+            message = "a force along a local direction of a beam follows it, which is not supported with NLGEOM"
+            problems.add(load.source, f"{message} ({nonlinear.source})")
+        elif load.type.jltyp:
             problems.add(load.source, f"{message} ({nonlinear.source}) where DLOAD gives it; P with a magnitude is")
         elif linear is not None:
             problems.add(load.source, f"{message} ({nonlinear.source}) beside a perturbation step ({linear.source})")

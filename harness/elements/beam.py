@@ -18,7 +18,7 @@ from harness.model.model import Model
 from harness.model.properties import BeamSection
 from harness.model.records import PointVariables
 from harness.model.steps import ElementLoad, LoadKind
-from harness.usersub import _binding
+from harness.usersub import Library, _binding
 
 SLENDERNESS: Final = 0.25
 """Default slenderness compensation factor (Analysis User's Guide, Choosing a beam element)."""
@@ -36,9 +36,9 @@ _WHOLE: Final = {
 """Forces and strains of the section by the dimension: axial, shear along 2 and 1; about 1 and 2, twist."""
 
 
-def beam_routine(model: Model, group: ElementGroup, kind: BeamType, section: BeamSection) -> Routine:
+def beam_routine(model: Model, group: ElementGroup, kind: BeamType, section: BeamSection, library: Library) -> Routine:
     """What the driver calls for a group of beams. Raises DeckError."""
-    _check(model, group, kind, section)
+    _check(model, group, kind, section, library)
     profile = profile_of(section, kind.dimension)
     dynamic = any(step.procedure.inertia for step in model.steps)
     sections = len(profile.points)
@@ -196,15 +196,23 @@ def check_density(section: BeamSection, source: Source, what: str) -> None:
     raise DeckError(source, f"{what} needs {needed}, which {owner} does not have")
 
 
-def _check(model: Model, group: ElementGroup, kind: BeamType, section: BeamSection) -> None:
-    """Raise DeckError for what beams do not support."""
+def _check(model: Model, group: ElementGroup, kind: BeamType, section: BeamSection, library: Library) -> None:
+    """Raise DeckError for what beams do not support, and warn, once for a section, of what they leave out."""
     nonlinear = next((step for step in model.steps if step.nlgeom), None)
-    if nonlinear is not None:
+    dynamic = any(step.procedure.inertia for step in model.steps)
+    profile = profile_of(section, kind.dimension)
+    if nonlinear is not None and kind.dimension == 3:
         message = f"NLGEOM is not supported for elements of type {group.type}, whose rotations are small"
         raise DeckError(nonlinear.source, message)
-    if any(step.procedure.inertia for step in model.steps):
+    if nonlinear is not None and dynamic and any(profile.centroid) and not section.isotropic:
+        message = f"*DYNAMIC with NLGEOM and elements of type {group.type} whose centroid is beside their nodes"
+        raise DeckError(nonlinear.source, f"{message} is not supported; ROTARY INERTIA=ISOTROPIC leaves the offset out")
+    if nonlinear is not None and section.poisson and group is next(g for g in model.groups if g.section is section):
+        message = f"POISSON={section.poisson:g}: the area of beams does not change with their strain"
+        library.warn(f"{section.source}: {message}")
+    if dynamic:
         check_density(section, section.source, f"*DYNAMIC with elements of type {group.type}")
-    first, second, product = profile_of(section, kind.dimension).inertia
+    first, second, product = profile.inertia
     if kind.dimension == 3 and not (first > 0 and second > 0 and first * second > product**2):
         message = f"I11 = {first:g}, I12 = {product:g}, I22 = {second:g}: beams in space need I11 I22 > I12^2"
         raise DeckError(section.source, message)

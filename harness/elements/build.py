@@ -332,7 +332,7 @@ def _beam_block(model: Model, group: ElementGroup, kind: BeamType, library: Libr
         group,
         model.mesh.coordinates,
         tuple((node, dof) for node in range(kind.nodes) for dof in kind.dofs(node)),
-        beam_routine(model, group, kind, section),
+        beam_routine(model, group, kind, section, library),
         library,
         unsymmetric=False,
         variables=beam_variables(section, kind),

@@ -388,6 +388,7 @@ class BeamSection:
     n1             approximate local direction 1
     material       None where the section has the moduli itself
     isotropic      ROTARY INERTIA=ISOTROPIC
+    poisson        POISSON=, by which the area would change with large strains
     shear          K23 and K13 of *TRANSVERSE SHEAR STIFFNESS; none: those of the profile
     slenderness    its slenderness compensation factor; None: the default
     """
@@ -402,6 +403,7 @@ class BeamSection:
     n1: tuple[float, float, float] = (0.0, 0.0, -1.0)
     material: Material | None = None
     isotropic: bool = False
+    poisson: float = 0.0
     shear: tuple[float, ...] = ()
     slenderness: float | None = None
 

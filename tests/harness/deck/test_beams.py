@@ -152,6 +152,21 @@ def test_materials_that_beams_do_not_take(deck, material, message):
     [
         ({"step": ", NLGEOM"}, r"beam\.inp:\d+: NLGEOM is not supported for elements of type B31, whose rotations are"),
         (
+            {"type": "B21", "step": ", NLGEOM", "data": "1., 1.\n*DLOAD\nALL, P2, 1.\n"},
+            r"a force along a local direction of a beam follows it, which is not supported with NLGEOM \(.*:12\)",
+        ),
+        (
+            {
+                "type": "B21",
+                "step": ", NLGEOM",
+                "procedure": "DYNAMIC",
+                "data": "0.1, 1.\n",
+                "section": SECTION + "I\n0., 1., 1., 1., 0.1, 0.1, 0.1",
+                "material": "*ELASTIC\n1., 0.3\n*DENSITY\n1.",
+            },
+            r"NLGEOM and elements of type B21 whose centroid is beside their nodes is not supported; ROTARY INERTIA",
+        ),
+        (
             {"material": "*ELASTIC\n1., 0.3\n*EXPANSION\n1e-5"},
             r"\*EXPANSION \(material M\) is not supported for elements of type B31",
         ),

@@ -12,6 +12,8 @@ from dataclasses import dataclass
 import meshio
 import numpy as np
 import pytest
+from scipy.integrate import solve_ivp
+from scipy.optimize import brentq
 
 import harness
 from harness.elements.beam_profiles import SHEAR_FACTORS, profile_of, rectangle_torsion
@@ -233,6 +235,55 @@ def test_vibration_of_a_supported_beam(run, element_type):
         h = length / count
         error = (k * h) ** 2 / 12 if BEAM[element_type].nodes == 2 else (k * h) ** 4
         assert frequency == pytest.approx(exact, rel=2 * error)
+
+
+NONLINEAR = STEP.replace("*STEP", "*STEP, NLGEOM").replace("*STATIC\n", "*STATIC\n0.1, 1.\n")
+
+
+@pytest.mark.parametrize("element_type", ["B21", "B22"])
+def test_cantilever_rolls_up(run, element_type):
+    """An end moment 2 pi EI/L makes a ring: the end is where the root is, with the same moment everywhere."""
+    line = Line.straight(element_type, 12, (10, 0, 0), rect(1.0, 0.1))
+    bending = 1000 * 0.1**3 / 12
+    result = run(line, f"{CLAMPED}*CLOAD\nEND, 6, {2 * np.pi * bending / 10!r}", step=NONLINEAR)
+    end = [result.history[f"{name}[ALL:{line.last}]"][-1] for name in ("U1", "U2", "UR3")]
+    # exact but for what Newton's method leaves
+    np.testing.assert_allclose(end, [-10, 0, 2 * np.pi], atol=1e-4)
+    np.testing.assert_allclose(result.field("SM1"), -2 * np.pi * bending / 10, rtol=1e-4)
+
+
+def test_area_that_would_change(run):
+    """POISSON, which CAE writes, has an effect in large strains alone: a warning with NLGEOM, none without."""
+    section = rect(1.0, 0.1).replace("SECTION=RECT", "SECTION=RECT, POISSON=0.3")
+    for step, warnings in ((NONLINEAR, 1), (STEP, 0)):
+        result = run(Line.straight("B21", 2, (10, 0, 0), section), CLAMPED + "*CLOAD\nEND, 1, 1.", step=step)
+        message = "POISSON=0.3: the area of beams does not change with their strain"
+        assert result.file(".msg").read_text().count(message) == warnings
+
+
+def elastica(load: float) -> tuple[float, float]:
+    """Displacements along and across of the end of a cantilever of length and EI of one under an end force across."""
+
+    def shot(curvature: float):
+        slope = lambda s, y: [y[1], -load * np.cos(y[0]), np.cos(y[0]), np.sin(y[0])]  # noqa: E731
+        return solve_ivp(slope, (0, 1), [0, curvature, 0, 0], rtol=1e-10, atol=1e-12).y[:, -1]
+
+    _, _, x, y = shot(brentq(lambda curvature: shot(curvature)[1], 0, load))
+    return x - 1, y
+
+
+@pytest.mark.parametrize(("element_type", "count", "tolerance"), [("B21", 40, 1e-3), ("B22", 10, 1e-3)])
+def test_elastica(run, element_type, count, tolerance):
+    """P L^2/EI = 5: the elastica, with an axial and shear flexibility of EI/(EA L^2) = 8e-6."""
+    length, b = 10.0, 0.1
+    bending = 1000 * b**3 / 12
+    line = Line.straight(element_type, count, (length, 0, 0), rect(1.0, b, more=THIN))
+    load = f"{CLAMPED}*CLOAD\nEND, 2, {5 * bending / length**2!r}\n*CONTROLS, PARAMETERS=FIELD\n1e-7, 1e-5"
+    history = run(line, load, step=NONLINEAR).history
+    found = [history[f"U{k}[ALL:{line.last}]"][-1] / length for k in (1, 2)]
+    np.testing.assert_allclose(found, elastica(5.0), rtol=tolerance)
+    # K. Mattiasson, International Journal for Numerical Methods in Engineering 17 (1981) 145-153
+    np.testing.assert_allclose(elastica(5.0), (-0.38763, 0.71379), atol=1e-5)
 
 
 def test_general_section_is_the_profile_it_describes(run):

@@ -46,12 +46,12 @@ def beam(bound, load, call):
         block, matrix = bound(group, x, load(None))
         used = np.array([6 * node + dof - 1 for node in range(kind.nodes) for dof in kind.dofs(node)])
 
-        def evaluate(u, *, request=Request.NORMAL):
+        def evaluate(u, *, request=Request.NORMAL, nlgeom=False):
             whole = np.zeros(6 * kind.nodes)
             whole[used] = np.ravel(u)
             residual = np.zeros_like(whole)
             matrix.data[:] = 0
-            report = block.evaluate(replace(call, flags=Flags(1, request=request)), whole, whole, residual, matrix.data)
+            report = block.evaluate(replace(call, flags=Flags(1, nlgeom, request)), whole, whole, residual, matrix.data)
             return -residual[used], matrix.toarray()[np.ix_(used, used)], report.energy
 
         evaluate.block = block
@@ -177,6 +177,36 @@ def test_tangent_is_the_derivative_of_the_forces(beam, element_type):
     np.testing.assert_allclose(k, found, atol=1e-9 * abs(k).max())
     # what it stores is the work of its forces
     assert energy[1] == pytest.approx(0.5 * u @ force)
+
+
+@pytest.mark.parametrize("element_type", PLANE)
+def test_large_displacements(beam, element_type):
+    """Forces are the derivatives of the energy, the tangent that of the forces; a large turn costs nothing."""
+    x = nodes_of(element_type, bow=0.2)
+    evaluate = beam(element_type, UNEQUAL, x)
+    u = 0.3 * np.random.default_rng(3).normal(size=evaluate.unknowns)
+    force, k, _ = evaluate(u, nlgeom=True)
+    step = 1e-5
+    pairs = [(evaluate(u + d, nlgeom=True), evaluate(u - d, nlgeom=True)) for d in step * np.eye(len(u))]
+    np.testing.assert_allclose(k, k.T, atol=1e-12 * abs(k).max())
+    slopes = np.array([one[0] - other[0] for one, other in pairs]).T / (2 * step)
+    np.testing.assert_allclose(k, slopes, atol=1e-7 * abs(k).max())
+    work = np.array([one[2][1] - other[2][1] for one, other in pairs]) / (2 * step)
+    np.testing.assert_allclose(force, work, atol=1e-7 * abs(force).max())
+    angle = 2.5
+    turn = np.array([[np.cos(angle), -np.sin(angle), 0], [np.sin(angle), np.cos(angle), 0], [0, 0, 1]])
+    turned = motion(element_type, x, lambda p: turn @ p - p + [3.0, -1.0, 0.0], lambda p: np.array([0, 0, angle]))
+    force, _, energy = evaluate(turned, nlgeom=True)
+    np.testing.assert_allclose(force, 0, atol=1e-10 * abs(k).max())
+    assert energy[1] == pytest.approx(0, abs=1e-20 * abs(k).max())
+
+
+@pytest.mark.parametrize("element_type", PLANE)
+def test_small_displacements_are_the_limit_of_large_ones(beam, element_type):
+    evaluate = beam(element_type, UNEQUAL, nodes_of(element_type, bow=0.2))
+    nothing = np.zeros(evaluate.unknowns)
+    linear, tangent = evaluate(nothing)[1], evaluate(nothing, nlgeom=True)[1]
+    np.testing.assert_allclose(tangent, linear, atol=1e-12 * abs(linear).max())
 
 
 @pytest.mark.parametrize("element_type", SPACE)
