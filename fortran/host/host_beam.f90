@@ -9,7 +9,7 @@
 !> density (6, 6) of translations and rotations in the directions t, 1, 2; then the place of each section point.
 !>
 !> With NLGEOM beams in a plane have the strains of E. Reissner, Journal of Applied Mathematics and Physics 23 (1972) 795: those of
-!> the axis in directions that turn with the section.
+!> the axis in directions that turn with the section; for those of two nodes in space see host_beam_turning.
 !>
 !> Strains of the section, in this order: axial strain of the centroid, transverse shear strains along 2 and 1 of the shear centre,
 !> curvature changes about 1 and 2, twist. Forces have the same order: SF1 SF2 SF3 SM1 SM2 SM3. Beams in a plane have the first two
@@ -19,6 +19,7 @@
 !> where there are no section points; in dynamic analyses then the forces of the last two increments; last the directions t, 1, 2
 !> of the integration points, then of those of the mass.
 module host_beam
+  use host_beam_turning, only: turning_beam
   use host_inertia, only: respond
   use host_kinds, only: dp, i4
   use host_shape, only: is_quadratic, rule_of, rule_t
@@ -124,7 +125,7 @@ contains
     type(rule_t), intent(in) :: rule
     integer, intent(in) :: dim, n, sections, values
     integer, intent(in) :: each         !< strains, and unknowns of a node
-    logical, intent(in) :: finite       !< of beams in a plane
+    logical, intent(in) :: finite       !< of beams in a plane or of two nodes
     real(dp), intent(in) :: props(head + 2*sections), length, x(dim, rule%nodes), u(n)
     real(dp), intent(in) :: axes(3, 3, rule%points)    !< columns t, 1, 2
     real(dp), intent(inout) :: force(n), stiffness(n, n), svars(values, max(1, sections), rule%points)
@@ -144,7 +145,10 @@ contains
     do p = 1, rule%points
       size = stretch(rule, p, dim, x)
       weight = rule%weight(p)*size
-      if (finite) then
+      if (finite .and. dim == 3) then
+        ! of its only point
+        call turning_beam(x, axes(:, :, p), centre, section, u, found, force, stiffness)
+      else if (finite) then
         call plane_strains(rule, p, size, axes(:, :, p), centre, u, chosen, weight, found, part, stiffness)
       else
         part = reshape(along_unknowns(operator(rule, p, size, axes(:, :, p), centre), rows, unknowns), [each, n])
@@ -154,8 +158,10 @@ contains
       strain(rows) = found
       resultant = matmul(chosen, found)
       stored = stored + 0.5_dp*weight*dot_product(resultant, found)
-      force = force + weight*matmul(resultant, part)
-      stiffness = stiffness + weight*matmul(transpose(part), matmul(chosen, part))
+      if (.not. finite .or. dim == 2) then
+        force = force + weight*matmul(resultant, part)
+        stiffness = stiffness + weight*matmul(transpose(part), matmul(chosen, part))
+      end if
       do k = 1, sections
         associate (place => props(head + 2*k - 1:head + 2*k) - props(4:5))
           along = strain(1) + place(2)*strain(4) - place(1)*strain(5)

@@ -17,7 +17,7 @@ module host_corotation
   use host_polar, only: cross, polar_axes, step
   implicit none (type, external)
   private
-  public :: corotation_t, local_motion, turn_back
+  public :: corotation_t, local_motion, rotation_of, turn_back
 
   !> Where an element is: components of local and global axes are those of the axes at the start.
   type :: corotation_t

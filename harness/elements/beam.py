@@ -201,9 +201,12 @@ def _check(model: Model, group: ElementGroup, kind: BeamType, section: BeamSecti
     nonlinear = next((step for step in model.steps if step.nlgeom), None)
     dynamic = any(step.procedure.inertia for step in model.steps)
     profile = profile_of(section, kind.dimension)
-    if nonlinear is not None and kind.dimension == 3:
+    if nonlinear is not None and kind.dimension == 3 and kind.family is not LINE2:
         message = f"NLGEOM is not supported for elements of type {group.type}, whose rotations are small"
         raise DeckError(nonlinear.source, message)
+    if nonlinear is not None and kind.dimension == 3 and dynamic:
+        message = f"elements of type {group.type}, whose inertia is that of small rotations"
+        raise DeckError(nonlinear.source, f"*DYNAMIC with NLGEOM is not supported for {message}")
     if nonlinear is not None and dynamic and any(profile.centroid) and not section.isotropic:
         message = f"*DYNAMIC with NLGEOM and elements of type {group.type} whose centroid is beside their nodes"
         raise DeckError(nonlinear.source, f"{message} is not supported; ROTARY INERTIA=ISOTROPIC leaves the offset out")

@@ -334,7 +334,8 @@ def _beam_block(model: Model, group: ElementGroup, kind: BeamType, library: Libr
         tuple((node, dof) for node in range(kind.nodes) for dof in kind.dofs(node)),
         beam_routine(model, group, kind, section, library),
         library,
-        unsymmetric=False,
+        # moments in space are no derivatives by the rotation vector
+        unsymmetric=kind.dimension == 3 and any(step.nlgeom for step in model.steps),
         variables=beam_variables(section, kind),
     )
     block.set_last(start_directions(model, group, kind, section))

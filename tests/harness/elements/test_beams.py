@@ -6,6 +6,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from scipy.spatial.transform import Rotation
 
 from harness.elements import Flags, Request
 from harness.elements.beam import SLENDERNESS, section_mass
@@ -13,7 +14,9 @@ from harness.elements.beam_profiles import SHEAR_FACTORS, profile_of, rectangle_
 from harness.errors import DeckError, Source
 from harness.model.element_types import BEAM
 from harness.model.mesh import ElementGroup
+from harness.model.procedures import Static
 from harness.model.properties import BeamSection
+from harness.model.steps import Step
 
 SOURCE = Source("test.inp", 7)
 E, G, DENSITY = 1000.0, 400.0, 3.0
@@ -40,10 +43,11 @@ def nodes_of(element_type, ends=ENDS, bow=0.0):
 def beam(bound, load, call):
     """Force, tangent and energies of one beam by its unknowns, and its block."""
 
-    def beam(element_type, section, x):
+    def beam(element_type, section, x, *, large=False):
         kind = BEAM[element_type]
         group = ElementGroup(element_type, np.array([1]), np.arange(kind.nodes)[None], "", section, None, SOURCE)
-        block, matrix = bound(group, x, load(None))
+        steps = (Step(1, "Step-1", Static(), SOURCE, nlgeom=True),) if large else ()
+        block, matrix = bound(group, x, load(None), steps)
         used = np.array([6 * node + dof - 1 for node in range(kind.nodes) for dof in kind.dofs(node)])
 
         def evaluate(u, *, request=Request.NORMAL, nlgeom=False):
@@ -201,7 +205,58 @@ def test_large_displacements(beam, element_type):
     assert energy[1] == pytest.approx(0, abs=1e-20 * abs(k).max())
 
 
-@pytest.mark.parametrize("element_type", PLANE)
+def turned_by(x, u, turn, shift):
+    """Unknowns after displacements and rotation vectors u, and then a rotation and a translation of all."""
+    u = u.reshape(-1, 6)
+    moved = turn.apply(x + u[:, :3]) + shift - x
+    return np.hstack([moved, (turn * Rotation.from_rotvec(u[:, 3:])).as_rotvec()]).ravel()
+
+
+@pytest.mark.parametrize("turn", [[0.3, -0.2, 0.5], [2.0, 1.0, -1.5], [0.0, 3.1, 0.0]])
+def test_rotation_of_all_changes_nothing(beam, turn):
+    """In space, forces and moments of a bent and twisted beam turn with it, and it stores as much."""
+    evaluate, turn = beam("B31", UNEQUAL, ENDS), Rotation.from_rotvec(turn)
+    u = 0.4 * np.random.default_rng(3).normal(size=12)
+    force, _, energy = evaluate(u, nlgeom=True)
+    other, _, other_energy = evaluate(turned_by(ENDS, u, turn, np.array([1.0, -2.0, 3.0])), nlgeom=True)
+    np.testing.assert_allclose(other, turn.apply(force.reshape(-1, 3)).ravel(), atol=1e-12 * abs(force).max())
+    assert other_energy[1] == pytest.approx(energy[1], rel=1e-10)
+
+
+@pytest.mark.parametrize("size", [0.01, 0.1, 0.5])
+def test_large_rotations_in_space(beam, size):
+    """The tangent is the derivative of the forces, these do the work that is stored, and are in equilibrium."""
+    evaluate, x = beam("B31", UNEQUAL, ENDS, large=True), ENDS
+    u = size * np.random.default_rng(8).normal(size=12)
+    force, k, _ = evaluate(u, nlgeom=True)
+    step = 1e-6
+    pairs = [(evaluate(u + d, nlgeom=True), evaluate(u - d, nlgeom=True)) for d in step * np.eye(12)]
+    slopes = np.array([one[0] - other[0] for one, other in pairs]).T / (2 * step)
+    np.testing.assert_allclose(k, slopes, atol=1e-6 * abs(k).max())
+    # work of the moments: on spins about the global axes
+    for node in range(2):
+        for axis in range(6):
+            ends = []
+            for sign in (1, -1):
+                moved = u.reshape(2, 6).copy()
+                if axis < 3:
+                    moved[node, axis] += sign * step
+                else:
+                    spin = Rotation.from_rotvec(sign * step * np.eye(3)[axis - 3])
+                    moved[node, 3:] = (spin * Rotation.from_rotvec(moved[node, 3:])).as_rotvec()
+                ends.append(evaluate(moved.ravel(), nlgeom=True)[2][1])
+            assert force[6 * node + axis] == pytest.approx(
+                (ends[0] - ends[1]) / (2 * step), abs=1e-6 * abs(force).max()
+            )
+    forces, moments = force.reshape(2, 2, 3).swapaxes(0, 1)
+    np.testing.assert_allclose(forces.sum(axis=0), 0, atol=1e-12 * abs(force).max())
+    arms = x + u.reshape(2, 6)[:, :3]
+    np.testing.assert_allclose(
+        moments.sum(axis=0) + np.cross(arms, forces).sum(axis=0), 0, atol=1e-11 * abs(force).max()
+    )
+
+
+@pytest.mark.parametrize("element_type", [*PLANE, "B31"])
 def test_small_displacements_are_the_limit_of_large_ones(beam, element_type):
     evaluate = beam(element_type, UNEQUAL, nodes_of(element_type, bow=0.2))
     nothing = np.zeros(evaluate.unknowns)
