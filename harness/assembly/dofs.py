@@ -11,19 +11,18 @@ from typing import Self
 import numpy as np
 from numpy.typing import NDArray
 
-from harness.elements import FIELD_NAMES, PRESSURE, VOLUME, ElementBlock, field_of
+from harness.elements import MULTIPLIER, PRESSURE, ContactBlock, ElementBlock, field_of
 from harness.model.arrays import FloatArray, IntArray
 from harness.model.mesh import Mesh, full_name
 from harness.model.model import Equation
 
-_VOLUME = FIELD_NAMES.index(VOLUME)
-
 
 @dataclass(frozen=True, slots=True)
 class DofMap:
-    """Unknowns of a model, ordered by node, then by dof; those of elements, which are of no node, come last.
+    """Unknowns of a model, ordered by node, then by dof; those of elements and contact points, which are of no node,
+    come last.
 
-    node  (n,) node index of each unknown; the elements of the model follow the nodes
+    node  (n,) node index of each unknown; the elements of the model follow the nodes, then its contact points
     dof   (n,) its dof, as Abaqus numbers them (1-3 displacements, ...)
     field (n,) its field, index into FIELD_NAMES
     coordinates  (n, 3) original coordinates of its node, or of the middle of its element
@@ -39,8 +38,12 @@ class DofMap:
     _elements: dict[int, str]
 
     @classmethod
-    def build(cls, mesh: Mesh, blocks: Sequence[ElementBlock], equations: Sequence[Equation] = ()) -> Self:
-        """Collect the unknowns of elements, and of *EQUATION, whose reference nodes need not belong to an element."""
+    def build(
+        cls, mesh: Mesh, blocks: Sequence[ElementBlock | ContactBlock], equations: Sequence[Equation] = ()
+    ) -> Self:
+        """Collect unknowns of elements, of contact pairs, and of *EQUATION, whose reference nodes need not belong to an
+        element.
+        """
         nodes = [np.zeros(0, dtype=np.int64)]
         dofs = [np.zeros(0, dtype=np.int64)]
         elements: dict[int, str] = {}
@@ -50,9 +53,9 @@ class DofMap:
                 used = np.unique(_positions(mesh, block, local))
                 nodes.append(used)
                 dofs.append(np.full(len(used), dof))
-            if any(field_of(dof) == _VOLUME for _, dof in block.unknowns):
+            if any(dof >= PRESSURE for _, dof in block.unknowns):
                 own = _positions(mesh, block, block.group.nodes.shape[1]).tolist()
-                names = [full_name(block.group.instance, label) for label in block.group.labels.tolist()]
+                names = block.names if isinstance(block, ContactBlock) else _names(block)
                 elements |= dict(zip(own, names, strict=True))
                 middles |= dict(zip(own, mesh.coordinates[block.group.nodes].mean(axis=1), strict=True))
         terms = np.array([(node, dof) for equation in equations for node, dof, _ in equation.terms], dtype=np.int64)
@@ -75,7 +78,7 @@ class DofMap:
     @property
     def of_nodes(self) -> NDArray[np.bool_]:
         """(n,) whether an unknown is of a node, which moves in space and time; the pressure of an element is not."""
-        found: NDArray[np.bool_] = self.field != _VOLUME
+        found: NDArray[np.bool_] = self.node < len(self.mesh.labels)
         return found
 
     def find(self, nodes: IntArray | int, dof: IntArray | int) -> IntArray:
@@ -98,7 +101,7 @@ class DofMap:
         known = (self._keys[found] == keys) & (np.asarray(dof) < self._base)
         return np.asarray(np.where(known, found, -1), dtype=np.int64)
 
-    def equations_of(self, block: ElementBlock) -> NDArray[np.int32]:
+    def equations_of(self, block: ElementBlock | ContactBlock) -> NDArray[np.int32]:
         """The unknowns of each element of a block.
 
         Parameters
@@ -119,13 +122,19 @@ class DofMap:
         return self._elements.get(int(self.node[unknown]), "")
 
     def name(self, unknown: int) -> tuple[str, int]:
-        """Node name and dof of an unknown, for messages; a pressure is one of its element."""
+        """Node name and dof of an unknown, for messages; a pressure is one of its element, or of a contact point."""
+        if int(self.dof[unknown]) == MULTIPLIER:
+            return f"{self.element(unknown)}, contact pressure", 1
         if element := self.element(unknown):
             return f"of element {element}, pressure", int(self.dof[unknown]) - PRESSURE + 1
         return self.mesh.name(int(self.node[unknown])), int(self.dof[unknown])
 
 
-def _positions(mesh: Mesh, block: ElementBlock, local: int) -> IntArray:
+def _names(block: ElementBlock) -> list[str]:
+    return [full_name(block.group.instance, label) for label in block.group.labels.tolist()]
+
+
+def _positions(mesh: Mesh, block: ElementBlock | ContactBlock, local: int) -> IntArray:
     """(m,) nodes with this local number; behind those of an element it is the element, which follows all nodes."""
     if local < block.group.nodes.shape[1]:
         return block.group.nodes[:, local]

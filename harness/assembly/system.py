@@ -17,9 +17,19 @@ from scipy import sparse
 from harness.assembly.dofs import DofMap
 from harness.assembly.linear import LinearElements
 from harness.assembly.states import States
-from harness.elements import FIELD_NAMES, Call, ElementBlock, FollowerBlock, HeatLoadBlock, Motion, Request
-from harness.errors import ElementError
+from harness.elements import (
+    FIELD_NAMES,
+    Call,
+    ContactBlock,
+    ElementBlock,
+    FollowerBlock,
+    HeatLoadBlock,
+    Motion,
+    Request,
+)
+from harness.errors import ElementError, UsageError
 from harness.model.arrays import ComplexArray, FloatArray, IntArray
+from harness.model.contact import ContactChanges
 from harness.model.mesh import Mesh
 from harness.model.model import Equation
 from harness.model.records import ElementState
@@ -44,6 +54,7 @@ class Evaluation:
     damage      dissipated by the damage of built-in elements
     largest     (fields,) largest |element nodal force|
     entries     (fields,) number of element nodal forces
+    contact     what the iteration changed in each contact pair
     """
 
     residual: FloatArray
@@ -56,6 +67,7 @@ class Evaluation:
     damage: float = 0.0
     largest: FloatArray = field(default_factory=lambda: np.zeros(len(FIELD_NAMES)))
     entries: IntArray = field(default_factory=lambda: np.zeros(len(FIELD_NAMES), dtype=np.int64))
+    contact: tuple[ContactChanges, ...] = ()
 
 
 LOADED: Final = (FollowerBlock, HeatLoadBlock)
@@ -67,6 +79,7 @@ class System:
 
     blocks   of its elements
     loaded   faces under loads that follow them, and what heat enters: called where loads act, and no elements
+    contacts its contact pairs, whose points do not count as elements either
     dofs     what each unknown is
     indptr   (n + 1,) row starts of the matrix, int32
     indices  (nnz,) columns, ascending in each row, int32; every diagonal entry is there and the pattern is symmetric
@@ -77,23 +90,30 @@ class System:
         mesh: Mesh,
         blocks: Sequence[ElementBlock],
         equations: Sequence[Equation] = (),
+        contacts: Sequence[ContactBlock] = (),
         *,
         spare_linear: bool = False,
         ranks: Ranks = ALONE,
     ) -> None:
-        """Blocks of a model with this mesh and these constraints, of which this rank keeps a part.
+        """Blocks of a model with this mesh, these constraints and contact pairs, of which this rank keeps a part.
 
-        spare_linear: do not call linear elements again. Raises UsageError if several ranks cannot share the elements.
+        spare_linear: do not call linear elements again. Raises UsageError if several ranks cannot share the elements,
+        or if there is contact.
         """
         self.ranks = ranks
+        self.contacts = tuple(contacts)
+        if self.contacts and ranks.size > 1:
+            place = self.contacts[0].pair.source
+            raise UsageError(f"{place}: *CONTACT PAIR is not supported in a job of several processes; run one")
         self.blocks = tuple(block for block in blocks if not isinstance(block, LOADED))
         self.loaded = tuple(block for block in blocks if isinstance(block, LOADED))
-        self.dofs = DofMap.build(mesh, self.blocks, equations)
+        self.dofs = DofMap.build(mesh, (*self.blocks, *self.contacts), equations)
         if ranks.size > 1:
             self._keep_own()
-        numbers = [self.dofs.equations_of(block) for block in blocks]
+        bound: list[ElementBlock | ContactBlock] = [*blocks, *self.contacts]
+        numbers = [self.dofs.equations_of(block) for block in bound]
         self.indptr, self.indices, scatter = build_pattern(len(self.dofs), numbers)
-        for block, equation_numbers, positions in zip(blocks, numbers, scatter, strict=True):
+        for block, equation_numbers, positions in zip(bound, numbers, scatter, strict=True):
             block.bind(equation_numbers, positions)
         self._data = np.zeros(len(self.indices))
         self._committed = 0
@@ -195,7 +215,10 @@ class System:
             energy += entered.evaluate(call, u, du, columns[0], data, motion).energy
         load = columns[1] if nrhs > 1 else None
         linear.passed(call, u, du, spared=spared)
-        return Evaluation(columns[0], data, flux, count, pnewdt, energy, load, damage, largest, entries)
+        for pair in self.contacts:
+            pair.evaluate(call, u, du, columns[0], data)
+        contact = tuple(pair.trial_changes for pair in self.contacts)
+        return Evaluation(columns[0], data, flux, count, pnewdt, energy, load, damage, largest, entries, contact)
 
     def _evaluate_all(self, act: Callable[[], Evaluation], nrhs: int) -> Evaluation:
         """Sums over the elements of all ranks; act: gives those of this one. The matrix stays a part.
@@ -317,6 +340,8 @@ class System:
         for block in (*self.blocks, *self.loaded):
             if not self._linear.waits(block):
                 block.commit()
+        for pair in self.contacts:
+            pair.commit()
         return energy
 
     def viscous_change(self) -> float:
@@ -359,6 +384,7 @@ class System:
         return {
             "blocks": [block.kept() for block in self.blocks],
             "faces": [[face.key, face.elements, face.kept()] for face in self._faces],
+            "contacts": [pair.kept() for pair in self.contacts],
             "linear": self._linear.known,
         }
 
@@ -366,8 +392,12 @@ class System:
         """Begin with what `kept` returned. Raises ValueError if it is not of these elements."""
         if len(saved["blocks"]) != len(self.blocks):
             raise ValueError("groups of elements")
+        if len(saved["contacts"]) != len(self.contacts):
+            raise ValueError("contact pairs")
         for block, own in zip(self.blocks, saved["blocks"], strict=True):
             block.resume(own)
+        for pair, own in zip(self.contacts, saved["contacts"], strict=True):
+            pair.resume(own)
         for key, elements, own in saved["faces"]:
             for face in self._faces:
                 if face.key == key:

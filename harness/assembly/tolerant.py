@@ -9,7 +9,7 @@ from contextlib import suppress
 from typing import Any
 
 from harness.assembly.system import Evaluation, System
-from harness.elements import Call, build_blocks
+from harness.elements import Call, build_blocks, contact_blocks
 from harness.errors import NotFiniteError
 from harness.model.arrays import FloatArray
 from harness.model.model import Model
@@ -23,7 +23,8 @@ class TolerantSystem(System):
     def __init__(self, model: Model, library: Library, linear: Collection[str] = (), ranks: Ranks = ALONE) -> None:
         """Blocks of all elements of a model; linear: types of user elements that the user says are linear."""
         blocks = build_blocks(model, library, strict=False, zeros=True, linear=linear)
-        super().__init__(model.mesh, blocks, model.equations, spare_linear=True, ranks=ranks)
+        contacts = contact_blocks(model, blocks)
+        super().__init__(model.mesh, blocks, model.equations, contacts, spare_linear=True, ranks=ranks)
         self._library = library
         self._tolerated = False
 

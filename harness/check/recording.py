@@ -17,7 +17,7 @@ import numpy as np
 from harness import usersub
 from harness.assembly import Evaluation, System
 from harness.deck import read_deck
-from harness.elements import Call, ElementBlock, Flags, Motion, Request, build_blocks
+from harness.elements import Call, ElementBlock, Flags, Motion, Request, build_blocks, contact_blocks
 from harness.errors import (
     ConvergenceError,
     ElementError,
@@ -230,7 +230,7 @@ class _RecordedSystem(System):
     """A system that keeps what its elements are called with."""
 
     def __init__(self, model: Model, blocks: Sequence[ElementBlock], events: list[Event]) -> None:
-        super().__init__(model.mesh, blocks, model.equations)
+        super().__init__(model.mesh, blocks, model.equations, contact_blocks(model, blocks))
         self._events = events
 
     def evaluate(

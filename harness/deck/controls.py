@@ -13,8 +13,8 @@ from harness.model.steps import Controls, FieldControls, LineSearchControls, Tim
 
 FIELD_LINES = (("r_n", "c_n", "q_0", "q_u", "r_p", "eps", "c_eps", "r_l"), ("c_f", "eps_l"))
 TIME_LINES = (
-    # the last three are counts of contact iterations, of which there are none
-    ("i_0", "i_r", "i_p", "i_c", "i_l", "i_g", "i_s", "i_a", "i_j", "i_t", "", "", ""),
+    # the last one counts augmentations of contact, of which there are none
+    ("i_0", "i_r", "i_p", "i_c", "i_l", "i_g", "i_s", "i_a", "i_j", "i_t", "i_s_c", "i_j_c", ""),
     ("d_f", "d_c", "d_b", "d_a", "d_s", "d_h", "d_d", "w_g"),
     # the last two belong to explicit integration of creep
     ("d_g", "d_m", "d_m_dyn", "d_m_diff", "d_l", "d_e", "", ""),
@@ -102,7 +102,7 @@ KEYWORDS = (
         "CONTROLS",
         "Solution controls; blank entries keep their value, later steps keep the controls. Of CONSTRAINTS the first "
         "entry counts, the volumetric strain compatibility tolerance of hybrid solids; the others are about elements "
-        "and contact that are not here.",
+        "and contact that is not here.",
         Where.STEP,
         (
             one_of("ANALYSIS", "I_0 = 8, I_R = 10", ("DISCONTINUOUS",)),

@@ -4,7 +4,7 @@
 
 from __future__ import annotations
 
-from harness.deck.table import NAME, Keyword, Support, Where, ignored
+from harness.deck.table import Keyword, Support, Where
 
 _IGNORED = {
     "SOLVER CONTROLS": "Controls of the iterative linear solver.",
@@ -31,18 +31,9 @@ _IGNORED = {
     "FAIL STRAIN": "Limits of the failure measures CFAILURE, which are output.",
     "PHYSICAL CONSTANTS": "Absolute zero and the like: nothing that uses them is supported.",
     **dict.fromkeys(
-        ("FRICTION", "SURFACE BEHAVIOR", "CONTACT DAMPING", "GAP CONDUCTANCE", "GAP HEAT GENERATION"),
-        "Contact property, after *SURFACE INTERACTION.",
+        ("GAP CONDUCTANCE", "GAP HEAT GENERATION"),
+        "Contact property for heat, which contact pairs here do not conduct.",
     ),
 }
 
-KEYWORDS = (
-    Keyword(
-        "SURFACE INTERACTION",
-        "Begin a contact property. Nothing uses one, since contact is refused: it is listed and left out.",
-        Where.MODEL,
-        (NAME, *ignored("DEPVAR", "PAD THICKNESS", "PROPERTIES")),
-        "not read",
-    ),
-    *(Keyword(name, doc, Where.ANY, support=Support.IGNORED) for name, doc in _IGNORED.items()),
-)
+KEYWORDS = tuple(Keyword(name, doc, Where.ANY, support=Support.IGNORED) for name, doc in _IGNORED.items())

@@ -10,6 +10,7 @@ from harness.deck import (
     amplitudes,
     beams,
     constraints,
+    contact,
     controls,
     damage,
     distributed,
@@ -21,6 +22,7 @@ from harness.deck import (
     ignored,
     imperfection,
     initial,
+    interactions,
     lexer,
     local_mesh,
     materials,
@@ -44,6 +46,7 @@ from harness.deck.table import Keyword, Kind, Option, Support, compact
 
 _FILES = (
     *(structure, lexer, placement, orientations, local_mesh, generation, user_elements, surfaces, constraints),
+    *(contact, interactions),
     *(
         materials,
         plastic,

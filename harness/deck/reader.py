@@ -12,11 +12,13 @@ import numpy as np
 
 from harness.deck.amplitudes import read_amplitudes
 from harness.deck.constraints import ConstraintReader, read_equations
+from harness.deck.contact import ContactReader, check_contact
 from harness.deck.error_report import Problems
 from harness.deck.flatten import FlatMesh
 from harness.deck.groups import make_groups
 from harness.deck.imperfection import ShapeReader, displace
 from harness.deck.initial import read_initial_solutions, read_initial_stresses, read_initial_values
+from harness.deck.interactions import Interactions
 from harness.deck.keywords import KEYWORDS
 from harness.deck.lexer import Survey, read_blocks, survey_blocks
 from harness.deck.materials import read_materials
@@ -84,6 +86,9 @@ def read_deck(
     groups = make_groups(flat, materials, read_section_controls(structure.root, problems), problems)
     if not structure.steps:
         raise DeckError(Source(str(path), 1), "the deck has no *STEP")
+    interactions = Interactions(structure.root, problems)
+    # first, since it may move nodes
+    contacts = ContactReader(flat, groups, interactions, problems).read()
     built_in = np.concatenate([np.full(len(group.labels), group.definition is None) for group in groups])
     prescription = Prescription(flat, amplitudes, _active_dofs(groups), built_in, Surfaces(flat, groups))
     boundaries: list[Boundary] = []
@@ -104,6 +109,7 @@ def read_deck(
     # a step with errors is missing
     steps = tuple(replace(step, restart=restarts[step.number - 1]) for step in steps)
     related = constraints.read(boundaries, steps)
+    check_contact(contacts, steps, problems)
     problems.check()
     return Model(
         deck=path,
@@ -115,13 +121,14 @@ def read_deck(
         elsets=flat.elsets,
         boundaries=tuple(boundaries),
         equations=(*equations, *related),
+        contacts=contacts,
         initial_velocities=velocities,
         initial_temperatures=temperatures,
         initial_fields=fields,
         initial_solutions=tuple(solutions),
         initial_stresses=tuple(stresses),
         given=dict(given or {}),
-        ignored=tuple(structure.ignored),
+        ignored=(*interactions.unused, *structure.ignored),
         warnings=problems.warnings,
         differences=problems.differences,
     )

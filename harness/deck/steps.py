@@ -30,10 +30,10 @@ Entry = TypeVar("Entry")
 def read_steps(
     scopes: list[Scope], prescription: Prescription, requests: RequestReader, problems: Problems
 ) -> tuple[Step, ...]:
-    """All steps; controls, output requests, NLGEOM and UNSYMM go on from one to the next."""
+    """All steps; controls, output requests, NLGEOM, UNSYMM and CONVERT SDI go on from one to the next."""
     steps: list[Step] = []
     controls = ControlState()
-    nlgeom = unsymmetric = False
+    nlgeom, unsymmetric, convert = False, False, True
     read_heat = partial(read_heat_loads, prescription=prescription)
     for number, scope in enumerate(scopes, start=1):
         for block in scope.blocks:
@@ -44,6 +44,7 @@ def read_steps(
         nlgeom = nlgeom or scope.head.options.flag("NLGEOM")
         options = scope.head.options
         unsymmetric = options.flag("UNSYMM") if options.given("UNSYMM") else unsymmetric
+        convert = options.flag("CONVERT SDI") if options.given("CONVERT SDI") else convert
         name = options.text("NAME") or f"Step-{number}"
         if name in (step.name for step in steps):
             problems.add(scope.head.source, f"*STEP: the name {name} is taken by an earlier step")
@@ -81,6 +82,7 @@ def read_steps(
                     increments=increments,
                     extrapolation=_extrapolation(scope, procedure),
                     unsymmetric=unsymmetric,
+                    convert_sdi=convert,
                     amplitude=options.text("AMPLITUDE") or procedure.default_amplitude,
                     title=next((line for line in scope.head.lines if line), ""),
                     controls=controls.effective,
@@ -215,7 +217,12 @@ KEYWORDS = (
             one_of(
                 "AMPLITUDE", "default time variation; RAMP unless given, STEP in transient procedures", ("RAMP", "STEP")
             ),
-            *ignored("CONVERT SDI", "SOLVER"),
+            Option(
+                "CONVERT SDI",
+                Kind.SWITCH,
+                "an increment may end with a severe discontinuity iteration whose errors are small (YES)",
+            ),
+            *ignored("SOLVER"),
             Option(
                 "PERTURBATION",
                 doc="a linear step about the last state, of *STATIC; other procedures say it themselves",

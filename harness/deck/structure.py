@@ -57,9 +57,6 @@ def sort_blocks(blocks: list[Block], problems: Problems) -> Structure:
     structure = Structure()
     open_scopes: list[Scope] = []
     for block in blocks:
-        if block.name == "SURFACE INTERACTION":
-            # it stays in its place, so that what follows it is not taken for an option of the material before it
-            structure.ignored.append((block.name, block.source))
         with problems.gather():
             _place(block, structure, open_scopes, problems)
     for scope in open_scopes:

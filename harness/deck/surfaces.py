@@ -14,7 +14,7 @@ from harness.deck.flatten import FlatMesh
 from harness.deck.table import NAME, Keyword, Where, ignored, one_of
 from harness.errors import DeckError, Source
 from harness.model.arrays import FloatArray, IntArray
-from harness.model.element_types import LINE3, QUAD8, TRI6, Family, ShellType, SolidType
+from harness.model.element_types import LINE3, QUAD8, TRI6, Face, Family, ShellType, SolidType
 from harness.model.mesh import ElementGroup
 
 _CORNERS = np.array([[-1.0, 1.0, 1.0, -1.0], [-1.0, -1.0, 1.0, 1.0]])
@@ -92,6 +92,26 @@ class Surfaces:
             found.append((elements, row.name(1, "face"), row.source))
         return found
 
+    def facets(
+        self, name: str, source: Source, owner: str = ""
+    ) -> Iterator[tuple[ElementGroup, IntArray, Face, Source]]:
+        """Faces of a surface: a group, rows of it, the local nodes of their face, the place. Raises DeckError."""
+        place, block = self._find(name, source, owner)
+        for row in block.rows():
+            elements = self._flat.elements(row.name(0, "set"), row.source, place)
+            numbers = np.searchsorted(self._starts, elements, side="right") - 1
+            for k in np.unique(numbers).tolist():
+                local = face_nodes(self._groups[k], row.name(1, "face"), row.source, "SURFACE")
+                yield self._groups[k], elements[numbers == k] - self._starts[k], local, row.source
+
+    def of_nodes(self, name: str, source: Source, owner: str = "") -> list[tuple[IntArray, float]] | None:
+        """Nodes of each line of a surface of nodes, with the area of each node; None of a surface of faces."""
+        place, block = self._find(name, source, owner)
+        if block.options.text("TYPE") != "NODE":
+            return None
+        rows = list(block.rows())
+        return [(self._flat.nodes(row.name(0, "set"), row.source, place), row.real(1, "area", 1.0)) for row in rows]
+
     def by_group(self, elements: IntArray) -> Iterator[tuple[ElementGroup, IntArray]]:
         """Elements (positions in the model) group by group."""
         groups = np.searchsorted(self._starts, elements, side="right") - 1
@@ -119,7 +139,7 @@ class Surfaces:
 
 
 def tributary_areas(family: Family, places: FloatArray) -> FloatArray:
-    """Area or length that belongs to each node of a face.
+    """Area or length that belongs to each node of faces of a kind.
 
     On linear faces that is the integral of its shape function. Those of quadratic faces are negative at corners, or
     zero; such a face is cut at the middles of its edges instead, and the area between its corners is shared.
@@ -129,26 +149,26 @@ def tributary_areas(family: Family, places: FloatArray) -> FloatArray:
     family
         Of the face.
     places
-        (n, 3) coordinates: corners, then middles of edges.
+        (..., n, 3) coordinates of faces: corners, then middles of edges.
 
     Returns
     -------
     FloatArray
-        One for each node.
+        (..., n).
     """
-    corners = places[: family.corners]
+    first, second, third = (places[..., k % family.corners, :] for k in range(3))
+    areas = np.zeros((*places.shape[:-2], family.corners))
     if family.dimension == 1:
-        areas = np.full(2, 0.5 * np.linalg.norm(corners[1] - corners[0]))
+        areas += 0.5 * np.linalg.norm(second - first, axis=-1)[..., None]
     elif family.corners == 3:
-        areas = np.full(3, np.linalg.norm(np.cross(corners[1] - corners[0], corners[2] - corners[0])) / 6.0)
+        areas += np.linalg.norm(np.cross(second - first, third - first), axis=-1)[..., None] / 6.0
     else:
-        areas = np.zeros(4)
         for xi, eta in _GAUSS:
             along, across = 1.0 + xi * _CORNERS[0], 1.0 + eta * _CORNERS[1]
-            tangents = 0.25 * (_CORNERS[0] * across) @ corners, 0.25 * (_CORNERS[1] * along) @ corners
-            areas += 0.25 * along * across * np.linalg.norm(np.cross(*tangents))
+            tangents = [0.25 * slopes @ places[..., :4, :] for slopes in (_CORNERS[0] * across, _CORNERS[1] * along)]
+            areas += 0.25 * along * across * np.linalg.norm(np.cross(*tangents), axis=-1)[..., None]
     shares = _QUADRATIC.get(family.number)
-    return areas if shares is None else areas.sum() * np.array(shares)
+    return areas if shares is None else areas.sum(axis=-1, keepdims=True) * np.array(shares)
 
 
 def face_nodes(group: ElementGroup, face: str, source: Source, keyword: str) -> tuple[int, ...]:

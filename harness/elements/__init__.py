@@ -5,17 +5,20 @@
 from harness.elements.block import ElementBlock
 from harness.elements.build import build_blocks
 from harness.elements.call import BlockReport, Call, Distributed, Motion, Predefined
-from harness.elements.fields import FIELD_NAMES, PRESSURE, VOLUME, field_of
+from harness.elements.contact import ContactBlock, contact_blocks
+from harness.elements.fields import FIELD_NAMES, MULTIPLIER, PRESSURE, VOLUME, field_of
 from harness.elements.followers import FollowerBlock
 from harness.elements.heat_loads import HeatLoadBlock
 from harness.elements.lflags import Damping, Flags, Request
 
 __all__ = [
     "FIELD_NAMES",
+    "MULTIPLIER",
     "PRESSURE",
     "VOLUME",
     "BlockReport",
     "Call",
+    "ContactBlock",
     "Damping",
     "Distributed",
     "ElementBlock",
@@ -26,5 +29,6 @@ __all__ = [
     "Predefined",
     "Request",
     "build_blocks",
+    "contact_blocks",
     "field_of",
 ]

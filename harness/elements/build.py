@@ -86,7 +86,8 @@ def build_blocks(
     Returns
     -------
     list[ElementBlock]
-        One per group of the model, in the same order, then those of faces under loads that follow them.
+        One per group of the model, in the same order, then those of faces under loads that follow them, and those that
+        heat enters.
 
     Raises
     ------

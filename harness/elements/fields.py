@@ -6,16 +6,21 @@ from __future__ import annotations
 
 from typing import Final
 
-FIELD_NAMES: Final = ("force", "moment", "pore", "electrical", "temperature", VOLUME := "volume")
+from harness.model.contact import CONTACT
+
+FIELD_NAMES: Final = ("force", "moment", "pore", "electrical", "temperature", VOLUME := "volume", CONTACT)
 """Names of the fields; their numbers index the arrays by field."""
 
 PRESSURE: Final = 101
 """Number of the first pressure of hybrid elements among the unknowns of an element: more than any dof of Abaqus."""
 
+MULTIPLIER: Final = 201
+"""Number of the multiplier of a contact point among the unknowns of its block."""
+
 
 def field_of(dof: int) -> int:
     """Field of a degree of freedom: 1-3 force, 4-7 moment, 8 pore pressure, 9 electrical, 11 to 30 temperature;
-    those of the pressures of hybrid elements, which are of no node, volume.
+    of those that are of no node, pressures of hybrid elements volume, and multipliers of contact points contact.
 
     Parameters
     ----------
@@ -27,7 +32,7 @@ def field_of(dof: int) -> int:
     int
         Index into FIELD_NAMES.
     """
-    for last, field in ((3, 0), (7, 1), (8, 2), (9, 3), (PRESSURE - 1, 4)):
+    for last, field in ((3, 0), (7, 1), (8, 2), (9, 3), (PRESSURE - 1, 4), (MULTIPLIER - 1, 5)):
         if dof <= last:
             return field
-    return 5
+    return 6

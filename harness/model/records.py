@@ -12,6 +12,7 @@ from typing import Final
 import numpy as np
 
 from harness.model.arrays import FloatArray, IntArray
+from harness.model.contact import ContactChanges
 from harness.model.restart import Saved
 
 
@@ -46,9 +47,11 @@ class Largest:
 
 @dataclass(frozen=True, slots=True)
 class FieldCheck:
-    """Convergence check of one field, as a block of the message file prints it; or of the volumes of hybrid elements.
+    """Convergence check of one field, as a block of the message file prints it; or of the volumes of hybrid elements,
+    or of contact.
 
-    These have no fluxes, and a residual alone: the largest difference of two changes of volume.
+    These have no fluxes, and a residual alone: the largest difference of two changes of volume, or the largest
+    penetration.
 
     converted  the time average flux comes from the other of the two fields, forces and moments
     """
@@ -78,16 +81,28 @@ class AttemptStarted:
 
 @dataclass(frozen=True, slots=True)
 class IterationDone:
-    """One equilibrium iteration with its checks; line_search holds the scale factors tried, if any."""
+    """One iteration with its checks; line_search holds the scale factors tried, if any.
+
+    iteration  its number among severe discontinuity iterations, or among equilibrium iterations since the last of these
+    contact    what it changed in each contact pair: it is a severe discontinuity iteration if that is anything
+    """
 
     iteration: int
     checks: tuple[FieldCheck, ...]
     line_search: tuple[float, ...] = ()
+    contact: tuple[ContactChanges, ...] = ()
+
+    @property
+    def severe(self) -> bool:
+        """Whether it is a severe discontinuity iteration."""
+        return any(changes.count for changes in self.contact)
 
 
 @dataclass(frozen=True, slots=True)
 class AttemptEnded:
-    """An attempt at an increment that is over, with its iterations."""
+    """An attempt at an increment that is over, with its equilibrium iterations and, apart, those of severe
+    discontinuities.
+    """
 
     step: int
     increment: int
@@ -96,6 +111,7 @@ class AttemptEnded:
     step_time: float
     total_time: float
     time_increment: float
+    severe: int = field(default=0, kw_only=True)
 
 
 @dataclass(frozen=True, slots=True)

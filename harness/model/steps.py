@@ -39,7 +39,10 @@ class FieldControls:
 
 @dataclass(frozen=True, slots=True)
 class TimeControls:
-    """*CONTROLS, PARAMETERS=TIME INCREMENTATION; names and defaults of the Abaqus manual."""
+    """*CONTROLS, PARAMETERS=TIME INCREMENTATION; names and defaults of the Abaqus manual.
+
+    i_s_c and i_j_c replace i_s and i_j with CONVERT SDI=YES.
+    """
 
     i_0: int = 4
     i_r: int = 8
@@ -51,6 +54,8 @@ class TimeControls:
     i_a: int = 5
     i_j: int = 6
     i_t: int = 3
+    i_s_c: int = 50
+    i_j_c: int = 50
     d_f: float = 0.25
     d_c: float = 0.5
     d_b: float = 0.75
@@ -82,7 +87,10 @@ class LineSearchControls:
 class Controls:
     """Solution controls: `default` for all fields, `fields` by name ('DISPLACEMENT', ...) where they differ.
 
-    volume  largest difference of the changes of volume of hybrid elements, by displacements and by pressure
+    volume   largest difference of the changes of volume of hybrid elements, by displacements and by pressure
+    contact  largest penetration of points in contact over the largest increment of displacement
+    contact_force  largest force that points give up or take on in a severe discontinuity iteration, over the time
+                   average force, if it may end the increment
     """
 
     default: FieldControls = field(default_factory=FieldControls)
@@ -90,6 +98,8 @@ class Controls:
     time: TimeControls = field(default_factory=TimeControls)
     line_search: LineSearchControls = field(default_factory=LineSearchControls)
     volume: float = 1e-5
+    contact: float = 5e-3
+    contact_force: float = 1.0
 
 
 @dataclass(frozen=True, slots=True)
@@ -352,6 +362,8 @@ class Step:
 
     Of heat loads OP=NEW removes those of the keywords in `new_heat_loads`.
 
+    `convert_sdi`: an increment may end with a severe discontinuity iteration.
+
     `notes` say where the run of the step differs from the deck. `restart`: *RESTART, WRITE, None without.
     """
 
@@ -363,6 +375,7 @@ class Step:
     increments: int = 100
     extrapolation: str = "LINEAR"
     unsymmetric: bool = False
+    convert_sdi: bool = True
     amplitude: str = "RAMP"
     title: str = ""
     controls: Controls = field(default_factory=Controls)

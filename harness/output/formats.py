@@ -12,6 +12,14 @@ from importlib.metadata import PackageNotFoundError, version
 from pathlib import Path
 
 
+def engineering(value: float) -> str:
+    """Six digits and an exponent that is a multiple of three, as .msg has errors of contact: 442.915E-03."""
+    if value == 0.0:
+        return "0.00000"
+    exponent = 3 * (int(f"{value:.5e}".partition("e")[2]) // 3)
+    return f"{value / 10.0**exponent:#.6g}E{exponent:+03d}"
+
+
 def general(value: float, width: int = 11, digits: int = 3) -> str:
     """Fortran's `1PGw.d`, with which the .msg and .dat files are written.
 

@@ -14,6 +14,7 @@ from pathlib import Path
 import numpy as np
 
 from harness.errors import UelError
+from harness.model.contact import CONTACT
 from harness.model.model import Model
 from harness.model.records import (
     AttemptAbandoned,
@@ -25,6 +26,7 @@ from harness.model.records import (
     HarmonicResponse,
     IncrementDone,
     IterationDone,
+    Largest,
     ModesFound,
     ModeShape,
     Noted,
@@ -175,22 +177,23 @@ class JobOutput:
     def unbalanced(self) -> list[str]:
         """Where the last iteration was farthest from convergence, a sentence for each field that it did not accept."""
         failed = [
-            (f"residual {check.field}", check.residual)
+            ("penetration" if check.field == CONTACT else f"residual {check.field}", check.residual)
             if check.verdict is Convergence.NOT_ACHIEVED
             else ("correction", check.correction)
             for check in self._checks
             if not check.verdict.accepted
         ]
         return [
-            f"last iteration: largest {what} {largest.value:.4g} "
-            + (
-                f"in element {largest.element}"
-                if largest.element
-                else f"at node {self._model.mesh.name(largest.node)}, dof {largest.dof}"
-            )
+            f"last iteration: largest {what} {largest.value:.4g} {self._place(largest)}"
             for what, largest in failed
             if largest.element or largest.node >= 0
         ]
+
+    def _place(self, largest: Largest) -> str:
+        if largest.node < 0:
+            return f"in element {largest.element}"
+        node = f"at node {self._model.mesh.name(largest.node)}"
+        return f"{node} of contact pair {largest.element}" if largest.element else f"{node}, dof {largest.dof}"
 
     def close(self, error: UelError | None) -> None:
         """Write what the last converged increment still owes, and the verdict; the job ends here.
@@ -257,6 +260,7 @@ class JobOutput:
                 record.step_time,
                 record.time_increment,
                 monitor,
+                record.severe,
                 riks=self._model.steps[record.step - 1].procedure.riks is not None,
             )
         )

@@ -2,9 +2,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """The message file (.msg): tolerances of each step, then every iteration with its checks, as Abaqus prints them.
 
-Layout and words are those of the message files of Abaqus 6.14 to 2023. Left out are the figures of the solver
-(equations, operations) and the controls of what the harness does not have (contact). The words on hybrid elements in an
-iteration are ours.
+Layout and words are those of the message files of Abaqus 6.14 to 2024. Left out are the figures of the solver
+(equations, operations). The words on hybrid elements in an iteration are ours.
 """
 
 from __future__ import annotations
@@ -12,10 +11,12 @@ from __future__ import annotations
 import os
 import re
 import time
+from collections.abc import Sequence
 from datetime import datetime
 from pathlib import Path
 from typing import Final
 
+from harness.model.contact import CONTACT, ContactChanges
 from harness.model.element_types import HYBRID
 from harness.model.model import Model
 from harness.model.records import (
@@ -31,7 +32,7 @@ from harness.model.records import (
     StepStarted,
 )
 from harness.output.field_terms import FIELDS, FieldTerms, fields_of
-from harness.output.formats import TextFile, general, program, remark
+from harness.output.formats import TextFile, engineering, general, program, remark
 from harness.output.step_header import completed, procedure, tolerances
 
 WRITTEN: Final = "ALL OUTPUT REQUESTS HAVE BEEN WRITTEN FOR THE LAST CONVERGED INCREMENT."
@@ -46,6 +47,7 @@ class MessageFile:
         self._file = TextFile(path)
         self._fields = fields_of(model)
         self._hybrid = any(group.type in HYBRID for group in model.groups)
+        self._touches = bool(model.contacts)
         self._started = (time.perf_counter(), time.process_time())
         self.warnings: list[str] = []
         self._counts = dict.fromkeys(("increments", "cutbacks", "iterations", "searches", "helped", "errors"), 0)
@@ -59,7 +61,7 @@ class MessageFile:
             f" {self._model.heading}".rstrip()
             + "\n\n"
             f" STEP {step.number:4d}     INCREMENT     1     STEP TIME {general(0.0)}\n\n\n"
-            f"{procedure(step)}{tolerances(step, self._fields, hybrid=self._hybrid)}"
+            f"{procedure(step)}{tolerances(step, self._fields, hybrid=self._hybrid, contact=self._touches)}"
         )
 
     def attempt_started(self, record: AttemptStarted) -> None:
@@ -74,10 +76,14 @@ class MessageFile:
         """Block of one iteration: a paragraph for each field."""
         self._counts["iterations"] += 1
         self._counts["searches"] += max(len(record.line_search) - 1, 0)
-        text = f"\n               CONVERGENCE CHECKS FOR EQUILIBRIUM ITERATION{record.iteration:6d}\n\n"
+        kind = "SEVERE DISCONTINUITY" if record.severe else "EQUILIBRIUM"
+        text = _changes(record.contact)
+        text += f"\n               CONVERGENCE CHECKS FOR {kind} ITERATION{record.iteration:6d}\n\n"
         if len(record.line_search) > 1:
             text += "\n CORRECTION SCALE FACTORS OF THE LINE SEARCH" + "".join(map(general, record.line_search)) + "\n"
-        self._file.write(text + "".join(self._check(check) for check in record.checks))
+        contact = [self._contact(check, severe=record.severe) for check in record.checks if check.field == CONTACT]
+        others = [self._check(check) for check in record.checks if check.field != CONTACT]
+        self._file.write("".join([text, *contact, *others]))
 
     def abandoned(self, record: AttemptAbandoned) -> None:
         """Reason why an attempt was abandoned."""
@@ -101,9 +107,10 @@ class MessageFile:
         grows, path = "", record.load_factor
         if record.next_increment > record.time_increment and path is None:
             grows = f"          TIME INCREMENT MAY NOW INCREASE TO  {general(record.next_increment)}\n"
+        severe, calm = record.severe, record.iterations
         self._file.write(
-            f"{grows}\n ITERATION SUMMARY FOR THE INCREMENT:{record.iterations:4d} TOTAL ITERATIONS, OF WHICH\n"
-            f"{0:4d} ARE SEVERE DISCONTINUITY ITERATIONS AND{record.iterations:3d} ARE EQUILIBRIUM ITERATIONS.\n\n"
+            f"{grows}\n ITERATION SUMMARY FOR THE INCREMENT:{severe + calm:4d} TOTAL ITERATIONS, OF WHICH\n"
+            f"{severe:4d} ARE SEVERE DISCONTINUITY ITERATIONS AND{calm:3d} ARE EQUILIBRIUM ITERATIONS.\n\n"
             f"{completed(record, period)}"
         )
 
@@ -162,6 +169,18 @@ class MessageFile:
             text += f"{f' ESTIMATE OF {quantity:<9}CORRECTION':<34}{general(check.estimated_correction)}\n"
         return text + f"{_verdict(check.verdict, words)}\n"
 
+    def _contact(self, check: FieldCheck, *, severe: bool) -> str:
+        """Errors of the contact constraints, in two lines and a verdict."""
+        errors = {"MAX. PENETRATION ERROR": check.residual, "MAX. CONTACT FORCE ERROR": check.correction}
+        lines = [
+            f"   {words} {engineering(found.value)} AT NODE {self._model.mesh.name(found.node)} OF CONTACT PAIR\n"
+            f"   {found.element}\n"
+            for words, found in errors.items()
+        ]
+        within = "THE CONTACT CONSTRAINT ERRORS ARE WITHIN THE TOLERANCES." if severe else _CONSTRAINED
+        verdict = {Convergence.NOT_ACHIEVED: _PENETRATION, Convergence.CORRECTION_TOO_LARGE: _FORCE_ERROR}
+        return "".join([*lines, f"          {verdict.get(check.verdict, within)}\n"])
+
     def _largest(self, words: str, all_zero: str, largest: Largest) -> str:
         if largest.value == 0.0 or largest.node < 0:
             return f"{all_zero}\n"
@@ -207,6 +226,24 @@ def read_times(path: Path) -> tuple[float, float] | None:
 _TIMES: Final = re.compile(rb"TOTAL CPU TIME \(SEC\) = *(\S+)\s+WALLCLOCK TIME \(SEC\) = *(\S+)")
 _LONGEST_END: Final = 4096
 """Bytes that have the times of a job, which are last."""
+
+
+_CONSTRAINED: Final = "THE CONTACT CONSTRAINTS HAVE CONVERGED."
+_PENETRATION: Final = "PENETRATION ERROR TOO LARGE COMPARED TO DISPLACEMENT INCREMENT."
+_FORCE_ERROR: Final = "THE ESTIMATED CONTACT FORCE ERROR IS OUTSIDE THE TOLERANCE."
+
+
+def _changes(contact: Sequence[ContactChanges]) -> str:
+    """What an iteration changed in all contact pairs; '' for nothing."""
+    rows = {
+        "SEVERE DISCONTINUITIES OCCURRED DURING THIS ITERATION.": sum(changes.count for changes in contact),
+        "POINTS CHANGED FROM OPEN TO CLOSED": sum(changes.closed for changes in contact),
+        "POINTS CHANGED FROM CLOSED TO OPEN": sum(changes.opened for changes in contact),
+        "POINTS CHANGED FROM SLIPPING TO STICKING": sum(changes.sticking for changes in contact),
+        "POINTS CHANGED FROM STICKING TO SLIPPING": sum(changes.slipping for changes in contact),
+    }
+    lines = "".join(f"{count:21d} {words}\n" for words, count in rows.items() if count)
+    return f"\n{lines}" if lines else ""
 
 
 def _origin(check: FieldCheck) -> str:

@@ -8,7 +8,7 @@ from collections.abc import Iterable
 
 from harness.model.procedures import HeadLine, Procedure
 from harness.model.records import BucklingMode, HarmonicResponse, IncrementDone, ModeShape
-from harness.model.steps import Controls, FieldControls, Step, TimeControls
+from harness.model.steps import Controls, FieldControls, Step
 from harness.output.field_terms import FIELDS, FieldTerms
 from harness.output.formats import general
 
@@ -71,17 +71,19 @@ def completed(record: IncrementDone, period: float) -> str:
     )
 
 
-def tolerances(step: Step, fields: Iterable[str], *, hybrid: bool = False) -> str:
+def tolerances(step: Step, fields: Iterable[str], *, hybrid: bool = False, contact: bool = False) -> str:
     """Everything that the convergence checks and the time incrementation of the step depend on.
 
-    hybrid: the model has hybrid elements.
+    hybrid: the model has hybrid elements; contact: it has contact pairs.
     """
     if step.procedure.linear:
         return ""
     blocks = [_field(FIELDS[name], controls_of(name, step.controls)) for name in fields]
     if hybrid:
         blocks.append(_row("VOLUMETRIC STRAIN COMPATIBILITY TOLERANCE FOR HYBRID SOLIDS", step.controls.volume))
-    blocks.append(_time(step.controls.time, step.procedure))
+    if contact and step.convert_sdi:
+        blocks.append(" EQUILIBRIUM WILL BE CHECKED FOR SEVERE DISCONTINUITY ITERATIONS\n")
+    blocks.append(_time(step, contact=contact))
     search = step.controls.line_search
     if search.n_ls:
         blocks.append(
@@ -135,7 +137,9 @@ def _field(words: FieldTerms, controls: FieldControls) -> str:
     return f" CONVERGENCE TOLERANCE PARAMETERS FOR {words.flux}\n" + "".join(_row(*row) for row in rows)
 
 
-def _time(controls: TimeControls, procedure: Procedure) -> str:
+def _time(step: Step, *, contact: bool) -> str:
+    controls, procedure = step.controls.time, step.procedure
+    most = (controls.i_s_c, controls.i_j_c) if step.convert_sdi else (controls.i_s, controls.i_j)
     first: list[tuple[str, float]] = [("FIRST EQUILIBRIUM ITERATION FOR CONSECUTIVE DIVERGENCE CHECK", controls.i_0)]
     alternate = ("EQUILIBRIUM ITERATION AFTER WHICH ALTERNATE RESIDUAL IS USED", controls.i_p)
     largest = ("MAXIMUM EQUILIBRIUM ITERATIONS ALLOWED", controls.i_c)
@@ -148,10 +152,13 @@ def _time(controls: TimeControls, procedure: Procedure) -> str:
         largest,
         ("EQUILIBRIUM ITERATION COUNT FOR CUT-BACK IN NEXT INCREMENT", controls.i_l),
         ("MAXIMUM EQUILIB. ITERS IN TWO INCREMENTS FOR TIME INCREMENT INCREASE", controls.i_g),
+        *([("MAXIMUM ITERATIONS FOR SEVERE DISCONTINUITIES", most[0])] if contact else []),
         ("MAXIMUM ATTEMPTS ALLOWED IN AN INCREMENT", controls.i_a),
+        *([("MAXIMUM DISCON. ITERS IN TWO INCREMENTS FOR TIME INCREMENT INCREASE", most[1])] if contact else []),
         ("CUT-BACK FACTOR AFTER DIVERGENCE", controls.d_f),
         ("CUT-BACK FACTOR FOR TOO SLOW CONVERGENCE", controls.d_c),
         ("CUT-BACK FACTOR AFTER TOO MANY EQUILIBRIUM ITERATIONS", controls.d_b),
+        *([("CUT-BACK FACTOR AFTER TOO MANY SEVERE DISCONTINUITY ITERATIONS", controls.d_s)] if contact else []),
         ("CUT-BACK FACTOR AFTER PROBLEMS IN ELEMENT ASSEMBLY", controls.d_h),
         ("INCREASE FACTOR AFTER TWO INCREMENTS THAT CONVERGE QUICKLY", controls.d_d),
         ("MAX. TIME INCREMENT INCREASE FACTOR ALLOWED", getattr(controls, procedure.growth)),

@@ -63,7 +63,9 @@ class StepContext:
         self.times_of_solver = SolverTimes(state.effort)
         self._constrain(setting, fallback=fallback)
         length = length_of_moments(system, setting.model.mesh)
-        self.checker = Checker(system.dofs, self.constraints, step.controls, state.flux, length)
+        self.checker = Checker(
+            system.dofs, self.constraints, step.controls, state.flux, length, convert=step.convert_sdi
+        )
         self.start, self.step_time, self.increment = state.total_time, 0.0, 0
 
     def _constrain(self, setting: Setting, *, fallback: bool) -> None:

@@ -5,7 +5,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import astuple, dataclass, field
 
 import numpy as np
@@ -14,6 +14,7 @@ from numpy.typing import NDArray
 from harness.assembly import Constraints, DofMap, System
 from harness.elements import FIELD_NAMES, VOLUME
 from harness.model.arrays import FloatArray, IntArray, first_largest
+from harness.model.contact import CONTACT
 from harness.model.mesh import Mesh
 from harness.model.records import Convergence, FieldCheck, Largest
 from harness.model.restart import Saved
@@ -24,7 +25,7 @@ from harness.solver.newton import Iterate
 
 CONTROLLED_AS = dict(
     zip(
-        (name for name in FIELD_NAMES if name != VOLUME),
+        (name for name in FIELD_NAMES if name not in (VOLUME, CONTACT)),
         ("DISPLACEMENT", "ROTATION", "PORE FLUID PRESSURE", "ELECTRICAL POTENTIAL", "TEMPERATURE"),
         strict=True,
     )
@@ -67,7 +68,8 @@ class FieldChecker:
 class Checker:
     """Convergence checks of the increments of one step.
 
-    length  characteristic length of elements with rotations, which converts moments to forces; 0 without rotations
+    length   characteristic length of elements with rotations, which converts moments to forces; 0 without rotations
+    convert  severe discontinuity iterations may end an increment
     """
 
     def __init__(
@@ -77,6 +79,8 @@ class Checker:
         controls: Controls,
         histories: Sequence[FluxHistory],
         length: float = 0.0,
+        *,
+        convert: bool = True,
     ) -> None:
         self._dofs = dofs
         self._length = length
@@ -85,10 +89,11 @@ class Checker:
         self._time = controls.time
         self._start: list[float] = []
         self.fields = []
-        self._volume = controls.volume
+        self._controls, self._convert_sdi = controls, convert
+        self._calm = 0
         volume = FIELD_NAMES.index(VOLUME)
         self._pressures = np.flatnonzero(dofs.field[self._free] == volume)
-        for number in np.unique(dofs.field[dofs.field != volume]):
+        for number in np.unique(dofs.field[dofs.field < volume]):
             chosen = controls.fields.get(CONTROLLED_AS[FIELD_NAMES[number]], controls.default)
             unknowns = _positions(dofs.field == number)
             free = _positions(dofs.field[self._free] == number)
@@ -114,20 +119,31 @@ class Checker:
 
         Its residual serves the estimate of the correction in iteration 1, but only where it is an extrapolation.
         """
+        self._calm = 0
         for checked in self.fields:
             checked.residuals = []
         self._start = [_largest(state.reduced, checked.free) if extrapolated else 0.0 for checked in self.fields]
 
     def check(self, state: Iterate) -> tuple[FieldCheck, ...]:
-        """Checks of all fields after an iteration."""
+        """Checks of all fields after an iteration, then those of volumes and of contact."""
+        if is_severe(state):
+            self._calm = state.iteration
+            for checked in self.fields:
+                # the rate of convergence counts from here
+                checked.residuals = checked.residuals[-1:]
         for checked in self.fields:
             self._take_flux(checked, state)
         self._convert()
         checks = tuple(self._check(k, checked, state) for k, checked in enumerate(self.fields))
-        return (*checks, self._check_volume(state)) if len(self._pressures) else checks
+        if len(self._pressures):
+            checks = (*checks, self._check_volume(state))
+        return (*checks, self._check_contact(state)) if state.evaluation.contact else checks
 
     def give_up(self, iteration: int, checks: Sequence[FieldCheck]) -> Cutback | None:
-        """Cutback after these checks, none of which need have failed; None to go on iterating."""
+        """Cutback after these checks, none of which need have failed; None to go on iterating.
+
+        iteration: of those in a row without severe discontinuities.
+        """
         # that of the volume, which is no field, comes last
         for checked, check in zip(self.fields, checks, strict=False):
             if check.verdict is Convergence.NOT_ACHIEVED:
@@ -225,7 +241,7 @@ class Checker:
             r_previous=previous or None,
             du=abs(increment.value),
             c=abs(correction.value),
-            iteration=state.iteration,
+            iteration=max(state.iteration - self._calm, 1),
         )
         return FieldCheck(
             field=checked.name,
@@ -249,8 +265,27 @@ class Checker:
         nothing = Largest(0.0, -1, 0)
         found = Largest(float(chosen[k]), -1, 0, self._dofs.element(int(self._free[self._pressures[k]])))
         accepted = Convergence.LINEAR if state.iteration == 1 else Convergence.CONVERGED
-        verdict = accepted if abs(found.value) <= self._volume else Convergence.NOT_ACHIEVED
+        verdict = accepted if abs(found.value) <= self._controls.volume else Convergence.NOT_ACHIEVED
         return FieldCheck(VOLUME, 0.0, 0.0, found, nothing, nothing, verdict)
+
+    def _check_contact(self, state: Iterate) -> FieldCheck:
+        """Whether points in contact penetrate little, compared with the largest increment of displacement, and those
+        that opened or closed have small forces, compared with the time average force.
+
+        With CONVERT SDI=NO no iteration passes that changes the status of a point.
+        """
+        pairs, controls, nothing = state.evaluation.contact, self._controls, Largest(0.0, -1, 0)
+        penetration = _worst(Largest(*changes.penetration, 0, changes.pair) for changes in pairs)
+        force = _worst(Largest(*changes.force, 0, changes.pair) for changes in pairs)
+        field = next(checked for checked in self.fields if checked.name == "force")
+        verdict = Convergence.CONVERGED
+        if abs(penetration.value) > controls.contact * _largest(state.increment, field.unknowns):
+            verdict = Convergence.NOT_ACHIEVED
+        elif is_severe(state) and not (
+            self._convert_sdi and abs(force.value) <= controls.contact_force * field.average
+        ):
+            verdict = Convergence.CORRECTION_TOO_LARGE
+        return FieldCheck(CONTACT, 0.0, 0.0, penetration, nothing, force, verdict)
 
     def _find(self, vector: FloatArray, positions: Positions, unknowns: IntArray | None = None) -> Largest:
         """Largest entry of a vector among positions; `unknowns` gives the unknown of each position."""
@@ -261,6 +296,15 @@ class Checker:
         position = k if isinstance(positions, slice) else int(positions[k])
         unknown = position if unknowns is None else int(unknowns[position])
         return Largest(float(chosen[k]), int(self._dofs.node[unknown]), int(self._dofs.dof[unknown]))
+
+
+def _worst(found: Iterable[Largest]) -> Largest:
+    return max(found, key=lambda largest: abs(largest.value))
+
+
+def is_severe(state: Iterate) -> bool:
+    """Whether an iteration changed the status of a contact point."""
+    return any(changes.count for changes in state.evaluation.contact)
 
 
 def length_of_moments(system: System, mesh: Mesh) -> float:

@@ -7,6 +7,7 @@ procedure adds.
 from __future__ import annotations
 
 from collections.abc import Generator, Iterator, Sequence
+from dataclasses import dataclass
 
 from harness.errors import ConvergenceError, DistortionError, IncrementsUsedUpError, SingularMatrixError
 from harness.interrupts import hold
@@ -25,7 +26,15 @@ from harness.model.records import (
 )
 from harness.model.restart import Saved
 from harness.procedures.context import StepContext
-from harness.procedures.incrementation import DISTORTED, TOO_MANY_INCREMENTS, Accuracy, Cutback, refused
+from harness.procedures.convergence_checks import is_severe
+from harness.procedures.incrementation import (
+    DISTORTED,
+    TOO_MANY_INCREMENTS,
+    Accuracy,
+    Cutback,
+    refused,
+    too_discontinuous,
+)
 from harness.procedures.limit import PASSED, LimitLoad
 from harness.procedures.path import Path
 from harness.procedures.step_parts import Part
@@ -41,6 +50,30 @@ SMALL_FLUX = (
     "ITS TIME AVERAGE UNTIL A LARGER ONE IS SEEN, AS IN ABAQUS: THE LARGEST RESIDUAL {0.residual.value:.3G} IS "
     "ACCEPTED. OTHER UNITS, OR AN INITIAL TIME AVERAGE FLUX (*CONTROLS, PARAMETERS=FIELD), MAKE RESULTS ACCURATE"
 )
+
+
+@dataclass(slots=True)
+class Spent:
+    """Iterations of an attempt: severe discontinuity iterations, equilibrium iterations, and those of the latter since
+    the last one of the former.
+    """
+
+    severe: int = 0
+    equilibrium: int = 0
+    calm: int = 0
+
+    @property
+    def total(self) -> int:
+        """Of both kinds."""
+        return self.severe + self.equilibrium
+
+    def count(self, *, severe: bool) -> int:
+        """Count one more; returns its number among those of its kind."""
+        if severe:
+            self.severe, self.calm = self.severe + 1, 0
+            return self.severe
+        self.equilibrium, self.calm = self.equilibrium + 1, self.calm + 1
+        return self.calm
 
 
 class GeneralStep:
@@ -81,7 +114,7 @@ class GeneralStep:
             while not converged:
                 converged, spent = yield from self._attempt(context.increment)
                 cutbacks += not converged
-                iterations += spent
+                iterations += spent.total
         self.end(early=context.amplitudes.concluded)
         yield context.times_of_solver.note()
         yield StepDone(self._step.number, context.increment, cutbacks, iterations)
@@ -150,7 +183,7 @@ class GeneralStep:
             part.resume(own)
         self._resumed = True
 
-    def _attempt(self, increment: int) -> Generator[Record, None, tuple[bool, int]]:
+    def _attempt(self, increment: int) -> Generator[Record, None, tuple[bool, Spent]]:
         """One attempt at an increment; returns whether it converged, and its iterations."""
         context, number, size = self._context, self._step.number, self._control.attempt(self._context.step_time)
         times = context.times
@@ -159,13 +192,13 @@ class GeneralStep:
         end = self._path.end(size)
         context.amplitudes.attempt(increment, (end, context.start + end), size, self._control.attempts - 1)
         iterates, extrapolated = self._path.begin(size)
-        iteration, passes, cutback = 0, 0, None
+        spent, passes, cutback = Spent(), 0, None
         while cutback is None:
             try:
                 state = next(iterates)
             except DistortionError as error:
                 # the solve before the failed pass counts too
-                iteration = passes
+                spent.equilibrium += passes > spent.total
                 yield Warned(f"EXCESSIVE DISTORTION IN SOLID (CONTINUUM) ELEMENTS: {error}")
                 cutback = Cutback(self._step.controls.time.d_h, DISTORTED, str(error))
                 break
@@ -174,26 +207,30 @@ class GeneralStep:
                     raise
                 cutback = Cutback(self._step.controls.time.d_f, SINGULAR)
                 break
-            iteration, passes = state.iteration, passes + 1
+            passes += 1
             yield from self._warn_unconstrained()
             cutback = refused(state.evaluation.pnewdt)
-            if cutback is None and iteration == 0:
+            if cutback is not None:
+                # the solve before counts too
+                spent.equilibrium += state.iteration > spent.total
+            elif state.iteration == 0:
                 self._checker.start(state, extrapolated=extrapolated)
-            elif cutback is None:
+            else:
                 checks = self._checker.check(state)
-                yield IterationDone(iteration, checks, state.line_search)
+                number_of_kind = spent.count(severe=is_severe(state))
+                yield IterationDone(number_of_kind, checks, state.line_search, state.evaluation.contact)
                 if all(check.verdict.accepted for check in checks):
                     accuracy = self._accuracy(state, size)
                     cutback = self._control.too_inaccurate(accuracy) or self._passed_limit(state, size)
                     if cutback is None:
                         yield from self._small_flux(checks)
-                        yield from self._help(increment, iteration)
-                        yield from self._converge(state, size, accuracy, checks)
-                        return True, iteration
+                        yield from self._help(increment, spent.total)
+                        yield from self._converge(state, size, accuracy, checks, spent)
+                        return True, spent
                 else:
-                    cutback = self._give_up(iteration, checks)
-        yield from self._cut_back(cutback, increment, iteration, size)
-        return False, iteration
+                    cutback = self._give_up(spent, checks)
+        yield from self._cut_back(cutback, increment, spent, size)
+        return False, spent
 
     def _warn_unconstrained(self) -> Iterator[Warned]:
         """Warn once in the step that a part of the model moves freely."""
@@ -227,16 +264,22 @@ class GeneralStep:
         in_parts = self._control.part(self._context.step_time + size)
         return Cutback(self._step.controls.time.d_f, PASSED) if in_parts else None
 
-    def _give_up(self, iteration: int, checks: Sequence[FieldCheck]) -> Cutback | None:
+    def _give_up(self, spent: Spent, checks: Sequence[FieldCheck]) -> Cutback | None:
         """Whether to cut back; with the fall-back the search takes over instead, with more iterations."""
         search = self._path.search
         if search is None:
-            return self._checker.give_up(iteration, checks)
+            return self._too_long(spent, checks)
         if not search.reason:
-            cutback = self._checker.give_up(iteration, checks)
+            cutback = self._too_long(spent, checks)
             if cutback is not None:
-                search.take_over(iteration + 1, cutback.reason)
-        return Cutback(self._step.controls.time.d_c, SEARCH_TOO_LONG) if iteration >= ITERATIONS else None
+                search.take_over(spent.total + 1, cutback.reason)
+        return Cutback(self._step.controls.time.d_c, SEARCH_TOO_LONG) if spent.total >= ITERATIONS else None
+
+    def _too_long(self, spent: Spent, checks: Sequence[FieldCheck]) -> Cutback | None:
+        """Cutback by the last iteration: after severe discontinuities only their number counts."""
+        if spent.severe and not spent.calm:
+            return too_discontinuous(spent.severe, self._step.controls.time, convert=self._step.convert_sdi)
+        return self._checker.give_up(spent.calm, checks)
 
     def _help(self, increment: int, iterations: int) -> Iterator[SearchHelped]:
         """Say that Newton's method alone was not enough."""
@@ -245,7 +288,7 @@ class GeneralStep:
             yield SearchHelped(self._step.number, increment, search.since, iterations, search.reason)
 
     def _converge(
-        self, last: Iterate, size: float, accuracy: Accuracy | None, checks: Sequence[FieldCheck]
+        self, last: Iterate, size: float, accuracy: Accuracy | None, checks: Sequence[FieldCheck], spent: Spent
     ) -> Iterator[Record]:
         """Commit the state of the last pass, and choose the next increment."""
         context, number, attempt = self._context, self._step.number, self._control.attempts
@@ -258,7 +301,13 @@ class GeneralStep:
         self._state.accept(last, reached.load, reached.released)
         self._checker.converged()
         context.amplitudes.converged()
-        self._control.converged(last.iteration, last.evaluation.pnewdt, searched=self._helped, accuracy=accuracy)
+        self._control.converged(
+            spent.equilibrium,
+            last.evaluation.pnewdt,
+            searched=self._helped,
+            accuracy=accuracy,
+            disturbed=spent.severe > self._most_severe,
+        )
         self._state.total_time = reached.total_time
         times = reached.step_time, reached.total_time
         self._state.predefined = context.conditions.at(times, times, context.increment, self._user)[1]
@@ -266,12 +315,13 @@ class GeneralStep:
             number,
             context.increment,
             attempt,
-            last.iteration,
+            spent.equilibrium,
             *times,
             reached.size,
             self._state.solution(self._system),
             0.0 if context.amplitudes.concluded else self._control.following(context.step_time),
             reached.load_factor,
+            severe=spent.severe,
         )
         yield from remarks
         restart = self._step.restart if self._is_due(reached.size) else None
@@ -282,12 +332,19 @@ class GeneralStep:
             # what user routines write for a restart is there before the state
             yield StateKept(number, context.increment, restart.overlay, self._kept())
 
-    def _cut_back(self, cutback: Cutback, increment: int, iterations: int, size: float) -> Iterator[Record]:
+    @property
+    def _most_severe(self) -> int:
+        """Severe discontinuity iterations with which an increment still counts as easy."""
+        controls = self._step.controls.time
+        return controls.i_j_c if self._step.convert_sdi else controls.i_j
+
+    def _cut_back(self, cutback: Cutback, increment: int, spent: Spent, size: float) -> Iterator[Record]:
         """Report the attempt; raise ConvergenceError if no other is left."""
         number, attempt = self._step.number, self._control.attempts
         following, error = self._control.cut_back(cutback)
         times = self._context.times
-        yield AttemptAbandoned(number, increment, attempt, iterations, *times, size, following, cutback.reason)
+        ended = number, increment, attempt, spent.equilibrium
+        yield AttemptAbandoned(*ended, *times, size, following, cutback.reason, severe=spent.severe)
         if error:
             cause = f": {cutback.cause}" if cutback.cause else ""
             raise ConvergenceError(f"{error} (step {number}, increment {increment}, attempt {attempt}){cause}")

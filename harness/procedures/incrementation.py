@@ -19,6 +19,8 @@ DIVERGING = "THE SOLUTION APPEARS TO BE DIVERGING. CONVERGENCE IS JUDGED UNLIKEL
 TOO_SLOW = "THE RATE OF CONVERGENCE IS VERY SLOW. CONVERGENCE IS JUDGED UNLIKELY."
 TOO_MANY_ITERATIONS = "THE SOLUTION FAILS TO CONVERGE IN THE MAXIMUM NUMBER OF EQUILIBRIUM ITERATIONS ALLOWED."
 
+DISCONTINUOUS = "SUBDIVISION AFTER {} ITERATIONS FOR SEVERE DISCONTINUITIES"
+
 DISTORTED = "ELEMENTS ARE DISTORTING EXCESSIVELY. CONVERGENCE IS JUDGED UNLIKELY."
 
 BELOW_MINIMUM = "TIME INCREMENT REQUIRED IS LESS THAN THE MINIMUM SPECIFIED"
@@ -87,6 +89,12 @@ def judge_rate(iteration: int, residuals: Sequence[float], tolerance: float, con
 def out_of_iterations(iteration: int, controls: TimeControls) -> Cutback | None:
     """Cutback after iteration I_C."""
     return Cutback(controls.d_c, TOO_MANY_ITERATIONS) if iteration >= controls.i_c else None
+
+
+def too_discontinuous(severe: int, controls: TimeControls, *, convert: bool) -> Cutback | None:
+    """Cutback after I_S severe discontinuity iterations, I_S^c with CONVERT SDI=YES."""
+    most = controls.i_s_c if convert else controls.i_s
+    return Cutback(controls.d_s, DISCONTINUOUS.format(severe)) if severe >= most else None
 
 
 @dataclass(frozen=True, slots=True)
@@ -184,7 +192,13 @@ class IncrementControl:
         return Cutback(self._controls.d_a / accuracy.measure, accuracy.complaint)
 
     def converged(
-        self, iterations: int, pnewdt: float, *, searched: bool = False, accuracy: Accuracy | None = None
+        self,
+        iterations: int,
+        pnewdt: float,
+        *,
+        searched: bool = False,
+        accuracy: Accuracy | None = None,
+        disturbed: bool = False,
     ) -> None:
         """Choose the size of the next increment.
 
@@ -199,9 +213,11 @@ class IncrementControl:
             The descent search helped: its many iterations say nothing about the next increment.
         accuracy
             Of the integration over time: if measured, it decides the growth.
+        disturbed
+            There were more than I_J severe discontinuity iterations, I_J^c with CONVERT SDI=YES.
         """
         # a cutback does not restart the count: Abaqus grows right after one if the attempts that converged were easy
-        self._easy = self._easy + 1 if iterations <= self._controls.i_g else 0
+        self._easy = self._easy + 1 if iterations <= self._controls.i_g and not disturbed else 0
         self.attempts = 0
         if self._procedure.direct or self.in_parts:
             return

@@ -116,8 +116,6 @@ def test_contact_properties_that_nothing_uses(read: Read) -> None:
     damage = text.replace("*FRICTION\n0.3,", "*DAMAGE INITIATION, CRITERION=MAXS\n1., 1., 1.")
     with pytest.raises(DeckError, match=rf"deck.inp:{line + 2}: \*DAMAGE INITIATION: does not follow \*MATERIAL"):
         read(damage)
-    with pytest.raises(DeckError, match=r"\*CONTACT PAIR is not supported"):
-        read(text.replace("*STEP", "*CONTACT PAIR, INTERACTION=TOUCH\nA, B\n*STEP", 1))
 
 
 @pytest.mark.parametrize(

@@ -160,11 +160,11 @@ TIME = "*CONTROLS, PARAMETERS=TIME INCREMENTATION"
         (f"{TIME}\n8, 10, , , , , , 20\n", Controls(time=TimeControls(i_0=8, i_r=10, i_a=20))),
         (f"{TIME}\n\n.1, , .6\n", Controls(time=TimeControls(d_f=0.1, d_b=0.6))),
         (
-            f"{TIME}\n5, 6, 7, 8, 9, 3, 11, 12, 13, 2, 50, 50, 50\n"
+            f"{TIME}\n5, 6, 7, 8, 9, 3, 11, 12, 13, 2, 40, 45, 50\n"
             ".2, .4, .6, .8, .3, .31, 1.4, .7\n.9, 1.6, 1.7, 1.8, .96, .2\n",
             Controls(
                 time=TimeControls(
-                    *(5, 6, 7, 8, 9, 3, 11, 12, 13, 2),
+                    *(5, 6, 7, 8, 9, 3, 11, 12, 13, 2, 40, 45),
                     *(0.2, 0.4, 0.6, 0.8, 0.3, 0.31, 1.4, 0.7, 0.9, 1.6, 1.7, 1.8, 0.96, 0.2),
                 )
             ),

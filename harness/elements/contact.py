@@ -1,0 +1,265 @@
+# SPDX-FileCopyrightText: The uel-harness authors
+# SPDX-License-Identifier: BSD-3-Clause
+"""Contact of nodes with a surface in small sliding: a block of the points of one contact pair.
+
+With g the clearance of a point and f its contact force, a Lagrange multiplier enforces g = 0 where the point is closed
+and f = 0 where it is open; with a stiffness f follows from g. Friction is that of Coulomb with an elastic slip: the
+friction force is mu f gamma / gamma_crit up to the largest elastic slip gamma_crit, and mu f beyond it (Abaqus Analysis
+User's Guide, "Frictional behavior"). See contact.md.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import replace
+from typing import Final
+
+import numpy as np
+from numpy.typing import NDArray
+
+from harness.elements.block import ElementBlock
+from harness.elements.call import Call
+from harness.elements.fields import MULTIPLIER
+from harness.elements.lflags import Request
+from harness.model.arrays import FloatArray, IntArray, first_largest
+from harness.model.contact import ContactChanges, ContactPair
+from harness.model.model import Model
+from harness.model.restart import Saved
+
+OPEN, STICKING, SLIPPING = 0, 1, 2
+"""Status of a point; without friction a closed one counts as sticking."""
+
+ROUNDING: Final = 1e-12
+"""Relative error of clearances and contact forces that does not change a status."""
+
+
+class ContactBlock:
+    """The points of a contact pair: their committed and trial status and elastic slip.
+
+    unknowns  (local node, dof) of each unknown: displacements, then the multiplier of the point where there is one
+    names     of the secondary nodes
+    direct    a multiplier enforces the constraints, else a stiffness
+    """
+
+    unsymmetric = True
+
+    def __init__(self, model: Model, pair: ContactPair) -> None:
+        m, n = pair.nodes.shape
+        self.pair, self.first, self.rows = pair, 0, np.arange(m)
+        self.names = [model.mesh.name(node) for node in pair.nodes[:, 0].tolist()]
+        self.group = replace(
+            model.groups[0],
+            type="CONTACT",
+            labels=model.mesh.labels[pair.nodes[:, 0]],
+            nodes=pair.nodes,
+            definition=None,
+            source=pair.source,
+        )
+        self.direct = pair.property.stiffness is None
+        displacements = tuple((node, dof) for node in range(n) for dof in range(1, pair.dimension + 1))
+        self.unknowns = displacements + (((n, MULTIPLIER),) if self.direct else ())
+        # derivatives of clearances (m, u) and of slips (m, directions, u) by the displacements
+        shares = np.concatenate([np.ones((m, 1)), -pair.weights], axis=1)
+        normals = pair.normals[:, : pair.dimension]
+        self._normal = (shares[:, :, None] * normals[:, None]).reshape(m, -1)
+        self._tangents = np.stack(
+            [(shares[:, :, None] * along[:, None]).reshape(m, -1) for along in _tangents(pair.normals, pair.dimension)],
+            axis=1,
+        )
+        self._status = np.where(pair.clearances <= pair.property.clearance, STICKING, OPEN)
+        self._slip = np.zeros(self._tangents.shape[:2])
+        self._status_trial, self._slip_trial = self._status, self._slip
+        self._before, self._iteration = self._status, 0
+        self._scale = 0.0
+        self._penetration = self._force = np.zeros(m)
+        self._equations = self._scatter = np.zeros((m, 0), dtype=np.int32)
+
+    def bind(self, equations: NDArray[np.int32], scatter: NDArray[np.int32]) -> None:
+        """Say where the unknowns are: parameters as those of `ElementBlock.bind`."""
+        self._equations, self._scatter = equations, scatter
+
+    def evaluate(
+        self, call: Call, u: FloatArray, du: FloatArray, residual: FloatArray, data: FloatArray | None
+    ) -> None:
+        """One pass: add the contact forces to residual and their derivatives to the matrix.
+
+        The status of the points changes in passes that follow a solve, but never twice in an iteration: it depends on
+        the status at the end of the one before.
+
+        Parameters
+        ----------
+        call
+            Of the pass; those that ask for mass or damping do nothing.
+        u, du
+            (n,) estimate of the end of the increment, and the increment.
+        residual
+            (n,), changed in place.
+        data
+            (nnz,) CSR values that hold the matrices of all elements, changed in place; None: no matrix is wanted.
+        """
+        request = call.flags.request
+        if request not in (Request.NORMAL, Request.RESIDUAL) or not len(self.rows):
+            return
+        if data is not None and not self._scale:
+            self._scale = self._stiffness(data)
+        count = self._normal.shape[1]
+        moved, change = u[self._equations[:, :count]], du[self._equations[:, :count]]
+        clearance = self.pair.clearances + np.einsum("mu,mu->m", self._normal, moved)
+        before = self._status_before(call)
+        if self.direct:
+            multiplier = u[self._equations[:, count]] * self._scale
+            closed = self._closed(before, clearance, multiplier, moved)
+        else:
+            multiplier = self._penalty_stiffness * (self.pair.property.clearance - clearance)
+            closed = multiplier > 0.0
+        if call.iteration == 0:
+            closed = before != OPEN
+        force = np.where(closed, multiplier, 0.0)
+        slip = np.where(closed[:, None], self._slip + np.einsum("mtu,mu->mt", self._tangents, change), 0.0)
+        friction = _Friction(self.pair, force, slip, closed)
+        self._add(residual, data, (clearance, multiplier, force, closed), friction)
+        if request is Request.NORMAL:
+            after = np.where(closed, np.where(friction.slips, SLIPPING, STICKING), OPEN)
+            self._status_trial = before if call.iteration == 0 else after
+            self._slip_trial, self._force = friction.elastic, multiplier
+            self._penetration = np.where(
+                closed & self.direct & (np.abs(clearance) > self._small(moved)), clearance, 0.0
+            )
+
+    def _stiffness(self, data: FloatArray) -> float:
+        """That of the secondary nodes, as a power of two: it scales the multipliers, so that the matrix is balanced."""
+        directions = np.arange(self.pair.dimension)
+        largest = float(np.abs(data[self._scatter[:, directions, directions]]).max())
+        return 2.0 ** round(math.log2(largest)) if largest > 0.0 else 1.0
+
+    @property
+    def _penalty_stiffness(self) -> FloatArray:
+        """(m,) contact force over overclosure."""
+        stiffness = self.pair.property.stiffness
+        assert stiffness is not None
+        return stiffness * self.pair.areas
+
+    def _status_before(self, call: Call) -> IntArray:
+        """Status at the end of the iteration before, that at the start of the increment in the first pass."""
+        if call.iteration == 0:
+            self._before = self._status
+        elif call.iteration != self._iteration:
+            self._before = self._status_trial
+        self._iteration = call.iteration
+        return self._before
+
+    @staticmethod
+    def _small(moved: FloatArray) -> float:
+        """Clearance that is rounding beside these displacements."""
+        return float(ROUNDING * np.abs(moved).max())
+
+    def _closed(
+        self, before: IntArray, clearance: FloatArray, force: FloatArray, moved: FloatArray
+    ) -> NDArray[np.bool_]:
+        """Closed points open under tension, open ones close where they penetrate."""
+        small = self._small(moved)
+        tension = ROUNDING * np.abs(force).max() + small * self._scale
+        return np.where(before == OPEN, clearance < -small, force >= -tension)
+
+    def _add(
+        self,
+        residual: FloatArray,
+        data: FloatArray | None,
+        state: tuple[FloatArray, FloatArray, FloatArray, NDArray[np.bool_]],
+        friction: _Friction,
+    ) -> None:
+        """Add what points with this clearance, multiplier (or force), force and status contribute."""
+        clearance, multiplier, force, closed = state
+        count, tangents, scale = self._normal.shape[1], self._tangents, self._scale
+        right = np.zeros((len(closed), len(self.unknowns)))
+        right[:, :count] = force[:, None] * self._normal - np.einsum("mt,mtu->mu", friction.force, tangents)
+        if self.direct:
+            right[:, count] = np.where(closed, scale * clearance, -multiplier)
+        np.add.at(residual, self._equations, right)
+        if data is None:
+            return
+        matrix = np.zeros((len(closed), len(self.unknowns), len(self.unknowns)))
+        matrix[:, :count, :count] = np.einsum("mtu,mts,msv->muv", tangents, friction.by_slip, tangents)
+        # what the contact force does, by the contact force
+        by_force = closed[:, None] * (np.einsum("mt,mtu->mu", friction.by_force, tangents) - self._normal)
+        if self.direct:
+            matrix[:, :count, count] = scale * by_force
+            matrix[:, count, :count] = -scale * closed[:, None] * self._normal
+            matrix[:, count, count] = np.where(closed, 0.0, scale)
+        else:
+            stiffness = self._penalty_stiffness[:, None, None]
+            matrix -= stiffness * by_force[:, :, None] * self._normal[:, None]
+        np.add.at(data, self._scatter, matrix)
+
+    @property
+    def trial_changes(self) -> ContactChanges:
+        """What the last iteration changed, and how well the constraints are fulfilled at its end."""
+        before, after = self._before, self._status_trial
+        switched = (before == OPEN) != (after == OPEN)
+        return ContactChanges(
+            self.pair.name,
+            opened=int(np.count_nonzero((before != OPEN) & (after == OPEN))),
+            closed=int(np.count_nonzero((before == OPEN) & (after != OPEN))),
+            sticking=int(np.count_nonzero((before == SLIPPING) & (after == STICKING))),
+            slipping=int(np.count_nonzero((before == STICKING) & (after == SLIPPING))),
+            penetration=self._largest(self._penetration),
+            force=self._largest(np.where(switched, self._force, 0.0)),
+        )
+
+    def _largest(self, values: FloatArray) -> tuple[float, int]:
+        worst = int(first_largest(np.abs(values)))
+        return float(values[worst]), int(self.pair.nodes[worst, 0])
+
+    def commit(self) -> None:
+        """End of a converged increment."""
+        self._status, self._slip = self._status_trial, self._slip_trial
+
+    def kept(self) -> Saved:
+        """Committed state, not copied."""
+        return {"status": self._status, "slip": self._slip, "scale": self._scale}
+
+    def resume(self, saved: Saved) -> None:
+        """Begin with what `kept` returned. Raises ValueError if it is not of these points."""
+        if np.shape(saved["status"]) != self._status.shape or np.shape(saved["slip"]) != self._slip.shape:
+            raise ValueError(f"contact pair {self.pair.name}")
+        self._status, self._slip, self._scale = saved["status"], saved["slip"], saved["scale"]
+        self._status_trial, self._slip_trial = self._status, self._slip
+
+
+def contact_blocks(model: Model, blocks: Sequence[ElementBlock]) -> list[ContactBlock]:
+    """A block of each contact pair of a model; their points are numbered behind the elements of its other blocks."""
+    found = [ContactBlock(model, pair) for pair in model.contacts]
+    following = blocks[-1].first + len(blocks[-1].group.labels)
+    for block in found:
+        block.first = following
+        following += len(block.rows)
+    return found
+
+
+class _Friction:
+    """Friction of closed points: forces (m, directions), their derivatives, elastic slip, and which points slip."""
+
+    def __init__(self, pair: ContactPair, force: FloatArray, slip: FloatArray, closed: NDArray[np.bool_]) -> None:
+        coefficient, most, directions = pair.property.friction, pair.slip, slip.shape[1]
+        size = np.linalg.norm(slip, axis=1)
+        self.slips = closed & (coefficient > 0.0) & (size > most)
+        # length of the slip at which the force would reach its limit
+        reach = np.where(self.slips, size, most)[:, None]
+        along = slip / reach
+        limit = coefficient * np.maximum(force, 0.0)[:, None]
+        self.force, self.by_force = limit * along, coefficient * closed[:, None] * along
+        across = np.eye(directions) - np.where(self.slips, 1.0, 0.0)[:, None, None] * along[:, :, None] * along[:, None]
+        self.by_slip = (limit / reach)[:, :, None] * across
+        self.elastic = np.where(self.slips[:, None], most * along, slip)
+
+
+def _tangents(normals: FloatArray, dimension: int) -> Sequence[FloatArray]:
+    """Unit vectors (m, dimension) in the plane of the surface: one, or two that are normal to each other."""
+    if dimension == 2:
+        return (np.stack([-normals[:, 1], normals[:, 0]], axis=1),)
+    # the axis least like the normal
+    axes = np.eye(3)[np.abs(normals).argmin(axis=1)]
+    first = np.cross(normals, axes)
+    first /= np.linalg.norm(first, axis=1)[:, None]
+    return first, np.cross(normals, first)

@@ -1,0 +1,88 @@
+# SPDX-FileCopyrightText: The uel-harness authors
+# SPDX-License-Identifier: BSD-3-Clause
+"""Contact pairs: properties of the interaction, and the points where it is tested."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Final
+
+from harness.errors import Source
+from harness.model.arrays import FloatArray, IntArray
+
+CONTACT: Final = "contact"
+"""Name of the field of contact pressures, and of the check of penetrations."""
+
+SLIP_TOLERANCE: Final = 0.005
+"""Default SLIP TOLERANCE of *FRICTION: largest elastic slip over the length of a face (Abaqus Keywords Guide)."""
+
+
+@dataclass(frozen=True, slots=True)
+class ContactProperty:
+    """*SURFACE INTERACTION with its *SURFACE BEHAVIOR and *FRICTION.
+
+    stiffness       pressure per overclosure (force/length^3); None: the constraint is enforced directly
+    clearance       at which there is no pressure yet, where there is a stiffness
+    friction        coefficient; 0: none
+    slip_tolerance  largest elastic slip over the length of a face
+    elastic_slip    largest elastic slip itself, which replaces the tolerance; 0: not given
+    """
+
+    name: str
+    source: Source
+    stiffness: float | None = None
+    clearance: float = 0.0
+    friction: float = 0.0
+    slip_tolerance: float = SLIP_TOLERANCE
+    elastic_slip: float = 0.0
+
+
+@dataclass(frozen=True, slots=True)
+class ContactPair:
+    """*CONTACT PAIR, TYPE=NODE TO SURFACE, SMALL SLIDING: a point at each secondary node that faces the main surface.
+
+    name        both surfaces, '(SECONDARY,MAIN)'
+    dimension   displacements of a node: 2 or 3
+    nodes       (m, 1 + k) secondary node, then the nodes of its face of the main surface; a face with fewer than k
+                nodes repeats its first one
+    weights     (m, k) of these nodes in the displacement of the anchor point; those of repeated ones are zero
+    normals     (m, 3) unit vectors from the main surface towards the secondary node
+    clearances  (m,) at the start, negative where the surfaces overlap
+    areas       (m,) of the secondary surface that belong to the nodes
+    slip        largest elastic slip
+    """
+
+    name: str
+    property: ContactProperty
+    source: Source
+    dimension: int
+    nodes: IntArray
+    weights: FloatArray
+    normals: FloatArray
+    clearances: FloatArray
+    areas: FloatArray
+    slip: float
+
+
+@dataclass(frozen=True, slots=True)
+class ContactChanges:
+    """Contact in a pair at the end of an iteration.
+
+    pair         its name
+    opened, closed, sticking, slipping  points that changed to this status in it
+    penetration  largest error of the clearance of closed points with a constraint, and the node that has it
+    force        largest force that points which opened or closed give up or take on, and the node that has it
+    """
+
+    pair: str
+    opened: int = 0
+    closed: int = 0
+    sticking: int = 0
+    slipping: int = 0
+    penetration: tuple[float, int] = (0.0, -1)
+    force: tuple[float, int] = (0.0, -1)
+
+    @property
+    def count(self) -> int:
+        """Severe discontinuities."""
+        return self.opened + self.closed + self.sticking + self.slipping

@@ -1,0 +1,255 @@
+# SPDX-FileCopyrightText: The uel-harness authors
+# SPDX-License-Identifier: BSD-3-Clause
+"""*CONTACT PAIR, *SURFACE INTERACTION, *SURFACE BEHAVIOR, *FRICTION: what is read, what is refused, anchor points."""
+
+import numpy as np
+import pytest
+
+from harness.deck.anchors import find_anchors
+from harness.errors import DeckError
+
+DECK = """\
+*HEADING
+*NODE
+1, 0., 0.
+2, 1., 0.
+3, 1., 1.
+4, 0., 1.
+11, 0., 1.1
+12, 1., 1.1
+13, 1., 2.
+14, 0., 2.
+21, 5., 5.
+*ELEMENT, TYPE=CPE4, ELSET=LOW
+1, 1, 2, 3, 4
+*ELEMENT, TYPE=CPE4, ELSET=UP
+2, 11, 12, 13, 14
+*MATERIAL, NAME=M
+*ELASTIC
+1000., 0.3
+*SOLID SECTION, ELSET=LOW, MATERIAL=M
+2.
+*SOLID SECTION, ELSET=UP, MATERIAL=M
+2.
+*SURFACE, NAME=MAIN
+LOW, S3
+*SURFACE, NAME=SEC
+UP, S1
+*SURFACE, NAME=POINTS, TYPE=NODE
+11, 0.5
+12,
+*SURFACE INTERACTION, NAME=TOUCH
+1.,
+*SURFACE BEHAVIOR, PRESSURE-OVERCLOSURE=HARD
+*FRICTION
+0.3,
+*CONTACT PAIR, INTERACTION=TOUCH, SMALL SLIDING
+SEC, MAIN
+*STEP
+*STATIC
+*BOUNDARY
+1, 1, 2
+*END STEP
+"""
+PAIR = "*CONTACT PAIR, INTERACTION=TOUCH, SMALL SLIDING\nSEC, MAIN\n"
+
+
+def test_pair(read):
+    (pair,) = read(DECK).contacts
+    assert pair.name == "(SEC,MAIN)"
+    assert pair.dimension == 2
+    assert pair.property.stiffness is None
+    assert pair.property.friction == 0.3
+    np.testing.assert_array_equal(pair.nodes[:, 0], [4, 5])
+    np.testing.assert_allclose(pair.clearances, 0.1)
+    np.testing.assert_allclose(pair.normals, [[0, 1, 0]] * 2, atol=1e-15)
+    np.testing.assert_allclose(pair.areas, 2.0 / 2)
+    # the weights make the anchor points, which are opposite the nodes
+    for row, weights, x in zip(pair.nodes, pair.weights, (0.0, 1.0), strict=True):
+        places = read(DECK).mesh.coordinates[row[1:]]
+        np.testing.assert_allclose(weights @ places, [x, 1, 0], atol=1e-15)
+    assert pair.slip == pytest.approx(0.005)
+
+
+@pytest.mark.parametrize(
+    ("friction", "slip"), [("SLIP TOLERANCE=0.01", 0.01), ("ELASTIC SLIP=0.02", 0.02), ("SLIP TOL=0.1", 0.1)]
+)
+def test_elastic_slip(read, friction, slip):
+    (pair,) = read(DECK.replace("*FRICTION\n", f"*FRICTION, {friction}\n")).contacts
+    assert pair.slip == pytest.approx(slip)
+
+
+@pytest.mark.parametrize(
+    ("behavior", "stiffness", "clearance"),
+    [
+        ("*SURFACE BEHAVIOR", None, 0.0),
+        ("*SURFACE BEHAVIOR, DIRECT", None, 0.0),
+        ("*SURFACE BEHAVIOR, PENALTY\n100.", 100.0, 0.0),
+        ("*SURFACE BEHAVIOR, PENALTY=LINEAR\n100., 0.01, 0.5", 50.0, 0.01),
+        ("*SURFACE BEHAVIOR, PRESSURE-OVERCLOSURE=LINEAR\n70.", 70.0, 0.0),
+    ],
+)
+def test_behavior(read, behavior, stiffness, clearance):
+    (pair,) = read(DECK.replace("*SURFACE BEHAVIOR, PRESSURE-OVERCLOSURE=HARD", behavior)).contacts
+    assert pair.property.stiffness == stiffness
+    assert pair.property.clearance == clearance
+
+
+def test_surface_of_nodes(read):
+    """Areas are given, 1 unless they are; the elastic slip is that of the faces of the main surface."""
+    (pair,) = read(DECK.replace("SEC, MAIN", "POINTS, MAIN")).contacts
+    np.testing.assert_allclose(pair.areas, [0.5, 1.0])
+    assert pair.slip == pytest.approx(0.005)
+
+
+def test_nodes_without_elements(read):
+    text = DECK.replace("12,\n*SURFACE INT", "21,\n*SURFACE INT").replace("SEC, MAIN", "POINTS, MAIN")
+    with pytest.raises(DeckError, match=r"deck\.inp:36: .*node 21 of surface POINTS belongs to no element with displ"):
+        read(text)
+
+
+def test_nodes_beside_the_main_surface_are_left_out_with_a_warning(read):
+    model = read(DECK.replace("12, 1., 1.1", "12, 1.5, 1.1"))
+    np.testing.assert_array_equal(model.contacts[0].nodes[:, 0], [4])
+    assert any("node 12 of SEC will not touch MAIN: no normal of MAIN goes through it" in w for w in model.warnings)
+
+
+def test_interactions_that_no_pair_uses_are_listed(read):
+    other = "*SURFACE INTERACTION, NAME=OTHER\n*SURFACE BEHAVIOR, NO SEPARATION\n*CONTACT DAMPING\n0.1\n"
+    model = read(DECK.replace(PAIR, other + PAIR))
+    assert [name for name, _ in model.ignored] == ["SURFACE INTERACTION", "SURFACE BEHAVIOR", "CONTACT DAMPING"]
+
+
+def test_convert_sdi_goes_on(read):
+    step = "*STEP\n*STATIC\n*END STEP\n"
+    text = DECK + step + step.replace("*STEP", "*STEP, CONVERT SDI=NO", 1) + step
+    assert [entry.convert_sdi for entry in read(text).steps] == [True, True, False, False]
+
+
+@pytest.mark.parametrize(
+    "mistake",
+    [
+        (
+            "SMALL SLIDING",
+            "SMALL SLIDING, TYPE=SURFACE TO SURFACE",
+            "35: TYPE=SURFACE TO SURFACE is not supported; TYPE=NODE",
+        ),
+        (", SMALL SLIDING", "", "35: finite sliding is not supported; SMALL SLIDING is"),
+        (", SMALL SLIDING", ", SMALL SLIDING, TIED", "35: .*option TIED is not supported"),
+        ("SEC, MAIN", "SEC", "36: expected the secondary and the main surface; contact with itself is not supported"),
+        ("SEC, MAIN", "SEC, MAIN, M", "36: 3 entries, expected at most 2"),
+        ("SEC, MAIN", "SEC, MAINE", "36: unknown surface MAINE; did you mean MAIN"),
+        ("SEC, MAIN", "MAIN, POINTS", "36: the main surface POINTS is made of nodes; expected faces of elements"),
+        ("SEC, MAIN", "MAIN, MAIN", "36: node 3 is on both surfaces, MAIN and MAIN"),
+        ("LOW, S3", "LOW, S1", "36: no node of SEC faces MAIN: normals of MAIN go through none of them"),
+        ("LOW, S3", "", "36: surface MAIN has no faces"),
+        ("INTERACTION=TOUCH, S", "INTERACTION=TOUCHY, S", "35: unknown surface interaction TOUCHY; did you mean TOUCH"),
+        ("SLIDING\n", "SLIDING, ADJUST=-1.\n", "35: ADJUST=-1 must not be negative"),
+        ("SLIDING\n", "SLIDING, ADJUST=NOSET\n", "35: .*NOSET"),
+        ("=HARD", "=TABULAR", "32: PRESSURE-OVERCLOSURE=TABULAR is not supported .supported: HARD, LINEAR"),
+        ("=HARD", "=HARD, NO SEPARATION", "32: option NO SEPARATION is not supported"),
+        ("=HARD", "=HARD, AUGMENTED LAGRANGE", "32: option AUGMENTED LAGRANGE is not supported"),
+        ("=HARD", "=HARD, PENALTY", "32: expected the stiffness, .*that of Abaqus depends on the elements"),
+        ("=HARD", "=HARD, PENALTY=NONLINEAR", "32: PENALTY=NONLINEAR is not supported"),
+        ("=HARD", "=LINEAR", "32: expected the stiffness, pressure per overclosure, on the data line$"),
+        ("=HARD", "=LINEAR, DIRECT\n1.", "32: DIRECT and a stiffness exclude each other"),
+        ("=HARD", "=LINEAR\n-1.", "33: stiffness -1 must be positive"),
+        ("=HARD", "=LINEAR\n1., 2.", "33: 2 entries, expected at most 1"),
+        ("=HARD", "=HARD, PENALTY\n1., 0., 0.", "33: scale factor 0 must be positive"),
+        ("=HARD", "=HARD, PENALTY\n1., -1.", "33: clearance at zero pressure -1 must not be negative"),
+        ("0.3,\n*C", "-0.3,\n*C", "34: friction coefficient -0.3 must not be negative"),
+        ("0.3,\n*C", "0.3, 1.\n*C", "34: a coefficient that depends on slip rate, pressure or fields is not supported"),
+        ("*FRICTION\n0.3,\n", "*FRICTION\n", "33: expected the friction coefficient on the data line"),
+        ("*FRICTION", "*FRICTION, ROUGH", "33: option ROUGH is not supported"),
+        ("*FRICTION", "*FRICTION, TAUMAX=3.", "33: option TAUMAX is not supported"),
+        ("*FRICTION", "*FRICTION, SLIP TOLERANCE=0.", "33: SLIP TOLERANCE=0 must be positive"),
+        ("*FRICTION", "*CONTACT DAMPING", "33: is not supported, but a contact pair uses TOUCH .deck.inp:35"),
+        ("*STATIC", "*STATIC, RIKS", "37: .CONTACT PAIR .deck.inp:36. is not supported with .STATIC, RIKS"),
+        ("*STEP\n", "*STEP, NLGEOM\n", "37: .CONTACT PAIR .deck.inp:36. is not supported with NLGEOM"),
+        ("*STATIC", "*FREQUENCY\n3", "37: .CONTACT PAIR .deck.inp:36. is not supported with .FREQUENCY"),
+    ],
+    ids=lambda mistake: mistake[2][:40],
+)
+def test_mistakes(refuse, mistake):
+    refuse(DECK, mistake)
+
+
+def test_misplaced_and_repeated_properties(read):
+    with pytest.raises(DeckError, match=r"deck\.inp:37: \*FRICTION: does not follow \*SURFACE INTERACTION"):
+        read(DECK.replace(PAIR, f"{PAIR}*FRICTION\n0.1\n"))
+    with pytest.raises(DeckError, match=r"deck\.inp:37: .*TOUCH is defined already, at deck\.inp:30"):
+        read(DECK.replace(PAIR, f"{PAIR}*SURFACE INTERACTION, NAME=TOUCH\n"))
+
+
+@pytest.mark.parametrize("element_type", ["CPE8", "S4"])
+def test_faces_that_are_not_linear_ones_of_solids(read, element_type):
+    nodes = (
+        "*NODE\n31, 0., 5.\n32, 1., 5.\n33, 1., 6.\n34, 0., 6.\n35, 0.5, 5.\n36, 1., 5.5\n37, 0.5, 6.\n38, 0., 5.5\n"
+    )
+    numbers = ", ".join(map(str, range(31, 39 if element_type == "CPE8" else 35)))
+    section = "SHELL" if element_type == "S4" else "SOLID"
+    extra = f"*ELEMENT, TYPE={element_type}, ELSET=MORE\n3, {numbers}\n"
+    extra += f"*{section} SECTION, ELSET=MORE, MATERIAL=M\n1.\n"
+    text = DECK.replace("LOW, S3", f"MORE, {'SPOS' if element_type == 'S4' else 'S3'}")
+    message = (
+        f"faces of elements of type {element_type} are not supported in contact pairs; expected linear ones of solids"
+    )
+    with pytest.raises(DeckError, match=message):
+        read(text.replace("*MATERIAL", nodes + extra + "*MATERIAL"))
+
+
+# ------------------------------------------------------------ anchor points
+
+
+def circle(count=20, radius=10.0):
+    """Nodes on a part of a circle, its edges and their outward normals."""
+    angle = np.linspace(0.2, 1.2, count + 1)
+    nodes = radius * np.stack([np.cos(angle), np.sin(angle), 0 * angle], axis=1)
+    edges = np.stack([np.arange(count), np.arange(1, count + 1)], axis=1)
+    middle = nodes[edges].mean(axis=1)
+    return nodes, edges, middle / np.linalg.norm(middle, axis=1)[:, None]
+
+
+@pytest.mark.parametrize("gap", [0.5, 0.0, -0.3])
+def test_anchors_of_a_circle(gap):
+    """Nodes on rays through nodes: normals there are radial, whatever the faces are, but at the ends."""
+    nodes, edges, normals = circle()
+    inner = nodes[1:-1]
+    points = inner * (1 + gap / 10.0)
+    found = find_anchors(points, -inner, [(edges, normals)], nodes)
+    assert found.found.all()
+    np.testing.assert_allclose(found.clearances, gap, atol=1e-9)
+    np.testing.assert_allclose(found.normals, inner / 10.0, atol=1e-9)
+    np.testing.assert_allclose(np.einsum("mk,mkd->md", found.weights, nodes[found.faces]), inner, atol=1e-8)
+
+
+def test_normals_vary_smoothly():
+    """Between the rays too the normal is that of the circle, to the second order of the length of a face."""
+    nodes, edges, normals = circle()
+    middle = nodes[edges].mean(axis=1)[2:-2] * 1.05
+    found = find_anchors(middle, -middle, [(edges, normals)], nodes)
+    np.testing.assert_allclose(found.normals, middle / np.linalg.norm(middle, axis=1)[:, None], atol=1e-6)
+
+
+def test_faces_of_several_kinds_in_space():
+    """A quadrilateral and a triangle in an inclined plane; one point beyond them."""
+    turn = np.linalg.qr(np.random.default_rng(3).normal(size=(3, 3)))[0]
+    flat = np.array([[0, 0, 0], [2, 0, 0], [2, 2, 0], [0, 2, 0], [4, 1, 0]], dtype=float)
+    normal = np.array([[0.0, 0.0, 1.0]])
+    kinds = [(np.array([[0, 1, 2, 3]]), normal @ turn), (np.array([[1, 4, 2]]), normal @ turn)]
+    points = np.array([[0.5, 1.5, 0.7], [3.0, 1.0, -0.2], [2.0, 1.0, 0.1], [3.0, 3.0, 0.1]])
+    found = find_anchors(points @ turn, np.zeros_like(points), kinds, flat @ turn)
+    np.testing.assert_array_equal(found.found, [True, True, True, False])
+    np.testing.assert_allclose(found.clearances[:3], [0.7, -0.2, 0.1], atol=1e-9)
+    np.testing.assert_allclose(found.normals[:3], np.repeat(normal @ turn, 3, axis=0), atol=1e-9)
+    places = np.einsum("mk,mkd->md", found.weights, (flat @ turn)[found.faces])[:3] @ turn.T
+    np.testing.assert_allclose(places[:, :2], points[:3, :2], atol=1e-8)
+    np.testing.assert_allclose(found.weights[:3].sum(axis=1), 1.0)
+    # on the edge of both, the first one
+    np.testing.assert_array_equal(found.faces[2], [0, 1, 2, 3])
+
+
+def test_faces_that_look_away(read):
+    """Of both sides of the lower body the nodes face the upper one alone, though the other one is there too."""
+    (pair,) = read(DECK.replace("LOW, S3", "LOW, S1\nLOW, S3")).contacts
+    np.testing.assert_allclose(pair.clearances, 0.1)

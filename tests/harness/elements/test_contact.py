@@ -1,0 +1,360 @@
+# SPDX-FileCopyrightText: The uel-harness authors
+# SPDX-License-Identifier: BSD-3-Clause
+"""Contact in small sliding: closed forms of pressed, separating and sliding bodies, derivatives, iteration counts."""
+
+import re
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+import pytest
+from contact_decks import YOUNG, Box, plane, step, two_boxes
+
+import harness
+from harness.deck import read_deck
+from harness.elements import ContactBlock, Flags, Request
+from harness.elements.contact import OPEN, STICKING
+from harness.errors import ConvergenceError, Source
+from harness.model.contact import ContactPair, ContactProperty
+from harness.model.mesh import ElementGroup, Mesh
+from harness.model.model import Model
+from harness.model.properties import UserProperty
+
+SOURCE = Source("test.inp", 1)
+THICKNESS = 1.5
+HELD = "*BOUNDARY\nLOWER_BOTTOM, 2\nLOWER_LEFT, 1\nUPPER_LEFT, 1"
+
+
+@pytest.fixture
+def run(tmp_path):
+    def run(text, **options):
+        (tmp_path / "deck.inp").write_text(text)
+        return harness.run(tmp_path / "deck.inp", output_dir=tmp_path, **options)
+
+    return run
+
+
+def total(result, variable, *sets):
+    """Sum of a variable of the history over the nodes of sets."""
+    chosen = tuple(f"{variable}[{name}" for name in sets)
+    return sum(values for name, values in result.history.items() if name.startswith(chosen))
+
+
+def pressed(by, options=""):
+    return step("1., 1.", f"*BOUNDARY\nUPPER_TOP, 2, 2, {-by}", options=options)
+
+
+# ------------------------------------------------------------ bodies pressed together
+
+
+@pytest.mark.parametrize("element_type", ["CPE4", "CPS4", "CAX4"])
+def test_patch_of_matching_meshes(run, element_type):
+    """Uniaxial stress: E strain, E / (1 - nu^2) strain in plane strain."""
+    boxes = plane(lower=3, upper=3, element_type=element_type)
+    held = HELD.replace("\nLOWER_LEFT, 1\nUPPER_LEFT, 1", "") if element_type == "CAX4" else HELD
+    result = run(two_boxes(*boxes, [held, pressed(0.02)]))
+    stress = -YOUNG * 0.01 / (1 - 0.3**2 if element_type == "CPE4" else 1.0)
+    area = np.pi * 2**2 if element_type == "CAX4" else 2 * THICKNESS
+    for end, sign in (("LOWER_BOTTOM", -1), ("UPPER_TOP", 1)):
+        assert total(result, "RF2", end)[-1] == pytest.approx(sign * stress * area, rel=1e-10)
+    np.testing.assert_allclose(result.field("S22"), stress, rtol=1e-10)
+    np.testing.assert_allclose(result.field("S11"), 0.0, atol=1e-10 * abs(stress))
+    assert [(row.severe_discontinuity_iterations, row.iterations) for row in result.status] == [(0, 1)]
+
+
+def test_patch_of_bricks(run):
+    lower = Box("LOWER", "C3D8", (0, 0, 0), (2, 3, 1), (2, 3, 1))
+    upper = Box("UPPER", "C3D8", (0, 0, 1), (2, 3, 3), (2, 3, 2), first=1001)
+    held = "*BOUNDARY\nLOWER_BOTTOM, 3\nLOWER_LEFT, 1\nUPPER_LEFT, 1\nLOWER_FRONT, 2\nUPPER_FRONT, 2"
+    result = run(two_boxes(lower, upper, [held, step("1., 1.", "*BOUNDARY\nUPPER_TOP, 3, 3, -0.03")]))
+    np.testing.assert_allclose(result.field("S33"), -YOUNG * 0.01, rtol=1e-10)
+    assert total(result, "RF3", "UPPER_TOP")[-1] == pytest.approx(-YOUNG * 0.01 * 6, rel=1e-10)
+
+
+def test_meshes_that_do_not_match(run):
+    """Node to surface fails the patch test, but forces balance; on one face of the main surface it passes.
+
+    Constant pressure on nodes at 0, 2/3, 4/3 and 2 gives the nodes at 0, 1 and 2 5/9, 8/9 and 5/9 of it in place of
+    1/2, 1, 1/2: such forces do not belong to a constant stress.
+    """
+    boxes = plane(lower=2, upper=3)
+    result = run(two_boxes(*boxes, [HELD, pressed(0.02)]))
+    forces = [total(result, "RF2", end)[-1] for end in ("LOWER_BOTTOM", "UPPER_TOP")]
+    assert forces[0] == pytest.approx(-forces[1], rel=1e-10)
+    stress = -YOUNG * 0.01 / (1 - 0.3**2)
+    error = np.abs(result.field("S22") / stress - 1).max()
+    assert 0.01 < error < 0.2
+    single = run(two_boxes(*plane(lower=1, upper=3), [HELD, pressed(0.02)]))
+    np.testing.assert_allclose(single.field("S22"), stress, rtol=1e-10)
+
+
+@pytest.mark.parametrize(
+    ("behavior", "stiffness", "clearance"),
+    [
+        ("*SURFACE BEHAVIOR, PENALTY\n5000.", 5000.0, 0.0),
+        ("*SURFACE BEHAVIOR, PRESSURE-OVERCLOSURE=HARD, PENALTY=LINEAR\n5000., 0.002, 0.1", 500.0, 0.002),
+        ("*SURFACE BEHAVIOR, PRESSURE-OVERCLOSURE=LINEAR\n2000.", 2000.0, 0.0),
+        ("*SURFACE BEHAVIOR, PRESSURE-OVERCLOSURE=HARD", np.inf, 0.0),
+        ("*SURFACE BEHAVIOR, DIRECT", np.inf, 0.0),
+    ],
+)
+def test_stiffness_in_series_with_the_bodies(run, behavior, stiffness, clearance):
+    """Two columns of height 1 with nu = 0: p (1/E + 1/E + 1/k) = displacement - (gap - clearance)."""
+    boxes = plane(gap=0.01)
+    result = run(two_boxes(*boxes, [HELD, pressed(0.02)], nu=0.0, behavior=behavior))
+    pressure = (0.02 - 0.01 + clearance) / (2 / YOUNG + 1 / stiffness)
+    assert total(result, "RF2", "UPPER_TOP")[-1] == pytest.approx(-pressure * 2 * THICKNESS, rel=1e-9)
+    assert [(row.severe_discontinuity_iterations, row.iterations) for row in result.status] == [(1, 1)]
+
+
+def test_interference_is_resolved_at_once_unless_nodes_are_adjusted(run):
+    """Overlap h of two columns of height 1: p = E h / 2, in the first increment; ADJUST leaves no stress."""
+    boxes = plane(gap=-0.01)
+    steps = [HELD, step("0.25, 1.", "*BOUNDARY\nUPPER_TOP, 2")]
+    result = run(two_boxes(*boxes, steps, nu=0.0))
+    found = total(result, "RF2", "UPPER_TOP")
+    np.testing.assert_allclose(found[1:], -YOUNG * 0.01 / 2 * 2 * THICKNESS, rtol=1e-9)
+    for adjust in ("ADJUST=0.", "ADJUST", "ADJUST=SEC"):
+        model = "*NSET, NSET=SEC, GENERATE\n1001, 1100"
+        result = run(two_boxes(*boxes, steps, nu=0.0, pair=f"SMALL SLIDING, {adjust}", model=model))
+        assert np.abs(total(result, "RF2", "UPPER_TOP")).max() < 1e-12
+
+
+def test_adjust_moves_nodes_that_are_near(tmp_path):
+    boxes = plane(gap=0.01)
+    for adjust, moved in (("0.02", True), ("0.005", False), ("0.", False)):
+        pair = f"SMALL SLIDING, ADJUST={adjust}"
+        (tmp_path / "deck.inp").write_text(two_boxes(*boxes, [HELD, pressed(0.1)], pair=pair))
+        model = read_deck(tmp_path / "deck.inp")
+        places = model.mesh.coordinates[model.contacts[0].nodes[:, 0], 1]
+        np.testing.assert_allclose(places, 1.0 if moved else 1.01)
+        np.testing.assert_allclose(model.contacts[0].clearances, 0.0 if moved else 0.01, atol=1e-15)
+
+
+# ------------------------------------------------------------ opening and closing
+
+
+def test_convert_sdi(run):
+    """NO: an increment ends with an iteration without changes; after I_S of them it is cut back."""
+    boxes = plane(gap=0.01)
+    steps = [HELD, step("1., 1.", "*BOUNDARY\nUPPER_TOP, 2, 2, -0.02", options=", CONVERT SDI=NO")]
+    result = run(two_boxes(*boxes, steps))
+    assert [(row.severe_discontinuity_iterations, row.iterations) for row in result.status] == [(1, 1)]
+    assert "EQUILIBRIUM WILL BE CHECKED" not in result.file(".msg").read_text()
+    assert re.search(r"MAXIMUM ITERATIONS FOR SEVERE DISCONTINUITIES +12\n", result.file(".msg").read_text())
+    few = "*CONTROLS, PARAMETERS=TIME INCREMENTATION\n, , , , , , 1\n"
+    steps[1] = steps[1].replace("*BOUNDARY", few + "*BOUNDARY")
+    with pytest.raises(ConvergenceError, match="TOO MANY ATTEMPTS"):
+        run(two_boxes(*boxes, steps))
+    assert "SUBDIVISION AFTER 1 ITERATIONS FOR SEVERE DISCONTINUITIES" in result.file(".msg").read_text()
+
+
+def test_separation_and_contact_again(run):
+    """The upper body is lifted by 0.01 and pressed by it, twice: no force while it is up, -E 0.005 while it is down."""
+    boxes = plane()
+    wave = "*AMPLITUDE, NAME=WAVE\n0., 0., 1., 1., 2., -1., 3., 1., 4., -1."
+    text = two_boxes(
+        *boxes,
+        [HELD, step("0.5, 4.", "*BOUNDARY, AMPLITUDE=WAVE\nUPPER_TOP, 2, 2, -0.01", options=", INC=50")],
+        nu=0.0,
+        model=wave,
+    )
+    result = run(text)
+    time = result.history["time"]
+    wanted = -YOUNG * 0.005 * 2 * THICKNESS * np.maximum(np.interp(time, range(5), (0, 1, -1, 1, -1)), 0)
+    np.testing.assert_allclose(total(result, "RF2", "UPPER_TOP"), wanted, atol=1e-9)
+    severe = [row.severe_discontinuity_iterations for row in result.status]
+    assert sum(severe) == 3
+    assert all(row.iterations <= 2 for row in result.status)
+
+
+def test_severe_discontinuity_iterations_in_the_files(run):
+    boxes = plane(gap=0.01)
+    result = run(two_boxes(*boxes, [HELD, step("0.4, 1.", "*BOUNDARY\nUPPER_TOP, 2, 2, -0.02")]))
+    assert [(row.severe_discontinuity_iterations, row.iterations) for row in result.status][:2] == [(0, 1), (1, 1)]
+    text = result.file(".msg").read_text()
+    for words in (
+        "EQUILIBRIUM WILL BE CHECKED FOR SEVERE DISCONTINUITY ITERATIONS",
+        "     MAXIMUM ITERATIONS FOR SEVERE DISCONTINUITIES                            50",
+        "                    3 SEVERE DISCONTINUITIES OCCURRED DURING THIS ITERATION.\n"
+        "                    3 POINTS CHANGED FROM OPEN TO CLOSED\n\n"
+        "               CONVERGENCE CHECKS FOR SEVERE DISCONTINUITY ITERATION     1\n",
+        "OF CONTACT PAIR\n   (UPPER_LOW,LOWER_HIGH)\n",
+        "PENETRATION ERROR TOO LARGE COMPARED TO DISPLACEMENT INCREMENT.",
+        "THE CONTACT CONSTRAINTS HAVE CONVERGED.",
+        " ITERATION SUMMARY FOR THE INCREMENT:   2 TOTAL ITERATIONS, OF WHICH\n"
+        "   1 ARE SEVERE DISCONTINUITY ITERATIONS AND  1 ARE EQUILIBRIUM ITERATIONS.",
+    ):
+        assert words in text
+
+
+# ------------------------------------------------------------ friction
+
+
+def test_block_sticks_and_slips(run):
+    """A stiff block under a constant force N is pushed: it sticks until the force is mu N, and turns back likewise.
+
+    Sticking, the friction force is mu N / gamma_crit times the slip, gamma_crit = 0.005 of a face.
+    """
+    force, friction = 30.0, 0.4
+    boxes = plane(lower=1, upper=1, width=1.0)
+    crit = 0.005 * 1.0
+    loads = "*CLOAD\n" + "\n".join(f"{number}, 2, {-force / 2}" for number in boxes[1].numbers[:, -1])
+    push = step(
+        "0.05, 4.",
+        "*BOUNDARY, AMPLITUDE=WAVE",
+        f"UPPER_LEFT, 1, 1, {2 * crit}",
+        f"UPPER_RIGHT, 1, 1, {2 * crit}",
+        options=", INC=200",
+        output="*NODE OUTPUT, NSET=UPPER_LEFT\nRF1\n*NODE OUTPUT, NSET=UPPER_RIGHT\nRF1",
+    )
+    press = step("1., 1.", loads, "*BOUNDARY\nUPPER_LEFT, 1\nUPPER_RIGHT, 1")
+    text = two_boxes(
+        *boxes,
+        ["*BOUNDARY\nLOWER_BOTTOM, 1, 2\nLOWER_TOP, 1, 2", press, push],
+        nu=0.0,
+        behavior=f"*FRICTION\n{friction},",
+        model="*AMPLITUDE, NAME=WAVE\n0., 0., 1., 1., 3., -1., 4., 1.",
+    )
+    result = run(text)
+    found = total(result, "RF1", "UPPER_LEFT", "UPPER_RIGHT")
+    time = result.history["time"]
+    slip, elastic, wanted = 0.0, 0.0, []
+    for moment in time:
+        at = 2 * crit * np.interp(moment - 1, (0, 1, 3, 4), (0, 1, -1, 1)) if moment > 1 else 0.0
+        elastic = np.clip(elastic + at - slip, -crit, crit)
+        slip = at
+        wanted.append(friction * force * elastic / crit)
+    np.testing.assert_allclose(found[1:], wanted[1:], atol=1e-6 * friction * force)
+    assert max(wanted) == pytest.approx(friction * force)
+    assert "POINTS CHANGED FROM STICKING TO SLIPPING" in result.file(".msg").read_text()
+
+
+# ------------------------------------------------------------ curved surfaces
+
+
+def test_hertz_line_contact(run):
+    """A cylinder on a rigid plane: half-width b = sqrt(4 P R / (pi E*)), largest pressure 2 P / (pi b).
+
+    K. L. Johnson, Contact Mechanics (1985), section 4.2. A block of 40 b replaces the half-space, its upper side in
+    plane strain has the parabola of the cylinder; the plane is the main surface, whose nodes are opposite. Their
+    reactions are the contact forces: pressure over an element, so the edge is known to one, and the largest pressure to
+    the part of it that the mean over an element loses.
+    """
+    radius, reduced, half, size, edge = 50.0, YOUNG / (1 - 0.3**2), 1.0, 20.0, 0.1
+    across = np.concatenate([np.arange(0, 1.55, edge), 1.5 + np.geomspace(0.12, size - 1.5, 14)])
+    across[-1] = size
+    down = np.concatenate([np.arange(0, 1.55, edge), 1.5 + np.geomspace(0.12, size - 1.5, 14)])
+    body = Box("UPPER", "CPE4", (0, 0), (1, 1), (len(across) - 1, len(down) - 1), first=10001)
+    height = across**2 / (2 * radius)
+    x, y = np.meshgrid(across, down, indexing="ij")
+    body.nodes = np.stack([x, y + height[:, None] * (1 - y / size)], axis=-1).reshape(-1, 2)
+    plate = Box("LOWER", "CPE4", (0, -1), (1, 0), (len(across) - 1, 1))
+    plate.nodes = np.stack(np.meshgrid(across, (-1.0, 0.0), indexing="ij"), axis=-1).reshape(-1, 2)
+    force = np.pi * half**2 * reduced / (4 * radius)
+    pressure = force / 2 / size
+    load = step("1., 1.", f"*DSLOAD\nUPPER_HIGH, P, {pressure!r}", output="*NODE OUTPUT, NSET=LOWER_TOP\nRF2")
+    held = "*BOUNDARY\nLOWER_BOTTOM, 1, 2\nLOWER_TOP, 1, 2\nUPPER_LEFT, 1"
+    result = run(two_boxes(plate, body, [held, load]))
+    found = np.array([result.history[f"RF2[LOWER_TOP:{number}]"][-1] for number in plate.numbers[:, 1]])
+    # forces of the nodes are those of a thickness of 1.5 over their share of the line
+    share = np.gradient(across) * THICKNESS
+    share[0] /= 2
+    closed = found > 0
+    assert found.sum() == pytest.approx(force / 2 * THICKNESS, rel=1e-9)
+    last = across[closed].max()
+    assert last <= half + edge
+    assert last >= half - edge
+    np.testing.assert_array_equal(closed, across <= last)
+    peak = 2 * force / (np.pi * half)
+    inner = across < 0.75 * half
+    np.testing.assert_allclose((found / share)[inner], peak * np.sqrt(1 - (across[inner] / half) ** 2), rtol=0.03)
+
+
+# ------------------------------------------------------------ the block of points
+
+
+def pair_of(dimension, stiffness, friction, rng):
+    """A pair of two points, whose normals have any direction."""
+    count = 3 if dimension == 2 else 5
+    nodes = np.arange(2 * count).reshape(2, count)
+    normals = rng.normal(size=(2, 3))
+    if dimension == 2:
+        normals[:, 2] = 0.0
+    normals /= np.linalg.norm(normals, axis=1)[:, None]
+    weights = rng.dirichlet(np.ones(count - 1), size=2)
+    surface = ContactProperty("P", SOURCE, stiffness=stiffness, friction=friction)
+    pair = ContactPair(
+        "(A,B)", surface, SOURCE, dimension, nodes, weights, normals, np.array([0.01, -0.02]), np.array([1.5, 0.7]), 0.1
+    )
+    mesh = Mesh(np.arange(1, nodes.size + 1), rng.normal(size=(nodes.size, 3)), ("",) * nodes.size)
+    group = ElementGroup("U1", np.array([1]), nodes[:1], "", UserProperty("ALL", SOURCE), None, SOURCE)
+    block = ContactBlock(Model(Path("test.inp"), "", mesh, (group,), ()), pair)
+    size = len(block.unknowns)
+    equations = np.arange(2 * size, dtype=np.int32).reshape(2, size)
+    scatter = (equations[:, :, None] * 2 * size + equations[:, None]).astype(np.int32)
+    block.bind(equations, scatter)
+    return block
+
+
+@pytest.mark.parametrize("friction", [0.0, 0.3])
+@pytest.mark.parametrize("stiffness", [None, 40.0])
+@pytest.mark.parametrize("dimension", [2, 3])
+@pytest.mark.parametrize("moved", [0.01, 1.0])
+def test_matrix_by_differences(call, dimension, stiffness, friction, moved):
+    """Points that stick (moved little) and slip (moved far), and one of them open at times."""
+    rng = np.random.default_rng(5)
+    for _ in range(10):
+        block = pair_of(dimension, stiffness, friction, rng)
+        n = 2 * len(block.unknowns)
+        u = moved * rng.normal(size=n)
+        if block.direct:
+            u[n // 2 - 1 :: n // 2] = moved * rng.random(2)  # multipliers: pressures
+        first, second = replace(call, iteration=0), replace(call, iteration=1)
+        asked = replace(second, flags=Flags(1, request=Request.RESIDUAL))
+        matrix = np.zeros(n * n)
+        matrix[:: n + 1] = 7.0
+        block.evaluate(first, 0 * u, 0 * u, np.zeros(n), matrix.copy())
+        given = matrix.copy()
+        block.evaluate(second, u, u, np.zeros(n), given)
+        found = (given - matrix).reshape(n, n)
+
+        def forces(x, block=block, asked=asked):
+            residual = np.zeros(len(x))
+            block.evaluate(asked, x, x, residual, None)
+            return residual
+
+        step_size = 1e-6 * moved
+        wanted = np.stack(
+            [-(forces(u + step_size * e) - forces(u - step_size * e)) / (2 * step_size) for e in np.eye(n)], axis=1
+        )
+        np.testing.assert_allclose(found, wanted, atol=1e-6 * max(1.0, np.abs(wanted).max()))
+        if not friction:
+            np.testing.assert_allclose(found, found.T, atol=1e-12 * np.abs(found).max())
+
+
+def test_status_is_that_of_the_increment_until_it_is_committed(call):
+    """A cutback starts again from the status at the start of the increment; a state that is kept has it too."""
+    block = pair_of(2, None, 0.0, np.random.default_rng(1))
+    n = 2 * len(block.unknowns)
+    zero = np.zeros(n)
+    data = np.zeros(n * n)
+    data[:: n + 1] = 1.0
+    block.evaluate(replace(call, iteration=0), zero, zero, zero.copy(), data.copy())
+    np.testing.assert_array_equal(block.kept()["status"], [OPEN, STICKING])
+    pulled = zero.copy()
+    pulled[n - 1] = -1.0  # the multiplier of the second point: tension
+    block.evaluate(replace(call, iteration=1), pulled, pulled, zero.copy(), data.copy())
+    assert block.trial_changes.opened == 1
+    assert block.trial_changes.force[0] == -1.0
+    block.evaluate(replace(call, iteration=0), zero, zero, zero.copy(), data.copy())
+    assert block.trial_changes.count == 0
+    block.evaluate(replace(call, iteration=1), pulled, pulled, zero.copy(), data.copy())
+    block.commit()
+    kept = block.kept()
+    np.testing.assert_array_equal(kept["status"], [OPEN, OPEN])
+    other = pair_of(2, None, 0.0, np.random.default_rng(1))
+    other.resume(kept)
+    np.testing.assert_array_equal(other.kept()["status"], [OPEN, OPEN])
+    with pytest.raises(ValueError, match=r"contact pair \(A,B\)"):
+        other.resume({**kept, "status": np.zeros(3)})
