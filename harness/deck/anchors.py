@@ -36,6 +36,7 @@ class Anchors:
     found       (m,) whether the main surface faces the node; the other values are meaningless without
     faces       (m, k) nodes of the face, the first one repeated up to k
     weights     (m, k) of these nodes
+    slopes      (m, k, 2) their derivatives along the natural coordinates of the face, of which a line has one
     normals     (m, 3) unit vectors
     clearances  (m,) along the normals, 0 where rounding alone makes them different from 0
     """
@@ -43,6 +44,7 @@ class Anchors:
     found: np.ndarray
     faces: IntArray
     weights: FloatArray
+    slopes: FloatArray
     normals: FloatArray
     clearances: FloatArray
 
@@ -69,6 +71,7 @@ def find_anchors(
         np.zeros(len(points), dtype=np.bool_),
         np.zeros((len(points), width), dtype=np.int64),
         np.zeros((len(points), width)),
+        np.zeros((len(points), width, 2)),
         np.zeros_like(points),
         np.full(len(points), np.inf),
     )
@@ -130,6 +133,9 @@ def _improve(
     best.faces[target, :width] = nodes[chosen[rows, k]]
     best.weights[target] = 0.0
     best.weights[target, :width] = weights[rows, k]
+    slopes = _slopes(place, width)[rows, k]
+    best.slopes[target] = 0.0
+    best.slopes[target, :width, : slopes.shape[2]] = slopes
     best.normals[target] = (normal / length[..., None])[rows, k]
     found = clearance[rows, k]
     best.clearances[target] = np.where(np.abs(found) <= EQUAL * size[rows, k], 0.0, found)

@@ -94,6 +94,7 @@ class ContactReader:
             dimension=dimension,
             nodes=np.concatenate([nodes[here, None], anchors.faces[here]], axis=1),
             weights=anchors.weights[here],
+            slopes=anchors.slopes[here, :, : dimension - 1],
             normals=anchors.normals[here],
             clearances=clearances[here],
             areas=areas[here],
@@ -197,7 +198,6 @@ def check_contact(pairs: Sequence[ContactPair], steps: Sequence[Step], problems:
     for step in steps:
         given, place = step.procedure, f"*CONTACT PAIR ({pairs[0].source})"
         obstacles = {
-            "NLGEOM": step.nlgeom,
             "*STATIC, RIKS": given.riks is not None,
             f"*{given.keyword}": given.linear or given.inertia or given.temperatures,
         }

@@ -20,6 +20,7 @@ from numpy.typing import NDArray
 
 from harness.elements.block import ElementBlock
 from harness.elements.call import Call
+from harness.elements.contact_kinematics import Clearances, Kinematics
 from harness.elements.fields import MULTIPLIER
 from harness.elements.lflags import Request
 from harness.model.arrays import FloatArray, IntArray, first_largest
@@ -59,19 +60,16 @@ class ContactBlock:
         self.direct = pair.property.stiffness is None
         displacements = tuple((node, dof) for node in range(n) for dof in range(1, pair.dimension + 1))
         self.unknowns = displacements + (((n, MULTIPLIER),) if self.direct else ())
-        # derivatives of clearances (m, u) and of slips (m, directions, u) by the displacements
-        shares = np.concatenate([np.ones((m, 1)), -pair.weights], axis=1)
-        normals = pair.normals[:, : pair.dimension]
-        self._normal = (shares[:, :, None] * normals[:, None]).reshape(m, -1)
-        self._tangents = np.stack(
-            [(shares[:, :, None] * along[:, None]).reshape(m, -1) for along in _tangents(pair.normals, pair.dimension)],
-            axis=1,
-        )
+        self._kinematics = Kinematics(pair, model.mesh.coordinates)
+        # derivatives of the slips by the displacements, those at the start of the increment
+        self._tangents = self._kinematics.slips(None)
+        self._moved = np.zeros((m, len(displacements)))
         self._status = np.where(pair.clearances <= pair.property.clearance, STICKING, OPEN)
         self._slip = np.zeros(self._tangents.shape[:2])
         self._status_trial, self._slip_trial = self._status, self._slip
         self._before, self._iteration = self._status, 0
         self._scale = 0.0
+        self._nlgeom = False
         self._penetration = self._force = np.zeros(m)
         self._equations = self._scatter = np.zeros((m, 0), dtype=np.int32)
 
@@ -103,13 +101,14 @@ class ContactBlock:
             return
         if data is not None and not self._scale:
             self._scale = self._stiffness(data)
-        count = self._normal.shape[1]
+        count = self._tangents.shape[2]
         moved, change = u[self._equations[:, :count]], du[self._equations[:, :count]]
-        clearance = self.pair.clearances + np.einsum("mu,mu->m", self._normal, moved)
-        before = self._status_before(call)
+        found = (self._kinematics.finite if call.flags.nlgeom else self._kinematics.linear)(moved)
+        clearance, before = found.value, self._status_before(call)
+        small = ROUNDING * float(np.abs(moved).max()) + 8.0 * found.rounding
         if self.direct:
             multiplier = u[self._equations[:, count]] * self._scale
-            closed = self._closed(before, clearance, multiplier, moved)
+            closed = self._closed(before, clearance, multiplier, small)
         else:
             multiplier = self._penalty_stiffness * (self.pair.property.clearance - clearance)
             closed = multiplier > 0.0
@@ -118,14 +117,14 @@ class ContactBlock:
         force = np.where(closed, multiplier, 0.0)
         slip = np.where(closed[:, None], self._slip + np.einsum("mtu,mu->mt", self._tangents, change), 0.0)
         friction = _Friction(self.pair, force, slip, closed)
-        self._add(residual, data, (clearance, multiplier, force, closed), friction)
+        self._add(residual, data, found, (multiplier, force, closed), friction)
         if request is Request.NORMAL:
             after = np.where(closed, np.where(friction.slips, SLIPPING, STICKING), OPEN)
             self._status_trial = before if call.iteration == 0 else after
             self._slip_trial, self._force = friction.elastic, multiplier
-            self._penetration = np.where(
-                closed & self.direct & (np.abs(clearance) > self._small(moved)), clearance, 0.0
-            )
+            missed = closed & self.direct & (np.abs(clearance) > small)
+            self._penetration = np.where(missed, clearance, 0.0)
+            self._moved, self._nlgeom = moved, call.flags.nlgeom
 
     def _stiffness(self, data: FloatArray) -> float:
         """That of the secondary nodes, as a power of two: it scales the multipliers, so that the matrix is balanced."""
@@ -149,16 +148,8 @@ class ContactBlock:
         self._iteration = call.iteration
         return self._before
 
-    @staticmethod
-    def _small(moved: FloatArray) -> float:
-        """Clearance that is rounding beside these displacements."""
-        return float(ROUNDING * np.abs(moved).max())
-
-    def _closed(
-        self, before: IntArray, clearance: FloatArray, force: FloatArray, moved: FloatArray
-    ) -> NDArray[np.bool_]:
-        """Closed points open under tension, open ones close where they penetrate."""
-        small = self._small(moved)
+    def _closed(self, before: IntArray, clearance: FloatArray, force: FloatArray, small: float) -> NDArray[np.bool_]:
+        """Closed points open under tension, open ones close where they penetrate, by more than rounding."""
         tension = ROUNDING * np.abs(force).max() + small * self._scale
         return np.where(before == OPEN, clearance < -small, force >= -tension)
 
@@ -166,30 +157,34 @@ class ContactBlock:
         self,
         residual: FloatArray,
         data: FloatArray | None,
-        state: tuple[FloatArray, FloatArray, FloatArray, NDArray[np.bool_]],
+        clearances: Clearances,
+        state: tuple[FloatArray, FloatArray, NDArray[np.bool_]],
         friction: _Friction,
     ) -> None:
-        """Add what points with this clearance, multiplier (or force), force and status contribute."""
-        clearance, multiplier, force, closed = state
-        count, tangents, scale = self._normal.shape[1], self._tangents, self._scale
+        """Add what points with these clearances, multipliers (or forces), forces and status contribute."""
+        multiplier, force, closed = state
+        normal, tangents, scale = clearances.gradient, self._tangents, self._scale
+        count = normal.shape[1]
         right = np.zeros((len(closed), len(self.unknowns)))
-        right[:, :count] = force[:, None] * self._normal - np.einsum("mt,mtu->mu", friction.force, tangents)
+        right[:, :count] = force[:, None] * normal - np.einsum("mt,mtu->mu", friction.force, tangents)
         if self.direct:
-            right[:, count] = np.where(closed, scale * clearance, -multiplier)
+            right[:, count] = np.where(closed, scale * clearances.value, -multiplier)
         np.add.at(residual, self._equations, right)
         if data is None:
             return
         matrix = np.zeros((len(closed), len(self.unknowns), len(self.unknowns)))
         matrix[:, :count, :count] = np.einsum("mtu,mts,msv->muv", tangents, friction.by_slip, tangents)
+        if clearances.curvature is not None:
+            matrix[:, :count, :count] -= force[:, None, None] * clearances.curvature
         # what the contact force does, by the contact force
-        by_force = closed[:, None] * (np.einsum("mt,mtu->mu", friction.by_force, tangents) - self._normal)
+        by_force = closed[:, None] * (np.einsum("mt,mtu->mu", friction.by_force, tangents) - normal)
         if self.direct:
             matrix[:, :count, count] = scale * by_force
-            matrix[:, count, :count] = -scale * closed[:, None] * self._normal
+            matrix[:, count, :count] = -scale * closed[:, None] * normal
             matrix[:, count, count] = np.where(closed, 0.0, scale)
         else:
             stiffness = self._penalty_stiffness[:, None, None]
-            matrix -= stiffness * by_force[:, :, None] * self._normal[:, None]
+            matrix -= stiffness * by_force[:, :, None] * normal[:, None]
         np.add.at(data, self._scatter, matrix)
 
     @property
@@ -214,16 +209,19 @@ class ContactBlock:
     def commit(self) -> None:
         """End of a converged increment."""
         self._status, self._slip = self._status_trial, self._slip_trial
+        if self._nlgeom:
+            self._tangents = self._kinematics.slips(self._moved)
 
     def kept(self) -> Saved:
         """Committed state, not copied."""
-        return {"status": self._status, "slip": self._slip, "scale": self._scale}
+        return {"status": self._status, "slip": self._slip, "tangents": self._tangents, "scale": self._scale}
 
     def resume(self, saved: Saved) -> None:
         """Begin with what `kept` returned. Raises ValueError if it is not of these points."""
         if np.shape(saved["status"]) != self._status.shape or np.shape(saved["slip"]) != self._slip.shape:
             raise ValueError(f"contact pair {self.pair.name}")
         self._status, self._slip, self._scale = saved["status"], saved["slip"], saved["scale"]
+        self._tangents = saved["tangents"]
         self._status_trial, self._slip_trial = self._status, self._slip
 
 
@@ -252,14 +250,3 @@ class _Friction:
         across = np.eye(directions) - np.where(self.slips, 1.0, 0.0)[:, None, None] * along[:, :, None] * along[:, None]
         self.by_slip = (limit / reach)[:, :, None] * across
         self.elastic = np.where(self.slips[:, None], most * along, slip)
-
-
-def _tangents(normals: FloatArray, dimension: int) -> Sequence[FloatArray]:
-    """Unit vectors (m, dimension) in the plane of the surface: one, or two that are normal to each other."""
-    if dimension == 2:
-        return (np.stack([-normals[:, 1], normals[:, 0]], axis=1),)
-    # the axis least like the normal
-    axes = np.eye(3)[np.abs(normals).argmin(axis=1)]
-    first = np.cross(normals, axes)
-    first /= np.linalg.norm(first, axis=1)[:, None]
-    return first, np.cross(normals, first)

@@ -46,6 +46,7 @@ class ContactPair:
     nodes       (m, 1 + k) secondary node, then the nodes of its face of the main surface; a face with fewer than k
                 nodes repeats its first one
     weights     (m, k) of these nodes in the displacement of the anchor point; those of repeated ones are zero
+    slopes      (m, k, 1 or 2) derivatives of the weights along the natural coordinates of the face
     normals     (m, 3) unit vectors from the main surface towards the secondary node
     clearances  (m,) at the start, negative where the surfaces overlap
     areas       (m,) of the secondary surface that belong to the nodes
@@ -58,6 +59,7 @@ class ContactPair:
     dimension: int
     nodes: IntArray
     weights: FloatArray
+    slopes: FloatArray
     normals: FloatArray
     clearances: FloatArray
     areas: FloatArray

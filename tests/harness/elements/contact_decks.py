@@ -48,11 +48,18 @@ class Box:
         return [*lines, f"*SOLID SECTION, ELSET={name}, MATERIAL=M", "1.5" if self.nodes.shape[1] == 2 else ""]
 
 
-def two_boxes(lower, upper, steps, *, nu=0.3, behavior="", pair="SMALL SLIDING", model="", young=YOUNG, held="HIGH"):
+def two_boxes(lower, upper, steps, *, nu=0.3, behavior="", pair="SMALL SLIDING", model="", law=None):
     """The box UPPER, whose lower side is the secondary surface, on the box LOWER."""
-    lines = ["*HEADING", "two bodies", *lower.lines(), *upper.lines(), "*MATERIAL, NAME=M", f"*ELASTIC\n{young}, {nu}"]
+    lines = [
+        "*HEADING",
+        "two bodies",
+        *lower.lines(),
+        *upper.lines(),
+        "*MATERIAL, NAME=M",
+        law or f"*ELASTIC\n{YOUNG}, {nu}",
+    ]
     lines += ["*SURFACE INTERACTION, NAME=TOUCH", *([behavior] if behavior else [])]
-    lines += [f"*CONTACT PAIR, INTERACTION=TOUCH, {pair}", f"UPPER_LOW, LOWER_{held}", *([model] if model else [])]
+    lines += [f"*CONTACT PAIR, INTERACTION=TOUCH, {pair}", "UPPER_LOW, LOWER_HIGH", *([model] if model else [])]
     return "\n".join([*lines, *steps]) + "\n"
 
 

@@ -131,6 +131,61 @@ def test_adjust_moves_nodes_that_are_near(tmp_path):
         np.testing.assert_allclose(model.contacts[0].clearances, 0.0 if moved else 0.01, atol=1e-15)
 
 
+# ------------------------------------------------------------ large displacements
+
+
+@pytest.mark.parametrize("behavior", ["", "*SURFACE BEHAVIOR, PENALTY\n1e5"])
+def test_bodies_that_turn(run, behavior):
+    """Two bodies are pressed together, then turned by 70 degrees: the forces turn with them, in space too.
+
+    Rubber does not remember that its ends went straight to where they are.
+    """
+    turn = np.radians(70.0)
+    rotation = np.array([[np.cos(turn), -np.sin(turn)], [np.sin(turn), np.cos(turn)]])
+    for space in (False, True):
+        if space:
+            lower = Box("LOWER", "C3D8", (0, 0, 0), (2, 1, 1), (2, 1, 1))
+            upper = Box("UPPER", "C3D8", (0, 0, 1), (2, 1, 2), (2, 1, 1), first=1001)
+        else:
+            lower, upper = plane()
+        up = lower.nodes.shape[1]
+        first, second = [], []
+        for box, end in ((lower, 0), (upper, -1)):
+            for number in box.numbers[..., end].ravel():
+                place = box.nodes[number - box.first].copy()
+                place[-1] -= 0.02 * (end == -1)
+                moved = np.array([place[0], place[-1]]) @ rotation.T - box.nodes[number - box.first][[0, -1]]
+                first += [f"{number}, 1, {up - 1}", f"{number}, {up}, {up}, {-0.02 * (end == -1)}"]
+                second += [f"{number}, 1, 1, {moved[0]}", f"{number}, {up}, {up}, {moved[1]}"]
+                second += [f"{number}, 2, 2"] * space
+        tight = "*CONTROLS, PARAMETERS=FIELD\n1e-9, 1."
+        steps = [
+            step("1., 1.", tight, "*BOUNDARY", *first, options=", NLGEOM"),
+            step("0.1, 1.", "*BOUNDARY, OP=NEW", *second),
+        ]
+        law = "*HYPERELASTIC, NEO HOOKE\n200., 0.005"
+        result = run(two_boxes(lower, upper, steps, behavior=behavior, law=law))
+        of_step = result.history["step"]
+        before, after = (
+            np.array([total(result, name, "UPPER_TOP")[of_step == k][-1] for name in ("RF1", f"RF{up}")])
+            for k in (1, 2)
+        )
+        assert abs(before[1]) > 1.0
+        np.testing.assert_allclose(after, rotation @ before, atol=1e-6 * abs(before[1]))
+
+
+def test_same_as_one_body_in_large_displacements(run):
+    """Matching meshes without friction, squeezed by a quarter: those of one body with nu = 0."""
+    boxes = plane()
+    whole = Box("UPPER", "CPE4", (0, 0), (2, 2), (2, 2))
+    squeeze = step("0.25, 1.", "*BOUNDARY\nUPPER_TOP, 2, 2, -0.5", options=", NLGEOM")
+    apart = run(two_boxes(*boxes, [HELD, squeeze], nu=0.0))
+    lines = [*whole.lines(), f"*MATERIAL, NAME=M\n*ELASTIC\n{YOUNG}, 0.", "*BOUNDARY\nUPPER_BOTTOM, 2\nUPPER_LEFT, 1"]
+    found = total(apart, "RF2", "UPPER_TOP")[-1]
+    alone = run("\n".join([*lines, squeeze.replace("LOWER", "UPPER")]) + "\n")
+    assert found == pytest.approx(total(alone, "RF2", "UPPER_TOP")[-1], rel=1e-6)
+
+
 # ------------------------------------------------------------ opening and closing
 
 
@@ -282,11 +337,11 @@ def pair_of(dimension, stiffness, friction, rng):
     if dimension == 2:
         normals[:, 2] = 0.0
     normals /= np.linalg.norm(normals, axis=1)[:, None]
-    weights = rng.dirichlet(np.ones(count - 1), size=2)
+    weights, slopes = rng.dirichlet(np.ones(count - 1), size=2), rng.normal(size=(2, count - 1, dimension - 1))
+    slopes -= slopes.mean(axis=1, keepdims=True)
     surface = ContactProperty("P", SOURCE, stiffness=stiffness, friction=friction)
-    pair = ContactPair(
-        "(A,B)", surface, SOURCE, dimension, nodes, weights, normals, np.array([0.01, -0.02]), np.array([1.5, 0.7]), 0.1
-    )
+    clearances, areas = np.array([0.01, -0.02]), np.array([1.5, 0.7])
+    pair = ContactPair("(A,B)", surface, SOURCE, dimension, nodes, weights, slopes, normals, clearances, areas, 0.1)
     mesh = Mesh(np.arange(1, nodes.size + 1), rng.normal(size=(nodes.size, 3)), ("",) * nodes.size)
     group = ElementGroup("U1", np.array([1]), nodes[:1], "", UserProperty("ALL", SOURCE), None, SOURCE)
     block = ContactBlock(Model(Path("test.inp"), "", mesh, (group,), ()), pair)
@@ -301,7 +356,8 @@ def pair_of(dimension, stiffness, friction, rng):
 @pytest.mark.parametrize("stiffness", [None, 40.0])
 @pytest.mark.parametrize("dimension", [2, 3])
 @pytest.mark.parametrize("moved", [0.01, 1.0])
-def test_matrix_by_differences(call, dimension, stiffness, friction, moved):
+@pytest.mark.parametrize("nlgeom", [False, True])
+def test_matrix_by_differences(call, dimension, stiffness, friction, moved, nlgeom):
     """Points that stick (moved little) and slip (moved far), and one of them open at times."""
     rng = np.random.default_rng(5)
     for _ in range(10):
@@ -310,8 +366,8 @@ def test_matrix_by_differences(call, dimension, stiffness, friction, moved):
         u = moved * rng.normal(size=n)
         if block.direct:
             u[n // 2 - 1 :: n // 2] = moved * rng.random(2)  # multipliers: pressures
-        first, second = replace(call, iteration=0), replace(call, iteration=1)
-        asked = replace(second, flags=Flags(1, request=Request.RESIDUAL))
+        first, second = (replace(call, iteration=k, flags=Flags(1, nlgeom)) for k in range(2))
+        asked = second.asking(Request.RESIDUAL)
         matrix = np.zeros(n * n)
         matrix[:: n + 1] = 7.0
         block.evaluate(first, 0 * u, 0 * u, np.zeros(n), matrix.copy())
@@ -331,6 +387,27 @@ def test_matrix_by_differences(call, dimension, stiffness, friction, moved):
         np.testing.assert_allclose(found, wanted, atol=1e-6 * max(1.0, np.abs(wanted).max()))
         if not friction:
             np.testing.assert_allclose(found, found.T, atol=1e-12 * np.abs(found).max())
+
+
+@pytest.mark.parametrize("dimension", [2, 3])
+def test_rigid_motion(call, dimension):
+    """Clearances stay; the forces of a multiplier balance, and so do their moments."""
+    rng = np.random.default_rng(7)
+    block = pair_of(dimension, None, 0.0, rng)
+    kinematics, places = block._kinematics, block._kinematics._places
+    rotation = np.linalg.qr(rng.normal(size=(dimension, dimension)))[0]
+    rotation[:, 0] *= np.sign(np.linalg.det(rotation))
+    at_rest = kinematics.finite(np.zeros(places.shape).reshape(2, -1))
+    turned = places @ rotation.T + rng.normal(size=dimension)
+    found = kinematics.finite((turned - places).reshape(2, -1))
+    np.testing.assert_allclose(found.value, at_rest.value, atol=1e-12)
+    slips = [kinematics.slips(at).reshape(2, -1, *places.shape[1:]) for at in (None, (turned - places).reshape(2, -1))]
+    np.testing.assert_allclose(slips[1], slips[0] @ rotation.T, atol=1e-12)
+    forces = found.gradient.reshape(places.shape)
+    np.testing.assert_allclose(forces, at_rest.gradient.reshape(places.shape) @ rotation.T, atol=1e-12)
+    np.testing.assert_allclose(forces.sum(axis=1), 0.0, atol=1e-12)
+    moments = np.einsum("mnp,mnq->mpq", turned, forces)
+    np.testing.assert_allclose(moments, moments.transpose(0, 2, 1), atol=1e-12)
 
 
 def test_status_is_that_of_the_increment_until_it_is_committed(call):

@@ -1,0 +1,140 @@
+# SPDX-FileCopyrightText: The uel-harness authors
+# SPDX-License-Identifier: BSD-3-Clause
+"""Clearances of contact points in small sliding, with their derivatives by the displacements.
+
+The clearance of a point is g = n . d: d from the anchor point to the secondary node, n the normal of the tangent plane.
+Without NLGEOM both are those of the mesh, and g is linear. With NLGEOM the plane goes with the face: n = v / |v|, and v
+has constant components along the tangents a1, a2 of the face at the anchor point and their product. What g loses to the
+turning face are moments: the derivatives of g move the force along the face to where the node is.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Final
+
+import numpy as np
+
+from harness.model.arrays import FloatArray
+from harness.model.contact import ContactPair
+
+_TURN: Final = np.array([[0.0, -1.0], [1.0, 0.0]])
+"""By a right angle, in the plane."""
+
+_PRODUCT: Final = np.zeros((3, 3, 3))
+"""e_p x e_q = sum over r of _PRODUCT[r, p, q] e_r."""
+for _r, _p, _q in ((0, 1, 2), (1, 2, 0), (2, 0, 1)):
+    _PRODUCT[_r, _p, _q], _PRODUCT[_r, _q, _p] = 1.0, -1.0
+
+
+@dataclass(frozen=True, slots=True)
+class Clearances:
+    """Of m points.
+
+    value     (m,)
+    gradient  (m, u)
+    curvature (m, u, u) second derivatives; None: zero
+    rounding  error that the arithmetic makes
+    """
+
+    value: FloatArray
+    gradient: FloatArray
+    curvature: FloatArray | None
+    rounding: float
+
+
+class Kinematics:
+    """How the points of a pair move, by the displacements (m, u) of their nodes, one node after the other."""
+
+    def __init__(self, pair: ContactPair, coordinates: FloatArray) -> None:
+        """Coordinates (nodes, 3) are those of all nodes of the model."""
+        dimension = pair.dimension
+        m, n = pair.nodes.shape
+        self._shape = m, n, dimension
+        self._clearances = pair.clearances
+        self._places = coordinates[pair.nodes][:, :, :dimension]
+        # of all nodes: their parts in d and, along each natural coordinate, in the tangents of the face
+        self._shares = np.concatenate([np.ones((m, 1)), -pair.weights], axis=1)
+        self._slopes = np.concatenate([np.zeros((m, 1, dimension - 1)), pair.slopes], axis=1)
+        self._normals = pair.normals[:, :dimension]
+        self._parts = np.linalg.solve(self._base(self._tangents_of(self._places)), self._normals[..., None])[..., 0]
+
+    def linear(self, moved: FloatArray) -> Clearances:
+        """In small displacements."""
+        gradient = self._along(self._normals)
+        value = self._clearances + np.einsum("mu,mu->m", gradient, moved)
+        return Clearances(value, gradient, None, float(np.finfo(float).eps * np.abs(moved).max()))
+
+    def finite(self, moved: FloatArray) -> Clearances:
+        """In large displacements."""
+        m, n, dimension = self._shape
+        places = self._places + moved.reshape(self._shape)
+        tangents = self._tangents_of(places)
+        turned, first = self._normal_of(tangents)
+        length = np.linalg.norm(turned, axis=1)
+        normal = turned / length[:, None]
+        apart = np.einsum("mn,mnd->md", self._shares, places)
+        value = np.einsum("md,md->m", normal, apart)
+        # of d beside the normal, over |v|
+        beside = (apart - value[:, None] * normal) / length[:, None]
+        by_place = np.einsum("mn,de->mdne", self._shares, np.eye(dimension)).reshape(m, dimension, -1)
+        gradient = np.einsum("md,mdu->mu", normal, by_place) + np.einsum("md,mdu->mu", beside, first)
+        stretch = np.einsum("md,mdu->mu", normal, first) / length[:, None]
+        normal_by = first / length[:, None, None] - normal[..., None] * stretch[:, None]
+        beside_by = by_place - normal[..., None] * gradient[:, None] - value[:, None, None] * normal_by
+        beside_by = beside_by / length[:, None, None] - beside[..., None] * stretch[:, None]
+        curvature = np.einsum("mdu,mdv->muv", by_place, normal_by) + np.einsum("mdu,mdv->muv", first, beside_by)
+        if dimension == 3:
+            # v is quadratic in the places of the nodes
+            twist = np.einsum("mn,mk->mnk", self._slopes[..., 0], self._slopes[..., 1])
+            twist = self._parts[:, 2, None, None] * (twist - twist.transpose(0, 2, 1))
+            second = np.einsum("mnk,md,dpq->mnpkq", twist, beside, _PRODUCT)
+            curvature += second.reshape(m, n * dimension, -1)
+        eps = float(np.finfo(float).eps)
+        return Clearances(value, gradient, curvature, eps * float(np.abs(places).max()))
+
+    def slips(self, moved: FloatArray | None) -> FloatArray:
+        """(m, directions, u) derivatives of the slips along tangents of the face; moved: None where it is in its mesh
+        position.
+        """
+        places = self._places if moved is None else self._places + moved.reshape(self._shape)
+        tangents = self._tangents_of(places)
+        turned, _ = self._normal_of(tangents)
+        normal = turned / np.linalg.norm(turned, axis=1)[:, None]
+        if self._shape[2] == 2:
+            return self._along(normal @ _TURN.T)[:, None]
+        first = tangents[:, 0] - np.einsum("md,md->m", normal, tangents[:, 0])[:, None] * normal
+        first /= np.linalg.norm(first, axis=1)[:, None]
+        return np.stack([self._along(first), self._along(np.cross(normal, first))], axis=1)
+
+    def _along(self, direction: FloatArray) -> FloatArray:
+        """(m, u) derivative of d along a direction (m, dimension)."""
+        return (self._shares[:, :, None] * direction[:, None]).reshape(len(direction), -1)
+
+    def _tangents_of(self, places: FloatArray) -> FloatArray:
+        """(m, 1 or 2, dimension) tangents of the face at the anchor point."""
+        return np.asarray(np.einsum("mna,mnd->mad", self._slopes, places))
+
+    def _base(self, tangents: FloatArray) -> FloatArray:
+        """(m, dimension, dimension) the tangents and what is normal to them, in columns."""
+        if tangents.shape[1] == 1:
+            return np.stack([tangents[:, 0], tangents[:, 0] @ _TURN.T], axis=2)
+        return np.stack([*tangents.transpose(1, 0, 2), np.cross(tangents[:, 0], tangents[:, 1])], axis=2)
+
+    def _normal_of(self, tangents: FloatArray) -> tuple[FloatArray, FloatArray]:
+        """v (m, dimension) and its derivatives (m, dimension, u)."""
+        parts, (m, _, dimension) = self._parts, self._shape
+        turned = np.einsum("mde,me->md", self._base(tangents), parts)
+        if dimension == 2:
+            by_tangent = parts[:, 0, None, None] * np.eye(2) + parts[:, 1, None, None] * _TURN
+            return turned, np.einsum("mn,mde->mdne", self._slopes[..., 0], by_tangent).reshape(m, 2, -1)
+        product = parts[:, 2, None, None, None]
+        cross = product * np.stack(
+            [
+                np.einsum("rpq,mq->mrp", _PRODUCT, tangents[:, 1]),
+                np.einsum("rpq,mp->mrq", _PRODUCT, tangents[:, 0]),
+            ],
+            axis=1,
+        )
+        by_tangents = parts[:, :2, None, None] * np.eye(3) + cross
+        return turned, np.einsum("mna,made->mdne", self._slopes, by_tangents).reshape(m, 3, -1)
