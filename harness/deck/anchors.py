@@ -50,7 +50,12 @@ class Anchors:
 
 
 def find_anchors(
-    points: FloatArray, looks: FloatArray, faces: Sequence[tuple[IntArray, FloatArray]], coordinates: FloatArray
+    points: FloatArray,
+    looks: FloatArray,
+    faces: Sequence[tuple[IntArray, FloatArray]],
+    coordinates: FloatArray,
+    *,
+    along: bool = False,
 ) -> Anchors:
     """Anchor points of nodes.
 
@@ -64,6 +69,8 @@ def find_anchors(
         Of each kind, lines, triangles or quadrilaterals: their nodes (f, corners), and outward unit normals (f, 3).
     coordinates
         (n, 3) of all nodes.
+    along
+        The anchor point is where the main surface is met along `looks`, with the opposite of these as the normal.
     """
     nodal = nodal_normals(faces, coordinates)
     width = max(nodes.shape[1] for nodes, _ in faces)
@@ -79,7 +86,8 @@ def find_anchors(
         step = max(1, CHUNK // len(nodes))
         for start in range(0, len(points), step):
             part = slice(start, start + step)
-            _improve(best, part, (points[part], looks[part]), nodes, coordinates[nodes], nodal[nodes])
+            given = points[part], looks[part]
+            _improve(best, part, given, nodes, coordinates[nodes], nodal[nodes], along=along)
     return best
 
 
@@ -101,6 +109,8 @@ def _improve(
     nodes: IntArray,
     corners: FloatArray,
     normals: FloatArray,
+    *,
+    along: bool,
 ) -> None:
     """Take over the anchor points on faces of one kind that are nearer than those so far."""
     points, looks = given
@@ -109,15 +119,17 @@ def _improve(
     distance = np.linalg.norm(points[:, None] - centres, axis=2) - sizes
     count = min(CANDIDATES, len(nodes))
     chosen = np.sort(np.argpartition(distance, count - 1, axis=1)[:, :count], axis=1)
-    place, clearance = _project(points[:, None], corners[chosen], normals[chosen])
-    weights = _shapes(place, nodes.shape[1])
-    normal = np.einsum("mck,mckd->mcd", weights, normals[chosen])
+    given_normals = np.broadcast_to(-looks[:, None, None], corners[chosen].shape) if along else normals[chosen]
+    place, clearance = _project(points[:, None], corners[chosen], given_normals)
+    weights = shape_functions(place, nodes.shape[1])
+    facing = np.einsum("mck,mckd,md->mc", weights, normals[chosen], looks) <= 0.0
+    normal = np.einsum("mck,mckd->mcd", weights, given_normals)
     length = np.linalg.norm(normal, axis=2)
     clearance = clearance * length
     gap = np.einsum("mck,mckd->mcd", weights, corners[chosen]) + clearance[..., None] * normal / length[..., None]
     size = sizes[chosen]
     hit = np.linalg.norm(points[:, None] - gap, axis=2) <= EDGE * size
-    hit &= (weights >= -EDGE).all(axis=2) & (np.einsum("mcd,md->mc", normal, looks) <= 0.0)
+    hit &= (weights >= -EDGE).all(axis=2) & facing
     distance = np.where(hit, np.abs(clearance), np.inf)
     nearest = distance.min(axis=1, keepdims=True)
     with np.errstate(invalid="ignore"):
@@ -133,7 +145,7 @@ def _improve(
     best.faces[target, :width] = nodes[chosen[rows, k]]
     best.weights[target] = 0.0
     best.weights[target, :width] = weights[rows, k]
-    slopes = _slopes(place, width)[rows, k]
+    slopes = natural_gradients(place, width)[rows, k]
     best.slopes[target] = 0.0
     best.slopes[target, :width, : slopes.shape[2]] = slopes
     best.normals[target] = (normal / length[..., None])[rows, k]
@@ -154,7 +166,7 @@ def _project(points: FloatArray, corners: FloatArray, normals: FloatArray) -> tu
     matrix[..., 2, 2] = 1.0
     size = np.linalg.norm(corners - corners.mean(axis=2, keepdims=True), axis=3).max(axis=2)
     for _ in range(STEPS):
-        shapes, slopes = _shapes(place, count), _slopes(place, count)
+        shapes, slopes = shape_functions(place, count), natural_gradients(place, count)
         normal = np.einsum("mck,mckd->mcd", shapes, normals)
         missing = points - np.einsum("mck,mckd->mcd", shapes, corners) - distance[..., None] * normal
         turned = corners + distance[..., None, None] * normals
@@ -171,7 +183,7 @@ def _project(points: FloatArray, corners: FloatArray, normals: FloatArray) -> tu
     return place, distance
 
 
-def _shapes(place: FloatArray, count: int) -> FloatArray:
+def shape_functions(place: FloatArray, count: int) -> FloatArray:
     """Shape functions (..., corners) of lines, triangles and quadrilaterals."""
     if count == 2:
         return 0.5 * np.stack([1 - place[..., 0], 1 + place[..., 0]], axis=-1)
@@ -181,7 +193,7 @@ def _shapes(place: FloatArray, count: int) -> FloatArray:
     return 0.25 * np.stack([(1 - x) * (1 - y), (1 + x) * (1 - y), (1 + x) * (1 + y), (1 - x) * (1 + y)], axis=-1)
 
 
-def _slopes(place: FloatArray, count: int) -> FloatArray:
+def natural_gradients(place: FloatArray, count: int) -> FloatArray:
     """Their derivatives (..., corners, 1 or 2) by the natural coordinates."""
     if count == 2:
         return np.broadcast_to(np.array([[-0.5], [0.5]]), (*place.shape[:-1], 2, 1))

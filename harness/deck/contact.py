@@ -1,14 +1,16 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""*CONTACT PAIR: nodes of a secondary surface against the faces of a main surface, in small sliding."""
+"""*CONTACT PAIR: a secondary surface, or its nodes, against the faces of a main surface, in small sliding."""
 
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, replace
 
 import numpy as np
 
-from harness.deck.anchors import Anchors, find_anchors, nodal_normals
+from harness.deck.anchors import EQUAL, Anchors, find_anchors, nodal_normals
+from harness.deck.averages import average
 from harness.deck.blocks import Block, Row
 from harness.deck.error_report import Problems
 from harness.deck.flatten import FlatMesh, Owner
@@ -17,7 +19,7 @@ from harness.deck.numbers import read_real
 from harness.deck.surfaces import Surfaces, tributary_areas
 from harness.deck.table import INPUT, Keyword, Kind, Option, Where, ignored, one_of, refused
 from harness.deck.user_elements import dofs_by_node
-from harness.errors import Source
+from harness.errors import DeckError
 from harness.model.arrays import FloatArray, IntArray
 from harness.model.contact import ContactPair
 from harness.model.element_types import LINE2, QUAD4, TRI3, ContinuumType, Family
@@ -26,6 +28,37 @@ from harness.model.properties import SolidSection
 from harness.model.steps import Step
 
 LINEAR_FACES = (LINE2, TRI3, QUAD4)
+
+
+@dataclass(frozen=True, slots=True)
+class _Side:
+    """A surface of m nodes.
+
+    faces    by their corners, with outward normals; none of a surface of nodes
+    normals  (m, 3) of the nodes, with areas (m,)
+    depth    factor from the length or area of faces to area, at all nodes of the model
+    size     mean length of a face
+    """
+
+    faces: list[tuple[IntArray, FloatArray]]
+    nodes: IntArray
+    normals: FloatArray
+    areas: FloatArray
+    depth: FloatArray
+    size: float
+
+
+@dataclass(frozen=True, slots=True)
+class _Points:
+    """The points of a pair, as in `ContactPair`, and which of them the main surface faces."""
+
+    found: np.ndarray
+    nodes: IntArray
+    shares: FloatArray
+    slopes: FloatArray
+    normals: FloatArray
+    clearances: FloatArray
+    areas: FloatArray
 
 
 class ContactReader:
@@ -56,11 +89,7 @@ class ContactReader:
         return tuple(found)
 
     def _read(self, block: Block, owner: Owner) -> Iterator[ContactPair]:
-        options = block.options
-        if options.text("TYPE") != "NODE TO SURFACE":
-            kind = options.text("TYPE")
-            raise block.error(f"TYPE={kind} is not supported; TYPE=NODE TO SURFACE with SMALL SLIDING is")
-        if not options.flag("SMALL SLIDING"):
+        if not block.options.flag("SMALL SLIDING"):
             raise block.error("finite sliding is not supported; SMALL SLIDING is")
         for row in block.rows():
             if row.blank(1):
@@ -73,64 +102,68 @@ class ContactReader:
         secondary, main = row.name(0, "secondary surface"), row.name(1, "main surface")
         if self._surfaces.of_nodes(main, row.source, owner.name) is not None:
             raise row.error(f"the main surface {main} is made of nodes; expected faces of elements")
-        facets, _, size = self._facets(main, row.source, owner)
-        nodes, looks, areas, own_size = self._secondary(secondary, row.source, owner, size)
-        shared = np.intersect1d(nodes, np.concatenate([faces.ravel() for faces, _ in facets]))
+        target = self._side(main, row, owner, None)
+        side = self._side(secondary, row, owner, target)
+        shared = np.intersect1d(side.nodes, target.nodes)
         if len(shared):
             name = self._flat.mesh.name(int(shared[0]))
             raise row.error(f"node {name} is on both surfaces, {secondary} and {main}")
-        anchors = find_anchors(self._points[nodes], looks, facets, self._points)
-        self._warn_beside(nodes[~anchors.found], secondary, main, row)
-        if not anchors.found.any():
+        anchors = find_anchors(self._points[side.nodes], side.normals, target.faces, self._points)
+        anchors = self._adjust(block, side.nodes, anchors, owner)
+        if block.options.text("TYPE") == "SURFACE TO SURFACE" and side.faces:
+            points = self._averages(side, target)
+        else:
+            points = _at_nodes(side, anchors)
+        here = points.found
+        self._warn_beside(side.nodes[~here], secondary, main, row)
+        if not here.any():
             raise row.error(f"no node of {secondary} faces {main}: normals of {main} go through none of them")
-        clearances = self._adjust(block, nodes, anchors, owner)
-        dimension = facets[0][0].shape[1] if facets[0][0].shape[1] == 2 else 3
-        here = anchors.found
-        slip = surface.elastic_slip or surface.slip_tolerance * own_size
+        dimension = 2 if target.faces[0][0].shape[1] == 2 else 3
         return ContactPair(
             name=f"({secondary},{main})",
             property=surface,
             source=row.source,
             dimension=dimension,
-            nodes=np.concatenate([nodes[here, None], anchors.faces[here]], axis=1),
-            weights=anchors.weights[here],
-            slopes=anchors.slopes[here, :, : dimension - 1],
-            normals=anchors.normals[here],
-            clearances=clearances[here],
-            areas=areas[here],
-            slip=slip,
+            nodes=points.nodes[here],
+            shares=points.shares[here],
+            slopes=points.slopes[here, :, : dimension - 1],
+            normals=points.normals[here],
+            clearances=points.clearances[here],
+            areas=points.areas[here],
+            slip=surface.elastic_slip or surface.slip_tolerance * side.size,
         )
 
-    def _facets(
-        self, name: str, source: Source, owner: Owner
-    ) -> tuple[list[tuple[IntArray, FloatArray]], FloatArray, float]:
-        """Faces of a surface by their corners, with outward normals; tributary areas of all nodes of the model; mean
-        length of a face.
-        """
+    def _side(self, name: str, row: Row, owner: Owner, main: _Side | None) -> _Side:
+        """A surface of a pair; main: the other one of a secondary surface, whose length one of nodes has."""
+        given = None if main is None else self._surfaces.of_nodes(name, row.source, owner.name)
+        if main is not None and given is not None:
+            return self._of_nodes(name, row, given, main.size)
         by_corners: dict[int, list[tuple[IntArray, FloatArray]]] = {}
-        areas, lengths = np.zeros(len(self._points)), [np.zeros(0)]
-        for group, rows, local, place in self._surfaces.facets(name, source, owner.name):
+        areas, depth, lengths = np.zeros(len(self._points)), np.zeros(len(self._points)), [np.zeros(0)]
+        for group, rows, local, place in self._surfaces.facets(name, row.source, owner.name):
             family = _face_family(group, local)
             if family is None:
                 kinds = ", ".join(f"those of {count} nodes" for count in (2, 3, 4))
                 message = f"faces of elements of type {group.type} are not supported in contact pairs"
-                raise Row("CONTACT PAIR", (), place).error(f"{message}; expected linear ones of solids: {kinds}")
+                raise DeckError(place, f"*CONTACT PAIR: {message}; expected linear ones of solids: {kinds}")
             nodes = group.nodes[rows]
             faces = nodes[:, list(local)]
             corners = self._points[faces]
             own = tributary_areas(family, corners)
-            length = own.sum(axis=1) if family is LINE2 else np.sqrt(own.sum(axis=1))
-            lengths.append(length)
-            np.add.at(areas, faces, own * self._depth(group, faces))
+            lengths.append(own.sum(axis=1) if family is LINE2 else np.sqrt(own.sum(axis=1)))
+            depth[faces] = self._depth(group, faces)
+            np.add.at(areas, faces, own * depth[faces])
             outward = _outward(corners, self._points[nodes].mean(axis=1))
             by_corners.setdefault(family.corners, []).append((faces, outward))
         if not by_corners:
-            raise Row("CONTACT PAIR", (), source).error(f"surface {name} has no faces")
-        facets = [
+            raise row.error(f"surface {name} has no faces")
+        all_faces = [
             (np.concatenate([faces for faces, _ in parts]), np.concatenate([normals for _, normals in parts]))
             for parts in by_corners.values()
         ]
-        return facets, areas, float(np.concatenate(lengths).mean())
+        nodes = np.unique(np.concatenate([faces.ravel() for faces, _ in all_faces]))
+        normals = nodal_normals(all_faces, self._points)[nodes]
+        return _Side(all_faces, nodes, normals, areas[nodes], depth, float(np.concatenate(lengths).mean()))
 
     def _depth(self, group: ElementGroup, faces: IntArray) -> FloatArray:
         """Thickness at the nodes of faces (f, n); about an axis, the circumference."""
@@ -141,17 +174,7 @@ class ContactReader:
             return np.asarray(2 * np.pi * self._points[faces, 0])
         return np.full(faces.shape, section.thickness if kind.dimension == 2 else 1.0)
 
-    def _secondary(
-        self, name: str, source: Source, owner: Owner, size: float
-    ) -> tuple[IntArray, FloatArray, FloatArray, float]:
-        """Nodes of the secondary surface, ascending, their normals and areas, and the length of its faces. A surface of
-        nodes has no normals, and the length of those of the main surface.
-        """
-        given = self._surfaces.of_nodes(name, source, owner.name)
-        if given is None:
-            facets, areas, size = self._facets(name, source, owner)
-            nodes = np.unique(np.concatenate([faces.ravel() for faces, _ in facets]))
-            return nodes, nodal_normals(facets, self._points)[nodes], areas[nodes], size
+    def _of_nodes(self, name: str, row: Row, given: list[tuple[IntArray, float]], size: float) -> _Side:
         areas = np.zeros(len(self._points))
         for nodes, area in given:
             areas[nodes] = area
@@ -159,11 +182,16 @@ class ContactReader:
         active = dofs_by_node(len(self._points), self._groups)
         for node in nodes.tolist():
             if not active[node] >= {1, 2}:
-                message = (
-                    f"node {self._flat.mesh.name(node)} of surface {name} belongs to no element with displacements"
-                )
-                raise Row("CONTACT PAIR", (), source).error(message)
-        return nodes, np.zeros((len(nodes), 3)), areas[nodes], size
+                label = self._flat.mesh.name(node)
+                raise row.error(f"node {label} of surface {name} belongs to no element with displacements")
+        return _Side([], nodes, np.zeros((len(nodes), 3)), areas[nodes], areas, size)
+
+    def _averages(self, side: _Side, target: _Side) -> _Points:
+        found, areas = average(side.faces, target.faces, side.depth, self._points)
+        apart = np.einsum("mn,mnd->md", found.shares, self._points[found.nodes])
+        clearances = np.einsum("md,md->m", apart, found.normals)
+        clearances[np.abs(clearances) <= EQUAL * side.size] = 0.0
+        return _Points(found.found, found.nodes, found.shares, found.slopes, found.normals, clearances, areas)
 
     def _warn_beside(self, nodes: IntArray, secondary: str, main: str, row: Row) -> None:
         if len(nodes):
@@ -172,11 +200,11 @@ class ContactReader:
             message = f"node {name}{others} of {secondary} will not touch {main}: no normal of {main} goes through it"
             self._problems.warn(row.source, f"*CONTACT PAIR: {message}")
 
-    def _adjust(self, block: Block, nodes: IntArray, anchors: Anchors, owner: Owner) -> FloatArray:
-        """Clearances after ADJUST: of nodes that it moves onto the main surface, zero."""
+    def _adjust(self, block: Block, nodes: IntArray, anchors: Anchors, owner: Owner) -> Anchors:
+        """Anchor points after ADJUST: the clearances of nodes that it moves onto the main surface are zero."""
         options = block.options
         if not options.given("ADJUST"):
-            return anchors.clearances
+            return anchors
         text = options.text("ADJUST")
         try:
             depth = read_real(text)
@@ -188,7 +216,21 @@ class ContactReader:
             chosen = anchors.clearances <= depth
         chosen &= anchors.found & (anchors.clearances != 0.0)
         self._points[nodes[chosen]] -= (anchors.clearances[:, None] * anchors.normals)[chosen]
-        return np.where(chosen, 0.0, anchors.clearances)
+        return replace(anchors, clearances=np.where(chosen, 0.0, anchors.clearances))
+
+
+def _at_nodes(side: _Side, anchors: Anchors) -> _Points:
+    """Points of node to surface contact."""
+    count = len(side.nodes)
+    return _Points(
+        anchors.found,
+        np.concatenate([side.nodes[:, None], anchors.faces], axis=1),
+        np.concatenate([np.ones((count, 1)), -anchors.weights], axis=1),
+        np.concatenate([np.zeros((count, 1, 2)), anchors.slopes], axis=1),
+        anchors.normals,
+        anchors.clearances,
+        side.areas,
+    )
 
 
 def check_contact(pairs: Sequence[ContactPair], steps: Sequence[Step], problems: Problems) -> None:
@@ -240,7 +282,7 @@ KEYWORDS = (
             Option("INTERACTION", Kind.NAME, "surface interaction", required=True),
             one_of(
                 "TYPE",
-                "discretisation; SURFACE TO SURFACE is refused where it is read",
+                "discretisation; against a surface of nodes it is always NODE TO SURFACE",
                 ("NODE TO SURFACE", "SURFACE TO SURFACE"),
                 default="NODE TO SURFACE",
             ),

@@ -49,13 +49,10 @@ class Kinematics:
     def __init__(self, pair: ContactPair, coordinates: FloatArray) -> None:
         """Coordinates (nodes, 3) are those of all nodes of the model."""
         dimension = pair.dimension
-        m, n = pair.nodes.shape
-        self._shape = m, n, dimension
+        self._shape = *pair.nodes.shape, dimension
         self._clearances = pair.clearances
         self._places = coordinates[pair.nodes][:, :, :dimension]
-        # of all nodes: their parts in d and, along each natural coordinate, in the tangents of the face
-        self._shares = np.concatenate([np.ones((m, 1)), -pair.weights], axis=1)
-        self._slopes = np.concatenate([np.zeros((m, 1, dimension - 1)), pair.slopes], axis=1)
+        self._shares, self._slopes = pair.shares, pair.slopes
         self._normals = pair.normals[:, :dimension]
         self._parts = np.linalg.solve(self._base(self._tangents_of(self._places)), self._normals[..., None])[..., 0]
 

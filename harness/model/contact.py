@@ -39,14 +39,15 @@ class ContactProperty:
 
 @dataclass(frozen=True, slots=True)
 class ContactPair:
-    """*CONTACT PAIR, TYPE=NODE TO SURFACE, SMALL SLIDING: a point at each secondary node that faces the main surface.
+    """*CONTACT PAIR, SMALL SLIDING: a point at each secondary node that faces the main surface.
+
+    The clearance of a point is its normal times the sum of the shares of its nodes, each times the place of the node.
 
     name        both surfaces, '(SECONDARY,MAIN)'
     dimension   displacements of a node: 2 or 3
-    nodes       (m, 1 + k) secondary node, then the nodes of its face of the main surface; a face with fewer than k
-                nodes repeats its first one
-    weights     (m, k) of these nodes in the displacement of the anchor point; those of repeated ones are zero
-    slopes      (m, k, 1 or 2) derivatives of the weights along the natural coordinates of the face
+    nodes       (m, n) secondary node, then the others; a point with fewer than n repeats one
+    shares      (m, n) of these nodes; their sum is zero
+    slopes      (m, n, 1 or 2) shares of the nodes in the tangents of the surface with which the normal turns
     normals     (m, 3) unit vectors from the main surface towards the secondary node
     clearances  (m,) at the start, negative where the surfaces overlap
     areas       (m,) of the secondary surface that belong to the nodes
@@ -58,7 +59,7 @@ class ContactPair:
     source: Source
     dimension: int
     nodes: IntArray
-    weights: FloatArray
+    shares: FloatArray
     slopes: FloatArray
     normals: FloatArray
     clearances: FloatArray

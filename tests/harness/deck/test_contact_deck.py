@@ -64,10 +64,10 @@ def test_pair(read):
     np.testing.assert_allclose(pair.clearances, 0.1)
     np.testing.assert_allclose(pair.normals, [[0, 1, 0]] * 2, atol=1e-15)
     np.testing.assert_allclose(pair.areas, 2.0 / 2)
-    # the weights make the anchor points, which are opposite the nodes
-    for row, weights, x in zip(pair.nodes, pair.weights, (0.0, 1.0), strict=True):
+    # the shares make the anchor points, which are opposite the nodes
+    for row, shares, x in zip(pair.nodes, pair.shares, (0.0, 1.0), strict=True):
         places = read(DECK).mesh.coordinates[row[1:]]
-        np.testing.assert_allclose(weights @ places, [x, 1, 0], atol=1e-15)
+        np.testing.assert_allclose(-shares[1:] @ places, [x, 1, 0], atol=1e-15)
     assert pair.slip == pytest.approx(0.005)
 
 
@@ -129,11 +129,6 @@ def test_convert_sdi_goes_on(read):
 @pytest.mark.parametrize(
     "mistake",
     [
-        (
-            "SMALL SLIDING",
-            "SMALL SLIDING, TYPE=SURFACE TO SURFACE",
-            "35: TYPE=SURFACE TO SURFACE is not supported; TYPE=NODE",
-        ),
         (", SMALL SLIDING", "", "35: finite sliding is not supported; SMALL SLIDING is"),
         (", SMALL SLIDING", ", SMALL SLIDING, TIED", "35: .*option TIED is not supported"),
         ("SEC, MAIN", "SEC", "36: expected the secondary and the main surface; contact with itself is not supported"),
@@ -252,3 +247,36 @@ def test_faces_that_look_away(read):
     """Of both sides of the lower body the nodes face the upper one alone, though the other one is there too."""
     (pair,) = read(DECK.replace("LOW, S3", "LOW, S1\nLOW, S3")).contacts
     np.testing.assert_allclose(pair.clearances, 0.1)
+
+
+# ------------------------------------------------------------ surface to surface
+
+
+def test_mean_clearances(read):
+    """Two faces on one that covers the first and a half of the second: shares and areas are those of what is covered.
+
+    With s along the faces, the node in the middle has the weight s up to 1 and 2 - s up to 1.5: area 1/2 + 3/8, times
+    the thickness 2; the last one s - 1 up to 1.5: 1/8. The upper side of the lower body falls from 1 to 0.7.
+    """
+    text = DECK.replace("SMALL SLIDING", "SMALL SLIDING, TYPE=SURFACE TO SURFACE")
+    text = text.replace("2, 1., 0.\n3, 1., 1.", "2, 1.5, 0.\n3, 1.5, 0.7").replace(
+        "*ELEMENT, TYPE=CPE4, ELSET=LOW", "15, 2., 1.1\n16, 2., 2.\n*ELEMENT, TYPE=CPE4, ELSET=LOW"
+    )
+    model = read(text.replace("2, 11, 12, 13, 14", "2, 11, 12, 13, 14\n3, 12, 15, 16, 13"))
+    (pair,) = model.contacts
+    np.testing.assert_array_equal(model.mesh.labels[pair.nodes[:, 0]], [11, 12, 15])
+    np.testing.assert_allclose(pair.areas, [2 / 2, 2 * 7 / 8, 2 / 8], rtol=1e-9)
+    np.testing.assert_allclose(pair.shares.sum(axis=1), 0.0, atol=1e-12)
+    np.testing.assert_allclose(pair.normals, [[0, 1, 0]] * 3, atol=1e-15)
+    # first moments of s over the areas
+    places = model.mesh.coordinates[pair.nodes]
+    means = np.array([(1 / 6) / (1 / 2), (1 / 3 + 11 / 24) / (7 / 8), (1 / 6) / (1 / 8)])
+    np.testing.assert_allclose(pair.clearances, 0.1 + 0.2 * means, rtol=1e-9)
+    np.testing.assert_allclose(np.einsum("mn,mn->m", pair.shares, places[..., 1]), pair.clearances, atol=1e-12)
+
+
+def test_surface_of_nodes_is_always_node_to_surface(read):
+    text = DECK.replace("SEC, MAIN", "POINTS, MAIN")
+    (pair,) = read(text.replace("SMALL SLIDING", "SMALL SLIDING, TYPE=SURFACE TO SURFACE")).contacts
+    (other,) = read(text).contacts
+    np.testing.assert_array_equal(pair.shares, other.shares)
