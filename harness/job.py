@@ -19,7 +19,7 @@ from harness.elements.process_zone import LongElements
 from harness.elements.threads import MOST_THREADS, known_routines, refuse_shared_stress, use_threads
 from harness.errors import ConvergenceError, ElementError, UelError, UsageError, in_words, note_warnings
 from harness.interrupts import held, settle
-from harness.job_on_ranks import files_of_job, messages_of, refuse_linear_steps
+from harness.job_on_ranks import files_of_job, messages_of, refuse_unshared
 from harness.job_restart import decks_of, find_state, refuse_nothing_left, refuse_on_ranks
 from harness.model.model import Model
 from harness.model.records import AttemptEnded, IncrementDone, ModeShape, Record, StepDone
@@ -137,7 +137,8 @@ def run(
         refuse_nothing_left(model, resumed, oldjob)
         decks = ranks.agree(lambda: decks_of(model, parameters, parts))
         if ranks.size > 1:
-            refuse_linear_steps(model, ranks)
+            refuse_unshared(model, ranks)
+        _refuse_with_contact(model, {"--fallback": fallback, "--control energy": energy_control})
         types = _linear_types(model, linear)
         safe = _safe_routines(model, thread_safe)
         usersub.limit_calls(call_limit)
@@ -177,6 +178,14 @@ def _assemble(
     if cpus > 1:
         use_threads(system.blocks, library, cpus, safe)
     return system
+
+
+def _refuse_with_contact(model: Model, options: Mapping[str, bool]) -> None:
+    """Raise UsageError for options of the run that contact does not take."""
+    for pair in model.contacts:
+        for name, given in options.items():
+            if given:
+                raise UsageError(f"{name}: not supported with *CONTACT PAIR ({pair.source})")
 
 
 def _safe_routines(model: Model, given: Collection[str]) -> frozenset[str]:
@@ -265,7 +274,9 @@ def _analyse(
             error.add_note(far)
         error.add_note(f"{output.job} ended {output.reached}; what was written is readable")
         if isinstance(error, ConvergenceError):
-            error.add_note(_advice(str(error), fallback=fallback, energy_control=energy_control))
+            # contact takes neither of the two
+            taken = {"fallback": True, "energy_control": True} if model.contacts else {}
+            error.add_note(_advice(str(error), **{"fallback": fallback, "energy_control": energy_control} | taken))
         raise
 
 

@@ -17,8 +17,11 @@ from harness.parallel.ranks import FAILURES, Ranks
 from harness.usersub import Library, Message
 
 
-def refuse_linear_steps(model: Model, ranks: Ranks) -> None:
-    """Raise DeckError for linear perturbation steps, whose matrices are not shared out."""
+def refuse_unshared(model: Model, ranks: Ranks) -> None:
+    """Raise DeckError for contact, and for linear perturbation steps, whose matrices are not shared out."""
+    for pair in model.contacts:
+        message = f"*CONTACT PAIR does not run on {ranks.size} ranks; run this deck in one process"
+        raise DeckError(pair.source, message)
     for step in model.steps:
         if step.procedure.linear:
             raise DeckError(

@@ -27,7 +27,7 @@ from harness.elements import (
     Motion,
     Request,
 )
-from harness.errors import ElementError, UsageError
+from harness.errors import ElementError
 from harness.model.arrays import ComplexArray, FloatArray, IntArray
 from harness.model.contact import ContactChanges
 from harness.model.mesh import Mesh
@@ -97,14 +97,10 @@ class System:
     ) -> None:
         """Blocks of a model with this mesh, these constraints and contact pairs, of which this rank keeps a part.
 
-        spare_linear: do not call linear elements again. Raises UsageError if several ranks cannot share the elements,
-        or if there is contact.
+        spare_linear: do not call linear elements again. Raises UsageError if several ranks cannot share the elements.
         """
         self.ranks = ranks
         self.contacts = tuple(contacts)
-        if self.contacts and ranks.size > 1:
-            place = self.contacts[0].pair.source
-            raise UsageError(f"{place}: *CONTACT PAIR is not supported in a job of several processes; run one")
         self.blocks = tuple(block for block in blocks if not isinstance(block, LOADED))
         self.loaded = tuple(block for block in blocks if isinstance(block, LOADED))
         self.dofs = DofMap.build(mesh, (*self.blocks, *self.contacts), equations)

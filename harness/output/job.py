@@ -47,6 +47,8 @@ from harness.output.progress import ProgressDisplay
 from harness.output.sta_file import StatusFile, StatusRow
 from harness.output.state_files import StateFiles
 
+PENETRATION, FORCE_ERROR = "penetration", "contact force error"
+
 
 class JobOutput:
     """Writes NAME.sta, .msg, .dat, _history.csv, _interface.csv, .pvd with its .vtu files, _restart; shows progress.
@@ -177,9 +179,9 @@ class JobOutput:
     def unbalanced(self) -> list[str]:
         """Where the last iteration was farthest from convergence, a sentence for each field that it did not accept."""
         failed = [
-            ("penetration" if check.field == CONTACT else f"residual {check.field}", check.residual)
+            (PENETRATION if check.field == CONTACT else f"residual {check.field}", check.residual)
             if check.verdict is Convergence.NOT_ACHIEVED
-            else ("correction", check.correction)
+            else (FORCE_ERROR if check.field == CONTACT else "correction", check.correction)
             for check in self._checks
             if not check.verdict.accepted
         ]

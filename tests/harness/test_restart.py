@@ -11,6 +11,8 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from contact_decks import plane, two_boxes
+from contact_decks import step as contact_step
 
 import harness
 from harness.cli import main
@@ -90,7 +92,23 @@ STEPS = beam(
 )
 DELAMINATION = DCB.read_text().replace("*STEP", "*RESTART, WRITE\n*STEP", 1).replace("INPUT=", f"INPUT={DCB.parent}/")
 DELAMINATION = re.sub(r"(\*STATIC.*\n).*", r"\g<1>0.03, 0.15", DELAMINATION)
-DECKS = {"dynamic": DYNAMIC, "rubber": RUBBER, "heat": HEAT, "umat": UMAT, "steps": STEPS, "delamination": DELAMINATION}
+CONTACT = two_boxes(
+    *plane(0.01, upper=3),
+    [
+        "*RESTART, WRITE",
+        "*BOUNDARY\nLOWER_BOTTOM, 1, 2\nUPPER_TOP, 1",
+        contact_step("0.3, 1., 1e-5, 0.3", "*BOUNDARY\nUPPER_TOP, 2, 2, -0.03", options=", NLGEOM").replace(
+            "*OUTPUT, FIELD", ""
+        ),
+        contact_step("0.2, 1., 1e-5, 0.2", "*BOUNDARY\nUPPER_TOP, 1, 1, 0.05").replace("*OUTPUT, FIELD", ""),
+    ],
+    pair="SMALL SLIDING, TYPE=SURFACE TO SURFACE",
+    behavior="*FRICTION\n0.3,",
+)
+DECKS = {
+    **{"dynamic": DYNAMIC, "rubber": RUBBER, "heat": HEAT, "umat": UMAT, "steps": STEPS, "delamination": DELAMINATION},
+    "contact": CONTACT,
+}
 
 
 @pytest.fixture

@@ -5,6 +5,7 @@
 import re
 from dataclasses import replace
 from pathlib import Path
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -14,7 +15,8 @@ import harness
 from harness.deck import read_deck
 from harness.elements import ContactBlock, Flags, Request
 from harness.elements.contact import OPEN, STICKING
-from harness.errors import ConvergenceError, Source
+from harness.errors import ConvergenceError, DeckError, Source, UsageError
+from harness.job_on_ranks import refuse_unshared
 from harness.model.contact import ContactPair, ContactProperty
 from harness.model.mesh import ElementGroup, Mesh
 from harness.model.model import Model
@@ -250,6 +252,30 @@ def test_severe_discontinuity_iterations_in_the_files(run):
         "   1 ARE SEVERE DISCONTINUITY ITERATIONS AND  1 ARE EQUILIBRIUM ITERATIONS.",
     ):
         assert words in text
+
+
+def test_what_the_run_refuses(run, tmp_path):
+    text = two_boxes(*plane(), [HELD, pressed(0.02)])
+    for option, name in (("fallback", "--fallback"), ("energy_control", "--control energy")):
+        with pytest.raises(UsageError, match=rf"{name}: not supported with \*CONTACT PAIR \(.*deck\.inp:\d+\)"):
+            run(text, **{option: True})
+    with pytest.raises(DeckError, match=r"deck\.inp:\d+: \*CONTACT PAIR does not run on 2 ranks; run this deck in one"):
+        refuse_unshared(read_deck(tmp_path / "deck.inp"), SimpleNamespace(size=2))
+
+
+def test_error_says_where_contact_has_not_converged(run):
+    """One severe discontinuity iteration is allowed, and that of the first increment is not enough."""
+    few = "*CONTROLS, PARAMETERS=TIME INCREMENTATION\n, , , , , , , , , , 1"
+    steps = [HELD, step("1., 1., 1., 1.", few, "*BOUNDARY\nUPPER_TOP, 2, 2, -0.02")]
+    for behavior, message in (
+        ("", r"penetration -0\.01 at node 1001 of contact pair \(UPPER_LOW,LOWER_HIGH\)"),
+        ("*SURFACE BEHAVIOR, PENALTY\n1e5", r"contact force error 1500 at node 1003 of contact pair"),
+    ):
+        with pytest.raises(ConvergenceError) as caught:
+            run(two_boxes(*plane(gap=0.01), steps, behavior=behavior))
+        notes = "\n".join(caught.value.__notes__)
+        assert re.search(f"last iteration: largest {message}", notes)
+        assert "--fallback" not in notes
 
 
 # ------------------------------------------------------------ friction
