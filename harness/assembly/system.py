@@ -374,6 +374,29 @@ class System:
             return tuple(state for _, state in own)
         return tuple(map(_joined, zip(*self.ranks.collect(own), strict=True)))
 
+    def contact_fields(self) -> dict[str, FloatArray]:
+        """Contact variables (nodes,) by Abaqus name at the end of the increment, NaN at nodes that are in no point.
+
+        A node of several pairs has those of the one where its clearance is smallest.
+        """
+        if not self.contacts:
+            return {}
+        nodes = np.concatenate([block.pair.nodes[:, 0] for block in self.contacts])
+        clearance, pressure = (np.concatenate([block.output[k] for block in self.contacts]) for k in range(2))
+        # directions of friction: one in the plane
+        shear = np.concatenate([np.pad(block.output[2], ((0, 0), (0, 2)))[:, :2] for block in self.contacts])
+        order = np.argsort(-clearance, kind="stable")
+        found = {}
+        for name, values in (
+            ("COPEN", clearance),
+            ("CPRESS", pressure),
+            ("CSHEAR1", shear[:, 0]),
+            ("CSHEAR2", shear[:, 1]),
+        ):
+            found[name] = np.full(len(self.dofs.mesh.labels), np.nan)
+            found[name][nodes[order]] = values[order]
+        return found
+
     def kept(self) -> Saved:
         """Committed states of all elements and of loads on their faces, not copied. Raises KernelError."""
         self._linear.bring_up()

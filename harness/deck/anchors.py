@@ -132,9 +132,8 @@ def _improve(
     hit &= (weights >= -EDGE).all(axis=2) & facing
     distance = np.where(hit, np.abs(clearance), np.inf)
     nearest = distance.min(axis=1, keepdims=True)
-    with np.errstate(invalid="ignore"):
-        # of faces that are as near, the first one, whatever rounding says
-        k = np.argmax(distance <= nearest + EQUAL * size, axis=1)
+    # of faces that are as near, the first one, whatever rounding says
+    k = np.argmax(distance <= nearest + EQUAL * size, axis=1)
     rows = np.arange(len(points))
     better = hit[rows, k] & (nearest[:, 0] < np.abs(best.clearances[part]))
     rows, k = rows[better], k[better]

@@ -23,7 +23,7 @@ from harness.errors import DeckError
 from harness.model.arrays import FloatArray, IntArray
 from harness.model.contact import ContactPair
 from harness.model.element_types import LINE2, QUAD4, TRI3, ContinuumType, Family
-from harness.model.mesh import ElementGroup
+from harness.model.mesh import ElementGroup, full_name
 from harness.model.properties import SolidSection
 from harness.model.steps import Step
 
@@ -119,6 +119,7 @@ class ContactReader:
         if not here.any():
             raise row.error(f"no node of {secondary} faces {main}: normals of {main} go through none of them")
         dimension = 2 if target.faces[0][0].shape[1] == 2 else 3
+        self._check_planes(points, dimension, row)
         return ContactPair(
             name=f"({secondary},{main})",
             property=surface,
@@ -149,11 +150,20 @@ class ContactReader:
             nodes = group.nodes[rows]
             faces = nodes[:, list(local)]
             corners = self._points[faces]
-            own = tributary_areas(family, corners)
+            with np.errstate(over="ignore", invalid="ignore"):
+                own, outward = tributary_areas(family, corners), _outward(corners, self._points[nodes].mean(axis=1))
+                size = np.linalg.norm(outward, axis=1)
+                flat = ~(np.isfinite(own).all(axis=1) & np.isfinite(size) & (own.sum(axis=1) > 0.0) & (size > 0.0))
+            if flat.any():
+                label = full_name(group.instance, int(group.labels[rows[flat][0]]))
+                raise DeckError(place, f"*CONTACT PAIR: the face of element {label} in surface {name} has no area")
             lengths.append(own.sum(axis=1) if family is LINE2 else np.sqrt(own.sum(axis=1)))
-            depth[faces] = self._depth(group, faces)
-            np.add.at(areas, faces, own * depth[faces])
-            outward = _outward(corners, self._points[nodes].mean(axis=1))
+            depth[faces] = across = self._depth(group, faces)
+            if family is LINE2:
+                # the integral of a shape function, over the radius too
+                across = (across + across.sum(axis=1, keepdims=True)) / 3.0
+            np.add.at(areas, faces, own * across)
+            outward /= size[:, None]
             by_corners.setdefault(family.corners, []).append((faces, outward))
         if not by_corners:
             raise row.error(f"surface {name} has no faces")
@@ -192,6 +202,19 @@ class ContactReader:
         clearances = np.einsum("md,md->m", apart, found.normals)
         clearances[np.abs(clearances) <= EQUAL * side.size] = 0.0
         return _Points(found.found, found.nodes, found.shares, found.slopes, found.normals, clearances, areas)
+
+    def _check_planes(self, points: _Points, dimension: int, row: Row) -> None:
+        """Raise DeckError where the surface with which a normal turns has no tangent plane."""
+        places = self._points[points.nodes]
+        along = np.einsum("mna,mnd->mad", points.slopes[..., : dimension - 1], places)
+        area = np.linalg.norm(np.cross(along[:, 0], along[:, 1]) if dimension == 3 else along[:, 0], axis=1)
+        size = np.linalg.norm(along, axis=2).max(axis=1) ** (dimension - 1)
+        wrong = points.found & ~(area > EQUAL * size)
+        if wrong.any():
+            label = self._flat.mesh.name(int(points.nodes[wrong][0, 0]))
+            raise row.error(
+                f"the surface has no tangent plane for node {label}; faces with coincident corners cannot touch"
+            )
 
     def _warn_beside(self, nodes: IntArray, secondary: str, main: str, row: Row) -> None:
         if len(nodes):
@@ -258,7 +281,7 @@ def _face_family(group: ElementGroup, local: tuple[int, ...]) -> Family | None:
 
 
 def _outward(corners: FloatArray, centres: FloatArray) -> FloatArray:
-    """Unit normals (f, 3) of faces (f, corners, 3) that point away from the centres (f, 3) of their elements."""
+    """Normals (f, 3) of faces (f, corners, 3) that point away from the centres (f, 3) of their elements."""
     if corners.shape[1] == 2:
         along = corners[:, 1] - corners[:, 0]
         normals = np.stack([along[:, 1], -along[:, 0], np.zeros(len(along))], axis=1)
@@ -266,7 +289,6 @@ def _outward(corners: FloatArray, centres: FloatArray) -> FloatArray:
         # the diagonals of a quadrilateral, two edges of a triangle
         last = corners.shape[1] - 1
         normals = np.cross(corners[:, 2] - corners[:, 0], corners[:, last] - corners[:, 1])
-    normals /= np.linalg.norm(normals, axis=1)[:, None]
     inward = np.einsum("fd,fd->f", normals, corners.mean(axis=1) - centres) < 0.0
     return np.where(inward[:, None], -normals, normals)
 

@@ -110,6 +110,9 @@ class Surfaces:
         if block.options.text("TYPE") != "NODE":
             return None
         rows = list(block.rows())
+        for row in rows:
+            if not row.real(1, "area", 1.0) > 0.0:
+                raise row.error(f"area {row.real(1, 'area'):g} must be positive")
         return [(self._flat.nodes(row.name(0, "set"), row.source, place), row.real(1, "area", 1.0)) for row in rows]
 
     def by_group(self, elements: IntArray) -> Iterator[tuple[ElementGroup, IntArray]]:

@@ -70,6 +70,7 @@ class ContactBlock:
         self._before, self._iteration = self._status, 0
         self._scale = 0.0
         self._nlgeom = False
+        self._output = (pair.clearances, np.zeros(m), np.zeros(self._slip.shape))
         self._penetration = self._force = np.zeros(m)
         self._equations = self._scatter = np.zeros((m, 0), dtype=np.int32)
 
@@ -122,6 +123,7 @@ class ContactBlock:
             after = np.where(closed, np.where(friction.slips, SLIPPING, STICKING), OPEN)
             self._status_trial = before if call.iteration == 0 else after
             self._slip_trial, self._force = friction.elastic, multiplier
+            self._output = (clearance, force, friction.force)
             missed = closed & self.direct & (np.abs(clearance) > small)
             self._penetration = np.where(missed, clearance, 0.0)
             self._moved, self._nlgeom = moved, call.flags.nlgeom
@@ -205,6 +207,12 @@ class ContactBlock:
     def _largest(self, values: FloatArray) -> tuple[float, int]:
         worst = int(first_largest(np.abs(values)))
         return float(values[worst]), int(self.pair.nodes[worst, 0])
+
+    @property
+    def output(self) -> tuple[FloatArray, FloatArray, FloatArray]:
+        """Clearances (m,), pressures (m,) and friction stresses (m, directions) after the last iteration."""
+        clearance, force, friction = self._output
+        return clearance, force / self.pair.areas, friction / self.pair.areas[:, None]
 
     def commit(self) -> None:
         """End of a converged increment."""

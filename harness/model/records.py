@@ -319,6 +319,7 @@ class Solution:
                       ETOTAL
     elements          a state for each block; read it before the next increment ends
     imaginary         the imaginary part of a harmonic response, of which this is the real one
+    contact           (nodes,) contact variables by Abaqus name, NaN at nodes that are in no contact pair
     """
 
     node: IntArray
@@ -331,3 +332,4 @@ class Solution:
     velocity: FloatArray = field(default_factory=lambda: np.zeros(0))
     acceleration: FloatArray = field(default_factory=lambda: np.zeros(0))
     imaginary: Solution | None = None
+    contact: dict[str, FloatArray] = field(default_factory=dict)

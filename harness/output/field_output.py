@@ -2,7 +2,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Field output: a .vtu file per increment in the folder NAME_vtu, and NAME.pvd that lists them over total time.
 
-Point data: U and RF (three components), NODE (label), and one array for each other dof there is (UR1, NT11, ...).
+Point data: U and RF (three components), NODE (label), and one array for each other dof there is (UR1, NT11, ...). With
+contact also COPEN, CPRESS, CSHEAR1 and CSHEAR2, which are NaN at nodes that are in no secondary surface.
 Cell data: ELEMENT (label) and the variables that our elements keep, as means over the integration points of the cell.
 Continuum and interface are in one file. A variable that a cell does not have is NaN there. For a harmonic response
 these are the real parts; the imaginary ones are arrays whose names end with _imaginary.
@@ -115,7 +116,7 @@ class FieldFiles:
         )
 
     def _point_values(self, solution: Solution) -> dict[str, FloatArray]:
-        values = {array.name: array.values(solution) for array in self._nodal}
+        values = {array.name: array.values(solution) for array in self._nodal} | solution.contact
         return values | (_imaginary(self._point_values(solution.imaginary)) if solution.imaginary else {})
 
     def _cell_values(self, solution: Solution) -> dict[str, list[FloatArray]]:

@@ -159,6 +159,7 @@ class ConvergedState:
             acceleration=self.acceleration,
             energies=self._energies(),
             elements=system.states(),
+            contact=system.contact_fields(),
         )
 
     def _energies(self) -> dict[str, float]:

@@ -108,6 +108,58 @@ def test_nodes_without_elements(read):
         read(text)
 
 
+def test_faces_without_area(read):
+    text = DECK.replace("3, 1., 1.", "3, 0., 1.")
+    with pytest.raises(DeckError, match=r"deck\.inp:24: .*the face of element 1 in surface MAIN has no area"):
+        read(text)
+
+
+BRICKS = """\
+*NODE
+1, 0., 0., 0.
+2, 1., 0., 0.
+3, 1., 1., 0.
+4, 0., 1., 0.
+5, 0., 0., 1.
+6, 1., 0., 1.
+7, 1., 1., 1.
+8, 1., 1., 1.
+11, 1., 1., 1.1
+12, 1., 1., 3.
+*ELEMENT, TYPE=C3D8, ELSET=LOW
+1, 1, 2, 3, 4, 5, 6, 7, 8
+*ELEMENT, TYPE=T3D2, ELSET=BAR
+2, 11, 12
+*MATERIAL, NAME=M
+*ELASTIC
+1000., 0.3
+*SOLID SECTION, ELSET=LOW, MATERIAL=M
+*SOLID SECTION, ELSET=BAR, MATERIAL=M
+1.
+*SURFACE, NAME=MAIN
+LOW, S2
+*SURFACE, NAME=POINTS, TYPE=NODE
+11,
+*SURFACE INTERACTION, NAME=TOUCH
+*CONTACT PAIR, INTERACTION=TOUCH, SMALL SLIDING
+POINTS, MAIN
+*STEP
+*STATIC
+*END STEP
+"""
+
+
+def test_faces_with_coincident_corners(read):
+    """A node above the corner of a quadrilateral where two of its nodes are in the same place."""
+    with pytest.raises(DeckError, match=r"deck\.inp:28: .*no tangent plane for node 11; faces with coincident corners"):
+        read(BRICKS)
+
+
+def test_area_of_a_node(read):
+    with pytest.raises(DeckError, match=r"deck\.inp:28: \*SURFACE: area -0.5 must be positive"):
+        read(DECK.replace("11, 0.5", "11, -0.5").replace("SEC, MAIN", "POINTS, MAIN"))
+
+
 def test_nodes_beside_the_main_surface_are_left_out_with_a_warning(read):
     model = read(DECK.replace("12, 1., 1.1", "12, 1.5, 1.1"))
     np.testing.assert_array_equal(model.contacts[0].nodes[:, 0], [4])

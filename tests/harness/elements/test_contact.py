@@ -141,6 +141,33 @@ def test_adjust_moves_nodes_that_are_near(tmp_path):
         np.testing.assert_allclose(model.contacts[0].clearances, 0.0 if moved else 0.01, atol=1e-15)
 
 
+def test_contact_variables(run):
+    """Pressure and clearance of the secondary nodes, in the order of the mesh; not of others."""
+    boxes = plane(gap=0.01)
+    squeeze = step("0.25, 1., 1e-5, 0.25", "*BOUNDARY\nUPPER_TOP, 2, 2, -0.02")
+    result = run(two_boxes(*boxes, [HELD, squeeze], nu=0.0, behavior="*FRICTION\n0.3,"))
+    on_it = np.isin(result.mesh().point_data["NODE"], boxes[1].numbers[:, 0])
+    for increment, clearance, pressure in ((1, 0.005, 0.0), (-1, 0.0, YOUNG * 0.005)):
+        for name, value in (("COPEN", clearance), ("CPRESS", pressure), ("CSHEAR1", 0.0), ("CSHEAR2", 0.0)):
+            found = result.field(name, increment)
+            np.testing.assert_allclose(found[on_it], value, atol=1e-12, rtol=1e-9)
+            assert np.isnan(found[~on_it]).all()
+
+
+def test_friction_stress(run):
+    """Full slip: mu p everywhere, against the motion of the upper body along the tangent -1 of the normal 2."""
+    boxes = plane(lower=1, upper=1)
+    steps = [
+        "*BOUNDARY\nLOWER_BOTTOM, 1, 2\nLOWER_TOP, 1, 2",
+        step("1., 1.", "*BOUNDARY\nUPPER_TOP, 1\nUPPER_TOP, 2, 2, -0.02\nUPPER_BOTTOM, 1"),
+        step("0.25, 1.", "*BOUNDARY\nUPPER_TOP, 1, 1, 0.5\nUPPER_BOTTOM, 1, 1, 0.5"),
+    ]
+    result = run(two_boxes(*boxes, steps, nu=0.0, behavior="*FRICTION\n0.3,"))
+    on_it = np.isin(result.mesh().point_data["NODE"], boxes[1].numbers[:, 0])
+    np.testing.assert_allclose(result.field("CPRESS")[on_it], YOUNG * 0.02, rtol=1e-9)
+    np.testing.assert_allclose(np.abs(result.field("CSHEAR1")[on_it]), 0.3 * YOUNG * 0.02, rtol=1e-9)
+
+
 # ------------------------------------------------------------ large displacements
 
 
