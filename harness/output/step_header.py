@@ -6,7 +6,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 
-from harness.model.procedures import HeadLine, Procedure
+from harness.model.procedures import HeadLine
 from harness.model.records import BucklingMode, HarmonicResponse, IncrementDone, ModeShape
 from harness.model.steps import Controls, FieldControls, Step
 from harness.output.field_terms import FIELDS, FieldTerms
