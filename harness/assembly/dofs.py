@@ -77,7 +77,7 @@ class DofMap:
 
     @property
     def of_nodes(self) -> NDArray[np.bool_]:
-        """(n,) whether an unknown is of a node, which moves in space and time; the pressure of an element is not."""
+        """(n,) whether an unknown is of a node, which moves in space and time; of an element or contact it is not."""
         found: NDArray[np.bool_] = self.node < len(self.mesh.labels)
         return found
 

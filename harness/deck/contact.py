@@ -28,6 +28,7 @@ from harness.model.properties import SolidSection
 from harness.model.steps import Step
 
 LINEAR_FACES = (LINE2, TRI3, QUAD4)
+PROCEDURES = ("STATIC", "VISCO")
 
 
 @dataclass(frozen=True, slots=True)
@@ -264,7 +265,8 @@ def check_contact(pairs: Sequence[ContactPair], steps: Sequence[Step], problems:
         given, place = step.procedure, f"*CONTACT PAIR ({pairs[0].source})"
         obstacles = {
             "*STATIC, RIKS": given.riks is not None,
-            f"*{given.keyword}": given.linear or given.inertia or given.temperatures,
+            "*STEP, PERTURBATION": given.linear and given.keyword in PROCEDURES,
+            f"*{given.keyword}": given.keyword not in PROCEDURES,
         }
         for what, there in obstacles.items():
             if there:

@@ -212,6 +212,8 @@ def test_convert_sdi_goes_on(read):
         ("*FRICTION", "*FRICTION, SLIP TOLERANCE=0.", "33: SLIP TOLERANCE=0 must be positive"),
         ("*FRICTION", "*CONTACT DAMPING", "33: is not supported, but a contact pair uses TOUCH .deck.inp:35"),
         ("*STATIC", "*STATIC, RIKS", "37: .CONTACT PAIR .deck.inp:36. is not supported with .STATIC, RIKS"),
+        ("*STATIC", "*DYNAMIC\n0.1, 1.", "37: .CONTACT PAIR .deck.inp:36. is not supported with .DYNAMIC"),
+        ("*STEP\n", "*STEP, PERTURBATION\n", "37: .CONTACT PAIR .deck.inp:36. is not supported with .STEP, PERT"),
         ("*STATIC", "*FREQUENCY\n3", "37: .CONTACT PAIR .deck.inp:36. is not supported with .FREQUENCY"),
     ],
     ids=lambda mistake: mistake[2][:40],

@@ -165,6 +165,6 @@ def test_the_command_says_what_is_wrong(tmp_path, monkeypatch, capsys):
 
 
 def test_errors_of_the_deck_come_with_their_line(tmp_path, capsys):
-    (tmp_path / "d.inp").write_text("*NODE\n1, 0., 0.\n*ELEMENT, TYPE=CPS4\n1, 1, 2, 3, 4\n*CONTACT PAIR\n")
+    (tmp_path / "d.inp").write_text("*NODE\n1, 0., 0.\n*ELEMENT, TYPE=CPS4\n1, 1, 2, 3, 4\n*CONTACT CLEARANCE\n")
     assert main(["insert", str(tmp_path / "d.inp"), "-o", str(tmp_path / "o.inp"), "--plies", *LAW]) == 1
-    assert "d.inp:5: *CONTACT PAIR is not supported" in capsys.readouterr().err
+    assert "d.inp:5: *CONTACT CLEARANCE is not supported" in capsys.readouterr().err
