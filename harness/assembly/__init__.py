@@ -6,5 +6,6 @@ from harness.assembly.constraints import Constraints
 from harness.assembly.dofs import DofMap
 from harness.assembly.system import Evaluation, System
 from harness.assembly.tolerant import TolerantSystem
+from harness.assembly.turning import TurningConstraints
 
-__all__ = ["Constraints", "DofMap", "Evaluation", "System", "TolerantSystem"]
+__all__ = ["Constraints", "DofMap", "Evaluation", "System", "TolerantSystem", "TurningConstraints"]

@@ -14,7 +14,7 @@ from harness.assembly.equations import eliminate
 from harness.assembly.system import System
 from harness.errors import Source
 from harness.model.arrays import FloatArray, IntArray
-from harness.model.model import Equation
+from harness.model.model import Arm, Equation
 from harness.parallel.ranks import Ranks
 
 
@@ -25,8 +25,12 @@ class Constraints:
     free             (n_q,) unknowns that are solved for, ascending
     reduced_indptr, reduced_indices  CSR pattern of T^T K T, int32, columns ascending in each row
 
+    arms             those of the equations with finite rotations
+
     Everything symbolic is done here once; keep the object while `matches` holds.
     """
+
+    arms: tuple[Arm, ...] = ()
 
     def __init__(
         self,
@@ -73,12 +77,12 @@ class Constraints:
             self._t = _columns(n, self.free, dependent, coefficients)
             self._p = _columns(n, self.prescribed, dependent, coefficients)
             self._t_transposed, self._p_transposed = self._t.T.tocsr(), self._p.T.tocsr()
-            self.reduced_indptr, self.reduced_indices, self._map = _reduce_pattern(system, self._t)
+            self.reduced_indptr, self.reduced_indices, self._map = reduced_pattern(system, self._t)
         else:
             self.reduced_indptr, self.reduced_indices, self._take = _take_pattern(system, self.free)
         self._reduced = np.zeros(len(self.reduced_indices))
 
-    def matches(self, prescribed: IntArray, equations: Sequence[Equation] = ()) -> bool:
+    def matches(self, prescribed: IntArray, equations: Sequence[Equation] = (), arms: Sequence[Arm] = ()) -> bool:
         """True if these constraints also serve the given ones, so that symbolic work need not be repeated.
 
         Parameters
@@ -87,8 +91,11 @@ class Constraints:
             (n_p,) unknowns with a given value, compared in this order.
         equations
             Compared in this order, with their places in the deck.
+        arms
+            Those of the equations with finite rotations.
         """
-        return np.array_equal(self.prescribed, prescribed) and self._equations == tuple(equations)
+        same = self._equations == tuple(equations) and self.arms == tuple(arms)
+        return same and np.array_equal(self.prescribed, prescribed)
 
     @property
     def ranks(self) -> Ranks:
@@ -109,6 +116,35 @@ class Constraints:
             Its place in `free`, from 0.
         """
         return self._system.dofs.name(int(self.free[reduced]))
+
+    def place(self, start: FloatArray, increment: FloatArray) -> FloatArray:
+        """An increment (n,) that fulfils the constraints: sums of those of `expand` do if they are linear.
+
+        Parameters
+        ----------
+        start
+            (n,) unknowns at its start.
+        increment
+            (n,) up to the order of the constraints.
+
+        Returns
+        -------
+        FloatArray
+            (n,).
+        """
+        del start
+        return increment
+
+    def follow(self, u: FloatArray, residual: FloatArray) -> None:
+        """Take T and P of a state, and what the tangent has of forces that act as T changes.
+
+        Parameters
+        ----------
+        u
+            (n,) unknowns.
+        residual
+            (n,) external minus internal forces.
+        """
 
     def expand(self, dq: FloatArray, dprescribed: FloatArray) -> FloatArray:
         """du = T dq + P dp.
@@ -185,6 +221,10 @@ class Constraints:
         self._reduced[:] = self._map @ data
         return self._reduced
 
+    def reduce_tangent(self, data: FloatArray) -> FloatArray:
+        """`reduce` of a tangent, with what the constraints add to it."""
+        return self.reduce(data)
+
     def prescribed_residual(self, data: FloatArray, dprescribed: FloatArray) -> FloatArray:
         """K P dp: internal force of prescribed increments, to be subtracted from the residual before solving.
 
@@ -228,25 +268,30 @@ def _take_pattern(system: System, free: IntArray) -> tuple[NDArray[np.int32], ND
     return _row_starts(row[take], len(free)), column[take], take
 
 
-def _reduce_pattern(
-    system: System, t: sparse.csr_array
+def reduced_pattern(
+    system: System, t: sparse.csr_array, values: FloatArray | None = None
 ) -> tuple[NDArray[np.int32], NDArray[np.int32], sparse.csr_array]:
     """Pattern of T^T K T, and the matrix M that gives its values from those of K.
 
-    Entry (i, j) of K contributes T[i, a] T[j, b] to entry (a, b).
+    Entry (i, j) of K contributes T[i, a] T[j, b] to entry (a, b), or `values` in place of these products.
     """
-    count = np.diff(t.indptr)
-    row, column = _row_of_entries(system), system.indices
-    products = count[row] * count[column]
-    entry = np.repeat(np.arange(len(row)), products)
-    nth = np.arange(len(entry)) - np.repeat(np.cumsum(products) - products, products)
-    left = t.indptr[row[entry]] + nth // count[column[entry]]
-    right = t.indptr[column[entry]] + nth % count[column[entry]]
+    left, right, entry = products(system, t)
     key = t.indices[left].astype(np.int64) * t.shape[1] + t.indices[right]
     unique, position = np.unique(key, return_inverse=True)
-    values = t.data[left] * t.data[right]
-    gather = sparse.coo_array((values, (position, entry)), shape=(len(unique), len(row))).tocsr()
+    values = t.data[left] * t.data[right] if values is None else values
+    gather = sparse.coo_array((values, (position, entry)), shape=(len(unique), len(system.indices))).tocsr()
     return _row_starts(unique // t.shape[1], t.shape[1]), (unique % t.shape[1]).astype(np.int32), gather
+
+
+def products(system: System, t: sparse.csr_array) -> tuple[IntArray, IntArray, IntArray]:
+    """Entries of T, left and right, whose product with an entry of K is a term of T^T K T; and that entry."""
+    count = np.diff(t.indptr)
+    row, column = _row_of_entries(system), system.indices
+    terms = count[row] * count[column]
+    entry = np.repeat(np.arange(len(row)), terms)
+    nth = np.arange(len(entry)) - np.repeat(np.cumsum(terms) - terms, terms)
+    row, column = row[entry], column[entry]
+    return t.indptr[row] + nth // count[column], t.indptr[column] + nth % count[column], entry
 
 
 def _row_starts(rows: NDArray[np.integer], n: int) -> NDArray[np.int32]:

@@ -2,7 +2,9 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Linear equations between dofs: *EQUATION, and what *MPC, *COUPLING, *RIGID BODY and *TIE stand for.
 
-Rotations are small: with NLGEOM, what couples displacements to rotations is refused, unless these are held at zero.
+Equations have small rotations. With NLGEOM, nodes all of whose displacements follow a reference node are arms, which
+turn by any angle in static steps; what else couples displacements to rotations is refused, unless these are held at
+zero.
 """
 
 from __future__ import annotations
@@ -24,7 +26,7 @@ from harness.errors import DeckError, Source
 from harness.model.arrays import FloatArray, IntArray
 from harness.model.element_types import ContinuumType
 from harness.model.mesh import ElementGroup, is_in_space
-from harness.model.model import Equation
+from harness.model.model import Arm, Equation
 from harness.model.steps import Boundary, Step
 
 if TYPE_CHECKING:
@@ -56,9 +58,17 @@ class ConstraintReader:
                 self._axisymmetric[group.nodes] = True
         self._turning: dict[Source, dict[int, set[int]]] = {}
         """Rotations of reference nodes that matter, by the place of a constraint; none for distributing couplings."""
+        self._followers: list[Arm] = []
+        self._partial: set[tuple[Source, int]] = set()
+        self._finite = False
+        self.arms: tuple[Arm, ...] = ()
 
     def read(self, boundaries: Sequence[Boundary], steps: Sequence[Step]) -> tuple[Equation, ...]:
-        """Equations of all constraints of the deck; boundaries are those before the first step."""
+        """Equations of all constraints of the deck; boundaries are those before the first step.
+
+        `arms` are those that have finite rotations.
+        """
+        self._finite = any(step.nlgeom for step in steps)
         found: list[Equation] = []
         readers = {
             "MPC": self._mpc,
@@ -79,20 +89,33 @@ class ConstraintReader:
                     elif block.name in readers:
                         self._coupling = coupling
                         found += readers[block.name](block, owner)
-        nonlinear = next((step for step in steps if step.nlgeom), None)
-        if nonlinear is not None:
-            held = _held_rotations(boundaries, steps)
-            for source, references in self._turning.items():
-                free = {node: dofs for node in references if (dofs := sorted(references[node] - held.get(node, set())))}
-                message = f"a constraint with rotations is not supported with NLGEOM ({nonlinear.source})"
-                for node, dofs in free.items():
-                    name, those = self._flat.mesh.name(node), ", ".join(map(str, dofs))
-                    message += (
-                        f"; expected *BOUNDARY to hold dofs {those} of the reference node {name} at zero in each step"
-                    )
-                if free or not references:
-                    self._problems.add(source, message)
+        nonlinear = [step for step in steps if step.nlgeom]
+        if nonlinear:
+            self._turn(nonlinear, _held_rotations(boundaries, steps))
         return tuple(found)
+
+    def _turn(self, nonlinear: Sequence[Step], held: dict[int, set[int]]) -> None:
+        """Find the arms that turn, and refuse other constraints with rotations that are not held at zero."""
+        other = next((step for step in nonlinear if step.procedure.linear or step.procedure.inertia), None)
+        turning: set[tuple[Source, int]] = set()
+        for source, references in self._turning.items():
+            free = {node: dofs for node in references if (dofs := sorted(references[node] - held.get(node, set())))}
+            places = {(source, node) for node in free}
+            if references and not (other and free) and not places & self._partial:
+                turning |= places
+                continue
+            where = f"in *{other.procedure.keyword} ({other.source})" if other else f"({nonlinear[0].source})"
+            message = f"a constraint with rotations is not supported with NLGEOM {where}"
+            if places & self._partial:
+                message += " unless all displacements of its nodes follow"
+            for node, dofs in free.items():
+                name, those = self._flat.mesh.name(node), ", ".join(map(str, dofs))
+                message += (
+                    f"; expected *BOUNDARY to hold dofs {those} of the reference node {name} at zero in each step"
+                )
+            if free or not references:
+                self._problems.add(source, message)
+        self.arms = tuple(arm for arm in self._followers if (arm.source, arm.reference) in turning)
 
     def _mpc(self, block: Block, owner: Owner) -> Iterator[Equation]:
         for row in block.rows():
@@ -145,14 +168,20 @@ class ConstraintReader:
             2: ((reference, 6, -x), (reference, 4, z)),
             3: ((reference, 4, -y), (reference, 5, x)),
         }
-        moving = {dof for dof in dofs if dof <= 3}
+        dofs, last = list(dofs), 3 if self._solid else 2
+        moving = {dof for dof in dofs if dof <= last}
         if any((x, y, z)) and moving:
             # a rotation about an axis leaves displacements along it as they are
             axes = {axis for axis in ROTATIONS if moving - {axis - 3}} if self._solid else {6}
             self._turning.setdefault(source, {}).setdefault(reference, set()).update(axes)
+            self._followers.append(Arm(node, reference, source))
+            if len(moving) < last:
+                self._partial.add((source, reference))
         for dof in dofs:
-            if dof <= (3 if self._solid else 2):
-                terms = tuple(t for t in turning[dof] if t[2] != 0.0 and (self._solid or t[1] == 6))
+            if dof <= last:
+                # a coefficient that is zero now is not after a finite rotation
+                kept = (t for t in turning[dof] if self._finite or t[2] != 0.0)
+                terms = tuple(t for t in kept if self._solid or t[1] == 6)
                 yield Equation(((node, dof, 1.0), (reference, dof, -1.0), *terms), source)
             elif dof in ROTATIONS:
                 yield Equation(((node, dof, 1.0), (reference, dof, -1.0)), source)
@@ -398,7 +427,13 @@ KEYWORDS = (
             *refused("ALPHA", "ORIENTATION"),
         ),
     ),
-    Keyword("KINEMATIC", "Dofs that *COUPLING couples.", Where.MODEL, data="first dof, last dof; none: all"),
+    Keyword(
+        "KINEMATIC",
+        "Dofs that *COUPLING couples. With NLGEOM, in static steps, nodes follow finite rotations of the reference "
+        "node, as those of *KINEMATIC COUPLING, *RIGID BODY and *MPC, BEAM do.",
+        Where.MODEL,
+        data="first dof, last dof; none: all",
+    ),
     Keyword(
         "DISTRIBUTING",
         "The reference node of *COUPLING moves as the nodes of the surface do on average; its forces are spread over "

@@ -122,6 +122,7 @@ def read_deck(
         boundaries=tuple(boundaries),
         equations=(*equations, *related),
         contacts=contacts,
+        arms=constraints.arms,
         initial_velocities=velocities,
         initial_temperatures=temperatures,
         initial_fields=fields,

@@ -23,12 +23,22 @@ class Equation:
 
 
 @dataclass(frozen=True, slots=True)
+class Arm:
+    """A node (index) that follows a reference node as a rigid body; equations say it to first order."""
+
+    node: int
+    reference: int
+    source: Source
+
+
+@dataclass(frozen=True, slots=True)
 class Model:
     """A whole deck.
 
     nsets      node indices of each set; a set of an instance is also there as INSTANCE.NAME
     elsets     element positions of each set (position in the groups walked in order)
     boundaries *BOUNDARY before the first step
+    arms       which of the equations have finite rotations with NLGEOM
     initial_velocities    *INITIAL CONDITIONS, TYPE=VELOCITY
     initial_temperatures  TYPE=TEMPERATURE, for unknowns that are temperatures, and as a predefined field
     initial_fields        TYPE=FIELD; their dof is the number of the field
@@ -50,6 +60,7 @@ class Model:
     boundaries: tuple[Boundary, ...] = ()
     equations: tuple[Equation, ...] = ()
     contacts: tuple[ContactPair, ...] = ()
+    arms: tuple[Arm, ...] = ()
     initial_velocities: tuple[InitialValue, ...] = ()
     initial_temperatures: tuple[InitialValue, ...] = ()
     initial_fields: tuple[InitialValue, ...] = ()

@@ -8,7 +8,7 @@ from functools import partial
 
 import numpy as np
 
-from harness.assembly import Constraints
+from harness.assembly import Constraints, TurningConstraints
 from harness.elements import Call, Flags
 from harness.errors import DeckError
 from harness.model.arrays import FloatArray, IntArray
@@ -71,9 +71,14 @@ class StepContext:
     def _constrain(self, setting: Setting, *, fallback: bool) -> None:
         """Constraints and linear solver of the step, those of the last one if they are the same."""
         state, equations = self.state, setting.model.equations
+        arms = setting.model.arms if self.step.nlgeom else ()
         constraints, solver = state.constraints, state.solver
-        if constraints is None or solver is None or not constraints.matches(self.unknowns, equations):
-            constraints = Constraints(self.system, self.unknowns, equations, state.boundaries.sources)
+        if constraints is None or solver is None or not constraints.matches(self.unknowns, equations, arms):
+            given = self.system, self.unknowns, equations, state.boundaries.sources
+            if arms and fallback:
+                message = "a constraint with rotations is not supported with NLGEOM and --fallback"
+                raise DeckError(arms[0].source, message)
+            constraints = TurningConstraints(*given, arms) if arms else Constraints(*given)
             find = choose_solver if self.system.ranks.size == 1 else choose_rank_solver
             choose = partial(find, setting.solver, constraints, state.effort)
             if isinstance(solver, RankSolver):

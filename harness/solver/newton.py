@@ -147,8 +147,10 @@ class Newton:
     def _evaluate(
         self, call: Call, given: Increment, iteration: int, increment: FloatArray, correction: FloatArray
     ) -> Iterate:
+        increment = self._constraints.place(given.displacement, increment)
         evaluation = self._pass(replace(call, iteration=iteration), given, increment)
         residual = evaluation.residual + given.load
+        self._constraints.follow(given.displacement + increment, residual)
         reduced = self._constraints.reduce_vector(residual)
         return Iterate(iteration, increment, correction, residual, reduced, evaluation)
 
@@ -159,7 +161,7 @@ class Newton:
             self._factorised = state.evaluation.data.copy()
         assert self._factorised is not None
         if self._anew or not self._again:
-            self._solver.factorise(self._constraints.reduce(self._factorised))
+            self._solver.factorise(self._constraints.reduce_tangent(self._factorised))
         self._again = self._anew = False
         rhs = state.reduced
         if missing.any():
@@ -170,6 +172,7 @@ class Newton:
 
     def _trial(self, given: Increment, increment: FloatArray) -> Evaluation:
         """A pass for the residual alone."""
+        increment = self._constraints.place(given.displacement, increment)
         return self._pass(given.call.asking(Request.RESIDUAL), given, increment, matrix=False)
 
     def _pass(self, call: Call, given: Increment, increment: FloatArray, *, matrix: bool = True) -> Evaluation:

@@ -117,15 +117,17 @@ class PathFollower:
         factor: float,
     ) -> PathIterate:
         call = replace(call, iteration=iteration)
+        increment = self._constraints.place(given.displacement, increment)
         evaluation = self._system.evaluate(call, given.displacement + increment, increment, nrhs=given.nrhs)
         residual = evaluation.residual + given.load + factor * given.load_rate
+        self._constraints.follow(given.displacement + increment, residual)
         reduced = self._constraints.reduce_vector(residual)
         return PathIterate(iteration, increment, correction, residual, reduced, evaluation, factor=factor)
 
     def _directions(self, given: PathIncrement, state: PathIterate) -> Directions:
         data, constraints = state.evaluation.data, self._constraints
         assert data is not None
-        self._solver.factorise(constraints.reduce(data))
+        self._solver.factorise(constraints.reduce_tangent(data))
         # prescribed values follow the factor, except for rounding
         missing = state.factor * given.prescribed_rate - state.increment[constraints.prescribed]
         held = state.residual - constraints.prescribed_residual(data, missing)

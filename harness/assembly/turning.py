@@ -1,0 +1,119 @@
+# SPDX-FileCopyrightText: The uel-harness authors
+# SPDX-License-Identifier: BSD-3-Clause
+"""Constraints with rigid arms in large displacements: T and P follow the rotations.
+
+Their transposes pass on moments about the global axes, which are not the derivatives by rotation vectors.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+
+import numpy as np
+from scipy import sparse
+
+from harness.assembly.arms import Arms
+from harness.assembly.constraints import Constraints, products, reduced_pattern
+from harness.assembly.system import System
+from harness.errors import DeckError, Source
+from harness.model.arrays import FloatArray, IntArray
+from harness.model.model import Arm, Equation
+
+
+class TurningConstraints(Constraints):
+    """Constraints of which some have finite rotations; T and P are those of the last `follow`."""
+
+    def __init__(
+        self,
+        system: System,
+        prescribed: IntArray,
+        equations: Sequence[Equation],
+        places: Mapping[int, Source],
+        arms: Sequence[Arm],
+    ) -> None:
+        """Arguments as of `Constraints`. Raises DeckError, also if nodes of arms have other constraints."""
+        super().__init__(system, prescribed, equations, places)
+        if system.ranks.size > 1:
+            raise DeckError(arms[0].source, "a constraint with rotations is not supported with NLGEOM on several ranks")
+        n = len(system)
+        self.arms = tuple(arms)
+        dependent = np.setdiff1d(np.arange(n), np.concatenate([self.free, self.prescribed]))
+        self._turning = turning = Arms(system.dofs, arms, dependent, equations)
+        # of each arm, its displacements by the rotations
+        rows, columns = np.broadcast_arrays(turning.own[:, :, None], turning.turns[:, None, :])
+        self._slopes = (rows >= 0) & (columns >= 0)
+        where = rows[self._slopes], columns[self._slopes]
+        self._t, self._of_free = _with_entries(self._t, self.free, *where)
+        self._p, self._of_prescribed = _with_entries(self._p, self.prescribed, *where)
+        left, right, entry = products(system, self._t)
+        self.reduced_indptr, self.reduced_indices, self._map = reduced_pattern(system, self._t)
+        # which product each value of the map is: it has one
+        numbers = np.arange(len(entry), dtype=np.float64)
+        order = reduced_pattern(system, self._t, numbers)[2].data.astype(np.int64)
+        changing = np.zeros(self._t.nnz, dtype=bool)
+        changing[self._of_free[1]] = True
+        self._changing = np.flatnonzero((changing[left] | changing[right])[order])
+        self._left, self._right = (side[order][self._changing] for side in (left, right))
+        self._reduced = np.zeros(len(self.reduced_indices))
+        self._curved = self._find_curved()
+        self._curvature = np.zeros(len(self._curved[1]))
+        self.follow(np.zeros(n), np.zeros(n))
+
+    def place(self, start: FloatArray, increment: FloatArray) -> FloatArray:
+        """With the arms at their finite rotations."""
+        return self._turning.place(start, increment)
+
+    def follow(self, u: FloatArray, residual: FloatArray) -> None:
+        """As of `Constraints`."""
+        assert self._t is not None
+        self._set(self._turning.levers(u))
+        self._t_transposed, self._p_transposed = self._t.T.tocsr(), self._p.T.tocsr()
+        left = self._t.data[self._left]
+        self._set(self._turning.slopes(u))
+        self._map.data[self._changing] = left * self._t.data[self._right]
+        self._curvature = self._turning.curvature(u, residual)[self._curved[0]]
+
+    def reduce_tangent(self, data: FloatArray) -> FloatArray:
+        """As of `Constraints`."""
+        reduced = self.reduce(data)
+        np.add.at(reduced, self._curved[1], self._curvature)
+        return reduced
+
+    def _set(self, values: FloatArray) -> None:
+        """Set what T and P have of the arms, (k, 3, 3): their moments by forces, or displacements by rotations."""
+        assert self._t is not None
+        chosen = values[self._slopes]
+        for matrix, (own, places) in ((self._t, self._of_free), (self._p, self._of_prescribed)):
+            matrix.data[places] = chosen[own]
+
+    def _find_curved(self) -> tuple[tuple[IntArray, ...], IntArray]:
+        """Pairs of free rotations of a reference node: their places in `Arms.curvature`, and in T^T K T."""
+        number = np.full(len(self._system) + 1, -1)
+        number[self.free] = np.arange(len(self.free))
+        turns = number[self._turning.rotations]
+        rows, columns = np.broadcast_arrays(turns[:, :, None], turns[:, None, :])
+        pairs = np.nonzero((rows >= 0) & (columns >= 0))
+        size = len(self.free)
+        keys = np.repeat(np.arange(size), np.diff(self.reduced_indptr)) * size + self.reduced_indices
+        return pairs, np.searchsorted(keys, rows[pairs] * size + columns[pairs])
+
+
+def _with_entries(
+    matrix: sparse.csr_array, chosen: IntArray, rows: IntArray, columns: IntArray
+) -> tuple[sparse.csr_array, tuple[IntArray, IntArray]]:
+    """A matrix with entries of unknowns (rows, columns), of which it has the columns `chosen`.
+
+    Also returns which of the entries it has, and where.
+    """
+    number = np.full(matrix.shape[0] + 1, -1)
+    number[chosen] = np.arange(len(chosen))
+    own = np.flatnonzero(number[columns] >= 0)
+    new = rows[own] * len(chosen) + number[columns[own]]
+    old = matrix.tocoo()
+    keys = old.row.astype(np.int64) * len(chosen) + old.col
+    every = np.union1d(keys, new)
+    data = np.zeros(len(every))
+    data[np.searchsorted(every, keys)] = old.data
+    starts = np.concatenate([[0], np.cumsum(np.bincount(every // max(len(chosen), 1), minlength=matrix.shape[0]))])
+    whole = sparse.csr_array((data, every % max(len(chosen), 1), starts), shape=matrix.shape)
+    return whole, (own, np.searchsorted(every, new))

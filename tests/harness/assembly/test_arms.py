@@ -1,0 +1,386 @@
+# SPDX-FileCopyrightText: The uel-harness authors
+# SPDX-License-Identifier: BSD-3-Clause
+"""Rigid arms in large displacements: rotations of any angle, their derivatives, and beams bent by them."""
+
+import numpy as np
+import pytest
+from scipy import sparse
+from scipy.spatial.transform import Rotation
+from small_decks import body_lines
+
+import harness
+from harness import usersub
+from harness.assembly import System, TurningConstraints
+from harness.assembly.arms import Arms, _rotation, _spins
+from harness.deck import read_deck
+from harness.elements import Call, Flags, build_blocks
+from harness.errors import DeckError, Source
+from harness.model.model import Arm
+
+ANGLES = [[0, 0, 0], [1e-5, -2e-5, 1e-5], [0.02, 0.02, 0.01], [0.03, 0.01, 0.0], [1.0, -2.0, 0.5], [0, 0, 3.0]]
+
+
+@pytest.mark.parametrize("angle", ANGLES)
+def test_rotations(angle):
+    """Those of scipy, and H dtheta is the spin of dR R^T."""
+    angles = np.array([angle], dtype=float)
+    np.testing.assert_allclose(_rotation(angles)[0], Rotation.from_rotvec(angle).as_matrix(), atol=1e-14)
+    for k, step in enumerate(1e-6 * np.eye(3)):
+        ahead, behind = (Rotation.from_rotvec(angle + sign * step) for sign in (1, -1))
+        spin = (ahead * behind.inv()).as_rotvec() / 2e-6
+        np.testing.assert_allclose(_spins(angles)[0][:, k], spin, atol=1e-9)
+
+
+class Numbering:
+    """Six unknowns of each of four nodes."""
+
+    class mesh:  # noqa: N801
+        coordinates = np.array([[0.0, 0, 0], [1.0, 0.2, -0.4], [0.0, 2.0, 0.0], [0.5, -1.0, 3.0]])
+
+    @staticmethod
+    def find(nodes, dof):
+        return 6 * np.asarray(nodes) + np.asarray(dof) - 1
+
+
+@pytest.mark.parametrize("angle", ANGLES)
+def test_derivatives(angle):
+    """Of the displacements by the rotations, and of the moments of constant forces about the global axes."""
+    sources = [Arm(node, 0, Source("test.inp", 1)) for node in (1, 2, 3)]
+    dependent = Numbering.find(np.arange(1, 4)[:, None], np.arange(1, 4)).ravel()
+    arms = Arms(Numbering(), sources, dependent, ())
+    start = np.zeros(24)
+    start[3:6] = angle
+    force = np.random.default_rng(1).standard_normal(24)
+    step = 1e-5
+
+    def moved(change):
+        u = start.copy()
+        u[3:6] += change
+        return arms.place(np.zeros(24), u)
+
+    for k, one in enumerate(step * np.eye(3)):
+        slope = (moved(one) - moved(-one)) / (2 * step)
+        np.testing.assert_allclose(arms.slopes(start)[:, :, k].ravel(), slope[dependent], atol=1e-9)
+
+    def moments(change):
+        u = start.copy()
+        u[3:6] += change
+        turned = Rotation.from_rotvec(u[3:6]).apply(Numbering.mesh.coordinates[1:])
+        moment = np.cross(turned, force[dependent].reshape(3, 3)).sum(axis=0)
+        np.testing.assert_allclose(np.einsum("kij,ki->j", arms.levers(u), force[dependent].reshape(3, 3)), moment)
+        return moment
+
+    found = arms.curvature(start, force)[0]
+    for k, one in enumerate(step * np.eye(3)):
+        np.testing.assert_allclose(found[:, k], -(moments(one) - moments(-one)) / (2 * step), atol=1e-8)
+
+
+@pytest.fixture
+def run(tmp_path):
+    def run(lines, name="arms", **options):
+        (tmp_path / f"{name}.inp").write_text("\n".join(lines) + "\n")
+        return harness.run(tmp_path / f"{name}.inp", output_dir=tmp_path, **options)
+
+    return run
+
+
+LENGTH, HIGH, YOUNG, CELLS = 10.0, 0.5, 1e4, 20
+OUTPUT = "*OUTPUT, FIELD\n*ELEMENT OUTPUT\nS\n*NODE OUTPUT\nU\n*OUTPUT, HISTORY\n*NODE OUTPUT, NSET=REF\nU, UR, RM, RF"
+COUPLING = "*SURFACE, NAME=END, TYPE=NODE\nEND\n*COUPLING, CONSTRAINT NAME=C, REF NODE=900, SURFACE=END\n*KINEMATIC"
+
+
+def beam(element_type="CPS8R", *, reference=(LENGTH, HIGH / 2), constraint=COUPLING, held="START, 1\nMIDDLE, 2"):
+    """A row of elements along axis 1, the end of which follows node 900, or is free."""
+    space = element_type.startswith("C3D")
+    nodes, numbers, elements = [], {}, []
+    for k in range(2 * CELLS + 1):
+        for j in range(3):
+            if k % 2 == 0 or j != 1:
+                numbers[k, j] = len(nodes)
+                nodes.append([LENGTH * k / (2 * CELLS), HIGH * j / 2])
+    if space:
+        corners = [(0, 0), (2, 0), (2, 2), (0, 2)]
+        layer = len(nodes)
+        nodes = [[*x, z] for z in (0.0, HIGH) for x in nodes]
+        for c in range(CELLS):
+            flat = [numbers[2 * c + i, j] for i, j in corners]
+            elements.append([*flat, *(n + layer for n in flat)])
+    else:
+        around = [(0, 0), (2, 0), (2, 2), (0, 2), (1, 0), (2, 1), (1, 2), (0, 1)]
+        elements = [[numbers[2 * c + i, j] for i, j in around] for c in range(CELLS)]
+    used = {n for element in elements for n in element}
+    ends = {"START": 0.0, "END": LENGTH}
+    lines = body_lines(element_type, nodes, elements)
+    lines += ["*NODE, NSET=REF", "900, " + ", ".join(map(str, reference))]
+    for name, x in ends.items():
+        lines += [f"*NSET, NSET={name}", *(str(n + 1) for n in sorted(used) if nodes[n][0] == x)]
+    middle = [n for n in sorted(used) if nodes[n][0] == 0 and nodes[n][1] == (0 if space else HIGH / 2)]
+    lines += ["*NSET, NSET=MIDDLE", *(str(n + 1) for n in middle)]
+    lines += ["*SOLID SECTION, ELSET=BODY, MATERIAL=M", "1.", "*MATERIAL, NAME=M", f"*ELASTIC\n{YOUNG}, 0."]
+    lines += [constraint] if constraint else []
+    return [*lines, "*BOUNDARY", held] if held else lines
+
+
+def last(result, name):
+    """Last value of the reference node."""
+    return next(values[-1] for column, values in result.history.items() if column.startswith(f"{name}["))
+
+
+def step(*loads, increments=10, how="*STATIC", name="*STEP, NLGEOM, INC=100"):
+    times = f"{how}\n{1 / increments}, 1., 1e-6, {1 / increments}"
+    return [name, times, *loads, OUTPUT, "*END STEP"]
+
+
+@pytest.mark.parametrize("element_type", ["CPE4", "CPS8R", "CPE8H"])
+def test_rigid_rotation(run, element_type):
+    """By 90 degrees about a node far away: no stress, and every node where the rotation puts it."""
+    coupled = COUPLING.replace("END\n*COUPLING", "START\n*COUPLING")
+    lines = beam("CPS8R", reference=(-3.0, 4.0), constraint=coupled, held="")
+    if element_type == "CPE4":
+        lines = beam_of_quads(lines)
+    lines = [line.replace("TYPE=CPS8R", f"TYPE={element_type}") for line in lines]
+    result = run([*lines, *step("*BOUNDARY", "900, 1, 2", f"900, 6, 6, {np.pi / 2!r}", increments=9)])
+    x = result.mesh().points - np.array([-3.0, 4.0, 0.0])
+    turned = np.stack([-x[:, 1], x[:, 0], 0 * x[:, 2]], axis=1)
+    used = np.abs(result.field("U")).max(axis=1) > 0
+    np.testing.assert_allclose(result.field("U")[used], (turned - x)[used], atol=1e-9)
+    for name in ("S11", "S22", "S12"):
+        np.testing.assert_allclose(result.field(name), 0, atol=1e-7 * YOUNG)
+
+
+def beam_of_quads(lines):
+    """The corners of the elements alone."""
+    found = []
+    for line in lines:
+        words = line.split(", ")
+        found.append(", ".join(words[:5]) if len(words) == 9 else line)
+    return found
+
+
+@pytest.mark.parametrize("reference", [(LENGTH, HIGH / 2), (LENGTH + 2.0, HIGH / 2 + 1.0)])
+def test_cantilever_bent_to_an_arc(run, reference):
+    """By a rotation p of its end alone: an arc of radius L/p, and the moment E I p/L (elastica).
+
+    A reference node off the axis moves with the end, and has the same moment, for there is no force.
+    """
+    angle = np.pi / 2
+    result = run([*beam(reference=reference), *step("*BOUNDARY", f"900, 6, 6, {angle!r}", increments=20)])
+    radius = LENGTH / angle
+    off = np.array(reference) - [LENGTH, HIGH / 2]
+    turned = np.array([-off[1], off[0]])
+    expected = np.array([radius - LENGTH, radius]) + turned - off
+    found = [
+        result.history[f"U{k}[REF:900]" if f"U{k}[REF:900]" in result.history else f"U{k}[REF]"][-1] for k in (1, 2)
+    ]
+    np.testing.assert_allclose(found, expected, atol=5e-3 * LENGTH)
+    assert last(result, "RM3") == pytest.approx(YOUNG * HIGH**3 / 12 * angle / LENGTH, rel=1e-2)
+
+
+def test_moment_and_force_on_the_reference_node(run):
+    """The rotation is free: the moment E I/R bends it to an arc, a dead force P to the elastica of a cantilever.
+
+    (K.E. Bisshopp, D.C. Drucker, Quarterly of Applied Mathematics 3 (1945) 272: at P L^2/(E I) = 2 the end deflects by
+    0.4935 L and moves back by 0.1606 L.)
+    """
+    inertia = HIGH**3 / 12
+    moment = YOUNG * inertia * (np.pi / 2) / LENGTH
+    result = run([*beam(), *step("*CLOAD", f"900, 6, {moment!r}", increments=20)])
+    assert last(result, "UR3") == pytest.approx(np.pi / 2, rel=1e-2)
+    force = 2 * YOUNG * inertia / LENGTH**2
+    result = run([*beam(), *step("*CLOAD", f"900, 2, {force!r}")])
+    found = [last(result, f"U{k}") for k in (1, 2)]
+    np.testing.assert_allclose(found, [-0.1606 * LENGTH, 0.4935 * LENGTH], rtol=1e-2)
+
+
+BARS = """*NODE
+1, 0., 0., 0.
+2, 3., 0., 0.
+3, 0., 3., 1.
+4, 2., 2., 0.5
+5, 1., 2., -1.
+6, 2., 0.5, 2.
+9, 1.5, 1.0, 3.0
+*ELEMENT, TYPE=T3D2, ELSET=BARS
+1, 1, 4
+2, 2, 4
+3, 3, 5
+4, 1, 5
+5, 2, 6
+6, 3, 6
+7, 4, 6
+*SOLID SECTION, ELSET=BARS, MATERIAL=M
+1.
+*MATERIAL, NAME=M
+*ELASTIC
+100.
+*NSET, NSET=BODY
+4, 5, 6
+*RIGID BODY, REF NODE=9, PIN NSET=BODY
+*STEP, NLGEOM
+*STATIC
+1., 1.
+*END STEP
+"""
+
+
+def test_tangent(tmp_path):
+    """It is the derivative of the reduced forces, of bars whose own tangent is exact."""
+    (tmp_path / "bars.inp").write_text(BARS)
+    model = read_deck(tmp_path / "bars.inp")
+    library = usersub.load(None, job="bars", output_dir=tmp_path)
+    system = System(model.mesh, build_blocks(model, library), model.equations)
+    held = np.sort(system.dofs.find(np.arange(3)[:, None], np.array([1, 2, 3])).ravel())
+    constraints = TurningConstraints(system, held, model.equations, {}, model.arms)
+    call = Call(Flags(1, True), step=1, increment=1, step_time=1.0, total_time=1.0, time_increment=1.0, period=1.0)
+    zero, load = np.zeros(len(system)), np.random.default_rng(2).standard_normal(len(system))
+
+    def reduced(q):
+        u = constraints.place(zero, constraints.expand(q, np.zeros(len(held))))
+        evaluation = system.evaluate(call, u, u)
+        residual = evaluation.residual + load
+        constraints.follow(u, residual)
+        return constraints.reduce_vector(residual), evaluation.data
+
+    q = 0.3 * np.random.default_rng(3).standard_normal(len(constraints.free))
+    _, data = reduced(q)
+    pattern = constraints.reduced_indices, constraints.reduced_indptr
+    tangent = sparse.csr_array((constraints.reduce_tangent(data).copy(), *pattern)).toarray()
+    assert len(q) == 6
+    for k, one in enumerate(1e-6 * np.eye(len(q))):
+        slope = (reduced(q + one)[0] - reduced(q - one)[0]) / 2e-6
+        np.testing.assert_allclose(tangent[:, k], -slope, atol=1e-6 * abs(tangent).max())
+
+
+@pytest.mark.parametrize("how", ["*STATIC", "*STATIC, RIKS", "*VISCO, CETOL=1.", "*STATIC, STABILIZE=1e-12"])
+def test_procedures(run, how):
+    """The same deflection in each."""
+    inertia = HIGH**3 / 12
+    lines = step(
+        "*CLOAD", f"900, 2, {2 * YOUNG * inertia / LENGTH**2!r}", how=how, name="*STEP, NLGEOM, INC=100, AMPLITUDE=RAMP"
+    )
+    if "RIKS" in how:
+        lines[1] += ", 1."
+    result = run([*beam(), *lines])
+    factor = result.history["LPF"][-1] if "RIKS" in how else 1.0
+    assert last(result, "U2") == pytest.approx(0.4935 * LENGTH, rel=1e-2 if factor == 1.0 else 0.1)
+
+
+PARTIAL = "unless all displacements of its nodes follow; expected .BOUNDARY to hold dofs 6"
+CONSTRAINTS = {
+    "coupling": COUPLING,
+    "kinematic coupling": "*KINEMATIC COUPLING, REF NODE=900\nEND, 1, 6",
+    "rigid body": "*RIGID BODY, REF NODE=900, PIN NSET=END",
+    "beams": "*MPC\nBEAM, END, REF",
+}
+
+
+@pytest.mark.parametrize("name", CONSTRAINTS)
+def test_keywords(run, name):
+    """All that make nodes follow a reference node."""
+    inertia = HIGH**3 / 12
+    load = "*CLOAD", f"900, 6, {YOUNG * inertia * (np.pi / 2) / LENGTH!r}"
+    result = run([*beam(constraint=CONSTRAINTS[name]), *step(*load, increments=20)])
+    assert last(result, "UR3") == pytest.approx(np.pi / 2, rel=1e-2)
+
+
+def test_rotation_in_space(run):
+    """About a skew axis, of a body all of whose one end follows: every node is where the rotation vector puts it."""
+    vector, reference = np.array([0.4, -1.1, 0.7]), np.array([1.0, 2.0, -3.0])
+    coupled = COUPLING.replace("END\n*COUPLING", "START\n*COUPLING")
+    lines = beam("C3D8", reference=reference.tolist(), constraint=coupled, held="")
+    given = [f"900, {k}, {k}, {one!r}" for k, one in enumerate(vector.tolist(), start=4)]
+    result = run([*lines, *step("*BOUNDARY", "900, 1, 3", *given)])
+    x = result.mesh().points - reference
+    moved = x @ Rotation.from_rotvec(vector).as_matrix().T - x
+    used = np.abs(result.field("U")).max(axis=1) > 0
+    assert used.sum() == 4 * (CELLS + 1)
+    np.testing.assert_allclose(result.field("U")[used], moved[used], atol=1e-8)
+    np.testing.assert_allclose(result.field("S11"), 0, atol=1e-6 * YOUNG)
+
+
+def test_free_rotation_in_space(run):
+    """A force on an arm across the end turns it about two axes; its moments are in equilibrium with the support's."""
+    lines = beam("C3D8I", reference=[LENGTH, 2.0, 1.0], held="START, 1, 3")
+    force = np.array([0.0, 0.2, -0.3])
+    loads = [f"900, {k + 1}, {force[k]:.1f}" for k in (1, 2)]
+    result = run([*lines, *step("*CLOAD", *loads, increments=5)])
+    reaction, x = result.field("RF"), result.mesh().points + result.field("U")
+    np.testing.assert_allclose(reaction.sum(axis=0), -force, atol=1e-3 * abs(force).max())
+    moment = np.cross(x, reaction).sum(axis=0) + np.cross(x[-1], force)
+    np.testing.assert_allclose(moment, 0, atol=1e-3 * LENGTH * abs(force).max())
+    assert abs(last(result, "UR1")) > 0.05
+
+
+@pytest.mark.parametrize(
+    ("constraint", "loads", "how", "message"),
+    [
+        (
+            f"{COUPLING}\n1, 1",
+            ["*CLOAD", "900, 1, 1."],
+            "*STATIC",
+            PARTIAL,
+        ),
+        (
+            COUPLING,
+            ["*BOUNDARY", "103, 1"],
+            "*STATIC",
+            "follows a reference node with NLGEOM: none of its displacements",
+        ),
+        (
+            f"{COUPLING}\n*EQUATION\n2\n900, 2, 1., 20, 2, -1.",
+            [],
+            "*STATIC",
+            "reference node 900 has other constraints",
+        ),
+        (
+            COUPLING,
+            ["*CLOAD", "900, 1, 1."],
+            "*DYNAMIC",
+            r"rotations is not supported with NLGEOM in \*DYNAMIC \(.*arms",
+        ),
+    ],
+)
+def test_what_is_not_supported(run, constraint, loads, how, message):
+    lines = beam(constraint=constraint)
+    lines[lines.index(f"*ELASTIC\n{YOUNG}, 0.")] += "\n*DENSITY\n1."
+    with pytest.raises(DeckError, match=rf"arms\.inp:\d+: .*{message}"):
+        run([*lines, *step(*loads, how=how)])
+
+
+def test_node_of_two_constraints(run):
+    lines = beam(constraint=COUPLING)
+    end = lines[lines.index("*NSET, NSET=END") + 1]
+    lines += ["*EQUATION", "2", f"20, 2, 1., {end}, 2, -1."]
+    lines = [*lines[: lines.index("*BOUNDARY")], *lines[-3:], *lines[lines.index("*BOUNDARY") : -3]]
+    with pytest.raises(
+        DeckError, match=r"arms\.inp:\d+: node .* follows a reference node, .* beside another constraint"
+    ):
+        run([*lines, *step("*CLOAD", "900, 1, 1.")])
+
+
+def test_search_of_the_fall_back(run):
+    with pytest.raises(DeckError, match=r"arms\.inp:\d+: .*with rotations is not supported with NLGEOM and --fallback"):
+        run([*beam(), *step("*CLOAD", "900, 1, 1.")], fallback=True)
+
+
+def test_perturbation(run):
+    linear = ["*STEP, PERTURBATION", "*STATIC", "*CLOAD", "900, 1, 1.", "*END STEP"]
+    with pytest.raises(DeckError, match=r"arms\.inp:\d+: .*rotations is not supported with NLGEOM in \*STATIC"):
+        run([*beam(), *step("*CLOAD", "900, 1, 1."), *linear])
+
+
+def test_small_rotations_before_large_ones(run):
+    """A step without NLGEOM has equations, and the next one arms."""
+    loads = "*CLOAD", "900, 6, 0.1"
+    result = run([*beam(), *step(*loads, name="*STEP", increments=1), *step(*loads, increments=1)])
+    assert result.completed
+    assert last(result, "UR3") == pytest.approx(0.1 * LENGTH / (YOUNG * HIGH**3 / 12), rel=1e-2)
+
+
+def test_some_displacements_of_a_node_that_does_not_turn(run):
+    """The end is pulled along 1 and free to get thinner: S22 = 0."""
+    lines = beam(constraint=f"{COUPLING}\n1, 1")
+    lines = [line.replace(f"{YOUNG}, 0.", f"{YOUNG}, 0.3") for line in lines]
+    result = run([*lines, *step("*BOUNDARY", "900, 2, 2", "900, 6, 6", "900, 1, 1, 1.")])
+    np.testing.assert_allclose(result.field("S22"), 0, atol=1e-6 * YOUNG)
+    assert result.field("S11").min() > 0.09 * YOUNG
