@@ -17,13 +17,21 @@ from harness.elements import Distributed, FollowerBlock, Request
 from harness.errors import DeckError
 from harness.model.arrays import FloatArray
 from harness.model.perturbations import Buckle
-from harness.model.records import BucklingFactors, BucklingMode, Record
+from harness.model.records import BucklingFactors, BucklingMode, Record, Warned
 from harness.procedures.perturbation import PerturbationStep
 from harness.procedures.step_setting import Setting
 from harness.solver.buckling import smallest_factors
 from harness.solver.eigen import Pair, UnstableError
 
 UNSTABLE = "the base state is not stable: its loads are above the buckling load, or its stiffness is not symmetric"
+
+FREE_EDGE = (
+    "THE LOAD STIFFNESS OF PRESSURES IS NOT SYMMETRIC, FOR THEY FOLLOW A FACE WITH A FREE EDGE, AND ONLY ITS SYMMETRIC "
+    "PART COUNTS. *CLOAD AND TRVEC WITH FOLLOWER=NO KEEP THEIR DIRECTION"
+)
+
+UNSYMMETRIC = 1e-6
+"""Of the largest entry of D: rounding is smaller."""
 
 
 class BuckleStep(PerturbationStep):
@@ -32,6 +40,7 @@ class BuckleStep(PerturbationStep):
     def __init__(self, setting: Setting, procedure: Buckle) -> None:
         super().__init__(setting)
         self._procedure = procedure
+        self._remarks: list[Record] = []
 
     def _solve(self) -> list[Record]:
         """The modes, those of the smallest loads first."""
@@ -40,7 +49,7 @@ class BuckleStep(PerturbationStep):
         inside = (values >= procedure.lowest) & (values <= procedure.highest)
         values, vectors = values[inside], vectors[:, inside]
         shapes = (vectors / self._largest(vectors)).T if len(values) else vectors.T
-        records: list[Record] = [BucklingFactors(step.number, self._state.total_time, values)]
+        records: list[Record] = [*self._remarks, BucklingFactors(step.number, self._state.total_time, values)]
         for mode, (factor, shape) in enumerate(zip(values.tolist(), shapes, strict=True), start=1):
             found = self._solution(shape, {"EIGVAL": factor})
             records.append(BucklingMode(step.number, mode, 1, 0, factor, factor, procedure.period, found))
@@ -55,7 +64,11 @@ class BuckleStep(PerturbationStep):
         data = evaluation.data.copy()
         stiffness = self._symmetric(data)
         change = self._response(data, stiffness, self._state.loads.in_perturbation(self._step))
-        added = self._symmetric(system.stress_matrix(call, at, change) + self._load_stiffness())
+        load_stiffness = self._load_stiffness()
+        added = self._symmetric(system.stress_matrix(call, at, change) + load_stiffness)
+        skew = self._constraints.reduce(load_stiffness) - self._symmetric(load_stiffness)
+        if np.abs(skew).max(initial=0.0) > UNSYMMETRIC * np.abs(added).max(initial=0.0):
+            self._remarks.append(Warned(FREE_EDGE))
         if not np.any(added):
             raise DeckError(self._step.source, "*BUCKLE: the loads of the step cause no stress")
         if not self._step.nlgeom and np.any(stress := self._symmetric(system.stress_matrix(call, at))):

@@ -203,8 +203,10 @@ def test_ring_under_pressure(run, surface):
     lines += ["*SOLID SECTION, ELSET=BODY, MATERIAL=M", "", "*MATERIAL, NAME=M", f"*ELASTIC\n{YOUNG}, 0."]
     lines += ["*BOUNDARY", "X, 2", "Y, 1", ""]
     load = "*DSLOAD\nOUT, P, 1." if surface else "*DLOAD\nBODY, P2, 0.4\nBODY, P2, 0.6"
-    found = run("\n".join(lines), load, numbers="1").history["EIGVAL"]
+    result = run("\n".join(lines), load, numbers="1")
+    found = result.history["EIGVAL"]
     assert found[0] == pytest.approx(3 * YOUNG * THIN**3 / 12 / RING**3, rel=1e-3)
+    assert not result.warnings
 
 
 @pytest.mark.parametrize(
@@ -250,3 +252,11 @@ def test_shear_that_follows_its_face(run):
     top, _ = head("CPS8")
     with pytest.raises(DeckError, match=r"load type TRSHR follows the surface: its load stiffness is not supported"):
         run(column("CPS8") + top, "*DSLOAD\nTOP, TRSHR, 1., 0., 1.")
+
+
+def test_pressure_on_a_face_with_a_free_edge(run):
+    """It has no potential: its load stiffness is not symmetric."""
+    top, _ = head("CPS8R")
+    result = run(column("CPS8R") + top, "*DSLOAD\nTOP, P, 1.", numbers="1")
+    (warning,) = result.warnings
+    assert "LOAD STIFFNESS OF PRESSURES IS NOT SYMMETRIC" in warning
