@@ -6,15 +6,17 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import Self
+from typing import Self, TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
 
 from harness.elements import MULTIPLIER, PRESSURE, ContactBlock, ElementBlock, field_of
-from harness.model.arrays import FloatArray, IntArray
+from harness.model.arrays import ComplexArray, FloatArray, IntArray
 from harness.model.mesh import Mesh, full_name
-from harness.model.model import Equation
+from harness.model.model import Equation, dof_in_deck, is_local
+
+Forces = TypeVar("Forces", FloatArray, ComplexArray)
 
 
 @dataclass(frozen=True, slots=True)
@@ -36,6 +38,7 @@ class DofMap:
     _keys: IntArray
     _base: int
     _elements: dict[int, str]
+    _local: tuple[IntArray, IntArray, FloatArray]
 
     @classmethod
     def build(
@@ -70,7 +73,11 @@ class DofMap:
         last = np.searchsorted(owners, len(mesh.labels))
         others = [middles[owner] for owner in owners[last:].tolist()]
         places = np.vstack([mesh.coordinates[owners[:last]], *others])
-        return cls(mesh, owners, numbers, fields[numbers], places, keys, base, elements)
+        turning = [equation.terms for equation in equations if is_local(equation.terms[0][1])]
+        pairs = [(first[0] * base + first[1], node * base + dof) for first, *terms in turning for node, dof, _ in terms]
+        along, into = np.searchsorted(keys, np.array(pairs, dtype=np.int64).reshape(-1, 2).T)
+        turned = along, into, np.array([-cosine for _, *terms in turning for _, _, cosine in terms])
+        return cls(mesh, owners, numbers, fields[numbers], places, keys, base, elements, turned)
 
     def __len__(self) -> int:
         return len(self.node)
@@ -127,7 +134,16 @@ class DofMap:
             return f"{self.element(unknown)}, contact pressure", 1
         if element := self.element(unknown):
             return f"of element {element}, pressure", int(self.dof[unknown]) - PRESSURE + 1
-        return self.mesh.name(int(self.node[unknown])), int(self.dof[unknown])
+        return self.mesh.name(int(self.node[unknown])), dof_in_deck(int(self.dof[unknown]))
+
+    def in_global(self, forces: Forces) -> Forces:
+        """Forces (n,) with those along directions of *TRANSFORM added to the global components of their nodes."""
+        along, into, cosines = self._local
+        if not len(along):
+            return forces
+        turned = forces.copy()
+        np.add.at(turned, into, cosines * forces[along])
+        return turned
 
 
 def _names(block: ElementBlock) -> list[str]:

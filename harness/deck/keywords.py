@@ -39,6 +39,7 @@ from harness.deck import (
     steps,
     structure,
     surfaces,
+    transforms,
     user_elements,
     viscous,
 )
@@ -65,7 +66,7 @@ _FILES = (
         steps,
         procedures,
     ),
-    *(controls, prescribed, distributed, heat_loads, requests, restart, ignored),
+    *(controls, transforms, prescribed, distributed, heat_loads, requests, restart, ignored),
 )
 KEYWORDS: dict[str, Keyword] = {compact(keyword.name): keyword for file in _FILES for keyword in file.KEYWORDS}
 MARKDOWN = Path(__file__).with_name("keywords.md")

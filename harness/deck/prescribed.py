@@ -15,9 +15,11 @@ from harness.deck.error_report import look_up, nearest
 from harness.deck.flatten import FlatMesh
 from harness.deck.surfaces import Surfaces
 from harness.deck.table import INPUT, Keyword, Kind, Option, Where, ignored, one_of, refused, unquote
+from harness.deck.transforms import Transforms
 from harness.deck.user_elements import LARGEST_DOF
 from harness.errors import Source
 from harness.model.amplitude import Amplitude
+from harness.model.model import dof_in_deck
 from harness.model.steps import Boundary, Load
 
 # dofs that a named boundary type holds (Abaqus Analysis User's Guide, "Boundary conditions")
@@ -42,6 +44,7 @@ class Prescription:
     active_dofs       dofs that some element uses
     built_in          (elements,) whether each is a built-in one
     surfaces          faces of elements, for loads
+    transforms        local directions of nodes
     """
 
     flat: FlatMesh
@@ -49,6 +52,7 @@ class Prescription:
     active_dofs: Collection[int]
     built_in: NDArray[np.bool_]
     surfaces: Surfaces
+    transforms: Transforms
 
     def read_boundary(self, block: Block, in_step: bool) -> list[Boundary]:
         """Entries of one *BOUNDARY, one for each dof."""
@@ -72,7 +76,10 @@ class Prescription:
             if magnitude and not in_step:
                 raise row.error(f"value {magnitude:g} before the first *STEP, where only zero can be prescribed")
             given = magnitude, amplitude, row.source, velocity, user, fixed, block.options.flag("IMAGINARY")
-            found += [Boundary(nodes, dof, *given) for dof in dofs]
+            if user and (name := self.transforms.named(nodes)):
+                raise row.error(f"USER is not supported at nodes with *TRANSFORM, such as {name}")
+            parts = [part for dof in dofs for part in self.transforms.parts(nodes, dof, row.source)]
+            found += [Boundary(some, dof, *given) for some, dof in parts]
         return found
 
     def read_loads(self, block: Block) -> list[Load]:
@@ -84,7 +91,8 @@ class Prescription:
             nodes = self.flat.nodes(row.name(0, "node or node set"), row.source)
             dof = 11 if block.name == "CFLUX" and row.blank(1) else read_dof(row, 1)
             imaginary = block.options.known("IMAGINARY") and block.options.flag("IMAGINARY")
-            found.append(Load(nodes, dof, row.real(2, "value", 0.0), amplitude, row.source, imaginary))
+            given = row.real(2, "value", 0.0), amplitude, row.source, imaginary
+            found += [Load(some, own, *given) for some, own in self.transforms.parts(nodes, dof, row.source)]
         return found
 
     def amplitude(self, block: Block) -> Amplitude | None:
@@ -130,11 +138,13 @@ def contradictions(entries: Sequence[Boundary], flat: FlatMesh) -> Iterator[tupl
         pairs = np.stack([numbers[again], numbers[again + 1]], axis=1)
         for first, later in np.unique(pairs, axis=0).tolist():
             if _given(group[first]) != _given(group[later]):
+                later_dof = dof_in_deck(group[later].dof)
                 node = int(nodes[again[np.all(pairs == (first, later), axis=1)][0]])
                 yield (
                     group[later].source,
-                    f"*BOUNDARY: node {flat.mesh.name(node)}, dof {group[later].dof} is given {_given(group[later])} "
-                    f"here and {_given(group[first])} at {group[first].source}, in one step; the entry here counts",
+                    f"*BOUNDARY: node {flat.mesh.name(node)}, dof {later_dof} is given "
+                    f"{_given(group[later])} here and {_given(group[first])} at {group[first].source}, in one step; "
+                    "the entry here counts",
                 )
 
 

@@ -29,6 +29,7 @@ from harness.deck.section_controls import read_section_controls
 from harness.deck.steps import check_parts, read_steps
 from harness.deck.structure import read_heading
 from harness.deck.surfaces import Surfaces
+from harness.deck.transforms import Transforms
 from harness.deck.user_elements import dofs_of
 from harness.errors import DeckError, Source
 from harness.model.mesh import ElementGroup
@@ -90,7 +91,9 @@ def read_deck(
     # first, since it may move nodes
     contacts = ContactReader(flat, groups, interactions, problems).read()
     built_in = np.concatenate([np.full(len(group.labels), group.definition is None) for group in groups])
-    prescription = Prescription(flat, amplitudes, _active_dofs(groups), built_in, Surfaces(flat, groups))
+    transforms = Transforms(flat, groups, problems)
+    active = _active_dofs(groups)
+    prescription = Prescription(flat, amplitudes, active, built_in, Surfaces(flat, groups), transforms)
     boundaries: list[Boundary] = []
     check_parts(structure.root, problems, harmonic=False)
     for block in structure.root:
@@ -110,6 +113,7 @@ def read_deck(
     steps = tuple(replace(step, restart=restarts[step.number - 1]) for step in steps)
     related = constraints.read(boundaries, steps)
     check_contact(contacts, steps, problems)
+    transforms.check(equations, related, in_steps)
     problems.check()
     return Model(
         deck=path,
@@ -120,7 +124,7 @@ def read_deck(
         nsets=flat.nsets,
         elsets=flat.elsets,
         boundaries=tuple(boundaries),
-        equations=(*equations, *related),
+        equations=(*equations, *related, *transforms.equations()),
         contacts=contacts,
         arms=constraints.arms,
         initial_velocities=velocities,

@@ -7,6 +7,7 @@ from __future__ import annotations
 from typing import Final
 
 from harness.model.contact import CONTACT
+from harness.model.model import dof_in_deck
 
 FIELD_NAMES: Final = ("force", "moment", "pore", "electrical", "temperature", VOLUME := "volume", CONTACT)
 """Names of the fields; their numbers index the arrays by field."""
@@ -32,6 +33,7 @@ def field_of(dof: int) -> int:
     int
         Index into FIELD_NAMES.
     """
+    dof = dof_in_deck(dof)
     for last, field in ((3, 0), (7, 1), (8, 2), (9, 3), (PRESSURE - 1, 4), (MULTIPLIER - 1, 5)):
         if dof <= last:
             return field

@@ -13,6 +13,21 @@ from harness.model.contact import ContactPair
 from harness.model.mesh import ElementGroup, Mesh
 from harness.model.steps import Boundary, InitialSolution, InitialStress, InitialValue, Step
 
+FIRST_LOCAL = 40
+"""Local displacements and rotations of nodes with *TRANSFORM are the dofs FIRST_LOCAL + 1 to FIRST_LOCAL + 6."""
+_MOTION = 6
+"""Dofs of the motion of a node."""
+
+
+def is_local(dof: int) -> bool:
+    """Whether a dof is along a direction of *TRANSFORM."""
+    return FIRST_LOCAL < dof <= FIRST_LOCAL + _MOTION
+
+
+def dof_in_deck(dof: int) -> int:
+    """The dof as the deck numbers it."""
+    return dof - FIRST_LOCAL if is_local(dof) else dof
+
 
 @dataclass(frozen=True, slots=True)
 class Equation:

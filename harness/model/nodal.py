@@ -82,8 +82,8 @@ class NodalIndex:
 
     def __init__(self, nodes: int, solution: Solution) -> None:
         self._position = np.full((nodes, LARGEST_DOF + 1), -1, dtype=np.int64)
-        # the unknowns of elements come last
-        of_nodes = np.flatnonzero(solution.node < nodes)
+        # not the unknowns of elements, and not along directions of *TRANSFORM
+        of_nodes = np.flatnonzero((solution.node < nodes) & (solution.dof <= LARGEST_DOF))
         self._position[solution.node[of_nodes], solution.dof[of_nodes]] = of_nodes
 
     def find(self, nodes: IntArray, dof: int) -> IntArray:

@@ -16,6 +16,7 @@ from harness.elements import FIELD_NAMES, VOLUME
 from harness.model.arrays import FloatArray, IntArray, first_largest
 from harness.model.contact import CONTACT
 from harness.model.mesh import Mesh
+from harness.model.model import dof_in_deck
 from harness.model.records import Convergence, FieldCheck, Largest
 from harness.model.restart import Saved
 from harness.model.steps import Controls, FieldControls
@@ -295,7 +296,7 @@ class Checker:
         k = int(first_largest(np.abs(chosen)))
         position = k if isinstance(positions, slice) else int(positions[k])
         unknown = position if unknowns is None else int(unknowns[position])
-        return Largest(float(chosen[k]), int(self._dofs.node[unknown]), int(self._dofs.dof[unknown]))
+        return Largest(float(chosen[k]), int(self._dofs.node[unknown]), dof_in_deck(int(self._dofs.dof[unknown])))
 
 
 def _worst(found: Iterable[Largest]) -> Largest:

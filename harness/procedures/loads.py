@@ -26,6 +26,7 @@ from harness.assembly import DofMap
 from harness.errors import Source
 from harness.model.amplitude import Amplitude
 from harness.model.arrays import FloatArray, IntArray
+from harness.model.model import dof_in_deck
 from harness.model.steps import Boundary, InitialValue, Load, Step
 
 _LAST_ROTATION = 7
@@ -176,7 +177,7 @@ class Boundaries:
                 base[unknowns] = displacement[unknowns]
             elif entry.amplitude is not None:
                 curves.append(ScaledUnknowns(unknowns, entry.magnitude, entry.amplitude))
-            elif step.amplitude == "RAMP" or entry.dof <= _LAST_ROTATION:
+            elif step.amplitude == "RAMP" or dof_in_deck(entry.dof) <= _LAST_ROTATION:
                 base[unknowns] = displacement[unknowns]
                 slope[unknowns] = entry.magnitude - displacement[unknowns]
             else:

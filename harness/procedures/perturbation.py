@@ -95,7 +95,8 @@ class PerturbationStep:
         work = 0.5 * float(change @ internal)
         solution = self._solution(change, {"ALLSE": work, "ALLWK": work})
         reaction = constraints.reactions(external - internal)
-        found = replace(solution, reaction=reaction, load=load, elements=self._elements(change))
+        turned = self._system.dofs.in_global
+        found = replace(solution, reaction=turned(reaction), load=turned(load), elements=self._elements(change))
         period = step.procedure.period
         done = IncrementDone(step.number, 1, 1, 1, period, self._state.total_time, period, found)
         return [Warned(BASE_FORCES), done] if self._unloaded(evaluation) else [done]

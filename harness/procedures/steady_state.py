@@ -126,8 +126,8 @@ class SteadyStateStep(PerturbationStep):
             self._solution(displacement, {}),
             velocity=velocity,
             acceleration=acceleration,
-            reaction=reaction,
-            load=load,
+            reaction=self._system.dofs.in_global(reaction),
+            load=self._system.dofs.in_global(load),
             elements=self._elements(displacement),
         )
 
