@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from harness.deck.blocks import Block, Row
-from harness.deck.error_report import look_up, nearest
+from harness.deck.error_report import Problems, look_up, nearest
 from harness.deck.flatten import FlatMesh
 from harness.deck.surfaces import Surfaces
 from harness.deck.table import INPUT, Keyword, Kind, Option, Where, ignored, one_of, refused, unquote
@@ -116,6 +116,32 @@ class Prescription:
         return list(range(first, last + 1))
 
 
+def of_load_case(blocks: Sequence[Block], case: int) -> list[Block]:
+    """Keywords of a step, of *BOUNDARY those of one LOAD CASE alone."""
+    return [block for block in blocks if block.name != "BOUNDARY" or _load_case(block) == case]
+
+
+def check_load_cases(
+    blocks: Sequence[Block], first: Sequence[Boundary], second: Sequence[Boundary], problems: Problems
+) -> None:
+    """Modes of *BUCKLE are found with the supports of the loads, which LOAD CASE=2 must repeat."""
+    given = [block for block in blocks if block.name == "BOUNDARY" and block.options.given("LOAD CASE")]
+    for block in given:
+        if not any(other.name == "BUCKLE" for other in blocks):
+            problems.add(block.source, "*BOUNDARY: LOAD CASE is for *BUCKLE")
+        elif _load_case(block) not in (1, 2):
+            problems.add(block.source, f"*BOUNDARY: LOAD CASE={_load_case(block)}: expected 1 or 2")
+    modes = next((block for block in given if _load_case(block) == 2), None)
+    held = [{(n, entry.dof) for entry in entries for n in entry.nodes.tolist()} for entries in (first, second)]
+    if modes is not None and held[0] != held[1]:
+        message = "LOAD CASE=2 holds other dofs than LOAD CASE=1: modes with supports of their own are not supported"
+        problems.add(modes.source, f"*BOUNDARY: {message}")
+
+
+def _load_case(block: Block) -> int:
+    return block.options.integer("LOAD CASE", 1)
+
+
 def read_dof(row: Row, index: int) -> int:
     """The dof in a field of a data line."""
     dof = row.integer(index, "dof")
@@ -180,7 +206,8 @@ KEYWORDS = (
             Option("FIXED", doc="values stay as at the start of the step"),
             *HARMONIC,
             *ignored("REGION TYPE"),
-            *refused(*("BASE NAME", "LOAD CASE", "PHANTOM", "SCALE", "STEP", "SUBMODEL", "BLOCKING", "TIMESCALE")),
+            Option("LOAD CASE", Kind.INTEGER, "in *BUCKLE: 1 (default), and 2 of the modes, which must be the same"),
+            *refused(*("BASE NAME", "PHANTOM", "SCALE", "STEP", "SUBMODEL", "BLOCKING", "TIMESCALE")),
         ),
         "node or set, first dof, last dof, value; or node or set, XSYMM, YSYMM, ZSYMM, XASYMM, YASYMM, ZASYMM, "
         "PINNED or ENCASTRE",

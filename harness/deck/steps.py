@@ -14,7 +14,7 @@ from harness.deck.controls import ControlState
 from harness.deck.distributed import read_distributed, read_fields, read_surface_loads
 from harness.deck.error_report import Problems
 from harness.deck.heat_loads import HEAT_LOADS, read_heat_loads
-from harness.deck.prescribed import Prescription, contradictions
+from harness.deck.prescribed import Prescription, check_load_cases, contradictions, of_load_case
 from harness.deck.procedures import read_procedure
 from harness.deck.requests import RequestReader
 from harness.deck.structure import Scope
@@ -48,9 +48,11 @@ def read_steps(
         name = options.text("NAME") or f"Step-{number}"
         if name in (step.name for step in steps):
             problems.add(scope.head.source, f"*STEP: the name {name} is taken by an earlier step")
-        boundaries, new_boundary = _read_entries(
-            scope, ("BOUNDARY",), partial(prescription.read_boundary, in_step=True), problems
-        )
+        read_boundary = partial(prescription.read_boundary, in_step=True)
+        cases = [replace(scope, blocks=of_load_case(scope.blocks, case)) for case in (1, 2)]
+        boundaries, new_boundary = _read_entries(cases[0], ("BOUNDARY",), read_boundary, problems)
+        of_modes, _ = _read_entries(cases[1], ("BOUNDARY",), read_boundary, problems)
+        check_load_cases(scope.blocks, boundaries, of_modes, problems)
         for source, message in contradictions(boundaries, prescription.flat):
             problems.warn(source, message)
         loads, new_loads = _read_entries(scope, ("CLOAD", "CFLUX"), prescription.read_loads, problems)

@@ -260,3 +260,30 @@ def test_pressure_on_a_face_with_a_free_edge(run):
     result = run(column("CPS8R") + top, "*DSLOAD\nTOP, P, 1.", numbers="1")
     (warning,) = result.warnings
     assert "LOAD STIFFNESS OF PRESSURES IS NOT SYMMETRIC" in warning
+
+
+CASES = "*BOUNDARY, OP=NEW, LOAD CASE=1\n1, 1, 3\n*BOUNDARY, OP=NEW, LOAD CASE=2\n{}\n*CLOAD\n2, 3, -1."
+
+
+def test_supports_of_the_modes_are_those_of_the_loads(run):
+    """Abaqus/CAE writes both load cases, which hold the same dofs."""
+    result = run(BAR, CASES.format("1, 1, 2\n1, 3"))
+    np.testing.assert_allclose(result.history["EIGVAL"], np.array(SPRINGS) * LENGTH)
+
+
+@pytest.mark.parametrize(
+    ("loads", "message"),
+    [
+        (CASES.format("1, 1, 2"), "LOAD CASE=2 holds other dofs than LOAD CASE=1: modes with supports of their own"),
+        (CASES.format("1, 1, 3").replace("CASE=2", "CASE=3"), "LOAD CASE=3: expected 1 or 2"),
+    ],
+)
+def test_other_supports_of_the_modes(run, loads, message):
+    with pytest.raises(DeckError, match=rf"buckle\.inp:\d+: \*BOUNDARY: {message}"):
+        run(BAR, loads)
+
+
+def test_load_cases_of_other_steps(run):
+    static = "*STEP\n*STATIC\n{loads}\n*END STEP\n"
+    with pytest.raises(DeckError, match=r"buckle\.inp:\d+: \*BOUNDARY: LOAD CASE is for \*BUCKLE"):
+        run(BAR, "*BOUNDARY, LOAD CASE=1\n1, 1", step=static)
