@@ -38,6 +38,12 @@ class Landscape:
     def expand(self, dq, dprescribed):
         return dq
 
+    def place(self, start, increment):
+        return increment
+
+    def follow(self, u, residual):
+        pass
+
     def reduce_vector(self, vector):
         return vector
 
@@ -46,6 +52,8 @@ class Landscape:
 
     def reduce(self, data):
         return data
+
+    reduce_tangent = reduce
 
     def factorise(self, data):
         self._factorised = data.copy().reshape(len(self.free), -1)
