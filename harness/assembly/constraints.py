@@ -104,8 +104,13 @@ class Constraints:
 
     @property
     def coordinates(self) -> FloatArray:
-        """(n_q, 3) original coordinates of the nodes of the free unknowns, for orderings."""
+        """(n_q, 3) original coordinates of the nodes of the free unknowns, for orderings and multigrid."""
         return self._system.dofs.coordinates[self.free]
+
+    @property
+    def dofs(self) -> IntArray:
+        """(n_q,) dofs of the free unknowns."""
+        return self._system.dofs.dof[self.free]
 
     def name_of(self, reduced: int) -> tuple[str, int]:
         """Node name and dof of a free unknown, for messages.

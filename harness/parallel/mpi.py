@@ -71,6 +71,7 @@ class MpiRanks(Ranks):
         self._at_end = self.comm.Dup()
         self._together: bool | None = None
         self._known: Exception | None = None
+        self._before_end: list[Callable[[], None]] = []
         self.token = self.from_first(secrets.token_hex(4))
         slate = own_slate()
         if slate is not None:
@@ -209,9 +210,16 @@ class MpiRanks(Ranks):
             self._together = not isinstance(error, KeyboardInterrupt) and self._all_end(wait=error is None)
         return self._together
 
+    def before_end(self, act: Callable[[], None]) -> None:
+        """As that of `Ranks`."""
+        if act not in self._before_end:
+            self._before_end.append(act)
+
     def close(self) -> None:
         """As that of `Ranks`."""
         if self._together:
+            for act in self._before_end:
+                act()
             self._mpi.Finalize()
 
     def _all_end(self, *, wait: bool) -> bool:

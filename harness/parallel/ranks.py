@@ -116,6 +116,9 @@ class Ranks:
         """
         return True
 
+    def before_end(self, act: Callable[[], None]) -> None:
+        """Do something once before `close` ends MPI, on all ranks and only if all of them come to the end."""
+
     def close(self) -> None:
         """The last thing that ranks do together."""
 

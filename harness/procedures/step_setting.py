@@ -82,7 +82,8 @@ def choose_solver(name: str, constraints: Constraints, effort: Effort) -> Linear
 
 def choose_rank_solver(name: str, constraints: Constraints, effort: Effort) -> RankSolver:
     """As `choose_solver`, on several ranks."""
-    pattern = Pattern(constraints.reduced_indptr, constraints.reduced_indices, constraints.coordinates)
+    given = constraints.reduced_indptr, constraints.reduced_indices, constraints.coordinates, constraints.dofs
+    pattern = Pattern(*given)
     return RankSolver(constraints.ranks, name, pattern, constraints.name_of, effort)
 
 

@@ -45,12 +45,14 @@ class Pattern:
     """Sparsity of a square matrix with symmetric pattern.
 
     indptr, indices  CSR, int32, columns ascending in each row
-    coordinates      (n, 3) of the node of each unknown, None if unknown; only orderings look at them
+    coordinates      (n, 3) of the node of each unknown, None if unknown; only orderings and multigrid look at them
+    dofs             (n,) as Abaqus numbers them, None if unknown; only multigrid looks at them
     """
 
     indptr: NDArray[np.int32]
     indices: NDArray[np.int32]
     coordinates: FloatArray | None = None
+    dofs: IntArray | None = None
 
     @property
     def size(self) -> int:

@@ -3,8 +3,8 @@
 """The linear solver of a job on several ranks, each of which has a part of the matrix: that of its elements.
 
 All ranks factorise it together, each its own substructure (substructures.py) or, where they share too many unknowns,
-each some rows of the whole (cluster.py). Or rank 0 gathers it and factorises it as in a job without ranks: small models
-lose more by talking than two processes gain.
+each some rows of the whole (cluster.py); where oneMKL does not serve, PETSc does so (petsc.py). Or rank 0 gathers it
+and factorises it as in a job without ranks: small models lose more by talking than two processes gain.
 """
 
 from __future__ import annotations
@@ -20,10 +20,11 @@ from numpy.typing import NDArray
 from harness.errors import SingularMatrixError, UsageError
 from harness.model.arrays import FloatArray, IntArray
 from harness.parallel.ranks import Ranks
-from harness.solver.linear import cluster, substructures
+from harness.solver.linear import cluster, petsc, substructures
 from harness.solver.linear.base import SUSPICIOUS, Effort, LinearSolver, Pattern, is_accurate
 from harness.solver.linear.choice import Availability, choose
 from harness.solver.linear.cluster import Cluster, ClusterError, obstacle, version
+from harness.solver.linear.petsc import Petsc
 from harness.solver.linear.singular import refuse_singular
 from harness.solver.linear.substructures import MOST_SHARED, Substructures
 
@@ -39,12 +40,15 @@ def with_ranks() -> list[Availability]:
         substructures.NAME: f"auto, with mpiexec from {SMALLEST} unknowns on, of which ranks share up to {MOST_SHARED}",
         cluster.NAME: "auto, with mpiexec where they share more; for less unknowns rank 0 takes one of the others",
     }
-    return [Availability(name, not missing, version(), note + lack) for name, note in notes.items()]
+    rows = [Availability(name, not missing, version(), note + lack) for name, note in notes.items()]
+    release = petsc.version()
+    note = "auto, with mpiexec where mkl does not serve" + ("" if release else " (petsc4py not installed)")
+    return [*rows, Availability(petsc.NAME, bool(release and find_spec("mpi4py")), release, note)]
 
 
 NameOf = Callable[[int], tuple[str, int]]
 
-_TOGETHER: Final = (substructures.NAME, cluster.NAME)
+_TOGETHER: Final = (substructures.NAME, cluster.NAME, petsc.NAME)
 """Solvers of all ranks."""
 
 
@@ -195,29 +199,39 @@ class RankSolver:
             self._together.release()
         self._together = self._inner = self._chosen = None
 
-    def _shared_out(self, name: str) -> Cluster | Substructures | None:
+    def _shared_out(self, name: str) -> Cluster | Substructures | Petsc | None:
         """Solver of all ranks, with its name and reason; None: rank 0 alone. Raises UsageError."""
         ranks, pattern = self._ranks, self._pattern
         if name not in ("auto", *_TOGETHER) or (name == "auto" and pattern.size < SMALLEST):
             return None
-        reason = next(filter(None, ranks.everyones(obstacle())), "")
-        if reason and name in _TOGETHER:
-            raise UsageError(f"linear solver '{name}' cannot be used: {reason}")
+        lack = "" if name == petsc.NAME else self._missing(name, obstacle())
+        other = bool(lack) or name == petsc.NAME
+        if other:
+            lack = self._missing(name, petsc.obstacle(ranks.size))
         owners = _owners(ranks, pattern)
         # on tiny models a rank may have no row
-        if reason or len(np.unique(owners)) < ranks.size:
+        if lack or len(np.unique(owners)) < ranks.size:
             return None
-        if name != cluster.NAME:
+        if name != cluster.NAME and not other:
             parts = Substructures(ranks, pattern, owners)
             shared = len(parts.shared)
             if parts.usable and (name == substructures.NAME or shared <= MOST_SHARED):
                 self.name = substructures.NAME
                 self.reason = f"{pattern.size} unknowns on {ranks.size} ranks, which share {shared} of them"
                 return parts
-        self.name, self.reason = cluster.NAME, f"{pattern.size} unknowns on {ranks.size} ranks"
-        return Cluster(ranks, Rows(ranks, pattern, owners))
+        self.name = petsc.NAME if other else cluster.NAME
+        self.reason = f"{pattern.size} unknowns on {ranks.size} ranks"
+        rows = Rows(ranks, pattern, owners)
+        return Petsc(ranks, rows, pattern) if other else Cluster(ranks, rows)
 
-    def _factorise_together(self, solver: Cluster | Substructures, data: FloatArray) -> None:
+    def _missing(self, name: str, mine: str) -> str:
+        """What one of the ranks lacks for a solver, '' if none does. Raises UsageError if this solver is requested."""
+        reason = next(filter(None, self._ranks.everyones(mine)), "")
+        if reason and name in _TOGETHER:
+            raise UsageError(f"linear solver '{name}' cannot be used: {reason}")
+        return reason
+
+    def _factorise_together(self, solver: Cluster | Substructures | Petsc, data: FloatArray) -> None:
         """Factorise on all ranks, or give that up where it does not serve."""
         try:
             self.effort.in_part += solver.factorise(data, symmetric=self._symmetric)

@@ -7,11 +7,12 @@ from __future__ import annotations
 import json
 import re
 import sys
+from collections.abc import Sequence
 from pathlib import Path
 
 import numpy as np
 import pytest
-from mpiexec import NEEDED, run
+from mpiexec import NEEDED, PETSC_NEEDED, run
 
 from harness.errors import UsageError
 from harness.output.sta_file import NOT_COMPLETED
@@ -49,10 +50,10 @@ KILL = "call execute_command_line('kill -9 $PPID')"
 def fails(tmp_path):
     """Runs a chain of springs of which one makes a mistake; returns exit code and what is on stderr."""
 
-    def fails(mistake: str, element: int) -> tuple[int, str]:
+    def fails(mistake: str, element: int, options: Sequence[str] = ()) -> tuple[int, str]:
         (tmp_path / "chain.inp").write_text(CHAIN)
         (tmp_path / "spring.f").write_text(SPRING.format(head=HEAD, mistake=mistake, element=element))
-        words = ["-m", "harness", "run", "chain.inp", "--user", "spring.f", "--quiet"]
+        words = ["-m", "harness", "run", "chain.inp", "--user", "spring.f", "--quiet", *options]
         code, _, errors = run(2, words, tmp_path)
         return code, errors
 
@@ -60,9 +61,13 @@ def fails(tmp_path):
 
 
 @NEEDED
-@pytest.mark.parametrize("element", [1, SPRINGS], ids=["one end", "other end"])
-def test_user_element_that_stops_the_analysis(fails, tmp_path, element):
-    code, errors = fails("call xit", element)
+@pytest.mark.parametrize(
+    ("element", "options"),
+    [(1, ()), (SPRINGS, ()), pytest.param(SPRINGS, ("--solver", "petsc"), marks=PETSC_NEEDED)],
+    ids=["one end", "other end", "PETSc"],
+)
+def test_user_element_that_stops_the_analysis(fails, tmp_path, element, options):
+    code, errors = fails("call xit", element, options)
     assert code == 1
     assert errors.count(f"element {element} (type U1): stopped the analysis (XIT)") == 1
     assert "chain ended after increment 1 of step 1" in errors

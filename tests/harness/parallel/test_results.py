@@ -11,7 +11,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from mpiexec import NEEDED, run
+from mpiexec import NEEDED, PETSC_NEEDED, run
 from small_decks import body_lines
 
 import harness
@@ -222,12 +222,15 @@ LONG = {
     "U4": (INPUTS / "dcb" / "dcb_u4_1e6.inp", []),
     "U4, substructures": (INPUTS / "dcb" / "dcb_u4_1e6.inp", ["--solver", "substructures"]),
     "U4, all ranks factorise": (INPUTS / "dcb" / "dcb_u4_1e6.inp", ["--solver", "cluster"]),
+    "U4, PETSc": (INPUTS / "dcb" / "dcb_u4_1e6.inp", ["--solver", "petsc"]),
     "BK": (INPUTS / "cohesive" / "coh3d8_bk.inp", []),
 }
 
 
 @pytest.mark.long
-@pytest.mark.parametrize("name", LONG)
+@pytest.mark.parametrize(
+    "name", [pytest.param(name, marks=PETSC_NEEDED if name.endswith("PETSc") else []) for name in LONG]
+)
 def test_decks_of_the_folder(tmp_path, name):
     deck, words = LONG[name]
     one = harness.run(deck, output_dir=tmp_path / "one")

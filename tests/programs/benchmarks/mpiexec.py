@@ -11,6 +11,7 @@ import os
 import subprocess
 import sys
 from collections.abc import Sequence
+from importlib.metadata import distributions
 from importlib.util import find_spec
 from pathlib import Path
 
@@ -20,6 +21,14 @@ OWN = Path(sys.prefix) / ".ranks"
 HERE = Path(sys.prefix) if find_spec("mpi4py") else OWN
 MPIEXEC = HERE / "bin" / "mpiexec"
 NEEDED = pytest.mark.skipif(not MPIEXEC.exists(), reason="mpi4py and mpich are not installed")
+
+
+def installed(name: str) -> bool:
+    """Whether the ranks find a distribution."""
+    return any(distributions(name=name, path=[*sys.path, *map(str, (OWN / "lib").glob("python*/site-packages"))]))
+
+
+PETSC_NEEDED = pytest.mark.skipif(not installed("petsc4py"), reason="petsc4py is not installed")
 
 
 def variables() -> dict[str, str]:

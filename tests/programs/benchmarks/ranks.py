@@ -3,7 +3,8 @@
 """Strong and weak scaling of a job on ranks, on a machine that has nothing else to do.
 
 A double cantilever beam of bricks with U7 runs a few increments in one process and on two ranks (strong), and one of
-half the width in one process (weak). All times are those of the wall clock and include Python, deck and files.
+half the width in one process (weak). With --nlgeom all entries of the matrix change in each iteration, and not those of
+the process zone alone. All times are those of the wall clock and include Python, deck and files.
 """
 
 from __future__ import annotations
@@ -14,6 +15,7 @@ import subprocess
 import sys
 import tempfile
 import time
+from functools import partial
 from pathlib import Path
 from typing import NamedTuple
 
@@ -40,11 +42,13 @@ class Run(NamedTuple):
     iterations: int
 
 
-def measure(ranks: int, bricks: tuple[int, int, int], solver: str) -> Run:
+def measure(ranks: int, bricks: tuple[int, int, int], solver: str, *, nlgeom: bool) -> Run:
     """Run a deck."""
     with tempfile.TemporaryDirectory() as name:
         folder = Path(name)
         deck = re.sub(r"(\*STATIC\n.*?), 2\.5,", rf"\1, {END},", dcb_of_bricks("C3D8", STANDARD, bricks))
+        if nlgeom:
+            deck = deck.replace("*STEP, ", "*STEP, NLGEOM=YES, ")
         (folder / "dcb.inp").write_text(deck)
         launcher = [str(MPIEXEC), "-n", str(ranks)] if ranks > 1 else []
         words = [*launcher, sys.executable, "-m", "harness", "run", "dcb.inp", "--quiet", "--solver", solver]
@@ -60,11 +64,13 @@ def main() -> int:
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--bricks", type=int, nargs=3, default=BRICKS, metavar="N", help="of an arm: along, across, up")
     parser.add_argument("--solver", default="auto", help="of the runs in one process (auto)")
+    parser.add_argument("--nlgeom", action="store_true", help="large displacements")
     options = parser.parse_args()
     along, across, up = options.bricks
     whole, narrow = (along, across, up), (along, across // RANKS, up)
-    one, two = measure(1, whole, options.solver), measure(RANKS, whole, "auto")
-    half = measure(1, narrow, options.solver)
+    measured = partial(measure, nlgeom=options.nlgeom)
+    one, two = measured(1, whole, options.solver), measured(RANKS, whole, "auto")
+    half = measured(1, narrow, options.solver)
     gain = one.seconds / two.seconds
     notes = "", f"strong: {gain:.2f} times as fast", f"weak: {half.seconds / two.seconds:.2f} of the speed"
     title = f"{one.iterations} iterations"
