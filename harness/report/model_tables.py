@@ -9,6 +9,7 @@ from dataclasses import dataclass
 from typing import Final
 
 from harness.errors import Source
+from harness.model.element_types import BuiltInType
 from harness.model.mesh import ElementGroup
 from harness.model.model import Model
 from harness.model.properties import (
@@ -85,9 +86,8 @@ def property_tables(model: Model) -> Iterator[Table]:
         if isinstance(section, UserProperty):
             yield _user_table(group, section)
         elif isinstance(section, SolidSection | CohesiveSection | ShellSection | BeamSection):
-            yield Table(
-                f"{section.elset}: {group.type}", ("property", "value", ""), _section_rows(section), section.source
-            )
+            rows = _said_once(_section_rows(section, group.built_in))
+            yield Table(f"{section.elset}: {group.type}", ("property", "value", ""), rows, section.source)
 
 
 def layout_of(definition: UserElement | None) -> ElementLayout | None:
@@ -129,13 +129,23 @@ def _named(values: Sequence[float], names: Sequence[str], array: str) -> list[Ro
     return [(name, f"{value:g}", place) for name, value, place in zip(names, values, places, strict=True)]
 
 
-def _section_rows(section: SolidSection | CohesiveSection | ShellSection | BeamSection) -> list[Row]:
+def _said_once(rows: Sequence[Row]) -> list[Row]:
+    """Rows whose last cell is empty where it repeats the one above."""
+    above = ["", *(row[-1] for row in rows)]
+    return [(*row[:-1], "" if row[-1] == last else row[-1]) for row, last in zip(rows, above, strict=False)]
+
+
+def _section_rows(
+    section: SolidSection | CohesiveSection | ShellSection | BeamSection, kind: BuiltInType | None
+) -> list[Row]:
     if isinstance(section, BeamSection):
         return [*_beam_rows(section)]
     if isinstance(section, ShellSection):
         return [*_layer_rows(section), *(row for material in _materials(section) for row in _material_rows(material))]
     rows: list[Row] = [("material", section.material.name, "")]
-    rows.append(("thickness", f"{section.thickness:g}", ""))
+    # of a solid in space it is no more than the default
+    if isinstance(section, CohesiveSection) or kind is None or kind.dimension == 2:
+        rows.append(("thickness", f"{section.thickness:g}", ""))
     if isinstance(section, CohesiveSection):
         rows.append(("width", f"{section.width:g}", ""))
     elif section.orientation is not None:

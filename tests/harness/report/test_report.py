@@ -152,5 +152,22 @@ def test_layers_of_a_shell(tmp_path: Path) -> None:
         ("offset", "0.5", "of the thickness"),
         ("orientation", "O", ""),
         ("E", "100", "*ELASTIC, TYPE=ISOTROPIC"),
-        ("nu", "0.3", "*ELASTIC, TYPE=ISOTROPIC"),
+        ("nu", "0.3", ""),
     ]
+
+
+@pytest.mark.parametrize(
+    ("kind", "rows"),
+    [("CPE4", [("material", "M", ""), ("thickness", "2", "")]), ("C3D8", [("material", "M", "")])],
+)
+def test_only_solids_in_the_plane_have_a_thickness(tmp_path: Path, kind: str, rows: list[tuple[str, ...]]) -> None:
+    corners = [(x, y, z) for z in (0, 1) for x, y in ((0, 0), (1, 0), (1, 1), (0, 1))][: int(kind[-1])]
+    nodes = "".join(f"{k}, {x}, {y}, {z}\n" for k, (x, y, z) in enumerate(corners, 1))
+    deck = tmp_path / "solid.inp"
+    deck.write_text(
+        f"*NODE\n{nodes}*ELEMENT, TYPE={kind}, ELSET=ALL\n1, {', '.join(map(str, range(1, len(corners) + 1)))}\n"
+        "*MATERIAL, NAME=M\n*ELASTIC\n100., 0.3\n*SOLID SECTION, ELSET=ALL, MATERIAL=M\n2.\n"
+        "*STEP\n*STATIC\n*END STEP\n"
+    )
+    (table,) = property_tables(read_deck(deck))
+    assert [*table.rows] == [*rows, ("E", "100", "*ELASTIC, TYPE=ISOTROPIC"), ("nu", "0.3", "")]
