@@ -10,6 +10,7 @@ undeformed model; in space, where PyVista draws, that of the deformed one.
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, Final
 
@@ -22,6 +23,8 @@ from matplotlib.collections import LineCollection, PolyCollection
 from matplotlib.colors import Normalize
 from matplotlib.figure import Figure
 from matplotlib.ticker import MaxNLocator
+from matplotlib.transforms import Bbox
+from mpl_toolkits.mplot3d import proj3d
 from mpl_toolkits.mplot3d.art3d import Poly3DCollection
 
 from harness.errors import UsageError
@@ -35,6 +38,8 @@ _WIDTH: Final = 7.0
 """Of a picture, in inches."""
 _MOST_EDGED: Final = 4000
 """Cells from which on their edges would cover the colours."""
+_BELOW: Final = {"location": "bottom", "shrink": 0.6, "aspect": 40, "pad": 0.02}
+"""The bar of colours below the axes."""
 _LARGE: Final = 0.02
 """Displacement over the size of the model from which on it is drawn as it is."""
 
@@ -80,15 +85,16 @@ def draw_mesh(
     with mpl.rc_context(STYLE | {"axes.grid": False}):
         figure = Figure(figsize=(_WIDTH, 4.0), layout="constrained")
         FigureCanvasAgg(figure)
-        axis = draw(figure, blocks, mesh.points, after)
+        drawn = draw(figure, blocks, mesh.points, after)
         if any(np.isfinite(of_block).any() for *_, of_block in blocks):
-            bar = figure.colorbar(
-                _colours(blocks), ax=axis, label=what, location="bottom", shrink=0.6, aspect=40, pad=0.02
-            )
+            bar = figure.colorbar(_colours(blocks), label=what, orientation="horizontal", **drawn.bar)
             bar.locator = MaxNLocator(5)
+        elif drawn.shown is None:
+            drawn.axis.set_title(what, fontsize=9)
         else:
-            axis.set_title(what, fontsize=9)
-        figure.savefig(path, dpi=200, bbox_inches="tight")
+            drawn.bar["cax"].set_axis_off()
+            drawn.bar["cax"].set_title(what, fontsize=9)
+        figure.savefig(path, dpi=200, bbox_inches=_cut(figure, drawn))
     return path
 
 
@@ -145,7 +151,16 @@ def _colours(blocks: Sequence[_Block]) -> ScalarMappable:
     return ScalarMappable(Normalize(low, high if high > low else low + 1.0), colours)
 
 
-def _draw_plane(figure: Figure, blocks: Sequence[_Block], before: FloatArray, after: FloatArray) -> Any:
+@dataclass(frozen=True, slots=True)
+class _Drawn:
+    """Axes of a picture, where `Figure.colorbar` puts its bar, and what the axes show, in inches, unless it is all."""
+
+    axis: Any
+    bar: dict[str, Any]
+    shown: Bbox | None = None
+
+
+def _draw_plane(figure: Figure, blocks: Sequence[_Block], before: FloatArray, after: FloatArray) -> _Drawn:
     """Cells and lines, with the outline of the undeformed model."""
     axis = figure.add_subplot()
     colours = _colours(blocks)
@@ -174,12 +189,12 @@ def _draw_plane(figure: Figure, blocks: Sequence[_Block], before: FloatArray, af
     axis.set(xlabel="X", ylabel="Y")
     width, height = (np.ptp(limits) for limits in (axis.get_xlim(), axis.get_ylim()))
     figure.set_figheight(float(np.clip(_WIDTH * height / width, 0.7, 6.0)) + 1.3)
-    return axis
+    return _Drawn(axis, {"ax": axis, **_BELOW})
 
 
-def _draw_space(figure: Figure, blocks: Sequence[_Block], _: FloatArray, after: FloatArray) -> Any:
+def _draw_space(figure: Figure, blocks: Sequence[_Block], _before: FloatArray, after: FloatArray) -> _Drawn:
     """Outer faces of solids, and faces of interfaces, of those that have the field."""
-    axis = figure.add_subplot(projection="3d")
+    axis: Any = figure.add_axes((0.0, 0.0, 1.0, 1.0), projection="3d")
     colours = _colours(blocks)
     faces: list[FloatArray] = []
     rgba: list[FloatArray] = []
@@ -193,15 +208,35 @@ def _draw_space(figure: Figure, blocks: Sequence[_Block], _: FloatArray, after: 
     size = np.maximum(high - low, 1e-3 * (high - low).max())
     axis.set(xlim=(low[0], low[0] + size[0]), ylim=(low[1], low[1] + size[1]), zlim=(low[2], low[2] + size[2]))
     axis.set_box_aspect(size)
-    axis.set(xlabel="X", ylabel="Y", zlabel="Z")
+    axis.set_xlabel("X", labelpad=8.0)
+    axis.set(ylabel="Y", zlabel="Z")
     axis.tick_params(labelsize=7)
     for name, length in zip("xyz", size, strict=True):
         axis.locator_params(axis=name, nbins=4 if length > 0.3 * size.max() else 1)
-    figure.set_figheight(5.0)
-    return axis
+    figure.set_layout_engine("none")
+    figure.set_figheight(_WIDTH)
+    for _ in range(2):
+        # numbers and names keep their size
+        shown = _shown(figure, axis, after)
+        side = float(figure.get_figwidth()) * min(_WIDTH / shown.width, 6.0 / shown.height)
+        figure.set_size_inches(side, side)
+    shown = _shown(figure, axis, after)
+    left, bottom, length = (shown.x0 + 0.2 * shown.width) / side, (shown.y0 - 0.3) / side, 0.6 * shown.width / side
+    return _Drawn(axis, {"cax": figure.add_axes((left, bottom, length, 0.12 / side))}, shown)
 
 
-def _render_space(figure: Figure, blocks: Sequence[_Block], _: FloatArray, after: FloatArray) -> Any:
+def _shown(figure: Figure, axis: Any, points: FloatArray) -> Bbox:
+    """What axes in space show, in inches: the points, and the three axes with their numbers."""
+    axis.apply_aspect()
+    axis.M = axis.get_proj()
+    across, up, *_ = proj3d.proj_transform(*points.T, axis.M)
+    drawn = axis.transData.transform(np.column_stack([across, up]))
+    renderer = figure.canvas.get_renderer()  # type: ignore[attr-defined]
+    parts = [part.get_tightbbox(renderer) for part in (axis.xaxis, axis.yaxis, axis.zaxis)]
+    return Bbox(Bbox.union([Bbox([drawn.min(axis=0), drawn.max(axis=0)]), *parts]).get_points() / figure.dpi)
+
+
+def _render_space(figure: Figure, blocks: Sequence[_Block], _: FloatArray, after: FloatArray) -> _Drawn:
     """The same by PyVista, with the outline of all solids."""
     faces = [Faces(after[nodes], of_faces) for nodes, of_faces in _faces_with_values(blocks)]
     solids = [after[nodes] for block in blocks if block[0].dimension == 3 for nodes, _ in outer_faces(*block)]
@@ -218,7 +253,15 @@ def _render_space(figure: Figure, blocks: Sequence[_Block], _: FloatArray, after
     for name, way in zip("XYZ", SCREEN.T, strict=True):
         corner.annotate("", way, (0.0, 0.0), arrowprops={"arrowstyle": "->", "shrinkA": 0.0, "shrinkB": 0.0})
         corner.text(1.2 * way[0], 1.2 * way[1], name, fontsize=7, ha="center", va="center")
-    return axis
+    return _Drawn(axis, {"ax": axis, **_BELOW})
+
+
+def _cut(figure: Figure, drawn: _Drawn) -> Bbox | str:
+    """What to save of a figure: axes in space are a square, most of which is empty around a plate."""
+    if drawn.shown is None:
+        return "tight"
+    bar = drawn.bar["cax"].get_tightbbox().get_points() / figure.dpi
+    return Bbox.union([drawn.shown, Bbox(bar)]).padded(0.1)
 
 
 def _faces_with_values(blocks: Sequence[_Block]) -> Iterator[tuple[IntArray, FloatArray]]:

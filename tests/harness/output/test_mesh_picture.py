@@ -100,6 +100,21 @@ def test_in_space_what_lacks_the_field_does_not_hide_what_has_it(tmp_path: Path)
     assert 0 < inner < outer
 
 
+@pytest.mark.parametrize("size", [(30.0, 16.0, 1.0), (1.0, 1.0, 20.0), (1.0, 1.0, 1.0)], ids=["plate", "bar", "cube"])
+@pytest.mark.parametrize("value", [1.0, np.nan], ids=["colours", "no values"])
+def test_picture_in_space_has_no_empty_parts(tmp_path: Path, size: tuple[float, ...], value: float) -> None:
+    """Of the square of axes in space a plate fills a third."""
+    points = stacked(2, (0.0, 0.0, 1.0)) * size
+    mesh = meshio.Mesh(points, [("hexahedron", np.arange(8)[None])], {"U": 0.0 * points}, {"S11": [np.array([value])]})
+    picture = matplotlib.image.imread(draw_mesh(mesh, tmp_path / "m.png", field="S11"))[:, :, :3]
+    height, width = picture.shape[:2]
+    assert max(height, width) < 200 * 8.5
+    for axis, length in ((1, height), (0, width)):
+        drawn = np.flatnonzero((picture < 1.0).any(axis=(axis, 2)))
+        # from side to side: the margins of the picture are a tenth of an inch
+        assert np.diff([0, *drawn, length]).max() < max(40, 0.1 * length)
+
+
 @pytest.mark.parametrize(
     ("largest", "scale"), [(0.0, 1.0), (0.5, 1.0), (0.02, 1.0), (0.01, 2.0), (1e-4, 200.0), (3e-4, 70.0)]
 )
