@@ -6,6 +6,7 @@ from __future__ import annotations
 
 import contextlib
 import io
+import re
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
@@ -15,7 +16,7 @@ import numpy as np
 from harness.delamination.keywords import keyword, wrapped
 from harness.errors import UsageError
 from harness.files import read_whole
-from harness.insertion.rewriting import element_lines, quoted
+from harness.insertion.rewriting import element_lines
 from harness.model.arrays import IntArray
 from harness.model.element_types import CONTINUUM, FAMILIES, ContinuumType
 
@@ -45,7 +46,7 @@ def read_mesh(file: Path, types: Sequence[str]) -> list[str]:
     Raises
     ------
     UsageError
-        The file cannot be read, or has cells of which there are no elements.
+        The file cannot be read, has cells of which there are no elements, or two groups that would be one set.
     """
     chosen = _types(types)
     mesh = _load(file)
@@ -79,7 +80,7 @@ def read_mesh(file: Path, types: Sequence[str]) -> list[str]:
         for label, row in enumerate(nodes, start=start):
             lines += element_lines(label, row)
         start += len(nodes)
-    return lines + _sets(mesh, solid, starts, set(used.tolist()))
+    return lines + _sets(file, mesh, solid, starts, set(used.tolist()))
 
 
 _DIMENSIONS = {family.cell: family.dimension for family in FAMILIES.values()} | {"vertex": 0}
@@ -130,7 +131,7 @@ def _oriented(nodes: IntArray, points: np.ndarray, kind: ContinuumType) -> IntAr
     return found
 
 
-def _sets(mesh: Any, solid: Sequence[bool], starts: Sequence[int], used: set[int]) -> list[str]:
+def _sets(file: Path, mesh: Any, solid: Sequence[bool], starts: Sequence[int], used: set[int]) -> list[str]:
     """*ELSET and *NSET of the groups of a mesh."""
     elements: dict[str, list[IntArray]] = {}
     nodes: dict[str, list[IntArray]] = {}
@@ -146,14 +147,28 @@ def _sets(mesh: Any, solid: Sequence[bool], starts: Sequence[int], used: set[int
     for name, members in mesh.point_sets.items():
         nodes.setdefault(name, []).append(np.asarray(members, dtype=np.int64).ravel())
     lines: list[str] = []
-    for name, parts in nodes.items():
+    for name, parts in _by_label(file, nodes).items():
         labels = np.unique(np.concatenate(parts))
         kept = [label + 1 for label in labels.tolist() if label in used]
         if kept:
-            lines += [keyword("NSET", NSET=quoted(name)), *wrapped(kept)]
-    for name, parts in elements.items():
-        lines += [keyword("ELSET", ELSET=quoted(name)), *wrapped(np.unique(np.concatenate(parts)).tolist())]
+            lines += [keyword("NSET", NSET=name), *wrapped(kept)]
+    for name, parts in _by_label(file, elements).items():
+        lines += [keyword("ELSET", ELSET=name), *wrapped(np.unique(np.concatenate(parts)).tolist())]
     return lines
+
+
+def _by_label(file: Path, groups: Mapping[str, list[IntArray]]) -> dict[str, list[IntArray]]:
+    """Groups by names that Abaqus reads without quotes, in which blanks do not count: 'ply 1' is PLY_1.
+
+    Raises UsageError where two groups have one name.
+    """
+    found: dict[str, str] = {}
+    for name in groups:
+        label = re.sub(r"[^\w.-]", "_", name.strip(), flags=re.ASCII).upper()
+        label = label if re.match("[A-Z_]", label) else f"_{label}"
+        if found.setdefault(label, name) != name:
+            raise UsageError(f"{file}: groups '{found[label]}' and '{name}' are both {label} in a deck; rename one")
+    return {label: groups[name] for label, name in found.items()}
 
 
 def _groups(mesh: Any) -> Mapping[str, Sequence[Any]]:

@@ -49,13 +49,29 @@ def test_physical_groups_of_gmsh_become_sets(tmp_path):
     deck.write_text("\n".join([*lines, *SECTION, "*STEP", "*STATIC", "*END STEP"]))
     model = read_deck(deck)
     assert {name: len(found) for name, found in model.elsets.items()} == {"LOW": 3, "HIGH": 3}
-    assert model.mesh.labels[model.nsets["LEFT SIDE"]].tolist() == [1, 5, 9]
+    assert model.mesh.labels[model.nsets["LEFT_SIDE"]].tolist() == [1, 5, 9]
     assert np.array_equal(model.mesh.coordinates[:, :2], mesh.nodes)
     assert {group.type for group in model.groups} == {"CPS4"}
 
 
 SECTION = ["*SOLID SECTION, ELSET=LOW, MATERIAL=M", "1.", "*SOLID SECTION, ELSET=HIGH, MATERIAL=M", "1."]
 SECTION += ["*MATERIAL, NAME=M", "*ELASTIC", "1e4, 0.3"]
+
+
+def test_names_of_groups_need_no_quotes(tmp_path):
+    """In Abaqus blanks of a name without quotes do not count, and a name begins with a letter or an underscore."""
+    mesh, _ = layers()
+    groups = np.where(mesh.cell[:, -1] == 0, "ply 1 (0°)", "90").tolist()
+    gmsh_file(tmp_path / "m.msh", mesh, groups)
+    lines = read_mesh(tmp_path / "m.msh", ())
+    assert [line for line in lines if "ELSET=" in line] == ["*ELSET, ELSET=PLY_1__0__", "*ELSET, ELSET=_90"]
+
+
+def test_two_groups_that_would_be_one_set(tmp_path):
+    mesh, groups = layers()
+    gmsh_file(tmp_path / "m.msh", mesh, [{"LOW": "ply 1", "HIGH": "Ply_1"}[name] for name in groups])
+    with pytest.raises(UsageError, match=r"m\.msh: groups 'ply 1' and 'Ply_1' are both PLY_1 in a deck; rename one"):
+        read_mesh(tmp_path / "m.msh", ())
 
 
 @pytest.mark.parametrize("kind", ["CPS3", "CPS4", "CPS6", "CPS8", "C3D4", "C3D6", "C3D8", "C3D10", "C3D20"])
