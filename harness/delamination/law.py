@@ -30,7 +30,7 @@ from harness.model.mesh import ElementGroup, Mesh
 from harness.model.model import Model
 from harness.model.properties import UserElement, UserProperty
 from harness.usersub import Library
-from harness.usersub.layout import element_layouts
+from harness.usersub.layout import check_law_uses, element_layouts
 
 PLACE: Final = Source("uel law", 0)
 STANDARD: Final = 2
@@ -71,13 +71,14 @@ def standard_properties() -> dict[str, float]:
 
 
 def given_properties(words: Iterable[str]) -> dict[str, float]:
-    """Properties from words NAME=VALUE; blanks in a name as in the layout. Raises UsageError with the wrong word."""
+    """Properties from words NAME=VALUE; an underscore stands for a blank. Raises UsageError with the wrong word."""
     layouts = element_layouts().values()
     integers = {item.name for layout in layouts for item in layout.integers}
     known = integers | {item.name for layout in layouts for item in layout.reals}
     given = {}
     for word in words:
         name, equals, value = word.upper().partition("=")
+        name = name.replace("_", " ")
         if not equals or name not in known:
             raise UsageError(f"'{word}': expected NAME=VALUE with a name among {', '.join(sorted(known))}")
         try:
@@ -91,8 +92,11 @@ def given_properties(words: Iterable[str]) -> dict[str, float]:
     return given
 
 
-def refuse_ignored(given: Iterable[str], jtype: int) -> None:
-    """Raise UsageError for a property that elements of a type do not have, and would ignore; names those that do."""
+def refuse_ignored(given: Properties, jtype: int, number: int) -> None:
+    """Raise UsageError for a property that elements of a type, or the law of a number, would ignore.
+
+    It names those that have it.
+    """
     layouts = element_layouts()
     has = {number: {item.name for item in (*layouts[number].reals, *layouts[number].integers)} for number in NODES}
     for name in given:
@@ -100,6 +104,7 @@ def refuse_ignored(given: Iterable[str], jtype: int) -> None:
             others = [f"U{number}" for number in NODES if name in has[number]]
             other = f"; --element {' or '.join(others)} has it" if others else ""
             raise UsageError(f"{name}: U{jtype} has no such property and would ignore it{other}")
+    check_law_uses(jtype, given, number)
 
 
 def shown_properties(values: Properties, jtype: int) -> list[tuple[str, float]]:

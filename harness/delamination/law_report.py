@@ -87,7 +87,7 @@ def _explore(asked: Exploration) -> tuple[list[LawCurve], list[Path]]:
     given = law.given_properties(asked.properties)
     values |= given
     jtype = asked.element or jtype
-    law.refuse_ignored(given, jtype)
+    law.refuse_ignored(given, jtype, int(values["LAW"]))
     what = f"U{jtype}: " + ", ".join(f"{name}={value:g}" for name, value in law.shown_properties(values, jtype))
     # the paper's values are in mm and MPa
     units = asked.units or (("mm", "MPa") if asked.deck is None else ("", ""))

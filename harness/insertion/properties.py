@@ -22,7 +22,7 @@ from harness.insertion.connectivity import InterfaceType
 from harness.model.arrays import FloatArray
 from harness.model.element_types import BUILT_IN, ContinuumType, Tensor
 from harness.model.properties import ElasticType, Material
-from harness.usersub.layout import element_layouts
+from harness.usersub.layout import check_law_uses, element_layouts
 
 _LAW = ("SIGMAMAX", "TAUMAX", "GIC", "GIIC")
 _OF_ABAQUS = ("THICKNESS", "ALPHAN", "ALPHAT", *_LAW, "VISCOSITY", "ETA", "POWER")
@@ -69,6 +69,13 @@ def check_values(kind: InterfaceType, values: Mapping[str, float]) -> None:
     for name in (*needed, "THICKNESS"):
         if values.get(name, 1.0) <= 0.0 and not (kind.solid and name == "ALPHAN"):
             raise UsageError(f"{name}={values[name]:g}: expected a value above 0")
+    if kind.jtype:
+        check_law_uses(kind.jtype, values, _law_of(values))
+
+
+def _law_of(given: Mapping[str, float]) -> int:
+    """LAW, if it is not given: a mixed mode criterion with an exponent needs the law that has one."""
+    return int(given.get("LAW", 2 if given.get("ETA") or given.get("POWER") else 1))
 
 
 @dataclass(frozen=True, slots=True)
@@ -205,9 +212,7 @@ def _renamed(order: list[int], moduli: Three, ratios: Three, shear: Three) -> tu
 def element_values(kind: InterfaceType, given: Mapping[str, float], below: Side, above: Side) -> dict[str, float]:
     """Properties of an element: given ones, then those of its solids. Raises UsageError."""
     known = names_of(kind)
-    # a mixed mode criterion with an exponent needs the law that has one
-    law = 2.0 if given.get("ETA") or given.get("POWER") else 1.0
-    values = ({"LAW": law} if "LAW" in known else {}) | dict(given)
+    values = ({"LAW": float(_law_of(given))} if "LAW" in known else {}) | dict(given)
     if given.get("ALPHAN") and not given.get("ALPHAT"):
         values["ALPHAT"] = given["ALPHAN"]
     if "THICKNESS" in known and "THICKNESS" not in values:

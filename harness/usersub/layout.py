@@ -8,13 +8,14 @@ fortran/README.md holds what `markdown` returns.
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, replace
 from functools import cache
 from typing import Final
 
 import numpy as np
 
+from harness.errors import UsageError
 from harness.model.arrays import IntArray
 from harness.model.records import PointVariables
 from harness.usersub.built import path_of_layout
@@ -105,6 +106,18 @@ def read_layouts(text: str) -> dict[int, ElementLayout]:
             meaning=meaning,
         )
     return layouts
+
+
+def check_law_uses(jtype: int, given: Mapping[str, float], law: int) -> None:
+    """Raise UsageError for a property, given by name, that the law of a number ignores."""
+    layout = element_layouts()[jtype]
+    for item in layout.reals:
+        laws = re.search(r"\(LAW ([\d, ]+)\)", item.meaning)
+        # 0 is the default, LAW 1
+        if laws and given.get(item.name) and str(law or 1) not in laws[1].split(", "):
+            raise UsageError(f"{item.name}: LAW {law or 1} ignores it; LAW {laws[1].replace(', ', ' or ')} has it")
+    if given.get("ETA") and given.get("POWER"):
+        raise UsageError("POWER: ignored where ETA is not 0; give one of the two")
 
 
 def variables(jtype: int) -> PointVariables | None:

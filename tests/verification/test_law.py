@@ -148,6 +148,9 @@ def test_properties_of_a_deck(kind, jtype):
         ({"deck": FOLDER / "quad_cook/cook_u1.inp"}, r"cook_u1.inp: no interface elements"),
         ({"properties": ["CLOSURE=1"]}, r"CLOSURE: U2 has no such property .* ignore it; --element U4 or U6 has it$"),
         ({"properties": ["OFFSETTOP=1"], "element": 4}, r"OFFSETTOP: U4 has no such property and would ignore it$"),
+        ({"properties": ["ETA=1.45"]}, r"ETA: LAW 1 ignores it; LAW 2 or 3 has it$"),
+        ({"properties": ["SHAPET=3", "LAW=3"], "element": 4}, r"SHAPET: LAW 3 ignores it; LAW 4 has it$"),
+        ({"properties": ["E1_TOP=1", "LAW=2", "ETA=2", "POWER=2"], "element": 6}, r"POWER: ignored where ETA is not 0"),
         ({"properties": ["SIGMAMAX=30", "GIC=1e9"]}, r"traction at 0 degrees does not fall"),
     ],
 )
