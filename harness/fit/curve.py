@@ -37,7 +37,7 @@ class Measurement:
         UelError
             The run has not the columns, does not reach the last place, or its x does not rise.
         """
-        x, y = (np.concatenate([[0.0], _values(column, history, job)]) for column in self.columns)
+        x, y = (np.concatenate([[0.0], column.find(history, job)]) for column in self.columns)
         # what comes after the last place does not count
         stop = 1 + int(np.argmax(x >= self.x[-1])) if x.max() >= self.x[-1] else len(x)
         x, y = x[:stop], y[:stop]
@@ -52,14 +52,6 @@ class Measurement:
                 f"{job}: the run ends at {self.columns[0]} = {x[-1]:.6g}, the measured curve at {self.x[-1]:.6g}"
             )
         return np.asarray(np.interp(self.x, x, y))
-
-
-def _values(column: Column, history: Mapping[str, FloatArray], job: str) -> FloatArray:
-    found = column.find(history)
-    if found is None:
-        known = ", ".join(name for name in history if name not in ("step", "increment"))
-        raise UelError(f"{job}: the history has no column '{column.name}'; expected one of {known}")
-    return found
 
 
 def read_measurement(path: Path, x: str | None, y: str | None) -> Measurement:

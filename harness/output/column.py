@@ -9,15 +9,25 @@ import re
 from collections.abc import Mapping
 from dataclasses import dataclass
 
+import numpy as np
+
 from harness.errors import UsageError
 from harness.model.arrays import FloatArray
+from harness.model.nodal import COMPONENTS
+from harness.output.load_curve import COLUMN, FORCES, move_as_one
 
 _TERM = re.compile(r"\s*(?:([-+]?\d*\.?\d*(?:[eE][-+]?\d+)?)\s*\*\s*|([-+]))?([A-Za-z].*?)\s*")
+_SUM = "SUM OF "
+"""Before the name of a sum where a run or a picture tells it."""
 
 
 @dataclass(frozen=True, slots=True)
 class Column:
-    """A column of the history times a factor: `2*U2[LOAD_TOP]`, `-RF2[MIDSPAN]`."""
+    """A column of the history times a factor: `2*U2[LOAD_TOP]`, `-RF2[MIDSPAN]`.
+
+    Where the history has the nodes of a set one by one, a name without a node, `RF2[END]`, is the sum of their forces,
+    or their displacement if they move as one.
+    """
 
     name: str
     factor: float = 1.0
@@ -28,14 +38,51 @@ class Column:
 
     def names(self, name: str) -> bool:
         """Whether a column has this name; upper and lower case are the same."""
-        return name.upper() == self.name.upper()
+        return name.upper().removeprefix(_SUM) == self.name.upper().removeprefix(_SUM)
 
-    def find(self, history: Mapping[str, FloatArray]) -> FloatArray | None:
-        """Its values times the factor, one for each row; None if the history does not have the column."""
+    def find(self, history: Mapping[str, FloatArray], where: str) -> FloatArray:
+        """Its values times the factor, one for each row.
+
+        Raises
+        ------
+        UsageError
+            `where`, the history, does not have the column; or the nodes of a set do not move as one.
+        """
+        nodes: dict[str, FloatArray] = {}
         for name, values in history.items():
             if self.names(name):
                 return self.factor * values
-        return None
+            match = COLUMN.fullmatch(name)
+            if match and match["node"] and self.names(_of_set(match)):
+                nodes[name] = values
+        if not nodes:
+            raise UsageError(f"{where}: no column '{self.name}'; expected one of {column_names(history)}")
+        component = self.name.upper().removeprefix(_SUM).partition("[")[0]
+        if COMPONENTS.get(component, ("", 0))[0] in FORCES:
+            total: FloatArray = self.factor * np.sum([*nodes.values()], axis=0)
+            return total
+        if not move_as_one(nodes.values()):
+            raise UsageError(
+                f"{where}: {self.name} differs from node to node; expected one, such as {next(iter(nodes))}"
+            )
+        return self.factor * next(iter(nodes.values()))
+
+
+def column_names(history: Mapping[str, FloatArray]) -> str:
+    """What a history has, for messages: of a set with nodes one by one its name, and the first and last node."""
+    names: dict[str, list[str]] = {}
+    for name in history:
+        if name not in ("step", "increment"):
+            match = COLUMN.fullmatch(name)
+            names.setdefault(_of_set(match) if match and match["node"] else name, []).append(name)
+    return ", ".join(
+        key if found == [key] else f"{key} ({found[0]}{f' to {found[-1]}' if len(found) > 1 else ''})"
+        for key, found in names.items()
+    )
+
+
+def _of_set(match: re.Match[str]) -> str:
+    return f"{match['component']}[{match['set']}]"
 
 
 def read_column(text: str) -> Column:

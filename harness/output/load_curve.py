@@ -10,7 +10,7 @@ faces, but the load factor is part of the solution, it is drawn over the displac
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass
 from typing import Final
 
@@ -25,7 +25,8 @@ COLUMN: Final = re.compile(r"(?P<component>\w+)\[(?P<set>[^\]]*?)(?::(?P<node>[^
 _MECHANICAL: Final = range(1, 7)
 """Dofs whose conjugate is a force or a moment."""
 
-_FORCES: Final = ("reaction", "load")
+FORCES: Final = ("reaction", "load")
+"""Quantities that add up over the nodes of a set."""
 
 _TIE: Final = 1e-6
 """Relative difference of two amounts of work, or of displacements of a set, that counts as none."""
@@ -62,7 +63,7 @@ def load_curve(history: Mapping[str, FloatArray]) -> LoadCurve | None:
         Columns by name, without the rows of linear perturbation steps.
     """
     sets = _sets(history)
-    pairs = [pair for (quantity, *_), force in sets.items() if quantity in _FORCES for pair in _pairs(sets, force)]
+    pairs = [pair for (quantity, *_), force in sets.items() if quantity in FORCES for pair in _pairs(sets, force)]
     works = [_work(x, y) for _, x, _, y in pairs]
     most = max(works, default=0.0)
     if most > 0.0:
@@ -117,17 +118,21 @@ def _pairs(sets: _Sets, force: _Set) -> Iterator[_Pair]:
     if moved is None:
         return
     nodes = [node for node in force.nodes if node in moved.nodes]
-    if len(nodes) > 1:
-        u = np.array([moved.nodes[node] for node in nodes])
-        u = u[:, np.isfinite(u).all(axis=0)]
-        if np.ptp(u, axis=0).max(initial=0.0) <= _TIE * np.abs(u).max(initial=0.0):
-            total = np.sum([force.nodes[node] for node in nodes], axis=0)
-            names = f"{moved.component}[{force.name}]", f"sum of {force.component}[{force.name}]"
-            yield names[0], moved.nodes[nodes[0]], names[1], total
-            return
+    if len(nodes) > 1 and move_as_one(moved.nodes[node] for node in nodes):
+        total = np.sum([force.nodes[node] for node in nodes], axis=0)
+        names = f"{moved.component}[{force.name}]", f"sum of {force.component}[{force.name}]"
+        yield names[0], moved.nodes[nodes[0]], names[1], total
+        return
     for node in nodes:
         names = f"{moved.component}[{force.place(node)}]", f"{force.component}[{force.place(node)}]"
         yield names[0], moved.nodes[node], names[1], force.nodes[node]
+
+
+def move_as_one(displacements: Iterable[FloatArray]) -> bool:
+    """Whether nodes, each with its displacement in each increment, have the same ones, but for rounding."""
+    u = np.array([*displacements])
+    u = u[:, np.isfinite(u).all(axis=0)]
+    return bool(np.ptp(u, axis=0).max(initial=0.0) <= _TIE * np.abs(u).max(initial=0.0))
 
 
 def _work(u: FloatArray, force: FloatArray) -> float:

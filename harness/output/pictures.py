@@ -15,7 +15,7 @@ import numpy as np
 from harness.errors import UelError, UsageError
 from harness.model.arrays import FloatArray
 from harness.model.records import ENERGIES
-from harness.output.column import Column, read_column
+from harness.output.column import Column, column_names, read_column
 from harness.output.load_curve import LoadCurve
 from harness.output.measured_curve import read_curve
 from harness.output.mesh_picture import draw_mesh, in_space
@@ -113,7 +113,7 @@ def _load_curve(result: Result) -> LoadCurve:
     if curve is None:
         raise UelError(
             f"{result.file('_history.csv')}: no force with its displacement; ask for both with *OUTPUT, HISTORY and "
-            f"*NODE OUTPUT (U, RF), or name columns with --x and --y: {_known(result.history)}"
+            f"*NODE OUTPUT (U, RF), or name columns with --x and --y: {column_names(result.history)}"
         )
     return curve
 
@@ -134,11 +134,7 @@ def _columns(results: Sequence[Result], path: Path, asked: Asked) -> Path:
 
 
 def _values(result: Result, column: Column) -> FloatArray:
-    found = column.find(result.history)
-    if found is None:
-        known = _known(result.history)
-        raise UsageError(f"{result.file('_history.csv')}: no column '{column.name}'; expected one of {known}")
-    return found
+    return column.find(result.history, str(result.file("_history.csv")))
 
 
 def _energies(results: Sequence[Result], path: Path, _: Asked) -> Path:
@@ -281,7 +277,3 @@ def _name(result: Result, results: Sequence[Result]) -> str:
     """Name of a job in the legend: with its folder where another job has the same."""
     same = sum(other.job == result.job for other in results) > 1
     return str(result.file("")) if same else result.job
-
-
-def _known(history: Mapping[str, FloatArray]) -> str:
-    return ", ".join(history)

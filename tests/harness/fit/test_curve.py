@@ -57,7 +57,7 @@ def test_run_is_interpolated() -> None:
 @pytest.mark.parametrize(
     "history, message",
     [
-        ({"V": X, "F": X, "step": X}, r"job: the history has no column 'U'; expected one of V, F$"),
+        ({"V": X, "F": X, "step": X}, r"job: no column 'U'; expected one of V, F$"),
         ({"U": np.array([0.5, 1.0]), "F": np.zeros(2)}, r"job: the run ends at 2\*U = 2, the measured curve at 3$"),
         ({"U": np.array([0.5, 0.4, 2.0]), "F": np.zeros(3)}, r"job: 2\*U does not rise from increment to increment"),
     ],

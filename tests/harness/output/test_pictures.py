@@ -135,7 +135,7 @@ def test_interfaces_above_each_other_are_not_joined(job: Job, drawn) -> None:
 @pytest.mark.parametrize(
     ("kind", "asked", "error", "message"),
     [
-        ("load", {"y": ["RF"]}, UsageError, r"no column 'RF'; expected one of step, increment, time, U2\[TIP\]"),
+        ("load", {"y": ["RF"]}, UsageError, r"no column 'RF'; expected one of time, U2\[TIP\]"),
         ("load", {"y": ["0*U2[TIP]"]}, UsageError, r"'0\*U2\[TIP\]': expected a column of the history, with a factor"),
         ("load", {"x": "time"}, UsageError, "--x time: expected with --y"),
         ("energies", {"x": "time"}, UsageError, "--kind energies: expected without --x, --y and --csv"),
@@ -151,7 +151,7 @@ def test_what_is_not_there(job: Job, drawn, kind: str, asked: dict, error: type[
 def test_what_a_history_or_an_interface_lacks(job: Job, drawn) -> None:
     bare = job("bare", "step,increment,time,U2[TIP]\n1,1,1.0,0.1\n")
     with pytest.raises(
-        UelError, match=r"no force with its displacement; ask for both .* columns .*: step, .*U2\[TIP\]"
+        UelError, match=r"no force with its displacement; ask for both .* columns .*: time, U2\[TIP\]"
     ):
         drawn("load", bare)
     with pytest.raises(UelError, match=r"no energies; ask for them with \*ENERGY OUTPUT"):
