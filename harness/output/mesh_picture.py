@@ -40,6 +40,8 @@ _MOST_EDGED: Final = 4000
 """Cells from which on their edges would cover the colours."""
 _BELOW: Final = {"location": "bottom", "shrink": 0.6, "aspect": 40, "pad": 0.02}
 """The bar of colours below the axes."""
+_ROUNDING: Final = 1e-9
+"""Relative difference of values that counts as none: colours would show the rounding of a uniform field."""
 _LARGE: Final = 0.02
 """Displacement over the size of the model from which on it is drawn as it is."""
 
@@ -145,7 +147,7 @@ def _colours(blocks: Sequence[_Block]) -> ScalarMappable:
     values = np.concatenate([of_block for *_, of_block in blocks])
     values = values[np.isfinite(values)]
     low, high = (float(values.min()), float(values.max())) if len(values) else (0.0, 1.0)
-    if low == high:
+    if high - low <= _ROUNDING * max(abs(low), abs(high)):
         low, high = min(low, 0.0), max(high, 0.0)
     colours = mpl.colormaps["viridis"].with_extremes(bad="0.85")
     return ScalarMappable(Normalize(low, high if high > low else low + 1.0), colours)

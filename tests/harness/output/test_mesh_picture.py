@@ -140,6 +140,16 @@ def test_range_of_one_value(tmp_path: Path, kept: list[Figure], value: float, li
     assert kept[0].axes[-1].get_xlim() == limits
 
 
+def test_rounding_of_a_uniform_field_has_one_colour(tmp_path: Path, kept: list[Figure]) -> None:
+    points = stacked(2, (1.0, 0.0, 0.0))
+    stress = np.array([700.0, np.nextafter(700.0, 800.0)])
+    cells = [("quad", np.arange(8).reshape(2, 4))]
+    draw_mesh(meshio.Mesh(points, cells, {"U": 0.0 * points}, {"S11": [stress]}), tmp_path / "m.png", field="S11")
+    assert kept[0].axes[-1].get_xlim() == (0.0, stress[1])
+    first, second = kept[0].axes[0].collections[0].get_facecolors()
+    assert first.tolist() == second.tolist()
+
+
 def test_numbers_below_the_colours_stay_apart(tmp_path: Path, kept: list[Figure]) -> None:
     """Below a tall model, where the bar is short."""
     points = stacked(3, (0.0, 1.0, 0.0))
