@@ -150,9 +150,7 @@ def test_what_is_not_there(job: Job, drawn, kind: str, asked: dict, error: type[
 
 def test_what_a_history_or_an_interface_lacks(job: Job, drawn) -> None:
     bare = job("bare", "step,increment,time,U2[TIP]\n1,1,1.0,0.1\n")
-    with pytest.raises(
-        UelError, match=r"no force with its displacement; ask for both .* columns .*: time, U2\[TIP\]"
-    ):
+    with pytest.raises(UelError, match=r"no force with its displacement; ask for both .* columns .*: time, U2\[TIP\]"):
         drawn("load", bare)
     with pytest.raises(UelError, match=r"no energies; ask for them with \*ENERGY OUTPUT"):
         drawn("energies", bare)
