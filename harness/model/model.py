@@ -62,7 +62,7 @@ class Model:
     given      values of parameters that replace those in the deck: listed in .dat
     ignored    keywords that cannot change the solution, with their places: listed once in .dat
     warnings   places where the deck is odd but understood
-    differences  what Abaqus does otherwise with the deck, without a change of this run: warnings of .dat alone
+    differences  what Abaqus does otherwise with the deck, without a change of this run: warnings too
     """
 
     deck: Path

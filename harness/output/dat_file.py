@@ -42,12 +42,12 @@ _HEAD_LINES: Final = 10
 
 
 class DataFile:
-    """Writes NAME.dat; `warnings` are those in it, without what Abaqus does otherwise."""
+    """Writes NAME.dat; `warnings` are those in it."""
 
     def __init__(self, path: Path, model: Model) -> None:
         self._model = model
         self._file = TextFile(path)
-        self.warnings = list(model.warnings)
+        self.warnings = [*model.warnings, *model.differences]
         self._index: NodalIndex | None = None
         # step whose requests were compared with the available variables; the last increment of a step may come twice
         self._looked_at = 0
@@ -133,11 +133,10 @@ class DataFile:
         """Verdict of the job."""
         if error is not None:
             self.remark("ERROR", error)
-        count = len(self.warnings) + len(self._model.differences)
         verdict = "BEEN COMPLETED" if error is None else "NOT BEEN COMPLETED"
         self._file.write(
             f"\n\n          THE ANALYSIS HAS {verdict}\n\n\n"
-            f"                              WITH {count:6d} WARNING MESSAGES ON THE DAT FILE\n"
+            f"                              WITH {len(self.warnings):6d} WARNING MESSAGES ON THE DAT FILE\n"
         )
         self._file.close()
 
@@ -177,8 +176,7 @@ class DataFile:
             for keyword, source in model.ignored:
                 places.setdefault(keyword, []).append(str(source))
             text += "".join(f"          {_places(keyword, found)}\n" for keyword, found in places.items())
-        remarks = (*model.warnings, *model.differences)
-        return text + "".join(f"\n{remark('WARNING', warning)}" for warning in remarks)
+        return text + "".join(f"\n{remark('WARNING', warning)}" for warning in self.warnings)
 
 
 def read_deck_place(path: Path) -> Path | None:
