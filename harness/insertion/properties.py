@@ -18,7 +18,7 @@ from harness.delamination.kernels import uel_property, user_element
 from harness.delamination.materials import Cohesive
 from harness.errors import UsageError
 from harness.insertion.assembly import Deck
-from harness.insertion.connectivity import InterfaceType
+from harness.insertion.connectivity import InterfaceType, known_types
 from harness.model.arrays import FloatArray
 from harness.model.element_types import BUILT_IN, ContinuumType, Tensor
 from harness.model.properties import ElasticType, Material
@@ -65,7 +65,9 @@ def check_values(kind: InterfaceType, values: Mapping[str, float]) -> None:
     needed = _LAW if kind.solid else ("ALPHAN", *_LAW)
     missing = [name for name in needed if name not in values]
     if missing:
-        raise UsageError(f"{kind.name} needs {', '.join(f'{name}=VALUE' for name in missing)}")
+        owners = ", ".join(each.name for each in known_types().values() if each.solid)
+        why = f": a stiffness, which only {owners} can do without, between quads and bricks" * ("ALPHAN" in missing)
+        raise UsageError(f"{kind.name} needs {', '.join(f'{name}=VALUE' for name in missing)}{why}")
     for name in (*needed, "THICKNESS"):
         if values.get(name, 1.0) <= 0.0 and not (kind.solid and name == "ALPHAN"):
             raise UsageError(f"{name}={values[name]:g}: expected a value above 0")

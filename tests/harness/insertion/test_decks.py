@@ -347,7 +347,7 @@ ERRORS = [
     ({}, {"values": [*LAW, "GIC=1"]}, "GIC is given twice"),
     ({}, {"values": [*LAW[1:], "SIGMAMAX=stone"]}, "SIGMAMAX=stone: expected NAME=VALUE with a number"),
     ({}, {"values": [*LAW[1:], "SIGMAMAX=-1"]}, "SIGMAMAX=-1: expected a value above 0"),
-    ({}, {"element": "U2"}, "U2 needs ALPHAN=VALUE"),
+    ({}, {"element": "U2"}, "U2 needs ALPHAN=VALUE: a stiffness, which only U4, U6, U8, U12 can do without"),
     ({}, {"values": [*LAW, "LAW=1", "ETA=2"]}, "ETA: LAW 1 ignores it; LAW 2 or 3 has it"),
     ({}, {"values": [*LAW, "SHAPEN=2"]}, "SHAPEN: LAW 1 ignores it; LAW 4 has it"),
 ]
