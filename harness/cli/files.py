@@ -27,7 +27,9 @@ def begin_element(options: argparse.Namespace) -> int:
 
 def add_amalgamate(amalgamate: argparse.ArgumentParser) -> None:
     """Options of `uel amalgamate`."""
-    amalgamate.add_argument("-o", "--output", type=Path, required=True, metavar="FILE.for")
+    amalgamate.add_argument(
+        "-o", "--output", type=Path, required=True, metavar="FILE.for", help="the file that is written"
+    )
     amalgamate.set_defaults(function=write_amalgam)
 
 

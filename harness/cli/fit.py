@@ -22,7 +22,7 @@ def add_fit(fit: argparse.ArgumentParser) -> None:
         "with the curves and their derivatives. "
         "Exit code: 0 the search has converged; 1 it has not, or a run cannot be compared; 2 wrong usage."
     )
-    fit.add_argument("deck", type=Path, metavar="DECK.inp")
+    fit.add_argument("deck", type=Path, metavar="DECK.inp", help="deck of the model")
     fit.add_argument(
         "curve",
         type=Path,

@@ -55,7 +55,7 @@ def examine_installation(_: argparse.Namespace) -> int:
 def add_completion(completion: argparse.ArgumentParser, parser: argparse.ArgumentParser) -> None:
     """Options of `uel completion`; parser: of all commands."""
     completion.epilog = "For bash: uel completion bash > ~/.local/share/bash-completion/completions/uel"
-    completion.add_argument("shell", choices=["bash", "zsh", "fish"])
+    completion.add_argument("shell", choices=["bash", "zsh", "fish"], help="whose script it is")
     completion.set_defaults(function=print_completion, parser=parser)
 
 

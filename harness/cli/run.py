@@ -34,7 +34,7 @@ def add_run(run: argparse.ArgumentParser) -> None:
         "Abaqus' spelling works too: uel run job=NAME user=FILE. "
         "Exit code: 0 the analysis has completed; 1 an error, an interrupt or the system ended it; 2 wrong usage."
     )
-    run.add_argument("deck", type=Path, metavar="DECK.inp")
+    run.add_argument("deck", type=Path, metavar="DECK.inp", help="an Abaqus deck")
     add_run_options(run)
     run.add_argument("--job", metavar="NAME", help="name of the output files (the deck's name)")
     run.add_argument(

@@ -104,6 +104,19 @@ def commands() -> list[tuple[Path, str]]:
     return [(page, command) for page, command in found if "..." not in command]
 
 
+def test_every_argument_has_a_meaning():
+    """The page of the commands takes it from the parser."""
+    parser = build_parser()
+    (within,) = (action for action in parser._actions if isinstance(action, argparse._SubParsersAction))
+    without = [
+        (name, action.dest)
+        for name, command in within.choices.items()
+        for action in command._actions
+        if not action.help
+    ]
+    assert without == []
+
+
 def words_of(command: str) -> list[str]:
     """Words after `uel`; a variable of the shell is 1."""
     return [re.sub(r"\$\w+", "1", word) for word in shlex.split(command)[1:]]
