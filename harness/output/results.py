@@ -68,7 +68,10 @@ class Result:
         self.seconds = seconds
         self._warnings = warnings
         if not self.file(".sta").exists():
-            raise UelError(f"{self.file('.sta')}: no such job")
+            # the name of the deck, or of another file of the job
+            there = self._stem.suffix and self._stem.with_suffix(".sta").exists()
+            meant = f"; did you mean {self._stem.with_suffix('')}?" if there else ""
+            raise UelError(f"{self.file('.sta')}: no such job{meant}")
 
     @property
     def job(self) -> str:

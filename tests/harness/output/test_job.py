@@ -138,6 +138,8 @@ def test_what_was_not_written_is_named(model: Model, records: Records, tmp_path:
     with pytest.raises(UelError, match=r"nothing\.sta: no such job"):
         Result(tmp_path / "nothing")
     result = run(model, tmp_path, records(model))
+    with pytest.raises(UelError, match=r"job\.inp\.sta: no such job; did you mean \S*/job\?$"):
+        Result(tmp_path / "job.inp")
     with pytest.raises(UelError, match=r"job\.pvd: no field 'MISES'; available fields: .*RF.*S11"):
         result.field("MISES")
     with pytest.raises(UelError, match=r"job\.pvd: no field output of increment 7"):
