@@ -104,6 +104,36 @@ def test_command(uel, tmp_path, words, written):
     assert [name for name in written if not (tmp_path / name).exists()] == []
 
 
+def test_commands_from_a_mesh_to_results(uel, tmp_path):
+    """The plate of the manual, which the wheel has; the others of the command are above."""
+    manual = Path(re.search(r"^ok +decks and manual: (.+)$", uel("doctor").stdout, re.MULTILINE)[1]) / "docs"
+    page = (manual / "plate.md").read_text()
+    (tmp_path / "plate.inp").write_text(re.search(r"^```abaqus laminate\.inp\n(.*?)^```$", page, re.M | re.S)[1])
+    (tmp_path / "measured.csv").write_text("U2[END], RF2[END]\n0.04, 1380\n0.1, 3400\n0.16, 5400\n0.2, 6720\n")
+    for words, written in (
+        (
+            f"insert {manual}/plate.msh plate.inp --plies SIGMAMAX=20 TAUMAX=60 GIC=0.1 GIIC=0.4 -o model.inp",
+            "model.inp",
+        ),
+        ("run model.inp", "model.pvd"),
+        ("plot model", "model_load.png"),
+        ("report model", "model.html"),
+        ("front model", "model_front.csv"),
+        ("fit model.inp measured.csv GIIC=0.1:0.5:1 --runs 2", "fit/model_fit.csv"),
+    ):
+        done = uel(*words.split())
+        # the fit ends at the limit of its runs
+        assert done.returncode == int(words.startswith("fit")), done.stdout + done.stderr
+        assert (tmp_path / written).exists()
+
+
+def test_no_command_is_left_out(uel):
+    listed = re.findall(r"^    ([a-z]+)\b", uel("--help").stdout, re.MULTILINE)
+    tried = re.findall(r"\[\"(\w+)\"|uel\(\"(\w+)\"|^ +\(?f?\"(\w+) ", Path(__file__).read_text(), re.MULTILINE)
+    assert len(listed) > 10
+    assert set(listed) <= {word for words in tried for word in words}
+
+
 def test_user_routines_need_a_compiler(uel):
     assert uel("new", "my_uel").returncode == 0
     done = uel("run", "my_uel/my_uel.inp", "--user", "my_uel/my_uel.for")
