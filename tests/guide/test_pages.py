@@ -202,7 +202,7 @@ def stage(tmp_path_factory):
     return folder
 
 
-ELSEWHERE = re.compile(r"abaqus_inputs/|uel reproduce|my_uel\.inp|--oldjob")
+ELSEWHERE = re.compile(r"abaqus_inputs/|uel reproduce|my_uel\.inp|plot my_uel|--oldjob")
 """Decks of the repository and `uel reproduce` run in tests/verification, a new project in tests/harness/project, and
 restarts in tests/harness/test_restart.py."""
 

@@ -51,6 +51,11 @@ def test_its_tests_pass_and_its_deck_runs(project):
     command = [sys.executable, "-m", "harness.cli", "run", "beam_x.inp", "--user", "beam_x.for"]
     result = subprocess.run(command, cwd=project, capture_output=True, text=True, check=False)
     assert "beam_x: completed" in result.stdout, result.stderr
+    # the stresses, by the name that the deck gives them
+    assert (
+        main(["plot", str(project / "beam_x"), "--kind", "mesh", "--field", "S11", "-o", str(project / "s.png")]) == 0
+    )
+    assert (project / "s.png").exists()
 
 
 @pytest.mark.parametrize(
