@@ -71,7 +71,7 @@ def _forces_on_shells(
     assert isinstance(section, ShellSection)
     local = list(load.type.face) or list(range(kind.nodes))
     x = coordinates[group.nodes[rows][:, local]]
-    weights, shapes, derivatives = _rule(kind.family, kind.nodes)
+    weights, shapes, derivatives = _rule(kind.family, kind.full_points)
     area = _normal(np.einsum("mkd,pka->mpda", x, derivatives))
     if load.type.face:
         force = _traction(load, area)

@@ -136,8 +136,9 @@ def directors(model: Model, group: ElementGroup) -> FloatArray:
     for other in model.groups:
         if not isinstance(other.built_in, ShellType):
             continue
-        corners = x[other.nodes]
-        area = np.cross(np.roll(corners, -1, axis=1) - corners, np.roll(corners, 1, axis=1) - corners)
+        family = other.built_in.family
+        slopes = _binding.slopes_at_nodes(family.number, family.nodes)
+        area = np.cross(*np.einsum("mkd,pka->ampd", x[other.nodes], slopes))
         size = np.linalg.norm(area, axis=-1, keepdims=True)
         normals.append((area / np.where(size > 0, size, 1.0)).reshape(-1, 3))
         nodes.append(other.nodes.ravel())
@@ -149,7 +150,7 @@ def directors(model: Model, group: ElementGroup) -> FloatArray:
     sorted_nodes = of_node[order]
     begin, count = np.unique(sorted_nodes, return_index=True, return_counts=True)[1:]
     found = np.zeros_like(normal)
-    # nodes with as many corners together
+    # nodes of as many elements together
     for k in np.unique(count).tolist():
         rows = order[begin[count == k][:, None] + np.arange(k)]
         here = normal[rows]

@@ -289,6 +289,16 @@ class ShellType:
         return self.family.nodes
 
     @property
+    def corners(self) -> int:
+        """Corner nodes; they come first."""
+        return self.family.corners
+
+    @property
+    def full_points(self) -> int:
+        """Points of full integration: of the mass and of loads."""
+        return max(self.family.full_points, self.nodes)
+
+    @property
     def dimension(self) -> int:
         """3."""
         return 3
@@ -302,12 +312,14 @@ class ShellType:
     def sides(self) -> dict[str, Face]:
         """Local nodes of its sides, from 0: the normal by their order points outward."""
         nodes = tuple(range(self.nodes))
-        return {"SPOS": nodes, "SNEG": nodes[::-1]}
+        back = range(self.corners)[::-1]
+        middles = [self.corners + (k - 1) % self.corners for k in back] if self.nodes > self.corners else []
+        return {"SPOS": nodes, "SNEG": (*back, *middles)}
 
     @property
     def edges(self) -> dict[str, Face]:
         """Local nodes of its edges, from 0."""
-        return {f"E{k + 1}": (k, (k + 1) % self.nodes) for k in range(self.nodes)}
+        return {f"E{k}": edge for k, edge in enumerate(self.family.faces, 1)}
 
     @property
     def hourglass_control(self) -> bool:
@@ -461,6 +473,7 @@ SHELL: Final = {
         ShellType("S3R", TRI3, 1),
         ShellType("S4", QUAD4, 4),
         ShellType("S4R", QUAD4, 1),
+        ShellType("S8R", QUAD8, 4),
     )
 }
 """Conventional shells by their names."""
