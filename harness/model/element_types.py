@@ -185,12 +185,14 @@ class ContinuumType(SolidType):
     coupled       with temperatures at the corners
     incompatible  with incompatible modes
     pressures     functions of the pressure of hybrid elements: 1 of a constant one, 1 + dimension of a linear one
+    modified      Abaqus has the modified interpolation there, which is not published; here it is the quadratic one
     """
 
     tensor: Tensor
     coupled: bool = False
     incompatible: bool = False
     pressures: int = 0
+    modified: bool = False
 
     @property
     def components(self) -> tuple[str, ...]:
@@ -421,7 +423,7 @@ _SPACE: Final = {
 }
 _CONSTANT: Final = ("CPE3", "CPE4", "CPE4R", "CAX3", "CAX4", "CAX4R", "C3D6", "C3D8", "C3D8R", "C3D10")
 _LINEAR: Final = ("CPE6", "CPE8", "CPE8R", "CAX6", "CAX8", "CAX8R", "C3D15", "C3D20", "C3D20R")
-_UNCOUPLED: Final = ("CPS4I", "CPE4I", "C3D8I", "CPS6", "CPE6", "CAX6", "C3D6", "C3D10", "C3D15")
+_UNCOUPLED: Final = ("CPS4I", "CPE4I", "C3D8I", "CPS6", "CPE6", "CAX6", "C3D15")
 """Those without a counterpart with temperatures here."""
 
 _SOLIDS: Final = {
@@ -443,7 +445,12 @@ HYBRID: Final = {
 }
 """Hybrid elements by their names, with the pressures of Abaqus' element library."""
 
-CONTINUUM: Final = _SOLIDS | HYBRID
+MODIFIED: Final = {
+    f"{name}M": replace(_SOLIDS[name], name=f"{name}M", modified=True) for name in ("CPS6", "CPE6", "CAX6", "C3D10")
+}
+"""Modified elements by their names."""
+
+CONTINUUM: Final = _SOLIDS | HYBRID | MODIFIED
 """Continuum elements by their names."""
 
 COUPLED: Final = {
