@@ -207,7 +207,24 @@ SHEAR = HOMOGENEOUS + "\n*TRANSVERSE SHEAR STIFFNESS\n1., 1."
         ),
         (
             {"more": "*SURFACE, NAME=EDGE\nALL, E1\n", "data": "1., 1.\n*DSLOAD\nEDGE, P, 1.\n"},
-            "load type P on edge E1 of shells; loads on edges are not supported",
+            r"load type P on face E1 of S4R; expected EDLD, EDNOR, EDSHR, EDTRA",
+        ),
+        (
+            {"more": "*SURFACE, NAME=TOP\nALL, SPOS\n", "data": "1., 1.\n*DSLOAD\nTOP, EDNOR, 1.\n"},
+            r"load type EDNOR on face SPOS of S4R; expected P, TRVEC, TRSHR",
+        ),
+        (
+            {"data": "1., 1.\n*DLOAD\nALL, EDMOM1, 1.\n"},
+            r"load type EDMOM1 is not supported \(supported: .*; EDLDn, EDNORn, EDSHRn, EDTRAn on shells\)",
+        ),
+        ({"data": "1., 1.\n*DLOAD\nALL, EDLD1, 1.\n"}, "EDLD1 needs a direction, entries 4 to 6"),
+        (
+            {"step": ", NLGEOM", "data": "1., 1.\n*DLOAD\nALL, EDTRA2, 1.\n"},
+            r"EDTRA follows the surface, which is not supported with NLGEOM .*; EDLD of \*DSLOAD with FOLLOWER=NO",
+        ),
+        (
+            {"procedure": "BUCKLE", "data": "1\n*DLOAD\nALL, EDNOR2, 1.\n"},
+            r"EDNOR follows the surface: its load stiffness is not supported in \*BUCKLE; EDLD of \*DSLOAD with FOLL",
         ),
         ({"data": "1., 1.\n*DLOAD\nALL, BR, 1.\n"}, "load type BR on elements of type S4R, whose body forces are BX"),
     ],

@@ -276,6 +276,10 @@ def test_loads(run, element_type):
         "*ELASTIC\n1000., 0.3\n*DENSITY\n4.",
         before="*SURFACE, NAME=UP\nSHELL, SPOS\n*SURFACE, NAME=DOWN\nSHELL, SNEG\n",
     )
+    # elements whose first edge is on the side along (2, 0, 1)
+    deck.before += f"*ELSET, ELSET=FIRST\n{'1, 3' if element_type.startswith('S3') else '1, 2'}\n"
+    deck.before += "*SURFACE, NAME=EDGE\nFIRST, E1\n"
+    length = np.sqrt(5)
     cases = {
         "*DLOAD\nSHELL, P, 7.": 7 * area * unit,
         "*DSLOAD\nUP, P, 7.": -7 * area * unit,
@@ -283,6 +287,11 @@ def test_loads(run, element_type):
         "*DSLOAD\nUP, TRVEC, 3., 0., 1., 0.": 3 * area * np.array([0, 1, 0]),
         "*DLOAD\nSHELL, BX, 2.": 2 * 0.5 * area * np.array([1, 0, 0]),
         "*DLOAD\nSHELL, GRAV, 9., 0., 0., -1.": 9 * 4 * 0.5 * area * np.array([0, 0, -1]),
+        "*DSLOAD\nEDGE, EDSHR, 7.": 7 * np.array([2, 0, 1]),
+        "*DLOAD\nFIRST, EDNOR1, 7.": 7 * length * np.array([0, 1, 0]),
+        "*DSLOAD\nEDGE, EDTRA, 7.": -7 * length * unit,
+        "*DSLOAD, FOLLOWER=NO\nEDGE, EDLD, 7., 3., 0., 4.": 7 * length * np.array([0.6, 0, 0.8]),
+        "*DLOAD\nFIRST, EDLD1, 7., 3., 0., 4.": 7 * length * np.array([0.6, 0, 0.8]),
     }
     for data, force in cases.items():
         history = run(deck, f"*BOUNDARY\nP, 1, 6\n{data}", {"P": deck.side(i=0)}).history

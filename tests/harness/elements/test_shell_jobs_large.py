@@ -86,6 +86,15 @@ def test_end_force(ends, element_type):
         assert found[f"U3[P:{node}]"] == pytest.approx(10 * deflection, rel=2e-3)
 
 
+@pytest.mark.parametrize("element_type", ["S4", "S8R"])
+def test_load_on_an_edge_that_does_not_turn(ends, element_type):
+    """That of the elastica, per length of the edge of 1."""
+    deck, sets = cantilever(element_type, 16)
+    deck.before = "*ELSET, ELSET=LAST\n16,\n*SURFACE, NAME=EDGE\nLAST, E2\n"
+    found = ends(deck, "*BOUNDARY\nFIX, 1, 6\n*DSLOAD, FOLLOWER=NO\nEDGE, EDLD, 4., 0., 0., 1.", sets)
+    assert found[f"U3[P:{sets['P'][0]}]"] == pytest.approx(10 * elastica(4.0)[1], rel=2e-3)
+
+
 @pytest.mark.parametrize("element_type", TYPES)
 def test_end_moment_rolls_up_a_strip(ends, element_type):
     """To half a circle: a moment pi EI/L about a fixed axis."""
