@@ -4,6 +4,7 @@
 
 import re
 
+import numpy as np
 import pytest
 
 import harness
@@ -257,3 +258,21 @@ def test_sdvini(deck, tmp_path):
 def test_nodes_of_an_element(deck):
     with pytest.raises(DeckError, match=re.escape("S3")):
         read_deck(deck(type="S3"))
+
+
+def test_direction_cosines_turn_with_the_instance(tmp_path):
+    """Those of *NODE lines, by *SYSTEM and the rotation of *INSTANCE; a node without them has none."""
+    file = tmp_path / "normals.inp"
+    file.write_text(
+        "*PART, NAME=P\n*SYSTEM\n0., 0., 0., 0., 1., 0.\n*NODE\n1, 0., 0., 0., 1., 0., 0.\n2, 1., 0., 0.\n"
+        "*NODE\n3, 1., 1., 0., 0., 0., 2.\n4, 0., 1.\n*ELEMENT, TYPE=S4, ELSET=ALL\n1, 1, 2, 3, 4\n"
+        "*SHELL SECTION, ELSET=ALL, MATERIAL=M\n0.5\n*END PART\n*ASSEMBLY, NAME=A\n*INSTANCE, NAME=I, PART=P\n"
+        "1., 0., 0.\n0., 0., 0., 1., 0., 0., 90.\n*END INSTANCE\n*END ASSEMBLY\n*MATERIAL, NAME=M\n*ELASTIC\n1., 0.\n"
+        "*STEP\n*STATIC\n1., 1.\n*END STEP\n"
+    )
+    # local x is y, which the instance turns to z; z becomes -y
+    expected = [[0, 0, 1], [0, 0, 0], [0, -2, 0], [0, 0, 0]]
+    np.testing.assert_allclose(read_deck(file).mesh.normals, expected, atol=1e-12)
+    file.write_text(file.read_text().replace("1., 0., 0.\n2, 1.", "1., NOT, 0.\n2, 1."))
+    with pytest.raises(DeckError, match="direction cosine 2"):
+        read_deck(file)

@@ -7,10 +7,10 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from harness.elements import Flags, Request
+from harness.elements import Flags, Request, build_blocks
 from harness.elements.shell import directors, section_points, section_stiffness, shear_stiffness
 from harness.elements.threads import known_routines
-from harness.errors import KernelError, Source
+from harness.errors import DeckError, KernelError, Source
 from harness.model.element_types import SHELL
 from harness.model.mesh import ElementGroup, Mesh
 from harness.model.model import Model
@@ -355,6 +355,30 @@ def test_directors_are_means_within_20_degrees():
     np.testing.assert_allclose(found[0], [half, half, [0, 0, 1], [0, 0, 1]], atol=1e-12)
     np.testing.assert_allclose(found[1], [[-s, 0, c], [-s, 0, c], half, half], atol=1e-12)
     np.testing.assert_allclose(found[2], np.tile([1, 0, 0], (4, 1)), atol=1e-12)
+
+
+def test_normals_of_the_deck_are_directors(load):
+    """They take the place of means in all elements at a node; far ones get a warning, opposite ones an error."""
+    nodes = np.array([[0, 1, 2, 3]])
+    group = group_of("S4", shell_section(), nodes)
+    normals = np.zeros((4, 3))
+    normals[1] = [0.0, 0.6, 1.8]
+    mesh = Mesh(np.arange(1, 5), CORNERS, ("",) * 4, normals)
+    model = Model("test.inp", "", mesh, (group,), ())
+    unit = np.array([0.0, 0.6, 1.8]) / np.hypot(0.6, 1.8)
+    np.testing.assert_allclose(directors(model, group)[0], [[0, 0, 1], unit, [0, 0, 1], [0, 0, 1]], atol=1e-15)
+    library = load(None)
+    build_blocks(model, library)
+    assert not library.messages()
+    normals[1:3] = [0.0, 1.0, 1.0]
+    build_blocks(model, library)
+    (warning,) = [message.text for message in library.messages()]
+    message = "test.inp:7: the normal of node 2 is 45 degrees from that of element 1 (type S4), and 1 more"
+    assert message in warning
+    normals[3] = [0.1, 0.0, -1.0]
+    message = r"test.inp:7: the normal of node 4 is 174 degrees from that of element 1 \(type S4\); Abaqus would turn"
+    with pytest.raises(DeckError, match=message):
+        build_blocks(model, library)
 
 
 @pytest.mark.parametrize(("axis", "first"), [(3, 0), (1, 1), (2, 2)])
