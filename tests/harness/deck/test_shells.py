@@ -33,6 +33,7 @@ DECK = """\
 *{procedure}
 {data}*END STEP
 """
+GENERAL = "*SHELL GENERAL SECTION, ELSET=ALL, MATERIAL=M\n0.5"
 HOMOGENEOUS = "*SHELL SECTION, ELSET=ALL, MATERIAL=M\n0.5"
 
 
@@ -62,6 +63,21 @@ def test_homogeneous(deck):
         (0.5, 5, "M", 0.0)
     ]
     assert (section.offset, section.gauss, section.orientation, section.shear) == (0.0, False, None, ())
+
+
+def test_general_section(deck):
+    """The layers are those of *SHELL SECTION with the default section points."""
+    options = "ELSET=ALL, COMPOSITE, OFFSET=SNEG, SYMMETRIC"
+    plain = f"*SHELL SECTION, {options}\n0.2, 3, M, 30.\n0.1, 3, M, -10."
+    general = f"*SHELL GENERAL SECTION, {options}\n0.2, , M, 30.\n0.1, , M, -10."
+    for pair in ((plain, general), (HOMOGENEOUS, GENERAL)):
+        one, other = (read_deck(deck(given)).groups[0].section for given in pair)
+        layers = [
+            [(layer.thickness, layer.points, layer.material.name, layer.angle) for layer in section.layers]
+            for section in (one, other)
+        ]
+        assert layers[0] == layers[1]
+        assert (one.offset, one.gauss) == (other.offset, other.gauss)
 
 
 def test_composite(deck):
@@ -217,6 +233,14 @@ SHEAR = HOMOGENEOUS + "\n*TRANSVERSE SHEAR STIFFNESS\n1., 1."
         (
             {"data": "1., 1.\n*DLOAD\nALL, EDMOM1, 1.\n"},
             r"load type EDMOM1 is not supported \(supported: .*; EDLDn, EDNORn, EDSHRn, EDTRAn on shells\)",
+        ),
+        (
+            {"section": "*SHELL GENERAL SECTION, ELSET=ALL\n1., 2., 3."},
+            r"expected either MATERIAL= or COMPOSITE, .* on its line; a stiffness matrix is not supported",
+        ),
+        (
+            {"section": GENERAL, "material": "*ELASTIC\n1., 0.\n*PLASTIC\n1."},
+            r"shell\.inp:\d+: .*material M is not linear elastic, which the section is; \*SHELL SECTION takes it",
         ),
         ({"data": "1., 1.\n*DLOAD\nALL, EDLD1, 1.\n"}, "EDLD1 needs a direction, entries 4 to 6"),
         (
