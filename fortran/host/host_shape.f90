@@ -138,8 +138,8 @@ contains
     end select
   end function parent_place
 
-  !> Derivatives of the shape functions by the parent coordinates at the nodes (nodes, 2, place) of a triangle of three nodes or of a
-  !> quadrilateral.
+  !> Derivatives of the shape functions by the parent coordinates at the nodes (nodes, 2, place) of a triangle of three nodes or of
+  !> a quadrilateral.
   pure function slopes_at_nodes(family) result(slopes)
     integer, intent(in) :: family
     real(dp), allocatable :: slopes(:, :, :)

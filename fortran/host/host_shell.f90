@@ -10,7 +10,8 @@
 !>
 !> Transverse shear is elastic, and not that of the section points (Analysis User's Guide, Shell section behavior): its
 !> stiffness comes with the factor 1/(1 + slenderness area/thickness^2). It and the drilling are integrated fully, the shear of
-!> eight nodes at the integration points. S4R has one point; its hourglass modes have the stiffness that the elastic section has in S4.
+!> eight nodes at the integration points. S4R has one point; its hourglass modes have the stiffness that the elastic section has
+!> in S4.
 !>
 !> With NLGEOM all of it is in axes that turn with the element (host_corotation), of eight nodes with its points
 !> (host_shell_directors).

@@ -127,6 +127,16 @@ def read_shear_stiffness(block: Block) -> tuple[tuple[float, float, float], floa
     return (first, second, coupling), slenderness
 
 
+_SECTION = (
+    Option("ELSET", Kind.NAME, "element set", required=True),
+    Option("MATERIAL", Kind.NAME, "material"),
+    Option("COMPOSITE", doc="a data line for each layer, the first on the side SNEG"),
+    Option("CONTROLS", Kind.NAME, "section controls"),
+    Option("OFFSET", Kind.NAME, "from the middle surface to the nodes over the thickness, or SPOS or SNEG (0)"),
+    Option("ORIENTATION", Kind.NAME, "orientation of the section"),
+    Option("SYMMETRIC", doc="the layers again, in reverse"),
+    *ignored("LAYUP", "POISSON", "THICKNESS MODULUS"),
+)
 KEYWORDS = (
     Keyword(
         "SHELL SECTION",
@@ -136,15 +146,8 @@ KEYWORDS = (
         "The thickness stays with NLGEOM, where POISSON changes that of Abaqus.",
         Where.MODEL,
         (
-            Option("ELSET", Kind.NAME, "element set", required=True),
-            Option("MATERIAL", Kind.NAME, "material"),
-            Option("COMPOSITE", doc="a data line for each layer, the first on the side SNEG"),
-            Option("CONTROLS", Kind.NAME, "section controls"),
-            Option("OFFSET", Kind.NAME, "from the middle surface to the nodes over the thickness, or SPOS or SNEG (0)"),
-            Option("ORIENTATION", Kind.NAME, "orientation of the section"),
+            *_SECTION,
             one_of("SECTION INTEGRATION", "rule through the thickness", ("SIMPSON", "GAUSS"), default="SIMPSON"),
-            Option("SYMMETRIC", doc="the layers again, in reverse"),
-            *ignored("LAYUP", "POISSON", "THICKNESS MODULUS"),
             *refused("DENSITY", "NODAL THICKNESS", "SHELL THICKNESS", "STACK DIRECTION", "TEMPERATURE"),
         ),
         "thickness, section points (5; Gauss 3); COMPOSITE: thickness, section points (3; Gauss 2), material, angle of "
@@ -156,14 +159,7 @@ KEYWORDS = (
         "them, of which the default section points have stresses in the output.",
         Where.MODEL,
         (
-            Option("ELSET", Kind.NAME, "element set", required=True),
-            Option("MATERIAL", Kind.NAME, "material"),
-            Option("COMPOSITE", doc="a data line for each layer, the first on the side SNEG"),
-            Option("CONTROLS", Kind.NAME, "section controls"),
-            Option("OFFSET", Kind.NAME, "as of *SHELL SECTION"),
-            Option("ORIENTATION", Kind.NAME, "orientation of the section"),
-            Option("SYMMETRIC", doc="the layers again, in reverse"),
-            *ignored("LAYUP", "POISSON", "THICKNESS MODULUS"),
+            *_SECTION,
             *refused("BENDING ONLY", "DENSITY", "DEPENDENCIES", "I PROPERTIES", "MEMBRANE ONLY", "NODAL THICKNESS"),
             *refused("PROPERTIES", "SHELL THICKNESS", "SMEAR ALL LAYERS", "STACK DIRECTION", "TEMPERATURE", "UNSYMM"),
             *refused("USER", "VARIABLES", "ZERO"),
