@@ -20,3 +20,13 @@ subroutine host_rule(family, weight, n, dn, known, points, nodes, dim)
   n = rule%n
   dn = rule%dn
 end subroutine host_rule
+
+!> Derivatives of the shape functions of a surface (nodes, 2, place) by its parent coordinates, at its nodes.
+subroutine host_slopes_at_nodes(family, slopes, nodes)
+  use host_kinds, only: dp, i4
+  use host_shape, only: slopes_at_nodes
+  implicit none (type, external)
+  integer(i4), intent(in) :: family, nodes
+  real(dp), intent(inout) :: slopes(nodes, 2, nodes)
+  slopes = slopes_at_nodes(int(family))
+end subroutine host_slopes_at_nodes

@@ -12,7 +12,7 @@ module host_shape
   implicit none (type, external)
   private
   public :: line2, quad4, rule_t, rule_of, find_rule, is_quadratic, is_multilinear, radius_of, hourglass_shapes, &
-            parent_place
+            parent_place, slopes_at_nodes
 
   integer, parameter :: line2 = 1, line3 = 2, tri3 = 3, tri6 = 4, quad4 = 5, quad8 = 6, tet4 = 7, hex8 = 8, hex20 = 9, tet10 = 10
   integer, parameter :: wedge6 = 11, wedge15 = 12, families = wedge15, most_points = 27
@@ -123,17 +123,34 @@ contains
     is_multilinear = any(rule%family == [quad4, hex8])
   end function is_multilinear
 
-  !> Parent coordinates of a point of a quadrilateral of four or a hexahedron of eight nodes.
+  !> Parent coordinates of a point of a triangle, a quadrilateral or a hexahedron.
   pure function parent_place(rule, point) result(place)
     type(rule_t), intent(in) :: rule
     integer, intent(in) :: point
     real(dp) :: place(rule%dim)
-    if (rule%dim == 2) then
-      place = matmul(quad_places(:, :4), rule%n(:, point))
-    else
-      place = matmul(brick_places(:, :8), rule%n(:, point))
-    end if
+    select case (rule%family)
+    case (tri3)
+      place = rule%n(2:, point)
+    case (quad4, quad8)
+      place = matmul(quad_places(:, :rule%nodes), rule%n(:, point))
+    case default
+      place = matmul(brick_places(:, :rule%nodes), rule%n(:, point))
+    end select
   end function parent_place
+
+  !> Derivatives of the shape functions by the parent coordinates at the nodes (nodes, 2, place) of a triangle of three nodes or of
+  !> a quadrilateral.
+  pure function slopes_at_nodes(family) result(slopes)
+    integer, intent(in) :: family
+    real(dp), allocatable :: slopes(:, :, :)
+    real(dp), allocatable :: n(:)
+    integer :: k, nodes
+    nodes = sizes_of(family, 2)
+    allocate (slopes(nodes, 2, nodes), n(nodes))
+    do k = 1, nodes
+      call shape_functions(family, real(quad_places(:, k), dp), n, slopes(:, :, k))
+    end do
+  end function slopes_at_nodes
 
   !> Distance of a point from the axis (direction 2) if the element is axisymmetric, else 1.
   pure real(dp) function radius_of(rule, point, axisymmetric, x)

@@ -1,6 +1,6 @@
 ! SPDX-FileCopyrightText: The uel-harness authors
 ! SPDX-License-Identifier: BSD-3-Clause
-!> Built-in conventional shells (S3, S3R, S4, S4R) as a procedure with the arguments of UELMAT. harness/elements/shell.py gives
+!> Built-in conventional shells (S3, S3R, S4, S4R, S8R) as a procedure with the arguments of UELMAT. harness/elements/shell.py gives
 !> what they need.
 !>
 !> JPROPS: family of the surface (host_shape), its integration points, section points, 1 with *ORIENTATION; then material, layer and
@@ -9,10 +9,12 @@
 !> and curvatures; then place, weight and angle (radians) of each section point.
 !>
 !> Transverse shear is elastic, and not that of the section points (Analysis User's Guide, Shell section behavior): its
-!> stiffness comes with the factor 1/(1 + slenderness area/thickness^2). It and the drilling are integrated fully. S4R has one
-!> point; its hourglass modes have the stiffness that the elastic section has in S4.
+!> stiffness comes with the factor 1/(1 + slenderness area/thickness^2). It and the drilling are integrated fully, the shear of
+!> eight nodes at the integration points. S4R has one point; its hourglass modes have the stiffness that the elastic section has
+!> in S4.
 !>
-!> With NLGEOM all of it is in axes that turn with the element (host_corotation).
+!> With NLGEOM all of it is in axes that turn with the element (host_corotation), of eight nodes with its points
+!> (host_shell_directors).
 !>
 !> SVARS hold, for each section point of each integration point, E11 E22 E12 S11 S22 S12 in the directions of its layer, and SF1 to
 !> SF5, SM1 to SM3 of the section; in dynamic analyses then the forces of the last two increments; then the directions of each
@@ -29,7 +31,8 @@ module host_shell
   use host_messages, only: add_message
   use host_polar, only: step
   use host_protect, only: escape
-  use host_shape, only: is_multilinear, parent_place, rule_of, rule_t
+  use host_shape, only: parent_place, rule_of, rule_t
+  use host_shell_directors, only: director_stiffness, director_strains, mean_directors, shell_stress
   use host_shell_strains, only: drilling_strain, enhance, shell_middle, shell_point, shell_strains, tensor_turn
   implicit none (type, external)
   private
@@ -54,7 +57,9 @@ module host_shell
     type(shell_point) :: middle             !< at the start
     real(dp), allocatable :: u(:), old(:)   !< displacements and rotations, now and before the increment
     real(dp), allocatable :: x(:, :)        !< where the nodes are, as COORDS of user routines
-    real(dp) :: turn(3, 3) = 0              !< of the normal
+    real(dp), allocatable :: normal(:, :)   !< (3, points)
+    real(dp), allocatable :: strain(:, :), before(:, :)   !< (8, points) along the axes of the points
+    real(dp), allocatable :: drill(:)       !< drilling strains of host_shell_directors
   end type motion_t
 
 contains
@@ -70,8 +75,10 @@ contains
     real(dp), pointer, contiguous :: axes(:, :, :, :)
     real(dp) :: mass(ndofel, ndofel), old(ndofel, 2), change(ndofel), shear(2, 2), stored(2)
     integer :: n, first, behind
+    logical :: directors
     type(operators_t) :: at_points, full
     type(motion_t) :: motion
+    type(shell_stress) :: stress
     n = ndofel
     first = jprops(2)*jprops(3)*values + 1
     behind = nsvars + 1 - 3*nnode
@@ -92,45 +99,85 @@ contains
       change = du(:n)
       if (stress_matrix(lflags(3))) change = 0
       shear = shear_stiffness(props, sum(full%point%weight))
-      motion = motion_of(int(nnode), n, coords, u, change, lflags(2) /= 0)
-      call add_elastic(int(nnode), n, props, shear, at_points, full, motion, rhs, amatrx, stored, energy(6))
+      directors = nnode == 8 .and. lflags(2) /= 0
+      if (directors) then
+        motion = motion_of_directors(int(nnode), coords, svars(nsvars - 3*nnode + 1), at_points, full%point, u, change)
+        stored = [shear_energy(at_points, shear, motion%before), shear_energy(at_points, shear, motion%strain)]
+        energy(6) = 0.5_dp*props(3)*sum(full%point%weight*motion%drill**2)
+      else
+        motion = motion_of(int(nnode), n, coords, at_points, u, change, lflags(2) /= 0)
+        call add_elastic(int(nnode), n, props, shear, at_points, full, motion, rhs, amatrx, stored, energy(6))
+      end if
       energy(2) = energy(2) - stored(1)
-      call integrate(rule_of(int(jprops(1)), int(jprops(2))), n, int(jprops(3)), jprops(5), props(head + 1), shear, at_points, &
-                     int(npredf), predef, motion, rhs, amatrx, svars, energy, sum(full%point%weight))
+      call integrate(rule_of(int(jprops(1)), int(jprops(2))), int(jprops(3)), jprops(5), props(head + 1), shear, at_points, &
+                     int(npredf), predef, motion, stress, svars, energy, sum(full%point%weight))
       energy(2) = energy(2) + stored(2)
-      if (stress_matrix(lflags(3))) then
-        call turn_stress(int(nnode), n, lflags, coords, motion%middle, u, du, rhs, amatrx)
-      else if (lflags(2) /= 0) then
-        call turn_back(int(nnode), coords, motion%middle%frame, motion%middle%gradient(:nnode, :), u, rhs, amatrx)
+      stress%drilling = props(3)
+      if (directors) stress%drill = props(3)*motion%drill
+      if (directors .or. (nnode == 8 .and. stress_matrix(lflags(3)))) then
+        call turn_directors(int(nnode), n, lflags, coords, svars(nsvars - 3*nnode + 1), at_points%point, full%point, u, du, &
+                            stress, rhs, amatrx)
+      else
+        call add_section_points(n, at_points, stress, rhs, amatrx)
+        if (stress_matrix(lflags(3))) then
+          call turn_stress(int(nnode), n, lflags, coords, motion%middle, u, du, rhs, amatrx)
+        else if (lflags(2) /= 0) then
+          call turn_back(int(nnode), coords, motion%middle%frame, motion%middle%gradient(:nnode, :), u, rhs, amatrx)
+        end if
       end if
     end if
     call respond(n, lflags, params, dtime, v, a, mass, old, rhs, amatrx, energy(1))
     if (behind > first) svars(first:behind - 1) = reshape(old, [2*n])
   end subroutine shell_uelmat
 
-  !> Displacements and rotations, with NLGEOM without the rotation of the element.
-  pure function motion_of(nodes, n, x, u, du, large) result(found)
+  !> Displacements and rotations, with NLGEOM without the rotation of the element, and their strains.
+  pure function motion_of(nodes, n, x, at, u, du, large) result(found)
     integer, intent(in) :: nodes, n
     real(dp), intent(in) :: x(3, nodes), u(n), du(n)
+    type(operators_t), intent(in) :: at
     logical, intent(in) :: large
     type(motion_t) :: found
     type(corotation_t) :: before, now
-    real(dp) :: moved(6, nodes), gradient(nodes, 2)
+    real(dp) :: moved(6, nodes), gradient(nodes, 2), turn(3, 3)
+    integer :: p
     moved = reshape(u, [6, nodes])
     found%middle = shell_middle(nodes, x)
     found%u = u
     found%old = u - du
-    found%turn = reshape([1, 0, 0, 0, 1, 0, 0, 0, 1], [3, 3])
     found%x = x
-    if (.not. large) return
-    gradient = found%middle%gradient(:nodes, :)
-    before = local_motion(nodes, x, found%middle%frame, gradient, cmplx(reshape(found%old, [6, nodes]), kind=dp))
-    now = local_motion(nodes, x, found%middle%frame, gradient, cmplx(moved, kind=dp))
-    found%u = reshape(real(now%local, dp), [n])
-    found%old = reshape(real(before%local, dp), [n])
-    found%turn = real(now%rotation, dp)
-    found%x = x + moved(:3, :)
+    turn = reshape([1, 0, 0, 0, 1, 0, 0, 0, 1], [3, 3])
+    if (large) then
+      gradient = found%middle%gradient(:nodes, :)
+      before = local_motion(nodes, x, found%middle%frame, gradient, cmplx(reshape(found%old, [6, nodes]), kind=dp))
+      now = local_motion(nodes, x, found%middle%frame, gradient, cmplx(moved, kind=dp))
+      found%u = reshape(real(now%local, dp), [n])
+      found%old = reshape(real(before%local, dp), [n])
+      turn = real(now%rotation, dp)
+      found%x = x + moved(:3, :)
+    end if
+    allocate (found%normal(3, size(at%point)), found%strain(8, size(at%point)))
+    do p = 1, size(at%point)
+      found%normal(:, p) = matmul(turn, at%point(p)%frame(3, :))
+      found%strain(:, p) = matmul(at%b(:, :, p), found%u)
+    end do
   end function motion_of
+
+  !> Strains of a shell whose directors turn.
+  pure function motion_of_directors(nodes, x, v, at, full, u, du) result(found)
+    integer, intent(in) :: nodes
+    real(dp), intent(in) :: x(3, nodes), v(3, nodes), u(6, nodes), du(6, nodes)
+    type(operators_t), intent(in) :: at
+    type(shell_point), intent(in) :: full(:)
+    type(motion_t) :: found
+    complex(dp) :: strains(8, size(at%point)), drill(size(full))
+    found%x = x + u(:3, :)
+    found%normal = mean_directors(nodes, x, v, at%point, u)
+    call director_strains(nodes, x, v, at%point, full, cmplx(u - du, kind=dp), strains, drill)
+    found%before = real(strains, dp)
+    call director_strains(nodes, x, v, at%point, full, cmplx(u, kind=dp), strains, drill)
+    found%strain = real(strains, dp)
+    found%drill = real(drill, dp)
+  end function motion_of_directors
 
   !> The matrix of a stress (host_context), from the forces and the stiffness by the motion of an element: what its forces change by
   !> as it turns.
@@ -155,17 +202,50 @@ contains
     call turn_back(nodes, x, middle%frame, gradient, at, force, stiffness)
   end subroutine turn_stress
 
-  !> Operators at the integration points, and at as many points as nodes. Leaves the pass if the surface is folded.
+  !> Forces and stiffness of a shell whose directors turn, or the matrix of its stress.
+  pure subroutine turn_directors(nodes, n, lflags, x, v, points, full, u, du, stress, force, stiffness)
+    integer, intent(in) :: nodes, n
+    integer(i4), intent(in) :: lflags(3)
+    real(dp), intent(in) :: x(3, nodes), v(3, nodes), u(n), du(n)
+    type(shell_point), intent(in) :: points(:), full(:)
+    type(shell_stress), intent(inout) :: stress
+    real(dp), intent(out) :: force(n), stiffness(n, n)
+    complex(dp) :: moved(6, nodes), strains(8, size(points)), drill(size(full))
+    real(dp) :: at(n)
+    integer :: p
+    at = 0
+    if (lflags(2) /= 0) at = u
+    if (stress_matrix(lflags(3))) then
+      if (lflags(3) == added_stress) then
+        moved = reshape(cmplx(at, step*du, dp), [6, nodes])
+        call director_strains(nodes, x, v, points, full, moved, strains, drill)
+        do p = 1, size(points)
+          stress%force(:, p) = matmul(stress%modulus(:, :, p), aimag(strains(:, p)))/step
+        end do
+        stress%drill = stress%drilling*aimag(drill)/step
+      else if (lflags(2) == 0) then
+        call director_strains(nodes, x, v, points, full, reshape(cmplx(at, step*u, dp), [6, nodes]), strains, drill)
+        stress%drill = stress%drilling*aimag(drill)/step
+      end if
+      stress%modulus = 0
+      stress%drilling = 0
+    end if
+    call director_stiffness(nodes, x, v, points, full, reshape(at, [6, nodes]), stress, force, stiffness)
+  end subroutine turn_directors
+
+  !> Operators at the integration points, and at those of full integration. Leaves the pass if the surface is folded.
   subroutine prepare(kind, nodes, n, x, v, props, axes, at_points, full)
     integer, intent(in) :: kind(4), nodes, n
     real(dp), intent(in) :: x(3, nodes), v(3, nodes), props(head)
     real(dp), intent(in), pointer, contiguous :: axes(:, :, :, :)
     type(operators_t), intent(out) :: at_points, full
+    integer :: points
     call find_operators(rule_of(kind(1), kind(2)), n, x, v, props, axes, at_points)
-    if (kind(2) == nodes) then
+    points = merge(9, nodes, nodes == 8)
+    if (kind(2) == points) then
       full = at_points
     else
-      call find_operators(rule_of(kind(1), nodes), n, x, v, props, axes, full)
+      call find_operators(rule_of(kind(1), points), n, x, v, props, axes, full)
     end if
   end subroutine prepare
 
@@ -182,11 +262,7 @@ contains
     elastic = reshape(props(9:44), [6, 6])
     allocate (found%point(rule%points), found%b(8, n, rule%points), found%angle(rule%points), found%turn(3, 3, rule%points))
     do p = 1, rule%points
-      if (is_multilinear(rule)) then
-        call shell_strains(rule%nodes, x, v, parent_place(rule, p), rule%weight(p), found%point(p), b)
-      else
-        call shell_strains(rule%nodes, x, v, rule%n(2:3, p), rule%weight(p), found%point(p), b)
-      end if
+      call shell_strains(rule%nodes, x, v, parent_place(rule, p), rule%weight(p), found%point(p), b)
       if (.not. found%point(p)%good) call report_shape(p)
       found%b(:, :, p) = reshape(b, [8, n])
       if (associated(axes)) then
@@ -233,19 +309,29 @@ contains
     call escape()
   end subroutine report_shape
 
-  !> Lumped mass, with the rotary inertia of the thickness for all rotations.
+  !> Mass, with the rotary inertia of the thickness for all rotations: lumped, of eight nodes consistent.
   pure subroutine add_mass(nodes, thickness, density, middle, points, mass)
     integer, intent(in) :: nodes
     real(dp), intent(in) :: thickness, density, middle
     type(shell_point), intent(in) :: points(:)
     real(dp), intent(inout) :: mass(6, nodes, 6, nodes)
-    real(dp) :: area
+    real(dp) :: area(nodes, nodes), inertia
     integer :: i, k, p
-    do k = 1, nodes
-      area = sum([(points(p)%weight*points(p)%n(k), p=1, size(points))])
-      do i = 1, 6
-        mass(i, k, i, k) = density*area*thickness*merge(1.0_dp, thickness**2/12 + middle**2, i <= 3)
-      end do
+    area = 0
+    do p = 1, size(points)
+      associate (shape => points(p)%n(:nodes))
+        if (nodes == 8) then
+          area = area + points(p)%weight*spread(shape, 2, nodes)*spread(shape, 1, nodes)
+        else
+          do k = 1, nodes
+            area(k, k) = area(k, k) + points(p)%weight*shape(k)
+          end do
+        end if
+      end associate
+    end do
+    do i = 1, 6
+      inertia = density*thickness*merge(1.0_dp, thickness**2/12 + middle**2, i <= 3)
+      mass(i, :, i, :) = inertia*area
     end do
   end subroutine add_mass
 
@@ -260,11 +346,52 @@ contains
   pure function section_shear(operators, p, n) result(b)
     type(operators_t), intent(in) :: operators
     integer, intent(in) :: p, n
-    real(dp) :: b(2, n), c, s
-    c = cos(operators%angle(p))
-    s = sin(operators%angle(p))
-    b = matmul(reshape([c, -s, s, c], [2, 2]), operators%b(7:, :, p))
+    real(dp) :: b(2, n), turn(8, 8)
+    turn = section_turn(operators, p)
+    b = matmul(turn(7:, 7:), operators%b(7:, :, p))
   end function section_shear
+
+  !> Stiffness of the transverse shear, integrated at points.
+  pure function shear_matrix(at, n, k) result(shear)
+    type(operators_t), intent(in) :: at
+    integer, intent(in) :: n
+    real(dp), intent(in) :: k(2, 2)
+    real(dp) :: shear(n, n), b(2, n)
+    integer :: p
+    shear = 0
+    do p = 1, size(at%point)
+      b = section_shear(at, p, n)
+      shear = shear + at%point(p)%weight*matmul(transpose(b), matmul(k, b))
+    end do
+  end function shear_matrix
+
+  !> Its energy, by the strains at the points.
+  pure real(dp) function shear_energy(at, k, strains)
+    type(operators_t), intent(in) :: at
+    real(dp), intent(in) :: k(2, 2), strains(:, :)
+    real(dp) :: turn(8, 8), shear(2)
+    integer :: p
+    shear_energy = 0
+    do p = 1, size(at%point)
+      turn = section_turn(at, p)
+      shear = matmul(turn(7:, 7:), strains(7:, p))
+      shear_energy = shear_energy + 0.5_dp*at%point(p)%weight*dot_product(shear, matmul(k, shear))
+    end do
+  end function shear_energy
+
+  !> Matrix from the strains along the axes of a point to those in the directions of the section.
+  pure function section_turn(at, p) result(turn)
+    type(operators_t), intent(in) :: at
+    integer, intent(in) :: p
+    real(dp) :: turn(8, 8), c, s
+    c = cos(at%angle(p))
+    s = sin(at%angle(p))
+    turn = 0
+    turn(:3, :3) = at%turn(:, :, p)
+    turn(4:6, 4:6) = at%turn(:, :, p)
+    turn(7, 7:) = [c, s]
+    turn(8, 7:) = [-s, c]
+  end function section_turn
 
   !> What is linear: transverse shear, drilling, and hourglass modes of four nodes with one point.
   subroutine add_elastic(nodes, n, props, k, at_points, full, motion, force, stiffness, stored, spurious)
@@ -275,13 +402,15 @@ contains
     real(dp), intent(inout) :: force(n), stiffness(n, n)
     real(dp), intent(out) :: stored(2)     !< energy of the shear, before and now
     real(dp), intent(out) :: spurious      !< energy of drilling and hourglass modes
-    real(dp) :: shear(n, n), artificial(n, n), drill(n), part(n, n), b(2, n)
+    real(dp) :: shear(n, n), artificial(n, n), drill(n), part(n, n)
     integer :: p
-    shear = 0
     artificial = 0
+    if (nodes == 8) then
+      shear = shear_matrix(at_points, n, k)
+    else
+      shear = shear_matrix(full, n, k)
+    end if
     do p = 1, size(full%point)
-      b = section_shear(full, p, n)
-      shear = shear + full%point(p)%weight*matmul(transpose(b), matmul(k, b))
       drill = reshape(drilling_strain(nodes, full%point(p)), [n])
       artificial = artificial + full%point(p)%weight*props(3)*spread(drill, 2, n)*spread(drill, 1, n)
     end do
@@ -313,18 +442,33 @@ contains
     stiffness = stiffness + operators%point(p)%weight*matmul(transpose(b), matmul(reshape(props(9:44), [6, 6]), b))
   end subroutine add_section
 
-  !> Forces, tangent and state of all section points.
-  subroutine integrate(rule, n, sections, of_section, section, k_shear, at, fields, predef, motion, force, stiffness, svars, &
-                       energy, area)
+  !> Forces and stiffness of membrane and bending, by displacements and rotations whose strains are linear.
+  pure subroutine add_section_points(n, at, stress, force, stiffness)
+    integer, intent(in) :: n
+    type(operators_t), intent(in) :: at
+    type(shell_stress), intent(in) :: stress
+    real(dp), intent(inout) :: force(n), stiffness(n, n)
+    integer :: p
+    do p = 1, size(at%point)
+      associate (b => at%b(:6, :, p), weight => at%point(p)%weight)
+        force = force + weight*matmul(stress%force(:6, p), b)
+        stiffness = stiffness + weight*matmul(transpose(b), matmul(stress%modulus(:6, :6, p), b))
+      end associate
+    end do
+  end subroutine add_section_points
+
+  !> Stress and state of all section points, and what they make along the axes of the integration points.
+  subroutine integrate(rule, sections, of_section, section, k_shear, at, fields, predef, motion, found, svars, energy, area)
     type(rule_t), intent(in) :: rule
-    integer, intent(in) :: n, sections, fields
+    integer, intent(in) :: sections, fields
     integer(i4), intent(in) :: of_section(3, sections)
     real(dp), intent(in) :: section(3, sections), k_shear(2, 2), predef(2, fields, rule%nodes), area
     type(operators_t), intent(in) :: at
     type(motion_t), intent(in) :: motion
-    real(dp), intent(inout) :: force(n), stiffness(n, n), svars(values, sections, rule%points), energy(8)
+    type(shell_stress), intent(inout) :: found
+    real(dp), intent(inout) :: svars(values, sections, rule%points), energy(8)
     type(material_t), pointer :: material
-    real(dp) :: b(6, n), strain(6), resultant(6), tangent(6, 6), turn(3, 3), layer(3), stress(3), modulus(3, 3), shear(2)
+    real(dp) :: axes(8, 8), strain(8), resultant(8), tangent(8, 8), turn(3, 3), layer(3), stress(3), modulus(3, 3)
     real(dp) :: elastic, work, volume, z
     integer(i4) :: column
     integer :: k, p
@@ -333,25 +477,26 @@ contains
     current%deformed = .false.
     elastic = 0
     work = energy(2) + energy(4)
+    allocate (found%force(8, rule%points), found%modulus(8, 8, rule%points))
     do p = 1, rule%points
-      b(:3, :) = matmul(at%turn(:, :, p), at%b(:3, :, p))
-      b(4:, :) = matmul(at%turn(:, :, p), at%b(4:6, :, p))
-      strain = matmul(b, motion%u)
-      resultant = 0
+      axes = section_turn(at, p)
+      strain = matmul(axes, motion%strain(:, p))
       tangent = 0
+      tangent(7:, 7:) = k_shear
+      resultant = matmul(tangent, strain)
       do k = 1, sections
         material => find_material(of_section(1, k))
         z = section(1, k)
         if (has_fields(material)) then
           current%length = sqrt(area)
-          current%place = matmul(motion%x, at%point(p)%n(:rule%nodes)) + z*matmul(motion%turn, at%point(p)%frame(3, :))
+          current%place = matmul(motion%x, at%point(p)%n(:rule%nodes)) + z*motion%normal(:, p)
           call interpolate_fields(rule, p, fields, predef, material%variables)
         end if
         current%npt = int(p, i4)
         current%layer = of_section(2, k)
         current%kspt = of_section(3, k)
         turn = tensor_turn(section(3, k))
-        layer = matmul(turn, strain(:3) + z*strain(4:))
+        layer = matmul(turn, strain(:3) + z*strain(4:6))
         column = int((p - 1)*sections + k, i4)
         call stress_update(material, column, layer, stress, modulus, valid)
         volume = at%point(p)%weight*section(2, k)
@@ -363,18 +508,17 @@ contains
         end associate
         stress = matmul(transpose(turn), stress)
         modulus = section(2, k)*matmul(transpose(turn), matmul(modulus, turn))
-        resultant = resultant + section(2, k)*[stress, z*stress]
+        resultant(:6) = resultant(:6) + section(2, k)*[stress, z*stress]
         tangent(:3, :3) = tangent(:3, :3) + modulus
-        tangent(4:, :3) = tangent(4:, :3) + z*modulus
-        tangent(:3, 4:) = tangent(:3, 4:) + z*modulus
-        tangent(4:, 4:) = tangent(4:, 4:) + z**2*modulus
+        tangent(4:6, :3) = tangent(4:6, :3) + z*modulus
+        tangent(:3, 4:6) = tangent(:3, 4:6) + z*modulus
+        tangent(4:6, 4:6) = tangent(4:6, 4:6) + z**2*modulus
       end do
-      shear = matmul(k_shear, matmul(section_shear(at, p, n), motion%u))
       do k = 1, sections
-        svars(7:, k, p) = [resultant(:3), shear, resultant(4:)]
+        svars(7:, k, p) = resultant([1, 2, 3, 7, 8, 4, 5, 6])
       end do
-      force = force + at%point(p)%weight*matmul(resultant, b)
-      stiffness = stiffness + at%point(p)%weight*matmul(transpose(b), matmul(tangent, b))
+      found%force(:, p) = matmul(resultant, axes)
+      found%modulus(:, :, p) = matmul(transpose(axes), matmul(tangent, axes))
     end do
     if (allocated(current%fields)) deallocate (current%fields)
     energy(2) = elastic

@@ -1,6 +1,6 @@
 ! SPDX-FileCopyrightText: The uel-harness authors
 ! SPDX-License-Identifier: BSD-3-Clause
-!> Strains of shells of three and four nodes with six dofs a node, by their displacements and rotations.
+!> Strains of shells of three, four and eight nodes with six dofs a node, by their displacements and rotations.
 !>
 !> The shell is x(r,s) + z v(r,s): the surface between the nodes, and the director between those of the nodes. A point moves by
 !> u + z w with w = rotation x director, and its strains, linear in z, are
@@ -9,13 +9,16 @@
 !>
 !> along the axes e1, e2 of the tangent plane at the point. They vanish in rigid-body motions, whatever the directors. The shear is
 !> that of MITC4 (E.N. Dvorkin, K.-J. Bathe, Engineering Computations 1 (1984) 77) and MITC3 (P.-S. Lee, K.-J. Bathe, Computers
-!> and Structures 82 (2004) 945), which take it from the middles of the edges.
+!> and Structures 82 (2004) 945), which take it from the middles of the edges; that of eight nodes, which is integrated at 2 x 2
+!> points, is what the displacements give there (O.C. Zienkiewicz, R.L. Taylor, J.M. Too, Int. J. for Numerical Methods in
+!> Engineering 3 (1971) 275).
 !>
 !> The membrane strain of four nodes bends in its plane as J.C. Simo and M.S. Rifai's element with four enhanced modes does (Int. J.
 !> for Numerical Methods in Engineering 29 (1990) 1595). The modes are those of the elastic section: of an elastic shell the two are
 !> the same, and of any other the strains stay linear in the displacements, pass the patch test and need no unknowns.
 module host_shell_strains
   use core_rotation, only: cross
+  use core_serendipity, only: quad_places, serendipity_functions
   use core_small_matrix, only: invert, invert_general
   use host_kinds, only: dp
   implicit none (type, external)
@@ -24,17 +27,15 @@ module host_shell_strains
 
   !> A point of the surface.
   type :: shell_point
-    real(dp) :: n(4) = 0            !< shape functions
+    real(dp) :: n(8) = 0            !< shape functions
     real(dp) :: place(3) = 0
     real(dp) :: frame(3, 3) = 0     !< rows: e1, e2 and the normal
-    real(dp) :: gradient(4, 2) = 0  !< of the shape functions along e1 and e2
+    real(dp) :: gradient(8, 2) = 0  !< of the shape functions along e1 and e2
     real(dp) :: jacobian(2, 2) = 0  !< component i of the tangent a: (a, i)
     real(dp) :: parent(2) = 0
     real(dp) :: weight = 0          !< area
     logical :: good = .false.       !< false where there is no area
   end type shell_point
-
-  real(dp), parameter :: corners(2, 4) = reshape([-1, -1, 1, -1, 1, 1, -1, 1], [2, 4])
 
 contains
 
@@ -47,9 +48,7 @@ contains
       n = [1 - sum(parent), parent]
       dn = reshape([-1, 1, 0, -1, 0, 1], [3, 2])
     else
-      n = 0.25_dp*(1 + corners(1, :)*parent(1))*(1 + corners(2, :)*parent(2))
-      dn(:, 1) = 0.25_dp*corners(1, :)*(1 + corners(2, :)*parent(2))
-      dn(:, 2) = 0.25_dp*corners(2, :)*(1 + corners(1, :)*parent(1))
+      call serendipity_functions(2, nodes, quad_places(:, :nodes), parent, n, dn)
     end if
   end subroutine interpolate
 
@@ -65,7 +64,7 @@ contains
   pure function middle_of(nodes) result(parent)
     integer, intent(in) :: nodes
     real(dp) :: parent(2)
-    parent = merge([0.0_dp, 0.0_dp], [1.0_dp, 1.0_dp]/3, nodes == 4)
+    parent = merge([1.0_dp, 1.0_dp]/3, [0.0_dp, 0.0_dp], nodes == 3)
   end function middle_of
 
   !> A point by its parent coordinates; weight: of the parent area. Its e1 is the closest to that of the middle, which is along the
@@ -136,24 +135,28 @@ contains
     end do
   end subroutine shell_strains
 
-  !> Shear strains along the parent coordinates, from those in the middles of the edges.
+  !> Shear strains along the parent coordinates, of three and four nodes from those in the middles of the edges.
   pure function assumed_shear(nodes, x, v, parent) result(shear)
     integer, intent(in) :: nodes
     real(dp), intent(in) :: x(3, nodes), v(3, nodes), parent(2)
     real(dp) :: shear(2, 6, nodes), third(6, nodes)
-    if (nodes == 4) then
+    select case (nodes)
+    case (8)
+      shear(1, :, :) = shear_along(nodes, x, v, parent, 1)
+      shear(2, :, :) = shear_along(nodes, x, v, parent, 2)
+    case (4)
       shear(1, :, :) = 0.5_dp*(1 - parent(2))*shear_along(nodes, x, v, [0.0_dp, -1.0_dp], 1) &
                        + 0.5_dp*(1 + parent(2))*shear_along(nodes, x, v, [0.0_dp, 1.0_dp], 1)
       shear(2, :, :) = 0.5_dp*(1 - parent(1))*shear_along(nodes, x, v, [-1.0_dp, 0.0_dp], 2) &
                        + 0.5_dp*(1 + parent(1))*shear_along(nodes, x, v, [1.0_dp, 0.0_dp], 2)
-      return
-    end if
-    shear(1, :, :) = shear_along(nodes, x, v, [0.5_dp, 0.0_dp], 1)
-    shear(2, :, :) = shear_along(nodes, x, v, [0.0_dp, 0.5_dp], 2)
-    third = shear(2, :, :) - shear(1, :, :) - shear_along(nodes, x, v, [0.5_dp, 0.5_dp], 2) &
-            + shear_along(nodes, x, v, [0.5_dp, 0.5_dp], 1)
-    shear(1, :, :) = shear(1, :, :) + parent(2)*third
-    shear(2, :, :) = shear(2, :, :) - parent(1)*third
+    case default
+      shear(1, :, :) = shear_along(nodes, x, v, [0.5_dp, 0.0_dp], 1)
+      shear(2, :, :) = shear_along(nodes, x, v, [0.0_dp, 0.5_dp], 2)
+      third = shear(2, :, :) - shear(1, :, :) - shear_along(nodes, x, v, [0.5_dp, 0.5_dp], 2) &
+              + shear_along(nodes, x, v, [0.5_dp, 0.5_dp], 1)
+      shear(1, :, :) = shear(1, :, :) + parent(2)*third
+      shear(2, :, :) = shear(2, :, :) - parent(1)*third
+    end select
   end function assumed_shear
 
   !> Shear strain x,a . w + v . u,a along parent coordinate a at a place.

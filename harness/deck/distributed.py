@@ -15,12 +15,13 @@ from harness.deck.surfaces import face_nodes
 from harness.deck.table import Keyword, Kind, Option, Where, refused
 from harness.model.element_types import BODY_FORCES, BeamType, ContinuumType, Direction, ShellType
 from harness.model.mesh import ElementGroup
-from harness.model.steps import DistributedLoad, ElementLoad, Load, LoadKind, LoadType
+from harness.model.steps import ON_EDGES, DistributedLoad, ElementLoad, Load, LoadKind, LoadType
 
 _USER_LOAD = re.compile(r"U([1-9]\d{0,3})(NU)?")
 _BY_DLOAD = re.compile(r"(P\d|B[XYZR])NU")
 _NO_DIRECTION: Direction = (0.0, 0.0, 0.0)
 _SURFACE = ("P", "TRVEC", "TRSHR")
+_ON_EDGE = re.compile(rf"({'|'.join(ON_EDGES)})([1-4])")
 
 
 def read_distributed(block: Block, prescription: Prescription) -> list[DistributedLoad | ElementLoad]:
@@ -49,7 +50,8 @@ def read_distributed(block: Block, prescription: Prescription) -> list[Distribut
                     direction = _body_direction(row, given, solid)
                 jltyp = _jltyp(face, direction) if by_user else 0
                 nodes = face_nodes(group, face, row.source, block.name) if face else ()
-                kept = LoadType(kind, nodes, direction, follows=kind is LoadKind.PRESSURE, jltyp=jltyp)
+                follows = kind is LoadKind.PRESSURE or kind in ON_EDGES
+                kept = LoadType(kind, nodes, direction, follows=follows, jltyp=jltyp)
                 found.append(ElementLoad(positions, kept, magnitude, amplitude, row.source, imaginary))
             continue
         row.at_most(3)
@@ -73,10 +75,15 @@ def _volume_load(row: Row, label: str) -> tuple[LoadKind, str, Direction]:
         # along the normal of a shell, as on its other side
         row.at_most(3)
         return LoadKind.PRESSURE, "SNEG", _NO_DIRECTION
+    if (edge := _ON_EDGE.fullmatch(label)) is not None:
+        general = edge[1] == LoadKind.EDGE
+        row.at_most(6 if general else 3)
+        return LoadKind(edge[1]), f"E{edge[2]}", _direction(row, label) if general else _NO_DIRECTION
     if match is None and label != "GRAV" and label not in BODY_FORCES:
-        forces = ", ".join(BODY_FORCES)
+        forces, edges = ", ".join(BODY_FORCES), ", ".join(f"{kind}n" for kind in ON_EDGES)
         supported = (
-            f"Un and UnNU on user elements; Pn (P on shells), {forces}, those with NU, and GRAV on built-in elements"
+            f"Un and UnNU on user elements; Pn (P on shells), {forces}, those with NU, and GRAV on built-in elements; "
+            f"{edges} on shells"
         )
         raise row.error(f"load type {label} is not supported (supported: {supported})")
     row.at_most(6 if label == "GRAV" else 3)
@@ -116,19 +123,23 @@ def read_surface_loads(block: Block, prescription: Prescription) -> list[Element
     found = []
     for row in block.rows():
         label = row.name(1, "load type")
-        if label not in _SURFACE:
-            raise row.error(f"load type {label} is not supported (supported: {', '.join(_SURFACE)})")
+        if label not in (*_SURFACE, *ON_EDGES):
+            raise row.error(f"load type {label} is not supported (supported: {', '.join((*_SURFACE, *ON_EDGES))})")
         kind = LoadKind(label)
-        row.at_most(3 if kind is LoadKind.PRESSURE else 6)
-        direction = _NO_DIRECTION if kind is LoadKind.PRESSURE else _direction(row, label)
+        directed = kind in (LoadKind.TRACTION, LoadKind.SHEAR, LoadKind.EDGE)
+        row.at_most(6 if directed else 3)
+        direction = _direction(row, label) if directed else _NO_DIRECTION
         magnitude = row.real(2, "magnitude", 0.0)
         for elements, face, place in prescription.surfaces.faces(row.name(0, "surface"), row.source):
             for group, positions in prescription.surfaces.by_group(elements):
                 shell = _loaded(row, label, group)
-                if isinstance(shell, ShellType) and face not in shell.sides:
-                    raise row.error(f"load type {label} on edge {face} of shells; loads on edges are not supported")
+                on_edge = isinstance(shell, ShellType) and face in shell.edges
+                if on_edge != (kind in ON_EDGES):
+                    expected = ", ".join(ON_EDGES if on_edge else _SURFACE)
+                    raise row.error(f"load type {label} on face {face} of {group.type}; expected {expected}")
                 nodes = face_nodes(group, face, place, "SURFACE")
-                kept = LoadType(kind, nodes, direction, follows=follower or kind is LoadKind.PRESSURE)
+                follows = follower if kind in (LoadKind.TRACTION, LoadKind.SHEAR, LoadKind.EDGE) else True
+                kept = LoadType(kind, nodes, direction, follows=follows)
                 found.append(ElementLoad(positions, kept, magnitude, amplitude, row.source, imaginary))
     return found
 
@@ -181,8 +192,9 @@ KEYWORDS = (
             ),
         ),
         "element or set, Un or UnNU (user elements), Pn, BX, BY, BZ, BR (CAX) or GRAV (built-in continuum elements; "
-        "with NU, as in P2NU, by DLOAD), P (shells: along their normal), BX, BY, BZ or GRAV (shells), magnitude; GRAV: "
-        "direction; beams: PX, PY, PZ (force per length), P1, P2 (along the local directions), BX, BY, BZ or GRAV",
+        "with NU, as in P2NU, by DLOAD), P (shells: along their normal), BX, BY, BZ or GRAV (shells), EDLDn, EDNORn, "
+        "EDSHRn, EDTRAn (per length of edge n of shells), magnitude; GRAV, EDLDn: direction; beams: PX, PY, PZ "
+        "(force per length), P1, P2 (along the local directions), BX, BY, BZ or GRAV",
     ),
     Keyword(
         "DSLOAD",
@@ -197,7 +209,8 @@ KEYWORDS = (
             *HARMONIC,
             *refused("CONSTANT RESULTANT", "CYCLIC MODE", "LOAD CASE", "ORIENTATION", "REF NODE"),
         ),
-        "surface, P, TRVEC or TRSHR, magnitude; TRVEC, TRSHR: direction",
+        "surface, P, TRVEC or TRSHR, or of edges of shells EDLD, EDNOR (into the shell), EDSHR (along the edge) or "
+        "EDTRA (against the normal), magnitude; TRVEC, TRSHR, EDLD: direction",
     ),
     Keyword(
         "TEMPERATURE",

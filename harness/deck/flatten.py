@@ -151,12 +151,16 @@ class FlatMesh:
         self.mesh = replace(self.mesh, coordinates=self.mesh.coordinates + change)
 
     def _make_mesh(self) -> Mesh:
-        points, names = [], []
+        points, names, normals = [], [], []
         for owner in self.owners:
             own = np.array([owner.mesh.nodes[label] for label in owner.nodes.tolist()]).reshape(-1, 3)
             points.append(owner.placement.move(own))
+            given = np.array([owner.mesh.normals.get(label, (0.0, 0.0, 0.0)) for label in owner.nodes.tolist()])
+            normals.append(owner.placement.turn(given.reshape(-1, 3)))
             names += [owner.name] * len(own)
-        return Mesh(np.concatenate([owner.nodes for owner in self.owners]), np.concatenate(points), tuple(names))
+        labels = np.concatenate([owner.nodes for owner in self.owners])
+        whole = np.concatenate(normals)
+        return Mesh(labels, np.concatenate(points), tuple(names), whole if whole.any() else None)
 
     def _resolve_sets(self, kind: str) -> dict[str, IntArray]:
         """Sets of the whole model; labels that do not exist are left out with a warning."""

@@ -16,7 +16,7 @@ from harness.deck.flatten import FlatMesh, Owner
 from harness.deck.local_mesh import ElementRun
 from harness.deck.orientations import read_orientations
 from harness.deck.sections import SECTION_KEYWORDS, make_section
-from harness.deck.shells import read_shear_stiffness
+from harness.deck.shells import SHELL_KEYWORDS, read_shear_stiffness
 from harness.deck.table import Keyword, Where
 from harness.deck.user_elements import ElementType
 from harness.errors import DeckError, Source
@@ -84,10 +84,10 @@ def make_groups(
                 if block.name in SECTION_KEYWORDS:
                     _assign(elements, sections, block, owner)
                 elif block.name == "HOURGLASS STIFFNESS":
-                    place = _last_section(block, sections, "SOLID SECTION", "SHELL SECTION")
+                    place = _last_section(block, sections, "SOLID SECTION", *SHELL_KEYWORDS)
                     hourglass[place] = _hourglass_stiffness(block)
                 elif block.name == "TRANSVERSE SHEAR STIFFNESS":
-                    place = _last_section(block, sections, "SHELL SECTION", *BEAM_KEYWORDS)
+                    place = _last_section(block, sections, *SHELL_KEYWORDS, *BEAM_KEYWORDS)
                     of_beam = sections[place][0].name in BEAM_KEYWORDS
                     shear[place] = read_beam_shear(block) if of_beam else read_shear_stiffness(block)
     problems.check()

@@ -74,6 +74,7 @@ class LocalMesh:
         self.definitions = definitions
         self.instances = instances or {}
         self.nodes: dict[int, Point] = {}
+        self.normals: dict[int, Point] = {}
         self.runs: list[ElementRun] = []
         self.run_of: dict[int, int] = {}
         self.nsets: dict[str, list[Members]] = {}
@@ -134,8 +135,13 @@ class LocalMesh:
 
     def read_node(self, block: Block) -> None:
         """*NODE."""
-        labels, points, source = _read_nodes(block)
-        self.add_nodes(labels, self.system.move(points) if self.system is not IDENTITY else points, source)
+        labels, values, source = _read_nodes(block)
+        points, normals = values[:, :3], values[:, 3:]
+        if self.system is not IDENTITY:
+            points, normals = self.system.move(points), self.system.turn(normals)
+        self.add_nodes(labels, points, source)
+        given = normals.any(axis=1)
+        self.normals.update(zip(labels[given].tolist(), map(tuple, normals[given].tolist()), strict=True))
         self.add_to_set(self.nsets, block.options.text("NSET"), [Members("", labels, block.source)])
 
     def read_system(self, block: Block) -> None:
@@ -322,21 +328,23 @@ def _label(text: str, source: Source) -> int:
 
 
 def _read_nodes(block: Block) -> tuple[IntArray, FloatArray, Callable[[int], Source]]:
+    """Labels, (n, 6) coordinates and direction cosines of the normal, and the place of each."""
     # read as a real number, 2e0 would be a label
     labels_only = "".join(line.partition(",")[0] for line in block.lines)
     table = None if "e" in labels_only or "E" in labels_only else real_table(block.lines)
     if table is not None and table.shape[1] <= 7 and table[:, 0].min() >= 1 and table[:, 0].max() <= LARGEST_LABEL:
         labels = table[:, 0].astype(np.int64)
         if (labels == table[:, 0]).all():
-            points = np.zeros((len(table), 3))
-            points[:, : table.shape[1] - 1] = table[:, 1:4]
+            points = np.zeros((len(table), 6))
+            points[:, : table.shape[1] - 1] = table[:, 1:]
             return labels, points, block.source_of
     rows = list(block.rows())
     found = np.array([_label(row.text(0, "node number"), row.source) for row in rows], dtype=np.int64)
-    points = np.zeros((len(rows), 3))
+    points = np.zeros((len(rows), 6))
+    names = [f"{what} {k}" for what in ("coordinate", "direction cosine") for k in (1, 2, 3)]
     for index, row in enumerate(rows):
         row.at_most(7)
-        points[index] = [row.real(column, f"coordinate {column}", 0.0) for column in (1, 2, 3)]
+        points[index] = [row.real(column, name, 0.0) for column, name in enumerate(names, 1)]
     return found, points, lambda index: rows[index].source
 
 
@@ -351,7 +359,7 @@ KEYWORDS = (
         "Define nodes by coordinates.",
         Where.MODEL,
         (TAKES_NODES, one_of("SYSTEM", "R: rectangular", ("R",), refused=("C", "S")), INPUT),
-        "node, x, y, z",
+        "node, x, y, z, direction cosines of the normal (of shells; beams do not read them)",
     ),
     Keyword(
         "ELEMENT",

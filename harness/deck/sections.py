@@ -15,7 +15,7 @@ import numpy as np
 from harness.deck.beams import BEAM_KEYWORDS, read_beam_section
 from harness.deck.blocks import Block, Row
 from harness.deck.error_report import Problems, look_up
-from harness.deck.shells import read_shell_section
+from harness.deck.shells import SHELL_KEYWORDS, read_shell_section
 from harness.deck.table import Keyword, Kind, Option, Where, one_of, refused
 from harness.deck.user_elements import LARGEST_DOF, ElementType, read_user_property
 from harness.model.element_types import BEAM, DISCRETE, HEAT, DiscreteKind
@@ -43,13 +43,14 @@ def make_section(
     """The section a keyword gives to elements of a type; DeckError where the two do not go together."""
     options = block.options
     elset = options.text("ELSET")
-    if block.name != kind.section and not {block.name, kind.section}.issubset(BEAM_KEYWORDS):
+    alike = any({block.name, kind.section}.issubset(names) for names in (BEAM_KEYWORDS, SHELL_KEYWORDS))
+    if block.name != kind.section and not alike:
         raise block.error(f"element set {elset} holds elements of type {kind.name}, which take *{kind.section}")
     if block.name in ("MASS", "SPRING"):
         return MassSection(elset, _mass(block), block.source) if block.name == "MASS" else _spring(block, kind)
     if kind.name in BEAM:
         return read_beam_section(block, materials, BEAM[kind.name].dimension)
-    if block.name == "SHELL SECTION":
+    if block.name in SHELL_KEYWORDS:
         return read_shell_section(block, materials, orientations, _controls(block, controls))
     name = options.text("MATERIAL")
     material = look_up(materials, name, "material", block.source) if name else None
@@ -240,4 +241,4 @@ KEYWORDS = (
     ),
     Keyword("MASS", "Point masses.", Where.MODEL, (_ELSET, *refused("ALPHA", "ORIENTATION", "TYPE")), "mass"),
 )
-SECTION_KEYWORDS = {"UEL PROPERTY", "SHELL SECTION", *BEAM_KEYWORDS, *(keyword.name for keyword in KEYWORDS)}
+SECTION_KEYWORDS = {"UEL PROPERTY", *SHELL_KEYWORDS, *BEAM_KEYWORDS, *(keyword.name for keyword in KEYWORDS)}

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""*SHELL SECTION and *TRANSVERSE SHEAR STIFFNESS."""
+"""*SHELL SECTION, *SHELL GENERAL SECTION and *TRANSVERSE SHEAR STIFFNESS."""
 
 from __future__ import annotations
 
@@ -12,6 +12,8 @@ from harness.deck.error_report import look_up
 from harness.deck.numbers import read_real
 from harness.deck.table import Keyword, Kind, Option, Where, ignored, one_of, refused
 from harness.model.properties import ElasticType, Material, Orientation, SectionControls, ShellLayer, ShellSection
+
+SHELL_KEYWORDS: Final = ("SHELL SECTION", "SHELL GENERAL SECTION")
 
 MOST_POINTS: Final = 250
 """Section points of a layer."""
@@ -34,12 +36,13 @@ def read_shell_section(
     if orientation is not None and orientation.system is not None and orientation.system.kind == "USER":
         raise block.error(f"*ORIENTATION, NAME={orientation.name}: SYSTEM=USER is not supported for shells")
     if composite == options.given("MATERIAL"):
-        raise block.error("expected either MATERIAL= or COMPOSITE, with the material of each layer on its line")
+        more = "; a stiffness matrix is not supported" if block.name == "SHELL GENERAL SECTION" else ""
+        raise block.error(f"expected either MATERIAL= or COMPOSITE, with the material of each layer on its line{more}")
     if not rows or (len(rows) > 1 and not composite):
         raise block.error(
             "needs a data line with the thickness" + (" for each layer" if composite else ", and only one")
         )
-    default = _DEFAULT_POINTS[options.text("SECTION INTEGRATION"), composite]
+    default = _DEFAULT_POINTS[_rule(block), composite]
     layers = [_read_layer(block, row, materials, default) for row in rows]
     if options.flag("SYMMETRIC"):
         layers += layers[::-1]
@@ -48,10 +51,15 @@ def read_shell_section(
         tuple(layers),
         orientation,
         _offset(block),
-        options.text("SECTION INTEGRATION") == "GAUSS",
+        _rule(block) == "GAUSS",
         block.source,
         controls,
     )
+
+
+def _rule(block: Block) -> str:
+    """The rule through the thickness; Simpson's is exact where the section is linear elastic."""
+    return block.options.text("SECTION INTEGRATION") if block.name == "SHELL SECTION" else "SIMPSON"
 
 
 def _offset(block: Block) -> float:
@@ -66,8 +74,13 @@ def _read_layer(block: Block, row: Row, materials: Mapping[str, Material], defau
     thickness = row.real(0, "thickness")
     if thickness <= 0:
         raise row.error(f"thickness {thickness:g} must be positive")
-    points = row.integer(1, "number of section points", default)
-    simpson = block.options.text("SECTION INTEGRATION") == "SIMPSON"
+    if block.name == "SHELL GENERAL SECTION":
+        # the second entry of a layer has no meaning
+        row.at_most(4 if block.options.flag("COMPOSITE") else 1)
+        points = default
+    else:
+        points = row.integer(1, "number of section points", default)
+    simpson = _rule(block) == "SIMPSON"
     if not 1 <= points <= MOST_POINTS or (simpson and (points < 3 or points % 2 == 0)):
         expected = f"an odd number from 3 to {MOST_POINTS - 1}" if simpson else f"a number from 1 to {MOST_POINTS}"
         raise row.error(f"{points} section points: expected {expected}")
@@ -84,6 +97,9 @@ def _read_layer(block: Block, row: Row, materials: Mapping[str, Material], defau
 def _material(block: Block, name: str, materials: Mapping[str, Material]) -> Material:
     """A material with elasticity or of UMAT. Raises DeckError."""
     material = look_up(materials, name, "material", block.source)
+    if block.name == "SHELL GENERAL SECTION" and (material.user or material.plastic):
+        message = f"material {material.name} is not linear elastic, which the section is; *SHELL SECTION takes it"
+        raise block.error(message)
     if material.user is not None:
         return material
     if material.elastic is None:
@@ -111,6 +127,16 @@ def read_shear_stiffness(block: Block) -> tuple[tuple[float, float, float], floa
     return (first, second, coupling), slenderness
 
 
+_SECTION = (
+    Option("ELSET", Kind.NAME, "element set", required=True),
+    Option("MATERIAL", Kind.NAME, "material"),
+    Option("COMPOSITE", doc="a data line for each layer, the first on the side SNEG"),
+    Option("CONTROLS", Kind.NAME, "section controls"),
+    Option("OFFSET", Kind.NAME, "from the middle surface to the nodes over the thickness, or SPOS or SNEG (0)"),
+    Option("ORIENTATION", Kind.NAME, "orientation of the section"),
+    Option("SYMMETRIC", doc="the layers again, in reverse"),
+    *ignored("LAYUP", "POISSON", "THICKNESS MODULUS"),
+)
 KEYWORDS = (
     Keyword(
         "SHELL SECTION",
@@ -120,23 +146,30 @@ KEYWORDS = (
         "The thickness stays with NLGEOM, where POISSON changes that of Abaqus.",
         Where.MODEL,
         (
-            Option("ELSET", Kind.NAME, "element set", required=True),
-            Option("MATERIAL", Kind.NAME, "material"),
-            Option("COMPOSITE", doc="a data line for each layer, the first on the side SNEG"),
-            Option("CONTROLS", Kind.NAME, "section controls"),
-            Option("OFFSET", Kind.NAME, "from the middle surface to the nodes over the thickness, or SPOS or SNEG (0)"),
-            Option("ORIENTATION", Kind.NAME, "orientation of the section"),
+            *_SECTION,
             one_of("SECTION INTEGRATION", "rule through the thickness", ("SIMPSON", "GAUSS"), default="SIMPSON"),
-            Option("SYMMETRIC", doc="the layers again, in reverse"),
-            *ignored("LAYUP", "POISSON", "THICKNESS MODULUS"),
             *refused("DENSITY", "NODAL THICKNESS", "SHELL THICKNESS", "STACK DIRECTION", "TEMPERATURE"),
         ),
         "thickness, section points (5; Gauss 3); COMPOSITE: thickness, section points (3; Gauss 2), material, angle of "
         "the layer in degrees, name",
     ),
     Keyword(
+        "SHELL GENERAL SECTION",
+        "Section of conventional shells whose stiffness is that of linear elastic materials. It is *SHELL SECTION with "
+        "them, of which the default section points have stresses in the output.",
+        Where.MODEL,
+        (
+            *_SECTION,
+            *refused("BENDING ONLY", "DENSITY", "DEPENDENCIES", "I PROPERTIES", "MEMBRANE ONLY", "NODAL THICKNESS"),
+            *refused("PROPERTIES", "SHELL THICKNESS", "SMEAR ALL LAYERS", "STACK DIRECTION", "TEMPERATURE", "UNSYMM"),
+            *refused("USER", "VARIABLES", "ZERO"),
+        ),
+        "thickness; COMPOSITE: thickness, an entry without meaning, material, angle of the layer in degrees",
+    ),
+    Keyword(
         "TRANSVERSE SHEAR STIFFNESS",
-        "Transverse shear stiffness of the *SHELL SECTION before, in its directions; shells of UMAT need it. After "
+        "Transverse shear stiffness of the *SHELL SECTION or *SHELL GENERAL SECTION before, in its directions; shells "
+        "of UMAT need it. After "
         "*BEAM SECTION and *BEAM GENERAL SECTION, that of beams: with the length l of the element it becomes "
         "K/(1 + q l^2 A/(12 I)), with I of the bending that goes with the shear; q is 0.25, times 1E-4 in second-order "
         "elements. By "

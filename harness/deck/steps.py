@@ -21,7 +21,7 @@ from harness.deck.structure import Scope
 from harness.deck.table import Keyword, Kind, Option, Where, ignored, one_of, refused
 from harness.model.amplitude import UserAmplitude
 from harness.model.procedures import Procedure
-from harness.model.steps import DistributedLoad, ElementLoad, LoadKind, Step
+from harness.model.steps import ON_EDGES, DistributedLoad, ElementLoad, LoadKind, Step
 
 MOST_INCREMENTS = 100
 Entry = TypeVar("Entry")
@@ -124,7 +124,7 @@ def _check_perturbation(step: Step, problems: Problems) -> None:
             problems.add(load.source, "loads by DLOAD are not supported in a linear perturbation")
         if step.procedure.buckles and load.type.follows and load.type.kind is not LoadKind.PRESSURE:
             message = f"load type {load.type.kind} follows the surface: its load stiffness is not supported in *BUCKLE"
-            problems.add(load.source, f"{message}; TRVEC with FOLLOWER=NO does not follow it")
+            problems.add(load.source, f"{message}; {_not_following(load)}")
     if step.procedure.harmonic:
         for given in step.distributed:
             problems.add(given.source, "harmonic loads on user elements are not supported")
@@ -146,6 +146,11 @@ def check_parts(blocks: list[Block], problems: Problems, *, harmonic: bool) -> N
             problems.add(block.source, f"*{block.name}: REAL and IMAGINARY exclude each other")
 
 
+def _not_following(load: ElementLoad) -> str:
+    kind = "EDLD" if load.type.kind in ON_EDGES else "TRVEC"
+    return f"{kind} of *DSLOAD with FOLLOWER=NO does not follow it"
+
+
 def _check_followers(steps: Sequence[Step], problems: Problems) -> None:
     """Loads that follow their faces in large displacements have magnitudes in the deck, and no perturbations beside."""
     nonlinear = next((step for step in steps if step.nlgeom), None)
@@ -154,6 +159,9 @@ def _check_followers(steps: Sequence[Step], problems: Problems) -> None:
     linear = next((step for step in steps if step.procedure.linear), None)
     for load in (load for step in steps for load in (*step.element_loads, *step.surface_loads) if load.type.follows):
         message = f"load type {load.type.kind} follows the surface, which is not supported with NLGEOM"
+        if load.type.kind in ON_EDGES:
+            problems.add(load.source, f"{message} ({nonlinear.source}); {_not_following(load)}")
+            continue
         if load.type.kind is LoadKind.LOCAL_LINE:
             message = "a force along a local direction of a beam follows it, which is not supported with NLGEOM"
             problems.add(load.source, f"{message} ({nonlinear.source})")

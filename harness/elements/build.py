@@ -29,7 +29,7 @@ from harness.elements.materials import (
     refuse_hyperelastic,
 )
 from harness.elements.routine import Linearity, Routine
-from harness.elements.shell import directors, shell_routine, shell_variables
+from harness.elements.shell import check_normals, directors, shell_routine, shell_variables
 from harness.elements.solid import history_of, solid_routine, solid_variables
 from harness.errors import DeckError, all_of
 from harness.model.element_types import (
@@ -318,6 +318,7 @@ def _shell_block(model: Model, group: ElementGroup, kind: ShellType, library: Li
         unsymmetric=turns or any(constants and constants.unsymmetric for constants in user),
         variables=shell_variables(section, kind, routine),
     )
+    check_normals(model, group, kind, library)
     block.set_last(directors(model, group).reshape(len(group.labels), -1))
     if routine.axes is not None:
         axes = start_axes(model, group, kind, routine.axes.orientation, library)

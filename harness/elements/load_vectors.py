@@ -16,7 +16,7 @@ from harness.model.arrays import FloatArray, IntArray
 from harness.model.element_types import BeamType, ContinuumType, Face, Family, ShellType
 from harness.model.mesh import ElementGroup
 from harness.model.properties import ShellLayer, ShellSection, SolidSection
-from harness.model.steps import ElementLoad, LoadKind
+from harness.model.steps import ON_EDGES, ElementLoad, LoadKind
 from harness.usersub import _binding
 
 SMALLEST_SINE: Final = 1e-10
@@ -67,11 +67,13 @@ def unit_forces(
 def _forces_on_shells(
     group: ElementGroup, kind: ShellType, rows: IntArray, load: ElementLoad, coordinates: FloatArray
 ) -> tuple[FloatArray, FloatArray]:
+    if load.type.kind in ON_EDGES:
+        return _forces_on_edges(group, kind, rows, load, coordinates)
     section = group.section
     assert isinstance(section, ShellSection)
     local = list(load.type.face) or list(range(kind.nodes))
     x = coordinates[group.nodes[rows][:, local]]
-    weights, shapes, derivatives = _rule(kind.family, kind.nodes)
+    weights, shapes, derivatives = _rule(kind.family, kind.full_points)
     area = _normal(np.einsum("mkd,pka->mpda", x, derivatives))
     if load.type.face:
         force = _traction(load, area)
@@ -82,6 +84,32 @@ def _forces_on_shells(
             per_area = section.mass
         force = per_area * np.linalg.norm(area, axis=-1, keepdims=True) * np.array(load.type.direction)
     return np.einsum("p,pk,mpd->mpkd", weights, shapes, force), np.einsum("pk,mkd->mpd", shapes, x)
+
+
+def _forces_on_edges(
+    group: ElementGroup, kind: ShellType, rows: IntArray, load: ElementLoad, coordinates: FloatArray
+) -> tuple[FloatArray, FloatArray]:
+    """Per length: EDSHR along the edge, EDNOR into the shell, EDTRA against its normal (Analysis User's Guide)."""
+    local = list(load.type.face)
+    x = coordinates[group.nodes[rows]]
+    slopes = _binding.slopes_at_nodes(kind.family.number, kind.nodes)[local]
+    normals = _normal(np.einsum("mkd,nka->mnda", x, slopes))
+    edge = kind.family.face_family(load.type.face)
+    weights, shapes, derivatives = _rule(edge, edge.full_points)
+    along = np.einsum("mkd,pk->mpd", x[:, local], derivatives[:, :, 0])
+    length = np.linalg.norm(along, axis=-1, keepdims=True)
+    normal = np.einsum("mkd,pk->mpd", normals, shapes)
+    normal = normal / np.linalg.norm(normal, axis=-1, keepdims=True)
+    match load.type.kind:
+        case LoadKind.EDGE_SHEAR:
+            force = along
+        case LoadKind.EDGE_TRANSVERSE:
+            force = -length * normal
+        case LoadKind.EDGE_NORMAL:
+            force = np.cross(normal, along)
+        case _:
+            force = length * np.array(load.type.direction)
+    return np.einsum("p,pk,mpd->mpkd", weights, shapes, force), np.einsum("pk,mkd->mpd", shapes, x[:, local])
 
 
 def check_density(layers: Iterable[ShellLayer], source: Source, what: str) -> None:

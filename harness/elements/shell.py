@@ -26,7 +26,7 @@ from harness.elements.solid import HOURGLASS_FRACTION, numbered
 from harness.errors import DeckError
 from harness.model.arrays import FloatArray
 from harness.model.element_types import ShellType, Tensor
-from harness.model.mesh import ElementGroup
+from harness.model.mesh import ElementGroup, full_name
 from harness.model.model import Model
 from harness.model.properties import ShellLayer, ShellSection
 from harness.model.records import PointVariables
@@ -43,6 +43,9 @@ SLENDERNESS: Final = 0.25e-4
 
 LARGEST_ANGLE: Final = 20.0
 """Degrees between normals at a node whose mean is taken."""
+
+OPPOSITE_ANGLE: Final = 160.0
+"""Degrees between a normal of the deck and that of an element above which Abaqus turns the element over."""
 
 DRILLING: Final = 1e-3
 """Stiffness against drilling over that of transverse shear; with more, coarse meshes of thin warped shells lock."""
@@ -129,15 +132,16 @@ def directors(model: Model, group: ElementGroup) -> FloatArray:
 
     At a node it is the mean of the normals there of all shells whose normal is within 20 degrees of that of the element
     (Analysis User's Guide, Defining the initial geometry of conventional shell elements). The normal of an element
-    without area is zero.
+    without area is zero. Normals of the deck take the place of the mean.
     """
     x, nodes, normals, first = model.mesh.coordinates, [], [], 0
     mine = slice(0, 0)
     for other in model.groups:
         if not isinstance(other.built_in, ShellType):
             continue
-        corners = x[other.nodes]
-        area = np.cross(np.roll(corners, -1, axis=1) - corners, np.roll(corners, 1, axis=1) - corners)
+        family = other.built_in.family
+        slopes = _binding.slopes_at_nodes(family.number, family.nodes)
+        area = np.cross(*np.einsum("mkd,pka->ampd", x[other.nodes], slopes))
         size = np.linalg.norm(area, axis=-1, keepdims=True)
         normals.append((area / np.where(size > 0, size, 1.0)).reshape(-1, 3))
         nodes.append(other.nodes.ravel())
@@ -149,14 +153,41 @@ def directors(model: Model, group: ElementGroup) -> FloatArray:
     sorted_nodes = of_node[order]
     begin, count = np.unique(sorted_nodes, return_index=True, return_counts=True)[1:]
     found = np.zeros_like(normal)
-    # nodes with as many corners together
+    # nodes of as many elements together
     for k in np.unique(count).tolist():
         rows = order[begin[count == k][:, None] + np.arange(k)]
         here = normal[rows]
         alike = np.einsum("nad,nbd->nab", here, here) > np.cos(np.radians(LARGEST_ANGLE))
         found[rows] = np.einsum("nab,nbd->nad", alike, here)
+    if model.mesh.normals is not None:
+        given = model.mesh.normals[of_node]
+        found = np.where(given.any(axis=-1, keepdims=True), given, found)
     size = np.linalg.norm(found, axis=-1, keepdims=True)
     return np.asarray((found / np.where(size > 0, size, 1.0))[mine].reshape(*group.nodes.shape, 3))
+
+
+def check_normals(model: Model, group: ElementGroup, kind: ShellType, library: Library) -> None:
+    """Warn of normals of the deck far from those of the elements. Raises DeckError where they oppose them."""
+    if model.mesh.normals is None:
+        return
+    given = model.mesh.normals[group.nodes]
+    size = np.linalg.norm(given, axis=-1)
+    slopes = _binding.slopes_at_nodes(kind.family.number, kind.nodes)
+    area = np.cross(*np.einsum("mkd,pka->ampd", model.mesh.coordinates[group.nodes], slopes))
+    scale = size * np.linalg.norm(area, axis=-1)
+    cosine = np.where(scale > 0, np.einsum("mkd,mkd->mk", given, area), 1.0) / np.where(scale > 0, scale, 1.0)
+    for limit, fatal in ((np.cos(np.radians(OPPOSITE_ANGLE)), True), (np.cos(np.radians(LARGEST_ANGLE)), False)):
+        far = np.argwhere(cosine < limit)
+        if not len(far):
+            continue
+        row, place = far[0].tolist()
+        angle = np.degrees(np.arccos(max(float(cosine[row, place]), -1.0)))
+        what = f"the normal of node {model.mesh.name(int(group.nodes[row, place]))} is {angle:.0f} degrees from that of"
+        message = f"{what} element {full_name(group.instance, int(group.labels[row]))} (type {group.type})"
+        if fatal:
+            raise DeckError(group.source, f"{message}; Abaqus would turn the element over: number its nodes backwards")
+        more = f", and {len(far) - 1} more" if len(far) > 1 else ""
+        library.warn(f"{group.source}: {message}{more}")
 
 
 def section_points(section: ShellSection) -> SectionPoints:

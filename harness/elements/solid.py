@@ -76,6 +76,7 @@ def solid_routine(model: Model, group: ElementGroup, section: SolidSection, libr
         orientation = replace(local, axes=np.eye(3), system=None)
     hourglass = _hourglass_stiffness(group, kind, section)
     _warn_of_enhanced(model, group, kind, library)
+    _warn_of_modified(model, group, kind, library)
     number = define_material(material, orientation, kind.tensor, section.source, library, hybrid=kind.pressures > 0)
     prestressed = _is_prestressed(model, group, material)
     if prestressed:
@@ -281,6 +282,15 @@ def _warn_of_enhanced(model: Model, group: ElementGroup, kind: ContinuumType, li
     if group is next(other for other in model.groups if other.section is section):
         message = "*SECTION CONTROLS, HOURGLASS=ENHANCED: the published method that Abaqus' manual names"
         library.warn(f"{section.source}: {message}; there are no results of Abaqus to compare with")
+
+
+def _warn_of_modified(model: Model, group: ElementGroup, kind: ContinuumType, library: Library) -> None:
+    """Say, once per type, what modified elements are here."""
+    if kind.modified and group is next(other for other in model.groups if other.type == group.type):
+        message = (
+            f"elements of type {kind.name} have the interpolation and the mass of {kind.name.removesuffix('M')} here"
+        )
+        library.warn(f"{group.source}: {message}; that of Abaqus is not published, and differs on coarse meshes")
 
 
 def _output_variables(section: SolidSection, points: int, library: Library) -> OutputVariables | None:

@@ -185,12 +185,14 @@ class ContinuumType(SolidType):
     coupled       with temperatures at the corners
     incompatible  with incompatible modes
     pressures     functions of the pressure of hybrid elements: 1 of a constant one, 1 + dimension of a linear one
+    modified      Abaqus has the modified interpolation there, which is not published; here it is the quadratic one
     """
 
     tensor: Tensor
     coupled: bool = False
     incompatible: bool = False
     pressures: int = 0
+    modified: bool = False
 
     @property
     def components(self) -> tuple[str, ...]:
@@ -289,6 +291,16 @@ class ShellType:
         return self.family.nodes
 
     @property
+    def corners(self) -> int:
+        """Corner nodes; they come first."""
+        return self.family.corners
+
+    @property
+    def full_points(self) -> int:
+        """Points of full integration: of the mass and of loads."""
+        return max(self.family.full_points, self.nodes)
+
+    @property
     def dimension(self) -> int:
         """3."""
         return 3
@@ -302,12 +314,14 @@ class ShellType:
     def sides(self) -> dict[str, Face]:
         """Local nodes of its sides, from 0: the normal by their order points outward."""
         nodes = tuple(range(self.nodes))
-        return {"SPOS": nodes, "SNEG": nodes[::-1]}
+        back = range(self.corners)[::-1]
+        middles = [self.corners + (k - 1) % self.corners for k in back] if self.nodes > self.corners else []
+        return {"SPOS": nodes, "SNEG": (*back, *middles)}
 
     @property
     def edges(self) -> dict[str, Face]:
         """Local nodes of its edges, from 0."""
-        return {f"E{k + 1}": (k, (k + 1) % self.nodes) for k in range(self.nodes)}
+        return {f"E{k}": edge for k, edge in enumerate(self.family.faces, 1)}
 
     @property
     def hourglass_control(self) -> bool:
@@ -409,7 +423,7 @@ _SPACE: Final = {
 }
 _CONSTANT: Final = ("CPE3", "CPE4", "CPE4R", "CAX3", "CAX4", "CAX4R", "C3D6", "C3D8", "C3D8R", "C3D10")
 _LINEAR: Final = ("CPE6", "CPE8", "CPE8R", "CAX6", "CAX8", "CAX8R", "C3D15", "C3D20", "C3D20R")
-_UNCOUPLED: Final = ("CPS4I", "CPE4I", "C3D8I", "CPS6", "CPE6", "CAX6", "C3D6", "C3D10", "C3D15")
+_UNCOUPLED: Final = ("CPS4I", "CPE4I", "C3D8I", "CPS6", "CPE6", "CAX6", "C3D15")
 """Those without a counterpart with temperatures here."""
 
 _SOLIDS: Final = {
@@ -431,7 +445,12 @@ HYBRID: Final = {
 }
 """Hybrid elements by their names, with the pressures of Abaqus' element library."""
 
-CONTINUUM: Final = _SOLIDS | HYBRID
+MODIFIED: Final = {
+    f"{name}M": replace(_SOLIDS[name], name=f"{name}M", modified=True) for name in ("CPS6", "CPE6", "CAX6", "C3D10")
+}
+"""Modified elements by their names."""
+
+CONTINUUM: Final = _SOLIDS | HYBRID | MODIFIED
 """Continuum elements by their names."""
 
 COUPLED: Final = {
@@ -461,6 +480,7 @@ SHELL: Final = {
         ShellType("S3R", TRI3, 1),
         ShellType("S4", QUAD4, 4),
         ShellType("S4R", QUAD4, 1),
+        ShellType("S8R", QUAD8, 4),
     )
 }
 """Conventional shells by their names."""

@@ -22,11 +22,13 @@ class Mesh:
     labels      (n,) numbers as in the deck; unique within an instance
     coordinates (n, 3) original coordinates
     instances   (n,) name of the instance of each node, '' where the deck has none
+    normals     (n, 3) normals of the deck, of any length; zero at nodes without one, None if no node has any
     """
 
     labels: IntArray
     coordinates: FloatArray
     instances: tuple[str, ...]
+    normals: FloatArray | None = None
 
     def name(self, node: int) -> str:
         """Name of a node as Abaqus prints it: its label, or INSTANCE.label."""

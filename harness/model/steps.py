@@ -6,6 +6,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field
 from enum import StrEnum
+from typing import Final
 
 import numpy as np
 
@@ -150,9 +151,10 @@ class DistributedLoad:
 
 
 class LoadKind(StrEnum):
-    """What a distributed load on a built-in element is: a load on a face, on a volume, or along a beam.
+    """What a distributed load on a built-in element is: a load on a face, on a volume, along an edge, or along a beam.
 
-    The direction of LOCAL_LINE has components along t, 1 and 2 of the beam.
+    The direction of LOCAL_LINE has components along t, 1 and 2 of the beam. Of the loads on edges of shells only the
+    general one, EDLD, has a direction.
     """
 
     PRESSURE = "P"
@@ -162,6 +164,14 @@ class LoadKind(StrEnum):
     GRAVITY = "GRAV"
     LINE = "LINE"
     LOCAL_LINE = "LOCAL LINE"
+    EDGE = "EDLD"
+    EDGE_NORMAL = "EDNOR"
+    EDGE_SHEAR = "EDSHR"
+    EDGE_TRANSVERSE = "EDTRA"
+
+
+ON_EDGES: Final = (LoadKind.EDGE, LoadKind.EDGE_NORMAL, LoadKind.EDGE_SHEAR, LoadKind.EDGE_TRANSVERSE)
+"""Loads per length of an edge of shells."""
 
 
 @dataclass(frozen=True, slots=True)

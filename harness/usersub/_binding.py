@@ -542,6 +542,13 @@ def integration_rule(family: int, points: int, nodes: int, dimension: int) -> tu
     return weights, shapes, slopes.transpose(0, 2, 1)
 
 
+def slopes_at_nodes(family: int, nodes: int) -> FloatArray:
+    """Derivatives (places, nodes, 2) of a surface's shape functions by parent coordinates, at each of its nodes."""
+    slopes = np.zeros((nodes, 2, nodes))
+    _host.host_slopes_at_nodes(family, slopes.T)
+    return slopes.transpose(0, 2, 1)
+
+
 _ELEMENTS: Final = ("solid", "coupled", "cohesive", "discrete", "heat", "heat load", "shell", "beam")
 """In the order of host_element_address."""
 

@@ -119,7 +119,7 @@ def test_shear_stiffness(deck, line, shear, slenderness):
         (RECT + "\n*TRANSVERSE SHEAR STIFFNESS\n1., 1., SCF", "SCF, a slenderness compensation factor from the moduli"),
         (
             "*TRANSVERSE SHEAR STIFFNESS\n1., 1.\n" + RECT,
-            r"does not follow \*SHELL SECTION or \*BEAM SECTION or \*BEAM GENERAL SECTION",
+            r"does not follow \*SHELL SECTION or \*SHELL GENERAL SECTION or \*BEAM SECTION or \*BEAM GENERAL",
         ),
         (
             "*SOLID SECTION, ELSET=ALL, MATERIAL=M\n1.",

@@ -129,8 +129,8 @@ MISTAKES = {
     "element type": ("*ELEMENT, TYPE=U2", "*ELEMENT, TYPE=U3", r"23: element type U3 is not defined by \*USER ELEMENT"),
     "built-in type": (
         "*ELEMENT, TYPE=U2",
-        "*ELEMENT, TYPE=S8R",
-        r"23: element type S8R of Abaqus is not supported here \(supported: .* and user elements\)$",
+        "*ELEMENT, TYPE=S8R5",
+        r"23: element type S8R5 of Abaqus is not supported here \(supported: .* and user elements\)$",
     ),
     "misspelt type": (
         "*ELEMENT, TYPE=U2",

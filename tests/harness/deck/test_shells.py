@@ -4,6 +4,7 @@
 
 import re
 
+import numpy as np
 import pytest
 
 import harness
@@ -32,6 +33,7 @@ DECK = """\
 *{procedure}
 {data}*END STEP
 """
+GENERAL = "*SHELL GENERAL SECTION, ELSET=ALL, MATERIAL=M\n0.5"
 HOMOGENEOUS = "*SHELL SECTION, ELSET=ALL, MATERIAL=M\n0.5"
 
 
@@ -61,6 +63,21 @@ def test_homogeneous(deck):
         (0.5, 5, "M", 0.0)
     ]
     assert (section.offset, section.gauss, section.orientation, section.shear) == (0.0, False, None, ())
+
+
+def test_general_section(deck):
+    """The layers are those of *SHELL SECTION with the default section points."""
+    options = "ELSET=ALL, COMPOSITE, OFFSET=SNEG, SYMMETRIC"
+    plain = f"*SHELL SECTION, {options}\n0.2, 3, M, 30.\n0.1, 3, M, -10."
+    general = f"*SHELL GENERAL SECTION, {options}\n0.2, , M, 30.\n0.1, , M, -10."
+    for pair in ((plain, general), (HOMOGENEOUS, GENERAL)):
+        one, other = (read_deck(deck(given)).groups[0].section for given in pair)
+        layers = [
+            [(layer.thickness, layer.points, layer.material.name, layer.angle) for layer in section.layers]
+            for section in (one, other)
+        ]
+        assert layers[0] == layers[1]
+        assert (one.offset, one.gauss) == (other.offset, other.gauss)
 
 
 def test_composite(deck):
@@ -207,7 +224,32 @@ SHEAR = HOMOGENEOUS + "\n*TRANSVERSE SHEAR STIFFNESS\n1., 1."
         ),
         (
             {"more": "*SURFACE, NAME=EDGE\nALL, E1\n", "data": "1., 1.\n*DSLOAD\nEDGE, P, 1.\n"},
-            "load type P on edge E1 of shells; loads on edges are not supported",
+            r"load type P on face E1 of S4R; expected EDLD, EDNOR, EDSHR, EDTRA",
+        ),
+        (
+            {"more": "*SURFACE, NAME=TOP\nALL, SPOS\n", "data": "1., 1.\n*DSLOAD\nTOP, EDNOR, 1.\n"},
+            r"load type EDNOR on face SPOS of S4R; expected P, TRVEC, TRSHR",
+        ),
+        (
+            {"data": "1., 1.\n*DLOAD\nALL, EDMOM1, 1.\n"},
+            r"load type EDMOM1 is not supported \(supported: .*; EDLDn, EDNORn, EDSHRn, EDTRAn on shells\)",
+        ),
+        (
+            {"section": "*SHELL GENERAL SECTION, ELSET=ALL\n1., 2., 3."},
+            r"expected either MATERIAL= or COMPOSITE, .* on its line; a stiffness matrix is not supported",
+        ),
+        (
+            {"section": GENERAL, "material": "*ELASTIC\n1., 0.\n*PLASTIC\n1."},
+            r"shell\.inp:\d+: .*material M is not linear elastic, which the section is; \*SHELL SECTION takes it",
+        ),
+        ({"data": "1., 1.\n*DLOAD\nALL, EDLD1, 1.\n"}, "EDLD1 needs a direction, entries 4 to 6"),
+        (
+            {"step": ", NLGEOM", "data": "1., 1.\n*DLOAD\nALL, EDTRA2, 1.\n"},
+            r"EDTRA follows the surface, which is not supported with NLGEOM .*; EDLD of \*DSLOAD with FOLLOWER=NO",
+        ),
+        (
+            {"procedure": "BUCKLE", "data": "1\n*DLOAD\nALL, EDNOR2, 1.\n"},
+            r"EDNOR follows the surface: its load stiffness is not supported in \*BUCKLE; EDLD of \*DSLOAD with FOLL",
         ),
         ({"data": "1., 1.\n*DLOAD\nALL, BR, 1.\n"}, "load type BR on elements of type S4R, whose body forces are BX"),
     ],
@@ -240,3 +282,21 @@ def test_sdvini(deck, tmp_path):
 def test_nodes_of_an_element(deck):
     with pytest.raises(DeckError, match=re.escape("S3")):
         read_deck(deck(type="S3"))
+
+
+def test_direction_cosines_turn_with_the_instance(tmp_path):
+    """Those of *NODE lines, by *SYSTEM and the rotation of *INSTANCE; a node without them has none."""
+    file = tmp_path / "normals.inp"
+    file.write_text(
+        "*PART, NAME=P\n*SYSTEM\n0., 0., 0., 0., 1., 0.\n*NODE\n1, 0., 0., 0., 1., 0., 0.\n2, 1., 0., 0.\n"
+        "*NODE\n3, 1., 1., 0., 0., 0., 2.\n4, 0., 1.\n*ELEMENT, TYPE=S4, ELSET=ALL\n1, 1, 2, 3, 4\n"
+        "*SHELL SECTION, ELSET=ALL, MATERIAL=M\n0.5\n*END PART\n*ASSEMBLY, NAME=A\n*INSTANCE, NAME=I, PART=P\n"
+        "1., 0., 0.\n0., 0., 0., 1., 0., 0., 90.\n*END INSTANCE\n*END ASSEMBLY\n*MATERIAL, NAME=M\n*ELASTIC\n1., 0.\n"
+        "*STEP\n*STATIC\n1., 1.\n*END STEP\n"
+    )
+    # local x is y, which the instance turns to z; z becomes -y
+    expected = [[0, 0, 1], [0, 0, 0], [0, -2, 0], [0, 0, 0]]
+    np.testing.assert_allclose(read_deck(file).mesh.normals, expected, atol=1e-12)
+    file.write_text(file.read_text().replace("1., 0., 0.\n2, 1.", "1., NOT, 0.\n2, 1."))
+    with pytest.raises(DeckError, match="direction cosine 2"):
+        read_deck(file)

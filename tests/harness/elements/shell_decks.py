@@ -4,10 +4,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass, field
 
 import numpy as np
+
+from harness.model.element_types import SHELL
 
 Place = Callable[[float, float], tuple[float, float, float]]
 
@@ -15,6 +17,8 @@ Place = Callable[[float, float], tuple[float, float, float]]
 @dataclass
 class ShellDeck:
     """A mesh of n x m cells on the unit square, with each cell a quadrilateral or two triangles.
+
+    Numbers of corners come before those of the middles of sides.
 
     place     of a point of the unit square
     kind      element type
@@ -30,25 +34,48 @@ class ShellDeck:
     before: str = ""
     moved: dict[tuple[int, int], tuple[float, float]] = field(default_factory=dict)
 
-    def node(self, i: int, j: int) -> int:
-        """Number of a node: i from 0 to n, j from 0 to m."""
-        return 1 + i + j * (self.n + 1)
+    @property
+    def quadratic(self) -> bool:
+        """Whether there are nodes at the middles of sides."""
+        return SHELL[self.kind].nodes == 8
+
+    def node(self, i: float, j: float) -> int:
+        """Number of a node: i from 0 to n, j from 0 to m; one of them is a half in the middle of a side."""
+        corners = (self.n + 1) * (self.m + 1)
+        if i % 1:
+            return 1 + corners + int(i) + int(j) * self.n
+        if j % 1:
+            return 1 + corners + self.n * (self.m + 1) + int(i) + int(j) * (self.n + 1)
+        return 1 + int(i) + int(j) * (self.n + 1)
 
     def side(self, *, i: int | None = None, j: int | None = None) -> list[int]:
-        """Nodes of a line of the mesh."""
+        """Nodes of a line of the mesh, one after the other."""
+        parts = 2 if self.quadratic else 1
         if i is not None:
-            return [self.node(i, k) for k in range(self.m + 1)]
+            return [self.node(i, k / parts) for k in range(parts * self.m + 1)]
         assert j is not None
-        return [self.node(k, j) for k in range(self.n + 1)]
+        return [self.node(k / parts, j) for k in range(parts * self.n + 1)]
+
+    def shares(self, nodes: Sequence[int]) -> list[float]:
+        """Parts of a constant force per length that nodes of a side with sections of the same length have."""
+        parts = np.zeros(len(nodes))
+        weights = [1 / 6, 2 / 3, 1 / 6] if self.quadratic else [1 / 2, 1 / 2]
+        for k in range(0, len(nodes) - 1, len(weights) - 1):
+            parts[k : k + len(weights)] += weights
+        return (parts / parts.sum()).tolist()
+
+    def _place(self, i: float, j: float) -> tuple[float, float, float]:
+        ends = [(int(i), int(j)), (int(np.ceil(i)), int(np.ceil(j)))]
+        di, dj = np.mean([self.moved.get(end, (0.0, 0.0)) for end in ends], axis=0)
+        return self.place(i / self.n + di, j / self.m + dj)
 
     @property
     def coordinates(self) -> np.ndarray:
         """(nodes, 3), in the order of the numbers."""
-        places = []
-        for j in range(self.m + 1):
-            for i in range(self.n + 1):
-                di, dj = self.moved.get((i, j), (0.0, 0.0))
-                places.append(self.place(i / self.n + di, j / self.m + dj))
+        places = [self._place(i, j) for j in range(self.m + 1) for i in range(self.n + 1)]
+        if self.quadratic:
+            places += [self._place(i + 0.5, j) for j in range(self.m + 1) for i in range(self.n)]
+            places += [self._place(i, j + 0.5) for j in range(self.m) for i in range(self.n + 1)]
         return np.array(places, dtype=float)
 
     def elements(self) -> list[tuple[int, ...]]:
@@ -57,7 +84,9 @@ class ShellDeck:
         for j in range(self.m):
             for i in range(self.n):
                 a, b, c, d = self.node(i, j), self.node(i + 1, j), self.node(i + 1, j + 1), self.node(i, j + 1)
-                cells += [(a, b, c), (a, c, d)] if self.kind.startswith("S3") else [(a, b, c, d)]
+                middles = [(i + 0.5, j), (i + 1, j + 0.5), (i + 0.5, j + 1), (i, j + 0.5)] if self.quadratic else []
+                whole = (a, b, c, d, *(self.node(*place) for place in middles))
+                cells += [(a, b, c), (a, c, d)] if self.kind.startswith("S3") else [whole]
         return cells
 
     def text(self, step: str, sets: dict[str, Iterable[int]] | None = None) -> str:

@@ -25,6 +25,7 @@ MATERIAL = f"""*MATERIAL, NAME=M
 PLANE = np.array([[0, 0], [1, 0], [2, 0], [0, 1], [1.2, 0.7], [2, 1], [0, 2], [1, 2], [2, 2.0]])
 QUADS = np.array([[0, 1, 4, 3], [1, 2, 5, 4], [3, 4, 7, 6], [4, 5, 8, 7]])
 SIDES = [[0, 1], [1, 2], [2, 3], [3, 0]]
+TETRAHEDRON_SIDES = [[0, 1], [1, 2], [2, 0], [0, 3], [1, 3], [2, 3]]
 CUBE_SIDES = [*SIDES, [4, 5], [5, 6], [6, 7], [7, 4], [0, 4], [1, 5], [2, 6], [3, 7]]
 
 
@@ -44,10 +45,12 @@ def mesh(element_type):
             elements = np.vstack([QUADS[:, [0, 1, 2]], QUADS[:, [0, 2, 3]]])
     else:
         nodes = np.vstack([np.hstack([PLANE, np.full((9, 1), z)]) for z in (0.0, 0.9, 2.0)])
-        elements = np.vstack([np.hstack([QUADS + 9 * k, QUADS + 9 * (k + 1)]) for k in range(2)])
+        plane = np.vstack([QUADS[:, [0, 1, 2]], QUADS[:, [0, 2, 3]]]) if kind.nodes == 6 else QUADS
+        elements = np.vstack([np.hstack([plane + 9 * k, plane + 9 * (k + 1)]) for k in range(2)])
         nodes[13, 2] = 1.2
         sides = CUBE_SIDES
-        if kind.nodes == 4:
+        if kind.corners == 4:
+            sides = TETRAHEDRON_SIDES
             split = [[0, 1, 3, 4], [1, 2, 3, 6], [4, 6, 5, 1], [4, 7, 6, 3], [1, 3, 4, 6]]
             nodes, elements = (
                 2 * np.array([[x, y, z] for z in (0, 1) for x, y in ((0, 0), (1, 0), (1, 1), (0, 1))]),
@@ -55,7 +58,7 @@ def mesh(element_type):
             )
             nodes, elements = nodes.astype(float), np.array(elements)
     corners = len(nodes)
-    if kind.nodes > 2**kind.dimension:
+    if kind.nodes > kind.corners:
         nodes, elements = with_middles(nodes, elements, sides)
     return nodes, elements, corners
 

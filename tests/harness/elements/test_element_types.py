@@ -3,13 +3,25 @@
 """The table of element types and the functions and rules of the host that belong to its families."""
 
 from dataclasses import replace
+from pathlib import Path
 
 import numpy as np
 import pytest
-from reference_cells import EDGES, FACES, SQUARE, integral, monomials, nodes_of, shape_of
+from reference_cells import EDGES, FACES, SQUARE, integral, monomials, nodes_of, shape_of, unit_cell
 
+from harness.elements import build_blocks
 from harness.errors import KernelError
-from harness.model.element_types import BUILT_IN, CONTINUUM, COUPLED, FAMILIES, ContinuumType, DiscreteKind
+from harness.model.element_types import (
+    BUILT_IN,
+    CONTINUUM,
+    COUPLED,
+    FAMILIES,
+    MODIFIED,
+    ContinuumType,
+    DiscreteKind,
+)
+from harness.model.mesh import Mesh
+from harness.model.model import Model
 from harness.usersub import _binding
 
 KNOWN = [family for family in FAMILIES.values() if family.number]
@@ -118,3 +130,19 @@ def test_every_type_has_its_rules():
             assert len(weights) == points
     assert len({family.number for family in KNOWN}) == len(KNOWN)
     assert sorted(DiscreteKind) == [1, 2, 3, 4, 5]
+
+
+@pytest.mark.parametrize("element_type", MODIFIED)
+def test_modified_elements_say_once_what_they_are(solid_group, load, element_type):
+    plain = CONTINUUM[element_type.removesuffix("M")]
+    x = 1.0 + unit_cell(plain.family.cell)[0]
+    x = np.column_stack([x, np.zeros((len(x), 3 - x.shape[1]))])
+    names = (element_type, element_type, plain.name)
+    first, other, last = (solid_group(name, np.arange(len(x))[None], 1.0) for name in names)
+    groups = (first, replace(other, labels=np.array([7])), replace(last, labels=np.array([8])))
+    library = load(None)
+    build_blocks(Model(Path("test.inp"), "", Mesh(np.arange(len(x)), x, ("",) * len(x)), groups, ()), library)
+    (warning,) = [message.text for message in library.messages()]
+    message = f"test.inp:7: elements of type {element_type} have the interpolation and the mass of {plain.name} here"
+    assert message in warning
+    assert replace(CONTINUUM[element_type], name=plain.name, modified=False) == plain

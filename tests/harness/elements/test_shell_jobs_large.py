@@ -55,6 +55,12 @@ def cantilever(element_type, n):
     return deck, {"P": deck.side(i=n), "FIX": deck.side(i=0)}
 
 
+def end_loads(deck, side, dof, load):
+    """*CLOAD of a load that is distributed over a side."""
+    rows = [f"{node}, {dof}, {load * share!r}" for node, share in zip(side, deck.shares(side), strict=True)]
+    return "\n".join(["*CLOAD", *rows])
+
+
 def elastica(load):
     """Shortening and deflection of a beam of length 1 by a force at its end, over EI: EI angle'' = -P cos(angle)."""
     at = np.linspace(0, 1, 201)
@@ -73,11 +79,20 @@ def elastica(load):
 def test_end_force(ends, element_type):
     """16 elements: within 0.2 % of the elastica; Sze and others have 3.286 and 6.698."""
     deck, sets = cantilever(element_type, 16)
-    found = ends(deck, "*BOUNDARY\nFIX, 1, 6\n*CLOAD\nP, 3, 2.", sets)
+    found = ends(deck, "*BOUNDARY\nFIX, 1, 6\n" + end_loads(deck, sets["P"], 3, 4.0), sets)
     short, deflection = elastica(4.0)
     for node in sets["P"]:
         assert -found[f"U1[P:{node}]"] == pytest.approx(10 * short, rel=2e-3)
         assert found[f"U3[P:{node}]"] == pytest.approx(10 * deflection, rel=2e-3)
+
+
+@pytest.mark.parametrize("element_type", ["S4", "S8R"])
+def test_load_on_an_edge_that_does_not_turn(ends, element_type):
+    """That of the elastica, per length of the edge of 1."""
+    deck, sets = cantilever(element_type, 16)
+    deck.before = "*ELSET, ELSET=LAST\n16,\n*SURFACE, NAME=EDGE\nLAST, E2\n"
+    found = ends(deck, "*BOUNDARY\nFIX, 1, 6\n*DSLOAD, FOLLOWER=NO\nEDGE, EDLD, 4., 0., 0., 1.", sets)
+    assert found[f"U3[P:{sets['P'][0]}]"] == pytest.approx(10 * elastica(4.0)[1], rel=2e-3)
 
 
 @pytest.mark.parametrize("element_type", TYPES)
@@ -85,7 +100,7 @@ def test_end_moment_rolls_up_a_strip(ends, element_type):
     """To half a circle: a moment pi EI/L about a fixed axis."""
     deck, sets = cantilever(element_type, 16)
     moment = np.pi * 100 / 10
-    found = ends(deck, f"*BOUNDARY\nFIX, 1, 6\n*CLOAD\nP, 5, {-moment / 2!r}", sets)
+    found = ends(deck, "*BOUNDARY\nFIX, 1, 6\n" + end_loads(deck, sets["P"], 5, -moment), sets)
     for node in sets["P"]:
         assert -found[f"UR2[P:{node}]"] == pytest.approx(np.pi, rel=1e-3)
         assert -found[f"U1[P:{node}]"] == pytest.approx(10, rel=1e-3)
@@ -100,8 +115,9 @@ def test_prescribed_rotation_moves_a_strip_without_force(ends, element_type):
     axis = np.array([0.0, 1.0, 0.0])
     vector = np.radians(150) * axis
     rows = [f"FIX, {i}, {i}, {value!r}" for i, value in zip((4, 5, 6), vector.tolist(), strict=True)]
-    found = ends(deck, "\n".join(["*BOUNDARY", "FIX, 1, 3", *rows]), sets | {"P": range(1, 11)})
-    for node, place in zip(range(1, 11), deck.coordinates, strict=True):
+    nodes = range(1, len(deck.coordinates) + 1)
+    found = ends(deck, "\n".join(["*BOUNDARY", "FIX, 1, 3", *rows]), sets | {"P": nodes})
+    for node, place in zip(nodes, deck.coordinates, strict=True):
         turned = [np.cos(vector[1]) * place[0], place[1], -np.sin(vector[1]) * place[0]]
         moved = [found[f"U{i}[P:{node}]"] for i in (1, 2, 3)]
         np.testing.assert_allclose(moved, turned - place, atol=1e-6)
@@ -109,7 +125,7 @@ def test_prescribed_rotation_moves_a_strip_without_force(ends, element_type):
         assert max(abs(found[f"{name}{i}[P:{node}]"]) for name in ("RF", "RM") for i in (1, 2, 3)) < 1e-4
 
 
-@pytest.mark.parametrize("element_type", ["S4", "S3"])
+@pytest.mark.parametrize("element_type", ["S4", "S3", "S8R"])
 @pytest.mark.parametrize("load", ["*DLOAD\nSHELL, P, -1e-4", "*DSLOAD\nUP, P, 1e-4"])
 def test_pressure_turns_with_the_shell(ends, element_type, load):
     """A strip that is turned by 90 degrees: the reactions are the pressure times the area, along its normal now."""
@@ -151,8 +167,7 @@ def slit_plate(element_type, n):
 
     deck = ShellDeck(element_type, n, m, place, section(0.03), "*ELASTIC\n2.1e7, 0.")
     side = deck.side(i=0)
-    rows = [f"{node}, 3, {0.8 * 4 / m * (0.5 if node in (side[0], side[-1]) else 1)!r}" for node in side]
-    data = "\n".join(["*BOUNDARY", "FIX, 1, 6", "*CLOAD", *rows])
+    data = "*BOUNDARY\nFIX, 1, 6\n" + end_loads(deck, side, 3, 0.8 * 4)
     names = f"U3[P:{side[0]}]", f"U3[P:{side[-1]}]"
     return deck, data, {"P": [side[0], side[-1]], "FIX": deck.side(i=n)}, names, (13.891, 17.528)
 
@@ -199,12 +214,10 @@ def test_page(ends, problem, element_type, n, ratios):
     np.testing.assert_allclose(np.array([found[name] for name in names]) / exact, ratios, atol=6e-4)
 
 
-PLATE = (
-    "*STEP\n*BUCKLE\n1\n*BOUNDARY\nALL, 6\nX, 3\nX, 5\nY, 3\nY, 4\nCORNER, 1, 2\nSIDE, 2\n*CLOAD\n{loads}\n*END STEP"
-)
+HELD = "*BOUNDARY\nALL, 6\nX, 3\nX, 5\nY, 3\nY, 4\nCORNER, 1, 2\nSIDE, 2"
 
 
-@pytest.mark.parametrize(("element_type", "error"), [("S4", 0.01), ("S4R", 0.01), ("S3", 0.06)])
+@pytest.mark.parametrize(("element_type", "error"), [("S4", 0.01), ("S4R", 0.01), ("S3", 0.06), ("S8R", 0.01)])
 @pytest.mark.parametrize("base", [0.0, 0.6])
 def test_buckling_of_a_supported_plate(tmp_path, element_type, error, base):
     """4 pi^2 D/b^2 along one side (S.P. Timoshenko, Theory of Elastic Stability, plates); a preload counts."""
@@ -215,20 +228,14 @@ def test_buckling_of_a_supported_plate(tmp_path, element_type, error, base):
     critical = 4 * np.pi**2 * 1000 * thickness**3 / 12 / (1 - 0.3**2) / side**2
 
     def loads(force):
-        rows = []
-        for i, sign in ((0, 1), (n, -1)):
-            nodes = deck.side(i=i)
-            shares = [0.5 if node in (nodes[0], nodes[-1]) else 1.0 for node in nodes]
-            rows += [f"{k}, 1, {sign * share * force * side / n!r}" for k, share in zip(nodes, shares, strict=True)]
-        return "\n".join(rows)
+        ends = ((0, 1), (n, -1))
+        return "\n".join(end_loads(deck, deck.side(i=i), 1, sign * force * side) for i, sign in ends)
 
     sets = {"X": deck.side(j=0) + deck.side(j=n), "Y": deck.side(i=0) + deck.side(i=n), "CORNER": [1]}
     sets |= {"SIDE": [deck.node(n, 0)]}
-    first, _, given = PLATE.partition("*CLOAD")
-    step = first + "*CLOAD" + given.format(loads=loads(1.0))
+    step = f"*STEP\n*BUCKLE\n1\n{HELD}\n{loads(1.0)}\n*END STEP"
     if base:
-        held = first.replace("*BUCKLE\n1\n", "*STATIC\n1., 1.\n") + f"*CLOAD\n{loads(base * critical)}\n*END STEP\n"
-        step = held + f"*STEP\n*BUCKLE\n1\n*CLOAD\n{loads(1.0)}\n*END STEP"
+        step = f"*STEP\n*STATIC\n1., 1.\n{HELD}\n{loads(base * critical)}\n*END STEP\n" + step.replace(f"{HELD}\n", "")
     file = tmp_path / "plate.inp"
     file.write_text(deck.text(step, sets))
     factor = harness.run(file, output_dir=tmp_path).history["EIGVAL"][-1]

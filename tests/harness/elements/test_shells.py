@@ -7,10 +7,10 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from harness.elements import Flags, Request
+from harness.elements import Flags, Request, build_blocks
 from harness.elements.shell import directors, section_points, section_stiffness, shear_stiffness
 from harness.elements.threads import known_routines
-from harness.errors import KernelError, Source
+from harness.errors import DeckError, KernelError, Source
 from harness.model.element_types import SHELL
 from harness.model.mesh import ElementGroup, Mesh
 from harness.model.model import Model
@@ -30,8 +30,18 @@ SOURCE = Source("test.inp", 7)
 E, NU, T = 1000.0, 0.3, 0.2
 G = E / (2 * (1 + NU))
 TYPES = tuple(SHELL)
-WARPED = np.array([[0.0, 0, 0], [2.1, 0.2, 0.3], [1.8, 1.9, -0.2], [-0.1, 1.4, 0.25]])
-FLAT = np.array([[0.0, 0, 0], [2.1, 0.2, 0], [1.8, 1.9, 0], [-0.1, 1.4, 0]])
+WARPED = np.array(
+    [
+        *([0.0, 0, 0], [2.1, 0.2, 0.3], [1.8, 1.9, -0.2], [-0.1, 1.4, 0.25]),
+        *([1.05, 0.15, 0.4], [2.0, 1.1, 0.2], [0.9, 1.7, 0.1], [-0.1, 0.8, 0.3]),
+    ]
+)
+"""Corners, then nodes near the middles of sides."""
+CORNERS = np.array([[0.0, 0, 0], [2.1, 0.2, 0], [1.8, 1.9, 0], [-0.1, 1.4, 0]])
+FLAT = np.vstack([CORNERS, (CORNERS + np.roll(CORNERS, -1, axis=0)) / 2])
+SPURIOUS = {"S8R": 1}
+"""Modes of an element alone that cost nothing and are no rigid motions: for 48 unknowns there are 32 strains at the
+integration points and 9 drilling strains."""
 STEEL = Material("M", SOURCE, Elastic(ElasticType.ISOTROPIC, (E, NU), SOURCE), density=5.0)
 # E1, E2, nu12, G12, G13, G23
 PLY = Material("PLY", SOURCE, Elastic(ElasticType.LAMINA, (1000.0, 50.0, 0.25, 30.0, 30.0, 20.0), SOURCE))
@@ -101,6 +111,27 @@ def test_rigid_motions_are_all_that_cost_nothing(shell, element_type, layers):
     np.testing.assert_allclose(k @ rigid_motions(x).T, 0, atol=1e-11 * abs(k).max())
     scale = np.sqrt(np.diag(k))
     values = np.linalg.eigvalsh(k / np.outer(scale, scale))
+    assert (values < 1e-10).sum() == 6 + SPURIOUS.get(element_type, 0)
+
+
+def test_membrane_mode_of_a_rectangle(shell):
+    """That of plane elements (N. Bicanic, E. Hinton, Int. J. Num. Meth. Engng 14 (1979) 1545); the nodes turn too."""
+    x = np.array([[2.0 * a, b, 0] for a, b in ((-1, -1), (1, -1), (1, 1), (-1, 1), (0, -1), (1, 0), (0, 1), (-1, 0))])
+    a, b = x[:, 0] / 2, x[:, 1]
+    u = np.zeros((8, 6))
+    u[:, 0], u[:, 1] = a * (1 - 3 * b**2) / 2, -b * (1 - 3 * a**2)
+    u[:, 5] = 3 * a * b * (1 / 2 + 1 / 2)
+    force, k, _ = shell("S8R", shell_section(), x)(u)
+    np.testing.assert_allclose(force, 0, atol=1e-12 * abs(k).max())
+
+
+def test_modes_of_one_element_are_none_of_two(shell):
+    """Neighbours cannot share what costs nothing in a single S8R."""
+    x = np.array([[i, j, 0.0] for j in (0, 0.5, 1) for i in (0, 0.5, 1, 1.5, 2) if j != 0.5 or i % 1 == 0])
+    nodes = [[0, 2, 10, 8, 1, 6, 9, 5], [2, 4, 12, 10, 3, 7, 11, 6]]
+    _, k, _ = shell("S8R", shell_section(), x, np.array(nodes))(np.zeros(6 * len(x)))
+    scale = np.sqrt(np.diag(k))
+    values = np.linalg.eigvalsh(k / np.outer(scale, scale))
     assert (values < 1e-10).sum() == 6
 
 
@@ -108,11 +139,16 @@ def test_rigid_motions_are_all_that_cost_nothing(shell, element_type, layers):
 def test_rigid_motions_with_directors_of_a_curved_surface(shell, element_type):
     """Neighbours tilt the directors of a facet."""
     count = SHELL[element_type].nodes
-    x = np.vstack([WARPED[:count], [[-1.0, -1.5, 0.4], [2.2, -1.2, 0.5]]])
-    nodes = np.array([[0, 1, 2, 3], [4, 5, 1, 0]] if count == 4 else [[0, 1, 2], [4, 1, 0]])
-    if count == 3:
-        x = x[[0, 1, 2, 3, 4]]
-        nodes = np.array([[0, 1, 2], [3, 1, 0]])
+    x, nodes = WARPED[:count], np.arange(count)
+    match count:
+        case 3:
+            x, other = np.vstack([x, [-1.0, -1.5, 0.4]]), [3, 1, 0]
+        case 4:
+            x, other = np.vstack([x, [[-1.0, -1.5, 0.4], [2.2, -1.2, 0.5]]]), [4, 5, 1, 0]
+        case _:
+            more = [[-1.0, -1.5, 0.4], [2.2, -1.2, 0.5], [0.6, -1.4, 0.6], [2.2, -0.5, 0.5], [-0.5, -0.8, 0.4]]
+            x, other = np.vstack([x, more]), [8, 9, 1, 0, 10, 11, 4, 12]
+    nodes = np.array([nodes, other])
     _, k, _ = shell(element_type, shell_section(), x, nodes)(np.zeros(6 * len(x)))
     np.testing.assert_allclose(k @ rigid_motions(x).T, 0, atol=1e-11 * abs(k).max())
 
@@ -233,7 +269,13 @@ def test_shear_stiffness_of_a_sandwich():
     np.testing.assert_allclose([k11, k22, k12], [expected, expected, 0], rtol=1e-4, atol=1e-10)
 
 
-@pytest.mark.parametrize("element_type", ["S4", "S3"])
+def area_of(x):
+    """Of a polygon in the plane, by its corners and the middles of its sides, if there are any."""
+    px, py = x[: min(len(x), 4), :2].T
+    return 0.5 * (px @ np.roll(py, -1) - py @ np.roll(px, -1))
+
+
+@pytest.mark.parametrize("element_type", ["S4", "S3", "S8R"])
 def test_transverse_shear_with_its_slenderness_factor(shell, element_type):
     """Uniform shear strain 13: the force is K/(1 + q A/t^2)."""
     x = FLAT[: SHELL[element_type].nodes]
@@ -243,8 +285,7 @@ def test_transverse_shear_with_its_slenderness_factor(shell, element_type):
     evaluate = shell(element_type, section, x)
     evaluate(u)
     values = values_of(evaluate, "SF4", "SF5")
-    px, py = x[:, 0], x[:, 1]
-    area = 0.5 * (px @ np.roll(py, -1) - py @ np.roll(px, -1))
+    area = area_of(x)
     expected = 1e-3 * np.array([7.0, 1.0]) / (1 + 0.01 * area / T**2)
     np.testing.assert_allclose(values, np.tile(expected, (len(values), 1)), rtol=1e-9)
 
@@ -286,11 +327,20 @@ def test_mass(shell, element_type):
     """Density times volume in each direction; rotary inertia of the thickness about the nodes' surface."""
     x = FLAT[: SHELL[element_type].nodes]
     _, mass, _ = shell(element_type, shell_section(offset=0.5), x)(np.zeros(6 * len(x)), request=Request.MASS)
-    px, py = x[:, 0], x[:, 1]
-    whole = 5.0 * T * 0.5 * (px @ np.roll(py, -1) - py @ np.roll(px, -1))
-    found = np.diag(mass).reshape(-1, 6).sum(axis=0)
-    np.testing.assert_allclose(found, [whole] * 3 + [whole * (T**2 / 12 + T**2 / 4)] * 3, rtol=1e-12)
-    assert not (mass - np.diag(np.diag(mass))).any()
+    found = mass.reshape(len(x), 6, len(x), 6).sum(axis=(0, 2))
+    whole = 5.0 * T * area_of(x)
+    expected = np.diag([whole] * 3 + [whole * (T**2 / 12 + T**2 / 4)] * 3)
+    np.testing.assert_allclose(found, expected, rtol=1e-12, atol=1e-14)
+    if element_type == "S8R":
+        # the moment of inertia is that of the area: its corners alone would have a negative mass
+        u = np.zeros((len(x), 6))
+        u[:, 2] = x[:, 0]
+        px, py = CORNERS[:, 0], CORNERS[:, 1]
+        cross = px * np.roll(py, -1) - np.roll(px, -1) * py
+        second = (cross * (px**2 + px * np.roll(px, -1) + np.roll(px, -1) ** 2)).sum() / 12
+        assert u.ravel() @ mass @ u.ravel() == pytest.approx(5.0 * T * second)
+    else:
+        assert not (mass - np.diag(np.diag(mass))).any()
 
 
 def test_directors_are_means_within_20_degrees():
@@ -307,6 +357,30 @@ def test_directors_are_means_within_20_degrees():
     np.testing.assert_allclose(found[2], np.tile([1, 0, 0], (4, 1)), atol=1e-12)
 
 
+def test_normals_of_the_deck_are_directors(load):
+    """They take the place of means in all elements at a node; far ones get a warning, opposite ones an error."""
+    nodes = np.array([[0, 1, 2, 3]])
+    group = group_of("S4", shell_section(), nodes)
+    normals = np.zeros((4, 3))
+    normals[1] = [0.0, 0.6, 1.8]
+    mesh = Mesh(np.arange(1, 5), CORNERS, ("",) * 4, normals)
+    model = Model("test.inp", "", mesh, (group,), ())
+    unit = np.array([0.0, 0.6, 1.8]) / np.hypot(0.6, 1.8)
+    np.testing.assert_allclose(directors(model, group)[0], [[0, 0, 1], unit, [0, 0, 1], [0, 0, 1]], atol=1e-15)
+    library = load(None)
+    build_blocks(model, library)
+    assert not library.messages()
+    normals[1:3] = [0.0, 1.0, 1.0]
+    build_blocks(model, library)
+    (warning,) = [message.text for message in library.messages()]
+    message = "test.inp:7: the normal of node 2 is 45 degrees from that of element 1 (type S4), and 1 more"
+    assert message in warning
+    normals[3] = [0.1, 0.0, -1.0]
+    message = r"test.inp:7: the normal of node 4 is 174 degrees from that of element 1 \(type S4\); Abaqus would turn"
+    with pytest.raises(DeckError, match=message):
+        build_blocks(model, library)
+
+
 @pytest.mark.parametrize(("axis", "first"), [(3, 0), (1, 1), (2, 2)])
 def test_orientation_projects_the_axis_after_the_one_along_the_normal(shell, axis, first):
     """A lamina pulled along its fibres: axis `first` (from 0) of the orientation, whose axis `axis` is the normal."""
@@ -317,7 +391,7 @@ def test_orientation_projects_the_axis_after_the_one_along_the_normal(shell, axi
     axes[(first + 1) % 3] = np.cross([0, 0, 1], fibre)
     section = shell_section([ShellLayer(T, 3, PLY)], orientation=Orientation("O", axes, SOURCE, normal=axis))
     u = np.zeros((4, 6))
-    u[:, :2] = 1e-3 * np.outer(FLAT @ fibre, fibre)[:, :2]
+    u[:, :2] = 1e-3 * np.outer(CORNERS @ fibre, fibre)[:, :2]
     evaluate = shell("S4", section, FLAT)
     evaluate(u)
     strains = 1e-3 * np.array([1.0, 0, 0])

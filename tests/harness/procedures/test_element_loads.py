@@ -321,7 +321,7 @@ def test_dload_may_end_the_analysis(forces):
         ("*DLOAD\nBODY, GRAV, 1.", "", r"\*DLOAD: GRAV needs a direction, entries 4 to 6"),
         ("*DLOAD\nBODY, U1, 1.", "", r"load type U1 on elements that are not user elements \(1\)"),
         ("*DLOAD\nBODY, P1, 1., 2.", "", "4 entries, expected at most 3"),
-        ("*DSLOAD\nSIDE, HP, 1.", "", r"\*DSLOAD: load type HP is not supported \(supported: P, TRVEC, TRSHR\)"),
+        ("*DSLOAD\nSIDE, HP, 1.", "", r"\*DSLOAD: load type HP is not supported \(supported: P, TRVEC, TRSHR, EDLD"),
         ("*DSLOAD\nSIDES, P, 1.", "", "unknown surface SIDES"),
         ("*DSLOAD\nSIDE, TRSHR, 1., 1.", "", r"load.inp:\d+: TRSHR: the direction is normal to the surface"),
         ("*DSLOAD, CONSTANT RESULTANT=YES\nSIDE, P, 1.", "", "option CONSTANT RESULTANT is not supported"),
