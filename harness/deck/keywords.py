@@ -26,6 +26,7 @@ from harness.deck import (
     lexer,
     local_mesh,
     materials,
+    modal,
     orientations,
     placement,
     plastic,
@@ -65,6 +66,7 @@ _FILES = (
         imperfection,
         steps,
         procedures,
+        modal,
     ),
     *(controls, transforms, prescribed, distributed, heat_loads, requests, restart, ignored),
 )

@@ -17,9 +17,13 @@ from harness.errors import DeckError
 from harness.model.arrays import FloatArray
 from harness.model.perturbations import Frequency
 from harness.model.records import ModesFound, ModeShape, Record
+from harness.procedures.modes import Modes
 from harness.procedures.perturbation import PerturbationStep
 from harness.procedures.step_setting import Setting
 from harness.solver.eigen import Pair, UnstableError, lowest_eigenvalues
+
+TRANSLATIONS = (1, 2, 3)
+"""Dofs."""
 
 FIRST = 10
 """Number of eigenvalues that are computed first if the deck does not give it."""
@@ -40,6 +44,7 @@ class FrequencyStep(PerturbationStep):
         inside = (frequency >= procedure.lowest) & (frequency <= procedure.highest)
         values, frequency, vectors = values[inside], frequency[inside], vectors[:, inside]
         shapes, masses = self._scaled(vectors)
+        self._state.modes = self._kept(values, masses, shapes)
         records: list[Record] = [ModesFound(step.number, self._state.total_time, values, frequency, masses)]
         for mode, shape in enumerate(shapes):
             at, size = float(frequency[mode]), procedure.period
@@ -71,6 +76,19 @@ class FrequencyStep(PerturbationStep):
         evaluation = self._pass(request)
         assert evaluation.data is not None
         return self._symmetric(evaluation.data)
+
+    def _kept(self, values: FloatArray, masses: FloatArray, shapes: FloatArray) -> Modes:
+        """The modes for later steps."""
+        along = np.array([self._system.dofs.dof == dof for dof in TRANSLATIONS], dtype=float)
+        products = []
+        for request, vectors in ((Request.STIFFNESS, shapes), (Request.MASS, np.vstack([shapes, along]))):
+            data = self._pass(request).data
+            assert data is not None
+            products.append(np.array([self._system.product(data, vector) for vector in vectors]).reshape(vectors.shape))
+        stiffness, inertia = products
+        number = self._step.number
+        found = values, masses, shapes, stiffness, inertia[: len(values)], inertia[len(values) :]
+        return Modes(number, self._constraints, *found)
 
     def _scaled(self, vectors: FloatArray) -> tuple[FloatArray, FloatArray]:
         """Shapes (k, n) with the requested normalization, and their generalized masses."""

@@ -21,6 +21,7 @@ from harness.procedures.conditions import Conditions
 from harness.procedures.convergence import FluxHistory
 from harness.procedures.element_loads import AllLoads
 from harness.procedures.loads import Boundaries, initial_values
+from harness.procedures.modes import Modes
 from harness.procedures.user_amplitudes import UserAmplitudes
 from harness.solver.descent import Majoriser
 from harness.solver.linear import Effort
@@ -56,6 +57,7 @@ class ConvergedState:
     effort     what all linear solvers have done
     majoriser  matrix of the start of the analysis, for the fall-back
     begun      general steps so far
+    modes      of the last *FREQUENCY
     """
 
     displacement: FloatArray
@@ -81,6 +83,7 @@ class ConvergedState:
     stabilization: float = 0.0
     flux: list[FluxHistory] = field(default_factory=lambda: [FluxHistory() for _ in FIELD_NAMES])
     begun: list[BegunStep] = field(default_factory=list)
+    modes: Modes | None = None
 
     @classmethod
     def start(cls, system: System, model: Model) -> Self:
