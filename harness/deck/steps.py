@@ -55,7 +55,7 @@ def read_steps(
         check_load_cases(scope.blocks, boundaries, of_modes, problems)
         for source, message in contradictions(boundaries, prescription.flat):
             problems.warn(source, message)
-        loads, new_loads = _read_entries(scope, ("CLOAD", "CFLUX"), prescription.read_loads, problems)
+        loads, new_loads = _read_entries(scope, ("CLOAD", "CFLUX", "CECHARGE"), prescription.read_loads, problems)
         distributed, new_distributed = _read_entries(
             scope, ("DLOAD",), partial(read_distributed, prescription=prescription), problems
         )

@@ -102,7 +102,7 @@ class PerturbationStep:
         change = self._response(evaluation.data, constraints.reduce(evaluation.data), external)
         internal = stiffness @ change
         self._pass(Request.PERTURBATION, change)
-        work = 0.5 * float(change @ internal)
+        work = 0.5 * float(change @ (self._state.signs * internal))
         solution = self._solution(change, {"ALLSE": work, "ALLWK": work})
         reaction = constraints.reactions(external - internal)
         turned = self._system.dofs.in_global

@@ -323,7 +323,7 @@ def test_equally_spaced(read: Read) -> None:
         (
             ", DEFINITION=PERIODIC",
             "1, 1.\n1., 2., 3., 4.",
-            "expected the coefficients of 1 terms, as this line says, fo",
+            "expected the coefficients of 1 terms, as this line says",
         ),
         (", DEFINITION=PERIODIC", "** nothing", r"deck.inp:37: \*AMPLITUDE: needs a data line"),
         (", SMOOTH=0.1", "0., 0., 1., 1.", r"deck.inp:37: \*AMPLITUDE: option SMOOTH is not supported"),
