@@ -99,5 +99,4 @@ def _stiffness(material: Material, section: SolidSection | None, tensor: Tensor)
     """(6, 6) elastic stiffness, in global axes or, without a section, in those of the material."""
     compliance = global_compliance(material, section.orientation if section is not None else None, tensor)
     assert compliance is not None
-    stiffness: FloatArray = np.linalg.inv(compliance)
-    return stiffness
+    return np.asarray(np.linalg.inv(compliance), dtype=np.float64)
