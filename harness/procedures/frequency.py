@@ -35,6 +35,7 @@ class FrequencyStep(PerturbationStep):
     def __init__(self, setting: Setting, procedure: Frequency) -> None:
         super().__init__(setting)
         self._procedure = procedure
+        self._given: dict[Request, FloatArray] = {}
 
     def _solve(self) -> list[Record]:
         """The modes, lowest first."""
@@ -72,9 +73,10 @@ class FrequencyStep(PerturbationStep):
             count = min(2 * count, size)
 
     def _matrix(self, request: Request) -> FloatArray:
-        """CSR values of the symmetric part of a matrix of the free unknowns."""
+        """CSR values of the symmetric part of a matrix of the free unknowns; that of all unknowns is kept."""
         evaluation = self._pass(request)
         assert evaluation.data is not None
+        self._given[request] = evaluation.data.copy()
         return self._symmetric(evaluation.data)
 
     def _kept(self, values: FloatArray, masses: FloatArray, shapes: FloatArray) -> Modes:
@@ -82,13 +84,12 @@ class FrequencyStep(PerturbationStep):
         along = np.array([self._system.dofs.dof == dof for dof in TRANSLATIONS], dtype=float)
         products = []
         for request, vectors in ((Request.STIFFNESS, shapes), (Request.MASS, np.vstack([shapes, along]))):
-            data = self._pass(request).data
-            assert data is not None
-            products.append(np.array([self._system.product(data, vector) for vector in vectors]).reshape(vectors.shape))
+            found = [self._system.product(self._given[request], vector) for vector in vectors]
+            products.append(np.array(found).reshape(vectors.shape))
         stiffness, inertia = products
-        number = self._step.number
-        found = values, masses, shapes, stiffness, inertia[: len(values)], inertia[len(values) :]
-        return Modes(number, self._constraints, *found)
+        count = len(values)
+        given = values, masses, shapes, stiffness, inertia[:count], inertia[count:]
+        return Modes(self._step.number, self._constraints, *given)
 
     def _scaled(self, vectors: FloatArray) -> tuple[FloatArray, FloatArray]:
         """Shapes (k, n) with the requested normalization, and their generalized masses."""

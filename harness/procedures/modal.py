@@ -31,7 +31,7 @@ class ModalStep(PerturbationStep):
     def __init__(self, setting: Setting) -> None:
         modes = setting.state.modes
         if modes is None:
-            message = f"*{setting.step.procedure.keyword} by modes needs a *FREQUENCY step before it"
+            message = f"*{setting.step.procedure.keyword} by modes needs a *FREQUENCY step before it in the same job"
             raise DeckError(setting.step.source, message)
         self._found, self._superposition = modes, setting.step.procedure.superposition
         super().__init__(setting)

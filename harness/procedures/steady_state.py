@@ -15,6 +15,7 @@ Loads and prescribed values have a real and an imaginary part; their amplitudes 
 from __future__ import annotations
 
 import math
+from abc import ABC, abstractmethod
 from collections.abc import Callable, Iterator
 from dataclasses import replace
 
@@ -35,7 +36,7 @@ from harness.solver.harmonic import ComplexSolver
 from harness.solver.linear import LinearSolver
 
 
-class HarmonicStep(PerturbationStep):
+class HarmonicStep(PerturbationStep, ABC):
     """One step of harmonic responses, each an increment; subclasses define the solution at a frequency."""
 
     _procedure: SteadyState
@@ -43,7 +44,9 @@ class HarmonicStep(PerturbationStep):
     def _increments(self) -> Iterator[Record]:
         modes = self._state.modes
         if self._procedure.natural and modes is None:
-            message = f"*{self._procedure.keyword}, INTERVAL=EIGENFREQUENCY needs a *FREQUENCY step before it"
+            message = (
+                f"*{self._procedure.keyword}, INTERVAL=EIGENFREQUENCY needs a *FREQUENCY step before it in the same job"
+            )
             raise DeckError(self._step.source, message)
         frequencies = self._procedure.frequencies(modes.frequencies if modes is not None else np.zeros(0))
         for increment, frequency in enumerate(frequencies, start=1):
@@ -62,9 +65,9 @@ class HarmonicStep(PerturbationStep):
         size, place = self._procedure.period, (self._step.number, self._increment, 1, 1)
         return [HarmonicResponse(*place, frequency, frequency, size, replace(real, imaginary=imaginary))]
 
+    @abstractmethod
     def _response_to(self, load: ComplexArray, rate: complex) -> tuple[ComplexArray, ComplexArray]:
         """Displacements and reactions (n,) under loads (n,); rate: i w."""
-        raise NotImplementedError
 
     def _dynamic_stiffness(self, rate: complex) -> ComplexArray:
         """(nnz,) CSR values of K + rate C + rate^2 M + i S over all unknowns."""

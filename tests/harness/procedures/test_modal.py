@@ -343,6 +343,25 @@ def test_what_is_wrong_is_named(run, procedure, more, message):
 
 
 @pytest.mark.parametrize(
+    ("procedure", "how"),
+    [
+        ("*MODAL DYNAMIC\n0.5, 1.", r"\*MODAL DYNAMIC by modes"),
+        ("*STEADY STATE DYNAMICS, DIRECT, INTERVAL=EIGENFREQUENCY\n0.5, 1.", "INTERVAL=EIGENFREQUENCY"),
+    ],
+)
+def test_modes_do_not_outlast_their_job(tmp_path, monkeypatch, procedure, how):
+    """A state that is kept has none: a job that resumes behind *FREQUENCY says so."""
+    monkeypatch.chdir(tmp_path)
+    static = "*STEP\n*STATIC\n*END STEP\n"
+    modes = MODES.format(how="", number=1)
+    text = f"{OSCILLATOR}*RESTART, WRITE\n{static}{modes}{static}*STEP\n{procedure}\n*END STEP\n"
+    (tmp_path / "modal.inp").write_text(text)
+    harness.run("modal.inp")
+    with pytest.raises(DeckError, match=rf"{how} needs a \*FREQUENCY step before it in the same job"):
+        harness.run("modal.inp", job="again", oldjob="modal")
+
+
+@pytest.mark.parametrize(
     ("procedure", "message"),
     [
         ("*STEADY STATE DYNAMICS\n1.", r"\*STEADY STATE DYNAMICS by modes needs a \*FREQUENCY step before it"),
