@@ -242,7 +242,8 @@ def describe_end(code: int) -> str:
     """Why a process ended, by its exit code: the end of a sentence."""
     if code >= 0:
         who = " by the Fortran library, in an input or output statement of a user routine" if code == _ENDED else ""
-        return f"ended{who} (exit code {code})"
+        where = f"; it looks up files from the current folder, {Path.cwd()}" if who else ""
+        return f"ended{who} (exit code {code}{where})"
     try:
         found = signal.Signals(-code)
     except ValueError:

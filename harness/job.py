@@ -25,9 +25,9 @@ from harness.model.model import Model
 from harness.model.records import AttemptEnded, IncrementDone, ModeShape, Record, StepDone
 from harness.model.restart import Resumption
 from harness.output import JobOutput, Result
+from harness.output.earlier_jobs import EarlierJobs
 from harness.output.ending import progress
 from harness.output.lock import job_stem
-from harness.output.shapes import read_shape
 from harness.parallel.ranks import ALONE, Ranks
 from harness.procedures import run_steps
 from harness.procedures.incrementation import FIXED_TOO_LARGE, TOO_MANY_ATTEMPTS, TOO_MANY_INCREMENTS
@@ -132,8 +132,8 @@ def run(
         resumed, parts = (None, ()) if oldjob is None else find_state(deck, parameters, Path(oldjob), stem)
         if parts:
             parameters = parts[-1].given
-        shapes = partial(read_shape, [Path(), folder, deck.parent])
-        model = ranks.agree(lambda: read_deck(deck, parameters, parts, shapes))
+        earlier = EarlierJobs([Path(), folder, deck.parent])
+        model = ranks.agree(lambda: read_deck(deck, parameters, parts, earlier))
         refuse_nothing_left(model, resumed, oldjob)
         decks = ranks.agree(lambda: decks_of(model, parameters, parts))
         if ranks.size > 1:

@@ -54,7 +54,7 @@ module host_solid
   use host_usdfld, only: call_usdfld
   implicit none (type, external)
   private
-  public :: solid_uelmat, solid_element
+  public :: all_gradients, solid_uelmat, solid_element, values_of_point
 
   real(dp), parameter :: identity(3, 3) = reshape([1, 0, 0, 0, 1, 0, 0, 0, 1], [3, 3])
 

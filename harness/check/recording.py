@@ -8,7 +8,6 @@ import tempfile
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager, suppress
 from dataclasses import dataclass, replace
-from functools import partial
 from pathlib import Path
 from typing import Final
 
@@ -31,7 +30,7 @@ from harness.model.arrays import FloatArray, IntArray
 from harness.model.model import Model
 from harness.model.procedures import Static
 from harness.model.records import AttemptAbandoned, IncrementDone
-from harness.output.shapes import read_shape
+from harness.output.earlier_jobs import EarlierJobs
 from harness.procedures import run_steps
 from harness.solver.threads import one_blas_thread
 from harness.usersub import Library, names_line, trap
@@ -191,7 +190,7 @@ def record(
     A run that ends without convergence is recorded up to there. Raises the other errors of a run; if not strict, only
     those before the first pass is complete, and writes outside arrays are not errors.
     """
-    model = read_deck(deck, shapes=partial(read_shape, [Path(), deck.parent]))
+    model = read_deck(deck, earlier=EarlierJobs([Path(), deck.parent]))
     events: list[Event] = []
     done, abandoned = 0, 0
     stopped = ""

@@ -100,7 +100,9 @@ def _read_periodic(block: Block) -> FloatArray:
     if len(values) % 2:
         values.append(0.0)
     if len(values) != 2 * terms:
-        raise rows[0].error(f"expected the coefficients of {terms} terms, found those of {len(values) / 2:g}")
+        raise rows[0].error(
+            f"expected the coefficients of {terms} terms, as this line says, found {len(values) / 2:g} A, B"
+        )
     return np.array([head[0], head[1], head[2], 0.0, *values]).reshape(-1, 2)
 
 

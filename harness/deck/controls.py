@@ -11,17 +11,24 @@ from harness.deck.blocks import Block, Row
 from harness.deck.table import Keyword, Option, Where, one_of, refused
 from harness.model.steps import Controls, FieldControls, LineSearchControls, TimeControls
 
-FIELD_LINES = (("r_n", "c_n", "q_0", "q_u", "r_p", "eps", "c_eps", "r_l"), ("c_f", "eps_l"))
+EPS_D, DEFAULT_EPS_D = "eps_d", 1e-8
+"""Displacements that count as zero, over the characteristic element length."""
+
+FIELD_LINES = (("r_n", "c_n", "q_0", "q_u", "r_p", "eps", "c_eps", "r_l"), ("c_f", "eps_l", EPS_D))
 TIME_LINES = (
     # the last one counts augmentations of contact, of which there are none
     ("i_0", "i_r", "i_p", "i_c", "i_l", "i_g", "i_s", "i_a", "i_j", "i_t", "i_s_c", "i_j_c", ""),
     ("d_f", "d_c", "d_b", "d_a", "d_s", "d_h", "d_d", "w_g"),
     # the last two belong to explicit integration of creep
     ("d_g", "d_m", "d_m_dyn", "d_m_diff", "d_l", "d_e", "", ""),
+    # growth before a time point of the output, at which increments do not end
+    ("",),
 )
+# the others belong to constraints that hold exactly: of hybrid beams, soft contact at p = 0, distributing couplings
+CONSTRAINT_LINES = (("volume", "", "", "contact", "", "", "", "contact_force"),)
 LINE_SEARCH_LINES = (("n_ls", "s_max", "s_min", "f_s", "eta_s"),)
 DISCONTINUOUS = {"i_0": 8, "i_r": 10}
-Group = TypeVar("Group", FieldControls, TimeControls, LineSearchControls)
+Group = TypeVar("Group", FieldControls, TimeControls, LineSearchControls, Controls)
 
 
 @dataclass(frozen=True, slots=True)
@@ -58,8 +65,7 @@ class ControlState:
 
 def _apply(controls: Controls, parameters: str, block: Block) -> Controls:
     if parameters == "CONSTRAINTS":
-        row = next(iter(block.all_rows()), None)
-        return controls if row is None or row.blank(0) else replace(controls, volume=_entry(row, 0, "T_VOL", False))
+        return _update(controls, CONSTRAINT_LINES, block)
     if parameters == "TIME INCREMENTATION":
         return replace(controls, time=_update(controls.time, TIME_LINES, block))
     if parameters == "LINE SEARCH":
@@ -85,7 +91,10 @@ def _update(group: Group, lines: tuple[tuple[str, ...], ...], block: Block) -> G
         for index, name in enumerate(lines[number]):
             if not row.blank(index):
                 value = _entry(row, index, name, name in whole)
-                values |= {name: value} if name else {}
+                if name == EPS_D and value != DEFAULT_EPS_D:
+                    message = f"{EPS_D.upper()} = {value:g}: only the default {DEFAULT_EPS_D:g} is supported"
+                    raise row.error(f"{message}, as Abaqus does not document the element length that it is relative to")
+                values |= {name: value} if name and name != EPS_D else {}
     return replace(group, **values)  # type: ignore[arg-type]  # int fields get what row.integer returns
 
 
@@ -100,9 +109,10 @@ def _entry(row: Row, index: int, name: str, whole: bool) -> float:
 KEYWORDS = (
     Keyword(
         "CONTROLS",
-        "Solution controls; blank entries keep their value, later steps keep the controls. Of CONSTRAINTS the first "
-        "entry counts, the volumetric strain compatibility tolerance of hybrid solids; the others are about elements "
-        "and contact that is not here.",
+        "Solution controls; blank entries keep their value, later steps keep the controls. Of CONSTRAINTS the "
+        "volumetric strain compatibility tolerance of hybrid solids, that of contact and the contact force error "
+        "tolerance count; what the others limit holds exactly here. Creep is integrated implicitly and increments do "
+        "not end at output times: what controls these has no effect.",
         Where.STEP,
         (
             one_of("ANALYSIS", "I_0 = 8, I_R = 10", ("DISCONTINUOUS",)),

@@ -17,18 +17,24 @@ from harness.errors import UelError
 from harness.model.arrays import FloatArray, IntArray
 
 
-class ShapeReader(Protocol):
-    """What reads the displacements of a job."""
+class EarlierResults(Protocol):
+    """What reads the field output of earlier jobs."""
 
-    def __call__(self, job: str, step: int, mode: int, increment: int) -> tuple[IntArray, FloatArray]:
+    def shape(self, job: str, step: int, mode: int, increment: int) -> tuple[IntArray, FloatArray]:
         """Labels of its nodes (m,), and displacements (m, 3) of a mode, or of an increment of a general step.
 
         increment: 0 for the last one. Raises UelError if they were not written.
         """
 
+    def temperatures(self, job: str, step: int, increment: int) -> tuple[IntArray, FloatArray]:
+        """Labels of its nodes (m,), and temperatures (m,); step and increment: 0 for the last ones.
 
-def displace(blocks: Iterable[Block], flat: FlatMesh, problems: Problems, shapes: ShapeReader | None) -> None:
-    """Move the nodes of the mesh; without what reads shapes, those of other jobs are left out."""
+        Raises UelError if they were not written.
+        """
+
+
+def displace(blocks: Iterable[Block], flat: FlatMesh, problems: Problems, earlier: EarlierResults | None) -> None:
+    """Move the nodes of the mesh; without what reads results, those of other jobs are left out."""
     change = np.zeros_like(flat.mesh.coordinates)
     for block in blocks:
         if block.name != "IMPERFECTION":
@@ -36,8 +42,8 @@ def displace(blocks: Iterable[Block], flat: FlatMesh, problems: Problems, shapes
         with problems.gather():
             if not block.options.given("FILE"):
                 _by_nodes(block, flat, change)
-            elif shapes is not None:
-                _by_shapes(block, flat, change, shapes)
+            elif earlier is not None:
+                _by_shapes(block, flat, change, earlier)
     if change.any():
         flat.displace(change)
 
@@ -60,7 +66,7 @@ def _by_nodes(block: Block, flat: FlatMesh, change: FloatArray) -> None:
             change[nodes] += (first, second, third)
 
 
-def _by_shapes(block: Block, flat: FlatMesh, change: FloatArray, shapes: ShapeReader) -> None:
+def _by_shapes(block: Block, flat: FlatMesh, change: FloatArray, earlier: EarlierResults) -> None:
     options = block.options
     if not options.given("STEP"):
         raise block.error("FILE needs STEP, the number of the step of that job")
@@ -75,23 +81,25 @@ def _by_shapes(block: Block, flat: FlatMesh, change: FloatArray, shapes: ShapeRe
         row.at_most(2)
         mode, factor = row.integer(0, "mode"), row.real(1, "factor")
         try:
-            labels, shape = shapes(job, step, mode, increment)
+            labels, shape = earlier.shape(job, step, mode, increment)
         except UelError as error:
             raise row.error(f"FILE={job}: {error}") from None
-        change[chosen] += factor * _on_nodes(row, flat, job, labels, shape)[chosen]
+        found = np.zeros_like(change)
+        here, there = same_nodes(flat, labels, row, job)
+        found[here] = shape[there]
+        change[chosen] += factor * found[chosen]
 
 
-def _on_nodes(row: Row, flat: FlatMesh, job: str, labels: IntArray, shape: FloatArray) -> FloatArray:
-    """A shape on the nodes of the mesh, by their numbers; other nodes stay."""
+def same_nodes(flat: FlatMesh, labels: IntArray, place: Row | Block, job: str) -> tuple[IntArray, IntArray]:
+    """Nodes of the mesh and of an earlier job, by their labels, that are the same. Raises DeckError at the place."""
     mesh = flat.mesh
     if np.array_equal(labels, mesh.labels):
-        return shape
+        every = np.arange(len(labels))
+        return every, every
     if any(mesh.instances) or len(np.unique(labels)) < len(labels):
-        raise row.error(f"FILE={job}: the nodes of that job are not those of this model with instances")
-    found = np.zeros_like(mesh.coordinates)
+        raise place.error(f"FILE={job}: the nodes of that job are not those of this model with instances")
     _, here, there = np.intersect1d(mesh.labels, labels, return_indices=True)
-    found[here] = shape[there]
-    return found
+    return here, there
 
 
 KEYWORDS = (

@@ -4,7 +4,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator
 from dataclasses import replace
 
 import numpy as np
@@ -12,8 +12,10 @@ import numpy as np
 from harness.deck.blocks import Block, Row
 from harness.deck.error_report import Problems
 from harness.deck.flatten import FlatMesh
+from harness.deck.imperfection import EarlierResults, same_nodes
 from harness.deck.table import INPUT, Keyword, Kind, Option, Where, one_of, refused
 from harness.deck.user_elements import LARGEST_DOF
+from harness.errors import UelError
 from harness.model.steps import InitialSolution, InitialStress, InitialValue, VerticalStress
 
 TEMPERATURE = 11
@@ -34,10 +36,13 @@ def field_number(block: Block) -> int:
     return number
 
 
-def read_initial_values(blocks: Iterable[Block], kind: str, flat: FlatMesh, problems: Problems) -> list[InitialValue]:
+def read_initial_values(
+    blocks: Iterable[Block], kind: str, flat: FlatMesh, problems: Problems, earlier: EarlierResults | None
+) -> list[InitialValue]:
     """Entries of all *INITIAL CONDITIONS of a TYPE=: VELOCITY (node, dof, value), TEMPERATURE or FIELD (node, value).
 
-    The dof of a field is its number, VARIABLE=. Further temperatures of a node are those of dofs 12 and up.
+    The dof of a field is its number, VARIABLE=. Further temperatures of a node are those of dofs 12 and up. Without
+    what reads results of earlier jobs, theirs are left out.
     """
     found: list[InitialValue] = []
     for block in blocks:
@@ -47,6 +52,10 @@ def read_initial_values(blocks: Iterable[Block], kind: str, flat: FlatMesh, prob
             problems.add(block.source, "*INITIAL CONDITIONS: USER is for TYPE=SOLUTION and TYPE=STRESS")
         if block.options.given("UNBALANCED STRESS") or block.options.flag("GEOSTATIC"):
             problems.add(block.source, "*INITIAL CONDITIONS: GEOSTATIC and UNBALANCED STRESS are for TYPE=STRESS")
+        if block.options.given("FILE"):
+            with problems.gather():
+                found += _read_earlier(block, kind, flat, earlier)
+            continue
         for row in block.rows():
             with problems.gather():
                 nodes = flat.nodes(row.name(0, "node or node set"), row.source)
@@ -66,6 +75,31 @@ def read_initial_values(blocks: Iterable[Block], kind: str, flat: FlatMesh, prob
     return found
 
 
+def _read_earlier(block: Block, kind: str, flat: FlatMesh, earlier: EarlierResults | None) -> Iterator[InitialValue]:
+    """Temperatures of an earlier job, for temperatures or a field."""
+    if kind == "VELOCITY":
+        raise block.error("FILE is for TYPE=TEMPERATURE and TYPE=FIELD")
+    if any(block.rows()):
+        raise block.error("FILE: values are those of that job; expected no data lines")
+    job = block.options.text("FILE")
+    if earlier is None:
+        return
+    try:
+        step, increment = block.options.integer("STEP", 0), block.options.integer("INC", 0)
+        labels, values = earlier.temperatures(job, step, increment)
+    except UelError as error:
+        raise block.error(f"FILE={job}: {error}") from None
+    here, there = same_nodes(flat, labels, block, job)
+    dof = field_number(block) if kind == "FIELD" else TEMPERATURE
+    for value in np.unique(values[there]).tolist():
+        yield InitialValue(here[values[there] == value], dof, value, block.source)
+
+
+def _refuse_file(block: Block) -> None:
+    if block.options.given("FILE"):
+        raise block.error("FILE is for TYPE=TEMPERATURE and TYPE=FIELD")
+
+
 def read_initial_stresses(blocks: Iterable[Block], flat: FlatMesh, problems: Problems) -> list[InitialStress]:
     """Entries of all *INITIAL CONDITIONS, TYPE=STRESS: element or set and components of the stress."""
     found: list[InitialStress] = []
@@ -73,6 +107,7 @@ def read_initial_stresses(blocks: Iterable[Block], flat: FlatMesh, problems: Pro
         if block.name != "INITIAL CONDITIONS" or block.options.text("TYPE") != "STRESS":
             continue
         with problems.gather():
+            _refuse_file(block)
             by_user = _check_stress(block)
             # UNBALANCED STRESS=RAMP is the default (Keywords Guide, *INITIAL CONDITIONS)
             ramped = block.options.text("UNBALANCED STRESS") != "STEP"
@@ -123,6 +158,7 @@ def read_initial_solutions(blocks: Iterable[Block], flat: FlatMesh, problems: Pr
         if block.name != "INITIAL CONDITIONS" or block.options.text("TYPE") != "SOLUTION":
             continue
         with problems.gather():
+            _refuse_file(block)
             if block.options.flag("USER"):
                 found.append(InitialSolution(None, np.zeros(0), block.source))
             else:
@@ -178,7 +214,15 @@ KEYWORDS = (
                 "unbalanced initial stresses take effect gradually over the first step (RAMP, the default) or at once",
                 ("RAMP", "STEP"),
             ),
-            *refused("FILE", "REBAR", "SECTION POINTS"),
+            Option(
+                "FILE",
+                Kind.FILE,
+                "name of an earlier job, whose temperatures (dof 11) give the values, by node numbers, with "
+                "TYPE=TEMPERATURE and TYPE=FIELD; it is looked up as that of *IMPERFECTION",
+            ),
+            Option("STEP", Kind.INTEGER, "its step (the last one)"),
+            Option("INC", Kind.INTEGER, "increment of the step (the last one written)"),
+            *refused("REBAR", "SECTION POINTS", "INTERPOLATE", "MIDSIDE", "DRIVING ELSETS", "OUTPUT VARIABLE"),
         ),
         "node or set, dof, velocity; or node or set, temperatures of dofs 11, 12, ...; or node or set, value of field; "
         "or element or set, state variables; or element or set, stress components of a built-in continuum element (11, "

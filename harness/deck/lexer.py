@@ -229,7 +229,9 @@ class _Lexer:
         if self._open is None:
             place = next((index for index, line in enumerate(lines) if line), None)
             if place is not None and not self._discard:
-                self._problems.add(Source(file, first + place), "data before the first keyword")
+                self._problems.add(
+                    Source(file, first + place), "data before the first keyword; a comment begins with **"
+                )
                 self._discard = True
             return
         if self._open.keyword.name not in ("HEADING", "PARAMETER"):

@@ -17,6 +17,8 @@ from harness.deck.heat import ISOTROPIC, extend_heat
 from harness.deck.heat import KEYWORDS as HEAT_OPTIONS
 from harness.deck.hyperelastic import KEYWORDS as HYPERELASTIC_OPTIONS
 from harness.deck.hyperelastic import read_hyperelastic
+from harness.deck.piezoelectric import KEYWORDS as PIEZO_OPTIONS
+from harness.deck.piezoelectric import extend_electrical
 from harness.deck.plastic import KEYWORDS as PLASTIC_OPTIONS
 from harness.deck.plastic import extend_plastic
 from harness.deck.table import NAME, Keyword, Kind, Option, Where, ignored, one_of, refused
@@ -67,19 +69,27 @@ def _extend(material: Material, block: Block, problems: Problems) -> Material:
             extended = replace(material, user_thermal=given) if thermal else replace(material, user=given)
         case "USER DEFINED FIELD":
             extended = replace(material, user_field=block.source)
-        case "DEPVAR":
-            extended = replace(material, state_variables=_read_count(block))
-        case "USER OUTPUT VARIABLES":
-            extended = replace(material, output_variables=_read_count(block))
+        case "DEPVAR" | "USER OUTPUT VARIABLES":
+            extended = _extend_counts(material, block)
         case "DENSITY":
             extended = replace(material, density=_read_constant(block, "density"))
         case "CONDUCTIVITY" | "HEAT GENERATION" | "LATENT HEAT" | "SPECIFIC HEAT":
             extended = extend_heat(material, block)
+        case "PIEZOELECTRIC" | "DIELECTRIC":
+            extended = extend_electrical(material, block)
         case "EXPANSION":
             extended = replace(material, expansion=_read_constant(block, "expansion coefficient", positive=False))
         case _:
             extended = replace(material, damage=extend_damage(material.damage, block))
     return extended
+
+
+def _extend_counts(material: Material, block: Block) -> Material:
+    """The material with numbers of variables."""
+    count = _read_count(block)
+    if block.name == "DEPVAR":
+        return replace(material, state_variables=count)
+    return replace(material, output_variables=count)
 
 
 def _read_constant(block: Block, what: str, *, positive: bool = True) -> float:
@@ -230,7 +240,7 @@ _OPTIONS = (
         "expansion coefficient",
     ),
 )
-_OTHERS = (*PLASTIC_OPTIONS, *VISCOUS_OPTIONS, *HYPERELASTIC_OPTIONS, *DAMAGE_OPTIONS, *HEAT_OPTIONS)
+_OTHERS = (*PLASTIC_OPTIONS, *VISCOUS_OPTIONS, *HYPERELASTIC_OPTIONS, *DAMAGE_OPTIONS, *HEAT_OPTIONS, *PIEZO_OPTIONS)
 MATERIAL_OPTIONS = {keyword.name for keyword in (*_OPTIONS, *_OTHERS)}
 
 KEYWORDS = (

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""*BOUNDARY, *CLOAD and *CFLUX."""
+"""*BOUNDARY, *CLOAD, *CFLUX and *CECHARGE."""
 
 from __future__ import annotations
 
@@ -83,16 +83,23 @@ class Prescription:
         return found
 
     def read_loads(self, block: Block) -> list[Load]:
-        """Entries of one *CLOAD or *CFLUX."""
+        """Entries of one *CLOAD, *CFLUX or *CECHARGE."""
         amplitude = self.amplitude(block)
+        if block.name == "CECHARGE" and amplitude is not None and amplitude.absolute:
+            raise block.error("an amplitude with VALUE=ABSOLUTE is not supported; give the charge, and factors of it")
         found = []
         for row in block.rows():
             row.at_most(3)
             nodes = self.flat.nodes(row.name(0, "node or node set"), row.source)
-            dof = 11 if block.name == "CFLUX" and row.blank(1) else read_dof(row, 1)
+            own = _OWN_DOFS.get(block.name)
+            dof = own if own is not None and row.blank(1) else read_dof(row, 1)
+            if block.name == "CECHARGE" and dof != own:
+                raise row.error(f"charges belong to dof {own}, found {dof}")
             imaginary = block.options.known("IMAGINARY") and block.options.flag("IMAGINARY")
-            given = row.real(2, "value", 0.0), amplitude, row.source, imaginary
-            found += [Load(some, own, *given) for some, own in self.transforms.parts(nodes, dof, row.source)]
+            # potentials have minus charges as their forces
+            value = row.real(2, "value", 0.0) * (-1 if block.name == "CECHARGE" else 1)
+            given = value, amplitude, row.source, imaginary
+            found += [Load(some, part, *given) for some, part in self.transforms.parts(nodes, dof, row.source)]
         return found
 
     def amplitude(self, block: Block) -> Amplitude | None:
@@ -190,6 +197,9 @@ HARMONIC = (
     Option("IMAGINARY", doc="imaginary part of harmonic values, in *STEADY STATE DYNAMICS"),
 )
 
+_OWN_DOFS = {"CFLUX": 11, "CECHARGE": 9}
+"""Dofs that the data lines may leave out."""
+
 LOAD = (OP, Option("AMPLITUDE", Kind.NAME, "amplitude; without it that of *STEP"), INPUT)
 
 KEYWORDS = (
@@ -218,6 +228,13 @@ KEYWORDS = (
         Where.STEP,
         (*LOAD, *HARMONIC, *ignored("REGION TYPE"), *refused("CYCLIC MODE", "FOLLOWER", "LOAD CASE", "SUBMODEL")),
         "node or set, dof, value",
+    ),
+    Keyword(
+        "CECHARGE",
+        "Concentrated electrical charges; with *CLOAD in the same step both need the same OP.",
+        Where.STEP,
+        (*LOAD, *HARMONIC, *ignored("REGION TYPE"), *refused("LOAD CASE")),
+        "node or set, dof (9), charge",
     ),
     Keyword(
         "CFLUX",

@@ -13,6 +13,7 @@ from collections.abc import Callable
 from dataclasses import replace
 
 from harness.deck.blocks import Block, Row
+from harness.deck.modal import with_modes
 from harness.deck.perturbations import PERTURBATIONS, read_static_perturbation
 from harness.deck.prescribed import Prescription
 from harness.deck.structure import Scope
@@ -54,8 +55,8 @@ def read_procedure(scope: Scope, prescription: Prescription) -> Procedure:
         raise blocks[1].error(f"the step has a procedure already, at {blocks[0].source}")
     always_linear = [keyword.name for keyword, _ in PERTURBATIONS]
     if scope.head.options.flag("PERTURBATION") and blocks[0].name not in always_linear:
-        return read_static_perturbation(blocks[0])
-    return readers[blocks[0].name](blocks[0], prescription)
+        return with_modes(read_static_perturbation(blocks[0]), scope.blocks, prescription)
+    return with_modes(readers[blocks[0].name](blocks[0], prescription), scope.blocks, prescription)
 
 
 def _read_times(block: Block, *, largest: float = 1.0, direct: bool = False, along_path: bool = False) -> Times:

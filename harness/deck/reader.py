@@ -16,7 +16,7 @@ from harness.deck.contact import ContactReader, check_contact
 from harness.deck.error_report import Problems
 from harness.deck.flatten import FlatMesh
 from harness.deck.groups import make_groups
-from harness.deck.imperfection import ShapeReader, displace
+from harness.deck.imperfection import EarlierResults, displace
 from harness.deck.initial import read_initial_solutions, read_initial_stresses, read_initial_values
 from harness.deck.interactions import Interactions
 from harness.deck.keywords import KEYWORDS
@@ -42,7 +42,7 @@ def read_deck(
     path: Path,
     given: Mapping[str, float] | None = None,
     parts: Sequence[DeckPart] = (),
-    shapes: ShapeReader | None = None,
+    earlier: EarlierResults | None = None,
 ) -> Model:
     """Read an Abaqus input deck.
 
@@ -55,8 +55,8 @@ def read_deck(
         Values of parameters in place of those in its *PARAMETER; what the deck computes from them follows.
     parts
         Of a restart: the decks that the model comes from, the last of which is this one.
-    shapes
-        Reads the shapes of *IMPERFECTION, FILE; None: nodes are where the deck puts them.
+    earlier
+        Reads results of earlier jobs, for *IMPERFECTION and *INITIAL CONDITIONS with FILE; None: these are left out.
 
     Returns
     -------
@@ -81,7 +81,7 @@ def read_deck(
     in_steps = [block for scope in structure.steps for block in scope.blocks]
     amplitudes = read_amplitudes([*structure.root, *in_steps], problems)
     flat = FlatMesh(structure, problems)
-    displace(structure.root, flat, problems, shapes)
+    displace(structure.root, flat, problems, earlier)
     if not any(len(owner.elements) for owner in flat.owners):
         raise DeckError(Source(str(path), 1), "the deck has no elements")
     groups = make_groups(flat, materials, read_section_controls(structure.root, problems), problems)
@@ -102,7 +102,7 @@ def read_deck(
                 boundaries += prescription.read_boundary(block, in_step=False)
     kinds = ("VELOCITY", "TEMPERATURE", "FIELD")
     velocities, temperatures, fields = (
-        tuple(read_initial_values(structure.root, kind, flat, problems)) for kind in kinds
+        tuple(read_initial_values(structure.root, kind, flat, problems, earlier)) for kind in kinds
     )
     solutions = read_initial_solutions(structure.root, flat, problems)
     stresses = read_initial_stresses(structure.root, flat, problems)

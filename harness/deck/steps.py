@@ -55,7 +55,7 @@ def read_steps(
         check_load_cases(scope.blocks, boundaries, of_modes, problems)
         for source, message in contradictions(boundaries, prescription.flat):
             problems.warn(source, message)
-        loads, new_loads = _read_entries(scope, ("CLOAD", "CFLUX"), prescription.read_loads, problems)
+        loads, new_loads = _read_entries(scope, ("CLOAD", "CFLUX", "CECHARGE"), prescription.read_loads, problems)
         distributed, new_distributed = _read_entries(
             scope, ("DLOAD",), partial(read_distributed, prescription=prescription), problems
         )
@@ -106,6 +106,7 @@ def read_steps(
                 )
             )
     _check_followers(steps, problems)
+    _check_modes(steps, problems)
     for step in steps:
         if step.procedure.linear and step.procedure.loaded:
             _check_perturbation(step, problems)
@@ -125,14 +126,30 @@ def _check_perturbation(step: Step, problems: Problems) -> None:
         if step.procedure.buckles and load.type.follows and load.type.kind is not LoadKind.PRESSURE:
             message = f"load type {load.type.kind} follows the surface: its load stiffness is not supported in *BUCKLE"
             problems.add(load.source, f"{message}; {_not_following(load)}")
-    if step.procedure.harmonic:
+    if step.procedure.harmonic or step.procedure.modal:
         for given in step.distributed:
-            problems.add(given.source, "harmonic loads on user elements are not supported")
+            kind = "harmonic loads" if step.procedure.harmonic else "loads by modes"
+            problems.add(given.source, f"{kind} on user elements are not supported")
         if any(isinstance(amplitude, UserAmplitude) for amplitude in step.amplitudes):
-            problems.add(step.source, "an amplitude is a function of frequency here, which UAMP cannot give")
+            over = "frequency" if step.procedure.harmonic else "the time of this step alone"
+            problems.add(step.source, f"an amplitude is a function of {over} here, which UAMP cannot give")
         return
     for source in step.varying:
         problems.add(source, "an amplitude has no meaning in a step with PERTURBATION")
+
+
+def _check_modes(steps: Sequence[Step], problems: Problems) -> None:
+    """Steps that take modes come after *FREQUENCY; where modes respond, only their supports move."""
+    found = False
+    for step in steps:
+        found = found or step.procedure.finds_modes
+        if step.procedure.needs_modes and not found:
+            how = "by modes" if step.procedure.modal else "with INTERVAL=EIGENFREQUENCY"
+            problems.add(step.source, f"*{step.procedure.keyword} {how} needs a *FREQUENCY step before it")
+        for boundary in step.boundaries if step.procedure.modal else ():
+            if boundary.magnitude or boundary.amplitude is not None:
+                message = "a step by modes moves all supports alike, by *BASE MOTION; values of *BOUNDARY must be zero"
+                problems.add(boundary.source, message)
 
 
 def check_parts(blocks: list[Block], problems: Problems, *, harmonic: bool) -> None:

@@ -190,6 +190,8 @@ _ABAQUS = {compact(name): name for name in ABAQUS_KEYWORDS}
 def find_keyword(keywords: Mapping[str, Keyword], name: str, source: Source) -> Keyword:
     """Keyword of this name, or the only one of Abaqus that begins like this; DeckError says whether Abaqus has it."""
     wanted = compact(name)
+    if not wanted:
+        raise DeckError(source, "a keyword line without a keyword; a comment begins with **")
     begins = [full for full in _ABAQUS if full.startswith(wanted)] if wanted not in _ABAQUS else []
     if len(begins) == 1:
         wanted = begins[0]

@@ -28,12 +28,14 @@ from harness.elements.materials import (
     refuse_fields,
     refuse_hyperelastic,
 )
+from harness.elements.piezoelectric import piezoelectric_routine, piezoelectric_variables
 from harness.elements.routine import Linearity, Routine
 from harness.elements.shell import check_normals, directors, shell_routine, shell_variables
 from harness.elements.solid import history_of, solid_routine, solid_variables
 from harness.errors import DeckError, all_of
 from harness.model.element_types import (
     BUILT_IN,
+    POTENTIAL,
     BeamType,
     CohesiveType,
     ContinuumType,
@@ -233,11 +235,14 @@ def _solid_block(model: Model, group: ElementGroup, kind: ContinuumType, library
     _check_nodes(group, kind.nodes)
     if coupled:
         routine = coupled_routine(model, group, section, library)
+    elif kind.electrical:
+        routine = piezoelectric_routine(model, group, section, library)
     else:
         routine = solid_routine(model, group, section, library)
-    # displacements of all nodes, then temperatures of the corners
+    # displacements of all nodes, then temperatures of the corners, or potentials of all
     unknowns = tuple((node, dof) for node in range(kind.nodes) for dof in range(1, kind.dimension + 1))
     unknowns += tuple((node, 11) for node in range(kind.corners) if coupled)
+    unknowns += tuple((node, POTENTIAL) for node in range(kind.nodes) if kind.electrical)
     unknowns += tuple((kind.nodes, PRESSURE + k) for k in range(pressure_unknowns(kind, section.material)))
     block = ElementBlock(
         group,
@@ -249,7 +254,7 @@ def _solid_block(model: Model, group: ElementGroup, kind: ContinuumType, library
         # thermal-stress analysis), as the heat terms of UMAT need
         unsymmetric=has_unsymmetric_tangent(section.material)
         or (coupled and (section.material.user is not None or is_unsymmetric(section.material))),
-        variables=solid_variables(group, routine),
+        variables=piezoelectric_variables(group) if kind.electrical else solid_variables(group, routine),
     )
     if routine.axes is not None:
         block.begin_axes(start_axes(model, group, kind, routine.axes.orientation, library))

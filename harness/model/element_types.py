@@ -15,6 +15,9 @@ from typing import Final
 
 Face = tuple[int, ...]
 
+POTENTIAL: Final = 9
+"""Dof of an electrical potential."""
+
 
 @dataclass(frozen=True, slots=True)
 class Family:
@@ -186,6 +189,7 @@ class ContinuumType(SolidType):
     incompatible  with incompatible modes
     pressures     functions of the pressure of hybrid elements: 1 of a constant one, 1 + dimension of a linear one
     modified      Abaqus has the modified interpolation there, which is not published; here it is the quadratic one
+    electrical    piezoelectric, with an electrical potential at all nodes
     """
 
     tensor: Tensor
@@ -193,6 +197,7 @@ class ContinuumType(SolidType):
     incompatible: bool = False
     pressures: int = 0
     modified: bool = False
+    electrical: bool = False
 
     @property
     def components(self) -> tuple[str, ...]:
@@ -232,6 +237,8 @@ class ContinuumType(SolidType):
     def dofs(self, node: int) -> tuple[int, ...]:
         """Dofs of a local node, from 0."""
         displacements = tuple(range(1, self.dimension + 1))
+        if self.electrical:
+            return (*displacements, POTENTIAL)
         return (*displacements, 11) if self.coupled and node < self.corners else displacements
 
 
@@ -458,6 +465,13 @@ COUPLED: Final = {
 }
 """The same with temperatures at their corners."""
 
+PIEZOELECTRIC: Final = {
+    f"{name}E": replace(kind, name=f"{name}E", electrical=True)
+    for name, kind in _SOLIDS.items()
+    if not (kind.hourglass_control or kind.incompatible)
+}
+"""The same with an electrical potential at all nodes."""
+
 _HEAT: Final = {"2D": ("3", "4", "6", "8"), "AX": ("3", "4", "6", "8"), "3D": ("4", "6", "8", "10", "15", "20")}
 HEAT: Final = {
     f"DC{place}{nodes}": HeatType(f"DC{place}{nodes}", kind.family, kind.thermal_points, axisymmetric=kind.axisymmetric)
@@ -507,7 +521,14 @@ DISCRETE: Final = {
 }
 """Trusses, springs and masses by their names."""
 
-BUILT_IN: Final[dict[str, BuiltInType]] = {**CONTINUUM, **COUPLED, **HEAT, **COHESIVE, **SHELL, **BEAM, **DISCRETE}
+BUILT_IN: Final[dict[str, BuiltInType]] = {
+    **(CONTINUUM | COUPLED | PIEZOELECTRIC),
+    **HEAT,
+    **COHESIVE,
+    **SHELL,
+    **BEAM,
+    **DISCRETE,
+}
 """All built-in elements by their names."""
 
 HOURGLASS_CONTROLLED: Final = tuple(name for name, kind in CONTINUUM.items() if kind.hourglass_control)

@@ -11,7 +11,7 @@ import numpy as np
 
 from harness.errors import Source
 from harness.model.arrays import FloatArray, IntArray
-from harness.model.element_types import BUILT_IN, BeamType, BuiltInType, ShellType
+from harness.model.element_types import BUILT_IN, BeamType, BuiltInType, ContinuumType, ShellType
 from harness.model.properties import Section, UserElement
 
 
@@ -65,6 +65,12 @@ class ElementGroup:
     def built_in(self) -> BuiltInType | None:
         """The type in the table of built-in elements; None for user elements, and for a name that is not in it."""
         return None if self.definition else BUILT_IN.get(self.type)
+
+    @property
+    def electrical(self) -> bool:
+        """Whether its elements are piezoelectric."""
+        kind = self.built_in
+        return isinstance(kind, ContinuumType) and kind.electrical
 
 
 def is_in_space(coordinates: FloatArray, groups: Iterable[ElementGroup]) -> bool:

@@ -32,7 +32,10 @@ for _dof in range(11, LARGEST_DOF + 1):
     _NAMES["reaction"][_dof] = f"RFL{_dof}"
     _NAMES["load"][_dof] = f"CFL{_dof}"
 
-COMPONENTS = {name: (quantity, dof) for quantity, names in _NAMES.items() for dof, name in names.items()}
+_CHARGES = {"RCHG": ("reaction", 9), "CECHG": ("load", 9)}
+"""Charges of piezoelectric elements, minus what the array has."""
+
+COMPONENTS = {name: (quantity, dof) for quantity, names in _NAMES.items() for dof, name in names.items()} | _CHARGES
 """Array of `Solution` and dof of each component."""
 _GROUPS = {
     "U": ("displacement", range(1, 8)),
@@ -60,19 +63,21 @@ class Component:
     """One nodal component: its name, the array of `Solution` it is in, and its degree of freedom.
 
     phase  whether it is the phase angle
+    sign   of what the array has: charges are minus the forces of potentials
     """
 
     name: str
     quantity: str
     dof: int
     phase: bool = False
+    sign: int = 1
 
     def values(self, solution: Solution, positions: IntArray | slice = slice(None)) -> FloatArray:
         """Values at some unknowns; of a harmonic response amplitudes, or phase angles in degrees from -180 to 180."""
-        values: FloatArray = getattr(solution, self.quantity)[positions]
+        values: FloatArray = self.sign * getattr(solution, self.quantity)[positions]
         if solution.imaginary is None:
             return values
-        harmonic = values + 1j * getattr(solution.imaginary, self.quantity)[positions]
+        harmonic = values + 1j * self.sign * getattr(solution.imaginary, self.quantity)[positions]
         part: FloatArray = np.angle(harmonic, deg=True) if self.phase else np.abs(harmonic)
         return part
 
@@ -100,11 +105,12 @@ class NodalIndex:
         found: dict[str, Component] = {}
         for variable in variables:
             phase = harmonic and not _known(variable) and variable.startswith(PHASE)
-            quantity, dofs = _meant(variable.removeprefix(PHASE) if phase else variable)
+            bare = variable.removeprefix(PHASE) if phase else variable
+            quantity, dofs = _meant(bare)
             for dof in dofs:
                 if dof in present:
-                    name = PHASE * phase + _NAMES[quantity][dof]
-                    found.setdefault(name, Component(name, quantity, dof, phase))
+                    name = PHASE * phase + (bare if bare in _CHARGES else _NAMES[quantity][dof])
+                    found.setdefault(name, Component(name, quantity, dof, phase, -1 if bare in _CHARGES else 1))
         return list(found.values())
 
 

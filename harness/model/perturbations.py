@@ -1,6 +1,8 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""Linear perturbation procedures: *STATIC with PERTURBATION, *FREQUENCY, *BUCKLE and *STEADY STATE DYNAMICS."""
+"""Linear perturbation procedures: *STATIC with PERTURBATION, *FREQUENCY, *BUCKLE, *STEADY STATE DYNAMICS and *MODAL
+DYNAMIC.
+"""
 
 from __future__ import annotations
 
@@ -9,11 +11,18 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import ClassVar
 
+import numpy as np
+
+from harness.model.arrays import FloatArray
+from harness.model.modal import DampingKind, FrequencyRange, Motion
 from harness.model.procedures import HeadLine, Procedure
 from harness.model.records import MODAL
 
 PERTURBATION_TIME = 1e-36
 """Period of a perturbation step, in which no time passes."""
+
+ROUNDING = 1e-6
+"""Of an increment."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -63,6 +72,7 @@ class Frequency(LinearPerturbation):
 
     keyword: ClassVar = "FREQUENCY"
     title: ClassVar = "CALCULATION OF EIGENVALUES FOR NATURAL FREQUENCIES"
+    finds_modes: ClassVar = True
     loaded: ClassVar = False
     energies: ClassVar = MODAL
 
@@ -133,8 +143,9 @@ class Buckle(LinearPerturbation):
 class SteadyState(LinearPerturbation):
     """*STEADY STATE DYNAMICS, DIRECT: the response to harmonic loads.
 
-    frequencies  cycles per time, in the order in which they are solved
-    undamped     REAL ONLY: damping is left out
+    ranges    of frequencies, in the order in which they are solved
+    natural   INTERVAL=EIGENFREQUENCY: natural frequencies of *FREQUENCY divide the ranges
+    undamped  REAL ONLY: damping is left out
     """
 
     keyword: ClassVar = "STEADY STATE DYNAMICS"
@@ -142,8 +153,19 @@ class SteadyState(LinearPerturbation):
     harmonic: ClassVar = True
     energies: ClassVar = ()
 
-    frequencies: tuple[float, ...] = ()
+    ranges: tuple[FrequencyRange, ...] = ()
+    natural: bool = False
     undamped: bool = False
+
+    @property
+    def needs_modes(self) -> bool:
+        """Also where natural frequencies divide the ranges."""
+        return self.modal or self.natural
+
+    def frequencies(self, natural: FloatArray) -> tuple[float, ...]:
+        """Cycles per time; natural (k,): the natural frequencies."""
+        divides = natural if self.natural else np.zeros(0)
+        return tuple(frequency for given in self.ranges for frequency in given.points(divides))
 
     @property
     def lflag(self) -> int:
@@ -152,13 +174,79 @@ class SteadyState(LinearPerturbation):
 
     @property
     def extent(self) -> tuple[str, float]:
-        """Frequencies."""
-        return "frequency", len(self.frequencies)
+        """Frequencies: of those that natural ones add, nothing is known before they are."""
+        return "frequency", len(self.frequencies(np.zeros(0)))
 
     def head(self) -> Iterator[HeadLine]:
         """Which frequencies."""
-        yield "NUMBER OF FREQUENCIES", f"{len(self.frequencies):>10}"
-        yield "LOWEST FREQUENCY (CYCLES/TIME)", min(self.frequencies)
-        yield "HIGHEST FREQUENCY (CYCLES/TIME)", max(self.frequencies)
+        given = self.frequencies(np.zeros(0))
+        if self.natural:
+            yield "THE FREQUENCY RANGES ARE DIVIDED BY THE EIGENFREQUENCIES"
+        else:
+            yield "NUMBER OF FREQUENCIES", f"{len(given):>10}"
+        yield "LOWEST FREQUENCY (CYCLES/TIME)", min(given)
+        yield "HIGHEST FREQUENCY (CYCLES/TIME)", max(given)
         if self.undamped:
             yield "DAMPING IS LEFT OUT"
+
+
+@dataclass(frozen=True, slots=True)
+class SubspaceSteadyState(SteadyState):
+    """*STEADY STATE DYNAMICS, SUBSPACE PROJECTION: the matrices of the model act on modes of *FREQUENCY alone."""
+
+    title: ClassVar = "SUBSPACE PROJECTION STEADY STATE DYNAMIC ANALYSIS"
+    modal: ClassVar = True
+    base_motions: ClassVar = tuple(Motion)
+
+
+@dataclass(frozen=True, slots=True)
+class ModalSteadyState(SteadyState):
+    """*STEADY STATE DYNAMICS by modes of *FREQUENCY, each with a damping of its own."""
+
+    title: ClassVar = "MODAL STEADY STATE DYNAMIC ANALYSIS"
+    modal: ClassVar = True
+    damping: ClassVar = tuple(DampingKind)
+    base_motions: ClassVar = tuple(Motion)
+
+    @property
+    def lflag(self) -> int:
+        """92, which no element gets: only the modes respond."""
+        return 92
+
+
+@dataclass(frozen=True, slots=True)
+class ModalDynamic(LinearPerturbation):
+    """*MODAL DYNAMIC: the response over time, by modes of *FREQUENCY."""
+
+    keyword: ClassVar = "MODAL DYNAMIC"
+    title: ClassVar = "MODAL DYNAMIC ANALYSIS"
+    modal: ClassVar = True
+    damping: ClassVar = (DampingKind.CRITICAL, DampingKind.RAYLEIGH)
+    base_motions: ClassVar = (Motion.ACCELERATION,)
+    energies: ClassVar = ()
+
+    @property
+    def lflag(self) -> int:
+        """91, which no element gets: only the modes respond."""
+        return 91
+
+    @property
+    def default_amplitude(self) -> str:
+        """Loads are there at once."""
+        return "STEP"
+
+    @property
+    def extent(self) -> tuple[str, float]:
+        """Increments."""
+        return "increment", len(self.times)
+
+    @property
+    def times(self) -> list[float]:
+        """Ends of the increments; the last one is shorter where the increment does not divide the period."""
+        count = max(1, math.ceil(self.period / self.initial - ROUNDING))
+        return [self.initial * k for k in range(1, count)] + [self.period]
+
+    def head(self) -> Iterator[HeadLine]:
+        """Its increments."""
+        yield "FIXED TIME INCREMENTS"
+        yield from (("TIME INCREMENT IS", self.initial), ("TIME PERIOD IS", self.period))

@@ -16,6 +16,8 @@ from dataclasses import dataclass, field
 from enum import StrEnum
 from typing import ClassVar
 
+from harness.model.modal import DampingKind, Motion, Superposition
+
 HeadLine = str | tuple[str, float | str]
 """A line of the head of a step in .msg and .dat: words, or words and a value."""
 
@@ -60,6 +62,9 @@ class Procedure(ABC):
     displacements, temperatures  which of the two have equations of their own
     linear        a linear perturbation of the state at the end of the last general step, without passage of time
     harmonic      loads and results are complex amplitudes, over frequency
+    modal         modes of an earlier *FREQUENCY respond, and nothing is prescribed but the motion of their supports
+    finds_modes   later steps may take its modes
+    damping, base_motions  kinds of *MODAL DAMPING and *BASE MOTION that it takes
     loaded        loads and prescribed values of the step act
     buckles       the initial stress matrix of the elements and the load stiffness are asked for
     unsymmetric   matrices are stored and solved as unsymmetric ones, UNSYMM or not
@@ -74,6 +79,10 @@ class Procedure(ABC):
     temperatures: ClassVar[bool] = False
     linear: ClassVar[bool] = False
     harmonic: ClassVar[bool] = False
+    modal: ClassVar[bool] = False
+    finds_modes: ClassVar[bool] = False
+    damping: ClassVar[tuple[DampingKind, ...]] = ()
+    base_motions: ClassVar[tuple[Motion, ...]] = ()
     loaded: ClassVar[bool] = True
     buckles: ClassVar[bool] = False
     unsymmetric: ClassVar[bool] = False
@@ -87,11 +96,17 @@ class Procedure(ABC):
     direct: bool = False
     riks: Riks | None = None
     stabilize: Stabilize | None = field(default=None, kw_only=True)
+    superposition: Superposition = field(default_factory=Superposition, kw_only=True)
 
     @property
     @abstractmethod
     def lflag(self) -> int:
         """LFLAGS(1), which tells user elements the procedure."""
+
+    @property
+    def needs_modes(self) -> bool:
+        """Whether a step *FREQUENCY must precede it."""
+        return self.modal
 
     @property
     def params(self) -> tuple[float, float, float]:

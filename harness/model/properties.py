@@ -226,6 +226,19 @@ class Damage:
 
 
 @dataclass(frozen=True, slots=True)
+class Piezoelectric:
+    """*PIEZOELECTRIC.
+
+    by_strain  TYPE=E: strains by the electrical field; else minus the stresses
+    values     (3, 6) for each direction of the field 11, 22, 33, 12, 13, 23; strains are engineering strains
+    """
+
+    by_strain: bool
+    values: FloatArray
+    source: Source
+
+
+@dataclass(frozen=True, slots=True)
 class Material:
     """*MATERIAL; state_variables is *DEPVAR, output_variables *USER OUTPUT VARIABLES.
 
@@ -234,6 +247,8 @@ class Material:
     heat_generation  place of *HEAT GENERATION, None without it
     user, user_thermal  *USER MATERIAL, TYPE=MECHANICAL and TYPE=THERMAL
     user_field   place of *USER DEFINED FIELD, None without it
+    piezoelectric  None without it
+    dielectric   (3, 3) *DIELECTRIC at constant strain, None without it
     """
 
     name: str
@@ -253,6 +268,8 @@ class Material:
     user: UserMaterial | None = None
     user_thermal: UserMaterial | None = None
     user_field: Source | None = None
+    piezoelectric: Piezoelectric | None = None
+    dielectric: FloatArray | None = None
     state_variables: int = 0
     output_variables: int = 0
 

@@ -308,6 +308,12 @@ def is_severe(state: Iterate) -> bool:
     return any(changes.count for changes in state.evaluation.contact)
 
 
+def was_linear(checks: Sequence[FieldCheck]) -> bool:
+    """Whether the response was linear in an increment that these checks accept, in all fields that have fluxes."""
+    verdicts = {check.verdict for check in checks}
+    return Convergence.LINEAR in verdicts and verdicts <= {Convergence.LINEAR, Convergence.ZERO_FLUX}
+
+
 def length_of_moments(system: System, mesh: Mesh) -> float:
     """Characteristic length of elements with rotations: the mean distance of consecutive nodes; 0 without any.
 

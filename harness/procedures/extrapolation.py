@@ -11,11 +11,12 @@ from harness.model.restart import Saved
 class Extrapolation:
     """EXTRAPOLATION= of *STEP: LINEAR (the default), PARABOLIC, NO.
 
-    Nothing is extrapolated into the first increment of a step. PARABOLIC is linear after one increment.
+    Nothing is extrapolated into the first increment of a step, and into one that is shorter than `shortest` times the
+    last one that converged (D_E of *CONTROLS). PARABOLIC is linear after one increment.
     """
 
-    def __init__(self, mode: str) -> None:
-        self._mode = mode
+    def __init__(self, mode: str, shortest: float) -> None:
+        self._mode, self._shortest = mode, shortest
         self._last: tuple[FloatArray, float] | None = None
         self._before: tuple[FloatArray, float] | None = None
 
@@ -24,6 +25,8 @@ class Extrapolation:
         if self._last is None or self._mode == "NO":
             return None
         last, h1 = self._last
+        if size < self._shortest * h1:
+            return None
         if self._mode != "PARABOLIC" or self._before is None:
             return last * (size / h1)
         before, h2 = self._before

@@ -17,9 +17,13 @@ from harness.errors import DeckError
 from harness.model.arrays import FloatArray
 from harness.model.perturbations import Frequency
 from harness.model.records import ModesFound, ModeShape, Record
+from harness.procedures.modes import Modes
 from harness.procedures.perturbation import PerturbationStep
 from harness.procedures.step_setting import Setting
 from harness.solver.eigen import Pair, UnstableError, lowest_eigenvalues
+
+TRANSLATIONS = (1, 2, 3)
+"""Dofs."""
 
 FIRST = 10
 """Number of eigenvalues that are computed first if the deck does not give it."""
@@ -31,6 +35,7 @@ class FrequencyStep(PerturbationStep):
     def __init__(self, setting: Setting, procedure: Frequency) -> None:
         super().__init__(setting)
         self._procedure = procedure
+        self._given: dict[Request, FloatArray] = {}
 
     def _solve(self) -> list[Record]:
         """The modes, lowest first."""
@@ -40,6 +45,7 @@ class FrequencyStep(PerturbationStep):
         inside = (frequency >= procedure.lowest) & (frequency <= procedure.highest)
         values, frequency, vectors = values[inside], frequency[inside], vectors[:, inside]
         shapes, masses = self._scaled(vectors)
+        self._state.modes = self._kept(values, masses, shapes)
         records: list[Record] = [ModesFound(step.number, self._state.total_time, values, frequency, masses)]
         for mode, shape in enumerate(shapes):
             at, size = float(frequency[mode]), procedure.period
@@ -67,10 +73,23 @@ class FrequencyStep(PerturbationStep):
             count = min(2 * count, size)
 
     def _matrix(self, request: Request) -> FloatArray:
-        """CSR values of the symmetric part of a matrix of the free unknowns."""
+        """CSR values of the symmetric part of a matrix of the free unknowns; that of all unknowns is kept."""
         evaluation = self._pass(request)
         assert evaluation.data is not None
+        self._given[request] = evaluation.data.copy()
         return self._symmetric(evaluation.data)
+
+    def _kept(self, values: FloatArray, masses: FloatArray, shapes: FloatArray) -> Modes:
+        """The modes for later steps."""
+        along = np.array([self._system.dofs.dof == dof for dof in TRANSLATIONS], dtype=float)
+        products = []
+        for request, vectors in ((Request.STIFFNESS, shapes), (Request.MASS, np.vstack([shapes, along]))):
+            found = [self._system.product(self._given[request], vector) for vector in vectors]
+            products.append(np.array(found).reshape(vectors.shape))
+        stiffness, inertia = products
+        count = len(values)
+        given = values, masses, shapes, stiffness, inertia[:count], inertia[count:]
+        return Modes(self._step.number, self._constraints, *given)
 
     def _scaled(self, vectors: FloatArray) -> tuple[FloatArray, FloatArray]:
         """Shapes (k, n) with the requested normalization, and their generalized masses."""

@@ -26,7 +26,7 @@ from harness.model.records import (
 )
 from harness.model.restart import Saved
 from harness.procedures.context import StepContext
-from harness.procedures.convergence_checks import is_severe
+from harness.procedures.convergence_checks import is_severe, was_linear
 from harness.procedures.incrementation import (
     DISTORTED,
     TOO_MANY_INCREMENTS,
@@ -307,6 +307,7 @@ class GeneralStep:
             searched=self._helped,
             accuracy=accuracy,
             disturbed=spent.severe > self._most_severe,
+            linear=was_linear(checks),
         )
         self._state.total_time = reached.total_time
         times = reached.step_time, reached.total_time

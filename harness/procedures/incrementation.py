@@ -199,6 +199,7 @@ class IncrementControl:
         searched: bool = False,
         accuracy: Accuracy | None = None,
         disturbed: bool = False,
+        linear: bool = False,
     ) -> None:
         """Choose the size of the next increment.
 
@@ -215,6 +216,8 @@ class IncrementControl:
             Of the integration over time: if measured, it decides the growth.
         disturbed
             There were more than I_J severe discontinuity iterations, I_J^c with CONVERT SDI=YES.
+        linear
+            The response was linear: the matrix is kept unless the increment grows by D_L times the most it may.
         """
         # a cutback does not restart the count: Abaqus grows right after one if the attempts that converged were easy
         self._easy = self._easy + 1 if iterations <= self._controls.i_g and not disturbed else 0
@@ -226,7 +229,8 @@ class IncrementControl:
         elif 1.0 < pnewdt < UNTOUCHED:
             self._size *= pnewdt
         elif accuracy is not None:
-            self._size *= self._growth_by_accuracy(accuracy.measure)
+            growth = self._growth_by_accuracy(accuracy.measure)
+            self._size *= growth if not linear or growth >= self._controls.d_l * self._most else 1.0
         elif self._easy >= 2:
             self._size *= min(self._controls.d_d, self._most)
         self._size = min(max(self._size, self._procedure.minimum), self._procedure.maximum)

@@ -9,9 +9,10 @@ from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
 
 from harness.model.arrays import FloatArray
-from harness.model.records import Convergence, FieldCheck, Record
+from harness.model.records import FieldCheck, Record
 from harness.model.restart import Saved
 from harness.procedures.context import StepContext
+from harness.procedures.convergence_checks import was_linear
 from harness.procedures.extrapolation import Extrapolation
 from harness.procedures.incrementation import IncrementControl
 from harness.procedures.step_parts import Part
@@ -128,7 +129,7 @@ class TimePath(Path):
         given = context.system, context.constraints, context.solver, step.controls.line_search
         self._newton = Newton(*given)
         self._descent = Descent(*given, context.state.majoriser) if fallback else None
-        self._extrapolation = Extrapolation(step.extrapolation)
+        self._extrapolation = Extrapolation(step.extrapolation, step.controls.time.d_e)
         # size of the last increment, where its response was linear
         self._linear: float | None = None
 
@@ -200,15 +201,9 @@ class TimePath(Path):
 
     def reach(self, last: Iterate, size: float, checks: Sequence[FieldCheck]) -> Reached:
         """The end of the increment."""
-        self._linear = size if _is_linear(checks) else None
+        self._linear = size if was_linear(checks) else None
         context, end = self._context, self.end(size)
         total = context.start + end
         self._extrapolation.converged(last.increment, size)
         context.step_time = end
         return Reached(context.load.at(end, total), context.released.at(end, total), end, total, size)
-
-
-def _is_linear(checks: Sequence[FieldCheck]) -> bool:
-    """Whether the response was linear in an increment that these checks accept, in all fields that have fluxes."""
-    verdicts = {check.verdict for check in checks}
-    return Convergence.LINEAR in verdicts and verdicts <= {Convergence.LINEAR, Convergence.ZERO_FLUX}

@@ -10,6 +10,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator
 from dataclasses import replace
+from functools import cached_property
 
 import numpy as np
 
@@ -46,11 +47,9 @@ class PerturbationStep:
 
     def __init__(self, setting: Setting) -> None:
         self._system, self._step, self._state, self._user = setting.system, setting.step, setting.state, setting.user
-        boundaries = setting.state.boundaries
-        unknowns = boundaries.in_perturbation(setting.step)
-        self._constraints = Constraints(setting.system, unknowns, setting.model.equations, boundaries.sources)
+        self._constraints = self._constrain(setting)
         self._times = SolverTimes(self._state.effort)
-        self._solver = self._choose_solver(setting.solver)
+        self._solver_name = setting.solver
         self._increment = 1
 
     @property
@@ -65,8 +64,19 @@ class PerturbationStep:
         yield self._times.note()
         yield StepDone(self._step.number, self._increment, 0, self._increment)
 
-    def _choose_solver(self, name: str) -> LinearSolver:
+    def _constrain(self, setting: Setting) -> Constraints:
+        """Constraints of the step."""
+        boundaries = setting.state.boundaries
+        unknowns = boundaries.in_perturbation(setting.step)
+        return Constraints(setting.system, unknowns, setting.model.equations, boundaries.sources)
+
+    @cached_property
+    def _solver(self) -> LinearSolver:
         """Linear solver of the step."""
+        return self._choose_solver(self._solver_name)
+
+    def _choose_solver(self, name: str) -> LinearSolver:
+        """The linear solver of this name."""
         return choose_solver(name, self._constraints, self._state.effort)
 
     def _increments(self) -> Iterator[Record]:
@@ -92,7 +102,7 @@ class PerturbationStep:
         change = self._response(evaluation.data, constraints.reduce(evaluation.data), external)
         internal = stiffness @ change
         self._pass(Request.PERTURBATION, change)
-        work = 0.5 * float(change @ internal)
+        work = 0.5 * float(change @ (self._state.signs * internal))
         solution = self._solution(change, {"ALLSE": work, "ALLWK": work})
         reaction = constraints.reactions(external - internal)
         turned = self._system.dofs.in_global

@@ -9,7 +9,15 @@ from __future__ import annotations
 
 from functools import singledispatch
 
-from harness.model.perturbations import Buckle, Frequency, StaticPerturbation, SteadyState
+from harness.model.perturbations import (
+    Buckle,
+    Frequency,
+    ModalDynamic,
+    ModalSteadyState,
+    StaticPerturbation,
+    SteadyState,
+    SubspaceSteadyState,
+)
 from harness.model.procedures import Dynamic, Geostatic, HeatTransfer, Procedure, Static, Visco
 from harness.procedures.buckle import BuckleStep
 from harness.procedures.context import StepContext
@@ -18,10 +26,11 @@ from harness.procedures.frequency import FrequencyStep
 from harness.procedures.general import GeneralStep
 from harness.procedures.heat_transfer import TemperatureChange
 from harness.procedures.load_factor import EnergyPath, RiksPath
+from harness.procedures.modal import ModalDynamicStep
 from harness.procedures.path import TimePath
 from harness.procedures.perturbation import PerturbationStep
 from harness.procedures.stabilized import ViscousForces
-from harness.procedures.steady_state import SteadyStateStep
+from harness.procedures.steady_state import ModalSteadyStateStep, SteadyStateStep, SubspaceSteadyStateStep
 from harness.procedures.step_parts import Part
 from harness.procedures.step_setting import Setting, StepRun
 from harness.procedures.visco import ViscousStrain
@@ -96,6 +105,21 @@ def _(procedure: Buckle, setting: Setting) -> StepRun:
 @run_of.register
 def _(procedure: SteadyState, setting: Setting) -> StepRun:
     return SteadyStateStep(setting, procedure)
+
+
+@run_of.register
+def _(procedure: SubspaceSteadyState, setting: Setting) -> StepRun:
+    return SubspaceSteadyStateStep(setting, procedure)
+
+
+@run_of.register
+def _(procedure: ModalSteadyState, setting: Setting) -> StepRun:
+    return ModalSteadyStateStep(setting, procedure)
+
+
+@run_of.register
+def _(procedure: ModalDynamic, setting: Setting) -> StepRun:
+    return ModalDynamicStep(setting, procedure)
 
 
 def _in_time(context: StepContext, *parts: Part, fallback: bool = False) -> GeneralStep:

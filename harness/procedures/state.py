@@ -12,6 +12,7 @@ import numpy as np
 from harness.assembly import Constraints, System
 from harness.elements import FIELD_NAMES, Predefined
 from harness.model.arrays import FloatArray
+from harness.model.element_types import POTENTIAL
 from harness.model.model import Model
 from harness.model.records import Solution
 from harness.model.restart import Saved
@@ -21,6 +22,7 @@ from harness.procedures.conditions import Conditions
 from harness.procedures.convergence import FluxHistory
 from harness.procedures.element_loads import AllLoads
 from harness.procedures.loads import Boundaries, initial_values
+from harness.procedures.modes import Modes
 from harness.procedures.user_amplitudes import UserAmplitudes
 from harness.solver.descent import Majoriser
 from harness.solver.linear import Effort
@@ -56,6 +58,8 @@ class ConvergedState:
     effort     what all linear solvers have done
     majoriser  matrix of the start of the analysis, for the fall-back
     begun      general steps so far
+    modes      of the last *FREQUENCY
+    signs      (n,) of the work of forces: -1 of potentials in piezoelectric elements, whose forces are minus charges
     """
 
     displacement: FloatArray
@@ -81,6 +85,8 @@ class ConvergedState:
     stabilization: float = 0.0
     flux: list[FluxHistory] = field(default_factory=lambda: [FluxHistory() for _ in FIELD_NAMES])
     begun: list[BegunStep] = field(default_factory=list)
+    modes: Modes | None = None
+    signs: FloatArray = field(kw_only=True)
 
     @classmethod
     def start(cls, system: System, model: Model) -> Self:
@@ -92,7 +98,12 @@ class ConvergedState:
         loads = AllLoads(system, model)
         conditions = Conditions(model)
         given = boundaries, loads, conditions, UserAmplitudes(model)
-        return cls(temperature, zero, zero, zero, *given, velocity, zero, zero, predefined=conditions.initial())
+        charged = [group.nodes for group in model.groups if group.electrical]
+        signs = np.ones(len(system))
+        for nodes in charged:
+            signs[system.dofs.find(nodes.ravel(), POTENTIAL)] = -1.0
+        fields = conditions.initial()
+        return cls(temperature, zero, zero, zero, *given, velocity, zero, zero, predefined=fields, signs=signs)
 
     def come_to_rest(self) -> None:
         """Set velocities and accelerations to zero: the step that begins has none."""
@@ -142,7 +153,8 @@ class ConvergedState:
         external = load + released + reaction
         energy = converged.evaluation.energy
         # ENERGY(8) is the work of loads that user elements apply themselves, in this increment only
-        self.work += 0.5 * float((self.external + external) @ converged.increment) + float(energy[7])
+        moved = self.signs * converged.increment
+        self.work += 0.5 * float((self.external + external) @ moved) + float(energy[7])
         self.displacement = self.displacement + converged.increment
         self.reaction, self.load, self.external, self.energy = reaction, load, external, energy
         self.damage = converged.evaluation.damage

@@ -549,14 +549,19 @@ def slopes_at_nodes(family: int, nodes: int) -> FloatArray:
     return slopes.transpose(0, 2, 1)
 
 
-_ELEMENTS: Final = ("solid", "coupled", "cohesive", "discrete", "heat", "heat load", "shell", "beam")
+_ELEMENTS: Final = ("solid", "coupled", "cohesive", "discrete", "heat", "heat load", "shell", "beam", "piezoelectric")
 """In the order of host_element_address."""
 
 
 def address_of(
-    elements: Literal["solid", "coupled", "cohesive", "discrete", "heat", "heat load", "shell", "beam"],
+    elements: Literal[
+        "solid", "coupled", "cohesive", "discrete", "heat", "heat load", "shell", "beam", "piezoelectric"
+    ],
 ) -> int:
-    """Address of built-in elements: solid, coupled, heat and shell ones are called like UELMAT, the others like UEL."""
+    """Address of built-in elements.
+
+    Solid, coupled, heat, shell and piezoelectric ones are called like UELMAT, the others like UEL.
+    """
     return int(_host.host_element_address(1 + _ELEMENTS.index(elements)))
 
 

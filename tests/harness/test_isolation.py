@@ -57,7 +57,12 @@ PLACE = STOPPED.format(": {}")
         ),
         (4, PLACE.format(ENDLESS)),
         (5, r"uel: the run was ended by SIGABRT: abort, usually .*, " + WHERE + ": abort: memory is damaged"),
-        (6, r"uel: the run was ended by the Fortran library, .*, " + WHERE + ": the process ends"),
+        (
+            6,
+            r"uel: the run was ended by the Fortran library, .*; it looks up files from .*, "
+            + WHERE
+            + ": the process ends",
+        ),
         pytest.param(7, PLACE.format("STOP 'enough'"), marks=pytest.mark.long),
         # inside a WRITE, whose unit stays locked
         pytest.param(8, PLACE.format(r"in UEL, crashes.f line \d+.*: segmentation fault: .*"), marks=pytest.mark.long),

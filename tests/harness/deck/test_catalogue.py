@@ -318,7 +318,12 @@ def test_equally_spaced(read: Read) -> None:
         (
             ", DEFINITION=PERIODIC",
             "2, 1.\n1., 2.",
-            r"deck.inp:38: \*AMPLITUDE: expected the coefficients of 2 terms, found those of 1",
+            r"deck.inp:38: \*AMPLITUDE: expected the coefficients of 2 terms, as this line says, found 1 A, B",
+        ),
+        (
+            ", DEFINITION=PERIODIC",
+            "1, 1.\n1., 2., 3., 4.",
+            "expected the coefficients of 1 terms, as this line says",
         ),
         (", DEFINITION=PERIODIC", "** nothing", r"deck.inp:37: \*AMPLITUDE: needs a data line"),
         (", SMOOTH=0.1", "0., 0., 1., 1.", r"deck.inp:37: \*AMPLITUDE: option SMOOTH is not supported"),

@@ -18,6 +18,8 @@ CAE = Path(__file__).with_name("cae.inp").read_text()
 # what to replace in flat.inp, by what, and the line and text of the message
 MISTAKES = {
     "unknown keyword": ("*MATERIAL", "*MATERYAL", r"29: unknown keyword \*MATERYAL; did you mean MATERIAL\?"),
+    "no keyword": ("*MATERIAL", "*\n*MATERIAL", r"29: a keyword line without a keyword; a comment begins with \*\*$"),
+    "no keyword before options": ("*MATERIAL", "* ,\n*MATERIAL", "29: a keyword line without a keyword"),
     "unknown option": (
         "TYPE=U1, NODES",
         "TYPEX=U1, NODES",

@@ -47,7 +47,7 @@ def test_folder(tmp_path: Path) -> None:
 
 
 def test_text_before_the_first_keyword(read: Read) -> None:
-    with pytest.raises(DeckError, match=r"^deck.inp:2: data before the first keyword$"):
+    with pytest.raises(DeckError, match=r"^deck.inp:2: data before the first keyword; a comment begins with \*\*$"):
         read("** comment\n1, 2, 3\n4, 5, 6\n" + FLAT)
 
 

@@ -141,6 +141,7 @@ def test_named_boundaries(read: Read) -> None:
 
 FIELD = "*CONTROLS, PARAMETERS=FIELD"
 TIME = "*CONTROLS, PARAMETERS=TIME INCREMENTATION"
+CONSTRAINTS = "*CONTROLS, PARAMETERS=CONSTRAINTS"
 
 
 @pytest.mark.parametrize(
@@ -161,7 +162,7 @@ TIME = "*CONTROLS, PARAMETERS=TIME INCREMENTATION"
         (f"{TIME}\n\n.1, , .6\n", Controls(time=TimeControls(d_f=0.1, d_b=0.6))),
         (
             f"{TIME}\n5, 6, 7, 8, 9, 3, 11, 12, 13, 2, 40, 45, 50\n"
-            ".2, .4, .6, .8, .3, .31, 1.4, .7\n.9, 1.6, 1.7, 1.8, .96, .2\n",
+            ".2, .4, .6, .8, .3, .31, 1.4, .7\n.9, 1.6, 1.7, 1.8, .96, .2, 1., .9\n1.5\n",
             Controls(
                 time=TimeControls(
                     *(5, 6, 7, 8, 9, 3, 11, 12, 13, 2, 40, 45),
@@ -177,7 +178,12 @@ TIME = "*CONTROLS, PARAMETERS=TIME INCREMENTATION"
             "*CONTROLS, PARAMETERS=LINE\n4, 2., .01, .3, .2\n",
             Controls(line_search=LineSearchControls(4, 2.0, 0.01, 0.3, 0.2)),
         ),
-        ("*CONTROLS, PARAMETERS=CONSTRAINTS\n1e-3\n", Controls(volume=1e-3)),
+        (f"{CONSTRAINTS}\n1e-3\n", Controls(volume=1e-3)),
+        (
+            f"{CONSTRAINTS}\n, 1e-6, 1e-6, 1e-2, .2, 1e-6, 1e-6, .5\n",
+            Controls(contact=1e-2, contact_force=0.5),
+        ),
+        (f"{FIELD}\n\n, , 1e-8\n", Controls()),
         (f"{TIME}\n8, 10\n*CONTROLS, RESET\n", Controls()),
     ],
 )
@@ -198,7 +204,10 @@ def test_controls_stay_in_later_steps(read: Read) -> None:
         (f"{TIME}\n4.5", r"deck.inp:44: \*CONTROLS: I_0: '4.5' is not an integer"),
         (f"{FIELD}\n{'1,' * 9}", r"deck.inp:44: \*CONTROLS: 9 entries, expected at most 8"),
         (f"{FIELD}\n1\n2\n3", r"deck.inp:46: \*CONTROLS: data line 3 is not supported"),
-        (f"{FIELD}\n1\n1., 1e-5, 1e-8", r"deck.inp:45: \*CONTROLS: 3 entries, expected at most 2"),
+        (f"{FIELD}\n1\n1., 1e-5, 1e-8, 1", r"deck.inp:45: \*CONTROLS: 4 entries, expected at most 3"),
+        (f"{FIELD}\n1\n1., 1e-5, 1e-7", r"deck.inp:45: \*CONTROLS: EPS_D = 1e-07: only the default 1e-08 is supported"),
+        (f"{CONSTRAINTS}\n{'1,' * 9}", r"deck.inp:44: \*CONTROLS: 9 entries, expected at most 8"),
+        (f"{TIME}\n1\n1\n1\n1.5\n1", r"deck.inp:48: \*CONTROLS: data line 5 is not supported"),
         ("*CONTROLS, RESET\n1", r"deck.inp:43: \*CONTROLS: RESET takes no data lines"),
         ("*CONTROLS\n1", r"deck.inp:43: \*CONTROLS: data lines need PARAMETERS="),
         ("*CONTROLS", r"deck.inp:43: \*CONTROLS: needs ANALYSIS, PARAMETERS or RESET"),

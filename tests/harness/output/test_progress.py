@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 from rich.console import Console
 
+from harness.model.modal import FrequencyRange
 from harness.model.model import Model
 from harness.model.perturbations import Frequency, StaticPerturbation, SteadyState
 from harness.model.procedures import Procedure
@@ -41,7 +42,7 @@ def test_a_terminal_shows_the_state_of_the_step(model: Model, records: Records) 
 @pytest.mark.parametrize(
     ("procedure", "ends", "expected"),
     [
-        (SteadyState(frequencies=(5.0, 9.0, 2.0)), (5.0, 9.0), "frequency 2/3"),
+        (SteadyState(ranges=tuple(map(FrequencyRange, (5.0, 9.0, 2.0)))), (5.0, 9.0), "frequency 2/3"),
         (Frequency(number=4), (0.3,), "mode 1/4"),
         (StaticPerturbation(), (1e-36,), "increment 1/1"),
     ],

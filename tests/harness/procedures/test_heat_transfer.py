@@ -10,6 +10,7 @@ import pytest
 from harness.job import run
 from harness.model.procedures import CoupledTemperatureDisplacement, HeatTransfer, Visco
 from harness.model.records import Convergence
+from harness.model.steps import Controls, TimeControls
 from harness.procedures.heat_transfer import CHANGES_TOO_FAST
 
 G, C = 2.0, 0.5
@@ -64,12 +65,22 @@ def test_flux_into_a_rod(bench, conduct):
     assert result.last.load[1] == pytest.approx(8.0)
 
 
-def test_largest_change_of_temperature_sets_the_increment(bench, conduct):
-    """Above DELTMX the increment is repeated with D_A DELTMX/dT of it; growth is D_G DELTMX/dT, at most D_M = 2."""
+@pytest.mark.parametrize(("d_l", "at_least"), [(0.0, 6), (0.95, 3)])
+def test_largest_change_of_temperature_sets_the_increment(bench, conduct, d_l, at_least):
+    """Above DELTMX the increment is repeated with D_A DELTMX/dT of it; growth is D_G DELTMX/dT, at most D_M = 2.
+
+    In a linear problem, as here, it is not used below D_L D_M.
+    """
     h, deltmx = 0.1, 10.0
     static = HeatTransfer(h, 2.0, 1e-6, 2.0, largest_change=deltmx)
     result = conduct(
-        bench.step(static=static, boundaries=(bench.fix(0, dof=11),), amplitude="STEP", increments=1000),
+        bench.step(
+            static=static,
+            boundaries=(bench.fix(0, dof=11),),
+            amplitude="STEP",
+            increments=1000,
+            controls=Controls(time=TimeControls(d_l=d_l)),
+        ),
         temperatures=(bench.initial(1, 100.0, dof=11),),
     )
     change = 100.0 * (1 - 1 / (1 + G * h / C))
@@ -81,7 +92,8 @@ def test_largest_change_of_temperature_sets_the_increment(bench, conduct):
     sizes = np.array([increment.time_increment for increment in result.increments])
     assert max(changes) <= deltmx
     grown = np.flatnonzero(np.diff(sizes[:-1]) > 0)
-    assert len(grown) > 5
+    assert len(grown) >= at_least
+    assert min(sizes[grown + 1] / sizes[grown]) >= 2.0 * d_l
     for k in grown:
         mean = changes[k - 2 : k + 1].mean() / deltmx
         assert sizes[k + 1] / sizes[k] == pytest.approx(min(2.0, 0.8 / mean))

@@ -10,6 +10,7 @@ from harness.model.amplitude import Amplitude, AmplitudeType
 from harness.model.procedures import Static
 from harness.model.records import AttemptStarted, Convergence, IterationDone, StepDone, StepStarted, Warned
 from harness.model.steps import Controls, FieldControls, LineSearchControls, TimeControls
+from harness.procedures.extrapolation import Extrapolation
 
 SOURCE = Source("springs.inp", 1)
 LINEAR = (0, 1, 1, (2.0, 0.0))
@@ -149,6 +150,19 @@ def test_extrapolation_starts_the_next_increment_where_the_last_points(bench):
     assert second[0].verdict is Convergence.ACCEPTED_ESTIMATE
     assert second[0].estimated_correction is not None
     assert len(without.iterations()[1]) == 2
+
+
+@pytest.mark.parametrize("mode", ["LINEAR", "PARABOLIC"])
+def test_an_increment_far_shorter_than_the_last_starts_without_extrapolation(mode):
+    """D_E of *CONTROLS: after two cutbacks to a quarter, 1/16 of the last increment is below its default, 0.1."""
+    under_test = Extrapolation(mode, TimeControls().d_e)
+    for _ in range(2):
+        under_test.converged(np.array([3.0]), 0.8)
+    assert under_test.guess(0.2) == pytest.approx(0.75)
+    assert under_test.guess(0.05) is None
+    unlimited = Extrapolation(mode, 0.05)
+    unlimited.converged(np.array([3.0]), 0.8)
+    assert unlimited.guess(0.05) == pytest.approx(3.0 / 16)
 
 
 def test_parabolic_extrapolation_is_exact_for_a_parabola(bench):

@@ -1,0 +1,220 @@
+# SPDX-FileCopyrightText: The uel-harness authors
+# SPDX-License-Identifier: BSD-3-Clause
+"""Every argument of UMAT with its value, in every kind of step that has displacements.
+
+A square is stretched by 0.02 in two increments; values are those of the last call in the second one, in point 3 of
+element 7 (Abaqus User Subroutines Guide, UMAT). In linear steps UMAT is called in the base state alone, where nothing
+changes.
+"""
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import harness
+
+HERE = Path(__file__).parents[1]
+UMAT = f"""      INCLUDE '{HERE}/umat.inc'
+      IF (KINC .EQ. {{increment}} .AND. JSTEP(1) .EQ. {{step}} .AND.
+     1 NPT .EQ. 3) THEN
+      WRITE(6,'(A,11I5,1X,A)') 'GOT INTEGERS ', NDI, NSHR, NTENS, NSTATV,
+     1 NPROPS, NOEL, NPT, LAYER, KSPT, JSTEP(1), KINC, TRIM(CMNAME)
+      CALL TELL('STRESS', STRESS, NTENS)
+      CALL TELL('STATEV', STATEV, NSTATV)
+      CALL TELL('ENERGY', (/ SSE, SPD, SCD, PNEWDT /), 4)
+      CALL TELL('STRAN', STRAN, NTENS)
+      CALL TELL('DSTRAN', DSTRAN, NTENS)
+      CALL TELL('TIME', (/ TIME(1), TIME(2), DTIME /), 3)
+      CALL TELL('FIELDS', (/ TEMP, DTEMP, PREDEF(1), DPRED(1) /), 4)
+      CALL TELL('PROPS', PROPS, NPROPS)
+      CALL TELL('COORDS', COORDS, 3)
+      CALL TELL('DROT', DROT, 9)
+      CALL TELL('CELENT', (/ CELENT /), 1)
+      CALL TELL('DFGRD0', DFGRD0, 9)
+      CALL TELL('DFGRD1', DFGRD1, 9)
+      END IF
+      DDSDDE = 0
+      DO I = 1, NDI
+        DDSDDE(I,I) = PROPS(1)
+      END DO
+      DO I = NDI + 1, NTENS
+        DDSDDE(I,I) = PROPS(1)/2
+      END DO
+      STRESS = STRESS + MATMUL(DDSDDE, DSTRAN)
+      STATEV(1) = KINC
+      STATEV(2) = 7
+      SSE = 0.5D0*PROPS(1)*(STRAN(1) + DSTRAN(1))**2
+      SPD = 3
+      SCD = 4
+      RPL = 0
+      DDSDDT = 0
+      DRPLDE = 0
+      DRPLDT = 0
+      END
+      SUBROUTINE TELL(NAME, VALUES, COUNT)
+      INCLUDE 'ABA_PARAM.INC'
+      INTEGER COUNT
+      CHARACTER*(*) NAME
+      DIMENSION VALUES(COUNT)
+      WRITE(6,'(A,1X,9E24.16)') 'GOT '//NAME, VALUES
+      END
+"""
+DECK = """*NODE, NSET=ALL
+1, 0., 0.
+2, 1., 0.
+3, 1., 1.
+4, 0., 1.
+*NSET, NSET=RIGHT
+2, 3
+*ELEMENT, TYPE={type}, ELSET=E
+7, 1, 2, 3, 4
+*SOLID SECTION, ELSET=E, MATERIAL=SOFT
+0.5
+*MATERIAL, NAME=SOFT
+*USER MATERIAL, CONSTANTS=2
+100., 5.
+*DEPVAR
+2
+*DENSITY
+2.
+*CONDUCTIVITY
+1.
+*SPECIFIC HEAT
+1.
+{initial}*STEP{options}
+{procedure}
+*BOUNDARY
+ALL, 2
+1, 1
+4, 1
+RIGHT, 1, 1, 0.02
+{given}*END STEP
+{after}"""
+FIELDS = "*INITIAL CONDITIONS, TYPE=TEMPERATURE\nALL, 20.\n*INITIAL CONDITIONS, TYPE=FIELD\nALL, 4.\n"
+VARY = "*TEMPERATURE\nALL, 60.\n*FIELD\nALL, 6.\n"
+RAMPED, AT_ONCE = [40.0, 20.0, 5.0, 1.0], [60.0, 0.0, 6.0, 0.0]
+# procedure, options, temperature and field at the start, each with its change
+GENERAL = {
+    "static": ("*STATIC\n0.5, 1., 0.5, 0.5", "", RAMPED),
+    "fixed": ("*STATIC, DIRECT\n0.5, 1.", "", RAMPED),
+    "large": ("*STATIC\n0.5, 1., 0.5, 0.5", ", NLGEOM", RAMPED),
+    "damped": ("*STATIC, STABILIZE\n0.5, 1., 0.5, 0.5", "", RAMPED),
+    "visco": ("*VISCO\n0.5, 1., 0.5, 0.5", "", AT_ONCE),
+    "dynamic": ("*DYNAMIC, NOHAF\n0.5, 1., 0.5, 0.5", "", AT_ONCE),
+    "large dynamic": ("*DYNAMIC, DIRECT, NOHAF\n0.5, 1.", ", NLGEOM", AT_ONCE),
+}
+
+
+@pytest.fixture
+def told(tmp_path):
+    """Values by name, of the last call in an increment of a step."""
+
+    def told(increment, step, **parts):
+        given = {"type": "CPE4", "initial": FIELDS, "options": "", "given": VARY, "after": ""} | parts
+        (tmp_path / "square.inp").write_text(DECK.format(**given))
+        (tmp_path / "umat.f").write_text(UMAT.format(increment=increment, step=step))
+        harness.run(tmp_path / "square.inp", tmp_path / "umat.f", output_dir=tmp_path)
+        lines = (tmp_path / "square.dat").read_text().splitlines()
+        found = {}
+        for line in lines:
+            if line.lstrip().startswith("GOT "):
+                _, name, *values = line.split()
+                found[name] = values
+        return {name: values if name == "INTEGERS" else np.array(values, dtype=float) for name, values in found.items()}
+
+    return told
+
+
+def check(found, expected):
+    for name, values in expected.items():
+        np.testing.assert_allclose(found[name], values, rtol=1e-9, atol=1e-12, err_msg=name)
+
+
+def gradient(stretch):
+    return np.diag([stretch, 1.0, 1.0]).ravel()
+
+
+@pytest.mark.parametrize("kind", GENERAL)
+def test_in_general_steps(told, kind):
+    procedure, options, fields = GENERAL[kind]
+    found = told(2, 1, procedure=procedure, options=options)
+    assert found["INTEGERS"] == ["3", "1", "4", "2", "2", "7", "3", "1", "1", "1", "2", "SOFT"]
+    large = bool(options)
+    # strains of large displacements are sums of increments over the length in the middle of each
+    before, change = (0.01 / 1.005, 0.01 / 1.015) if large else (0.01, 0.01)
+    start, end = (gradient(1.01), gradient(1.02)) if large else (gradient(1.0), gradient(1.0))
+    # the point, and the length of the element, now
+    low, high = 0.5 - 0.5 / np.sqrt(3), 0.5 + 0.5 / np.sqrt(3)
+    stretch = 1.02 if large else 1.0
+    check(
+        found,
+        {
+            "STRESS": [100 * before, 0, 0, 0],
+            "STATEV": [1, 7],
+            "STRAN": [before, 0, 0, 0],
+            "DSTRAN": [change, 0, 0, 0],
+            "TIME": [0.5, 0.5, 0.5],
+            "FIELDS": fields,
+            "PROPS": [100, 5],
+            "COORDS": [low * stretch, high, 0.0],
+            "DROT": np.eye(3).ravel(),
+            "CELENT": [np.sqrt(stretch)],
+            "DFGRD0": start,
+            "DFGRD1": end,
+        },
+    )
+    *energies, pnewdt = found["ENERGY"]
+    np.testing.assert_allclose(energies, [50 * before**2, 3, 4], rtol=1e-9)
+    assert pnewdt > 1
+
+
+def test_in_coupled_steps(told):
+    """Temperatures are those of the nodes, here held: they go from 20 to 60 at once in a transient step."""
+    for steady, temperatures in ((", STEADY STATE", [40.0, 20.0]), ("", [60.0, 0.0])):
+        found = told(
+            2,
+            1,
+            type="CPE4T",
+            procedure=f"*COUPLED TEMPERATURE-DISPLACEMENT{steady}\n0.5, 1., 0.5, 0.5",
+            given="ALL, 11, 11, 60.\n",
+        )
+        assert found["INTEGERS"][:11] == ["3", "1", "4", "2", "2", "7", "3", "1", "1", "1", "2"]
+        check(
+            found,
+            {
+                "STRAN": [0.01, 0, 0, 0],
+                "DSTRAN": [0.01, 0, 0, 0],
+                "TIME": [0.5, 0.5, 0.5],
+                "FIELDS": [*temperatures, 4.0, 0.0],
+                "DFGRD1": np.eye(3).ravel(),
+            },
+        )
+
+
+@pytest.mark.parametrize(
+    "linear",
+    [
+        "*STEP, PERTURBATION\n*STATIC\n*CLOAD\n3, 2, 1.\n*END STEP\n",
+        "*STEP\n*FREQUENCY\n1,\n*BOUNDARY, OP=NEW\n1, 1, 2\n2, 2\n*END STEP\n",
+        "*STEP\n*STEADY STATE DYNAMICS, DIRECT\n0.01\n*BOUNDARY, OP=NEW\n1, 1, 2\n2, 2\n*CLOAD\n3, 1, 1.\n*END STEP\n",
+    ],
+)
+def test_in_linear_steps(told, linear):
+    """The strain of the base state, without a change; no time passes."""
+    found = told(1, 2, procedure="*STATIC\n0.5, 1., 0.5, 0.5", after=linear)
+    assert found["INTEGERS"] == ["3", "1", "4", "2", "2", "7", "3", "1", "1", "2", "1", "SOFT"]
+    check(
+        found,
+        {
+            "STRESS": [2.0, 0, 0, 0],
+            "STATEV": [2, 7],
+            "STRAN": [0.02, 0, 0, 0],
+            "DSTRAN": np.zeros(4),
+            "FIELDS": [60.0, 0.0, 6.0, 0.0],
+            "DROT": np.eye(3).ravel(),
+            "DFGRD0": np.eye(3).ravel(),
+            "DFGRD1": np.eye(3).ravel(),
+            "CELENT": [1.0],
+        },
+    )
