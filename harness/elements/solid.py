@@ -287,7 +287,7 @@ def _enhanced_moduli(kind: ContinuumType, section: SolidSection) -> int:
 
 def _of_tangent(kind: ContinuumType, section: SolidSection) -> bool:
     """Whether only the tangent of UMAT tells the moduli, and it is all of the element's stiffness."""
-    return section.material.user is not None and not kind.pressures
+    return section.material.user is not None and not pressure_unknowns(kind, section.material)
 
 
 def _warn_of_enhanced(model: Model, group: ElementGroup, kind: ContinuumType, library: Library) -> None:

@@ -14,7 +14,7 @@ from harness.elements import build_blocks
 from harness.errors import DeckError, Source
 from harness.model.mesh import Mesh
 from harness.model.model import Model
-from harness.model.properties import Elastic, ElasticType, Material, SectionControls, UserMaterial
+from harness.model.properties import Elastic, ElasticType, HybridFormulation, Material, SectionControls, UserMaterial
 
 SOURCE = Source("test.inp", 1)
 POINTS = Path(__file__).with_name("points.f")
@@ -104,7 +104,7 @@ def test_enhanced_control_warns_once_for_a_section(solid_group, load):
 
 
 PLY = Elastic(ElasticType.LAMINA, (1000.0, 500.0, 0.3, 200.0, 200.0, 200.0), SOURCE)
-USER = Material("M", SOURCE, user=UserMaterial(np.array([1.0]), False, SOURCE))
+USER = Material("M", SOURCE, user=UserMaterial(np.array([1.0]), False, SOURCE, HybridFormulation.INCOMPRESSIBLE))
 
 
 @pytest.mark.parametrize(
@@ -162,7 +162,7 @@ USER_LINES = ["*DEPVAR", "7", "*USER MATERIAL, CONSTANTS=3", "1000., 0.3, 0."]
     ("element_type", "nlgeom"),
     [
         ("CPS4R", ""),  # the thickness does not change by UMAT
-        *((name, nlgeom) for name in ("CPE4R", "C3D8R", "CPE4RT", "C3D8RT") for nlgeom in ("", ", NLGEOM")),
+        *((name, nlgeom) for name in ("CPE4R", "C3D8R", "CPE4RT", "C3D8RT", "C3D8RH") for nlgeom in ("", ", NLGEOM")),
     ],
 )
 def test_isotropic_umat_with_enhanced_control_is_elastic(tmp_path, element_type, nlgeom):
