@@ -321,7 +321,7 @@ def test_equally_spaced(read: Read) -> None:
             r"deck.inp:38: \*AMPLITUDE: expected the coefficients of 2 terms, found those of 1",
         ),
         (", DEFINITION=PERIODIC", "** nothing", r"deck.inp:37: \*AMPLITUDE: needs a data line"),
-        (", SMOOTH=0.1", "0., 0., 1., 1.", r"deck.inp:37: \*AMPLITUDE: option SMOOTH is not supported"),
+        (", SHIFTX=0.1", "0., 0., 1., 1.", r"deck.inp:37: \*AMPLITUDE: option SHIFTX is not supported"),
     ],
 )
 def test_wrong_amplitude(read: Read, options: str, data: str, message: str) -> None:
