@@ -139,6 +139,11 @@ MISTAKES = {
     ),
     "set member": ("7, 8,\n", "7, NOWHERE\n", r"28: unknown node set NOWHERE"),
     "generate": ("GENERATE\n1, 2, 1", "GENERATE\n2, 1, 1", r"26: \*NSET: cannot generate from 2 to 1 in steps of 1"),
+    "generate up": (
+        "GENERATE\n1, 2, 1",
+        "GENERATE\n1, 2, -1",
+        r"26: \*NSET: cannot generate from 1 to 2 in steps of -1",
+    ),
     "node set": ("TOP, 1\n", "TOPP, 1\n", r"47: unknown node set TOPP; did you mean TOP\?"),
     "node of a boundary": ("TOP, 1\n", "99, 1\n", r"47: node 99 is not defined"),
     "element set": (
