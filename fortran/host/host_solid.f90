@@ -6,10 +6,11 @@
 !> JPROPS: family of the element (host_shape), integration points, direct strains (host_kinematics), enhanced hourglass
 !> control, integration points of the mass. CPE4, CAX4 and C3D8 replace the volume strain of the points by its mean over the
 !> element, as Abaqus does. CPS4R, CPE4R, CAX4R and C3D8R have the uniform strain and hourglass control (host_hourglass):
-!> enhanced where JPROPS(4) is not zero, else with the stiffness parameter PROPS(3). JPROPS(6) is the number of incompatible
-!> modes (host_incompatible), JPROPS(7) that of the functions of the pressure of hybrid elements (host_hybrid): if the element
-!> has more unknowns than its nodes have displacements, the others are its pressure. PROPS(1) is the thickness, of axisymmetric
-!> elements the angle 2 pi; PROPS(2) is the density.
+!> enhanced where JPROPS(4) is not zero, else with the stiffness parameter PROPS(3). JPROPS(4) is 1 if the material knows its
+!> moduli, 2 if they are those of its first tangent. JPROPS(6) is the number of incompatible modes (host_incompatible), JPROPS(7)
+!> that of the functions of the pressure of hybrid elements (host_hybrid): if the element has more unknowns than its nodes have
+!> displacements, the others are its pressure. PROPS(1) is the thickness, of axisymmetric elements the angle 2 pi; PROPS(2) is
+!> the density.
 !>
 !> Large displacements: Cauchy stress, rotated and updated increment by increment with the strain and the rotation at the middle of
 !> the increment (Jaumann rate; Hughes and Winget). The tangent leaves out the change of the volume and of the middle of the
@@ -25,7 +26,8 @@
 !>
 !> SVARS hold, for each point, E11 E22 E33 E12 S11 S22 S33 S12, in space with 13 and 23 after 12, in the directions of
 !> *ORIENTATION where the section has one, as Abaqus prints them; in dynamic analyses then the forces of the last two
-!> increments; then the directions of each point, if the material is in them (host_axes); last the incompatible modes.
+!> increments; then the directions of each point, if the material is in them (host_axes); last the incompatible modes, or the
+!> moduli of the first tangent.
 module host_solid
   use, intrinsic :: iso_c_binding, only: c_f_pointer, c_loc
   use core_mode_search, only: find_modes, mode_search, most_passes
@@ -81,6 +83,7 @@ contains
     type(material_t), pointer :: material
     type(rule_t), pointer :: rule
     real(dp), pointer, contiguous :: axes(:, :, :, :)   !< of the points (host_axes), if the material is in them
+    real(dp), pointer, contiguous :: moduli(:)          !< of the first tangent, if the hourglass control has them
     real(dp) :: mass(ndofel, ndofel), old(ndofel, 2), at_nodes(mcrd*nnode, mcrd*nnode), change(ndofel)
     integer :: dim, direct, first, last, modes, n, behind, of_nodes
     rule => rule_of(int(jprops(1)), int(jprops(2)))
@@ -93,6 +96,11 @@ contains
     first = rule%points*values_of_point(dim) + 1
     last = first + 2*n - 1
     behind = nsvars - modes + 1
+    moduli => null()
+    if (jprops(4) == 2) then
+      behind = behind - 2
+      call c_f_pointer(c_loc(svars(behind)), moduli, [2])
+    end if
     axes => null()
     if (material%local) then
       behind = behind - values_of_axes*rule%points
@@ -122,7 +130,7 @@ contains
       else
         call integrate(rule, direct, direct + 2*dim - 3, modes, lflags(3), lflags(2) /= 0, material, &
                        props(1), props(3), jprops(4) /= 0, coords, int(npredf), predef, u, change, rhs, amatrx, svars, energy, &
-                       coupling, axes=axes, functions=int(jprops(7)), added=du(:of_nodes))
+                       coupling, axes=axes, functions=int(jprops(7)), added=du(:of_nodes), moduli=moduli)
       end if
     end if
     call respond(n, lflags, params, dtime, v, a, mass, old, rhs, amatrx, energy(1))
@@ -281,7 +289,8 @@ contains
   !> Force, tangent, state and energies; of the initial stresses without a tangent; or the matrix of a stress. The unknowns are
   !> those of the nodes, then the incompatible modes.
   subroutine integrate(rule, direct, strains, modes, request, finite, material, thickness, hourglass, enhanced, x, fields, &
-                       predef, u, du, force, stiffness, svars, energy, coupling, alpha, by_modes, axes, functions, pressure, added)
+                       predef, u, du, force, stiffness, svars, energy, coupling, alpha, by_modes, axes, functions, pressure, &
+                       added, moduli)
     type(rule_t), intent(in) :: rule
     integer, intent(in) :: direct, strains, modes, fields
     integer(i4), intent(in) :: request   !< LFLAGS(3)
@@ -298,6 +307,7 @@ contains
     integer, intent(in), optional :: functions                 !< of the pressure, on which the mean stress is projected
     type(pressure_t), intent(inout), optional :: pressure      !< with the unknowns; then there is no initial stress
     real(dp), intent(in), optional :: added(rule%dim*rule%nodes)    !< perturbation, whose stress may be asked for
+    real(dp), intent(inout), optional :: moduli(2)    !< of the enhanced hourglass control, zero until the first tangent is known
     real(dp), dimension(rule%nodes, direct, rule%points) :: g, g_mid
     real(dp), dimension(rule%dim*rule%nodes, strains, rule%points) :: b, b_mid
     real(dp), dimension(rule%points) :: volume, volume_mid, volume_now, volume_before, volume_strain
@@ -406,6 +416,9 @@ contains
         if (present(axes)) call turn_strain(dim, strains, middle, strain)
         call point_update(dim, strains, material, int(p, i4), weight, finite, strain, thermal, svars(:, p), stress, modulus, &
                           elastic, work, of_point)
+        if (present(moduli)) then
+          if (.not. any(abs(moduli) > 0)) moduli = isotropic_part(dim, modulus)
+        end if
         if (present(axes)) of_point(3:) = matmul(of_point(3:), turn_matrix(strains, axes(:, :, 2, p)))
         if (present(axes)) call turn_response(material, strains, axes(:, :, 2, p), stress, modulus)
       end if
@@ -480,7 +493,7 @@ contains
     energy(dissipated) = work - elastic
     if (has_hourglass_modes(rule)) then
       call resist_hourglass(rule, g_start(:, :dim), volume_start*merge(thickness, 1.0_dp, dim == 2), hourglass, &
-                            enhanced_constants(material, enhanced), finite, x, u, force, stiffness, energy(6))
+                            enhanced_constants(material, enhanced, moduli), finite, x, u, force, stiffness, energy(6))
     end if
   end subroutine integrate
 
@@ -501,18 +514,52 @@ contains
 
   !> Young's modulus and Poisson's ratio of an isotropic material for the enhanced hourglass control, the modulus in plane
   !> strain over 1 - nu^2; none without that control.
-  pure function enhanced_constants(material, enhanced) result(constants)
+  pure function enhanced_constants(material, enhanced, moduli) result(constants)
     type(material_t), intent(in) :: material
     logical, intent(in) :: enhanced
+    real(dp), intent(in), optional :: moduli(2)    !< the constants, if the material has none
     real(dp), allocatable :: constants(:)
     real(dp) :: young, poisson
     allocate (constants(0))
     if (.not. enhanced) return
+    if (present(moduli)) then
+      constants = moduli
+      return
+    end if
     young = 1/material%compliance(1, 1)
     poisson = -material%compliance(1, 2)*young
     if (material%ntens == 4) young = young/(1 - poisson**2)
     constants = [young, poisson]
   end function enhanced_constants
+
+  !> Young's modulus and Poisson's ratio of the isotropic part of a tangent, which is its mean over all directions (Voigt); in the
+  !> plane the modulus along an edge whose other direction is free, and 0. Zero unless the part is positive.
+  pure function isotropic_part(dim, tangent) result(moduli)
+    integer, intent(in) :: dim
+    real(dp), intent(in) :: tangent(:, :)    !< direct components, then engineering shears
+    real(dp) :: moduli(2), bulk, shear, trace, cross
+    integer :: i, n
+    moduli = 0
+    trace = 0
+    n = size(tangent, 1)
+    do i = 1, dim
+      trace = trace + tangent(i, i)
+    end do
+    cross = sum(tangent(:dim, :dim)) - trace
+    if (dim == 2) then
+      bulk = (trace + cross)/4
+      shear = (trace - cross + 4*tangent(n, n))/8
+    else
+      bulk = (trace + cross)/9
+      shear = (trace - cross/2 + 3*(tangent(4, 4) + tangent(5, 5) + tangent(6, 6)))/15
+    end if
+    if (.not. (bulk > 0 .and. shear > 0)) return
+    if (dim == 2) then
+      moduli(1) = 4*bulk*shear/(bulk + shear)
+    else
+      moduli = [9*bulk*shear/(3*bulk + shear), (3*bulk - 2*shear)/(2*(3*bulk + shear))]
+    end if
+  end function isotropic_part
 
   !> A typical length across the element in its plane or in space, half of it if there are midside nodes.
   pure function size_of(rule, direct, x, volume) result(length)

@@ -32,14 +32,26 @@ def _read_amplitude(block: Block) -> Amplitude:
     total, absolute = options.text("TIME") == "TOTAL TIME", options.text("VALUE") == "ABSOLUTE"
     if kind is AmplitudeType.USER:
         properties, variables = _read_user(block)
-        return UserAmplitude(name, kind, properties, block.source, total, absolute, variables)
+        return UserAmplitude(name, kind, properties, block.source, total, absolute, variables=variables)
     if options.given("PROPERTIES") or options.given("VARIABLES"):
         raise block.error("PROPERTIES and VARIABLES are for DEFINITION=USER")
     readers = {AmplitudeType.PERIODIC: _read_periodic, AmplitudeType.DECAY: _read_decay}
     data = _read_spaced(block) if spaced else readers.get(kind, _read_pairs)(block)
     if kind is AmplitudeType.SMOOTH_STEP and len(data) < 2:
         raise block.error("SMOOTH STEP needs at least two points")
-    return Amplitude(name, kind, data, block.source, total, absolute)
+    return Amplitude(name, kind, data, block.source, total, absolute, _read_smoothing(block, kind))
+
+
+def _read_smoothing(block: Block, kind: AmplitudeType) -> float | None:
+    """SMOOTH of a table, if it is given."""
+    if not block.options.given("SMOOTH"):
+        return None
+    smoothing = block.options.real("SMOOTH", 0.0)
+    if kind is not AmplitudeType.TABULAR:
+        raise block.error("SMOOTH is for DEFINITION=TABULAR and EQUALLY SPACED")
+    if not 0 <= smoothing <= 0.5:
+        raise block.error(f"SMOOTH={smoothing:g}: expected 0 to 0.5")
+    return smoothing
 
 
 def _read_user(block: Block) -> tuple[FloatArray, int]:
@@ -130,7 +142,14 @@ KEYWORDS = (
             Option("VARIABLES", Kind.INTEGER, "number of state variables of UAMP (1), with DEFINITION=USER"),
             Option("FIXED INTERVAL", Kind.REAL, "time between values, with DEFINITION=EQUALLY SPACED"),
             Option("BEGIN", Kind.REAL, "time of the first value (0), with DEFINITION=EQUALLY SPACED"),
-            *refused("SMOOTH", "SHIFTX", "SHIFTY", "SCALEX", "SCALEY"),
+            Option(
+                "SMOOTH",
+                Kind.REAL,
+                "fraction of each interval of a table that Abaqus rounds where time derivatives are needed, those of "
+                "displacements and velocities in *DYNAMIC (0.25): there corners stay, and another value than 0 is "
+                "refused; elsewhere it has no effect",
+            ),
+            *refused("SHIFTX", "SHIFTY", "SCALEX", "SCALEY"),
         ),
         "TABULAR, SMOOTH STEP: time, value pairs; PERIODIC: number of terms, omega, t0, A0; A1, B1, A2, B2 and so on; "
         "DECAY: A0, A, t0, td; EQUALLY SPACED: values; USER: properties",

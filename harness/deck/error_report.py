@@ -57,6 +57,11 @@ class Problems:
         """What Abaqus does otherwise, in the order it came."""
         return tuple(self._differences)
 
+    @property
+    def found(self) -> bool:
+        """Whether there is an error so far."""
+        return bool(self._errors)
+
     def check(self) -> None:
         """Raise one DeckError that names every place so far, if there is any."""
         errors = list(self._errors.values())

@@ -20,6 +20,8 @@ _IGNORED = {
     "CONTACT PRINT": "Contact variables in .dat.",
     "CONTACT OUTPUT": "Contact variables.",
     "ELEMENT OUTPUT": "Element variables; .vtu holds those of every element type that declares them.",
+    "ELEMENT MATRIX OUTPUT": "Element matrices, in files of their own.",
+    "ELEMENT OPERATOR OUTPUT": "Element matrices, in files of their own.",
     "INCREMENTATION OUTPUT": "Increment sizes as history output.",
     "INTEGRATED OUTPUT": "Totals over surfaces.",
     "INTEGRATED OUTPUT SECTION": "Surface of *INTEGRATED OUTPUT.",

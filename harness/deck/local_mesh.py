@@ -246,16 +246,16 @@ class LocalMesh:
         return found
 
     def _range(self, row: Row) -> IntArray:
-        """Labels of one GENERATE line: first, last, increment (1)."""
+        """Labels of one GENERATE line: first, last, increment (1), which may be negative, as public decks have it."""
         first = row.integer(0, "first number")
         last = row.integer(1, "last number", first)
         step = row.integer(2, "increment", 1)
-        if step < 1 or last < first or first < 1:
+        if step == 0 or (last - first) * step < 0 or min(first, last) < 1:
             raise row.error(f"cannot generate from {first} to {last} in steps of {step}")
         self.reserve((last - first) // step + 1, "numbers", row)
-        if last > LARGEST_LABEL:
-            raise row.error(f"{last} is not a node or element number (1 to {LARGEST_LABEL})")
-        return np.arange(first, last + 1, step, dtype=np.int64)
+        if max(first, last) > LARGEST_LABEL:
+            raise row.error(f"{max(first, last)} is not a node or element number (1 to {LARGEST_LABEL})")
+        return np.arange(first, last + (1 if step > 0 else -1), step, dtype=np.int64)
 
     def _member(self, kind: str, token: str, instance: str, source: Source) -> list[Members]:
         if is_integer(token):
@@ -350,7 +350,7 @@ def _read_nodes(block: Block) -> tuple[IntArray, FloatArray, Callable[[int], Sou
 
 TAKES_NODES = Option("NSET", Kind.NAME, "set that takes the nodes")
 TAKES_ELEMENTS = Option("ELSET", Kind.NAME, "set that takes the elements")
-_GENERATE = Option("GENERATE", doc="data lines are first, last, increment")
+_GENERATE = Option("GENERATE", doc="data lines are first, last, increment, negative where last is the smaller")
 _INSTANCE = Option("INSTANCE", Kind.NAME, "instance the labels belong to")
 
 KEYWORDS = (

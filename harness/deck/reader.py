@@ -30,7 +30,7 @@ from harness.deck.steps import check_parts, read_steps
 from harness.deck.structure import read_heading
 from harness.deck.surfaces import Surfaces
 from harness.deck.transforms import Transforms
-from harness.deck.user_elements import dofs_of
+from harness.deck.user_elements import dofs_of, refuse_types
 from harness.errors import DeckError, Source
 from harness.model.mesh import ElementGroup
 from harness.model.model import Model
@@ -76,6 +76,8 @@ def read_deck(
     structure, restarts = join_parts(parts, blocks, KEYWORDS, problems)
     if not parts:
         refuse_reading(structure, problems)
+    if problems.found:
+        refuse_types(blocks, problems)
     problems.check()
     materials = read_materials(structure.root, problems)
     in_steps = [block for scope in structure.steps for block in scope.blocks]

@@ -42,8 +42,9 @@ KEYWORDS = (
         f"{', '.join(HOURGLASS_CONTROLLED)} and those with temperatures. STIFFNESS is that of *HOURGLASS STIFFNESS. "
         "ENHANCED is the assumed strain stabilization of Belytschko and Bindeman (1991, 1993), with which rectangles "
         "and bricks bend exactly; that Abaqus has the same numbers is inferred from its manual, which names the "
-        "method, and a warning says so. It needs *ELASTIC, TYPE=ISOTROPIC with constant values, or *HYPERELASTIC, "
-        "whose initial moduli it takes, and is not available for axisymmetric elements.",
+        "method, and a warning says so. It needs *ELASTIC, TYPE=ISOTROPIC with constant values, *HYPERELASTIC, whose "
+        "initial moduli it takes, or UMAT, of whose first DDSDDE it takes the isotropic part (not if it is "
+        "incompressible), and is not available for axisymmetric elements.",
         Where.MODEL,
         (
             NAME,

@@ -19,7 +19,7 @@ from harness.deck.procedures import read_procedure
 from harness.deck.requests import RequestReader
 from harness.deck.structure import Scope
 from harness.deck.table import Keyword, Kind, Option, Where, ignored, one_of, refused
-from harness.model.amplitude import UserAmplitude
+from harness.model.amplitude import AmplitudeType, UserAmplitude
 from harness.model.procedures import Procedure
 from harness.model.steps import ON_EDGES, DistributedLoad, ElementLoad, LoadKind, Step
 
@@ -108,9 +108,25 @@ def read_steps(
     _check_followers(steps, problems)
     _check_modes(steps, problems)
     for step in steps:
+        if step.procedure.inertia and not step.procedure.linear:
+            _check_smoothing(step, problems)
         if step.procedure.linear and step.procedure.loaded:
             _check_perturbation(step, problems)
     return tuple(steps)
+
+
+def _check_smoothing(step: Step, problems: Problems) -> None:
+    """Tables of prescribed motion in a dynamic step, whose corners Abaqus rounds by a quarter of the intervals."""
+    for entry in step.boundaries:
+        curve = entry.amplitude
+        if curve is None or curve.type is not AmplitudeType.TABULAR or len(curve.data) <= 2 or not entry.magnitude:
+            continue
+        motion = f"amplitude {curve.name} of prescribed motion in *DYNAMIC"
+        if curve.smoothing is None:
+            problems.differ(entry.source, f"Abaqus rounds the corners of {motion} by SMOOTH=0.25; here they stay")
+        elif curve.smoothing > 0:
+            message = f"SMOOTH={curve.smoothing:g} is not supported for {motion}; expected SMOOTH=0"
+            problems.add(entry.source, f"*BOUNDARY: {message}")
 
 
 def _check_perturbation(step: Step, problems: Problems) -> None:

@@ -87,6 +87,18 @@ def find_type(name: str, definitions: Definitions, source: Source) -> ElementTyp
     raise DeckError(source, f"element type {name} is not supported {supported}{hint}")
 
 
+def refuse_types(blocks: Sequence[Block], problems: Problems) -> None:
+    """Add the first use of each type of Abaqus that is not supported, where other errors end the reading earlier."""
+    seen: set[str] = set()
+    for block in blocks:
+        if block.name == "ELEMENT":
+            with problems.gather():
+                name = block.options.text("TYPE")
+                if name not in seen and name not in BUILT_IN and is_abaqus_element(name):
+                    seen.add(name)
+                    find_type(name, {}, block.source)
+
+
 def read_user_element(block: Block, problems: Problems) -> UserElement:
     """The definition a *USER ELEMENT gives; names in comments that do not fit are warned of and not used."""
     options = block.options

@@ -37,6 +37,10 @@ from harness.usersub import Library, _binding
 HOURGLASS_FRACTION: Final = 0.005
 """Hourglass stiffness parameter over the shear modulus (Abaqus Analysis User's Guide, Section controls)."""
 
+OF_MATERIAL: Final = 1
+OF_FIRST_TANGENT: Final = 2
+"""JPROPS(4): who tells the moduli of the enhanced hourglass control."""
+
 SMALLEST_RADIUS: Final = 1e-9
 """Radius, over the largest one of a group, below which a node lies on the axis."""
 
@@ -86,13 +90,14 @@ def solid_routine(model: Model, group: ElementGroup, section: SolidSection, libr
         _binding.set_local(number)
     if material.expansion:
         _binding.set_expansion(number, material.expansion)
-    enhanced = kind.hourglass_control and section.controls.enhanced
+    enhanced = _enhanced_moduli(kind, section)
     pressures = pressure_unknowns(kind, material)
     unknowns = kind.dimension * kind.nodes + pressures
     forces = 2 * unknowns if dynamic is not None else 0
     of_points = kind.points * 2 * len(kind.components)
     axes = PointAxes(of_points + forces, kind.points, kind.dimension == 2, local) if local is not None else None
-    hidden = forces + (VALUES_OF_AXES * kind.points if axes else 0) + kind.modes
+    moduli = 2 if enhanced == OF_FIRST_TANGENT else 0
+    hidden = forces + (VALUES_OF_AXES * kind.points if axes else 0) + kind.modes + moduli
     return Routine(
         address=_binding.address_of("solid"),
         jtype=kind.nodes,
@@ -264,7 +269,7 @@ def _check_enhanced(group: ElementGroup, kind: ContinuumType, section: SolidSect
     elastic = section.material.elastic
     if kind.axisymmetric:
         what, expected = f"elements of type {group.type}", "plane elements or C3D8R"
-    elif isinstance(section.material.hyperelastic, Hyperelastic):
+    elif isinstance(section.material.hyperelastic, Hyperelastic) or _of_tangent(kind, section):
         return
     elif elastic is None or elastic.type is not ElasticType.ISOTROPIC or elastic.table is not None:
         what, expected = f"material {section.material.name}", "*ELASTIC, TYPE=ISOTROPIC with constant values"
@@ -274,6 +279,18 @@ def _check_enhanced(group: ElementGroup, kind: ContinuumType, section: SolidSect
     raise DeckError(section.source, message)
 
 
+def _enhanced_moduli(kind: ContinuumType, section: SolidSection) -> int:
+    """JPROPS(4) of the element: 0 without the enhanced hourglass control, else where it has its moduli from."""
+    if not (kind.hourglass_control and section.controls.enhanced):
+        return 0
+    return OF_FIRST_TANGENT if _of_tangent(kind, section) else OF_MATERIAL
+
+
+def _of_tangent(kind: ContinuumType, section: SolidSection) -> bool:
+    """Whether only the tangent of UMAT tells the moduli, and it is all of the element's stiffness."""
+    return section.material.user is not None and not pressure_unknowns(kind, section.material)
+
+
 def _warn_of_enhanced(model: Model, group: ElementGroup, kind: ContinuumType, library: Library) -> None:
     """Say, once per section, what the enhanced hourglass control is based on."""
     section = group.section
@@ -281,6 +298,8 @@ def _warn_of_enhanced(model: Model, group: ElementGroup, kind: ContinuumType, li
         return
     if group is next(other for other in model.groups if other.section is section):
         message = "*SECTION CONTROLS, HOURGLASS=ENHANCED: the published method that Abaqus' manual names"
+        if _of_tangent(kind, section):
+            message += f", with the isotropic part of the first DDSDDE of UMAT (material {section.material.name})"
         library.warn(f"{section.source}: {message}; there are no results of Abaqus to compare with")
 
 

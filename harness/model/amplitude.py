@@ -31,6 +31,8 @@ class Amplitude:
                 DECAY: rows (A0, A), (t0, td)
     total_time  TIME=TOTAL TIME; step time otherwise
     absolute    VALUE=ABSOLUTE: the curve is the magnitude itself
+    smoothing   SMOOTH of a table, None if not given: fraction of each interval that Abaqus rounds where it needs time
+                derivatives of the curve; the value here is that of the table
     """
 
     name: str
@@ -39,6 +41,7 @@ class Amplitude:
     source: Source
     total_time: bool = False
     absolute: bool = False
+    smoothing: float | None = None
 
     def value(self, step_time: float, total_time: float) -> float:
         """Factor at a time; constant outside the table, A0 before t0 of PERIODIC and DECAY."""

@@ -38,6 +38,9 @@ _OWN_RESULT: Final = _error(
 )
 _UNTYPED: Final = _error(r"Symbol '\w+' at \(1\) has no IMPLICIT type$")
 _MIXED_SIGN: Final = _error(r"'b' argument of 'sign' intrinsic at \(1\) must be the same type and kind as 'a'$")
+_CAPITAL_DIRECTIVE: Final = _error(
+    r"invalid preprocessing directive #(?P<name>(?i:include|define|undef|ifn?def|if|elif|else|endif))$"
+)
 _SIGN: Final = re.compile(r"\bsign\s*\(", re.IGNORECASE)
 _END_OF_FUNCTION: Final = re.compile(r"^\s*end\s*(?:function\b.*)?(?:!.*)?$", re.IGNORECASE)
 _BARE_PARAMETER: Final = re.compile(r"^(\s*)parameter\s+([a-z]\w*\s*=[^!]*?)\s*$", re.IGNORECASE)
@@ -93,6 +96,21 @@ def repairs(errors: str) -> Iterator[Repair]:
         line = int(found["line"])
         change = partial(sign_of_one_kind, line=line, column=int(found["column"]))
         yield Repair(Path(found["file"]).name, line, change, "SIGN of two kinds of numbers; the copy has one kind")
+    for found in _CAPITAL_DIRECTIVE.finditer(errors):
+        line, name = int(found["line"]), found["name"]
+        note = f"#{name} in capitals; the copy has #{name.lower()}"
+        yield Repair(Path(found["file"]).name, line, partial(lower_directive, line=line, name=name), note)
+
+
+def lower_directive(text: str, line: int, name: str) -> str | None:
+    """The text in which the preprocessor's directive of this name is in small letters; None without it in the line."""
+    lines = text.splitlines(keepends=True)
+    row = lines[line - 1] if 1 <= line <= len(lines) else ""
+    changed = re.sub(rf"^(\s*#\s*){name}\b", lambda found: found[1] + name.lower(), row)
+    if changed == row:
+        return None
+    lines[line - 1] = changed
+    return "".join(lines)
 
 
 def sign_of_one_kind(text: str, line: int, column: int) -> str | None:

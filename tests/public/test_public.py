@@ -39,6 +39,8 @@ def test_manifest_is_well_formed():
         assert {"code", "folder", "sources", "deck"} <= row.keys()
         assert ("expected" in row or "reference" in row) == ("grade" in row) == ("tolerance" in row or "status" in row)
         assert not ("expected" in row and "reference" in row)
+        assert row.get("reason", "unknown") in table.REASONS
+        assert "reason" in row or "refused" not in row
         if "grade" in row:
             assert "quantity" in row or "status" in row
 
@@ -62,6 +64,20 @@ def test_long_messages_are_shortened():
     outcome = measure.Outcome(error="a | b " * 60 + "C3D8H")
     shown = f"refused: {outcome.error[:297]}...".replace("|", "\\|")
     assert table.verdict({"refused": "C3D8H"}, outcome) == (True, shown)
+
+
+def test_summary_counts_decks_by_what_stops_them():
+    """9 decks of 2 repositories: what is no fault of ours is left out of the share that runs, 3 of 5."""
+    reasons = ["", "", "", "unsupported", "time", "solver", "deck", "code", "code"]
+    known = {
+        str(k): {"folder": str(k % 2)} | ({"reason": reason} if reason else {}) for k, reason in enumerate(reasons)
+    }
+    outcomes = {name: measure.Outcome(error=row.get("reason", "")) for name, row in known.items()}
+    text = table.summary(known, outcomes)
+    assert text.startswith("Of 9 decks of 2 repositories 3 run, ")
+    assert "3 of 5 run,\n60 %. What stops the others:" in text
+    assert "| a fault of the user's code, or a library or compiler it needs | 2 |\n" in text
+    assert table.summary({"a": {"folder": "a"}}, {"a": measure.Outcome(error="?")}).count("not known | 1 |") == 1
 
 
 def test_rows_that_are_checked():

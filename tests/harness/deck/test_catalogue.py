@@ -326,7 +326,7 @@ def test_equally_spaced(read: Read) -> None:
             "expected the coefficients of 1 terms, as this line says",
         ),
         (", DEFINITION=PERIODIC", "** nothing", r"deck.inp:37: \*AMPLITUDE: needs a data line"),
-        (", SMOOTH=0.1", "0., 0., 1., 1.", r"deck.inp:37: \*AMPLITUDE: option SMOOTH is not supported"),
+        (", SHIFTX=0.1", "0., 0., 1., 1.", r"deck.inp:37: \*AMPLITUDE: option SHIFTX is not supported"),
     ],
 )
 def test_wrong_amplitude(read: Read, options: str, data: str, message: str) -> None:

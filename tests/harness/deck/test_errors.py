@@ -141,6 +141,11 @@ MISTAKES = {
     ),
     "set member": ("7, 8,\n", "7, NOWHERE\n", r"28: unknown node set NOWHERE"),
     "generate": ("GENERATE\n1, 2, 1", "GENERATE\n2, 1, 1", r"26: \*NSET: cannot generate from 2 to 1 in steps of 1"),
+    "generate up": (
+        "GENERATE\n1, 2, 1",
+        "GENERATE\n1, 2, -1",
+        r"26: \*NSET: cannot generate from 1 to 2 in steps of -1",
+    ),
     "node set": ("TOP, 1\n", "TOPP, 1\n", r"47: unknown node set TOPP; did you mean TOP\?"),
     "node of a boundary": ("TOP, 1\n", "99, 1\n", r"47: node 99 is not defined"),
     "element set": (
@@ -331,6 +336,17 @@ def test_all_places_are_reported_at_once(read: Read) -> None:
         "deck.inp:43: *STATIC: option ADIABATIC is not supported",
         "deck.inp:48: *DECHARGE is not supported",
     ]
+
+
+def test_elements_of_abaqus_are_refused_beside_options(read: Read) -> None:
+    """A continuum shell is refused for its type, not only for an option of its section."""
+    shells = "*ELEMENT, TYPE=SC8R, ELSET=PLIES\n8, 1, 2, 3, 4, 5, 6, 7, 8\n" * 2
+    section = "*SHELL SECTION, ELSET=PLIES, MATERIAL=PLY, STACK DIRECTION=3\n1.\n"
+    with pytest.raises(DeckError) as caught:
+        read(FLAT.replace("*MATERIAL", shells + section + "*MATERIAL", 1))
+    option, element = str(caught.value).splitlines()
+    assert option == "deck.inp:33: *SHELL SECTION: option STACK DIRECTION is not supported"
+    assert element.startswith("deck.inp:29: element type SC8R of Abaqus is not supported here (supported: ")
 
 
 def test_one_wrong_line_gives_one_message(read: Read) -> None:

@@ -194,6 +194,12 @@ def test_unsorted_set_keeps_its_order(read: Read) -> None:
     ]
 
 
+def test_unsorted_set_is_generated_downwards(read: Read) -> None:
+    """Public decks of Abaqus pair such sets with others in multi-point constraints."""
+    model = read(FLAT.replace("*MATERIAL", "*NSET, NSET=A, UNSORTED, GENERATE\n7, 1, -3\n2, 2, -1\n*MATERIAL"))
+    assert_array_equal(model.nsets["A"], [6, 3, 0, 1])
+
+
 def test_members_that_do_not_exist_are_warned_of(read: Read) -> None:
     model = read(FLAT.replace("7, 8,\n", "7, 8, 98, 99\n"))
     assert_array_equal(model.nsets["TOP"], [6, 7])

@@ -371,3 +371,38 @@ def test_other_ways_to_contradict(read: Read, options: str, said: str) -> None:
     model = read(MODEL + f"*STEP\n*STATIC\n{body}*END STEP\n")
     (warning,) = [text for text in model.warnings if "in one step" in text]
     assert f"node 7, dof 1 is given {said} here and the value 0 at deck.inp:" in warning
+
+
+MOVED = (
+    "*AMPLITUDE, NAME=WAVE{smooth}\n0., 0., 1., 1., 2., 0.\n*STEP\n{procedure}\n"
+    "*BOUNDARY, AMPLITUDE=WAVE\nTOP, 1, , 1.\n*END STEP\n"
+)
+
+
+def test_smooth_of_an_amplitude_has_no_effect_in_a_static_step(read: Read) -> None:
+    """Abaqus Keywords Guide, *AMPLITUDE, SMOOTH: only when time derivatives are needed, ignored for all other uses."""
+    model = read(MODEL + MOVED.format(smooth=", SMOOTH=0.1", procedure="*STATIC"))
+    curve = model.steps[0].boundaries[0].amplitude
+    assert curve is not None
+    assert (curve.smoothing, curve.value(0.95, 0.95)) == (0.1, 0.95)
+    assert model.differences == ()
+
+
+def test_corners_of_prescribed_motion_in_a_dynamic_step(read: Read) -> None:
+    """Abaqus/Standard rounds them by a quarter of the intervals unless SMOOTH=0, which is as here."""
+    (difference,) = read(MODEL + MOVED.format(smooth="", procedure="*DYNAMIC\n0.1, 2.")).differences
+    assert "Abaqus rounds the corners of amplitude WAVE of prescribed motion in *DYNAMIC by SMOOTH=0.25" in difference
+    assert read(MODEL + MOVED.format(smooth=", SMOOTH=0.", procedure="*DYNAMIC\n0.1, 2.")).differences == ()
+
+
+@pytest.mark.parametrize(
+    ("smooth", "message"),
+    [
+        (", SMOOTH=0.1", r"SMOOTH=0.1 is not supported for amplitude WAVE of prescribed motion in \*DYNAMIC; expected"),
+        (", SMOOTH=0.6", r"\*AMPLITUDE: SMOOTH=0.6: expected 0 to 0.5"),
+        (", SMOOTH=0.1, DEFINITION=SMOOTH STEP", r"SMOOTH is for DEFINITION=TABULAR and EQUALLY SPACED"),
+    ],
+)
+def test_wrong_smooth(read: Read, smooth: str, message: str) -> None:
+    with pytest.raises(DeckError, match=message):
+        read(MODEL + MOVED.format(smooth=smooth, procedure="*DYNAMIC\n0.1, 2."))

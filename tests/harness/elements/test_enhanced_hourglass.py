@@ -7,14 +7,17 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from small_decks import body_lines
 
+import harness
 from harness.elements import build_blocks
 from harness.errors import DeckError, Source
 from harness.model.mesh import Mesh
 from harness.model.model import Model
-from harness.model.properties import Elastic, ElasticType, Material, SectionControls, UserMaterial
+from harness.model.properties import Elastic, ElasticType, HybridFormulation, Material, SectionControls, UserMaterial
 
 SOURCE = Source("test.inp", 1)
+POINTS = Path(__file__).with_name("points.f")
 SQUARE = np.array([[-1.0, -1, 0], [1, -1, 0], [1, 1, 0], [-1, 1, 0]])
 CUBE = np.vstack([SQUARE - np.eye(3)[2], SQUARE + np.eye(3)[2]])
 ENHANCED = SectionControls(enhanced=True)
@@ -101,7 +104,7 @@ def test_enhanced_control_warns_once_for_a_section(solid_group, load):
 
 
 PLY = Elastic(ElasticType.LAMINA, (1000.0, 500.0, 0.3, 200.0, 200.0, 200.0), SOURCE)
-USER = Material("M", SOURCE, user=UserMaterial(np.array([1.0]), False, SOURCE))
+USER = Material("M", SOURCE, user=UserMaterial(np.array([1.0]), False, SOURCE, HybridFormulation.INCOMPRESSIBLE))
 
 
 @pytest.mark.parametrize(
@@ -109,7 +112,11 @@ USER = Material("M", SOURCE, user=UserMaterial(np.array([1.0]), False, SOURCE))
     [
         ("CAX4R", {}, r"not supported for elements of type CAX4R; expected plane elements or C3D8R"),
         ("CPS4R", {"material": Material("M", SOURCE, PLY)}, r"for material M; expected \*ELASTIC, TYPE=ISOTROPIC with"),
-        ("CPE4R", {"material": USER}, r"for material M; expected \*ELASTIC, TYPE=ISOTROPIC with constant values"),
+        (
+            "C3D8RH",
+            {"material": USER},
+            r"for material M; expected \*ELASTIC, TYPE=ISOTROPIC with constant values",
+        ),
         (
             "CPE4R",
             {"hourglass": 1.0},
@@ -123,7 +130,78 @@ USER = Material("M", SOURCE, user=UserMaterial(np.array([1.0]), False, SOURCE))
     ],
 )
 def test_what_controls_do_not_go_with(solid_group, bound, load, element_type, change, message):
-    group = solid_group(element_type, np.arange(4)[None], 1.0)
+    nodes = CUBE if element_type == "C3D8RH" else SQUARE
+    group = solid_group(element_type, np.arange(len(nodes))[None], 1.0)
     group = replace(group, section=replace(group.section, **({"controls": ENHANCED} | change)))
     with pytest.raises(DeckError, match=r"test.inp:7: .*" + message):
-        bound(group, SQUARE + 2 * np.eye(3)[0], load(None))
+        bound(group, nodes + 2 * np.eye(3)[0], load(None))
+
+
+def bent(element_type, material, nodes, static="*STATIC\n1., 1.", nlgeom=""):
+    """A deck that moves each node of one element by its hourglass patterns and a strain, and asks for the reactions."""
+    lines = body_lines(element_type, nodes, [range(len(nodes))])
+    lines += ["*SOLID SECTION, ELSET=BODY, MATERIAL=M, CONTROLS=C", "0.7" if nodes.shape[1] == 2 else ""]
+    lines += ["*SECTION CONTROLS, NAME=C, HOURGLASS=ENHANCED", "*MATERIAL, NAME=M", *material]
+    lines += [f"*STEP{nlgeom}", static, "*BOUNDARY"]
+    moved = np.random.default_rng(3).normal(size=nodes.shape) / 50
+    lines += [f"{k}, {i}, {i}, {x}" for k, row in enumerate(moved, 1) for i, x in enumerate(row, 1)]
+    return [*lines, "*OUTPUT, HISTORY", "*NODE OUTPUT, NSET=ALL", "RF", "*END STEP"]
+
+
+def reactions(folder, lines, user=None):
+    """Reactions (increments, dofs) of a deck."""
+    (folder / "bent.inp").write_text("\n".join(lines) + "\n")
+    history = harness.run(folder / "bent.inp", user=user, output_dir=folder).history
+    return np.array([values for name, values in history.items() if name.startswith("RF")]).T
+
+
+USER_LINES = ["*DEPVAR", "7", "*USER MATERIAL, CONSTANTS=3", "1000., 0.3, 0."]
+
+
+@pytest.mark.parametrize(
+    ("element_type", "nlgeom"),
+    [
+        ("CPS4R", ""),  # the thickness does not change by UMAT
+        *((name, nlgeom) for name in ("CPE4R", "C3D8R", "CPE4RT", "C3D8RT", "C3D8RH") for nlgeom in ("", ", NLGEOM")),
+    ],
+)
+def test_isotropic_umat_with_enhanced_control_is_elastic(tmp_path, element_type, nlgeom):
+    """The isotropic part of an isotropic DDSDDE is all of it: the forces are those of *ELASTIC."""
+    nodes = CUBE * [1, 0.6, 0.4] if element_type.startswith("C3") else SQUARE[:, :2] * [1, 0.6]
+    heat = ["*CONDUCTIVITY", "1."] if element_type.endswith("T") else []
+    static = "*COUPLED TEMPERATURE-DISPLACEMENT, STEADY STATE\n1., 1." if heat else "*STATIC\n1., 1."
+    options = {"static": static, "nlgeom": nlgeom}
+    elastic = reactions(tmp_path, bent(element_type, ["*ELASTIC", "1000., 0.3", *heat], nodes, **options))
+    user = reactions(tmp_path, bent(element_type, USER_LINES + heat, nodes, **options), POINTS)
+    np.testing.assert_allclose(user, elastic, rtol=1e-9, atol=1e-9 * abs(elastic).max())
+
+
+def test_enhanced_control_keeps_the_moduli_of_the_first_tangent(tmp_path):
+    """UMAT is softer after the first increment: a hourglass pattern, which has no strain, grows as it began."""
+    source = tmp_path / "softens.f"
+    source.write_text(
+        f"      include '{POINTS.parent.parent / 'umat.inc'}'\n"
+        "      e = 1000\n"
+        "      if (time(2) > 0) e = 10\n"
+        "      ddsdde = 0\n"
+        "      do i = 1, ntens\n"
+        "        ddsdde(i,i) = e\n"
+        "      end do\n"
+        "      ddsdde(3,3) = e/2\n"
+        "      stress = stress + matmul(ddsdde, dstran)\n"
+        "      end\n"
+    )
+    lines = bent("CPS4R", ["*USER MATERIAL, CONSTANTS=1", "1."], SQUARE[:, :2], "*STATIC\n0.5, 1., 0.5, 0.5")
+    first = lines.index("*BOUNDARY") + 1
+    pattern = [f"{k}, 1, 1, {x}" for k, x in enumerate([0.1, -0.1, 0.1, -0.1], 1)]
+    lines[first : first + 8] = [*pattern, "ALL, 2, 2"]
+    forces = reactions(tmp_path, lines, source)
+    np.testing.assert_allclose(forces[-1], 2 * forces[-2], rtol=1e-12, atol=1e-12)
+    assert abs(forces[-1]).max() == pytest.approx(1000 * 0.7 / 3 * 0.1, rel=1e-12)
+
+
+def test_warning_of_enhanced_control_of_a_umat_names_the_tangent(tmp_path):
+    lines = bent("CPS4R", USER_LINES, SQUARE[:, :2])
+    reactions(tmp_path, lines, POINTS)
+    text = " ".join((tmp_path / "bent.msg").read_text().split())
+    assert "with the isotropic part of the first DDSDDE of UMAT (material M)" in text

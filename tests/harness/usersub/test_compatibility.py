@@ -120,6 +120,16 @@ def test_sign_of_two_kinds_compiles_in_a_copy(load):
     assert said(library) == ["7"]
 
 
+def test_directives_in_capitals_compile_in_a_copy(load):
+    """Abaqus' preprocessor takes them; the header of Abaqus has its name in capitals as well."""
+    body = "#INCLUDE <SMAASPUSERSUBROUTINES.HDR>\n#DEFINE MOST 6\n#IFDEF MOST\n      i = MOST\n#ELSE\n"
+    library = load(database(body + "      i = 7\n#ENDIF\n" + note("%I", "i")))
+    notes = [m.text for m in library.messages()]
+    assert len(notes) == 5
+    assert any(text.endswith("user.f, line 5: #INCLUDE in capitals; the copy has #include") for text in notes)
+    assert said(library) == ["6"]
+
+
 def test_sign_of_two_kinds_over_two_lines_is_shown(load):
     with pytest.raises(CompileError, match=r"must be the same type and kind as 'a' \(user.f, line 7"):
         load(database("      x = -2d0\n      y = sign(1.0,\n     1 x)"))

@@ -16,6 +16,7 @@ import os
 import subprocess
 import sys
 import tempfile
+from collections import Counter
 from dataclasses import asdict
 from pathlib import Path
 
@@ -33,9 +34,40 @@ formulation in place of the user's, in a second run (which shows that the harnes
 independent quick host: for small strains (plausibility only), or
 [kirigami.py](../../tests/programs/public/kirigami.py), which only uses the element's energy density.
 
+"""
+TABLE = """\
 | code | deck | quantity | our figure | expected | grade | verdict |
 |---|---|---|---|---|---|---|
 """
+
+REASONS = {
+    "unsupported": "something that is not supported",
+    "solver": "a feature of another solver: Abaqus/Explicit, CalculiX",
+    "deck": "a fault of the deck, or files that the repository does not have",
+    "code": "a fault of the user's code, or a library or compiler it needs",
+    "time": "no end within the time of the row",
+    "unknown": "an end before the end of the deck, of which the cause is not known",
+}
+"""`reason` of a row of the manifest that does not run to its end, and what the page says of it."""
+
+
+def summary(known: dict[str, Row], outcomes: dict[str, Outcome]) -> str:
+    """How many decks run, and why the others do not."""
+    stopped = Counter(known[name].get("reason", "unknown") for name, outcome in outcomes.items() if outcome.error)
+    ran = len(outcomes) - stopped.total()
+    repositories = len({known[name]["folder"] for name in outcomes})
+    text = (
+        f"Of {len(outcomes)} decks of {repositories} repositories {ran} run, to the end or as far as the table says.\n"
+    )
+    whole = len(outcomes) - sum(stopped[fault] for fault in ("solver", "deck", "code"))
+    if whole:
+        text += (
+            f"Of those without a feature of another solver and without a fault of their own, {ran} of {whole} run,\n"
+        )
+        text += f"{100 * ran / whole:.0f} %. What stops the others:\n\n| what | decks |\n|---|---|\n"
+    for reason, meaning in REASONS.items():
+        text += f"| {meaning} | {stopped[reason]} |\n" if stopped[reason] else ""
+    return text + "\n"
 
 
 def run(folder: Path, row: Row) -> Outcome:
@@ -102,15 +134,18 @@ def main() -> int:
     options = parser.parse_intermixed_args()
     known = rows()
     kept = json.loads(options.results.read_text("utf-8")) if options.results and options.results.exists() else {}
-    text, good = HEAD, True
+    text, good = "", True
+    outcomes: dict[str, Outcome] = {}
     for name in options.rows or known:
         outcome = Outcome(**kept[name]) if name in kept else run(options.folder, known[name])
         kept[name] = asdict(outcome)
+        outcomes[name] = outcome
         if options.results:
             options.results.write_text(json.dumps(kept, indent=1), encoding="utf-8")
         good &= verdict(known[name], outcome)[0]
         text += line(known[name], outcome).replace(f"{options.folder}/", "")
         print(name, *verdict(known[name], outcome), outcome.figure, file=sys.stderr)
+    text = HEAD + summary(known, outcomes) + TABLE + text
     if options.output:
         options.output.write_text(text, encoding="utf-8")
     else:
