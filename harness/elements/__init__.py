@@ -6,6 +6,7 @@ from harness.elements.block import ElementBlock
 from harness.elements.build import build_blocks
 from harness.elements.call import BlockReport, Call, Distributed, Motion, Predefined
 from harness.elements.contact import ContactBlock, contact_blocks
+from harness.elements.contact_sliding import FiniteSliding
 from harness.elements.fields import FIELD_NAMES, MULTIPLIER, PRESSURE, VOLUME, field_of
 from harness.elements.followers import FollowerBlock
 from harness.elements.heat_loads import HeatLoadBlock
@@ -22,6 +23,7 @@ __all__ = [
     "Damping",
     "Distributed",
     "ElementBlock",
+    "FiniteSliding",
     "Flags",
     "FollowerBlock",
     "HeatLoadBlock",

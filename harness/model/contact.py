@@ -66,6 +66,62 @@ class ContactPair:
     areas: FloatArray
     slip: float
 
+    @property
+    def secondary(self) -> IntArray:
+        """(m,) nodes of the secondary surface."""
+        return self.nodes[:, 0]
+
+
+@dataclass(frozen=True, slots=True)
+class Pieces:
+    """A main surface of p pieces, over which points slide from one to the next.
+
+    A piece is X(xi) = sum over its nodes of N X; in the plane N are polynomials 1, xi, xi^2, in space 1, xi, eta,
+    xi eta. Tangents by xi (and eta) turn the outward normal: (t2, -t1) in the plane, their product in space.
+
+    nodes       (p, k) of each piece, repeated where N is zero
+    shapes      (p, k, 3 or 4) coefficients of N
+    low, high   (p, 1 or 2) ends of the natural coordinates
+    total       (p,) largest sum of them, infinite where there is no such end
+    reach_low, reach_high, reach_total  the same of where a point is still above the surface: beyond free edges by the
+                extension zone, without end beyond the others
+    ring        (p, r) pieces that share a node with a piece, and itself, repeated to fill a row
+    """
+
+    nodes: IntArray
+    shapes: FloatArray
+    low: FloatArray
+    high: FloatArray
+    total: FloatArray
+    reach_low: FloatArray
+    reach_high: FloatArray
+    reach_total: FloatArray
+    ring: IntArray
+
+
+@dataclass(frozen=True, slots=True)
+class SlidingPair:
+    """*CONTACT PAIR in finite sliding: a point at each secondary node.
+
+    name        both surfaces, '(SECONDARY,MAIN)'
+    dimension   displacements of a node: 2 or 3
+    secondary   (m,) nodes
+    faces       of the secondary surface by their corners, wound like those of `Pieces`; none of a surface of nodes
+    main        the main surface
+    areas       (m,) of the secondary surface that belong to the nodes
+    slip        largest elastic slip
+    """
+
+    name: str
+    property: ContactProperty
+    source: Source
+    dimension: int
+    secondary: IntArray
+    faces: tuple[IntArray, ...]
+    main: Pieces
+    areas: FloatArray
+    slip: float
+
 
 @dataclass(frozen=True, slots=True)
 class ContactChanges:

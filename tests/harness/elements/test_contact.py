@@ -409,8 +409,9 @@ def pair_of(dimension, stiffness, friction, rng):
     block = ContactBlock(Model(Path("test.inp"), "", mesh, (group,), ()), pair)
     size = len(block.unknowns)
     equations = np.arange(2 * size, dtype=np.int32).reshape(2, size)
-    scatter = (equations[:, :, None] * 2 * size + equations[:, None]).astype(np.int32)
-    block.bind(equations, scatter)
+    block.number(lambda nodes, dof: nodes // count * size + nodes % count * dimension + dof - 1, equations[:, -1])
+    dense = np.arange(2 * size, dtype=np.int32)
+    block.bind(2 * size * np.arange(2 * size + 1, dtype=np.int32), np.tile(dense, 2 * size))
     return block
 
 
@@ -456,14 +457,14 @@ def test_rigid_motion(call, dimension):
     """Clearances stay; the forces of a multiplier balance, and so do their moments."""
     rng = np.random.default_rng(7)
     block = pair_of(dimension, None, 0.0, rng)
-    kinematics, places = block._kinematics, block._kinematics._places
+    kinematics, places = block._motion, block._motion._places
     rotation = np.linalg.qr(rng.normal(size=(dimension, dimension)))[0]
     rotation[:, 0] *= np.sign(np.linalg.det(rotation))
     at_rest = kinematics.finite(np.zeros(places.shape).reshape(2, -1))
     turned = places @ rotation.T + rng.normal(size=dimension)
     found = kinematics.finite((turned - places).reshape(2, -1))
     np.testing.assert_allclose(found.value, at_rest.value, atol=1e-12)
-    slips = [kinematics.slips(at).reshape(2, -1, *places.shape[1:]) for at in (None, (turned - places).reshape(2, -1))]
+    slips = [kinematics._directions(at).reshape(2, -1, *places.shape[1:]) for at in (None, (turned - places).reshape(2, -1))]
     np.testing.assert_allclose(slips[1], slips[0] @ rotation.T, atol=1e-12)
     forces = found.gradient.reshape(places.shape)
     np.testing.assert_allclose(forces, at_rest.gradient.reshape(places.shape) @ rotation.T, atol=1e-12)

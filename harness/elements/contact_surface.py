@@ -1,0 +1,203 @@
+# SPDX-FileCopyrightText: The uel-harness authors
+# SPDX-License-Identifier: BSD-3-Clause
+"""Main surfaces of finite sliding: where they are, how they move with the unknowns, and their point nearest to a node.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Final
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.spatial import KDTree
+
+from harness.model.arrays import FloatArray, IntArray
+from harness.model.contact import Pieces
+
+STEPS: Final = 20
+"""Of Newton's method, for the point of a piece that is nearest to a node."""
+
+EQUAL: Final = 1e-9
+"""Difference of distances, over the size of a piece, that counts as none, and of natural coordinates."""
+
+NEAREST: Final = 4
+"""Nodes of the main surface whose pieces are tried for a node whose piece is not known."""
+
+WALK: Final = 50
+"""Pieces that a node may pass in one iteration."""
+
+
+@dataclass(frozen=True, slots=True)
+class Place:
+    """Points of a main surface.
+
+    at       (m, d)
+    tangents (m, a, d) by the natural coordinates
+    second   (m, a, a, d) their derivatives
+    """
+
+    at: FloatArray
+    tangents: FloatArray
+    second: FloatArray
+
+    @property
+    def metric(self) -> FloatArray:
+        """(m, a, a) products of the tangents."""
+        return np.asarray(np.einsum("mad,mbd->mab", self.tangents, self.tangents))
+
+    @property
+    def normal(self) -> FloatArray:
+        """(m, d) outward, of length one."""
+        first = self.tangents[:, 0]
+        if self.at.shape[1] == 2:
+            found = np.stack([first[:, 1], -first[:, 0]], axis=1)
+        else:
+            found = np.cross(first, self.tangents[:, 1])
+        length = np.linalg.norm(found, axis=1)[:, None]
+        return np.asarray(found / np.where(length > 0.0, length, 1.0))
+
+
+class FaceSurface:
+    """A main surface of faces of elements; displacements are those (nodes, d) of all nodes of the model."""
+
+    def __init__(self, pieces: Pieces, coordinates: FloatArray, dimension: int) -> None:
+        """Coordinates (nodes, d) are those of all nodes of the model."""
+        self.pieces, self._coordinates, self._dimension = pieces, coordinates, dimension
+        self._own = np.unique(pieces.nodes)
+        order = np.argsort(pieces.nodes.ravel(), kind="stable")
+        counts = np.bincount(np.searchsorted(self._own, pieces.nodes.ravel()))
+        rank = np.arange(len(order)) - np.repeat(np.cumsum(counts) - counts, counts)
+        # pieces of each node
+        first = order[np.cumsum(counts) - counts] // pieces.nodes.shape[1]
+        self._of_node = np.repeat(first[:, None], counts.max(), axis=1)
+        self._of_node[np.repeat(np.arange(len(counts)), counts), rank] = order // pieces.nodes.shape[1]
+
+    def at(self, piece: IntArray, natural: FloatArray, moved: FloatArray) -> Place:
+        """Points (m,) of pieces, by their natural coordinates (m, a)."""
+        nodes = self.pieces.nodes[piece]
+        places = self._coordinates[nodes] + moved[nodes]
+        shapes = self._weights(piece, natural)
+        found = [np.einsum("mk...,mkd->m...d", one, places) for one in shapes]
+        return Place(*found)
+
+    def sizes(self, piece: IntArray, moved: FloatArray) -> FloatArray:
+        """(m,) largest distances of nodes of pieces from their middle."""
+        nodes = self.pieces.nodes[piece]
+        places = self._coordinates[nodes] + moved[nodes]
+        return np.asarray(np.linalg.norm(places - places.mean(axis=1, keepdims=True), axis=2).max(axis=1))
+
+    def _weights(self, piece: IntArray, natural: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray]:
+        """N (m, k) and their first (m, k, a) and second derivatives (m, k, a, a)."""
+        given = self.pieces.shapes[piece]
+        values, first, second = _monomials(natural)
+        return (
+            np.einsum("mkp,mp->mk", given, values),
+            np.einsum("mkp,mpa->mka", given, first),
+            np.einsum("mkp,mpab->mkab", given, second),
+        )
+
+    def by_unknowns(self, piece: IntArray, natural: FloatArray) -> tuple[FloatArray, FloatArray]:
+        """Derivatives of points (m, d, u) and tangents (m, a, d, u) by the displacements of the nodes of the pieces."""
+        m, eye = len(piece), np.eye(self._dimension)
+        values, first, _ = self._weights(piece, natural)
+        at = np.einsum("mk,de->mdke", values, eye).reshape(m, self._dimension, -1)
+        return at, np.einsum("mka,de->madke", first, eye).reshape(m, first.shape[2], self._dimension, -1)
+
+    def track(
+        self, points: FloatArray, looks: FloatArray, moved: FloatArray, before: IntArray, *, everywhere: bool
+    ) -> tuple[IntArray, FloatArray, NDArray[np.bool_]]:
+        """The pieces nearest to points (m, d), the natural coordinates (m, a) there, and whether points are above them.
+
+        Parameters
+        ----------
+        points
+            (m, d) places of the secondary nodes.
+        looks
+            (m, d) normals of their own surface: pieces that look the same way are left out; zero: none.
+        moved
+            (nodes, d) displacements of all nodes.
+        before
+            (m,) pieces so far; where others are as near, these stay.
+        everywhere
+            Search the whole surface, else from these pieces to their neighbours.
+        """
+        found = before
+        if everywhere:
+            places = self._coordinates[self._own] + moved[self._own]
+            _, near = KDTree(places).query(points, k=min(NEAREST, len(places)))
+            near = self._of_node[near.reshape(len(points), -1)].reshape(len(points), -1)
+            found = self._nearest(points, looks, moved, np.concatenate([before[:, None], near], axis=1))[0]
+        for _ in range(WALK):
+            candidates = np.concatenate([found[:, None], self.pieces.ring[found]], axis=1)
+            last, (found, natural, above) = found, self._nearest(points, looks, moved, candidates)
+            if np.array_equal(last, found):
+                break
+        return found, natural, above
+
+    def _nearest(
+        self, points: FloatArray, looks: FloatArray, moved: FloatArray, candidates: IntArray
+    ) -> tuple[IntArray, FloatArray, NDArray[np.bool_]]:
+        """Of candidates (m, c) the nearest piece: as in `track`. Of some that are as near it is the first one."""
+        m, count = candidates.shape
+        piece, point = candidates.ravel(), np.repeat(points, count, axis=0)
+        natural = self._project(piece, point, moved)
+        end = self._inside(piece, natural)
+        place = self.at(piece, end, moved)
+        size = self.sizes(piece, moved)
+        away = np.einsum("md,md->m", place.normal, np.repeat(looks, count, axis=0)) > EQUAL
+        distance = np.where(away, np.inf, np.linalg.norm(point - place.at, axis=1)).reshape(m, count)
+        chosen = np.argmax(distance <= distance.min(axis=1, keepdims=True) + EQUAL * size.reshape(m, count), axis=1)
+        rows = np.arange(m), chosen
+        piece, natural = candidates[rows], natural.reshape(m, count, -1)[rows]
+        pieces = self.pieces
+        above = (natural >= pieces.reach_low[piece] - EQUAL).all(axis=1)
+        above &= (natural <= pieces.reach_high[piece] + EQUAL).all(axis=1)
+        above &= (natural.sum(axis=1) <= pieces.reach_total[piece] + EQUAL) & np.isfinite(distance[rows])
+        return piece, natural, above
+
+    def _inside(self, piece: IntArray, natural: FloatArray) -> FloatArray:
+        """Natural coordinates of the nearest point that belongs to the piece."""
+        pieces = self.pieces
+        end = np.clip(natural, pieces.low[piece], pieces.high[piece])
+        over = np.maximum(end.sum(axis=1) - pieces.total[piece], 0.0)[:, None]
+        return np.clip(end - over / end.shape[1], pieces.low[piece], pieces.high[piece])
+
+    def _project(self, piece: IntArray, points: FloatArray, moved: FloatArray) -> FloatArray:
+        """Natural coordinates where pieces, extended, are perpendicular to the way to points, by Newton's method."""
+        pieces = self.pieces
+        low, high = pieces.low[piece], pieces.high[piece]
+        natural, reach = 0.5 * (low + high), 2.0 * (high - low)
+        for _ in range(STEPS):
+            place = self.at(piece, natural, moved)
+            apart = points - place.at
+            metric = place.metric
+            matrix = metric - np.einsum("mabd,md->mab", place.second, apart)
+            # downhill: far from a curved piece only without its curvature
+            convex = np.linalg.det(matrix) > 0.1 * np.linalg.det(metric)
+            convex &= np.trace(matrix, axis1=1, axis2=2) > 0.0
+            matrix = np.where(convex[:, None, None], matrix, metric)
+            # where corners of a face coincide it has no tangents
+            matrix += EQUAL**2 * np.trace(metric, axis1=1, axis2=2)[:, None, None] * np.eye(natural.shape[1])
+            change = np.linalg.solve(matrix, np.einsum("mad,md->ma", place.tangents, apart)[..., None])[..., 0]
+            last, natural = natural, np.clip(natural + change, low - reach, high + reach)
+            if np.abs(natural - last).max(initial=0.0) <= np.finfo(float).eps:
+                break
+        return natural
+
+
+def _monomials(natural: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray]:
+    """1, xi, xi^2 or 1, xi, eta, xi eta (m, p), with first (m, p, a) and second derivatives (m, p, a, a)."""
+    m, along = natural.shape
+    first, second = np.zeros((m, along + 2, along)), np.zeros((m, along + 2, along, along))
+    values = np.ones((m, along + 2))
+    values[:, 1 : along + 1] = natural
+    if along == 1:
+        values[:, 2] = natural[:, 0] ** 2
+        first[:, 1, 0], first[:, 2, 0], second[:, 2, 0, 0] = 1.0, 2.0 * natural[:, 0], 2.0
+        return values, first, second
+    values[:, 3] = natural[:, 0] * natural[:, 1]
+    first[:, 1, 0] = first[:, 2, 1] = 1.0
+    first[:, 3] = natural[:, ::-1]
+    second[:, 3, 0, 1] = second[:, 3, 1, 0] = 1.0
+    return values, first, second
