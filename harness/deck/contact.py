@@ -174,7 +174,7 @@ class ContactReader:
             dimension=2 if target.faces[0][0].shape[1] == 2 else 3,
             secondary=side.nodes,
             faces=tuple(wound(side.faces, self._points)),
-            main=make_pieces(wound(target.faces, self._points), smooth, zone),
+            main=make_pieces(wound(target.faces, self._points), self._points, smooth, zone),
             areas=side.areas,
             slip=slip,
         )

@@ -219,10 +219,11 @@ class ContactBlock:
         """Add what points with this motion, these multipliers (or forces), forces and status contribute."""
         multiplier, force, closed = state
         clearances, slips = motion
-        normal, tangents, scale = clearances.gradient, slips.carried, self._scale
+        normal, pushed = clearances.gradient, clearances.pushed
+        tangents, scale = slips.carried, self._scale
         count = normal.shape[1]
         right = np.zeros((len(closed), len(self.unknowns)))
-        right[:, :count] = force[:, None] * normal - np.einsum("mt,mtu->mu", friction.force, tangents)
+        right[:, :count] = force[:, None] * pushed - np.einsum("mt,mtu->mu", friction.force, tangents)
         if self.direct:
             right[:, count] = np.where(closed, scale * clearances.value, -multiplier)
         np.add.at(residual, self._equations, right)
@@ -235,7 +236,7 @@ class ContactBlock:
         if clearances.curvature is not None:
             matrix[:, :count, :count] -= force[:, None, None] * clearances.curvature
         # what the contact force does, by the contact force
-        by_force = closed[:, None] * (np.einsum("mt,mtu->mu", friction.by_force, tangents) - normal)
+        by_force = closed[:, None] * (np.einsum("mt,mtu->mu", friction.by_force, tangents) - pushed)
         if self.direct:
             matrix[:, :count, count] = scale * by_force
             matrix[:, count, :count] = -scale * closed[:, None] * normal

@@ -39,12 +39,14 @@ class Clearances:
 
     value     (m,)
     gradient  (m, u)
-    curvature (m, u, u) second derivatives; None: zero
+    pushed    (m, u) forces on the unknowns for a contact force of one
+    curvature (m, u, u) their derivatives; None: zero
     rounding  error that the arithmetic makes
     """
 
     value: FloatArray
     gradient: FloatArray
+    pushed: FloatArray
     curvature: FloatArray | None
     rounding: float
 
@@ -183,7 +185,7 @@ class SmallSliding:
         """In small displacements."""
         gradient = self._along(self._normals)
         value = self._clearances + np.einsum("mu,mu->m", gradient, moved)
-        return Clearances(value, gradient, None, float(np.finfo(float).eps * np.abs(moved).max()))
+        return Clearances(value, gradient, gradient, None, float(np.finfo(float).eps * np.abs(moved).max()))
 
     def finite(self, moved: FloatArray) -> Clearances:
         """In large displacements."""
@@ -211,7 +213,7 @@ class SmallSliding:
             second = np.einsum("mnk,md,dpq->mnpkq", twist, beside, _PRODUCT)
             curvature += second.reshape(m, n * dimension, -1)
         eps = float(np.finfo(float).eps)
-        return Clearances(value, gradient, curvature, eps * float(np.abs(places).max()))
+        return Clearances(value, gradient, gradient, curvature, eps * float(np.abs(places).max()))
 
     def _directions(self, moved: FloatArray | None) -> FloatArray:
         """(m, directions, u) derivatives of the slips along tangents of the face; moved: None where it is in its mesh

@@ -6,9 +6,10 @@ The point opposite a node x is the nearest one X of the surface: x - X = g n. Wi
 point of the main surface, tau the tangents, and G = d tau / du at fixed natural coordinates xi,
 
     dg = n W du,    (tau_a tau_b - g n tau_ab) dxi_b = tau_a W du + g n G_a du,
-    dn = -tau^a (n G_a du + n tau_ab dxi_b),    d2g = dn W - n G_a dxi_a
+    dn = -tau^a (n G_a du + n tau_ab dxi_b)
 
-(P. Wriggers, Computational Contact Mechanics, 2nd edition (2006), chapter 4). The slip of an increment is the motion of
+(P. Wriggers, Computational Contact Mechanics, 2nd edition (2006), chapter 4). Forces go to the nodes of the piece by shares L in place
+of N, which differ where the surface is smoothed. The slip of an increment is the motion of
 the node against the point of the main surface that is opposite it at the end. It is taken in the place of
 both at the start of the increment, together with the elastic slip, which turns there with the normal, and goes with the
 surface to its present place: bodies that move together do not slip.
@@ -138,8 +139,11 @@ class FiniteSliding:
         m, dimension, _ = at.shape
         value = self._clearances()
         own = np.broadcast_to(np.eye(dimension), (m, dimension, dimension))
-        self._against = against = np.concatenate([own, -at], axis=2)
-        self._turning = turning = np.concatenate([np.zeros((m, dimension - 1, dimension, dimension)), tangents], axis=3)
+        against = np.concatenate([own, -at], axis=2)
+        unmoved = np.zeros((m, dimension - 1, dimension, dimension))
+        self._turning = turning = np.concatenate([unmoved, tangents], axis=3)
+        loaded, sliding = self._surface.loaded(self._piece, self._natural)
+        self._carried = carried = np.concatenate([own, -loaded], axis=2)
         apart = np.where(self.above, value, 0.0)
         across = np.einsum("md,madu->mau", normal, turning)
         bent = np.einsum("md,mabd->mab", normal, place.second)
@@ -148,10 +152,13 @@ class FiniteSliding:
         self._glide = glide = np.linalg.solve(metric - apart[:, None, None] * bent, right)
         tilt = np.linalg.solve(metric, across + np.einsum("mab,mbu->mau", bent, glide))
         self._tilt = -np.einsum("mad,mau->mdu", place.tangents, tilt)
-        gradient = np.einsum("md,mdu->mu", normal, against)
-        curvature = np.einsum("mdu,mdv->muv", against, self._tilt) - np.einsum("mau,mav->muv", across, glide)
+        # derivatives of the motions that forces follow
+        self._carried_by = -np.einsum("madu,mav->mduv", np.concatenate([unmoved, sliding], axis=3), glide)
+        gradient, pushed = (np.einsum("md,mdu->mu", normal, along) for along in (against, carried))
+        curvature = np.einsum("mdu,mdv->muv", carried, self._tilt)
+        curvature += np.einsum("md,mduv->muv", normal, self._carried_by)
         rounding = float(np.finfo(float).eps * np.abs(self._coordinates + self._moved).max())
-        return Clearances(value, gradient, curvature, rounding)
+        return Clearances(value, gradient, pushed, curvature, rounding)
 
     def slips(self, moved: FloatArray, change: FloatArray, elastic: FloatArray) -> Slips:
         """In the present tangent plane, after `clearances`; components are those of the global axes."""
@@ -180,8 +187,7 @@ class FiniteSliding:
         by = np.einsum("mad,mab,mbu->mdu", place.tangents, parts_by, glide)
         by += np.einsum("ma,madu->mdu", parts, self._turning)
         by += np.einsum("ma,mabd,mbu->mdu", parts, place.second, glide)
-        turned = -np.einsum("madu,mav->mduv", self._turning, glide)
-        return Slips(value, by, self._against, turned, _axes(place))
+        return Slips(value, by, self._carried, self._carried_by, _axes(place))
 
     def commit(self) -> None:
         """The next increment begins with these normals."""

@@ -77,8 +77,7 @@ class FaceSurface:
         """Points (m,) of pieces, by their natural coordinates (m, a)."""
         nodes = self.pieces.nodes[piece]
         places = self._coordinates[nodes] + moved[nodes]
-        shapes = self._weights(piece, natural)
-        found = [np.einsum("mk...,mkd->m...d", one, places) for one in shapes]
+        found = [np.einsum("mk...,mkd->m...d", one, places) for one in _weights(self.pieces.shapes[piece], natural)]
         return Place(*found)
 
     def sizes(self, piece: IntArray, moved: FloatArray) -> FloatArray:
@@ -87,20 +86,18 @@ class FaceSurface:
         places = self._coordinates[nodes] + moved[nodes]
         return np.asarray(np.linalg.norm(places - places.mean(axis=1, keepdims=True), axis=2).max(axis=1))
 
-    def _weights(self, piece: IntArray, natural: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray]:
-        """N (m, k) and their first (m, k, a) and second derivatives (m, k, a, a)."""
-        given = self.pieces.shapes[piece]
-        values, first, second = _monomials(natural)
-        return (
-            np.einsum("mkp,mp->mk", given, values),
-            np.einsum("mkp,mpa->mka", given, first),
-            np.einsum("mkp,mpab->mkab", given, second),
-        )
-
     def by_unknowns(self, piece: IntArray, natural: FloatArray) -> tuple[FloatArray, FloatArray]:
         """Derivatives of points (m, d, u) and tangents (m, a, d, u) by the displacements of the nodes of the pieces."""
-        m, eye = len(piece), np.eye(self._dimension)
-        values, first, _ = self._weights(piece, natural)
+        return self._spread(self.pieces.shapes[piece], natural)
+
+    def loaded(self, piece: IntArray, natural: FloatArray) -> tuple[FloatArray, FloatArray]:
+        """Motions (m, d, u) along which forces on points do work, and their derivatives (m, a, d, u) along the surface.
+        """
+        return self._spread(self.pieces.loads[piece], natural)
+
+    def _spread(self, shapes: FloatArray, natural: FloatArray) -> tuple[FloatArray, FloatArray]:
+        m, eye = len(natural), np.eye(self._dimension)
+        values, first, _ = _weights(shapes, natural)
         at = np.einsum("mk,de->mdke", values, eye).reshape(m, self._dimension, -1)
         return at, np.einsum("mka,de->madke", first, eye).reshape(m, first.shape[2], self._dimension, -1)
 
@@ -184,6 +181,16 @@ class FaceSurface:
             if np.abs(natural - last).max(initial=0.0) <= np.finfo(float).eps:
                 break
         return natural
+
+
+def _weights(shapes: FloatArray, natural: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray]:
+    """N (m, k) of coefficients (m, k, p), and their first (m, k, a) and second derivatives (m, k, a, a)."""
+    values, first, second = _monomials(natural)
+    return (
+        np.einsum("mkp,mp->mk", shapes, values),
+        np.einsum("mkp,mpa->mka", shapes, first),
+        np.einsum("mkp,mpab->mkab", shapes, second),
+    )
 
 
 def _monomials(natural: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray]:

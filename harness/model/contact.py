@@ -81,6 +81,7 @@ class Pieces:
 
     nodes       (p, k) of each piece, repeated where N is zero
     shapes      (p, k, 3 or 4) coefficients of N
+    loads       (p, k, 3 or 4) those of the shares of the nodes in a force, whose sum is one
     low, high   (p, 1 or 2) ends of the natural coordinates
     total       (p,) largest sum of them, infinite where there is no such end
     reach_low, reach_high, reach_total  the same of where a point is still above the surface: beyond free edges by the
@@ -90,6 +91,7 @@ class Pieces:
 
     nodes: IntArray
     shapes: FloatArray
+    loads: FloatArray
     low: FloatArray
     high: FloatArray
     total: FloatArray
