@@ -260,8 +260,8 @@ class ConstraintReader:
         for name, nodes in (("PIN NSET", pinned), ("TIE NSET", tied)):
             if options.given(name):
                 nodes |= set(self._flat.nodes(options.text(name), block.source, owner.name).tolist())
-        if not pinned | tied:
-            raise block.error("needs ELSET, PIN NSET or TIE NSET")
+        if not pinned | tied and not options.given("ANALYTICAL SURFACE"):
+            raise block.error("needs ELSET, PIN NSET, TIE NSET or ANALYTICAL SURFACE")
         for node in sorted(pinned | tied):
             dofs = sorted(dof for dof in self._active[node] if dof <= 3 or node in tied)
             yield from self._follow(node, reference, dofs, block.source)
@@ -468,8 +468,9 @@ KEYWORDS = (
             Option("ELSET", Kind.NAME, "elements that are rigid"),
             Option("PIN NSET", Kind.NAME, "nodes whose displacements follow"),
             Option("TIE NSET", Kind.NAME, "nodes whose displacements and rotations follow"),
+            Option("ANALYTICAL SURFACE", Kind.NAME, "analytical rigid surface, for contact"),
             *ignored("ISOTHERMAL"),
-            *refused("ANALYTICAL SURFACE", "POSITION"),
+            *refused("POSITION"),
         ),
     ),
     Keyword(

@@ -17,13 +17,14 @@ from harness.deck.flatten import FlatMesh, Owner
 from harness.deck.interactions import Interactions
 from harness.deck.numbers import read_real
 from harness.deck.pieces import make_pieces, wound
+from harness.deck.profiles import find_profile
 from harness.deck.surfaces import Surfaces, tributary_areas
 from harness.deck.table import INPUT, Keyword, Kind, Option, Where, ignored, one_of, refused
 from harness.deck.user_elements import dofs_by_node
 from harness.elements import FiniteSliding
 from harness.errors import DeckError
 from harness.model.arrays import FloatArray, IntArray
-from harness.model.contact import ContactPair, ContactProperty, SlidingPair
+from harness.model.contact import ContactPair, ContactProperty, Pieces, RigidProfile, SlidingPair
 from harness.model.element_types import LINE2, QUAD4, TRI3, ContinuumType, Family
 from harness.model.mesh import ElementGroup, full_name
 from harness.model.properties import SolidSection
@@ -107,6 +108,9 @@ class ContactReader:
     def _pair(self, block: Block, row: Row, owner: Owner) -> ContactPair | SlidingPair:
         surface = self._interactions.find(block.options.text("INTERACTION"), block.source)
         secondary, main = row.name(0, "secondary surface"), row.name(1, "main surface")
+        rigid = find_profile(main, row.source, owner.name, self._flat, self._surfaces)
+        if rigid is not None:
+            return self._against_rigid(block, row, owner, rigid, surface)
         if self._surfaces.of_nodes(main, row.source, owner.name) is not None:
             raise row.error(f"the main surface {main} is made of nodes; expected faces of elements")
         target = self._side(main, row, owner, None)
@@ -123,7 +127,10 @@ class ContactReader:
                     "finite sliding of surface to surface is not supported: its means would have to be taken again as "
                     "the faces move; expected SMALL SLIDING, or TYPE=NODE TO SURFACE"
                 )
-            return self._sliding(block, row, owner, (side, target), surface, slip)
+            smooth, zone = _smoothing(block)
+            faces = wound(target.faces, self._points)
+            pieces = make_pieces(faces, self._points, smooth, zone)
+            return self._sliding(block, row, owner, side, pieces, (surface, slip))
         anchors = find_anchors(self._points[side.nodes], side.normals, target.faces, self._points)
         moved = self._adjust(block, side.nodes, (anchors.found, anchors.clearances, anchors.normals), owner)
         anchors = replace(anchors, clearances=np.where(moved, 0.0, anchors.clearances))
@@ -151,30 +158,45 @@ class ContactReader:
             slip=slip,
         )
 
+    def _against_rigid(
+        self, block: Block, row: Row, owner: Owner, rigid: RigidProfile, surface: ContactProperty
+    ) -> SlidingPair:
+        """A pair with an analytical rigid surface."""
+        secondary, main = row.name(0, "secondary surface"), row.name(1, "main surface")
+        if block.options.flag("SMALL SLIDING"):
+            raise block.error(f"SMALL SLIDING is not supported on the analytical rigid surface {main}; leave it out")
+        if block.options.text("TYPE") == "SURFACE TO SURFACE":
+            raise block.error(
+                f"TYPE=SURFACE TO SURFACE is not supported on the analytical rigid surface {main}; expected NODE TO SURFACE"
+            )
+        side = self._side(secondary, row, owner, None)
+        active = dofs_by_node(len(self._points), self._groups)
+        if any(3 in active[node] for node in side.nodes.tolist()):
+            raise row.error(f"the analytical rigid surface {main} is in the plane, {secondary} is not")
+        if surface.friction > 0.0 and not side.faces and not surface.elastic_slip:
+            raise row.error(f"{secondary} has no faces whose length gives the elastic slip; expected ELASTIC SLIP")
+        slip = surface.elastic_slip or surface.slip_tolerance * side.size
+        return self._sliding(block, row, owner, side, rigid, (surface, slip))
+
     def _sliding(
         self,
         block: Block,
         row: Row,
         owner: Owner,
-        sides: tuple[_Side, _Side],
-        surface: ContactProperty,
-        slip: float,
+        side: _Side,
+        main: Pieces | RigidProfile,
+        given: tuple[ContactProperty, float],
     ) -> SlidingPair:
         """A pair in finite sliding."""
-        options, (side, target) = block.options, sides
-        smooth, zone = options.real("SMOOTH", SMOOTH), options.real("EXTENSION ZONE", EXTENSION)
-        if not 0.0 <= smooth < 0.5:
-            raise block.error(f"SMOOTH={smooth:g} must be at least 0 and less than 0.5")
-        if not 0.0 <= zone <= 0.2:
-            raise block.error(f"EXTENSION ZONE={zone:g} must be from 0 to 0.2")
+        surface, slip = given
         pair = SlidingPair(
             name=f"({row.name(0, 'secondary surface')},{row.name(1, 'main surface')})",
             property=surface,
             source=row.source,
-            dimension=2 if target.faces[0][0].shape[1] == 2 else 3,
+            dimension=3 if isinstance(main, Pieces) and main.low.shape[1] == 2 else 2,
             secondary=side.nodes,
             faces=tuple(wound(side.faces, self._points)),
-            main=make_pieces(wound(target.faces, self._points), self._points, smooth, zone),
+            main=main,
             areas=side.areas,
             slip=slip,
         )
@@ -184,10 +206,12 @@ class ContactReader:
         return pair
 
     def _side(self, name: str, row: Row, owner: Owner, main: _Side | None) -> _Side:
-        """A surface of a pair; main: the other one of a secondary surface, whose length one of nodes has."""
-        given = None if main is None else self._surfaces.of_nodes(name, row.source, owner.name)
-        if main is not None and given is not None:
-            return self._of_nodes(name, row, given, main.size)
+        """A surface of a pair; main: the other one of a secondary surface, if it has faces, whose length one of nodes
+        has.
+        """
+        given = self._surfaces.of_nodes(name, row.source, owner.name)
+        if given is not None:
+            return self._of_nodes(name, row, given, 0.0 if main is None else main.size)
         by_corners: dict[int, list[tuple[IntArray, FloatArray]]] = {}
         areas, depth, lengths = np.zeros(len(self._points)), np.zeros(len(self._points)), [np.zeros(0)]
         for group, rows, local, place in self._surfaces.facets(name, row.source, owner.name):
@@ -291,6 +315,16 @@ class ContactReader:
         chosen &= found & (clearances != 0.0)
         self._points[nodes[chosen]] -= (clearances[:, None] * normals)[chosen]
         return chosen
+
+
+def _smoothing(block: Block) -> tuple[float, float]:
+    """SMOOTH and EXTENSION ZONE."""
+    smooth, zone = block.options.real("SMOOTH", SMOOTH), block.options.real("EXTENSION ZONE", EXTENSION)
+    if not 0.0 <= smooth < 0.5:
+        raise block.error(f"SMOOTH={smooth:g} must be at least 0 and less than 0.5")
+    if not 0.0 <= zone <= 0.2:
+        raise block.error(f"EXTENSION ZONE={zone:g} must be from 0 to 0.2")
+    return smooth, zone
 
 
 def _at_nodes(side: _Side, anchors: Anchors) -> _Points:

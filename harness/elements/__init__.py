@@ -11,6 +11,7 @@ from harness.elements.fields import FIELD_NAMES, MULTIPLIER, PRESSURE, VOLUME, f
 from harness.elements.followers import FollowerBlock
 from harness.elements.heat_loads import HeatLoadBlock
 from harness.elements.lflags import Damping, Flags, Request
+from harness.elements.rigid_surface import RigidSurface
 
 __all__ = [
     "FIELD_NAMES",
@@ -30,6 +31,7 @@ __all__ = [
     "Motion",
     "Predefined",
     "Request",
+    "RigidSurface",
     "build_blocks",
     "contact_blocks",
     "field_of",

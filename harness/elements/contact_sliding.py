@@ -21,9 +21,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from harness.elements.contact_kinematics import Clearances, Find, Slips
-from harness.elements.contact_surface import EQUAL, FaceSurface, Place
+from harness.elements.contact_surface import EQUAL, FaceSurface, Place, Surface
+from harness.elements.rigid_surface import RigidSurface
 from harness.model.arrays import FloatArray, IntArray
-from harness.model.contact import SlidingPair
+from harness.model.contact import RigidProfile, SlidingPair
 from harness.model.restart import Saved
 
 
@@ -35,11 +36,14 @@ class FiniteSliding:
         dimension, m = pair.dimension, len(pair.secondary)
         self._pair, self._dimension = pair, dimension
         self._coordinates = coordinates[:, :dimension]
-        self._surface = FaceSurface(pair.main, self._coordinates, dimension)
-        width = 1 + pair.main.nodes.shape[1]
-        self.unknowns = tuple((node, dof) for node in range(width) for dof in range(1, dimension + 1))
+        self._surface: Surface
+        if isinstance(pair.main, RigidProfile):
+            self._surface = RigidSurface(pair.main, self._coordinates)
+        else:
+            self._surface = FaceSurface(pair.main, self._coordinates, dimension)
+        self.unknowns = tuple((0, dof) for dof in range(1, dimension + 1)) + self._surface.unknowns
         self.components = dimension
-        still = np.zeros_like(self._coordinates)
+        still = np.zeros((len(coordinates), len(self._surface.dofs)))
         self._moved = self._moved_before = still
         self._looks = self._own_normals(still)
         self._piece, self._natural, self.above = np.zeros(m, dtype=np.int64), np.zeros((m, dimension - 1)), self._none
@@ -55,11 +59,11 @@ class FiniteSliding:
         return np.zeros(len(self._pair.secondary), dtype=np.bool_)
 
     def _nodes_of(self, piece: IntArray) -> IntArray:
-        return np.concatenate([self._pair.secondary[:, None], self._pair.main.nodes[piece]], axis=1)
+        return np.concatenate([self._pair.secondary[:, None], self._surface.nodes_of(piece)], axis=1)
 
     def _points(self) -> FloatArray:
         secondary = self._pair.secondary
-        return np.asarray(self._coordinates[secondary] + self._moved[secondary])
+        return np.asarray(self._coordinates[secondary] + self._moved[secondary, : self._dimension])
 
     def _search(self, *, everywhere: bool) -> None:
         found = self._surface.track(self._points(), self._looks, self._moved, self._piece, everywhere=everywhere)
@@ -77,7 +81,8 @@ class FiniteSliding:
 
     def _own_normals(self, moved: FloatArray) -> FloatArray:
         """(m, d) sums of the normals of the faces of the secondary nodes; zero of a surface of nodes."""
-        sums, places = np.zeros_like(moved), self._coordinates + moved
+        places = self._coordinates + moved[:, : self._dimension]
+        sums = np.zeros_like(places)
         for faces in self._pair.faces:
             corners = places[faces]
             first = corners[:, 1] - corners[:, 0]
@@ -102,7 +107,7 @@ class FiniteSliding:
 
     def track(self, u: FloatArray, du: FloatArray, find: Find, *, first: bool) -> None:
         """Find the pieces that are opposite: in the first pass of an increment anywhere, then from those so far."""
-        places = find(np.arange(len(self._coordinates))[:, None], np.arange(1, self._dimension + 1))
+        places = find(np.arange(len(self._coordinates))[:, None], np.array(self._surface.dofs))
         self._moved, self._moved_before = np.append(u, 0.0)[places], np.append(u - du, 0.0)[places]
         if first:
             self._looks = self._own_normals(self._moved)
@@ -114,7 +119,7 @@ class FiniteSliding:
     @property
     def known(self) -> bool:
         """Whether the pieces are neighbours of those from which `links` starts."""
-        ring = self._pair.main.ring[self._reachable]
+        ring = self._surface.ring_of(self._reachable)
         return bool((ring == self._piece[:, None]).any(axis=1).all())
 
     def reach(self) -> None:
@@ -123,9 +128,9 @@ class FiniteSliding:
 
     def links(self) -> tuple[IntArray, IntArray]:
         """Points with the nodes of their pieces, at the last `reach`, and of the neighbours of these."""
-        ring = self._pair.main.ring[self._reachable]
+        ring = self._surface.ring_of(self._reachable)
         m, count = ring.shape
-        nodes = self._pair.main.nodes[ring].reshape(m * count, -1)
+        nodes = self._surface.nodes_of(ring.ravel())
         return np.repeat(np.arange(m), count), np.concatenate(
             [np.repeat(self._pair.secondary, count)[:, None], nodes], axis=1
         )
@@ -135,14 +140,15 @@ class FiniteSliding:
         del moved, nlgeom
         self._place_now = place = self._place()
         self._normal = normal = place.normal
-        at, tangents = self._surface.by_unknowns(self._piece, self._natural)
+        given = self._piece, self._natural, self._moved
+        at, tangents = self._surface.by_unknowns(*given)
         m, dimension, _ = at.shape
         value = self._clearances()
         own = np.broadcast_to(np.eye(dimension), (m, dimension, dimension))
         against = np.concatenate([own, -at], axis=2)
         unmoved = np.zeros((m, dimension - 1, dimension, dimension))
         self._turning = turning = np.concatenate([unmoved, tangents], axis=3)
-        loaded, sliding = self._surface.loaded(self._piece, self._natural)
+        loaded, sliding, turning_too = self._surface.loaded(*given)
         self._carried = carried = np.concatenate([own, -loaded], axis=2)
         apart = np.where(self.above, value, 0.0)
         across = np.einsum("md,madu->mau", normal, turning)
@@ -154,10 +160,12 @@ class FiniteSliding:
         self._tilt = -np.einsum("mad,mau->mdu", place.tangents, tilt)
         # derivatives of the motions that forces follow
         self._carried_by = -np.einsum("madu,mav->mduv", np.concatenate([unmoved, sliding], axis=3), glide)
+        if turning_too is not None:
+            self._carried_by[:, :, dimension:, dimension:] -= turning_too
         gradient, pushed = (np.einsum("md,mdu->mu", normal, along) for along in (against, carried))
         curvature = np.einsum("mdu,mdv->muv", carried, self._tilt)
         curvature += np.einsum("md,mduv->muv", normal, self._carried_by)
-        rounding = float(np.finfo(float).eps * np.abs(self._coordinates + self._moved).max())
+        rounding = float(np.finfo(float).eps * np.abs(self._coordinates + self._moved[:, :dimension]).max())
         return Clearances(value, gradient, pushed, curvature, rounding)
 
     def slips(self, moved: FloatArray, change: FloatArray, elastic: FloatArray) -> Slips:
@@ -170,7 +178,7 @@ class FiniteSliding:
         tilt = np.linalg.solve(metric, np.einsum("md,mabd->mab", normal, then.second))
         tilt = -np.einsum("mab,mad->mbd", tilt, then.tangents)
         secondary = self._pair.secondary
-        apart = self._coordinates[secondary] + self._moved_before[secondary] - then.at
+        apart = self._coordinates[secondary] + self._moved_before[secondary, : self._dimension] - then.at
         height, height_by = np.einsum("md,md->m", apart, normal), np.einsum("md,mad->ma", apart, tilt)
         both = before + normal
         cosine = np.maximum(1.0 + np.einsum("md,md->m", before, normal), EQUAL)

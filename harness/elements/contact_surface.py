@@ -6,7 +6,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Final
+from typing import Final, Protocol
 
 import numpy as np
 from numpy.typing import NDArray
@@ -58,48 +58,37 @@ class Place:
         return np.asarray(found / np.where(length > 0.0, length, 1.0))
 
 
-class FaceSurface:
-    """A main surface of faces of elements; displacements are those (nodes, d) of all nodes of the model."""
+class Surface(Protocol):
+    """A main surface; moved: values (nodes, dofs) of these dofs of all nodes of the model.
 
-    def __init__(self, pieces: Pieces, coordinates: FloatArray, dimension: int) -> None:
-        """Coordinates (nodes, d) are those of all nodes of the model."""
-        self.pieces, self._coordinates, self._dimension = pieces, coordinates, dimension
-        self._own = np.unique(pieces.nodes)
-        order = np.argsort(pieces.nodes.ravel(), kind="stable")
-        counts = np.bincount(np.searchsorted(self._own, pieces.nodes.ravel()))
-        rank = np.arange(len(order)) - np.repeat(np.cumsum(counts) - counts, counts)
-        # pieces of each node
-        first = order[np.cumsum(counts) - counts] // pieces.nodes.shape[1]
-        self._of_node = np.repeat(first[:, None], counts.max(), axis=1)
-        self._of_node[np.repeat(np.arange(len(counts)), counts), rank] = order // pieces.nodes.shape[1]
+    dofs      displacements, then rotations
+    unknowns  (local node, dof) of those of its nodes, which follow the secondary node
+    """
+
+    dofs: tuple[int, ...]
+    unknowns: tuple[tuple[int, int], ...]
+
+    def nodes_of(self, piece: IntArray) -> IntArray:
+        """(m, k) nodes of pieces (m,)."""
+
+    def ring_of(self, piece: IntArray) -> IntArray:
+        """(m, r) neighbours of pieces (m,), and themselves."""
+
+    def sizes(self, piece: IntArray, moved: FloatArray) -> FloatArray:
+        """(m,) about half of the lengths of pieces (m,)."""
 
     def at(self, piece: IntArray, natural: FloatArray, moved: FloatArray) -> Place:
         """Points (m,) of pieces, by their natural coordinates (m, a)."""
-        nodes = self.pieces.nodes[piece]
-        places = self._coordinates[nodes] + moved[nodes]
-        found = [np.einsum("mk...,mkd->m...d", one, places) for one in _weights(self.pieces.shapes[piece], natural)]
-        return Place(*found)
 
-    def sizes(self, piece: IntArray, moved: FloatArray) -> FloatArray:
-        """(m,) largest distances of nodes of pieces from their middle."""
-        nodes = self.pieces.nodes[piece]
-        places = self._coordinates[nodes] + moved[nodes]
-        return np.asarray(np.linalg.norm(places - places.mean(axis=1, keepdims=True), axis=2).max(axis=1))
+    def by_unknowns(self, piece: IntArray, natural: FloatArray, moved: FloatArray) -> tuple[FloatArray, FloatArray]:
+        """Derivatives of points (m, d, u) and tangents (m, a, d, u) by the unknowns."""
 
-    def by_unknowns(self, piece: IntArray, natural: FloatArray) -> tuple[FloatArray, FloatArray]:
-        """Derivatives of points (m, d, u) and tangents (m, a, d, u) by the displacements of the nodes of the pieces."""
-        return self._spread(self.pieces.shapes[piece], natural)
-
-    def loaded(self, piece: IntArray, natural: FloatArray) -> tuple[FloatArray, FloatArray]:
-        """Motions (m, d, u) along which forces on points do work, and their derivatives (m, a, d, u) along the surface.
+    def loaded(
+        self, piece: IntArray, natural: FloatArray, moved: FloatArray
+    ) -> tuple[FloatArray, FloatArray, FloatArray | None]:
+        """Motions (m, d, u) along which forces on points do work, their derivatives (m, a, d, u) along the surface and
+        (m, d, u, u) by the unknowns; None: zero.
         """
-        return self._spread(self.pieces.loads[piece], natural)
-
-    def _spread(self, shapes: FloatArray, natural: FloatArray) -> tuple[FloatArray, FloatArray]:
-        m, eye = len(natural), np.eye(self._dimension)
-        values, first, _ = _weights(shapes, natural)
-        at = np.einsum("mk,de->mdke", values, eye).reshape(m, self._dimension, -1)
-        return at, np.einsum("mka,de->madke", first, eye).reshape(m, first.shape[2], self._dimension, -1)
 
     def track(
         self, points: FloatArray, looks: FloatArray, moved: FloatArray, before: IntArray, *, everywhere: bool
@@ -113,12 +102,74 @@ class FaceSurface:
         looks
             (m, d) normals of their own surface: pieces that look the same way are left out; zero: none.
         moved
-            (nodes, d) displacements of all nodes.
+            (nodes, dofs).
         before
             (m,) pieces so far; where others are as near, these stay.
         everywhere
             Search the whole surface, else from these pieces to their neighbours.
         """
+
+
+class FaceSurface:
+    """A main surface of faces of elements."""
+
+    def __init__(self, pieces: Pieces, coordinates: FloatArray, dimension: int) -> None:
+        """Coordinates (nodes, d) are those of all nodes of the model."""
+        self.pieces, self._coordinates, self._dimension = pieces, coordinates, dimension
+        self.dofs = tuple(range(1, dimension + 1))
+        self.unknowns = tuple((node, dof) for node in range(1, 1 + pieces.nodes.shape[1]) for dof in self.dofs)
+        self._own = np.unique(pieces.nodes)
+        order = np.argsort(pieces.nodes.ravel(), kind="stable")
+        counts = np.bincount(np.searchsorted(self._own, pieces.nodes.ravel()))
+        rank = np.arange(len(order)) - np.repeat(np.cumsum(counts) - counts, counts)
+        # pieces of each node
+        first = order[np.cumsum(counts) - counts] // pieces.nodes.shape[1]
+        self._of_node = np.repeat(first[:, None], counts.max(), axis=1)
+        self._of_node[np.repeat(np.arange(len(counts)), counts), rank] = order // pieces.nodes.shape[1]
+
+    def nodes_of(self, piece: IntArray) -> IntArray:
+        """As of `Surface`."""
+        return self.pieces.nodes[piece]
+
+    def ring_of(self, piece: IntArray) -> IntArray:
+        """As of `Surface`."""
+        return self.pieces.ring[piece]
+
+    def at(self, piece: IntArray, natural: FloatArray, moved: FloatArray) -> Place:
+        """As of `Surface`."""
+        nodes = self.pieces.nodes[piece]
+        places = self._coordinates[nodes] + moved[nodes]
+        found = [np.einsum("mk...,mkd->m...d", one, places) for one in _weights(self.pieces.shapes[piece], natural)]
+        return Place(*found)
+
+    def sizes(self, piece: IntArray, moved: FloatArray) -> FloatArray:
+        """As of `Surface`: largest distances of nodes from their middle."""
+        nodes = self.pieces.nodes[piece]
+        places = self._coordinates[nodes] + moved[nodes]
+        return np.asarray(np.linalg.norm(places - places.mean(axis=1, keepdims=True), axis=2).max(axis=1))
+
+    def by_unknowns(self, piece: IntArray, natural: FloatArray, moved: FloatArray) -> tuple[FloatArray, FloatArray]:
+        """As of `Surface`."""
+        del moved
+        return self._spread(self.pieces.shapes[piece], natural)
+
+    def loaded(
+        self, piece: IntArray, natural: FloatArray, moved: FloatArray
+    ) -> tuple[FloatArray, FloatArray, FloatArray | None]:
+        """As of `Surface`."""
+        del moved
+        return *self._spread(self.pieces.loads[piece], natural), None
+
+    def _spread(self, shapes: FloatArray, natural: FloatArray) -> tuple[FloatArray, FloatArray]:
+        m, eye = len(natural), np.eye(self._dimension)
+        values, first, _ = _weights(shapes, natural)
+        at = np.einsum("mk,de->mdke", values, eye).reshape(m, self._dimension, -1)
+        return at, np.einsum("mka,de->madke", first, eye).reshape(m, first.shape[2], self._dimension, -1)
+
+    def track(
+        self, points: FloatArray, looks: FloatArray, moved: FloatArray, before: IntArray, *, everywhere: bool
+    ) -> tuple[IntArray, FloatArray, NDArray[np.bool_]]:
+        """As of `Surface`."""
         found = before
         if everywhere:
             places = self._coordinates[self._own] + moved[self._own]

@@ -7,6 +7,9 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Final
 
+import numpy as np
+from numpy.typing import NDArray
+
 from harness.errors import Source
 from harness.model.arrays import FloatArray, IntArray
 
@@ -102,6 +105,27 @@ class Pieces:
 
 
 @dataclass(frozen=True, slots=True)
+class RigidProfile:
+    """An analytical rigid surface in the plane, of p lines and arcs; the outward normal is (t2, -t1), t along it.
+
+    With the natural coordinate xi from -1 to 1 a point is middle + xi half on a line, and on an arc middle + radius times
+    (cos, sin) of half[0] + xi half[1].
+
+    reference  node with which it moves
+    middle     (p, 2) of a line, or centre of an arc
+    half       (p, 2)
+    radius     (p,), 0 of a line
+    free       (p, 2) whether the start and the end are ends of the surface
+    """
+
+    reference: int
+    middle: FloatArray
+    half: FloatArray
+    radius: FloatArray
+    free: NDArray[np.bool_]
+
+
+@dataclass(frozen=True, slots=True)
 class SlidingPair:
     """*CONTACT PAIR in finite sliding: a point at each secondary node.
 
@@ -120,7 +144,7 @@ class SlidingPair:
     dimension: int
     secondary: IntArray
     faces: tuple[IntArray, ...]
-    main: Pieces
+    main: Pieces | RigidProfile
     areas: FloatArray
     slip: float
 
