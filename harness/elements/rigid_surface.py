@@ -30,8 +30,9 @@ class RigidSurface:
         return np.full((len(piece), 1), self._profile.reference)
 
     def ring_of(self, piece: IntArray) -> IntArray:
-        """The piece: all of them have the same node."""
-        return piece[:, None]
+        """All pieces, which have the same node."""
+        count = len(self._profile.radius)
+        return np.broadcast_to(np.arange(count), (len(piece), count))
 
     def sizes(self, piece: IntArray, moved: FloatArray) -> FloatArray:
         """As of `Surface`."""
