@@ -7,12 +7,11 @@ The outward normal is on the left of the way from the start to the end.
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
-
 import numpy as np
 
 from harness.deck.blocks import Block, Row
-from harness.deck.flatten import FlatMesh, Owner
+from harness.deck.constraints import bodies_with_surfaces, reference_node
+from harness.deck.flatten import FlatMesh
 from harness.deck.placement import Placement
 from harness.deck.surfaces import Surfaces
 from harness.elements import RigidSurface
@@ -26,38 +25,25 @@ CLOSE = 1e-3
 
 def find_profile(name: str, source: Source, owner: str, flat: FlatMesh, surfaces: Surfaces) -> RigidProfile | None:
     """An analytical rigid surface, None for another one. Raises DeckError."""
-    place, block = surfaces.locate(name, source, owner)
-    if not surfaces.is_analytical(block):
+    found = surfaces.profile(name, source, owner)
+    if found is None:
         return None
-    if block.options.text("TYPE") != "SEGMENTS":
-        raise block.error("is not supported in contact; of analytical rigid surfaces TYPE=SEGMENTS is")
-    if block.options.given("FILLET RADIUS"):
-        raise block.error("FILLET RADIUS is not supported; expected arcs (CIRCL) between the segments")
+    place, block = found
     level = next(one for one in flat.owners if one.name == place)
     return _read(block, level.placement, _reference(block, name, source, flat, surfaces))
 
 
 def _reference(surface: Block, name: str, source: Source, flat: FlatMesh, surfaces: Surfaces) -> int:
     """The reference node of the rigid body that has the surface."""
-    for owner, block in _rigid_bodies(flat.owners):
-        if surfaces.locate(block.options.text("ANALYTICAL SURFACE"), block.source, owner.name)[1] is surface:
-            nodes = flat.nodes(block.options.text("REF NODE"), block.source, owner.name)
-            if len(nodes) != 1:
-                raise block.error(f"REF NODE={block.options.text('REF NODE')} has {len(nodes)} nodes, expected one")
-            return int(nodes[0])
+    for body, owner, own in bodies_with_surfaces(flat):
+        if surfaces.locate(own, body.source, owner.name)[1] is surface:
+            return reference_node(body, owner, flat)
     raise surface.error(f"needs *RIGID BODY, ANALYTICAL SURFACE={name}, for a contact pair uses it ({source})")
-
-
-def _rigid_bodies(owners: Sequence[Owner]) -> Iterator[tuple[Owner, Block]]:
-    for owner in owners:
-        for block in owner.blocks:
-            if block.name == "RIGID BODY" and block.options.given("ANALYTICAL SURFACE"):
-                yield owner, block
 
 
 def reference_dofs(flat: FlatMesh) -> frozenset[int]:
     """Dofs of the reference nodes of analytical rigid surfaces; none where there are none."""
-    return frozenset(RigidSurface.dofs if any(True for _ in _rigid_bodies(flat.owners)) else ())
+    return frozenset(RigidSurface.dofs if any(True for _ in bodies_with_surfaces(flat)) else ())
 
 
 def _read(block: Block, placement: Placement, reference: int) -> RigidProfile:

@@ -51,10 +51,17 @@ class Surfaces:
             raise DeckError(source, f"unknown surface {name}{nearest(name, self._blocks)}")
         return self._blocks[key]
 
-    @staticmethod
-    def is_analytical(block: Block) -> bool:
-        """Whether a surface is an analytical rigid one."""
-        return block.options.text("TYPE") in ANALYTICAL
+    def profile(self, name: str, source: Source, owner: str) -> tuple[str, Block] | None:
+        """Level and keyword of an analytical rigid surface in the plane, None for another one. Raises DeckError."""
+        place, block = self.locate(name, source, owner)
+        kind = block.options.text("TYPE")
+        if kind not in ANALYTICAL:
+            return None
+        if kind != "SEGMENTS":
+            raise block.error("is not supported in contact; of analytical rigid surfaces TYPE=SEGMENTS is")
+        if block.options.given("FILLET RADIUS"):
+            raise block.error("FILLET RADIUS is not supported; expected arcs (CIRCL) between the segments")
+        return place, block
 
     def _find(self, name: str, source: Source, owner: str) -> tuple[str, Block]:
         """Level and keyword of a surface of elements or nodes. Raises DeckError."""
