@@ -188,7 +188,8 @@ class System:
     ) -> Evaluation:
         """Sums over the elements of this rank; arguments and errors as those of `evaluate`."""
         columns = np.zeros((nrhs, len(self.dofs)))
-        if not all([pair.track(call, u, du, matrix=matrix) for pair in self.contacts]):
+        tracked = [pair.track(call, u, du, matrix=matrix) for pair in self.contacts]
+        if not all(tracked):
             self._bind()
             self._linear.rebind(len(self.indices))
         data = self._data if matrix else None
@@ -394,7 +395,7 @@ class System:
         """
         if not self.contacts:
             return {}
-        nodes = np.concatenate([block.pair.secondary for block in self.contacts])
+        nodes = np.concatenate([block.secondary for block in self.contacts])
         clearance, pressure = (np.concatenate([block.output[k] for block in self.contacts]) for k in range(2))
         # directions of friction: one in the plane
         shear = np.concatenate([np.pad(block.output[2], ((0, 0), (0, 2)))[:, :2] for block in self.contacts])

@@ -134,10 +134,7 @@ class ContactReader:
         anchors = find_anchors(self._points[side.nodes], side.normals, target.faces, self._points)
         moved = self._adjust(block, side.nodes, (anchors.found, anchors.clearances, anchors.normals), owner)
         anchors = replace(anchors, clearances=np.where(moved, 0.0, anchors.clearances))
-        if averaged:
-            points = self._averages(side, target)
-        else:
-            points = _at_nodes(side, anchors)
+        points = self._averages(side, target) if averaged else _at_nodes(side, anchors)
         here = points.found
         self._warn_beside(side.nodes[~here], secondary, main, row)
         if not here.any():
@@ -167,7 +164,8 @@ class ContactReader:
             raise block.error(f"SMALL SLIDING is not supported on the analytical rigid surface {main}; leave it out")
         if block.options.text("TYPE") == "SURFACE TO SURFACE":
             raise block.error(
-                f"TYPE=SURFACE TO SURFACE is not supported on the analytical rigid surface {main}; expected NODE TO SURFACE"
+                f"TYPE=SURFACE TO SURFACE is not supported on the analytical rigid surface {main}; expected NODE TO "
+                "SURFACE"
             )
         side = self._side(secondary, row, owner, None)
         active = dofs_by_node(len(self._points), self._groups)

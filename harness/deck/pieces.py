@@ -94,10 +94,12 @@ def _of_areas(faces: Sequence[IntArray], zone: float) -> Pieces:
     nodes = np.concatenate([np.pad(part, ((0, 0), (0, 4 - part.shape[1])), mode="edge") for part in faces])
     four = np.concatenate([np.full(len(part), part.shape[1] == 4) for part in faces])
     # edges in the order of the ends: low eta, high xi, high eta, low xi; of a triangle low eta, the total, low xi
-    edges = np.sort(np.stack([nodes, np.where(four[:, None], np.roll(nodes, -1, axis=1), nodes[:, [1, 2, 0, 0]])]), axis=0)
+    edges = np.sort(
+        np.stack([nodes, np.where(four[:, None], np.roll(nodes, -1, axis=1), nodes[:, [1, 2, 0, 0]])]), axis=0
+    )
     keys = edges[0] * (int(nodes.max()) + 1) + edges[1]
     own = np.where(four[:, None] | (np.arange(4) < 3), keys, -1)
-    unique, place, count = np.unique(own, return_inverse=True, return_counts=True)
+    _, place, count = np.unique(own, return_inverse=True, return_counts=True)
     free = (count[place.reshape(own.shape)] == 1) & (own >= 0)
     inside, step = np.where(four, -1.0, 0.0), np.where(four, 2.0, 1.0) * zone
     infinite = np.full(len(nodes), np.inf)

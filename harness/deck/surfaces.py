@@ -208,8 +208,8 @@ def face_nodes(group: ElementGroup, face: str, source: Source, keyword: str) -> 
 KEYWORDS = (
     Keyword(
         "SURFACE",
-        "Define a surface, of which constraints use the nodes. SEGMENTS is an analytical rigid one in the plane or about "
-        "the axis of symmetry, with its outward normal on the left of the way along its segments.",
+        "Define a surface, of which constraints use the nodes. SEGMENTS is an analytical rigid one in the plane or "
+        "about the axis of symmetry, with its outward normal on the left of the way along its segments.",
         Where.MODEL,
         (
             NAME,
@@ -225,7 +225,7 @@ KEYWORDS = (
             Option("FILLET RADIUS", Kind.REAL, "of an analytical rigid surface, not supported in contact"),
             *ignored("INTERNAL", "DEFINITION", "TRIM", "COMBINE", "CROP", "NO OFFSET", "NO THICK"),
         ),
-        "set or element, face (S1, S2, ...; SPOS, SNEG, E1, E2, ... of shells); or node set or node; or START, x, y, then "
-        "LINE, x, y or CIRCL, x, y, x and y of the centre",
+        "set or element, face (S1, S2, ...; SPOS, SNEG, E1, E2, ... of shells); or node set or node; or START, x, y, "
+        "then LINE, x, y or CIRCL, x, y, x and y of the centre",
     ),
 )

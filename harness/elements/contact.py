@@ -41,25 +41,28 @@ class ContactBlock:
     """The points of a contact pair: their committed and trial status and elastic slip.
 
     unknowns  (local node, dof) of each unknown: displacements, then the multiplier of the point where there is one
-    names     of the secondary nodes
+    secondary (m,) secondary nodes
+    names     of them
     direct    a multiplier enforces the constraints, else a stiffness
     """
 
     unsymmetric = True
 
     def __init__(self, model: Model, pair: ContactPair | SlidingPair) -> None:
-        self.pair, self.first, self.rows = pair, 0, np.arange(len(pair.secondary))
+        self.pair, self.first = pair, 0
         self._motion: Motion
         if isinstance(pair, SlidingPair):
             self._motion = FiniteSliding(pair, model.mesh.coordinates)
         else:
             self._motion = SmallSliding(pair, model.mesh.coordinates)
-        m = len(self.rows)
-        self.names = [model.mesh.name(node) for node in pair.secondary.tolist()]
+        self.secondary = self._motion.nodes[:, 0]
+        m = len(self.secondary)
+        self.rows = np.arange(m)
+        self.names = [model.mesh.name(node) for node in self.secondary.tolist()]
         self.group = replace(
             model.groups[0],
             type="CONTACT",
-            labels=model.mesh.labels[pair.secondary],
+            labels=model.mesh.labels[self.secondary],
             nodes=self._motion.nodes,
             definition=None,
             source=pair.source,
@@ -122,9 +125,8 @@ class ContactBlock:
     def _equations_of(self, points: IntArray, nodes: IntArray) -> NDArray[np.int32]:
         assert self._find is not None
         columns = [self._find(nodes[:, local], dof) for local, dof in self._motion.unknowns]
-        if self.direct:
-            columns.append(self._multipliers[points])
-        return np.stack(columns, axis=1).astype(np.int32)
+        multipliers = [self._multipliers[points].astype(np.int64)] if self.direct else []
+        return np.stack([*columns, *multipliers], axis=1).astype(np.int32)
 
     def bind(self, indptr: NDArray[np.int32], indices: NDArray[np.int32]) -> None:
         """Take the CSR pattern of the matrix, which has the couplings."""
@@ -263,7 +265,7 @@ class ContactBlock:
 
     def _largest(self, values: FloatArray) -> tuple[float, int]:
         worst = int(first_largest(np.abs(values)))
-        return float(values[worst]), int(self.pair.secondary[worst])
+        return float(values[worst]), int(self.secondary[worst])
 
     @property
     def output(self) -> tuple[FloatArray, FloatArray, FloatArray]:
@@ -303,7 +305,9 @@ def contact_blocks(model: Model, blocks: Sequence[ElementBlock]) -> list[Contact
 class _Friction:
     """Friction of closed points: forces (m, directions), their derivatives, elastic slip, and which points slip."""
 
-    def __init__(self, pair: ContactPair | SlidingPair, force: FloatArray, slip: FloatArray, closed: NDArray[np.bool_]) -> None:
+    def __init__(
+        self, pair: ContactPair | SlidingPair, force: FloatArray, slip: FloatArray, closed: NDArray[np.bool_]
+    ) -> None:
         coefficient, most, directions = pair.property.friction, pair.slip, slip.shape[1]
         size = np.linalg.norm(slip, axis=1)
         self.slips = closed & (coefficient > 0.0) & (size > most)

@@ -8,11 +8,11 @@ point of the main surface, tau the tangents, and G = d tau / du at fixed natural
     dg = n W du,    (tau_a tau_b - g n tau_ab) dxi_b = tau_a W du + g n G_a du,
     dn = -tau^a (n G_a du + n tau_ab dxi_b)
 
-(P. Wriggers, Computational Contact Mechanics, 2nd edition (2006), chapter 4). Forces go to the nodes of the piece by shares L in place
-of N, which differ where the surface is smoothed. The slip of an increment is the motion of
-the node against the point of the main surface that is opposite it at the end. It is taken in the place of
-both at the start of the increment, together with the elastic slip, which turns there with the normal, and goes with the
-surface to its present place: bodies that move together do not slip.
+(P. Wriggers, Computational Contact Mechanics, 2nd edition (2006), chapter 4). Forces go to the nodes of the piece by
+shares of their own, which differ from W where the surface is smoothed. The slip of an increment is the motion of the
+node against the point of the main surface that is opposite it at the end. It is taken in the place of both at the start
+of the increment, together with the elastic slip, which turns there with the normal, and goes with the surface to its
+present place: bodies that move together do not slip.
 """
 
 from __future__ import annotations

@@ -1,7 +1,6 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""Main surfaces of finite sliding: where they are, how they move with the unknowns, and their point nearest to a node.
-"""
+"""Main surfaces of finite sliding: where they are, how they move with the unknowns, and which point is nearest."""
 
 from __future__ import annotations
 
@@ -129,11 +128,11 @@ class FaceSurface:
 
     def nodes_of(self, piece: IntArray) -> IntArray:
         """As of `Surface`."""
-        return self.pieces.nodes[piece]
+        return np.asarray(self.pieces.nodes[piece])
 
     def ring_of(self, piece: IntArray) -> IntArray:
         """As of `Surface`."""
-        return self.pieces.ring[piece]
+        return np.asarray(self.pieces.ring[piece])
 
     def at(self, piece: IntArray, natural: FloatArray, moved: FloatArray) -> Place:
         """As of `Surface`."""
@@ -209,7 +208,7 @@ class FaceSurface:
         pieces = self.pieces
         end = np.clip(natural, pieces.low[piece], pieces.high[piece])
         over = np.maximum(end.sum(axis=1) - pieces.total[piece], 0.0)[:, None]
-        return np.clip(end - over / end.shape[1], pieces.low[piece], pieces.high[piece])
+        return np.asarray(np.clip(end - over / end.shape[1], pieces.low[piece], pieces.high[piece]))
 
     def _project(self, piece: IntArray, points: FloatArray, moved: FloatArray) -> FloatArray:
         """Natural coordinates where pieces, extended, are perpendicular to the way to points, by Newton's method."""

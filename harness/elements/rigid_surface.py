@@ -18,8 +18,8 @@ ROTATION = 6
 class RigidSurface:
     """An analytical rigid surface as the main surface of a pair; as `contact_surface.Surface`."""
 
-    dofs = (1, 2, ROTATION)
-    unknowns = tuple((1, dof) for dof in dofs)
+    dofs: tuple[int, ...] = (1, 2, ROTATION)
+    unknowns: tuple[tuple[int, int], ...] = tuple((1, dof) for dof in (1, 2, ROTATION))
 
     def __init__(self, profile: RigidProfile, coordinates: FloatArray) -> None:
         """Coordinates (nodes, 2) are those of all nodes of the model."""

@@ -69,11 +69,6 @@ class ContactPair:
     areas: FloatArray
     slip: float
 
-    @property
-    def secondary(self) -> IntArray:
-        """(m,) nodes of the secondary surface."""
-        return self.nodes[:, 0]
-
 
 @dataclass(frozen=True, slots=True)
 class Pieces:
@@ -108,8 +103,8 @@ class Pieces:
 class RigidProfile:
     """An analytical rigid surface in the plane, of p lines and arcs; the outward normal is (t2, -t1), t along it.
 
-    With the natural coordinate xi from -1 to 1 a point is middle + xi half on a line, and on an arc middle + radius times
-    (cos, sin) of half[0] + xi half[1].
+    With the natural coordinate xi from -1 to 1 a point is middle + xi half on a line, and on an arc middle + radius
+    times (cos, sin) of half[0] + xi half[1].
 
     reference  node with which it moves
     middle     (p, 2) of a line, or centre of an arc

@@ -7,10 +7,10 @@ import pytest
 
 from harness.assembly import DofMap, System
 from harness.assembly.system import build_pattern
-from harness.usersub._binding import scatter_map
 from harness.elements import FIELD_NAMES
 from harness.errors import Source
 from harness.model.model import Equation
+from harness.usersub._binding import scatter_map
 
 
 def dense(system, blocks):

@@ -383,20 +383,36 @@ B.SEC, W.TOOL
 @pytest.mark.parametrize(
     "mistake",
     [
-        ("TYPE=SEGMENTS\n", "TYPE=SEGMENTS, FILLET RADIUS=0.1\n", "30: .*FILLET RADIUS is not supported; expected arcs"),
+        (
+            "TYPE=SEGMENTS\n",
+            "TYPE=SEGMENTS, FILLET RADIUS=0.1\n",
+            "30: .*FILLET RADIUS is not supported; expected arcs",
+        ),
         ("TYPE=SEGMENTS", "TYPE=CYLINDER", "30: .*of analytical rigid surfaces TYPE=SEGMENTS is"),
         ("START, -1., 1.\n", "", "30: .*expected START, x, y on the first data line"),
         ("LINE, 0., 1.\nCIRCL, 1., 0., 0., 0.\n", "", "30: .*expected LINE or CIRCL on the second data line"),
         ("LINE, 0., 1.", "PARAB, 0., 1., 1., 1.", "32: .*segment PARAB is not supported .supported: LINE, CIRCL"),
         ("LINE, 0., 1.", "LINE, -1., 1.", "32: .*the segment has no length"),
-        ("CIRCL, 1., 0., 0., 0.", "CIRCL, 1., 0., 0.2, 0.", "33: .*the ends of the arc are 1.0198 and 0.8 from its centre"),
+        (
+            "CIRCL, 1., 0., 0., 0.",
+            "CIRCL, 1., 0., 0.2, 0.",
+            "33: .*the ends of the arc are 1.0198 and 0.8 from its centre",
+        ),
         ("CIRCL, 1., 0., 0., 0.", "CIRCL, 0., -1., 0., 0.", "33: .*the arc has 180 degrees; expected less"),
         ("*RIGID BODY, ANALYTICAL SURFACE=TOOL, REF NODE=21\n", "", "30: .*needs .RIGID BODY, ANALYTICAL SURFACE=TOOL"),
         ("REF NODE=21", "REF NODE=POINTS2", "34: .*POINTS2"),
-        ("INTERACTION=TOUCH", "INTERACTION=TOUCH, SMALL SLIDING", "40: .*SMALL SLIDING is not supported on the analyti"),
+        (
+            "INTERACTION=TOUCH",
+            "INTERACTION=TOUCH, SMALL SLIDING",
+            "40: .*SMALL SLIDING is not supported on the analyti",
+        ),
         ("INTERACTION=TOUCH", "INTERACTION=TOUCH, TYPE=SURFACE TO SURFACE", "40: .*expected NODE TO SURFACE"),
         ("SEC, TOOL", "POINTS, TOOL", "41: .*POINTS has no faces whose length gives the elastic slip"),
-        ("*CONTACT PAIR", "*CONTACT\n*CONTACT PAIR", "40: .CONTACT is not supported: general contact is finite sliding of"),
+        (
+            "*CONTACT PAIR",
+            "*CONTACT\n*CONTACT PAIR",
+            "40: .CONTACT is not supported: general contact is finite sliding of",
+        ),
     ],
     ids=lambda mistake: mistake[2][:40],
 )
@@ -416,7 +432,9 @@ def test_profile_in_space(read):
         "*SURFACE, NAME=TOOL, TYPE=SEGMENTS\nSTART, 0., 0.\nLINE, 1., 0.\n"
         "*RIGID BODY, ANALYTICAL SURFACE=TOOL, REF NODE=1\n*SURFACE INT",
     )
-    with pytest.raises(DeckError, match=r"deck\.inp:\d+: .*the analytical rigid surface TOOL is in the plane, POINTS is"):
+    with pytest.raises(
+        DeckError, match=r"deck\.inp:\d+: .*the analytical rigid surface TOOL is in the plane, POINTS is"
+    ):
         read(text)
 
 

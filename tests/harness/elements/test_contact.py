@@ -64,7 +64,7 @@ def test_patch_test(run, element_type, pair, lower):
 
 @pytest.mark.parametrize(
     ("pair", "along", "error"),
-    [("SMALL SLIDING", 2, 1e-10), (SLIDING, 2, 1e-10), (SURFACES, 2, 1e-10), (SURFACES, 3, 0.01)]
+    [("SMALL SLIDING", 2, 1e-10), (SLIDING, 2, 1e-10), (SURFACES, 2, 1e-10), (SURFACES, 3, 0.01)],
 )
 def test_patch_of_bricks(run, pair, along, error):
     """Between surfaces on matching meshes, and on others as well as the points of a face integrate."""
@@ -462,7 +462,9 @@ def test_rigid_motion(call, dimension):
     turned = places @ rotation.T + rng.normal(size=dimension)
     found = kinematics.finite((turned - places).reshape(2, -1))
     np.testing.assert_allclose(found.value, at_rest.value, atol=1e-12)
-    slips = [kinematics._directions(at).reshape(2, -1, *places.shape[1:]) for at in (None, (turned - places).reshape(2, -1))]
+    slips = [
+        kinematics._directions(at).reshape(2, -1, *places.shape[1:]) for at in (None, (turned - places).reshape(2, -1))
+    ]
     np.testing.assert_allclose(slips[1], slips[0] @ rotation.T, atol=1e-12)
     forces = found.gradient.reshape(places.shape)
     np.testing.assert_allclose(forces, at_rest.gradient.reshape(places.shape) @ rotation.T, atol=1e-12)

@@ -11,7 +11,7 @@ from contact_decks import Box, step, total, two_boxes
 
 import harness
 from harness.deck.pieces import make_pieces
-from harness.elements import ContactBlock, FiniteSliding, Flags, Request
+from harness.elements import ContactBlock, Flags, Request
 from harness.errors import Source
 from harness.model.contact import ContactProperty, SlidingPair
 from harness.model.mesh import ElementGroup, Mesh
@@ -52,9 +52,7 @@ def pair_of(dimension, rng, *, stiffness=None, friction=0.0, smooth=0.2, height=
     surface = ContactProperty("P", SOURCE, stiffness=stiffness, friction=friction)
     secondary = len(main) + np.arange(count)
     pieces = make_pieces(faces, main, smooth, 0.1)
-    pair = SlidingPair(
-        "(A,B)", surface, SOURCE, dimension, secondary, (), pieces, rng.uniform(0.5, 1.5, count), 0.05
-    )
+    pair = SlidingPair("(A,B)", surface, SOURCE, dimension, secondary, (), pieces, rng.uniform(0.5, 1.5, count), 0.05)
     return pair, np.concatenate([main, points])
 
 
@@ -180,7 +178,10 @@ def of_step(result, number, values):
 @pytest.mark.parametrize("behavior", ["*FRICTION\n0.3,", "", f"{PENALTY}\n*FRICTION\n0.3,"])
 def test_block_slides_over_many_faces(run, behavior, nlgeom):
     """Under a load N over 16 faces of a body whose nodes are all held: mu N where it slips, and back."""
-    lower, upper = Box("LOWER", "CPE4", (0, 0), (10, 1), (20, 1)), Box("UPPER", "CPE4", (0.3, 1), (1.3, 2), (2, 1), 1001)
+    lower, upper = (
+        Box("LOWER", "CPE4", (0, 0), (10, 1), (20, 1)),
+        Box("UPPER", "CPE4", (0.3, 1), (1.3, 2), (2, 1), 1001),
+    )
     loads = "*CLOAD\n" + "\n".join(f"{number}, 2, -10." for number in upper.numbers[:, -1])
     press = step("1., 1.", loads, "*BOUNDARY\nUPPER_LEFT, 1", options=nlgeom)
     output = "*NODE OUTPUT, NSET=UPPER_LEFT\nU, RF1\n*NODE OUTPUT, NSET=LOWER_TOP\nRF2"
@@ -196,7 +197,9 @@ def test_block_slides_over_many_faces(run, behavior, nlgeom):
     # the first increments back may still stick
     np.testing.assert_allclose(of_step(result, 3, found)[2:], -friction, atol=2e-3 * 9)
     # what is held holds all of it
-    np.testing.assert_allclose(of_step(result, 2, total(result, "RF2", "LOWER_BOTTOM", "LOWER_TOP"))[-1], 30.0, rtol=1e-3)
+    np.testing.assert_allclose(
+        of_step(result, 2, total(result, "RF2", "LOWER_BOTTOM", "LOWER_TOP"))[-1], 30.0, rtol=1e-3
+    )
 
 
 TRUSS = """\
@@ -242,10 +245,10 @@ HELD, 1, 2
 
 @pytest.mark.parametrize("friction", [0.0, 0.25])
 def test_point_slides_round_an_arc(run, friction):
-    """A stretched bar pulls its end onto an arc of radius 10; the end is moved by 9 in x, over a quarter of the circle.
+    """A stretched bar pulls its end onto an arc of radius 10; the end is moved by 8 in x, to 53 degrees.
 
-    With phi from the vertical and the tension N of the bar, equilibrium with a normal force L along the bar and friction
-    mu L across it gives RF = mu N / (cos phi + mu sin phi) along x, and without friction no force and no work.
+    With phi from the vertical and the tension N of the bar, equilibrium with a normal force L along the bar and
+    friction mu L across it gives RF = mu N / (cos phi + mu sin phi) along x, and without friction no force and no work.
     On the faces of the arc, 3.3 degrees each, normals differ by up to 0.6 of half of that from the bar, but not in the
     mean.
     """
@@ -297,9 +300,11 @@ def test_block_slides_in_space(run):
 
 
 def test_ring_slides_along_a_shaft(run):
-    """About an axis: a ring with an interference of 0.01 slides over 8 faces of a held shaft, mu times what it presses.
-    """
-    shaft, ring = Box("LOWER", "CAX4", (1, 0), (2, 8), (1, 16)), Box("UPPER", "CAX4", (1.99, 1.2), (3, 2.2), (2, 2), 1001)
+    """A ring with an interference of 0.01 slides over 8 faces of a held shaft: mu times what it presses."""
+    shaft, ring = (
+        Box("LOWER", "CAX4", (1, 0), (2, 8), (1, 16)),
+        Box("UPPER", "CAX4", (1.99, 1.2), (3, 2.2), (2, 2), 1001),
+    )
     text = two_boxes(
         shaft,
         ring,
@@ -319,6 +324,8 @@ def test_ring_slides_along_a_shaft(run):
         "1001, 1003",
     ).replace("UPPER_LOW, LOWER_HIGH", "INSIDE, OUTSIDE")
     result = run(text)
-    pull, pressed = (of_step(result, 2, total(result, *what)) for what in (("RF2", "UPPER_TOP"), ("RF1", "LOWER_RIGHT")))
+    pull, pressed = (
+        of_step(result, 2, total(result, *what)) for what in (("RF2", "UPPER_TOP"), ("RF1", "LOWER_RIGHT"))
+    )
     assert (pressed > 10.0).all()
     np.testing.assert_allclose(pull, 0.2 * pressed, rtol=5e-3)
