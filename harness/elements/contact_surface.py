@@ -186,17 +186,21 @@ class FaceSurface:
         self, points: FloatArray, looks: FloatArray, moved: FloatArray, candidates: IntArray
     ) -> tuple[IntArray, FloatArray, NDArray[np.bool_]]:
         """Of candidates (m, c) the nearest piece: as in `track`. Of some that are as near it is the first one."""
-        m, count = candidates.shape
-        piece, point = candidates.ravel(), np.repeat(points, count, axis=0)
-        natural = self._project(piece, point, moved)
-        end = self._inside(piece, natural)
+        m, total = len(candidates), len(self.pieces.nodes)
+        # candidates may be repeated
+        pairs, place_of = np.unique(np.arange(m)[:, None] * total + candidates, return_inverse=True)
+        row, piece = pairs // total, pairs % total
+        point = points[row]
+        every = self._project(piece, point, moved)
+        end = self._inside(piece, every)
         place = self.at(piece, end, moved)
-        size = self.sizes(piece, moved)
-        away = np.einsum("md,md->m", place.normal, np.repeat(looks, count, axis=0)) > EQUAL
-        distance = np.where(away, np.inf, np.linalg.norm(point - place.at, axis=1)).reshape(m, count)
-        chosen = np.argmax(distance <= distance.min(axis=1, keepdims=True) + EQUAL * size.reshape(m, count), axis=1)
+        away = np.einsum("md,md->m", place.normal, looks[row]) > EQUAL
+        apart = np.where(away, np.inf, np.linalg.norm(point - place.at, axis=1))
+        place_of = place_of.reshape(candidates.shape)
+        distance, size, natural = apart[place_of], self.sizes(piece, moved)[place_of], every[place_of]
+        chosen = np.argmax(distance <= distance.min(axis=1, keepdims=True) + EQUAL * size, axis=1)
         rows = np.arange(m), chosen
-        piece, natural = candidates[rows], natural.reshape(m, count, -1)[rows]
+        piece, natural = candidates[rows], natural[rows]
         pieces = self.pieces
         above = (natural >= pieces.reach_low[piece] - EQUAL).all(axis=1)
         above &= (natural <= pieces.reach_high[piece] + EQUAL).all(axis=1)
@@ -212,12 +216,12 @@ class FaceSurface:
 
     def _project(self, piece: IntArray, points: FloatArray, moved: FloatArray) -> FloatArray:
         """Natural coordinates where pieces, extended, are perpendicular to the way to points, by Newton's method."""
-        pieces = self.pieces
-        low, high = pieces.low[piece], pieces.high[piece]
+        low, high = self.pieces.low[piece], self.pieces.high[piece]
         natural, reach = 0.5 * (low + high), 2.0 * (high - low)
+        rows = np.arange(len(piece))
         for _ in range(STEPS):
-            place = self.at(piece, natural, moved)
-            apart = points - place.at
+            place = self.at(piece[rows], natural[rows], moved)
+            apart = points[rows] - place.at
             metric = place.metric
             matrix = metric - np.einsum("mabd,md->mab", place.second, apart)
             # downhill: far from a curved piece only without its curvature
@@ -227,8 +231,11 @@ class FaceSurface:
             # where corners of a face coincide it has no tangents
             matrix += EQUAL**2 * np.trace(metric, axis1=1, axis2=2)[:, None, None] * np.eye(natural.shape[1])
             change = np.linalg.solve(matrix, np.einsum("mad,md->ma", place.tangents, apart)[..., None])[..., 0]
-            last, natural = natural, np.clip(natural + change, low - reach, high + reach)
-            if np.abs(natural - last).max(initial=0.0) <= np.finfo(float).eps:
+            last = natural[rows]
+            natural[rows] = np.clip(last + change, low[rows] - reach[rows], high[rows] + reach[rows])
+            # the method doubles the digits: the error is now that of rounding
+            rows = rows[np.abs(natural[rows] - last).max(axis=1) > EQUAL]
+            if not len(rows):
                 break
         return natural
 
