@@ -204,3 +204,27 @@ def test_ring_on_a_rigid_plate(run):
     result = run(text.replace("*STEP, NLGEOM", "*STEP"))
     assert total(result, "RF2", "REF")[-1] == pytest.approx(-YOUNG * 0.001 * np.pi * 2**2, rel=1e-9)
     np.testing.assert_allclose(result.field("S22"), -YOUNG * 0.001, rtol=1e-9)
+
+
+def test_roller_that_is_free_to_turn(run):
+    """Drawn along a held block with friction, it rolls: no moment, hardly a force, and its turn is minus way over radius.
+
+    Nodes come into contact one after the other and stick; it turns with the chord of those in contact.
+    """
+    radius = 2.0
+    profile = ["START, 5., 2.", "CIRCL, 3., 0., 3., 2.", "CIRCL, 1., 2., 3., 2."]
+    press = ("0.5, 1.", "*BOUNDARY\nREF, 1\nREF, 6\nREF, 2, 2, -0.01")
+    draw = ("0.05, 1., 1e-6, 0.05", "*BOUNDARY, OP=NEW\nREF, 1, 1, 1.\nREF, 2, 2, -0.01\nBODY_BOTTOM, 1, 2\nBODY_RIGHT, 1")
+    _, text = block_and(
+        profile,
+        [press, draw],
+        np.linspace(0.0, 6.0, 61),
+        reference="3., 2.",
+        interaction="*FRICTION\n0.5,",
+        held="*BOUNDARY\nBODY_BOTTOM, 1\nBODY_RIGHT, 1",
+    )
+    result = run(text.replace("BODY_BOTTOM, 1, 2\n", "BODY_BOTTOM, 1, 2\nBODY_LEFT, 1\n"))
+    turn, pull, push = (total(result, name, "REF")[-1] for name in ("UR3", "RF1", "RF2"))
+    assert push < -1.0
+    assert turn == pytest.approx(-1.0 / radius, rel=0.02)
+    assert abs(pull) < 0.02 * abs(push)
