@@ -2,23 +2,14 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Contact in finite sliding: derivatives, rotations, and bodies that slide over many faces, by closed forms."""
 
-from dataclasses import replace
-from pathlib import Path
-
 import numpy as np
 import pytest
 from contact_decks import Box, step, total, two_boxes
+from contact_points import SOURCE, Points
 
 import harness
 from harness.deck.pieces import make_pieces
-from harness.elements import ContactBlock, Flags, Request
-from harness.errors import Source
 from harness.model.contact import ContactProperty, SlidingPair
-from harness.model.mesh import ElementGroup, Mesh
-from harness.model.model import Model
-from harness.model.properties import UserProperty
-
-SOURCE = Source("test.inp", 1)
 
 
 def arc(count=6, radius=4.0):
@@ -56,55 +47,19 @@ def pair_of(dimension, rng, *, stiffness=None, friction=0.0, smooth=0.2, height=
     return pair, np.concatenate([main, points])
 
 
-def block_of(pair, coordinates):
-    n, d, m = len(coordinates), pair.dimension, len(pair.secondary)
-    mesh = Mesh(np.arange(1, n + 1), coordinates, ("",) * n)
-    group = ElementGroup("U1", np.array([1]), np.array([[0, 1]]), "", UserProperty("ALL", SOURCE), None, SOURCE)
-    block = ContactBlock(Model(Path("test.inp"), "", mesh, (group,), ()), pair)
-    size = n * d + m * block.direct
-    block.number(lambda nodes, dof: nodes * d + dof - 1, n * d + np.arange(m, dtype=np.int32))
-    block.bind(size * np.arange(size + 1, dtype=np.int32), np.tile(np.arange(size, dtype=np.int32), size))
-    return block, size
-
-
-def evaluated(block, call, u, du, *, matrix):
-    residual, data = np.zeros(len(u)), np.zeros(len(u) ** 2)
-    data[:: len(u) + 1] = 7.0
-    if not block.track(call, u, du, matrix=matrix):
-        block.bind(*block._pattern)
-    block.evaluate(call, u, du, residual, data if matrix else None)
-    data[:: len(u) + 1] -= 7.0
-    return residual, data.reshape(len(u), len(u))
-
-
 @pytest.mark.parametrize("friction", [0.0, 0.3])
 @pytest.mark.parametrize("stiffness", [None, 40.0])
 @pytest.mark.parametrize("dimension", [2, 3])
 @pytest.mark.parametrize("moved", [0.003, 0.1])
 def test_matrix_by_differences(call, dimension, stiffness, friction, moved):
-    """Points that stick (moved little) and slip (moved far), after an increment that left an elastic slip."""
+    """Points that stick (moved little) and slip (moved far)."""
     rng = np.random.default_rng(5)
     for _ in range(2):
-        block, size = block_of(*pair_of(dimension, rng, stiffness=stiffness, friction=friction, height=-0.2))
-        first, second = (replace(call, iteration=k, flags=Flags(1, True)) for k in range(2))
-        start = 0.01 * rng.normal(size=size)
-        if block.direct:
-            start[-5:] = rng.uniform(0.5, 1.0, 5)
-        evaluated(block, first, np.zeros(size), np.zeros(size), matrix=True)
-        evaluated(block, second, start, start, matrix=True)
-        block.commit()
-        du = moved * rng.normal(size=size)
-        u = start + du
-        evaluated(block, first, start, np.zeros(size), matrix=True)
-        _, found = evaluated(block, second, u, du, matrix=True)
-        assert (block.output[1] > 0.0).any()
-
-        def forces(x, block=block, start=start, second=second):
-            return evaluated(block, second.asking(Request.RESIDUAL), x, x - start, matrix=False)[0]
-
-        step = 1e-6
-        wanted = np.stack([-(forces(u + step * e) - forces(u - step * e)) / (2 * step) for e in np.eye(size)], axis=1)
-        np.testing.assert_allclose(found, wanted, atol=1e-6 * max(1.0, np.abs(wanted).max()))
+        pair, coordinates = pair_of(dimension, rng, stiffness=stiffness, friction=friction, height=-0.2)
+        points = Points(call, pair, coordinates, range(1, dimension + 1))
+        start = 0.01 * rng.normal(size=points.size)
+        start[points.multipliers] = rng.uniform(0.5, 1.0, points.size - points.multipliers.start)
+        found = points.check_matrix(start, moved * rng.normal(size=points.size))
         if not friction and dimension == 3:
             np.testing.assert_allclose(found, found.T, atol=1e-12 * np.abs(found).max())
 
@@ -124,13 +79,13 @@ def test_bodies_that_turn(call, dimension, smooth, friction):
     """Both surfaces turn together, by any angle: clearances stay, forces turn, and so do elastic slips."""
     rng = np.random.default_rng(7)
     pair, coordinates = pair_of(dimension, rng, stiffness=40.0, friction=friction, height=-0.1, smooth=smooth)
-    block, size = block_of(pair, coordinates)
-    places, d = coordinates[:, :dimension], dimension
-    first, second = (replace(call, iteration=k, flags=Flags(1, True)) for k in range(2))
+    points = Points(call, pair, coordinates, range(1, dimension + 1))
+    block, places, d = points.block, coordinates[:, :dimension], dimension
     slid = np.zeros_like(places)
     slid[pair.secondary] = 0.02 * rng.normal(size=(5, d))
-    evaluated(block, first, np.zeros(size), np.zeros(size), matrix=False)
-    before = evaluated(block, second, slid.ravel(), slid.ravel(), matrix=False)[0].reshape(-1, d)
+    still = np.zeros(points.size)
+    points.evaluate(points.first, still, still)
+    before = points.evaluate(points.second, slid.ravel(), slid.ravel())[0].reshape(-1, d)
     clearances = block.output[0]
     block.commit()
     assert np.abs(before).max() > 1.0
@@ -139,8 +94,8 @@ def test_bodies_that_turn(call, dimension, smooth, friction):
         turn += 2.5 / steps
         rotation = rotation_of(turn, d)
         now = (places + slid) @ rotation.T - places
-        evaluated(block, first, last.ravel(), 0 * last.ravel(), matrix=False)
-        forces = evaluated(block, second, now.ravel(), (now - last).ravel(), matrix=False)[0].reshape(-1, d)
+        points.evaluate(points.first, last.ravel(), still)
+        forces = points.evaluate(points.second, now.ravel(), (now - last).ravel())[0].reshape(-1, d)
         block.commit()
         last = now
         np.testing.assert_allclose(block.output[0], clearances, atol=1e-12)

@@ -2,22 +2,14 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Analytical rigid surfaces: derivatives, and punches, cylinders and rollers by closed forms."""
 
-from dataclasses import replace
-from pathlib import Path
-
 import numpy as np
 import pytest
 from contact_decks import YOUNG, Box, total
+from contact_points import SOURCE, Points
 
 import harness
-from harness.elements import ContactBlock, Flags, Request
-from harness.errors import Source
 from harness.model.contact import ContactProperty, RigidProfile, SlidingPair
-from harness.model.mesh import ElementGroup, Mesh
-from harness.model.model import Model
-from harness.model.properties import UserProperty
 
-SOURCE = Source("test.inp", 1)
 THICKNESS = 1.5
 REDUCED = YOUNG / (1 - 0.3**2)
 
@@ -33,61 +25,21 @@ PROFILE = RigidProfile(
 )
 
 
-def block_of(stiffness, friction):
-    """Four points in front of lines and an arc; the unknowns of each node are dofs 1, 2 and 6."""
-    coordinates = np.array([[0.3, -0.4], [-2.2, 0.8], [-0.2, 0.8], [0.3, 0.75], [1.9, 0.8]])
-    coordinates = np.pad(coordinates, ((0, 0), (0, 1)))
-    count = len(coordinates) - 1
-    surface = ContactProperty("P", SOURCE, stiffness=stiffness, friction=friction)
-    secondary = np.arange(1, count + 1)
-    pair = SlidingPair("(A,B)", surface, SOURCE, 2, secondary, (), PROFILE, np.linspace(0.5, 1.5, count), 0.05)
-    mesh = Mesh(np.arange(1, count + 2), coordinates, ("",) * (count + 1))
-    group = ElementGroup("U1", np.array([1]), np.array([[0, 1]]), "", UserProperty("ALL", SOURCE), None, SOURCE)
-    block = ContactBlock(Model(Path("test.inp"), "", mesh, (group,), ()), pair)
-    size = 3 * (count + 1) + count * block.direct
-    block.number(
-        lambda nodes, dof: 3 * np.asarray(nodes) + np.minimum(dof, 3) - 1,
-        3 * (count + 1) + np.arange(count, dtype=np.int32),
-    )
-    block.bind(size * np.arange(size + 1, dtype=np.int32), np.tile(np.arange(size, dtype=np.int32), size))
-    return block, size
-
-
-def evaluated(block, call, u, du, *, matrix):
-    residual, data = np.zeros(len(u)), np.zeros(len(u) ** 2)
-    data[:: len(u) + 1] = 7.0
-    assert block.track(call, u, du, matrix=matrix)
-    block.evaluate(call, u, du, residual, data if matrix else None)
-    data[:: len(u) + 1] -= 7.0
-    return residual, data.reshape(len(u), len(u))
-
-
 @pytest.mark.parametrize("friction", [0.0, 0.3])
 @pytest.mark.parametrize("stiffness", [None, 40.0])
 @pytest.mark.parametrize("moved", [0.003, 0.1])
 def test_matrix_by_differences(call, stiffness, friction, moved):
+    """Four points in front of lines and an arc, that stick (moved little) and slip (moved far)."""
     rng = np.random.default_rng(5)
-    block, size = block_of(stiffness, friction)
-    first, second = (replace(call, iteration=k, flags=Flags(1, True)) for k in range(2))
-    start = 0.02 * rng.normal(size=size)
+    coordinates = np.array([[0.3, -0.4, 0], [-2.2, 0.8, 0], [-0.2, 0.8, 0], [0.3, 0.75, 0], [1.9, 0.8, 0]])
+    surface = ContactProperty("P", SOURCE, stiffness=stiffness, friction=friction)
+    pair = SlidingPair("(A,B)", surface, SOURCE, 2, np.arange(1, 5), (), PROFILE, np.linspace(0.5, 1.5, 4), 0.05)
+    points = Points(call, pair, coordinates, (1, 2, 6))
+    start = 0.02 * rng.normal(size=points.size)
+    # the reference node turns
     start[2] = 0.05
-    if block.direct:
-        start[-4:] = rng.uniform(0.5, 1.0, 4)
-    evaluated(block, first, np.zeros(size), np.zeros(size), matrix=True)
-    evaluated(block, second, start, start, matrix=True)
-    block.commit()
-    du = moved * rng.normal(size=size)
-    u = start + du
-    evaluated(block, first, start, np.zeros(size), matrix=True)
-    _, found = evaluated(block, second, u, du, matrix=True)
-    assert (block.output[1] > 0.0).sum() > 1
-
-    def forces(x):
-        return evaluated(block, second.asking(Request.RESIDUAL), x, x - start, matrix=False)[0]
-
-    step = 1e-6
-    wanted = np.stack([-(forces(u + step * e) - forces(u - step * e)) / (2 * step) for e in np.eye(size)], axis=1)
-    np.testing.assert_allclose(found, wanted, atol=1e-6 * max(1.0, np.abs(wanted).max()))
+    start[points.multipliers] = rng.uniform(0.5, 1.0, points.size - points.multipliers.start)
+    found = points.check_matrix(start, moved * rng.normal(size=points.size))
     if not friction:
         np.testing.assert_allclose(found, found.T, atol=1e-12 * np.abs(found).max())
 
@@ -207,14 +159,17 @@ def test_ring_on_a_rigid_plate(run):
 
 
 def test_roller_that_is_free_to_turn(run):
-    """Drawn along a held block with friction, it rolls: no moment, hardly a force, and its turn is minus way over radius.
+    """Drawn along a held block with friction, it rolls: no moment, hardly a force, and it turns by way over radius.
 
     Nodes come into contact one after the other and stick; it turns with the chord of those in contact.
     """
     radius = 2.0
     profile = ["START, 5., 2.", "CIRCL, 3., 0., 3., 2.", "CIRCL, 1., 2., 3., 2."]
     press = ("0.5, 1.", "*BOUNDARY\nREF, 1\nREF, 6\nREF, 2, 2, -0.01")
-    draw = ("0.05, 1., 1e-6, 0.05", "*BOUNDARY, OP=NEW\nREF, 1, 1, 1.\nREF, 2, 2, -0.01\nBODY_BOTTOM, 1, 2\nBODY_RIGHT, 1")
+    draw = (
+        "0.05, 1., 1e-6, 0.05",
+        "*BOUNDARY, OP=NEW\nREF, 1, 1, 1.\nREF, 2, 2, -0.01\nBODY_BOTTOM, 1, 2\nBODY_RIGHT, 1",
+    )
     _, text = block_and(
         profile,
         [press, draw],
