@@ -51,17 +51,21 @@ class Surfaces:
             raise DeckError(source, f"unknown surface {name}{nearest(name, self._blocks)}")
         return self._blocks[key]
 
-    def profile(self, name: str, source: Source, owner: str) -> tuple[str, Block] | None:
-        """Level and keyword of an analytical rigid surface in the plane, None for another one. Raises DeckError."""
+    def profile(self, name: str, source: Source, owner: str) -> tuple[str, Block, float] | None:
+        """Level, keyword and fillet radius of an analytical rigid surface in the plane, None for another one.
+
+        Raises DeckError.
+        """
         place, block = self.locate(name, source, owner)
         kind = block.options.text("TYPE")
         if kind not in ANALYTICAL:
             return None
         if kind != "SEGMENTS":
             raise block.error("is not supported in contact; of analytical rigid surfaces TYPE=SEGMENTS is")
-        if block.options.given("FILLET RADIUS"):
-            raise block.error("FILLET RADIUS is not supported; expected arcs (CIRCL) between the segments")
-        return place, block
+        radius = block.options.real("FILLET RADIUS", 0.0)
+        if radius < 0.0:
+            raise block.error(f"FILLET RADIUS={radius:g} must not be negative")
+        return place, block, radius
 
     def _find(self, name: str, source: Source, owner: str) -> tuple[str, Block]:
         """Level and keyword of a surface of elements or nodes. Raises DeckError."""
@@ -222,7 +226,7 @@ KEYWORDS = (
                 ),
                 default="ELEMENT",
             ),
-            Option("FILLET RADIUS", Kind.REAL, "of an analytical rigid surface, not supported in contact"),
+            Option("FILLET RADIUS", Kind.REAL, "of arcs between lines of an analytical rigid surface"),
             *ignored("INTERNAL", "DEFINITION", "TRIM", "COMBINE", "CROP", "NO OFFSET", "NO THICK"),
         ),
         "set or element, face (S1, S2, ...; SPOS, SNEG, E1, E2, ... of shells); or node set or node; or START, x, y, "

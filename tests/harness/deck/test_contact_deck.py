@@ -329,6 +329,19 @@ def test_profile(read):
     np.testing.assert_array_equal(profile.free, [[True, False], [False, True]])
 
 
+def test_fillet(read):
+    """A right angle at (1, 0), rounded by a radius of 0.5, and an arc that goes on without an angle."""
+    text = RIGID.replace("TYPE=SEGMENTS\n", "TYPE=SEGMENTS, FILLET RADIUS=0.5\n").replace(
+        "START, -1., 1.\nLINE, 0., 1.\nCIRCL, 1., 0., 0., 0.\n",
+        "START, 3., 0.\nLINE, 1., 0.\nLINE, 1., 2.\nCIRCL, 0., 3., 0., 2.\n",
+    )
+    profile = read(text).contacts[0].main
+    np.testing.assert_allclose(profile.radius, [1, 0, 0.5, 0])
+    np.testing.assert_allclose(profile.middle, [[0, 2], [1, 1.25], [1.5, 0.5], [2.25, 0]])
+    # about its centre the fillet goes from -90 to -180 degrees, here the other way
+    np.testing.assert_allclose(profile.half[1:], [[0, -0.75], [-0.75 * np.pi, np.pi / 4], [0.75, 0]], atol=1e-12)
+
+
 def test_profile_of_an_instance(read):
     """It moves with its instance, and closes where its last point is its first one."""
     instance = """\
@@ -383,10 +396,16 @@ B.SEC, W.TOOL
 @pytest.mark.parametrize(
     "mistake",
     [
+        ("TYPE=SEGMENTS\n", "TYPE=SEGMENTS, FILLET RADIUS=-1.\n", "30: .*FILLET RADIUS=-1 must not be negative"),
         (
-            "TYPE=SEGMENTS\n",
-            "TYPE=SEGMENTS, FILLET RADIUS=0.1\n",
-            "30: .*FILLET RADIUS is not supported; expected arcs",
+            "TYPE=SEGMENTS\nSTART, -1., 1.",
+            "TYPE=SEGMENTS, FILLET RADIUS=0.1\nSTART, -1., 0.",
+            "30: .*FILLET RADIUS beside an arc that meets its neighbour at an angle is not supported",
+        ),
+        (
+            "TYPE=SEGMENTS\nSTART, -1., 1.\nLINE, 0., 1.\n",
+            "TYPE=SEGMENTS, FILLET RADIUS=1.\nSTART, -0.5, 1.\nLINE, -0.5, 2.\nLINE, 0., 1.\n",
+            "30: .*an arc of FILLET RADIUS=1 does not fit between two of its lines",
         ),
         ("TYPE=SEGMENTS", "TYPE=CYLINDER", "30: .*of analytical rigid surfaces TYPE=SEGMENTS is"),
         ("START, -1., 1.\n", "", "30: .*expected START, x, y on the first data line"),
