@@ -129,6 +129,7 @@ class ContactReader:
                 )
             smooth, zone = _smoothing(block)
             faces = wound(target.faces, self._points)
+            self._check_corners(faces, row)
             pieces = make_pieces(faces, self._points, smooth, zone)
             return self._sliding(block, row, owner, side, pieces, (surface, slip))
         anchors = find_anchors(self._points[side.nodes], side.normals, target.faces, self._points)
@@ -286,6 +287,20 @@ class ContactReader:
             raise row.error(
                 f"the surface has no tangent plane for node {label}; faces with coincident corners cannot touch"
             )
+
+    def _check_corners(self, faces: Sequence[IntArray], row: Row) -> None:
+        """Raise DeckError where a face of a main surface has no tangent plane at a corner."""
+        for nodes in faces:
+            corners = self._points[nodes]
+            sides = np.roll(corners, -1, axis=1) - corners
+            size = np.linalg.norm(sides, axis=2).max(axis=1, keepdims=True)
+            area = np.linalg.norm(np.cross(sides, np.roll(sides, 1, axis=1)), axis=2)
+            wrong = area <= EQUAL * size**2
+            if nodes.shape[1] > 2 and wrong.any():
+                label = self._flat.mesh.name(int(nodes[wrong][0]))
+                raise row.error(
+                    f"the main surface has no tangent plane at node {label}; faces with coincident corners cannot touch"
+                )
 
     def _warn_beside(self, nodes: IntArray, secondary: str, main: str, row: Row) -> None:
         if len(nodes):

@@ -43,6 +43,7 @@ class FiniteSliding:
             self._surface = FaceSurface(pair.main, self._coordinates, dimension)
         self.unknowns = tuple((0, dof) for dof in range(1, dimension + 1)) + self._surface.unknowns
         self.components = dimension
+        self._numbers: IntArray | None = None
         still = np.zeros((len(coordinates), len(self._surface.dofs)))
         self._moved = self._moved_before = still
         self._looks = self._own_normals(still)
@@ -107,8 +108,9 @@ class FiniteSliding:
 
     def track(self, u: FloatArray, du: FloatArray, find: Find, *, first: bool) -> None:
         """Find the pieces that are opposite: in the first pass of an increment anywhere, then from those so far."""
-        places = find(np.arange(len(self._coordinates))[:, None], np.array(self._surface.dofs))
-        self._moved, self._moved_before = np.append(u, 0.0)[places], np.append(u - du, 0.0)[places]
+        if self._numbers is None:
+            self._numbers = find(np.arange(len(self._coordinates))[:, None], np.array(self._surface.dofs))
+        self._moved, self._moved_before = (np.append(values, 0.0)[self._numbers] for values in (u, u - du))
         if first:
             self._looks = self._own_normals(self._moved)
         piece = self._piece
@@ -155,7 +157,10 @@ class FiniteSliding:
         bent = np.einsum("md,mabd->mab", normal, place.second)
         metric = place.metric
         right = np.einsum("mad,mdu->mau", place.tangents, against) + apart[:, None, None] * across
-        self._glide = glide = np.linalg.solve(metric - apart[:, None, None] * bent, right)
+        curved = metric - apart[:, None, None] * bent
+        # many points are opposite a node at the centre of a circle
+        many = np.abs(np.linalg.det(curved)) <= EQUAL * np.linalg.det(metric)
+        self._glide = glide = np.linalg.solve(np.where(many[:, None, None], metric, curved), right)
         tilt = np.linalg.solve(metric, across + np.einsum("mab,mbu->mau", bent, glide))
         self._tilt = -np.einsum("mad,mau->mdu", place.tangents, tilt)
         # derivatives of the motions that forces follow

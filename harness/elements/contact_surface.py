@@ -42,8 +42,10 @@ class Place:
 
     @property
     def metric(self) -> FloatArray:
-        """(m, a, a) products of the tangents."""
-        return np.asarray(np.einsum("mad,mbd->mab", self.tangents, self.tangents))
+        """(m, a, a) products of the tangents, with an inverse also where an extended face has no area."""
+        found = np.einsum("mad,mbd->mab", self.tangents, self.tangents)
+        size = np.trace(found, axis1=1, axis2=2)[:, None, None]
+        return np.asarray(found + EQUAL**2 * size * np.eye(found.shape[1]))
 
     @property
     def normal(self) -> FloatArray:
@@ -228,8 +230,6 @@ class FaceSurface:
             convex = np.linalg.det(matrix) > 0.1 * np.linalg.det(metric)
             convex &= np.trace(matrix, axis1=1, axis2=2) > 0.0
             matrix = np.where(convex[:, None, None], matrix, metric)
-            # where corners of a face coincide it has no tangents
-            matrix += EQUAL**2 * np.trace(metric, axis1=1, axis2=2)[:, None, None] * np.eye(natural.shape[1])
             change = np.linalg.solve(matrix, np.einsum("mad,md->ma", place.tangents, apart)[..., None])[..., 0]
             last = natural[rows]
             natural[rows] = np.clip(last + change, low[rows] - reach[rows], high[rows] + reach[rows])

@@ -155,6 +155,8 @@ def test_faces_with_coincident_corners(read):
     """A node above the corner of a quadrilateral where two of its nodes are in the same place."""
     with pytest.raises(DeckError, match=r"deck\.inp:28: .*no tangent plane for node 11; faces with coincident corners"):
         read(BRICKS)
+    with pytest.raises(DeckError, match=r"deck\.inp:28: .*no tangent plane at node 7; faces with coincident corners"):
+        read(BRICKS.replace(", SMALL SLIDING", ""))
 
 
 def test_area_of_a_node(read):

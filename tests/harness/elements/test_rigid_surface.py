@@ -44,6 +44,25 @@ def test_matrix_by_differences(call, stiffness, friction, moved):
         np.testing.assert_allclose(found, found.T, atol=1e-12 * np.abs(found).max())
 
 
+def test_node_at_the_centre_of_an_arc(call):
+    """Inside a hollow arc of radius 2 every point is opposite its centre: the clearance is the radius."""
+    hollow = RigidProfile(
+        reference=0,
+        middle=np.zeros((1, 2)),
+        half=np.array([[-np.pi / 2, -1.0]]),
+        radius=np.array([2.0]),
+        free=np.ones((1, 2), dtype=bool),
+    )
+    surface = ContactProperty("P", SOURCE)
+    pair = SlidingPair("(A,B)", surface, SOURCE, 2, np.array([1]), (), hollow, np.ones(1), 0.05)
+    points = Points(call, pair, np.array([[0.0, 5.0, 0.0], [0.0, 0.0, 0.0]]), (1, 2, 6))
+    still = np.zeros(points.size)
+    residual, matrix = points.evaluate(points.first, still, still)
+    np.testing.assert_allclose(points.block.output[0], 2.0)
+    assert np.isfinite(matrix).all()
+    np.testing.assert_array_equal(residual, 0.0)
+
+
 # ------------------------------------------------------------ closed forms
 
 
