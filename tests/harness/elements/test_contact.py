@@ -11,7 +11,6 @@ import numpy as np
 import pytest
 from contact_decks import YOUNG, Box, plane, step, total, two_boxes
 
-import harness
 from harness.deck import read_deck
 from harness.elements import ContactBlock, Flags, Request
 from harness.elements.contact import OPEN, STICKING
@@ -28,15 +27,6 @@ SURFACES = "SMALL SLIDING, TYPE=SURFACE TO SURFACE"
 SLIDING = "TYPE=NODE TO SURFACE"
 PAIRS = pytest.mark.parametrize("pair", ["SMALL SLIDING", SURFACES, SLIDING], ids=["nodes", "surfaces", "sliding"])
 HELD = "*BOUNDARY\nLOWER_BOTTOM, 2\nLOWER_LEFT, 1\nUPPER_LEFT, 1"
-
-
-@pytest.fixture
-def run(tmp_path):
-    def run(text, **options):
-        (tmp_path / "deck.inp").write_text(text)
-        return harness.run(tmp_path / "deck.inp", output_dir=tmp_path, **options)
-
-    return run
 
 
 def pressed(by, options=""):

@@ -7,7 +7,6 @@ import pytest
 from contact_decks import Box, step, total, two_boxes
 from contact_points import SOURCE, Points
 
-import harness
 from harness.deck.pieces import make_pieces
 from harness.model.contact import ContactProperty, SlidingPair
 
@@ -109,15 +108,6 @@ def test_bodies_that_turn(call, dimension, smooth, friction):
 
 
 # ------------------------------------------------------------ bodies that slide
-
-
-@pytest.fixture
-def run(tmp_path):
-    def run(text):
-        (tmp_path / "deck.inp").write_text(text)
-        return harness.run(tmp_path / "deck.inp", output_dir=tmp_path)
-
-    return run
 
 
 PAIR = "TYPE=NODE TO SURFACE"

@@ -7,7 +7,6 @@ import pytest
 from contact_decks import YOUNG, Box, total
 from contact_points import SOURCE, Points
 
-import harness
 from harness.model.contact import ContactProperty, RigidProfile, SlidingPair
 
 THICKNESS = 1.5
@@ -64,15 +63,6 @@ def test_node_at_the_centre_of_an_arc(call):
 
 
 # ------------------------------------------------------------ closed forms
-
-
-@pytest.fixture
-def run(tmp_path):
-    def run(text):
-        (tmp_path / "deck.inp").write_text(text)
-        return harness.run(tmp_path / "deck.inp", output_dir=tmp_path)
-
-    return run
 
 
 def block_and(profile, steps, across, *, reference="0., 10.", interaction="", held="", element_type="CPE4"):
