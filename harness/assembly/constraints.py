@@ -27,7 +27,8 @@ class Constraints:
 
     arms             those of the equations with finite rotations
 
-    Everything symbolic is done here once; keep the object while `matches` holds.
+    Everything symbolic is done here once, and again where `reduce` finds that the system has another pattern; keep the
+    object while `matches` holds.
     """
 
     arms: tuple[Arm, ...] = ()
@@ -77,10 +78,21 @@ class Constraints:
             self._t = _columns(n, self.free, dependent, coefficients)
             self._p = _columns(n, self.prescribed, dependent, coefficients)
             self._t_transposed, self._p_transposed = self._t.T.tocsr(), self._p.T.tocsr()
-            self.reduced_indptr, self.reduced_indices, self._map = reduced_pattern(system, self._t)
+        self._find_pattern()
+
+    def _find_pattern(self) -> None:
+        """Symbolic work on the pattern of the system."""
+        if self._t is not None:
+            self.reduced_indptr, self.reduced_indices, self._map = reduced_pattern(self._system, self._t)
         else:
-            self.reduced_indptr, self.reduced_indices, self._take = _take_pattern(system, self.free)
+            self.reduced_indptr, self.reduced_indices, self._take = _take_pattern(self._system, self.free)
         self._reduced = np.zeros(len(self.reduced_indices))
+        self._pattern = self._system.indices
+
+    def _follow_pattern(self) -> None:
+        """Repeat that if the system has another pattern."""
+        if self._pattern is not self._system.indices:
+            self._find_pattern()
 
     def matches(self, prescribed: IntArray, equations: Sequence[Equation] = (), arms: Sequence[Arm] = ()) -> bool:
         """True if these constraints also serve the given ones, so that symbolic work need not be repeated.
@@ -220,6 +232,7 @@ class Constraints:
         FloatArray
             In the pattern of `reduced_indptr` and `reduced_indices`; overwritten by the next call.
         """
+        self._follow_pattern()
         if self._t is None:
             # 'clip' only because numpy buffers `out` in the checking mode; all positions are in range
             return np.take(data, self._take, out=self._reduced, mode="clip")

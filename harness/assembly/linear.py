@@ -87,6 +87,13 @@ class LinearElements:
         block.add_matrices(matrices, data)
         return report
 
+    def rebind(self, entries: int) -> None:
+        """Take over a new pattern with that many entries."""
+        self._data = np.zeros(entries)
+        for block in self._blocks:
+            if id(block) in self._matrices:
+                block.add_matrices(self._matrices[id(block)], self._data)
+
     def relearn(self, call: Call, u: FloatArray) -> None:
         """Learn the matrices in the state at the end of an increment, if they apply to the call; states stay."""
         if not self.applies(call, None, 1):

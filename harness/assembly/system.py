@@ -82,7 +82,8 @@ class System:
     contacts its contact pairs, whose points do not count as elements either
     dofs     what each unknown is
     indptr   (n + 1,) row starts of the matrix, int32
-    indices  (nnz,) columns, ascending in each row, int32; every diagonal entry is there and the pattern is symmetric
+    indices  (nnz,) columns, ascending in each row, int32; every diagonal entry is there and the pattern is symmetric.
+             Both are new arrays in a pass that asks for a matrix and in which contact points slide to other faces
     """
 
     def __init__(
@@ -106,12 +107,10 @@ class System:
         self.dofs = DofMap.build(mesh, (*self.blocks, *self.contacts), equations)
         if ranks.size > 1:
             self._keep_own()
-        bound: list[ElementBlock | ContactBlock] = [*blocks, *self.contacts]
-        numbers = [self.dofs.equations_of(block) for block in bound]
-        self.indptr, self.indices, scatter = build_pattern(len(self.dofs), numbers)
-        for block, equation_numbers, positions in zip(bound, numbers, scatter, strict=True):
-            block.bind(equation_numbers, positions)
-        self._data = np.zeros(len(self.indices))
+        self._of_elements = tuple(blocks)
+        for pair in self.contacts:
+            pair.number(self.dofs.find, self.dofs.equations_of(pair)[:, -1])
+        self._bind()
         self._committed = 0
         self._last: Evaluation | None = None
         self._linear = LinearElements(self.blocks if spare_linear else (), len(self.indices))
@@ -124,6 +123,17 @@ class System:
             # what enters nodes is that of rank 0
             found = np.zeros(len(block.rows), dtype=np.int64) if elements is None else owners[elements]
             block.keep(np.flatnonzero(found == self.ranks.rank))
+
+    def _bind(self) -> None:
+        """Make the pattern, in new arrays, and tell all blocks where they are in it."""
+        numbers = [self.dofs.equations_of(block) for block in self._of_elements]
+        couplings = [pair.couplings() for pair in self.contacts]
+        self.indptr, self.indices = build_pattern(len(self.dofs), [*numbers, *couplings])
+        for block, equation_numbers in zip(self._of_elements, numbers, strict=True):
+            block.bind(equation_numbers, _binding.scatter_map(equation_numbers, self.indptr, self.indices))
+        for pair in self.contacts:
+            pair.bind(self.indptr, self.indices)
+        self._data = np.zeros(len(self.indices))
 
     def __len__(self) -> int:
         return len(self.dofs)
@@ -178,6 +188,10 @@ class System:
     ) -> Evaluation:
         """Sums over the elements of this rank; arguments and errors as those of `evaluate`."""
         columns = np.zeros((nrhs, len(self.dofs)))
+        tracked = [pair.track(call, u, du, matrix=matrix) for pair in self.contacts]
+        if not all(tracked):
+            self._bind()
+            self._linear.rebind(len(self.indices))
         data = self._data if matrix else None
         linear = self._linear
         applies = linear.applies(call, motion, nrhs)
@@ -381,7 +395,7 @@ class System:
         """
         if not self.contacts:
             return {}
-        nodes = np.concatenate([block.pair.nodes[:, 0] for block in self.contacts])
+        nodes = np.concatenate([block.secondary for block in self.contacts])
         clearance, pressure = (np.concatenate([block.output[k] for block in self.contacts]) for k in range(2))
         # directions of friction: one in the plane
         shear = np.concatenate([np.pad(block.output[2], ((0, 0), (0, 2)))[:, :2] for block in self.contacts])
@@ -417,6 +431,8 @@ class System:
             block.resume(own)
         for pair, own in zip(self.contacts, saved["contacts"], strict=True):
             pair.resume(own)
+        if self.contacts:
+            self._bind()
         for key, elements, own in saved["faces"]:
             for face in self._faces:
                 if face.key == key:
@@ -485,13 +501,10 @@ def _joined(parts: tuple[tuple[IntArray, ElementState], ...]) -> ElementState:
     return replace(state, svars=svars, energy=energy)
 
 
-def build_pattern(
-    n: int, numbers: Sequence[NDArray[np.int32]]
-) -> tuple[NDArray[np.int32], NDArray[np.int32], list[NDArray[np.int32]]]:
-    """Sparsity of the assembled matrix and where each element entry goes.
+def build_pattern(n: int, numbers: Sequence[NDArray[np.int32]]) -> tuple[NDArray[np.int32], NDArray[np.int32]]:
+    """Sparsity of the assembled matrix.
 
-    numbers holds, per block, the (m, k) unknowns of its elements. Returns row starts, columns and, per block, the
-    (m, k, k) positions of the element matrices' (row, column) entries in the CSR values.
+    numbers holds, per block, the (m, k) unknowns of its elements. Returns row starts and columns.
     """
     pattern = sparse.csr_array(sparse.eye_array(n, dtype=np.bool_))
     for number in numbers:
@@ -501,5 +514,4 @@ def build_pattern(
         # unlike a list of all entries of all elements it takes no more memory than the pattern
         pattern = pattern + incidence.T @ incidence
     pattern.sort_indices()
-    indptr, indices = pattern.indptr.astype(np.int32), pattern.indices.astype(np.int32)
-    return indptr, indices, [_binding.scatter_map(number, indptr, indices) for number in numbers]
+    return pattern.indptr.astype(np.int32), pattern.indices.astype(np.int32)

@@ -45,19 +45,26 @@ class TurningConstraints(Constraints):
         where = rows[self._slopes], columns[self._slopes]
         self._t, self._of_free = _with_entries(self._t, self.free, *where)
         self._p, self._of_prescribed = _with_entries(self._p, self.prescribed, *where)
-        left, right, entry = products(system, self._t)
-        self.reduced_indptr, self.reduced_indices, self._map = reduced_pattern(system, self._t)
+        self._find_pattern()
+        self.follow(np.zeros(n), np.zeros(n))
+
+    def _find_pattern(self) -> None:
+        """As of `Constraints`, with the entries of T and P that change."""
+        super()._find_pattern()
+        if not self.arms:
+            # T is not complete yet
+            return
+        assert self._t is not None
+        left, right, entry = products(self._system, self._t)
         # which product each value of the map is: it has one
         numbers = np.arange(len(entry), dtype=np.float64)
-        order = reduced_pattern(system, self._t, numbers)[2].data.astype(np.int64)
+        order = reduced_pattern(self._system, self._t, numbers)[2].data.astype(np.int64)
         changing = np.zeros(self._t.nnz, dtype=bool)
         changing[self._of_free[1]] = True
         self._changing = np.flatnonzero((changing[left] | changing[right])[order])
         self._left, self._right = (side[order][self._changing] for side in (left, right))
-        self._reduced = np.zeros(len(self.reduced_indices))
         self._curved = self._find_curved()
         self._curvature = np.zeros(len(self._curved[1]))
-        self.follow(np.zeros(n), np.zeros(n))
 
     def place(self, start: FloatArray, increment: FloatArray) -> FloatArray:
         """With the arms at their finite rotations."""
@@ -65,6 +72,7 @@ class TurningConstraints(Constraints):
 
     def follow(self, u: FloatArray, residual: FloatArray) -> None:
         """As of `Constraints`."""
+        self._follow_pattern()
         assert self._t is not None
         self._set(self._turning.levers(u))
         self._t_transposed, self._p_transposed = self._t.T.tocsr(), self._p.T.tocsr()

@@ -187,11 +187,7 @@ class ConstraintReader:
                 yield Equation(((node, dof, 1.0), (reference, dof, -1.0)), source)
 
     def _reference(self, block: Block, owner: Owner) -> int:
-        name = block.options.text("REF NODE")
-        nodes = self._flat.nodes(name, block.source, owner.name)
-        if len(nodes) != 1:
-            raise block.error(f"REF NODE={name} has {len(nodes)} nodes, expected one")
-        return int(nodes[0])
+        return reference_node(block, owner, self._flat)
 
     def _kinematic(self, block: Block, owner: Owner) -> Iterator[Equation]:
         coupling = self._coupling
@@ -260,8 +256,8 @@ class ConstraintReader:
         for name, nodes in (("PIN NSET", pinned), ("TIE NSET", tied)):
             if options.given(name):
                 nodes |= set(self._flat.nodes(options.text(name), block.source, owner.name).tolist())
-        if not pinned | tied:
-            raise block.error("needs ELSET, PIN NSET or TIE NSET")
+        if not pinned | tied and not options.given("ANALYTICAL SURFACE"):
+            raise block.error("needs ELSET, PIN NSET, TIE NSET or ANALYTICAL SURFACE")
         for node in sorted(pinned | tied):
             dofs = sorted(dof for dof in self._active[node] if dof <= 3 or node in tied)
             yield from self._follow(node, reference, dofs, block.source)
@@ -287,6 +283,23 @@ class ConstraintReader:
                 dofs = [dof for dof in sorted(self._active[node]) if rotations or dof not in ROTATIONS]
                 if node != other:
                     yield from self._equal(node, other, dofs, row.source)
+
+
+def reference_node(block: Block, owner: Owner, flat: FlatMesh) -> int:
+    """The reference node of a keyword. Raises DeckError."""
+    name = block.options.text("REF NODE")
+    nodes = flat.nodes(name, block.source, owner.name)
+    if len(nodes) != 1:
+        raise block.error(f"REF NODE={name} has {len(nodes)} nodes, expected one")
+    return int(nodes[0])
+
+
+def bodies_with_surfaces(flat: FlatMesh) -> Iterator[tuple[Block, Owner, str]]:
+    """Each *RIGID BODY that has an analytical surface, where it is, and the name of the surface."""
+    for owner in flat.owners:
+        for block in owner.blocks:
+            if block.name == "RIGID BODY" and block.options.given("ANALYTICAL SURFACE"):
+                yield block, owner, block.options.text("ANALYTICAL SURFACE")
 
 
 def _held_rotations(boundaries: Sequence[Boundary], steps: Sequence[Step]) -> dict[int, set[int]]:
@@ -468,8 +481,9 @@ KEYWORDS = (
             Option("ELSET", Kind.NAME, "elements that are rigid"),
             Option("PIN NSET", Kind.NAME, "nodes whose displacements follow"),
             Option("TIE NSET", Kind.NAME, "nodes whose displacements and rotations follow"),
+            Option("ANALYTICAL SURFACE", Kind.NAME, "analytical rigid surface, for contact"),
             *ignored("ISOTHERMAL"),
-            *refused("ANALYTICAL SURFACE", "POSITION"),
+            *refused("POSITION"),
         ),
     ),
     Keyword(

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""*CONTACT PAIR: a secondary surface, or its nodes, against the faces of a main surface, in small sliding."""
+"""*CONTACT PAIR: a secondary surface, or its nodes, against the faces of a main surface."""
 
 from __future__ import annotations
 
@@ -16,12 +16,15 @@ from harness.deck.error_report import Problems
 from harness.deck.flatten import FlatMesh, Owner
 from harness.deck.interactions import Interactions
 from harness.deck.numbers import read_real
+from harness.deck.pieces import make_pieces, wound
+from harness.deck.profiles import find_profile
 from harness.deck.surfaces import Surfaces, tributary_areas
 from harness.deck.table import INPUT, Keyword, Kind, Option, Where, ignored, one_of, refused
 from harness.deck.user_elements import dofs_by_node
+from harness.elements import FiniteSliding
 from harness.errors import DeckError
 from harness.model.arrays import FloatArray, IntArray
-from harness.model.contact import ContactPair
+from harness.model.contact import ContactPair, ContactProperty, Pieces, RigidProfile, SlidingPair
 from harness.model.element_types import LINE2, QUAD4, TRI3, ContinuumType, Family
 from harness.model.mesh import ElementGroup, full_name
 from harness.model.properties import SolidSection
@@ -29,6 +32,12 @@ from harness.model.steps import Step
 
 LINEAR_FACES = (LINE2, TRI3, QUAD4)
 PROCEDURES = ("STATIC", "VISCO")
+
+SMOOTH = 0.2
+"""Default SMOOTH: fraction of faces of a main surface, in the plane, that are rounded (Abaqus Keywords Guide)."""
+
+EXTENSION = 0.1
+"""Default EXTENSION ZONE (Abaqus Keywords Guide)."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -79,9 +88,9 @@ class ContactReader:
         self._problems = problems
         self._points = flat.mesh.coordinates
 
-    def read(self) -> tuple[ContactPair, ...]:
+    def read(self) -> tuple[ContactPair | SlidingPair, ...]:
         """All pairs of the deck."""
-        found: list[ContactPair] = []
+        found: list[ContactPair | SlidingPair] = []
         for owner in self._flat.owners:
             for block in owner.blocks:
                 if block.name == "CONTACT PAIR":
@@ -89,18 +98,19 @@ class ContactReader:
                         found += self._read(block, owner)
         return tuple(found)
 
-    def _read(self, block: Block, owner: Owner) -> Iterator[ContactPair]:
-        if not block.options.flag("SMALL SLIDING"):
-            raise block.error("finite sliding is not supported; SMALL SLIDING is")
+    def _read(self, block: Block, owner: Owner) -> Iterator[ContactPair | SlidingPair]:
         for row in block.rows():
             if row.blank(1):
                 raise row.error("expected the secondary and the main surface; contact with itself is not supported")
             row.at_most(2)
             yield self._pair(block, row, owner)
 
-    def _pair(self, block: Block, row: Row, owner: Owner) -> ContactPair:
+    def _pair(self, block: Block, row: Row, owner: Owner) -> ContactPair | SlidingPair:
         surface = self._interactions.find(block.options.text("INTERACTION"), block.source)
         secondary, main = row.name(0, "secondary surface"), row.name(1, "main surface")
+        rigid = find_profile(main, row.source, owner.name, self._flat, self._surfaces)
+        if rigid is not None:
+            return self._against_rigid(block, row, owner, rigid, surface)
         if self._surfaces.of_nodes(main, row.source, owner.name) is not None:
             raise row.error(f"the main surface {main} is made of nodes; expected faces of elements")
         target = self._side(main, row, owner, None)
@@ -109,12 +119,23 @@ class ContactReader:
         if len(shared):
             name = self._flat.mesh.name(int(shared[0]))
             raise row.error(f"node {name} is on both surfaces, {secondary} and {main}")
+        slip = surface.elastic_slip or surface.slip_tolerance * side.size
+        averaged = block.options.text("TYPE") == "SURFACE TO SURFACE" and bool(side.faces)
+        if not block.options.flag("SMALL SLIDING"):
+            if averaged:
+                raise block.error(
+                    "finite sliding of surface to surface is not supported: its means would have to be taken again as "
+                    "the faces move; expected SMALL SLIDING, or TYPE=NODE TO SURFACE"
+                )
+            smooth, zone = _smoothing(block)
+            faces = wound(target.faces, self._points)
+            self._check_corners(faces, row)
+            pieces = make_pieces(faces, self._points, smooth, zone)
+            return self._sliding(block, row, owner, side, pieces, (surface, slip))
         anchors = find_anchors(self._points[side.nodes], side.normals, target.faces, self._points)
-        anchors = self._adjust(block, side.nodes, anchors, owner)
-        if block.options.text("TYPE") == "SURFACE TO SURFACE" and side.faces:
-            points = self._averages(side, target)
-        else:
-            points = _at_nodes(side, anchors)
+        moved = self._adjust(block, side.nodes, (anchors.found, anchors.clearances, anchors.normals), owner)
+        anchors = replace(anchors, clearances=np.where(moved, 0.0, anchors.clearances))
+        points = self._averages(side, target) if averaged else _at_nodes(side, anchors)
         here = points.found
         self._warn_beside(side.nodes[~here], secondary, main, row)
         if not here.any():
@@ -132,14 +153,64 @@ class ContactReader:
             normals=points.normals[here],
             clearances=points.clearances[here],
             areas=points.areas[here],
-            slip=surface.elastic_slip or surface.slip_tolerance * side.size,
+            slip=slip,
         )
 
+    def _against_rigid(
+        self, block: Block, row: Row, owner: Owner, rigid: RigidProfile, surface: ContactProperty
+    ) -> SlidingPair:
+        """A pair with an analytical rigid surface."""
+        secondary, main = row.name(0, "secondary surface"), row.name(1, "main surface")
+        if block.options.flag("SMALL SLIDING"):
+            raise block.error(f"SMALL SLIDING is not supported on the analytical rigid surface {main}; leave it out")
+        if block.options.text("TYPE") == "SURFACE TO SURFACE":
+            raise block.error(
+                f"TYPE=SURFACE TO SURFACE is not supported on the analytical rigid surface {main}; expected NODE TO "
+                "SURFACE"
+            )
+        side = self._side(secondary, row, owner, None)
+        active = dofs_by_node(len(self._points), self._groups)
+        if any(3 in active[node] for node in side.nodes.tolist()):
+            raise row.error(f"the analytical rigid surface {main} is in the plane, {secondary} is not")
+        if surface.friction > 0.0 and not side.faces and not surface.elastic_slip:
+            raise row.error(f"{secondary} has no faces whose length gives the elastic slip; expected ELASTIC SLIP")
+        slip = surface.elastic_slip or surface.slip_tolerance * side.size
+        return self._sliding(block, row, owner, side, rigid, (surface, slip))
+
+    def _sliding(
+        self,
+        block: Block,
+        row: Row,
+        owner: Owner,
+        side: _Side,
+        main: Pieces | RigidProfile,
+        given: tuple[ContactProperty, float],
+    ) -> SlidingPair:
+        """A pair in finite sliding."""
+        surface, slip = given
+        pair = SlidingPair(
+            name=f"({row.name(0, 'secondary surface')},{row.name(1, 'main surface')})",
+            property=surface,
+            source=row.source,
+            dimension=3 if isinstance(main, Pieces) and main.low.shape[1] == 2 else 2,
+            secondary=side.nodes,
+            faces=tuple(wound(side.faces, self._points)),
+            main=main,
+            areas=side.areas,
+            slip=slip,
+        )
+        at_start = FiniteSliding(pair, self._points)
+        normals = np.pad(at_start.start_normals, ((0, 0), (0, 3 - pair.dimension)))
+        self._adjust(block, side.nodes, (at_start.above, at_start.start(), normals), owner)
+        return pair
+
     def _side(self, name: str, row: Row, owner: Owner, main: _Side | None) -> _Side:
-        """A surface of a pair; main: the other one of a secondary surface, whose length one of nodes has."""
-        given = None if main is None else self._surfaces.of_nodes(name, row.source, owner.name)
-        if main is not None and given is not None:
-            return self._of_nodes(name, row, given, main.size)
+        """A surface of a pair; main: the other one of a secondary surface, if it has faces, whose length one of nodes
+        has.
+        """
+        given = self._surfaces.of_nodes(name, row.source, owner.name)
+        if given is not None:
+            return self._of_nodes(name, row, given, 0.0 if main is None else main.size)
         by_corners: dict[int, list[tuple[IntArray, FloatArray]]] = {}
         areas, depth, lengths = np.zeros(len(self._points)), np.zeros(len(self._points)), [np.zeros(0)]
         for group, rows, local, place in self._surfaces.facets(name, row.source, owner.name):
@@ -217,6 +288,20 @@ class ContactReader:
                 f"the surface has no tangent plane for node {label}; faces with coincident corners cannot touch"
             )
 
+    def _check_corners(self, faces: Sequence[IntArray], row: Row) -> None:
+        """Raise DeckError where a face of a main surface has no tangent plane at a corner."""
+        for nodes in faces:
+            corners = self._points[nodes]
+            sides = np.roll(corners, -1, axis=1) - corners
+            size = np.linalg.norm(sides, axis=2).max(axis=1, keepdims=True)
+            area = np.linalg.norm(np.cross(sides, np.roll(sides, 1, axis=1)), axis=2)
+            wrong = area <= EQUAL * size**2
+            if nodes.shape[1] > 2 and wrong.any():
+                label = self._flat.mesh.name(int(nodes[wrong][0]))
+                raise row.error(
+                    f"the main surface has no tangent plane at node {label}; faces with coincident corners cannot touch"
+                )
+
     def _warn_beside(self, nodes: IntArray, secondary: str, main: str, row: Row) -> None:
         if len(nodes):
             name, more = self._flat.mesh.name(int(nodes[0])), len(nodes) - 1
@@ -224,11 +309,13 @@ class ContactReader:
             message = f"node {name}{others} of {secondary} will not touch {main}: no normal of {main} goes through it"
             self._problems.warn(row.source, f"*CONTACT PAIR: {message}")
 
-    def _adjust(self, block: Block, nodes: IntArray, anchors: Anchors, owner: Owner) -> Anchors:
-        """Anchor points after ADJUST: the clearances of nodes that it moves onto the main surface are zero."""
-        options = block.options
+    def _adjust(
+        self, block: Block, nodes: IntArray, start: tuple[np.ndarray, FloatArray, FloatArray], owner: Owner
+    ) -> np.ndarray:
+        """Which nodes (m,) ADJUST moves onto the main surface; start: which of them it faces, clearances, normals."""
+        options, (found, clearances, normals) = block.options, start
         if not options.given("ADJUST"):
-            return anchors
+            return np.zeros(len(nodes), dtype=np.bool_)
         text = options.text("ADJUST")
         try:
             depth = read_real(text)
@@ -237,10 +324,20 @@ class ContactReader:
         else:
             if depth < 0:
                 raise block.error(f"ADJUST={depth:g} must not be negative")
-            chosen = anchors.clearances <= depth
-        chosen &= anchors.found & (anchors.clearances != 0.0)
-        self._points[nodes[chosen]] -= (anchors.clearances[:, None] * anchors.normals)[chosen]
-        return replace(anchors, clearances=np.where(chosen, 0.0, anchors.clearances))
+            chosen = clearances <= depth
+        chosen &= found & (clearances != 0.0)
+        self._points[nodes[chosen]] -= (clearances[:, None] * normals)[chosen]
+        return chosen
+
+
+def _smoothing(block: Block) -> tuple[float, float]:
+    """SMOOTH and EXTENSION ZONE."""
+    smooth, zone = block.options.real("SMOOTH", SMOOTH), block.options.real("EXTENSION ZONE", EXTENSION)
+    if not 0.0 <= smooth < 0.5:
+        raise block.error(f"SMOOTH={smooth:g} must be at least 0 and less than 0.5")
+    if not 0.0 <= zone <= 0.2:
+        raise block.error(f"EXTENSION ZONE={zone:g} must be from 0 to 0.2")
+    return smooth, zone
 
 
 def _at_nodes(side: _Side, anchors: Anchors) -> _Points:
@@ -257,7 +354,7 @@ def _at_nodes(side: _Side, anchors: Anchors) -> _Points:
     )
 
 
-def check_contact(pairs: Sequence[ContactPair], steps: Sequence[Step], problems: Problems) -> None:
+def check_contact(pairs: Sequence[ContactPair | SlidingPair], steps: Sequence[Step], problems: Problems) -> None:
     """What contact pairs cannot be used with is an error of the step."""
     if not pairs:
         return
@@ -310,14 +407,20 @@ KEYWORDS = (
                 ("NODE TO SURFACE", "SURFACE TO SURFACE"),
                 default="NODE TO SURFACE",
             ),
-            Option("SMALL SLIDING", doc="the main surface is a plane for each node; needed"),
+            Option("SMALL SLIDING", doc="the main surface is a plane for each node; without it finite sliding"),
             Option(
                 "ADJUST",
                 Kind.NAME,
                 "nodes of a set, or those with at most this clearance (0), begin on the main surface, without strain",
                 bare="0",
             ),
-            *ignored("EXTENSION ZONE", "HCRIT", "MINIMUM DISTANCE", "NO THICKNESS", "SMOOTH", "TRACKING"),
+            Option("SMOOTH", Kind.REAL, f"part of faces that is rounded in finite sliding, in the plane ({SMOOTH})"),
+            Option(
+                "EXTENSION ZONE",
+                Kind.REAL,
+                f"of the main surface beyond its edges in finite sliding, over the length of a face ({EXTENSION})",
+            ),
+            *ignored("HCRIT", "MINIMUM DISTANCE", "NO THICKNESS", "TRACKING"),
             *ignored("MIDFACE NODES", "SUPPLEMENTARY CONSTRAINTS", "SLIDING TRANSITION"),
             *refused("GEOMETRIC CORRECTION", "MECHANICAL CONSTRAINT", "TIED", "CPSET", "OP", "WEIGHT"),
         ),

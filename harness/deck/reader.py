@@ -23,6 +23,7 @@ from harness.deck.keywords import KEYWORDS
 from harness.deck.lexer import Survey, read_blocks, survey_blocks
 from harness.deck.materials import read_materials
 from harness.deck.prescribed import Prescription
+from harness.deck.profiles import reference_dofs
 from harness.deck.requests import RequestReader
 from harness.deck.restart import digest_of, find_restart, join_parts, refuse_reading
 from harness.deck.section_controls import read_section_controls
@@ -94,7 +95,7 @@ def read_deck(
     contacts = ContactReader(flat, groups, interactions, problems).read()
     built_in = np.concatenate([np.full(len(group.labels), group.definition is None) for group in groups])
     transforms = Transforms(flat, groups, problems)
-    active = _active_dofs(groups)
+    active = _active_dofs(groups) | reference_dofs(flat)
     prescription = Prescription(flat, amplitudes, active, built_in, Surfaces(flat, groups), transforms)
     boundaries: list[Boundary] = []
     check_parts(structure.root, problems, harmonic=False)

@@ -11,7 +11,7 @@ import numpy as np
 from harness.deck.blocks import Block
 from harness.deck.error_report import nearest
 from harness.deck.flatten import FlatMesh
-from harness.deck.table import NAME, Keyword, Where, ignored, one_of
+from harness.deck.table import NAME, Keyword, Kind, Option, Where, ignored, one_of
 from harness.errors import DeckError, Source
 from harness.model.arrays import FloatArray, IntArray
 from harness.model.element_types import LINE3, QUAD8, TRI6, Face, Family, ShellType, SolidType
@@ -19,6 +19,7 @@ from harness.model.mesh import ElementGroup
 
 _CORNERS = np.array([[-1.0, 1.0, 1.0, -1.0], [-1.0, -1.0, 1.0, 1.0]])
 _GAUSS = _CORNERS.T / np.sqrt(3.0)
+ANALYTICAL = ("SEGMENTS", "CYLINDER", "REVOLUTION")
 _QUADRATIC = {
     LINE3.number: [1 / 4] * 2 + [1 / 2],
     TRI6.number: [1 / 12] * 3 + [1 / 4] * 3,
@@ -41,14 +42,34 @@ class Surfaces:
                     name = block.options.text("NAME")
                     self._blocks[f"{owner.name}.{name}" if owner.name else name] = (owner.name, block)
 
-    def _find(self, name: str, source: Source, owner: str) -> tuple[str, Block]:
-        """Level and keyword of a surface. Raises DeckError."""
+    def locate(self, name: str, source: Source, owner: str) -> tuple[str, Block]:
+        """Level and keyword of a surface of any type. Raises DeckError."""
         local = name.split(".")
         candidates = [f"{owner}.{name}" if owner else name, ".".join(local[-2:]), local[-1]]
         key = next((candidate for candidate in candidates if candidate in self._blocks), None)
         if key is None:
             raise DeckError(source, f"unknown surface {name}{nearest(name, self._blocks)}")
-        place, block = self._blocks[key]
+        return self._blocks[key]
+
+    def profile(self, name: str, source: Source, owner: str) -> tuple[str, Block, float] | None:
+        """Level, keyword and fillet radius of an analytical rigid surface in the plane, None for another one.
+
+        Raises DeckError.
+        """
+        place, block = self.locate(name, source, owner)
+        kind = block.options.text("TYPE")
+        if kind not in ANALYTICAL:
+            return None
+        if kind != "SEGMENTS":
+            raise block.error("is not supported in contact; of analytical rigid surfaces TYPE=SEGMENTS is")
+        radius = block.options.real("FILLET RADIUS", 0.0)
+        if radius < 0.0:
+            raise block.error(f"FILLET RADIUS={radius:g} must not be negative")
+        return place, block, radius
+
+    def _find(self, name: str, source: Source, owner: str) -> tuple[str, Block]:
+        """Level and keyword of a surface of elements or nodes. Raises DeckError."""
+        place, block = self.locate(name, source, owner)
         kind = block.options.text("TYPE")
         if kind not in ("ELEMENT", "NODE"):
             raise DeckError(source, f"surface {name} ({block.source}) is of TYPE={kind}, which constraints cannot use")
@@ -191,21 +212,24 @@ def face_nodes(group: ElementGroup, face: str, source: Source, keyword: str) -> 
 KEYWORDS = (
     Keyword(
         "SURFACE",
-        "Define a surface, of which constraints use the nodes.",
+        "Define a surface, of which constraints use the nodes. SEGMENTS is an analytical rigid one in the plane or "
+        "about the axis of symmetry, with its outward normal on the left of the way along its segments.",
         Where.MODEL,
         (
             NAME,
             one_of(
                 "TYPE",
-                "what it is made of; constraints use ELEMENT and NODE",
+                "what it is made of; constraints use ELEMENT and NODE, contact SEGMENTS too",
                 (
                     *("ELEMENT", "NODE", "CUTTING SURFACE", "CYLINDER", "EULERIAN MATERIAL", "REVOLUTION", "SEGMENTS"),
                     *("USER", "XFEM"),
                 ),
                 default="ELEMENT",
             ),
-            *ignored("INTERNAL", "DEFINITION", "TRIM", "FILLET RADIUS", "COMBINE", "CROP", "NO OFFSET", "NO THICK"),
+            Option("FILLET RADIUS", Kind.REAL, "of arcs between lines of an analytical rigid surface"),
+            *ignored("INTERNAL", "DEFINITION", "TRIM", "COMBINE", "CROP", "NO OFFSET", "NO THICK"),
         ),
-        "set or element, face (S1, S2, ...; SPOS, SNEG, E1, E2, ... of shells); or node set or node",
+        "set or element, face (S1, S2, ...; SPOS, SNEG, E1, E2, ... of shells); or node set or node; or START, x, y, "
+        "then LINE, x, y or CIRCL, x, y, x and y of the centre",
     ),
 )

@@ -184,6 +184,12 @@ def unquote(name: str) -> str:
     return " ".join(name.replace('"', "").split()).upper()
 
 
+_REASONS = {
+    "CONTACT": ": general contact is finite sliding of surface to surface, with a stiffness that Abaqus does not "
+    "describe; expected *CONTACT PAIR",
+}
+"""Why keywords of Abaqus are not supported, and what is, where a deck can say it otherwise."""
+
 _ABAQUS = {compact(name): name for name in ABAQUS_KEYWORDS}
 
 
@@ -198,7 +204,7 @@ def find_keyword(keywords: Mapping[str, Keyword], name: str, source: Source) -> 
     if wanted in keywords:
         return keywords[wanted]
     if wanted in _ABAQUS:
-        raise DeckError(source, f"*{_ABAQUS[wanted]} is not supported")
+        raise DeckError(source, f"*{_ABAQUS[wanted]} is not supported{_REASONS.get(_ABAQUS[wanted], '')}")
     known = {keyword.name for keyword in keywords.values()} | ABAQUS_KEYWORDS
     raise DeckError(source, f"unknown keyword *{name.strip()}{nearest(name.strip().upper(), known)}")
 

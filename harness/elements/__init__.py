@@ -6,10 +6,12 @@ from harness.elements.block import ElementBlock
 from harness.elements.build import build_blocks
 from harness.elements.call import BlockReport, Call, Distributed, Motion, Predefined
 from harness.elements.contact import ContactBlock, contact_blocks
+from harness.elements.contact_sliding import FiniteSliding
 from harness.elements.fields import FIELD_NAMES, MULTIPLIER, PRESSURE, VOLUME, field_of
 from harness.elements.followers import FollowerBlock
 from harness.elements.heat_loads import HeatLoadBlock
 from harness.elements.lflags import Damping, Flags, Request
+from harness.elements.rigid_surface import RigidSurface
 
 __all__ = [
     "FIELD_NAMES",
@@ -22,12 +24,14 @@ __all__ = [
     "Damping",
     "Distributed",
     "ElementBlock",
+    "FiniteSliding",
     "Flags",
     "FollowerBlock",
     "HeatLoadBlock",
     "Motion",
     "Predefined",
     "Request",
+    "RigidSurface",
     "build_blocks",
     "contact_blocks",
     "field_of",

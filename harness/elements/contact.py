@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""Contact of nodes with a surface in small sliding: a block of the points of one contact pair.
+"""Contact of nodes with a surface: a block of the points of one contact pair.
 
 With g the clearance of a point and f its contact force, a Lagrange multiplier enforces g = 0 where the point is closed
 and f = 0 where it is open; with a stiffness f follows from g. Friction is that of Coulomb with an elastic slip: the
@@ -20,13 +20,15 @@ from numpy.typing import NDArray
 
 from harness.elements.block import ElementBlock
 from harness.elements.call import Call
-from harness.elements.contact_kinematics import Clearances, Kinematics
+from harness.elements.contact_kinematics import Clearances, Find, Motion, Slips, SmallSliding
+from harness.elements.contact_sliding import FiniteSliding
 from harness.elements.fields import MULTIPLIER
 from harness.elements.lflags import Request
 from harness.model.arrays import FloatArray, IntArray, first_largest
-from harness.model.contact import ContactChanges, ContactPair
+from harness.model.contact import ContactChanges, ContactPair, SlidingPair
 from harness.model.model import Model
 from harness.model.restart import Saved
+from harness.usersub import _binding
 
 OPEN, STICKING, SLIPPING = 0, 1, 2
 """Status of a point; without friction a closed one counts as sticking."""
@@ -39,44 +41,97 @@ class ContactBlock:
     """The points of a contact pair: their committed and trial status and elastic slip.
 
     unknowns  (local node, dof) of each unknown: displacements, then the multiplier of the point where there is one
-    names     of the secondary nodes
+    secondary (m,) secondary nodes
+    names     of them
     direct    a multiplier enforces the constraints, else a stiffness
     """
 
     unsymmetric = True
 
-    def __init__(self, model: Model, pair: ContactPair) -> None:
-        m, n = pair.nodes.shape
-        self.pair, self.first, self.rows = pair, 0, np.arange(m)
-        self.names = [model.mesh.name(node) for node in pair.nodes[:, 0].tolist()]
+    def __init__(self, model: Model, pair: ContactPair | SlidingPair) -> None:
+        self.pair, self.first = pair, 0
+        self._motion: Motion
+        if isinstance(pair, SlidingPair):
+            self._motion = FiniteSliding(pair, model.mesh.coordinates)
+        else:
+            self._motion = SmallSliding(pair, model.mesh.coordinates)
+        self.secondary = self._motion.nodes[:, 0]
+        m = len(self.secondary)
+        self.rows = np.arange(m)
+        self.names = [model.mesh.name(node) for node in self.secondary.tolist()]
         self.group = replace(
             model.groups[0],
             type="CONTACT",
-            labels=model.mesh.labels[pair.nodes[:, 0]],
-            nodes=pair.nodes,
+            labels=model.mesh.labels[self.secondary],
+            nodes=self._motion.nodes,
             definition=None,
             source=pair.source,
         )
         self.direct = pair.property.stiffness is None
-        displacements = tuple((node, dof) for node in range(n) for dof in range(1, pair.dimension + 1))
-        self.unknowns = displacements + (((n, MULTIPLIER),) if self.direct else ())
-        self._kinematics = Kinematics(pair, model.mesh.coordinates)
-        # derivatives of the slips by the displacements, those at the start of the increment
-        self._tangents = self._kinematics.slips(None)
-        self._moved = np.zeros((m, len(displacements)))
-        self._status = np.where(pair.clearances <= pair.property.clearance, STICKING, OPEN)
-        self._slip = np.zeros(self._tangents.shape[:2])
+        self._count = len(self._motion.unknowns)
+        self.unknowns = self._motion.unknowns + (((self._motion.nodes.shape[1], MULTIPLIER),) if self.direct else ())
+        start = self._motion.start()
+        self._status = np.where(start <= pair.property.clearance, STICKING, OPEN)
+        self._slip = np.zeros((m, self._motion.components))
         self._status_trial, self._slip_trial = self._status, self._slip
         self._before, self._iteration = self._status, 0
         self._scale = 0.0
-        self._nlgeom = False
-        self._output = (pair.clearances, np.zeros(m), np.zeros(self._slip.shape))
+        self._output = (start, np.zeros(m), np.zeros((m, pair.dimension - 1)))
         self._penetration = self._force = np.zeros(m)
         self._equations = self._scatter = np.zeros((m, 0), dtype=np.int32)
+        self._find: Find | None = None
+        self._multipliers = np.zeros(m, dtype=np.int32)
+        self._pattern = (self._equations, self._equations)
 
-    def bind(self, equations: NDArray[np.int32], scatter: NDArray[np.int32]) -> None:
-        """Say where the unknowns are: parameters as those of `ElementBlock.bind`."""
-        self._equations, self._scatter = equations, scatter
+    def number(self, find: Find, last: NDArray[np.int32]) -> None:
+        """Say where the unknowns are.
+
+        Parameters
+        ----------
+        find
+            Numbers of the unknowns of nodes and dofs.
+        last
+            (m,) number of the last unknown of each point, which is its multiplier if it has one.
+        """
+        self._find, self._multipliers = find, last
+        self._equations = self._equations_of(self.rows, self._motion.nodes)
+
+    def track(self, call: Call, u: FloatArray, du: FloatArray, *, matrix: bool) -> bool:
+        """Before a pass, find what the points are opposite to; whether the matrix has place for it, if it is wanted.
+
+        Parameters
+        ----------
+        call, u, du, matrix
+            As in `System.evaluate`.
+        """
+        assert self._find is not None
+        if call.flags.request not in (Request.NORMAL, Request.RESIDUAL):
+            return True
+        nodes = self._motion.nodes
+        self._motion.track(u, du, self._find, first=call.iteration == 0)
+        if self._motion.nodes is not nodes:
+            self._equations = self._equations_of(self.rows, self._motion.nodes)
+            if self._motion.known:
+                self.bind(*self._pattern)
+        if self._motion.known or not matrix:
+            return True
+        self._motion.reach()
+        return False
+
+    def couplings(self) -> NDArray[np.int32]:
+        """(r, unknowns) unknowns that points have together, now or soon."""
+        return self._equations_of(*self._motion.links())
+
+    def _equations_of(self, points: IntArray, nodes: IntArray) -> NDArray[np.int32]:
+        assert self._find is not None
+        columns = [self._find(nodes[:, local], dof) for local, dof in self._motion.unknowns]
+        multipliers = [self._multipliers[points].astype(np.int64)] if self.direct else []
+        return np.stack([*columns, *multipliers], axis=1).astype(np.int32)
+
+    def bind(self, indptr: NDArray[np.int32], indices: NDArray[np.int32]) -> None:
+        """Take the CSR pattern of the matrix, which has the couplings."""
+        self._pattern = indptr, indices
+        self._scatter = _binding.scatter_map(self._equations, indptr, indices)
 
     def evaluate(
         self, call: Call, u: FloatArray, du: FloatArray, residual: FloatArray, data: FloatArray | None
@@ -102,9 +157,9 @@ class ContactBlock:
             return
         if data is not None and not self._scale:
             self._scale = self._stiffness(data)
-        count = self._tangents.shape[2]
+        count = self._count
         moved, change = u[self._equations[:, :count]], du[self._equations[:, :count]]
-        found = (self._kinematics.finite if call.flags.nlgeom else self._kinematics.linear)(moved)
+        found = self._motion.clearances(moved, nlgeom=call.flags.nlgeom)
         clearance, before = found.value, self._status_before(call)
         small = ROUNDING * float(np.abs(moved).max()) + 8.0 * found.rounding
         if self.direct:
@@ -115,18 +170,18 @@ class ContactBlock:
             closed = multiplier > 0.0
         if call.iteration == 0:
             closed = before != OPEN
+        closed &= self._motion.above
         force = np.where(closed, multiplier, 0.0)
-        slip = np.where(closed[:, None], self._slip + np.einsum("mtu,mu->mt", self._tangents, change), 0.0)
-        friction = _Friction(self.pair, force, slip, closed)
-        self._add(residual, data, found, (multiplier, force, closed), friction)
+        slips = self._motion.slips(moved, change, self._slip)
+        friction = _Friction(self.pair, force, np.where(closed[:, None], slips.value, 0.0), closed)
+        self._add(residual, data, (found, slips), (multiplier, force, closed), friction)
         if request is Request.NORMAL:
             after = np.where(closed, np.where(friction.slips, SLIPPING, STICKING), OPEN)
             self._status_trial = before if call.iteration == 0 else after
             self._slip_trial, self._force = friction.elastic, multiplier
-            self._output = (clearance, force, friction.force)
+            self._output = (clearance, force, np.einsum("mat,mt->ma", slips.axes, friction.force))
             missed = closed & self.direct & (np.abs(clearance) > small)
             self._penetration = np.where(missed, clearance, 0.0)
-            self._moved, self._nlgeom = moved, call.flags.nlgeom
 
     def _stiffness(self, data: FloatArray) -> float:
         """That of the secondary nodes, as a power of two: it scales the multipliers, so that the matrix is balanced."""
@@ -159,27 +214,31 @@ class ContactBlock:
         self,
         residual: FloatArray,
         data: FloatArray | None,
-        clearances: Clearances,
+        motion: tuple[Clearances, Slips],
         state: tuple[FloatArray, FloatArray, NDArray[np.bool_]],
         friction: _Friction,
     ) -> None:
-        """Add what points with these clearances, multipliers (or forces), forces and status contribute."""
+        """Add what points with this motion, these multipliers (or forces), forces and status contribute."""
         multiplier, force, closed = state
-        normal, tangents, scale = clearances.gradient, self._tangents, self._scale
+        clearances, slips = motion
+        normal, pushed = clearances.gradient, clearances.pushed
+        tangents, scale = slips.carried, self._scale
         count = normal.shape[1]
         right = np.zeros((len(closed), len(self.unknowns)))
-        right[:, :count] = force[:, None] * normal - np.einsum("mt,mtu->mu", friction.force, tangents)
+        right[:, :count] = force[:, None] * pushed - np.einsum("mt,mtu->mu", friction.force, tangents)
         if self.direct:
             right[:, count] = np.where(closed, scale * clearances.value, -multiplier)
         np.add.at(residual, self._equations, right)
         if data is None:
             return
         matrix = np.zeros((len(closed), len(self.unknowns), len(self.unknowns)))
-        matrix[:, :count, :count] = np.einsum("mtu,mts,msv->muv", tangents, friction.by_slip, tangents)
+        matrix[:, :count, :count] = np.einsum("mtu,mts,msv->muv", tangents, friction.by_slip, slips.by)
+        if slips.turned is not None:
+            matrix[:, :count, :count] += np.einsum("mt,mtuv->muv", friction.force, slips.turned)
         if clearances.curvature is not None:
             matrix[:, :count, :count] -= force[:, None, None] * clearances.curvature
         # what the contact force does, by the contact force
-        by_force = closed[:, None] * (np.einsum("mt,mtu->mu", friction.by_force, tangents) - normal)
+        by_force = closed[:, None] * (np.einsum("mt,mtu->mu", friction.by_force, tangents) - pushed)
         if self.direct:
             matrix[:, :count, count] = scale * by_force
             matrix[:, count, :count] = -scale * closed[:, None] * normal
@@ -206,7 +265,7 @@ class ContactBlock:
 
     def _largest(self, values: FloatArray) -> tuple[float, int]:
         worst = int(first_largest(np.abs(values)))
-        return float(values[worst]), int(self.pair.nodes[worst, 0])
+        return float(values[worst]), int(self.secondary[worst])
 
     @property
     def output(self) -> tuple[FloatArray, FloatArray, FloatArray]:
@@ -217,19 +276,19 @@ class ContactBlock:
     def commit(self) -> None:
         """End of a converged increment."""
         self._status, self._slip = self._status_trial, self._slip_trial
-        if self._nlgeom:
-            self._tangents = self._kinematics.slips(self._moved)
+        self._motion.commit()
 
     def kept(self) -> Saved:
         """Committed state, not copied."""
-        return {"status": self._status, "slip": self._slip, "tangents": self._tangents, "scale": self._scale}
+        return {"status": self._status, "slip": self._slip, "scale": self._scale, "motion": self._motion.kept()}
 
     def resume(self, saved: Saved) -> None:
         """Begin with what `kept` returned. Raises ValueError if it is not of these points."""
         if np.shape(saved["status"]) != self._status.shape or np.shape(saved["slip"]) != self._slip.shape:
             raise ValueError(f"contact pair {self.pair.name}")
         self._status, self._slip, self._scale = saved["status"], saved["slip"], saved["scale"]
-        self._tangents = saved["tangents"]
+        self._motion.resume(saved["motion"])
+        self._equations = self._equations_of(self.rows, self._motion.nodes)
         self._status_trial, self._slip_trial = self._status, self._slip
 
 
@@ -246,7 +305,9 @@ def contact_blocks(model: Model, blocks: Sequence[ElementBlock]) -> list[Contact
 class _Friction:
     """Friction of closed points: forces (m, directions), their derivatives, elastic slip, and which points slip."""
 
-    def __init__(self, pair: ContactPair, force: FloatArray, slip: FloatArray, closed: NDArray[np.bool_]) -> None:
+    def __init__(
+        self, pair: ContactPair | SlidingPair, force: FloatArray, slip: FloatArray, closed: NDArray[np.bool_]
+    ) -> None:
         coefficient, most, directions = pair.property.friction, pair.slip, slip.shape[1]
         size = np.linalg.norm(slip, axis=1)
         self.slips = closed & (coefficient > 0.0) & (size > most)

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""Clearances of contact points in small sliding, with their derivatives by the displacements.
+"""How contact points move in small sliding: clearances and slips, with their derivatives by the displacements.
 
 The clearance of a point is g = n . d: d from the anchor point to the secondary node, n the normal of the tangent plane.
 Without NLGEOM both are those of the mesh, and g is linear. With NLGEOM the plane goes with the face: n = v / |v|, and v
@@ -10,13 +10,19 @@ turning face are moments: the derivatives of g move the force along the face to 
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
-from typing import Final
+from typing import Final, Protocol
 
 import numpy as np
+from numpy.typing import NDArray
 
-from harness.model.arrays import FloatArray
+from harness.model.arrays import FloatArray, IntArray
 from harness.model.contact import ContactPair
+from harness.model.restart import Saved
+
+Find = Callable[[IntArray, IntArray | int], IntArray]
+"""Numbers of the unknowns of nodes and dofs, broadcast against each other; -1 for none."""
 
 _TURN: Final = np.array([[0.0, -1.0], [1.0, 0.0]])
 """By a right angle, in the plane."""
@@ -33,34 +39,153 @@ class Clearances:
 
     value     (m,)
     gradient  (m, u)
-    curvature (m, u, u) second derivatives; None: zero
+    pushed    (m, u) forces on the unknowns for a contact force of one
+    curvature (m, u, u) their derivatives; None: zero
     rounding  error that the arithmetic makes
     """
 
     value: FloatArray
     gradient: FloatArray
+    pushed: FloatArray
     curvature: FloatArray | None
     rounding: float
 
 
-class Kinematics:
-    """How the points of a pair move, by the displacements (m, u) of their nodes, one node after the other."""
+@dataclass(frozen=True, slots=True)
+class Slips:
+    """Elastic slips of m closed points, in t components.
+
+    value    (m, t)
+    by       (m, t, u) derivatives by the unknowns
+    carried  (m, t, u) the motions along which a friction force does work
+    turned   (m, t, u, u) derivatives of `carried`; None: zero
+    axes     (m, directions, t) local tangent directions
+    """
+
+    value: FloatArray
+    by: FloatArray
+    carried: FloatArray
+    turned: FloatArray | None
+    axes: FloatArray
+
+
+class Motion(Protocol):
+    """How the points of a pair move.
+
+    nodes      (m, n) secondary node of each point, then those of the main surface that move it, which may change
+    unknowns   (local node, dof) of each unknown of a point
+    components of the slip
+    above      (m,) whether the main surface is there
+    """
+
+    nodes: IntArray
+    unknowns: tuple[tuple[int, int], ...]
+    components: int
+    above: NDArray[np.bool_]
+
+    def start(self) -> FloatArray:
+        """(m,) clearances before the analysis."""
+
+    def track(self, u: FloatArray, du: FloatArray, find: Find, *, first: bool) -> None:
+        """Find what the points are opposite to at displacements u, du after the start of an increment (n,).
+
+        find: numbers of the unknowns; first: in an increment.
+        """
+
+    @property
+    def known(self) -> bool:
+        """Whether `links` has the present nodes of each point."""
+
+    def reach(self) -> None:
+        """Let `links` have the present nodes."""
+
+    def links(self) -> tuple[IntArray, IntArray]:
+        """Points (r,) and nodes (r, n) that are linked, or may soon be."""
+
+    def clearances(self, moved: FloatArray, *, nlgeom: bool) -> Clearances:
+        """At unknowns (m, u) of the points."""
+
+    def slips(self, moved: FloatArray, change: FloatArray, elastic: FloatArray) -> Slips:
+        """At unknowns (m, u), changed in the increment, which began with this elastic slip (m, components)."""
+
+    def commit(self) -> None:
+        """End of a converged increment."""
+
+    def kept(self) -> Saved:
+        """Committed state, not copied."""
+
+    def resume(self, saved: Saved) -> None:
+        """Begin with what `kept` returned."""
+
+
+class SmallSliding:
+    """The points of a pair move with the same nodes all the time; displacements (m, u) are those of one node after the
+    other.
+    """
+
+    known = True
 
     def __init__(self, pair: ContactPair, coordinates: FloatArray) -> None:
         """Coordinates (nodes, 3) are those of all nodes of the model."""
         dimension = pair.dimension
+        self.nodes = pair.nodes
+        self.unknowns = tuple((node, dof) for node in range(pair.nodes.shape[1]) for dof in range(1, dimension + 1))
+        self.components = dimension - 1
+        self.above = np.ones(len(pair.nodes), dtype=np.bool_)
         self._shape = *pair.nodes.shape, dimension
         self._clearances = pair.clearances
         self._places = coordinates[pair.nodes][:, :, :dimension]
         self._shares, self._slopes = pair.shares, pair.slopes
         self._normals = pair.normals[:, :dimension]
         self._parts = np.linalg.solve(self._base(self._tangents_of(self._places)), self._normals[..., None])[..., 0]
+        # derivatives of the slips by the displacements, those at the start of the increment
+        self._tangents = self._directions(None)
+        self._moved: FloatArray | None = None
+
+    def start(self) -> FloatArray:
+        """(m,) clearances before the analysis."""
+        return self._clearances
+
+    def track(self, u: FloatArray, du: FloatArray, find: Find, *, first: bool) -> None:
+        """They stay where they are."""
+
+    def reach(self) -> None:
+        """They have them."""
+
+    def links(self) -> tuple[IntArray, IntArray]:
+        """Points (m,) and their nodes (m, n)."""
+        return np.arange(len(self.nodes)), self.nodes
+
+    def clearances(self, moved: FloatArray, *, nlgeom: bool) -> Clearances:
+        """At displacements."""
+        self._moved = moved if nlgeom else None
+        return self.finite(moved) if nlgeom else self.linear(moved)
+
+    def slips(self, moved: FloatArray, change: FloatArray, elastic: FloatArray) -> Slips:
+        """Along tangents of the face at the start of the increment."""
+        del moved
+        tangents = self._tangents
+        axes = np.broadcast_to(np.eye(self.components), (len(change), self.components, self.components))
+        return Slips(elastic + np.einsum("mtu,mu->mt", tangents, change), tangents, tangents, None, axes)
+
+    def commit(self) -> None:
+        """Slips follow the turned face."""
+        if self._moved is not None:
+            self._tangents = self._directions(self._moved)
+
+    def kept(self) -> Saved:
+        """Tangents."""
+        return {"tangents": self._tangents}
+
+    def resume(self, saved: Saved) -> None:
+        """Begin with what `kept` returned."""
+        self._tangents = saved["tangents"]
 
     def linear(self, moved: FloatArray) -> Clearances:
         """In small displacements."""
         gradient = self._along(self._normals)
         value = self._clearances + np.einsum("mu,mu->m", gradient, moved)
-        return Clearances(value, gradient, None, float(np.finfo(float).eps * np.abs(moved).max()))
+        return Clearances(value, gradient, gradient, None, float(np.finfo(float).eps * np.abs(moved).max()))
 
     def finite(self, moved: FloatArray) -> Clearances:
         """In large displacements."""
@@ -88,9 +213,9 @@ class Kinematics:
             second = np.einsum("mnk,md,dpq->mnpkq", twist, beside, _PRODUCT)
             curvature += second.reshape(m, n * dimension, -1)
         eps = float(np.finfo(float).eps)
-        return Clearances(value, gradient, curvature, eps * float(np.abs(places).max()))
+        return Clearances(value, gradient, gradient, curvature, eps * float(np.abs(places).max()))
 
-    def slips(self, moved: FloatArray | None) -> FloatArray:
+    def _directions(self, moved: FloatArray | None) -> FloatArray:
         """(m, directions, u) derivatives of the slips along tangents of the face; moved: None where it is in its mesh
         position.
         """

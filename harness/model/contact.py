@@ -7,6 +7,9 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Final
 
+import numpy as np
+from numpy.typing import NDArray
+
 from harness.errors import Source
 from harness.model.arrays import FloatArray, IntArray
 
@@ -63,6 +66,80 @@ class ContactPair:
     slopes: FloatArray
     normals: FloatArray
     clearances: FloatArray
+    areas: FloatArray
+    slip: float
+
+
+@dataclass(frozen=True, slots=True)
+class Pieces:
+    """A main surface of p pieces, over which points slide from one to the next.
+
+    A piece is X(xi) = sum over its nodes of N X; in the plane N are polynomials 1, xi, xi^2, in space 1, xi, eta,
+    xi eta. Tangents by xi (and eta) turn the outward normal: (t2, -t1) in the plane, their product in space.
+
+    nodes       (p, k) of each piece, repeated where N is zero
+    shapes      (p, k, 3 or 4) coefficients of N
+    loads       (p, k, 3 or 4) those of the shares of the nodes in a force, whose sum is one
+    low, high   (p, 1 or 2) ends of the natural coordinates
+    total       (p,) largest sum of them, infinite where there is no such end
+    reach_low, reach_high, reach_total  the same of where a point is still above the surface: beyond free edges by the
+                extension zone, without end beyond the others
+    ring        (p, r) pieces that share a node with a piece, and itself, repeated to fill a row
+    """
+
+    nodes: IntArray
+    shapes: FloatArray
+    loads: FloatArray
+    low: FloatArray
+    high: FloatArray
+    total: FloatArray
+    reach_low: FloatArray
+    reach_high: FloatArray
+    reach_total: FloatArray
+    ring: IntArray
+
+
+@dataclass(frozen=True, slots=True)
+class RigidProfile:
+    """An analytical rigid surface in the plane, of p lines and arcs; the outward normal is (t2, -t1), t along it.
+
+    With the natural coordinate xi from -1 to 1 a point is middle + xi half on a line, and on an arc middle + radius
+    times (cos, sin) of half[0] + xi half[1].
+
+    reference  node with which it moves
+    middle     (p, 2) of a line, or centre of an arc
+    half       (p, 2)
+    radius     (p,), 0 of a line
+    free       (p, 2) whether the start and the end are ends of the surface
+    """
+
+    reference: int
+    middle: FloatArray
+    half: FloatArray
+    radius: FloatArray
+    free: NDArray[np.bool_]
+
+
+@dataclass(frozen=True, slots=True)
+class SlidingPair:
+    """*CONTACT PAIR in finite sliding: a point at each secondary node.
+
+    name        both surfaces, '(SECONDARY,MAIN)'
+    dimension   displacements of a node: 2 or 3
+    secondary   (m,) nodes
+    faces       of the secondary surface by their corners, wound like those of `Pieces`; none of a surface of nodes
+    main        the main surface
+    areas       (m,) of the secondary surface that belong to the nodes
+    slip        largest elastic slip
+    """
+
+    name: str
+    property: ContactProperty
+    source: Source
+    dimension: int
+    secondary: IntArray
+    faces: tuple[IntArray, ...]
+    main: Pieces | RigidProfile
     areas: FloatArray
     slip: float
 

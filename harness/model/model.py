@@ -9,7 +9,7 @@ from pathlib import Path
 
 from harness.errors import Source
 from harness.model.arrays import IntArray
-from harness.model.contact import ContactPair
+from harness.model.contact import ContactPair, SlidingPair
 from harness.model.mesh import ElementGroup, Mesh
 from harness.model.steps import Boundary, InitialSolution, InitialStress, InitialValue, Step
 
@@ -74,7 +74,7 @@ class Model:
     elsets: dict[str, IntArray] = field(default_factory=dict)
     boundaries: tuple[Boundary, ...] = ()
     equations: tuple[Equation, ...] = ()
-    contacts: tuple[ContactPair, ...] = ()
+    contacts: tuple[ContactPair | SlidingPair, ...] = ()
     arms: tuple[Arm, ...] = ()
     initial_velocities: tuple[InitialValue, ...] = ()
     initial_temperatures: tuple[InitialValue, ...] = ()

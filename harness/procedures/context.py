@@ -4,6 +4,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from functools import partial
 
 import numpy as np
@@ -18,7 +19,7 @@ from harness.procedures.loads import fading_forces
 from harness.procedures.state import BegunStep
 from harness.procedures.step_setting import Setting, SolverTimes, choose_rank_solver, choose_solver
 from harness.procedures.unconstrained import tolerate
-from harness.solver.linear import RankSolver
+from harness.solver.linear import LinearSolver, RankSolver
 from harness.solver.newton import Factoriser
 
 
@@ -85,7 +86,7 @@ class StepContext:
                 solver.release()
             chosen = choose()
             # the search handles a singular matrix itself
-            solver = chosen if fallback else tolerate(chosen)
+            solver = chosen if fallback else tolerate(chosen, _renewing(setting, constraints))
             self.choice = f"LINEAR SOLVER {chosen.name.upper()}: {chosen.reason}"
             state.majoriser.use(self.system, constraints, choose)
         state.constraints = self.constraints = constraints
@@ -138,3 +139,17 @@ class StepContext:
             predefined=predefined,
             flux_floor=self.checker.flux_floor,
         )
+
+
+def _renewing(setting: Setting, constraints: Constraints) -> Callable[[], LinearSolver | None]:
+    """Chooses another linear solver where the pattern of the constraints is not that of the last one."""
+    pattern = constraints.reduced_indices
+
+    def renew() -> LinearSolver | None:
+        nonlocal pattern
+        if pattern is constraints.reduced_indices:
+            return None
+        pattern = constraints.reduced_indices
+        return choose_solver(setting.solver, constraints, setting.state.effort)
+
+    return renew

@@ -9,7 +9,7 @@ ends with the error of the linear solver.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 
 import numpy as np
 from scipy import sparse
@@ -27,15 +27,20 @@ LOADED = 1e-6
 REFINEMENTS = 3
 """Number of corrections of a solution for the added stiffness, which affects a soft, constrained part more."""
 
+Renew = Callable[[], LinearSolver | None]
+
 UNLOADED = "{}. NO FORCE ACTS ON THE FREE PART, WHICH GETS SMALL DISPLACEMENTS"
 
 
-def tolerate(solver: LinearSolver | RankSolver) -> UnconstrainedSolver | RankSolver:
-    """Let a linear solver accept singular matrices where the right-hand side has a solution all the same."""
+def tolerate(solver: LinearSolver | RankSolver, renew: Renew | None = None) -> UnconstrainedSolver | RankSolver:
+    """Let a linear solver accept singular matrices where the right-hand side has a solution all the same.
+
+    renew: gives another solver where the pattern of the matrices has changed, else None.
+    """
     if isinstance(solver, RankSolver):
         solver.wrap = UnconstrainedSolver
         return solver
-    return UnconstrainedSolver(solver)
+    return UnconstrainedSolver(solver, renew)
 
 
 class UnconstrainedSolver:
@@ -44,16 +49,18 @@ class UnconstrainedSolver:
     free  error of the last matrix, None if it is regular
     """
 
-    def __init__(self, solver: LinearSolver) -> None:
-        self._solver = solver
+    def __init__(self, solver: LinearSolver, renew: Renew | None = None) -> None:
+        """Arguments as of `tolerate`."""
+        self._solver, self._renew = solver, renew
         self.free: SingularMatrixError | None = None
         self._matrix = sparse.csr_array((0, 0))
         self._stand_ins: Iterator[FloatArray] = iter(())
-        self._diagonal = solver.pattern.diagonal
 
     def factorise(self, data: FloatArray) -> None:
         """Take the CSR values of the reduced matrix. Raises SingularMatrixError if it has no stiffness at all."""
         self.free = None
+        if self._renew is not None:
+            self._solver = self._renew() or self._solver
         self._matrix = self._solver.pattern.matrix(data)
         self._stand_ins = self._stiffnesses()
         try:
@@ -88,7 +95,7 @@ class UnconstrainedSolver:
         self.free = self.free or error
         for stiffness in self._stand_ins:
             shifted = self._matrix.data.copy()
-            shifted[self._diagonal] += stiffness
+            shifted[self._solver.pattern.diagonal] += stiffness
             try:
                 return self._solver.factorise(shifted)
             except SingularMatrixError:

@@ -88,6 +88,7 @@ class Newton:
         # values of the matrix that the solver has factorised, and whether the next solve reuses it
         self._factorised: FloatArray | None = None
         self._again = self._anew = False
+        self._pattern = system.indices
 
     def kept(self) -> FloatArray | None:
         """CSR values of the matrix of the last solve, which the next one may reuse: to it a restart comes back."""
@@ -96,6 +97,7 @@ class Newton:
     def resume(self, factorised: FloatArray | None) -> None:
         """Go on like a new object that has solved with this matrix: so do a run that was kept and its restart."""
         self._factorised, self._anew = factorised, True
+        self._pattern = self._system.indices
         self._solver.forget()
 
     def iterates(self, given: Increment, *, same_matrix: bool = False) -> Iterator[Iterate]:
@@ -155,12 +157,13 @@ class Newton:
         return Iterate(iteration, increment, correction, residual, reduced, evaluation)
 
     def _correction(self, state: Iterate, missing: FloatArray) -> FloatArray:
-        if not self._again:
+        again = self._again and self._pattern is self._system.indices
+        if not again:
             assert state.evaluation.data is not None
             # a pass overwrites the values of the one before
-            self._factorised = state.evaluation.data.copy()
+            self._factorised, self._pattern = state.evaluation.data.copy(), self._system.indices
         assert self._factorised is not None
-        if self._anew or not self._again:
+        if self._anew or not again:
             self._solver.factorise(self._constraints.reduce_tangent(self._factorised))
         self._again = self._anew = False
         rhs = state.reduced

@@ -105,9 +105,22 @@ CONTACT = two_boxes(
     pair="SMALL SLIDING, TYPE=SURFACE TO SURFACE",
     behavior="*FRICTION\n0.3,",
 )
+SLIDING = two_boxes(
+    *plane(0.01, upper=1, lower=8, width=4.0),
+    [
+        "*RESTART, WRITE",
+        "*BOUNDARY\nLOWER_BOTTOM, 1, 2\nUPPER_TOP, 1",
+        contact_step("0.3, 1., 1e-5, 0.3", "*BOUNDARY\nUPPER_TOP, 2, 2, -0.03", options=", NLGEOM").replace(
+            "*OUTPUT, FIELD", ""
+        ),
+        contact_step("0.2, 1., 1e-5, 0.2", "*BOUNDARY\nUPPER_TOP, 1, 1, 2.").replace("*OUTPUT, FIELD", ""),
+    ],
+    pair="TYPE=NODE TO SURFACE",
+    behavior="*FRICTION\n0.3,",
+)
 DECKS = {
     **{"dynamic": DYNAMIC, "rubber": RUBBER, "heat": HEAT, "umat": UMAT, "steps": STEPS, "delamination": DELAMINATION},
-    "contact": CONTACT,
+    **{"contact": CONTACT, "sliding": SLIDING},
 }
 
 

@@ -10,6 +10,7 @@ from harness.assembly.system import build_pattern
 from harness.elements import FIELD_NAMES
 from harness.errors import Source
 from harness.model.model import Equation
+from harness.usersub._binding import scatter_map
 
 
 def dense(system, blocks):
@@ -78,10 +79,11 @@ def test_sums_over_blocks(two_blocks, call) -> None:
 
 def test_pattern_is_sorted_symmetric_and_holds_the_diagonal() -> None:
     numbers = [np.array([[4, 0, 2]], dtype=np.int32)]
-    indptr, indices, scatter = build_pattern(5, numbers)
+    indptr, indices = build_pattern(5, numbers)
+    scatter = scatter_map(numbers[0], indptr, indices)
     rows = np.repeat(np.arange(5), np.diff(indptr))
     entries = list(zip(rows.tolist(), indices.tolist(), strict=True))
     corners = [(i, j) for i in (0, 2, 4) for j in (0, 2, 4)]
     assert entries == sorted([*corners, (1, 1), (3, 3)])
-    assert [entries[k] for k in scatter[0][0, 0]] == [(4, 4), (4, 0), (4, 2)]
-    assert (indptr.dtype, indices.dtype, scatter[0].dtype) == (np.int32,) * 3
+    assert [entries[k] for k in scatter[0, 0]] == [(4, 4), (4, 0), (4, 2)]
+    assert (indptr.dtype, indices.dtype, scatter.dtype) == (np.int32,) * 3

@@ -224,7 +224,7 @@ def test_a_rigid_cube_turns_about_its_reference_node(run):
             r":27: unknown surface SX",
         ),
         ("*RIGID BODY, REF NODE=A, PIN NSET=B", r":27: \*RIGID BODY: REF NODE=A has 2 nodes, expected one"),
-        ("*RIGID BODY, REF NODE=1", r":27: \*RIGID BODY: needs ELSET, PIN NSET or TIE NSET"),
+        ("*RIGID BODY, REF NODE=1", r":27: \*RIGID BODY: needs ELSET, PIN NSET, TIE NSET or ANALYTICAL SURFACE"),
         ("*KINEMATIC COUPLING, REF NODE=1\nA, 3, 1", r":28: \*KINEMATIC COUPLING: dofs 3 to 1: expected 1 to 6"),
         (
             "*NSET, NSET=C\n1\n*SURFACE, NAME=SC, TYPE=NODE\nC\n*TIE, NAME=T\nSC, SB",

@@ -6,7 +6,9 @@ import numpy as np
 import pytest
 
 from harness.deck.anchors import find_anchors
+from harness.deck.pieces import make_pieces
 from harness.errors import DeckError
+from harness.model.contact import SlidingPair
 
 DECK = """\
 *HEADING
@@ -153,6 +155,8 @@ def test_faces_with_coincident_corners(read):
     """A node above the corner of a quadrilateral where two of its nodes are in the same place."""
     with pytest.raises(DeckError, match=r"deck\.inp:28: .*no tangent plane for node 11; faces with coincident corners"):
         read(BRICKS)
+    with pytest.raises(DeckError, match=r"deck\.inp:28: .*no tangent plane at node 7; faces with coincident corners"):
+        read(BRICKS.replace(", SMALL SLIDING", ""))
 
 
 def test_area_of_a_node(read):
@@ -181,7 +185,13 @@ def test_convert_sdi_goes_on(read):
 @pytest.mark.parametrize(
     "mistake",
     [
-        (", SMALL SLIDING", "", "35: finite sliding is not supported; SMALL SLIDING is"),
+        (
+            "SMALL SLIDING",
+            "TYPE=SURFACE TO SURFACE",
+            "35: finite sliding of surface to surface is not supported: its means would have to be taken again",
+        ),
+        (", SMALL SLIDING", ", SMOOTH=0.5", "35: SMOOTH=0.5 must be at least 0 and less than 0.5"),
+        (", SMALL SLIDING", ", EXTENSION ZONE=0.3", "35: EXTENSION ZONE=0.3 must be from 0 to 0.2"),
         (", SMALL SLIDING", ", SMALL SLIDING, TIED", "35: .*option TIED is not supported"),
         ("SEC, MAIN", "SEC", "36: expected the secondary and the main surface; contact with itself is not supported"),
         ("SEC, MAIN", "SEC, MAIN, M", "36: 3 entries, expected at most 2"),
@@ -244,6 +254,209 @@ def test_faces_that_are_not_linear_ones_of_solids(read, element_type):
     )
     with pytest.raises(DeckError, match=message):
         read(text.replace("*MATERIAL", nodes + extra + "*MATERIAL"))
+
+
+# ------------------------------------------------------------ finite sliding
+
+
+def test_rounded_corners():
+    """Three nodes in a row, the first face of length 1, the second one of length 2: 0.2 of both are rounded.
+
+    The parabola goes from (0.8, 0) to (1, 0.4), and in the middle it is halfway between the node and their mean. Where
+    its pieces meet, a force goes to the node alone.
+    """
+    line = [np.array([[0, 1], [1, 2]])]
+    nodes = np.array([[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [1.0, 2.0, 0.0]])
+    pieces = make_pieces(line, nodes, 0.2, 0.1)
+    np.testing.assert_array_equal(pieces.nodes[2:], [[1, 0, 2]] * 2)
+    np.testing.assert_allclose(pieces.low[:, 0], [-1, -0.6, 0, 1 / (1 + np.sqrt(2))])
+    np.testing.assert_allclose(pieces.high[:, 0], [0.6, 1, 1 / (1 + np.sqrt(2)), 1])
+    np.testing.assert_allclose(pieces.reach_low[:, 0], [-1.2, -np.inf, -np.inf, -np.inf])
+    np.testing.assert_allclose(pieces.reach_high[:, 0], [np.inf, 1.2, np.inf, np.inf])
+    for shapes, ends in ((pieces.shapes, [[0.8, 0], [1, 0.4]]), (pieces.loads, [[0.8, 0], [1, 0.4]])):
+        for piece, at, wanted in ((2, 0.0, ends[0]), (3, 1.0, ends[1])):
+            place = (shapes[piece] @ [1, at, at**2]) @ nodes[pieces.nodes[piece]]
+            np.testing.assert_allclose(place[:2], wanted, atol=1e-12)
+    middle = (pieces.shapes[2] @ [1, 0.5, 0.25]) @ nodes[pieces.nodes[2]]
+    np.testing.assert_allclose(middle[:2], [0.25 * 0.8 + 0.75, 0.25 * 0.4])
+    for piece in (2, 3):
+        at = pieces.high[2, 0]
+        np.testing.assert_allclose(pieces.loads[piece] @ [1, at, at**2], [1, 0, 0], atol=1e-12)
+
+
+def test_free_edges_of_areas():
+    """A square beside a triangle: both reach beyond their free edges by a tenth, without end beyond the common one."""
+    pieces = make_pieces([np.array([[0, 1, 2, 3]]), np.array([[1, 4, 2]])], np.zeros((5, 3)), 0.2, 0.1)
+    np.testing.assert_allclose(pieces.reach_low, [[-1.2, -1.2], [-np.inf, -0.1]])
+    np.testing.assert_allclose(pieces.reach_high, [[np.inf, 1.2], [np.inf, np.inf]])
+    np.testing.assert_allclose(pieces.reach_total, [np.inf, 1.1])
+    np.testing.assert_array_equal(pieces.ring, [[0, 1], [0, 1]])
+
+
+def test_finite_sliding_is_the_default(read):
+    (pair,) = read(DECK.replace(", SMALL SLIDING", "")).contacts
+    assert isinstance(pair, SlidingPair)
+    np.testing.assert_array_equal(pair.secondary, [4, 5])
+    np.testing.assert_allclose(pair.areas, 2.0 / 2)
+    # outward is up, from the right to the left
+    np.testing.assert_array_equal(pair.main.nodes[0, :2], [2, 3])
+    assert pair.slip == pytest.approx(0.005)
+
+
+@pytest.mark.parametrize(("adjust", "height"), [("ADJUST", 1.1), ("ADJUST=0.2", 1.0), ("ADJUST=TWO", 1.0)])
+def test_adjust_in_finite_sliding(read, adjust, height):
+    text = DECK.replace("SMALL SLIDING", adjust).replace("*MATERIAL", "*NSET, NSET=TWO\n11, 12\n*MATERIAL")
+    np.testing.assert_allclose(read(text).mesh.coordinates[4:6, 1], height)
+
+
+# ------------------------------------------------------------ analytical rigid surfaces
+
+RIGID = DECK.replace("SEC, MAIN", "SEC, TOOL").replace(", SMALL SLIDING", "")
+RIGID = RIGID.replace(
+    "*SURFACE INT",
+    "*SURFACE, NAME=TOOL, TYPE=SEGMENTS\nSTART, -1., 1.\nLINE, 0., 1.\nCIRCL, 1., 0., 0., 0.\n"
+    "*RIGID BODY, ANALYTICAL SURFACE=TOOL, REF NODE=21\n*SURFACE INT",
+    1,
+)
+
+
+def test_profile(read):
+    """From the end to the start: the arc from (1, 0) up to (0, 1), then the line to (-1, 1)."""
+    (pair,) = read(RIGID).contacts
+    profile = pair.main
+    assert read(RIGID).mesh.name(profile.reference) == "21"
+    np.testing.assert_allclose(profile.middle, [[0, 0], [-0.5, 1]])
+    np.testing.assert_allclose(profile.half, [[np.pi / 4, np.pi / 4], [-0.5, 0]])
+    np.testing.assert_allclose(profile.radius, [1, 0])
+    np.testing.assert_array_equal(profile.free, [[True, False], [False, True]])
+
+
+def test_fillet(read):
+    """A right angle at (1, 0), rounded by a radius of 0.5, and an arc that goes on without an angle."""
+    text = RIGID.replace("TYPE=SEGMENTS\n", "TYPE=SEGMENTS, FILLET RADIUS=0.5\n").replace(
+        "START, -1., 1.\nLINE, 0., 1.\nCIRCL, 1., 0., 0., 0.\n",
+        "START, 3., 0.\nLINE, 1., 0.\nLINE, 1., 2.\nCIRCL, 0., 3., 0., 2.\n",
+    )
+    profile = read(text).contacts[0].main
+    np.testing.assert_allclose(profile.radius, [1, 0, 0.5, 0])
+    np.testing.assert_allclose(profile.middle, [[0, 2], [1, 1.25], [1.5, 0.5], [2.25, 0]])
+    # about its centre the fillet goes from -90 to -180 degrees, here the other way
+    np.testing.assert_allclose(profile.half[1:], [[0, -0.75], [-0.75 * np.pi, np.pi / 4], [0.75, 0]], atol=1e-12)
+
+
+def test_profile_of_an_instance(read):
+    """It moves with its instance, and closes where its last point is its first one."""
+    instance = """\
+*PART, NAME=BODY
+*NODE
+11, 0., 1.1
+12, 1., 1.1
+13, 1., 2.
+14, 0., 2.
+*ELEMENT, TYPE=CPE4, ELSET=UP
+2, 11, 12, 13, 14
+*SOLID SECTION, ELSET=UP, MATERIAL=M
+2.
+*SURFACE, NAME=SEC
+UP, S1
+*END PART
+*PART, NAME=WALL
+*END PART
+*ASSEMBLY, NAME=A
+*INSTANCE, NAME=B, PART=BODY
+*END INSTANCE
+*INSTANCE, NAME=W, PART=WALL
+0., -1., 0.
+*NODE, NSET=REF
+1, 0., 0., 0.
+*SURFACE, NAME=TOOL, TYPE=SEGMENTS
+START, 0., 0.
+LINE, 2., 0.
+LINE, 1., -1.
+LINE, 0., 0.
+*RIGID BODY, ANALYTICAL SURFACE=TOOL, REF NODE=REF
+*END INSTANCE
+*END ASSEMBLY
+*MATERIAL, NAME=M
+*ELASTIC
+1000., 0.3
+*SURFACE INTERACTION, NAME=TOUCH
+*CONTACT PAIR, INTERACTION=TOUCH
+B.SEC, W.TOOL
+*STEP
+*STATIC
+*END STEP
+"""
+    (pair,) = read(instance).contacts
+    np.testing.assert_allclose(pair.main.middle[-1], [1.0, -1.0])
+    assert not pair.main.free.any()
+    turned = instance.replace("0., -1., 0.\n*NODE", "0., -1., 0.\n0., 0., 0., 1., 0., 0., 180.\n*NODE")
+    with pytest.raises(DeckError, match=r"deck\.inp:24: .*its instance is turned out of the plane"):
+        read(turned)
+
+
+@pytest.mark.parametrize(
+    "mistake",
+    [
+        ("TYPE=SEGMENTS\n", "TYPE=SEGMENTS, FILLET RADIUS=-1.\n", "30: .*FILLET RADIUS=-1 must not be negative"),
+        (
+            "TYPE=SEGMENTS\nSTART, -1., 1.",
+            "TYPE=SEGMENTS, FILLET RADIUS=0.1\nSTART, -1., 0.",
+            "30: .*FILLET RADIUS beside an arc that meets its neighbour at an angle is not supported",
+        ),
+        (
+            "TYPE=SEGMENTS\nSTART, -1., 1.\nLINE, 0., 1.\n",
+            "TYPE=SEGMENTS, FILLET RADIUS=1.\nSTART, -0.5, 1.\nLINE, -0.5, 2.\nLINE, 0., 1.\n",
+            "30: .*an arc of FILLET RADIUS=1 does not fit between two of its lines",
+        ),
+        ("TYPE=SEGMENTS", "TYPE=CYLINDER", "30: .*of analytical rigid surfaces TYPE=SEGMENTS is"),
+        ("START, -1., 1.\n", "", "30: .*expected START, x, y on the first data line"),
+        ("LINE, 0., 1.\nCIRCL, 1., 0., 0., 0.\n", "", "30: .*expected LINE or CIRCL on the second data line"),
+        ("LINE, 0., 1.", "PARAB, 0., 1., 1., 1.", "32: .*segment PARAB is not supported .supported: LINE, CIRCL"),
+        ("LINE, 0., 1.", "LINE, -1., 1.", "32: .*the segment has no length"),
+        (
+            "CIRCL, 1., 0., 0., 0.",
+            "CIRCL, 1., 0., 0.2, 0.",
+            "33: .*the ends of the arc are 1.0198 and 0.8 from its centre",
+        ),
+        ("CIRCL, 1., 0., 0., 0.", "CIRCL, 0., -1., 0., 0.", "33: .*the arc has 180 degrees; expected less"),
+        ("*RIGID BODY, ANALYTICAL SURFACE=TOOL, REF NODE=21\n", "", "30: .*needs .RIGID BODY, ANALYTICAL SURFACE=TOOL"),
+        ("REF NODE=21", "REF NODE=POINTS2", "34: .*POINTS2"),
+        (
+            "INTERACTION=TOUCH",
+            "INTERACTION=TOUCH, SMALL SLIDING",
+            "40: .*SMALL SLIDING is not supported on the analyti",
+        ),
+        ("INTERACTION=TOUCH", "INTERACTION=TOUCH, TYPE=SURFACE TO SURFACE", "40: .*expected NODE TO SURFACE"),
+        ("SEC, TOOL", "POINTS, TOOL", "41: .*POINTS has no faces whose length gives the elastic slip"),
+        (
+            "*CONTACT PAIR",
+            "*CONTACT\n*CONTACT PAIR",
+            "40: .CONTACT is not supported: general contact is finite sliding of",
+        ),
+    ],
+    ids=lambda mistake: mistake[2][:40],
+)
+def test_mistakes_of_analytical_surfaces(refuse, mistake):
+    refuse(RIGID, mistake)
+
+
+def test_reference_of_several_nodes(read):
+    text = RIGID.replace("REF NODE=21", "REF NODE=TWO").replace("*MATERIAL", "*NSET, NSET=TWO\n11, 12\n*MATERIAL")
+    with pytest.raises(DeckError, match=r"deck\.inp:36: .*REF NODE=TWO has 2 nodes, expected one"):
+        read(text)
+
+
+def test_profile_in_space(read):
+    text = BRICKS.replace(", SMALL SLIDING\nPOINTS, MAIN", "\nPOINTS, TOOL").replace(
+        "*SURFACE INT",
+        "*SURFACE, NAME=TOOL, TYPE=SEGMENTS\nSTART, 0., 0.\nLINE, 1., 0.\n"
+        "*RIGID BODY, ANALYTICAL SURFACE=TOOL, REF NODE=1\n*SURFACE INT",
+    )
+    with pytest.raises(
+        DeckError, match=r"deck\.inp:\d+: .*the analytical rigid surface TOOL is in the plane, POINTS is"
+    ):
+        read(text)
 
 
 # ------------------------------------------------------------ anchor points

@@ -10,6 +10,7 @@ import pytest
 import scipy.sparse as sp
 from material_point import COMPONENTS, MaterialPoint
 
+import harness
 from harness import usersub
 from harness.elements import Call, Flags, build_blocks
 from harness.errors import Source
@@ -28,6 +29,17 @@ from harness.model.properties import (
 
 HERE = Path(__file__).parent
 SOURCE = Source("test.inp", 7)
+
+
+@pytest.fixture
+def run(tmp_path):
+    """Run the text of a deck; options as those of `harness.run`."""
+
+    def run(text, **options):
+        (tmp_path / "deck.inp").write_text(text)
+        return harness.run(tmp_path / "deck.inp", output_dir=tmp_path, **options)
+
+    return run
 
 
 @pytest.fixture

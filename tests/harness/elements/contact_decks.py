@@ -76,3 +76,9 @@ def plane(gap=0.0, *, lower=2, upper=2, element_type="CPE4", width=2.0):
         Box("LOWER", element_type, (0, 0), (width, 1), (lower, 1)),
         Box("UPPER", element_type, (0, 1 + gap), (width, 2 + gap), (upper, 1), first=1001),
     )
+
+
+def total(result, variable, *sets):
+    """Sum of a variable of the history over the nodes of sets."""
+    chosen = tuple(f"{variable}[{name}" for name in sets)
+    return sum(values for name, values in result.history.items() if name.startswith(chosen))

@@ -23,7 +23,7 @@ class Landscape:
 
     def __init__(self, gradient, hessian, n):
         self._gradient, self._hessian = gradient, hessian
-        self.free = np.arange(n)
+        self.free, self.indices = np.arange(n), np.tile(np.arange(n), n)
         self.passes = []
 
     def evaluate(self, call, u, du, *, matrix=True, motion=None):

@@ -1,0 +1,134 @@
+# SPDX-FileCopyrightText: The uel-harness authors
+# SPDX-License-Identifier: BSD-3-Clause
+"""Main surfaces of finite sliding from faces of elements, smoothed in the plane.
+
+Where two faces meet at a node, a parabola replaces their ends: it touches them at a fraction of their lengths from the
+node (Abaqus Analysis User's Guide, "Contact formulations in Abaqus/Standard", smoothing deformable main surfaces). A
+force goes to the nodes of one face alone, as there, and by the point of that face: a constant pressure on opposite
+nodes stays constant. The parabola is two pieces, one for each face.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+from scipy import sparse
+
+from harness.model.arrays import FloatArray, IntArray
+from harness.model.contact import Pieces
+
+Faces = Sequence[tuple[IntArray, FloatArray]]
+
+_QUADRILATERAL = 0.25 * np.array([[1, -1, -1, 1], [1, 1, -1, -1], [1, 1, 1, 1], [1, -1, 1, -1]], dtype=float)
+_TRIANGLE = np.array([[1, -1, -1, 0], [0, 1, 0, 0], [0, 0, 1, 0], [0, 0, 0, 0]], dtype=float)
+
+
+def wound(faces: Faces, coordinates: FloatArray) -> list[IntArray]:
+    """Faces of each kind by their corners, in the order in which their outward normals follow from their tangents."""
+    found = []
+    for nodes, normals in faces:
+        corners = coordinates[nodes]
+        first = corners[:, 1] - corners[:, 0]
+        if nodes.shape[1] == 2:
+            own = np.stack([first[:, 1], -first[:, 0], np.zeros(len(first))], axis=1)
+        else:
+            own = np.cross(corners[:, 2] - corners[:, 0], corners[:, -1] - corners[:, 1])
+        turned = np.einsum("fd,fd->f", own, normals) < 0.0
+        found.append(np.where(turned[:, None], nodes[:, ::-1], nodes))
+    return found
+
+
+def make_pieces(faces: Sequence[IntArray], coordinates: FloatArray, smooth: float, zone: float) -> Pieces:
+    """Pieces of a surface.
+
+    Parameters
+    ----------
+    faces
+        Of each kind, lines, triangles or quadrilaterals, as `wound` returns them.
+    coordinates
+        (n, 3) of all nodes.
+    smooth
+        Fraction of a line that a parabola replaces at each end, less than a half.
+    zone
+        Extension zone beyond free edges, over the length of a face.
+    """
+    in_plane = faces[0].shape[1] == 2
+    return _of_lines(faces[0], coordinates, smooth, zone) if in_plane else _of_areas(faces, zone)
+
+
+def _of_lines(lines: IntArray, coordinates: FloatArray, smooth: float, zone: float) -> Pieces:
+    p, size = len(lines), int(lines.max()) + 1
+    starts, ends = (np.bincount(column, minlength=size) for column in lines.T)
+    touched = starts + ends
+    middle = np.flatnonzero((starts == 1) & (ends == 1) & (smooth > 0.0))
+    rounded, count = np.isin(lines, middle), len(middle)
+    into, out = np.zeros(size, dtype=np.int64), np.zeros(size, dtype=np.int64)
+    into[lines[:, 1]], out[lines[:, 0]] = lines[:, 0], lines[:, 1]
+    corners = np.stack([middle, into[middle], out[middle]], axis=1)
+    nodes = np.concatenate([lines[:, [0, 1, 1]], corners, corners])
+    shapes, loads = np.zeros((len(nodes), 3, 3)), np.zeros((len(nodes), 3, 3))
+    shapes[:p, 0, :2], shapes[:p, 1, :2] = (0.5, -0.5), (0.5, 0.5)
+    before, after, one = smooth * np.array([1.0, -2.0, 1.0]), smooth * np.array([0.0, 0.0, 1.0]), np.array([1.0, 0, 0])
+    shapes[p:] = np.stack([one - before - after, before, after])
+    loads[:p] = shapes[:p]
+    # distances along the faces from the node, over the length of the face before and the one behind
+    length = np.linalg.norm(coordinates[corners[:, 1:]] - coordinates[middle][:, None], axis=2)
+    ratio = length[:, 1] / length[:, 0]
+    loads[p : p + count, 1] = before - ratio[:, None] * after
+    loads[p + count :, 2] = after - before / ratio[:, None]
+    loads[p:, 0] = one - loads[p:, 1] - loads[p:, 2]
+    low, high = np.zeros(len(nodes)), np.ones(len(nodes))
+    low[:p], high[:p] = -1.0 + 2.0 * smooth * rounded[:, 0], 1.0 - 2.0 * smooth * rounded[:, 1]
+    high[p : p + count] = low[p + count :] = 1.0 / (1.0 + np.sqrt(ratio))
+    free = touched[lines] == 1
+    reach_low, reach_high = np.full(len(nodes), -np.inf), np.full(len(nodes), np.inf)
+    reach_low[:p] = np.where(free[:, 0], -1.0 - 2.0 * zone, -np.inf)
+    reach_high[:p] = np.where(free[:, 1], 1.0 + 2.0 * zone, np.inf)
+    without = np.full(len(nodes), np.inf)
+    bounds = (low[:, None], high[:, None], without, reach_low[:, None], reach_high[:, None], without)
+    return Pieces(nodes, shapes, loads, *bounds, _ring(nodes))
+
+
+def _of_areas(faces: Sequence[IntArray], zone: float) -> Pieces:
+    nodes = np.concatenate([np.pad(part, ((0, 0), (0, 4 - part.shape[1])), mode="edge") for part in faces])
+    four = np.concatenate([np.full(len(part), part.shape[1] == 4) for part in faces])
+    # edges in the order of the ends: low eta, high xi, high eta, low xi; of a triangle low eta, the total, low xi
+    edges = np.sort(
+        np.stack([nodes, np.where(four[:, None], np.roll(nodes, -1, axis=1), nodes[:, [1, 2, 0, 0]])]), axis=0
+    )
+    keys = edges[0] * (int(nodes.max()) + 1) + edges[1]
+    own = np.where(four[:, None] | (np.arange(4) < 3), keys, -1)
+    _, place, count = np.unique(own, return_inverse=True, return_counts=True)
+    free = (count[place.reshape(own.shape)] == 1) & (own >= 0)
+    inside, step = np.where(four, -1.0, 0.0), np.where(four, 2.0, 1.0) * zone
+    infinite = np.full(len(nodes), np.inf)
+    low, high = np.stack([inside] * 2, axis=1), np.ones((len(nodes), 2))
+    low_free = np.stack([np.where(four, free[:, 3], free[:, 2]), free[:, 0]], axis=1)
+    high_free = np.stack([free[:, 1] & four, free[:, 2] & four], axis=1)
+    shapes = np.where(four[:, None, None], _QUADRILATERAL, _TRIANGLE)
+    return Pieces(
+        nodes,
+        shapes,
+        shapes,
+        low,
+        high,
+        np.where(four, infinite, 1.0),
+        np.where(low_free, low - step[:, None], -np.inf),
+        np.where(high_free, high + step[:, None], np.inf),
+        np.where(free[:, 1] & ~four, 1.0 + step, np.inf),
+        _ring(nodes),
+    )
+
+
+def _ring(nodes: IntArray) -> IntArray:
+    """(p, r) pieces that share a node with a piece, and itself, repeated to fill a row."""
+    p, k = nodes.shape
+    of_node = sparse.csr_array((np.ones(p * k, dtype=np.bool_), (np.repeat(np.arange(p), k), nodes.ravel())))
+    shared = sparse.csr_array(of_node @ of_node.T)
+    shared.sort_indices()
+    counts = np.diff(shared.indptr)
+    rows = np.repeat(np.arange(p), counts)
+    ring = np.repeat(np.arange(p)[:, None], counts.max(), axis=1)
+    ring[rows, np.arange(len(rows)) - shared.indptr[rows]] = shared.indices
+    return ring
