@@ -111,8 +111,6 @@ contains
     length(i_props) = block%scalars%nprops
     length(i_coords) = size(block%coords, 1)
     length(i_predef) = size(block%predef, 1)
-    if (allocated(work%jprops)) deallocate (work%jprops)
-    allocate (work%jprops(block%scalars%njprop))
     call lay_out(work, length)
     nullify (current%history, current%history_trial)
     if (associated(block%history)) then
@@ -163,18 +161,18 @@ contains
       now%history_trial = now%history
     end if
     call call_between_guards(block, e, merge(0_i8, work%unset, block%entries == entries_zero), work%memory, work%start, &
-                             work%jprops, now)
+                             now)
   end subroutine call_element
 
   !> The same within the memory of a workspace.
-  subroutine call_between_guards(block, e, on_entry, x, s, jprops, now)
+  subroutine call_between_guards(block, e, on_entry, x, s, now)
     type(block_t), intent(inout) :: block
     integer, intent(in) :: e
     integer(i8), value :: on_entry   !< bits of the entries of RHS and AMATRX
     real(dp), intent(inout) :: x(*)
     integer, intent(in) :: s(n_arrays)
-    integer(i4), intent(inout) :: jprops(block%scalars%njprop)
     type(call_context), intent(inout) :: now
+    integer(i4) :: jprops(block%scalars%njprop)
     type(scalars_t) :: given
     integer :: ndofel, row
     given = block%scalars

@@ -30,7 +30,6 @@ module host_workspace
 
   type :: workspace_t
     real(dp), allocatable :: memory(:)
-    integer(i4), allocatable :: jprops(:)   !< JPROPS of a call, without guards
     integer :: length(n_arrays) = 0   !< entries of each array
     integer :: start(n_arrays) = 0    !< position of the first entry of each array
     integer :: behind(n_arrays) = 0   !< entries of its guard behind it, up to those that belong to the next array
