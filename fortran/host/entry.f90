@@ -7,13 +7,13 @@
 subroutine host_evaluate(address, material, tensor, jtype, symmetric, want_matrix, kstep, kinc, guards, entries, &
                          iteration, parallel, lflags, time, dtime, period, params, labels, jprops, equations, map, &
                          props, coords, u, du, v, a, counts, kinds, loads, predef, floor, svars, svars_trial, energy, &
-                         energy_trial, history, history_trial, residual, matrix, flux, terms, pnewdt, energy_sum, &
+                         energy_trial, history, history_trial, residual, matrix, flux, pnewdt, energy_sum, &
                          fault, position, array, item, alone, ndofel, nsvars, nprops, njprop, mcrd, nnode, m, n, &
                          nrhs, nnz, values, points, most, nfield, nrate, mload, mfield)
   use, intrinsic :: iso_c_binding, only: c_funptr, c_intptr_t
   use host_context, only: initial_stresses
   use host_driver, only: run_block
-  use host_element, only: block_t
+  use host_element, only: block_t, keeps_state, scalars_t
   use host_kinds, only: dp, i4, i8
   implicit none (type, external)
   integer(i8), intent(in) :: address          !< of UEL or UELMAT
@@ -35,37 +35,32 @@ subroutine host_evaluate(address, material, tensor, jtype, symmetric, want_matri
   real(dp), intent(inout), target :: svars_trial(nsvars, m), energy_trial(8, m), history_trial(values, points, m), &
                                      residual(n, nrhs), matrix(nnz)
   real(dp), intent(in), target :: floor(ndofel)
-  real(dp), intent(out), target :: flux(ndofel, 2)
-  integer(i4), intent(out), target :: terms(ndofel)
+  real(dp), intent(out), target :: flux(ndofel, 3)
   real(dp), intent(out) :: pnewdt, energy_sum(8)
   integer(i4), intent(out) :: fault, position, array, item   !< as block_t has them; item is its index
   integer(i4), intent(out) :: alone           !< as block_t has it
   type(block_t), target :: block
   block%address = transfer(int(address, c_intptr_t), block%address)
   block%with_material = material > 0
-  block%material = material
   block%tensor = tensor
-  block%jtype = jtype
   block%symmetric = symmetric /= 0
   block%want_matrix = want_matrix /= 0
   block%want_residual = any(lflags(3) == [1_i4, 5_i4, 6_i4, 100_i4, initial_stresses])
-  block%kstep = kstep
-  block%kinc = kinc
   block%parallel = parallel /= 0
   block%guards = guards
   block%entries = entries
   block%iteration = iteration
-  block%lflags = lflags
-  block%time = time
-  block%dtime = dtime
-  block%period = period
-  block%params = params
+  block%keeps_state = keeps_state(lflags(3))
+  block%moves = nrate == n
+  block%scalars = scalars_t(ndofel=ndofel, nrhs=nrhs, nsvars=nsvars, nprops=nprops, mcrd=mcrd, nnode=nnode, jtype=jtype, &
+                            kstep=kstep, kinc=kinc, npredf=nfield, mlvarx=ndofel, njprop=njprop, material=material, &
+                            lflags=lflags, time=time, dtime=dtime, params=params, period=period)
   block%labels => labels
   block%jprops => jprops
   block%equations => equations
   block%map => map
   block%props => props
-  block%coords => coords
+  block%coords(1:mcrd*nnode, 1:m) => coords
   block%u => u
   block%du => du
   block%v => v
@@ -73,7 +68,7 @@ subroutine host_evaluate(address, material, tensor, jtype, symmetric, want_matri
   block%counts => counts
   block%kinds => kinds
   block%loads => loads
-  block%predef => predef
+  block%predef(1:2*nfield*nnode, 1:mfield) => predef
   block%svars => svars
   block%svars_trial => svars_trial
   block%energy => energy
@@ -83,12 +78,10 @@ subroutine host_evaluate(address, material, tensor, jtype, symmetric, want_matri
     block%history_trial => history_trial
   end if
   flux = 0
-  terms = 0
   block%residual => residual
   block%matrix => matrix
   block%floor => floor
   block%flux => flux
-  block%terms => terms
   call run_block(block)
   pnewdt = block%pnewdt
   energy_sum = block%energy_sum

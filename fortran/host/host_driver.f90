@@ -6,7 +6,7 @@ module host_driver
   use host_context, only: call_context, current
   use host_element, only: block_t, call_element, check_results, entries_notice, entries_zero, fault_distorted, fault_endless, &
                           fault_left, fault_none, fault_outside, fault_unset, guards_notice, guards_search, guards_stop, &
-                          keeps_state, prepare, work
+                          prepare, work
   use host_kinds, only: dp, i4
   use host_protect, only: protect
   use host_scatter, only: add, add_magnitude, add_matrix, add_residual
@@ -21,12 +21,20 @@ module host_driver
   character(len=16), parameter :: point_routines(9) = [character(len=16) :: 'UMAT', 'USDFLD', 'UMATHT', 'HETVAL', 'DFLUX', 'FILM', &
                                                         'UHYPER', 'UANISOHYPER_INV', 'UHARD']
 
+  !> A pass of this thread. The places of its own variables are looked up once, not for each element.
+  type :: pass_t
+    type(block_t), pointer :: block => null()
+    type(workspace_t), pointer :: work => null()
+    type(call_context), pointer :: now => null()
+  end type pass_t
+
 contains
 
   !> Run a pass. On a fault, fault, position, array and index say what happened and the sums are invalid, except in a block that
   !> continues after a write outside an array: its sums are those of the pass.
   subroutine run_block(block)
     type(block_t), intent(inout), target :: block
+    type(pass_t), target :: pass
     integer :: array, index
     if (block%with_material) then
       call c_f_procpointer(block%address, block%uelmat)
@@ -35,7 +43,8 @@ contains
     end if
     call prepare(block)
     if (block%parallel) call run_team(block)
-    select case (protect(c_funloc(loop), c_loc(block)))
+    pass = pass_t(block, work, current)
+    select case (protect(c_funloc(loop), c_loc(pass)))
     case (0)
     case (2)
       block%fault = fault_endless
@@ -66,10 +75,10 @@ contains
   end subroutine set_guard_room
 
   subroutine loop(context) bind(c)
-    type(c_ptr), value :: context
-    type(block_t), pointer :: block
-    call c_f_pointer(context, block)
-    call all_elements(block, work, current)
+    type(c_ptr), value :: context   ! is the pass
+    type(pass_t), pointer :: pass
+    call c_f_pointer(context, pass)
+    call all_elements(pass%block, pass%work, pass%now)
   end subroutine loop
 
   !> All elements of the block, until a fault.
@@ -78,7 +87,7 @@ contains
     type(workspace_t), intent(inout), target :: work
     type(call_context), intent(inout), target :: now
     integer :: e, ndofel, array, index
-    ndofel = size(block%equations, 1)
+    ndofel = int(block%scalars%ndofel)
     do e = block%first, size(block%labels)
       block%position = e
       call call_element(block, e, work, now)
@@ -89,11 +98,12 @@ contains
       call check_results(block, work)
       if (block%fault == fault_unset .and. block%entries == entries_notice) call repeat_on_zeros(block, e)
       if (block%fault /= fault_none) return
-      if (keeps_state(block%lflags(3))) call add(8, work%memory(work%start(i_energy)), block%energy_sum)
+      if (block%keeps_state) call add(8, work%memory(work%start(i_energy)), block%energy_sum)
       if (block%want_residual) then
         call add_residual(ndofel, work%memory(work%start(i_rhs)), block%equations(:, e), block%residual(:, 1))
-        call add_magnitude(ndofel, work%memory(work%start(i_rhs)), block%floor, block%flux, block%terms)
-        if (size(block%residual, 2) == 2) then
+        call add_magnitude(ndofel, work%memory(work%start(i_rhs)), block%floor, block%flux(:, 1), block%flux(:, 2), &
+                           block%flux(:, 3))
+        if (block%scalars%nrhs == 2) then
           call add_residual(ndofel, work%memory(work%start(i_rhs) + ndofel), block%equations(:, e), block%residual(:, 2))
         end if
       end if

@@ -7,11 +7,11 @@ module host_element
   use host_interfaces, only: uel_procedure, uelmat_procedure
   use host_kinds, only: dp, i4, i8
   use host_protect, only: begin_call
-  use host_workspace, only: all_finite, fill, i_a, i_amatrx, i_coords, i_du, i_energy, i_predef, i_props, i_rhs, i_svars, &
+  use host_workspace, only: all_finite, copy, fill, i_a, i_amatrx, i_coords, i_du, i_energy, i_predef, i_props, i_rhs, i_svars, &
                             i_u, i_v, lay_out, n_arrays, same_bits, workspace_t
   implicit none (type, external)
   private
-  public :: block_t, work, prepare, call_element, check_results, keeps_state, untouched
+  public :: block_t, scalars_t, work, prepare, call_element, check_results, keep_smallest, keeps_state, untouched
   public :: fault_none, fault_left, fault_outside, fault_unset, fault_not_finite, fault_endless, fault_distorted
   public :: guards_stop, guards_notice, guards_search, entries_notice, entries_zero
 
@@ -36,9 +36,19 @@ module host_element
   !> PNEWDT on entry: larger than any value that a user routine would return.
   real(dp), parameter :: untouched = 1.0e36_dp
 
+  !> Scalars and short arrays of a call, under Abaqus' names. Each call gets copies: a user routine that changes them affects
+  !> nothing else.
+  type :: scalars_t
+    integer(i4) :: ndofel = 0, nrhs = 0, nsvars = 0, nprops = 0, mcrd = 0, nnode = 0, jtype = 0, kstep = 0, kinc = 0, jelem = 0, &
+                   ndload = 0, npredf = 0, mlvarx = 0, mdload = 1, njprop = 0, material = 0
+    integer(i4) :: lflags(7) = 0
+    real(dp) :: time(2) = 0, dtime = 0, params(3) = 0, pnewdt = untouched, period = 0
+  end type scalars_t
+
   !> One pass over a block: what is called, with what, and where the results go. Arrays belong to the caller.
   type :: block_t
     type(c_funptr) :: address
+    type(scalars_t) :: scalars           !< of each call, but for the number of the element and its loads
     logical :: with_material = .false.   !< call with UELMAT's 37 arguments
     logical :: symmetric = .false.       !< assemble (A + A^T)/2
     logical :: parallel = .false.        !< several threads may call elements at the same time
@@ -46,30 +56,28 @@ module host_element
     integer(i4) :: entries = entries_stop  !< one of entries_*
     logical :: want_matrix = .false.     !< check and assemble AMATRX
     logical :: want_residual = .false.   !< check and assemble RHS
-    integer(i4) :: material = 0, tensor = 0, jtype = 0, kstep = 0, kinc = 0, iteration = 0
-    integer(i4) :: lflags(7) = 0
-    real(dp) :: time(2) = 0, dtime = 0, period = 0
-    real(dp) :: params(3) = 0             !< PARAMS: alpha, beta, gamma of a dynamic step
+    logical :: keeps_state = .false.     !< keep SVARS, ENERGY and the material history that a call leaves
+    logical :: moves = .false.           !< V and A are given
+    integer(i4) :: tensor = 0, iteration = 0
     integer(i4), pointer, contiguous :: labels(:) => null(), jprops(:) => null()
     integer(i4), pointer, contiguous :: equations(:, :) => null()  !< (ndofel, m) unknown, from 1
     integer(i4), pointer, contiguous :: map(:, :, :) => null()     !< (ndofel, ndofel, m) position in matrix, from 1
     real(dp), pointer, contiguous :: props(:) => null()
-    real(dp), pointer, contiguous :: coords(:, :, :) => null()     !< (mcrd, nnode, m)
+    real(dp), pointer, contiguous :: coords(:, :) => null()        !< (mcrd*nnode, m)
     real(dp), pointer, contiguous :: u(:) => null(), du(:) => null()
-    real(dp), pointer, contiguous :: v(:) => null(), a(:) => null()   !< velocity and acceleration; (1) if nothing moves
+    real(dp), pointer, contiguous :: v(:) => null(), a(:) => null()   !< velocity and acceleration
     ! of the m elements, or of one that stands for all
     integer(i4), pointer, contiguous :: counts(:) => null()        !< (m) distributed loads
     integer(i4), pointer, contiguous :: kinds(:, :) => null()      !< (most, m) JDLTYP
     real(dp), pointer, contiguous :: loads(:, :, :) => null()      !< (2, most, m) magnitude at the end, increment
-    real(dp), pointer, contiguous :: predef(:, :, :, :) => null()  !< (2, NPREDF, nnode, m)
+    real(dp), pointer, contiguous :: predef(:, :) => null()        !< (2*NPREDF*nnode, m)
     real(dp), pointer, contiguous :: svars(:, :) => null(), svars_trial(:, :) => null()     !< (nsvars, m)
     real(dp), pointer, contiguous :: energy(:, :) => null(), energy_trial(:, :) => null()   !< (8, m)
     real(dp), pointer, contiguous :: history(:, :, :) => null(), history_trial(:, :, :) => null()  !< (values, npt, m)
     real(dp), pointer, contiguous :: residual(:, :) => null()  !< (n, NRHS)
     real(dp), pointer, contiguous :: matrix(:) => null()
     real(dp), pointer, contiguous :: floor(:) => null()            !< (ndofel) |RHS| above which an entry counts as a term
-    real(dp), pointer, contiguous :: flux(:, :) => null()          !< (ndofel, 2) sum of |RHS|, and the largest one
-    integer(i4), pointer, contiguous :: terms(:) => null()         !< (ndofel) number of terms
+    real(dp), pointer, contiguous :: flux(:, :) => null()          !< (ndofel, 3) sum of |RHS|, number of terms, the largest one
     integer :: first = 1                  !< element at which the loop on one thread begins
     integer(i4) :: alone = 0              !< elements that it has called again, since several threads could not go on
     real(dp) :: pnewdt = untouched        !< smallest returned, or one that is not finite
@@ -93,26 +101,24 @@ contains
   !> Workspace and context of this block, with intact guards. Column 2 of DU is always zero.
   subroutine prepare(block)
     type(block_t), intent(in) :: block
-    integer :: length(n_arrays), ndofel, nnode
-    ndofel = size(block%equations, 1)
-    nnode = size(block%coords, 2)
-    length = ndofel
-    length(i_rhs) = ndofel*size(block%residual, 2)
+    integer :: length(n_arrays)
+    length = block%scalars%ndofel
+    length(i_rhs) = block%scalars%ndofel*block%scalars%nrhs
     length(i_du) = length(i_rhs)   ! column 2 stays zero
-    length(i_amatrx) = ndofel*ndofel
-    length(i_svars) = size(block%svars, 1)
+    length(i_amatrx) = block%scalars%ndofel**2
+    length(i_svars) = block%scalars%nsvars
     length(i_energy) = 8
-    length(i_props) = size(block%props)
-    length(i_coords) = size(block%coords, 1)*nnode
-    length(i_predef) = 2*size(block%predef, 2)*nnode
+    length(i_props) = block%scalars%nprops
+    length(i_coords) = size(block%coords, 1)
+    length(i_predef) = size(block%predef, 1)
     call lay_out(work, length)
     nullify (current%history, current%history_trial)
     if (associated(block%history)) then
       if (allocated(discarded)) deallocate (discarded)
       allocate (discarded(size(block%history, 1), size(block%history, 2)))
     end if
-    current%step = block%kstep
-    current%increment = block%kinc
+    current%step = block%scalars%kstep
+    current%increment = block%scalars%kinc
     current%iteration = block%iteration
     current%tensor = block%tensor
     current%finite = .false.
@@ -120,9 +126,9 @@ contains
     current%deformed = .false.
     current%distorted = 0
     current%routine = merge('UELMAT', 'UEL   ', block%with_material)
-    current%time = block%time - block%dtime
-    current%dtime = block%dtime
-    current%procedure = merge(0_i4, block%lflags(1), block%lflags(3) == 6)
+    current%time = block%scalars%time - block%scalars%dtime
+    current%dtime = block%scalars%dtime
+    current%procedure = merge(0_i4, block%scalars%lflags(1), block%scalars%lflags(3) == 6)
   end subroutine prepare
 
   !> Set the fault if an entry of RHS or AMATRX of the current element is not a number, as far as they are checked.
@@ -140,11 +146,6 @@ contains
     ! those of the thread, which finds them once for all elements
     type(workspace_t), intent(inout), target :: work
     type(call_context), intent(inout), target :: now
-    integer(i4) :: ndofel, nsvars, nprops
-    integer(i8) :: on_entry
-    ndofel = int(work%length(i_u), i4)
-    nsvars = int(work%length(i_svars), i4)
-    nprops = int(work%length(i_props), i4)
     now%element = block%labels(e)
     call begin_call(now%thread, now%element)
     now%npt = 0
@@ -152,39 +153,130 @@ contains
     now%kspt = 1
     if (associated(block%history)) then
       now%history => block%history(:, :, e)
-      if (keeps_state(block%lflags(3))) then
+      if (block%keeps_state) then
         now%history_trial => block%history_trial(:, :, e)
       else
         now%history_trial => discarded
       end if
       now%history_trial = now%history
     end if
-    ! explicit-shape helpers: their loops compile to plain vector code
-    associate (x => work%memory, s => work%start)
-      call gather(ndofel, block%equations(:, e), block%u, x(s(i_u)))
-      call gather(ndofel, block%equations(:, e), block%du, x(s(i_du)))
-      if (size(block%v) < size(block%u)) then
-        call fill(ndofel, 0_i8, x(s(i_v)))
-        call fill(ndofel, 0_i8, x(s(i_a)))
-      else
-        call gather(ndofel, block%equations(:, e), block%v, x(s(i_v)))
-        call gather(ndofel, block%equations(:, e), block%a, x(s(i_a)))
-      end if
-      on_entry = merge(0_i8, work%unset, block%entries == entries_zero)
-      call fill(work%length(i_rhs), on_entry, x(s(i_rhs)))
-      call fill(ndofel*ndofel, on_entry, x(s(i_amatrx)))
-      call copy(nsvars, block%svars(:, e), x(s(i_svars)))
-      call copy(8, block%energy(:, e), x(s(i_energy)))
-      call copy(nprops, block%props, x(s(i_props)))
-      call copy(work%length(i_coords), block%coords(:, :, e), x(s(i_coords)))
-      call copy(work%length(i_predef), block%predef(:, :, :, min(e, size(block%predef, 4))), x(s(i_predef)))
-      call invoke(block, min(e, size(block%counts)), now, x, s, ndofel, nsvars, nprops)
-      if (keeps_state(block%lflags(3))) then
-        call copy(nsvars, x(s(i_svars)), block%svars_trial(:, e))
-        call copy(8, x(s(i_energy)), block%energy_trial(:, e))
-      end if
-    end associate
+    call call_between_guards(block, e, merge(0_i8, work%unset, block%entries == entries_zero), work%memory, work%start, &
+                             now)
   end subroutine call_element
+
+  !> The same within the memory of a workspace.
+  subroutine call_between_guards(block, e, on_entry, x, s, now)
+    type(block_t), intent(inout) :: block
+    integer, intent(in) :: e
+    integer(i8), value :: on_entry   !< bits of the entries of RHS and AMATRX
+    real(dp), intent(inout) :: x(*)
+    integer, intent(in) :: s(n_arrays)
+    type(call_context), intent(inout) :: now
+    integer(i4) :: jprops(block%scalars%njprop)
+    type(scalars_t) :: given
+    integer :: ndofel, row
+    given = block%scalars
+    given%jelem = now%element
+    now%pnewdt = untouched
+    ndofel = int(given%ndofel)
+    call gather(ndofel, block%equations(:, e), block%u, x(s(i_u)))
+    call gather(ndofel, block%equations(:, e), block%du, x(s(i_du)))
+    if (block%moves) then
+      call gather(ndofel, block%equations(:, e), block%v, x(s(i_v)))
+      call gather(ndofel, block%equations(:, e), block%a, x(s(i_a)))
+    else
+      call fill(ndofel, 0_i8, x(s(i_v)))
+      call fill(ndofel, 0_i8, x(s(i_a)))
+    end if
+    call fill(ndofel*given%nrhs, on_entry, x(s(i_rhs)))
+    call fill(ndofel*ndofel, on_entry, x(s(i_amatrx)))
+    call copy(given%nsvars, block%svars(:, e), x(s(i_svars)))
+    call copy(8, block%energy(:, e), x(s(i_energy)))
+    call copy(given%nprops, block%props, x(s(i_props)))
+    call copy(size(block%coords, 1), block%coords(:, e), x(s(i_coords)))
+    call copy(size(block%predef, 1), block%predef(:, min(e, size(block%predef, 2))), x(s(i_predef)))
+    jprops = block%jprops
+    row = min(e, size(block%counts))
+    if (block%counts(row) == 0) then
+      call call_unloaded(block, given, x, s, jprops)
+    else
+      call call_loaded(block, row, given, x, s, jprops)
+    end if
+    if (block%scalars%lflags(3) == 1) call keep_smallest(min(given%pnewdt, now%pnewdt), given%pnewdt, block%pnewdt)
+    if (block%keeps_state) then
+      call copy(block%scalars%nsvars, x(s(i_svars)), block%svars_trial(:, e))
+      call copy(8, x(s(i_energy)), block%energy_trial(:, e))
+    end if
+  end subroutine call_between_guards
+
+  !> The call without distributed loads, as most are.
+  subroutine call_unloaded(block, given, x, s, jprops)
+    type(block_t), intent(in) :: block
+    type(scalars_t), intent(inout) :: given
+    real(dp), intent(inout) :: x(*)
+    integer, intent(in) :: s(n_arrays)
+    integer(i4), intent(inout) :: jprops(given%njprop)
+    integer(i4) :: jdltyp(1, 2)
+    real(dp) :: adlmag(1, 2), ddlmag(1, 2)
+    jdltyp = 0
+    adlmag = 0
+    ddlmag = 0
+    call invoke(block, given, x, s, jprops, jdltyp, adlmag, ddlmag)
+  end subroutine call_unloaded
+
+  !> The call with distributed loads. The second column, of the other load case with NRHS = 2, is zero.
+  subroutine call_loaded(block, row, given, x, s, jprops)
+    type(block_t), intent(in) :: block
+    integer, intent(in) :: row   !< of the element in the distributed loads
+    type(scalars_t), intent(inout) :: given
+    real(dp), intent(inout) :: x(*)
+    integer, intent(in) :: s(n_arrays)
+    integer(i4), intent(inout) :: jprops(given%njprop)
+    integer(i4) :: jdltyp(block%counts(row), 2)
+    real(dp) :: adlmag(block%counts(row), 2), ddlmag(block%counts(row), 2)
+    given%ndload = block%counts(row)
+    given%mdload = given%ndload
+    jdltyp(:, 1) = block%kinds(:given%ndload, row)
+    adlmag(:, 1) = block%loads(1, :given%ndload, row)
+    ddlmag(:, 1) = block%loads(2, :given%ndload, row)
+    jdltyp(:, 2) = 0
+    adlmag(:, 2) = 0
+    ddlmag(:, 2) = 0
+    call invoke(block, given, x, s, jprops, jdltyp, adlmag, ddlmag)
+  end subroutine call_loaded
+
+  !> The call itself.
+  subroutine invoke(block, given, x, s, jprops, jdltyp, adlmag, ddlmag)
+    type(block_t), intent(in) :: block
+    type(scalars_t), intent(inout) :: given
+    real(dp), intent(inout) :: x(*)
+    integer, intent(in) :: s(n_arrays)
+    integer(i4), intent(inout) :: jprops(given%njprop), jdltyp(given%mdload, 2)
+    real(dp), intent(inout) :: adlmag(given%mdload, 2), ddlmag(given%mdload, 2)
+    if (block%with_material) then
+      call block%uelmat(x(s(i_rhs)), x(s(i_amatrx)), x(s(i_svars)), x(s(i_energy)), given%ndofel, given%nrhs, given%nsvars, &
+                        x(s(i_props)), given%nprops, x(s(i_coords)), given%mcrd, given%nnode, x(s(i_u)), x(s(i_du)), &
+                        x(s(i_v)), x(s(i_a)), given%jtype, given%time, given%dtime, given%kstep, given%kinc, given%jelem, &
+                        given%params, given%ndload, jdltyp, adlmag, x(s(i_predef)), given%npredf, given%lflags, &
+                        given%mlvarx, ddlmag, given%mdload, given%pnewdt, jprops, given%njprop, given%period, given%material)
+    else
+      call block%uel(x(s(i_rhs)), x(s(i_amatrx)), x(s(i_svars)), x(s(i_energy)), given%ndofel, given%nrhs, given%nsvars, &
+                     x(s(i_props)), given%nprops, x(s(i_coords)), given%mcrd, given%nnode, x(s(i_u)), x(s(i_du)), &
+                     x(s(i_v)), x(s(i_a)), given%jtype, given%time, given%dtime, given%kstep, given%kinc, given%jelem, &
+                     given%params, given%ndload, jdltyp, adlmag, x(s(i_predef)), given%npredf, given%lflags, given%mlvarx, &
+                     ddlmag, given%mdload, given%pnewdt, jprops, given%njprop, given%period)
+    end if
+  end subroutine invoke
+
+  !> Keep the smallest PNEWDT, or one that is not finite: no comparison finds a NaN, which stays for the caller to see.
+  pure subroutine keep_smallest(smallest, returned, kept)
+    real(dp), intent(in) :: smallest   !< of the element and its materials
+    real(dp), intent(in) :: returned   !< by the element
+    real(dp), intent(inout) :: kept
+    if (.not. abs(kept) <= huge(kept)) return
+    kept = min(kept, smallest)
+    if (.not. abs(returned) <= huge(returned)) kept = returned
+  end subroutine keep_smallest
 
   !> Calls whose SVARS and ENERGY are kept: the normal one, that for initial stresses, and that for the initial acceleration,
   !> as the example of UEL in the User Subroutines Guide needs for the forces at the start of the first increment.
@@ -192,64 +284,6 @@ contains
     integer(i4), intent(in) :: request   !< LFLAGS(3)
     keeps_state = any(request == [1_i4, 6_i4, initial_stresses])
   end function keeps_state
-
-  !> The call itself; scalars are copies, so a user routine that changes them affects nothing else.
-  subroutine invoke(block, row, now, x, s, ndofel, nsvars, nprops)
-    type(block_t), intent(inout) :: block
-    integer, intent(in) :: row   !< of the element in the distributed loads
-    type(call_context), intent(inout), target :: now
-    real(dp), intent(inout) :: x(*)
-    integer, intent(in) :: s(n_arrays)
-    integer(i4), value :: ndofel, nsvars, nprops
-    integer(i4) :: mlvarx, njprop, mcrd, nnode, nrhs, jtype, kstep, kinc, jelem, ndload, npredf, mdload, materiallib
-    integer(i4) :: jdltyp(max(block%counts(row), 1), 2), lflags(7), jprops(size(block%jprops))
-    real(dp) :: adlmag(max(block%counts(row), 1), 2), ddlmag(max(block%counts(row), 1), 2)
-    real(dp) :: time(2), dtime, params(3), pnewdt, period
-    mlvarx = ndofel
-    njprop = size(block%jprops, kind=i4)
-    mcrd = size(block%coords, 1, kind=i4)
-    nnode = size(block%coords, 2, kind=i4)
-    nrhs = size(block%residual, 2, kind=i4)
-    jtype = block%jtype
-    kstep = block%kstep
-    kinc = block%kinc
-    jelem = now%element
-    ndload = block%counts(row)
-    mdload = size(jdltyp, 1, kind=i4)
-    ! the second column, of the other load case with NRHS = 2, is zero
-    jdltyp = 0
-    adlmag = 0
-    ddlmag = 0
-    jdltyp(:ndload, 1) = block%kinds(:ndload, row)
-    adlmag(:ndload, 1) = block%loads(1, :ndload, row)
-    ddlmag(:ndload, 1) = block%loads(2, :ndload, row)
-    npredf = size(block%predef, 2, kind=i4)
-    lflags = block%lflags
-    jprops = block%jprops
-    materiallib = block%material
-    time = block%time
-    dtime = block%dtime
-    period = block%period
-    params = block%params
-    pnewdt = untouched
-    now%pnewdt = untouched
-    if (block%with_material) then
-      call block%uelmat(x(s(i_rhs)), x(s(i_amatrx)), x(s(i_svars)), x(s(i_energy)), ndofel, nrhs, nsvars, x(s(i_props)), &
-                        nprops, x(s(i_coords)), mcrd, nnode, x(s(i_u)), x(s(i_du)), x(s(i_v)), x(s(i_a)), jtype, time, &
-                        dtime, kstep, kinc, jelem, params, ndload, jdltyp, adlmag, x(s(i_predef)), npredf, lflags, mlvarx, &
-                        ddlmag, mdload, pnewdt, jprops, njprop, period, materiallib)
-    else
-      call block%uel(x(s(i_rhs)), x(s(i_amatrx)), x(s(i_svars)), x(s(i_energy)), ndofel, nrhs, nsvars, x(s(i_props)), &
-                     nprops, x(s(i_coords)), mcrd, nnode, x(s(i_u)), x(s(i_du)), x(s(i_v)), x(s(i_a)), jtype, time, &
-                     dtime, kstep, kinc, jelem, params, ndload, jdltyp, adlmag, x(s(i_predef)), npredf, lflags, mlvarx, &
-                     ddlmag, mdload, pnewdt, jprops, njprop, period)
-    end if
-    ! a NaN stays, for the caller to see: no comparison finds it
-    if (block%lflags(3) == 1 .and. all_finite(1, [block%pnewdt])) then
-      block%pnewdt = min(block%pnewdt, pnewdt, now%pnewdt)
-      if (.not. all_finite(1, [pnewdt])) block%pnewdt = pnewdt
-    end if
-  end subroutine invoke
 
   !> Set the fault if an entry of an array of the current element is not a number.
   subroutine check(block, work, array)
@@ -268,14 +302,6 @@ contains
       return
     end do
   end subroutine check
-
-  !> y = x
-  subroutine copy(n, x, y)
-    integer, intent(in) :: n
-    real(dp), intent(in) :: x(n)
-    real(dp), intent(inout) :: y(n)
-    y = x
-  end subroutine copy
 
   !> Entries of a vector of the system.
   subroutine gather(n, equations, x, y)

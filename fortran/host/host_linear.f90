@@ -10,33 +10,31 @@ module host_linear
 contains
 
   !> See host_linear_pass.
-  subroutine add_linear_forces(ndofel, m, matrices, equations, first, u, floor, residual, flux, terms, energy)
+  subroutine add_linear_forces(ndofel, m, matrices, equations, first, u, floor, residual, flux, energy)
     integer(i4), intent(in) :: ndofel, m
     real(dp), intent(in) :: matrices(ndofel, ndofel, m)
     integer(i4), intent(in) :: equations(ndofel, m), first(ndofel)
     real(dp), intent(in) :: u(*), floor(ndofel)
-    real(dp), intent(inout) :: residual(*), flux(ndofel, 2), energy
-    integer(i4), intent(inout) :: terms(ndofel)
+    real(dp), intent(inout) :: residual(*), flux(ndofel, 3), energy
     ! a compiler makes more of loops whose length it knows: quads of four nodes, bricks of eight
     select case (ndofel)
     case (8)
-      call add_all(8_i4, m, matrices, equations, first, u, floor, residual, flux, terms, energy)
+      call add_all(8_i4, m, matrices, equations, first, u, floor, residual, flux, energy)
     case (24)
-      call add_all(24_i4, m, matrices, equations, first, u, floor, residual, flux, terms, energy)
+      call add_all(24_i4, m, matrices, equations, first, u, floor, residual, flux, energy)
     case default
-      call add_all(ndofel, m, matrices, equations, first, u, floor, residual, flux, terms, energy)
+      call add_all(ndofel, m, matrices, equations, first, u, floor, residual, flux, energy)
     end select
   end subroutine add_linear_forces
 
   !> The same with its size.
-  subroutine add_all(n, m, matrices, equations, first, u, floor, residual, flux, terms, energy)
+  subroutine add_all(n, m, matrices, equations, first, u, floor, residual, flux, energy)
     integer(i4), value :: n
     integer(i4), intent(in) :: m
     real(dp), intent(in) :: matrices(n, n, m)
     integer(i4), intent(in) :: equations(n, m), first(n)
     real(dp), intent(in) :: u(*), floor(n)
-    real(dp), intent(inout) :: residual(*), flux(n, 2), energy
-    integer(i4), intent(inout) :: terms(n)
+    real(dp), intent(inout) :: residual(*), flux(n, 3), energy
     real(dp) :: force(n), at(n)
     integer :: e, j
     do e = 1, m
@@ -51,8 +49,8 @@ contains
         residual(equations(j, e)) = residual(equations(j, e)) + force(j)
       end do
       flux(:, 1) = flux(:, 1) + abs(force)
-      flux(:, 2) = max(flux(:, 2), abs(force))
-      terms = terms + merge(1_i4, 0_i4, abs(force) > floor)
+      flux(:, 2) = flux(:, 2) + merge(1.0_dp, 0.0_dp, abs(force) > floor)
+      flux(:, 3) = max(flux(:, 3), abs(force))
     end do
   end subroutine add_all
 end module host_linear

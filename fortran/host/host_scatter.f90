@@ -29,15 +29,17 @@ contains
     end do
   end subroutine add_residual
 
-  !> Add |x| to the sums of magnitudes, keep the largest ones, and count those above the floor.
-  subroutine add_magnitude(n, x, floor, y, terms)
+  !> Add |x| to the sums of magnitudes, count those above the floor, in reals, for then it vectorises, and keep the largest ones.
+  subroutine add_magnitude(n, x, floor, sums, terms, largest)
     integer, intent(in) :: n
     real(dp), intent(in) :: x(n), floor(n)
-    real(dp), intent(inout) :: y(n, 2)
-    integer(i4), intent(inout) :: terms(n)
-    y(:, 1) = y(:, 1) + abs(x)
-    y(:, 2) = max(y(:, 2), abs(x))
-    terms = terms + merge(1_i4, 0_i4, abs(x) > floor)
+    real(dp), intent(inout) :: sums(n), terms(n), largest(n)
+    integer :: i
+    do i = 1, n
+      sums(i) = sums(i) + abs(x(i))
+      terms(i) = terms(i) + merge(1.0_dp, 0.0_dp, abs(x(i)) > floor(i))
+      largest(i) = max(largest(i), abs(x(i)))
+    end do
   end subroutine add_magnitude
 
   !> Scatter AMATRX, or its symmetric part, into the values of the sparse matrix.

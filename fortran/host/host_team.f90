@@ -12,11 +12,11 @@ module host_team
   use, intrinsic :: iso_c_binding, only: c_funloc, c_loc, c_ptr
   use omp_lib, only: omp_get_thread_num, omp_get_num_threads
   use host_context, only: current, threads
-  use host_element, only: block_t, call_element, check_results, fault_none, keeps_state, prepare, untouched, work
+  use host_element, only: block_t, call_element, check_results, fault_none, keep_smallest, prepare, untouched, work
   use host_kinds, only: dp, i4
   use host_protect, only: most_seats, on_seat, on_threads
   use host_scatter, only: add, add_magnitude, add_own_matrix, add_own_residual
-  use host_workspace, only: all_finite, arm_guards, find_damage, i_amatrx, i_energy, i_rhs, take_guards, workspace_t
+  use host_workspace, only: arm_guards, find_damage, i_amatrx, i_energy, i_rhs, take_guards, workspace_t
   implicit none (type, external)
   private
   public :: run_team
@@ -134,7 +134,7 @@ contains
         associate (rhs => team%rhs(:, k, side))
           if (block%want_residual) then
             call add_own_residual(n, own, rhs, block%equations(:, e), block%residual(:, 1))
-            if (size(block%residual, 2) == 2) then
+            if (block%scalars%nrhs == 2) then
               call add_own_residual(n, own, rhs(n + 1:), block%equations(:, e), block%residual(:, 2))
             end if
           end if
@@ -151,14 +151,10 @@ contains
   subroutine add_totals(block, rhs, energy, pnewdt)
     type(block_t), intent(inout) :: block
     real(dp), intent(in) :: rhs(:), energy(8), pnewdt   !< of an element
-    if (keeps_state(block%lflags(3))) call add(8, energy, block%energy_sum)
-    if (block%want_residual) call add_magnitude(size(block%equations, 1), rhs, block%floor, block%flux, block%terms)
-    ! as call_element does with the smallest so far
-    if (.not. all_finite(1, [block%pnewdt])) return
-    if (all_finite(1, [pnewdt])) then
-      block%pnewdt = min(block%pnewdt, pnewdt)
-    else
-      block%pnewdt = pnewdt
+    if (block%keeps_state) call add(8, energy, block%energy_sum)
+    if (block%want_residual) then
+      call add_magnitude(size(block%floor), rhs, block%floor, block%flux(:, 1), block%flux(:, 2), block%flux(:, 3))
     end if
+    call keep_smallest(pnewdt, pnewdt, block%pnewdt)
   end subroutine add_totals
 end module host_team

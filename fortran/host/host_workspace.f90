@@ -10,8 +10,8 @@ module host_workspace
   use host_protect, only: fence, open_fences
   implicit none (type, external)
   private
-  public :: workspace_t, arrays, n_arrays, lay_out, exchange_guard_values, arm_guards, find_damage, fill, same_bits, all_finite
-  public :: first_difference, set_room, take_guards
+  public :: workspace_t, arrays, n_arrays, lay_out, exchange_guard_values, arm_guards, find_damage, copy, fill, same_bits
+  public :: all_finite, first_difference, set_room, take_guards
   public :: i_rhs, i_amatrx, i_svars, i_energy, i_props, i_coords, i_u, i_du, i_v, i_a, i_predef
 
   integer, parameter :: n_arrays = 11
@@ -165,13 +165,43 @@ contains
     index = 0
   end subroutine compare_guards
 
-  !> x(:) = the number with these bits.
+  !> x(:) = the number with these bits. Eight entries at a time vectorise, and the last eight may overlap with those before.
   subroutine fill(n, bits, x)
     integer, intent(in) :: n
     integer(i8), intent(in) :: bits
     real(dp), intent(inout) :: x(n)
-    x = transfer(bits, 1.0_dp)
+    real(dp) :: value
+    integer :: i
+    value = transfer(bits, value)
+    if (n < 8) then
+      do i = 1, n
+        x(i) = value
+      end do
+      return
+    end if
+    do i = 1, n - 8, 8
+      x(i:i + 7) = value
+    end do
+    x(n - 7:n) = value
   end subroutine fill
+
+  !> y = x, in the same way.
+  subroutine copy(n, x, y)
+    integer, intent(in) :: n
+    real(dp), intent(in) :: x(n)
+    real(dp), intent(inout) :: y(n)
+    integer :: i
+    if (n < 8) then
+      do i = 1, n
+        y(i) = x(i)
+      end do
+      return
+    end if
+    do i = 1, n - 8, 8
+      y(i:i + 7) = x(i:i + 7)
+    end do
+    y(n - 7:n) = x(n - 7:n)
+  end subroutine copy
 
   !> Index of the first entry that has other bits, 0 if none has.
   pure integer function first_difference(n, bits, x)

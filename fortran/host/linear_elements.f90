@@ -4,7 +4,7 @@
 
 !> Add the forces -K u of all elements to the residual, and measure them as the element loop does. Where a translation causes no
 !> force, that of the first node is taken out before: it would only cost digits. The energy is that which the elements store.
-subroutine host_linear_pass(matrices, equations, first, u, floor, residual, flux, terms, energy, ndofel, m, n)
+subroutine host_linear_pass(matrices, equations, first, u, floor, residual, flux, energy, ndofel, m, n)
   use host_kinds, only: dp, i4
   use host_linear, only: add_linear_forces
   implicit none (type, external)
@@ -14,13 +14,11 @@ subroutine host_linear_pass(matrices, equations, first, u, floor, residual, flux
   integer(i4), intent(in) :: first(ndofel)              !< the entry of u to be taken out of this one, from 1; 0: none
   real(dp), intent(in) :: u(n), floor(ndofel)           !< |force| above which an entry counts as a term
   real(dp), intent(inout) :: residual(n)
-  real(dp), intent(out) :: flux(ndofel, 2)              !< sum of |force|, and the largest one
-  integer(i4), intent(out) :: terms(ndofel)             !< number of terms
+  real(dp), intent(out) :: flux(ndofel, 3)              !< sum of |force|, number of terms, the largest one
   real(dp), intent(out) :: energy                       !< sum of u.K u/2
   flux = 0
-  terms = 0
   energy = 0
-  call add_linear_forces(ndofel, m, matrices, equations, first, u, floor, residual, flux, terms, energy)
+  call add_linear_forces(ndofel, m, matrices, equations, first, u, floor, residual, flux, energy)
 end subroutine host_linear_pass
 
 !> Scatter the matrices of elements into the values of the sparse matrix.

@@ -109,6 +109,7 @@ class ElementBlock:
         fields = np.array([field_of(dof) for _, dof in unknowns])
         # (unknowns, fields): sums entries of an element vector by field
         self._by_field = (fields[:, None] == np.arange(len(FIELD_NAMES))).astype(np.float64)
+        self._count_by_field = np.count_nonzero(self._by_field, axis=0)
         self._all_terms = np.full(n, -1.0)
         dofs = [dof for _, dof in unknowns]
         # of each unknown the first one of the same dof, from 1
@@ -302,7 +303,7 @@ class ElementBlock:
         energy, damage = outcome.energy, 0.0
         if self._routine.damages:
             damage, energy[_PLASTIC] = float(energy[_PLASTIC]), 0.0
-        return BlockReport.of(outcome, self._by_field, len(self.group.labels), energy, damage)
+        return self._report(outcome, energy, damage)
 
     def _count_interrupted(self, outcome: Outcome) -> None:
         """Give threads up where they keep being interrupted: each time costs a part of a pass."""
@@ -355,7 +356,11 @@ class ElementBlock:
             return _NOTHING
         outcome = _binding.linear_pass(matrices, self._arrays.equations, self._first, u, self._floor(call), residual)
         energy = outcome.energy if self.can_wait else np.zeros(8)
-        return BlockReport.of(outcome, self._by_field, len(self.group.labels), energy, 0.0)
+        return self._report(outcome, energy, 0.0)
+
+    def _report(self, outcome: Outcome, energy: FloatArray, damage: float) -> BlockReport:
+        entries: IntArray = len(self.group.labels) * self._count_by_field
+        return BlockReport.of(outcome, self._by_field, entries, energy, damage)
 
     def largest_deviation(
         self, matrices: FloatArray, call: Call, u: FloatArray, du: FloatArray

@@ -130,14 +130,8 @@ class BlockReport:
     entries: IntArray = field(default_factory=lambda: np.zeros(1, dtype=np.int64))
 
     @classmethod
-    def of(cls, outcome: Outcome, by_field: FloatArray, elements: int, energy: FloatArray, damage: float) -> Self:
+    def of(cls, outcome: Outcome, by_field: FloatArray, entries: IntArray, energy: FloatArray, damage: float) -> Self:
         """From sums by unknown; by_field (unknowns, fields) is 1 where an unknown belongs to a field, else 0."""
-        return cls(
-            outcome.flux @ by_field,
-            (outcome.terms @ by_field).astype(np.int64),
-            outcome.pnewdt,
-            energy,
-            damage,
-            (outcome.largest[:, None] * by_field).max(axis=0),
-            (elements * by_field.sum(axis=0)).astype(np.int64),
-        )
+        flux, terms = outcome.flux[:2] @ by_field
+        largest = (outcome.flux[2, :, None] * by_field).max(axis=0)
+        return cls(flux, terms.astype(np.int64), outcome.pnewdt, energy, damage, largest, entries)

@@ -108,7 +108,7 @@ def evaluate(
     """
     if _watching:
         scalars = {**scalars, "address": _host.host_watch(scalars["address"], scalars["material"])}
-    flux, terms, pnewdt, energy, fault, position, array, index, alone = _host.host_evaluate(
+    flux, pnewdt, energy, fault, position, array, index, alone = _host.host_evaluate(
         **scalars,
         **options,
         lflags=lflags,
@@ -136,16 +136,14 @@ def evaluate(
         residual=residual.T,
         matrix=matrix,
     )
-    left = Fault(fault) is Fault.LEFT
+    left = fault == Fault.LEFT
     return Outcome(
         fault=Fault(fault),
         position=position - 1,
         array="" if left else ARRAYS[array - 1],
         routine=POINT_ROUTINES[array] if left else "",
         index=index,
-        flux=flux[:, 0],
-        largest=flux[:, 1],
-        terms=terms,
+        flux=flux.T,
         pnewdt=pnewdt,
         energy=energy,
         alone=alone,
@@ -242,10 +240,10 @@ def linear_pass(
     matrices (m, ndofel, ndofel), each by columns; equations (m, ndofel), from 1; first, floor (ndofel,): the
     entry of U, from 1, that is taken out of each one before the product, 0 for none. ENERGY(2) is what they store.
     """
-    flux, terms, stored = _host.host_linear_pass(matrices.T, equations.T, first, u, floor, residual)
+    flux, stored = _host.host_linear_pass(matrices.T, equations.T, first, u, floor, residual)
     energy = np.zeros(8)
     energy[_STRAIN_ENERGY] = stored
-    return Outcome(Fault.NONE, -1, ARRAYS[0], "", 0, flux[:, 0], flux[:, 1], terms, np.inf, energy, 0)
+    return Outcome(Fault.NONE, -1, ARRAYS[0], "", 0, flux.T, np.inf, energy, 0)
 
 
 def scatter_map(equations: Int32Array, indptr: Int32Array, indices: Int32Array) -> Int32Array:

@@ -23,7 +23,7 @@ class Outcome:
     array, index  array of the fault and entry, from 1 (beyond its ends for a write outside); or
     routine, index  user routine of points that has ended the call, and the point, from 1; '' for another one
     alone     elements that one thread has called again, because several could not go on
-    flux, largest, terms  (ndofel,) sum over the elements of |RHS|, the largest one, number of those above the floor
+    flux      (3, ndofel) of the elements: sum of |RHS|, number of those above the floor, the largest one
     """
 
     fault: Fault
@@ -32,8 +32,6 @@ class Outcome:
     routine: str
     index: int
     flux: FloatArray
-    largest: FloatArray
-    terms: Int32Array
     pnewdt: float
     energy: FloatArray
     alone: int

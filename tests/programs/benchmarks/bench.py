@@ -4,8 +4,10 @@
 
 Times depend on the machine and on what else it does, so the benchmark judges ratios of neighbouring times: what is
 compared takes turns, and the median of the ratios counts. Times are those of the processor in this thread: other
-processes that take it do not count. The element loops are those of a pass that calls all
-elements; in an iteration matrices stand for the linear ones, as in `uel run`.
+processes that take it do not count, but they leave its caches cold, which only adds time. So of element loops, the
+shortest of what is measured, the least of a few neighbouring turns is taken before they are compared. The element loops
+are those of a pass that calls all elements; in an iteration matrices stand for the linear ones, as in `uel run`. The
+plain loop does what any loop over elements must: it gathers U and DU, sets SVARS and ENERGY, calls, and adds RHS.
 """
 
 from __future__ import annotations
@@ -40,7 +42,7 @@ DECK = Path(__file__).parents[3] / "abaqus_inputs" / "dcb_ref" / "dcb_ref.inp"
 LARGEST_ITERATION = 1.5
 """Bound of a Newton iteration over one SuperLU factorisation and solution of its own matrix."""
 LARGEST_DRIVER = 1.15
-"""Bound of the block driver without scatter of AMATRX over a plain Fortran loop of the same calls."""
+"""Bound of the driver without scatter of AMATRX over a plain Fortran loop, over all blocks and in each."""
 
 
 def in_turns(*functions: Callable[[], object], repetitions: int = 30) -> FloatArray:
@@ -52,6 +54,11 @@ def in_turns(*functions: Callable[[], object], repetitions: int = 30) -> FloatAr
             function()
             row[k] = 1e3 * (time.thread_time() - start)
     return times
+
+
+def least_of_turns(times: FloatArray, turns: int = 5) -> FloatArray:
+    """Of times as `in_turns` has them, the least of neighbouring turns, (repetitions / turns, functions)."""
+    return times.reshape(-1, turns, times.shape[1]).min(axis=1)
 
 
 @dataclass(frozen=True)
@@ -113,29 +120,33 @@ class Elements:
 
     def _measure(self, block: ElementBlock) -> FloatArray:
         u, zero, call = self._u, np.zeros_like(self._u), self._call
-        return in_turns(
-            lambda: block.evaluate(call, u, zero, self._residual, self._data),
-            lambda: block.evaluate(call, u, zero, self._residual, None),
-            lambda: block.bare_loop(call, u, zero, self._residual),
-            repetitions=100,
+        return least_of_turns(
+            in_turns(
+                lambda: block.evaluate(call, u, zero, self._residual, self._data),
+                lambda: block.evaluate(call, u, zero, self._residual, None),
+                lambda: block.bare_loop(call, u, zero, self._residual),
+                repetitions=150,
+            )
         )
 
     def report(self, console: Console) -> bool:
-        """Print the table; False if the driver is slower than its bound."""
+        """Print the table; False if the driver is slower than its bound, over all blocks or in one."""
         table = Table("elements", title="Element loops, ns per element", title_justify="left")
         for name in ("with scatter", "without", "plain loop", "ratio"):
             table.add_column(name, justify="right")
+        worst = 0.0
         for block, times in self.rows:
             count = len(block.group.labels)
             per_element = [f"{1e6 * each / count:.0f}" for each in np.median(times, axis=0)]
-            ratio = np.median(times[:, 1] / times[:, 2])
-            table.add_row(f"{count} x {block.group.type}", *per_element, f"{ratio:.2f}")
+            ratio = float(np.median(times[:, 1] / times[:, 2]))
+            worst = max(worst, ratio)
+            table.add_row(f"{count} x {block.group.type}", *per_element, judged(ratio, LARGEST_DRIVER))
         _, driver, plain = sum(times for _, times in self.rows).T
         ratio = float(np.median(driver / plain))
         table.add_row("all", "", "", "", judged(ratio, LARGEST_DRIVER))
         console.print(table)
         console.print("ratio: driver without scatter of AMATRX to a plain Fortran loop of the same calls")
-        return ratio <= LARGEST_DRIVER
+        return max(ratio, worst) <= LARGEST_DRIVER
 
 
 class Iterations:
