@@ -57,8 +57,9 @@ def test_file_that_may_not_grow(tmp_path: Path) -> None:
     most = path_of_kernels().stat().st_size // 1024 + 50
     result = shell(tmp_path, f"ulimit -f {most}; uel run {shlex.quote(str(BEAM))} --quiet")
     assert result.returncode == 1
-    first, second = result.stderr.splitlines()
+    first, warning, second = result.stderr.splitlines()
     assert first == f"uel: {BEAM.stem}_interface.csv: File too large"
+    assert warning.startswith("uel: earlier warning: ")
     assert re.fullmatch(
         rf"uel: {BEAM.stem} ended after increment \d+ of step 1 .*; what was written is readable", second
     )

@@ -157,7 +157,8 @@ def test_signal_to_the_parent_alone_ends_an_endless_loop(tmp_path: Path, signum:
 def test_signal_between_calls_ends_the_run_at_once(tmp_path: Path) -> None:
     """The run writes its verdict itself."""
     command = [sys.executable, "-m", "harness.cli", "run", str(LONG_RUN), "--output-dir", str(tmp_path), "--quiet"]
-    process = subprocess.Popen(command, stderr=subprocess.PIPE, text=True)
+    # in the folder of the deck: elsewhere Abaqus would not find the files it includes, of which a run warns
+    process = subprocess.Popen(command, stderr=subprocess.PIPE, text=True, cwd=LONG_RUN.parent)
     wait_for(tmp_path / f"{LONG_RUN.stem}.sta", "   1     3   1 ", process)
     process.send_signal(signal.SIGTERM)
     said = process.communicate()[1]

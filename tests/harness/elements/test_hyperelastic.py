@@ -339,7 +339,7 @@ def test_page_of_the_job_has_the_coefficients(run, tmp_path):
     cells = re.findall(r"<td[^>]*>([^<]*)</td>", page)
     rows = [cells[k : k + 3] for k, cell in enumerate(cells) if cell in ("coefficient 1", "coefficient 2", "D1")]
     kind = "*HYPERELASTIC, MOONEY-RIVLIN, N=1"
-    assert rows == [["coefficient 1", "0.5", kind], ["coefficient 2", "0.25", kind], ["D1", "0.125", kind]]
+    assert rows == [["coefficient 1", "0.5", kind], ["coefficient 2", "0.25", ""], ["D1", "0.125", ""]]
 
 
 def constants(path, keyword):
