@@ -160,7 +160,8 @@ class Newton:
         again = self._again and self._pattern is self._system.indices
         if not again:
             assert state.evaluation.data is not None
-            # a pass overwrites the values of the one before
+            # the memory of the last matrix first; a copy, as a pass overwrites the values of the one before
+            self._factorised = None
             self._factorised, self._pattern = state.evaluation.data.copy(), self._system.indices
         assert self._factorised is not None
         if self._anew or not again:

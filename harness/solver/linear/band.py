@@ -18,7 +18,7 @@ from numpy.typing import NDArray
 from scipy.linalg import blas, lapack
 
 from harness.model.arrays import FloatArray, IntArray
-from harness.solver.linear.base import LinearSolver, Pattern
+from harness.solver.linear.base import LinearSolver, Pattern, in_chunks
 from harness.solver.linear.ordering import BandOrdering, narrowest
 
 LARGEST_MIDDLE: Final = 0.4
@@ -53,7 +53,6 @@ class BandSolver(LinearSolver):
         self._storage = _storage(pattern.size, self._width)
         # int32 halves the time of comparing all entries with the cuts
         self._row, self._column = (self._position[of].astype(np.int32) for of in (pattern.rows, pattern.indices))
-        self._target = _target(self._row, self._column, self._width)
         self._whole: _Factors | None = None
         self._cut: _Cut | None = None
 
@@ -61,7 +60,9 @@ class BandSolver(LinearSolver):
         self._cut = None
         # LAPACK clears the rows of fill itself
         self._storage[:, self._width :] = 0.0
-        self._storage.reshape(-1)[self._target] = data
+        entries = self._storage.reshape(-1)
+        for some in in_chunks(len(data)):
+            entries[_target(self._row[some], self._column[some], self._width)] = data[some]
         self._whole = _Factors(self._storage)
         return self._whole.pivot
 
@@ -165,17 +166,33 @@ class _End:
     correction  (width, width) A_ML A_LL^-1 A_LM, unless the end is singular
     """
 
-    def __init__(self, storage: FloatArray, row: Positions, column: Positions, data: FloatArray) -> None:
-        """Factorise the end in its storage; row, column, data: of all entries of the band."""
+    def __init__(
+        self, storage: FloatArray, row: Positions, column: Positions, data: FloatArray, last: int | None = None
+    ) -> None:
+        """Factorise the end in its storage.
+
+        Parameters
+        ----------
+        storage
+            Of the end.
+        row, column, data
+            Of all entries of the band.
+        last
+            The last unknown of the band, if the end counts from there.
+        """
         n, width = len(storage), (storage.shape[1] - 1) // 3
-        inside = (row < n) & (column < n)
-        storage[:, width:] = 0.0
-        storage.reshape(-1)[_target(row[inside], column[inside], width)] = data[inside]
-        self.factors = _Factors(storage)
         self._below, self._right = np.zeros((width, width)), np.zeros((width, width))
-        below, right = (row >= n) & (column < n), (row < n) & (column >= n)
-        self._below[row[below] - n, column[below] - (n - width)] = data[below]
-        self._right[row[right] - (n - width), column[right] - n] = data[right]
+        storage[:, width:] = 0.0
+        entries = storage.reshape(-1)
+        for some in in_chunks(len(data)):
+            i, j, values = row[some], column[some], data[some]
+            if last is not None:
+                i, j = last - i, last - j
+            inside, below, right = (i < n) & (j < n), (i >= n) & (j < n), (i < n) & (j >= n)
+            entries[_target(i[inside], j[inside], width)] = values[inside]
+            self._below[i[below] - n, j[below] - (n - width)] = values[below]
+            self._right[i[right] - (n - width), j[right] - n] = values[right]
+        self.factors = _Factors(storage)
         if self.factors.pivot != 0.0:
             self.correction = self._below @ self.factors.solve_end(self._right)[width:]
 
@@ -207,8 +224,11 @@ class _Cut:
         if begin:
             self._ends[0] = _End(storage[:begin], row, column, data)
         if end < n:
-            self._ends[1] = _End(storage[end:], n - 1 - row, n - 1 - column, data)
-        self._inside = np.flatnonzero((row >= begin) & (column >= begin) & (row < end) & (column < end))
+            self._ends[1] = _End(storage[end:], row, column, data, last=n - 1)
+        inside = row >= begin
+        for condition in (column >= begin, row < end, column < end):
+            inside &= condition
+        self._inside = np.flatnonzero(inside)
         self._target = _target(row[self._inside] - begin, column[self._inside] - begin, self._width)
         self._storage = _storage(end - begin, self._width)
         corner = np.arange(self._width)

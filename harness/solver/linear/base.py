@@ -6,7 +6,7 @@ from __future__ import annotations
 
 import time
 from abc import ABC, abstractmethod
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass, fields
 from functools import cached_property
 from typing import ClassVar, Final
@@ -38,6 +38,11 @@ It is that of the backward error of a factorisation. Measured: 3e-15 in elastic 
 
 CHUNK: Final = 2**20
 """Entries that are compared at a time, so that copies of them take little memory."""
+
+
+def in_chunks(count: int) -> Iterator[slice]:
+    """Slices of `CHUNK` entries."""
+    return (slice(start, start + CHUNK) for start in range(0, count, CHUNK))
 
 
 @dataclass(frozen=True)
@@ -108,8 +113,8 @@ class Pattern:
             if (np.abs(matrix @ x - x @ matrix) > bound).any():
                 return False
         count = len(data) if entries is None else len(entries)
-        for start in range(0, count, CHUNK):
-            some = np.arange(start, min(start + CHUNK, count))
+        for part in in_chunks(count):
+            some = np.arange(*part.indices(count))
             if entries is not None:
                 some = entries[some]
             differences = np.abs(data[some] - data[self.transposed[some]])

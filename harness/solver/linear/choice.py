@@ -35,8 +35,8 @@ How narrow, `widest_band`, is measured: measured.json. The time of the band solv
 the half bandwidth, that of the others hardly at all in the plane, and in space like the size of the model.
 """
 
-LARGEST_BAND: Final = 2**31
-"""Largest band storage in bytes."""
+LARGEST_BAND: Final = 2**33
+"""Largest band storage in bytes. What other solvers need for slender bodies of this size is more."""
 
 
 @dataclass(frozen=True, slots=True)
