@@ -89,5 +89,11 @@ def page(text: str, table: Table) -> str:
     name, rows = table
     lines = [HEADER, ("---",) * len(HEADER), *(row.cells for row in rows)]
     body = "\n".join("| " + " | ".join(cells) + " |" for cells in lines)
-    before, after = text.partition(BEGIN)[0], text.partition(END)[2]
-    return f"{before}{BEGIN}\n\n{name}:\n\n{body}\n\n{END}{after}"
+    return replaced(text, BEGIN, f"{name}:\n\n{body}")
+
+
+def replaced(text: str, begin: str, body: str) -> str:
+    """The page with another body between the line `begin` and the next line `END`."""
+    before, _, rest = text.partition(begin)
+    after = rest.partition(END)[2]
+    return f"{before}{begin}\n\n{body}\n\n{END}{after}"

@@ -4,6 +4,8 @@
 
 from itertools import groupby
 
+import scaling
+
 from harness.solver.linear.choice import SOLVERS
 from harness.solver.linear.measured import PAGE, Measured, page, read
 
@@ -34,3 +36,20 @@ def test_auto_takes_one_of_the_fastest_solvers() -> None:
             assert cost(taken) <= 1.5 * min(cost(band), cost(sparse)), (taken, other)
             compared += 1
     assert compared >= 10
+
+
+def test_page_has_the_rows_of_the_sizes_kept() -> None:
+    text = PAGE.read_text(encoding="utf-8")
+    assert scaling.page(text, scaling.read()) == text
+
+
+def test_iterations_cost_no_more_than_their_factorisation() -> None:
+    rows = scaling.read()[1]
+    assert rows.keys() == scaling.CASES.keys()
+    assert all(row.ratio <= scaling.LARGEST_RATIO for row in rows.values())
+
+
+def test_a_million_unknowns_in_space_fit_into_memory() -> None:
+    row = scaling.read()[1]["3D, path, 1 M"]
+    assert row.unknowns >= 1e6
+    assert row.memory <= 16 * 1024
