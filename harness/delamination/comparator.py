@@ -33,8 +33,8 @@ INTERFACES = {"coh2d4": replace(LAW, type="COH2D4"), "u2": LAW, "u4": replace(LA
 """Interfaces of the specimen by the end of the deck's name."""
 NAMES = {
     "coh2d4": "cohesive elements of Abaqus",
-    "u2": "standard interface elements",
-    "u4": "consistent interface elements",
+    "u2": "standard elements",
+    "u4": "consistent elements",
 }
 
 

@@ -95,7 +95,7 @@ def dcb_ref() -> dict[str, str]:
     mesh = build.dcb_ref_mesh()
     interface = Interface("U2", TABLE_2.with_stiffness(1.0e6), viscosity=VISCOSITY / 1.0e6)
     specimen = build.dcb_specimen("dcb_ref", mesh, interface)
-    title = "DCB-ref: double cantilever beam, 600 x 8 quads, standard cohesive elements, stiffness 1e6 N/mm^3"
+    title = "DCB-ref: double cantilever beam, 600 x 8 quads, standard elements, stiffness 1e6 N/mm^3"
     deck = build.dcb_deck(title, specimen, 5.0, DCB_REF_INCREMENTS, field_every=10)
     return build.mesh_files("dcb_ref", mesh, (4,)) | {"dcb_ref.inp": deck}
 

@@ -261,7 +261,7 @@ def test_numbers_of_the_full_meshes() -> None:
     found = [judge(costly, Evidence(Runs({}, Path()), coarse=coarse)).also for coarse in (True, False)]
     assert [len(also) for also in found] == [0, 1]
     assert {number.text for statement in read_statements() for number in statement.also if number.full} == {
-        "with the same criterion and points: standard method"
+        "with the same criterion and points: standard element"
     }
 
 

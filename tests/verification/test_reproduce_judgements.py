@@ -176,7 +176,7 @@ def test_nothing_is_damaged_where_the_damage_falls_steadily(name: str) -> None:
 
 def test_remarks_have_their_numbers() -> None:
     soft = judged("dcb-standard-soft", 1.0515, soft=1.0515, middle=1.0, ever=1.85)
-    assert "1.052 of the consistent method's at 1e4" in soft.why
+    assert "1.052 of the consistent element's at 1e4" in soft.why
     assert "it is 1.850" in soft.why
     assert judged("dcb-standard-soft", 1.01, ever=1.01).why == ""
     share = judged("dcb-coh2d4", 0.03, share=0.25, criteria=-0.041, alike=0.019).why

@@ -37,7 +37,7 @@ def patch_swing(
 def patch_gain(
     evidence: Evidence, shape: str, layups: Sequence[str], *, moved: bool = True, decimals: int = COLLINEAR
 ) -> float:
-    """Standard deviation of the paper's method's traction over the standard one's; the largest of the layups."""
+    """Standard deviation of the paper's element's traction over the standard one's; the largest of the layups."""
     found = []
     for layup in layups:
         spread = [
@@ -94,7 +94,7 @@ def _stiff(element: str, stiffness: float) -> PatchCase:
 
 
 def identity_with_standard(evidence: Evidence) -> float:
-    """Largest difference of the tractions of the two methods on moved nodes, beta = 3e12, over the mean traction."""
+    """Largest difference of the tractions of the two elements on moved nodes, beta = 3e12, over the mean traction."""
     standard = evidence.runs.patch(PatchCase("horizontal", "0/0", "standard", moved=True)).traction
     stiff = evidence.runs.patch(PatchCase("horizontal", "0/0", "paper", moved=True, beta=3.0e12)).traction
     return float(np.abs(stiff - standard).max() / abs(standard.mean()))

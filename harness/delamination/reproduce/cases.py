@@ -72,7 +72,7 @@ ELEMENTS = {
     "paper": Interface("U4", TABLE_2, consistent=False),
     "consistent": Interface("U4", TABLE_2),
 }
-"""The paper's two methods, and the one whose law has a separation of its own; beta by (21)."""
+"""The paper's two elements, and the one whose law has a separation of its own; beta by (21)."""
 BK = 2.0
 """Exponent of Benzeggagh and Kenane's criterion; the paper gives none."""
 PEAK_STEP = 0.002
@@ -83,6 +83,11 @@ COMPARATORS = {
     "consistent_bk": Interface("U4", TABLE_2, law=2, eta=BK),
 }
 """Abaqus' built-in element, and ours with its criterion."""
+
+
+def called(element: str) -> str:
+    """Name of an element in the title of a deck."""
+    return "the paper's element" if element == "paper" else f"{element.replace('_', ' ')} element"
 
 
 @dataclass(frozen=True, slots=True)
@@ -222,7 +227,7 @@ class PaperCase:
     def _deck(self, mesh_name: str, mesh: TwoArmMesh, interface: Interface) -> str:
         top, bottom = PLIES[self.layup]
         specimen = Specimen(mesh_name, mesh, interface, specimens.WIDTH, bottom, top)
-        title = f"{self.kind.title.capitalize()}, [{self.layup}], {self.element} element, {self.stiffness} N/mm^3"
+        title = f"{self.kind.title.capitalize()}, [{self.layup}], {called(self.element)}, {self.stiffness} N/mm^3"
         title += ", perturbed mesh" * self.perturbed
 
         def deck(displacement: float, step: float) -> str:
@@ -241,7 +246,7 @@ class PaperCase:
 
 
 def paper_cases(problem: str, *, coarse: bool = False) -> list[PaperCase]:
-    """Runs of a specimen: both layups, the paper's two methods and the consistent one, three stiffnesses, both meshes.
+    """Runs of a specimen: both layups, the paper's two elements and the consistent one, three stiffnesses, both meshes.
 
     With `coarse`, the perturbed mesh where the paper shows it: [0/0] at 1e8.
     """

@@ -24,7 +24,7 @@ from harness.delamination.reproduce.runs import Run, Runs
 MESHES = ((4, 1.0), (4, 10.0), (8, 1.0), (8, 3.0))
 """Rows of quads over the height of an arm and factor of beta, of the curves that are compared."""
 CURVES_TEXT = (
-    "Consistent method with the criterion of Benzeggagh and Kenane, 1e6 N/mm³, over the whole load curve, snaps "
+    "Consistent element with the criterion of Benzeggagh and Kenane, 1e6 N/mm³, over the whole load curve, snaps "
     "included, and up to 98 % of the displacement at the peak. Distances are over the peak load. Finer quads and a "
     "larger beta make the gap smaller that Nitsche's method leaves between unlike plies."
 )
@@ -37,7 +37,7 @@ STRETCH = (4.0, 7.9)
 GROWN = 40.0
 """Points behind this place have failed in steady growth (mm)."""
 TEXT = (
-    "Consistent method with the criterion of Benzeggagh and Kenane, 1e6 N/mm³, in steady growth. Its load is "
+    "Consistent element with the criterion of Benzeggagh and Kenane, 1e6 N/mm³, in steady growth. Its load is "
     "lower where its law dissipates more than the specimen gives. What is missing is the work of the gap (T - "
     "<sigma>)/beta between the separation that the law sees and the displacement jump. Between unlike plies the "
     "weights (22) take <sigma> from the first quads of the softer side, half a quad away from the interface; over "

@@ -66,7 +66,7 @@ def to_line(point: FloatArray, line: FloatArray) -> float:
 
 
 def methods_distance(evidence: Evidence, problem: str, layups: Sequence[str] = ("0/0", "0/90")) -> float:
-    """Largest distance of the load curves of the standard and the paper's method at equal stiffness."""
+    """Largest distance of the load curves of the standard and the paper's element at equal stiffness."""
     return max(
         curve_distance(evidence.run(problem, layup, "paper", s), evidence.run(problem, layup, "standard", s))
         for layup in layups
@@ -75,7 +75,7 @@ def methods_distance(evidence: Evidence, problem: str, layups: Sequence[str] = (
 
 
 def methods_peak_difference(evidence: Evidence, problem: str, layup: str, element: str) -> float:
-    """Relative difference of an element's peak load at 1e6 from the standard method's, with its sign."""
+    """Relative difference of an element's peak load at 1e6 from the standard element's, with its sign."""
     peaks = [evidence.peak(PaperCase(problem, layup, name, "1e6")) for name in (element, "standard")]
     return peaks[0] / peaks[1] - 1.0
 
@@ -121,7 +121,7 @@ def smallest_increment(evidence: Evidence, *, secant: bool) -> float:
 
 
 def iterations_ratio(evidence: Evidence) -> float:
-    """Iterations of the paper's method over those of the standard one, all specimens, layups and stiffnesses."""
+    """Iterations of the paper's element over those of the standard one, all specimens, layups and stiffnesses."""
     totals = {"paper": 0, "standard": 0}
     for problem, layup, stiffness in itertools.product(PROBLEMS, LAYUPS, SHOWN):
         for element in totals:

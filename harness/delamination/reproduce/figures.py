@@ -99,7 +99,7 @@ def _theory(problem: str) -> list[Curve]:
 
 
 def draw_profiles(runs: Runs, base: PaperCase, names: Sequence[str], path: Path) -> Path:
-    """Figures 9, 11, 14, 16, 19, 20: tractions and damage by stiffness; a column for each method."""
+    """Figures 9, 11, 14, 16, 19, 20: tractions and damage by stiffness; a column for each element."""
     moment = MOMENTS[base.problem, base.layup]
     middle = front(runs[replace(base, element="standard", stiffness="1e6")].at(moment))
     rows = []

@@ -55,9 +55,9 @@ def variation(
     perturbed: bool = False,
     ever: bool = False,
 ) -> float:
-    """Total variation of a traction over that of the consistent method on the structured mesh, the largest.
+    """Total variation of a traction over that of the consistent element on the structured mesh, the largest.
 
-    1 is a profile that rises and falls as the consistent method's, 1.05 one that adds a twentieth of ups and downs.
+    1 is a profile that rises and falls as the consistent element's, 1.05 one that adds a twentieth of ups and downs.
 
     Parameters
     ----------
@@ -100,7 +100,7 @@ def smallest_variation(
 def variation_gain(
     evidence: Evidence, problem: str, layup: str, tractions: Sequence[str], *, ever: bool = False
 ) -> float:
-    """What the paper's method adds to the smooth variation on the perturbed mesh, over what the standard one adds.
+    """What the paper's element adds to the smooth variation on the perturbed mesh, over what the standard one adds.
 
     At 1e8. Real variation, which bumps cause, is in both.
     """
@@ -157,9 +157,9 @@ def moment(run: Run) -> Profile:
 
 
 def oscillation_place(evidence: Evidence, problem: str, layup: str, element: str) -> float:
-    """Distance (mm) of the standard method's worst kink in the normal traction from the point where it changes sign.
+    """Distance (mm) of the standard element's worst kink in the normal traction from the point where it changes sign.
 
-    The kink is the largest change between neighbouring points of the distance from the paper's method's profile.
+    The kink is the largest change between neighbouring points of the distance from the paper's element's profile.
     """
     profile = moment(evidence.run(problem, layup, element, "1e8"))
     smooth = moment(evidence.run(problem, layup, "consistent", "1e8"))
@@ -188,7 +188,7 @@ def peak_traction_ratio(
 
 
 def local_error(evidence: Evidence, problem: str, element: str, traction: str, *, ever: bool = False) -> float:
-    """Largest distance of a traction from the consistent method's over the strength, ahead of the process zone.
+    """Largest distance of a traction from the consistent element's over the strength, ahead of the process zone.
 
     Both on the perturbed mesh, whose bumps cause variation that is real. `ever` as above.
     """
@@ -222,7 +222,7 @@ def closed_variation(evidence: Evidence, problem: str, element: str) -> float:
 def closed_error(evidence: Evidence, problem: str, element: str) -> float:
     """Mean distance of the normal traction on the perturbed mesh from the structured one's, over the strength.
 
-    At 1e8, in the compressive stretch of the consistent method, which is the reference too.
+    At 1e8, in the compressive stretch of the consistent element, which is the reference too.
     """
     smooth = moment(evidence.run(problem, "0/0", "consistent", "1e8"))
     rough = moment(evidence.run(problem, "0/0", element, "1e8", perturbed=True))

@@ -35,7 +35,7 @@ def reach(evidence: Evidence, problems: Sequence[str], element: str, stiffnesses
 def slope_ratio(evidence: Evidence, pair: Sequence[str]) -> float:
     """Slope of the load curve in the first increment at the first stiffness over that at the second, the smallest.
 
-    Standard method, [0/0], all specimens.
+    Standard element, [0/0], all specimens.
     """
     found = []
     for problem in PROBLEMS:
@@ -51,10 +51,10 @@ def worst_theory_distance(evidence: Evidence, element: str, stiffness: str) -> f
 
 
 def kink_distance(evidence: Evidence, problem: str, traction: str) -> float:
-    """Distance (mm) of the standard method's worst kink from the last point that is more than half damaged.
+    """Distance (mm) of the standard element's worst kink from the last point that is more than half damaged.
 
     At 1e8, [0/0], at the moment of the figures. The kink is the largest change between neighbouring points of the
-    distance from the consistent method's profile, process zones apart: ahead of both.
+    distance from the consistent element's profile, process zones apart: ahead of both.
     """
     rough, smooth = (moment(evidence.run(problem, "0/0", element, "1e8")) for element in ("standard", "consistent"))
     front = max(float(profile["X"][profile["LOST"] >= 0.5].max()) for profile in (rough, smooth))
@@ -65,14 +65,14 @@ def kink_distance(evidence: Evidence, problem: str, traction: str) -> float:
 
 
 def large_beta(evidence: Evidence, beta: float) -> float:
-    """Standard deviation of the normal traction on moved nodes over the standard method's, with a large beta."""
+    """Standard deviation of the normal traction on moved nodes over the standard element's, with a large beta."""
     paper = evidence.runs.patch(PatchCase("horizontal", "0/0", "paper", moved=True, beta=beta))
     standard = evidence.runs.patch(PatchCase("horizontal", "0/0", "standard", moved=True))
     return swing(paper.traction) / swing(standard.traction)
 
 
 def contrast(evidence: Evidence) -> float:
-    """As `large_beta`, of the standard method at 1e8 in both directions over that with the soft sliding."""
+    """As `large_beta`, of the standard element at 1e8 in both directions over that with the soft sliding."""
     soft = PatchCase("horizontal", "0/0", "standard", moved=True)
     return swing(evidence.runs.patch(replace(soft, shear=soft.normal)).traction) / swing(
         evidence.runs.patch(soft).traction
@@ -80,7 +80,7 @@ def contrast(evidence: Evidence) -> float:
 
 
 def soft_difference(evidence: Evidence) -> float:
-    """Largest distance of the two methods' tractions at 1e4 over that at 1e8, [0/0], the largest of the specimens."""
+    """Largest distance of the two elements' tractions at 1e4 over that at 1e8, [0/0], the largest of the specimens."""
     found = []
     for problem, kind in PROBLEMS.items():
         for name in kind.modes:
@@ -95,7 +95,7 @@ def soft_difference(evidence: Evidence) -> float:
 
 
 def structured_share(evidence: Evidence, problems: Sequence[str] = tuple(PROBLEMS)) -> float:
-    """Variation of the standard method's traction on the structured mesh over that on the perturbed one, 1e8, [0/0].
+    """Variation of the standard element's traction on the structured mesh over that on the perturbed one, 1e8, [0/0].
 
     The largest of the specimens and tractions, at the moment of the figures.
     """
@@ -108,7 +108,7 @@ def structured_share(evidence: Evidence, problems: Sequence[str] = tuple(PROBLEM
 
 
 def soft_variation(evidence: Evidence, problems: Sequence[str] = tuple(PROBLEMS)) -> float:
-    """Variation of the standard method's tractions at 1e4, [0/0], the largest of all specimens and moments."""
+    """Variation of the standard element's tractions at 1e4, [0/0], the largest of all specimens and moments."""
     return max(
         variation(evidence, problem, "0/0", "standard", PROBLEMS[problem].modes, ["1e4"], ever=True)
         for problem in problems
@@ -116,9 +116,9 @@ def soft_variation(evidence: Evidence, problems: Sequence[str] = tuple(PROBLEMS)
 
 
 def contact_share(evidence: Evidence) -> float:
-    """Variation of the standard method's t_n on the perturbed mesh where it is compressive over that where it is not.
+    """Variation of the standard element's t_n on the perturbed mesh where it is compressive over that where it is not.
 
-    Each over that of the consistent method on the structured mesh; DCB, 1e8, [0/0], at the moment of the figures.
+    Each over that of the consistent element on the structured mesh; DCB, 1e8, [0/0], at the moment of the figures.
     """
     smooth = moment(evidence.run("dcb", "0/0", "consistent", "1e8"))
     rough = moment(evidence.run("dcb", "0/0", "standard", "1e8", perturbed=True))
@@ -132,7 +132,7 @@ def contact_share(evidence: Evidence) -> float:
 
 
 def mixed_mode_error(evidence: Evidence) -> float:
-    """Distance of the standard method's profiles at 1e4 and 1e6 in the FRMM over the larger of DCB and ENF, [0/0]."""
+    """Distance of the standard element's profiles at 1e4 and 1e6 in the FRMM over the larger of DCB and ENF, [0/0]."""
     apart = {
         problem: max(
             profile_distance(evidence, problem, "0/0", ["standard"], name, ["1e4", "1e6"]) for name in kind.modes
@@ -143,7 +143,7 @@ def mixed_mode_error(evidence: Evidence) -> float:
 
 
 def early_damage(evidence: Evidence) -> float:
-    """Largest traction over its strength in the FRMM at 1e4, standard method, [0/0], at the moment of the figures."""
+    """Largest traction over its strength in the FRMM at 1e4, standard element, [0/0], at the moment of the figures."""
     profile = moment(evidence.run("frmm", "0/0", "standard", "1e4"))
     return max(float(np.abs(profile[name]).max()) / STRENGTHS[name] for name in ("TN", "TT"))
 
@@ -158,7 +158,7 @@ def zone_share(evidence: Evidence, strength: float) -> float:
 
 
 def newton_cotes_gain(evidence: Evidence) -> float:
-    """Largest variation of the standard method's t_n with Gauss points over that with Newton-Cotes points, DCB, 1e8."""
+    """Largest variation of the standard element's t_n at Gauss points over that at Newton-Cotes points, DCB, 1e8."""
     gauss = PaperCase("dcb", "0/0", "standard", "1e8")
     worst = []
     for case in (gauss, replace(gauss, newton_cotes=True)):
@@ -167,7 +167,7 @@ def newton_cotes_gain(evidence: Evidence) -> float:
 
 
 def stiff_load(evidence: Evidence, problems: Sequence[str]) -> float:
-    """Relative change of the paper's method's peak load from 1e8 to 1e12, the largest, [0/0]."""
+    """Relative change of the paper's element's peak load from 1e8 to 1e12, the largest, [0/0]."""
     peaks = [[evidence.peak(PaperCase(p, "0/0", "paper", s)) for s in ("1e8", "1e12")] for p in problems]
     return max(abs(high / low - 1.0) for low, high in peaks)
 

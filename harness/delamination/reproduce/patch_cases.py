@@ -10,7 +10,7 @@ from harness.delamination import specimens
 from harness.delamination.blocks import BY_EQUATION_21, Interface
 from harness.delamination.mesh import TwoArmMesh
 from harness.delamination.patches import BETAS, COLLINEAR, PLIES, inclined_mesh, inclined_specimen
-from harness.delamination.reproduce.cases import START
+from harness.delamination.reproduce.cases import START, called
 from harness.delamination.steps import Increments
 
 # Sliding is soft and never gets near its strength. With the consistent law beta has to exceed the softening slope,
@@ -93,7 +93,7 @@ class PatchCase:
             law = replace(law, strength_normal=1.0e6, strength_shear=1.0e6, toughness_1=1.0e9, toughness_2=1.0e9)
         interface = Interface(kind, law, beta=beta, consistent=consistent)
         specimen = inclined_specimen(mesh_name, mesh, self.layup, interface)
-        title = f"Patch test, {self.shape} interface, [{self.layup}], {self.element} element" + ", moved" * self.moved
+        title = f"Patch test, {self.shape} interface, [{self.layup}], {called(self.element)}" + ", moved" * self.moved
         deck = specimens.patch_deck(title, specimen, DISPLACEMENT, INCREMENTS, slide=self.slide)
         nodes = 8 if kind == "U4" else 4
         return specimens.mesh_files(mesh_name, mesh, (nodes,)) | {f"{self.name}.inp": deck}
@@ -104,7 +104,7 @@ STIFF = tuple(10.0**exponent for exponent in range(6, 19))
 
 
 def uniform_cases() -> list[PatchCase]:
-    """The flat patch under uniform stress, paper's method, from soft to nearly rigid."""
+    """The flat patch under uniform stress, paper's element, from soft to nearly rigid."""
     return [
         PatchCase("horizontal", "0/0", "paper", False, normal=a, shear=a, slide=True) for a in (1e4, 1e6, 1e8, 1e10)
     ]

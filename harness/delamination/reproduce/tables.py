@@ -146,7 +146,7 @@ def _mode_ratios(evidence: Evidence) -> Table:
             ]
         )
     text = (
-        "[0/0], consistent method at 1e6 N/mm³, the paper's specimen and longer ones of the same height. 4/3 is the "
+        "[0/0], consistent element at 1e6 N/mm³, the paper's specimen and longer ones of the same height. 4/3 is the "
         "ratio of plain beams. Arms of 1.55 mm turn at the crack's end, in mode I more than in mode II: "
         + nearer_to_beams(apart)
     )
