@@ -21,16 +21,21 @@ SEED ?=
 BIN := $(VENV)/bin
 INSTALLED := $(VENV)/.installed
 RANKS := $(VENV)/.ranks/.installed
+BUILD := build/$(notdir $(VENV))
+COPY := $(BUILD)-copy
 # the build backend and the tools it calls are found through PATH
 RUN := PATH="$(CURDIR)/$(BIN):$$PATH"
+# the package in $(COPY); known after it is there
+SITE = $(shell find $(CURDIR)/$(COPY) -type d -name harness -prune -exec dirname {} +)
 # the processes share the cores: one thread of linear algebra each
-PYTEST = $(RUN) OPENBLAS_NUM_THREADS=1 OMP_NUM_THREADS=1 MKL_NUM_THREADS=1 \
+PYTEST = $(RUN) PYTHONPATH=$(SITE) MESONPY_EDITABLE_SKIP=$(CURDIR)/$(BUILD) \
+	OPENBLAS_NUM_THREADS=1 OMP_NUM_THREADS=1 MKL_NUM_THREADS=1 \
 	$(BIN)/python tests/programs/machine.py --processor $(PROCESSOR) --cores $(CORES) $(BIN)/pytest \
 	-n $(WORKERS) --maxprocesses 16 --dist worksteal \
 	$(if $(SEED),-p randomly --randomly-seed=$(SEED) --hypothesis-profile=other --hypothesis-seed=$(SEED))
 
 .DEFAULT_GOAL := help
-.PHONY: help demo ranks test test-all test-debug test-matrix bench lint docs decks clean
+.PHONY: help demo ranks copy test test-all test-debug test-matrix bench lint docs decks clean
 
 help:
 	@sed -n 's/^# make/make/p' $(firstword $(MAKEFILE_LIST))
@@ -50,7 +55,7 @@ $(INSTALLED): pyproject.toml meson.build .ci/toolchain
 	$(BIN)/pip install --quiet --upgrade pip
 	$(BIN)/pip install --quiet --group dev
 	$(RUN) $(BIN)/pip install --quiet --no-build-isolation --editable . \
-		-Cbuild-dir=build/$(notdir $(VENV)) $(addprefix -Csetup-args=,$(MESON_ARGS))
+		-Cbuild-dir=$(BUILD) $(addprefix -Csetup-args=,$(MESON_ARGS))
 	@touch $@
 
 demo: $(INSTALLED)
@@ -65,13 +70,15 @@ $(RANKS): $(INSTALLED)
 	@$(BIN)/pip install --quiet --prefix $(VENV)/.ranks --requirement $(VENV)/ranks.txt && touch $@ || \
 		echo 'MPI is not installed: its tests are skipped'
 
-# the first import builds what has changed; several test processes at once would get in each other's way
-test: $(INSTALLED)
-	$(RUN) $(BIN)/python -c 'import harness'
+# what users get, and with bytecode: an editable package is looked for and compiled by each of the processes anew
+copy: $(INSTALLED)
+	@rm -rf $(COPY)
+	$(RUN) $(BIN)/meson install -C $(BUILD) --quiet --destdir $(CURDIR)/$(COPY)
+
+test: copy
 	$(PYTEST) -m '$(SELECT)' $(PYTEST_ARGS)
 
-test-all: $(INSTALLED)
-	$(RUN) $(BIN)/python -c 'import harness'
+test-all: copy
 	$(PYTEST) $(PYTEST_ARGS)
 
 test-debug:

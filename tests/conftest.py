@@ -7,6 +7,8 @@ Examples of hypothesis are the same in every run, whatever the machine; others w
 
 import os
 import signal
+from collections import Counter
+from collections.abc import Iterable, Iterator
 
 import pytest
 from hypothesis import HealthCheck, settings
@@ -29,3 +31,24 @@ def pytest_configure(config: pytest.Config) -> None:
     if worker is not None and "UEL_TESTS_OWN_CORE" in os.environ:
         cores = sorted(os.sched_getaffinity(0))
         os.sched_setaffinity(0, {cores[int(worker["workerid"].removeprefix("gw")) % len(cores)]})
+
+
+@pytest.fixture(scope="session", autouse=True)
+def current_folder(tmp_path_factory: pytest.TempPathFactory) -> Iterator[None]:
+    """One without a folder `harness`: where the sources are, Python would take them in place of the built package."""
+    with pytest.MonkeyPatch.context() as patch:
+        patch.chdir(tmp_path_factory.mktemp("current"))
+        yield
+
+
+@pytest.hookimpl(tryfirst=True)
+def pytest_collection_modifyitems(items: Iterable[pytest.Item]) -> None:
+    """Mark as long what sample(n) leaves to make test-all; before the tests are selected, and put in another order."""
+    cases = Counter[str]()
+    for item in items:
+        sample = item.get_closest_marker("sample")
+        if sample is not None:
+            function = item.nodeid.partition("[")[0]
+            if cases[function] % sample.args[0]:
+                item.add_marker(pytest.mark.long)
+            cases[function] += 1

@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """A short run of the fuzzer, and that it sees what it is there for."""
 
+import os
 import re
 import subprocess
 import sys
@@ -84,7 +85,7 @@ def test_findings_are_seen_and_kept(tmp_path, monkeypatch):
     """A process that ends is replaced, and the trials go on."""
     script = tmp_path / "broken.py"
     script.write_text(BROKEN)
-    monkeypatch.setenv("PYTHONPATH", str(PROGRAMS))
+    monkeypatch.setenv("PYTHONPATH", str(PROGRAMS), prepend=os.pathsep)
     result = fuzz(script, "--count", 6, "--output", tmp_path / "findings", DECK)
     assert result.returncode == 1, result.stdout + result.stderr
     for line in ("2 too much memory", "2 timeout", "1 exit code -6", "1 exit code 3"):

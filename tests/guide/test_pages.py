@@ -244,8 +244,8 @@ def test_nothing_looks_like_a_tag_of_html(page):
 def test_site(tmp_path):
     """The whole manual, in which a warning is an error; a browser has to load nothing from elsewhere."""
     pytest.importorskip("sphinx")
-    build = [sys.executable, "-m", "sphinx", "--fail-on-warning", "-q", "-c", "docs", ".", str(tmp_path)]
-    done = subprocess.run(build, cwd=ROOT, capture_output=True, text=True, check=False)
+    build = [sys.executable, "-m", "sphinx", "--fail-on-warning", "-q", "-c", ROOT / "docs", ROOT, tmp_path]
+    done = subprocess.run(build, capture_output=True, text=True, check=False)
     assert done.returncode == 0, done.stderr
     pages = sorted(tmp_path.rglob("*.html"))
     assert len(pages) > len(PAGES)

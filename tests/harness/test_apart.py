@@ -23,7 +23,7 @@ def module(tmp_path: Path, monkeypatch: pytest.MonkeyPatch):
 
     def run(text: str, call_limit: float = 0.0) -> tuple[End, str]:
         (tmp_path / "apart_module.py").write_text(text)
-        monkeypatch.setenv("PYTHONPATH", str(tmp_path))
+        monkeypatch.setenv("PYTHONPATH", str(tmp_path), prepend=os.pathsep)
         with (tmp_path / "said").open("w") as errors:
             end = run_apart("apart_module", [str(tmp_path)], call_limit, errors=errors)
         return end, (tmp_path / "said").read_text()
@@ -153,7 +153,7 @@ def test_process_that_another_thread_watches(tmp_path: Path, monkeypatch: pytest
     """It gets the signals that the main thread collects, and all that it prints is in one file."""
     text = "import time\ndef main(words):\n    print('begun', flush=True)\n    time.sleep(600)\n"
     (tmp_path / "apart_module.py").write_text(text)
-    monkeypatch.setenv("PYTHONPATH", str(tmp_path))
+    monkeypatch.setenv("PYTHONPATH", str(tmp_path), prepend=os.pathsep)
     signals: list[int] = []
     said = tmp_path / "said"
     with said.open("w") as log, ThreadPoolExecutor(1) as thread:

@@ -2,7 +2,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """User code that ends its process: the message, the files so far, and the exit code of the command."""
 
-import os
 import re
 import signal
 import subprocess
@@ -100,6 +99,7 @@ def begin(folder: Path, user: Path, way: int, *words: str) -> subprocess.Popen[s
     return subprocess.Popen(command, cwd=folder, stderr=subprocess.PIPE, text=True)
 
 
+@pytest.mark.sample(2)
 @pytest.mark.parametrize(
     ("way", "message"),
     [
@@ -212,8 +212,7 @@ def test_process_that_is_killed_takes_the_other_along(tmp_path: Path) -> None:
     inner = "import time; print('begun', flush=True); time.sleep(60)"
     (tmp_path / "sleeper.py").write_text(f"def main(words):\n    {inner}\n")
     outer = "from harness.isolation import run_apart; run_apart('sleeper', [], 0.0)"
-    command, environment = [sys.executable, "-c", outer], os.environ | {"PYTHONPATH": str(tmp_path)}
-    with subprocess.Popen(command, stdout=subprocess.PIPE, text=True, env=environment) as process:
+    with subprocess.Popen([sys.executable, "-c", outer], stdout=subprocess.PIPE, text=True, cwd=tmp_path) as process:
         assert process.stdout is not None
         assert process.stdout.readline() == "begun\n"
         killed = time.monotonic()

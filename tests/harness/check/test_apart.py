@@ -4,6 +4,7 @@
 
 import io
 import json
+import os
 import re
 import subprocess
 import sys
@@ -24,6 +25,9 @@ from harness.usersub import limit_calls
 
 QUAD = Path(__file__).parent / "quad.f"
 
+PATHS = os.pathsep.join(filter(None, (os.environ.get("PYTHONPATH"), str(Path(__file__).parents[3]))))
+"""Where the process of the checks finds the functions of this module: behind the package that is tested."""
+
 
 def uel_check(deck, *words):
     """Exit code, output and messages of the command."""
@@ -37,6 +41,7 @@ def test_outcome_is_that_of_the_same_process(patch):
     assert examine_apart(patch(5), [QUAD]) == examine(patch(5), [QUAD])
 
 
+@pytest.mark.sample(2)
 @pytest.mark.parametrize(
     "mistake, check, message",
     [
@@ -128,7 +133,7 @@ def quit_quietly(*, progress):
     ],
 )
 def test_other_ends(function, message, monkeypatch):
-    monkeypatch.setenv("PYTHONPATH", str(Path(__file__).parent))
+    monkeypatch.setenv("PYTHONPATH", PATHS)
     with pytest.raises(UelError, match=message):
         call_apart(function)
 
@@ -139,7 +144,7 @@ def slow(*, progress):
 
 
 def test_tells_what_is_done(monkeypatch):
-    monkeypatch.setenv("PYTHONPATH", str(Path(__file__).parent))
+    monkeypatch.setenv("PYTHONPATH", PATHS)
     told = []
     call_apart(slow, tell=told.append)
     assert told[-1] == "a long check"
@@ -175,7 +180,7 @@ def unreadable(*, progress):
     ],
 )
 def test_errors_of_the_system(function, message, monkeypatch):
-    monkeypatch.setenv("PYTHONPATH", str(Path(__file__).parent))
+    monkeypatch.setenv("PYTHONPATH", PATHS)
     with pytest.raises(UelError, match=message):
         call_apart(function)
 

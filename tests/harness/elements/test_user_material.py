@@ -124,7 +124,7 @@ def test_without_uvarm_its_variables_are_left_out(run):
 
 
 def test_history_is_laid_out_as_in_fortran():
-    text = (Path(harness.__file__).parents[1] / "fortran/host/host_umat.f90").read_text()
+    text = (Path(__file__).parents[3] / "fortran/host/host_umat.f90").read_text()
     assert f"head = {USER_HISTORY_VALUES}," in text
 
 
