@@ -84,6 +84,7 @@ def test_full_disk(tmp_path: Path) -> None:
         subprocess.run(["umount", small], check=True)
 
 
+@pytest.mark.sample(3)
 @pytest.mark.parametrize(
     ("folder", "message"),
     [
@@ -98,12 +99,14 @@ def test_folder_that_takes_no_files(tmp_path: Path, pulled: str, folder: str, me
     assert (result.returncode, result.stderr, result.stdout) == (1, f"{message}\n", "")
 
 
+@pytest.mark.sample(3)
 @pytest.mark.parametrize("home", [None, "/nonexistent", "/proc"])
 def test_no_home(tmp_path: Path, pulled: str, home: str | None) -> None:
     assert shell(tmp_path, f"uel {pulled}", HOME=home, XDG_CACHE_HOME=None).returncode == 0
     assert completed(tmp_path)
 
 
+@pytest.mark.sample(3)
 @pytest.mark.parametrize("redirected", [">&-", "<&- >&- 2>&-", "> /dev/full", "2> /dev/full", "| head -c 0"])
 def test_run_whose_output_goes_nowhere(tmp_path: Path, pulled: str, redirected: str) -> None:
     """The exit code says whether the analysis has completed, and nothing gets into its files."""
@@ -114,6 +117,7 @@ def test_run_whose_output_goes_nowhere(tmp_path: Path, pulled: str, redirected: 
     assert shell(tmp_path, f"set -o pipefail; uel {pulled} {redirected}").returncode == 1
 
 
+@pytest.mark.sample(2)
 @pytest.mark.parametrize(
     ("line", "code", "message"),
     [
@@ -145,6 +149,7 @@ def test_current_folder_that_is_gone(tmp_path: Path, pulled: str) -> None:
     assert completed(tmp_path / "here")
 
 
+@pytest.mark.sample(2)
 @pytest.mark.parametrize("length", [245, 300])
 def test_long_names(tmp_path: Path, pulled: str, length: int) -> None:
     """A name that some of the files still have room for, and one for none."""

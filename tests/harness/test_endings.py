@@ -137,6 +137,7 @@ def test_failed_job_keeps_its_files(tmp_path: Path, capsys: pytest.CaptureFixtur
     assert "SIGMAMAX" in (tmp_path / "negative.msg").read_text()
 
 
+@pytest.mark.sample(2)
 @pytest.mark.parametrize("after", [0.0, 0.4])
 def test_killed_run_leaves_readable_files(tmp_path: Path, after: float) -> None:
     """kill -9 in the middle of a run: every file reads, up to the last increment of the status file.

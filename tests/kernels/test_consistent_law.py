@@ -94,6 +94,7 @@ def prepared(element, interface, state, seed, **values):
     return item, scale * interface.displacements(8, *interface.states[state], seed)
 
 
+@pytest.mark.sample(3)
 @pytest.mark.parametrize("state", STATES)
 @pytest.mark.parametrize("alpha", STIFFNESSES)
 def test_tangent(element, interface, reference, alpha, state):
@@ -132,6 +133,7 @@ def test_states_are_what_their_names_say(element, interface, alpha):
     assert closed["mixed"].any() and not closed["softening"].any()
 
 
+@pytest.mark.sample(3)
 @pytest.mark.parametrize("alpha", STIFFNESSES)
 @pytest.mark.parametrize("degrees", [0, 17, 45, 80, 90])
 def test_law_is_recovered_and_its_area_is_the_fracture_energy(element, interface, reference, law, alpha, degrees):

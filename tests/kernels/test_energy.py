@@ -38,6 +38,7 @@ def open_steadily(item, interface, direction, steps, **options):
     return item.state
 
 
+@pytest.mark.sample(2)
 @pytest.mark.parametrize("viscosity", [0.0, 1e-4])
 @pytest.mark.parametrize(("direction", "mode"), [((0.0, 1.0), "I"), ((1.0, 0.0), "II"), ((-1.0, 0.0), "II")])
 def test_pure_modes_dissipate_the_fracture_energy(element, interface, law, direction, mode, viscosity):

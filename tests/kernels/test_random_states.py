@@ -87,6 +87,7 @@ def check_tangents(tools, variant, kind, extra, data):
     return compared
 
 
+@pytest.mark.sample(3)
 @one_library
 @cases
 def test_tangents(tools, variant, kind, extra):

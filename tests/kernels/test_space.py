@@ -67,6 +67,7 @@ GAPS = {
 }
 
 
+@pytest.mark.sample(2)
 @one_library
 @pytest.mark.parametrize("law", LAWS)
 @pytest.mark.parametrize("name", ELEMENTS)

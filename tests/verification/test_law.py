@@ -79,6 +79,7 @@ def test_ppr_law_in_the_pure_modes(curves):
 LAWS = [("LAW=1",), ("LAW=2", "ETA=2.3"), ("LAW=3", "POWER=1.5"), ("LAW=4", "SHAPET=3")]
 
 
+@pytest.mark.sample(3)
 @pytest.mark.parametrize("kind", LAWS, ids=lambda kind: kind[0])
 def test_consistent_closure_shows_its_law(curves, kind):
     """t(w) + beta w = <sigma>.n + beta g with T = <sigma>.n is w = g: the law itself, at any stiffness."""

@@ -179,6 +179,7 @@ def test_bonded_plates_of_a_circular_delamination(solved: Callable[[list[str]], 
     assert total(result, "RF3", "TOP") == pytest.approx(expected, rel=0.08)
 
 
+@pytest.mark.sample(3)
 @pytest.mark.parametrize("kind", INTERFACES)
 def test_the_front_releases_the_fracture_energy(kind: str, tmp_path: Path) -> None:
     """A crack that runs, on mesh lines at 20 degrees to its front: straight, in mode I, G = G_Ic on every place.

@@ -70,6 +70,7 @@ TOLD = [
 ]
 
 
+@pytest.mark.sample(3)
 @pytest.mark.parametrize("name", ["my_uel.for", "my_uel.f90"])
 @pytest.mark.parametrize(
     ("statement", "sentence", "certain"), [*((*row, True) for row in CERTAIN), *((*row, False) for row in TOLD)]
@@ -96,6 +97,7 @@ def test_mistakes_in_c(tmp_path, name):
     assert suspicions([file]) == []
 
 
+@pytest.mark.sample(2)
 @pytest.mark.parametrize(
     "statement",
     [

@@ -37,6 +37,7 @@ def test_right_element_passes(patch, mass):
     assert found["zero-modes"].message == "3 zero modes, the 3 rigid-body motions"
 
 
+@pytest.mark.sample(3)
 @pytest.mark.parametrize("mass", [LUMPED, CONSISTENT])
 @pytest.mark.parametrize(
     ("mistake", "check", "message"),

@@ -93,6 +93,7 @@ def test_element_without_mistakes_passes_all_checks(patch):
     assert list(found) == [check.name for check in CHECKS]
 
 
+@pytest.mark.sample(2)
 @pytest.mark.parametrize(
     "mistake, check, message, advice",
     [pytest.param(*row, marks=pytest.mark.nan if row[0] in NAN else ()) for row in MISTAKES],
@@ -104,6 +105,7 @@ def test_mistake_is_found(patch, mistake, check, message, advice):
     assert re.search(advice, finding.advice), finding.advice
 
 
+@pytest.mark.sample(2)
 @pytest.mark.parametrize(
     "mistake, expected", [(1, {"filled"}), (5, {"tangent"}), (9, {"outside"}), (10, {"undeclared"})]
 )

@@ -76,6 +76,7 @@ def findings(tmp_path):
     return findings
 
 
+@pytest.mark.sample(3)
 @pytest.mark.parametrize(
     ("mistake", "check", "message"),
     [
@@ -132,6 +133,7 @@ def test_what_calls_keep(findings, mistake, message):
     assert re.search("CLOSE what a call opens|DEALLOCATE", finding.advice)
 
 
+@pytest.mark.sample(3)
 @pytest.mark.parametrize(
     "harmless",
     [

@@ -56,6 +56,7 @@ OSCILLATOR = """\
 """
 
 
+@pytest.mark.sample(3)
 @pytest.mark.parametrize(
     "requests, wrong, message, advice",
     [
@@ -208,6 +209,7 @@ DAMPER = """\
 """
 
 
+@pytest.mark.sample(2)
 @pytest.mark.parametrize(
     "wrong, message, advice",
     [

@@ -64,6 +64,7 @@ def findings(model, **options):
     return report.findings
 
 
+@pytest.mark.sample(2)
 @pytest.mark.nan
 @pytest.mark.parametrize("entry", ["ENERGY(2)", "SVARS(3)", "PNEWDT"])
 @pytest.mark.parametrize("value", ["nan", "inf"])

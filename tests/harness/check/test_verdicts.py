@@ -159,6 +159,7 @@ def test_type_that_nothing_is_known_of(springs, tmp_path, capsys, monkeypatch):
 ZERO = "      amatrx = 0\n      end\n"
 
 
+@pytest.mark.sample(3)
 @pytest.mark.parametrize("lost", [ZERO, "      rhs(1:2,1) = 0\n" + ZERO], ids=["AMATRX", "RHS and AMATRX"])
 @pytest.mark.parametrize("all_of_them", [True, False], ids=["all elements", "other elements carry the load"])
 def test_matrices_that_are_zero(springs, capsys, monkeypatch, lost, all_of_them):

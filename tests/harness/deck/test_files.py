@@ -188,6 +188,7 @@ def test_include_of_what_only_looks_like_a_file(read: Read, name: str) -> None:
         read(FLAT + "*INCLUDE, INPUT=link\n")
 
 
+@pytest.mark.sample(2)
 @pytest.mark.parametrize(("command", "name"), [("run", "pipe.inp"), ("check", "pipe.inp"), ("run", "/dev/zero")])
 def test_deck_that_is_no_file(tmp_path: Path, command: str, name: str) -> None:
     os.mkfifo(tmp_path / "pipe.inp")

@@ -46,6 +46,7 @@ def pair_of(dimension, rng, *, stiffness=None, friction=0.0, smooth=0.2, height=
     return pair, np.concatenate([main, points])
 
 
+@pytest.mark.sample(3)
 @pytest.mark.parametrize("friction", [0.0, 0.3])
 @pytest.mark.parametrize("stiffness", [None, 40.0])
 @pytest.mark.parametrize("dimension", [2, 3])
@@ -119,6 +120,7 @@ def of_step(result, number, values):
     return values[result.history["step"] == number]
 
 
+@pytest.mark.sample(2)
 @pytest.mark.parametrize("nlgeom", ["", ", NLGEOM"])
 @pytest.mark.parametrize("behavior", ["*FRICTION\n0.3,", "", f"{PENALTY}\n*FRICTION\n0.3,"])
 def test_block_slides_over_many_faces(run, behavior, nlgeom):

@@ -95,6 +95,7 @@ def test_load_on_an_edge_that_does_not_turn(ends, element_type):
     assert found[f"U3[P:{sets['P'][0]}]"] == pytest.approx(10 * elastica(4.0)[1], rel=2e-3)
 
 
+@pytest.mark.sample(2)
 @pytest.mark.parametrize("element_type", TYPES)
 def test_end_moment_rolls_up_a_strip(ends, element_type):
     """To half a circle: a moment pi EI/L about a fixed axis."""
@@ -189,6 +190,7 @@ def pinched_hemisphere(element_type, n):
 PROBLEMS = {"slit annular plate": slit_plate, "pinched hemisphere": pinched_hemisphere}
 
 
+@pytest.mark.sample(2)
 @pytest.mark.parametrize(("problem", "n"), [("slit annular plate", 24), ("pinched hemisphere", 16)])
 def test_published_shells_on_coarse_meshes(ends, problem, n):
     deck, data, sets, names, exact = PROBLEMS[problem]("S4R", n)
@@ -217,6 +219,7 @@ def test_page(ends, problem, element_type, n, ratios):
 HELD = "*BOUNDARY\nALL, 6\nX, 3\nX, 5\nY, 3\nY, 4\nCORNER, 1, 2\nSIDE, 2"
 
 
+@pytest.mark.sample(3)
 @pytest.mark.parametrize(("element_type", "error"), [("S4", 0.01), ("S4R", 0.01), ("S3", 0.06), ("S8R", 0.01)])
 @pytest.mark.parametrize("base", [0.0, 0.6])
 def test_buckling_of_a_supported_plate(tmp_path, element_type, error, base):

@@ -62,6 +62,7 @@ def run(tmp_path):
     return run
 
 
+@pytest.mark.sample(3)
 @pytest.mark.parametrize("step", ["", ", NLGEOM"])
 @pytest.mark.parametrize("element_type", CELLS)
 def test_a_line_of_uhard_is_a_line_of_the_table(run, element_type, step):

@@ -171,6 +171,7 @@ for k in itertools.count(1):
 """
 
 
+@pytest.mark.sample(2)
 @pytest.mark.parametrize("seconds", [0.0, 0.031, 0.047, 0.083])
 def test_a_killed_job_is_readable_up_to_its_last_increment(
     model: Model, records: Records, tmp_path: Path, seconds: float

@@ -140,6 +140,7 @@ DAMAGE = {
 }
 
 
+@pytest.mark.sample(4)
 @pytest.mark.parametrize("damage", DAMAGE)
 @pytest.mark.parametrize("suffix", [".so", ".json"])
 def test_damaged_entry(load, cache, suffix, damage):

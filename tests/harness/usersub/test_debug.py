@@ -166,6 +166,7 @@ SIGNALS = [
 ]
 
 
+@pytest.mark.sample(3)
 @pytest.mark.parametrize("name", SOURCES)
 @pytest.mark.parametrize(("way", "word", "message"), [*SIGNALS, (3, "nan", INVALID)])
 @pytest.mark.nan

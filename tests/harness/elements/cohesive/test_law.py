@@ -123,6 +123,7 @@ def test_damage_of_the_manual(layer, element_type, evolution):
             assert item.value("DAMAGE") == pytest.approx(expected, rel=1e-8)
 
 
+@pytest.mark.sample(2)
 @pytest.mark.parametrize("element_type", TYPES)
 @pytest.mark.parametrize("evolution", [name for name, entries in EVOLUTIONS.items() if entries[0] == ENERGY])
 def test_fracture_energy(layer, element_type, evolution):
