@@ -379,7 +379,7 @@ contains
       if (allocated(material%user_field) .and. .not. begins) then
         now_axes = material%axes
         if (present(axes)) now_axes = axes(:, :, 2, p)
-        call call_usdfld(material%user_field, material%ntens, int(p, i4), now_axes, material%local, svars(:, p))
+        call call_usdfld(material%user_field, material%ntens, int(p, i4), now_axes, now_axes, material%local, svars(:, p))
       end if
       if (allocated(material%dependence)) call set_constants(material, p)
       if (abs(material%expansion) > 0) thermal = thermal_strain(rule, p, fields, material%expansion, predef)

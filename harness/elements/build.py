@@ -353,14 +353,15 @@ def _beam_block(model: Model, group: ElementGroup, kind: BeamType, library: Libr
 
 def _discrete_block(model: Model, group: ElementGroup, library: Library) -> ElementBlock:
     unknowns = discrete_unknowns(model, group)
+    routine = discrete_routine(model, group, len(unknowns), library)
     return ElementBlock(
         group,
         model.mesh.coordinates,
         unknowns,
-        discrete_routine(model, group, len(unknowns)),
+        routine,
         library,
         unsymmetric=False,
-        variables=discrete_variables(group),
+        variables=discrete_variables(group, routine),
     )
 
 

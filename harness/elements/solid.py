@@ -85,7 +85,7 @@ def solid_routine(model: Model, group: ElementGroup, section: SolidSection, libr
     prestressed = _is_prestressed(model, group, material)
     if prestressed:
         _binding.set_prestressed(number)
-    define_fields(number, material, orientation, kind.tensor, library)
+    define_fields(number, material, directions(orientation), kind.tensor, library)
     if local is not None:
         _binding.set_local(number)
     if material.expansion:

@@ -101,9 +101,11 @@ FAMILIES: Final = {
 class Tensor(IntEnum):
     """State of stress, by its number of components.
 
-    These are 11, 22, 12 in plane stress, 11, 22, 33, 12 in plane strain, and 11, 22, 33, 12, 13, 23 in space.
+    These are 11 in a truss, 11, 22, 12 in plane stress, 11, 22, 33, 12 in plane strain, and 11, 22, 33, 12, 13, 23 in
+    space.
     """
 
+    UNIAXIAL = 1
     PLANE_STRESS = 3
     PLANE_STRAIN = 4
     SOLID = 6
@@ -393,7 +395,7 @@ class BeamType:
 
 
 class DiscreteKind(IntEnum):
-    """What a discrete element is; values are JTYPE of fortran/host/host_discrete.f90."""
+    """What a discrete element is; values but that of trusses are JTYPE of fortran/host/host_discrete.f90."""
 
     TRUSS = 1
     AXIAL_SPRING = 2

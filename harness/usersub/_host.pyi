@@ -95,10 +95,22 @@ def host_set_prestressed(number: int) -> None: ...
 def host_set_local(number: int) -> None: ...
 def host_set_dependence(number: int, constants: int, turn: NDArray[np.float64], table: NDArray[np.float64]) -> None: ...
 def host_set_user_field(
-    number: int, address: int, names: Sequence[str] | NDArray[np.bytes_], statev: int, axes: NDArray[np.float64]
+    number: int,
+    address: int,
+    names: Sequence[str] | NDArray[np.bytes_],
+    statev: int,
+    room: int,
+    axes: NDArray[np.float64],
 ) -> None: ...
 def host_define_user_material(
-    umat: int, name: str | bytes, ntens: int, hybrid: int, constants: NDArray[np.float64], count: int
+    umat: int,
+    name: str | bytes,
+    ntens: int,
+    hybrid: int,
+    statev: int,
+    room: int,
+    constants: NDArray[np.float64],
+    count: int,
 ) -> int: ...
 def host_define_hyperelastic(
     ntens: int,

@@ -203,10 +203,6 @@ SHEAR = HOMOGENEOUS + "\n*TRANSVERSE SHEAR STIFFNESS\n1., 1."
             r"\*VISCOELASTIC is not supported for elements of type S4R",
         ),
         (
-            {"material": "*ELASTIC\n1., 0.3, 0.\n2., 0.3, 100."},
-            r"\*ELASTIC: dependence on temperature and fields is not supported for elements of type S4R",
-        ),
-        (
             {"procedure": "DYNAMIC", "data": "0.1, 1.\n"},
             r"\*DYNAMIC with elements of type S4R needs \*DENSITY, which material M does not have",
         ),
