@@ -16,7 +16,7 @@ from harness.deck.beams import BEAM_KEYWORDS, read_beam_section
 from harness.deck.blocks import Block, Row
 from harness.deck.error_report import Problems, look_up
 from harness.deck.shells import SHELL_KEYWORDS, read_shell_section
-from harness.deck.table import Keyword, Kind, Option, Where, one_of, refused
+from harness.deck.table import Keyword, Kind, Option, Where, ignored, one_of, refused
 from harness.deck.user_elements import LARGEST_DOF, ElementType, read_user_property
 from harness.model.element_types import BEAM, DISCRETE, HEAT, DiscreteKind
 from harness.model.properties import (
@@ -205,7 +205,8 @@ KEYWORDS = (
             _MATERIAL,
             _ORIENTATION,
             _CONTROLS,
-            *refused("COMPOSITE", "LAYUP", "ORDER", "REF NODE", "STACK DIRECTION", "SYMMETRIC"),
+            *ignored("STACK DIRECTION"),
+            *refused("COMPOSITE", "LAYUP", "ORDER", "REF NODE", "SYMMETRIC"),
         ),
         "thickness (1)",
     ),
