@@ -23,6 +23,7 @@ from harness.elements.materials import (
     state_variables,
 )
 from harness.elements.routine import VALUES_OF_AXES, Linearity, PointAxes, Routine
+from harness.elements.simpson import simpson
 from harness.elements.solid import HOURGLASS_FRACTION, numbered
 from harness.errors import DeckError
 from harness.model.arrays import FloatArray
@@ -205,9 +206,7 @@ def section_points(section: ShellSection) -> SectionPoints:
             at, weight = np.polynomial.legendre.leggauss(layer.points)
             at, weight = (1 + at) / 2, weight / 2
         else:
-            at = np.linspace(0, 1, layer.points)
-            weight = np.where(np.arange(layer.points) % 2, 4.0, 2.0) / (3 * (layer.points - 1))
-            weight[[0, -1]] /= 2
+            at, weight = simpson(layer.points)
         places.append(bottom + layer.thickness * at)
         weights.append(layer.thickness * weight)
         bottom += layer.thickness

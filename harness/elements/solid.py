@@ -30,7 +30,7 @@ from harness.errors import DeckError
 from harness.model.element_types import ContinuumType, SolidType, Tensor
 from harness.model.mesh import ElementGroup
 from harness.model.model import Model
-from harness.model.properties import ElasticType, Hyperelastic, Material, Orientation, SolidSection
+from harness.model.properties import CompositeSection, ElasticType, Hyperelastic, Material, Orientation, SolidSection
 from harness.model.records import PointVariables
 from harness.usersub import Library, _binding
 
@@ -52,9 +52,11 @@ def solid_of(group: ElementGroup) -> ContinuumType:
     return kind
 
 
-def section_depth(kind: SolidType, section: SolidSection) -> float:
-    """Factor from area to volume: the thickness; in axisymmetric elements 2 pi, to be multiplied by the radius."""
-    return 2 * np.pi if kind.axisymmetric else section.thickness
+def section_depth(kind: SolidType, section: SolidSection | CompositeSection) -> float:
+    """Factor from area to volume: the thickness in the plane, 2 pi about an axis, to be multiplied by the radius."""
+    if kind.axisymmetric:
+        return 2 * np.pi
+    return section.thickness if isinstance(section, SolidSection) and kind.dimension == 2 else 1.0
 
 
 def solid_routine(model: Model, group: ElementGroup, section: SolidSection, library: Library) -> Routine:
@@ -66,10 +68,7 @@ def solid_routine(model: Model, group: ElementGroup, section: SolidSection, libr
     if dynamic is not None and not material.density:
         message = f"material {material.name} has no *DENSITY, which elements of type {group.type} need in *DYNAMIC"
         raise DeckError(material.source, message)
-    nonlinear = next((step for step in model.steps if step.nlgeom), None)
-    if kind.incompatible and nonlinear is not None and (material.user or material.user_field):
-        message = f"NLGEOM is not supported for elements of type {group.type} with UMAT or USDFLD"
-        raise DeckError(nonlinear.source, message)
+    check_modes(model, group, kind, material)
     _check_hyperelastic(model, group, kind, material)
     _check_viscous(model, group, kind, material)
     _check_user_hardening(model, group, kind, material)
@@ -126,6 +125,14 @@ def solid_routine(model: Model, group: ElementGroup, section: SolidSection, libr
         stress=_places_of_stress(kind),
         axes=axes,
     )
+
+
+def check_modes(model: Model, group: ElementGroup, kind: ContinuumType, material: Material) -> None:
+    """Raise DeckError if elements with incompatible modes do not support the material in the steps."""
+    nonlinear = next((step for step in model.steps if step.nlgeom), None)
+    if kind.incompatible and nonlinear is not None and (material.user or material.user_field):
+        message = f"NLGEOM is not supported for elements of type {group.type} with UMAT or USDFLD"
+        raise DeckError(nonlinear.source, message)
 
 
 def _check_hyperelastic(model: Model, group: ElementGroup, kind: ContinuumType, material: Material) -> None:

@@ -219,6 +219,15 @@ class ContinuumType(SolidType):
         return self.points == 1 and self.family in (QUAD4, HEX8)
 
     @property
+    def layered(self) -> bool:
+        """Whether it may have layers (*SOLID SECTION, COMPOSITE): bricks of displacements alone.
+
+        Those of one point are left out here: their hourglass control is that of one material.
+        """
+        bricks = self.family in (HEX8, HEX20) and not self.hourglass_control
+        return bricks and not (self.coupled or self.electrical or self.pressures)
+
+    @property
     def modes(self) -> int:
         """Incompatible modes: one of each displacement along each direction, and those of the volume."""
         if not self.incompatible:
@@ -461,6 +470,9 @@ MODIFIED: Final = {
 
 CONTINUUM: Final = _SOLIDS | HYBRID | MODIFIED
 """Continuum elements by their names."""
+
+LAYERED: Final = tuple(name for name, kind in CONTINUUM.items() if kind.layered)
+"""Names of those that may have layers."""
 
 COUPLED: Final = {
     f"{name}T": replace(kind, name=f"{name}T", coupled=True) for name, kind in _SOLIDS.items() if name not in _UNCOUPLED

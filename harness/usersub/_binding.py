@@ -547,6 +547,14 @@ def integration_rule(family: int, points: int, nodes: int, dimension: int) -> tu
     return weights, shapes, slopes.transpose(0, 2, 1)
 
 
+def define_rule(family: int, parent: FloatArray, weights: FloatArray) -> int:
+    """Add a family with integration points at parent coordinates (points, dimension); returns its number.
+
+    With any other number of points it is the given family.
+    """
+    return int(_host.host_define_rule(family, parent.T, weights))
+
+
 def slopes_at_nodes(family: int, nodes: int) -> FloatArray:
     """Derivatives (places, nodes, 2) of a surface's shape functions by parent coordinates, at each of its nodes."""
     slopes = np.zeros((nodes, 2, nodes))
